@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Words that every part of Pirouette shares: status codes, error reports, vectors, quaternions, the allocator.
+ *
+ * Everything here is a plain value; nothing allocates, nothing is global.
+ */
+#ifndef PIROUETTE_BASE_H
+#define PIROUETTE_BASE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define PIR_API __declspec(dllexport)
+#elif defined(__GNUC__)
+#define PIR_API __attribute__((visibility("default")))
+#else
+#define PIR_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How a call ended. Every call that can fail returns one; on anything but PIR_OK its `ret_` parameters are untouched. */
+typedef enum pir_status {
+    PIR_OK = 0,
+    PIR_ERR_ARGUMENT,        /**< an argument breaks the call's contract: NULL, an index out of range, an unknown name */
+    PIR_ERR_NOT_FINITE,      /**< a coordinate, angle or quaternion component is NaN or infinite */
+    PIR_ERR_ZERO_QUATERNION, /**< all four components of a quaternion are zero: it turns nothing */
+    PIR_ERR_MEMORY,          /**< the allocator returned NULL; the objects involved are as before the call */
+    PIR_ERR_EMPTY,           /**< no points, an empty file */
+    PIR_ERR_FILE,            /**< a file cannot be opened, read or written */
+    PIR_ERR_FORMAT,          /**< a file's content breaks its format: truncated, counts that lie, a token that is no number */
+    PIR_ERR_NOT_CLOSED,      /**< facets that do not bound a solid */
+    PIR_ERR_LIMIT,           /**< too large for 32-bit indices or for a stated limit */
+    PIR_ERR_UNSUPPORTED,     /**< this build lacks the optional feature */
+} pir_status;
+
+/** The name of a status in plain words, such as "zero quaternion". Never NULL; static memory. */
+PIR_API const char *pir_status_text(pir_status status);
+
+/** What went wrong, where and why, in one line. Plain memory of the caller; filled only when a call fails. */
+typedef struct pir_report {
+    pir_status status;
+    char text[240]; /**< zero-terminated, without a newline; cut when too long */
+} pir_report;
+
+/** A point or vector; unit: that of the model. */
+typedef struct pir_vec3 {
+    double x, y, z;
+} pir_vec3;
+
+/** A quaternion x·i + y·j + z·k + w of any non-zero length: it stands for the exact rotation M(q)/|q|². Never normalised. */
+typedef struct pir_quat {
+    double x, y, z, w;
+} pir_quat;
+
+/**
+ * Where memory comes from. One function does it all:
+ *
+ *     resize(context, NULL, 0, n)    a new block of n bytes, aligned as malloc aligns, or NULL
+ *     resize(context, p, old, n)     p grown or shrunk, or NULL with p left as it was
+ *     resize(context, p, old, 0)     p released; the result is ignored
+ *
+ * An allocator given to an object must outlive it. It is called only from the thread that called Pirouette. GMP's own
+ * memory is used only where exact.h shows GMP types and where exact text is read or written; the rest comes from here.
+ */
+typedef struct pir_allocator {
+    void *(*resize)(void *context, void *block, size_t old_size, size_t new_size);
+    void *context;
+} pir_allocator;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
