@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Integers over mpn. Signs and lengths are handled here; the limbs are GMP's. See integer.h for the invariant.
+ */
+#include "exact/integer.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Drops zero limbs from the top of n limbs. */
+static int32_t normal_size(const mp_limb_t *limb, uint32_t n) {
+    while (n > 0 && limb[n - 1] == 0)
+        n--;
+    return (int32_t)n;
+}
+
+void pir_int_copy(pir_int *dst, const pir_int *a) {
+    memcpy(dst->limb, a->limb, pir_int_length(a) * sizeof(mp_limb_t));
+    dst->size = a->size;
+}
+
+void pir_int_mul(pir_int *dst, const pir_int *a, const pir_int *b) {
+    uint32_t na = pir_int_length(a), nb = pir_int_length(b);
+    if (na == 0 || nb == 0) {
+        dst->size = 0;
+        return;
+    }
+    if (nb == 1)
+        dst->limb[na] = mpn_mul_1(dst->limb, a->limb, na, b->limb[0]);
+    else if (na == 1)
+        dst->limb[nb] = mpn_mul_1(dst->limb, b->limb, nb, a->limb[0]);
+    else if (na >= nb)
+        mpn_mul(dst->limb, a->limb, na, b->limb, nb);
+    else
+        mpn_mul(dst->limb, b->limb, nb, a->limb, na);
+    int32_t size = (int32_t)(na + nb) - (dst->limb[na + nb - 1] == 0);
+    dst->size = (a->size < 0) != (b->size < 0) ? -size : size;
+}
+
+/* dst = a + b with b's sign replaced by that of `size_b`. */
+static void add_signed(pir_int *dst, const pir_int *a, const pir_int *b, int32_t size_b) {
+    uint32_t na = pir_int_length(a), nb = pir_int_length(b);
+    const mp_limb_t *la = a->limb, *lb = b->limb;
+    int32_t size_a = a->size;
+    // let a be the longer
+    if (na < nb) {
+        const mp_limb_t *l = la;
+        la = lb, lb = l;
+        uint32_t n = na;
+        na = nb, nb = n;
+        int32_t s = size_a;
+        size_a = size_b, size_b = s;
+    }
+    if (nb == 0) {
+        if (dst->limb != la)
+            memcpy(dst->limb, la, na * sizeof(mp_limb_t));
+        dst->size = size_a;
+        return;
+    }
+    if ((size_a < 0) == (size_b < 0)) {
+        mp_limb_t carry = mpn_add(dst->limb, la, na, lb, nb);
+        if (carry)
+            dst->limb[na] = carry;
+        int32_t size = (int32_t)(na + (carry != 0));
+        dst->size = size_a < 0 ? -size : size;
+        return;
+    }
+    // opposite signs: the larger magnitude less the smaller
+    if (na == nb && mpn_cmp(la, lb, na) < 0) {
+        mpn_sub_n(dst->limb, lb, la, na);
+        size_a = -size_a;
+    } else {
+        mpn_sub(dst->limb, la, na, lb, nb);
+    }
+    int32_t size = normal_size(dst->limb, na);
+    dst->size = size_a < 0 ? -size : size;
+}
+
+void pir_int_add(pir_int *dst, const pir_int *a, const pir_int *b) {
+    add_signed(dst, a, b, b->size);
+}
+
+void pir_int_sub(pir_int *dst, const pir_int *a, const pir_int *b) {
+    add_signed(dst, a, b, -b->size);
+}
+
+void pir_int_add_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch) {
+    if (a->size == 0 || b->size == 0)
+        return;
+    uint32_t mark = scratch->used;
+    pir_int product = pir_limbs_take(scratch, pir_int_length(a) + pir_int_length(b));
+    pir_int_mul(&product, a, b);
+    add_signed(dst, dst, &product, product.size);
+    scratch->used = mark;
+}
+
+void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch) {
+    pir_int minus = {a->limb, -a->size};
+    pir_int_add_mul(dst, &minus, b, scratch);
+}
+
+bool pir_int_equal(const pir_int *a, const pir_int *b) {
+    return a->size == b->size && (a->size == 0 || mpn_cmp(a->limb, b->limb, pir_int_length(a)) == 0);
+}
+
+void pir_int_shift_left(pir_int *dst, const pir_int *a, uint32_t bits) {
+    uint32_t n = pir_int_length(a), whole = bits / GMP_NUMB_BITS, rest = bits % GMP_NUMB_BITS;
+    if (n == 0) {
+        dst->size = 0;
+        return;
+    }
+    mp_limb_t carry = 0;
+    if (rest)
+        carry = mpn_lshift(dst->limb + whole, a->limb, n, rest);
+    else
+        memmove(dst->limb + whole, a->limb, n * sizeof(mp_limb_t));
+    memset(dst->limb, 0, whole * sizeof(mp_limb_t));
+    n += whole;
+    if (carry)
+        dst->limb[n++] = carry;
+    dst->size = a->size < 0 ? -(int32_t)n : (int32_t)n;
+}
+
+void pir_int_shift_right(pir_int *a, uint32_t bits) {
+    uint32_t n = pir_int_length(a), whole = bits / GMP_NUMB_BITS, rest = bits % GMP_NUMB_BITS;
+    if (n == 0 || bits == 0)
+        return;
+    n -= whole;
+    if (rest)
+        mpn_rshift(a->limb, a->limb + whole, n, rest);
+    else
+        memmove(a->limb, a->limb + whole, n * sizeof(mp_limb_t));
+    int32_t size = normal_size(a->limb, n);
+    a->size = a->size < 0 ? -size : size;
+}
+
+uint32_t pir_int_trailing_zeros(const pir_int *a) {
+    return a->size ? (uint32_t)mpn_scan1(a->limb, 0) : UINT32_MAX;
+}
+
+uint32_t pir_int_bits(const pir_int *a) {
+    uint32_t n = pir_int_length(a);
+    return n ? (uint32_t)mpn_sizeinbase(a->limb, n, 2) : 0;
+}
+
+uint32_t pir_double_limbs(int top, int exponent) {
+    return top <= exponent ? 1 : (uint32_t)(top - exponent + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS + 1;
+}
+
+void pir_int_set_double(pir_int *dst, double x, int exponent) {
+    if (x == 0) {
+        dst->size = 0;
+        return;
+    }
+    // x = mantissa · 2^(e − 53) with a 53-bit integer mantissa
+    int e;
+    uint64_t mantissa = (uint64_t)ldexp(frexp(fabs(x), &e), 53);
+    int shift = e - 53 - exponent;
+    if (shift < 0) {
+        PIR_ASSERT(shift > -64 && (mantissa & (((uint64_t)1 << -shift) - 1)) == 0);
+        mantissa >>= -shift;
+        shift = 0;
+    }
+    mp_limb_t limb = mantissa;
+    pir_int whole = {&limb, x < 0 ? -1 : 1};
+    pir_int_shift_left(dst, &whole, (uint32_t)shift);
+}
+
+double pir_int_to_double(const pir_int *a, int *ret_exponent) {
+    uint32_t n = pir_int_length(a), bits = pir_int_bits(a);
+    if (n == 0) {
+        *ret_exponent = 0;
+        return 0;
+    }
+    // the top 64 bits: what is cut off is below 2^-63 of the value
+    uint32_t top = bits - (n - 1) * GMP_NUMB_BITS;
+    uint64_t head = (uint64_t)a->limb[n - 1] << (64 - top);
+    if (n > 1 && top < 64)
+        head |= (uint64_t)a->limb[n - 2] >> top;
+    int e;
+    double m = frexp((double)head, &e);
+    *ret_exponent = (int)bits + e - 64;
+    return a->size < 0 ? -m : m;
+}
+
+void pir_int3_cross(pir_int3 *dst, const pir_int3 *a, const pir_int3 *b, pir_limbs *scratch) {
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        pir_int_mul(&dst->c[k], &a->c[i], &b->c[j]);
+        pir_int_sub_mul(&dst->c[k], &a->c[j], &b->c[i], scratch);
+    }
+}
+
+void pir_int3_dot(pir_int *dst, const pir_int3 *a, const pir_int3 *b, pir_limbs *scratch) {
+    pir_int_mul(dst, &a->c[0], &b->c[0]);
+    pir_int_add_mul(dst, &a->c[1], &b->c[1], scratch);
+    pir_int_add_mul(dst, &a->c[2], &b->c[2], scratch);
+}
+
+uint32_t pir_int3_length(const pir_int3 *a) {
+    uint32_t longest = 0;
+    for (int k = 0; k < 3; k++)
+        if (pir_int_length(&a->c[k]) > longest)
+            longest = pir_int_length(&a->c[k]);
+    return longest;
+}

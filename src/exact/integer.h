@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Integers of any size over GMP's mpn layer, in memory that the caller has reserved.
+ *
+ * mpn works on bare limbs and never asks for memory of its own at the sizes used here, so the hot paths do not allocate and running
+ * out of memory is a status, not GMP's abort. An integer is a sign, a length and a pointer; whoever makes one sees to its room.
+ *
+ * Invariant: the top limb, limb[|size| − 1], is not zero; zero has size 0.
+ */
+#ifndef PIR_EXACT_INTEGER_H
+#define PIR_EXACT_INTEGER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <gmp.h>
+
+#include "base/assert.h"
+
+typedef struct pir_int {
+    mp_limb_t *limb; /* least significant first */
+    int32_t size;    /* the number of limbs, negative for a negative integer */
+} pir_int;
+
+typedef struct pir_int3 {
+    pir_int c[3];
+} pir_int3;
+
+/* Scratch: a stack of limbs. Take from it, note `used` before and put it back after. */
+typedef struct pir_limbs {
+    mp_limb_t *base;
+    uint32_t used, capacity;
+} pir_limbs;
+
+static inline pir_int pir_limbs_take(pir_limbs *limbs, uint32_t count) {
+    PIR_ASSERT(limbs->capacity - limbs->used >= count);
+    pir_int taken = {limbs->base + limbs->used, 0};
+    limbs->used += count;
+    return taken;
+}
+
+static inline uint32_t pir_int_length(const pir_int *a) {
+    return (uint32_t)(a->size < 0 ? -a->size : a->size);
+}
+
+static inline int pir_int_sign(const pir_int *a) {
+    return (a->size > 0) - (a->size < 0);
+}
+
+static inline void pir_int_negate(pir_int *a) {
+    a->size = -a->size;
+}
+
+/* dst = a; room: |a|. */
+void pir_int_copy(pir_int *dst, const pir_int *a);
+
+/* dst = a·b; room: |a| + |b|; dst must overlap neither. */
+void pir_int_mul(pir_int *dst, const pir_int *a, const pir_int *b);
+
+/* dst = a ± b; room: max(|a|, |b|) + 1; dst may be a or b. */
+void pir_int_add(pir_int *dst, const pir_int *a, const pir_int *b);
+void pir_int_sub(pir_int *dst, const pir_int *a, const pir_int *b);
+
+/* dst += a·b and dst −= a·b, the product in scratch; room: max(|dst|, |a| + |b|) + 1. */
+void pir_int_add_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
+void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
+
+/* a == b. */
+bool pir_int_equal(const pir_int *a, const pir_int *b);
+
+/* dst = a·2^bits; room: |a| + bits / GMP_NUMB_BITS + 1; dst may be a. */
+void pir_int_shift_left(pir_int *dst, const pir_int *a, uint32_t bits);
+
+/* a /= 2^bits, which must divide it. */
+void pir_int_shift_right(pir_int *a, uint32_t bits);
+
+/* The number of trailing zero bits; UINT32_MAX for zero. */
+uint32_t pir_int_trailing_zeros(const pir_int *a);
+
+/* The number of bits of |a|. */
+uint32_t pir_int_bits(const pir_int *a);
+
+/* dst = x / 2^exponent, which must be an integer; room: pir_double_limbs of the same. */
+void pir_int_set_double(pir_int *dst, double x, int exponent);
+
+/* Limbs that hold any finite double of binary exponent up to `top` (as frexp gives it) in units of 2^exponent. */
+uint32_t pir_double_limbs(int top, int exponent);
+
+/* m in ±[0.5, 1) and *ret_exponent with |m·2^e − a| ≤ 1.001·2^-53·|a|; 0 and 0 for zero. */
+double pir_int_to_double(const pir_int *a, int *ret_exponent);
+
+/* dst = a × b; room for each component: |a| + |b| + 1. */
+void pir_int3_cross(pir_int3 *dst, const pir_int3 *a, const pir_int3 *b, pir_limbs *scratch);
+
+/* dst = a · b; room: |a| + |b| + 1 for the longest components. */
+void pir_int3_dot(pir_int *dst, const pir_int3 *a, const pir_int3 *b, pir_limbs *scratch);
+
+/* The longest component, in limbs. */
+uint32_t pir_int3_length(const pir_int3 *a);
+
+/* Three integers of `limbs` limbs each from scratch. */
+static inline pir_int3 pir_int3_take(pir_limbs *scratch, uint32_t limbs) {
+    pir_int3 v;
+    for (int k = 0; k < 3; k++)
+        v.c[k] = pir_limbs_take(scratch, limbs);
+    return v;
+}
+
+static inline bool pir_int3_is_zero(const pir_int3 *a) {
+    return a->c[0].size == 0 && a->c[1].size == 0 && a->c[2].size == 0;
+}
+
+#endif

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Rotations from quaternions.
+ *
+ * The bound on r, with u = 2^-53. q is first scaled by a power of two, exactly but for parts below 2^-1074, so that its largest
+ * component is in [0.5, 1). An entry is a sum of at most four products over n = |q|², the magnitudes of which add up to at most n.
+ * Products err by u, three sums by 3u more, n itself by 4u, the quotient by u: at most 9.01u, and 9 entries
+ * make at most 27.1u in Frobenius norm, hence in what r does to a unit vector.
+ */
+#include "exact/rotation.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The greatest binary exponent among the components, as frexp gives it. */
+static int top_exponent(const double c[4]) {
+    int top = INT32_MIN;
+    for (int k = 0; k < 4; k++) {
+        int e;
+        if (c[k] != 0) {
+            frexp(c[k], &e);
+            top = e > top ? e : top;
+        }
+    }
+    return top;
+}
+
+pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
+    const double c[4] = {q.x, q.y, q.z, q.w};
+    for (int k = 0; k < 4; k++)
+        if (!isfinite(c[k]))
+            return PIR_ERR_NOT_FINITE;
+    if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
+        return PIR_ERR_ZERO_QUATERNION;
+    int top = top_exponent(c);
+    double x = ldexp(q.x, -top), y = ldexp(q.y, -top), z = ldexp(q.z, -top), w = ldexp(q.w, -top);
+    double xx = x * x, yy = y * y, zz = z * z, ww = w * w;
+    double n = xx + yy + zz + ww, length = sqrt(n);
+    rotation->given = q;
+    rotation->unit = (pir_quat){x / length, y / length, z / length, w / length};
+    rotation->r = (pir_mat3){{{(ww + xx - yy - zz) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n},
+                              {2 * (x * y + w * z) / n, (ww - xx + yy - zz) / n, 2 * (y * z - w * x) / n},
+                              {2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (ww - xx - yy + zz) / n}}};
+    rotation->has_exact = false;
+    return PIR_OK;
+}
+
+/* The exponent of the lowest set bit of any component. */
+static int low_exponent(const double c[4]) {
+    int low = INT32_MAX;
+    for (int k = 0; k < 4; k++) {
+        if (c[k] == 0)
+            continue;
+        int e;
+        uint64_t mantissa = (uint64_t)ldexp(frexp(fabs(c[k]), &e), 53);
+        e -= 53;
+        while ((mantissa & 1) == 0)
+            mantissa >>= 1, e++;
+        low = e < low ? e : low;
+    }
+    return low;
+}
+
+/* dst += sign · 2^doubled · a·b. */
+static void add_product(pir_int *dst, const pir_int *a, const pir_int *b, int sign, bool doubled) {
+    mp_limb_t limbs[PIR_MATRIX_LIMBS];
+    pir_int product = {limbs, 0};
+    pir_int_mul(&product, a, b);
+    if (doubled)
+        pir_int_shift_left(&product, &product, 1);
+    if (sign < 0)
+        pir_int_negate(&product);
+    pir_int_add(dst, dst, &product);
+}
+
+void pir_rotation_make_exact(pir_rotation *rotation) {
+    if (rotation->has_exact)
+        return;
+    pir_limbs room = {rotation->limbs, 0, PIR_ROTATION_LIMBS};
+    const double c[4] = {rotation->given.x, rotation->given.y, rotation->given.z, rotation->given.w};
+    int low = low_exponent(c);
+    pir_int *q = rotation->q;
+    for (int k = 0; k < 4; k++) {
+        q[k] = pir_limbs_take(&room, PIR_QUAT_LIMBS);
+        pir_int_set_double(&q[k], c[k], low);
+    }
+    // the diagonal, w² ± x² ± y² ± z², and the norm
+    for (int i = 0; i < 3; i++) {
+        rotation->m[i][i] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
+        for (int k = 0; k < 4; k++)
+            add_product(&rotation->m[i][i], &q[k], &q[k], k == 3 || k == i ? 1 : -1, false);
+    }
+    rotation->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
+    for (int k = 0; k < 4; k++)
+        add_product(&rotation->norm, &q[k], &q[k], 1, false);
+    // off the diagonal, with (i, j, k) cyclic: m_ij = 2 (q_i q_j − w q_k), m_ji = 2 (q_i q_j + w q_k)
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        for (int transposed = 0; transposed < 2; transposed++) {
+            pir_int *entry = transposed ? &rotation->m[j][i] : &rotation->m[i][j];
+            *entry = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
+            add_product(entry, &q[i], &q[j], 1, true);
+            add_product(entry, &q[3], &q[k], transposed ? 1 : -1, true);
+        }
+    }
+    rotation->has_exact = true;
+}
+
+void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch) {
+    for (int i = 0; i < 3; i++) {
+        pir_int_mul(&dst->c[i], &rotation->m[i][0], &v->c[0]);
+        pir_int_add_mul(&dst->c[i], &rotation->m[i][1], &v->c[1], scratch);
+        pir_int_add_mul(&dst->c[i], &rotation->m[i][2], &v->c[2], scratch);
+    }
+}
+
+/* The distance between unit quaternions a and b·sign. */
+static double chord(pir_quat a, pir_quat b, double sign) {
+    double x = a.x - sign * b.x, y = a.y - sign * b.y, z = a.z - sign * b.z, w = a.w - sign * b.w;
+    return sqrt(x * x + y * y + z * z + w * w);
+}
+
+double pir_rotation_angle_bound(pir_quat a, pir_quat b) {
+    /*
+     * Unit quaternions at distance c (up to sign) turn by θ = 4 asin(c/2), c ≤ √2. (asin(y) − y)/y³ rises with y and is below 0.221 at
+     * y = √2/2, so θ ≤ 4 (y + 0.221 y³). Rounding: each unit quaternion is off by at most 8u, the chord so by 16u and, relatively,
+     * by 5u; 2^-48 = 32u on c and 1 + 2^-48 on the result hold all of it.
+     */
+    double plus = chord(a, b, 1), minus = chord(a, b, -1);
+    double y = 0.5 * ((plus < minus ? plus : minus) + 0x1p-48);
+    return 4 * (y + 0.221 * (y * y * y)) * (1 + 0x1p-48);
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A rotation given by a quaternion of doubles, which is an exact rotation: R = M(q)/|q|² with
+ *
+ *     M(q)·n = (w² − |v|²)·n + 2 (v·n)·v + 2w·v × n,      q = (v, w)
+ *
+ * held twice: as a matrix of doubles with a proven bound, and as integers, M of q scaled to integers by a power of two.
+ *
+ * The integers are made on demand, in memory inside the struct: a double spans at most 2098 bits, so nothing allocates.
+ */
+#ifndef PIR_EXACT_ROTATION_H
+#define PIR_EXACT_ROTATION_H
+
+#include "base/vec.h"
+#include "exact/integer.h"
+
+/* Limbs of a component of q as an integer, of an entry of M (a sum of four products), and of all of them. */
+#define PIR_QUAT_LIMBS     (2098 / GMP_NUMB_BITS + 2)
+#define PIR_MATRIX_LIMBS   (2 * PIR_QUAT_LIMBS + 1)
+#define PIR_ROTATION_LIMBS (4 * PIR_QUAT_LIMBS + 10 * PIR_MATRIX_LIMBS)
+
+typedef struct pir_rotation {
+    pir_quat given; /* as the caller gave it */
+    pir_quat unit;  /* scaled to length 1, within 8·2^-53 */
+    pir_mat3 r;     /* within 28·2^-53 of R in Frobenius norm: see rotation.c */
+    bool has_exact; /* whether the integers below are made */
+    pir_int q[4];   /* x, y, z, w on one scale */
+    pir_int m[3][3];
+    pir_int norm; /* |q|² on the scale of m: R = m/norm */
+    mp_limb_t limbs[PIR_ROTATION_LIMBS];
+} pir_rotation;
+
+/* Takes `q`: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, or PIR_OK. On failure *rotation is as it was. */
+pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q);
+
+/* Makes the integers if they are not there yet. */
+void pir_rotation_make_exact(pir_rotation *rotation);
+
+/* dst = M·v exactly; room: |v| + PIR_MATRIX_LIMBS + 1 each. */
+void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch);
+
+/* An upper bound, tight to a few parts in 10^15 for small turns, on the angle between two rotations in
+ * radians, given by their `unit` quaternions. */
+double pir_rotation_angle_bound(pir_quat a, pir_quat b);
+
+#endif
