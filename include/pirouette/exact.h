@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Exact coordinates in and out, as GMP rationals. The one public header that shows GMP; pirouette.h does not include it.
+ *
+ * GMP's own allocation functions serve the mpq_t arguments; GMP ends the process when they run out of memory.
+ */
+#ifndef PIROUETTE_EXACT_H
+#define PIROUETTE_EXACT_H
+
+#include <gmp.h>
+
+#include <pirouette/base.h>
+#include <pirouette/mesh.h>
+#include <pirouette/polytope.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/**
+ * The exact convex hull of `count` rational points: x, y, z of point i in coordinates[3i..3i+2], canonical; copied.
+ * Otherwise as pir_polytope_create.
+ */
+PIR_API pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, const pir_allocator *allocator,
+                                             pir_polytope **ret_polytope);
+
+/** The exact coordinates of a vertex, into three initialised rationals. */
+PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t vertex, mpq_t ret_coordinates[3]);
+
+/** The same for a mesh that holds exact coordinates; PIR_ERR_ARGUMENT when it does not. */
+PIR_API pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t ret_coordinates[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

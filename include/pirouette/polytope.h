@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Polytopes: bounded convex polyhedra, immutable and shared by reference count.
+ *
+ * A polytope is the exact convex hull of the points it is made from. Its facets are maximal (coplanar triangles are one
+ * facet), its vertices are all extreme, and both facts are decided in exact arithmetic. Flat input is welcome: a polygon
+ * is a polytope of dimension 2 whose two facets are its two sides, a segment has dimension 1, a point dimension 0.
+ *
+ * Frame: body coordinates, right-handed. Facets are listed counter-clockwise seen from outside. Vertices keep the order
+ * in which their points were given. Threads may share a polytope; the reference count is atomic.
+ */
+#ifndef PIROUETTE_POLYTOPE_H
+#define PIROUETTE_POLYTOPE_H
+
+#include <pirouette/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pir_polytope pir_polytope;
+
+/**
+ * Makes the exact convex hull of `count` points. Duplicate, interior, coplanar and collinear points are welcome.
+ *
+ * points     `count` finite points, in any order; copied.
+ * allocator  NULL for malloc; copied, its context must outlive the polytope.
+ *
+ * The caller owns one reference to *ret_polytope. Cost: O(n log n) expected for n points (quickhull: Barber, Dobkin,
+ * Huhdanpaa, ACM TOMS 22(4), 1996, here with exact orientation signs), plus exact arithmetic where points are nearly coplanar.
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY (count 0), PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT (2^30 points or more), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_allocator *allocator,
+                                       pir_polytope **ret_polytope);
+
+/** Makes −P, the reflection of `polytope` through the origin, with the same allocator. Vertex i is minus vertex i. O(n). */
+PIR_API pir_status pir_polytope_reflect(const pir_polytope *polytope, pir_polytope **ret_polytope);
+
+/** Takes one more reference and returns the polytope. Thread-safe. */
+PIR_API pir_polytope *pir_polytope_retain(pir_polytope *polytope);
+
+/** Gives one reference back; the last one frees. NULL is accepted. Thread-safe. */
+PIR_API void pir_polytope_release(pir_polytope *polytope);
+
+/** The dimension of its affine hull, 0 to 3. */
+PIR_API int pir_polytope_dimension(const pir_polytope *polytope);
+
+/** Vertices, edges and facets. A polygon has two facets (its sides); a segment has one edge and none; a point has one vertex. */
+PIR_API uint32_t pir_polytope_vertex_count(const pir_polytope *polytope);
+PIR_API uint32_t pir_polytope_edge_count(const pir_polytope *polytope);
+PIR_API uint32_t pir_polytope_facet_count(const pir_polytope *polytope);
+
+/** Vertex `vertex`, rounded to the nearest double where the exact coordinate is none. */
+PIR_API pir_vec3 pir_polytope_vertex(const pir_polytope *polytope, uint32_t vertex);
+
+/** The index, in the points it was made from, of the first point that became vertex `vertex`. */
+PIR_API uint32_t pir_polytope_source(const pir_polytope *polytope, uint32_t vertex);
+
+/** The two vertices of edge `edge`, the smaller index first. */
+PIR_API void pir_polytope_edge(const pir_polytope *polytope, uint32_t edge, uint32_t ret_vertices[2]);
+
+/** The number of corners of facet `facet`. */
+PIR_API uint32_t pir_polytope_facet_size(const pir_polytope *polytope, uint32_t facet);
+
+/** Writes the corners of facet `facet`, counter-clockwise from outside, to `ret_vertices`, room for pir_polytope_facet_size. */
+PIR_API void pir_polytope_facet(const pir_polytope *polytope, uint32_t facet, uint32_t *ret_vertices);
+
+/** The outward unit normal of facet `facet`, within 8·2^-53 of the exact direction. */
+PIR_API pir_vec3 pir_polytope_normal(const pir_polytope *polytope, uint32_t facet);
+
+/** Least and greatest coordinates. */
+PIR_API void pir_polytope_bounds(const pir_polytope *polytope, pir_vec3 *ret_low, pir_vec3 *ret_high);
+
+/** The volume, rounded; 0 when flat. O(n). */
+PIR_API double pir_polytope_volume(const pir_polytope *polytope);
+
+/** A whole-structure check for tests: rings, twins, loops, Euler's formula, exact strict convexity. 1 when all hold. O(n). */
+PIR_API int pir_polytope_is_valid(const pir_polytope *polytope);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Polytopes from what callers have: doubles, rationals, another polytope.
+ *
+ * Every input becomes integers on one scale. Doubles are integers times the power of two of their lowest set bit; rationals are
+ * integers over the least common multiple of their denominators.
+ */
+#include <math.h>
+#include <string.h>
+
+#include <pirouette/exact.h>
+
+#include "base/vec.h"
+#include "polytope/polytope.h"
+
+/* The exponents of the lowest and above the highest set bit among all coordinates; false when all are zero. */
+static bool exponent_range(const pir_vec3 *points, size_t count, int *ret_low, int *ret_top) {
+    bool any = false;
+    for (size_t i = 0; i < count; i++) {
+        const double c[3] = {points[i].x, points[i].y, points[i].z};
+        for (int k = 0; k < 3; k++) {
+            if (c[k] == 0)
+                continue;
+            int top;
+            uint64_t mantissa = (uint64_t)ldexp(frexp(fabs(c[k]), &top), 53);
+            int low = top - 53;
+            while ((mantissa & 1) == 0)
+                mantissa >>= 1, low++;
+            *ret_low = any && *ret_low < low ? *ret_low : low;
+            *ret_top = any && *ret_top > top ? *ret_top : top;
+            any = true;
+        }
+    }
+    return any;
+}
+
+pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_allocator *allocator,
+                               pir_polytope **ret_polytope) {
+    if (!ret_polytope || (!points && count > 0))
+        return PIR_ERR_ARGUMENT;
+    if (count == 0)
+        return PIR_ERR_EMPTY;
+    if (count >= (size_t)1 << 30)
+        return PIR_ERR_LIMIT;
+    for (size_t i = 0; i < count; i++)
+        if (!pir_vec_is_finite(points[i]))
+            return PIR_ERR_NOT_FINITE;
+    const pir_allocator used = pir_allocator_or_default(allocator);
+    int low = 0, top = 0;
+    exponent_range(points, count, &low, &top);
+    // the coordinates as integers in units of 2^low
+    pir_vectors exact = {0};
+    pir_scale scale = {{NULL, 0}, {NULL, 0}};
+    pir_status status = PIR_ERR_MEMORY;
+    if (pir_scale_init_power(&scale, &used, low) &&
+        pir_vectors_init(&exact, &used, (uint32_t)count, pir_double_limbs(top, low))) {
+        for (uint32_t i = 0; i < count; i++) {
+            pir_int3 v = pir_vectors_at(&exact, i);
+            pir_int_set_double(&v.c[0], points[i].x, low);
+            pir_int_set_double(&v.c[1], points[i].y, low);
+            pir_int_set_double(&v.c[2], points[i].z, low);
+            pir_vectors_put(&exact, i, &v);
+        }
+        status = pir_polytope_build_hull(&(pir_polytope_parts){.points = &exact, .scale = &scale, .doubles = points},
+                                         &used, ret_polytope);
+    }
+    pir_vectors_finish(&exact, &used);
+    pir_scale_finish(&scale, &used);
+    return status;
+}
+
+/* The integer of a GMP integer, borrowed. */
+static pir_int view_of(mpz_srcptr z) {
+    return (pir_int){(mp_limb_t *)mpz_limbs_read(z), mpz_sgn(z) * (int32_t)mpz_size(z)};
+}
+
+/* coordinates · common, as integers. */
+static bool scale_rationals(pir_vectors *exact, const pir_allocator *allocator, const mpq_t *coordinates, size_t count,
+                            const mpz_t common) {
+    size_t longest = 1;
+    for (size_t i = 0; i < 3 * count; i++) {
+        size_t limbs = mpz_size(mpq_numref(coordinates[i])) + mpz_size(common);
+        longest = limbs > longest ? limbs : longest;
+    }
+    if (!pir_vectors_init(exact, allocator, (uint32_t)count, (uint32_t)longest))
+        return false;
+    mpz_t scaled;
+    mpz_init(scaled);
+    for (uint32_t i = 0; i < count; i++) {
+        pir_int3 v = pir_vectors_at(exact, i);
+        for (uint32_t k = 0; k < 3; k++) {
+            mpq_srcptr c = coordinates[(size_t)i * 3 + k];
+            mpz_divexact(scaled, common, mpq_denref(c));
+            mpz_mul(scaled, scaled, mpq_numref(c));
+            pir_int whole = view_of(scaled);
+            pir_int_copy(&v.c[k], &whole);
+        }
+        pir_vectors_put(exact, i, &v);
+    }
+    mpz_clear(scaled);
+    return true;
+}
+
+pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, const pir_allocator *allocator,
+                                     pir_polytope **ret_polytope) {
+    if (!ret_polytope || (!coordinates && count > 0))
+        return PIR_ERR_ARGUMENT;
+    if (count == 0)
+        return PIR_ERR_EMPTY;
+    if (count >= (size_t)1 << 30)
+        return PIR_ERR_LIMIT;
+    const pir_allocator used = pir_allocator_or_default(allocator);
+    mpz_t common;
+    mpz_init_set_ui(common, 1);
+    for (size_t i = 0; i < 3 * count; i++)
+        mpz_lcm(common, common, mpq_denref(coordinates[i]));
+    mp_limb_t one_limb = 1;
+    pir_scale scale = {{&one_limb, 1}, view_of(common)};
+    pir_vectors exact = {0};
+    pir_status status = PIR_ERR_MEMORY;
+    if (scale_rationals(&exact, &used, coordinates, count, common))
+        status = pir_polytope_build_hull(&(pir_polytope_parts){.points = &exact, .scale = &scale}, &used, ret_polytope);
+    pir_vectors_finish(&exact, &used);
+    mpz_clear(common);
+    return status;
+}
+
+/* The facets of `p` as loops of vertices, each turned the other way round. */
+static bool reversed_loops(const pir_polytope *p, pir_loops *loops) {
+    if (!pir_loops_init(loops, &p->allocator, p->facet_count, p->half_count))
+        return false;
+    for (uint32_t f = 0; f <= p->facet_count; f++)
+        loops->start[f] = p->loop_start[f];
+    for (uint32_t f = 0; f < p->facet_count; f++)
+        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+            loops->corner[p->loop_start[f] + p->loop_start[f + 1] - 1 - i] = p->origin[p->loop[i]];
+    return true;
+}
+
+pir_status pir_polytope_reflect(const pir_polytope *p, pir_polytope **ret_polytope) {
+    if (!p || !ret_polytope)
+        return PIR_ERR_ARGUMENT;
+    const pir_allocator *a = &p->allocator;
+    pir_loops loops = {0};
+    pir_vectors exact = {0};
+    pir_vec3 *doubles = PIR_NEW(a, pir_vec3, p->vertex_count);
+    uint32_t *vertices = PIR_NEW(a, uint32_t, p->vertex_count);
+    pir_status status = PIR_ERR_MEMORY;
+    if (doubles && vertices && reversed_loops(p, &loops) &&
+        pir_vectors_init(&exact, a, p->vertex_count, p->exact_vertex.stride)) {
+        for (uint32_t v = 0; v < p->vertex_count; v++) {
+            pir_int3 x = pir_vertex_exact(p, v);
+            for (int k = 0; k < 3; k++)
+                pir_int_negate(&x.c[k]);
+            pir_vectors_set(&exact, v, &x);
+            doubles[v] = pir_vec_scale(p->vertex[v], -1);
+            vertices[v] = v;
+        }
+        pir_polytope_parts parts = {&exact, &p->scale, doubles, p->dimension, vertices, p->vertex_count, &loops};
+        pir_polytope *reflected;
+        status = pir_polytope_build(&parts, a, &reflected);
+        if (status == PIR_OK) {
+            memcpy(reflected->source, p->source, p->vertex_count * sizeof *p->source);
+            *ret_polytope = reflected;
+        }
+    }
+    pir_vectors_finish(&exact, a);
+    pir_loops_finish(&loops, a, p->half_count);
+    PIR_FREE(a, vertices, p->vertex_count);
+    PIR_FREE(a, doubles, p->vertex_count);
+    return status;
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The inside of a polytope: a halfedge structure laid out by rings, exact vectors, and unit vectors in double.
+ *
+ * Halfedges are numbered vertex by vertex: those that leave vertex v are ring_start[v] .. ring_start[v+1] − 1, counter-clockwise
+ * from outside, the facet left of each lying between it and the next. So a vertex's neighbourhood is a contiguous slice, and in
+ * the Gaussian map that slice is the boundary of v's cell: corner left[h], then side h + 1 (cyclically), and so on.
+ *
+ * Invariants
+ *   - twin is an involution without fixed points; left[twin[h]] is the facet right of h; target[h] is the origin of twin[h].
+ *   - edges are numbered by (smaller vertex, larger vertex); edge_half[e] is the halfedge that leaves the smaller.
+ *   - the arc of e in the Gaussian map leads from the facet left of edge_half[e] to the one right of it, and turns
+ *     counter-clockwise about the edge's vector: n_left × n_right is a positive multiple of it.
+ *   - exact vectors: vertices on the common scale `scale`; edge vectors and facet normals along the true direction, of any length.
+ *
+ * Lower dimensions keep the same form, so that nothing else needs to know: a polygon has its two sides as facets; a segment
+ * has two facets with opposite normals across it and two edges, all its two corners at a time (`artificial`: no area,
+ * hidden from callers); a point has a vertex and nothing else.
+ */
+#ifndef PIR_POLYTOPE_POLYTOPE_H
+#define PIR_POLYTOPE_POLYTOPE_H
+
+#include <stdatomic.h>
+
+#include <pirouette/polytope.h>
+
+#include "exact/vectors.h"
+#include "polytope/loops.h"
+
+struct pir_polytope {
+    atomic_uint references;
+    pir_allocator allocator;
+    int dimension;
+    bool artificial; /* the two facets and the second edge of a segment */
+    uint32_t vertex_count, edge_count, facet_count, half_count;
+
+    uint32_t *ring_start;             /* vertex_count + 1 */
+    uint32_t *origin, *target, *twin; /* per halfedge */
+    uint32_t *left, *edge;            /* per halfedge: facet, edge */
+    uint32_t *edge_half;              /* per edge */
+    uint32_t *loop_start, *loop;      /* per facet: its halfedges counter-clockwise */
+    uint32_t *source;                 /* per vertex: index of the input point */
+
+    pir_vec3 *vertex;    /* nearest doubles */
+    pir_vec3 *direction; /* per halfedge: unit vector from origin to target */
+    pir_vec3 *normal;    /* per facet: outward unit normal */
+
+    pir_vectors exact_vertex; /* times scale */
+    pir_vectors exact_edge;   /* per edge, along edge_half */
+    pir_vectors exact_normal; /* per facet */
+    pir_scale scale;
+};
+
+/* What a polytope is built from; everything is copied. */
+typedef struct pir_polytope_parts {
+    const pir_vectors *points; /* exact, on `scale` */
+    const pir_scale *scale;
+    const pir_vec3 *doubles; /* nearest doubles of the points, or NULL: worked out */
+    int dimension;
+    const uint32_t *vertices; /* which points, rising */
+    uint32_t vertex_count;
+    const pir_loops *facets; /* loops of point indices; the facets keep this order */
+} pir_polytope_parts;
+
+pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocator *allocator,
+                              pir_polytope **ret_polytope);
+
+/* Builds the hull of the points of `parts`, whose last four members are ignored. */
+pir_status pir_polytope_build_hull(const pir_polytope_parts *parts, const pir_allocator *allocator,
+                                   pir_polytope **ret_polytope);
+
+static inline uint32_t pir_right(const pir_polytope *p, uint32_t half) {
+    return p->left[p->twin[half]];
+}
+
+/* The halfedge after `half` in its vertex's ring. */
+static inline uint32_t pir_ring_next(const pir_polytope *p, uint32_t half) {
+    uint32_t v = p->origin[half];
+    return half + 1 == p->ring_start[v + 1] ? p->ring_start[v] : half + 1;
+}
+
+/* The exact vector from origin to target, up to a positive factor; borrows the polytope's limbs. */
+static inline pir_int3 pir_half_exact(const pir_polytope *p, uint32_t half) {
+    uint32_t e = p->edge[half];
+    pir_int3 v = pir_vectors_at(&p->exact_edge, e);
+    if (p->edge_half[e] != half)
+        for (int k = 0; k < 3; k++)
+            pir_int_negate(&v.c[k]);
+    return v;
+}
+
+static inline pir_int3 pir_normal_exact(const pir_polytope *p, uint32_t facet) {
+    return pir_vectors_at(&p->exact_normal, facet);
+}
+
+static inline pir_int3 pir_vertex_exact(const pir_polytope *p, uint32_t vertex) {
+    return pir_vectors_at(&p->exact_vertex, vertex);
+}
+
+#endif
