@@ -2,15 +2,18 @@
 /*
  * Rotations from quaternions.
  *
- * The bound on r, with u = 2^-53. q is first scaled by a power of two, exactly but for parts below 2^-1074, so that its largest
- * component is in [0.5, 1). An entry is a sum of at most four products over n = |q|², the magnitudes of which add up to at most n.
- * Products err by u, three sums by 3u more, n itself by 4u, the quotient by u: at most 9.01u, and 9 entries
- * make at most 27.1u in Frobenius norm, hence in what r does to a unit vector.
+ * The bound on r, with u = 2^-53. Unless |q|² is near one, q is first scaled by a power of two, exactly but for parts below 2^-1074, so
+ * that its largest component is in [0.5, 1). An entry is a sum of at most four products over n = |q|², the magnitudes of which add up to
+ * at most n. Products err by u, three sums by 3u more, n itself by 4u, its reciprocal by u and the last product by u: at most 10.01u,
+ * and 9 entries make at most 30.1u in Frobenius norm, hence in what r does to a unit vector.
  */
 #include "exact/rotation.h"
 
 #include <math.h>
 #include <string.h>
+
+/* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is nothing beside u·n. */
+#define NEAR_ONE 0x1p-400
 
 /* The greatest binary exponent among the components, as frexp gives it. */
 static int top_exponent(const double c[4]) {
@@ -32,15 +35,19 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
             return PIR_ERR_NOT_FINITE;
     if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
         return PIR_ERR_ZERO_QUATERNION;
-    int top = top_exponent(c);
-    double x = ldexp(q.x, -top), y = ldexp(q.y, -top), z = ldexp(q.z, -top), w = ldexp(q.w, -top);
+    double x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
+    if (!(n >= NEAR_ONE && n <= 1 / NEAR_ONE)) {
+        int top = top_exponent(c);
+        x = ldexp(x, -top), y = ldexp(y, -top), z = ldexp(z, -top), w = ldexp(w, -top);
+    }
     double xx = x * x, yy = y * y, zz = z * z, ww = w * w;
-    double n = xx + yy + zz + ww, length = sqrt(n);
+    n = xx + yy + zz + ww;
+    double by = 1 / n, shrink = 1 / sqrt(n);
     rotation->given = q;
-    rotation->unit = (pir_quat){x / length, y / length, z / length, w / length};
-    rotation->r = (pir_mat3){{{(ww + xx - yy - zz) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n},
-                              {2 * (x * y + w * z) / n, (ww - xx + yy - zz) / n, 2 * (y * z - w * x) / n},
-                              {2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (ww - xx - yy + zz) / n}}};
+    rotation->unit = (pir_quat){x * shrink, y * shrink, z * shrink, w * shrink};
+    rotation->r = (pir_mat3){{{(ww + xx - yy - zz) * by, 2 * (x * y - w * z) * by, 2 * (x * z + w * y) * by},
+                              {2 * (x * y + w * z) * by, (ww - xx + yy - zz) * by, 2 * (y * z - w * x) * by},
+                              {2 * (x * z - w * y) * by, 2 * (y * z + w * x) * by, (ww - xx - yy + zz) * by}}};
     rotation->has_exact = false;
     return PIR_OK;
 }
@@ -122,11 +129,10 @@ static double chord(pir_quat a, pir_quat b, double sign) {
 
 double pir_rotation_angle_bound(pir_quat a, pir_quat b) {
     /*
-     * Unit quaternions at distance c (up to sign) turn by θ = 4 asin(c/2), c ≤ √2. (asin(y) − y)/y³ rises with y and is below 0.221 at
-     * y = √2/2, so θ ≤ 4 (y + 0.221 y³). Rounding: each unit quaternion is off by at most 8u, the chord so by 16u and, relatively,
+     * Unit quaternions at distance c (up to sign) turn by θ = 4 asin(c/2), c ≤ √2. (asin(y) − y)/y³ rises with y and is below 0.2215 at
+     * y = √2/2, so θ ≤ 4 (y + 0.2215 y³). Rounding: each unit quaternion is off by at most 8u, the chord so by 16u and, relatively,
      * by 5u; 2^-48 = 32u on c and 1 + 2^-48 on the result hold all of it.
      */
-    double plus = chord(a, b, 1), minus = chord(a, b, -1);
-    double y = 0.5 * ((plus < minus ? plus : minus) + 0x1p-48);
-    return 4 * (y + 0.221 * (y * y * y)) * (1 + 0x1p-48);
+    double y = 0.5 * (chord(a, b, a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1 : 1) + 0x1p-48);
+    return 4 * (y + 0.2215 * (y * y * y)) * (1 + 0x1p-48);
 }

@@ -22,7 +22,7 @@
 typedef struct pir_rotation {
     pir_quat given; /* as the caller gave it */
     pir_quat unit;  /* scaled to length 1, within 8·2^-53 */
-    pir_mat3 r;     /* within 28·2^-53 of R in Frobenius norm: see rotation.c */
+    pir_mat3 r;     /* within 31·2^-53 of R in Frobenius norm: see rotation.c */
     bool has_exact; /* whether the integers below are made */
     pir_int q[4];   /* x, y, z, w on one scale */
     pir_int m[3][3];

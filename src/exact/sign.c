@@ -13,8 +13,14 @@
  *     1, ε₁, ε₁², ε₂, ε₁ε₂, ε₂², ε₃, ε₁ε₃, ε₂ε₃, ε₃², ε₄, ε₁ε₄, ε₂ε₄, ε₃ε₄, ε₄²
  *
  * and the first coefficient that is not zero gives the sign. One is not: A = 0 means d = 0 and c = 0, hence a = 0 or b = 0.
+ *
+ * Most ties of real scenes are of small integers, and s vanishes product by product: a body turning on a table has two components of
+ * q zero, and normals and edges along axes. So doubles try first. A sum of products whose magnitudes add up to 0 is 0; one that is not
+ * small beside what they add up to has the sign that it seems to have. Where neither holds the integers decide.
  */
 #include "exact/sign.h"
+
+#include <math.h>
 
 pir_status pir_signs_init(pir_signs *signs, const pir_allocator *allocator, uint32_t a_limbs, uint32_t b_limbs) {
     // M·a and the sum of its products with b; a tie takes a × b, a·b, two more dot products and a sum: all shorter than six of these
@@ -126,8 +132,121 @@ static int tie_sign(pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
     return sign;
 }
 
+/* --- ties by doubles --- */
+
+/* Components of q from here to the inverse, and integers below 2^53, have products that neither overflow nor vanish. */
+#define SMALLEST 0x1p-200
+
+/* Sums below are off by less than 16u = 2^-49 of what the magnitudes of their terms add up to. */
+#define RELATIVE_BOUND 0x1p-48
+
+/* A sum and the sum of the magnitudes. */
+struct sized {
+    double sum, size;
+};
+
+/* 1 or −1 by doubles, 0 for zero, TOO_CLOSE when they cannot say. */
+enum { TOO_CLOSE = 2 };
+
+static int sized_sign(struct sized x) {
+    if (x.size == 0)
+        return 0;
+    return fabs(x.sum) > RELATIVE_BOUND * x.size ? (x.sum > 0) - (x.sum < 0) : TOO_CLOSE;
+}
+
+static void add_term(struct sized *x, double term, double size) {
+    x->sum += term;
+    x->size += size;
+}
+
+/* a as doubles; false when they do not hold it exactly. */
+static bool small_vector(const pir_int3 *a, double ret_small[3]) {
+    for (int k = 0; k < 3; k++) {
+        if (a->c[k].size < -1 || a->c[k].size > 1 || (a->c[k].size != 0 && a->c[k].limb[0] >> 53 != 0))
+            return false;
+        ret_small[k] = a->c[k].size == 0 ? 0 : (double)a->c[k].limb[0] * a->c[k].size;
+    }
+    return true;
+}
+
+static bool is_tame(const double q[4]) {
+    for (int k = 0; k < 4; k++)
+        if (q[k] != 0 && !(fabs(q[k]) > SMALLEST && fabs(q[k]) < 1 / SMALLEST))
+            return false;
+    return true;
+}
+
+/* Whether every product in s is zero. */
+static bool vanishes(const double q[4], const double a[3], const double b[3]) {
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            if (a[j] == 0 || b[i] == 0)
+                continue;
+            int k = 3 - i - j;
+            if (i == j || q[i] * q[j] != 0 || q[3] * q[k] != 0)
+                return false;
+        }
+    return true;
+}
+
+/* tie_sign by doubles, or TOO_CLOSE. */
+static int small_tie_sign(const double q[4], const double a[3], const double b[3]) {
+    struct sized d = {0, 0}, av = {0, 0}, bv = {0, 0}, c[3];
+    for (int k = 0; k < 3; k++) {
+        int l = (k + 1) % 3, m = (k + 2) % 3;
+        add_term(&d, a[k] * b[k], fabs(a[k] * b[k]));
+        add_term(&av, a[k] * q[k], fabs(a[k] * q[k]));
+        add_term(&bv, b[k] * q[k], fabs(b[k] * q[k]));
+        c[k] = (struct sized){a[l] * b[m] - a[m] * b[l], fabs(a[l] * b[m]) + fabs(a[m] * b[l])};
+    }
+    for (int k = 0; k < 4; k++) {
+        struct sized x = {0, 0};
+        for (int l = 0; l < 3 && k == 3; l++)
+            add_term(&x, c[l].sum * q[l], c[l].size * fabs(q[l]));
+        if (k == 3) {
+            add_term(&x, d.sum * q[3], d.size * fabs(q[3]));
+        } else {
+            add_term(&x, a[k] * bv.sum, fabs(a[k]) * bv.size);
+            add_term(&x, b[k] * av.sum, fabs(b[k]) * av.size);
+            add_term(&x, -d.sum * q[k], d.size * fabs(q[k]));
+            add_term(&x, c[k].sum * q[3], c[k].size * fabs(q[3]));
+        }
+        int sign = sized_sign(x);
+        for (int l = 0; l <= k && sign == 0; l++) {
+            x = k < 3    ? (struct sized){a[k] * b[l] + a[l] * b[k], fabs(a[k] * b[l]) + fabs(a[l] * b[k])}
+                : l == 3 ? d
+                         : c[l];
+            if (k == l && k < 3)
+                add_term(&x, -d.sum, d.size);
+            sign = sized_sign(x);
+            // integers that doubles hold cancel exactly
+            if (sign == TOO_CLOSE && x.size < 0x1p53)
+                sign = (x.sum > 0) - (x.sum < 0);
+        }
+        if (sign != 0)
+            return sign;
+    }
+    return TOO_CLOSE;
+}
+
+/* The sign of a tie that doubles can see and settle, or 0. */
+static int small_sign(const pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
+    const pir_quat given = signs->rotation.given;
+    const double q[4] = {given.x, given.y, given.z, given.w};
+    double x[3], y[3];
+    if (!is_tame(q) || !small_vector(a, x) || !small_vector(b, y) || !vanishes(q, x, y))
+        return 0;
+    int sign = small_tie_sign(q, x, y);
+    return sign == TOO_CLOSE ? 0 : sign;
+}
+
 int pir_sign_perturbed(pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
-    int sign = exact_sign(signs, a, b);
+    int sign = small_sign(signs, a, b);
+    if (sign != 0) {
+        signs->by_perturbation++;
+        return sign;
+    }
+    sign = exact_sign(signs, a, b);
     if (sign != 0) {
         signs->by_exact++;
         return sign;
