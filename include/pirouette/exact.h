@@ -10,8 +10,10 @@
 #include <gmp.h>
 
 #include <pirouette/base.h>
+#include <pirouette/cgm.h>
 #include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
+#include <pirouette/sum.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,11 +26,24 @@ extern "C" {
 PIR_API pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, const pir_allocator *allocator,
                                              pir_polytope **ret_polytope);
 
+/** As pir_polytope_scale, by a rational; PIR_ERR_LIMIT also when the scale then takes more than 65536 bits. */
+PIR_API pir_status pir_polytope_scale_exact(const pir_polytope *polytope, const mpq_t factor,
+                                            pir_polytope **ret_polytope);
+
+/** As pir_sum_set_scale, to a rational. */
+PIR_API pir_status pir_sum_set_scale_exact(pir_sum *sum, pir_operand operand, const mpq_t scale);
+
 /** The exact coordinates of a vertex, into three initialised rationals. */
 PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t vertex, mpq_t ret_coordinates[3]);
 
 /** The same for a mesh that holds exact coordinates; PIR_ERR_ARGUMENT when it does not. */
 PIR_API pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t ret_coordinates[3]);
+
+/**
+ * The support plane of a map's polytope or sum in the direction of a vertex: a normal (a, b, c) of integers and the offset d of
+ * a·x + b·y + c·z = d, into four initialised rationals. PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_cgm_vertex_plane_exact(const pir_cgm *cgm, uint32_t vertex, mpq_t ret_plane[4]);
 
 #ifdef __cplusplus
 }

@@ -27,6 +27,12 @@ typedef enum pir_facet_kind {
     PIR_FACET_MERGED, /**< several coplanar pieces */
 } pir_facet_kind;
 
+/** Which coordinates a mesh of the sum carries. */
+typedef enum pir_precision {
+    PIR_DOUBLE = 0, /**< doubles, each within a few ulp of the exact coordinate relative to the size of the operands */
+    PIR_EXACT,      /**< the same doubles, and exact rationals beside them (exact.h) */
+} pir_precision;
+
 /** The boundary of `polytope`, exact coordinates included; every facet is of kind PIR_FACET_FV, every vertex's pair is (v, 0). */
 PIR_API pir_status pir_mesh_from_polytope(const pir_polytope *polytope, pir_mesh **ret_mesh);
 

@@ -36,6 +36,12 @@ PIR_API pir_status pir_polytope_create(const pir_vec3 *points, size_t count, con
 /** Makes −P, the reflection of `polytope` through the origin, with the same allocator. Vertex i is minus vertex i. O(n). */
 PIR_API pir_status pir_polytope_reflect(const pir_polytope *polytope, pir_polytope **ret_polytope);
 
+/**
+ * Makes factor·P, features under the same numbers, with the same allocator; `factor` is taken exactly. O(n).
+ * Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT (not positive), PIR_ERR_LIMIT (a coordinate beyond the doubles), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_polytope_scale(const pir_polytope *polytope, double factor, pir_polytope **ret_polytope);
+
 /** Takes one more reference and returns the polytope. Thread-safe. */
 PIR_API pir_polytope *pir_polytope_retain(pir_polytope *polytope);
 

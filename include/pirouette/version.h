@@ -5,9 +5,9 @@
 
 #include <pirouette/base.h>
 
-#define PIR_VERSION_MAJOR 0
-#define PIR_VERSION_MINOR 1
-#define PIR_VERSION_PATCH 0
+#define PIR_VERSION_MAJOR  0
+#define PIR_VERSION_MINOR  1
+#define PIR_VERSION_PATCH  0
 #define PIR_VERSION_STRING "0.1.0"
 
 #ifdef __cplusplus

@@ -58,22 +58,32 @@ void pir_polytope_bounds(const pir_polytope *p, pir_vec3 *ret_low, pir_vec3 *ret
     *ret_high = high;
 }
 
+/* v in units of `unit`, by division: the inverse of a denormal unit would overflow. */
+static pir_vec3 in_units(pir_vec3 v, double unit) {
+    return (pir_vec3){v.x / unit, v.y / unit, v.z / unit};
+}
+
 double pir_polytope_volume(const pir_polytope *p) {
     if (p->dimension < 3)
         return 0;
+    // in units of the greatest extent, so that nothing overflows on the way
+    pir_vec3 low, high;
+    pir_polytope_bounds(p, &low, &high);
+    double half = fmax(fmax(high.x / 2 - low.x / 2, high.y / 2 - low.y / 2), high.z / 2 - low.z / 2);
+    pir_vec3 origin = in_units(p->vertex[0], half);
     // tetrahedra from vertex 0 over a fan of each facet
     double six = 0;
     for (uint32_t f = 0; f < p->facet_count; f++) {
         const uint32_t *loop = p->loop + p->loop_start[f];
         uint32_t n = pir_polytope_facet_size(p, f);
-        pir_vec3 a = pir_vec_sub(p->vertex[p->origin[loop[0]]], p->vertex[0]);
+        pir_vec3 a = pir_vec_sub(in_units(p->vertex[p->origin[loop[0]]], half), origin);
         for (uint32_t i = 1; i + 1 < n; i++) {
-            pir_vec3 b = pir_vec_sub(p->vertex[p->origin[loop[i]]], p->vertex[0]);
-            pir_vec3 c = pir_vec_sub(p->vertex[p->origin[loop[i + 1]]], p->vertex[0]);
+            pir_vec3 b = pir_vec_sub(in_units(p->vertex[p->origin[loop[i]]], half), origin);
+            pir_vec3 c = pir_vec_sub(in_units(p->vertex[p->origin[loop[i + 1]]], half), origin);
             six += pir_vec_dot(a, pir_vec_cross(b, c));
         }
     }
-    return six / 6;
+    return six / 6 * half * half * half;
 }
 
 void pir_polytope_vertex_exact(const pir_polytope *p, uint32_t vertex, mpq_t ret_coordinates[3]) {

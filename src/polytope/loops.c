@@ -36,6 +36,32 @@ static int compare_loops(const void *left, const void *right) {
     return (a->count > b->count) - (a->count < b->count);
 }
 
+/* Sorts loops that start at their smallest corner: by that corner, counting, then each corner's few by comparison. */
+static bool sort_loops(struct loop *order, uint32_t count, const pir_allocator *allocator) {
+    uint32_t corners = 0;
+    for (uint32_t f = 0; f < count; f++)
+        corners = order[f].corner[0] >= corners ? order[f].corner[0] + 1 : corners;
+    uint32_t *bucket = PIR_ZEROED(allocator, uint32_t, (size_t)corners + 1);
+    struct loop *from = PIR_NEW(allocator, struct loop, count);
+    bool done = bucket && from;
+    if (done) {
+        memcpy(from, order, count * sizeof *from);
+        for (uint32_t f = 0; f < count; f++)
+            bucket[from[f].corner[0] + 1]++;
+        for (uint32_t c = 0; c < corners; c++)
+            bucket[c + 1] += bucket[c];
+        for (uint32_t f = 0; f < count; f++)
+            order[bucket[from[f].corner[0]]++] = from[f];
+        // a bucket now ends where the next one began
+        for (uint32_t c = 0, start = 0; c < corners; start = bucket[c++])
+            if (bucket[c] - start > 1)
+                qsort(order + start, bucket[c] - start, sizeof *order, compare_loops);
+    }
+    PIR_FREE(allocator, bucket, (size_t)corners + 1);
+    PIR_FREE(allocator, from, count);
+    return done;
+}
+
 bool pir_loops_canonicalise(pir_loops *loops, uint8_t *tags, const pir_allocator *allocator) {
     uint32_t corners = pir_loops_corners(loops);
     struct loop *order = PIR_NEW(allocator, struct loop, loops->count);
@@ -54,9 +80,9 @@ bool pir_loops_canonicalise(pir_loops *loops, uint8_t *tags, const pir_allocator
             order[f] = (struct loop){to, n, tags ? tags[f] : 0};
         }
         // sort, and lay them down again
-        qsort(order, loops->count, sizeof *order, compare_loops);
+        done = sort_loops(order, loops->count, allocator);
         uint32_t at = 0;
-        for (uint32_t f = 0; f < loops->count; f++) {
+        for (uint32_t f = 0; f < loops->count && done; f++) {
             loops->start[f] = at;
             memcpy(loops->corner + at, order[f].corner, order[f].count * sizeof(uint32_t));
             at += order[f].count;

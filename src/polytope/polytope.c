@@ -29,8 +29,9 @@ static bool allocate(pir_polytope *p) {
     p->loop = PIR_NEW(a, uint32_t, h);
     p->source = PIR_NEW(a, uint32_t, v);
     p->vertex = PIR_NEW(a, pir_vec3, v);
-    p->direction = PIR_NEW(a, pir_vec3, h);
-    p->normal = PIR_NEW(a, pir_vec3, f);
+    // one more of each: vector loads of four doubles may reach past the last
+    p->direction = PIR_ZEROED(a, pir_vec3, (size_t)h + 1);
+    p->normal = PIR_ZEROED(a, pir_vec3, (size_t)f + 1);
     return p->ring_start && p->origin && p->target && p->twin && p->left && p->edge && p->edge_half && p->loop_start &&
            p->loop && p->source && p->vertex && p->direction && p->normal;
 }
@@ -49,8 +50,12 @@ static void destroy(pir_polytope *p) {
     PIR_FREE(a, p->loop, h);
     PIR_FREE(a, p->source, v);
     PIR_FREE(a, p->vertex, v);
-    PIR_FREE(a, p->direction, h);
-    PIR_FREE(a, p->normal, f);
+    PIR_FREE(a, p->direction, (size_t)h + 1);
+    PIR_FREE(a, p->normal, (size_t)f + 1);
+    if (p->ring_block)
+        PIR_FREE(a, p->ring, (size_t)p->ring_block[v] * 3 * PIR_LANES);
+    PIR_FREE(a, p->ring_block, (size_t)v + 1);
+    PIR_FREE(a, p->normal4, 4 * (size_t)f);
     pir_vectors_finish(&p->exact_vertex, a);
     pir_vectors_finish(&p->exact_edge, a);
     pir_vectors_finish(&p->exact_normal, a);
@@ -274,6 +279,39 @@ static bool set_normals(pir_polytope *p) {
     return true;
 }
 
+/* Lays the directions of each ring and the normals out for vector loops, as floats. */
+static bool set_rings(pir_polytope *p) {
+    const pir_allocator *a = &p->allocator;
+    p->ring_block = PIR_ZEROED(a, uint32_t, (size_t)p->vertex_count + 1);
+    p->normal4 = PIR_NEW(a, float, 4 * (size_t)p->facet_count);
+    if (!p->ring_block || !p->normal4)
+        return false;
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        const pir_vec3 n = p->normal[f];
+        const float lanes[4] = {(float)n.x, (float)n.y, (float)n.z, 0};
+        memcpy(p->normal4 + 4 * (size_t)f, lanes, sizeof lanes);
+    }
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        uint32_t degree = p->ring_start[v + 1] - p->ring_start[v];
+        p->ring_block[v + 1] = p->ring_block[v] + (degree + PIR_LANES - 1) / PIR_LANES;
+    }
+    p->ring = PIR_NEW(a, float, (size_t)p->ring_block[p->vertex_count] * 3 * PIR_LANES);
+    if (!p->ring)
+        return false;
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        uint32_t lanes = (p->ring_block[v + 1] - p->ring_block[v]) * PIR_LANES;
+        for (uint32_t i = 0; i < lanes; i++) {
+            uint32_t h = p->ring_start[v] + i;
+            pir_vec3 d = p->direction[h < p->ring_start[v + 1] ? h : p->ring_start[v]];
+            float *lane = p->ring + ((size_t)p->ring_block[v] + i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
+            lane[0] = (float)d.x;
+            lane[PIR_LANES] = (float)d.y;
+            lane[2 * PIR_LANES] = (float)d.z;
+        }
+    }
+    return true;
+}
+
 /* --- making and releasing --- */
 
 pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocator *allocator,
@@ -294,7 +332,7 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
         connect_segment(p);
     else if (done && !point)
         done = connect(p, parts);
-    if (!done || !set_vertices(p, parts) || !set_directions(p) || !set_normals(p)) {
+    if (!done || !set_vertices(p, parts) || !set_directions(p) || !set_normals(p) || !set_rings(p)) {
         destroy(p);
         return PIR_ERR_MEMORY;
     }

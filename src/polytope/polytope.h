@@ -27,6 +27,9 @@
 #include "exact/vectors.h"
 #include "polytope/loops.h"
 
+/* How many directions of a ring stand together. */
+#define PIR_LANES 8
+
 struct pir_polytope {
     atomic_uint references;
     pir_allocator allocator;
@@ -44,6 +47,14 @@ struct pir_polytope {
     pir_vec3 *vertex;    /* nearest doubles */
     pir_vec3 *direction; /* per halfedge: unit vector from origin to target */
     pir_vec3 *normal;    /* per facet: outward unit normal */
+
+    /*
+     * The directions of each vertex's ring again, for vector loops, as floats: from block ring_block[v] up to ring_block[v + 1], each block PIR_LANES
+     * x, as many y, as many z. The last block is filled up with the ring's first direction, which changes no minimum or maximum.
+     */
+    uint32_t *ring_block;
+    float *ring;
+    float *normal4; /* the normals too, each with a fourth float of 0 */
 
     pir_vectors exact_vertex; /* times scale */
     pir_vectors exact_edge;   /* per edge, along edge_half */
@@ -68,6 +79,11 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
 /* Builds the hull of the points of `parts`, whose last four members are ignored. */
 pir_status pir_polytope_build_hull(const pir_polytope_parts *parts, const pir_allocator *allocator,
                                    pir_polytope **ret_polytope);
+
+/*
+ * The same polytope with its integers on another scale. PIR_ERR_LIMIT when a coordinate is beyond the doubles, PIR_ERR_MEMORY.
+ */
+pir_status pir_polytope_rescale(const pir_polytope *polytope, const pir_scale *scale, pir_polytope **ret_polytope);
 
 static inline uint32_t pir_right(const pir_polytope *p, uint32_t half) {
     return p->left[p->twin[half]];
