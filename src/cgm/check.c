@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The whole-structure check of a map. What it proves: six planar maps whose inner faces are convex, joined along the cube's edges; and that
+ * every corner of every face has the vertices that the face carries as extreme ones, so that each face lies in its cell, and the faces, which
+ * fill the cube, are the overlay of the sources' Gaussian maps cut by the cube.
+ */
+#include "cgm/build.h"
+#include "cgm/sides.h"
+
+struct check {
+    const pir_cgm *cgm;
+    struct pir_cgm_sides sides;
+};
+
+static int side(struct check *check, uint32_t half, uint32_t vertex) {
+    const pir_cgm *cgm = check->cgm;
+    return pir_cgm_side(&check->sides, cgm, pir_cgm_half_line(cgm, half), cgm, &cgm->vertex[vertex].point);
+}
+
+static bool links_are_valid(const pir_cgm *cgm, uint32_t map) {
+    uint32_t first = 2 * cgm->edge_start[map], end = 2 * cgm->edge_start[map + 1];
+    for (uint32_t h = first; h < end; h++) {
+        const struct pir_cgm_half *half = &cgm->half[h], *next = &cgm->half[half->next];
+        if (half->next < first || half->next >= end || next->origin != pir_cgm_target(cgm, h) ||
+            next->face != half->face)
+            return false;
+        if (half->origin < cgm->vertex_start[map] || half->origin >= cgm->vertex_start[map + 1])
+            return false;
+        if (half->face < cgm->face_start[map] || half->face >= cgm->face_start[map + 1])
+            return false;
+    }
+    for (uint32_t f = cgm->face_start[map]; f < cgm->face_start[map + 1]; f++)
+        if (cgm->half[cgm->face_half[f]].face != f)
+            return false;
+    for (uint32_t v = cgm->vertex_start[map]; v < cgm->vertex_start[map + 1]; v++)
+        if (cgm->vertex[v].map != map || cgm->half[cgm->vertex[v].out].origin != v)
+            return false;
+    // connected: Euler's formula, and all halfedges of a face or around a vertex on one cycle
+    uint32_t in_faces = 0, around_vertices = 0;
+    for (uint32_t f = cgm->face_start[map]; f < cgm->face_start[map + 1]; f++)
+        for (uint32_t start = cgm->face_half[f], h = start; in_faces++, (h = cgm->half[h].next) != start;)
+            ;
+    for (uint32_t v = cgm->vertex_start[map]; v < cgm->vertex_start[map + 1]; v++)
+        for (uint32_t start = cgm->vertex[v].out, h = start;
+             around_vertices++, (h = pir_cgm_clockwise(cgm, h)) != start;)
+            ;
+    pir_cgm_counts counts = pir_cgm_map_counts(cgm, map);
+    return in_faces == end - first && around_vertices == end - first &&
+           counts.vertices + counts.faces == counts.halfedges / 2 + 2;
+}
+
+/* Whether two directions are equal exactly. */
+static bool same_direction(struct check *check, uint32_t v, uint32_t w) {
+    pir_limbs *scratch = &check->sides.scratch;
+    uint32_t mark = scratch->used;
+    pir_int3 x = pir_cgm_point_exact(check->cgm, &check->cgm->vertex[v].point, scratch);
+    pir_int3 y = pir_cgm_point_exact(check->cgm, &check->cgm->vertex[w].point, scratch);
+    uint32_t limbs = pir_int3_length(&x) + pir_int3_length(&y) + 1;
+    pir_int3 cross = pir_int3_take(scratch, limbs);
+    pir_int3_cross(&cross, &x, &y, scratch);
+    pir_int dot = pir_limbs_take(scratch, limbs);
+    pir_int3_dot(&dot, &x, &y, scratch);
+    scratch->used = mark;
+    return pir_int3_is_zero(&cross) && dot.size > 0;
+}
+
+static bool rim_is_valid(struct check *check, uint32_t map) {
+    const pir_cgm *cgm = check->cgm;
+    uint32_t n = cgm->rim[map], corners = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t v = cgm->vertex_start[map] + i, h = 2 * (cgm->edge_start[map] + i), copies = 1;
+        const struct pir_cgm_vertex *vertex = &cgm->vertex[v];
+        if (vertex->out != h || cgm->half[h].origin != v || !pir_cgm_is_outer(cgm, cgm->half[h ^ 1].face, map))
+            return false;
+        if (vertex->place == PIR_CGM_CORNER && cgm->corner[map][pir_side_corner(corners++)] != v)
+            return false;
+        if (pir_cgm_half_line(cgm, h) != pir_side_line(map, corners - 1))
+            return false;
+        for (uint32_t copy = vertex->copy; copy != v && copies < 4; copy = cgm->vertex[copy].copy, copies++)
+            if (!same_direction(check, v, copy) || cgm->vertex[copy].place != vertex->place)
+                return false;
+        if (copies != (vertex->place == PIR_CGM_CORNER ? 3u : 2u) ||
+            cgm->vertex[vertex->copy].map != pir_side_neighbor(map, corners - 1))
+            return false;
+        uint32_t beyond = pir_cgm_beyond(cgm, h);
+        if (pir_cgm_beyond(cgm, beyond) != h ||
+            pir_cgm_edge_is_real(cgm, h >> 1) != pir_cgm_edge_is_real(cgm, beyond >> 1))
+            return false;
+    }
+    for (uint32_t v = cgm->vertex_start[map] + n; v < cgm->vertex_start[map + 1]; v++)
+        if (cgm->vertex[v].place != PIR_CGM_INTERIOR || cgm->vertex[v].copy != v)
+            return false;
+    return corners == 4;
+}
+
+/* Every edge lies along its line, and every inner face turns left at its corners, or goes straight on along the rim. */
+static bool faces_are_convex(struct check *check, uint32_t map) {
+    const pir_cgm *cgm = check->cgm;
+    for (uint32_t h = 2 * cgm->edge_start[map]; h < 2 * cgm->edge_start[map + 1]; h++) {
+        uint32_t from = cgm->half[h].origin, to = pir_cgm_target(cgm, h), line = pir_cgm_half_line(cgm, h);
+        if (side(check, h, from) != 0 || side(check, h, to) != 0 ||
+            pir_cgm_ahead(&check->sides, cgm, line, cgm, &cgm->vertex[from].point, cgm, &cgm->vertex[to].point) != 1)
+            return false;
+        if (pir_cgm_is_outer(cgm, cgm->half[h].face, map))
+            continue;
+        int turn = side(check, h, pir_cgm_target(cgm, cgm->half[h].next));
+        if (turn < 0 || (turn == 0 && cgm->vertex[to].place != PIR_CGM_EDGE))
+            return false;
+    }
+    return true;
+}
+
+/* Whether vertex p of source s is extreme in the direction of vertex v. */
+static bool is_extreme(struct check *check, uint32_t s, uint32_t p, uint32_t v) {
+    const pir_cgm *cgm = check->cgm;
+    const struct pir_cgm_source *source = &cgm->source[s];
+    const pir_polytope *polytope = source->polytope;
+    for (uint32_t h = polytope->ring_start[p]; h < polytope->ring_start[p + 1]; h++) {
+        uint32_t e = polytope->edge[h], line = 2 * (source->line_start + e) + (polytope->edge_half[e] != h);
+        if (pir_cgm_side(&check->sides, cgm, line, cgm, &cgm->vertex[v].point) > 0)
+            return false;
+    }
+    return true;
+}
+
+static bool cells_are_valid(struct check *check, uint32_t map) {
+    const pir_cgm *cgm = check->cgm;
+    for (uint32_t h = 2 * cgm->edge_start[map]; h < 2 * cgm->edge_start[map + 1]; h++) {
+        uint32_t face = cgm->half[h].face, beyond = cgm->half[h ^ 1].face;
+        if (pir_cgm_is_outer(cgm, face, map))
+            continue;
+        for (uint32_t s = 0; s < cgm->source_count; s++)
+            if (!is_extreme(check, s, pir_cgm_source_vertex(cgm, face, s), cgm->half[h].origin))
+                return false;
+        // an edge is real exactly when it parts two cells
+        if (pir_cgm_is_outer(cgm, beyond, map))
+            beyond = cgm->half[pir_cgm_beyond(cgm, h)].face;
+        if (pir_cgm_edge_is_real(cgm, h >> 1) == pir_cgm_same_cell(cgm, face, beyond))
+            return false;
+    }
+    return true;
+}
+
+/* Every contributed facet and edge is where its normal and its arc are. */
+static bool sources_are_valid(struct check *check, uint32_t map) {
+    const pir_cgm *cgm = check->cgm;
+    for (uint32_t s = 0; s < cgm->source_count; s++) {
+        const struct pir_cgm_source *source = &cgm->source[s];
+        for (uint32_t v = cgm->vertex_start[map]; v < cgm->vertex_start[map + 1]; v++) {
+            uint32_t facet = pir_cgm_vertex_facet(cgm, v, s);
+            if (facet != PIR_CGM_NONE &&
+                (!cgm->vertex[v].real || facet >= source->polytope->facet_count ||
+                 !is_extreme(check, s,
+                             source->polytope->origin[source->polytope->loop[source->polytope->loop_start[facet]]], v)))
+                return false;
+        }
+        for (uint32_t h = 2 * cgm->edge_start[map]; h < 2 * cgm->edge_start[map + 1]; h++) {
+            uint32_t half = pir_cgm_source_half(cgm, h, s);
+            if (half == PIR_CGM_NONE || pir_cgm_is_outer(cgm, cgm->half[h].face, map))
+                continue;
+            if (pir_cgm_source_vertex(cgm, cgm->half[h].face, s) != source->polytope->target[half])
+                return false;
+        }
+    }
+    return true;
+}
+
+int pir_cgm_is_valid(const pir_cgm *cgm) {
+    struct check check = {.cgm = cgm};
+    if (!pir_cgm_sides_init(&check.sides, &cgm->allocator, cgm, cgm))
+        return 0;
+    bool valid = true;
+    for (uint32_t map = 0; map < 6 && valid; map++)
+        valid = links_are_valid(cgm, map) && rim_is_valid(&check, map) && faces_are_convex(&check, map) &&
+                cells_are_valid(&check, map) && sources_are_valid(&check, map);
+    pir_cgm_sides_finish(&check.sides, &cgm->allocator);
+    return valid;
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* Merge sort of numbers by an order that needs a context. */
+#ifndef PIR_CGM_SORT_H
+#define PIR_CGM_SORT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Sorts item[0 .. count) so that no later item is `before` an earlier one; equal ones keep their order. `work` has room for count items. */
+void pir_sort(uint32_t *item, uint32_t count, uint32_t *work, bool (*before)(void *context, uint32_t a, uint32_t b),
+              void *context);
+
+#endif
