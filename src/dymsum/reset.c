@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT */
+/* Beginning anew with the memory that is there: the motion so far forgotten, or the counters. */
+#include "dymsum/sum.h"
+
+pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
+    pir_status status = pir_sum_rotate(sum, rotation, PIR_METHOD_WALK);
+    if (status != PIR_OK)
+        return status;
+    // the walk has let every certificate expire, whatever the clock says
+    sum->clock = (pir_clock){0};
+    sum->cost = (pir_cost_model){.walk = sum->cost.walk};
+    return PIR_OK;
+}
+
+void pir_sum_reset_statistics(pir_sum *sum) {
+    sum->statistics = (pir_sum_statistics){0};
+    sum->signs.by_filter = sum->signs.by_exact = sum->signs.by_perturbation = 0;
+}
