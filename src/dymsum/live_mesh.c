@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The live mesh. Its slots and invariants stand in live_mesh.h.
+ *
+ * A refresh finds what changed by comparing its copy of the pairing with the sum's, slot by slot: two loads a pair, against the hash
+ * and the four writes that a changed one takes. So the sum itself keeps no record, and rotations that nobody looks at cost nothing more.
+ *
+ * A vertex that loses its last corner and then is given another, all in one refresh, stays in its slot: slots are emptied last. Each
+ * vertex has two corners at least, so half of all corners is room for the old vertices, and as much for the new.
+ *
+ * A rebuild gives crossings other slots; then slots are rewritten though their pairs are still there, and a pair that both went
+ * and came is in neither list.
+ */
+#include "dymsum/live_mesh.h"
+
+#include <string.h>
+
+/*
+ * What a region gives away, so that rounding never keeps out a facet that is in it. Which facets are listed is no question of the
+ * pairing's.
+ */
+#define REGION_SLACK 0x1p-40
+
+/* --- making it --- */
+
+static bool reserve_crossings(pir_live_mesh *live, uint32_t least) {
+    if (live->corner && least <= live->capacity)
+        return true;
+    const pir_allocator *a = &live->allocator;
+    uint32_t capacity = least, fixed = live->corners_fixed, slots = live->facets_p + live->facets_q;
+    uint32_t *edge = PIR_NEW(a, uint32_t, capacity), *half = PIR_NEW(a, uint32_t, capacity),
+             *corner = PIR_NEW(a, uint32_t, (size_t)fixed + 4 * (size_t)capacity),
+             *rewritten = PIR_NEW(a, uint32_t, (size_t)slots + capacity);
+    bool done = edge && half && corner && rewritten;
+    if (done) {
+        for (uint32_t i = 0; i < capacity; i++)
+            edge[i] = i < live->used ? live->edge[i] : PIR_NO_CROSSING;
+        if (live->used > 0)
+            memcpy(half, live->half, live->used * sizeof *half);
+        if (live->corner)
+            memcpy(corner, live->corner, ((size_t)fixed + 4 * (size_t)live->used) * sizeof *corner);
+    }
+    PIR_FREE(a, done ? live->edge : edge, done ? live->capacity : capacity);
+    PIR_FREE(a, done ? live->half : half, done ? live->capacity : capacity);
+    PIR_FREE(a, done ? live->corner : corner, (size_t)fixed + 4 * (size_t)(done ? live->capacity : capacity));
+    PIR_FREE(a, done ? live->rewritten : rewritten, (size_t)slots + (done ? live->capacity : capacity));
+    if (done) {
+        live->edge = edge;
+        live->half = half;
+        live->corner = corner;
+        live->rewritten = rewritten;
+        live->capacity = capacity;
+    }
+    return done;
+}
+
+static bool reserve_pairs(pir_live_mesh *live, pir_live_pairs *pairs, uint32_t capacity) {
+    if (capacity <= pairs->capacity)
+        return true;
+    pir_sum_pair *at = PIR_RESIZE(&live->allocator, pairs->at, pairs->capacity, capacity);
+    if (!at)
+        return false;
+    pairs->at = at;
+    pairs->capacity = capacity;
+    return true;
+}
+
+/* Room for whatever the sum may hold now, so that the rest of a refresh cannot fail. */
+static bool reserve(pir_live_mesh *live) {
+    // as much as the sum itself has room for: grows when the sum grows
+    uint32_t crossings = live->sum->crossings.capacity, slots = live->facets_p + live->facets_q + crossings;
+    uint32_t corners = live->corners_fixed + 4 * crossings;
+    return reserve_crossings(live, crossings) && reserve_pairs(live, &live->appeared, slots) &&
+           reserve_pairs(live, &live->disappeared, slots) &&
+           pir_live_vertices_reserve(&live->vertices, &live->allocator, corners + 8);
+}
+
+void pir_live_mesh_destroy(pir_live_mesh *live) {
+    if (!live)
+        return;
+    const pir_allocator allocator = live->allocator, *a = &allocator;
+    PIR_FREE(a, live->fv, live->facets_p);
+    PIR_FREE(a, live->vf, live->facets_q);
+    if (live->corner) {
+        PIR_FREE(a, live->edge, live->capacity);
+        PIR_FREE(a, live->half, live->capacity);
+        PIR_FREE(a, live->corner, (size_t)live->corners_fixed + 4 * (size_t)live->capacity);
+        PIR_FREE(a, live->rewritten, (size_t)live->facets_p + live->facets_q + live->capacity);
+    }
+    PIR_FREE(a, live->appeared.at, live->appeared.capacity);
+    PIR_FREE(a, live->disappeared.at, live->disappeared.capacity);
+    PIR_FREE(a, live->turned, live->vertices_p);
+    pir_live_vertices_finish(&live->vertices, a);
+    PIR_FREE(a, live, 1);
+}
+
+pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live) {
+    if (!sum || !ret_live)
+        return PIR_ERR_ARGUMENT;
+    const pir_allocator *a = &sum->allocator;
+    pir_live_mesh *live = PIR_ZEROED(a, pir_live_mesh, 1);
+    if (!live)
+        return PIR_ERR_MEMORY;
+    live->sum = sum;
+    live->allocator = *a;
+    live->facets_p = sum->p->facet_count;
+    live->facets_q = sum->q->facet_count;
+    live->vertices_p = sum->p->vertex_count;
+    live->corners_fixed = sum->p->half_count + sum->q->half_count;
+    live->vertices.free = PIR_NO_SLOT;
+    live->fv = PIR_NEW(a, uint32_t, live->facets_p);
+    live->vf = PIR_NEW(a, uint32_t, live->facets_q);
+    live->turned = PIR_NEW(a, pir_vec3, live->vertices_p);
+    pir_status status = PIR_ERR_MEMORY;
+    if (live->fv && live->vf && live->turned) {
+        for (uint32_t f = 0; f < live->facets_p; f++)
+            live->fv[f] = PIR_NO_SLOT;
+        for (uint32_t g = 0; g < live->facets_q; g++)
+            live->vf[g] = PIR_NO_SLOT;
+        status = pir_live_mesh_refresh(live);
+    }
+    if (status != PIR_OK) {
+        pir_live_mesh_destroy(live);
+        return status;
+    }
+    *ret_live = live;
+    return PIR_OK;
+}
+
+pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double half_angle) {
+    if (!live)
+        return PIR_ERR_ARGUMENT;
+    if (!pir_vec_is_finite(axis) || !isfinite(half_angle))
+        return PIR_ERR_NOT_FINITE;
+    // brought near 1, so that squares neither vanish nor overflow
+    double most = fmax(fabs(axis.x), fmax(fabs(axis.y), fabs(axis.z)));
+    if (most == 0 || half_angle < 0)
+        return PIR_ERR_ARGUMENT;
+    axis = (pir_vec3){axis.x / most, axis.y / most, axis.z / most};
+    live->axis = pir_vec_scale(axis, 1 / sqrt(pir_vec_dot(axis, axis)));
+    live->in_part = half_angle < 3.15;
+    live->cosine = cos(half_angle) - REGION_SLACK;
+    return PIR_OK;
+}
+
+/* --- the refresh --- */
+
+static void note(pir_live_pairs *pairs, pir_facet_kind kind, uint32_t p, uint32_t q) {
+    pairs->at[pairs->count++] = (pir_sum_pair){kind, p, q};
+}
+
+static void note_ee(pir_live_mesh *live, pir_live_pairs *pairs, uint32_t e, uint32_t h) {
+    const pir_polytope *p = live->sum->p, *q = live->sum->q;
+    // a segment's two edges are one to callers
+    note(pairs, PIR_FACET_EE, p->artificial ? 0 : e, q->artificial ? 0 : q->edge[h]);
+}
+
+/* Whether a facet with this normal, of any length, is to be held; one without a direction is. */
+static bool is_held(const pir_live_mesh *live, pir_vec3 normal) {
+    return !live->in_part || pir_vec_dot(normal, live->axis) >= live->cosine * sqrt(pir_vec_dot(normal, normal));
+}
+
+/* Compares the facets of one operand with the vertices that they are paired with now. */
+static void refresh_facets(pir_live_mesh *live, bool of_p) {
+    const pir_polytope *of = of_p ? live->sum->p : live->sum->q;
+    const pir_mat3 *r = pir_live_matrix(live);
+    const uint32_t *now = of_p ? live->sum->fv : live->sum->vf;
+    uint32_t *held = of_p ? live->fv : live->vf;
+    uint32_t first = of_p ? 0 : live->sum->p->half_count, slot = of_p ? 0 : live->facets_p;
+    pir_facet_kind kind = of_p ? PIR_FACET_FV : PIR_FACET_VF;
+    for (uint32_t f = 0; f < of->facet_count; f++) {
+        uint32_t v = now[f], before = held[f];
+        if (live->in_part && !is_held(live, of_p ? pir_mat_apply(r, of->normal[f]) : of->normal[f]))
+            v = PIR_NO_SLOT;
+        if (v == before)
+            continue;
+        for (uint32_t i = of->loop_start[f]; i < of->loop_start[f + 1]; i++) {
+            uint32_t own = of->origin[of->loop[i]];
+            if (before != PIR_NO_SLOT)
+                pir_live_vertex_drop(&live->vertices, live->corner[first + i]);
+            if (v != PIR_NO_SLOT)
+                live->corner[first + i] = pir_live_vertex_take(&live->vertices, of_p ? own : v, of_p ? v : own);
+        }
+        live->rewritten[live->rewritten_count++] = slot + f;
+        // the facets of a segment are there to hold its edges only
+        if (!of->artificial && before != PIR_NO_SLOT)
+            note(&live->disappeared, kind, of_p ? f : before, of_p ? before : f);
+        if (!of->artificial && v != PIR_NO_SLOT)
+            note(&live->appeared, kind, of_p ? f : v, of_p ? v : f);
+        held[f] = v;
+    }
+}
+
+/* The parallelogram of a crossing, counter-clockwise from outside. */
+static void write_crossing(pir_live_mesh *live, uint32_t slot) {
+    const pir_polytope *p = live->sum->p, *q = live->sum->q;
+    uint32_t half = p->edge_half[live->edge[slot]], h = live->half[slot];
+    uint32_t *corner = live->corner + live->corners_fixed + 4 * (size_t)slot;
+    corner[0] = pir_live_vertex_take(&live->vertices, p->origin[half], q->origin[h]);
+    corner[1] = pir_live_vertex_take(&live->vertices, p->origin[half], q->target[h]);
+    corner[2] = pir_live_vertex_take(&live->vertices, p->target[half], q->target[h]);
+    corner[3] = pir_live_vertex_take(&live->vertices, p->target[half], q->origin[h]);
+}
+
+/* The edge in a crossing's slot now, or PIR_NO_CROSSING where it is empty or not to be held. */
+static uint32_t edge_now(const pir_live_mesh *live, uint32_t slot) {
+    const pir_sum *sum = live->sum;
+    const pir_crossings *c = &sum->crossings;
+    if (slot >= c->used || c->edge[slot] == PIR_NO_CROSSING)
+        return PIR_NO_CROSSING;
+    if (live->in_part) {
+        pir_vec3 e = pir_mat_apply(pir_live_matrix(live), sum->p->direction[sum->p->edge_half[c->edge[slot]]]);
+        if (!is_held(live, pir_vec_cross(sum->q->direction[c->half[slot]], e)))
+            return PIR_NO_CROSSING;
+    }
+    return c->edge[slot];
+}
+
+static void refresh_crossings(pir_live_mesh *live) {
+    const pir_crossings *c = &live->sum->crossings;
+    uint32_t slots = c->used > live->used ? c->used : live->used;
+    for (uint32_t slot = 0; slot < slots; slot++) {
+        uint32_t edge = edge_now(live, slot), held = live->edge[slot];
+        if (edge == held && (edge == PIR_NO_CROSSING || c->half[slot] == live->half[slot]))
+            continue;
+        if (held != PIR_NO_CROSSING) {
+            note_ee(live, &live->disappeared, held, live->half[slot]);
+            for (size_t i = 0; i < 4; i++)
+                pir_live_vertex_drop(&live->vertices, live->corner[live->corners_fixed + 4 * (size_t)slot + i]);
+        }
+        live->edge[slot] = edge;
+        if (edge != PIR_NO_CROSSING) {
+            live->half[slot] = c->half[slot];
+            note_ee(live, &live->appeared, edge, c->half[slot]);
+            write_crossing(live, slot);
+        }
+        live->rewritten[live->rewritten_count++] = live->facets_p + live->facets_q + slot;
+    }
+    live->used = c->used;
+}
+
+/* --- the lists --- */
+
+static int compare(const pir_sum_pair *a, const pir_sum_pair *b) {
+    if (a->kind != b->kind)
+        return a->kind < b->kind ? -1 : 1;
+    if (a->p != b->p)
+        return a->p < b->p ? -1 : 1;
+    return (a->q > b->q) - (a->q < b->q);
+}
+
+/* Lets the pair at `i` sink to where none below it is greater, in a heap of `count`. */
+static void sink(pir_sum_pair *at, uint32_t i, uint32_t count) {
+    for (;;) {
+        uint32_t child = 2 * i + 1;
+        if (child >= count)
+            return;
+        child += child + 1 < count && compare(&at[child], &at[child + 1]) < 0;
+        if (compare(&at[i], &at[child]) >= 0)
+            return;
+        pir_sum_pair swap = at[i];
+        at[i] = at[child];
+        at[child] = swap;
+        i = child;
+    }
+}
+
+/* Heap sort: in place, where the C library's may ask for memory. */
+static void sort_pairs(pir_live_pairs *pairs) {
+    for (uint32_t i = pairs->count / 2; i > 0; i--)
+        sink(pairs->at, i - 1, pairs->count);
+    for (uint32_t n = pairs->count; n > 1; n--) {
+        pir_sum_pair swap = pairs->at[0];
+        pairs->at[0] = pairs->at[n - 1];
+        pairs->at[n - 1] = swap;
+        sink(pairs->at, 0, n - 1);
+    }
+}
+
+/* Takes what is in both sorted lists out of both. */
+static void cancel(pir_live_pairs *came, pir_live_pairs *went) {
+    uint32_t i = 0, j = 0, kept_i = 0, kept_j = 0;
+    while (i < came->count || j < went->count) {
+        int order = i == came->count ? 1 : j == went->count ? -1 : compare(&came->at[i], &went->at[j]);
+        if (order == 0) {
+            i++;
+            j++;
+        } else if (order < 0) {
+            came->at[kept_i++] = came->at[i++];
+        } else {
+            went->at[kept_j++] = went->at[j++];
+        }
+    }
+    came->count = kept_i;
+    went->count = kept_j;
+}
+
+pir_status pir_live_mesh_refresh(pir_live_mesh *live) {
+    if (!live)
+        return PIR_ERR_ARGUMENT;
+    if (!reserve(live))
+        return PIR_ERR_MEMORY;
+    live->appeared.count = live->disappeared.count = live->rewritten_count = 0;
+    refresh_facets(live, true);
+    refresh_facets(live, false);
+    refresh_crossings(live);
+    pir_live_vertices_sweep(&live->vertices);
+    sort_pairs(&live->appeared);
+    sort_pairs(&live->disappeared);
+    cancel(&live->appeared, &live->disappeared);
+    return PIR_OK;
+}
