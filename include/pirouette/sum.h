@@ -4,8 +4,8 @@
  *
  * A sum stores the pairing: for every facet of P the vertex of Q that supports it (fv), for every facet of Q the vertex of
  * P (vf), and for every edge of P the edges of Q that its Gaussian arc crosses, in order (ee). Each pair is a facet of the
- * sum. Every pair carries a certificate, the angle through which R may still turn before the pair can fail; an update
- * looks only at those that expire (after Behar and Lien, Dynamic Minkowski Sum of Convex Shapes, GMU-CS-TR-2010-12, made
+ * sum. Every pair carries a certificate, the turning through which it cannot fail; an ee pair's is those of the four facets at
+ * the ends of its two arcs, for one of them has to leave its cell first. An update looks only at those that expire (after Behar and Lien, Dynamic Minkowski Sum of Convex Shapes, GMU-CS-TR-2010-12, made
  * right for steps of any size).
  *
  * Exactness: the pairing is that of the exact rotation M(q)/|q|², ties settled by one symbolic perturbation of q, so it is
@@ -15,6 +15,8 @@
  */
 #ifndef PIROUETTE_SUM_H
 #define PIROUETTE_SUM_H
+
+#include <stdio.h>
 
 #include <pirouette/base.h>
 #include <pirouette/mesh.h>
@@ -31,11 +33,12 @@ typedef enum pir_method {
     PIR_METHOD_AUTO = 0, /**< update or walk, whichever the sum's own counters say is cheaper */
     PIR_METHOD_UPDATE,   /**< repair the pairs that failed */
     PIR_METHOD_WALK,     /**< rebuild by walking one Gaussian map through the other */
+    PIR_METHOD_CGM,      /**< rebuild by overlaying cubical Gaussian maps (cgm.h); allocates */
 } pir_method;
 
 typedef struct pir_sum_options {
     const pir_allocator *allocator; /**< NULL for malloc; copied, its context must outlive the sum */
-    int difference;                 /**< 1: keep Q ⊕ (−R·P), the difference that placement queries use; 0: R·P ⊕ Q */
+    int difference; /**< 1: keep Q ⊕ (−R·P), the difference that placement queries use; 0: R·P ⊕ Q */
 } pir_sum_options;
 
 /** malloc, no difference. */
@@ -65,6 +68,56 @@ PIR_API void pir_sum_destroy(pir_sum *sum);
  */
 PIR_API pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method);
 
+/**
+ * Brings the sum to `rotation` by walk and forgets the motion so far: what follows depends on nothing before. The memory is kept, so
+ * this does not allocate unless a larger list of crossings is needed. Errors as pir_sum_rotate.
+ */
+PIR_API pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation);
+
+/**
+ * Makes a second sum of the same operands at the same rotation, with the same pairing and counters at zero. O(size of the sum).
+ * allocator  NULL for that of `sum`. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_sum_clone(const pir_sum *sum, const pir_allocator *allocator, pir_sum **ret_sum);
+
+/** Which operand. */
+typedef enum pir_operand {
+    PIR_OPERAND_P = 0, /**< the one that rotates */
+    PIR_OPERAND_Q,     /**< the one that stands */
+} pir_operand;
+
+/**
+ * Makes an operand `scale` times as large as the sum was made with, about its own origin: not times its size of now. The scale is taken
+ * exactly. No pair changes, so nothing is rebuilt; pir_sum_p and pir_sum_q, and what is asked of the sum from here on, are of the new
+ * size. Queries made for the sum are to be made anew. O(n) for the operand's n vertices.
+ * Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT (not positive), PIR_ERR_LIMIT (a coordinate beyond the doubles), PIR_ERR_MEMORY; the
+ * sum then stays as it was.
+ */
+PIR_API pir_status pir_sum_set_scale(pir_sum *sum, pir_operand operand, double scale);
+
+/**
+ * Lets the pairing stay behind the rotation while that costs no more than `tolerance`, a length (the default is 0: never).
+ *
+ * Then a rotation by PIR_METHOD_AUTO or PIR_METHOD_UPDATE may leave the pairing as it is. The hull of its vertices, placed by the
+ * rotation asked for, lies inside the true sum, and its support function falls short of the true one by at most `tolerance` in
+ * every direction; pir_sum_shortfall_bound tells the bound attained. PIR_METHOD_WALK and PIR_METHOD_CGM always bring the pairing along. Mesh
+ * vertices are placed by the rotation asked for; which pieces a mesh merges is decided where the pairing is exact, and queries
+ * answer for that rotation: settle the sum before asking for the one of now.
+ *
+ * Brings the pairing to the rotation first. Errors: PIR_ERR_ARGUMENT (negative or NaN), PIR_ERR_NOT_FINITE, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance);
+PIR_API double pir_sum_tolerance(const pir_sum *sum);
+
+/** By how much the support function of the sum as it is kept falls short of the true one at most: 0 when the pairing is exact. */
+PIR_API double pir_sum_shortfall_bound(const pir_sum *sum);
+
+/** The rotation that the pairing is exact at: pir_sum_rotation, unless a tolerance lets it stay behind. */
+PIR_API pir_quat pir_sum_pairing_rotation(const pir_sum *sum);
+
+/** Brings the pairing to pir_sum_rotation when it has stayed behind. Errors as pir_sum_rotate. */
+PIR_API pir_status pir_sum_settle(pir_sum *sum);
+
 /** The rotation that the sum is at, as it was given. */
 PIR_API pir_quat pir_sum_rotation(const pir_sum *sum);
 
@@ -93,12 +146,6 @@ PIR_API int pir_sum_same_pairing(const pir_sum *a, const pir_sum *b);
 /** A check for tests, every pair in exact arithmetic and every crossing list from cell to cell: 1 when all hold. */
 PIR_API int pir_sum_is_valid(pir_sum *sum);
 
-/** Which coordinates a mesh of the sum carries. */
-typedef enum pir_precision {
-    PIR_DOUBLE = 0, /**< doubles, each within a few ulp of the exact coordinate relative to the size of the operands */
-    PIR_EXACT,      /**< the same doubles, and exact rationals beside them (exact.h) */
-} pir_precision;
-
 /**
  * The true sum as a mesh: coplanar pieces merged, straight corners and pieces without area dropped. The mesh is the
  * caller's and uses the sum's allocator. O(size of the sum), more where many pieces merge.
@@ -109,8 +156,8 @@ PIR_API pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh 
  * The same mesh by another way: the exact hull of all pairwise sums of vertices. Needs no pairing and shares no code with
  * one: a second opinion. O(nm log nm) for n and m vertices.
  */
-PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pir_quat rotation, const pir_sum_options *options,
-                                pir_precision precision, pir_mesh **ret_mesh);
+PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pir_quat rotation,
+                                const pir_sum_options *options, pir_precision precision, pir_mesh **ret_mesh);
 
 /**
  * The brute-force re-check of all pairs (Algorithm 3.1 of Behar and Lien): every facet against every vertex, every edge against
@@ -119,18 +166,47 @@ PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pi
  */
 PIR_API pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation);
 
+/**
+ * Writes the sum as bytes that any machine reads: both operands in exact coordinates, the scale each is set to, the rotation, the
+ * pairing, the tolerance; with a version and a checksum. Not its certificates and counters.
+ *
+ * memory, size  the caller's, of exactly pir_sum_serialised_size bytes. Errors: PIR_ERR_ARGUMENT. O(size of the sum).
+ */
+PIR_API size_t pir_sum_serialised_size(const pir_sum *sum);
+PIR_API pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size);
+
+/** The same to a stream, from its position on; the stream stays open. Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY. */
+PIR_API pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *report);
+
+/**
+ * Makes a sum from such bytes. They are not trusted: the operands are made anew as exact hulls, and the pairing is proven pair by pair
+ * in exact arithmetic, so a sum that is restored is right; memory stays in proportion to `size`.
+ *
+ * allocator  NULL for malloc. report  NULL, or filled with what, where and why.
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_UNSUPPORTED (another version), PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_sum_restore(const void *data, size_t size, const pir_allocator *allocator, pir_report *report,
+                                   pir_sum **ret_sum);
+
+/** The same from a stream, which is left just past the sum; PIR_ERR_FILE when it cannot be read. */
+PIR_API pir_status pir_sum_read(FILE *file, const pir_allocator *allocator, pir_report *report, pir_sum **ret_sum);
+
 /** What the sum did since it was made. Plain counters. */
 typedef struct pir_sum_statistics {
-    uint64_t updates, rebuilds;       /**< rotations brought in by update and by rebuild */
-    uint64_t checked;                 /**< certificates that expired and were looked at */
-    uint64_t repaired;                /**< pairs that had failed */
-    uint64_t by_filter;               /**< signs that the double filter decided */
-    uint64_t by_exact;                /**< signs that exact arithmetic decided */
-    uint64_t by_perturbation;         /**< signs that were ties */
-    uint64_t allocations;             /**< times the sum's memory grew after it was made */
+    uint64_t updates, rebuilds; /**< rotations brought in by update and by rebuild */
+    uint64_t kept;              /**< rotations that a tolerance let the pairing stay behind of */
+    uint64_t checked;           /**< certificates that expired and were looked at */
+    uint64_t repaired;          /**< pairs that had failed */
+    uint64_t by_filter;         /**< signs that the double filter decided */
+    uint64_t by_exact;          /**< signs that exact arithmetic decided */
+    uint64_t by_perturbation;   /**< signs that were ties */
+    uint64_t allocations;       /**< times the sum's memory grew after it was made */
 } pir_sum_statistics;
 
 PIR_API pir_sum_statistics pir_sum_get_statistics(const pir_sum *sum);
+
+/** Sets all counters to zero. */
+PIR_API void pir_sum_reset_statistics(pir_sum *sum);
 
 #ifdef __cplusplus
 }

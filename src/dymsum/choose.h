@@ -10,7 +10,10 @@
 /* The method to use for a turn of at most `angle`. */
 pir_method pir_choose_method(pir_sum *sum, double angle);
 
-/* Takes in that an update over `angle` asked for `signs` signs. */
-void pir_learn_update(pir_sum *sum, double angle, double signs);
+/* Takes in that an update over `angle` has asked for so many signs. */
+void pir_learn_update(pir_sum *sum, double angle, uint64_t signs);
+
+/* Takes in that a walk was made. */
+void pir_learn_walk(pir_sum *sum);
 
 #endif

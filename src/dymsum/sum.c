@@ -8,9 +8,6 @@
 
 #include "dymsum/choose.h"
 
-/* When the turn passes this, everything is counted from zero again, so that adding small angles stays accurate. */
-#define REBASE_TURN 64.0
-
 pir_sum_options pir_sum_options_default(void) {
     return (pir_sum_options){.allocator = NULL, .difference = 0};
 }
@@ -23,20 +20,40 @@ static uint32_t queue_capacity(const pir_sum *sum) {
     return most(most(sum->p->facet_count, sum->q->facet_count), sum->p->edge_count);
 }
 
+/* The facets of p, in the cells `cell` of q. */
+static void link_facets(pir_facets *facets, const pir_polytope *p, const pir_polytope *q, uint32_t *cell) {
+    facets->count = p->facet_count;
+    facets->normal = p->normal4;
+    facets->ring_start = q->ring_start;
+    facets->ring_block = q->ring_block;
+    facets->target = q->target;
+    facets->twin = q->twin;
+    facets->ring = q->ring;
+    facets->cell = cell;
+}
+
+void pir_sum_link_facets(pir_sum *sum) {
+    link_facets(&sum->p_facets, sum->p, sum->q, sum->fv);
+    link_facets(&sum->q_facets, sum->q, sum->p, sum->vf);
+    sum->q_facets.first_alarm = sum->p->facet_count;
+}
+
 static bool allocate(pir_sum *sum) {
     const pir_allocator *a = &sum->allocator;
     const pir_polytope *p = sum->p, *q = sum->q;
     sum->fv = PIR_ZEROED(a, uint32_t, p->facet_count);
     sum->vf = PIR_ZEROED(a, uint32_t, q->facet_count);
     sum->first = PIR_NEW(a, uint32_t, p->edge_count);
-    sum->fv_until = PIR_NEW(a, double, p->facet_count);
-    sum->vf_until = PIR_NEW(a, double, q->facet_count);
     sum->queue = PIR_NEW(a, uint32_t, queue_capacity(sum));
     sum->mark = PIR_ZEROED(a, uint8_t, queue_capacity(sum));
     sum->rotated = PIR_NEW(a, pir_vec3, p->facet_count);
-    if (!sum->fv || !sum->vf || !sum->first || !sum->fv_until || !sum->vf_until || !sum->queue || !sum->mark ||
-        !sum->rotated)
+    sum->change = PIR_ZEROED(a, uint8_t, p->edge_count);
+    sum->changed_by = PIR_NEW(a, uint32_t, p->edge_count);
+    sum->suspects = PIR_NEW(a, pir_suspect, most(p->facet_count, q->facet_count));
+    if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->change ||
+        !sum->changed_by || !sum->suspects || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
         return false;
+    pir_sum_link_facets(sum);
     // room for what most rotations need, so that tracking seldom grows it
     return pir_crossings_reserve(sum, 3 * (p->edge_count + q->edge_count) + 64);
 }
@@ -49,19 +66,47 @@ void pir_sum_destroy(pir_sum *sum) {
     PIR_FREE(a, sum->fv, p->facet_count);
     PIR_FREE(a, sum->vf, q->facet_count);
     PIR_FREE(a, sum->first, p->edge_count);
-    PIR_FREE(a, sum->fv_until, p->facet_count);
-    PIR_FREE(a, sum->vf_until, q->facet_count);
     PIR_FREE(a, sum->queue, queue_capacity(sum));
     PIR_FREE(a, sum->mark, queue_capacity(sum));
     PIR_FREE(a, sum->rotated, p->facet_count);
-    PIR_FREE(a, sum->crossings.half, sum->crossings.capacity);
-    PIR_FREE(a, sum->crossings.edge, sum->crossings.capacity);
-    PIR_FREE(a, sum->crossings.next, sum->crossings.capacity);
-    PIR_FREE(a, sum->crossings.until, sum->crossings.capacity);
+    PIR_FREE(a, sum->change, p->edge_count);
+    PIR_FREE(a, sum->changed_by, p->edge_count);
+    PIR_FREE(a, sum->suspects, most(p->facet_count, q->facet_count));
+    pir_alarms_finish(&sum->alarms, a);
+    pir_crossings_finish(sum);
     pir_signs_finish(&sum->signs, a);
+    pir_cgm_destroy(sum->cgm_q);
     pir_polytope_release(sum->p);
     pir_polytope_release(sum->q);
+    pir_polytope_release(sum->made_of[PIR_OPERAND_P]);
+    pir_polytope_release(sum->made_of[PIR_OPERAND_Q]);
     PIR_FREE(a, sum, 1);
+}
+
+pir_status pir_sum_new(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_allocator *allocator,
+                       pir_sum **ret_sum) {
+    pir_sum *sum = PIR_ZEROED(allocator, pir_sum, 1);
+    if (!sum)
+        return PIR_ERR_MEMORY;
+    sum->allocator = *allocator;
+    sum->kernels = pir_kernels_choose();
+    // from here on destroy can take it apart
+    sum->p = pir_polytope_retain(p);
+    sum->q = pir_polytope_retain(q);
+    sum->made_of[PIR_OPERAND_P] = pir_polytope_retain(p);
+    sum->made_of[PIR_OPERAND_Q] = pir_polytope_retain(q);
+    pir_status status = pir_signs_init(&sum->signs, allocator, most(p->exact_edge.stride, p->exact_normal.stride),
+                                       most(q->exact_edge.stride, q->exact_normal.stride));
+    if (status == PIR_OK && !allocate(sum))
+        status = PIR_ERR_MEMORY;
+    if (status == PIR_OK)
+        status = pir_rotation_set(&sum->signs.rotation, rotation);
+    if (status != PIR_OK) {
+        pir_sum_destroy(sum);
+        return status;
+    }
+    *ret_sum = sum;
+    return PIR_OK;
 }
 
 pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_sum_options *options,
@@ -74,27 +119,17 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
     pir_status status = pir_rotation_set(&checked, rotation);
     if (status != PIR_OK)
         return status;
-    pir_sum *sum = PIR_ZEROED(&allocator, pir_sum, 1);
-    if (!sum)
-        return PIR_ERR_MEMORY;
-    sum->allocator = allocator;
-    // from here on destroy can take it apart
-    sum->q = pir_polytope_retain(q);
-    if (!used.difference) {
-        sum->p = pir_polytope_retain(p);
-    } else if (pir_polytope_reflect(p, &sum->p) != PIR_OK) {
-        pir_polytope_release(q);
-        PIR_FREE(&allocator, sum, 1);
-        return PIR_ERR_MEMORY;
-    }
-    status = pir_signs_init(&sum->signs, &allocator, most(sum->p->exact_edge.stride, sum->p->exact_normal.stride),
-                            most(sum->q->exact_edge.stride, sum->q->exact_normal.stride));
-    if (status == PIR_OK && !allocate(sum))
-        status = PIR_ERR_MEMORY;
-    if (status == PIR_OK) {
-        pir_rotation_set(&sum->signs.rotation, rotation);
+    pir_polytope *turning = NULL;
+    pir_sum *sum = NULL;
+    if (used.difference)
+        status = pir_polytope_reflect(p, &turning);
+    else
+        turning = pir_polytope_retain(p);
+    if (status == PIR_OK)
+        status = pir_sum_new(turning, q, rotation, &allocator, &sum);
+    pir_polytope_release(turning);
+    if (status == PIR_OK)
         status = pir_walk_rebuild(sum);
-    }
     if (status != PIR_OK) {
         pir_sum_destroy(sum);
         return status;
@@ -104,19 +139,24 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
     return PIR_OK;
 }
 
-/* Counts the turn from zero again. Shrinking what is left by a hair keeps every rounding on the early side. */
-static void rebase_turn(pir_sum *sum) {
-    double less = sum->turn * (1 + 0x1p-51);
-    for (uint32_t f = 0; f < sum->p->facet_count; f++)
-        sum->fv_until[f] -= less;
-    for (uint32_t g = 0; g < sum->q->facet_count; g++)
-        sum->vf_until[g] -= less;
-    for (uint32_t i = 0; i < sum->crossings.used; i++)
-        sum->crossings.until[i] -= less;
-    sum->turn = 0;
+/* Moves the clock on to the rotation, and the alarms with it. */
+static void advance_clock(pir_sum *sum, pir_quat before, double angle) {
+    double shift = 0;
+    uint32_t used = pir_alarm_count(sum);
+    switch (pir_clock_step(&sum->clock, before, sum->signs.rotation.unit, angle, &shift)) {
+    case PIR_CLOCK_RUNS:
+        break;
+    case PIR_CLOCK_REBASED:
+        pir_alarms_shift(&sum->alarms, used, shift);
+        break;
+    case PIR_CLOCK_NEW_EPOCH:
+        pir_alarms_set_now(&sum->alarms, sum->signs.rotation.unit);
+        pir_alarms_new_epoch(&sum->alarms, used, sum->clock.axial);
+        break;
+    }
 }
 
-/* The pairing that was there at rotation `before`: it fitted the memory that is there. */
+/* The pairing that was there at rotation `before`: it fitted the memory that is there. The clock begins an epoch at the next step. */
 static pir_status restore(pir_sum *sum, pir_quat before, pir_status status) {
     pir_rotation_set(&sum->signs.rotation, before);
     pir_status again = pir_walk_rebuild(sum);
@@ -126,30 +166,42 @@ static pir_status restore(pir_sum *sum, pir_quat before, pir_status status) {
 }
 
 pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
-    if (!sum || method < PIR_METHOD_AUTO || method > PIR_METHOD_WALK)
+    if (!sum || method < PIR_METHOD_AUTO || method > PIR_METHOD_CGM)
         return PIR_ERR_ARGUMENT;
+    // with a tolerance, an update is put off while it is within that
+    if (sum->lag.tolerance > 0 && method <= PIR_METHOD_UPDATE) {
+        bool done;
+        pir_status kept = pir_lag_behind(sum, rotation, &done);
+        if (kept != PIR_OK || done)
+            return kept;
+    }
     pir_rotation *now = &sum->signs.rotation;
     pir_quat before = now->given, unit_before = now->unit;
     pir_status status = pir_rotation_set(now, rotation);
     if (status != PIR_OK)
         return status;
     double angle = pir_rotation_angle_bound(unit_before, now->unit);
+    advance_clock(sum, unit_before, angle);
     if (method == PIR_METHOD_AUTO)
         method = pir_choose_method(sum, angle);
-    if (method == PIR_METHOD_WALK) {
-        sum->cost.walks_in_a_row++;
+    if (method == PIR_METHOD_CGM) {
+        sum->statistics.rebuilds++;
+        status = pir_cgm_rebuild(sum);
+        pir_learn_walk(sum);
+    } else if (method == PIR_METHOD_WALK) {
         sum->statistics.rebuilds++;
         status = pir_walk_rebuild(sum);
+        pir_learn_walk(sum);
     } else {
-        if (sum->turn > REBASE_TURN)
-            rebase_turn(sum);
-        sum->turn = (sum->turn + angle) * (1 + 0x1p-51);
         uint64_t asked = pir_signs_asked(&sum->signs);
-        status = pir_update_repair(sum);
         sum->statistics.updates++;
-        pir_learn_update(sum, angle, (double)(pir_signs_asked(&sum->signs) - asked));
+        status = pir_update_repair(sum);
+        pir_learn_update(sum, angle, pir_signs_asked(&sum->signs) - asked);
     }
-    return status == PIR_OK ? PIR_OK : restore(sum, before, status);
+    if (status != PIR_OK)
+        return restore(sum, before, status);
+    sum->lag.lagging = false;
+    return PIR_OK;
 }
 
 pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation) {
@@ -160,13 +212,16 @@ pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation) {
     if (status != PIR_OK)
         return status;
     status = pir_brute_rebuild(sum);
-    return status == PIR_OK ? PIR_OK : restore(sum, before, status);
+    if (status != PIR_OK)
+        return restore(sum, before, status);
+    sum->lag.lagging = false;
+    return PIR_OK;
 }
 
 /* --- reading --- */
 
 pir_quat pir_sum_rotation(const pir_sum *sum) {
-    return sum->signs.rotation.given;
+    return sum->lag.lagging ? sum->lag.now.given : sum->signs.rotation.given;
 }
 
 const pir_polytope *pir_sum_p(const pir_sum *sum) {
@@ -191,10 +246,12 @@ uint32_t pir_sum_ee_count(const pir_sum *sum) {
 
 void pir_sum_ee(const pir_sum *sum, uint32_t (*ret_pairs)[2]) {
     const pir_crossings *c = &sum->crossings;
-    for (uint32_t e = 0; e < sum->p->edge_count; e++)
+    const pir_polytope *p = sum->p, *q = sum->q;
+    for (uint32_t e = 0; e < p->edge_count; e++)
         for (uint32_t slot = sum->first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot]) {
-            (*ret_pairs)[0] = e;
-            (*ret_pairs)[1] = sum->q->edge[c->half[slot]];
+            // a segment's two edges are one to callers
+            (*ret_pairs)[0] = p->artificial ? 0 : e;
+            (*ret_pairs)[1] = q->artificial ? 0 : q->edge[c->half[slot]];
             ret_pairs++;
         }
 }

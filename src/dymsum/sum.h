@@ -10,59 +10,91 @@
  *   - fv[f] is the vertex of Q farthest along the normal of f; vf[g] that of P farthest along the normal of g.
  *   - the crossings of edge e, from first[e] along next, name halfedges of Q: the first leaves fv[left], each later one leaves the vertex
  *     that the one before leads to, the last leads to fv[right]. Their number over all edges is ee_count.
- *   - a pair whose `until` is above `turn` has not failed: it was checked when the turn was lower, and its margin held more.
+ *   - a facet whose alarm (alarms.h) does not ring at the clock's phase is in its cell, and has been ever since the alarm was set. Alarms
+ *     are numbered facets of P first, then facets of Q.
  *
  * A crossing of edge e (vector e, facets f⁻ left, f⁺ right) and halfedge h (vector d, facets R right, L left) is proven by four signs:
  * s(f⁻, d) < 0 < s(f⁺, d) and s(e, R) < 0 < s(e, L). They place the two arcs' ends on opposite sides of each other's circles, and the
- * orientation rules out the antipodal point.
+ * orientation rules out the antipodal point. Its certificate is those of the four facets: between two rotations R is taken to turn the
+ * short way, and two arcs that cross cannot part before an end of one passes through the other, which is a facet leaving its cell.
  */
 #ifndef PIR_DYMSUM_SUM_H
 #define PIR_DYMSUM_SUM_H
 
 #include <math.h>
 
+#include <pirouette/cgm.h>
 #include <pirouette/sum.h>
 
 #include "base/memory.h"
 #include "base/vec.h"
+#include "dymsum/alarms.h"
+#include "dymsum/clock.h"
+#include "dymsum/kernels.h"
+#include "dymsum/sleep.h"
 #include "exact/sign.h"
 #include "polytope/polytope.h"
-
-#define PIR_NO_CROSSING UINT32_MAX
-
-/* `until` of a pair that must be looked at in the next update, and of a crossing known to have failed in this one. */
-#define PIR_EXPIRED (-1.0)
-#define PIR_FAILED  (-2.0)
 
 /* Crossings live in slots of parallel arrays; free slots are chained through next. */
 typedef struct pir_crossings {
     uint32_t *half;                /* the halfedge of Q that is crossed, from the cell before to the cell after */
     uint32_t *edge;                /* the edge of P, or PIR_NO_CROSSING in a free slot */
     uint32_t *next;                /* the next along the arc, or PIR_NO_CROSSING */
-    double *until;                 /* the turn up to which it is certain */
     uint32_t capacity, used, free; /* slots [0, used) have been used; free heads the chain of those given back */
 } pir_crossings;
 
-/* What the choice between update and walk is made from: work counted in signs. */
+/* What the choice between update and walk is made from: see choose.c. */
 typedef struct pir_cost_model {
-    double walk;       /* signs of the last walk */
-    double per_radian; /* signs of recent updates per radian turned */
-    uint32_t walks_in_a_row;
+    double walk;       /* work of the last walk */
+    double per_radian; /* work of recent updates per radian turned, 0 while none is known */
+    uint32_t walks_in_a_row, updates_in_a_row;
+    uint32_t probe_after; /* how many walks in a row before an update is tried */
 } pir_cost_model;
+
+/* What an update has found to do about an edge of P: see repair.c. */
+typedef enum pir_change {
+    PIR_UNCHANGED = 0,
+    PIR_START_MOVED,     /* its left facet has crossed the arc of a halfedge of Q, once */
+    PIR_END_MOVED,       /* its right facet has */
+    PIR_PASSED_TO_LEFT,  /* a facet of Q has crossed its arc, once, and is left of it now */
+    PIR_PASSED_TO_RIGHT, /* or right of it */
+    PIR_CHANGED          /* anything else */
+} pir_change;
+
+/*
+ * How far the pairing may stay behind the rotation that was asked for: see lag.c. While `lagging`, the pairing and the clock are at
+ * the rotation in sum->signs, and what is seen is placed by `now`.
+ */
+typedef struct pir_lag {
+    double tolerance; /* a length; 0: never behind */
+    double diameter;  /* where there is a tolerance: the lesser of the operands', rounded up */
+    bool lagging;
+    double bound;     /* while lagging: what the support function falls short of at most */
+    pir_rotation now; /* while lagging: the rotation asked for */
+} pir_lag;
 
 struct pir_sum {
     pir_allocator allocator;
-    pir_polytope *p, *q;
-    pir_signs signs; /* holds the rotation */
+    pir_polytope *p, *q;      /* at their scale of now */
+    pir_polytope *made_of[2]; /* at scale 1, by pir_operand: the same objects until the scale is set */
+    pir_signs signs;          /* holds the rotation */
     uint32_t *fv, *vf, *first;
     uint32_t ee_count;
     pir_crossings crossings;
-    double turn; /* an upper bound on all turning since the last rebasing */
-    double *fv_until, *vf_until;
+    const pir_kernels *kernels;
+    pir_clock clock;
+    pir_moment moment; /* what the kernels need of it */
+    pir_alarms alarms;
+    pir_facets p_facets, q_facets; /* each over the cells of the other */
+    pir_suspect *suspects;         /* what a review has listed */
     pir_cost_model cost;
+    pir_lag lag;
+    pir_cgm *cgm_q; /* Q's cubical Gaussian map, from the first rebuild by CGM on */
     /* work space of a rebuild and an update: facets to visit, flags of facets and edges, rotated normals of P */
     uint32_t *queue;
     uint8_t *mark;
+    uint8_t *change;      /* per edge of P: a pir_change, PIR_UNCHANGED between updates */
+    uint32_t *changed_by; /* per edge of P: the halfedge of Q, or the facet, that the change is about */
     pir_vec3 *rotated;
     pir_sum_statistics statistics;
 };
@@ -110,12 +142,6 @@ static inline uint64_t pir_signs_asked(const pir_signs *signs) {
     return signs->by_filter + signs->by_exact + signs->by_perturbation;
 }
 
-/* When a pair checked now with this margin must be looked at again: turn + margin, rounded down. */
-static inline double pir_until(const pir_sum *sum, double margin) {
-    double until = sum->turn + margin;
-    return until - fabs(until) * 0x1p-52;
-}
-
 /* A facet or edge of P rotated, a facet normal of Q turned back. */
 static inline pir_vec3 pir_rotated_normal(const pir_sum *sum, uint32_t f) {
     return pir_mat_apply(&sum->signs.rotation.r, sum->p->normal[f]);
@@ -129,21 +155,57 @@ static inline pir_vec3 pir_turned_back_normal(const pir_sum *sum, uint32_t g) {
     return pir_mat_apply_transposed(&sum->signs.rotation.r, sum->q->normal[g]);
 }
 
+/* How fast a vector of P, rotated, moves in an axial epoch, and one of Q seen from P; zero otherwise. */
+static inline pir_vec3 pir_motion_of(const pir_sum *sum, pir_vec3 rotated) {
+    return pir_vec_cross(sum->clock.axis, rotated);
+}
+
+static inline pir_vec3 pir_motion_back(const pir_sum *sum, pir_vec3 turned_back) {
+    return pir_vec_cross(turned_back, pir_mat_apply_transposed(&sum->signs.rotation.r, sum->clock.axis));
+}
+
+/* The number of alarms. */
+static inline uint32_t pir_alarm_count(const pir_sum *sum) {
+    return sum->p->facet_count + sum->q->facet_count;
+}
+
+/* --- sum.c --- */
+
+/* A sum at `rotation` with all its memory and no pairing yet; it takes references of its own. */
+pir_status pir_sum_new(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_allocator *allocator,
+                       pir_sum **ret_sum);
+
+/* Tells the kernels where the operands' arrays are: after an operand has been replaced. */
+void pir_sum_link_facets(pir_sum *sum);
+
+/* --- lag.c --- */
+
+/* Whether the pairing may stay where it is for `rotation`; then that is the rotation seen from here on. Errors as pir_sum_rotate. */
+pir_status pir_lag_behind(pir_sum *sum, pir_quat rotation, bool *ret_done);
+
+/* Measures the operands, whose scale may have changed. */
+void pir_lag_measure(pir_sum *sum);
+
+/* The rotation that was asked for. */
+static inline pir_rotation *pir_rotation_now(pir_sum *sum) {
+    return sum->lag.lagging ? &sum->lag.now : &sum->signs.rotation;
+}
+
 /* --- descent.c --- */
 
 /*
- * The vertex of Q farthest along rotated facet f, from vertex `from` uphill: at each vertex the steepest edge that rises. *ret_margin is
- * the least |s| there, an angle less than which no turn can make the pair fail.
+ * The vertex of Q farthest along rotated facet f, from vertex `from` uphill: at each vertex the steepest edge that rises.
  */
-uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t from, double *ret_margin);
+uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t from, pir_sleep *ret_sleep);
 
 /* The vertex of P farthest along facet g of Q. */
-uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, double *ret_margin);
+uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_sleep *ret_sleep);
 
 /* --- crossings.c --- */
 
 /* Room for at least `capacity` slots; false when out of memory. Counts as an allocation when it grows. */
 bool pir_crossings_reserve(pir_sum *sum, uint32_t capacity);
+void pir_crossings_finish(pir_sum *sum);
 void pir_crossings_clear(pir_sum *sum);
 
 /* A slot for the crossing of edge e with halfedge h, not linked; PIR_NO_CROSSING when out of memory. */
@@ -151,9 +213,10 @@ uint32_t pir_crossing_new(pir_sum *sum, uint32_t e, uint32_t h);
 void pir_crossing_free(pir_sum *sum, uint32_t slot);
 
 /*
- * Whether crossing `slot` holds; when it does its certificate is renewed. The four signs of the head of this file.
+ * Links one more crossing, of edge e with halfedge h, behind *last, the end of the edge's list or PIR_NO_CROSSING, and makes it the
+ * last. False when out of memory.
  */
-bool pir_crossing_check(pir_sum *sum, uint32_t slot);
+bool pir_crossing_append(pir_sum *sum, uint32_t e, uint32_t h, uint32_t *last);
 
 /* --- walk.c --- */
 
@@ -166,12 +229,28 @@ uint32_t pir_leave_cell(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t v
 /* Makes the whole pairing from nothing; certificates are left expired. On PIR_ERR_MEMORY the pairing is not usable. */
 pir_status pir_walk_rebuild(pir_sum *sum);
 
+/* --- cgm_rebuild.c --- */
+
+/* Makes the pairing from the overlay of two cubical Gaussian maps. As above on PIR_ERR_MEMORY. */
+pir_status pir_cgm_rebuild(pir_sum *sum);
+
+/* --- repair.c --- */
+
+/*
+ * Brings the crossings of edge e up to date, the facets being so already: as its `change` says, which is taken back. False when out
+ * of memory.
+ */
+bool pir_repair_edge(pir_sum *sum, uint32_t e);
+
 /* --- update.c --- */
 
-/* Checks what has expired at the rotation in sum->signs and repairs what has failed. As above on PIR_ERR_MEMORY. */
+/*
+ * Checks the certificates whose alarms ring at the clock's phase and repairs what has failed, at the rotation in sum->signs. As above
+ * on PIR_ERR_MEMORY.
+ */
 pir_status pir_update_repair(pir_sum *sum);
 
-/* Lets every certificate expire. */
+/* Lets every certificate expire: the pairing is fresh. */
 void pir_expire_all(pir_sum *sum);
 
 /* --- brute.c --- */

@@ -185,7 +185,7 @@ static pir_mesh *number_vertices(const struct facets *facets, pir_sum *sum) {
         }
         memcpy(mesh->facets.start, facets->start, ((size_t)facets->count + 1) * sizeof *facets->start);
         for (uint32_t v = 0; v < mesh->vertex_count; v++)
-            mesh->vertex[v] = pir_place(&sum->signs.rotation.r, p, q, mesh->pair[v][0], mesh->pair[v][1]);
+            mesh->vertex[v] = pir_place(&pir_rotation_now(sum)->r, p, q, mesh->pair[v][0], mesh->pair[v][1]);
         mesh->edge_count = n / 2;
         pir_mesh_set_kinds(mesh);
         if (!pir_loops_canonicalise(&mesh->facets, mesh->kind, a)) {
@@ -214,10 +214,15 @@ pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh **ret_me
         status = PIR_ERR_MEMORY;
     if (status == PIR_OK && facets.count == 0) {
         // a point or a segment: nothing has area
-        status = pir_hull_mesh(sum->p, sum->q, &sum->signs.rotation, a, precision, &mesh);
+        status = pir_hull_mesh(sum->p, sum->q, pir_rotation_now(sum), a, precision, &mesh);
     } else if (status == PIR_OK) {
         mesh = number_vertices(&facets, sum);
-        if (!mesh || (precision == PIR_EXACT && !pir_placing_fill(&placing, mesh)))
+        // facets are told apart where the pairing is exact, vertices placed where the sum is seen
+        if (mesh && precision == PIR_EXACT && sum->lag.lagging) {
+            pir_placing_finish(&placing, a);
+            status = pir_placing_init(&placing, a, sum->p, sum->q, &sum->lag.now);
+        }
+        if (!mesh || status != PIR_OK || (precision == PIR_EXACT && !pir_placing_fill(&placing, mesh)))
             status = PIR_ERR_MEMORY;
     }
     PIR_FREE(a, facets.start, (size_t)pieces.count + 1);

@@ -1,140 +1,192 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The update: find the pairs whose certificates expired, check them, repair those that failed.
+ * The update: find the facets that may have left their cells, and repair what they touched.
  *
- * Why a jump is safe: no normal moves farther on the sphere than R turns, so a pair that was certain by a margin is certain until the
- * turning since adds up to that margin. What expired is checked at the new rotation. Then every fv pair is right, every crossing that
- * is kept is real, and an edge none of whose crossings failed and whose ends stayed has a list that still leads from cell to cell:
- * cells being convex, that is all of its crossings.
+ * Why a jump is safe. Between two frames let R turn continuously, along the way that the clock measures (clock.h). The pairing changes
+ * only where a facet, a point of one Gaussian map, passes through an arc of the other, and so leaves its cell. A facet whose
+ * alarm has not rung has stayed in its cell all the way. So crossings need no certificates of their own: an arc that no awake facet has
+ * passed through, and whose ends stayed, has the crossings it had.
  *
- * An edge with a failed crossing or a moved end is led from its left cell to its right one again. Where the crossing out of a cell is
- * known to be real it is the only one out of that cell and is kept, certificate and all; elsewhere the cell is searched.
+ * A facet that wakes is looked at where it is now. Mostly it is in its cell, too far from each side to have touched one within the step, and
+ * sleeps on. Or it has crossed one side, into a cell of which it can have touched no other side than the one it came in by: one event,
+ * which changes the arcs concerned in a way known beforehand. Anything else, several sides within reach, ties, is settled with care: the
+ * facet by descent, each arc that it may have passed through by leading it from cell to cell again.
  */
 #include "dymsum/sum.h"
 
-/* What an update notes of an edge of P, in sum->mark. */
-enum { DIRTY = 2 };
+/* How many cells a facet is followed back through before every edge is taken to have changed. */
+#define FOLLOWED_CELLS 16
+
+struct update {
+    pir_sum *sum;
+    uint32_t noted; /* edges in sum->queue */
+    bool all;       /* every edge is taken to have changed */
+};
 
 void pir_expire_all(pir_sum *sum) {
-    for (uint32_t f = 0; f < sum->p->facet_count; f++)
-        sum->fv_until[f] = PIR_EXPIRED;
-    for (uint32_t g = 0; g < sum->q->facet_count; g++)
-        sum->vf_until[g] = PIR_EXPIRED;
-    for (uint32_t i = 0; i < sum->crossings.used; i++)
-        sum->crossings.until[i] = PIR_EXPIRED;
+    pir_alarms_wake(&sum->alarms, 0, pir_alarm_count(sum));
 }
 
-/* Notes edge e for re-derivation, once. */
-static void note_edge(pir_sum *sum, uint32_t e, uint32_t *count) {
-    if (sum->mark[e] & DIRTY)
-        return;
-    sum->mark[e] |= DIRTY;
-    sum->queue[(*count)++] = e;
+/* Notes what has happened to edge e; of two things it is known only that it has changed. */
+static inline void note_edge(struct update *update, uint32_t e, pir_change change, uint32_t by) {
+    pir_sum *sum = update->sum;
+    if (sum->change[e] == PIR_UNCHANGED) {
+        sum->change[e] = (uint8_t)change;
+        sum->changed_by[e] = by;
+        sum->queue[update->noted++] = e;
+    } else {
+        sum->change[e] = PIR_CHANGED;
+    }
 }
 
-static void check_facets_of_p(pir_sum *sum, uint32_t *dirty) {
+/* Facet f of P has crossed the arc of halfedge h of Q. */
+static void note_crossing_of_p(struct update *update, uint32_t f, uint32_t h) {
+    const pir_polytope *p = update->sum->p;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
+        uint32_t half = p->loop[i], e = p->edge[half];
+        note_edge(update, e, p->edge_half[e] == half ? PIR_START_MOVED : PIR_END_MOVED, h);
+    }
+}
+
+/* Facet g of Q has crossed the arc of halfedge `half` of P. */
+static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half) {
+    const pir_polytope *p = update->sum->p;
+    uint32_t e = p->edge[half];
+    note_edge(update, e, p->edge_half[e] == half ? PIR_PASSED_TO_LEFT : PIR_PASSED_TO_RIGHT, g);
+}
+
+/* Files alarm i, checked now, to sleep so long. */
+static void fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
+    const pir_clock *clock = &sum->clock;
+    double margin = fmin(sleep->margin, 4);
+    if (clock->axial)
+        pir_alarm_set(&sum->alarms, i, (float)margin, clock->phase + sleep->ahead, clock->phase + sleep->behind);
+    else
+        pir_alarm_set(&sum->alarms, i, (float)margin, pir_path_end(clock->path, margin), -HUGE_VAL);
+}
+
+/* Facet f of P may have touched one side or another. */
+static void settle_of_p(struct update *update, uint32_t f) {
+    pir_sum *sum = update->sum;
     const pir_polytope *p = sum->p;
-    for (uint32_t f = 0; f < p->facet_count; f++) {
-        if (sum->fv_until[f] > sum->turn)
-            continue;
-        double margin;
-        uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->fv[f], &margin);
-        sum->statistics.checked++;
-        sum->fv_until[f] = pir_until(sum, margin);
-        if (v == sum->fv[f])
-            continue;
-        sum->fv[f] = v;
-        sum->statistics.repaired++;
-        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
-            note_edge(sum, p->edge[p->loop[i]], dirty);
+    pir_sleep sleep;
+    uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->fv[f], &sleep);
+    fall_asleep(sum, f, &sleep);
+    sum->statistics.repaired += v != sum->fv[f];
+    sum->fv[f] = v;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && !update->all; i++)
+        note_edge(update, p->edge[p->loop[i]], PIR_CHANGED, 0);
+}
+
+/* Whether side `half` of a cell of P may have been touched by the normal of a facet of Q, turned back, within the step. */
+static bool touches(const pir_sum *sum, uint32_t half, pir_vec3 turned_back, pir_vec3 motion) {
+    pir_vec3 d = sum->p->direction[half];
+    pir_sleep sleep = pir_sleep_long();
+    pir_sleep_until_change(&sleep, pir_vec_dot(turned_back, d), pir_vec_dot(motion, d));
+    return !(sleep.ahead > (double)sum->moment.reach_ahead && -sleep.behind > (double)sum->moment.reach_behind);
+}
+
+/*
+ * Follows facet g back from the cell of v through every side that it may have touched, and notes the edges of those: it came in through a
+ * touched side, and so on.
+ */
+static void follow_back(struct update *update, uint32_t g, uint32_t v) {
+    const pir_sum *sum = update->sum;
+    const pir_polytope *p = sum->p;
+    pir_vec3 turned_back = pir_turned_back_normal(sum, g), motion = pir_motion_back(sum, turned_back);
+    uint32_t cells[FOLLOWED_CELLS] = {v}, count = 1;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t half = p->ring_start[cells[i]]; half < p->ring_start[cells[i] + 1]; half++) {
+            if (!touches(sum, half, turned_back, motion))
+                continue;
+            note_edge(update, p->edge[half], PIR_CHANGED, 0);
+            uint32_t known = 0;
+            while (known < count && cells[known] != p->target[half])
+                known++;
+            if (known == FOLLOWED_CELLS) {
+                update->all = true;
+                return;
+            }
+            if (known == count)
+                cells[count++] = p->target[half];
+        }
+}
+
+/* Facet g of Q may have touched one side or another. */
+static void settle_of_q(struct update *update, uint32_t g) {
+    pir_sum *sum = update->sum;
+    pir_sleep sleep;
+    uint32_t v = pir_descend_vf(sum, g, sum->vf[g], &sleep);
+    fall_asleep(sum, sum->q_facets.first_alarm + g, &sleep);
+    sum->statistics.repaired += v != sum->vf[g];
+    sum->vf[g] = v;
+    if (!update->all)
+        follow_back(update, g, v);
+}
+
+/* What the kernels need to know of the rotation and of the last step. */
+static void set_moment(pir_sum *sum) {
+    const pir_clock *clock = &sum->clock;
+    // where the motion is not known, a span is √2s for the value s, and the step a span likewise
+    double reach = (clock->axial ? fabs(clock->stride) : sqrt(2 * clock->angle)) * (1 + 0x1p-20);
+    float most = reach <= (double)PIR_FARTHEST ? (float)reach : HUGE_VALF;
+    bool forwards = !clock->axial || clock->stride >= 0;
+    sum->moment = (pir_moment){forwards ? 0 : most, forwards ? most : 0, clock->path, clock->phase, clock->axial};
+    pir_alarms_set_now(&sum->alarms, sum->signs.rotation.unit);
+    const pir_mat3 *r = &sum->signs.rotation.r;
+    pir_vec3 back = pir_mat_apply_transposed(r, clock->axis);
+    for (int k = 0; k < 3; k++) {
+        pir_vec3 column = {r->m[0][k], r->m[1][k], r->m[2][k]}, row = {r->m[k][0], r->m[k][1], r->m[k][2]};
+        pir_turned(column, pir_vec_cross(clock->axis, column), sum->p_facets.turn[k]);
+        pir_turned(row, pir_vec_cross(row, back), sum->q_facets.turn[k]);
     }
 }
 
-static void check_facets_of_q(pir_sum *sum) {
-    for (uint32_t g = 0; g < sum->q->facet_count; g++) {
-        if (sum->vf_until[g] > sum->turn)
-            continue;
-        double margin;
-        uint32_t v = pir_descend_vf(sum, g, sum->vf[g], &margin);
-        sum->statistics.checked++;
-        sum->statistics.repaired += v != sum->vf[g];
-        sum->vf_until[g] = pir_until(sum, margin);
-        sum->vf[g] = v;
-    }
-}
-
-static void check_crossings(pir_sum *sum, uint32_t *dirty) {
-    pir_crossings *c = &sum->crossings;
-    for (uint32_t i = 0; i < c->used; i++) {
-        if (c->until[i] > sum->turn || c->edge[i] == PIR_NO_CROSSING)
-            continue;
-        sum->statistics.checked++;
-        if (pir_crossing_check(sum, i))
-            continue;
-        c->until[i] = PIR_FAILED;
-        sum->statistics.repaired++;
-        note_edge(sum, c->edge[i], dirty);
-    }
-}
-
-/* Takes from the list at *list the crossing out of cell v that holds, or gives PIR_NO_CROSSING. */
-static uint32_t take_crossing(pir_sum *sum, uint32_t *list, uint32_t v) {
-    pir_crossings *c = &sum->crossings;
-    for (uint32_t *at = list; *at != PIR_NO_CROSSING; at = &c->next[*at]) {
-        uint32_t slot = *at;
-        if (c->until[slot] != PIR_FAILED && sum->q->origin[c->half[slot]] == v) {
-            *at = c->next[slot];
-            return slot;
+/* Looks at the facets that wake and notes what they have touched. */
+static void review(struct update *update, uint32_t woken) {
+    pir_sum *sum = update->sum;
+    const uint32_t *alarm = sum->alarms.woken;
+    uint32_t of_p = 0;
+    while (of_p < woken && alarm[of_p] < sum->q_facets.first_alarm)
+        of_p++;
+    const pir_suspect *suspect = sum->suspects;
+    uint32_t count = sum->kernels->review(&sum->p_facets, &sum->moment, &sum->alarms, alarm, of_p, sum->suspects,
+                                          &sum->signs.by_filter);
+    for (uint32_t i = 0; i < count; i++) {
+        if (suspect[i].crossed == PIR_NO_CROSSING) {
+            settle_of_p(update, suspect[i].facet);
+        } else {
+            note_crossing_of_p(update, suspect[i].facet, suspect[i].crossed);
+            sum->statistics.repaired++;
         }
     }
-    return PIR_NO_CROSSING;
-}
-
-/* Derives the crossings of edge e anew, keeping those that hold. */
-static bool derive_edge(pir_sum *sum, uint32_t e) {
-    const pir_polytope *p = sum->p, *q = sum->q;
-    pir_crossings *c = &sum->crossings;
-    uint32_t half = p->edge_half[e], end = sum->fv[pir_right(p, half)], v = sum->fv[p->left[half]];
-    pir_vec3 direction = pir_rotated_direction(sum, half);
-    uint32_t old = sum->first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
-    sum->first[e] = PIR_NO_CROSSING;
-    while (v != end) {
-        uint32_t slot = take_crossing(sum, &old, v);
-        if (slot == PIR_NO_CROSSING) {
-            slot = pir_crossing_new(sum, e, pir_leave_cell(sum, half, direction, v, entered));
-            if (slot == PIR_NO_CROSSING)
-                return false;
-            bool holds = pir_crossing_check(sum, slot);
-            PIR_ASSERT(holds);
-            (void)holds;
+    count = sum->kernels->review(&sum->q_facets, &sum->moment, &sum->alarms, alarm + of_p, woken - of_p, sum->suspects,
+                                 &sum->signs.by_filter);
+    for (uint32_t i = 0; i < count; i++) {
+        if (suspect[i].crossed == PIR_NO_CROSSING) {
+            settle_of_q(update, suspect[i].facet);
+        } else {
+            note_crossing_of_q(update, suspect[i].facet, suspect[i].crossed);
+            sum->statistics.repaired++;
         }
-        c->next[slot] = PIR_NO_CROSSING;
-        if (last == PIR_NO_CROSSING)
-            sum->first[e] = slot;
-        else
-            c->next[last] = slot;
-        last = slot;
-        entered = c->half[slot];
-        v = q->target[entered];
     }
-    // what is left of the old list crosses no more
-    while (old != PIR_NO_CROSSING) {
-        uint32_t next = c->next[old];
-        pir_crossing_free(sum, old);
-        old = next;
-    }
-    return true;
 }
 
 pir_status pir_update_repair(pir_sum *sum) {
-    for (uint32_t e = 0; e < sum->p->edge_count; e++)
-        sum->mark[e] = 0;
-    uint32_t dirty = 0;
-    check_facets_of_p(sum, &dirty);
-    check_facets_of_q(sum);
-    check_crossings(sum, &dirty);
-    for (uint32_t i = 0; i < dirty; i++)
-        if (!derive_edge(sum, sum->queue[i]))
-            return PIR_ERR_MEMORY;
-    return PIR_OK;
+    uint32_t woken = pir_alarms_collect(&sum->alarms, sum->kernels, pir_alarm_count(sum), sum->clock.phase);
+    if (woken == 0)
+        return PIR_OK;
+    sum->statistics.checked += woken;
+    set_moment(sum);
+    struct update update = {.sum = sum, .all = !(fmaxf(sum->moment.reach_ahead, sum->moment.reach_behind) < HUGE_VALF)};
+    review(&update, woken);
+    for (uint32_t e = 0; update.all && e < sum->p->edge_count; e++)
+        note_edge(&update, e, PIR_CHANGED, 0);
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; i < update.noted; i++) {
+        if (status == PIR_OK && !pir_repair_edge(sum, sum->queue[i]))
+            status = PIR_ERR_MEMORY;
+        sum->change[sum->queue[i]] = PIR_UNCHANGED;
+    }
+    return status;
 }

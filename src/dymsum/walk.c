@@ -97,7 +97,7 @@ static bool walk_arcs(pir_sum *sum) {
     }
     if (p->facet_count == 0)
         return true;
-    double unused;
+    pir_sleep unused;
     sum->fv[0] = pir_descend_fv(sum, 0, sum->rotated[0], 0, &unused);
     sum->mark[0] = LOCATED;
     uint32_t head = 0, tail = 0;
@@ -141,7 +141,7 @@ static void locate_facets_of_q(pir_sum *sum) {
     }
     while (head < tail) {
         uint32_t g = sum->queue[head++];
-        double unused;
+        pir_sleep unused;
         sum->vf[g] = pir_descend_vf(sum, g, sum->vf[g], &unused);
         for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
             uint32_t beside = pir_right(q, q->loop[i]);
@@ -157,10 +157,10 @@ static void locate_facets_of_q(pir_sum *sum) {
 pir_status pir_walk_rebuild(pir_sum *sum) {
     uint64_t asked = pir_signs_asked(&sum->signs);
     pir_crossings_clear(sum);
-    pir_expire_all(sum);
     if (!walk_arcs(sum))
         return PIR_ERR_MEMORY;
     locate_facets_of_q(sum);
+    pir_expire_all(sum);
     sum->cost.walk = (double)(pir_signs_asked(&sum->signs) - asked);
     return PIR_OK;
 }

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Turning, measured along the path and about an axis. See clock.h for what the measures mean.
+ *
+ * Rounding: unit quaternions are within 2^-50 of what they stand for, so the phase and the drift of a stretch are off by less than 2^-46
+ * beside the truncation of the arc sine below, under 2^-30 up to a quarter. All of it is charged to the drift.
+ */
+#include "dymsum/clock.h"
+
+/* A stretch of an axial epoch ends when its phase passes this: the arc sine below is good for half of it and more. */
+#define LONGEST_STRETCH 0.25
+
+/* An epoch without an axis ends when its path passes this, so that adding small angles stays accurate. */
+#define LONGEST_PATH 64.0
+
+/* When an axial epoch of so many steps ends, the axis of the step that ends it is taken to last as well. */
+#define LASTING 4
+
+/* Two steps share an axis when one leaves the other's by less than this part of its length. */
+#define SAME_AXIS 0x1p-26
+
+/* What a stretch may be off by beside the swing that is measured. */
+#define STRETCH_ERROR 0x1p-29
+
+static pir_quat between(pir_quat before, pir_quat now) {
+    // now · conjugate(before), of the two signs the one with w ≥ 0
+    pir_quat r = {before.w * now.x - now.w * before.x - (now.y * before.z - now.z * before.y),
+                  before.w * now.y - now.w * before.y - (now.z * before.x - now.x * before.z),
+                  before.w * now.z - now.w * before.z - (now.x * before.y - now.y * before.x),
+                  now.w * before.w + now.x * before.x + now.y * before.y + now.z * before.z};
+    return r.w < 0 ? (pir_quat){-r.x, -r.y, -r.z, -r.w} : r;
+}
+
+/* 2·asin(x) for |x| ≤ 1/4, within 2^-30: the next term is 0.035·x^13. */
+static double twice_arc_sine(double x) {
+    double y = x * x;
+    return 2 * x * (1 + y * (1.0 / 6 + y * (3.0 / 40 + y * (15.0 / 336 + y * (105.0 / 3456 + y * (945.0 / 42240))))));
+}
+
+/* The phase and drift of the stretch that led from clock->start to `now`; false when it has left the axis or gone too far. */
+static bool measure_stretch(const pir_clock *clock, pir_quat now, double *ret_phase, double *ret_drift) {
+    pir_quat r = between(clock->start, now);
+    pir_vec3 v = {r.x, r.y, r.z};
+    double along = pir_vec_dot(v, clock->axis);
+    pir_vec3 off = pir_vec_sub(v, pir_vec_scale(clock->axis, along));
+    // swing and twist: the twist's half sine is along / √(along² + w²), the swing's |off|
+    double sine = along / sqrt(along * along + r.w * r.w), swing = sqrt(pir_vec_dot(off, off));
+    *ret_drift = clock->carried + 3.1416 * swing + STRETCH_ERROR;
+    if (!(fabs(sine) <= 0.25) || !(*ret_drift < PIR_DRIFT_SLACK / 2))
+        return false;
+    *ret_phase = twice_arc_sine(sine);
+    return true;
+}
+
+/* Whether the step goes the way of the last one, or back. */
+static bool keeps_axis(pir_vec3 step, pir_vec3 last) {
+    pir_vec3 off = pir_vec_cross(step, last);
+    double a = pir_vec_dot(step, step), b = pir_vec_dot(last, last);
+    return a > 0 && b > 0 && pir_vec_dot(off, off) <= SAME_AXIS * SAME_AXIS * a * b;
+}
+
+/* Begins an epoch with the step r, axial or not. */
+static void begin_epoch(pir_clock *clock, pir_quat r, bool axial, double angle) {
+    pir_vec3 step = {r.x, r.y, r.z};
+    double length = sqrt(pir_vec_dot(step, step));
+    clock->axial = axial && length > 0 && r.w >= 0.9;
+    clock->axis = clock->axial ? pir_vec_scale(step, 1 / length) : (pir_vec3){0, 0, 0};
+    clock->stride = clock->axial ? angle : 0;
+    clock->start = clock->at;
+    clock->carried = 0;
+    clock->phase = clock->path = 0;
+    clock->steps = 0;
+}
+
+pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, double angle, double *ret_shift) {
+    // a rotation that this clock has not seen ends the epoch
+    bool followed =
+        before.x == clock->at.x && before.y == clock->at.y && before.z == clock->at.z && before.w == clock->at.w;
+    clock->path = (clock->path + angle) * (1 + 0x1p-51);
+    clock->at = now;
+    clock->angle = angle;
+    clock->steps += clock->steps < UINT32_MAX;
+    double phase, drift;
+    if (clock->axial && followed && measure_stretch(clock, now, &phase, &drift)) {
+        clock->stride = phase - clock->phase;
+        clock->phase = phase;
+        if (fabs(phase) <= LONGEST_STRETCH)
+            return PIR_CLOCK_RUNS;
+        // the next stretch of the same epoch begins here
+        *ret_shift = phase;
+        clock->phase = 0;
+        clock->start = now;
+        clock->carried = drift;
+        return PIR_CLOCK_REBASED;
+    }
+    pir_quat r = between(before, now);
+    pir_vec3 step = {r.x, r.y, r.z}, last = clock->step;
+    clock->step = step;
+    bool lasted = clock->axial && clock->steps >= LASTING, keeps = keeps_axis(step, last);
+    if (!clock->axial && !keeps && followed && clock->path < LONGEST_PATH) {
+        clock->phase = clock->path;
+        return PIR_CLOCK_RUNS;
+    }
+    begin_epoch(clock, r, keeps || lasted, angle);
+    return PIR_CLOCK_NEW_EPOCH;
+}

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT */
+/* The scalar reference of the kernels, and the choice among versions. */
+#include "dymsum/kernels.h"
+
+#include "dymsum/kernels_versions.h"
+#include "polytope/polytope.h"
+
+/* A facet in the cell whose ring fills `blocks` blocks. */
+static void look(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8],
+                 pir_glance *ret_glance) {
+    float highest = -HUGE_VALF, least = 4, ahead = PIR_FARTHEST, behind = PIR_FARTHEST;
+    uint64_t touched = 0;
+    uint32_t which = 0;
+    for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
+        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
+        float x = at[0], y = at[PIR_LANES], z = at[2 * PIR_LANES];
+        float s = turned[0] * x + turned[1] * y + turned[2] * z + 0.0f;
+        float rate = turned[4] * x + turned[5] * y + turned[6] * z;
+        if (s > highest)
+            highest = s, which = i;
+        // seen as a negative value that rises so fast, how long it takes to come to zero, forwards and backwards
+        float size = fabsf(s), rising = signbit(s) ? rate : -rate, sure = size - PIR_FLOAT_SLACK;
+        float root = sure > 0 ? sqrtf(rising * rising + (sure + sure)) : 0;
+        float to = sure > 0 ? root - rising : 0, since = sure > 0 ? root + rising : 0;
+        least = size < least ? size : least;
+        ahead = to < ahead ? to : ahead;
+        behind = since < behind ? since : behind;
+        if (!(to > moment->reach_ahead && since > moment->reach_behind))
+            touched |= i < PIR_TOUCHED_BITS ? (uint64_t)1 << i : UINT64_MAX;
+    }
+    *ret_glance = (pir_glance){touched, highest, which, least - PIR_FLOAT_BOUND, ahead, behind};
+}
+
+static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
+                   pir_glance *ret_glance) {
+    uint32_t block = facets->ring_block[cell];
+    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned,
+         ret_glance);
+}
+
+static bool is_inside(const pir_glance *seen) {
+    return seen->highest < -PIR_FLOAT_BOUND;
+}
+
+/* Whether facet f, seen outside its cell, has crossed one side and touched no other; then it is filed as in the next cell. */
+static uint32_t cross(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
+                      const float turned[8], const pir_glance *seen) {
+    uint32_t cell = facets->cell[f], start = facets->ring_start[cell];
+    if (!(seen->highest > PIR_FLOAT_BOUND) ||
+        !pir_touched_only(seen->touched, facets->ring_start[cell + 1] - start, seen->which))
+        return PIR_NO_CROSSING;
+    uint32_t half = start + seen->which, next = facets->target[half], next_start = facets->ring_start[next];
+    pir_glance there;
+    glance(facets, moment, next, turned, &there);
+    if (!is_inside(&there) ||
+        !pir_touched_only(there.touched, facets->ring_start[next + 1] - next_start, facets->twin[half] - next_start))
+        return PIR_NO_CROSSING;
+    facets->cell[f] = next;
+    pir_sleep_glance(facets, moment, alarms, f, there.margin, there.ahead, there.behind);
+    return half;
+}
+
+static uint32_t review(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, const uint32_t *woken,
+                       uint32_t count, pir_suspect *ret_suspects, uint64_t *sides) {
+    uint32_t suspects = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t f = woken[k] - facets->first_alarm, cell = facets->cell[f];
+        const float *n = facets->normal + (size_t)4 * f;
+        float turned[8];
+        for (int i = 0; i < 8; i++)
+            turned[i] = facets->turn[0][i] * n[0] + facets->turn[1][i] * n[1] + facets->turn[2][i] * n[2];
+        pir_glance seen;
+        glance(facets, moment, cell, turned, &seen);
+        *sides += facets->ring_start[cell + 1] - facets->ring_start[cell];
+        if (seen.touched == 0 && is_inside(&seen))
+            pir_sleep_glance(facets, moment, alarms, f, seen.margin, seen.ahead, seen.behind);
+        else
+            ret_suspects[suspects++] = (pir_suspect){f, cross(facets, moment, alarms, f, turned, &seen)};
+    }
+    return suspects;
+}
+
+/* The certificates of block b. */
+static uint32_t collect_block(pir_alarms *alarms, uint32_t b, double phase, uint32_t *woken) {
+    uint32_t count = 0;
+    double least = HUGE_VAL, greatest = -HUGE_VAL;
+    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i++) {
+        double ahead = alarms->ahead[i], behind = alarms->behind[i];
+        if (ahead > phase && behind < phase) {
+            least = ahead < least ? ahead : least;
+            greatest = behind > greatest ? behind : greatest;
+        } else {
+            woken[count++] = i;
+        }
+    }
+    alarms->block_ahead[b] = least;
+    alarms->block_behind[b] = greatest;
+    return count;
+}
+
+static uint32_t collect(pir_alarms *alarms, uint32_t blocks, double phase) {
+    uint32_t count = 0;
+    for (uint32_t b = 0; b < blocks; b++)
+        if (!(alarms->block_ahead[b] > phase && alarms->block_behind[b] < phase))
+            count += collect_block(alarms, b, phase, alarms->woken + count);
+    return count;
+}
+
+static const pir_kernels scalar = {"scalar", review, glance, collect};
+
+const pir_kernels *pir_kernels_version(unsigned index) {
+    const pir_kernels *versions[4] = {&scalar};
+    unsigned count = 1;
+#if PIR_HAVE_X86_KERNELS
+    if (__builtin_cpu_supports("avx2"))
+        versions[count++] = &pir_kernels_avx2;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        versions[count++] = &pir_kernels_avx512;
+#elif PIR_HAVE_NEON_KERNELS
+    versions[count++] = &pir_kernels_neon;
+#endif
+    return index < count ? versions[index] : NULL;
+}
+
+const pir_kernels *pir_kernels_choose(void) {
+    const pir_kernels *best = &scalar;
+    for (unsigned i = 1; pir_kernels_version(i); i++)
+        best = pir_kernels_version(i);
+    return best;
+}
