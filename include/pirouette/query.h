@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Placement queries: P, rotated as a sum says and moved by a translation, against Q where it stands.
+ *
+ * A query object answers from a tracked difference Q ⊕ (−R·P) (pir_sum_options.difference): P moved by t overlaps Q exactly when t
+ * lies in the difference. It follows the sum: rotate the sum, then ask again.
+ *
+ * The touching rule, the same in every call: the state is PIR_BOUNDARY when t lies exactly on the boundary of the difference, that is,
+ * when the bodies share a point and no interiors do; PIR_INSIDE when a ball of translations around t overlaps; PIR_OUTSIDE when the bodies
+ * share no point. States are exact, for the very doubles given (rounding radii excepted: see pir_query_input). Numbers are doubles
+ * within 1e-12 of the exact ones, relative to the size of the bodies and of the answer.
+ *
+ * Frame: every point and direction is in the frame of Q. `normal` is a unit vector and points from Q to P, the way to move P apart.
+ * In every answer point_p = point_q + distance · normal, also at distance 0; distance is negative by the depth where the bodies overlap.
+ *
+ * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast an answer is found,
+ * never which. Threads: a query belongs to one thread at a time, that of its sum. No call allocates once the query has seen as many
+ * ee pairs as it will; no loop is without a bound.
+ */
+#ifndef PIROUETTE_QUERY_H
+#define PIROUETTE_QUERY_H
+
+#include <pirouette/base.h>
+#include <pirouette/polytope.h>
+#include <pirouette/sum.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pir_query pir_query;
+
+/** Where a translation lies: see the touching rule above. */
+typedef enum pir_state {
+    PIR_OUTSIDE = 0,
+    PIR_BOUNDARY,
+    PIR_INSIDE,
+} pir_state;
+
+/** How a query ended. "Did not finish" is never an answer. */
+typedef enum pir_outcome {
+    PIR_SEPARATED = 0, /**< the bodies share no point; numbers are those of the separation */
+    PIR_TOUCHING,      /**< they share a point, no interiors do; distance is 0 */
+    PIR_OVERLAPPING,   /**< interiors meet; numbers are those of the penetration */
+    PIR_BEYOND_CUTOFF, /**< separated by more than the cutoff: distance is a proven lower bound, points are not set */
+    PIR_NO_HIT,        /**< a cast or a direction that meets nothing, or recedes */
+    PIR_STEP_LIMIT,    /**< the bound on steps was reached; the state is exact, other numbers are the best so far */
+} pir_outcome;
+
+/** A kind of feature of a polytope. */
+typedef enum pir_feature_kind {
+    PIR_FEATURE_NONE = 0,
+    PIR_FEATURE_VERTEX,
+    PIR_FEATURE_EDGE,
+    PIR_FEATURE_FACET,
+} pir_feature_kind;
+
+typedef struct pir_feature {
+    pir_feature_kind kind;
+    uint32_t index;
+} pir_feature;
+
+/** The features of P and Q that attain an answer: their least faces that hold the two points. */
+typedef struct pir_witness {
+    pir_feature p, q;
+} pir_witness;
+
+/** The caller's memory of the last answer. Starts zeroed; contents are the library's. Any content is safe. */
+typedef struct pir_query_cache {
+    uint32_t points; /* vertex pairs of the last separation, 0 when cold */
+    uint32_t p[3], q[3];
+    uint32_t pieces;              /* 1 when the facet below is set, else 0 */
+    uint32_t kind, first, second; /* a facet of the difference: that of the least slack, or one that separates */
+} pir_query_cache;
+
+typedef struct pir_query_input {
+    pir_vec3 translation; /**< of P, after its rotation */
+    double radius_p,
+        radius_q; /**< rounding radii, ≥ 0: each body is grown by a ball. The state is then told from the rounded distance. */
+    double cutoff; /**< distances above this need not be worked out; HUGE_VAL for none */
+} pir_query_input;
+
+/** Translation 0, no radii, no cutoff. */
+PIR_API pir_query_input pir_query_input_default(void);
+
+typedef struct pir_query_result {
+    pir_state state;
+    pir_outcome outcome;
+    double distance; /**< signed: separation, 0, or minus the depth */
+    pir_vec3 normal; /**< unit, from Q to P */
+    pir_vec3 point_p, point_q;
+    pir_witness witness;
+    uint32_t steps; /**< support evaluations and groups of facets looked at */
+} pir_query_result;
+
+/**
+ * Makes a query object on `difference`, a sum made with options.difference = 1, which it borrows and which must outlive it. Its
+ * memory comes from the sum's allocator. O(size of both operands). Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_query_create(pir_sum *difference, pir_query **ret_query);
+
+/** Frees; NULL is accepted. */
+PIR_API void pir_query_destroy(pir_query *query);
+
+/** Overlap: state and outcome, exact; witness and normal of a facet of the difference that shows it where one does; no distance. */
+PIR_API pir_status pir_query_overlap(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
+                                     pir_query_result *ret_result);
+
+/**
+ * The separation distance with closest points, by descent on the difference from the cached features (after Gilbert, Johnson and
+ * Keerthi, IEEE J. Robotics and Automation 4(2), 1988; supports by hill climbing). Where the bodies touch or overlap the distance is 0
+ * and the outcome says so; the points are then those of contact when they touch, and not set when they overlap.
+ */
+PIR_API pir_status pir_query_distance(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
+                                      pir_query_result *ret_result);
+
+/**
+ * The penetration depth: the least translation of P that ends the overlap, the minimum over every facet of the difference. Where facets
+ * tie, within 2^-40 of the size of the bodies, the first wins: fv before vf before ee, then the lower index of P, then of Q.
+ * Where the bodies do not overlap the distance is 0, and the outcome says why.
+ */
+PIR_API pir_status pir_query_penetration(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
+                                         pir_query_result *ret_result);
+
+/** Separation where separated, penetration where overlapping. */
+PIR_API pir_status pir_query_signed_distance(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
+                                             pir_query_result *ret_result);
+
+/** One way out of an overlap. */
+typedef struct pir_escape {
+    double depth;
+    pir_vec3 normal;
+    pir_witness witness;
+} pir_escape;
+
+/**
+ * Every facet of the difference through which P leaves by at most the depth plus `slack` (≥ 0), in the order of the tie rule: up to
+ * `capacity` go to `ret_escapes`, *ret_count is how many there are. None unless the bodies overlap.
+ */
+PIR_API pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, double slack, size_t capacity,
+                                     pir_escape *ret_escapes, size_t *ret_count);
+
+/**
+ * How far P moves along `direction` (any length but zero) until the overlap ends: the directional penetration depth, in units of length.
+ * result.distance is minus that; result.normal is the facet's, and point_p = point_q there is P's contact at the exit.
+ * PIR_NO_HIT when the bodies do not overlap.
+ */
+PIR_API pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *input, pir_vec3 direction,
+                                               pir_query_result *ret_result);
+
+/** How far P moves along `direction` until it touches Q; 0 where it touches or overlaps already, PIR_NO_HIT when it never does. */
+PIR_API pir_status pir_query_directional_distance(pir_query *query, const pir_query_input *input, pir_vec3 direction,
+                                                  pir_query_result *ret_result);
+
+typedef enum pir_cast_outcome {
+    PIR_CAST_HIT = 0,      /**< touches at `time` in [0, 1] */
+    PIR_CAST_MISS,         /**< never within the motion */
+    PIR_CAST_RECEDING,     /**< touches at the start and moves apart, or along: time 0, nothing to stop */
+    PIR_CAST_START_INSIDE, /**< overlaps at the start: time 0, normal of the least penetration */
+    PIR_CAST_AT_REST,      /**< motion zero and no contact */
+    PIR_CAST_STEP_LIMIT,   /**< not within tolerance after the bound on steps; `time` is safe: no contact before it */
+} pir_cast_outcome;
+
+typedef struct pir_cast_result {
+    pir_cast_outcome outcome;
+    double time;     /**< fraction of the motion, 0 to 1; 1 on a miss */
+    pir_vec3 normal; /**< at contact, unit, from Q to P */
+    pir_vec3 point;  /**< of contact; on a miss not set */
+    pir_witness witness;
+    uint32_t steps;
+} pir_cast_result;
+
+/** Linear cast: P moves from input->translation by `motion`. */
+PIR_API pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 motion,
+                                  pir_cast_result *ret_result);
+
+/** A screw-free motion over time 0 to 1: translation from `start` by `motion`, while P turns about its origin by `angle` radians about `axis`. */
+typedef struct pir_motion {
+    pir_quat rotation; /**< at time 0 */
+    pir_vec3 start, motion;
+    pir_vec3 axis; /**< in the frame of Q, any length but zero unless angle is 0 */
+    double angle;
+} pir_motion;
+
+/**
+ * Conservative advancement (Mirtich, 1996): the time of first contact, safe and within `tolerance` (> 0, a length): at `time` the bodies
+ * are apart by at most it. Rotates the sum, which is left at the last rotation looked at. At most 256 distance queries.
+ */
+PIR_API pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double tolerance,
+                                     pir_cast_result *ret_result);
+
+/** The largest distance between a point of P and a point of Q, attained by vertices: normal, points and witness as in a separation. O(size of the sum). */
+PIR_API pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *input,
+                                              pir_query_result *ret_result);
+
+/** A point of a contact manifold. */
+typedef struct pir_contact {
+    pir_vec3 point_p, point_q;
+    double distance; /**< along the manifold's normal; negative where P is in Q */
+    uint64_t id;     /**< of the features that meet here; the same from frame to frame while they do */
+} pir_contact;
+
+/**
+ * The contact manifold of an answer of pir_query_signed_distance at the same pose: where a facet carries the answer, the other body's
+ * facet that faces it, clipped to it; a segment where an edge meets a facet or a parallel edge; else a point. Up to `capacity` contacts go
+ * to `ret_contacts`; PIR_ERR_LIMIT when there are more. They are counter-clockwise about the normal.
+ */
+PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
+                                      size_t capacity, pir_contact *ret_contacts, size_t *ret_count);
+
+/* --- many translations at one rotation --- */
+
+/** The exact state of each of `count` translations. */
+PIR_API pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations, size_t count,
+                                          pir_state *ret_states);
+
+/** The penetration depth of each, 0 unless PIR_INSIDE; ret_states may be NULL. */
+PIR_API pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *translations, size_t count,
+                                          double *ret_depths, pir_state *ret_states);
+
+/** The signed distance of each. */
+PIR_API pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *translations, size_t count,
+                                             double *ret_distances, pir_state *ret_states);
+
+/* --- without a sum --- */
+
+/** A pair to ask by support functions alone. */
+typedef struct pir_pair {
+    const pir_polytope *p, *q;
+    pir_quat rotation;
+    pir_vec3 translation;
+} pir_pair;
+
+typedef enum pir_pair_outcome {
+    PIR_PAIR_SEPARATED = 0,
+    PIR_PAIR_OVERLAPPING, /**< overlap, or too close to tell: the arithmetic is not exact here */
+    PIR_PAIR_FAILED,      /**< the engine gave no usable answer */
+} pir_pair_outcome;
+
+/** Overlap by libccd's MPR on supports of ours, scale-normalised; not exact. PIR_ERR_UNSUPPORTED in a build without libccd. */
+PIR_API pir_status pir_pair_overlap(const pir_pair *pair, pir_pair_outcome *ret_outcome);
+
+/** Distance likewise, by descent on libccd's distances to segments and triangles. *ret_distance is 0 unless separated; within 1e-9 of the size. */
+PIR_API pir_status pir_pair_distance(const pir_pair *pair, pir_pair_outcome *ret_outcome, double *ret_distance);
+
+/** A polytope in a pose, for libccd and engines like it. Plain; the polytope is borrowed. */
+typedef struct pir_support_body {
+    const pir_polytope *polytope;
+    pir_quat rotation;
+    pir_vec3 translation;
+    uint32_t last; /**< where the last climb ended: where the next one starts */
+} pir_support_body;
+
+/**
+ * Support functions of the form of ccd_support_fn of a double-precision libccd: `object` is a pir_support_body, or a pir_sum; `direction` and `ret_point`
+ * point to three doubles. O(√n) steps where the last climb is no help.
+ */
+PIR_API void pir_support_body_ccd(const void *object, const double *direction, double *ret_point);
+PIR_API void pir_support_sum_ccd(const void *object, const double *direction, double *ret_point);
+
+/**
+ * From measured costs in one unit: per rotation of the tracked sum (its update and the preparation of queries), per query on it, and per
+ * query of the stateless alternative. The least number of queries per rotation at which the sum pays; HUGE_VAL when it never does,
+ * NaN when a cost is negative or not a number.
+ */
+PIR_API double pir_query_break_even(double cost_rotation, double cost_query, double cost_stateless);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

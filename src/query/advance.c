@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996): from a separation d with normal n,
+ * no contact can come before the time that P, at its greatest speed against n, takes to cover d. Moving on by that time again and again
+ * comes as near to contact as asked, from the safe side.
+ */
+#include "query/query.h"
+
+#define MOST_QUERIES 256
+
+/* The rotation and translation at a time. */
+static pir_quat rotation_at(const pir_motion *motion, pir_vec3 unit_axis, double time) {
+    double half = 0.5 * motion->angle * time, s = sin(half), w = cos(half);
+    pir_quat r = motion->rotation;
+    pir_vec3 a = pir_vec_scale(unit_axis, s), v = {r.x, r.y, r.z};
+    pir_vec3 c = pir_vec_cross(a, v);
+    return (pir_quat){w * v.x + r.w * a.x + c.x, w * v.y + r.w * a.y + c.y, w * v.z + r.w * a.z + c.z,
+                      w * r.w - pir_vec_dot(a, v)};
+}
+
+/* How far P reaches from the origin that it turns about. */
+static double reach_of(const pir_polytope *p) {
+    double most = 0;
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        most = fmax(most, pir_vec_dot(p->vertex[v], p->vertex[v]));
+    return sqrt(most) * (1 + 0x1p-48);
+}
+
+static pir_status check(pir_query *query, const pir_motion *motion, double tolerance, const void *ret) {
+    if (!query || !motion || !ret)
+        return PIR_ERR_ARGUMENT;
+    if (!pir_vec_is_finite(motion->start) || !pir_vec_is_finite(motion->motion) || !pir_vec_is_finite(motion->axis) ||
+        !isfinite(motion->angle) || !isfinite(tolerance))
+        return PIR_ERR_NOT_FINITE;
+    bool turns = motion->angle != 0, has_axis = pir_vec_dot(motion->axis, motion->axis) > 0;
+    return tolerance > 0 && (has_axis || !turns) ? PIR_OK : PIR_ERR_ARGUMENT;
+}
+
+static void set_outcome(pir_cast_result *result, const pir_query_result *at, double time, pir_cast_outcome outcome) {
+    result->outcome = outcome;
+    result->time = time;
+    result->normal = at->normal;
+    result->point = at->point_q;
+    result->witness = at->witness;
+}
+
+pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double tolerance,
+                             pir_cast_result *ret_result) {
+    pir_status status = check(query, motion, tolerance, ret_result);
+    if (status != PIR_OK)
+        return status;
+    double square = pir_vec_dot(motion->axis, motion->axis);
+    pir_vec3 axis = square > 0 ? pir_vec_scale(motion->axis, 1 / sqrt(square)) : motion->axis;
+    double turning = fabs(motion->angle) * reach_of(query->p), time = 0;
+    pir_cast_result result = {.outcome = PIR_CAST_STEP_LIMIT};
+    pir_query_cache cache = {0};
+    for (int i = 0; i < MOST_QUERIES; i++) {
+        pir_query_input input = pir_query_input_default();
+        pir_query_result at;
+        input.translation = pir_vec_add(motion->start, pir_vec_scale(motion->motion, time));
+        status = pir_sum_rotate(query->sum, rotation_at(motion, axis, time), PIR_METHOD_AUTO);
+        if (status == PIR_OK)
+            status = pir_query_signed_distance(query, &input, &cache, &at);
+        if (status != PIR_OK)
+            return status;
+        result.steps += at.steps;
+        double speed = turning - pir_vec_dot(at.normal, motion->motion);
+        if (i == 0 && at.state == PIR_INSIDE) {
+            set_outcome(&result, &at, 0, PIR_CAST_START_INSIDE);
+            break;
+        }
+        if (i == 0 && at.state == PIR_BOUNDARY && speed <= 0) {
+            set_outcome(&result, &at, 0, PIR_CAST_RECEDING);
+            break;
+        }
+        if (at.distance <= tolerance) {
+            set_outcome(&result, &at, time, PIR_CAST_HIT);
+            break;
+        }
+        set_outcome(&result, &at, time, PIR_CAST_STEP_LIMIT);
+        if (turning == 0 && pir_vec_dot(motion->motion, motion->motion) == 0) {
+            set_outcome(&result, &at, 1, PIR_CAST_AT_REST);
+            break;
+        }
+        // as far as half the tolerance, so that it gets there in a few steps; past the end there is no contact within the motion
+        double next = speed > 0 ? time + (at.distance - 0.5 * tolerance) / speed : HUGE_VAL;
+        if (next > 1) {
+            set_outcome(&result, &at, 1, PIR_CAST_MISS);
+            break;
+        }
+        time = next;
+    }
+    *ret_result = result;
+    return PIR_OK;
+}

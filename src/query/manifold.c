@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Contact manifolds: the part of one body's facet that lies over the other's, by clipping polygons (Sutherland and Hodgman, 1974).
+ *
+ * The reference facet is the one whose normal is along the answer's normal, of Q or of P, whichever is more so; the incident facet is that of
+ * the other body most against it. The incident polygon is clipped by the reference facet's sides, and its corners are the contacts. An answer
+ * that no facet carries is one of edges: two parallel edges make a segment, the rest a point.
+ */
+#include "query/query.h"
+
+/* A facet carries an answer when its normal is this close to it: the sine of the angle between. */
+#define CARRIES 0x1p-20
+
+/* One body as it stands: vertices in the frame, turned where it is P. Signs turn the reflected P back. */
+struct body {
+    const pir_polytope *polytope;
+    const pir_vec3 *vertex;
+    const pir_mat3 *r; /* NULL for Q */
+    double sign;
+    pir_vec3 at;
+};
+
+static pir_vec3 place(const struct body *body, uint32_t v) {
+    pir_vec3 x = body->vertex[v];
+    if (body->r)
+        x = pir_mat_apply(body->r, x);
+    return pir_vec_add(pir_vec_scale(x, body->sign), body->at);
+}
+
+static pir_vec3 normal_of(const struct body *body, uint32_t f) {
+    pir_vec3 n = body->polytope->normal[f];
+    if (body->r)
+        n = pir_mat_apply(body->r, n);
+    return pir_vec_scale(n, body->sign);
+}
+
+/* The facet whose normal is most along n. */
+static uint32_t facet_along(const struct body *body, pir_vec3 n, double *ret_cosine) {
+    uint32_t best = 0;
+    double most = -2;
+    for (uint32_t f = 0; f < body->polytope->facet_count; f++) {
+        double c = pir_vec_dot(normal_of(body, f), n);
+        if (c > most)
+            most = c, best = f;
+    }
+    *ret_cosine = most;
+    return best;
+}
+
+/* Corner i of facet f, in the order of a facet that is counter-clockwise from outside: the reflected P's are listed the other way. */
+static uint32_t corner(const struct body *body, uint32_t f, uint32_t i) {
+    const pir_polytope *p = body->polytope;
+    uint32_t n = p->loop_start[f + 1] - p->loop_start[f];
+    return p->origin[p->loop[p->loop_start[f] + (body->sign < 0 ? n - 1 - i : i)]];
+}
+
+struct polygon {
+    pir_vec3 *at;
+    uint64_t *id;
+    uint32_t count;
+};
+
+/* Keeps what is on the inner side, m·y ≤ limit, of a side with number `side` of the reference facet. */
+static void clip_side(const struct polygon *from, pir_vec3 m, double limit, uint32_t side, struct polygon *to,
+                      uint32_t capacity) {
+    to->count = 0;
+    for (uint32_t i = 0; i < from->count; i++) {
+        uint32_t j = i + 1 < from->count ? i + 1 : 0;
+        double a = pir_vec_dot(m, from->at[i]) - limit, b = pir_vec_dot(m, from->at[j]) - limit;
+        if (a <= 0 && to->count < capacity) {
+            to->at[to->count] = from->at[i];
+            to->id[to->count++] = from->id[i];
+        }
+        if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
+            pir_vec3 along = pir_vec_sub(from->at[j], from->at[i]);
+            if (to->count < capacity) {
+                to->at[to->count] = pir_vec_add(from->at[i], pir_vec_scale(along, a / (a - b)));
+                // which side cut which corner's edge
+                to->id[to->count++] = (uint64_t)(side + 1) << 32 | (uint32_t)(b > 0 ? from->id[i] : from->id[j]);
+            }
+        }
+    }
+}
+
+/* The incident facet, clipped by the sides of the reference facet. */
+static struct polygon clip_facets(pir_query *query, const struct body *reference, uint32_t f,
+                                  const struct body *incident, uint32_t g) {
+    struct polygon now = {query->polygon[0], query->polygon_id[0], 0},
+                   next = {query->polygon[1], query->polygon_id[1], 0};
+    const pir_polytope *p = reference->polytope, *q = incident->polytope;
+    uint32_t sides = p->loop_start[f + 1] - p->loop_start[f];
+    now.count = q->loop_start[g + 1] - q->loop_start[g];
+    for (uint32_t i = 0; i < now.count; i++) {
+        uint32_t v =
+            corner(incident, g, now.count - 1 - i); // turned over: counter-clockwise about the reference's normal
+        now.at[i] = place(incident, v);
+        now.id[i] = v;
+    }
+    pir_vec3 n = normal_of(reference, f);
+    for (uint32_t i = 0; i < sides; i++) {
+        uint32_t v = corner(reference, f, i), w = corner(reference, f, i + 1 < sides ? i + 1 : 0);
+        pir_vec3 from = place(reference, v), m = pir_vec_cross(pir_vec_sub(place(reference, w), from), n);
+        clip_side(&now, m, pir_vec_dot(m, from), v, &next, query->polygon_capacity);
+        struct polygon swap = now;
+        now = next;
+        next = swap;
+    }
+    return now;
+}
+
+/* A contact between y, a point of the incident body, and the reference facet's plane, `distance` below it against `out`. */
+static pir_contact make_contact(const pir_query *query, pir_vec3 y, uint64_t id, pir_vec3 out, double distance,
+                                bool by_q) {
+    pir_contact contact = {.distance = pir_frame_length(query, distance), .id = id | (uint64_t)by_q << 63};
+    pir_vec3 there = pir_frame_world(query, pir_vec_sub(y, pir_vec_scale(out, distance)));
+    contact.point_p = by_q ? pir_frame_world(query, y) : there;
+    contact.point_q = by_q ? there : pir_frame_world(query, y);
+    return contact;
+}
+
+/* The answer's own points, as one contact. */
+static pir_status single(const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
+                         size_t *ret_count) {
+    *ret_count = 1;
+    if (capacity < 1)
+        return PIR_ERR_LIMIT;
+    uint64_t p = (uint64_t)answer->witness.p.kind << 30 | answer->witness.p.index;
+    uint64_t q = (uint64_t)answer->witness.q.kind << 30 | answer->witness.q.index;
+    ret_contacts[0] = (pir_contact){answer->point_p, answer->point_q, answer->distance, p << 32 | q};
+    return PIR_OK;
+}
+
+pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
+                              size_t capacity, pir_contact *ret_contacts, size_t *ret_count) {
+    pir_placement placement;
+    if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_query_begin(query, input, &placement);
+    if (status != PIR_OK)
+        return status;
+    // Q about its middle; P, reflected back, at x: its own normals are minus those that the sum holds
+    struct body of_p = {query->p, query->vp, &query->r, -1, placement.x},
+                of_q = {query->q, query->vq, NULL, 1, {0, 0, 0}};
+    pir_vec3 n = answer->normal, minus = pir_vec_scale(n, -1);
+    double along_q = -2, along_p = -2;
+    uint32_t g = 0, f = 0;
+    if (query->q->dimension >= 2)
+        g = facet_along(&of_q, n, &along_q);
+    if (query->p->dimension >= 2)
+        f = facet_along(&of_p, minus, &along_p);
+    bool by_q = along_q >= along_p;
+    double most = by_q ? along_q : along_p;
+    if (most < 0 || 1 - most > CARRIES * CARRIES || along_p < -1 || along_q < -1)
+        return single(answer, capacity, ret_contacts, ret_count);
+    const struct body *reference = by_q ? &of_q : &of_p, *incident = by_q ? &of_p : &of_q;
+    struct polygon polygon = clip_facets(query, reference, by_q ? g : f, incident, by_q ? f : g);
+    // contacts are the corners behind the reference plane, or as near to it as the bodies are to each other
+    uint32_t anchor = corner(reference, by_q ? g : f, 0), count = 0;
+    pir_vec3 out = normal_of(reference, by_q ? g : f);
+    double level = pir_vec_dot(out, place(reference, anchor)),
+           hair = placement.error + pir_frame_from(query, fmax(answer->distance, 0)) * (1 + 0x1p-30);
+    for (uint32_t i = 0; i < polygon.count; i++) {
+        double distance = pir_vec_dot(out, polygon.at[i]) - level;
+        if (distance > hair)
+            continue;
+        if (count < capacity)
+            ret_contacts[count] = make_contact(query, polygon.at[i], polygon.id[i], out, distance, by_q);
+        count++;
+    }
+    if (count == 0)
+        return single(answer, capacity, ret_contacts, ret_count);
+    *ret_count = count;
+    return count <= capacity ? PIR_OK : PIR_ERR_LIMIT;
+}

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The inside of a query object.
+ *
+ * Numbers are worked out in a frame of their own. Each operand is moved so that the middle of its bounding box is the origin, and
+ * scaled by one power of two, so that sizes are near 1; the difference of the two is D. A translation t becomes the point x of that frame, worked
+ * out in double-double, so neither a far origin nor a small scale costs digits. The slack of a facet of D with unit normal n and
+ * offset h is s = h − n·x: all slacks positive is inside, one negative is outside, and the least of all is the depth.
+ *
+ * Facets of D are the pieces of the sum's pairing. They are kept in groups that turn together: some facets of P with the edges between
+ * them and what crosses those, or some facets of Q. A group's planes are made when they are first needed at a rotation. Between
+ * rotations a group keeps a lower bound on its slacks that each turn and each move lowers by as much as it may change them (planes.c), so a
+ * query looks at few groups: those that could hold the least slack.
+ *
+ * Exactness: a slack is known within err · PIR_SLACK_BOUND · (size of bodies + |x|); what that leaves open, side.c decides in integers.
+ */
+#ifndef PIR_QUERY_QUERY_H
+#define PIR_QUERY_QUERY_H
+
+#include <pirouette/query.h>
+
+#include "dymsum/sum.h"
+#include "query/dd.h"
+#include "query/scan.h"
+
+/*
+ * With u = 2^-53 and sizes r_P, r_Q: a rotated unit normal is off by 42u (exact/sign.h), which moves n·(q − x) by 42u (r_Q + |x|);
+ * P's own offset n·p is off by 14u r_P (vertices 3u, normal 8u, dot product 3u); q, x and the last operations add
+ * less than 12u (r_P + r_Q + |x|). Together below 68u; 2^-46 = 128u. An edge pair's normal is a cross product of unit vectors off by 8u
+ * and 42u, so it is off by less than 64u / sin of their angle, and err is 1 / sin there.
+ */
+#define PIR_SLACK_BOUND 0x1p-46
+
+/* Depths closer than this, relative to r_P + r_Q, tie. */
+#define PIR_TIE 0x1p-40
+
+/* Edge pairs with a smaller |sin| get their normal from exact integers before they decide an answer, and at once below the second. */
+#define PIR_SIN_REFINED 0x1p-5
+#define PIR_SIN_EXACT   0x1p-40
+
+/* A facet of D: PIR_FACET_FV (first: facet of P), VF (second: facet of Q), EE (first: edge of P, second: halfedge of Q). */
+typedef struct pir_piece {
+    uint32_t kind, first, second;
+} pir_piece;
+
+/* Parallel arrays of planes. */
+typedef struct pir_planes {
+    pir_lanes n; /* unit normals */
+    double *h, *err;
+    pir_piece *piece;
+    uint32_t capacity, used;
+} pir_planes;
+
+typedef struct pir_group {
+    /* what it is made of: parts of query->facet_list and edge_list; facets past own_end are neighbours, there for its bound only */
+    bool of_q;
+    uint32_t facets, own_end, facets_end, edges, edges_end;
+    /* its planes, where stamp is the query's, padded to whole blocks by planes that never matter */
+    uint64_t stamp;
+    uint32_t start, count;
+} pir_group;
+
+struct pir_query {
+    pir_allocator allocator;
+    pir_sum *sum;
+    const pir_polytope *p, *q;  /* p is reflected, as the sum holds it */
+    int exponent;               /* one unit of the frame is 2^exponent */
+    double up, down;            /* 2^exponent and 2^-exponent, or 0 where either is no normal number */
+    pir_vec3 *vp, *vq;          /* vertices in the frame */
+    double *hp, *hq;            /* per facet, normal · vertex */
+    double size_p, size_q;      /* the farthest vertices */
+    double swing_p, swing_q;    /* how fast supports change as directions turn: see planes.c */
+    pir_dd3 centre_p, centre_q; /* in units of the frame */
+
+    /* the rotation that all below is for */
+    bool followed;
+    pir_quat at, unit;
+    pir_mat3 r;
+    pir_dd3 r_fine[3]; /* rows, where has_fine */
+    bool has_fine;
+    pir_dd3 offset; /* x = translation / 2^exponent − offset */
+    uint64_t stamp;
+    double turn; /* an upper bound on all turning */
+
+    pir_group *groups;
+    uint32_t group_count, groups_of_p;
+    uint32_t *facet_list, *edge_list;
+    uint32_t facet_list_count, edge_list_count;
+    double *slack; /* per group: what a search for the state knows, HUGE_VAL where it did not look */
+
+    /* per group: slacks were at least bound[g], at point where[g] and turn when[g]; an angle a may lower them by
+       a · (lever[g] + a · bend[g]) */
+    double *bound, *when, *lever, *bend, *low; /* low: the bounds for the placement in hand */
+    pir_lanes where;
+    /* per group, once all are made at a rotation, which boxed then is the stamp of: the box around its normals, its least offset */
+    pir_lanes box_least, box_most;
+    double *box_offset;
+    uint64_t boxed;
+    uint32_t *looked; /* the groups that a search for the least slack looked at */
+    uint32_t looked_count;
+
+    /* what planes are made from, in the order of the lists: facets' normals and offsets, edges' directions and origins, as bodies have them */
+    pir_lanes facet_normal, edge_direction, edge_origin;
+    double *facet_offset;
+    /* work space: edges turned; of the group being made, the vectors of its planes */
+    pir_lanes turned_direction, turned_origin, work[3];
+    uint32_t work_capacity;
+    const pir_scan *scan;
+    pir_planes planes;
+
+    pir_limbs scratch; /* of exact signs */
+    pir_vec3 beyond;   /* a unit normal that separates, where side.c found a flat difference beside t */
+    pir_vec3 *polygon[2];
+    uint64_t *polygon_id[2];
+    uint32_t polygon_capacity;
+};
+
+/* A placement brought into the frame. */
+typedef struct pir_placement {
+    pir_vec3 translation;
+    pir_vec3 x;
+    pir_dd3 fine; /* x with 106 bits */
+    double reach; /* size_p + size_q + |x| */
+    double error; /* PIR_SLACK_BOUND · reach */
+} pir_placement;
+
+/* --- frame.c --- */
+
+/* Fills what does not depend on the rotation but the groups; PIR_ERR_MEMORY, PIR_ERR_LIMIT. */
+pir_status pir_frame_init(pir_query *query);
+
+/* Takes note of the sum's rotation. */
+void pir_frame_follow(pir_query *query);
+void pir_frame_make_fine(pir_query *query);
+
+/* Checks and converts a translation: PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT. */
+pir_status pir_frame_place(pir_query *query, pir_vec3 translation, pir_placement *ret_placement);
+
+/* A point of the frame in world coordinates: that of Q's body, y given relative to Q's centre. */
+pir_vec3 pir_frame_world(const pir_query *query, pir_vec3 y);
+
+static inline double pir_frame_length(const pir_query *query, double length) {
+    return query->up != 0 ? length * query->up : ldexp(length, query->exponent);
+}
+
+static inline double pir_frame_from(const pir_query *query, double length) {
+    return query->up != 0 ? length * query->down : ldexp(length, -query->exponent);
+}
+
+/* Vertex (a, b) of D. */
+static inline pir_vec3 pir_frame_vertex(const pir_query *query, uint32_t a, uint32_t b) {
+    return pir_vec_add(pir_mat_apply(&query->r, query->vp[a]), query->vq[b]);
+}
+
+/* --- planes.c --- */
+
+pir_status pir_planes_init(pir_query *query);
+void pir_planes_finish(pir_query *query);
+
+/* Room for the planes of the sum's present pairing; PIR_ERR_MEMORY. */
+pir_status pir_planes_reserve(pir_query *query);
+
+/* The plane of one piece into slot `slot`; false when its edges are parallel and it is none. */
+bool pir_plane_make(pir_query *query, pir_piece piece, uint32_t slot);
+
+/* The plane of slot `slot` from exact integers; false when its edges are parallel. */
+bool pir_plane_refine(pir_query *query, uint32_t slot);
+
+/* Makes the planes of group `g` unless they are there. */
+void pir_group_make(pir_query *query, uint32_t g);
+
+/* query->low[g]: no slack of group g at x is below it. */
+void pir_groups_bound(pir_query *query, const pir_placement *placement);
+
+/* Makes every group, and the boxes that many placements at one rotation are told apart by. */
+void pir_groups_make_all(pir_query *query);
+
+/* Looks at every plane of group `g`: the least s − error and the least s + error; keeps the first as its bound. */
+void pir_group_look(pir_query *query, uint32_t g, const pir_placement *placement, double *ret_low, double *ret_high);
+
+static inline double pir_plane_slack(const pir_planes *planes, uint32_t i, pir_vec3 x) {
+    return planes->h[i] - (planes->n.x[i] * x.x + planes->n.y[i] * x.y + planes->n.z[i] * x.z);
+}
+
+/* The piece kept in a cache, if it still is one: made into the spare slot, the last. */
+static inline pir_vec3 pir_plane_normal(const pir_planes *planes, uint32_t i) {
+    return (pir_vec3){planes->n.x[i], planes->n.y[i], planes->n.z[i]};
+}
+
+bool pir_piece_recall(pir_query *query, const pir_query_cache *cache, uint32_t *ret_slot);
+void pir_piece_keep(pir_query_cache *cache, pir_piece piece);
+
+/* --- side.c --- */
+
+/* The exact sign of the slack of a piece at a translation. The piece's edges must not be parallel. */
+int pir_side_exact(pir_query *query, pir_piece piece, pir_vec3 translation);
+
+/* For flat operands: whether t, on the planes of all pieces or inside, is in the difference at all; if not, query->beyond separates. */
+bool pir_side_in_flat(pir_query *query, pir_vec3 translation);
+
+/* The exact unit normal of an edge pair; false when parallel. */
+bool pir_side_normal(pir_query *query, pir_piece piece, pir_vec3 *ret_normal);
+
+/* Limbs that the calls above need. */
+uint32_t pir_side_limbs(const pir_query *query);
+
+/* --- state.c --- */
+
+/*
+ * The exact state. *ret_slot is the slot of a plane that shows it: one that separates when outside, that touches on the boundary (UINT32_MAX
+ * when no plane does); unchanged when inside.
+ */
+pir_state pir_state_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
+                         uint32_t *ret_slot, uint32_t *steps);
+
+/* --- depth.c --- */
+
+/* The slot of the piece of least slack, ties settled, and the slack. PIR_NO_PLANE where there is none. */
+#define PIR_NO_PLANE UINT32_MAX
+
+/* The group whose bound, as pir_groups_bound left it, is least. */
+uint32_t pir_group_likely(const pir_query *query);
+
+uint32_t pir_depth_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
+                        double *ret_slack, uint32_t *steps);
+
+/* --- descent.c --- */
+
+/* The bounds meet when they are this close, relative to the placement's reach; 2^-46 is what rounding leaves. */
+#define PIR_MEET 0x1p-44
+
+/* A descent finds a new vertex in every step, in practice four to ten in all; this ends what rounding might turn in a circle. */
+#define PIR_MOST_STEPS 128
+
+/* Up to three vertices of D whose hull holds the point nearest to x, and its weights. */
+typedef struct pir_simplex {
+    uint32_t count;
+    uint32_t a[4], b[4];
+    double weight[4];
+    pir_vec3 direction;  /* unit, from D to x */
+    double upper, lower; /* bounds on the distance */
+    bool certain;        /* the bounds met */
+    bool parts;          /* fine.c: no vertex is beyond x along `direction`, but for rounding */
+} pir_simplex;
+
+/* Descends from `simplex` (count 0: cold) until the bounds meet, the lower passes `cutoff`, or no step helps. */
+void pir_descend_to_point(pir_query *query, const pir_placement *placement, double cutoff, pir_simplex *simplex,
+                          uint32_t *steps);
+
+/* A first vertex when there is none: that towards x. */
+void pir_simplex_start(const pir_query *query, const pir_placement *placement, pir_simplex *simplex);
+bool pir_simplex_holds(const pir_simplex *simplex, uint32_t a, uint32_t b);
+
+/* --- fine.c --- */
+
+/* The same in double-double, where x is near D but not in its inside. */
+void pir_descend_finely(pir_query *query, const pir_placement *placement, pir_simplex *simplex, uint32_t *steps);
+
+/* The vertex of a polytope farthest along unit n, from `from` uphill. */
+uint32_t pir_climb(const pir_polytope *polytope, pir_vec3 n, uint32_t from);
+
+/* --- witness.c --- */
+
+/* The least face of `polytope` that holds the given vertices; the first vertex where no face holds all. */
+pir_feature pir_feature_of(const pir_polytope *polytope, const uint32_t *vertices, uint32_t count);
+
+/* The features of a piece. */
+pir_witness pir_witness_of_piece(const pir_query *query, pir_piece piece);
+
+/* Where x, moved by its slack along the normal of slot `slot`, meets the piece: the point of Q, in world coordinates. */
+pir_vec3 pir_witness_point(const pir_query *query, const pir_placement *placement, uint32_t slot, double slack);
+
+/* --- query.c --- */
+
+/* What every call begins with: checks, the rotation, the placement. */
+pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
+
+#endif

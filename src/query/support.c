@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Supports by hill climbing in the form that libccd calls, and what a tracked sum must be asked to pay.
+ */
+#include "query/query.h"
+
+/* The matrix of a quaternion by doubles. */
+static pir_mat3 matrix_of(pir_quat q) {
+    double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, s = n > 0 ? 2 / n : 0;
+    return (pir_mat3){{{1 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y - q.w * q.z), s * (q.x * q.z + q.w * q.y)},
+                       {s * (q.x * q.y + q.w * q.z), 1 - s * (q.x * q.x + q.z * q.z), s * (q.y * q.z - q.w * q.x)},
+                       {s * (q.x * q.z - q.w * q.y), s * (q.y * q.z + q.w * q.x), 1 - s * (q.x * q.x + q.y * q.y)}}};
+}
+
+/* `direction` as a unit vector; any will do where it is none. */
+static pir_vec3 unit_direction(const double *direction) {
+    double most = fmax(fabs(direction[0]), fmax(fabs(direction[1]), fabs(direction[2])));
+    if (!(most > 0 && most < HUGE_VAL))
+        return (pir_vec3){1, 0, 0};
+    pir_vec3 d = {direction[0] / most, direction[1] / most, direction[2] / most};
+    return pir_vec_scale(d, 1 / sqrt(pir_vec_dot(d, d)));
+}
+
+static void put_point(pir_vec3 p, double *ret_point) {
+    ret_point[0] = p.x;
+    ret_point[1] = p.y;
+    ret_point[2] = p.z;
+}
+
+void pir_support_body_ccd(const void *object, const double *direction, double *ret_point) {
+    // libccd's form says const; the last vertex is a hint that the caller owns
+    pir_support_body *body = (pir_support_body *)object;
+    const pir_polytope *p = body->polytope;
+    pir_mat3 r = matrix_of(body->rotation);
+    pir_vec3 d = pir_mat_apply_transposed(&r, unit_direction(direction));
+    body->last = pir_climb(p, d, body->last < p->vertex_count ? body->last : 0);
+    put_point(pir_vec_add(pir_mat_apply(&r, p->vertex[body->last]), body->translation), ret_point);
+}
+
+void pir_support_sum_ccd(const void *object, const double *direction, double *ret_point) {
+    const pir_sum *sum = object;
+    const pir_mat3 *r = &sum->signs.rotation.r;
+    pir_vec3 d = unit_direction(direction);
+    uint32_t a = pir_climb(sum->p, pir_mat_apply_transposed(r, d), 0), b = pir_climb(sum->q, d, 0);
+    put_point(pir_vec_add(pir_mat_apply(r, sum->p->vertex[a]), sum->q->vertex[b]), ret_point);
+}
+
+double pir_query_break_even(double cost_rotation, double cost_query, double cost_stateless) {
+    if (!(cost_rotation >= 0 && cost_query >= 0 && cost_stateless >= 0))
+        return NAN;
+    // n · stateless ≥ rotation + n · query
+    double saved = cost_stateless - cost_query;
+    if (cost_rotation == 0 && saved >= 0)
+        return 0;
+    return saved > 0 ? ceil(cost_rotation / saved) : HUGE_VAL;
+}

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+/* Which features and which points attain an answer. */
+#include "query/query.h"
+
+static bool facet_has(const pir_polytope *p, uint32_t f, uint32_t v) {
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+        if (p->origin[p->loop[i]] == v)
+            return true;
+    return false;
+}
+
+/* A segment's second edge and its facets are hidden: they all are its one edge. */
+static pir_feature shown(const pir_polytope *p, pir_feature feature) {
+    if (p->artificial && feature.kind != PIR_FEATURE_VERTEX)
+        return (pir_feature){PIR_FEATURE_EDGE, 0};
+    return feature;
+}
+
+pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint32_t count) {
+    // distinct ones
+    uint32_t v[4] = {vertices[0]}, n = 1;
+    for (uint32_t i = 1; i < count; i++) {
+        bool is_new = true;
+        for (uint32_t k = 0; k < n; k++)
+            is_new &= v[k] != vertices[i];
+        if (is_new)
+            v[n++] = vertices[i];
+    }
+    if (n == 1)
+        return (pir_feature){PIR_FEATURE_VERTEX, v[0]};
+    if (n == 2)
+        for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++)
+            if (p->target[h] == v[1])
+                return shown(p, (pir_feature){PIR_FEATURE_EDGE, p->edge[h]});
+    for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++) {
+        bool all = true;
+        for (uint32_t k = 1; k < n; k++)
+            all = all && facet_has(p, p->left[h], v[k]);
+        if (all)
+            return shown(p, (pir_feature){PIR_FEATURE_FACET, p->left[h]});
+    }
+    // no one facet: rounding chose among nearly coplanar ones
+    return (pir_feature){PIR_FEATURE_VERTEX, v[0]};
+}
+
+pir_witness pir_witness_of_piece(const pir_query *query, pir_piece piece) {
+    const pir_polytope *p = query->p, *q = query->q;
+    switch (piece.kind) {
+    case PIR_FACET_FV:
+        return (pir_witness){shown(p, (pir_feature){PIR_FEATURE_FACET, piece.first}),
+                             {PIR_FEATURE_VERTEX, query->sum->fv[piece.first]}};
+    case PIR_FACET_VF:
+        return (pir_witness){{PIR_FEATURE_VERTEX, query->sum->vf[piece.second]},
+                             shown(q, (pir_feature){PIR_FEATURE_FACET, piece.second})};
+    default:
+        return (pir_witness){shown(p, (pir_feature){PIR_FEATURE_EDGE, piece.first}),
+                             shown(q, (pir_feature){PIR_FEATURE_EDGE, q->edge[piece.second]})};
+    }
+}
+
+pir_vec3 pir_witness_point(const pir_query *query, const pir_placement *placement, uint32_t slot, double slack) {
+    const pir_polytope *p = query->p, *q = query->q;
+    const pir_planes *planes = &query->planes;
+    pir_piece piece = planes->piece[slot];
+    pir_vec3 n = pir_plane_normal(planes, slot);
+    if (piece.kind == PIR_FACET_FV)
+        return pir_frame_world(query, query->vq[query->sum->fv[piece.first]]);
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(n, slack));
+    if (piece.kind == PIR_FACET_VF)
+        return pir_frame_world(query,
+                               pir_vec_sub(y, pir_mat_apply(&query->r, query->vp[query->sum->vf[piece.second]])));
+    // y = corner + λ e + μ d on the parallelogram
+    uint32_t half = p->edge_half[piece.first], h = piece.second;
+    pir_vec3 from = query->vq[q->origin[h]], d = pir_vec_sub(query->vq[q->target[h]], from);
+    pir_vec3 corner = pir_frame_vertex(query, p->origin[half], q->origin[h]);
+    pir_vec3 across = pir_vec_cross(pir_mat_apply(&query->r, p->direction[half]), n);
+    double whole = pir_vec_dot(d, across);
+    double part = whole != 0 ? pir_vec_dot(pir_vec_sub(y, corner), across) / whole : 0;
+    return pir_frame_world(query, pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part)))));
+}
