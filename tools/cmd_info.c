@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette info: what the exact convex hull of a model is. */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "args.h"
+#include "json.h"
+#include "message.h"
+#include "model.h"
+#include "text.h"
+
+static bool print_json(const char *model, const pir_polytope *polytope) {
+    pir_vec3 low, high;
+    pir_polytope_bounds(polytope, &low, &high);
+    struct json json = json_new();
+    json_add_text(&json, json.root, "model", model);
+    json_add_number(&json, json.root, "dimension", pir_polytope_dimension(polytope));
+    json_add_number(&json, json.root, "vertices", pir_polytope_vertex_count(polytope));
+    json_add_number(&json, json.root, "edges", pir_polytope_edge_count(polytope));
+    json_add_number(&json, json.root, "facets", pir_polytope_facet_count(polytope));
+    cJSON *bounds = json_add_object(&json, json.root, "bounds");
+    json_add_numbers(&json, bounds, "low", (const double[]){low.x, low.y, low.z}, 3);
+    json_add_numbers(&json, bounds, "high", (const double[]){high.x, high.y, high.z}, 3);
+    json_add_number(&json, json.root, "volume", pir_polytope_volume(polytope));
+    return json_print(&json, stdout);
+}
+
+static void print_range(const char *axis, double low, double high) {
+    char from[TEXT_NUMBER], to[TEXT_NUMBER];
+    text_double(low, from);
+    text_double(high, to);
+    printf("  %-10s %s to %s\n", axis, from, to);
+}
+
+static void print_text(const char *model, const pir_polytope *polytope) {
+    pir_vec3 low, high;
+    pir_polytope_bounds(polytope, &low, &high);
+    char volume[TEXT_NUMBER];
+    text_double(pir_polytope_volume(polytope), volume);
+    printf("%s\n", model);
+    printf("  %-10s %d\n", "dimension", pir_polytope_dimension(polytope));
+    printf("  %-10s %" PRIu32 "\n", "vertices", pir_polytope_vertex_count(polytope));
+    printf("  %-10s %" PRIu32 "\n", "edges", pir_polytope_edge_count(polytope));
+    printf("  %-10s %" PRIu32 "\n", "facets", pir_polytope_facet_count(polytope));
+    print_range("x", low.x, high.x);
+    print_range("y", low.y, high.y);
+    print_range("z", low.z, high.z);
+    printf("  %-10s %s\n", "volume", volume);
+}
+
+static int run(const struct args *args) {
+    const char *model = args->positional[0];
+    pir_polytope *polytope = model_load(model);
+    if (!polytope)
+        return EXIT_BAD_INPUT;
+    int result = EXIT_DONE;
+    if (!args_has(args, "--json"))
+        print_text(model, polytope);
+    else if (!print_json(model, polytope))
+        result = EXIT_BAD_INPUT;
+    pir_polytope_release(polytope);
+    return result;
+}
+
+static const struct option options[] = {COMMON_OPTIONS};
+
+const struct command cmd_info = {
+    .name = "info",
+    .positional = {"MODEL"},
+    .required = 1,
+    .summary = "vertices, edges, facets of a model's exact convex hull, its bounds and volume",
+    .options = options,
+    .run = run,
+};

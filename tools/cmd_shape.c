@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette shape: writes a built-in model, or lists all. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "args.h"
+#include "json.h"
+#include "message.h"
+#include "model.h"
+
+static int list_shapes(bool as_json) {
+    if (!as_json) {
+        for (size_t i = 0; i < pir_shape_count(); i++)
+            printf("%-32s %s\n", pir_shape_name(i), pir_shape_help(i));
+        return EXIT_DONE;
+    }
+    struct json json = json_new();
+    cJSON *list = json_add_array(&json, json.root, "shapes");
+    for (size_t i = 0; i < pir_shape_count(); i++) {
+        cJSON *shape = json_add_object(&json, list, NULL);
+        json_add_text(&json, shape, "name", pir_shape_name(i));
+        json_add_text(&json, shape, "help", pir_shape_help(i));
+    }
+    return json_print(&json, stdout) ? EXIT_DONE : EXIT_BAD_INPUT;
+}
+
+static bool print_written(const pir_polytope *polytope, const char *name, const char *file, bool as_json) {
+    uint32_t vertices = pir_polytope_vertex_count(polytope), facets = pir_polytope_facet_count(polytope);
+    if (!as_json) {
+        printf("%s: %" PRIu32 " vertices, %" PRIu32 " facets, written to %s\n", name, vertices, facets, file);
+        return true;
+    }
+    struct json json = json_new();
+    json_add_text(&json, json.root, "name", name);
+    json_add_number(&json, json.root, "vertices", vertices);
+    json_add_number(&json, json.root, "edges", pir_polytope_edge_count(polytope));
+    json_add_number(&json, json.root, "facets", facets);
+    json_add_text(&json, json.root, "file", file);
+    return json_print(&json, stdout);
+}
+
+static int write_shape(const struct args *args, const char *name) {
+    const char *file = args_value(args, "-o");
+    pir_polytope *polytope = NULL;
+    pir_mesh *mesh = NULL;
+    int result = EXIT_DONE;
+    pir_report report = {0};
+    pir_status status = pir_shape_create(name, NULL, &report, &polytope);
+    if (status == PIR_OK)
+        status = pir_mesh_from_polytope(polytope, &mesh);
+    if (status == PIR_OK)
+        status = pir_mesh_write(mesh, file, args_has(args, "--exact"), &report);
+    if (status != PIR_OK)
+        result = complain_status(name, status, &report);
+    else if (!print_written(polytope, name, file, args_has(args, "--json")))
+        result = EXIT_BAD_INPUT;
+    pir_mesh_destroy(mesh);
+    pir_polytope_release(polytope);
+    return result;
+}
+
+static int run(const struct args *args) {
+    const char *name = args->positional[0], *file = args_value(args, "-o");
+    if (!name && !file)
+        return list_shapes(args_has(args, "--json"));
+    if (args_has(args, "--list"))
+        return complain("shape: --list stands alone, without NAME and -o FILE");
+    if (!name)
+        return complain("shape: NAME is missing; pirouette shape --list shows all");
+    if (!file)
+        return complain("shape: %s: -o FILE is missing; it says where to write the model", name);
+    if (strncmp(name, MODEL_SHAPE, strlen(MODEL_SHAPE)) == 0)
+        name += strlen(MODEL_SHAPE);
+    return write_shape(args, name);
+}
+
+static const struct option options[] = {
+    {"-o", "FILE", "write the model to FILE: .off, .obj, .stl, .ply or .svg"},
+    {"--exact", NULL, "in .off: integers and a/b instead of doubles, which hold the same numbers"},
+    {"--list", NULL, "list the names and their parameters, as without arguments"},
+    COMMON_OPTIONS,
+};
+
+const struct command cmd_shape = {
+    .name = "shape",
+    .positional = {"NAME"},
+    .required = 0,
+    .summary = "write a built-in model to a file, or list all",
+    .details = "NAME may carry parameters, as in 'geodesic?level=4' or 'box?x=1&y=2&z=0.5'.",
+    .options = options,
+    .run = run,
+};

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette sum: the sum of two models at one rotation. */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "args.h"
+#include "json.h"
+#include "measure.h"
+#include "message.h"
+#include "model.h"
+#include "pose.h"
+#include "text.h"
+
+enum method { METHOD_WALK, METHOD_CGM, METHOD_HULL };
+static const char *const method_names[] = {"walk", "cgm", "hull", NULL};
+
+struct request {
+    pir_quat rotation;
+    pir_sum_options options;
+    pir_precision precision;
+    int method;
+};
+
+/* The pairing, by walk, and the mesh, by the method asked for; `seconds` is what that method took. */
+struct outcome {
+    pir_sum *sum;
+    pir_mesh *mesh;
+    double seconds;
+};
+
+static bool read_request(const struct args *args, struct request *request) {
+    *request = (struct request){.options = pir_sum_options_default(), .method = METHOD_WALK};
+    request->options.difference = args_has(args, "--difference");
+    request->precision = args_has(args, "--exact") ? PIR_EXACT : PIR_DOUBLE;
+    return pose_read(args, &request->rotation) && args_choice(args, "--method", method_names, &request->method);
+}
+
+/* The mesh from the overlay of two cubical Gaussian maps, the pairing as that rebuild reads it. */
+static pir_status compute_by_cgm(const struct request *request, pir_polytope *p, pir_polytope *q,
+                                 struct outcome *outcome) {
+    pir_cgm *of_p = NULL, *of_q = NULL, *of_sum = NULL;
+    pir_polytope *reflected = NULL;
+    pir_status status = pir_sum_rotate(outcome->sum, request->rotation, PIR_METHOD_CGM);
+    if (status == PIR_OK && request->options.difference)
+        status = pir_polytope_reflect(p, &reflected);
+    int64_t start = clock_now();
+    if (status == PIR_OK)
+        status = pir_cgm_create(reflected ? reflected : p, &request->rotation, NULL, &of_p);
+    if (status == PIR_OK)
+        status = pir_cgm_create(q, NULL, NULL, &of_q);
+    if (status == PIR_OK)
+        status = pir_cgm_overlay(of_p, of_q, &of_sum);
+    if (status == PIR_OK)
+        status = pir_cgm_mesh(of_sum, request->precision, &outcome->mesh);
+    outcome->seconds = (double)(clock_now() - start) / 1e9;
+    pir_cgm_destroy(of_sum);
+    pir_cgm_destroy(of_q);
+    pir_cgm_destroy(of_p);
+    pir_polytope_release(reflected);
+    return status;
+}
+
+/* What stands in `outcome` after a failure is to be released like the rest. */
+static pir_status compute(const struct request *request, pir_polytope *p, pir_polytope *q, struct outcome *outcome) {
+    int64_t start = clock_now();
+    pir_status status = pir_sum_create(p, q, request->rotation, &request->options, &outcome->sum);
+    if (status != PIR_OK)
+        return status;
+    if (request->method == METHOD_CGM)
+        return compute_by_cgm(request, p, q, outcome);
+    if (request->method == METHOD_HULL) {
+        start = clock_now();
+        status = pir_hull_sum(p, q, request->rotation, &request->options, request->precision, &outcome->mesh);
+    } else {
+        status = pir_sum_mesh(outcome->sum, request->precision, &outcome->mesh);
+    }
+    outcome->seconds = (double)(clock_now() - start) / 1e9;
+    return status;
+}
+
+static bool print_json(const struct args *args, const struct request *request, const struct outcome *outcome) {
+    const double quat[4] = {request->rotation.x, request->rotation.y, request->rotation.z, request->rotation.w};
+    struct json json = json_new();
+    json_add_text(&json, json.root, "p", args->positional[0]);
+    json_add_text(&json, json.root, "q", args->positional[1]);
+    json_add_numbers(&json, json.root, "quat", quat, 4);
+    json_add_flag(&json, json.root, "difference", request->options.difference);
+    json_add_number(&json, json.root, "vertices", pir_mesh_vertex_count(outcome->mesh));
+    json_add_number(&json, json.root, "edges", pir_mesh_edge_count(outcome->mesh));
+    json_add_number(&json, json.root, "facets", pir_mesh_facet_count(outcome->mesh));
+    json_add_number(&json, json.root, "fv", pir_polytope_facet_count(pir_sum_p(outcome->sum)));
+    json_add_number(&json, json.root, "vf", pir_polytope_facet_count(pir_sum_q(outcome->sum)));
+    json_add_number(&json, json.root, "ee", pir_sum_ee_count(outcome->sum));
+    json_add_text(&json, json.root, "method", method_names[request->method]);
+    json_add_number(&json, json.root, "seconds", outcome->seconds);
+    return json_print(&json, stdout);
+}
+
+static void print_text(const struct args *args, const struct request *request, const struct outcome *outcome) {
+    char time[TEXT_NUMBER];
+    text_time(outcome->seconds * 1e9, time);
+    printf("%s of %s and %s\n", request->options.difference ? "difference" : "sum", args->positional[0],
+           args->positional[1]);
+    printf("  %-10s %" PRIu32 "\n", "vertices", pir_mesh_vertex_count(outcome->mesh));
+    printf("  %-10s %" PRIu32 "\n", "edges", pir_mesh_edge_count(outcome->mesh));
+    printf("  %-10s %" PRIu32 "\n", "facets", pir_mesh_facet_count(outcome->mesh));
+    printf("  %-10s fv %" PRIu32 ", vf %" PRIu32 ", ee %" PRIu32 "\n", "pairs",
+           pir_polytope_facet_count(pir_sum_p(outcome->sum)), pir_polytope_facet_count(pir_sum_q(outcome->sum)),
+           pir_sum_ee_count(outcome->sum));
+    printf("  %-10s %s by %s\n", "time", time, method_names[request->method]);
+    if (args_has(args, "-o"))
+        printf("  %-10s %s\n", "file", args_value(args, "-o"));
+}
+
+static int run(const struct args *args) {
+    struct request request;
+    if (!read_request(args, &request))
+        return EXIT_BAD_INPUT;
+    struct outcome outcome = {0};
+    int result = EXIT_BAD_INPUT;
+    pir_report report = {0};
+    pir_polytope *q = NULL, *p = model_load(args->positional[0]);
+    if (p)
+        q = model_load(args->positional[1]);
+    if (!p || !q)
+        goto done;
+
+    pir_status status = compute(&request, p, q, &outcome);
+    const char *file = args_value(args, "-o");
+    if (status == PIR_OK && file)
+        status = pir_mesh_write(outcome.mesh, file, args_has(args, "--exact"), &report);
+    if (status != PIR_OK) {
+        complain_status("sum", status, &report);
+        goto done;
+    }
+    result = EXIT_DONE;
+    if (!args_has(args, "--json"))
+        print_text(args, &request, &outcome);
+    else if (!print_json(args, &request, &outcome))
+        result = EXIT_BAD_INPUT;
+
+done:
+    pir_mesh_destroy(outcome.mesh);
+    pir_sum_destroy(outcome.sum);
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+    return result;
+}
+
+static const struct option options[] = {
+    POSE_OPTIONS,
+    {"--difference", NULL, "the sum of Q and the reflected, turned P: what P may be moved by to touch Q"},
+    {"--method", "walk|cgm|hull",
+     "by walking the Gaussian maps (default), by overlaying the cubical ones, or as the hull of all sums"},
+    {"--exact", NULL, "exact coordinates; in .off: integers and a/b instead of doubles"},
+    {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg"},
+    COMMON_OPTIONS,
+};
+
+const struct command cmd_sum = {
+    .name = "sum",
+    .positional = {"P", "Q"},
+    .required = 2,
+    .summary = "the Minkowski sum of P, turned, and Q",
+    .details = "vertices, edges and facets are those of the sum; fv, vf and ee count its pairs of features (facet of P "
+               "and vertex\n"
+               "of Q, the reverse, an edge of each) as they are when every tie is settled.",
+    .options = options,
+    .run = run,
+};

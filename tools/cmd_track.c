@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette track: its arguments. The run is in track.c, what is told of it in track_report.c. */
+#include <string.h>
+
+#include "args.h"
+#include "message.h"
+#include "model.h"
+#include "pose.h"
+#include "track.h"
+
+/* Times are kept for every frame. */
+#define FRAMES_MOST 10000000
+#define STEPS_MOST  1000000000
+
+static const char *const method_names[] = {"auto", "update", "walk", "cgm", NULL};
+static const pir_method methods[] = {PIR_METHOD_AUTO, PIR_METHOD_UPDATE, PIR_METHOD_WALK, PIR_METHOD_CGM};
+
+static bool read_motion(const struct args *args, struct track_request *request) {
+    const char *axis = args_value(args, "--axis");
+    request->random = !axis || strcmp(axis, "random") == 0;
+    return args_count(args, "--steps", 1, STEPS_MOST, &request->steps) &&
+           args_count(args, "--frames", 1, FRAMES_MOST, &request->frames) &&
+           args_count(args, "--seed", 0, UINT64_MAX, &request->seed) &&
+           (request->random || axis_read(args, "--axis", &request->axis));
+}
+
+static bool read_outputs(const struct args *args, struct track_request *request) {
+    request->dump = args_value(args, "--dump");
+    request->plot = args_value(args, "--plot");
+    if (args_has(args, "--every") && !request->dump) {
+        complain("track: --every needs --dump DIR beside it");
+        return false;
+    }
+    size_t length = request->plot ? strlen(request->plot) : 0;
+    if (request->plot && (length < 4 || strcmp(request->plot + length - 4, ".svg") != 0)) {
+        complain("track: --plot: '%s' does not end in .svg", request->plot);
+        return false;
+    }
+    return args_count(args, "--every", 1, FRAMES_MOST, &request->dump_every);
+}
+
+static bool read_request(const struct args *args, struct track_request *request) {
+    int method = 0;
+    *request = (struct track_request){
+        .p = args->positional[0],
+        .q = args->positional[1],
+        .frames = 1000,
+        .steps = 500,
+        .seed = 1,
+        .brute = args_has(args, "--brute"),
+        .verify_every = args_has(args, "--verify") ? 1 : 0,
+        .dump_every = 1,
+    };
+    if (!read_motion(args, request) || !read_outputs(args, request) ||
+        !args_count(args, "--verify-every", 1, FRAMES_MOST, &request->verify_every) ||
+        !args_choice(args, "--method", method_names, &method))
+        return false;
+    if (!args_numbers(args, "--tolerance", 1, &request->tolerance))
+        return false;
+    if (request->tolerance < 0) {
+        complain("track: --tolerance: %g is less than 0", request->tolerance);
+        return false;
+    }
+    if (request->tolerance > 0 && request->dump) {
+        complain("track: --dump writes exact frames, and --tolerance %g allows others", request->tolerance);
+        return false;
+    }
+    request->method = methods[method];
+    request->method_name = method_names[method];
+    return true;
+}
+
+static int run(const struct args *args) {
+    struct track_request request;
+    struct track_result result = {0};
+    if (!read_request(args, &request))
+        return EXIT_BAD_INPUT;
+    int status = EXIT_BAD_INPUT;
+    pir_polytope *q = NULL, *p = model_load(request.p);
+    if (p)
+        q = model_load(request.q);
+    if (p && q && track_run(&request, p, q, &result)) {
+        status = result.mismatches ? EXIT_CHECK_FAILED : EXIT_DONE;
+        if (!args_has(args, "--json"))
+            track_print_text(&request, &result);
+        else if (!track_print_json(&request, &result))
+            status = EXIT_BAD_INPUT;
+    }
+    track_finish(&result);
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+    return status;
+}
+
+static const struct option options[] = {
+    {"--steps", "N", "frames to a full turn (500)"},
+    {"--frames", "N", "frames in all (1000)"},
+    {"--axis", "x,y,z|random", "turn about this axis, or about a new random one every 50 frames (random)"},
+    {"--seed", "N", "of the random axes (1)"},
+    {"--method", "auto|update|walk|cgm", "how each rotation is brought into the sum (auto)"},
+    {"--tolerance", "T", "let the pairing stay behind while its support falls short by at most this length (0)"},
+    {"--verify", NULL, "hold every frame against a rebuilt sum; exit status 1 when one differs"},
+    {"--verify-every", "K", "hold frames 0, K, 2K, ... against a rebuilt sum"},
+    {"--brute", NULL, "also time the re-check of all pairs, on a few frames"},
+    {"--dump", "DIR", "write frames as exact OFF, and frames.json, into DIR"},
+    {"--every", "K", "dump frames 0, K, 2K, ... (1)"},
+    {"--plot", "FILE.svg", "draw update and rebuild time over frames"},
+    COMMON_OPTIONS,
+};
+
+const struct command cmd_track = {
+    .name = "track",
+    .positional = {"P", "Q"},
+    .required = 2,
+    .summary = "keep the sum of P and Q up to date while P turns, and time it",
+    .details = "Frame 0 is P as it stands; each frame turns it by 1/steps of a full turn. Times are of the sum's "
+               "pairing: one call\n"
+               "that brings the sum to the frame's rotation. Rebuilds are timed on a sample of frames in the same run.",
+    .options = options,
+    .run = run,
+};

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* A MODEL argument: a file, or shape:NAME for a built-in one. */
+#ifndef TOOLS_MODEL_H
+#define TOOLS_MODEL_H
+
+#include <pirouette/pirouette.h>
+
+/* The prefix of built-in models. */
+#define MODEL_SHAPE "shape:"
+
+/* The polytope, to be released; NULL after a complaint. */
+pir_polytope *model_load(const char *model);
+
+/* The name for titles: the file's without its folders. Points into `model`. */
+const char *model_title(const char *model);
+
+#endif

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The run. Up to four sums of the same polytopes go through the same rotations: the tracked one; one that is rebuilt by walk,
+ * on the frames where that is timed or compared; one rebuilt by CGM and one re-checked by brute force, on a few frames. Each timed call stands alone
+ * between two looks at the clock. All are timed in turn in one run, so that what else the machine does falls on all alike.
+ */
+#include "track.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dump.h"
+#include "message.h"
+#include "motion.h"
+#include "progress.h"
+
+/* Frames on which a rebuild and a brute-force re-check are timed, or up to twice as many; all when there are fewer. */
+#define WALK_SAMPLES  200
+#define CGM_SAMPLES   20
+#define BRUTE_SAMPLES 20
+
+#define WARM_UP_MOST 100
+
+struct run {
+    const struct track_request *request;
+    struct track_result *result;
+    pir_sum *tracked, *rebuilt, *overlaid, *brute;
+    struct motion motion;
+    struct dump dump;
+    struct progress progress;
+    uint64_t walk_stride, cgm_stride, brute_stride;
+    uint64_t blocks; /* that the tracked sum has asked for */
+};
+
+/* malloc that counts, for the tracked sum. */
+static void *resize_counted(void *context, void *block, size_t old_size, size_t new_size) {
+    (void)old_size;
+    if (new_size == 0) {
+        free(block);
+        return NULL;
+    }
+    ++*(uint64_t *)context;
+    return realloc(block, new_size);
+}
+
+static uint64_t stride(uint64_t frames, uint64_t samples) {
+    return frames > samples ? frames / samples : 1;
+}
+
+static double *new_times(uint64_t frames) {
+    double *times = malloc(frames * sizeof *times);
+    for (uint64_t i = 0; times && i < frames; i++)
+        times[i] = NAN;
+    return times;
+}
+
+static bool told(uint64_t frame, pir_status status) {
+    if (status == PIR_OK)
+        return true;
+    complain("track: frame %" PRIu64 ": %s", frame, pir_status_text(status));
+    return false;
+}
+
+/* Sums at the rotation before the first frame, and room for the times. */
+static bool prepare(struct run *run, pir_polytope *p, pir_polytope *q) {
+    const struct track_request *request = run->request;
+    struct track_result *result = run->result;
+    result->update_ns = new_times(request->frames);
+    result->walk_ns = new_times(request->frames);
+    result->cgm_ns = new_times(request->frames);
+    result->brute_ns = new_times(request->frames);
+    if (!result->update_ns || !result->walk_ns || !result->cgm_ns || !result->brute_ns)
+        return told(0, PIR_ERR_MEMORY);
+
+    run->motion = motion_new(request->random ? NULL : &request->axis, request->steps, request->seed);
+    run->walk_stride = stride(request->frames, WALK_SAMPLES);
+    run->cgm_stride = stride(request->frames, CGM_SAMPLES);
+    run->brute_stride = stride(request->frames, BRUTE_SAMPLES);
+    result->warm_up = request->frames / 10 < WARM_UP_MOST ? request->frames / 10 : WARM_UP_MOST;
+
+    pir_quat before = motion_before(&run->motion);
+    pir_sum_options counted = pir_sum_options_default();
+    counted.allocator = &(pir_allocator){.resize = resize_counted, .context = &run->blocks};
+    pir_status status = pir_sum_create(p, q, before, &counted, &run->tracked);
+    if (status == PIR_OK)
+        status = pir_sum_set_tolerance(run->tracked, request->tolerance);
+    if (status == PIR_OK)
+        status = pir_sum_create(p, q, before, NULL, &run->rebuilt);
+    if (status == PIR_OK)
+        status = pir_sum_create(p, q, before, NULL, &run->overlaid);
+    if (status == PIR_OK && request->brute)
+        status = pir_sum_create(p, q, before, NULL, &run->brute);
+    return told(0, status);
+}
+
+static pir_status rotate_timed(pir_sum *sum, pir_quat rotation, pir_method method, double *ret_ns) {
+    int64_t start = clock_now();
+    pir_status status = pir_sum_rotate(sum, rotation, method);
+    *ret_ns = (double)(clock_now() - start);
+    return status;
+}
+
+static pir_status brute_timed(pir_sum *sum, pir_quat rotation, double *ret_ns) {
+    int64_t start = clock_now();
+    pir_status status = pir_sum_rotate_brute_force(sum, rotation);
+    *ret_ns = (double)(clock_now() - start);
+    return status;
+}
+
+/* Whether a tolerance has let the tracked pairing stay behind. */
+static bool is_behind(const struct run *run) {
+    pir_quat asked = pir_sum_rotation(run->tracked), exact = pir_sum_pairing_rotation(run->tracked);
+    return memcmp(&asked, &exact, sizeof asked) != 0;
+}
+
+/*
+ * Whether the tracked and the rebuilt sum are the same, as pairings and as meshes. A pairing that stayed behind is that of another rotation: the
+ * rebuilt sum goes there.
+ */
+static pir_status compare(const struct run *run, bool *ret_same) {
+    if (is_behind(run)) {
+        pir_status status = pir_sum_rotate(run->rebuilt, pir_sum_pairing_rotation(run->tracked), PIR_METHOD_WALK);
+        if (status == PIR_OK)
+            *ret_same = pir_sum_same_pairing(run->tracked, run->rebuilt);
+        return status;
+    }
+    pir_mesh *tracked = NULL, *rebuilt = NULL;
+    pir_status status = pir_sum_mesh(run->tracked, PIR_DOUBLE, &tracked);
+    if (status == PIR_OK)
+        status = pir_sum_mesh(run->rebuilt, PIR_DOUBLE, &rebuilt);
+    if (status == PIR_OK)
+        *ret_same = pir_sum_same_pairing(run->tracked, run->rebuilt) && pir_mesh_equal(tracked, rebuilt);
+    pir_mesh_destroy(tracked);
+    pir_mesh_destroy(rebuilt);
+    return status;
+}
+
+/* Whether a third sum is rebuilt by CGM in this frame. */
+static bool is_overlaid(const struct run *run, uint64_t frame) {
+    return frame % run->cgm_stride == 0;
+}
+
+static pir_status verify(struct run *run, uint64_t frame) {
+    struct track_result *result = run->result;
+    bool same;
+    pir_status status = compare(run, &same);
+    if (status != PIR_OK)
+        return status;
+    if (is_overlaid(run, frame) && !is_behind(run))
+        same = same && pir_sum_same_pairing(run->tracked, run->overlaid);
+    result->verified++;
+    if (!same && result->mismatches++ == 0)
+        result->first_mismatch = frame;
+    return PIR_OK;
+}
+
+/* Adds what the tracked sum did between two looks at its counters. */
+static void add_work(pir_sum_statistics *did, const pir_sum_statistics *before, const pir_sum_statistics *after) {
+    did->updates += after->updates - before->updates;
+    did->rebuilds += after->rebuilds - before->rebuilds;
+    did->kept += after->kept - before->kept;
+    did->checked += after->checked - before->checked;
+    did->repaired += after->repaired - before->repaired;
+    did->by_filter += after->by_filter - before->by_filter;
+    did->by_exact += after->by_exact - before->by_exact;
+    did->by_perturbation += after->by_perturbation - before->by_perturbation;
+    did->allocations += after->allocations - before->allocations;
+}
+
+/* The rotation that all is about. Its work is counted by itself: comparing and writing meshes ask for signs and memory, too. */
+static pir_status rotate_tracked(struct run *run, uint64_t frame, pir_quat rotation) {
+    struct track_result *result = run->result;
+    uint64_t blocks = run->blocks;
+    pir_sum_statistics before = pir_sum_get_statistics(run->tracked);
+    pir_status status = rotate_timed(run->tracked, rotation, run->request->method, &result->update_ns[frame]);
+    pir_sum_statistics after = pir_sum_get_statistics(run->tracked);
+    add_work(&result->did, &before, &after);
+    result->shortfall = fmax(result->shortfall, pir_sum_shortfall_bound(run->tracked));
+    if (frame >= result->warm_up)
+        result->late_allocations += run->blocks - blocks;
+    return status;
+}
+
+static bool is_verified(const struct run *run, uint64_t frame) {
+    return run->request->verify_every && frame % run->request->verify_every == 0;
+}
+
+/* Whether the second sum is rebuilt, and timed, in this frame. */
+static bool is_rebuilt(const struct run *run, uint64_t frame) {
+    return frame % run->walk_stride == 0 || is_verified(run, frame);
+}
+
+/*
+ * All sums of one frame. The rebuild comes before the tracked sum, after which the processor would know the way, and after a
+ * rebuild of the frame before, as it would if every frame were rebuilt.
+ */
+static pir_status rotate_all(struct run *run, uint64_t frame, pir_quat rotation) {
+    struct track_result *result = run->result;
+    pir_status status = PIR_OK;
+    if (is_rebuilt(run, frame))
+        status = rotate_timed(run->rebuilt, rotation, PIR_METHOD_WALK, &result->walk_ns[frame]);
+    if (status == PIR_OK)
+        status = rotate_tracked(run, frame, rotation);
+    if (status == PIR_OK && is_overlaid(run, frame))
+        status = rotate_timed(run->overlaid, rotation, PIR_METHOD_CGM, &result->cgm_ns[frame]);
+    if (status == PIR_OK && run->brute && frame % run->brute_stride == 0)
+        status = brute_timed(run->brute, rotation, &result->brute_ns[frame]);
+    if (status == PIR_OK && is_verified(run, frame))
+        status = verify(run, frame);
+    if (status == PIR_OK && !is_rebuilt(run, frame) && is_rebuilt(run, frame + 1))
+        status = pir_sum_rotate(run->rebuilt, rotation, PIR_METHOD_WALK);
+    return status;
+}
+
+static bool run_frame(struct run *run, uint64_t frame) {
+    const struct track_request *request = run->request;
+    pir_status status = rotate_all(run, frame, motion_next(&run->motion));
+    bool dumped = status == PIR_OK && request->dump && frame % request->dump_every == 0;
+    // nothing may complain behind the bar
+    if (status != PIR_OK || dumped)
+        progress_end(&run->progress);
+    run->result->dumped += dumped;
+    return told(frame, status) && (!dumped || dump_frame(&run->dump, run->tracked, frame));
+}
+
+static bool run_frames(struct run *run) {
+    run->progress = progress_new(run->request->frames);
+    bool good = true;
+    for (uint64_t frame = 0; frame < run->request->frames && good; frame++) {
+        progress_show(&run->progress, frame);
+        good = run_frame(run, frame);
+    }
+    progress_end(&run->progress);
+    return good;
+}
+
+static bool summarise(struct track_result *result, size_t frames) {
+    return (order_of(result->update_ns, frames, &result->update) && order_of(result->walk_ns, frames, &result->walk) &&
+            order_of(result->cgm_ns, frames, &result->cgm) && order_of(result->brute_ns, frames, &result->brute)) ||
+           told(frames, PIR_ERR_MEMORY);
+}
+
+bool track_run(const struct track_request *request, pir_polytope *p, pir_polytope *q, struct track_result *result) {
+    *result = (struct track_result){0};
+    struct run run = {.request = request, .result = result};
+    struct output_file plot = {0};
+    bool good = false;
+
+    // whatever cannot be written is known before the run
+    if (request->plot && !output_open(&plot, request->plot))
+        goto done;
+    if (request->dump && !dump_open(&run.dump, request->dump))
+        goto done;
+    if (!prepare(&run, p, q))
+        goto done;
+
+    if (!run_frames(&run) || !summarise(result, request->frames))
+        goto done;
+    if (request->dump && !dump_commit(&run.dump))
+        goto done;
+    if (request->plot && !(track_plot(request, result, plot.stream) && output_commit(&plot)))
+        goto done;
+    good = true;
+
+done:
+    dump_discard(&run.dump);
+    output_discard(&plot);
+    pir_sum_destroy(run.brute);
+    pir_sum_destroy(run.overlaid);
+    pir_sum_destroy(run.rebuilt);
+    pir_sum_destroy(run.tracked);
+    return good;
+}
+
+void track_finish(struct track_result *result) {
+    free(result->update_ns);
+    free(result->walk_ns);
+    free(result->cgm_ns);
+    free(result->brute_ns);
+}

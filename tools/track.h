@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* A tracked run: a sum carried from frame to frame, timed, and on request held against other ways to make it. */
+#ifndef TOOLS_TRACK_H
+#define TOOLS_TRACK_H
+
+#include <pirouette/pirouette.h>
+
+#include "file.h"
+#include "measure.h"
+
+struct track_request {
+    const char *p, *q; /* the models as they were named */
+    uint64_t frames, steps, seed;
+    bool random; /* random axes from seed, or else `axis` */
+    pir_vec3 axis;
+    pir_method method;
+    const char *method_name;
+    double tolerance; /* 0: exact */
+    bool brute;
+    uint64_t verify_every; /* 0: never */
+    const char *dump;      /* a folder; NULL for none */
+    uint64_t dump_every;
+    const char *plot; /* a file; NULL for none */
+};
+
+struct track_result {
+    double *update_ns, *walk_ns, *cgm_ns, *brute_ns; /* by frame; NaN where not measured */
+    struct order update, walk, cgm, brute;
+    pir_sum_statistics did;    /* by the tracked sum, over all frames */
+    double shortfall;          /* the greatest bound attained, where there is a tolerance */
+    uint64_t warm_up;          /* frames after which memory should no longer grow */
+    uint64_t late_allocations; /* times it did */
+    uint64_t verified;         /* frames held against a rebuilt sum */
+    uint64_t mismatches;       /* how many of them differed */
+    uint64_t first_mismatch;   /* the first of these, when there is one */
+    uint64_t dumped;           /* frames written */
+};
+
+/* Does the run; false after a complaint. Release what stands in *result with track_finish either way. */
+bool track_run(const struct track_request *request, pir_polytope *p, pir_polytope *q, struct track_result *result);
+
+void track_finish(struct track_result *result);
+
+/* --- track_report.c --- */
+
+bool track_print_json(const struct track_request *request, const struct track_result *result);
+void track_print_text(const struct track_request *request, const struct track_result *result);
+
+/* Draws the times; false, after a complaint, when out of memory. */
+bool track_plot(const struct track_request *request, const struct track_result *result, FILE *file);
+
+#endif
