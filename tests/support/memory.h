@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * An allocator that counts, checks every size it is told against what it gave, and fails when asked to. Its balance is zero when
+ * nothing leaked.
+ */
+#ifndef PIR_TEST_MEMORY_H
+#define PIR_TEST_MEMORY_H
+
+#include <stdbool.h>
+
+#include <pirouette/base.h>
+
+typedef struct test_memory {
+    size_t blocks, bytes; /* out at the moment */
+    uint64_t requests;    /* for memory, so far */
+    uint64_t fail_at;     /* the request, counted from 1, that fails; 0 for none */
+    bool fail_after;      /* all requests after that one fail as well */
+    bool wrong_size;      /* an old size did not match */
+} test_memory;
+
+/* An allocator on `memory`, which must stay where it is; it starts zeroed. */
+pir_allocator test_allocator(test_memory *memory);
+
+#endif

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: MIT */
+/* Every version of the kernels that this processor runs gives the bits of the scalar reference, on general and on tied data. */
+#include "support/test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "dymsum/sum.h"
+#include "support/bodies.h"
+
+/* Between −1 and 1. */
+static double uniform(test_random *random) {
+    return 2 * test_random_unit(random) - 1;
+}
+
+/* FNV-1a. */
+static uint64_t mix(uint64_t hash, const void *data, size_t size) {
+    const uint8_t *byte = data;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ byte[i]) * 0x100000001b3u;
+    return hash;
+}
+
+/* Stirs the facets' cells, so that all that can happen does, and the moment. */
+static void stir(test_random *random, pir_facets *facets, uint32_t vertices, pir_moment *moment) {
+    for (uint32_t f = 0; f < facets->count; f++)
+        if (test_random_below(random, 4) == 0)
+            facets->cell[f] = test_random_below(random, vertices);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 8; i++)
+            if (i % 4 != 3 && test_random_below(random, 3) == 0)
+                facets->turn[k][i] = test_random_below(random, 4) == 0 ? 0 : (float)uniform(random);
+    *moment = (pir_moment){.reach_ahead = (float)(uniform(random) * 0.2 + 0.2),
+                           .reach_behind = test_random_below(random, 2) ? 0 : 0x1p-10f,
+                           .path = uniform(random) + 1,
+                           .phase = uniform(random) / 4,
+                           .axial = test_random_below(random, 4) != 0};
+}
+
+/* A hash of all that a review by `kernels` leaves; the alarms and cells are as before the review afterwards. */
+static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_facets *facets, pir_moment moment) {
+    uint32_t count = facets->count, alarms = pir_alarm_count(sum);
+    uint32_t *cells = malloc((count + 1) * sizeof *cells), *woken = malloc((count + 1) * sizeof *woken);
+    pir_suspect *suspects = malloc((count + 1) * sizeof *suspects);
+    memcpy(cells, facets->cell, count * sizeof *cells);
+    for (uint32_t f = 0; f < count; f++)
+        woken[f] = facets->first_alarm + f;
+    pir_alarms_wake(&sum->alarms, 0, alarms);
+    uint64_t sides = 0, hash = 0xcbf29ce484222325u;
+    uint32_t found = kernels->review(facets, &moment, &sum->alarms, woken, count, suspects, &sides);
+    for (uint32_t i = 0; i < found; i++) {
+        hash = mix(hash, &suspects[i].facet, sizeof suspects[i].facet);
+        hash = mix(hash, &suspects[i].crossed, sizeof suspects[i].crossed);
+    }
+    hash = mix(hash, facets->cell, count * sizeof *cells);
+    hash = mix(hash, sum->alarms.margin, alarms * sizeof *sum->alarms.margin);
+    hash = mix(hash, sum->alarms.ahead, alarms * sizeof *sum->alarms.ahead);
+    hash = mix(hash, sum->alarms.behind, alarms * sizeof *sum->alarms.behind);
+    hash = mix(hash, &sides, sizeof sides);
+    for (uint32_t f = 0; f < count; f++) {
+        pir_glance seen;
+        kernels->glance(facets, &moment, cells[f], facets->turn[f % 3], &seen);
+        const float spans[4] = {seen.highest, seen.margin, seen.ahead, seen.behind};
+        hash = mix(hash, &seen.touched, sizeof seen.touched);
+        hash = mix(hash, &seen.which, sizeof seen.which);
+        hash = mix(hash, spans, sizeof spans);
+    }
+    memcpy(facets->cell, cells, count * sizeof *cells);
+    free(suspects);
+    free(woken);
+    free(cells);
+    return hash;
+}
+
+static void reviews_have_the_bits_of_the_reference(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 300; i++) {
+        test_random random = test_random_case("kernels", i);
+        test_pose pose;
+        test_random_pose(&random, 60, &pose);
+        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
+        pir_sum *sum = NULL;
+        assert_int_equal(pir_sum_create(p, q, pose.rotation, NULL, &sum), PIR_OK);
+        assert_int_equal(pir_sum_rotate(sum, test_rotation(&random), PIR_METHOD_UPDATE), PIR_OK);
+        for (int operand = 0; operand < 2; operand++) {
+            pir_facets *facets = operand ? &sum->q_facets : &sum->p_facets;
+            pir_moment moment = sum->moment;
+            for (int round = 0; round < 4; round++) {
+                uint64_t expected = review_hash(sum, pir_kernels_version(0), facets, moment);
+                for (unsigned k = 1; pir_kernels_version(k); k++)
+                    expect(review_hash(sum, pir_kernels_version(k), facets, moment) == expected,
+                           "%s, case %llu, round %d", pir_kernels_version(k)->name, (unsigned long long)i, round);
+                stir(&random, facets, operand ? p->vertex_count : q->vertex_count, &moment);
+            }
+        }
+        pir_sum_destroy(sum);
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+}
+
+/* Sets alarms about phase 0, some on it. */
+static void set_alarms(test_random *random, pir_alarms *alarms, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        double ahead = uniform(random) + 0.9, behind = uniform(random) - 0.9;
+        if (test_random_below(random, 16) == 0)
+            ahead = 0;
+        if (test_random_below(random, 16) == 0)
+            behind = -HUGE_VAL;
+        pir_alarm_set(alarms, i, 1, ahead, behind);
+    }
+}
+
+static void collections_list_the_same_alarms(void **state) {
+    (void)state;
+    const pir_allocator allocator = pir_allocator_or_default(NULL);
+    uint64_t total = 0;
+    for (uint64_t i = 0; i < 400; i++) {
+        uint32_t listed = 0;
+        uint64_t expected = 0;
+        for (unsigned k = 0; pir_kernels_version(k); k++) {
+            test_random random = test_random_case("kernels collect", i);
+            uint32_t count = 1 + test_random_below(&random, 700);
+            pir_alarms alarms = {0};
+            assert_true(pir_alarms_reserve(&alarms, &allocator, count));
+            uint32_t blocks = alarms.capacity / PIR_ALARM_BLOCK;
+            set_alarms(&random, &alarms, count);
+            uint64_t hash = 0xcbf29ce484222325u;
+            for (int round = 0; round < 3; round++) {
+                uint32_t found = pir_alarms_collect(&alarms, pir_kernels_version(k), count, uniform(&random) / 50);
+                hash = mix(hash, alarms.woken, found * sizeof *alarms.woken);
+                hash = mix(hash, alarms.block_ahead, blocks * sizeof *alarms.block_ahead);
+                hash = mix(hash, alarms.block_behind, blocks * sizeof *alarms.block_behind);
+                listed += k == 0 ? found : 0;
+            }
+            if (k == 0)
+                expected = hash;
+            expect(hash == expected, "%s, case %llu", pir_kernels_version(k)->name, (unsigned long long)i);
+            pir_alarms_finish(&alarms, &allocator);
+        }
+        total += listed;
+    }
+    assert_true(total > 1000);
+}
+
+int main(void) {
+    test_print_seed();
+    for (unsigned k = 0; pir_kernels_version(k); k++)
+        print_message("# kernels: %s\n", pir_kernels_version(k)->name);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reviews_have_the_bits_of_the_reference),
+        cmocka_unit_test(collections_list_the_same_alarms),
+    };
+    return cmocka_run_group_tests_name("kernels", tests, NULL, NULL);
+}
