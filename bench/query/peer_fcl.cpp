@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// FCL: the signed distance of two convex bodies.
+#include <fcl/fcl.h>
+
+#include "peers.hpp"
+
+namespace {
+
+std::shared_ptr<fcl::Convexd> convex(const pir_polytope *p) {
+    auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {
+        pir_vec3 c = pir_polytope_vertex(p, v);
+        vertices->emplace_back(c.x, c.y, c.z);
+    }
+    auto faces = std::make_shared<std::vector<int>>();
+    for (uint32_t f = 0; f < pir_polytope_facet_count(p); f++) {
+        std::vector<uint32_t> corners(pir_polytope_facet_size(p, f));
+        pir_polytope_facet(p, f, corners.data());
+        faces->push_back((int)corners.size());
+        faces->insert(faces->end(), corners.begin(), corners.end());
+    }
+    return std::make_shared<fcl::Convexd>(vertices, (int)pir_polytope_facet_count(p), faces);
+}
+
+class Fcl : public Peer {
+  public:
+    Fcl(const pir_polytope *p, const pir_polytope *q) : p_(convex(p)), q_(convex(q)) {
+    }
+    const char *name() const override {
+        return "FCL";
+    }
+    void place(pir_quat r, pir_vec3 t) override {
+        pose_ = fcl::Transform3d::Identity();
+        pose_.linear() = fcl::Quaterniond(r.w, r.x, r.y, r.z).toRotationMatrix();
+        pose_.translation() = fcl::Vector3d(t.x, t.y, t.z);
+    }
+    PeerAnswer ask(bool) override {
+        PeerAnswer answer;
+        try {
+            fcl::DistanceRequestd request(true, true);
+            request.gjk_solver_type = fcl::GJKSolverType::GST_LIBCCD;
+            fcl::DistanceResultd result;
+            fcl::distance(p_.get(), pose_, q_.get(), fcl::Transform3d::Identity(), request, result);
+            answer.distance = result.min_distance;
+            answer.overlaps = result.min_distance < 0;
+            answer.has_distance = true;
+        } catch (const std::exception &) {
+            answer.failed = true;
+        }
+        return answer;
+    }
+
+  private:
+    std::shared_ptr<fcl::Convexd> p_, q_;
+    fcl::Transform3d pose_;
+};
+
+} // namespace
+
+std::unique_ptr<Peer> make_fcl(const pir_polytope *p, const pir_polytope *q) {
+    return std::unique_ptr<Peer>(new Fcl(p, q)); // FCL asks for C++11
+}
