@@ -25,16 +25,16 @@ extern "C" {
 /** How a call ended. Every call that can fail returns one; on anything but PIR_OK its `ret_` parameters are untouched. */
 typedef enum pir_status {
     PIR_OK = 0,
-    PIR_ERR_ARGUMENT,        /**< an argument breaks the call's contract: NULL, an index out of range, an unknown name */
-    PIR_ERR_NOT_FINITE,      /**< a coordinate, angle or quaternion component is NaN or infinite */
+    PIR_ERR_ARGUMENT,   /**< an argument breaks the call's contract: NULL, an index out of range, an unknown name */
+    PIR_ERR_NOT_FINITE, /**< a coordinate, angle or quaternion component is NaN or infinite */
     PIR_ERR_ZERO_QUATERNION, /**< all four components of a quaternion are zero: it turns nothing */
     PIR_ERR_MEMORY,          /**< the allocator returned NULL; the objects involved are as before the call */
     PIR_ERR_EMPTY,           /**< no points, an empty file */
     PIR_ERR_FILE,            /**< a file cannot be opened, read or written */
-    PIR_ERR_FORMAT,          /**< a file's content breaks its format: truncated, counts that lie, a token that is no number */
-    PIR_ERR_NOT_CLOSED,      /**< facets that do not bound a solid */
-    PIR_ERR_LIMIT,           /**< too large for 32-bit indices or for a stated limit */
-    PIR_ERR_UNSUPPORTED,     /**< this build lacks the optional feature */
+    PIR_ERR_FORMAT, /**< a file's content breaks its format: truncated, counts that lie, a token that is no number */
+    PIR_ERR_NOT_CLOSED,  /**< facets that do not bound a solid */
+    PIR_ERR_LIMIT,       /**< too large for 32-bit indices or for a stated limit */
+    PIR_ERR_UNSUPPORTED, /**< this build lacks the optional feature */
 } pir_status;
 
 /** The name of a status in plain words, such as "zero quaternion". Never NULL; static memory. */

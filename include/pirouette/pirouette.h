@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/** All of Pirouette but exact.h, which shows GMP types. */
+#ifndef PIROUETTE_H
+#define PIROUETTE_H
+
+#include <pirouette/base.h>
+#include <pirouette/cgm.h>
+#include <pirouette/io.h>
+#include <pirouette/live_mesh.h>
+#include <pirouette/mesh.h>
+#include <pirouette/polytope.h>
+#include <pirouette/query.h>
+#include <pirouette/shape.h>
+#include <pirouette/sum.h>
+#include <pirouette/version.h>
+
+#endif
