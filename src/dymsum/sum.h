@@ -101,14 +101,19 @@ struct pir_sum {
 
 /* --- predicates --- */
 
+/* The sign of a value by doubles where the filter is certain of it, and counts it; else 0. */
+static inline int pir_filtered(pir_sum *sum, double value) {
+    int sign = pir_filter_sign(value);
+    sum->signs.by_filter += sign != 0;
+    return sign;
+}
+
 /* s of facet f of P, its normal rotated to `rotated`, and halfedge h of Q: the value by doubles, the sign exact. */
 static inline int pir_sign_facet_half(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t h, double *ret_value) {
     *ret_value = pir_vec_dot(rotated, sum->q->direction[h]);
-    int sign = pir_filter_sign(*ret_value);
-    if (sign != 0) {
-        sum->signs.by_filter++;
+    int sign = pir_filtered(sum, *ret_value);
+    if (sign != 0)
         return sign;
-    }
     pir_int3 n = pir_normal_exact(sum->p, f), d = pir_half_exact(sum->q, h);
     return pir_sign_perturbed(&sum->signs, &n, &d);
 }
@@ -116,11 +121,9 @@ static inline int pir_sign_facet_half(pir_sum *sum, uint32_t f, pir_vec3 rotated
 /* s of halfedge h of P, its direction rotated to `rotated`, and facet g of Q. */
 static inline int pir_sign_half_facet(pir_sum *sum, uint32_t h, pir_vec3 rotated, uint32_t g, double *ret_value) {
     *ret_value = pir_vec_dot(rotated, sum->q->normal[g]);
-    int sign = pir_filter_sign(*ret_value);
-    if (sign != 0) {
-        sum->signs.by_filter++;
+    int sign = pir_filtered(sum, *ret_value);
+    if (sign != 0)
         return sign;
-    }
     pir_int3 e = pir_half_exact(sum->p, h), n = pir_normal_exact(sum->q, g);
     return pir_sign_perturbed(&sum->signs, &e, &n);
 }
@@ -129,11 +132,9 @@ static inline int pir_sign_half_facet(pir_sum *sum, uint32_t h, pir_vec3 rotated
 static inline int pir_sign_facet_half_back(pir_sum *sum, uint32_t g, pir_vec3 turned_back, uint32_t h,
                                            double *ret_value) {
     *ret_value = pir_vec_dot(turned_back, sum->p->direction[h]);
-    int sign = pir_filter_sign(*ret_value);
-    if (sign != 0) {
-        sum->signs.by_filter++;
+    int sign = pir_filtered(sum, *ret_value);
+    if (sign != 0)
         return sign;
-    }
     pir_int3 e = pir_half_exact(sum->p, h), n = pir_normal_exact(sum->q, g);
     return pir_sign_perturbed(&sum->signs, &e, &n);
 }
