@@ -54,17 +54,26 @@ static void mesh_is_proven_and_equals_the_hull_of_all_sums(void **state) {
     }
 }
 
+/* The exact mesh of a pose's sum, from a walk; it outlives what it was made from. */
+static pir_mesh *mesh_of(const test_pose *pose) {
+    pir_polytope *p = test_polytope(&pose->p), *q = test_polytope(&pose->q);
+    pir_sum *sum = NULL;
+    pir_mesh *mesh = NULL;
+    assert_int_equal(pir_sum_create(p, q, pose->rotation, NULL, &sum), PIR_OK);
+    assert_int_equal(pir_sum_mesh(sum, PIR_EXACT, &mesh), PIR_OK);
+    pir_sum_destroy(sum);
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+    return mesh;
+}
+
 static void small_sum_has_the_facets_that_brute_force_finds(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 160; i++) {
         test_random random = test_random_case("mesh brute force", i);
         test_pose pose;
         test_random_pose(&random, 7, &pose);
-        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
-        pir_sum *sum = NULL;
-        pir_mesh *mesh = NULL;
-        assert_int_equal(pir_sum_create(p, q, pose.rotation, NULL, &sum), PIR_OK);
-        assert_int_equal(pir_sum_mesh(sum, PIR_EXACT, &mesh), PIR_OK);
+        pir_mesh *mesh = mesh_of(&pose);
         // from the points as they were given, not from the library's hulls of them
         oracle_points at_p, at_q;
         oracle_quat rotation;
@@ -78,9 +87,6 @@ static void small_sum_has_the_facets_that_brute_force_finds(void **state) {
         oracle_points_clear(&at_q);
         oracle_points_clear(&at_p);
         pir_mesh_destroy(mesh);
-        pir_sum_destroy(sum);
-        pir_polytope_release(q);
-        pir_polytope_release(p);
     }
 }
 
@@ -90,11 +96,7 @@ static void support_of_the_sum_is_the_sum_of_the_supports(void **state) {
         test_random random = test_random_case("mesh support", i);
         test_pose pose;
         test_random_pose(&random, 16, &pose);
-        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
-        pir_sum *sum = NULL;
-        pir_mesh *mesh = NULL;
-        assert_int_equal(pir_sum_create(p, q, pose.rotation, NULL, &sum), PIR_OK);
-        assert_int_equal(pir_sum_mesh(sum, PIR_EXACT, &mesh), PIR_OK);
+        pir_mesh *mesh = mesh_of(&pose);
         oracle_points at_p, at_q, at_m;
         oracle_quat rotation;
         oracle_points_from_doubles(&at_p, pose.p.at, pose.p.count);
@@ -124,9 +126,6 @@ static void support_of_the_sum_is_the_sum_of_the_supports(void **state) {
         oracle_points_clear(&at_q);
         oracle_points_clear(&at_p);
         pir_mesh_destroy(mesh);
-        pir_sum_destroy(sum);
-        pir_polytope_release(q);
-        pir_polytope_release(p);
     }
 }
 
