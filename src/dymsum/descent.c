@@ -44,7 +44,7 @@ static uint32_t descend(pir_sum *sum, const struct faller *faller, uint32_t from
         sum->signs.by_filter += other->ring_start[from + 1] - other->ring_start[from];
         uint32_t next = other->half_count == 0 ? from : other->target[other->ring_start[from] + seen.which];
         if (seen.highest < -PIR_FLOAT_BOUND) {
-            *ret_sleep = (pir_sleep){seen.margin, seen.ahead, -seen.behind};
+            *ret_sleep = (pir_sleep){seen.look.margin, seen.look.ahead, -seen.look.behind};
             return from;
         }
         if (seen.highest <= PIR_FLOAT_BOUND)

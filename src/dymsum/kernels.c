@@ -5,11 +5,10 @@
 #include "dymsum/kernels_versions.h"
 #include "polytope/polytope.h"
 
-/* A facet in the cell whose ring fills `blocks` blocks. */
-static void look(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8],
-                 pir_glance *ret_glance) {
+/* What is seen of a facet in the cell whose ring fills `blocks` blocks. */
+static pir_glance see(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8]) {
     float highest = -HUGE_VALF, least = 4, ahead = PIR_FARTHEST, behind = PIR_FARTHEST;
-    uint64_t touched = 0;
+    uint64_t touched = 0, above = 0;
     uint32_t which = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
         const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
@@ -25,60 +24,35 @@ static void look(const float *ring, uint32_t blocks, const pir_moment *moment, c
         least = size < least ? size : least;
         ahead = to < ahead ? to : ahead;
         behind = since < behind ? since : behind;
-        if (!(to > moment->reach_ahead && since > moment->reach_behind))
-            touched |= i < PIR_TOUCHED_BITS ? (uint64_t)1 << i : UINT64_MAX;
+        bool clear = to > moment->reach_ahead && since > moment->reach_behind;
+        touched = pir_side_mask_add(touched, i / PIR_LANES, (uint32_t)!clear << i % PIR_LANES);
+        above = pir_side_mask_add(above, i / PIR_LANES, (uint32_t)(s > PIR_FLOAT_BOUND) << i % PIR_LANES);
     }
-    *ret_glance = (pir_glance){touched, highest, which, least - PIR_FLOAT_BOUND, ahead, behind};
+    return (pir_glance){highest, which, {least - PIR_FLOAT_BOUND, ahead, behind, touched, above}};
 }
 
 static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
                    pir_glance *ret_glance) {
     uint32_t block = facets->ring_block[cell];
-    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned,
-         ret_glance);
+    *ret_glance =
+        see(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned);
 }
 
-static bool is_inside(const pir_glance *seen) {
-    return seen->highest < -PIR_FLOAT_BOUND;
+static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_turned[8]) {
+    const float *n = facets->normal + (size_t)4 * f;
+    for (int i = 0; i < 8; i++)
+        ret_turned[i] = facets->turn[0][i] * n[0] + facets->turn[1][i] * n[1] + facets->turn[2][i] * n[2];
 }
 
-/* Whether facet f, seen outside its cell, has crossed one side and touched no other; then it is filed as in the next cell. */
-static uint32_t cross(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
-                      const float turned[8], const pir_glance *seen) {
-    uint32_t cell = facets->cell[f], start = facets->ring_start[cell];
-    if (!(seen->highest > PIR_FLOAT_BOUND) ||
-        !pir_touched_only(seen->touched, facets->ring_start[cell + 1] - start, seen->which))
-        return PIR_NO_CROSSING;
-    uint32_t half = start + seen->which, next = facets->target[half], next_start = facets->ring_start[next];
-    pir_glance there;
-    glance(facets, moment, next, turned, &there);
-    if (!is_inside(&there) ||
-        !pir_touched_only(there.touched, facets->ring_start[next + 1] - next_start, facets->twin[half] - next_start))
-        return PIR_NO_CROSSING;
-    facets->cell[f] = next;
-    pir_sleep_glance(facets, moment, alarms, f, there.margin, there.ahead, there.behind);
-    return half;
+static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
+                           pir_look *ret_look) {
+    pir_glance seen;
+    glance(facets, moment, cell, turned, &seen);
+    *ret_look = seen.look;
 }
 
-static uint32_t review(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, const uint32_t *woken,
-                       uint32_t count, pir_suspect *ret_suspects, uint64_t *sides) {
-    uint32_t suspects = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        uint32_t f = woken[k] - facets->first_alarm, cell = facets->cell[f];
-        const float *n = facets->normal + (size_t)4 * f;
-        float turned[8];
-        for (int i = 0; i < 8; i++)
-            turned[i] = facets->turn[0][i] * n[0] + facets->turn[1][i] * n[1] + facets->turn[2][i] * n[2];
-        pir_glance seen;
-        glance(facets, moment, cell, turned, &seen);
-        *sides += facets->ring_start[cell + 1] - facets->ring_start[cell];
-        if (seen.touched == 0 && is_inside(&seen))
-            pir_sleep_glance(facets, moment, alarms, f, seen.margin, seen.ahead, seen.behind);
-        else
-            ret_suspects[suspects++] = (pir_suspect){f, cross(facets, moment, alarms, f, turned, &seen)};
-    }
-    return suspects;
-}
+#define REVIEW_TARGET
+#include "dymsum/review_body.h"
 
 /* The certificates of block b. */
 static uint32_t collect_block(pir_alarms *alarms, uint32_t b, double phase, uint32_t *woken) {

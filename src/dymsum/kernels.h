@@ -30,17 +30,22 @@
 
 #define PIR_NO_CROSSING UINT32_MAX
 
-/* A ring longer than this has `touched` all ones when any of its sides is: so many bits there are. */
-#define PIR_TOUCHED_BITS 64
+/* A ring longer than this has all bits of a mask of sides set when any of its sides is in it. */
+#define PIR_SIDE_BITS 64
+
+/* What a look at a facet in a cell finds. */
+typedef struct pir_look {
+    float margin;        /* by the path, until some s changes its sign; negative when one is too close to call */
+    float ahead, behind; /* by the phase, both ≥ 0 */
+    uint64_t touched; /* the sides that the facet may have touched in the last step, those too close to call among them */
+    uint64_t above;   /* those that it is past for certain: s > PIR_FLOAT_BOUND */
+} pir_look;
 
 /* What is seen at a glance of a facet in a cell. */
 typedef struct pir_glance {
-    uint64_t
-        touched;    /* the sides that the facet may have touched in the last step, those too close to call among them */
     float highest;  /* the greatest value s: the facet is in the cell for certain when below −PIR_FLOAT_BOUND */
     uint32_t which; /* the first side that has it */
-    float margin;   /* by the path, until some s changes its sign; negative when one is too close to call */
-    float ahead, behind; /* by the phase, both ≥ 0 */
+    pir_look look;
 } pir_glance;
 
 /* A facet that may have left its cell, even if only for a moment within the last step. */
@@ -92,16 +97,14 @@ struct pir_kernels {
     uint32_t (*collect)(pir_alarms *alarms, uint32_t blocks, double phase);
 };
 
-/* The touched sides of a ring of `sides`, without those that only fill its last block up. */
-static inline uint64_t pir_real_sides(uint64_t touched, uint32_t sides) {
-    if (sides > PIR_TOUCHED_BITS)
-        return touched ? UINT64_MAX : 0;
-    return sides == PIR_TOUCHED_BITS ? touched : touched & (((uint64_t)1 << sides) - 1);
+/* The mask of the sides of a ring of so many, without the bits that only fill its last block up. */
+static inline uint64_t pir_side_mask(uint32_t sides) {
+    return sides < PIR_SIDE_BITS ? ((uint64_t)1 << sides) - 1 : UINT64_MAX;
 }
 
-/* Whether of a ring of `sides` one alone was touched, number `which`. */
-static inline bool pir_touched_only(uint64_t touched, uint32_t sides, uint32_t which) {
-    return sides <= PIR_TOUCHED_BITS && pir_real_sides(touched, sides) == (uint64_t)1 << which;
+/* Adds the mask of eight sides, those of block b, to that of a ring. */
+static inline uint64_t pir_side_mask_add(uint64_t mask, uint32_t b, uint32_t eight) {
+    return mask | (b < PIR_SIDE_BITS / 8 ? (uint64_t)eight << 8 * b : eight ? UINT64_MAX : 0);
 }
 
 /* The path at which a certificate made at `path` has used its margin up, rounded down. */
@@ -110,12 +113,12 @@ static inline double pir_path_end(double path, double margin) {
     return end - fabs(end) * 0x1p-52;
 }
 
-/* Files facet f, looked at just now, to sleep as long as the glance says. */
-static inline void pir_sleep_glance(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
-                                    float margin, float ahead, float behind) {
-    double to = moment->axial ? moment->phase + (double)ahead : pir_path_end(moment->path, (double)margin);
-    double from = moment->axial ? moment->phase - (double)behind : -HUGE_VAL;
-    pir_alarm_set(alarms, facets->first_alarm + f, margin, to, from);
+/* Files facet f, looked at just now, to sleep as long as the look allows. */
+static inline void pir_sleep_look(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
+                                  const pir_look *look) {
+    double to = moment->axial ? moment->phase + (double)look->ahead : pir_path_end(moment->path, (double)look->margin);
+    double from = moment->axial ? moment->phase - (double)look->behind : -HUGE_VAL;
+    pir_alarm_set(alarms, facets->first_alarm + f, look->margin, to, from);
 }
 
 /* Packs a vector and its motion as the kernels take them. */

@@ -13,6 +13,9 @@
 /* Lane k of `turned` in all lanes. */
 #define SPREAD(turned, k) _mm256_permutevar8x32_ps((turned), _mm256_set1_epi32(k))
 
+/* The lanes in which a and b are equal. */
+#define EQUAL(a, b) ((uint32_t)_mm256_cmp_ps_mask((a), (b), _CMP_EQ_OQ))
+
 /* (ux·x + uy·y) + uz·z, rounded as the scalar reference rounds. */
 TARGET static inline __m256 dot(__m256 ux, __m256 uy, __m256 uz, __m256 x, __m256 y, __m256 z) {
     return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(ux, x), _mm256_mul_ps(uy, y)), _mm256_mul_ps(uz, z));
@@ -34,25 +37,21 @@ TARGET static inline float greatest_of(__m256 v) {
     return _mm_cvtss_f32(_mm_max_ss(half, _mm_shuffle_ps(half, half, 1)));
 }
 
-/* What look() finds out before it is known whether more is asked. */
-struct looked {
-    uint64_t touched;
-    __m256 highest;
-    __m128 spans; /* the least size, ahead, behind */
-};
-
-TARGET static inline struct looked look(const float *ring, uint32_t blocks, const pir_moment *moment, __m256 turned) {
-    const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
+/* The look at a facet in a cell; returns the greatest values of s, lane by lane. */
+TARGET static inline __m256 look(const float *ring, uint32_t blocks, const pir_moment *moment, __m256 turned,
+                                 pir_look *ret_look) {
+    const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps(), bound = _mm256_set1_ps(PIR_FLOAT_BOUND);
     const __m256 reach_ahead = _mm256_set1_ps(moment->reach_ahead), reach_behind = _mm256_set1_ps(moment->reach_behind);
     __m256 ux = SPREAD(turned, 0), uy = SPREAD(turned, 1), uz = SPREAD(turned, 2);
     __m256 wx = SPREAD(turned, 4), wy = SPREAD(turned, 5), wz = SPREAD(turned, 6);
     __m256 ahead = _mm256_set1_ps(PIR_FARTHEST), behind = ahead, least = _mm256_set1_ps(4);
-    struct looked looked = {0, _mm256_set1_ps(-HUGE_VALF), _mm_setzero_ps()};
+    __m256 highest = _mm256_set1_ps(-HUGE_VALF);
+    uint64_t touched = 0, above = 0;
     for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
         __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES),
                z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
         __m256 s = _mm256_add_ps(dot(ux, uy, uz, x, y, z), zero), rate = dot(wx, wy, wz, x, y, z);
-        looked.highest = _mm256_max_ps(looked.highest, s);
+        highest = _mm256_max_ps(highest, s);
         __m256 size = _mm256_andnot_ps(sign, s), rising = _mm256_xor_ps(rate, _mm256_andnot_ps(s, sign));
         __m256 sure = _mm256_sub_ps(size, _mm256_set1_ps(PIR_FLOAT_SLACK));
         __mmask8 is_sure = _mm256_cmp_ps_mask(sure, zero, _CMP_GT_OQ);
@@ -64,29 +63,13 @@ TARGET static inline struct looked look(const float *ring, uint32_t blocks, cons
         behind = _mm256_min_ps(behind, since);
         __mmask8 clear =
             _mm256_mask_cmp_ps_mask(_mm256_cmp_ps_mask(to, reach_ahead, _CMP_GT_OQ), since, reach_behind, _CMP_GT_OQ);
-        uint64_t touched = (uint8_t)~clear;
-        looked.touched |= b < PIR_TOUCHED_BITS / PIR_LANES ? touched << PIR_LANES * b : touched ? UINT64_MAX : 0;
-    }
-    looked.spans = least_of_each(least, ahead, behind);
-    return looked;
-}
-
-/* The rest of what a glance has. */
-TARGET static inline pir_glance finish(const float *ring, uint32_t blocks, __m256 turned, const struct looked *looked) {
-    float highest = greatest_of(looked->highest);
-    uint32_t which = 0;
-    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
-        __m256 s = dot(SPREAD(turned, 0), SPREAD(turned, 1), SPREAD(turned, 2), _mm256_loadu_ps(ring),
-                       _mm256_loadu_ps(ring + PIR_LANES), _mm256_loadu_ps(ring + 2 * PIR_LANES));
-        uint32_t is = _mm256_cmp_ps_mask(s, _mm256_set1_ps(highest), _CMP_EQ_OQ);
-        if (is) {
-            which = b * PIR_LANES + (uint32_t)__builtin_ctz(is);
-            break;
-        }
+        touched = pir_side_mask_add(touched, b, (uint8_t)~clear);
+        above = pir_side_mask_add(above, b, _mm256_cmp_ps_mask(s, bound, _CMP_GT_OQ));
     }
     float spans[4];
-    _mm_storeu_ps(spans, looked->spans);
-    return (pir_glance){looked->touched, highest, which, spans[0] - PIR_FLOAT_BOUND, spans[1], spans[2]};
+    _mm_storeu_ps(spans, least_of_each(least, ahead, behind));
+    *ret_look = (pir_look){spans[0] - PIR_FLOAT_BOUND, spans[1], spans[2], touched, above};
+    return highest;
 }
 
 TARGET static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
@@ -94,64 +77,37 @@ TARGET static void glance(const pir_facets *facets, const pir_moment *moment, ui
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
     const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
     __m256 t = _mm256_loadu_ps(turned);
-    struct looked looked = look(ring, blocks, moment, t);
-    *ret_glance = finish(ring, blocks, t, &looked);
-}
-
-TARGET static inline bool is_inside(const struct looked *looked) {
-    return _mm256_cmp_ps_mask(looked->highest, _mm256_set1_ps(-PIR_FLOAT_BOUND), _CMP_GE_OQ) == 0;
-}
-
-TARGET static inline void sleep(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
-                                const struct looked *looked) {
-    float spans[4];
-    _mm_storeu_ps(spans, looked->spans);
-    pir_sleep_glance(facets, moment, alarms, f, spans[0] - PIR_FLOAT_BOUND, spans[1], spans[2]);
-}
-
-/* cross() of the scalar reference. */
-TARGET static inline uint32_t cross(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
-                                    __m256 turned, const pir_glance *seen) {
-    uint32_t cell = facets->cell[f], start = facets->ring_start[cell];
-    if (!(seen->highest > PIR_FLOAT_BOUND) ||
-        !pir_touched_only(seen->touched, facets->ring_start[cell + 1] - start, seen->which))
-        return PIR_NO_CROSSING;
-    uint32_t half = start + seen->which, next = facets->target[half], next_start = facets->ring_start[next];
-    uint32_t block = facets->ring_block[next];
-    struct looked there =
-        look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[next + 1] - block, moment, turned);
-    if (!is_inside(&there) ||
-        !pir_touched_only(there.touched, facets->ring_start[next + 1] - next_start, facets->twin[half] - next_start))
-        return PIR_NO_CROSSING;
-    facets->cell[f] = next;
-    sleep(facets, moment, alarms, f, &there);
-    return half;
-}
-
-TARGET static uint32_t review(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms,
-                              const uint32_t *woken, uint32_t count, pir_suspect *ret_suspects, uint64_t *sides) {
-    __m256 t0 = _mm256_loadu_ps(facets->turn[0]), t1 = _mm256_loadu_ps(facets->turn[1]);
-    __m256 t2 = _mm256_loadu_ps(facets->turn[2]);
-    uint32_t suspects = 0;
-    uint64_t looked_at = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        uint32_t f = woken[k] - facets->first_alarm, cell = facets->cell[f];
-        const float *n = facets->normal + (size_t)4 * f;
-        __m256 turned = dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2]));
-        uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
-        const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
-        looked_at += facets->ring_start[cell + 1] - facets->ring_start[cell];
-        struct looked looked = look(ring, blocks, moment, turned);
-        if (looked.touched == 0 && is_inside(&looked)) {
-            sleep(facets, moment, alarms, f, &looked);
-        } else {
-            pir_glance seen = finish(ring, blocks, turned, &looked);
-            ret_suspects[suspects++] = (pir_suspect){f, cross(facets, moment, alarms, f, turned, &seen)};
+    float highest = greatest_of(look(ring, blocks, moment, t, &ret_glance->look));
+    ret_glance->highest = highest;
+    ret_glance->which = 0;
+    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
+        __m256 s = dot(SPREAD(t, 0), SPREAD(t, 1), SPREAD(t, 2), _mm256_loadu_ps(ring),
+                       _mm256_loadu_ps(ring + PIR_LANES), _mm256_loadu_ps(ring + 2 * PIR_LANES));
+        uint32_t is = EQUAL(s, _mm256_set1_ps(highest));
+        if (is) {
+            ret_glance->which = b * PIR_LANES + (uint32_t)__builtin_ctz(is);
+            break;
         }
     }
-    *sides += looked_at;
-    return suspects;
 }
+
+TARGET static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_turned[8]) {
+    const float *n = facets->normal + (size_t)4 * f;
+    __m256 t0 = _mm256_loadu_ps(facets->turn[0]), t1 = _mm256_loadu_ps(facets->turn[1]);
+    __m256 t2 = _mm256_loadu_ps(facets->turn[2]);
+    _mm256_storeu_ps(ret_turned,
+                     dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
+}
+
+TARGET static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell,
+                                  const float turned[8], pir_look *ret_look) {
+    uint32_t block = facets->ring_block[cell];
+    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment,
+         _mm256_loadu_ps(turned), ret_look);
+}
+
+#define REVIEW_TARGET TARGET
+#include "dymsum/review_body.h"
 
 /* The certificates of block b. */
 TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, __m512d now, uint32_t *woken) {

@@ -14,28 +14,24 @@ static inline float32x4_t dot(float32x4_t u, float32x4_t x, float32x4_t y, float
     return vaddq_f32(xy, vmulq_laneq_f32(z, u, 2));
 }
 
-/* The normal of a facet turned, and the motion of that. */
-struct turned {
-    float32x4_t u, w;
-};
-
 static inline float32x4_t masked(uint32x4_t mask, float32x4_t v) {
     return vreinterpretq_f32_u32(vandq_u32(mask, vreinterpretq_u32_f32(v)));
 }
 
-/* A facet in the cell whose ring fills `blocks` blocks. */
-static inline void look(const float *ring, uint32_t blocks, const pir_moment *moment, struct turned turned,
-                        pir_glance *ret_glance) {
+/* The look at a facet in a cell; returns the greatest value of s. */
+static inline float look(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8],
+                         pir_look *ret_look) {
     const uint32_t bits[4] = {1, 2, 4, 8};
     const uint32x4_t bit = vld1q_u32(bits), sign = vdupq_n_u32(0x80000000);
-    const float32x4_t zero = vdupq_n_f32(0);
+    const float32x4_t zero = vdupq_n_f32(0), bound = vdupq_n_f32(PIR_FLOAT_BOUND);
+    const float32x4_t u = vld1q_f32(turned), w = vld1q_f32(turned + 4);
     float32x4_t high = vdupq_n_f32(-HUGE_VALF), least = vdupq_n_f32(4), ahead = vdupq_n_f32(PIR_FARTHEST),
                 behind = ahead;
-    uint64_t touched = 0;
+    uint64_t touched = 0, above = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
         const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
         float32x4_t x = vld1q_f32(at), y = vld1q_f32(at + PIR_LANES), z = vld1q_f32(at + 2 * PIR_LANES);
-        float32x4_t s = vaddq_f32(dot(turned.u, x, y, z), zero), rate = dot(turned.w, x, y, z);
+        float32x4_t s = vaddq_f32(dot(u, x, y, z), zero), rate = dot(w, x, y, z);
         high = vmaxq_f32(high, s);
         // seen as a negative value that rises so fast
         float32x4_t size = vabsq_f32(s);
@@ -50,89 +46,48 @@ static inline void look(const float *ring, uint32_t blocks, const pir_moment *mo
         behind = vminq_f32(behind, since);
         uint32x4_t clear = vandq_u32(vcgtq_f32(to, vdupq_n_f32(moment->reach_ahead)),
                                      vcgtq_f32(since, vdupq_n_f32(moment->reach_behind)));
-        uint64_t lanes = vaddvq_u32(vbicq_u32(bit, clear));
-        touched |= i < PIR_TOUCHED_BITS ? lanes << i : lanes ? UINT64_MAX : 0;
+        touched = pir_side_mask_add(touched, i / PIR_LANES, vaddvq_u32(vbicq_u32(bit, clear)) << i % PIR_LANES);
+        above = pir_side_mask_add(above, i / PIR_LANES, vaddvq_u32(vandq_u32(bit, vcgtq_f32(s, bound)))
+                                                            << i % PIR_LANES);
     }
-    *ret_glance = (pir_glance){touched,           vmaxvq_f32(high),  0, vminvq_f32(least) - PIR_FLOAT_BOUND,
-                               vminvq_f32(ahead), vminvq_f32(behind)};
-}
-
-/* The first side that has the greatest value. */
-static inline uint32_t find_highest(const float *ring, uint32_t blocks, struct turned turned, float highest) {
-    for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
-        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-        float s[4];
-        vst1q_f32(s, dot(turned.u, vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES)));
-        for (uint32_t k = 0; k < 4; k++)
-            if (s[k] == highest)
-                return i + k;
-    }
-    return 0;
-}
-
-static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell, struct turned turned,
-                           pir_glance *ret_glance) {
-    uint32_t block = facets->ring_block[cell];
-    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned,
-         ret_glance);
-}
-
-static inline void finish(const pir_facets *facets, uint32_t cell, struct turned turned, pir_glance *glance) {
-    uint32_t block = facets->ring_block[cell];
-    glance->which = find_highest(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block,
-                                 turned, glance->highest);
+    *ret_look = (pir_look){vminvq_f32(least) - PIR_FLOAT_BOUND, vminvq_f32(ahead), vminvq_f32(behind), touched, above};
+    return vmaxvq_f32(high);
 }
 
 static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
                    pir_glance *ret_glance) {
-    struct turned t = {vld1q_f32(turned), vld1q_f32(turned + 4)};
-    look_in(facets, moment, cell, t, ret_glance);
-    finish(facets, cell, t, ret_glance);
-}
-
-static inline bool is_inside(const pir_glance *seen) {
-    return seen->highest < -PIR_FLOAT_BOUND;
-}
-
-/* cross() of the scalar reference. */
-static inline uint32_t cross(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
-                             struct turned turned, const pir_glance *seen) {
-    uint32_t cell = facets->cell[f], start = facets->ring_start[cell];
-    if (!(seen->highest > PIR_FLOAT_BOUND) ||
-        !pir_touched_only(seen->touched, facets->ring_start[cell + 1] - start, seen->which))
-        return PIR_NO_CROSSING;
-    uint32_t half = start + seen->which, next = facets->target[half], next_start = facets->ring_start[next];
-    pir_glance there;
-    look_in(facets, moment, next, turned, &there);
-    if (!is_inside(&there) ||
-        !pir_touched_only(there.touched, facets->ring_start[next + 1] - next_start, facets->twin[half] - next_start))
-        return PIR_NO_CROSSING;
-    facets->cell[f] = next;
-    pir_sleep_glance(facets, moment, alarms, f, there.margin, there.ahead, there.behind);
-    return half;
-}
-
-static uint32_t review(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, const uint32_t *woken,
-                       uint32_t count, pir_suspect *ret_suspects, uint64_t *sides) {
-    const float(*t)[8] = facets->turn;
-    uint32_t suspects = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        uint32_t f = woken[k] - facets->first_alarm, cell = facets->cell[f];
-        float32x4_t n = vld1q_f32(facets->normal + (size_t)4 * f);
-        struct turned turned = {dot(n, vld1q_f32(t[0]), vld1q_f32(t[1]), vld1q_f32(t[2])),
-                                dot(n, vld1q_f32(t[0] + 4), vld1q_f32(t[1] + 4), vld1q_f32(t[2] + 4))};
-        pir_glance seen;
-        look_in(facets, moment, cell, turned, &seen);
-        *sides += facets->ring_start[cell + 1] - facets->ring_start[cell];
-        if (seen.touched == 0 && is_inside(&seen)) {
-            pir_sleep_glance(facets, moment, alarms, f, seen.margin, seen.ahead, seen.behind);
-        } else {
-            finish(facets, cell, turned, &seen);
-            ret_suspects[suspects++] = (pir_suspect){f, cross(facets, moment, alarms, f, turned, &seen)};
-        }
+    uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
+    const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
+    const float highest = look(ring, blocks, moment, turned, &ret_glance->look);
+    ret_glance->highest = highest;
+    ret_glance->which = 0;
+    for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
+        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
+        float s[4];
+        vst1q_f32(s, dot(vld1q_f32(turned), vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES)));
+        for (uint32_t k = 0; k < 4; k++)
+            if (s[k] == highest) {
+                ret_glance->which = i + k;
+                return;
+            }
     }
-    return suspects;
 }
+
+static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_turned[8]) {
+    const float(*t)[8] = facets->turn;
+    float32x4_t n = vld1q_f32(facets->normal + (size_t)4 * f);
+    vst1q_f32(ret_turned, dot(n, vld1q_f32(t[0]), vld1q_f32(t[1]), vld1q_f32(t[2])));
+    vst1q_f32(ret_turned + 4, dot(n, vld1q_f32(t[0] + 4), vld1q_f32(t[1] + 4), vld1q_f32(t[2] + 4)));
+}
+
+static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
+                           pir_look *ret_look) {
+    uint32_t block = facets->ring_block[cell];
+    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned, ret_look);
+}
+
+#define REVIEW_TARGET
+#include "dymsum/review_body.h"
 
 /* The certificates of block b. */
 static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, float64x2_t now, uint32_t *woken) {

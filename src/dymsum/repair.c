@@ -5,13 +5,16 @@
  * Along a continuous turn the crossings of an arc change only where one facet, a point, passes through an arc. When an end of edge e
  * crosses the arc of h, from one cell to the next, the list of e loses the crossing of h at that end or, if it had none, gains the one back.
  * When facet g of Q crosses the arc of e, e leads around g on the other side: the crossings of g's arcs that it had, a run of them,
- * give way to those of all the others. So an edge that one event has touched is repaired without a sign. Where events meet, the edge is
- * led from its left cell to its right one again, and what it crossed before is tried first.
+ * give way to those of all the others. So an edge that one event has touched is repaired without a sign.
+ *
+ * Moves of both ends may come in any order. As long as no facet of Q passes through it, an arc keeps, its ends moving, its homotopy
+ * class on the sphere less the facets of Q. That sphere shrinks to the graph of cells and sides, on which a class has one list without a
+ * crossing and its reverse side by side; an arc has such a list, for cells are convex; and the moves below keep it so. Where a facet of
+ * Q passes and other events meet it, the edge is led from its left cell to its right one again, and what it crossed before is tried first.
  */
 #include "dymsum/sum.h"
 
-/* The arc's first cell goes from the near side of halfedge h of Q to the far one. */
-static bool move_start(pir_sum *sum, uint32_t e, uint32_t h) {
+bool pir_move_start(pir_sum *sum, uint32_t e, uint32_t h) {
     pir_crossings *c = &sum->crossings;
     uint32_t first = sum->first[e];
     if (first != PIR_NO_CROSSING && c->half[first] == h) {
@@ -28,8 +31,7 @@ static bool move_start(pir_sum *sum, uint32_t e, uint32_t h) {
     return true;
 }
 
-/* The same of its last cell. */
-static bool move_end(pir_sum *sum, uint32_t e, uint32_t h) {
+bool pir_move_end(pir_sum *sum, uint32_t e, uint32_t h) {
     pir_crossings *c = &sum->crossings;
     uint32_t *link = &sum->first[e], back = sum->q->twin[h];
     while (*link != PIR_NO_CROSSING && c->next[*link] != PIR_NO_CROSSING)
@@ -53,8 +55,7 @@ static uint32_t ring_before(const pir_polytope *p, uint32_t half) {
     return half == p->ring_start[v] ? p->ring_start[v + 1] - 1 : half - 1;
 }
 
-/* Facet g of Q has crossed the arc of e and is now left of it, or right. */
-static bool pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
+bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
     const pir_polytope *q = sum->q;
     pir_crossings *c = &sum->crossings;
     // the first crossing of an arc of g, on the side where g was
@@ -108,8 +109,7 @@ static uint32_t take_crossing(pir_sum *sum, uint32_t *list, uint32_t half, pir_v
     return PIR_NO_CROSSING;
 }
 
-/* Leads edge e from its left cell to its right one anew. */
-static bool derive_edge(pir_sum *sum, uint32_t e) {
+bool pir_derive_edge(pir_sum *sum, uint32_t e) {
     const pir_polytope *p = sum->p, *q = sum->q;
     pir_crossings *c = &sum->crossings;
     uint32_t half = p->edge_half[e], end = sum->fv[pir_right(p, half)], v = sum->fv[p->left[half]];
@@ -136,24 +136,4 @@ static bool derive_edge(pir_sum *sum, uint32_t e) {
         old = next;
     }
     return true;
-}
-
-bool pir_repair_edge(pir_sum *sum, uint32_t e) {
-    pir_change change = sum->change[e];
-    uint32_t by = sum->changed_by[e];
-    sum->change[e] = PIR_UNCHANGED;
-    switch (change) {
-    case PIR_UNCHANGED:
-        return true;
-    case PIR_START_MOVED:
-        return move_start(sum, e, by);
-    case PIR_END_MOVED:
-        return move_end(sum, e, by);
-    case PIR_PASSED_TO_LEFT:
-    case PIR_PASSED_TO_RIGHT:
-        return pass_facet(sum, e, by, change == PIR_PASSED_TO_LEFT);
-    case PIR_CHANGED:
-        break;
-    }
-    return derive_edge(sum, e);
 }

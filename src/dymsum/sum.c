@@ -47,11 +47,9 @@ static bool allocate(pir_sum *sum) {
     sum->queue = PIR_NEW(a, uint32_t, queue_capacity(sum));
     sum->mark = PIR_ZEROED(a, uint8_t, queue_capacity(sum));
     sum->rotated = PIR_NEW(a, pir_vec3, p->facet_count);
-    sum->change = PIR_ZEROED(a, uint8_t, p->edge_count);
-    sum->changed_by = PIR_NEW(a, uint32_t, p->edge_count);
+    sum->touched = PIR_ZEROED(a, uint32_t, p->edge_count);
     sum->suspects = PIR_NEW(a, pir_suspect, most(p->facet_count, q->facet_count));
-    if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->change ||
-        !sum->changed_by || !sum->suspects || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
+    if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->touched || !sum->suspects || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
         return false;
     pir_sum_link_facets(sum);
     // room for what most rotations need, so that tracking seldom grows it
@@ -69,8 +67,7 @@ void pir_sum_destroy(pir_sum *sum) {
     PIR_FREE(a, sum->queue, queue_capacity(sum));
     PIR_FREE(a, sum->mark, queue_capacity(sum));
     PIR_FREE(a, sum->rotated, p->facet_count);
-    PIR_FREE(a, sum->change, p->edge_count);
-    PIR_FREE(a, sum->changed_by, p->edge_count);
+    PIR_FREE(a, sum->touched, p->edge_count);
     PIR_FREE(a, sum->suspects, most(p->facet_count, q->facet_count));
     pir_alarms_finish(&sum->alarms, a);
     pir_crossings_finish(sum);

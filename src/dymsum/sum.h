@@ -51,16 +51,6 @@ typedef struct pir_cost_model {
     uint32_t probe_after; /* how many walks in a row before an update is tried */
 } pir_cost_model;
 
-/* What an update has found to do about an edge of P: see repair.c. */
-typedef enum pir_change {
-    PIR_UNCHANGED = 0,
-    PIR_START_MOVED,     /* its left facet has crossed the arc of a halfedge of Q, once */
-    PIR_END_MOVED,       /* its right facet has */
-    PIR_PASSED_TO_LEFT,  /* a facet of Q has crossed its arc, once, and is left of it now */
-    PIR_PASSED_TO_RIGHT, /* or right of it */
-    PIR_CHANGED          /* anything else */
-} pir_change;
-
 /*
  * How far the pairing may stay behind the rotation that was asked for: see lag.c. While `lagging`, the pairing and the clock are at
  * the rotation in sum->signs, and what is seen is placed by `now`.
@@ -93,8 +83,7 @@ struct pir_sum {
     /* work space of a rebuild and an update: facets to visit, flags of facets and edges, rotated normals of P */
     uint32_t *queue;
     uint8_t *mark;
-    uint8_t *change;      /* per edge of P: a pir_change, PIR_UNCHANGED between updates */
-    uint32_t *changed_by; /* per edge of P: the halfedge of Q, or the facet, that the change is about */
+    uint32_t *touched, stamp; /* per edge of P: the stamp of the last update that changed it; the last stamp given */
     pir_vec3 *rotated;
     pir_sum_statistics statistics;
 };
@@ -237,11 +226,16 @@ pir_status pir_cgm_rebuild(pir_sum *sum);
 
 /* --- repair.c --- */
 
-/*
- * Brings the crossings of edge e up to date, the facets being so already: as its `change` says, which is taken back. False when out
- * of memory.
- */
-bool pir_repair_edge(pir_sum *sum, uint32_t e);
+/* The crossings of edge e are brought along with one event; false when out of memory. The arc's first cell, or its last, goes from the near
+ * side of halfedge h of Q to the far one. */
+bool pir_move_start(pir_sum *sum, uint32_t e, uint32_t h);
+bool pir_move_end(pir_sum *sum, uint32_t e, uint32_t h);
+
+/* Facet g of Q has crossed the arc and is now left of it, or right. */
+bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left);
+
+/* Leads the arc from its left cell, which is known, to its right one anew. */
+bool pir_derive_edge(pir_sum *sum, uint32_t e);
 
 /* --- update.c --- */
 

@@ -9,9 +9,12 @@
  *
  * A facet that wakes is looked at where it is now. Mostly it is in its cell, too far from each side to have touched one within the step, and
  * sleeps on. Or it has crossed one side, into a cell of which it can have touched no other side than the one it came in by: one event,
- * which changes the arcs concerned in a way known beforehand. Anything else, several sides within reach, ties, is settled with care: the
- * facet by descent, each arc that it may have passed through by leading it from cell to cell again.
+ * which changes the arcs concerned in a way known beforehand (repair.c), and at once. Of a facet of Q that has passed through an arc to which
+ * something else has happened too the order is not known: that arc is led from cell to cell again at the end. Anything else, several
+ * sides within reach, ties, is settled with care: the facet by descent, each arc that it may have passed through by leading it again.
  */
+#include <string.h>
+
 #include "dymsum/sum.h"
 
 /* How many cells a facet is followed back through before every edge is taken to have changed. */
@@ -19,40 +22,53 @@
 
 struct update {
     pir_sum *sum;
-    uint32_t noted; /* edges in sum->queue */
-    bool all;       /* every edge is taken to have changed */
+    uint32_t stamp;  /* marks edges in sum->touched: this for one that an event has changed, one more for one to be led anew */
+    uint32_t derive; /* edges in sum->queue, to be led anew */
+    bool all;        /* every edge is */
+    bool failed;     /* out of memory */
 };
 
 void pir_expire_all(pir_sum *sum) {
     pir_alarms_wake(&sum->alarms, 0, pir_alarm_count(sum));
 }
 
-/* Notes what has happened to edge e; of two things it is known only that it has changed. */
-static inline void note_edge(struct update *update, uint32_t e, pir_change change, uint32_t by) {
+/* Edge e is to be led anew. */
+static inline void note_edge(struct update *update, uint32_t e) {
     pir_sum *sum = update->sum;
-    if (sum->change[e] == PIR_UNCHANGED) {
-        sum->change[e] = (uint8_t)change;
-        sum->changed_by[e] = by;
-        sum->queue[update->noted++] = e;
-    } else {
-        sum->change[e] = PIR_CHANGED;
-    }
+    if (sum->touched[e] != update->stamp + 1)
+        sum->queue[update->derive++] = e;
+    sum->touched[e] = update->stamp + 1;
 }
 
-/* Facet f of P has crossed the arc of halfedge h of Q. */
-static void note_crossing_of_p(struct update *update, uint32_t f, uint32_t h) {
-    const pir_polytope *p = update->sum->p;
+/* Facet f of P has crossed the arc of halfedge h of Q: its edges start there, or end, and go along. */
+static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
+    pir_sum *sum = update->sum;
+    const pir_polytope *p = sum->p;
+    bool done = true;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         uint32_t half = p->loop[i], e = p->edge[half];
-        note_edge(update, e, p->edge_half[e] == half ? PIR_START_MOVED : PIR_END_MOVED, h);
+        done &= p->edge_half[e] == half ? pir_move_start(sum, e, h) : pir_move_end(sum, e, h);
+        if (sum->touched[e] < update->stamp)
+            sum->touched[e] = update->stamp;
     }
+    update->failed |= !done;
 }
 
-/* Facet g of Q has crossed the arc of halfedge `half` of P. */
-static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half) {
-    const pir_polytope *p = update->sum->p;
-    uint32_t e = p->edge[half];
-    note_edge(update, e, p->edge_half[e] == half ? PIR_PASSED_TO_LEFT : PIR_PASSED_TO_RIGHT, g);
+/* A facet of Q has crossed the arc of halfedge `half` of P: of its edge that is known, or known to meet something else. */
+static inline void note_crossing_of_q(struct update *update, uint32_t half) {
+    uint32_t e = update->sum->p->edge[half];
+    if (update->sum->touched[e] >= update->stamp)
+        note_edge(update, e);
+    else
+        update->sum->touched[e] = update->stamp;
+}
+
+/* Facet g of Q has crossed it, once all that has happened is noted: an edge that nothing else has happened to leads around g now. */
+static void cross_of_q(struct update *update, uint32_t g, uint32_t half) {
+    pir_sum *sum = update->sum;
+    uint32_t e = sum->p->edge[half];
+    if (sum->touched[e] == update->stamp && !update->all)
+        update->failed |= !pir_pass_facet(sum, e, g, sum->p->edge_half[e] == half);
 }
 
 /* Files alarm i, checked now, to sleep so long. */
@@ -75,7 +91,7 @@ static void settle_of_p(struct update *update, uint32_t f) {
     sum->statistics.repaired += v != sum->fv[f];
     sum->fv[f] = v;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && !update->all; i++)
-        note_edge(update, p->edge[p->loop[i]], PIR_CHANGED, 0);
+        note_edge(update, p->edge[p->loop[i]]);
 }
 
 /* Whether side `half` of a cell of P may have been touched by the normal of a facet of Q, turned back, within the step. */
@@ -99,7 +115,7 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
         for (uint32_t half = p->ring_start[cells[i]]; half < p->ring_start[cells[i] + 1]; half++) {
             if (!touches(sum, half, turned_back, motion))
                 continue;
-            note_edge(update, p->edge[half], PIR_CHANGED, 0);
+            note_edge(update, p->edge[half]);
             uint32_t known = 0;
             while (known < count && cells[known] != p->target[half])
                 known++;
@@ -142,7 +158,7 @@ static void set_moment(pir_sum *sum) {
     }
 }
 
-/* Looks at the facets that wake and notes what they have touched. */
+/* Looks at the facets that wake, and brings along what they have touched or notes it. */
 static void review(struct update *update, uint32_t woken) {
     pir_sum *sum = update->sum;
     const uint32_t *alarm = sum->alarms.woken;
@@ -156,7 +172,7 @@ static void review(struct update *update, uint32_t woken) {
         if (suspect[i].crossed == PIR_NO_CROSSING) {
             settle_of_p(update, suspect[i].facet);
         } else {
-            note_crossing_of_p(update, suspect[i].facet, suspect[i].crossed);
+            cross_of_p(update, suspect[i].facet, suspect[i].crossed);
             sum->statistics.repaired++;
         }
     }
@@ -166,10 +182,22 @@ static void review(struct update *update, uint32_t woken) {
         if (suspect[i].crossed == PIR_NO_CROSSING) {
             settle_of_q(update, suspect[i].facet);
         } else {
-            note_crossing_of_q(update, suspect[i].facet, suspect[i].crossed);
+            note_crossing_of_q(update, suspect[i].crossed);
             sum->statistics.repaired++;
         }
     }
+    for (uint32_t i = 0; i < count; i++)
+        if (suspect[i].crossed != PIR_NO_CROSSING)
+            cross_of_q(update, suspect[i].facet, suspect[i].crossed);
+}
+
+/* Above all that is in sum->touched. */
+static uint32_t next_stamp(pir_sum *sum) {
+    if (sum->stamp >= UINT32_MAX - 3) {
+        sum->stamp = 0;
+        memset(sum->touched, 0, sum->p->edge_count * sizeof *sum->touched);
+    }
+    return sum->stamp += 2;
 }
 
 pir_status pir_update_repair(pir_sum *sum) {
@@ -178,15 +206,12 @@ pir_status pir_update_repair(pir_sum *sum) {
         return PIR_OK;
     sum->statistics.checked += woken;
     set_moment(sum);
-    struct update update = {.sum = sum, .all = !(fmaxf(sum->moment.reach_ahead, sum->moment.reach_behind) < HUGE_VALF)};
+    struct update update = {.sum = sum, .stamp = next_stamp(sum)};
+    update.all = !(fmaxf(sum->moment.reach_ahead, sum->moment.reach_behind) < HUGE_VALF);
     review(&update, woken);
     for (uint32_t e = 0; update.all && e < sum->p->edge_count; e++)
-        note_edge(&update, e, PIR_CHANGED, 0);
-    pir_status status = PIR_OK;
-    for (uint32_t i = 0; i < update.noted; i++) {
-        if (status == PIR_OK && !pir_repair_edge(sum, sum->queue[i]))
-            status = PIR_ERR_MEMORY;
-        sum->change[sum->queue[i]] = PIR_UNCHANGED;
-    }
-    return status;
+        note_edge(&update, e);
+    for (uint32_t i = 0; i < update.derive && !update.failed; i++)
+        update.failed = !pir_derive_edge(sum, sum->queue[i]);
+    return update.failed ? PIR_ERR_MEMORY : PIR_OK;
 }

@@ -60,8 +60,9 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     for (uint32_t f = 0; f < count; f++) {
         pir_glance seen;
         kernels->glance(facets, &moment, cells[f], facets->turn[f % 3], &seen);
-        const float spans[4] = {seen.highest, seen.margin, seen.ahead, seen.behind};
-        hash = mix(hash, &seen.touched, sizeof seen.touched);
+        const float spans[4] = {seen.highest, seen.look.margin, seen.look.ahead, seen.look.behind};
+        hash = mix(hash, &seen.look.touched, sizeof seen.look.touched);
+        hash = mix(hash, &seen.look.above, sizeof seen.look.above);
         hash = mix(hash, &seen.which, sizeof seen.which);
         hash = mix(hash, spans, sizeof spans);
     }
