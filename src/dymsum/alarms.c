@@ -17,15 +17,15 @@ static void free_alarms(const pir_alarms *alarms, const pir_allocator *allocator
 }
 
 bool pir_alarms_reserve(pir_alarms *alarms, const pir_allocator *allocator, uint32_t capacity) {
-    uint32_t old = alarms->capacity, blocks = (capacity + 8 * PIR_ALARM_BLOCK - 1) / (8 * PIR_ALARM_BLOCK) * 8;
+    uint32_t old = alarms->capacity, blocks = (capacity + 16 * PIR_ALARM_BLOCK - 1) / (16 * PIR_ALARM_BLOCK) * 16;
     capacity = blocks * PIR_ALARM_BLOCK;
     if (capacity <= old)
         return true;
     pir_alarms grown = {.margin = PIR_NEW(allocator, float, capacity),
-                        .ahead = PIR_NEW(allocator, double, capacity),
-                        .behind = PIR_NEW(allocator, double, capacity),
-                        .block_ahead = PIR_NEW(allocator, double, blocks),
-                        .block_behind = PIR_NEW(allocator, double, blocks),
+                        .ahead = PIR_NEW(allocator, float, capacity),
+                        .behind = PIR_NEW(allocator, float, capacity),
+                        .block_ahead = PIR_NEW(allocator, float, blocks),
+                        .block_behind = PIR_NEW(allocator, float, blocks),
                         .woken = PIR_NEW(allocator, uint32_t, capacity),
                         .capacity = capacity};
     bool all = grown.margin && grown.ahead && grown.behind && grown.block_ahead && grown.block_behind && grown.woken;
@@ -67,7 +67,7 @@ void pir_alarms_finish(pir_alarms *alarms, const pir_allocator *allocator) {
 
 /* Makes the bounds of block b anew from its certificates. */
 static void bound_block(pir_alarms *alarms, uint32_t b) {
-    double ahead = HUGE_VAL, behind = -HUGE_VAL;
+    float ahead = HUGE_VALF, behind = -HUGE_VALF;
     for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i++) {
         ahead = alarms->ahead[i] < ahead ? alarms->ahead[i] : ahead;
         behind = alarms->behind[i] > behind ? alarms->behind[i] : behind;
@@ -76,14 +76,14 @@ static void bound_block(pir_alarms *alarms, uint32_t b) {
     alarms->block_behind[b] = behind;
 }
 
-uint32_t pir_alarms_collect(pir_alarms *alarms, const pir_kernels *kernels, uint32_t used, double phase) {
-    return kernels->collect(alarms, (used + PIR_ALARM_BLOCK - 1) / PIR_ALARM_BLOCK, phase);
+uint32_t pir_alarms_collect(pir_alarms *alarms, const pir_kernels *kernels, uint32_t used, pir_alarm_time time) {
+    return kernels->collect(alarms, (used + PIR_ALARM_BLOCK - 1) / PIR_ALARM_BLOCK, time);
 }
 
 void pir_alarms_shift(pir_alarms *alarms, uint32_t used, double shift) {
     for (uint32_t i = 0; i < used; i++) {
-        alarms->ahead[i] -= shift;
-        alarms->behind[i] -= shift;
+        alarms->ahead[i] = pir_float_below((double)alarms->ahead[i] - shift);
+        alarms->behind[i] = pir_float_above((double)alarms->behind[i] - shift);
     }
     for (uint32_t b = 0; b * PIR_ALARM_BLOCK < used; b++)
         bound_block(alarms, b);
@@ -109,21 +109,21 @@ static inline float left_of(const pir_alarms *alarms, uint32_t i) {
     return alarms->margin[i] - 4 * (y + 0.2215f * (y * y * y)) * NET_RELATIVE - NET_ERROR;
 }
 
-void pir_alarms_new_epoch(pir_alarms *alarms, uint32_t used, bool axial) {
-    double slack = axial ? PIR_DRIFT_SLACK : 0;
+void pir_alarms_new_epoch(pir_alarms *alarms, uint32_t used, bool axial, double expected) {
+    const float slack = axial ? (float)PIR_DRIFT_SLACK : 0, enough = axial ? (float)expected : -HUGE_VALF;
     for (uint32_t b = 0; b * PIR_ALARM_BLOCK < used; b++) {
         float left[PIR_ALARM_BLOCK];
         for (uint32_t i = 0; i < PIR_ALARM_BLOCK; i++)
-            left[i] = left_of(alarms, b * PIR_ALARM_BLOCK + i);
-        double least = HUGE_VAL;
+            left[i] = left_of(alarms, b * PIR_ALARM_BLOCK + i) - slack;
+        float least = HUGE_VALF;
         for (uint32_t i = 0; i < PIR_ALARM_BLOCK; i++) {
-            double ahead = (double)left[i] - slack;
+            float ahead = left[i] >= enough ? left[i] : -PIR_FOR_GOOD;
             alarms->ahead[b * PIR_ALARM_BLOCK + i] = ahead;
-            alarms->behind[b * PIR_ALARM_BLOCK + i] = axial ? -ahead : -HUGE_VAL;
+            alarms->behind[b * PIR_ALARM_BLOCK + i] = -ahead;
             least = ahead < least ? ahead : least;
         }
         alarms->block_ahead[b] = least;
-        alarms->block_behind[b] = axial ? -least : -HUGE_VAL;
+        alarms->block_behind[b] = -least;
     }
 }
 

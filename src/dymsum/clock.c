@@ -7,11 +7,13 @@
  */
 #include "dymsum/clock.h"
 
+#include "exact/rotation.h"
+
 /* A stretch of an axial epoch ends when its phase passes this: the arc sine below is good for half of it and more. */
 #define LONGEST_STRETCH 0.25
 
-/* An epoch without an axis ends when its path passes this, so that adding small angles stays accurate. */
-#define LONGEST_PATH 64.0
+/* An epoch without an axis ends when its path passes this, so that phases stay near 0, where floats are fine. */
+#define LONGEST_PATH 0.5
 
 /* When an axial epoch of so many steps ends, the axis of the step that ends it is taken to last as well. */
 #define LASTING 4
@@ -59,48 +61,59 @@ static bool keeps_axis(pir_vec3 step, pir_vec3 last) {
     return a > 0 && b > 0 && pir_vec_dot(off, off) <= SAME_AXIS * SAME_AXIS * a * b;
 }
 
-/* Begins an epoch with the step r, axial or not. */
-static void begin_epoch(pir_clock *clock, pir_quat r, bool axial, double angle) {
+/* Takes note of the way of the step r. */
+static void set_way(pir_clock *clock, pir_quat r, double angle) {
     pir_vec3 step = {r.x, r.y, r.z};
     double length = sqrt(pir_vec_dot(step, step));
-    clock->axial = axial && length > 0 && r.w >= 0.9;
-    clock->axis = clock->axial ? pir_vec_scale(step, 1 / length) : (pir_vec3){0, 0, 0};
-    clock->stride = clock->axial ? angle : 0;
+    clock->axis = length > 0 ? pir_vec_scale(step, 1 / length) : (pir_vec3){0, 0, 0};
+    clock->stride = angle;
+}
+
+/* Begins an epoch with the step that has led to clock->at. */
+static void begin_epoch(pir_clock *clock, bool axial, double expected) {
+    clock->axial = axial;
     clock->start = clock->at;
     clock->carried = 0;
-    clock->phase = clock->path = 0;
+    clock->phase = clock->path = clock->net = clock->extent = 0;
+    clock->expected = expected;
     clock->steps = 0;
 }
 
-pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, double angle, double *ret_shift) {
+/* The step about the epoch's axis to `phase`. */
+static pir_clock_event turn_on(pir_clock *clock, double phase, double drift, double *ret_shift) {
+    clock->stride = phase - clock->phase;
+    clock->phase = phase;
+    clock->extent = fmax(clock->extent, fabs(phase));
+    if (fabs(phase) <= LONGEST_STRETCH)
+        return PIR_CLOCK_RUNS;
+    // the next stretch of the same epoch begins here
+    *ret_shift = phase;
+    clock->phase = 0;
+    clock->start = clock->at;
+    clock->carried = drift;
+    return PIR_CLOCK_REBASED;
+}
+
+pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, double angle, bool weary,
+                               double *ret_shift) {
     // a rotation that this clock has not seen ends the epoch
     bool followed =
         before.x == clock->at.x && before.y == clock->at.y && before.z == clock->at.z && before.w == clock->at.w;
-    clock->path = (clock->path + angle) * (1 + 0x1p-51);
     clock->at = now;
-    clock->angle = angle;
     clock->steps += clock->steps < UINT32_MAX;
     double phase, drift;
-    if (clock->axial && followed && measure_stretch(clock, now, &phase, &drift)) {
-        clock->stride = phase - clock->phase;
-        clock->phase = phase;
-        if (fabs(phase) <= LONGEST_STRETCH)
-            return PIR_CLOCK_RUNS;
-        // the next stretch of the same epoch begins here
-        *ret_shift = phase;
-        clock->phase = 0;
-        clock->start = now;
-        clock->carried = drift;
-        return PIR_CLOCK_REBASED;
-    }
+    if (clock->axial && followed && measure_stretch(clock, now, &phase, &drift))
+        return turn_on(clock, phase, drift, ret_shift);
     pir_quat r = between(before, now);
-    pir_vec3 step = {r.x, r.y, r.z}, last = clock->step;
+    pir_vec3 step = {r.x, r.y, r.z};
+    bool lasted = clock->axial && clock->steps >= LASTING, keeps = keeps_axis(step, clock->step);
     clock->step = step;
-    bool lasted = clock->axial && clock->steps >= LASTING, keeps = keeps_axis(step, last);
-    if (!clock->axial && !keeps && followed && clock->path < LONGEST_PATH) {
-        clock->phase = clock->path;
+    clock->path = (clock->path + angle) * (1 + 0x1p-51);
+    set_way(clock, r, angle);
+    if (!clock->axial && !keeps && followed && !weary && clock->path < LONGEST_PATH) {
+        clock->net = pir_rotation_angle_bound(clock->start, now);
         return PIR_CLOCK_RUNS;
     }
-    begin_epoch(clock, r, keeps || lasted, angle);
+    begin_epoch(clock, (keeps || lasted) && r.w >= 0.9 && angle > 0, lasted ? clock->extent : 0);
     return PIR_CLOCK_NEW_EPOCH;
 }

@@ -54,13 +54,24 @@ static inline void look_in(const pir_facets *facets, const pir_moment *moment, u
 #define REVIEW_TARGET
 #include "dymsum/review_body.h"
 
+/* The time that certificates are compared with, by floats. */
+struct instant {
+    float ahead, behind;
+    bool either;
+};
+
+static inline bool holds(float ahead, float behind, struct instant now) {
+    bool forwards = ahead > now.ahead, backwards = behind < now.behind;
+    return now.either ? forwards || backwards : forwards && backwards;
+}
+
 /* The certificates of block b. */
-static uint32_t collect_block(pir_alarms *alarms, uint32_t b, double phase, uint32_t *woken) {
+static uint32_t collect_block(pir_alarms *alarms, uint32_t b, struct instant now, uint32_t *woken) {
     uint32_t count = 0;
-    double least = HUGE_VAL, greatest = -HUGE_VAL;
+    float least = HUGE_VALF, greatest = -HUGE_VALF;
     for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i++) {
-        double ahead = alarms->ahead[i], behind = alarms->behind[i];
-        if (ahead > phase && behind < phase) {
+        float ahead = alarms->ahead[i], behind = alarms->behind[i];
+        if (holds(ahead, behind, now)) {
             least = ahead < least ? ahead : least;
             greatest = behind > greatest ? behind : greatest;
         } else {
@@ -72,11 +83,12 @@ static uint32_t collect_block(pir_alarms *alarms, uint32_t b, double phase, uint
     return count;
 }
 
-static uint32_t collect(pir_alarms *alarms, uint32_t blocks, double phase) {
+static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
+    const struct instant now = {pir_float_above(time.ahead), pir_float_below(time.behind), time.either};
     uint32_t count = 0;
     for (uint32_t b = 0; b < blocks; b++)
-        if (!(alarms->block_ahead[b] > phase && alarms->block_behind[b] < phase))
-            count += collect_block(alarms, b, phase, alarms->woken + count);
+        if (!holds(alarms->block_ahead[b], alarms->block_behind[b], now))
+            count += collect_block(alarms, b, now, alarms->woken + count);
     return count;
 }
 

@@ -71,7 +71,7 @@ typedef struct pir_facets {
 typedef struct pir_moment {
     float reach_ahead,
         reach_behind;   /* where the step lies by the phase, from now: one of them is 0, or both are the same */
-    double path, phase; /* as certificates are filed */
+    double path, net, phase; /* as certificates are filed */
     bool axial;
 } pir_moment;
 
@@ -91,10 +91,10 @@ struct pir_kernels {
                    pir_glance *ret_glance);
 
     /*
-     * Lists in alarms->woken which of the certificates in the first `blocks` blocks do not hold at `phase`, and makes the bounds of
-     * their blocks those of the others, since who wakes is filed again. Returns how many it listed.
+     * Lists in alarms->woken which of the certificates in the first `blocks` blocks do not hold, and makes the bounds of their blocks
+     * those of the others, since who wakes is filed again. Returns how many it listed.
      */
-    uint32_t (*collect)(pir_alarms *alarms, uint32_t blocks, double phase);
+    uint32_t (*collect)(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time);
 };
 
 /* The mask of the sides of a ring of so many, without the bits that only fill its last block up. */
@@ -107,18 +107,21 @@ static inline uint64_t pir_side_mask_add(uint64_t mask, uint32_t b, uint32_t eig
     return mask | (b < PIR_SIDE_BITS / 8 ? (uint64_t)eight << 8 * b : eight ? UINT64_MAX : 0);
 }
 
-/* The path at which a certificate made at `path` has used its margin up, rounded down. */
-static inline double pir_path_end(double path, double margin) {
-    double end = path + margin;
-    return end - fabs(end) * 0x1p-52;
+/* The keys of a certificate: in an axial epoch from its spans, from now; otherwise from its margin. */
+static inline void pir_sleep_file(const pir_moment *moment, pir_alarms *alarms, uint32_t i, double margin, double ahead,
+                                  double behind) {
+    double path = moment->path + margin, net = moment->net - margin;
+    if (moment->axial)
+        pir_alarm_set(alarms, i, (float)margin, moment->phase + ahead, moment->phase - behind);
+    else
+        pir_alarm_set(alarms, i, (float)margin, path - fabs(path) * 0x1p-52, net + fabs(net) * 0x1p-52);
 }
 
 /* Files facet f, looked at just now, to sleep as long as the look allows. */
 static inline void pir_sleep_look(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
                                   const pir_look *look) {
-    double to = moment->axial ? moment->phase + (double)look->ahead : pir_path_end(moment->path, (double)look->margin);
-    double from = moment->axial ? moment->phase - (double)look->behind : -HUGE_VAL;
-    pir_alarm_set(alarms, facets->first_alarm + f, look->margin, to, from);
+    pir_sleep_file(moment, alarms, facets->first_alarm + f, (double)look->margin, (double)look->ahead,
+                   (double)look->behind);
 }
 
 /* Packs a vector and its motion as the kernels take them. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels for AVX2: a block of eight floats at a time, alarms four doubles at a time. */
+/* The kernels for AVX2: a block of eight floats at a time. */
 #include "dymsum/kernels_versions.h"
 
 #if PIR_HAVE_X86_KERNELS
@@ -109,42 +109,47 @@ TARGET static inline void look_in(const pir_facets *facets, const pir_moment *mo
 #define REVIEW_TARGET TARGET
 #include "dymsum/review_body.h"
 
-TARGET static inline double least_of(__m256d v) {
-    __m128d half = _mm_min_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
-    return _mm_cvtsd_f64(_mm_min_sd(half, _mm_unpackhi_pd(half, half)));
-}
+/* The time that certificates are compared with; either: all bits or none. */
+struct instant {
+    __m256 ahead, behind, either;
+};
 
-TARGET static inline double most_of(__m256d v) {
-    __m128d half = _mm_max_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
-    return _mm_cvtsd_f64(_mm_max_sd(half, _mm_unpackhi_pd(half, half)));
+/* Which of eight certificates or blocks hold. */
+TARGET static inline __m256 holding(__m256 ahead, __m256 behind, struct instant now) {
+    __m256 forwards = _mm256_cmp_ps(ahead, now.ahead, _CMP_GT_OQ);
+    __m256 backwards = _mm256_cmp_ps(behind, now.behind, _CMP_LT_OQ);
+    return _mm256_or_ps(_mm256_and_ps(forwards, backwards),
+                        _mm256_and_ps(_mm256_or_ps(forwards, backwards), now.either));
 }
 
 /* The certificates of block b. */
-TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, __m256d now, uint32_t *woken) {
-    const __m256d most = _mm256_set1_pd(HUGE_VAL), fewest = _mm256_set1_pd(-HUGE_VAL);
-    __m256d least = most, greatest = fewest;
+TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, struct instant now, uint32_t *woken) {
+    const __m256 most = _mm256_set1_ps(HUGE_VALF), fewest = _mm256_set1_ps(-HUGE_VALF);
+    __m256 least = most, greatest = fewest;
     uint32_t count = 0;
-    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i += 4) {
-        __m256d ahead = _mm256_loadu_pd(alarms->ahead + i), behind = _mm256_loadu_pd(alarms->behind + i);
-        __m256d holds = _mm256_and_pd(_mm256_cmp_pd(ahead, now, _CMP_GT_OQ), _mm256_cmp_pd(behind, now, _CMP_LT_OQ));
-        least = _mm256_min_pd(least, _mm256_blendv_pd(most, ahead, holds));
-        greatest = _mm256_max_pd(greatest, _mm256_blendv_pd(fewest, behind, holds));
-        for (uint32_t wakes = ~(uint32_t)_mm256_movemask_pd(holds) & 15; wakes; wakes &= wakes - 1)
+    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i += 8) {
+        __m256 ahead = _mm256_loadu_ps(alarms->ahead + i), behind = _mm256_loadu_ps(alarms->behind + i);
+        __m256 holds = holding(ahead, behind, now);
+        least = _mm256_min_ps(least, _mm256_blendv_ps(most, ahead, holds));
+        greatest = _mm256_max_ps(greatest, _mm256_blendv_ps(fewest, behind, holds));
+        for (uint32_t wakes = (uint32_t)_mm256_movemask_ps(holds) ^ 0xFF; wakes; wakes &= wakes - 1)
             woken[count++] = i + (uint32_t)__builtin_ctz(wakes);
     }
-    alarms->block_ahead[b] = least_of(least);
-    alarms->block_behind[b] = most_of(greatest);
+    alarms->block_ahead[b] = _mm_cvtss_f32(least_of_each(least, least, least));
+    alarms->block_behind[b] = greatest_of(greatest);
     return count;
 }
 
-TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, double phase) {
-    const __m256d now = _mm256_set1_pd(phase);
+TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
+    const struct instant now = {_mm256_set1_ps(pir_float_above(time.ahead)),
+                                _mm256_set1_ps(pir_float_below(time.behind)),
+                                _mm256_castsi256_ps(_mm256_set1_epi32(time.either ? -1 : 0))};
     uint32_t count = 0;
-    // four blocks at a time; those past the last in use hold for ever
-    for (uint32_t b = 0; b < blocks; b += 4) {
-        __m256d ahead = _mm256_loadu_pd(alarms->block_ahead + b), behind = _mm256_loadu_pd(alarms->block_behind + b);
-        __m256d holds = _mm256_and_pd(_mm256_cmp_pd(ahead, now, _CMP_GT_OQ), _mm256_cmp_pd(behind, now, _CMP_LT_OQ));
-        for (uint32_t rings = ~(uint32_t)_mm256_movemask_pd(holds) & 15; rings; rings &= rings - 1)
+    // eight blocks at a time; those past the last in use hold for ever
+    for (uint32_t b = 0; b < blocks; b += 8) {
+        __m256 ahead = _mm256_loadu_ps(alarms->block_ahead + b), behind = _mm256_loadu_ps(alarms->block_behind + b);
+        uint32_t rings = (uint32_t)_mm256_movemask_ps(holding(ahead, behind, now)) ^ 0xFF;
+        for (; rings; rings &= rings - 1)
             count += collect_block(alarms, b + (uint32_t)__builtin_ctz(rings), now, alarms->woken + count);
     }
     return count;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels for NEON (AArch64): four floats at a time, alarms two doubles at a time. */
+/* The kernels for NEON (AArch64): four floats at a time. */
 #include "dymsum/kernels_versions.h"
 
 #if PIR_HAVE_NEON_KERNELS
@@ -89,37 +89,52 @@ static inline void look_in(const pir_facets *facets, const pir_moment *moment, u
 #define REVIEW_TARGET
 #include "dymsum/review_body.h"
 
+/* The time that certificates are compared with; either: all bits or none. */
+struct instant {
+    float32x4_t ahead, behind;
+    uint32x4_t either;
+};
+
+/* Which of four certificates or blocks hold. */
+static inline uint32x4_t holding(float32x4_t ahead, float32x4_t behind, struct instant now) {
+    uint32x4_t forwards = vcgtq_f32(ahead, now.ahead), backwards = vcltq_f32(behind, now.behind);
+    return vorrq_u32(vandq_u32(forwards, backwards), vandq_u32(vorrq_u32(forwards, backwards), now.either));
+}
+
 /* The certificates of block b. */
-static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, float64x2_t now, uint32_t *woken) {
-    const float64x2_t most = vdupq_n_f64(HUGE_VAL), fewest = vdupq_n_f64(-HUGE_VAL);
-    float64x2_t least = most, greatest = fewest;
+static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, struct instant now, uint32_t *woken) {
+    const float32x4_t most = vdupq_n_f32(HUGE_VALF), fewest = vdupq_n_f32(-HUGE_VALF);
+    float32x4_t least = most, greatest = fewest;
     uint32_t count = 0;
-    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i += 2) {
-        float64x2_t ahead = vld1q_f64(alarms->ahead + i), behind = vld1q_f64(alarms->behind + i);
-        uint64x2_t holds = vandq_u64(vcgtq_f64(ahead, now), vcltq_f64(behind, now));
-        least = vminq_f64(least, vbslq_f64(holds, ahead, most));
-        greatest = vmaxq_f64(greatest, vbslq_f64(holds, behind, fewest));
-        if (!vgetq_lane_u64(holds, 0))
-            woken[count++] = i;
-        if (!vgetq_lane_u64(holds, 1))
-            woken[count++] = i + 1;
+    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i += 4) {
+        float32x4_t ahead = vld1q_f32(alarms->ahead + i), behind = vld1q_f32(alarms->behind + i);
+        uint32x4_t holds = holding(ahead, behind, now);
+        least = vminq_f32(least, vbslq_f32(holds, ahead, most));
+        greatest = vmaxq_f32(greatest, vbslq_f32(holds, behind, fewest));
+        uint32_t held[4];
+        vst1q_u32(held, holds);
+        for (uint32_t k = 0; k < 4; k++) {
+            woken[count] = i + k;
+            count += !held[k];
+        }
     }
-    alarms->block_ahead[b] = vminvq_f64(least);
-    alarms->block_behind[b] = vmaxvq_f64(greatest);
+    alarms->block_ahead[b] = vminvq_f32(least);
+    alarms->block_behind[b] = vmaxvq_f32(greatest);
     return count;
 }
 
-static uint32_t collect(pir_alarms *alarms, uint32_t blocks, double phase) {
-    const float64x2_t now = vdupq_n_f64(phase);
+static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
+    const struct instant now = {vdupq_n_f32(pir_float_above(time.ahead)), vdupq_n_f32(pir_float_below(time.behind)),
+                                vdupq_n_u32(time.either ? UINT32_MAX : 0)};
     uint32_t count = 0;
-    // two blocks at a time; those past the last in use hold for ever
-    for (uint32_t b = 0; b < blocks; b += 2) {
-        float64x2_t ahead = vld1q_f64(alarms->block_ahead + b), behind = vld1q_f64(alarms->block_behind + b);
-        uint64x2_t holds = vandq_u64(vcgtq_f64(ahead, now), vcltq_f64(behind, now));
-        if (!vgetq_lane_u64(holds, 0))
-            count += collect_block(alarms, b, now, alarms->woken + count);
-        if (!vgetq_lane_u64(holds, 1))
-            count += collect_block(alarms, b + 1, now, alarms->woken + count);
+    // four blocks at a time; those past the last in use hold for ever
+    for (uint32_t b = 0; b < blocks; b += 4) {
+        float32x4_t ahead = vld1q_f32(alarms->block_ahead + b), behind = vld1q_f32(alarms->block_behind + b);
+        uint32_t held[4];
+        vst1q_u32(held, holding(ahead, behind, now));
+        for (uint32_t k = 0; k < 4; k++)
+            if (!held[k])
+                count += collect_block(alarms, b + k, now, alarms->woken + count);
     }
     return count;
 }

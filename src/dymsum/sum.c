@@ -140,7 +140,8 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
 static void advance_clock(pir_sum *sum, pir_quat before, double angle) {
     double shift = 0;
     uint32_t used = pir_alarm_count(sum);
-    switch (pir_clock_step(&sum->clock, before, sum->signs.rotation.unit, angle, &shift)) {
+    bool weary = sum->woken > used;
+    switch (pir_clock_step(&sum->clock, before, sum->signs.rotation.unit, angle, weary, &shift)) {
     case PIR_CLOCK_RUNS:
         break;
     case PIR_CLOCK_REBASED:
@@ -148,7 +149,8 @@ static void advance_clock(pir_sum *sum, pir_quat before, double angle) {
         break;
     case PIR_CLOCK_NEW_EPOCH:
         pir_alarms_set_now(&sum->alarms, sum->signs.rotation.unit);
-        pir_alarms_new_epoch(&sum->alarms, used, sum->clock.axial);
+        pir_alarms_new_epoch(&sum->alarms, used, sum->clock.axial, sum->clock.expected);
+        sum->woken = 0;
         break;
     }
 }

@@ -10,7 +10,7 @@
  *   - fv[f] is the vertex of Q farthest along the normal of f; vf[g] that of P farthest along the normal of g.
  *   - the crossings of edge e, from first[e] along next, name halfedges of Q: the first leaves fv[left], each later one leaves the vertex
  *     that the one before leads to, the last leads to fv[right]. Their number over all edges is ee_count.
- *   - a facet whose alarm (alarms.h) does not ring at the clock's phase is in its cell, and has been ever since the alarm was set. Alarms
+ *   - a facet whose alarm (alarms.h) does not ring at the clock's time is in its cell, and has been ever since the alarm was set. Alarms
  *     are numbered facets of P first, then facets of Q.
  *
  * A crossing of edge e (vector e, facets f⁻ left, f⁺ right) and halfedge h (vector d, facets R right, L left) is proven by four signs:
@@ -75,6 +75,7 @@ struct pir_sum {
     pir_clock clock;
     pir_moment moment; /* what the kernels need of it */
     pir_alarms alarms;
+    uint64_t woken; /* certificates, in this epoch */
     pir_facets p_facets, q_facets; /* each over the cells of the other */
     pir_suspect *suspects;         /* what a review has listed */
     pir_cost_model cost;
@@ -145,7 +146,7 @@ static inline pir_vec3 pir_turned_back_normal(const pir_sum *sum, uint32_t g) {
     return pir_mat_apply_transposed(&sum->signs.rotation.r, sum->q->normal[g]);
 }
 
-/* How fast a vector of P, rotated, moves in an axial epoch, and one of Q seen from P; zero otherwise. */
+/* How fast a vector of P, rotated, moves along the axis of the last step, and one of Q seen from P. */
 static inline pir_vec3 pir_motion_of(const pir_sum *sum, pir_vec3 rotated) {
     return pir_vec_cross(sum->clock.axis, rotated);
 }

@@ -73,12 +73,7 @@ static void cross_of_q(struct update *update, uint32_t g, uint32_t half) {
 
 /* Files alarm i, checked now, to sleep so long. */
 static void fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
-    const pir_clock *clock = &sum->clock;
-    double margin = fmin(sleep->margin, 4);
-    if (clock->axial)
-        pir_alarm_set(&sum->alarms, i, (float)margin, clock->phase + sleep->ahead, clock->phase + sleep->behind);
-    else
-        pir_alarm_set(&sum->alarms, i, (float)margin, pir_path_end(clock->path, margin), -HUGE_VAL);
+    pir_sleep_file(&sum->moment, &sum->alarms, i, fmin(sleep->margin, 4), sleep->ahead, -sleep->behind);
 }
 
 /* Facet f of P may have touched one side or another. */
@@ -143,11 +138,11 @@ static void settle_of_q(struct update *update, uint32_t g) {
 /* What the kernels need to know of the rotation and of the last step. */
 static void set_moment(pir_sum *sum) {
     const pir_clock *clock = &sum->clock;
-    // where the motion is not known, a span is √2s for the value s, and the step a span likewise
-    double reach = (clock->axial ? fabs(clock->stride) : sqrt(2 * clock->angle)) * (1 + 0x1p-20);
+    double reach = fabs(clock->stride) * (1 + 0x1p-20);
     float most = reach <= (double)PIR_FARTHEST ? (float)reach : HUGE_VALF;
-    bool forwards = !clock->axial || clock->stride >= 0;
-    sum->moment = (pir_moment){forwards ? 0 : most, forwards ? most : 0, clock->path, clock->phase, clock->axial};
+    bool forwards = clock->stride >= 0;
+    sum->moment = (pir_moment){forwards ? 0 : most, forwards ? most : 0, clock->path, clock->net, clock->phase,
+                               clock->axial};
     pir_alarms_set_now(&sum->alarms, sum->signs.rotation.unit);
     const pir_mat3 *r = &sum->signs.rotation.r;
     pir_vec3 back = pir_mat_apply_transposed(r, clock->axis);
@@ -201,7 +196,9 @@ static uint32_t next_stamp(pir_sum *sum) {
 }
 
 pir_status pir_update_repair(pir_sum *sum) {
-    uint32_t woken = pir_alarms_collect(&sum->alarms, sum->kernels, pir_alarm_count(sum), sum->clock.phase);
+    uint32_t woken =
+        pir_alarms_collect(&sum->alarms, sum->kernels, pir_alarm_count(sum), pir_alarm_time_of(&sum->clock));
+    sum->woken += woken;
     if (woken == 0)
         return PIR_OK;
     sum->statistics.checked += woken;

@@ -33,6 +33,7 @@ static void stir(test_random *random, pir_facets *facets, uint32_t vertices, pir
     *moment = (pir_moment){.reach_ahead = (float)(uniform(random) * 0.2 + 0.2),
                            .reach_behind = test_random_below(random, 2) ? 0 : 0x1p-10f,
                            .path = uniform(random) + 1,
+                           .net = uniform(random) / 4 + 0.25,
                            .phase = uniform(random) / 4,
                            .axial = test_random_below(random, 4) != 0};
 }
@@ -128,7 +129,9 @@ static void collections_list_the_same_alarms(void **state) {
             set_alarms(&random, &alarms, count);
             uint64_t hash = 0xcbf29ce484222325u;
             for (int round = 0; round < 3; round++) {
-                uint32_t found = pir_alarms_collect(&alarms, pir_kernels_version(k), count, uniform(&random) / 50);
+                const pir_alarm_time time = {uniform(&random) / 50, uniform(&random) / 50,
+                                             test_random_below(&random, 2) == 0};
+                uint32_t found = pir_alarms_collect(&alarms, pir_kernels_version(k), count, time);
                 hash = mix(hash, alarms.woken, found * sizeof *alarms.woken);
                 hash = mix(hash, alarms.block_ahead, blocks * sizeof *alarms.block_ahead);
                 hash = mix(hash, alarms.block_behind, blocks * sizeof *alarms.block_behind);
