@@ -94,8 +94,7 @@ static pir_clock_event turn_on(pir_clock *clock, double phase, double drift, dou
     return PIR_CLOCK_REBASED;
 }
 
-pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, double angle, bool weary,
-                               double *ret_shift) {
+pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, bool weary, double *ret_shift) {
     // a rotation that this clock has not seen ends the epoch
     bool followed =
         before.x == clock->at.x && before.y == clock->at.y && before.z == clock->at.z && before.w == clock->at.w;
@@ -105,6 +104,7 @@ pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, 
     if (clock->axial && followed && measure_stretch(clock, now, &phase, &drift))
         return turn_on(clock, phase, drift, ret_shift);
     pir_quat r = between(before, now);
+    double angle = pir_rotation_angle_bound(before, now);
     pir_vec3 step = {r.x, r.y, r.z};
     bool lasted = clock->axial && clock->steps >= LASTING, keeps = keeps_axis(step, clock->step);
     clock->step = step;
@@ -114,6 +114,6 @@ pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, 
         clock->net = pir_rotation_angle_bound(clock->start, now);
         return PIR_CLOCK_RUNS;
     }
-    begin_epoch(clock, (keeps || lasted) && r.w >= 0.9 && angle > 0, lasted ? clock->extent : 0);
+    begin_epoch(clock, (keeps || lasted) && r.w >= 0.9 && pir_vec_dot(step, step) > 0, lasted ? clock->extent : 0);
     return PIR_CLOCK_NEW_EPOCH;
 }

@@ -55,10 +55,9 @@ typedef enum pir_clock_event {
 } pir_clock_event;
 
 /*
- * Takes the step from unit quaternion `before` to `now`, whose angle is at most `angle`. weary: so many certificates have woken that beginning
- * an epoch anew costs little beside.
+ * Takes the step from unit quaternion `before` to `now`. weary: so many certificates have woken that beginning an epoch anew costs little
+ * beside.
  */
-pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, double angle, bool weary,
-                               double *ret_shift);
+pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, bool weary, double *ret_shift);
 
 #endif

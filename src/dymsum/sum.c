@@ -49,7 +49,8 @@ static bool allocate(pir_sum *sum) {
     sum->rotated = PIR_NEW(a, pir_vec3, p->facet_count);
     sum->touched = PIR_ZEROED(a, uint32_t, p->edge_count);
     sum->suspects = PIR_NEW(a, pir_suspect, most(p->facet_count, q->facet_count));
-    if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->touched || !sum->suspects || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
+    sum->passes = PIR_NEW(a, pir_suspect, q->facet_count);
+    if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->touched || !sum->suspects || !sum->passes || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
         return false;
     pir_sum_link_facets(sum);
     // room for what most rotations need, so that tracking seldom grows it
@@ -69,6 +70,7 @@ void pir_sum_destroy(pir_sum *sum) {
     PIR_FREE(a, sum->rotated, p->facet_count);
     PIR_FREE(a, sum->touched, p->edge_count);
     PIR_FREE(a, sum->suspects, most(p->facet_count, q->facet_count));
+    PIR_FREE(a, sum->passes, q->facet_count);
     pir_alarms_finish(&sum->alarms, a);
     pir_crossings_finish(sum);
     pir_signs_finish(&sum->signs, a);
@@ -137,11 +139,11 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
 }
 
 /* Moves the clock on to the rotation, and the alarms with it. */
-static void advance_clock(pir_sum *sum, pir_quat before, double angle) {
+static void advance_clock(pir_sum *sum, pir_quat before) {
     double shift = 0;
     uint32_t used = pir_alarm_count(sum);
     bool weary = sum->woken > used;
-    switch (pir_clock_step(&sum->clock, before, sum->signs.rotation.unit, angle, weary, &shift)) {
+    switch (pir_clock_step(&sum->clock, before, sum->signs.rotation.unit, weary, &shift)) {
     case PIR_CLOCK_RUNS:
         break;
     case PIR_CLOCK_REBASED:
@@ -179,8 +181,8 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
     pir_status status = pir_rotation_set(now, rotation);
     if (status != PIR_OK)
         return status;
-    double angle = pir_rotation_angle_bound(unit_before, now->unit);
-    advance_clock(sum, unit_before, angle);
+    advance_clock(sum, unit_before);
+    double angle = fabs(sum->clock.stride);
     if (method == PIR_METHOD_AUTO)
         method = pir_choose_method(sum, angle);
     if (method == PIR_METHOD_CGM) {

@@ -78,6 +78,7 @@ struct pir_sum {
     uint64_t woken; /* certificates, in this epoch */
     pir_facets p_facets, q_facets; /* each over the cells of the other */
     pir_suspect *suspects;         /* what a review has listed */
+    pir_suspect *passes;           /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */
     pir_cost_model cost;
     pir_lag lag;
     pir_cgm *cgm_q; /* Q's cubical Gaussian map, from the first rebuild by CGM on */
@@ -191,6 +192,20 @@ uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t fro
 
 /* The vertex of P farthest along facet g of Q. */
 uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_sleep *ret_sleep);
+
+/* --- trace.c --- */
+
+#define PIR_TRACE_LONGEST 8
+
+/* The way of a facet through the last step: the sides that it has crossed, in order, the cell where it is, and how long it stays there. */
+typedef struct pir_trace {
+    uint32_t count, crossed[PIR_TRACE_LONGEST], cell;
+    pir_sleep sleep;
+} pir_trace;
+
+/* Follows facet f of P, or of Q, from the cell that is noted, where it was before the last step; false where that is too close to call. */
+bool pir_trace_fv(pir_sum *sum, uint32_t f, pir_trace *ret_trace);
+bool pir_trace_vf(pir_sum *sum, uint32_t g, pir_trace *ret_trace);
 
 /* --- crossings.c --- */
 

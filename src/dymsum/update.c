@@ -24,6 +24,7 @@ struct update {
     pir_sum *sum;
     uint32_t stamp;  /* marks edges in sum->touched: this for one that an event has changed, one more for one to be led anew */
     uint32_t derive; /* edges in sum->queue, to be led anew */
+    uint32_t passes; /* in sum->passes */
     bool all;        /* every edge is */
     bool failed;     /* out of memory */
 };
@@ -54,21 +55,26 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     update->failed |= !done;
 }
 
-/* A facet of Q has crossed the arc of halfedge `half` of P: of its edge that is known, or known to meet something else. */
-static inline void note_crossing_of_q(struct update *update, uint32_t half) {
-    uint32_t e = update->sum->p->edge[half];
-    if (update->sum->touched[e] >= update->stamp)
-        note_edge(update, e);
-    else
-        update->sum->touched[e] = update->stamp;
-}
-
-/* Facet g of Q has crossed it, once all that has happened is noted: an edge that nothing else has happened to leads around g now. */
-static void cross_of_q(struct update *update, uint32_t g, uint32_t half) {
+/* Facet g of Q has crossed the arc of halfedge `half` of P: noted until it is known what else has happened to its edge. */
+static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half) {
     pir_sum *sum = update->sum;
     uint32_t e = sum->p->edge[half];
-    if (sum->touched[e] == update->stamp && !update->all)
-        update->failed |= !pir_pass_facet(sum, e, g, sum->p->edge_half[e] == half);
+    if (sum->touched[e] >= update->stamp || update->passes == sum->q->facet_count) {
+        note_edge(update, e);
+    } else {
+        sum->touched[e] = update->stamp;
+        sum->passes[update->passes++] = (pir_suspect){g, half};
+    }
+}
+
+/* The edges that a facet of Q has crossed, and nothing else has happened to, lead around it now. */
+static void pass_facets(struct update *update) {
+    pir_sum *sum = update->sum;
+    for (uint32_t i = 0; i < update->passes && !update->all; i++) {
+        uint32_t g = sum->passes[i].facet, half = sum->passes[i].crossed, e = sum->p->edge[half];
+        if (sum->touched[e] == update->stamp)
+            update->failed |= !pir_pass_facet(sum, e, g, sum->p->edge_half[e] == half);
+    }
 }
 
 /* Files alarm i, checked now, to sleep so long. */
@@ -80,6 +86,15 @@ static void fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
 static void settle_of_p(struct update *update, uint32_t f) {
     pir_sum *sum = update->sum;
     const pir_polytope *p = sum->p;
+    pir_trace trace;
+    if (pir_trace_fv(sum, f, &trace)) {
+        fall_asleep(sum, f, &trace.sleep);
+        sum->statistics.repaired += trace.count;
+        sum->fv[f] = trace.cell;
+        for (uint32_t i = 0; i < trace.count; i++)
+            cross_of_p(update, f, trace.crossed[i]);
+        return;
+    }
     pir_sleep sleep;
     uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->fv[f], &sleep);
     fall_asleep(sum, f, &sleep);
@@ -126,6 +141,15 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
 /* Facet g of Q may have touched one side or another. */
 static void settle_of_q(struct update *update, uint32_t g) {
     pir_sum *sum = update->sum;
+    pir_trace trace;
+    if (pir_trace_vf(sum, g, &trace)) {
+        fall_asleep(sum, sum->q_facets.first_alarm + g, &trace.sleep);
+        sum->statistics.repaired += trace.count;
+        sum->vf[g] = trace.cell;
+        for (uint32_t i = 0; i < trace.count; i++)
+            note_crossing_of_q(update, g, trace.crossed[i]);
+        return;
+    }
     pir_sleep sleep;
     uint32_t v = pir_descend_vf(sum, g, sum->vf[g], &sleep);
     fall_asleep(sum, sum->q_facets.first_alarm + g, &sleep);
@@ -177,13 +201,11 @@ static void review(struct update *update, uint32_t woken) {
         if (suspect[i].crossed == PIR_NO_CROSSING) {
             settle_of_q(update, suspect[i].facet);
         } else {
-            note_crossing_of_q(update, suspect[i].crossed);
+            note_crossing_of_q(update, suspect[i].facet, suspect[i].crossed);
             sum->statistics.repaired++;
         }
     }
-    for (uint32_t i = 0; i < count; i++)
-        if (suspect[i].crossed != PIR_NO_CROSSING)
-            cross_of_q(update, suspect[i].facet, suspect[i].crossed);
+    pass_facets(update);
 }
 
 /* Above all that is in sum->touched. */
