@@ -17,7 +17,7 @@ static void free_alarms(const pir_alarms *alarms, const pir_allocator *allocator
 }
 
 bool pir_alarms_reserve(pir_alarms *alarms, const pir_allocator *allocator, uint32_t capacity) {
-    uint32_t old = alarms->capacity, blocks = (capacity + 16 * PIR_ALARM_BLOCK - 1) / (16 * PIR_ALARM_BLOCK) * 16;
+    uint32_t old = alarms->capacity, blocks = (capacity + 8 * PIR_ALARM_BLOCK - 1) / (8 * PIR_ALARM_BLOCK) * 8;
     capacity = blocks * PIR_ALARM_BLOCK;
     if (capacity <= old)
         return true;

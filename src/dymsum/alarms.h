@@ -33,7 +33,7 @@ typedef struct pir_alarms {
     float now[4]; /* that of R */
     float *block_ahead, *block_behind;
     uint32_t *woken;   /* what the last collecting found, rising */
-    uint32_t capacity; /* a multiple of sixteen blocks */
+    uint32_t capacity; /* a multiple of eight blocks */
 } pir_alarms;
 
 /* Room for `capacity` certificates at least; new ones never wake. What was there stays on failure. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels for AVX-512 (F, DQ and VL): a block of eight floats at a time, with masks; alarms sixteen at a time. */
+/* The kernels for AVX-512 (F, DQ and VL): a block of eight floats at a time, with masks. Vectors of sixteen cost more to wake up than they save. */
 #include "dymsum/kernels_versions.h"
 
 #if PIR_HAVE_X86_KERNELS
@@ -109,57 +109,51 @@ TARGET static inline void look_in(const pir_facets *facets, const pir_moment *mo
 #define REVIEW_TARGET TARGET
 #include "dymsum/review_body.h"
 
-/* The least of all lanes of a, and of b. */
-TARGET static inline void least_of_both(__m512 a, __m512 b, float *ret_a, float *ret_b) {
-    // halves of both side by side, then again, until one lane of each is left
-    __m512 ab = _mm512_min_ps(_mm512_shuffle_f32x4(a, b, 0x44), _mm512_shuffle_f32x4(a, b, 0xEE));
-    ab = _mm512_min_ps(ab, _mm512_shuffle_f32x4(ab, ab, 0xB1));
-    ab = _mm512_min_ps(ab, _mm512_permute_ps(ab, 0x4E));
-    ab = _mm512_min_ps(ab, _mm512_permute_ps(ab, 0xB1));
-    *ret_a = _mm512_cvtss_f32(ab);
-    *ret_b = _mm_cvtss_f32(_mm512_extractf32x4_ps(ab, 2));
-}
-
 /* The time that certificates are compared with. */
 struct instant {
-    __m512 ahead, behind;
-    __mmask16 either;
+    __m256 ahead, behind;
+    __mmask8 either;
 };
 
-/* Which of sixteen certificates or blocks hold. */
-TARGET static inline __mmask16 holding(__m512 ahead, __m512 behind, struct instant now) {
-    __mmask16 forwards = _mm512_cmp_ps_mask(ahead, now.ahead, _CMP_GT_OQ);
-    __mmask16 backwards = _mm512_cmp_ps_mask(behind, now.behind, _CMP_LT_OQ);
-    return (__mmask16)((forwards & backwards) | ((forwards | backwards) & now.either));
+/* Which of eight certificates or blocks hold. */
+TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct instant now) {
+    __mmask8 forwards = _mm256_cmp_ps_mask(ahead, now.ahead, _CMP_GT_OQ);
+    __mmask8 backwards = _mm256_cmp_ps_mask(behind, now.behind, _CMP_LT_OQ);
+    return (__mmask8)((forwards & backwards) | ((forwards | backwards) & now.either));
 }
 
 /* The certificates of block b. */
 TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, struct instant now, uint32_t *woken) {
-    const __m512 most = _mm512_set1_ps(HUGE_VALF);
-    const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    __m512 ahead = _mm512_loadu_ps(alarms->ahead + b * PIR_ALARM_BLOCK);
-    __m512 behind = _mm512_loadu_ps(alarms->behind + b * PIR_ALARM_BLOCK);
-    __mmask16 holds = holding(ahead, behind, now);
-    __m512 minus = _mm512_sub_ps(_mm512_set1_ps(-0.0f), behind);
-    float least, least_minus;
-    least_of_both(_mm512_mask_mov_ps(most, holds, ahead), _mm512_mask_mov_ps(most, holds, minus), &least, &least_minus);
-    alarms->block_ahead[b] = least;
-    alarms->block_behind[b] = -least_minus;
-    // all sixteen lanes are written: there is room, since so far as many were listed as looked at, at most
-    __mmask16 wakes = (__mmask16)~holds;
-    __m512i number = _mm512_add_epi32(lanes, _mm512_set1_epi32((int)(b * PIR_ALARM_BLOCK)));
-    _mm512_storeu_si512(woken, _mm512_maskz_compress_epi32(wakes, number));
-    return (uint32_t)__builtin_popcount(wakes);
+    const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    __m256 least = _mm256_set1_ps(HUGE_VALF), greatest = _mm256_set1_ps(-HUGE_VALF);
+    uint32_t count = 0;
+    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i += 8) {
+        __m256 ahead = _mm256_loadu_ps(alarms->ahead + i), behind = _mm256_loadu_ps(alarms->behind + i);
+        __mmask8 holds = holding(ahead, behind, now);
+        least = _mm256_mask_min_ps(least, holds, least, ahead);
+        greatest = _mm256_mask_max_ps(greatest, holds, greatest, behind);
+        // all eight lanes are written: there is room, for no more were listed than looked at
+        __m256i number = _mm256_add_epi32(lanes, _mm256_set1_epi32((int)i));
+        _mm256_storeu_si256((__m256i *)(void *)(woken + count),
+                            _mm256_maskz_compress_epi32((__mmask8)~holds, number));
+        count += (uint32_t)__builtin_popcount((uint8_t)~holds);
+    }
+    __m256 minus = _mm256_xor_ps(greatest, _mm256_set1_ps(-0.0f));
+    float bounds[4];
+    _mm_storeu_ps(bounds, least_of_each(least, minus, minus));
+    alarms->block_ahead[b] = bounds[0];
+    alarms->block_behind[b] = -bounds[1];
+    return count;
 }
 
 TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
-    const struct instant now = {_mm512_set1_ps(pir_float_above(time.ahead)),
-                                _mm512_set1_ps(pir_float_below(time.behind)), time.either ? 0xFFFF : 0};
+    const struct instant now = {_mm256_set1_ps(pir_float_above(time.ahead)),
+                                _mm256_set1_ps(pir_float_below(time.behind)), time.either ? 0xFF : 0};
     uint32_t count = 0;
-    // sixteen blocks at a time; those past the last in use hold for ever
-    for (uint32_t b = 0; b < blocks; b += 16) {
-        __m512 ahead = _mm512_loadu_ps(alarms->block_ahead + b), behind = _mm512_loadu_ps(alarms->block_behind + b);
-        for (uint32_t rings = (uint16_t)~holding(ahead, behind, now); rings; rings &= rings - 1)
+    // eight blocks at a time; those past the last in use hold for ever
+    for (uint32_t b = 0; b < blocks; b += 8) {
+        __m256 ahead = _mm256_loadu_ps(alarms->block_ahead + b), behind = _mm256_loadu_ps(alarms->block_behind + b);
+        for (uint32_t rings = (uint8_t)~holding(ahead, behind, now); rings; rings &= rings - 1)
             count += collect_block(alarms, b + (uint32_t)__builtin_ctz(rings), now, alarms->woken + count);
     }
     return count;

@@ -17,85 +17,94 @@
 #include "dymsum/sum.h"
 
 struct tracer {
+    const pir_facets *facets;
     const pir_polytope *other;
-    pir_vec3 turned, motion; /* the facet's normal turned to the other operand, and how that moves along the step */
-    bool backwards;          /* the step went against the clock's axis */
-    double stride;           /* its angle, rounded up */
+    pir_vec3 turned, motion; /* the facet's normal turned to the other operand, and how that moves along the clock's axis */
+    double stride;           /* the angle of the step about that, rounded outwards */
 };
 
-/* What is found in one cell. */
-struct exits {
-    uint32_t count, first; /* how many circles it is past, and the halfedge of the one that it crossed first */
-    double least, most;    /* how long ago that was */
-    bool known;            /* false: too close to call */
+/* Where a cell was left. */
+struct exit {
+    uint32_t count, half; /* how many circles the facet is past, and the halfedge of the one that it crossed first */
+    double s, rising;     /* how far it is past that, and how fast that grew */
+    bool known;           /* false: too close to call */
 };
 
 #define ERROR (PIR_SIGN_BOUND + PIR_SLEEP_SLACK)
 
-/* Takes in that the circle of halfedge h, s beyond which the facet is now, was crossed outwards at a rate of `rising`. */
-static void add_exit(struct exits *exits, uint32_t h, double s, double rising) {
-    // roots of s − s'a ± a²/2, the error taken to widen the span
-    double square = rising * rising, short_of = square - (s + s + 2 * ERROR);
-    double least = sqrt(square + (s + s - 2 * ERROR)) - rising, most = short_of > 0 ? rising - sqrt(short_of) : HUGE_VAL;
-    if (exits->count++ == 0 || least > exits->most) {
-        exits->first = h, exits->least = least, exits->most = most;
-    } else if (!(exits->least > most)) {
-        exits->known = false;
+/* The span of times ago at which s was zero, if it rose so fast: roots of s − s'a ± a²/2, the error taken to widen it. */
+static void time_of_exit(double s, double rising, double *ret_least, double *ret_most) {
+    double square = rising * rising, rest = square - (s + s + 2 * ERROR);
+    *ret_least = sqrt(square + (s + s - 2 * ERROR)) - rising;
+    *ret_most = rest > 0 ? rising - sqrt(rest) : HUGE_VAL;
+}
+
+/* Takes in that the circle of `half` was crossed outwards too. */
+static void add_exit(struct exit *exit, uint32_t half, double s, double rising) {
+    if (exit->count++ > 0) {
+        double least, most, least_before, most_before;
+        time_of_exit(s, rising, &least, &most);
+        time_of_exit(exit->s, exit->rising, &least_before, &most_before);
+        if (least_before > most)
+            return;
+        exit->known = least > most_before;
     }
+    exit->half = half, exit->s = s, exit->rising = rising;
 }
 
 /* Looks for the side through which the facet has left the cell of v. */
-static struct exits look_for_exits(const struct tracer *tracer, uint32_t v, pir_sleep *ret_sleep) {
+static struct exit look_for_exit(const struct tracer *tracer, uint32_t v) {
     const pir_polytope *other = tracer->other;
-    const double stride = tracer->stride;
-    struct exits exits = {.known = true};
-    *ret_sleep = pir_sleep_long();
-    for (uint32_t h = other->ring_start[v]; h < other->ring_start[v + 1] && exits.known; h++) {
+    const double stride = fabs(tracer->stride);
+    struct exit exit = {.known = true};
+    for (uint32_t h = other->ring_start[v]; h < other->ring_start[v + 1] && exit.known; h++) {
         double s = pir_vec_dot(tracer->turned, other->direction[h]),
                rate = pir_vec_dot(tracer->motion, other->direction[h]), size = fabs(s), speed = fabs(rate);
-        pir_sleep_until_change(ret_sleep, s, rate);
         bool reached = size <= speed * stride + 0.5 * stride * stride + 2 * ERROR;
         if (!reached && s < 0)
             continue;
-        double rising = tracer->backwards ? -rate : rate;
-        exits.known = reached && size > 2 * ERROR && speed > 2 * stride + 2 * ERROR && (s < 0 || rising > 0);
-        if (exits.known && s > 0)
-            add_exit(&exits, h, s, rising);
+        double rising = tracer->stride < 0 ? -rate : rate;
+        exit.known = reached && size > 2 * ERROR && speed > 2 * stride + 2 * ERROR && (s < 0 || rising > 0);
+        if (exit.known && s > 0)
+            add_exit(&exit, h, s, rising);
     }
-    return exits;
+    return exit;
 }
 
 static bool follow(pir_sum *sum, const struct tracer *tracer, uint32_t from, pir_trace *ret_trace) {
+    if (!(fabs(tracer->stride) < 0.25))
+        return false;
     ret_trace->count = 0;
     ret_trace->cell = from;
     for (;;) {
         const uint32_t *ring = &tracer->other->ring_start[ret_trace->cell];
-        struct exits exits = look_for_exits(tracer, ret_trace->cell, &ret_trace->sleep);
+        struct exit exit = look_for_exit(tracer, ret_trace->cell);
         sum->signs.by_filter += ring[1] - ring[0];
-        if (!exits.known || (exits.count > 0 && ret_trace->count == PIR_TRACE_LONGEST))
+        if (!exit.known || (exit.count > 0 && ret_trace->count == PIR_TRACE_LONGEST))
             return false;
-        if (exits.count == 0)
-            return true;
-        ret_trace->crossed[ret_trace->count++] = exits.first;
-        ret_trace->cell = tracer->other->target[exits.first];
+        if (exit.count == 0)
+            break;
+        ret_trace->crossed[ret_trace->count++] = exit.half;
+        ret_trace->cell = tracer->other->target[exit.half];
     }
-}
-
-/* The angle of the last step; false when it is too long for this to say anything. */
-static bool take_step(const pir_sum *sum, struct tracer *tracer) {
-    tracer->backwards = sum->clock.stride < 0;
-    tracer->stride = fabs(sum->clock.stride) * (1 + 0x1p-20);
-    return tracer->stride < 0.25;
+    float turned[8];
+    pir_turned(tracer->turned, tracer->motion, turned);
+    pir_glance seen;
+    sum->kernels->glance(tracer->facets, &sum->moment, ret_trace->cell, turned, &seen);
+    ret_trace->sleep = (pir_sleep){seen.look.margin, seen.look.ahead, -seen.look.behind};
+    return true;
 }
 
 bool pir_trace_fv(pir_sum *sum, uint32_t f, pir_trace *ret_trace) {
     pir_vec3 turned = pir_rotated_normal(sum, f);
-    struct tracer tracer = {.other = sum->q, .turned = turned, .motion = pir_motion_of(sum, turned)};
-    return take_step(sum, &tracer) && follow(sum, &tracer, sum->fv[f], ret_trace);
+    const struct tracer tracer = {&sum->p_facets, sum->q, turned, pir_motion_of(sum, turned),
+                                  sum->clock.stride * (1 + 0x1p-20)};
+    return follow(sum, &tracer, sum->fv[f], ret_trace);
 }
 
 bool pir_trace_vf(pir_sum *sum, uint32_t g, pir_trace *ret_trace) {
     pir_vec3 turned = pir_turned_back_normal(sum, g);
-    struct tracer tracer = {.other = sum->p, .turned = turned, .motion = pir_motion_back(sum, turned)};
-    return take_step(sum, &tracer) && follow(sum, &tracer, sum->vf[g], ret_trace);
+    const struct tracer tracer = {&sum->q_facets, sum->p, turned, pir_motion_back(sum, turned),
+                                  sum->clock.stride * (1 + 0x1p-20)};
+    return follow(sum, &tracer, sum->vf[g], ret_trace);
 }
