@@ -13,7 +13,7 @@ static pir_glance see(const float *ring, uint32_t blocks, const pir_moment *mome
     for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
         const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
         float x = at[0], y = at[PIR_LANES], z = at[2 * PIR_LANES];
-        float s = turned[0] * x + turned[1] * y + turned[2] * z + 0.0f;
+        float s = turned[0] * x + turned[1] * y + turned[2] * z;
         float rate = turned[4] * x + turned[5] * y + turned[6] * z;
         if (s > highest)
             highest = s, which = i;
@@ -28,7 +28,7 @@ static pir_glance see(const float *ring, uint32_t blocks, const pir_moment *mome
         touched = pir_side_mask_add(touched, i / PIR_LANES, (uint32_t)!clear << i % PIR_LANES);
         above = pir_side_mask_add(above, i / PIR_LANES, (uint32_t)(s > PIR_FLOAT_BOUND) << i % PIR_LANES);
     }
-    return (pir_glance){highest, which, {least - PIR_FLOAT_BOUND, ahead, behind, touched, above}};
+    return (pir_glance){highest + 0.0f, which, {least - PIR_FLOAT_BOUND, ahead, behind, touched, above}};
 }
 
 static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],

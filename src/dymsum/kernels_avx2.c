@@ -10,9 +10,6 @@
 
 #define TARGET __attribute__((target("avx2")))
 
-/* Lane k of `turned` in all lanes. */
-#define SPREAD(turned, k) _mm256_permutevar8x32_ps((turned), _mm256_set1_epi32(k))
-
 /* The lanes in which a and b are equal. */
 #define EQUAL(a, b) ((uint32_t)_mm256_movemask_ps(_mm256_cmp_ps((a), (b), _CMP_EQ_OQ)))
 
@@ -37,52 +34,74 @@ TARGET static inline float greatest_of(__m256 v) {
     return _mm_cvtss_f32(_mm_max_ss(half, _mm_shuffle_ps(half, half, 1)));
 }
 
-/* The look at a facet in a cell; returns the greatest values of s, lane by lane. */
-TARGET static inline __m256 look(const float *ring, uint32_t blocks, const pir_moment *moment, __m256 turned,
+/* A facet's normal, turned, and how that moves, each component in all lanes. */
+struct turned {
+    __m256 x, y, z, dx, dy, dz;
+};
+
+TARGET static inline struct turned spread(const float turned[8]) {
+    return (struct turned){_mm256_broadcast_ss(turned),     _mm256_broadcast_ss(turned + 1),
+                           _mm256_broadcast_ss(turned + 2), _mm256_broadcast_ss(turned + 4),
+                           _mm256_broadcast_ss(turned + 5), _mm256_broadcast_ss(turned + 6)};
+}
+
+/* What blocks have shown so far, lane by lane. */
+struct seen {
+    __m256 highest, least, ahead, behind;
+};
+
+/* Looks at one block; gives the masks of its sides that were touched, and that the facet is above. */
+TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_moment *moment,
+                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above) {
+    const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
+    __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES), z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
+    __m256 s = dot(t->x, t->y, t->z, x, y, z), rate = dot(t->dx, t->dy, t->dz, x, y, z);
+    __m256 size = _mm256_andnot_ps(sign, s), rising = _mm256_xor_ps(rate, _mm256_andnot_ps(s, sign));
+    __m256 sure = _mm256_sub_ps(size, _mm256_set1_ps(PIR_FLOAT_SLACK)),
+           is_sure = _mm256_cmp_ps(sure, zero, _CMP_GT_OQ);
+    __m256 root = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(rising, rising), _mm256_add_ps(sure, sure)));
+    __m256 to = _mm256_and_ps(is_sure, _mm256_sub_ps(root, rising)),
+           since = _mm256_and_ps(is_sure, _mm256_add_ps(root, rising));
+    __m256 clear = _mm256_and_ps(_mm256_cmp_ps(to, _mm256_set1_ps(moment->reach_ahead), _CMP_GT_OQ),
+                                 _mm256_cmp_ps(since, _mm256_set1_ps(moment->reach_behind), _CMP_GT_OQ));
+    *ret_touched = (uint32_t)_mm256_movemask_ps(clear) ^ 0xFF;
+    *ret_above = (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(s, _mm256_set1_ps(PIR_FLOAT_BOUND), _CMP_GT_OQ));
+    seen->highest = _mm256_max_ps(seen->highest, s);
+    seen->least = _mm256_min_ps(seen->least, size);
+    seen->ahead = _mm256_min_ps(seen->ahead, to);
+    seen->behind = _mm256_min_ps(seen->behind, since);
+}
+
+/* The look at a facet in the cell whose ring fills `blocks` blocks, most often one; returns the greatest values of s, lane by lane. */
+TARGET static inline __m256 look(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8],
                                  pir_look *ret_look) {
-    const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps(), bound = _mm256_set1_ps(PIR_FLOAT_BOUND);
-    const __m256 reach_ahead = _mm256_set1_ps(moment->reach_ahead), reach_behind = _mm256_set1_ps(moment->reach_behind);
-    __m256 ux = SPREAD(turned, 0), uy = SPREAD(turned, 1), uz = SPREAD(turned, 2);
-    __m256 wx = SPREAD(turned, 4), wy = SPREAD(turned, 5), wz = SPREAD(turned, 6);
-    __m256 ahead = _mm256_set1_ps(PIR_FARTHEST), behind = ahead, least = _mm256_set1_ps(4);
-    __m256 highest = _mm256_set1_ps(-HUGE_VALF);
+    const struct turned t = spread(turned);
+    struct seen seen = {_mm256_set1_ps(-HUGE_VALF), _mm256_set1_ps(4), _mm256_set1_ps(PIR_FARTHEST),
+                        _mm256_set1_ps(PIR_FARTHEST)};
     uint64_t touched = 0, above = 0;
-    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
-        __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES),
-               z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
-        __m256 s = _mm256_add_ps(dot(ux, uy, uz, x, y, z), zero), rate = dot(wx, wy, wz, x, y, z);
-        highest = _mm256_max_ps(highest, s);
-        __m256 size = _mm256_andnot_ps(sign, s), rising = _mm256_xor_ps(rate, _mm256_andnot_ps(s, sign));
-        __m256 sure = _mm256_sub_ps(size, _mm256_set1_ps(PIR_FLOAT_SLACK)),
-               is_sure = _mm256_cmp_ps(sure, zero, _CMP_GT_OQ);
-        __m256 root = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(rising, rising), _mm256_add_ps(sure, sure)));
-        __m256 to = _mm256_and_ps(is_sure, _mm256_sub_ps(root, rising));
-        __m256 since = _mm256_and_ps(is_sure, _mm256_add_ps(root, rising));
-        least = _mm256_min_ps(least, size);
-        ahead = _mm256_min_ps(ahead, to);
-        behind = _mm256_min_ps(behind, since);
-        __m256 clear =
-            _mm256_and_ps(_mm256_cmp_ps(to, reach_ahead, _CMP_GT_OQ), _mm256_cmp_ps(since, reach_behind, _CMP_GT_OQ));
-        touched = pir_side_mask_add(touched, b, (uint32_t)_mm256_movemask_ps(clear) ^ 0xFF);
-        above = pir_side_mask_add(above, b, (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(s, bound, _CMP_GT_OQ)));
+    for (uint32_t b = 0; b < blocks; b++) {
+        uint32_t touched_here, above_here;
+        see_block(ring + (size_t)b * 3 * PIR_LANES, &t, moment, &seen, &touched_here, &above_here);
+        touched = b == 0 ? touched_here : pir_side_mask_add(touched, b, touched_here);
+        above = b == 0 ? above_here : pir_side_mask_add(above, b, above_here);
     }
     float spans[4];
-    _mm_storeu_ps(spans, least_of_each(least, ahead, behind));
+    _mm_storeu_ps(spans, least_of_each(seen.least, seen.ahead, seen.behind));
     *ret_look = (pir_look){spans[0] - PIR_FLOAT_BOUND, spans[1], spans[2], touched, above};
-    return highest;
+    return seen.highest;
 }
 
 TARGET static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
                           pir_glance *ret_glance) {
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
     const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
-    __m256 t = _mm256_loadu_ps(turned);
-    float highest = greatest_of(look(ring, blocks, moment, t, &ret_glance->look));
-    ret_glance->highest = highest;
+    const struct turned t = spread(turned);
+    float highest = greatest_of(look(ring, blocks, moment, turned, &ret_glance->look));
+    ret_glance->highest = highest + 0.0f;
     ret_glance->which = 0;
     for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
-        __m256 s = dot(SPREAD(t, 0), SPREAD(t, 1), SPREAD(t, 2), _mm256_loadu_ps(ring),
-                       _mm256_loadu_ps(ring + PIR_LANES), _mm256_loadu_ps(ring + 2 * PIR_LANES));
+        __m256 s = dot(t.x, t.y, t.z, _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES),
+                       _mm256_loadu_ps(ring + 2 * PIR_LANES));
         uint32_t is = EQUAL(s, _mm256_set1_ps(highest));
         if (is) {
             ret_glance->which = b * PIR_LANES + (uint32_t)__builtin_ctz(is);
@@ -103,7 +122,7 @@ TARGET static inline void look_in(const pir_facets *facets, const pir_moment *mo
                                   const float turned[8], pir_look *ret_look) {
     uint32_t block = facets->ring_block[cell];
     look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment,
-         _mm256_loadu_ps(turned), ret_look);
+         turned, ret_look);
 }
 
 #define REVIEW_TARGET TARGET

@@ -31,7 +31,7 @@ static inline float look(const float *ring, uint32_t blocks, const pir_moment *m
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
         const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
         float32x4_t x = vld1q_f32(at), y = vld1q_f32(at + PIR_LANES), z = vld1q_f32(at + 2 * PIR_LANES);
-        float32x4_t s = vaddq_f32(dot(u, x, y, z), zero), rate = dot(w, x, y, z);
+        float32x4_t s = dot(u, x, y, z), rate = dot(w, x, y, z);
         high = vmaxq_f32(high, s);
         // seen as a negative value that rises so fast
         float32x4_t size = vabsq_f32(s);
@@ -59,7 +59,7 @@ static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t 
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
     const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
     const float highest = look(ring, blocks, moment, turned, &ret_glance->look);
-    ret_glance->highest = highest;
+    ret_glance->highest = highest + 0.0f;
     ret_glance->which = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
         const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
