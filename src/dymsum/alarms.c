@@ -135,5 +135,5 @@ void pir_alarms_set_now(pir_alarms *alarms, pir_quat unit) {
 
 void pir_alarms_wake(pir_alarms *alarms, uint32_t first, uint32_t count) {
     for (uint32_t i = first; i < first + count; i++)
-        pir_alarm_set(alarms, i, -1, -HUGE_VAL, HUGE_VAL);
+        pir_alarm_set(alarms, i, -1, -PIR_FOR_GOOD, PIR_FOR_GOOD);
 }

@@ -53,9 +53,8 @@ static inline float pir_float_above(double x) {
 }
 
 /* Files certificate i. */
-static inline void pir_alarm_set(pir_alarms *alarms, uint32_t i, float margin, double until, double since) {
+static inline void pir_alarm_set(pir_alarms *alarms, uint32_t i, float margin, float ahead, float behind) {
     uint32_t block = i / PIR_ALARM_BLOCK;
-    float ahead = pir_float_below(until), behind = pir_float_above(since);
     float least = alarms->block_ahead[block], greatest = alarms->block_behind[block];
     alarms->ahead[i] = ahead;
     alarms->behind[i] = behind;

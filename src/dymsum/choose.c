@@ -16,6 +16,7 @@
 #define FIRST_PROBE  4
 #define LATEST_PROBE 64
 #define MEMORY       0.125
+#define NO_WORK      1e-6 /* per radian: so little that it never matters, and no number that processors are slow with */
 
 pir_method pir_choose_method(pir_sum *sum, double angle) {
     const pir_cost_model *cost = &sum->cost;
@@ -29,9 +30,9 @@ pir_method pir_choose_method(pir_sum *sum, double angle) {
 void pir_learn_update(pir_sum *sum, double angle, uint64_t signs) {
     pir_cost_model *cost = &sum->cost;
     if (cost->updates_in_a_row > 0 && angle > 0) {
-        double slope = WORK_OF_SIGN * (double)signs / angle;
+        double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle : 0;
         bool afresh = cost->per_radian == 0 || cost->updates_in_a_row == 1;
-        cost->per_radian = afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian);
+        cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), NO_WORK);
     }
     // a probe that leads back to walking makes the next one later; one that lasts makes it early again
     if (cost->updates_in_a_row == 0)

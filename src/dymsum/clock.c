@@ -2,7 +2,7 @@
 /*
  * Turning, measured along the path and about an axis. See clock.h for what the measures mean.
  *
- * Rounding: unit quaternions are within 2^-50 of what they stand for, so the phase and the drift of a stretch are off by less than 2^-46
+ * Rounding: unit quaternions are within 2^-50 of what they stand for, so the phase and the drift of a stretch are off by less than 2^-43
  * beside the truncation of the arc sine below, under 2^-30 up to a quarter. All of it is charged to the drift.
  */
 #include "dymsum/clock.h"
@@ -39,19 +39,20 @@ static double twice_arc_sine(double x) {
     return 2 * x * (1 + y * (1.0 / 6 + y * (3.0 / 40 + y * (15.0 / 336 + y * (105.0 / 3456 + y * (945.0 / 42240))))));
 }
 
-/* The phase and drift of the stretch that led from clock->start to `now`; false when it has left the axis or gone too far. */
+/*
+ * The phase and drift of the stretch that led from clock->start to `now`; false when it has left the axis or gone too far. Of swing and twist
+ * the swing's half sine is |off| and the twist's along / √(along² + w²); that root is √(1 − |off|²), within 2^-44 of 1 while the swing is
+ * within the slack.
+ */
 static bool measure_stretch(const pir_clock *clock, pir_quat now, double *ret_phase, double *ret_drift) {
     pir_quat r = between(clock->start, now);
     pir_vec3 v = {r.x, r.y, r.z};
     double along = pir_vec_dot(v, clock->axis);
     pir_vec3 off = pir_vec_sub(v, pir_vec_scale(clock->axis, along));
-    // swing and twist: the twist's half sine is along / √(along² + w²), the swing's |off|
-    double sine = along / sqrt(along * along + r.w * r.w), swing = sqrt(pir_vec_dot(off, off));
+    double swing = sqrt(pir_vec_dot(off, off));
     *ret_drift = clock->carried + 3.1416 * swing + STRETCH_ERROR;
-    if (!(fabs(sine) <= 0.25) || !(*ret_drift < PIR_DRIFT_SLACK / 2))
-        return false;
-    *ret_phase = twice_arc_sine(sine);
-    return true;
+    *ret_phase = twice_arc_sine(along);
+    return fabs(along) <= 0.25 && *ret_drift < PIR_DRIFT_SLACK / 2;
 }
 
 /* Whether the step goes the way of the last one, or back. */

@@ -71,7 +71,7 @@ typedef struct pir_facets {
 typedef struct pir_moment {
     float reach_ahead,
         reach_behind;   /* where the step lies by the phase, from now: one of them is 0, or both are the same */
-    double path, net, phase; /* as certificates are filed */
+    float ahead, behind; /* what keys are counted from: axial: the phase; otherwise the path, and the net turn */
     bool axial;
 } pir_moment;
 
@@ -107,21 +107,17 @@ static inline uint64_t pir_side_mask_add(uint64_t mask, uint32_t b, uint32_t eig
     return mask | (b < PIR_SIDE_BITS / 8 ? (uint64_t)eight << 8 * b : eight ? UINT64_MAX : 0);
 }
 
-/* The keys of a certificate: in an axial epoch from its spans, from now; otherwise from its margin. */
-static inline void pir_sleep_file(const pir_moment *moment, pir_alarms *alarms, uint32_t i, double margin, double ahead,
-                                  double behind) {
-    double path = moment->path + margin, net = moment->net - margin;
-    if (moment->axial)
-        pir_alarm_set(alarms, i, (float)margin, moment->phase + ahead, moment->phase - behind);
-    else
-        pir_alarm_set(alarms, i, (float)margin, path - fabs(path) * 0x1p-52, net + fabs(net) * 0x1p-52);
+/* Files alarm i anew, from now: in an axial epoch by its spans, otherwise by its margin. Keys are rounded towards waking early. */
+static inline void pir_sleep_file(const pir_moment *moment, pir_alarms *alarms, uint32_t i, float margin, float ahead,
+                                  float behind) {
+    float until = moment->ahead + (moment->axial ? ahead : margin), since = moment->behind - (moment->axial ? behind : margin);
+    pir_alarm_set(alarms, i, margin, until - fabsf(until) * 0x1p-22f, since + fabsf(since) * 0x1p-22f);
 }
 
 /* Files facet f, looked at just now, to sleep as long as the look allows. */
 static inline void pir_sleep_look(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
                                   const pir_look *look) {
-    pir_sleep_file(moment, alarms, facets->first_alarm + f, (double)look->margin, (double)look->ahead,
-                   (double)look->behind);
+    pir_sleep_file(moment, alarms, facets->first_alarm + f, look->margin, look->ahead, look->behind);
 }
 
 /* Packs a vector and its motion as the kernels take them. */

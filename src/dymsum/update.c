@@ -77,9 +77,11 @@ static void pass_facets(struct update *update) {
     }
 }
 
-/* Files alarm i, checked now, to sleep so long. */
+/* Files alarm i, checked now, to sleep so long: spans beyond the farthest that is foretold are cut, and all are rounded down. */
 static void fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
-    pir_sleep_file(&sum->moment, &sum->alarms, i, fmin(sleep->margin, 4), sleep->ahead, -sleep->behind);
+    pir_sleep_file(&sum->moment, &sum->alarms, i, pir_float_below(fmin(sleep->margin, 4)),
+                   pir_float_below(fmin(sleep->ahead, (double)PIR_FARTHEST)),
+                   pir_float_below(fmin(-sleep->behind, (double)PIR_FARTHEST)));
 }
 
 /* Facet f of P may have touched one side or another. */
@@ -165,8 +167,11 @@ static void set_moment(pir_sum *sum) {
     double reach = fabs(clock->stride) * (1 + 0x1p-20);
     float most = reach <= (double)PIR_FARTHEST ? (float)reach : HUGE_VALF;
     bool forwards = clock->stride >= 0;
-    sum->moment = (pir_moment){forwards ? 0 : most, forwards ? most : 0, clock->path, clock->net, clock->phase,
-                               clock->axial};
+    sum->moment = (pir_moment){.reach_ahead = forwards ? 0 : most,
+                               .reach_behind = forwards ? most : 0,
+                               .ahead = pir_float_below(clock->axial ? clock->phase : clock->path),
+                               .behind = pir_float_above(clock->axial ? clock->phase : clock->net),
+                               .axial = clock->axial};
     pir_alarms_set_now(&sum->alarms, sum->signs.rotation.unit);
     const pir_mat3 *r = &sum->signs.rotation.r;
     pir_vec3 back = pir_mat_apply_transposed(r, clock->axis);

@@ -32,9 +32,8 @@ static void stir(test_random *random, pir_facets *facets, uint32_t vertices, pir
                 facets->turn[k][i] = test_random_below(random, 4) == 0 ? 0 : (float)uniform(random);
     *moment = (pir_moment){.reach_ahead = (float)(uniform(random) * 0.2 + 0.2),
                            .reach_behind = test_random_below(random, 2) ? 0 : 0x1p-10f,
-                           .path = uniform(random) + 1,
-                           .net = uniform(random) / 4 + 0.25,
-                           .phase = uniform(random) / 4,
+                           .ahead = (float)uniform(random) / 4,
+                           .behind = (float)uniform(random) / 4,
                            .axial = test_random_below(random, 4) != 0};
 }
 
@@ -104,11 +103,11 @@ static void reviews_have_the_bits_of_the_reference(void **state) {
 /* Sets alarms about phase 0, some on it. */
 static void set_alarms(test_random *random, pir_alarms *alarms, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        double ahead = uniform(random) + 0.9, behind = uniform(random) - 0.9;
+        float ahead = (float)uniform(random) + 0.9f, behind = (float)uniform(random) - 0.9f;
         if (test_random_below(random, 16) == 0)
             ahead = 0;
         if (test_random_below(random, 16) == 0)
-            behind = -HUGE_VAL;
+            behind = -PIR_FOR_GOOD;
         pir_alarm_set(alarms, i, 1, ahead, behind);
     }
 }
