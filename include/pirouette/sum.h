@@ -104,7 +104,8 @@ PIR_API pir_status pir_sum_set_scale(pir_sum *sum, pir_operand operand, double s
  * vertices are placed by the rotation asked for; which pieces a mesh merges is decided where the pairing is exact, and queries
  * answer for that rotation: settle the sum before asking for the one of now.
  *
- * Brings the pairing to the rotation first. Errors: PIR_ERR_ARGUMENT (negative or NaN), PIR_ERR_NOT_FINITE, PIR_ERR_MEMORY.
+ * O(n m) for the n facets and m vertices of each operand, here and in pir_sum_set_scale while there is a tolerance. Brings the pairing to
+ * the rotation first. Errors: PIR_ERR_ARGUMENT (negative or NaN), PIR_ERR_NOT_FINITE, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance);
 PIR_API double pir_sum_tolerance(const pir_sum *sum);

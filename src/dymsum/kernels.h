@@ -37,8 +37,9 @@
 typedef struct pir_look {
     float margin;        /* by the path, until some s changes its sign; negative when one is too close to call */
     float ahead, behind; /* by the phase, both ≥ 0 */
-    uint64_t touched; /* the sides that the facet may have touched in the last step, those too close to call among them */
-    uint64_t above;   /* those that it is past for certain: s > PIR_FLOAT_BOUND */
+    uint64_t
+        touched;    /* the sides that the facet may have touched in the last step, those too close to call among them */
+    uint64_t above; /* those that it is past for certain: s > PIR_FLOAT_BOUND */
 } pir_look;
 
 /* What is seen at a glance of a facet in a cell. */
@@ -70,7 +71,7 @@ typedef struct pir_facets {
 /* The last step, and the moment it has led to. */
 typedef struct pir_moment {
     float reach_ahead,
-        reach_behind;   /* where the step lies by the phase, from now: one of them is 0, or both are the same */
+        reach_behind;    /* where the step lies by the phase, from now: one of them is 0, or both are the same */
     float ahead, behind; /* what keys are counted from: axial: the phase; otherwise the path, and the net turn */
     bool axial;
 } pir_moment;
@@ -110,7 +111,8 @@ static inline uint64_t pir_side_mask_add(uint64_t mask, uint32_t b, uint32_t eig
 /* Files alarm i anew, from now: in an axial epoch by its spans, otherwise by its margin. Keys are rounded towards waking early. */
 static inline void pir_sleep_file(const pir_moment *moment, pir_alarms *alarms, uint32_t i, float margin, float ahead,
                                   float behind) {
-    float until = moment->ahead + (moment->axial ? ahead : margin), since = moment->behind - (moment->axial ? behind : margin);
+    float until = moment->ahead + (moment->axial ? ahead : margin),
+          since = moment->behind - (moment->axial ? behind : margin);
     pir_alarm_set(alarms, i, margin, until - fabsf(until) * 0x1p-22f, since + fabsf(since) * 0x1p-22f);
 }
 

@@ -57,8 +57,7 @@ TARGET static inline void see_block(const float *ring, const struct turned *t, c
     __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES), z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
     __m256 s = dot(t->x, t->y, t->z, x, y, z), rate = dot(t->dx, t->dy, t->dz, x, y, z);
     __m256 size = _mm256_andnot_ps(sign, s), rising = _mm256_xor_ps(rate, _mm256_andnot_ps(s, sign));
-    __m256 sure = _mm256_sub_ps(size, _mm256_set1_ps(PIR_FLOAT_SLACK)),
-           is_sure = _mm256_cmp_ps(sure, zero, _CMP_GT_OQ);
+    __m256 sure = _mm256_sub_ps(size, _mm256_set1_ps(PIR_FLOAT_SLACK)), is_sure = _mm256_cmp_ps(sure, zero, _CMP_GT_OQ);
     __m256 root = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(rising, rising), _mm256_add_ps(sure, sure)));
     __m256 to = _mm256_and_ps(is_sure, _mm256_sub_ps(root, rising)),
            since = _mm256_and_ps(is_sure, _mm256_add_ps(root, rising));
@@ -114,15 +113,13 @@ TARGET static inline void turn_facet(const pir_facets *facets, uint32_t f, float
     const float *n = facets->normal + (size_t)4 * f;
     __m256 t0 = _mm256_loadu_ps(facets->turn[0]), t1 = _mm256_loadu_ps(facets->turn[1]);
     __m256 t2 = _mm256_loadu_ps(facets->turn[2]);
-    _mm256_storeu_ps(ret_turned,
-                     dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
+    _mm256_storeu_ps(ret_turned, dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
 }
 
 TARGET static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell,
                                   const float turned[8], pir_look *ret_look) {
     uint32_t block = facets->ring_block[cell];
-    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment,
-         turned, ret_look);
+    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned, ret_look);
 }
 
 #define REVIEW_TARGET TARGET

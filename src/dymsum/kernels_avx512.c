@@ -61,9 +61,8 @@ TARGET static inline void see_block(const float *ring, const struct turned *t, c
     __mmask8 is_sure = _mm256_cmp_ps_mask(sure, zero, _CMP_GT_OQ);
     __m256 root = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(rising, rising), _mm256_add_ps(sure, sure)));
     __m256 to = _mm256_maskz_sub_ps(is_sure, root, rising), since = _mm256_maskz_add_ps(is_sure, root, rising);
-    __mmask8 clear =
-        _mm256_mask_cmp_ps_mask(_mm256_cmp_ps_mask(to, _mm256_set1_ps(moment->reach_ahead), _CMP_GT_OQ), since,
-                                _mm256_set1_ps(moment->reach_behind), _CMP_GT_OQ);
+    __mmask8 clear = _mm256_mask_cmp_ps_mask(_mm256_cmp_ps_mask(to, _mm256_set1_ps(moment->reach_ahead), _CMP_GT_OQ),
+                                             since, _mm256_set1_ps(moment->reach_behind), _CMP_GT_OQ);
     *ret_touched = (uint8_t)~clear;
     *ret_above = _mm256_cmp_ps_mask(s, _mm256_set1_ps(PIR_FLOAT_BOUND), _CMP_GT_OQ);
     seen->highest = _mm256_max_ps(seen->highest, s);
@@ -114,15 +113,13 @@ TARGET static inline void turn_facet(const pir_facets *facets, uint32_t f, float
     const float *n = facets->normal + (size_t)4 * f;
     __m256 t0 = _mm256_loadu_ps(facets->turn[0]), t1 = _mm256_loadu_ps(facets->turn[1]);
     __m256 t2 = _mm256_loadu_ps(facets->turn[2]);
-    _mm256_storeu_ps(ret_turned,
-                     dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
+    _mm256_storeu_ps(ret_turned, dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
 }
 
 TARGET static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell,
                                   const float turned[8], pir_look *ret_look) {
     uint32_t block = facets->ring_block[cell];
-    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment,
-         turned, ret_look);
+    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned, ret_look);
 }
 
 #define REVIEW_TARGET TARGET
@@ -153,8 +150,7 @@ TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, stru
         greatest = _mm256_mask_max_ps(greatest, holds, greatest, behind);
         // all eight lanes are written: there is room, for no more were listed than looked at
         __m256i number = _mm256_add_epi32(lanes, _mm256_set1_epi32((int)i));
-        _mm256_storeu_si256((__m256i *)(void *)(woken + count),
-                            _mm256_maskz_compress_epi32((__mmask8)~holds, number));
+        _mm256_storeu_si256((__m256i *)(void *)(woken + count), _mm256_maskz_compress_epi32((__mmask8)~holds, number));
         count += (uint32_t)__builtin_popcount((uint8_t)~holds);
     }
     __m256 minus = _mm256_xor_ps(greatest, _mm256_set1_ps(-0.0f));

@@ -47,8 +47,8 @@ static inline float look(const float *ring, uint32_t blocks, const pir_moment *m
         uint32x4_t clear = vandq_u32(vcgtq_f32(to, vdupq_n_f32(moment->reach_ahead)),
                                      vcgtq_f32(since, vdupq_n_f32(moment->reach_behind)));
         touched = pir_side_mask_add(touched, i / PIR_LANES, vaddvq_u32(vbicq_u32(bit, clear)) << i % PIR_LANES);
-        above = pir_side_mask_add(above, i / PIR_LANES, vaddvq_u32(vandq_u32(bit, vcgtq_f32(s, bound)))
-                                                            << i % PIR_LANES);
+        above =
+            pir_side_mask_add(above, i / PIR_LANES, vaddvq_u32(vandq_u32(bit, vcgtq_f32(s, bound))) << i % PIR_LANES);
     }
     *ret_look = (pir_look){vminvq_f32(least) - PIR_FLOAT_BOUND, vminvq_f32(ahead), vminvq_f32(behind), touched, above};
     return vmaxvq_f32(high);

@@ -6,33 +6,70 @@
  * the pairing's vertices (p, q). A lies in the sum M, so its support function h_A is at most h_M. For a direction n take the vertex (p, q)
  * that supports M at R₀ in the direction
  *
- *   - n: then q supports Q in n, and p supports P in R₀ᵀn, which is at most θ away from Rᵀn. For any vertex w of P,
- *     Rᵀn·(w − p) ≤ (Rᵀn − R₀ᵀn)·(w − p) ≤ 2 sin(θ/2)·|w − p|, so h_M(n) − h_A(n) ≤ 2 sin(θ/2)·diameter(P);
- *   - R₀Rᵀn: then p supports P in Rᵀn, and q supports Q in a direction at most θ away from n: the same with the diameter of Q.
+ *   - n: then q supports Q in n, and p supports P in R₀ᵀn, which is at most θ away from Rᵀn: h_M(n) − h_A(n) ≤ S_P(θ), where S_B(θ) is how far
+ *     a vertex that supports B in some direction may fall short of B's support in another, at most θ away;
+ *   - R₀Rᵀn: then p supports P in Rᵀn, and q supports Q in a direction at most θ away from n: the same with S_Q(θ).
  *
- * Hence |h_M − h_A| ≤ 2 sin(θ/2)·min(diameter(P), diameter(Q)) in every direction there is, those of the pairing among them. While that
- * is at most τ nothing is looked at and nothing changes: a rotation costs a few operations whatever the size. Past it one update
- * covers all the turning since. That is less work than the updates it stands for while the axis stays; where axes change in between, the
- * one long step is not foretold by any epoch (clock.h) and wakes more than the short ones would have: then frames are cheap at
- * the median, and not on average.
+ * Hence |h_M − h_A| ≤ min(S_P(θ), S_Q(θ)) in every direction there is, those of the pairing among them. While that is at most τ nothing is
+ * looked at and nothing changes: a rotation costs a few operations whatever the size. Past it one update covers all the turning since.
  *
- * Rounding errs upwards. The angle is an upper bound (rotation.h), sin x ≤ x, and the diameter is that of a ball around the body.
+ * S_B is made of pairs of vertices v, w, a distance L apart along d. Of the directions that v supports, those in the cell of v, u·d is
+ * greatest at a corner, a facet's normal, for it is negative in the cell, where it is subharmonic, and convex along arcs. So they stay
+ * below w's horizon by δ at least, sin δ the least (h − n·w)/L of the facets around v, and
+ *
+ *     S_B(θ) = max over v, w of L·sin(θ − δ).
+ *
+ * So it reaches a length s at θ(s), the least δ + asin(s/L) of all pairs farther apart than s. And S_B(θ)/sin θ rises with θ, which bounds S_B
+ * between the few lengths for which θ is worked out. On a ball θ(s) is about √(2s), far beyond s divided by its size.
+ *
+ * Rounding errs upwards. The angle is an upper bound (rotation.h); asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x bound what would need
+ * functions that machines disagree on.
  */
 #include "dymsum/sum.h"
 
-/* Twice the greatest distance of a vertex from the centre of the bounds: at least the diameter. */
-static double diameter_bound(const pir_polytope *p) {
-    pir_vec3 low, high;
-    pir_polytope_bounds(p, &low, &high);
-    pir_vec3 centre = {low.x / 2 + high.x / 2, low.y / 2 + high.y / 2, low.z / 2 + high.z / 2};
-    double square = 0, far = 0;
-    for (uint32_t v = 0; v < p->vertex_count; v++) {
-        pir_vec3 x = p->vertex[v], d = pir_vec_sub(x, centre);
-        square = fmax(square, pir_vec_dot(d, d));
-        far = fmax(far, fmax(fabs(x.x), fmax(fabs(x.y), fabs(x.z))));
+/* Angles beyond this are not told apart: the sine in S_B rises up to here. */
+#define FARTHEST_LAG 1.5
+
+/* What a slack may be off by, per size of the body: normals are off by 8u, dot products and vertices by less again. */
+#define SLACK_ERROR 0x1p-47
+
+/* At most the angle whose sine is x, 0 ≤ x ≤ 1. */
+static double arc_sine_below(double x) {
+    return (x + x * x * x * (1.0 / 6)) * (1 - 0x1p-50);
+}
+
+/* Lowers angles[k], up to which S_B is at most lengths[k], for the facets around vertex v and its distance from w. */
+static void take_pair(double distance, double slack, const double *lengths, double *angles) {
+    double below = arc_sine_below(fmin(slack / distance, 1));
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        if (distance > lengths[k])
+            angles[k] = fmin(angles[k], (below + arc_sine_below(lengths[k] / distance)) * (1 - 0x1p-50));
+}
+
+/* The angles up to which S_B is at most each of `lengths`: a pass over facets and vertices. */
+static void measure(const pir_polytope *p, const double *lengths, double *ret_angles) {
+    double far = 0;
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        far = fmax(far, pir_vec_dot(p->vertex[v], p->vertex[v]));
+    double size = sqrt(far), error = size * SLACK_ERROR;
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        ret_angles[k] = FARTHEST_LAG;
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        uint32_t start = p->loop_start[f], end = p->loop_start[f + 1];
+        double offset = pir_vec_dot(p->normal[f], p->vertex[p->origin[p->loop[start]]]);
+        for (uint32_t w = 0; w < p->vertex_count; w++) {
+            double slack = fmax(0, offset - pir_vec_dot(p->normal[f], p->vertex[w]) - error);
+            // no two vertices are farther apart than twice the size: past this, no angle is lowered
+            if (slack > 2 * size * ret_angles[PIR_LAG_KNOTS - 1])
+                continue;
+            for (uint32_t i = start; i < end; i++) {
+                pir_vec3 apart = pir_vec_sub(p->vertex[w], p->vertex[p->origin[p->loop[i]]]);
+                double distance = sqrt(pir_vec_dot(apart, apart)) * (1 + 0x1p-50) + error;
+                if (p->origin[p->loop[i]] != w)
+                    take_pair(distance, slack, lengths, ret_angles);
+            }
+        }
     }
-    // vertices are rounded to doubles, and so is all of this
-    return 2 * (sqrt(square) * (1 + 0x1p-40) + far * 0x1p-50);
 }
 
 pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance) {
@@ -49,8 +86,25 @@ pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance) {
 }
 
 void pir_lag_measure(pir_sum *sum) {
-    if (sum->lag.tolerance > 0)
-        sum->lag.diameter = fmin(diameter_bound(sum->p), diameter_bound(sum->q));
+    pir_lag *lag = &sum->lag;
+    if (lag->tolerance == 0)
+        return;
+    double of_p[PIR_LAG_KNOTS], of_q[PIR_LAG_KNOTS];
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        lag->length[k] = ldexp(lag->tolerance, 2 * (k + 1 - PIR_LAG_KNOTS));
+    measure(sum->p, lag->length, of_p);
+    measure(sum->q, lag->length, of_q);
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        lag->angle[k] = fmax(of_p[k], of_q[k]);
+}
+
+/* What the support function falls short of at most after a turn by `angle`, which is below the last of lag->angle. */
+static double shortfall_at(const pir_lag *lag, double angle) {
+    int k = 0;
+    while (angle > lag->angle[k])
+        k++;
+    double most = lag->angle[k], sine = (most - most * most * most * (1.0 / 6)) * (1 - 0x1p-50);
+    return fmin(lag->length[k], lag->length[k] * (angle / sine) * (1 + 0x1p-50));
 }
 
 double pir_sum_tolerance(const pir_sum *sum) {
@@ -84,12 +138,11 @@ pir_status pir_lag_behind(pir_sum *sum, pir_quat rotation, bool *ret_done) {
     if (status != PIR_OK)
         return status;
     double angle = pir_rotation_angle_bound(sum->signs.rotation.unit, now.unit);
-    double bound = angle * lag->diameter * (1 + 0x1p-50);
-    *ret_done = bound <= lag->tolerance;
+    *ret_done = angle <= lag->angle[PIR_LAG_KNOTS - 1];
     if (!*ret_done)
         return PIR_OK;
     pir_rotation_set(&lag->now, rotation);
-    lag->bound = bound;
+    lag->bound = shortfall_at(lag, angle);
     lag->lagging = true;
     sum->statistics.kept++;
     return PIR_OK;

@@ -22,7 +22,8 @@ REVIEW_TARGET static inline uint32_t side_crossed(const pir_facets *facets, uint
 /* Whether a facet seen past side `half` is in the next cell, having touched no side of it but the same one; then it is filed there. */
 REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms,
                                                uint32_t f, uint32_t half, const float turned[8]) {
-    uint32_t next = facets->target[half], start = facets->ring_start[next], sides = facets->ring_start[next + 1] - start;
+    uint32_t next = facets->target[half], start = facets->ring_start[next],
+             sides = facets->ring_start[next + 1] - start;
     pir_look there;
     look_in(facets, moment, next, turned, &there);
     uint64_t mask = pir_side_mask(sides), back = (uint64_t)1 << (facets->twin[half] - start) % PIR_SIDE_BITS;

@@ -50,7 +50,8 @@ static bool allocate(pir_sum *sum) {
     sum->touched = PIR_ZEROED(a, uint32_t, p->edge_count);
     sum->suspects = PIR_NEW(a, pir_suspect, most(p->facet_count, q->facet_count));
     sum->passes = PIR_NEW(a, pir_suspect, q->facet_count);
-    if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->touched || !sum->suspects || !sum->passes || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
+    if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->touched ||
+        !sum->suspects || !sum->passes || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
         return false;
     pir_sum_link_facets(sum);
     // room for what most rotations need, so that tracking seldom grows it

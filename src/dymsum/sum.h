@@ -51,13 +51,16 @@ typedef struct pir_cost_model {
     uint32_t probe_after; /* how many walks in a row before an update is tried */
 } pir_cost_model;
 
+#define PIR_LAG_KNOTS 4
+
 /*
  * How far the pairing may stay behind the rotation that was asked for: see lag.c. While `lagging`, the pairing and the clock are at
  * the rotation in sum->signs, and what is seen is placed by `now`.
  */
 typedef struct pir_lag {
     double tolerance; /* a length; 0: never behind */
-    double diameter;  /* where there is a tolerance: the lesser of the operands', rounded up */
+    /* where there is a tolerance: up to an angle the support function falls short by a length at most; rising, the last length it */
+    double angle[PIR_LAG_KNOTS], length[PIR_LAG_KNOTS];
     bool lagging;
     double bound;     /* while lagging: what the support function falls short of at most */
     pir_rotation now; /* while lagging: the rotation asked for */
@@ -75,7 +78,7 @@ struct pir_sum {
     pir_clock clock;
     pir_moment moment; /* what the kernels need of it */
     pir_alarms alarms;
-    uint64_t woken; /* certificates, in this epoch */
+    uint64_t woken;                /* certificates, in this epoch */
     pir_facets p_facets, q_facets; /* each over the cells of the other */
     pir_suspect *suspects;         /* what a review has listed */
     pir_suspect *passes;           /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */

@@ -19,8 +19,9 @@
 struct tracer {
     const pir_facets *facets;
     const pir_polytope *other;
-    pir_vec3 turned, motion; /* the facet's normal turned to the other operand, and how that moves along the clock's axis */
-    double stride;           /* the angle of the step about that, rounded outwards */
+    pir_vec3 turned,
+        motion;    /* the facet's normal turned to the other operand, and how that moves along the clock's axis */
+    double stride; /* the angle of the step about that, rounded outwards */
 };
 
 /* Where a cell was left. */

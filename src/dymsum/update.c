@@ -22,7 +22,8 @@
 
 struct update {
     pir_sum *sum;
-    uint32_t stamp;  /* marks edges in sum->touched: this for one that an event has changed, one more for one to be led anew */
+    uint32_t
+        stamp; /* marks edges in sum->touched: this for one that an event has changed, one more for one to be led anew */
     uint32_t derive; /* edges in sum->queue, to be led anew */
     uint32_t passes; /* in sum->passes */
     bool all;        /* every edge is */
