@@ -75,6 +75,7 @@ static void begin_epoch(pir_clock *clock, bool axial, double expected) {
     clock->axial = axial;
     clock->start = clock->at;
     clock->carried = 0;
+    clock->drift = STRETCH_ERROR;
     clock->phase = clock->path = clock->net = clock->extent = 0;
     clock->expected = expected;
     clock->steps = 0;
@@ -85,6 +86,7 @@ static pir_clock_event turn_on(pir_clock *clock, double phase, double drift, dou
     clock->stride = phase - clock->phase;
     clock->phase = phase;
     clock->extent = fmax(clock->extent, fabs(phase));
+    clock->drift = fmax(clock->drift, drift);
     if (fabs(phase) <= LONGEST_STRETCH)
         return PIR_CLOCK_RUNS;
     // the next stretch of the same epoch begins here

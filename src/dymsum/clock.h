@@ -44,6 +44,7 @@ typedef struct pir_clock {
     double expected; /* axial: how far it may be expected to go, 0 where nothing is known */
     pir_quat start;  /* R₀ as a unit quaternion */
     double carried;  /* drift of the stretches of this epoch that are over */
+    double drift;    /* the greatest so far in this epoch; of the step itself where it is not axial */
     pir_vec3 step;   /* the vector part of the last step that was looked at: half its sine, along its axis */
 } pir_clock;
 
