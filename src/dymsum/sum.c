@@ -48,7 +48,7 @@ static bool allocate(pir_sum *sum) {
     sum->mark = PIR_ZEROED(a, uint8_t, queue_capacity(sum));
     sum->rotated = PIR_NEW(a, pir_vec3, p->facet_count);
     sum->touched = PIR_ZEROED(a, uint32_t, p->edge_count);
-    sum->suspects = PIR_NEW(a, pir_suspect, most(p->facet_count, q->facet_count));
+    sum->suspects = PIR_NEW(a, pir_suspect, pir_alarm_count(sum));
     sum->passes = PIR_NEW(a, pir_suspect, q->facet_count);
     if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->touched ||
         !sum->suspects || !sum->passes || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
@@ -70,7 +70,7 @@ void pir_sum_destroy(pir_sum *sum) {
     PIR_FREE(a, sum->mark, queue_capacity(sum));
     PIR_FREE(a, sum->rotated, p->facet_count);
     PIR_FREE(a, sum->touched, p->edge_count);
-    PIR_FREE(a, sum->suspects, most(p->facet_count, q->facet_count));
+    PIR_FREE(a, sum->suspects, pir_alarm_count(sum));
     PIR_FREE(a, sum->passes, q->facet_count);
     pir_alarms_finish(&sum->alarms, a);
     pir_crossings_finish(sum);

@@ -187,27 +187,28 @@ static void set_moment(pir_sum *sum) {
 static void review(struct update *update, uint32_t woken) {
     pir_sum *sum = update->sum;
     const uint32_t *alarm = sum->alarms.woken;
-    uint32_t of_p = 0;
-    while (of_p < woken && alarm[of_p] < sum->q_facets.first_alarm)
-        of_p++;
+    uint32_t woken_of_p = 0;
+    while (woken_of_p < woken && alarm[woken_of_p] < sum->q_facets.first_alarm)
+        woken_of_p++;
+    // all looks before anything that depends on what they see: processors look ahead
+    uint32_t of_p = sum->kernels->review(&sum->p_facets, &sum->moment, &sum->alarms, alarm, woken_of_p, sum->suspects,
+                                         &sum->signs.by_filter);
+    uint32_t of_q = sum->kernels->review(&sum->q_facets, &sum->moment, &sum->alarms, alarm + woken_of_p,
+                                         woken - woken_of_p, sum->suspects + of_p, &sum->signs.by_filter);
     const pir_suspect *suspect = sum->suspects;
-    uint32_t count = sum->kernels->review(&sum->p_facets, &sum->moment, &sum->alarms, alarm, of_p, sum->suspects,
-                                          &sum->signs.by_filter);
-    for (uint32_t i = 0; i < count; i++) {
-        if (suspect[i].crossed == PIR_NO_CROSSING) {
-            settle_of_p(update, suspect[i].facet);
+    for (uint32_t i = 0; i < of_p; i++, suspect++) {
+        if (suspect->crossed == PIR_NO_CROSSING) {
+            settle_of_p(update, suspect->facet);
         } else {
-            cross_of_p(update, suspect[i].facet, suspect[i].crossed);
+            cross_of_p(update, suspect->facet, suspect->crossed);
             sum->statistics.repaired++;
         }
     }
-    count = sum->kernels->review(&sum->q_facets, &sum->moment, &sum->alarms, alarm + of_p, woken - of_p, sum->suspects,
-                                 &sum->signs.by_filter);
-    for (uint32_t i = 0; i < count; i++) {
-        if (suspect[i].crossed == PIR_NO_CROSSING) {
-            settle_of_q(update, suspect[i].facet);
+    for (uint32_t i = 0; i < of_q; i++, suspect++) {
+        if (suspect->crossed == PIR_NO_CROSSING) {
+            settle_of_q(update, suspect->facet);
         } else {
-            note_crossing_of_q(update, suspect[i].facet, suspect[i].crossed);
+            note_crossing_of_q(update, suspect->facet, suspect->crossed);
             sum->statistics.repaired++;
         }
     }
