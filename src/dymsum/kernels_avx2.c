@@ -125,17 +125,17 @@ TARGET static inline void look_in(const pir_facets *facets, const pir_moment *mo
 #define REVIEW_TARGET TARGET
 #include "dymsum/review_body.h"
 
-/* The time that certificates are compared with; either: all bits or none. */
+/* The time that certificates are compared with. */
 struct instant {
-    __m256 ahead, behind, either;
+    __m256 ahead, behind;
+    bool either;
 };
 
 /* Which of eight certificates or blocks hold. */
 TARGET static inline __m256 holding(__m256 ahead, __m256 behind, struct instant now) {
     __m256 forwards = _mm256_cmp_ps(ahead, now.ahead, _CMP_GT_OQ);
     __m256 backwards = _mm256_cmp_ps(behind, now.behind, _CMP_LT_OQ);
-    return _mm256_or_ps(_mm256_and_ps(forwards, backwards),
-                        _mm256_and_ps(_mm256_or_ps(forwards, backwards), now.either));
+    return now.either ? _mm256_or_ps(forwards, backwards) : _mm256_and_ps(forwards, backwards);
 }
 
 /* The certificates of block b. */
@@ -156,10 +156,8 @@ TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, stru
     return count;
 }
 
-TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
-    const struct instant now = {_mm256_set1_ps(pir_float_above(time.ahead)),
-                                _mm256_set1_ps(pir_float_below(time.behind)),
-                                _mm256_castsi256_ps(_mm256_set1_epi32(time.either ? -1 : 0))};
+TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_alarms *alarms, uint32_t blocks,
+                                                                        struct instant now) {
     uint32_t count = 0;
     // eight blocks at a time; those past the last in use hold for ever
     for (uint32_t b = 0; b < blocks; b += 8) {
@@ -169,6 +167,13 @@ TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_ti
             count += collect_block(alarms, b + (uint32_t)__builtin_ctz(rings), now, alarms->woken + count);
     }
     return count;
+}
+
+/* A loop for each of the two kinds of time. */
+TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
+    __m256 ahead = _mm256_set1_ps(pir_float_above(time.ahead)), behind = _mm256_set1_ps(pir_float_below(time.behind));
+    return time.either ? collect_at(alarms, blocks, (struct instant){ahead, behind, true})
+                       : collect_at(alarms, blocks, (struct instant){ahead, behind, false});
 }
 
 const pir_kernels pir_kernels_avx2 = {"avx2", review, glance, collect};

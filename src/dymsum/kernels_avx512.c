@@ -128,14 +128,15 @@ TARGET static inline void look_in(const pir_facets *facets, const pir_moment *mo
 /* The time that certificates are compared with. */
 struct instant {
     __m256 ahead, behind;
-    __mmask8 either;
+    bool either;
 };
 
 /* Which of eight certificates or blocks hold. */
 TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct instant now) {
     __mmask8 forwards = _mm256_cmp_ps_mask(ahead, now.ahead, _CMP_GT_OQ);
-    __mmask8 backwards = _mm256_cmp_ps_mask(behind, now.behind, _CMP_LT_OQ);
-    return (__mmask8)((forwards & backwards) | ((forwards | backwards) & now.either));
+    if (now.either)
+        return forwards | _mm256_cmp_ps_mask(behind, now.behind, _CMP_LT_OQ);
+    return _mm256_mask_cmp_ps_mask(forwards, behind, now.behind, _CMP_LT_OQ);
 }
 
 /* The certificates of block b. */
@@ -161,9 +162,8 @@ TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, stru
     return count;
 }
 
-TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
-    const struct instant now = {_mm256_set1_ps(pir_float_above(time.ahead)),
-                                _mm256_set1_ps(pir_float_below(time.behind)), time.either ? 0xFF : 0};
+TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_alarms *alarms, uint32_t blocks,
+                                                                        struct instant now) {
     uint32_t count = 0;
     // eight blocks at a time; those past the last in use hold for ever
     for (uint32_t b = 0; b < blocks; b += 8) {
@@ -172,6 +172,13 @@ TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_ti
             count += collect_block(alarms, b + (uint32_t)__builtin_ctz(rings), now, alarms->woken + count);
     }
     return count;
+}
+
+/* A loop for each of the two kinds of time. */
+TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
+    __m256 ahead = _mm256_set1_ps(pir_float_above(time.ahead)), behind = _mm256_set1_ps(pir_float_below(time.behind));
+    return time.either ? collect_at(alarms, blocks, (struct instant){ahead, behind, true})
+                       : collect_at(alarms, blocks, (struct instant){ahead, behind, false});
 }
 
 const pir_kernels pir_kernels_avx512 = {"avx512", review, glance, collect};
