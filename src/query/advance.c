@@ -8,10 +8,18 @@
 
 #define MOST_QUERIES 256
 
-/* The rotation and translation at a time. */
-static pir_quat rotation_at(const pir_motion *motion, pir_vec3 unit_axis, double time) {
+/* The same rotation by a quaternion whose products are far from the ends of the doubles. */
+static pir_quat middling(pir_quat r) {
+    int e;
+    frexp(fmax(fmax(fabs(r.x), fabs(r.y)), fmax(fabs(r.z), fabs(r.w))), &e);
+    return (pir_quat){ldexp(r.x, -e), ldexp(r.y, -e), ldexp(r.z, -e), ldexp(r.w, -e)};
+}
+
+/* The rotation at a time, r being that at time 0, middling: where nothing has turned, to the bit the one that was given. */
+static pir_quat rotation_at(const pir_motion *motion, pir_quat r, pir_vec3 unit_axis, double time) {
     double half = 0.5 * motion->angle * time, s = sin(half), w = cos(half);
-    pir_quat r = motion->rotation;
+    if (half == 0)
+        return motion->rotation;
     pir_vec3 a = pir_vec_scale(unit_axis, s), v = {r.x, r.y, r.z};
     pir_vec3 c = pir_vec_cross(a, v);
     return (pir_quat){w * v.x + r.w * a.x + c.x, w * v.y + r.w * a.y + c.y, w * v.z + r.w * a.z + c.z,
@@ -20,10 +28,16 @@ static pir_quat rotation_at(const pir_motion *motion, pir_vec3 unit_axis, double
 
 /* How far P reaches from the origin that it turns about. */
 static double reach_of(const pir_polytope *p) {
-    double most = 0;
+    pir_vec3 unit;
+    double most = 0, length;
     for (uint32_t v = 0; v < p->vertex_count; v++)
-        most = fmax(most, pir_vec_dot(p->vertex[v], p->vertex[v]));
-    return sqrt(most) * (1 + 0x1p-48);
+        if (pir_unit_of(p->vertex[v], &unit, &length))
+            most = fmax(most, length);
+    return most * (1 + 0x1p-48);
+}
+
+static bool is_zero(pir_vec3 v) {
+    return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
 static pir_status check(pir_query *query, const pir_motion *motion, double tolerance, const void *ret) {
@@ -32,8 +46,8 @@ static pir_status check(pir_query *query, const pir_motion *motion, double toler
     if (!pir_vec_is_finite(motion->start) || !pir_vec_is_finite(motion->motion) || !pir_vec_is_finite(motion->axis) ||
         !isfinite(motion->angle) || !isfinite(tolerance))
         return PIR_ERR_NOT_FINITE;
-    bool turns = motion->angle != 0, has_axis = pir_vec_dot(motion->axis, motion->axis) > 0;
-    return tolerance > 0 && (has_axis || !turns) ? PIR_OK : PIR_ERR_ARGUMENT;
+    bool turns = motion->angle != 0;
+    return tolerance > 0 && (!is_zero(motion->axis) || !turns) ? PIR_OK : PIR_ERR_ARGUMENT;
 }
 
 static void set_outcome(pir_cast_result *result, const pir_query_result *at, double time, pir_cast_outcome outcome) {
@@ -49,8 +63,10 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
     pir_status status = check(query, motion, tolerance, ret_result);
     if (status != PIR_OK)
         return status;
-    double square = pir_vec_dot(motion->axis, motion->axis);
-    pir_vec3 axis = square > 0 ? pir_vec_scale(motion->axis, 1 / sqrt(square)) : motion->axis;
+    double length;
+    pir_quat start = middling(motion->rotation);
+    pir_vec3 axis = {0, 0, 0};
+    pir_unit_of(motion->axis, &axis, &length);
     double turning = fabs(motion->angle) * reach_of(query->p), time = 0;
     pir_cast_result result = {.outcome = PIR_CAST_STEP_LIMIT};
     pir_query_cache cache = {0};
@@ -58,7 +74,7 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
         pir_query_input input = pir_query_input_default();
         pir_query_result at;
         input.translation = pir_vec_add(motion->start, pir_vec_scale(motion->motion, time));
-        status = pir_sum_rotate(query->sum, rotation_at(motion, axis, time), PIR_METHOD_AUTO);
+        status = pir_sum_rotate(query->sum, rotation_at(motion, start, axis, time), PIR_METHOD_AUTO);
         if (status == PIR_OK)
             status = pir_query_signed_distance(query, &input, &cache, &at);
         if (status != PIR_OK)
@@ -78,7 +94,7 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
             break;
         }
         set_outcome(&result, &at, time, PIR_CAST_STEP_LIMIT);
-        if (turning == 0 && pir_vec_dot(motion->motion, motion->motion) == 0) {
+        if (turning == 0 && is_zero(motion->motion)) {
             set_outcome(&result, &at, 1, PIR_CAST_AT_REST);
             break;
         }

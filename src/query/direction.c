@@ -78,7 +78,7 @@ static bool is_near(pir_query *query, const pir_placement *placement, pir_vec3 u
     return simplex.upper <= NEAR_FLAT * there.reach;
 }
 
-static bool unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length) {
+bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length) {
     double most = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
     if (most == 0)
         return false;
@@ -131,7 +131,7 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
         return status;
     pir_vec3 u;
     double length;
-    if (!unit_of(direction, &u, &length))
+    if (!pir_unit_of(direction, &u, &length))
         return PIR_ERR_ARGUMENT;
     pir_query_result result = {0};
     uint32_t slot = PIR_NO_PLANE;
@@ -157,7 +157,7 @@ pir_status pir_query_directional_distance(pir_query *query, const pir_query_inpu
         return status;
     pir_vec3 u;
     double length, at;
-    if (!unit_of(direction, &u, &length))
+    if (!pir_unit_of(direction, &u, &length))
         return PIR_ERR_ARGUMENT;
     pir_query_result result = {0};
     uint32_t slot = PIR_NO_PLANE;
@@ -229,7 +229,7 @@ pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_ve
     result.normal = start.normal;
     result.point = start.point_q;
     result.witness = start.witness;
-    bool moves = unit_of(motion, &u, &length);
+    bool moves = pir_unit_of(motion, &u, &length);
     uint32_t slot = PIR_NO_PLANE;
     if (start.state == PIR_INSIDE) {
         result.outcome = PIR_CAST_START_INSIDE;

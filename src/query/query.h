@@ -259,6 +259,11 @@ void pir_descend_finely(pir_query *query, const pir_placement *placement, pir_si
 /* The vertex of a polytope farthest along unit n, from `from` uphill. */
 uint32_t pir_climb(const pir_polytope *polytope, pir_vec3 n, uint32_t from);
 
+/* --- direction.c --- */
+
+/* A vector of any length as a unit vector and its length; false when it is zero. */
+bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length);
+
 /* --- witness.c --- */
 
 /* The least face of `polytope` that holds the given vertices; the first vertex where no face holds all. */
