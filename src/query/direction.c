@@ -3,7 +3,8 @@
  * Along a line: where x + λu enters and leaves D, by clipping the line to every facet's halfspace (Cyrus and Beck, 1978). With it the
  * directional depth and distance, and the linear cast.
  *
- * The facets of a flat difference do not bound it sideways; there a hit counts when x + λu is next to D.
+ * The facets of a flat difference do not bound it sideways; there a hit counts when x + λu is next to D. A needle may have no facet that
+ * is not along u as far as doubles tell; the way out of it is found by exact states.
  */
 #include "query/query.h"
 
@@ -60,6 +61,30 @@ static struct clip clip_line(pir_query *query, const pir_placement *placement, p
             }
         if (!refined || left == 0)
             return clip;
+    }
+}
+
+/* As many as halve twice the reach down to the last digit of a translation. */
+#define HALVINGS 64
+
+/* The way out of a needle along u: halved by states, which are exact. No slot when none shows a facet. */
+static void leave_by_halves(pir_query *query, const pir_placement *placement, pir_vec3 u, struct clip *clip,
+                            uint32_t *steps) {
+    double inside = 0, outside = 2 * placement->reach;
+    for (int i = 0; i < HALVINGS; i++) {
+        double at = i == 0 ? outside : 0.5 * (inside + outside);
+        pir_vec3 t = pir_vec_add(placement->translation, pir_vec_scale(u, pir_frame_length(query, at)));
+        pir_placement there;
+        uint32_t slot = PIR_NO_PLANE;
+        if (pir_frame_place(query, t, &there) != PIR_OK)
+            return;
+        if (pir_state_find(query, &there, NULL, &slot, steps) == PIR_INSIDE) {
+            inside = at;
+        } else {
+            outside = at;
+            clip->leave = at;
+            clip->leave_slot = slot;
+        }
     }
 }
 
@@ -139,9 +164,12 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
     result.outcome = PIR_NO_HIT;
     if (result.state == PIR_INSIDE) {
         struct clip clip = clip_line(query, &placement, u, &result.steps);
+        if (clip.leave_slot == PIR_NO_PLANE)
+            leave_by_halves(query, &placement, u, &clip, &result.steps);
         double at = fmax(clip.leave, 0);
-        result.outcome = PIR_OVERLAPPING;
-        set_contact(query, &placement, u, at, clip.leave_slot, &result.normal, &result.point_q, &result.witness);
+        result.outcome = clip.leave_slot != PIR_NO_PLANE ? PIR_OVERLAPPING : PIR_STEP_LIMIT;
+        if (clip.leave_slot != PIR_NO_PLANE)
+            set_contact(query, &placement, u, at, clip.leave_slot, &result.normal, &result.point_q, &result.witness);
         result.point_p = result.point_q;
         result.distance = -pir_frame_length(query, at);
     }
