@@ -4,12 +4,10 @@
  */
 #include "query/query.h"
 
-/* The matrix of a quaternion by doubles. */
+/* The matrix of a quaternion of any size; the identity where it is no rotation. */
 static pir_mat3 matrix_of(pir_quat q) {
-    double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, s = n > 0 ? 2 / n : 0;
-    return (pir_mat3){{{1 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y - q.w * q.z), s * (q.x * q.z + q.w * q.y)},
-                       {s * (q.x * q.y + q.w * q.z), 1 - s * (q.x * q.x + q.z * q.z), s * (q.y * q.z - q.w * q.x)},
-                       {s * (q.x * q.z - q.w * q.y), s * (q.y * q.z + q.w * q.x), 1 - s * (q.x * q.x + q.y * q.y)}}};
+    pir_rotation rotation;
+    return pir_rotation_set(&rotation, q) == PIR_OK ? rotation.r : (pir_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 }
 
 /* `direction` as a unit vector; any will do where it is none. */
