@@ -47,11 +47,11 @@ static bool is_outside(pir_query *query, const pir_placement *placement) {
 /* The state where a ball settles it. */
 static bool settle(const struct batch *batch, const pir_placement *placement, pir_state *ret_state) {
     double away = placement->reach - batch->query->size_p - batch->query->size_q;
-    if (away < batch->inner) {
+    if (away + placement->error < batch->inner) {
         *ret_state = PIR_INSIDE;
         return true;
     }
-    if (away > (batch->query->size_p + batch->query->size_q) * (1 + 0x1p-40)) {
+    if (away > (batch->query->size_p + batch->query->size_q) * (1 + 0x1p-40) + 2 * placement->error) {
         *ret_state = PIR_OUTSIDE;
         return true;
     }

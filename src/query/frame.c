@@ -15,6 +15,9 @@
 /* Bodies and translations farther from their origins than this, in units of the frame, are refused: the arithmetic would overflow. */
 #define FARTHEST 0x1p400
 
+/* What double-double may be off by in a placement, relative to how far from their origins the bodies and the translation are: sixteen times over. */
+#define FAR_ERROR 0x1p-96
+
 /* a · num/den as m · 2^*ret_exponent. */
 static double scaled(const pir_int *a, const pir_scale *scale, int *ret_exponent) {
     int e, num, den;
@@ -198,6 +201,10 @@ void pir_frame_follow(pir_query *query) {
     query->planes.used = 0;
 }
 
+static double taxicab(pir_vec3 v) {
+    return fabs(v.x) + fabs(v.y) + fabs(v.z);
+}
+
 pir_status pir_frame_place(pir_query *query, pir_vec3 translation, pir_placement *ret_placement) {
     if (!pir_vec_is_finite(translation))
         return PIR_ERR_NOT_FINITE;
@@ -209,7 +216,8 @@ pir_status pir_frame_place(pir_query *query, pir_vec3 translation, pir_placement
     ret_placement->fine = pir_dd3_sub(pir_dd3_from(t), query->offset);
     ret_placement->x = pir_dd3_round(ret_placement->fine);
     ret_placement->reach = query->size_p + query->size_q + sqrt(pir_vec_dot(ret_placement->x, ret_placement->x));
-    ret_placement->error = PIR_SLACK_BOUND * ret_placement->reach;
+    double far = taxicab(t) + taxicab(pir_dd3_round(query->centre_p)) + taxicab(pir_dd3_round(query->centre_q));
+    ret_placement->error = PIR_SLACK_BOUND * ret_placement->reach + FAR_ERROR * far;
     return PIR_OK;
 }
 

@@ -121,7 +121,7 @@ typedef struct pir_placement {
     pir_vec3 x;
     pir_dd3 fine; /* x with 106 bits */
     double reach; /* size_p + size_q + |x| */
-    double error; /* PIR_SLACK_BOUND · reach */
+    double error; /* PIR_SLACK_BOUND · reach, and what x itself may be off by */
 } pir_placement;
 
 /* --- frame.c --- */
