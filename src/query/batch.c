@@ -22,7 +22,6 @@ static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *t
     pir_status status = pir_query_begin(query, &batch->input, &middle);
     if (status != PIR_OK)
         return status;
-    pir_groups_make_all(query);
     middle.x = (pir_vec3){0, 0, 0};
     middle.reach = query->size_p + query->size_q;
     middle.error = PIR_SLACK_BOUND * middle.reach;
@@ -38,7 +37,7 @@ static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *t
 static bool is_outside(pir_query *query, const pir_placement *placement) {
     double low, high = HUGE_VAL;
     if (query->group_count > 0) {
-        pir_groups_bound(query, placement);
+        pir_groups_bound(query, placement, 0);
         pir_group_look(query, pir_group_likely(query), placement, &low, &high);
     }
     return high < 0;

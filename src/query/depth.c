@@ -2,8 +2,8 @@
 /*
  * The least slack: the global penetration depth.
  *
- * An upper bound comes from the facet that won last time, lower bounds from the groups; those that cannot win are not looked at. Among what
- * is left, edge pairs at small angles get exact normals, and ties are settled by the order of pieces, so that the answer
+ * An upper bound comes from the facet that won last time, lower bounds from the groups; those that cannot win are not looked at. A group is
+ * sieved the first time at a rotation, and has its planes made the second. Among what is left, edge pairs at small angles get exact normals, and ties are settled by the order of pieces, so that the answer
  * depends on the placement alone and not on what was asked before.
  */
 #include "query/query.h"
@@ -15,20 +15,34 @@ static bool is_before(pir_piece a, pir_piece b) {
     return a.first != b.first ? a.first < b.first : a.second < b.second;
 }
 
-/* The least slack among groups that may hold it, edge pairs at small angles made exact on the way. */
+/* The slots that a search is left with: those of part `k` of looked_count + 1, the groups that were looked at and then the candidates. */
+static uint32_t part_of(const pir_query *query, uint32_t k, uint32_t *ret_end) {
+    if (k == query->looked_count) {
+        *ret_end = query->planes.capacity - PIR_SPARE_SLOTS;
+        return query->candidates;
+    }
+    const pir_group *group = &query->groups[query->looked[k]];
+    *ret_end = group->start + group->count;
+    return group->start;
+}
+
+static void forget(pir_query *query) {
+    query->looked_count = 0;
+    query->candidates = query->planes.capacity - PIR_SPARE_SLOTS;
+}
+
+/* The least slack of what is left, edge pairs at small angles made exact on the way. */
 static double least_refined(pir_query *query, const pir_placement *placement, double limit) {
     pir_planes *planes = &query->planes;
     double least = HUGE_VAL;
-    for (uint32_t k = 0; k < query->looked_count; k++) {
-        const pir_group *group = &query->groups[query->looked[k]];
-        for (uint32_t i = group->start; i < group->start + group->count; i++) {
+    for (uint32_t k = 0, end; k <= query->looked_count; k++)
+        for (uint32_t i = part_of(query, k, &end); i < end; i++) {
             if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit)
                 continue;
             pir_plane_refine(query, i);
             double s = pir_plane_slack(planes, i, placement->x);
             least = s < least ? s : least;
         }
-    }
     return least;
 }
 
@@ -36,21 +50,11 @@ static double least_refined(pir_query *query, const pir_placement *placement, do
 static uint32_t first_within(const pir_query *query, const pir_placement *placement, double limit) {
     const pir_planes *planes = &query->planes;
     uint32_t best = PIR_NO_PLANE;
-    for (uint32_t k = 0; k < query->looked_count; k++) {
-        const pir_group *group = &query->groups[query->looked[k]];
-        for (uint32_t i = group->start; i < group->start + group->count; i++)
+    for (uint32_t k = 0, end; k <= query->looked_count; k++)
+        for (uint32_t i = part_of(query, k, &end); i < end; i++)
             if (pir_plane_slack(planes, i, placement->x) <= limit &&
                 (best == PIR_NO_PLANE || is_before(planes->piece[i], planes->piece[best])))
                 best = i;
-    }
-    return best;
-}
-
-uint32_t pir_group_likely(const pir_query *query) {
-    uint32_t best = 0;
-    for (uint32_t g = 1; g < query->group_count; g++)
-        if (query->low[g] < query->low[best])
-            best = g;
     return best;
 }
 
@@ -71,25 +75,34 @@ uint32_t pir_depth_find(pir_query *query, const pir_placement *placement, const 
     if (query->group_count == 0)
         return PIR_NO_PLANE;
     double tie = PIR_TIE * (query->size_p + query->size_q), limit = HUGE_VAL;
-    uint32_t slot, first = UINT32_MAX;
-    query->looked_count = 0;
-    pir_groups_bound(query, placement);
-    if (query->boxed != query->stamp && pir_piece_recall(query, cache, &slot)) {
+    uint32_t slot;
+    forget(query);
+    if (pir_piece_recall(query, cache, &slot)) {
         limit = pir_plane_slack(&query->planes, slot, placement->x) + placement->error * query->planes.err[slot];
         ++*steps;
-    } else {
-        first = pir_group_likely(query);
-        look_at(query, first, placement, tie, &limit, steps);
     }
+    double high = pir_groups_bound(query, placement, limit + tie);
+    limit = high < limit ? high : limit;
     for (uint32_t g = 0; g < query->group_count; g++)
-        if (query->low[g] <= limit + tie && g != first)
-            look_at(query, g, placement, tie, &limit, steps);
+        if (query->low[g] <= limit + tie) {
+            // planes pay from the second time at a rotation on
+            if (query->groups[g].stamp == query->stamp || query->groups[g].sieved == query->stamp) {
+                look_at(query, g, placement, tie, &limit, steps);
+            } else {
+                limit = pir_group_sieve(query, g, placement, tie, limit);
+                ++*steps;
+            }
+        }
     // what a refined slack may rise above an unrefined one is within its error, which limit holds
     double least = least_refined(query, placement, limit + tie);
     uint32_t best = first_within(query, placement, least + tie);
-    if (best != PIR_NO_PLANE)
-        *ret_slack = pir_plane_slack(&query->planes, best, placement->x);
-    return best;
+    if (best == PIR_NO_PLANE)
+        return best;
+    *ret_slack = pir_plane_slack(&query->planes, best, placement->x);
+    // to where no group's planes come
+    slot = query->planes.capacity - 2;
+    pir_plane_copy(&query->planes, best, slot);
+    return slot;
 }
 
 /* --- every way out --- */
@@ -99,16 +112,14 @@ static uint32_t next_within(const pir_query *query, const pir_placement *placeme
                             const pir_piece *after) {
     const pir_planes *planes = &query->planes;
     uint32_t best = PIR_NO_PLANE;
-    for (uint32_t k = 0; k < query->looked_count; k++) {
-        const pir_group *group = &query->groups[query->looked[k]];
-        for (uint32_t i = group->start; i < group->start + group->count; i++) {
+    for (uint32_t k = 0, end; k <= query->looked_count; k++)
+        for (uint32_t i = part_of(query, k, &end); i < end; i++) {
             pir_piece piece = planes->piece[i];
             if ((!after || is_before(*after, piece)) &&
                 (best == PIR_NO_PLANE || is_before(piece, planes->piece[best])) &&
                 pir_plane_slack(planes, i, placement->x) <= limit)
                 best = i;
         }
-    }
     return best;
 }
 
@@ -130,7 +141,7 @@ pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, dou
             pir_frame_from(query, -least.distance - radii + slack) + PIR_TIE * (query->size_p + query->size_q);
         uint32_t steps = 0;
         double unlimited = HUGE_VAL;
-        query->looked_count = 0;
+        forget(query);
         for (uint32_t g = 0; g < query->group_count; g++)
             look_at(query, g, &placement, HUGE_VAL, &unlimited, &steps);
         least_refined(query, &placement, limit);

@@ -195,6 +195,9 @@ void pir_frame_follow(pir_query *query) {
     query->at = now->given;
     query->unit = now->unit;
     query->r = now->r;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            query->r_back.m[i][j] = now->r.m[j][i];
     query->has_fine = false;
     set_offset(query);
     query->stamp++;

@@ -50,6 +50,7 @@ void pir_query_destroy(pir_query *query) {
         PIR_FREE(a, query->polygon[k], query->polygon_capacity);
         PIR_FREE(a, query->polygon_id[k], query->polygon_capacity);
     }
+    pir_bounds_finish(query);
     pir_planes_finish(query);
     PIR_FREE(a, query, 1);
 }
@@ -70,6 +71,8 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
         status = pir_frame_init(query);
     if (status == PIR_OK)
         status = pir_planes_init(query);
+    if (status == PIR_OK)
+        status = pir_bounds_init(query);
     if (status != PIR_OK) {
         pir_query_destroy(query);
         return status;
@@ -283,7 +286,7 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
     if (pir_piece_recall(query, cache, ret_slot) && separates(query, *ret_slot, placement))
         return PIR_OUTSIDE;
     bool inside = query->group_count > 0;
-    pir_groups_bound(query, placement);
+    pir_groups_bound(query, placement, 0);
     for (uint32_t g = 0; g < query->group_count && inside; g++)
         inside = query->low[g] > 0;
     if (inside)

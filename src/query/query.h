@@ -21,6 +21,7 @@
 
 #include "dymsum/sum.h"
 #include "query/dd.h"
+#include "query/lanes.h"
 #include "query/scan.h"
 
 /*
@@ -38,6 +39,9 @@
 #define PIR_SIN_REFINED 0x1p-5
 #define PIR_SIN_EXACT   0x1p-40
 
+/* The last slots are spare: the last of all for a piece by itself, the one before for the least slack. */
+#define PIR_SPARE_SLOTS 2
+
 /* A facet of D: PIR_FACET_FV (first: facet of P), VF (second: facet of Q), EE (first: edge of P, second: halfedge of Q). */
 typedef struct pir_piece {
     uint32_t kind, first, second;
@@ -54,10 +58,12 @@ typedef struct pir_planes {
 typedef struct pir_group {
     /* what it is made of: parts of query->facet_list and edge_list; facets past own_end are neighbours, there for its bound only */
     bool of_q;
+    uint32_t middle; /* the facet of its own that its others are nearest to */
     uint32_t facets, own_end, facets_end, edges, edges_end;
     /* its planes, where stamp is the query's, padded to whole blocks by planes that never matter */
     uint64_t stamp;
     uint32_t start, count;
+    uint64_t sieved; /* the stamp of the rotation at which it was last sieved */
 } pir_group;
 
 struct pir_query {
@@ -75,16 +81,18 @@ struct pir_query {
     /* the rotation that all below is for */
     bool followed;
     pir_quat at, unit;
-    pir_mat3 r;
-    pir_dd3 r_fine[3]; /* rows, where has_fine */
+    pir_mat3 r, r_back; /* and its transpose */
+    pir_dd3 r_fine[3];  /* rows, where has_fine */
     bool has_fine;
     pir_dd3 offset; /* x = translation / 2^exponent − offset */
     uint64_t stamp;
     double turn; /* an upper bound on all turning */
 
     pir_group *groups;
-    uint32_t group_count, groups_of_p;
+    /* those of P from 0, those of Q from first_of_q; up to the next whole lane they are followed by empty ones */
+    uint32_t group_count, groups_of_p, groups_of_q, first_of_q;
     uint32_t *facet_list, *edge_list;
+    uint32_t *edge_left, *edge_right; /* per edge of the list: where its facets stand in the list of its group */
     uint32_t facet_list_count, edge_list_count;
     double *slack; /* per group: what a search for the state knows, HUGE_VAL where it did not look */
 
@@ -92,12 +100,14 @@ struct pir_query {
        a · (lever[g] + a · bend[g]) */
     double *bound, *when, *lever, *bend, *low; /* low: the bounds for the placement in hand */
     pir_lanes where;
-    /* per group, once all are made at a rotation, which boxed then is the stamp of: the box around its normals, its least offset */
-    pir_lanes box_least, box_most;
-    double *box_offset;
-    uint64_t boxed;
-    uint32_t *looked; /* the groups that a search for the least slack looked at */
-    uint32_t looked_count;
+    /* per group: its cap's axis and corner of D in the frame, at the rotation that the stamp of its block of lanes is of; both in the body's frame;
+       cosine and sine of its angle */
+    pir_lanes cap_axis, cap_corner, cap_axis_body, cap_corner_body;
+    double *cap_cos, *cap_sin;
+    uint64_t *cap_stamp;
+    /* what a search for the least slack found: groups that were looked at, and planes from slot `candidates` up to the spare ones */
+    uint32_t *looked;
+    uint32_t looked_count, candidates;
 
     /* what planes are made from, in the order of the lists: facets' normals and offsets, edges' directions and origins, as bodies have them */
     pir_lanes facet_normal, edge_direction, edge_origin;
@@ -166,17 +176,38 @@ bool pir_plane_make(pir_query *query, pir_piece piece, uint32_t slot);
 /* The plane of slot `slot` from exact integers; false when its edges are parallel. */
 bool pir_plane_refine(pir_query *query, uint32_t slot);
 
+void pir_plane_copy(pir_planes *planes, uint32_t from, uint32_t to);
+
 /* Makes the planes of group `g` unless they are there. */
 void pir_group_make(pir_query *query, uint32_t g);
 
-/* query->low[g]: no slack of group g at x is below it. */
-void pir_groups_bound(pir_query *query, const pir_placement *placement);
+/* --- sieve.c --- */
 
-/* Makes every group, and the boxes that many placements at one rotation are told apart by. */
-void pir_groups_make_all(pir_query *query);
+/*
+ * Adds to the candidates those pieces of group `g` whose slack may be at most limit + tie, without making its other planes; keeps the group's
+ * bound. Returns what the least slack of all is not above, `limit` or less.
+ */
+double pir_group_sieve(pir_query *query, uint32_t g, const pir_placement *placement, double tie, double limit);
+
+/* --- bounds.c --- */
+
+pir_status pir_bounds_init(pir_query *query);
+void pir_bounds_finish(pir_query *query);
+
+/*
+ * query->low[g]: no slack of group g at x is below it; worked out no better than to tell it from `limit`. Returns a number that the least
+ * slack of all is not above, HUGE_VAL where it met none.
+ */
+double pir_groups_bound(pir_query *query, const pir_placement *placement, double limit);
 
 /* Looks at every plane of group `g`: the least s − error and the least s + error; keeps the first as its bound. */
 void pir_group_look(pir_query *query, uint32_t g, const pir_placement *placement, double *ret_low, double *ret_high);
+
+/* Keeps what is known of group `g` at x: no slack is below `low`, and no n·x below `along`. */
+void pir_bound_keep(pir_query *query, uint32_t g, const pir_placement *placement, double low, double along);
+
+/* The group whose bound, as pir_groups_bound left it, is least. */
+uint32_t pir_group_likely(const pir_query *query);
 
 static inline double pir_plane_slack(const pir_planes *planes, uint32_t i, pir_vec3 x) {
     return planes->h[i] - (planes->n.x[i] * x.x + planes->n.y[i] * x.y + planes->n.z[i] * x.z);
@@ -217,9 +248,6 @@ pir_state pir_state_find(pir_query *query, const pir_placement *placement, const
 
 /* The slot of the piece of least slack, ties settled, and the slack. PIR_NO_PLANE where there is none. */
 #define PIR_NO_PLANE UINT32_MAX
-
-/* The group whose bound, as pir_groups_bound left it, is least. */
-uint32_t pir_group_likely(const pir_query *query);
 
 uint32_t pir_depth_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
                         double *ret_slack, uint32_t *steps);

@@ -13,7 +13,10 @@
 /* Planes are looked at this many at a time: groups are padded to whole blocks. */
 #define PIR_SCAN_BLOCK 8
 
-/* The other loops take whole lanes: they read and write up to PIR_SCAN_LANES − 1 elements past `count`, which arrays must have room for. */
+/*
+ * The other loops take whole lanes. `slacks` and `caps` are given nothing else; the rest read and write up to PIR_SCAN_LANES − 1 elements past
+ * `count`, which arrays must have room for.
+ */
 #define PIR_SCAN_LANES 4
 
 /* Vectors in parallel arrays. */
@@ -37,13 +40,20 @@ typedef struct pir_scan {
     void (*look)(uint32_t count, pir_lanes n, const double *h, const double *err, pir_vec3 x, double error,
                  double ret_least[3]);
 
+    /* to[i] = r · from[i] − x and s[i] = base[i] + n[i] · to[i]; the least s and n · x. */
+    void (*slacks)(uint32_t count, const pir_mat3 *r, pir_lanes from, pir_vec3 x, pir_lanes n, const double *base,
+                   pir_lanes to, double *s, double ret_least[2]);
+
     /* low[i] = bound[i] − (a · (lever[i] + a · bend[i]) + |x − at[i]|) · (1 + 2^-40) − error, a = turned − when[i]. */
     void (*bounds)(uint32_t count, const double *bound, const double *when, const double *lever, const double *bend,
                    pir_lanes at, double turned, pir_vec3 x, double error, double *low);
 
-    /* low[i] = h[i] − the most that n · x can be, n from least[i] to most[i] − error. */
-    void (*boxes)(uint32_t count, pir_lanes least, pir_lanes most, const double *h, pir_vec3 x, double error,
-                  double *low);
+    /*
+     * With w = corner[i] − x and along = axis[i]·w: low[i] becomes along · cosine[i] − |w across axis[i]| · sine[i] − 2 error where that is above 0 and
+     * above what it is. Returns the least along + error.
+     */
+    double (*caps)(uint32_t count, pir_lanes axis, pir_lanes corner, const double *cosine, const double *sine,
+                   pir_vec3 x, double error, double *low);
 } pir_scan;
 
 /* The versions that this build has and this processor runs, the plain one first; NULL past the last. */

@@ -3,6 +3,7 @@
 
 /* A few doubles at once: the compiler's own vectors, loaded from and stored to any address. */
 typedef double lane __attribute__((vector_size(8 * SCAN_WIDTH), aligned(8), may_alias));
+typedef int64_t mask __attribute__((vector_size(8 * SCAN_WIDTH)));
 #define AT(pointer)       (*(lane *)((pointer) + i))
 #define CONST_AT(pointer) (*(const lane *)((pointer) + i))
 
@@ -51,7 +52,6 @@ SCAN_TARGET static double cross(uint32_t count, pir_lanes d, pir_lanes e, pir_la
 
 /* Lane by lane, a where it is less than b. */
 SCAN_TARGET static inline lane lesser(lane a, lane b) {
-    typedef int64_t mask __attribute__((vector_size(8 * SCAN_WIDTH)));
     mask less = a < b;
     return (lane)(((mask)a & less) | ((mask)b & ~less));
 }
@@ -81,6 +81,28 @@ SCAN_TARGET static void look(uint32_t count, pir_lanes n, const double *h, const
     ret_least[2] = least(lesser(along[0], along[1]));
 }
 
+SCAN_TARGET static void slacks(uint32_t count, const pir_mat3 *r, pir_lanes from, pir_vec3 x, pir_lanes n,
+                               const double *base, pir_lanes to, double *s, double ret_least[2]) {
+    const pir_mat3 m = *r;
+    lane low = (lane){0} + HUGE_VAL, along = low;
+    for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
+        lane fx = CONST_AT(from.x), fy = CONST_AT(from.y), fz = CONST_AT(from.z);
+        lane ux = m.m[0][0] * fx + m.m[0][1] * fy + m.m[0][2] * fz - x.x;
+        lane uy = m.m[1][0] * fx + m.m[1][1] * fy + m.m[1][2] * fz - x.y;
+        lane uz = m.m[2][0] * fx + m.m[2][1] * fy + m.m[2][2] * fz - x.z;
+        lane nx = CONST_AT(n.x), ny = CONST_AT(n.y), nz = CONST_AT(n.z);
+        lane slack = CONST_AT(base) + (nx * ux + ny * uy + nz * uz);
+        AT(to.x) = ux;
+        AT(to.y) = uy;
+        AT(to.z) = uz;
+        AT(s) = slack;
+        low = lesser(slack, low);
+        along = lesser(nx * x.x + ny * x.y + nz * x.z, along);
+    }
+    ret_least[0] = least(low);
+    ret_least[1] = least(along);
+}
+
 SCAN_TARGET static void bounds(uint32_t count, const double *bound, const double *when, const double *lever,
                                const double *bend, pir_lanes at, double turned, pir_vec3 x, double error, double *low) {
     for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
@@ -91,12 +113,21 @@ SCAN_TARGET static void bounds(uint32_t count, const double *bound, const double
     }
 }
 
-SCAN_TARGET static void boxes(uint32_t count, pir_lanes from, pir_lanes to, const double *h, pir_vec3 x, double error,
-                              double *low) {
-    // the corner of the box that is farthest along x
-    const double *cx = x.x > 0 ? to.x : from.x, *cy = x.y > 0 ? to.y : from.y, *cz = x.z > 0 ? to.z : from.z;
-    for (uint32_t i = 0; i < count; i += SCAN_WIDTH)
-        AT(low) = CONST_AT(h) - (CONST_AT(cx) * x.x + CONST_AT(cy) * x.y + CONST_AT(cz) * x.z) - error;
+SCAN_TARGET static double caps(uint32_t count, pir_lanes axis, pir_lanes corner, const double *cosine,
+                               const double *sine, pir_vec3 x, double error, double *low) {
+    lane high = (lane){0} + HUGE_VAL;
+    for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
+        lane wx = CONST_AT(corner.x) - x.x, wy = CONST_AT(corner.y) - x.y, wz = CONST_AT(corner.z) - x.z;
+        lane along = CONST_AT(axis.x) * wx + CONST_AT(axis.y) * wy + CONST_AT(axis.z) * wz;
+        lane square = wx * wx + wy * wy + wz * wz;
+        // rounded up by more than either square is off by, so it is never below zero
+        lane across = roots(square * (1 + 0x1p-47) - along * along);
+        lane bound = along * CONST_AT(cosine) - across * CONST_AT(sine) - 2 * error, old = CONST_AT(low);
+        mask better = (bound > (lane){0}) & (bound > old);
+        AT(low) = (lane)(((mask)bound & better) | ((mask)old & ~better));
+        high = lesser(along + error, high);
+    }
+    return least(high);
 }
 
-const pir_scan SCAN_NAME = {SCAN_TEXT, turn, offset, cross, look, bounds, boxes};
+const pir_scan SCAN_NAME = {SCAN_TEXT, turn, offset, cross, look, slacks, bounds, caps};

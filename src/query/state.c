@@ -62,7 +62,7 @@ pir_state pir_state_find(pir_query *query, const pir_placement *placement, const
             return PIR_OUTSIDE;
         }
     }
-    pir_groups_bound(query, placement);
+    pir_groups_bound(query, placement, 0);
     bool open = query->group_count == 0;
     for (uint32_t g = 0; g < query->group_count; g++) {
         query->slack[g] = HUGE_VAL;

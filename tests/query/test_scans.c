@@ -28,9 +28,9 @@ static void fill(test_random *random, struct data *data) {
 
 /* What the loops put out, all of it. */
 struct outcome {
-    struct data turned, normals;
-    double offsets[COUNT], h[COUNT], err[COUNT], bounds[COUNT], boxes[COUNT];
-    double most, least[3];
+    struct data turned, normals, moved;
+    double offsets[COUNT], slacks[COUNT], h[COUNT], err[COUNT], bounds[COUNT], caps[COUNT];
+    double most, high, least[3], lowest[2];
 };
 
 static void run(const pir_scan *scan, struct data in[4], struct outcome *out) {
@@ -41,8 +41,11 @@ static void run(const pir_scan *scan, struct data in[4], struct outcome *out) {
     scan->offset(COUNT, lanes(&in[0]), in[1].x, lanes(&in[2]), out->offsets);
     out->most = scan->cross(COUNT, lanes(&in[0]), lanes(&in[1]), lanes(&in[2]), lanes(&out->normals), out->h, out->err);
     scan->look(COUNT, lanes(&out->normals), out->h, out->err, x, 0x1p-40, out->least);
+    scan->slacks(COUNT, &r, lanes(&in[1]), x, lanes(&in[2]), in[3].z, lanes(&out->moved), out->slacks, out->lowest);
     scan->bounds(COUNT, in[3].x, in[3].y, in[3].z, in[1].y, lanes(&in[2]), 3.5, x, 0x1p-44, out->bounds);
-    scan->boxes(COUNT, lanes(&in[0]), lanes(&in[1]), in[3].x, x, 0x1p-44, out->boxes);
+    for (int i = 0; i < COUNT; i++)
+        out->caps[i] = i % 3 ? -HUGE_VAL : in[3].x[i];
+    out->high = scan->caps(COUNT, lanes(&out->normals), lanes(&in[1]), in[3].y, in[3].z, x, 0x1p-44, out->caps);
 }
 
 static void every_version_gives_the_same_bits(void **state) {
@@ -88,9 +91,69 @@ static void the_plain_version_says_what_the_formulas_say(void **state) {
     assert_true(out.least[0] == low);
 }
 
+/* The bound of a cap is |w| times the cosine of the widest angle to w, where that is above zero. */
+static void caps_bound_by_their_widest_angle(void **state) {
+    (void)state;
+    test_random random = test_random_case("scans", 1001);
+    for (int round = 0; round < 2000; round++) {
+        struct data axis, corner;
+        pir_vec3 x = test_random_direction(&random), n[PIR_SCAN_LANES], w[PIR_SCAN_LANES];
+        double cosine[PIR_SCAN_LANES], sine[PIR_SCAN_LANES], low[PIR_SCAN_LANES], angle[PIR_SCAN_LANES];
+        for (int i = 0; i < PIR_SCAN_LANES; i++) {
+            n[i] = test_random_direction(&random);
+            w[i] = pir_vec_scale(test_random_direction(&random), 0.1 + 2 * fabs(test_random_unit(&random)));
+            angle[i] = fabs(test_random_unit(&random)) * acos(0);
+            axis.x[i] = n[i].x, axis.y[i] = n[i].y, axis.z[i] = n[i].z;
+            corner.x[i] = w[i].x + x.x, corner.y[i] = w[i].y + x.y, corner.z[i] = w[i].z + x.z;
+            cosine[i] = cos(angle[i]), sine[i] = sin(angle[i]), low[i] = -HUGE_VAL;
+        }
+        const double error = 0x1p-30;
+        double high =
+            pir_scan_version(0)->caps(PIR_SCAN_LANES, lanes(&axis), lanes(&corner), cosine, sine, x, error, low);
+        double least = HUGE_VAL;
+        for (int i = 0; i < PIR_SCAN_LANES; i++) {
+            double length = sqrt(pir_vec_dot(w[i], w[i])), along = pir_vec_dot(n[i], w[i]);
+            double widest = atan2(sqrt(fmax(0, length * length - along * along)), along) + angle[i];
+            double right = length * cos(widest) - 2 * error;
+            least = fmin(least, along + error);
+            if (fabs(right) > 1e-6)
+                expect(right > 0 ? fabs(low[i] - right) < 1e-6 : low[i] == -HUGE_VAL, "bound %.17g, not %.17g", low[i],
+                       right);
+        }
+        assert_true(fabs(high - least) < 1e-13);
+    }
+}
+
+static void slacks_are_those_of_turned_points(void **state) {
+    (void)state;
+    test_random random = test_random_case("scans", 1002);
+    const pir_mat3 r = {{{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}}};
+    struct data from, n, to;
+    double base[COUNT], s[COUNT], least[2], slack = HUGE_VAL, along = HUGE_VAL;
+    for (int i = 0; i < COUNT; i++) {
+        pir_vec3 a = test_random_direction(&random), b = test_random_direction(&random);
+        from.x[i] = a.x, from.y[i] = a.y, from.z[i] = a.z;
+        n.x[i] = b.x, n.y[i] = b.y, n.z[i] = b.z;
+        base[i] = test_random_unit(&random);
+    }
+    pir_vec3 x = test_random_direction(&random);
+    pir_scan_version(0)->slacks(COUNT, &r, lanes(&from), x, lanes(&n), base, lanes(&to), s, least);
+    for (int i = 0; i < COUNT; i++) {
+        pir_vec3 u = pir_vec_sub(pir_mat_apply(&r, (pir_vec3){from.x[i], from.y[i], from.z[i]}), x);
+        pir_vec3 normal = {n.x[i], n.y[i], n.z[i]};
+        assert_true(fabs(to.x[i] - u.x) + fabs(to.y[i] - u.y) + fabs(to.z[i] - u.z) < 1e-14);
+        assert_true(fabs(s[i] - base[i] - pir_vec_dot(normal, u)) < 1e-14);
+        slack = fmin(slack, s[i]);
+        along = fmin(along, pir_vec_dot(normal, x));
+    }
+    assert_true(least[0] == slack && fabs(least[1] - along) < 1e-14);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_version_gives_the_same_bits),
-                                       cmocka_unit_test(the_plain_version_says_what_the_formulas_say)};
+                                       cmocka_unit_test(the_plain_version_says_what_the_formulas_say),
+                                       cmocka_unit_test(caps_bound_by_their_widest_angle),
+                                       cmocka_unit_test(slacks_are_those_of_turned_points)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
