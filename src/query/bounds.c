@@ -59,6 +59,38 @@ static bool allocate(pir_query *query) {
     return query->cap_stamp && done;
 }
 
+/* --- bounds that last --- */
+
+/* Adds what R has turned by since bounds were last asked for. What it did between does not matter. */
+static void note_turn(pir_query *query) {
+    if (query->turned == query->stamp)
+        return;
+    pir_quat now = query->sum->signs.rotation.unit;
+    if (query->turned != 0)
+        query->turn = (query->turn + pir_rotation_angle_bound(query->turned_to, now)) * (1 + 0x1p-51);
+    query->turned_to = now;
+    query->turned = query->stamp;
+}
+/* How far x reaches across the normals of a group that reach `along` it at least; all of |x| where some are at right angles or more. */
+static double across(double length, double along) {
+    return along > 0 && along < length ? sqrt((length - along) * (length + along)) : length;
+}
+
+void pir_bound_keep(pir_query *query, uint32_t g, const pir_placement *placement, double low, double along) {
+    const pir_group *group = &query->groups[g];
+    note_turn(query);
+    double length = placement->reach - query->size_p - query->size_q;
+    // a bound that is not above zero does not last: the arcs between are concave only while s is positive
+    bool lasts = low > 0 && (group->of_q || query->p->dimension == 3);
+    query->bound[g] = lasts ? low : -HUGE_VAL;
+    query->when[g] = query->turn;
+    // what rounding may hide of x is below 2^-40 of the reach
+    double hair = 0x1p-40 * placement->reach;
+    query->lever[g] = group->of_q ? query->swing_p : query->swing_q + across(length, along - hair) + hair;
+    query->bend[g] = group->of_q ? 0 : 0.5 * length;
+    pir_lane_put(query->where, g, placement->x);
+}
+
 /* --- caps --- */
 
 /* The least cosine between facet f and any that the group needs, itself included. */
@@ -133,25 +165,6 @@ static void make_caps(pir_query *query, uint32_t g) {
     query->cap_stamp[g / PIR_SCAN_LANES] = query->stamp;
 }
 
-/* How far x reaches across the normals of a group that reach `along` it at least; all of |x| where some are at right angles or more. */
-static double across(double length, double along) {
-    return along > 0 && along < length ? sqrt((length - along) * (length + along)) : length;
-}
-
-void pir_bound_keep(pir_query *query, uint32_t g, const pir_placement *placement, double low, double along) {
-    const pir_group *group = &query->groups[g];
-    double length = placement->reach - query->size_p - query->size_q;
-    // a bound that is not above zero does not last: the arcs between are concave only while s is positive
-    bool lasts = low > 0 && (group->of_q || query->p->dimension == 3);
-    query->bound[g] = lasts ? low : -HUGE_VAL;
-    query->when[g] = query->turn;
-    // what rounding may hide of x is below 2^-40 of the reach
-    double hair = 0x1p-40 * placement->reach;
-    query->lever[g] = group->of_q ? query->swing_p : query->swing_q + across(length, along - hair) + hair;
-    query->bend[g] = group->of_q ? 0 : 0.5 * length;
-    pir_lane_put(query->where, g, placement->x);
-}
-
 /* Whether a cap may rule out a group of the block from `g` that is not ruled out yet. */
 static bool is_open(const pir_query *query, uint32_t g, double limit) {
     bool any = false;
@@ -162,6 +175,7 @@ static bool is_open(const pir_query *query, uint32_t g, double limit) {
 
 double pir_groups_bound(pir_query *query, const pir_placement *placement, double limit) {
     double high = HUGE_VAL;
+    note_turn(query);
     query->scan->bounds(query->group_count, query->bound, query->when, query->lever, query->bend, query->where,
                         query->turn, placement->x, placement->error, query->low);
     for (uint32_t g = 0; g < query->group_count; g += PIR_SCAN_LANES) {

@@ -40,6 +40,12 @@ static inline pir_dd pir_dd_add(pir_dd a, pir_dd b) {
     return pir_dd_quick_sum(s.hi, s.lo + t.lo);
 }
 
+/* a + b for a double b, at half the work. */
+static inline pir_dd pir_dd_add_double(pir_dd a, double b) {
+    pir_dd s = pir_dd_two_sum(a.hi, b);
+    return pir_dd_quick_sum(s.hi, s.lo + a.lo);
+}
+
 static inline pir_dd pir_dd_negate(pir_dd a) {
     return (pir_dd){-a.hi, -a.lo};
 }
@@ -76,6 +82,14 @@ static inline pir_dd3 pir_dd3_from(pir_vec3 v) {
 
 static inline pir_dd3 pir_dd3_add(pir_dd3 a, pir_dd3 b) {
     return (pir_dd3){{pir_dd_add(a.c[0], b.c[0]), pir_dd_add(a.c[1], b.c[1]), pir_dd_add(a.c[2], b.c[2])}};
+}
+
+static inline pir_dd3 pir_dd3_add_vec(pir_dd3 a, pir_vec3 b) {
+    return (pir_dd3){{pir_dd_add_double(a.c[0], b.x), pir_dd_add_double(a.c[1], b.y), pir_dd_add_double(a.c[2], b.z)}};
+}
+
+static inline pir_dd3 pir_dd3_negate(pir_dd3 a) {
+    return (pir_dd3){{pir_dd_negate(a.c[0]), pir_dd_negate(a.c[1]), pir_dd_negate(a.c[2])}};
 }
 
 static inline pir_dd3 pir_dd3_sub(pir_dd3 a, pir_dd3 b) {

@@ -13,21 +13,26 @@
 /* A slope this small is no slope: unit vectors are off by a few 2^-53. */
 #define LEAST_SLOPE 0x1p-49
 
-uint32_t pir_climb(const pir_polytope *polytope, pir_vec3 n, uint32_t from) {
+/* The vertex farthest along n, of any length, from `from` uphill by slopes above `least`. */
+static inline uint32_t climb(const pir_polytope *polytope, pir_vec3 n, double least, uint32_t from) {
     // every step rises, so no vertex comes twice; the count bounds it even if rounding should err
     for (uint32_t left = polytope->vertex_count; left > 0; left--) {
-        uint32_t best = from;
-        double steepest = LEAST_SLOPE;
-        for (uint32_t h = polytope->ring_start[from]; h < polytope->ring_start[from + 1]; h++) {
+        uint32_t best = UINT32_MAX, end = polytope->ring_start[from + 1];
+        double steepest = least;
+        for (uint32_t h = polytope->ring_start[from]; h < end; h++) {
             double slope = pir_vec_dot(n, polytope->direction[h]);
-            if (slope > steepest)
-                steepest = slope, best = polytope->target[h];
+            best = slope > steepest ? h : best;
+            steepest = slope > steepest ? slope : steepest;
         }
-        if (best == from)
+        if (best == UINT32_MAX)
             break;
-        from = best;
+        from = polytope->target[best];
     }
     return from;
+}
+
+uint32_t pir_climb(const pir_polytope *polytope, pir_vec3 n, uint32_t from) {
+    return climb(polytope, n, LEAST_SLOPE, from);
 }
 
 /* --- the nearest point of a simplex to the origin --- */
@@ -60,6 +65,20 @@ static void take_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct neare
         *best = (struct nearest){2, {a, b, 0}, {1 - t, t, 0}, v, square};
 }
 
+/* The foot of the origin on the plane across n, |n|² = whole, through the three points: inside their triangle, with weights in proportion to `share`. */
+static inline void take_inside(const pir_vec3 *w, const uint32_t index[3], const double share[3], pir_vec3 n,
+                               double whole, struct nearest *best) {
+    // the plane's distance from the corner that is nearest to it in length
+    pir_vec3 a = w[index[0]], b = w[index[1]], c = w[index[2]];
+    double qa = pir_vec_dot(a, a), qb = pir_vec_dot(b, b), qc = pir_vec_dot(c, c);
+    pir_vec3 corner = qa <= qb && qa <= qc ? a : qb <= qc ? b : c;
+    pir_vec3 v = pir_vec_scale(n, pir_vec_dot(n, corner) / whole);
+    double square = pir_vec_dot(v, v), by = 1 / (share[0] + share[1] + share[2]);
+    if (square < best->square * (1 + 0x1p-20))
+        *best = (struct nearest){
+            3, {index[0], index[1], index[2]}, {share[0] * by, share[1] * by, share[2] * by}, v, square};
+}
+
 /*
  * The inside of the triangle; its sides are segments. Where the foot is inside, the triangle is nearer than its sides, by less than
  * rounding tells when it is nearly flat towards x: it goes first, or the descent would stay on the side.
@@ -69,16 +88,8 @@ static void take_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c,
     double whole = pir_vec_dot(n, n);
     double wa = pir_vec_dot(n, pir_vec_cross(w[b], w[c])), wb = pir_vec_dot(n, pir_vec_cross(w[c], w[a]));
     double wc = pir_vec_dot(n, pir_vec_cross(w[a], w[b]));
-    if (!(wa > 0 && wb > 0 && wc > 0) || whole == 0)
-        return;
-    double sum = wa + wb + wc;
-    // the plane's distance from the corner that is nearest to it in length
-    double qa = pir_vec_dot(w[a], w[a]), qb = pir_vec_dot(w[b], w[b]), qc = pir_vec_dot(w[c], w[c]);
-    pir_vec3 corner = qa <= qb && qa <= qc ? w[a] : qb <= qc ? w[b] : w[c];
-    pir_vec3 v = pir_vec_scale(n, pir_vec_dot(n, corner) / whole);
-    double square = pir_vec_dot(v, v);
-    if (square < best->square * (1 + 0x1p-20))
-        *best = (struct nearest){3, {a, b, c}, {wa / sum, wb / sum, wc / sum}, v, square};
+    if (wa > 0 && wb > 0 && wc > 0 && whole > 0)
+        take_inside(w, (const uint32_t[3]){a, b, c}, (const double[3]){wa, wb, wc}, n, whole, best);
 }
 
 /* Of `count` ≤ 4 points, the last new: the nearest point of the faces that hold it, and of the others' vertices for safety. */
@@ -101,34 +112,131 @@ static void find_nearest(const pir_vec3 *w, uint32_t count, struct nearest *best
     }
 }
 
+/* --- the same where it is plain, at a third of the work --- */
+
+/* The nearest point of the closed segment a–b, a < b, where it is nearer than `best`. */
+static void reach_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct nearest *best) {
+    pir_vec3 e = pir_vec_sub(w[b], w[a]);
+    double along = -pir_vec_dot(w[a], e), whole = pir_vec_dot(e, e);
+    if (along <= 0)
+        take_point(w, a, best);
+    else if (along >= whole)
+        take_point(w, b, best);
+    else
+        take_segment(w, a, b, best);
+}
+
+/*
+ * That of the closed triangle, a < b < c. A foot beyond one side only is nearest to that side, for the way from it to any other point of the
+ * triangle passes there; one beyond two is nearest to either. False where the triangle has no plane.
+ */
+static bool reach_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c, struct nearest *best) {
+    pir_vec3 n = pir_vec_cross(pir_vec_sub(w[b], w[a]), pir_vec_sub(w[c], w[a]));
+    double whole = pir_vec_dot(n, n);
+    double wa = pir_vec_dot(n, pir_vec_cross(w[b], w[c])), wb = pir_vec_dot(n, pir_vec_cross(w[c], w[a]));
+    double wc = pir_vec_dot(n, pir_vec_cross(w[a], w[b]));
+    if (whole == 0)
+        return false;
+    if (wa > 0 && wb > 0 && wc > 0) {
+        take_inside(w, (const uint32_t[3]){a, b, c}, (const double[3]){wa, wb, wc}, n, whole, best);
+        return true;
+    }
+    if (wa <= 0)
+        reach_segment(w, b, c, best);
+    if (wb <= 0)
+        reach_segment(w, a, c, best);
+    if (wc <= 0)
+        reach_segment(w, a, b, best);
+    return true;
+}
+
+/*
+ * Of four points: the nearest of the faces at the last that the origin sees. It sees a face where its weight of the corner across is negative;
+ * the weights are these determinants over their sum. False where it sees none.
+ */
+static bool reach_tetrahedron(const pir_vec3 *w, struct nearest *best) {
+    pir_vec3 c0 = pir_vec_cross(w[3], w[0]), c1 = pir_vec_cross(w[3], w[1]), c2 = pir_vec_cross(w[3], w[2]);
+    double d0 = -pir_vec_dot(w[2], c1), d1 = -pir_vec_dot(w[0], c2), d2 = -pir_vec_dot(w[1], c0);
+    double whole = pir_vec_dot(w[0], pir_vec_cross(w[1], w[2])) + d0 + d1 + d2;
+    bool sees = false;
+    if (d2 * whole < 0)
+        sees = reach_triangle(w, 0, 1, 3, best);
+    if (d1 * whole < 0)
+        sees |= reach_triangle(w, 0, 2, 3, best);
+    if (d0 * whole < 0)
+        sees |= reach_triangle(w, 1, 2, 3, best);
+    return sees;
+}
+
+/* As find_nearest; false where it cannot tell. */
+static bool reach_nearest(const pir_vec3 *w, uint32_t count, struct nearest *best) {
+    best->square = HUGE_VAL;
+    if (count == 4)
+        return reach_tetrahedron(w, best);
+    if (count == 3)
+        return reach_triangle(w, 0, 1, 2, best);
+    if (count == 2)
+        reach_segment(w, 0, 1, best);
+    else
+        take_point(w, 0, best);
+    return true;
+}
+
+/* The simplex becomes the face that holds the nearest point. Indices rise, so nothing is overwritten before it is read. */
 static void keep_nearest(pir_simplex *simplex, pir_vec3 *w, const struct nearest *best) {
-    pir_simplex old = *simplex;
-    pir_vec3 points[4] = {w[0], w[1], w[2], w[3]};
     simplex->count = best->count;
     for (uint32_t i = 0; i < best->count; i++) {
-        simplex->a[i] = old.a[best->index[i]];
-        simplex->b[i] = old.b[best->index[i]];
+        uint32_t from = best->index[i];
+        simplex->a[i] = simplex->a[from];
+        simplex->b[i] = simplex->b[from];
         simplex->weight[i] = best->weight[i];
-        w[i] = points[best->index[i]];
+        w[i] = w[from];
     }
 }
 
 /*
- * The length of the point that the weights make: a point of D whatever they are, hence an upper bound even where a triangle is so narrow
- * that its normal is rounding alone.
+ * Whether the point that the weights make is within `length`: a point of D whatever they are, hence an upper bound even where a triangle is so
+ * narrow that its normal is rounding alone.
  */
-static double held_length(const pir_simplex *simplex, const pir_vec3 *w) {
-    pir_vec3 v = {0, 0, 0};
-    for (uint32_t i = 0; i < simplex->count; i++)
+static bool held_within(const pir_simplex *simplex, const pir_vec3 *w, double length) {
+    pir_vec3 v = pir_vec_scale(w[0], simplex->weight[0]);
+    for (uint32_t i = 1; i < simplex->count; i++)
         v = pir_vec_add(v, pir_vec_scale(w[i], simplex->weight[i]));
-    return sqrt(pir_vec_dot(v, v));
+    return length >= 0 && pir_vec_dot(v, v) <= length * length;
+}
+
+/* Where the simplex holds vertex (a, b) of D; its count where it does not. */
+static inline uint32_t place_of(const pir_simplex *simplex, uint32_t a, uint32_t b) {
+    uint32_t i = 0;
+    while (i < simplex->count && (simplex->a[i] != a || simplex->b[i] != b))
+        i++;
+    return i;
 }
 
 bool pir_simplex_holds(const pir_simplex *simplex, uint32_t a, uint32_t b) {
-    for (uint32_t i = 0; i < simplex->count; i++)
-        if (simplex->a[i] == a && simplex->b[i] == b)
-            return true;
-    return false;
+    return place_of(simplex, a, b) < simplex->count;
+}
+
+/* The landmark of a vector: by the signs of its components and by the greatest. */
+static uint32_t landmark_of(pir_vec3 n) {
+    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
+    uint32_t axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    return 8 * axis + 4 * (n.x < 0) + 2 * (n.y < 0) + (n.z < 0);
+}
+
+void pir_landmarks_set(const pir_polytope *polytope, uint32_t landmarks[PIR_LANDMARKS]) {
+    // the middle of what falls to it, about
+    const double most = 0.82, less = 0.4;
+    for (uint32_t i = 0, from = 0; i < PIR_LANDMARKS; i++) {
+        pir_vec3 n = {i / 8 == 0 ? most : less, i / 8 == 1 ? most : less, i / 8 == 2 ? most : less};
+        n = (pir_vec3){i & 4 ? -n.x : n.x, i & 2 ? -n.y : n.y, i & 1 ? -n.z : n.z};
+        landmarks[i] = from = pir_climb(polytope, n, from);
+    }
+}
+
+/* That of two vertices which is farther along n. */
+static uint32_t farther(const pir_vec3 *vertices, pir_vec3 n, uint32_t a, uint32_t b) {
+    return pir_vec_dot(n, vertices[b]) > pir_vec_dot(n, vertices[a]) ? b : a;
 }
 
 /* A first vertex when there is none: that towards x. */
@@ -137,44 +245,58 @@ void pir_simplex_start(const pir_query *query, const pir_placement *placement, p
         return;
     double length = sqrt(pir_vec_dot(placement->x, placement->x));
     pir_vec3 n = length > 0 ? pir_vec_scale(placement->x, 1 / length) : (pir_vec3){1, 0, 0};
+    pir_vec3 back = pir_mat_apply_transposed(&query->r, n);
     simplex->count = 1;
-    simplex->a[0] = pir_climb(query->p, pir_mat_apply_transposed(&query->r, n), 0);
-    simplex->b[0] = pir_climb(query->q, n, 0);
+    simplex->a[0] = pir_climb(query->p, back, query->landmarks_p[landmark_of(back)]);
+    simplex->b[0] = pir_climb(query->q, n, query->landmarks_q[landmark_of(n)]);
 }
 
 void pir_descend_to_point(pir_query *query, const pir_placement *placement, double cutoff, pir_simplex *simplex,
                           uint32_t *steps) {
     pir_vec3 w[4];
     struct nearest best;
+    const double meet = PIR_MEET * placement->reach;
+    // what is at hand may be far from where it leads
+    const bool far = simplex->count == 0;
     pir_simplex_start(query, placement, simplex);
     for (uint32_t i = 0; i < simplex->count; i++)
         w[i] = pir_vec_sub(pir_frame_vertex(query, simplex->a[i], simplex->b[i]), placement->x);
     simplex->certain = false;
     simplex->lower = -HUGE_VAL;
     simplex->upper = HUGE_VAL;
-    if (simplex->count == 1)
-        best = (struct nearest){1, {0, 0, 0}, {1, 0, 0}, w[0], pir_vec_dot(w[0], w[0])};
-    else
-        find_nearest(w, simplex->count, &best);
+    uint32_t n = simplex->count;
+    double square = HUGE_VAL;
     for (uint32_t step = 0; step < PIR_MOST_STEPS; step++) {
+        if (!reach_nearest(w, n, &best) || !(best.square < square))
+            find_nearest(w, n, &best);
         double length = sqrt(best.square);
         if (!(length < simplex->upper) || length == 0)
             return;
+        square = best.square;
         keep_nearest(simplex, w, &best);
+        n = simplex->count;
         simplex->upper = length;
         simplex->direction = pir_vec_scale(best.v, -1 / length);
         ++*steps;
-        uint32_t a = pir_climb(query->p, pir_mat_apply_transposed(&query->r, simplex->direction), simplex->a[0]);
-        uint32_t b = pir_climb(query->q, simplex->direction, simplex->b[0]);
-        uint32_t n = simplex->count;
-        w[n] = pir_vec_sub(pir_frame_vertex(query, a, b), placement->x);
-        simplex->lower = -pir_vec_dot(w[n], simplex->direction);
-        simplex->certain = length - simplex->lower <= PIR_MEET * placement->reach &&
-                           held_length(simplex, w) - simplex->lower <= PIR_MEET * placement->reach;
-        if (simplex->certain || simplex->lower > cutoff || pir_simplex_holds(simplex, a, b))
+        // from the vertex that came last, along −v, which is known before its length
+        pir_vec3 minus = pir_vec_scale(best.v, -1), back = pir_mat_apply_transposed(&query->r, minus);
+        double least = LEAST_SLOPE * length;
+        uint32_t a = simplex->a[n - 1], b = simplex->b[n - 1];
+        if (far) {
+            a = farther(query->vp, back, a, query->landmarks_p[landmark_of(back)]);
+            b = farther(query->vq, minus, b, query->landmarks_q[landmark_of(minus)]);
+        }
+        a = climb(query->p, back, least, a);
+        b = climb(query->q, minus, least, b);
+        uint32_t at = place_of(simplex, a, b);
+        if (at == n)
+            w[n] = pir_vec_sub(pir_frame_vertex(query, a, b), placement->x);
+        simplex->lower = -pir_vec_dot(w[at], simplex->direction);
+        simplex->certain = length - simplex->lower <= meet && held_within(simplex, w, simplex->lower + meet);
+        if (simplex->certain || simplex->lower > cutoff || at < n)
             return;
         simplex->a[n] = a;
         simplex->b[n] = b;
-        find_nearest(w, n + 1, &best);
+        n++;
     }
 }

@@ -8,7 +8,6 @@
 #include "query/query.h"
 
 #include <limits.h>
-#include <string.h>
 
 #include "polytope/polytope.h"
 
@@ -132,6 +131,8 @@ pir_status pir_frame_init(pir_query *query) {
     PIR_FREE(a, room, limbs);
     if (!fits)
         return PIR_ERR_LIMIT;
+    pir_landmarks_set(p, query->landmarks_p);
+    pir_landmarks_set(q, query->landmarks_q);
     query->swing_p = set_offsets(p, query->vp, query->size_p, query->hp);
     query->swing_q = set_offsets(q, query->vq, query->size_q, query->hq);
     return PIR_OK;
@@ -164,16 +165,20 @@ void pir_frame_make_fine(pir_query *query) {
     query->has_fine = true;
 }
 
-static bool same_bits(pir_quat a, pir_quat b) {
-    return memcmp(&a, &b, sizeof a) == 0;
+static bool same(pir_quat a, pir_quat b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
 }
 
 /* The offset of the frame: Q's middle plus P's, rotated. Near middles need no more than doubles. */
 static void set_offset(pir_query *query) {
     pir_vec3 near = pir_dd3_round(query->centre_p);
     double far = fabs(near.x) + fabs(near.y) + fabs(near.z);
+    if (far == 0) {
+        query->offset = query->centre_q;
+        return;
+    }
     if (far <= 4 * (query->size_p + query->size_q)) {
-        query->offset = pir_dd3_add(query->centre_q, pir_dd3_from(pir_mat_apply(&query->r, near)));
+        query->offset = pir_dd3_add_vec(query->centre_q, pir_mat_apply(&query->r, near));
         return;
     }
     pir_frame_make_fine(query);
@@ -187,17 +192,11 @@ static void set_offset(pir_query *query) {
 
 void pir_frame_follow(pir_query *query) {
     const pir_rotation *now = &query->sum->signs.rotation;
-    if (query->followed && same_bits(now->given, query->at))
+    if (query->followed && same(now->given, query->at))
         return;
-    if (query->followed)
-        query->turn = (query->turn + pir_rotation_angle_bound(query->unit, now->unit)) * (1 + 0x1p-51);
     query->followed = true;
     query->at = now->given;
-    query->unit = now->unit;
     query->r = now->r;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            query->r_back.m[i][j] = now->r.m[j][i];
     query->has_fine = false;
     set_offset(query);
     query->stamp++;
@@ -211,12 +210,14 @@ static double taxicab(pir_vec3 v) {
 pir_status pir_frame_place(pir_query *query, pir_vec3 translation, pir_placement *ret_placement) {
     if (!pir_vec_is_finite(translation))
         return PIR_ERR_NOT_FINITE;
-    pir_vec3 t = {pir_frame_from(query, translation.x), pir_frame_from(query, translation.y),
-                  pir_frame_from(query, translation.z)};
+    pir_vec3 t = pir_vec_scale(translation, query->down);
+    if (query->down == 0)
+        t = (pir_vec3){ldexp(translation.x, -query->exponent), ldexp(translation.y, -query->exponent),
+                       ldexp(translation.z, -query->exponent)};
     if (!(fabs(t.x) < FARTHEST && fabs(t.y) < FARTHEST && fabs(t.z) < FARTHEST))
         return PIR_ERR_LIMIT;
     ret_placement->translation = translation;
-    ret_placement->fine = pir_dd3_sub(pir_dd3_from(t), query->offset);
+    ret_placement->fine = pir_dd3_add_vec(pir_dd3_negate(query->offset), t);
     ret_placement->x = pir_dd3_round(ret_placement->fine);
     ret_placement->reach = query->size_p + query->size_q + sqrt(pir_vec_dot(ret_placement->x, ret_placement->x));
     double far = taxicab(t) + taxicab(pir_dd3_round(query->centre_p)) + taxicab(pir_dd3_round(query->centre_q));
@@ -225,6 +226,6 @@ pir_status pir_frame_place(pir_query *query, pir_vec3 translation, pir_placement
 }
 
 pir_vec3 pir_frame_world(const pir_query *query, pir_vec3 y) {
-    pir_vec3 w = pir_dd3_round(pir_dd3_add(query->centre_q, pir_dd3_from(y)));
+    pir_vec3 w = pir_dd3_round(pir_dd3_add_vec(query->centre_q, y));
     return (pir_vec3){pir_frame_length(query, w.x), pir_frame_length(query, w.y), pir_frame_length(query, w.z)};
 }

@@ -102,6 +102,17 @@ static pir_vec3 plane_normal(const pir_query *query, uint32_t slot) {
 static const pir_outcome outcome_of[] = {
     [PIR_OUTSIDE] = PIR_SEPARATED, [PIR_BOUNDARY] = PIR_TOUCHING, [PIR_INSIDE] = PIR_OVERLAPPING};
 
+/* Member by member: a compiler's way of clearing the whole takes a fifth of a query. */
+static void clear(pir_query_result *result) {
+    const pir_vec3 none = {0, 0, 0};
+    result->state = PIR_OUTSIDE;
+    result->outcome = PIR_SEPARATED;
+    result->distance = 0;
+    result->normal = result->point_p = result->point_q = none;
+    result->witness.p = result->witness.q = (pir_feature){PIR_FEATURE_NONE, 0};
+    result->steps = 0;
+}
+
 static void set_state(pir_query_result *result, pir_state state) {
     result->state = state;
     result->outcome = outcome_of[state];
@@ -151,6 +162,9 @@ static void answer_touching(pir_query *query, const pir_placement *placement, ui
 
 static void recall_simplex(const pir_query *query, const pir_query_cache *cache, pir_simplex *simplex) {
     simplex->count = 0;
+    simplex->parts = false;
+    for (uint32_t i = 0; i < 4; i++)
+        simplex->a[i] = simplex->b[i] = 0;
     if (!cache || cache->points == 0 || cache->points > 3)
         return;
     for (uint32_t i = 0; i < cache->points; i++) {
@@ -162,11 +176,12 @@ static void recall_simplex(const pir_query *query, const pir_query_cache *cache,
     simplex->count = cache->points;
 }
 
+/* All three, those past the count being 0. */
 static void keep_simplex(pir_query_cache *cache, const pir_simplex *simplex) {
     if (!cache)
         return;
     cache->points = simplex->count;
-    for (uint32_t i = 0; i < simplex->count; i++) {
+    for (uint32_t i = 0; i < 3; i++) {
         cache->p[i] = simplex->a[i];
         cache->q[i] = simplex->b[i];
     }
@@ -175,46 +190,6 @@ static void keep_simplex(pir_query_cache *cache, const pir_simplex *simplex) {
 /* Whether the facet of slot `slot` certainly separates. */
 static bool separates(const pir_query *query, uint32_t slot, const pir_placement *placement) {
     return pir_plane_slack(&query->planes, slot, placement->x) < -placement->error * query->planes.err[slot];
-}
-
-static bool try_piece(pir_query *query, const pir_placement *placement, pir_piece piece, pir_query_cache *cache) {
-    uint32_t slot = query->planes.capacity - 1;
-    if (!pir_plane_make(query, piece, slot) || !separates(query, slot, placement))
-        return false;
-    pir_piece_keep(cache, piece);
-    return true;
-}
-
-/*
- * A facet of D beside a vertex of the simplex that certainly separates: where the nearest point is, one of those around it does. The
- * slopes of D there are known from the pairing, so this proves what a climb, which rounds, does not.
- */
-static bool prove_outside(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
-                          pir_query_cache *cache) {
-    const pir_polytope *p = query->p, *q = query->q;
-    const pir_sum *sum = query->sum;
-    uint32_t slot;
-    if (pir_piece_recall(query, cache, &slot) && separates(query, slot, placement))
-        return true;
-    for (uint32_t i = 0; i < simplex->count; i++) {
-        uint32_t a = simplex->a[i], b = simplex->b[i];
-        for (uint32_t h = p->ring_start[a]; h < p->ring_start[a + 1]; h++)
-            if (sum->fv[p->left[h]] == b &&
-                try_piece(query, placement, (pir_piece){PIR_FACET_FV, p->left[h], 0}, cache))
-                return true;
-        for (uint32_t h = q->ring_start[b]; h < q->ring_start[b + 1]; h++)
-            if (sum->vf[q->left[h]] == a &&
-                try_piece(query, placement, (pir_piece){PIR_FACET_VF, 0, q->left[h]}, cache))
-                return true;
-        for (uint32_t h = p->ring_start[a]; h < p->ring_start[a + 1]; h++)
-            for (uint32_t at = sum->first[p->edge[h]]; at != PIR_NO_CROSSING; at = sum->crossings.next[at]) {
-                uint32_t half = sum->crossings.half[at];
-                if ((q->origin[half] == b || q->target[half] == b) &&
-                    try_piece(query, placement, (pir_piece){PIR_FACET_EE, p->edge[h], half}, cache))
-                    return true;
-            }
-    }
-    return false;
 }
 
 /* Bodies that are apart by less than their coordinates can tell still have two points, apart by one rounding along the normal. */
@@ -227,15 +202,18 @@ static void separate_points(pir_query_result *result) {
     *most = nextafter(*most, along > 0 ? HUGE_VAL : -HUGE_VAL);
 }
 
-/* The answer of a descent that ended, the state being outside. */
+static pir_witness witness_of(const pir_query *query, const pir_simplex *simplex) {
+    return (pir_witness){pir_feature_of(query->p, simplex->a, simplex->count),
+                         pir_feature_of(query->q, simplex->b, simplex->count)};
+}
+
+/* The answer of a descent that ended, the state being outside; the witness is set. */
 static void answer_separation(const pir_query *query, const pir_simplex *simplex, pir_query_cache *cache,
                               pir_query_result *result) {
     keep_simplex(cache, simplex);
     result->distance = pir_frame_length(query, simplex->upper);
     result->normal = simplex->direction;
     result->outcome = simplex->certain ? PIR_SEPARATED : PIR_STEP_LIMIT;
-    result->witness.p = pir_feature_of(query->p, simplex->a, simplex->count);
-    result->witness.q = pir_feature_of(query->q, simplex->b, simplex->count);
     pir_vec3 y = {0, 0, 0};
     for (uint32_t i = 0; i < simplex->count; i++)
         y = pir_vec_add(y, pir_vec_scale(query->vq[simplex->b[i]], simplex->weight[i]));
@@ -249,11 +227,14 @@ static void answer_separation(const pir_query *query, const pir_simplex *simplex
  */
 static pir_state separation(pir_query *query, const pir_placement *placement, double limit, pir_query_cache *cache,
                             uint32_t *ret_slot, pir_query_result *result) {
-    pir_simplex simplex = {.parts = false};
+    pir_simplex simplex;
     recall_simplex(query, cache, &simplex);
     pir_descend_to_point(query, placement, limit, &simplex, &result->steps);
     bool far = simplex.lower > CLEARLY_APART * placement->reach;
-    if (!far || !prove_outside(query, placement, &simplex, cache)) {
+    pir_witness witness = {{0}, {0}};
+    if (far)
+        witness = witness_of(query, &simplex);
+    if (!far || !pir_prove_outside(query, placement, &simplex, &witness, cache)) {
         pir_state state = pir_state_find(query, placement, cache, ret_slot, &result->steps);
         if (state != PIR_OUTSIDE)
             return state;
@@ -268,8 +249,10 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
         keep_simplex(cache, &simplex);
         return PIR_OUTSIDE;
     }
-    if (!simplex.certain)
+    bool fine = !simplex.certain;
+    if (fine)
         pir_descend_finely(query, placement, &simplex, &result->steps);
+    result->witness = far && !fine ? witness : witness_of(query, &simplex);
     bool next_to_nothing = simplex.upper <= PIR_MEET * placement->reach && !simplex.parts;
     if (next_to_nothing)
         simplex.direction = *ret_slot != PIR_NO_PLANE ? plane_normal(query, *ret_slot) : query->beyond;
@@ -291,10 +274,11 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
         inside = query->low[g] > 0;
     if (inside)
         return PIR_INSIDE;
-    pir_simplex simplex = {.parts = false};
+    pir_simplex simplex;
     recall_simplex(query, cache, &simplex);
     pir_descend_to_point(query, placement, CLEARLY_APART * placement->reach, &simplex, steps);
-    if (simplex.lower > CLEARLY_APART * placement->reach && prove_outside(query, placement, &simplex, cache)) {
+    if (simplex.lower > CLEARLY_APART * placement->reach &&
+        pir_prove_outside(query, placement, &simplex, NULL, cache)) {
         *ret_slot = query->planes.capacity - 1;
         keep_simplex(cache, &simplex);
         return PIR_OUTSIDE;
@@ -369,7 +353,9 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
     pir_status status = pir_query_begin(query, input, &placement);
     if (status != PIR_OK)
         return status;
-    pir_query_result result = {0};
+    // nothing fails from here on
+    pir_query_result *const result = ret_result;
+    clear(result);
     double radii = input->radius_p + input->radius_q, slack = 0;
     double limit = pir_frame_from(query, input->cutoff + radii);
     uint32_t slot = PIR_NO_PLANE;
@@ -381,24 +367,23 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
     pir_state state;
     bool separated = false;
     if (depth_first)
-        state = depth_and_state(query, &placement, cache, &slot, &slack, &result.steps);
+        state = depth_and_state(query, &placement, cache, &slot, &slack, &result->steps);
     else
-        state = separation(query, &placement, limit, cache, &slot, &result), separated = state == PIR_OUTSIDE;
+        state = separation(query, &placement, limit, cache, &slot, result), separated = state == PIR_OUTSIDE;
     if (depth_first && state == PIR_OUTSIDE && (want & WANT_SEPARATION))
-        separation(query, &placement, limit, cache, &slot, &result), separated = true;
+        separation(query, &placement, limit, cache, &slot, result), separated = true;
     if (!separated)
-        set_state(&result, state);
+        set_state(result, state);
     if (state == PIR_BOUNDARY) {
-        answer_touching(query, &placement, slot, cache, &result);
+        answer_touching(query, &placement, slot, cache, result);
     } else if (state == PIR_INSIDE && ((want & WANT_DEPTH) || radii > 0)) {
         if (!depth_first)
-            slot = pir_depth_find(query, &placement, cache, &slack, &result.steps);
-        answer_depth(query, &placement, slot, slack, cache, &result);
+            slot = pir_depth_find(query, &placement, cache, &slack, &result->steps);
+        answer_depth(query, &placement, slot, slack, cache, result);
     } else if (state == PIR_OUTSIDE && !separated && slot != PIR_NO_PLANE) {
         pir_piece_keep(cache, query->planes.piece[slot]);
     }
-    add_radii(input, &result);
-    *ret_result = result;
+    add_radii(input, result);
     return PIR_OK;
 }
 

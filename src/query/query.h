@@ -39,6 +39,9 @@
 #define PIR_SIN_REFINED 0x1p-5
 #define PIR_SIN_EXACT   0x1p-40
 
+/* How many directions a climb has vertices at hand for, to start from: see descent.c. */
+#define PIR_LANDMARKS 24
+
 /* The last slots are spare: the last of all for a piece by itself, the one before for the least slack. */
 #define PIR_SPARE_SLOTS 2
 
@@ -69,24 +72,28 @@ typedef struct pir_group {
 struct pir_query {
     pir_allocator allocator;
     pir_sum *sum;
-    const pir_polytope *p, *q;  /* p is reflected, as the sum holds it */
-    int exponent;               /* one unit of the frame is 2^exponent */
-    double up, down;            /* 2^exponent and 2^-exponent, or 0 where either is no normal number */
-    pir_vec3 *vp, *vq;          /* vertices in the frame */
-    double *hp, *hq;            /* per facet, normal · vertex */
-    double size_p, size_q;      /* the farthest vertices */
+    const pir_polytope *p, *q; /* p is reflected, as the sum holds it */
+    int exponent;              /* one unit of the frame is 2^exponent */
+    double up, down;           /* 2^exponent and 2^-exponent, or 0 where either is no normal number */
+    pir_vec3 *vp, *vq;         /* vertices in the frame */
+    double *hp, *hq;           /* per facet, normal · vertex */
+    double size_p, size_q;     /* the farthest vertices */
+    uint32_t landmarks_p[PIR_LANDMARKS], landmarks_q[PIR_LANDMARKS];
     double swing_p, swing_q;    /* how fast supports change as directions turn: see planes.c */
     pir_dd3 centre_p, centre_q; /* in units of the frame */
 
     /* the rotation that all below is for */
     bool followed;
-    pir_quat at, unit;
-    pir_mat3 r, r_back; /* and its transpose */
-    pir_dd3 r_fine[3];  /* rows, where has_fine */
+    pir_quat at;
+    pir_mat3 r;
+    pir_dd3 r_fine[3]; /* rows, where has_fine */
     bool has_fine;
     pir_dd3 offset; /* x = translation / 2^exponent − offset */
     uint64_t stamp;
-    double turn; /* an upper bound on all turning */
+    /* an upper bound on all turning from one rotation that bounds were asked at to the next: the last, which `turned` is the stamp of */
+    double turn;
+    pir_quat turned_to;
+    uint64_t turned;
 
     pir_group *groups;
     /* those of P from 0, those of Q from first_of_q; up to the next whole lane they are followed by empty ones */
@@ -275,9 +282,21 @@ typedef struct pir_simplex {
 void pir_descend_to_point(pir_query *query, const pir_placement *placement, double cutoff, pir_simplex *simplex,
                           uint32_t *steps);
 
+/* Vertices to climb from, of all directions. */
+void pir_landmarks_set(const pir_polytope *polytope, uint32_t landmarks[PIR_LANDMARKS]);
+
 /* A first vertex when there is none: that towards x. */
 void pir_simplex_start(const pir_query *query, const pir_placement *placement, pir_simplex *simplex);
 bool pir_simplex_holds(const pir_simplex *simplex, uint32_t a, uint32_t b);
+
+/* --- proof.c --- */
+
+/*
+ * Whether a facet of D beside the simplex, whose features may be given, certainly separates. Then it is kept in the cache, if there is one, and its
+ * plane stands in the last slot.
+ */
+bool pir_prove_outside(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
+                       const pir_witness *witness, pir_query_cache *cache);
 
 /* --- fine.c --- */
 

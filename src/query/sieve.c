@@ -48,9 +48,13 @@ static double facet_slacks(pir_query *query, const pir_group *group, const pir_p
     uint32_t count = group->facets_end - group->facets;
     for (uint32_t i = 0; i < count; i++)
         pir_lane_put(from, i, vertex[other[list[i]]]);
-    pir_vec3 x = group->of_q ? placement->x : pir_mat_apply(&query->r_back, placement->x);
+    pir_mat3 back;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            back.m[i][j] = query->r.m[j][i];
+    pir_vec3 x = group->of_q ? placement->x : pir_mat_apply(&back, placement->x);
     double least[2];
-    query->scan->slacks(count, group->of_q ? &query->r : &query->r_back, from, x,
+    query->scan->slacks(count, group->of_q ? &query->r : &back, from, x,
                         pir_lanes_from(query->facet_normal, group->facets), query->facet_offset + group->facets,
                         query->work[1], query->work[2].x, least);
     *ret_along = least[1];

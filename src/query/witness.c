@@ -32,6 +32,15 @@ pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint
         for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++)
             if (p->target[h] == v[1])
                 return shown(p, (pir_feature){PIR_FEATURE_EDGE, p->edge[h]});
+    // most often an edge leads to another of them
+    if (n == 3)
+        for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++)
+            if (p->target[h] == v[1] || p->target[h] == v[2]) {
+                uint32_t other = p->target[h] == v[1] ? v[2] : v[1], f = p->left[h], g = pir_right(p, h);
+                if (facet_has(p, f, other) || (f = g, facet_has(p, g, other)))
+                    return shown(p, (pir_feature){PIR_FEATURE_FACET, f});
+                break;
+            }
     for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++) {
         bool all = true;
         for (uint32_t k = 1; k < n; k++)
