@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Many translations at one rotation. All planes are made at once, with a box around each group's. Two balls about D's middle settle
- * most states at once: within the depth of the middle everything is inside, beyond the sizes of the bodies everything is outside. Of the
- * rest, most are outside by a facet of the group whose box reaches lowest.
+ * Many translations at one rotation. All planes are made at once and stand in leaves (leaves.c). Two balls about D's middle settle most states
+ * at once: within the depth of the middle everything is inside, beyond the sizes of the bodies everything is outside. What the
+ * leaves leave open is asked for by itself.
  */
 #include "query/query.h"
 
 struct batch {
     pir_query *query;
-    pir_query_cache cache;
     pir_query_input input;
     double inner; /* slacks at the middle are at least this */
 };
@@ -20,27 +19,18 @@ static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *t
         return PIR_ERR_ARGUMENT;
     *batch = (struct batch){.query = query, .input = pir_query_input_default()};
     pir_status status = pir_query_begin(query, &batch->input, &middle);
+    if (status == PIR_OK)
+        status = pir_leaves_make(query);
     if (status != PIR_OK)
         return status;
     middle.x = (pir_vec3){0, 0, 0};
     middle.reach = query->size_p + query->size_q;
     middle.error = PIR_SLACK_BOUND * middle.reach;
     double slack = -1;
-    uint32_t steps = 0;
-    uint32_t slot = pir_depth_find(query, &middle, NULL, &slack, &steps);
+    uint32_t slot = pir_leaves_depth(query, &middle, &slack);
     // what is taken off holds the errors of a slack and of x
     batch->inner = slot != PIR_NO_PLANE ? slack - 64 * middle.error - PIR_TIE * middle.reach : -1;
     return PIR_OK;
-}
-
-/* Whether the likeliest group separates. */
-static bool is_outside(pir_query *query, const pir_placement *placement) {
-    double low, high = HUGE_VAL;
-    if (query->group_count > 0) {
-        pir_groups_bound(query, placement, 0);
-        pir_group_look(query, pir_group_likely(query), placement, &low, &high);
-    }
-    return high < 0;
 }
 
 /* The state where a ball settles it. */
@@ -64,29 +54,26 @@ pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations
         pir_placement placement;
         pir_query_result result;
         status = pir_frame_place(query, translations[i], &placement);
-        if (status != PIR_OK || settle(&batch, &placement, &ret_states[i]))
+        if (status != PIR_OK || settle(&batch, &placement, &ret_states[i]) ||
+            pir_leaves_state(query, &placement, &ret_states[i]))
             continue;
-        if (is_outside(query, &placement)) {
-            ret_states[i] = PIR_OUTSIDE;
-            continue;
-        }
         batch.input.translation = translations[i];
-        status = pir_query_overlap(query, &batch.input, &batch.cache, &result);
+        status = pir_query_overlap(query, &batch.input, NULL, &result);
         if (status == PIR_OK)
             ret_states[i] = result.state;
     }
     return status;
 }
 
-/* The depth where the ball tells that there is one: the least slack, and nothing beside it. */
-static bool depth_inside(struct batch *batch, const pir_placement *placement, double *ret_depth) {
-    pir_state state;
-    if (!settle(batch, placement, &state) || state != PIR_INSIDE)
+/* The state, and the depth where that is inside, where a ball or the leaves tell it. */
+static bool find_depth(const struct batch *batch, const pir_placement *placement, double *ret_depth,
+                       pir_state *ret_state) {
+    double slack = 0;
+    if (!settle(batch, placement, ret_state) && !pir_leaves_state(batch->query, placement, ret_state))
         return false;
-    double slack;
-    uint32_t steps = 0, slot = pir_depth_find(batch->query, placement, &batch->cache, &slack, &steps);
-    pir_piece_keep(&batch->cache, batch->query->planes.piece[slot]);
-    *ret_depth = pir_frame_length(batch->query, slack);
+    if (*ret_state == PIR_INSIDE && pir_leaves_depth(batch->query, placement, &slack) == PIR_NO_PLANE)
+        return false;
+    *ret_depth = pir_frame_length(batch->query, slack > 0 ? slack : 0);
     return true;
 }
 
@@ -96,11 +83,11 @@ pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *translations
     pir_status status = begin(&batch, query, translations, count, ret_depths);
     for (size_t i = 0; i < count && status == PIR_OK; i++) {
         pir_placement placement;
-        pir_query_result result = {.state = PIR_INSIDE};
+        pir_query_result result;
         status = pir_frame_place(query, translations[i], &placement);
-        if (status == PIR_OK && !depth_inside(&batch, &placement, &ret_depths[i])) {
+        if (status == PIR_OK && !find_depth(&batch, &placement, &ret_depths[i], &result.state)) {
             batch.input.translation = translations[i];
-            status = pir_query_penetration(query, &batch.input, &batch.cache, &result);
+            status = pir_query_penetration(query, &batch.input, NULL, &result);
             ret_depths[i] = 0 - result.distance;
         }
         if (status == PIR_OK && ret_states)
@@ -114,12 +101,20 @@ pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *translati
     struct batch batch;
     pir_status status = begin(&batch, query, translations, count, ret_distances);
     for (size_t i = 0; i < count && status == PIR_OK; i++) {
+        pir_placement placement;
         pir_query_result result;
-        batch.input.translation = translations[i];
-        status = pir_query_signed_distance(query, &batch.input, &batch.cache, &result);
+        status = pir_frame_place(query, translations[i], &placement);
         if (status != PIR_OK)
             break;
-        ret_distances[i] = result.distance;
+        if (find_depth(&batch, &placement, &ret_distances[i], &result.state) && result.state == PIR_INSIDE) {
+            ret_distances[i] = 0 - ret_distances[i];
+        } else {
+            batch.input.translation = translations[i];
+            status = pir_query_signed_distance(query, &batch.input, NULL, &result);
+            if (status != PIR_OK)
+                break;
+            ret_distances[i] = result.distance;
+        }
         if (ret_states)
             ret_states[i] = result.state;
     }

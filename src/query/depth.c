@@ -8,8 +8,7 @@
  */
 #include "query/query.h"
 
-/* fv before vf before ee, then P's index, then Q's. */
-static bool is_before(pir_piece a, pir_piece b) {
+bool pir_piece_before(pir_piece a, pir_piece b) {
     if (a.kind != b.kind)
         return a.kind < b.kind;
     return a.first != b.first ? a.first < b.first : a.second < b.second;
@@ -53,7 +52,7 @@ static uint32_t first_within(const pir_query *query, const pir_placement *placem
     for (uint32_t k = 0, end; k <= query->looked_count; k++)
         for (uint32_t i = part_of(query, k, &end); i < end; i++)
             if (pir_plane_slack(planes, i, placement->x) <= limit &&
-                (best == PIR_NO_PLANE || is_before(planes->piece[i], planes->piece[best])))
+                (best == PIR_NO_PLANE || pir_piece_before(planes->piece[i], planes->piece[best])))
                 best = i;
     return best;
 }
@@ -66,6 +65,7 @@ static void look_at(pir_query *query, uint32_t g, const pir_placement *placement
     ++*steps;
     if (low > *limit + tie)
         return;
+    query->low[g] = low;
     query->looked[query->looked_count++] = g;
     *limit = high < *limit ? high : *limit;
 }
@@ -93,6 +93,12 @@ uint32_t pir_depth_find(pir_query *query, const pir_placement *placement, const 
                 ++*steps;
             }
         }
+    // but for groups that were looked at before the limit fell
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < query->looked_count; k++)
+        if (query->low[query->looked[k]] <= limit + tie)
+            query->looked[kept++] = query->looked[k];
+    query->looked_count = kept;
     // what a refined slack may rise above an unrefined one is within its error, which limit holds
     double least = least_refined(query, placement, limit + tie);
     uint32_t best = first_within(query, placement, least + tie);
@@ -115,8 +121,8 @@ static uint32_t next_within(const pir_query *query, const pir_placement *placeme
     for (uint32_t k = 0, end; k <= query->looked_count; k++)
         for (uint32_t i = part_of(query, k, &end); i < end; i++) {
             pir_piece piece = planes->piece[i];
-            if ((!after || is_before(*after, piece)) &&
-                (best == PIR_NO_PLANE || is_before(piece, planes->piece[best])) &&
+            if ((!after || pir_piece_before(*after, piece)) &&
+                (best == PIR_NO_PLANE || pir_piece_before(piece, planes->piece[best])) &&
                 pir_plane_slack(planes, i, placement->x) <= limit)
                 best = i;
         }

@@ -50,6 +50,7 @@ void pir_query_destroy(pir_query *query) {
         PIR_FREE(a, query->polygon[k], query->polygon_capacity);
         PIR_FREE(a, query->polygon_id[k], query->polygon_capacity);
     }
+    pir_leaves_finish(query);
     pir_bounds_finish(query);
     pir_planes_finish(query);
     PIR_FREE(a, query, 1);

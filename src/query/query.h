@@ -69,6 +69,19 @@ typedef struct pir_group {
     uint64_t sieved; /* the stamp of the rotation at which it was last sieved */
 } pir_group;
 
+/* Planes of one rotation in leaves: see leaves.c. */
+typedef struct pir_leaves {
+    uint64_t stamp; /* of the rotation */
+    uint32_t plane_count, leaf_count, capacity;
+    pir_lanes n;
+    double *h, *err;
+    uint32_t *slot;                /* where each stands in query->planes */
+    uint32_t *cell, *cell_start;   /* cells while planes are sorted, work space after */
+    pir_lanes box_least, box_most; /* per leaf: of the normals; the least h, the greatest err */
+    double *box_h, *box_err, *low;
+    uint32_t *looked;
+} pir_leaves;
+
 struct pir_query {
     pir_allocator allocator;
     pir_sum *sum;
@@ -124,6 +137,7 @@ struct pir_query {
     uint32_t work_capacity;
     const pir_scan *scan;
     pir_planes planes;
+    pir_leaves leaves;
 
     pir_limbs scratch; /* of exact signs */
     pir_vec3 beyond;   /* a unit normal that separates, where side.c found a flat difference beside t */
@@ -256,8 +270,23 @@ pir_state pir_state_find(pir_query *query, const pir_placement *placement, const
 /* The slot of the piece of least slack, ties settled, and the slack. PIR_NO_PLANE where there is none. */
 #define PIR_NO_PLANE UINT32_MAX
 
+/* The order that settles ties: fv before vf before ee, then P's index, then Q's. */
+bool pir_piece_before(pir_piece a, pir_piece b);
+
 uint32_t pir_depth_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
                         double *ret_slack, uint32_t *steps);
+
+/* --- leaves.c --- */
+
+/* Makes the leaves of the rotation; PIR_ERR_MEMORY. */
+pir_status pir_leaves_make(pir_query *query);
+void pir_leaves_finish(pir_query *query);
+
+/* The state where doubles tell it; false where they leave it open. */
+bool pir_leaves_state(pir_query *query, const pir_placement *placement, pir_state *ret_state);
+
+/* As pir_depth_find. */
+uint32_t pir_leaves_depth(pir_query *query, const pir_placement *placement, double *ret_slack);
 
 /* --- descent.c --- */
 

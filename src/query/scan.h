@@ -44,6 +44,13 @@ typedef struct pir_scan {
     void (*slacks)(uint32_t count, const pir_mat3 *r, pir_lanes from, pir_vec3 x, pir_lanes n, const double *base,
                    pir_lanes to, double *s, double ret_least[2]);
 
+    /* The least h[i] − n[i] · x of whole blocks. */
+    double (*least)(uint32_t count, pir_lanes n, const double *h, pir_vec3 x);
+
+    /* low[i] = h[i] − the most that n · x can be, n from from[i] to to[i] − error · err[i]. */
+    void (*boxes)(uint32_t count, pir_lanes from, pir_lanes to, const double *h, const double *err, pir_vec3 x,
+                  double error, double *low);
+
     /* low[i] = bound[i] − (a · (lever[i] + a · bend[i]) + |x − at[i]|) · (1 + 2^-40) − error, a = turned − when[i]. */
     void (*bounds)(uint32_t count, const double *bound, const double *when, const double *lever, const double *bend,
                    pir_lanes at, double turned, pir_vec3 x, double error, double *low);

@@ -56,7 +56,7 @@ SCAN_TARGET static inline lane lesser(lane a, lane b) {
     return (lane)(((mask)a & less) | ((mask)b & ~less));
 }
 
-SCAN_TARGET static double least(lane v) {
+SCAN_TARGET static double least_lane(lane v) {
     double r = v[0];
     for (int k = 1; k < SCAN_WIDTH; k++)
         r = v[k] < r ? v[k] : r;
@@ -76,9 +76,9 @@ SCAN_TARGET static void look(uint32_t count, pir_lanes n, const double *h, const
             high[k] = lesser(s + off, high[k]);
             along[k] = lesser(to, along[k]);
         }
-    ret_least[0] = least(lesser(low[0], low[1]));
-    ret_least[1] = least(lesser(high[0], high[1]));
-    ret_least[2] = least(lesser(along[0], along[1]));
+    ret_least[0] = least_lane(lesser(low[0], low[1]));
+    ret_least[1] = least_lane(lesser(high[0], high[1]));
+    ret_least[2] = least_lane(lesser(along[0], along[1]));
 }
 
 SCAN_TARGET static void slacks(uint32_t count, const pir_mat3 *r, pir_lanes from, pir_vec3 x, pir_lanes n,
@@ -99,8 +99,24 @@ SCAN_TARGET static void slacks(uint32_t count, const pir_mat3 *r, pir_lanes from
         low = lesser(slack, low);
         along = lesser(nx * x.x + ny * x.y + nz * x.z, along);
     }
-    ret_least[0] = least(low);
-    ret_least[1] = least(along);
+    ret_least[0] = least_lane(low);
+    ret_least[1] = least_lane(along);
+}
+
+SCAN_TARGET static double least(uint32_t count, pir_lanes n, const double *h, pir_vec3 x) {
+    lane low[2] = {(lane){0} + HUGE_VAL, (lane){0} + HUGE_VAL};
+    for (uint32_t i = 0; i < count;)
+        for (int k = 0; k < 2; k++, i += SCAN_WIDTH)
+            low[k] = lesser(CONST_AT(h) - (CONST_AT(n.x) * x.x + CONST_AT(n.y) * x.y + CONST_AT(n.z) * x.z), low[k]);
+    return least_lane(lesser(low[0], low[1]));
+}
+
+SCAN_TARGET static void boxes(uint32_t count, pir_lanes from, pir_lanes to, const double *h, const double *err,
+                              pir_vec3 x, double error, double *low) {
+    // the corner of the box that is farthest along x
+    const double *cx = x.x > 0 ? to.x : from.x, *cy = x.y > 0 ? to.y : from.y, *cz = x.z > 0 ? to.z : from.z;
+    for (uint32_t i = 0; i < count; i += SCAN_WIDTH)
+        AT(low) = CONST_AT(h) - (CONST_AT(cx) * x.x + CONST_AT(cy) * x.y + CONST_AT(cz) * x.z) - error * CONST_AT(err);
 }
 
 SCAN_TARGET static void bounds(uint32_t count, const double *bound, const double *when, const double *lever,
@@ -127,7 +143,7 @@ SCAN_TARGET static double caps(uint32_t count, pir_lanes axis, pir_lanes corner,
         AT(low) = (lane)(((mask)bound & better) | ((mask)old & ~better));
         high = lesser(along + error, high);
     }
-    return least(high);
+    return least_lane(high);
 }
 
-const pir_scan SCAN_NAME = {SCAN_TEXT, turn, offset, cross, look, slacks, bounds, caps};
+const pir_scan SCAN_NAME = {SCAN_TEXT, turn, offset, cross, look, slacks, least, boxes, bounds, caps};

@@ -367,6 +367,9 @@ static void nothing_allocates_after_the_first_query(void **state) {
         assert_int_equal(pir_query_signed_distance(query, &input, &cache, &r), PIR_OK);
         assert_int_equal(pir_query_overlap(query, &input, &cache, &r), PIR_OK);
         assert_int_equal(pir_query_penetration(query, &input, &cache, &r), PIR_OK);
+        pir_vec3 many[3] = {d, input.translation, {0, 0, 0}};
+        double depths[3];
+        assert_int_equal(pir_query_batch_depths(query, many, 3, depths, NULL), PIR_OK);
     }
     assert_true(memory.requests == before);
     pir_query_destroy(query);
@@ -387,11 +390,18 @@ static void running_out_of_memory_is_a_status(void **state) {
         options.allocator = &allocator;
         pir_sum *sum;
         pir_query *query;
+        double depth = 0;
         assert_int_equal(pir_sum_create(p, q, still, &options, &sum), PIR_OK);
         memory.fail_at = memory.requests + fail;
         pir_status status = pir_query_create(sum, &query);
         if (status == PIR_OK) {
+            // a batch has memory of its own
+            pir_vec3 t = {0, 0, 0};
+            status = pir_query_batch_depths(query, &t, 1, &depth, NULL);
             pir_query_destroy(query);
+        }
+        if (status == PIR_OK) {
+            assert_true(fabs(depth - 1.5) < 1e-12);
             fail = 200;
         } else {
             assert_int_equal(status, PIR_ERR_MEMORY);

@@ -29,8 +29,8 @@ static void fill(test_random *random, struct data *data) {
 /* What the loops put out, all of it. */
 struct outcome {
     struct data turned, normals, moved;
-    double offsets[COUNT], slacks[COUNT], h[COUNT], err[COUNT], bounds[COUNT], caps[COUNT];
-    double most, high, least[3], lowest[2];
+    double offsets[COUNT], slacks[COUNT], h[COUNT], err[COUNT], bounds[COUNT], boxes[COUNT], caps[COUNT];
+    double most, lowest_slack, high, least[3], lowest[2];
 };
 
 static void run(const pir_scan *scan, struct data in[4], struct outcome *out) {
@@ -41,6 +41,8 @@ static void run(const pir_scan *scan, struct data in[4], struct outcome *out) {
     scan->offset(COUNT, lanes(&in[0]), in[1].x, lanes(&in[2]), out->offsets);
     out->most = scan->cross(COUNT, lanes(&in[0]), lanes(&in[1]), lanes(&in[2]), lanes(&out->normals), out->h, out->err);
     scan->look(COUNT, lanes(&out->normals), out->h, out->err, x, 0x1p-40, out->least);
+    out->lowest_slack = scan->least(COUNT, lanes(&out->normals), out->h, x);
+    scan->boxes(COUNT, lanes(&in[0]), lanes(&in[1]), in[3].x, in[3].y, x, 0x1p-44, out->boxes);
     scan->slacks(COUNT, &r, lanes(&in[1]), x, lanes(&in[2]), in[3].z, lanes(&out->moved), out->slacks, out->lowest);
     scan->bounds(COUNT, in[3].x, in[3].y, in[3].z, in[1].y, lanes(&in[2]), 3.5, x, 0x1p-44, out->bounds);
     for (int i = 0; i < COUNT; i++)
