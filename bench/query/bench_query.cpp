@@ -1,88 +1,32 @@
 // SPDX-License-Identifier: MIT
 //
 // Placement queries beside FCL, Bullet and libccd, over the same poses: P turns by 1/500 of a turn a frame about an axis that changes every 50
-// frames, and drifts. Each line gives the median and the fastest time of a query over 1000 poses in microseconds; ours with the sum at hand and
-// the witness of the pose before, the same with an empty cache, and with the update of the sum. Then what was wrong: states and numbers
-// against ours, which the property tests hold to exact arithmetic.
+// frames, and drifts; or the poses of a degenerate set. Each line gives the median and the fastest time of a query in microseconds; ours with the
+// sum at hand and the witness of the pose before, the same with an empty cache, and with the update of the sum. Then what was wrong: the largest
+// error of a number relative to the bodies' size, states, numbers off by more than 1e-6 of it, failures. Wrong is what differs from the
+// exact answer, ours being held to it as well; where bodies are too large for that at every pose, from ours, which the property tests hold to it.
+//
+// Last, many translations at one rotation, per translation.
 //
 //     bench_query [CSV]
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>
-#include <vector>
-
-#include <pirouette/pirouette.h>
-#include <pirouette/query.h>
 
 #include "peers.hpp"
+#include "scene.hpp"
 
 namespace {
 
 constexpr int FRAMES = 1000;
 
-struct Pose {
-    pir_quat r;
-    pir_vec3 t;
-};
+// A number this far off, relative to the bodies' size, is wrong.
+constexpr double WRONG = 1e-6;
 
-struct Body {
-    std::string name;
-    pir_polytope *polytope;
-};
-
-pir_polytope *from_points(const std::vector<pir_vec3> &points) {
-    pir_polytope *p = nullptr;
-    if (pir_polytope_create(points.data(), points.size(), nullptr, &p) != PIR_OK) {
-        std::fprintf(stderr, "bench_query: cannot make a body\n");
-        std::exit(2);
-    }
-    return p;
-}
-
-pir_polytope *shape(const char *name, double x = 1, double y = 1, double z = 1) {
-    pir_polytope *p = nullptr;
-    pir_report report;
-    if (pir_shape_create(name, nullptr, &report, &p) != PIR_OK) {
-        std::fprintf(stderr, "bench_query: %s\n", report.text);
-        std::exit(2);
-    }
-    std::vector<pir_vec3> points;
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {
-        pir_vec3 c = pir_polytope_vertex(p, v);
-        points.push_back({c.x * x, c.y * y, c.z * z});
-    }
-    pir_polytope_release(p);
-    return from_points(points);
-}
-
-double size_of(const pir_polytope *p) {
-    double most = 0;
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {
-        pir_vec3 c = pir_polytope_vertex(p, v);
-        most = std::max(most, std::sqrt(c.x * c.x + c.y * c.y + c.z * c.z));
-    }
-    return most;
-}
-
-struct Random {
-    uint64_t state;
-    double unit() {
-        state ^= state << 13, state ^= state >> 7, state ^= state << 17;
-        return std::ldexp((double)(state >> 11), -52) - 1;
-    }
-    pir_vec3 direction() {
-        for (;;) {
-            pir_vec3 v{unit(), unit(), unit()};
-            double n = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-            if (n > 0.1 && n <= 1)
-                return {v.x / n, v.y / n, v.z / n};
-        }
-    }
-};
+// Up to as many pairs of vertices, poses are answered exactly.
+constexpr uint32_t EXACT_PAIRS = 200;
 
 pir_quat multiply(pir_quat a, pir_quat b) {
     return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
@@ -91,7 +35,7 @@ pir_quat multiply(pir_quat a, pir_quat b) {
 
 // Rotations, and translations at a wished signed distance: along a drifting direction, as far as the exact directional query says.
 std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish) {
-    Random random{88172645463325252ull};
+    Random random;
     std::vector<Pose> poses;
     pir_sum_options options = pir_sum_options_default();
     options.difference = 1;
@@ -131,36 +75,23 @@ std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish) {
     return poses;
 }
 
-using clock_type = std::chrono::steady_clock;
+enum Query { SEPARATION, DEPTH, SIGNED };
 
-struct Times {
-    std::vector<double> ns;
-    double median() {
-        std::nth_element(ns.begin(), ns.begin() + (long)ns.size() / 2, ns.end());
-        return ns[ns.size() / 2];
-    }
-    double fastest() {
-        return *std::min_element(ns.begin(), ns.end());
-    }
-};
+using Call = pir_status (*)(pir_query *, const pir_query_input *, pir_query_cache *, pir_query_result *);
 
-double clock_cost() {
-    Times times;
-    for (int i = 0; i < 10000; i++) {
-        auto a = clock_type::now();
-        auto b = clock_type::now();
-        times.ns.push_back(std::chrono::duration<double, std::nano>(b - a).count());
-    }
-    return times.median();
+Call call_of(Query query) {
+    return query == DEPTH        ? pir_query_penetration
+           : query == SEPARATION ? pir_query_distance
+                                 : pir_query_signed_distance;
 }
 
 struct Ours {
     Times warm, cold, frame;
-    std::vector<pir_query_result> results;
+    std::vector<pir_query_result> warm_results, cold_results; // the cold ones at every tenth pose
     int failures = 0;
 };
 
-Ours run_ours(pir_polytope *p, pir_polytope *q, const std::vector<Pose> &poses, bool deep, double overhead) {
+Ours run_ours(pir_polytope *p, pir_polytope *q, const std::vector<Pose> &poses, Query what, double overhead) {
     Ours ours;
     pir_sum_options options = pir_sum_options_default();
     options.difference = 1;
@@ -169,25 +100,21 @@ Ours run_ours(pir_polytope *p, pir_polytope *q, const std::vector<Pose> &poses, 
     if (pir_sum_create(p, q, poses[0].r, &options, &sum) != PIR_OK || pir_query_create(sum, &query) != PIR_OK ||
         pir_query_create(sum, &fresh) != PIR_OK)
         std::exit(2);
-    auto ask = deep ? pir_query_penetration : pir_query_distance;
+    Call ask = call_of(what);
     pir_query_cache cache = {};
     for (int pass = 0; pass < 2; pass++)
         for (const Pose &pose : poses) {
             pir_query_input input = pir_query_input_default();
             input.translation = pose.t;
             pir_query_result result;
-            auto a = clock_type::now();
-            pir_sum_rotate(sum, pose.r, PIR_METHOD_AUTO);
-            auto b = clock_type::now();
-            pir_status status = ask(query, &input, &cache, &result);
-            auto c = clock_type::now();
+            pir_status status = PIR_OK;
+            double update = nanoseconds(overhead, [&] { pir_sum_rotate(sum, pose.r, PIR_METHOD_AUTO); });
+            double time = nanoseconds(overhead, [&] { status = ask(query, &input, &cache, &result); });
             if (pass == 0)
                 continue;
-            double update = std::chrono::duration<double, std::nano>(b - a).count() - overhead;
-            double time = std::chrono::duration<double, std::nano>(c - b).count() - overhead;
             ours.warm.ns.push_back(time);
             ours.frame.ns.push_back(update + time);
-            ours.results.push_back(result);
+            ours.warm_results.push_back(result);
             ours.failures += status != PIR_OK || result.outcome == PIR_STEP_LIMIT;
         }
     // cold: a query object that has seen nothing, an empty cache
@@ -199,10 +126,8 @@ Ours run_ours(pir_polytope *p, pir_polytope *q, const std::vector<Pose> &poses, 
         pir_query_input input = pir_query_input_default();
         input.translation = poses[i].t;
         pir_query_result result;
-        auto a = clock_type::now();
-        ask(fresh, &input, nullptr, &result);
-        auto b = clock_type::now();
-        ours.cold.ns.push_back(std::chrono::duration<double, std::nano>(b - a).count() - overhead);
+        ours.cold.ns.push_back(nanoseconds(overhead, [&] { ask(fresh, &input, nullptr, &result); }));
+        ours.cold_results.push_back(result);
     }
     pir_query_destroy(fresh);
     pir_query_destroy(query);
@@ -210,43 +135,129 @@ Ours run_ours(pir_polytope *p, pir_polytope *q, const std::vector<Pose> &poses, 
     return ours;
 }
 
-void run_set(FILE *csv, const char *set, const char *situation, pir_polytope *p, pir_polytope *q, double wish,
-             double overhead) {
-    std::vector<Pose> poses = make_poses(p, q, wish);
-    bool deep = wish < 0;
-    Ours ours = run_ours(p, q, poses, deep, overhead);
-    double size = size_of(p) + size_of(q);
-    auto line = [&](const char *who, double median, double fastest, double error, int wrong, int failed) {
-        std::printf("%-14s %-9s %-16s %9.3f %9.3f  %9.2e %5d %5d\n", set, situation, who, median / 1e3, fastest / 1e3,
-                    error, wrong, failed);
-        if (csv)
-            std::fprintf(csv, "%s,%s,%s,%.1f,%.1f,%.3e,%d,%d\n", set, situation, who, median, fastest, error, wrong,
-                         failed);
-    };
-    line("ours warm", ours.warm.median(), ours.warm.fastest(), 0, 0, ours.failures);
-    line("ours cold", ours.cold.median(), ours.cold.fastest(), 0, 0, 0);
-    line("ours frame", ours.frame.median(), ours.frame.fastest(), 0, 0, 0);
-    for (auto &peer : make_peers(p, q)) {
-        Times times;
-        double error = 0;
-        int wrong = 0, failed = 0;
-        for (size_t i = 0; i < poses.size(); i++) {
-            PeerAnswer answer;
-            peer->place(poses[i].r, poses[i].t);
-            auto a = clock_type::now();
-            answer = peer->ask(deep);
-            auto b = clock_type::now();
-            times.ns.push_back(std::chrono::duration<double, std::nano>(b - a).count() - overhead);
-            failed += answer.failed;
-            if (answer.failed)
-                continue;
-            const pir_query_result &right = ours.results[i];
-            wrong += answer.overlaps != (right.state == PIR_INSIDE) && right.state != PIR_BOUNDARY;
-            if (answer.has_distance)
-                error = std::max(error, std::fabs(answer.distance - right.distance) / size);
-        }
-        line(peer->name(), times.median(), times.fastest(), error, wrong, failed);
+// What differs from the right answers.
+struct Verdict {
+    double error = 0;
+    int wrong_states = 0, wrong_numbers = 0, failures = 0;
+
+    void hear(double number, double right, double size) {
+        double off = std::fabs(number - right) / size;
+        error = std::max(error, off);
+        wrong_numbers += !(off <= WRONG);
     }
+};
+
+Verdict judge(const std::vector<pir_query_result> &results, const std::vector<Exact> &right, size_t step, double size) {
+    Verdict verdict;
+    for (size_t i = 0; i < results.size(); i++) {
+        verdict.wrong_states += results[i].state != right[i * step].state;
+        verdict.hear(results[i].distance, right[i * step].distance, size);
+    }
+    return verdict;
+}
+
+void print_line(FILE *csv, const char *set, const char *situation, const char *who, Times times, const Verdict &v,
+                const char *reference) {
+    std::printf("%-14s %-9s %-16s %9.3f %9.3f  %9.2e %5d %5d %5d  %s\n", set, situation, who, times.median() / 1e3,
+                times.fastest() / 1e3, v.error, v.wrong_states, v.wrong_numbers, v.failures, reference);
+    if (csv)
+        std::fprintf(csv, "%s,%s,%s,%.1f,%.1f,%.3e,%d,%d,%d,%s\n", set, situation, who, times.median(), times.fastest(),
+                     v.error, v.wrong_states, v.failures, v.wrong_numbers, reference);
+}
+
+void run_peer(FILE *csv, const char *set, const char *situation, Peer &peer, const std::vector<Pose> &poses,
+              const std::vector<Exact> &right, const char *reference, bool guarded, double size, double overhead) {
+    Times times;
+    Verdict verdict;
+    for (size_t i = 0; i < poses.size(); i++) {
+        PeerAnswer answer;
+        bool inside = right[i].state == PIR_INSIDE;
+        peer.place(poses[i].r, poses[i].t);
+        times.ns.push_back(
+            nanoseconds(overhead, [&] { answer = guarded ? peer.ask_guarded(inside) : peer.ask(inside); }));
+        verdict.failures += answer.failed;
+        if (answer.failed)
+            continue;
+        // peers have no word for touching
+        verdict.wrong_states += answer.overlaps != inside && right[i].state != PIR_BOUNDARY;
+        if (answer.has_distance)
+            verdict.hear(answer.distance, right[i].distance, size);
+    }
+    print_line(csv, set, situation, peer.name(), times, verdict, reference);
+}
+
+void run_set(FILE *csv, const char *set, const char *situation, pir_polytope *p, pir_polytope *q,
+             const std::vector<Pose> &poses, Query what, bool exactly, bool guarded, double overhead) {
+    Ours ours = run_ours(p, q, poses, what, overhead);
+    double size = size_of(p) + size_of(q);
+    std::vector<Exact> right;
+    if (exactly)
+        right = exact_answers(p, q, poses);
+    else
+        for (const pir_query_result &result : ours.warm_results)
+            right.push_back({result.state, result.distance});
+    const char *reference = exactly ? "exact" : "ours";
+    Verdict warm = judge(ours.warm_results, right, 1, size), cold = judge(ours.cold_results, right, 10, size);
+    warm.failures = ours.failures;
+    print_line(csv, set, situation, "ours warm", ours.warm, warm, reference);
+    print_line(csv, set, situation, "ours cold", ours.cold, cold, reference);
+    print_line(csv, set, situation, "ours frame", ours.frame, warm, reference);
+    for (auto &peer : make_peers(p, q))
+        run_peer(csv, set, situation, *peer, poses, right, reference, guarded, size, overhead);
+}
+
+void run_body(FILE *csv, const char *set, pir_polytope *p, pir_polytope *q, bool near, double overhead) {
+    bool exactly = pir_polytope_vertex_count(p) * pir_polytope_vertex_count(q) <= EXACT_PAIRS;
+    run_set(csv, set, "separated", p, q, make_poses(p, q, 0.25), SEPARATION, exactly, false, overhead);
+    if (near)
+        run_set(csv, set, "near", p, q, make_poses(p, q, 1e-7), SEPARATION, exactly, false, overhead);
+    run_set(csv, set, "deep", p, q, make_poses(p, q, -0.4), DEPTH, exactly, false, overhead);
+}
+
+// --- degenerate poses
+
+// Gaps from none through hairs to a tenth, on either side.
+double some_gap(Random &random) {
+    double k = std::floor(20 * std::fabs(random.unit())), gap = k == 0 ? 0 : std::pow(10, -k) * 2;
+    return random.unit() < 0 ? -gap : gap;
+}
+
+// Cubes of half side h with their faces exactly parallel.
+std::vector<Pose> face_to_face(double h) {
+    static const pir_quat turns[] = {{0, 0, 0, 1}, {0, 0, 1, 1}, {1, 0, 0, 1}, {1, 1, 1, 1}};
+    Random random;
+    std::vector<Pose> poses;
+    for (int i = 0; i < FRAMES; i++) {
+        double t[3] = {h * random.unit(), h * random.unit(), h * random.unit()};
+        double out = 2 * h * (1 + some_gap(random));
+        t[i % 3] = random.unit() < 0 ? -out : out;
+        poses.push_back({turns[i / 250], {t[0], t[1], t[2]}});
+    }
+    return poses;
+}
+
+// An edge of P across one of Q: P turned by a quarter about (1, 1, 0), so that its edges along z come to lie across Q's.
+std::vector<Pose> edge_to_edge(double h) {
+    Random random;
+    std::vector<Pose> poses;
+    for (int i = 0; i < FRAMES; i++) {
+        double at = 2 * h * (1 + some_gap(random));
+        poses.push_back({{1, 1, 0, std::sqrt(2.0)}, {at, at, 0.5 * h * random.unit()}});
+    }
+    return poses;
+}
+
+// Centres together or nearly, at any rotation.
+std::vector<Pose> concentric(int count) {
+    Random random;
+    std::vector<Pose> poses;
+    for (int i = 0; i < count; i++) {
+        double away = i % 4 == 0 ? 0 : std::pow(10, -3.0 * (i % 5));
+        pir_vec3 d = random.direction();
+        pir_quat r{random.unit(), random.unit(), random.unit(), random.unit()};
+        poses.push_back({i == 0 ? pir_quat{0, 0, 0, 1} : r, {away * d.x, away * d.y, away * d.z}});
+    }
+    return poses;
 }
 
 } // namespace
@@ -258,34 +269,37 @@ int main(int argc, char **argv) {
         return 2;
     }
     double overhead = clock_cost();
-    std::vector<Body> bodies = {{"cubes", shape("cube")},
-                                {"icosahedra", shape("icosahedron")},
-                                {"gs4", shape("gs4")},
-                                {"ellipsoid960", shape("ellipse")},
-                                {"flat 1e-6", shape("cube", 1, 1, 1e-6)},
-                                {"needles 1:100", shape("cube", 1, 1, 100)},
-                                {"cubes 1e-6", shape("cube", 1e-6, 1e-6, 1e-6)},
-                                {"cubes 1e6", shape("cube", 1e6, 1e6, 1e6)}};
-    std::vector<pir_vec3> away;
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(bodies[0].polytope); v++) {
-        pir_vec3 c = pir_polytope_vertex(bodies[0].polytope, v);
-        away.push_back({c.x + 1e7, c.y + 1e7, c.z + 1e7});
-    }
-    std::printf("%-14s %-9s %-16s %9s %9s  %9s %5s %5s\n", "set", "poses", "who", "median us", "fastest", "error",
-                "wrong", "fail");
+    struct {
+        std::string name;
+        pir_polytope *polytope;
+    } bodies[] = {{"cubes", shape("cube")},
+                  {"icosahedra", shape("icosahedron")},
+                  {"gs4", shape("gs4")},
+                  {"ellipsoid960", shape("ellipse")},
+                  {"flat 1e-6", shape("cube", {1, 1, 1e-6})},
+                  {"needles 1:100", shape("cube", {1, 1, 100})},
+                  {"cubes 1e-6", shape("cube", {1e-6, 1e-6, 1e-6})},
+                  {"cubes 1e6", shape("cube", {1e6, 1e6, 1e6})}};
+    std::printf("%-14s %-9s %-16s %9s %9s  %9s %5s %5s %5s  %s\n", "set", "poses", "who", "median us", "fastest",
+                "error", "state", "wrong", "fail", "against");
     if (csv)
-        std::fprintf(csv, "set,poses,who,median_ns,fastest_ns,largest_error,wrong_states,failures\n");
-    for (Body &body : bodies) {
-        run_set(csv, body.name.c_str(), "separated", body.polytope, body.polytope, 0.25, overhead);
-        run_set(csv, body.name.c_str(), "near", body.polytope, body.polytope, 1e-7, overhead);
-        run_set(csv, body.name.c_str(), "deep", body.polytope, body.polytope, -0.4, overhead);
-    }
+        std::fprintf(
+            csv, "set,poses,who,median_ns,fastest_ns,largest_error,wrong_states,failures,wrong_numbers,reference\n");
+    for (auto &body : bodies)
+        run_body(csv, body.name.c_str(), body.polytope, body.polytope, true, overhead);
     // the standing body far away, P at its own origin brought there by the translation
-    pir_polytope *far_cube = from_points(away);
-    run_set(csv, "offset 1e7", "separated", bodies[0].polytope, far_cube, 0.25 * 1e-7, overhead);
-    run_set(csv, "offset 1e7", "deep", bodies[0].polytope, far_cube, -0.4, overhead);
+    pir_polytope *far_cube = shape("cube", {1, 1, 1}, {1e7, 1e7, 1e7});
+    run_body(csv, "offset 1e7", bodies[0].polytope, far_cube, true, overhead);
     pir_polytope_release(far_cube);
-    for (Body &body : bodies)
+    pir_polytope *cube = bodies[0].polytope, *gs4 = bodies[2].polytope;
+    pir_vec3 low, high;
+    pir_polytope_bounds(cube, &low, &high);
+    run_set(csv, "cubes", "face-face", cube, cube, face_to_face(high.x), SIGNED, true, true, overhead);
+    run_set(csv, "cubes", "edge-edge", cube, cube, edge_to_edge(high.x), SIGNED, true, true, overhead);
+    run_set(csv, "cubes", "together", cube, cube, concentric(FRAMES), DEPTH, true, true, overhead);
+    run_set(csv, "gs4", "together", gs4, gs4, concentric(40), DEPTH, true, true, overhead);
+    run_batches(csv, "gs4", gs4);
+    for (auto &body : bodies)
         pir_polytope_release(body.polytope);
     if (csv)
         std::fclose(csv);

@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: MIT
 // FCL: the signed distance of two convex bodies.
+#include <csetjmp>
+#include <csignal>
+
 #include <fcl/fcl.h>
 
 #include "peers.hpp"
 
 namespace {
+
+// FCL asserts what degenerate poses break. Distributions build it with assertions on, which abort; this leaves the call instead, and whatever it
+// held behind.
+sigjmp_buf before_call;
+
+void leave_call(int) {
+    siglongjmp(before_call, 1);
+}
 
 std::shared_ptr<fcl::Convexd> convex(const pir_polytope *p) {
     auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
@@ -47,6 +58,17 @@ class Fcl : public Peer {
         } catch (const std::exception &) {
             answer.failed = true;
         }
+        return answer;
+    }
+
+    PeerAnswer ask_guarded(bool deep) override {
+        PeerAnswer answer;
+        auto old = std::signal(SIGABRT, leave_call);
+        if (sigsetjmp(before_call, 1) == 0)
+            answer = ask(deep);
+        else
+            answer.failed = true;
+        std::signal(SIGABRT, old);
         return answer;
     }
 

@@ -19,6 +19,11 @@ class Peer {
     virtual const char *name() const = 0;
     virtual void place(pir_quat rotation, pir_vec3 translation) = 0;
     virtual PeerAnswer ask(bool deep) = 0;
+
+    // The same where a peer may end the process instead of answering: that is a failure then. Costs a little more time.
+    virtual PeerAnswer ask_guarded(bool deep) {
+        return ask(deep);
+    }
 };
 
 std::vector<std::unique_ptr<Peer>> make_peers(const pir_polytope *p, const pir_polytope *q);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What the query benchmarks share: bodies, poses, a clock, and the exact answers.
+#ifndef PIR_BENCH_SCENE_HPP
+#define PIR_BENCH_SCENE_HPP
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include <pirouette/pirouette.h>
+#include <pirouette/query.h>
+
+struct Pose {
+    pir_quat r;
+    pir_vec3 t;
+};
+
+// The same numbers everywhere.
+struct Random {
+    uint64_t state = 88172645463325252ull;
+    double unit(); // from −1 to 1
+    pir_vec3 direction();
+};
+
+// Bodies, or an end with a message.
+pir_polytope *from_points(const std::vector<pir_vec3> &points);
+pir_polytope *shape(const char *name, pir_vec3 scale = {1, 1, 1}, pir_vec3 offset = {0, 0, 0});
+
+// The farthest vertex from the body's own middle.
+double size_of(const pir_polytope *p);
+
+struct Times {
+    std::vector<double> ns;
+    double median();
+    double fastest() const;
+};
+
+using clock_type = std::chrono::steady_clock;
+
+// What the clock itself takes.
+double clock_cost();
+
+template <class Work> double nanoseconds(double overhead, Work &&work) {
+    auto from = clock_type::now();
+    work();
+    auto to = clock_type::now();
+    return std::chrono::duration<double, std::nano>(to - from).count() - overhead;
+}
+
+// The state and signed distance at a pose, from the exact hull of all pairwise sums, in rationals; rounded once.
+struct Exact {
+    pir_state state;
+    double distance;
+};
+std::vector<Exact> exact_answers(pir_polytope *p, pir_polytope *q, const std::vector<Pose> &poses);
+
+// Many translations at one rotation: a line each for states, depths and distances, per translation.
+void run_batches(FILE *csv, const char *set, pir_polytope *p);
+
+#endif
