@@ -54,30 +54,43 @@ static uint32_t corner(const struct body *body, uint32_t f, uint32_t i) {
     return p->origin[p->loop[p->loop_start[f] + (body->sign < 0 ? n - 1 - i : i)]];
 }
 
+/* The edge from corner i of facet f to the next, in that order. */
+static uint32_t side_of(const struct body *body, uint32_t f, uint32_t i) {
+    const pir_polytope *p = body->polytope;
+    uint32_t n = p->loop_start[f + 1] - p->loop_start[f];
+    return p->edge[p->loop[p->loop_start[f] + (body->sign < 0 ? (2 * n - 2 - i) % n : i)]];
+}
+
+/* Corners, and what the side from each to the next lies along: an edge of the incident body, or with REFERENCE one of the other. */
 struct polygon {
     pir_vec3 *at;
-    uint64_t *id;
+    uint32_t *side;
     uint32_t count;
 };
 
-/* Keeps what is on the inner side, m·y ≤ limit, of a side with number `side` of the reference facet. */
+#define REFERENCE 0x40000000u
+
+static void put_corner(struct polygon *to, uint32_t capacity, pir_vec3 at, uint32_t side) {
+    if (to->count >= capacity)
+        return;
+    to->at[to->count] = at;
+    to->side[to->count++] = side;
+}
+
+/* Keeps what is on the inner side, m·y ≤ limit, of `side` of the reference facet. */
 static void clip_side(const struct polygon *from, pir_vec3 m, double limit, uint32_t side, struct polygon *to,
                       uint32_t capacity) {
     to->count = 0;
     for (uint32_t i = 0; i < from->count; i++) {
         uint32_t j = i + 1 < from->count ? i + 1 : 0;
         double a = pir_vec_dot(m, from->at[i]) - limit, b = pir_vec_dot(m, from->at[j]) - limit;
-        if (a <= 0 && to->count < capacity) {
-            to->at[to->count] = from->at[i];
-            to->id[to->count++] = from->id[i];
-        }
+        // a corner on the line from which the polygon leaves goes on along the line
+        if (a <= 0)
+            put_corner(to, capacity, from->at[i], a == 0 && b > 0 ? side : from->side[i]);
         if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
             pir_vec3 along = pir_vec_sub(from->at[j], from->at[i]);
-            if (to->count < capacity) {
-                to->at[to->count] = pir_vec_add(from->at[i], pir_vec_scale(along, a / (a - b)));
-                // which side cut which corner's edge
-                to->id[to->count++] = (uint64_t)(side + 1) << 32 | (uint32_t)(b > 0 ? from->id[i] : from->id[j]);
-            }
+            put_corner(to, capacity, pir_vec_add(from->at[i], pir_vec_scale(along, a / (a - b))),
+                       b > 0 ? side : from->side[i]);
         }
     }
 }
@@ -85,27 +98,32 @@ static void clip_side(const struct polygon *from, pir_vec3 m, double limit, uint
 /* The incident facet, clipped by the sides of the reference facet. */
 static struct polygon clip_facets(pir_query *query, const struct body *reference, uint32_t f,
                                   const struct body *incident, uint32_t g) {
-    struct polygon now = {query->polygon[0], query->polygon_id[0], 0},
-                   next = {query->polygon[1], query->polygon_id[1], 0};
+    struct polygon now = {query->polygon[0], query->polygon_side[0], 0},
+                   next = {query->polygon[1], query->polygon_side[1], 0};
     const pir_polytope *p = reference->polytope, *q = incident->polytope;
     uint32_t sides = p->loop_start[f + 1] - p->loop_start[f];
     now.count = q->loop_start[g + 1] - q->loop_start[g];
     for (uint32_t i = 0; i < now.count; i++) {
-        uint32_t v =
-            corner(incident, g, now.count - 1 - i); // turned over: counter-clockwise about the reference's normal
-        now.at[i] = place(incident, v);
-        now.id[i] = v;
+        // turned over: counter-clockwise about the reference's normal
+        now.at[i] = place(incident, corner(incident, g, now.count - 1 - i));
+        now.side[i] = side_of(incident, g, (2 * now.count - 2 - i) % now.count);
     }
     pir_vec3 n = normal_of(reference, f);
     for (uint32_t i = 0; i < sides; i++) {
         uint32_t v = corner(reference, f, i), w = corner(reference, f, i + 1 < sides ? i + 1 : 0);
         pir_vec3 from = place(reference, v), m = pir_vec_cross(pir_vec_sub(place(reference, w), from), n);
-        clip_side(&now, m, pir_vec_dot(m, from), v, &next, query->polygon_capacity);
+        clip_side(&now, m, pir_vec_dot(m, from), side_of(reference, f, i) | REFERENCE, &next, query->polygon_capacity);
         struct polygon swap = now;
         now = next;
         next = swap;
     }
     return now;
+}
+
+/* What meets in corner i: the sides before and after it. */
+static uint64_t id_of(const struct polygon *polygon, uint32_t i) {
+    uint32_t before = polygon->side[i > 0 ? i - 1 : polygon->count - 1];
+    return (uint64_t)before << 32 | polygon->side[i];
 }
 
 /* A contact between y, a point of the incident body, and the reference facet's plane, `distance` below it against `out`. */
@@ -159,12 +177,14 @@ pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, co
     pir_vec3 out = normal_of(reference, by_q ? g : f);
     double level = pir_vec_dot(out, place(reference, anchor)),
            hair = placement.error + pir_frame_from(query, fmax(answer->distance, 0)) * (1 + 0x1p-30);
-    for (uint32_t i = 0; i < polygon.count; i++) {
+    for (uint32_t k = 0; k < polygon.count; k++) {
+        // the polygon turns about the reference's normal, which is against the answer's when P is the reference
+        uint32_t i = by_q ? k : polygon.count - 1 - k;
         double distance = pir_vec_dot(out, polygon.at[i]) - level;
         if (distance > hair)
             continue;
         if (count < capacity)
-            ret_contacts[count] = make_contact(query, polygon.at[i], polygon.id[i], out, distance, by_q);
+            ret_contacts[count] = make_contact(query, polygon.at[i], id_of(&polygon, i), out, distance, by_q);
         count++;
     }
     if (count == 0)

@@ -31,8 +31,8 @@ static bool allocate(pir_query *query) {
     bool done = query->scratch.base != NULL;
     for (int k = 0; k < 2; k++) {
         query->polygon[k] = PIR_NEW(a, pir_vec3, query->polygon_capacity);
-        query->polygon_id[k] = PIR_NEW(a, uint64_t, query->polygon_capacity);
-        done = done && query->polygon[k] && query->polygon_id[k];
+        query->polygon_side[k] = PIR_NEW(a, uint32_t, query->polygon_capacity);
+        done = done && query->polygon[k] && query->polygon_side[k];
     }
     return done;
 }
@@ -48,7 +48,7 @@ void pir_query_destroy(pir_query *query) {
     PIR_FREE(a, query->scratch.base, query->scratch.capacity);
     for (int k = 0; k < 2; k++) {
         PIR_FREE(a, query->polygon[k], query->polygon_capacity);
-        PIR_FREE(a, query->polygon_id[k], query->polygon_capacity);
+        PIR_FREE(a, query->polygon_side[k], query->polygon_capacity);
     }
     pir_leaves_finish(query);
     pir_bounds_finish(query);

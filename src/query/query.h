@@ -142,7 +142,7 @@ struct pir_query {
     pir_limbs scratch; /* of exact signs */
     pir_vec3 beyond;   /* a unit normal that separates, where side.c found a flat difference beside t */
     pir_vec3 *polygon[2];
-    uint64_t *polygon_id[2];
+    uint32_t *polygon_side[2];
     uint32_t polygon_capacity;
 };
 
