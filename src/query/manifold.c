@@ -136,6 +136,73 @@ static pir_contact make_contact(const pir_query *query, pir_vec3 y, uint64_t id,
     return contact;
 }
 
+/* --- parallel edges --- */
+
+/* A halfedge of the feature that lies across n; UINT32_MAX where there is none. */
+static uint32_t edge_across(const struct body *body, pir_feature feature, pir_vec3 n) {
+    const pir_polytope *p = body->polytope;
+    pir_vec3 m = pir_vec_scale(body->r ? pir_mat_apply_transposed(body->r, n) : n, body->sign);
+    if (feature.kind == PIR_FEATURE_EDGE && feature.index < p->edge_count)
+        return fabs(pir_vec_dot(p->direction[p->edge_half[feature.index]], m)) <= CARRIES ? p->edge_half[feature.index]
+                                                                                          : UINT32_MAX;
+    if (feature.kind == PIR_FEATURE_VERTEX && feature.index < p->vertex_count)
+        for (uint32_t h = p->ring_start[feature.index]; h < p->ring_start[feature.index + 1]; h++)
+            if (fabs(pir_vec_dot(p->direction[h], m)) <= CARRIES)
+                return h;
+    return UINT32_MAX;
+}
+
+/* An end of an edge, by how far along the line it is. */
+struct end {
+    double along;
+    uint32_t vertex;
+};
+
+/* The ends of a halfedge along u, the lower first. */
+static void ends_of(const struct body *body, uint32_t half, pir_vec3 u, struct end ret_ends[2]) {
+    const pir_polytope *p = body->polytope;
+    struct end a = {pir_vec_dot(u, place(body, p->origin[half])), p->origin[half]},
+               b = {pir_vec_dot(u, place(body, p->target[half])), p->target[half]};
+    ret_ends[0] = a.along <= b.along ? a : b;
+    ret_ends[1] = a.along <= b.along ? b : a;
+}
+
+/*
+ * The two ends of what parallel edges of P and Q share, the answer being theirs: a vertex of one body and the edge of the other each. Returns how many,
+ * 0 where there are no such edges.
+ */
+static uint32_t segment(const pir_query *query, const struct body *of_p, const struct body *of_q,
+                        const pir_query_result *answer, pir_contact ret_contacts[2]) {
+    uint32_t e = edge_across(of_p, answer->witness.p, answer->normal),
+             d = edge_across(of_q, answer->witness.q, answer->normal);
+    if (e == UINT32_MAX || d == UINT32_MAX)
+        return 0;
+    const pir_polytope *p = of_p->polytope, *q = of_q->polytope;
+    pir_vec3 u = q->direction[d], v = pir_mat_apply(&query->r, p->direction[e]), c = pir_vec_cross(u, v);
+    if (pir_vec_dot(c, c) > CARRIES * CARRIES)
+        return 0;
+    struct end on_p[2], on_q[2];
+    ends_of(of_p, e, u, on_p);
+    ends_of(of_q, d, u, on_q);
+    bool first = on_p[0].along > on_q[0].along, second = on_p[1].along < on_q[1].along;
+    double from = first ? on_p[0].along : on_q[0].along, to = second ? on_p[1].along : on_q[1].along;
+    if (!(from < to))
+        return 0;
+    pir_vec3 origin = of_q->vertex[q->origin[d]];
+    double apart = pir_frame_length(query, pir_vec_dot(answer->normal, pir_vec_sub(place(of_p, p->origin[e]), origin)));
+    for (int k = 0; k < 2; k++) {
+        bool by_p = k == 0 ? first : second;
+        double along = (k == 0 ? from : to) - pir_vec_dot(u, origin);
+        pir_contact *contact = &ret_contacts[k];
+        contact->distance = apart;
+        contact->point_q = pir_frame_world(query, pir_vec_add(origin, pir_vec_scale(u, along)));
+        contact->point_p = pir_vec_add(contact->point_q, pir_vec_scale(answer->normal, apart));
+        uint64_t vertex = by_p ? on_p[k].vertex : on_q[k].vertex, edge = by_p ? q->edge[d] : p->edge[e];
+        contact->id = (uint64_t)(by_p ? 5 : 4) << 60 | vertex << 30 | edge;
+    }
+    return 2;
+}
+
 /* The answer's own points, as one contact. */
 static pir_status single(const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
                          size_t *ret_count) {
@@ -168,8 +235,15 @@ pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, co
         f = facet_along(&of_p, minus, &along_p);
     bool by_q = along_q >= along_p;
     double most = by_q ? along_q : along_p;
-    if (most < 0 || 1 - most > CARRIES * CARRIES || along_p < -1 || along_q < -1)
-        return single(answer, capacity, ret_contacts, ret_count);
+    if (most < 0 || 1 - most > CARRIES * CARRIES || along_p < -1 || along_q < -1) {
+        pir_contact pair[2];
+        if (segment(query, &of_p, &of_q, answer, pair) == 0)
+            return single(answer, capacity, ret_contacts, ret_count);
+        for (size_t i = 0; i < 2 && i < capacity; i++)
+            ret_contacts[i] = pair[i];
+        *ret_count = 2;
+        return capacity >= 2 ? PIR_OK : PIR_ERR_LIMIT;
+    }
     const struct body *reference = by_q ? &of_q : &of_p, *incident = by_q ? &of_p : &of_q;
     struct polygon polygon = clip_facets(query, reference, by_q ? g : f, incident, by_q ? f : g);
     // contacts are the corners behind the reference plane, or as near to it as the bodies are to each other

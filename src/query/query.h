@@ -8,9 +8,9 @@
  * offset h is s = h − n·x: all slacks positive is inside, one negative is outside, and the least of all is the depth.
  *
  * Facets of D are the pieces of the sum's pairing. They are kept in groups that turn together: some facets of P with the edges between
- * them and what crosses those, or some facets of Q. A group's planes are made when they are first needed at a rotation. Between
- * rotations a group keeps a lower bound on its slacks that each turn and each move lowers by as much as it may change them (planes.c), so a
- * query looks at few groups: those that could hold the least slack.
+ * them and what crosses those, or some facets of Q. Bounds tell which groups could hold the least slack (bounds.c); those are sieved
+ * (sieve.c) the first time at a rotation, and have their planes made the second. For many translations at one rotation all planes are
+ * made and laid out in leaves (leaves.c).
  *
  * Exactness: a slack is known within err · PIR_SLACK_BOUND · (size of bodies + |x|); what that leaves open, side.c decides in integers.
  */

@@ -219,9 +219,30 @@ static void slabs_lie_flat(void **state) {
     assert_true(most == 8);
 }
 
+/* Cubes edge to edge along parallel edges: the ends of what the edges share. */
+static void parallel_edges_share_a_segment(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 60; i++) {
+        test_random random = test_random_case("manifolds, edges", i);
+        struct scene scene = make(box(1, 1, 1), box(1, 1, 0.5 + 0.75 * (i % 3)), (pir_quat){0, 0, i % 2, 1});
+        double along = 1.2 * test_random_unit(&random), apart = i % 5 ? ldexp(1, -(int)(i % 20)) : 0.5;
+        scene.t = (pir_vec3){2 + apart, i % 4 < 2 ? 2 + apart : -2 - apart, along};
+        check(&scene, "parallel edges", i);
+        pir_query_result answer;
+        pir_contact contacts[MOST];
+        size_t count = manifold(&scene, &answer, contacts);
+        expect(count == 2, "%zu contacts, case %llu", count, (unsigned long long)i);
+        double h = 0.5 + 0.75 * (double)(i % 3), low = fmax(along - 1, -h), high = fmin(along + 1, h);
+        double a = contacts[0].point_q.z, b = contacts[1].point_q.z;
+        assert_true(fabs(fmin(a, b) - low) < 1e-12 && fabs(fmax(a, b) - high) < 1e-12);
+        clear(&scene);
+    }
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {cmocka_unit_test(manifolds_of_bodies_at_random),
-                                       cmocka_unit_test(slabs_lie_flat)};
+                                       cmocka_unit_test(slabs_lie_flat),
+                                       cmocka_unit_test(parallel_edges_share_a_segment)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
