@@ -15,7 +15,7 @@
  *
  * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast an answer is found,
  * never which. Threads: a query belongs to one thread at a time, that of its sum. No call allocates once the query has seen as many
- * ee pairs as it will; no loop is without a bound.
+ * ee pairs as it will, and a batch where there are to be batches; no loop is without a bound.
  */
 #ifndef PIROUETTE_QUERY_H
 #define PIROUETTE_QUERY_H
@@ -203,12 +203,19 @@ typedef struct pir_contact {
 /**
  * The contact manifold of an answer of pir_query_signed_distance at the same pose: where a facet carries the answer, the other body's
  * facet that faces it, clipped to it; a segment where an edge meets a facet or a parallel edge; else a point. Up to `capacity` contacts go
- * to `ret_contacts`; PIR_ERR_LIMIT when there are more. They are counter-clockwise about the normal.
+ * to `ret_contacts`; PIR_ERR_LIMIT when there are more, *ret_count then being how many. They are counter-clockwise about the normal, their
+ * ids distinct.
  */
 PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
                                       size_t capacity, pir_contact *ret_contacts, size_t *ret_count);
 
-/* --- many translations at one rotation --- */
+/*
+ * --- many translations at one rotation ---
+ *
+ * The answers are those of single queries. A call first lays out all facets of the difference, O(size of the sum), unless the rotation is still
+ * that of the batch before; the first one makes the memory for that. Errors as for single queries, and PIR_ERR_MEMORY; what was
+ * answered before an error stands.
+ */
 
 /** The exact state of each of `count` translations. */
 PIR_API pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations, size_t count,
