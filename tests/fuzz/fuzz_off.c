@@ -12,19 +12,11 @@
 
 #include <pirouette/pirouette.h>
 
+#include "fuzz/input.h"
 #include "polytope/io.h"
 
 #define SIZE_LIMIT   65536
 #define VERTEX_LIMIT 512
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(int condition, const char *what) {
-    if (!condition) {
-        fprintf(stderr, "does not hold: %s\n", what);
-        abort();
-    }
-}
 
 /* More points than the limit, as far as the text's first two numbers say. */
 static int promises_too_much(const char *text, size_t size) {
@@ -42,8 +34,8 @@ static pir_polytope *write_and_read(const pir_mesh *mesh, bool exact) {
     char *text = NULL;
     size_t size = 0;
     FILE *file = open_memstream(&text, &size);
-    require(file != NULL, "a stream in memory");
-    require(pir_mesh_write_off(mesh, file, exact) == PIR_OK, "the mesh is written");
+    fuzz_require(file != NULL, "a stream in memory");
+    fuzz_require(pir_mesh_write_off(mesh, file, exact) == PIR_OK, "the mesh is written");
     fclose(file);
     pir_polytope *polytope = NULL;
     pir_report report = {PIR_OK, ""};
@@ -51,7 +43,7 @@ static pir_polytope *write_and_read(const pir_mesh *mesh, bool exact) {
     if (status == PIR_ERR_LIMIT && exact)
         polytope = NULL; // a reduced fraction may be longer than the text that it came from
     else
-        require(status == PIR_OK, report.text);
+        fuzz_require(status == PIR_OK, report.text);
     free(text);
     return polytope;
 }
@@ -59,17 +51,17 @@ static pir_polytope *write_and_read(const pir_mesh *mesh, bool exact) {
 /* Exact text brings back the same mesh; doubles bring back a hull of no more vertices than were written. */
 static void check_round_trips(const pir_polytope *polytope) {
     pir_mesh *mesh = NULL, *again = NULL;
-    require(pir_mesh_from_polytope(polytope, &mesh) == PIR_OK, "a mesh is made");
+    fuzz_require(pir_mesh_from_polytope(polytope, &mesh) == PIR_OK, "a mesh is made");
     pir_polytope *copy = write_and_read(mesh, true);
     if (copy) {
-        require(pir_mesh_from_polytope(copy, &again) == PIR_OK, "a mesh is made again");
-        require(pir_mesh_equal(mesh, again), "exact text brings back the same mesh");
+        fuzz_require(pir_mesh_from_polytope(copy, &again) == PIR_OK, "a mesh is made again");
+        fuzz_require(pir_mesh_equal(mesh, again), "exact text brings back the same mesh");
         pir_mesh_destroy(again);
         pir_polytope_release(copy);
     }
     copy = write_and_read(mesh, false);
-    require(pir_polytope_is_valid(copy) == 1, "the polytope of the rounded vertices is valid");
-    require(pir_polytope_vertex_count(copy) <= pir_mesh_vertex_count(mesh), "rounding makes no vertices");
+    fuzz_require(pir_polytope_is_valid(copy) == 1, "the polytope of the rounded vertices is valid");
+    fuzz_require(pir_polytope_vertex_count(copy) <= pir_mesh_vertex_count(mesh), "rounding makes no vertices");
     pir_polytope_release(copy);
     pir_mesh_destroy(mesh);
 }
@@ -81,12 +73,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     pir_report report = {PIR_OK, ""};
     pir_status status = pir_polytope_read_off((const char *)data, size, "fuzz", NULL, &report, &polytope);
     if (status != PIR_OK) {
-        require(polytope == NULL && report.status == status, "a refusal makes nothing and is reported");
-        require(strncmp(report.text, "fuzz:", 5) == 0 && !strchr(report.text, '\n'),
-                "a report is one line that says where");
+        fuzz_require(polytope == NULL && report.status == status, "a refusal makes nothing and is reported");
+        fuzz_require(strncmp(report.text, "fuzz:", 5) == 0 && !strchr(report.text, '\n'),
+                     "a report is one line that says where");
         return 0;
     }
-    require(pir_polytope_is_valid(polytope) == 1, "the polytope is valid");
+    fuzz_require(pir_polytope_is_valid(polytope) == 1, "the polytope is valid");
     check_round_trips(polytope);
     pir_polytope_release(polytope);
     return 0;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+#include "fuzz/input.h"
 
 /* Runs the target on one file's bytes; 0 when it could not be read. */
 static int run_file(const char *path) {
