@@ -51,7 +51,7 @@ PIR_API pir_status pir_live_mesh_refresh(pir_live_mesh *live);
 /**
  * Holds only the facets whose outward normals, in the frame of Q, are within `half_angle` radians of `axis`, of any length, from the next
  * refresh on. Rounding errs towards holding: by less than 2e-6 radians. Half-angles of 3.15 and more hold
- * all, as before any call. Facets that enter or leave the region count as appeared and disappeared. The sum keeps its whole pairing.
+ * all, as before any call. Facets that enter or leave the region count as appeared and disappeared. What the sum keeps does not change.
  * Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE.
  */
 PIR_API pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double half_angle);

@@ -119,6 +119,30 @@ PIR_API pir_quat pir_sum_pairing_rotation(const pir_sum *sum);
 /** Brings the pairing to pir_sum_rotation when it has stayed behind. Errors as pir_sum_rotate. */
 PIR_API pir_status pir_sum_settle(pir_sum *sum);
 
+/** In pir_sum_fv and pir_sum_vf: a pair that a region leaves out. */
+#define PIR_NO_PAIR UINT32_MAX
+
+/**
+ * Keeps only the part of the sum whose outward normals are within `half_angle` radians of `axis`, of any length, in the frame of Q. The
+ * default, and every half-angle of 3.15 and more, is the whole sphere. Updates then cost what the cone holds, with a skin around it of
+ * 1 to 7 degrees, four steps of the motion.
+ *
+ * All pairs in the cone are there and right, rounding erring towards keeping; of others some may be, depending on how the sum came here,
+ * and those are right too. What is left out has PIR_NO_PAIR for its vertex, and no ee pairs. A P of dimension below 3 is kept whole.
+ *
+ * May be called in every frame: while the axis stays within the skin nothing is looked at. Past it, or with another half-angle, what is
+ * kept is chosen anew in O(facets), a few operations each, and what is new is located. The first region allocates its work space, O(size of both
+ * operands); later calls only as pir_sum_rotate does. Other calls on a sum with a region: a mesh is that of the whole sum, made
+ * for the occasion; pairings are compared as far as both regions reach; a live mesh has slots for what is kept; a clone has the region; it
+ * cannot be written (PIR_ERR_UNSUPPORTED); queries answer for the region or not at all (query.h). With a tolerance, the bound on the
+ * support function holds for the directions of the cone.
+ * Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE, PIR_ERR_MEMORY; the sum then keeps the region it had.
+ */
+PIR_API pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle);
+
+/** 1 and the cone, its axis of unit length, where a region has been set; 0, and nothing written, where the sum is whole. */
+PIR_API int pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle);
+
 /** The rotation that the sum is at, as it was given. */
 PIR_API pir_quat pir_sum_rotation(const pir_sum *sum);
 
@@ -141,10 +165,13 @@ PIR_API uint32_t pir_sum_ee_count(const pir_sum *sum);
  */
 PIR_API void pir_sum_ee(const pir_sum *sum, uint32_t (*ret_pairs)[2]);
 
-/** 1 when both sums, of the same polytopes, hold the same fv, vf and ee pairs in the same order. */
+/**
+ * 1 when both sums, of the same polytopes, hold the same fv, vf and ee pairs in the same order: where regions are set, those in both
+ * cones, but for ee pairs whose edges are parallel within 2^-30.
+ */
 PIR_API int pir_sum_same_pairing(const pir_sum *a, const pir_sum *b);
 
-/** A check for tests, every pair in exact arithmetic and every crossing list from cell to cell: 1 when all hold. */
+/** A check for tests, every pair that is kept in exact arithmetic and every crossing list from cell to cell: 1 when all hold. */
 PIR_API int pir_sum_is_valid(pir_sum *sum);
 
 /**
@@ -171,12 +198,13 @@ PIR_API pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation);
  * Writes the sum as bytes that any machine reads: both operands in exact coordinates, the scale each is set to, the rotation, the
  * pairing, the tolerance; with a version and a checksum. Not its certificates and counters.
  *
- * memory, size  the caller's, of exactly pir_sum_serialised_size bytes. Errors: PIR_ERR_ARGUMENT. O(size of the sum).
+ * memory, size  the caller's, of exactly pir_sum_serialised_size bytes, which is 0 for a sum with a region. Errors: PIR_ERR_ARGUMENT,
+ *               PIR_ERR_UNSUPPORTED (a sum with a region). O(size of the sum).
  */
 PIR_API size_t pir_sum_serialised_size(const pir_sum *sum);
 PIR_API pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size);
 
-/** The same to a stream, from its position on; the stream stays open. Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY. */
+/** The same to a stream, from its position on; the stream stays open. Errors: as above, PIR_ERR_FILE, PIR_ERR_MEMORY. */
 PIR_API pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *report);
 
 /**

@@ -60,6 +60,7 @@ static void chain_crossings(pir_sum *sum, uint32_t e, uint32_t from) {
 pir_status pir_brute_rebuild(pir_sum *sum) {
     const pir_polytope *p = sum->p, *q = sum->q;
     pir_crossings_clear(sum);
+    pir_region_open(sum);
     for (uint32_t f = 0; f < p->facet_count; f++) {
         sum->rotated[f] = pir_rotated_normal(sum, f);
         for (uint32_t v = 0; v < q->vertex_count; v++)
@@ -83,5 +84,6 @@ pir_status pir_brute_rebuild(pir_sum *sum) {
         chain_crossings(sum, e, from);
     }
     pir_expire_all(sum);
+    pir_region_close(sum);
     return PIR_OK;
 }

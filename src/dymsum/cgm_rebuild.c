@@ -146,6 +146,7 @@ static bool walk_edge(pir_sum *sum, uint32_t e) {
 static bool read_pairing(struct reading *reading) {
     pir_sum *sum = reading->sum;
     pir_crossings_clear(sum);
+    pir_region_open(sum);
     read_facets(reading, 0, sum->fv, sum->p->facet_count);
     read_facets(reading, 1, sum->vf, sum->q->facet_count);
     settle_facets(reading);
@@ -196,6 +197,7 @@ pir_status pir_cgm_rebuild(pir_sum *sum) {
         sum->signs.by_filter += overlay->by_filter + map->by_filter;
         sum->signs.by_exact += overlay->by_exact + map->by_exact;
         pir_expire_all(sum);
+        pir_region_close(sum);
     }
     pir_cgm_destroy(overlay);
     pir_cgm_destroy(map);

@@ -5,6 +5,8 @@
  * it hardly matters. An update's work is taken to be in proportion to the angle, which holds while few certificates expire and overstates
  * large angles, where a walk is right anyway.
  *
+ * Where a region keeps a part of the features, both are reckoned for all of them, so that another region changes neither.
+ *
  * After a walk the first update has to look at every pair. So it teaches nothing, and a switch to updating lasts for two at least; a
  * sum that walks must expect a clear gain before it switches, and tries it once in a while all the same, for its slope may be out of date: the
  * first time soon, since a pose full of ties costs more to leave than any other, then less and less often.
@@ -30,7 +32,7 @@ pir_method pir_choose_method(pir_sum *sum, double angle) {
 void pir_learn_update(pir_sum *sum, double angle, uint64_t signs) {
     pir_cost_model *cost = &sum->cost;
     if (cost->updates_in_a_row > 0 && angle > 0) {
-        double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle : 0;
+        double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle / pir_region_share(sum) : 0;
         bool afresh = cost->per_radian == 0 || cost->updates_in_a_row == 1;
         cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), NO_WORK);
     }

@@ -47,7 +47,7 @@ pir_status pir_sum_clone(const pir_sum *sum, const pir_allocator *allocator, pir
         pir_polytope_release(copy->made_of[i]);
         copy->made_of[i] = pir_polytope_retain(sum->made_of[i]);
     }
-    if (!copy_pairing(copy, sum)) {
+    if (!copy_pairing(copy, sum) || !pir_region_copy(copy, sum)) {
         pir_sum_destroy(copy);
         return PIR_ERR_MEMORY;
     }

@@ -138,7 +138,8 @@ pir_status pir_lag_behind(pir_sum *sum, pir_quat rotation, bool *ret_done) {
     if (status != PIR_OK)
         return status;
     double angle = pir_rotation_angle_bound(sum->signs.rotation.unit, now.unit);
-    *ret_done = angle <= lag->angle[PIR_LAG_KNOTS - 1];
+    // where there is a region, the directions of it and those that the pairing has for them are kept
+    *ret_done = angle <= lag->angle[PIR_LAG_KNOTS - 1] && pir_region_holds(sum, &now);
     if (!*ret_done)
         return PIR_OK;
     pir_rotation_set(&lag->now, rotation);

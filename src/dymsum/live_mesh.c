@@ -15,12 +15,6 @@
 
 #include <string.h>
 
-/*
- * What a region gives away, so that rounding never keeps out a facet that is in it. Which facets are listed is no question of the
- * pairing's.
- */
-#define REGION_SLACK 0x1p-40
-
 /* --- making it --- */
 
 static bool reserve_crossings(pir_live_mesh *live, uint32_t least) {
@@ -128,19 +122,7 @@ pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live) {
 }
 
 pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double half_angle) {
-    if (!live)
-        return PIR_ERR_ARGUMENT;
-    if (!pir_vec_is_finite(axis) || !isfinite(half_angle))
-        return PIR_ERR_NOT_FINITE;
-    // brought near 1, so that squares neither vanish nor overflow
-    double most = fmax(fabs(axis.x), fmax(fabs(axis.y), fabs(axis.z)));
-    if (most == 0 || half_angle < 0)
-        return PIR_ERR_ARGUMENT;
-    axis = (pir_vec3){axis.x / most, axis.y / most, axis.z / most};
-    live->axis = pir_vec_scale(axis, 1 / sqrt(pir_vec_dot(axis, axis)));
-    live->in_part = half_angle < 3.15;
-    live->cosine = cos(half_angle) - REGION_SLACK;
-    return PIR_OK;
+    return live ? pir_cone_make(axis, half_angle, &live->cone) : PIR_ERR_ARGUMENT;
 }
 
 /* --- the refresh --- */
@@ -155,11 +137,6 @@ static void note_ee(pir_live_mesh *live, pir_live_pairs *pairs, uint32_t e, uint
     note(pairs, PIR_FACET_EE, p->artificial ? 0 : e, q->artificial ? 0 : q->edge[h]);
 }
 
-/* Whether a facet with this normal, of any length, is to be held; one without a direction is. */
-static bool is_held(const pir_live_mesh *live, pir_vec3 normal) {
-    return !live->in_part || pir_vec_dot(normal, live->axis) >= live->cosine * sqrt(pir_vec_dot(normal, normal));
-}
-
 /* Compares the facets of one operand with the vertices that they are paired with now. */
 static void refresh_facets(pir_live_mesh *live, bool of_p) {
     const pir_polytope *of = of_p ? live->sum->p : live->sum->q;
@@ -170,7 +147,7 @@ static void refresh_facets(pir_live_mesh *live, bool of_p) {
     pir_facet_kind kind = of_p ? PIR_FACET_FV : PIR_FACET_VF;
     for (uint32_t f = 0; f < of->facet_count; f++) {
         uint32_t v = now[f], before = held[f];
-        if (live->in_part && !is_held(live, of_p ? pir_mat_apply(r, of->normal[f]) : of->normal[f]))
+        if (live->cone.set && !pir_cone_has(&live->cone, of_p ? pir_mat_apply(r, of->normal[f]) : of->normal[f]))
             v = PIR_NO_SLOT;
         if (v == before)
             continue;
@@ -208,9 +185,9 @@ static uint32_t edge_now(const pir_live_mesh *live, uint32_t slot) {
     const pir_crossings *c = &sum->crossings;
     if (slot >= c->used || c->edge[slot] == PIR_NO_CROSSING)
         return PIR_NO_CROSSING;
-    if (live->in_part) {
+    if (live->cone.set) {
         pir_vec3 e = pir_mat_apply(pir_live_matrix(live), sum->p->direction[sum->p->edge_half[c->edge[slot]]]);
-        if (!is_held(live, pir_vec_cross(sum->q->direction[c->half[slot]], e)))
+        if (!pir_cone_has(&live->cone, pir_vec_cross(sum->q->direction[c->half[slot]], e)))
             return PIR_NO_CROSSING;
     }
     return c->edge[slot];

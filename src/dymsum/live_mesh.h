@@ -46,9 +46,7 @@ struct pir_live_mesh {
     pir_live_vertices vertices;
     pir_live_pairs appeared, disappeared;
     uint32_t *rewritten, rewritten_count; /* room for every slot */
-    bool in_part;                         /* only facets whose normals lie within the cone are held */
-    pir_vec3 axis;                        /* its axis, unit */
-    double cosine;                        /* and the cosine of its half-angle, rounded down */
+    pir_cone cone;                        /* only facets whose normals are in it are held */
     pir_vec3 *turned;                     /* room for the vertices of P */
 };
 

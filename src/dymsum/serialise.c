@@ -158,13 +158,19 @@ static void put_sum(struct sink *sink, const pir_sum *sum, uint64_t length, uint
 }
 
 size_t pir_sum_serialised_size(const pir_sum *sum) {
+    if (sum->region.cone.set)
+        return 0;
     struct sink sink = {NULL, 0};
     put_sum(&sink, sum, 0, 0);
     return sink.used;
 }
 
 pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size) {
-    if (!sum || !memory || size != pir_sum_serialised_size(sum))
+    if (!sum || !memory)
+        return PIR_ERR_ARGUMENT;
+    if (sum->region.cone.set)
+        return PIR_ERR_UNSUPPORTED;
+    if (size != pir_sum_serialised_size(sum))
         return PIR_ERR_ARGUMENT;
     struct sink sink = {memory, 0};
     put_sum(&sink, sum, size, 0);
@@ -176,6 +182,8 @@ pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size) {
 pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *report) {
     if (!sum || !file)
         return pir_fail(report, PIR_ERR_ARGUMENT, "sum: no sum or no file to write");
+    if (sum->region.cone.set)
+        return pir_fail(report, PIR_ERR_UNSUPPORTED, "sum: only a whole pairing is written, not that of a region");
     size_t size = pir_sum_serialised_size(sum);
     uint8_t *data = PIR_NEW(&sum->allocator, uint8_t, size);
     if (!data)

@@ -74,6 +74,7 @@ void pir_sum_destroy(pir_sum *sum) {
     PIR_FREE(a, sum->passes, q->facet_count);
     pir_alarms_finish(&sum->alarms, a);
     pir_crossings_finish(sum);
+    pir_region_finish(sum);
     pir_signs_finish(&sum->signs, a);
     pir_cgm_destroy(sum->cgm_q);
     pir_polytope_release(sum->p);
@@ -159,8 +160,9 @@ static void advance_clock(pir_sum *sum, pir_quat before) {
 }
 
 /* The pairing that was there at rotation `before`: it fitted the memory that is there. The clock begins an epoch at the next step. */
-static pir_status restore(pir_sum *sum, pir_quat before, pir_status status) {
+static pir_status restore(pir_sum *sum, pir_quat before, const pir_cover *cover, pir_status status) {
     pir_rotation_set(&sum->signs.rotation, before);
+    sum->region.cover = *cover;
     pir_status again = pir_walk_rebuild(sum);
     PIR_ASSERT(again == PIR_OK);
     (void)again;
@@ -179,6 +181,7 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
     }
     pir_rotation *now = &sum->signs.rotation;
     pir_quat before = now->given, unit_before = now->unit;
+    const pir_cover cover = sum->region.cover;
     pir_status status = pir_rotation_set(now, rotation);
     if (status != PIR_OK)
         return status;
@@ -192,16 +195,20 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
         pir_learn_walk(sum);
     } else if (method == PIR_METHOD_WALK) {
         sum->statistics.rebuilds++;
+        pir_region_renew(sum);
         status = pir_walk_rebuild(sum);
         pir_learn_walk(sum);
     } else {
         uint64_t asked = pir_signs_asked(&sum->signs);
         sum->statistics.updates++;
+        pir_region_follow(sum);
         status = pir_update_repair(sum);
+        if (status == PIR_OK && !pir_region_admit(sum))
+            status = PIR_ERR_MEMORY;
         pir_learn_update(sum, angle, pir_signs_asked(&sum->signs) - asked);
     }
     if (status != PIR_OK)
-        return restore(sum, before, status);
+        return restore(sum, before, &cover, status);
     sum->lag.lagging = false;
     return PIR_OK;
 }
@@ -210,12 +217,13 @@ pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation) {
     if (!sum)
         return PIR_ERR_ARGUMENT;
     pir_quat before = sum->signs.rotation.given;
+    const pir_cover cover = sum->region.cover;
     pir_status status = pir_rotation_set(&sum->signs.rotation, rotation);
     if (status != PIR_OK)
         return status;
     status = pir_brute_rebuild(sum);
     if (status != PIR_OK)
-        return restore(sum, before, status);
+        return restore(sum, before, &cover, status);
     sum->lag.lagging = false;
     return PIR_OK;
 }
@@ -256,25 +264,6 @@ void pir_sum_ee(const pir_sum *sum, uint32_t (*ret_pairs)[2]) {
             (*ret_pairs)[1] = q->artificial ? 0 : q->edge[c->half[slot]];
             ret_pairs++;
         }
-}
-
-int pir_sum_same_pairing(const pir_sum *a, const pir_sum *b) {
-    const pir_polytope *p = a->p, *q = a->q;
-    if (p->facet_count != b->p->facet_count || q->facet_count != b->q->facet_count || p->edge_count != b->p->edge_count)
-        return 0;
-    if (a->ee_count != b->ee_count || memcmp(a->fv, b->fv, p->facet_count * sizeof *a->fv) != 0 ||
-        memcmp(a->vf, b->vf, q->facet_count * sizeof *a->vf) != 0)
-        return 0;
-    for (uint32_t e = 0; e < p->edge_count; e++) {
-        uint32_t i = a->first[e], j = b->first[e];
-        while (i != PIR_NO_CROSSING && j != PIR_NO_CROSSING && a->crossings.half[i] == b->crossings.half[j]) {
-            i = a->crossings.next[i];
-            j = b->crossings.next[j];
-        }
-        if (i != PIR_NO_CROSSING || j != PIR_NO_CROSSING)
-            return 0;
-    }
-    return 1;
 }
 
 pir_sum_statistics pir_sum_get_statistics(const pir_sum *sum) {

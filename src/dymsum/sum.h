@@ -6,7 +6,8 @@
  * point in the cell of a vertex of P (vf); the arc of an edge of P, from the facet left of its halfedge to the one right of it, leaves
  * cell after cell of Q through the arcs of Q's edges (ee).
  *
- * Invariants, at the rotation perturbed as in exact/sign.h, after every call that succeeds:
+ * Invariants, at the rotation perturbed as in exact/sign.h, after every call that succeeds, of all features or those that a region
+ * leaves active (region.c); others have PIR_NO_PAIR for a cell, no crossings, and alarms that never ring:
  *   - fv[f] is the vertex of Q farthest along the normal of f; vf[g] that of P farthest along the normal of g.
  *   - the crossings of edge e, from first[e] along next, name halfedges of Q: the first leaves fv[left], each later one leaves the vertex
  *     that the one before leads to, the last leads to fv[right]. Their number over all edges is ee_count.
@@ -31,6 +32,7 @@
 #include "dymsum/alarms.h"
 #include "dymsum/clock.h"
 #include "dymsum/kernels.h"
+#include "dymsum/region.h"
 #include "dymsum/sleep.h"
 #include "exact/sign.h"
 #include "polytope/polytope.h"
@@ -66,6 +68,9 @@ typedef struct pir_lag {
     pir_rotation now; /* while lagging: the rotation asked for */
 } pir_lag;
 
+/* In place of a stamp: nothing that happens to the edge is of interest, see region.c. Greater than every stamp. */
+#define PIR_DORMANT UINT32_MAX
+
 struct pir_sum {
     pir_allocator allocator;
     pir_polytope *p, *q;      /* at their scale of now */
@@ -84,11 +89,13 @@ struct pir_sum {
     pir_suspect *passes;           /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */
     pir_cost_model cost;
     pir_lag lag;
+    pir_region region;
     pir_cgm *cgm_q; /* Q's cubical Gaussian map, from the first rebuild by CGM on */
     /* work space of a rebuild and an update: facets to visit, flags of facets and edges, rotated normals of P */
     uint32_t *queue;
     uint8_t *mark;
-    uint32_t *touched, stamp; /* per edge of P: the stamp of the last update that changed it; the last stamp given */
+    uint32_t *touched,
+        stamp; /* per edge of P: the stamp of the last update that changed it, or PIR_DORMANT; the last given */
     pir_vec3 *rotated;
     pir_sum_statistics statistics;
 };
@@ -266,6 +273,12 @@ pir_status pir_update_repair(pir_sum *sum);
 
 /* Lets every certificate expire: the pairing is fresh. */
 void pir_expire_all(pir_sum *sum);
+
+/* Tells the kernels of the rotation and of the last step: before anything is looked at, or falls asleep. */
+void pir_set_moment(pir_sum *sum);
+
+/* Files alarm i, checked now, to sleep so long. */
+void pir_fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep);
 
 /* --- brute.c --- */
 

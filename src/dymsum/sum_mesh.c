@@ -199,9 +199,23 @@ static pir_mesh *number_vertices(const struct facets *facets, pir_sum *sum) {
     return mesh;
 }
 
+/* The mesh of the whole sum where a region leaves out a part: by a copy without one. */
+static pir_status mesh_of_whole(const pir_sum *sum, pir_precision precision, pir_mesh **ret_mesh) {
+    pir_sum *whole = NULL;
+    pir_status status = pir_sum_clone(sum, NULL, &whole);
+    if (status == PIR_OK)
+        status = pir_sum_set_region(whole, sum->region.cone.axis, 4);
+    if (status == PIR_OK)
+        status = pir_sum_mesh(whole, precision, ret_mesh);
+    pir_sum_destroy(whole);
+    return status;
+}
+
 pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh **ret_mesh) {
     if (!sum || !ret_mesh || (precision != PIR_DOUBLE && precision != PIR_EXACT))
         return PIR_ERR_ARGUMENT;
+    if (sum->region.cone.set)
+        return mesh_of_whole(sum, precision, ret_mesh);
     const pir_allocator *a = &sum->allocator;
     struct facets facets = {0};
     pir_pieces pieces = {0};

@@ -13,8 +13,6 @@
  * something else has happened too the order is not known: that arc is led from cell to cell again at the end. Anything else, several
  * sides within reach, ties, is settled with care: the facet by descent, each arc that it may have passed through by leading it again.
  */
-#include <string.h>
-
 #include "dymsum/sum.h"
 
 /* How many cells a facet is followed back through before every edge is taken to have changed. */
@@ -37,6 +35,8 @@ void pir_expire_all(pir_sum *sum) {
 /* Edge e is to be led anew. */
 static inline void note_edge(struct update *update, uint32_t e) {
     pir_sum *sum = update->sum;
+    if (sum->touched[e] == PIR_DORMANT)
+        return;
     if (sum->touched[e] != update->stamp + 1)
         sum->queue[update->derive++] = e;
     sum->touched[e] = update->stamp + 1;
@@ -49,6 +49,8 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     bool done = true;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         uint32_t half = p->loop[i], e = p->edge[half];
+        if (sum->touched[e] == PIR_DORMANT)
+            continue;
         done &= p->edge_half[e] == half ? pir_move_start(sum, e, h) : pir_move_end(sum, e, h);
         if (sum->touched[e] < update->stamp)
             sum->touched[e] = update->stamp;
@@ -78,8 +80,8 @@ static void pass_facets(struct update *update) {
     }
 }
 
-/* Files alarm i, checked now, to sleep so long: spans beyond the farthest that is foretold are cut, and all are rounded down. */
-static void fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
+/* Spans beyond the farthest that is foretold are cut, and all are rounded down. */
+void pir_fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
     pir_sleep_file(&sum->moment, &sum->alarms, i, pir_float_below(fmin(sleep->margin, 4)),
                    pir_float_below(fmin(sleep->ahead, (double)PIR_FARTHEST)),
                    pir_float_below(fmin(-sleep->behind, (double)PIR_FARTHEST)));
@@ -91,7 +93,7 @@ static void settle_of_p(struct update *update, uint32_t f) {
     const pir_polytope *p = sum->p;
     pir_trace trace;
     if (pir_trace_fv(sum, f, &trace)) {
-        fall_asleep(sum, f, &trace.sleep);
+        pir_fall_asleep(sum, f, &trace.sleep);
         sum->statistics.repaired += trace.count;
         sum->fv[f] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
@@ -100,7 +102,7 @@ static void settle_of_p(struct update *update, uint32_t f) {
     }
     pir_sleep sleep;
     uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->fv[f], &sleep);
-    fall_asleep(sum, f, &sleep);
+    pir_fall_asleep(sum, f, &sleep);
     sum->statistics.repaired += v != sum->fv[f];
     sum->fv[f] = v;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && !update->all; i++)
@@ -146,7 +148,7 @@ static void settle_of_q(struct update *update, uint32_t g) {
     pir_sum *sum = update->sum;
     pir_trace trace;
     if (pir_trace_vf(sum, g, &trace)) {
-        fall_asleep(sum, sum->q_facets.first_alarm + g, &trace.sleep);
+        pir_fall_asleep(sum, sum->q_facets.first_alarm + g, &trace.sleep);
         sum->statistics.repaired += trace.count;
         sum->vf[g] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
@@ -155,15 +157,14 @@ static void settle_of_q(struct update *update, uint32_t g) {
     }
     pir_sleep sleep;
     uint32_t v = pir_descend_vf(sum, g, sum->vf[g], &sleep);
-    fall_asleep(sum, sum->q_facets.first_alarm + g, &sleep);
+    pir_fall_asleep(sum, sum->q_facets.first_alarm + g, &sleep);
     sum->statistics.repaired += v != sum->vf[g];
     sum->vf[g] = v;
     if (!update->all)
         follow_back(update, g, v);
 }
 
-/* What the kernels need to know of the rotation and of the last step. */
-static void set_moment(pir_sum *sum) {
+void pir_set_moment(pir_sum *sum) {
     const pir_clock *clock = &sum->clock;
     double reach = fabs(clock->stride) * (1 + 0x1p-20);
     float most = reach <= (double)PIR_FARTHEST ? (float)reach : HUGE_VALF;
@@ -219,7 +220,8 @@ static void review(struct update *update, uint32_t woken) {
 static uint32_t next_stamp(pir_sum *sum) {
     if (sum->stamp >= UINT32_MAX - 3) {
         sum->stamp = 0;
-        memset(sum->touched, 0, sum->p->edge_count * sizeof *sum->touched);
+        for (uint32_t e = 0; e < sum->p->edge_count; e++)
+            sum->touched[e] = sum->touched[e] == PIR_DORMANT ? PIR_DORMANT : 0;
     }
     return sum->stamp += 2;
 }
@@ -228,12 +230,14 @@ pir_status pir_update_repair(pir_sum *sum) {
     uint32_t woken =
         pir_alarms_collect(&sum->alarms, sum->kernels, pir_alarm_count(sum), pir_alarm_time_of(&sum->clock));
     sum->woken += woken;
-    if (woken == 0)
+    // what sleeps tells nothing of a step that dormant facets may have come in by
+    bool strides = pir_region_strides(sum, fabs(sum->clock.stride));
+    if (woken == 0 && !strides)
         return PIR_OK;
     sum->statistics.checked += woken;
-    set_moment(sum);
+    pir_set_moment(sum);
     struct update update = {.sum = sum, .stamp = next_stamp(sum)};
-    update.all = !(fmaxf(sum->moment.reach_ahead, sum->moment.reach_behind) < HUGE_VALF);
+    update.all = strides || !(fmaxf(sum->moment.reach_ahead, sum->moment.reach_behind) < HUGE_VALF);
     review(&update, woken);
     for (uint32_t e = 0; update.all && e < sum->p->edge_count; e++)
         note_edge(&update, e);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The whole-structure check of a sum: its invariants (sum.h), every sign by exact arithmetic, no filter and no certificate trusted. */
+/*
+ * The whole-structure check of a sum: its invariants (sum.h), every sign by exact arithmetic, no filter and no certificate trusted; and that
+ * what a region needs is there (region.c).
+ */
 #include "dymsum/sum.h"
 
 /* s of a vector of P and one of Q at the perturbed rotation. */
@@ -7,10 +10,31 @@ static int sign_of(pir_sum *sum, pir_int3 a, pir_int3 b) {
     return pir_sign_perturbed(&sum->signs, &a, &b);
 }
 
+/* Whether the region has a direction, and not just by rounding: then its pair must be there. */
+static bool is_needed(const pir_sum *sum, pir_vec3 n) {
+    const pir_cone *cone = &sum->region.cone;
+    return !cone->set || pir_vec_dot(cone->axis, n) > cone->cosine + 0x1p-30;
+}
+
+/* Whether the arc along halfedge `half` of P comes into the region. */
+static bool is_arc_needed(const pir_sum *sum, uint32_t half) {
+    pir_vec3 from = pir_rotated_normal(sum, sum->p->left[half]), to = pir_rotated_normal(sum, pir_right(sum->p, half));
+    if (is_needed(sum, from) || is_needed(sum, to))
+        return true;
+    // else the point of its circle that is nearest to the axis, if it is on the arc
+    pir_vec3 e = pir_rotated_direction(sum, half), axis = sum->region.cone.axis;
+    pir_vec3 nearest = pir_vec_sub(axis, pir_vec_scale(e, pir_vec_dot(e, axis)));
+    double length = sqrt(pir_vec_dot(nearest, nearest));
+    return length > 0x1p-20 && pir_vec_dot(pir_vec_cross(from, nearest), e) > 0 &&
+           pir_vec_dot(pir_vec_cross(nearest, to), e) > 0 && is_needed(sum, pir_vec_scale(nearest, 1 / length));
+}
+
 static bool fv_is_valid(pir_sum *sum) {
     const pir_polytope *p = sum->p, *q = sum->q;
     for (uint32_t f = 0; f < p->facet_count; f++) {
         uint32_t v = sum->fv[f];
+        if (v == PIR_NO_PAIR && !is_needed(sum, pir_rotated_normal(sum, f)))
+            continue;
         if (v >= q->vertex_count)
             return false;
         for (uint32_t h = q->ring_start[v]; h < q->ring_start[v + 1]; h++)
@@ -24,6 +48,8 @@ static bool vf_is_valid(pir_sum *sum) {
     const pir_polytope *p = sum->p, *q = sum->q;
     for (uint32_t g = 0; g < q->facet_count; g++) {
         uint32_t v = sum->vf[g];
+        if (v == PIR_NO_PAIR && !is_needed(sum, q->normal[g]))
+            continue;
         if (v >= p->vertex_count)
             return false;
         for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++)
@@ -49,6 +75,13 @@ static bool crossings_are_valid(pir_sum *sum) {
     uint32_t count = 0;
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t half = p->edge_half[e], v = sum->fv[p->left[half]];
+        if (sum->touched[e] == PIR_DORMANT) {
+            if (sum->first[e] != PIR_NO_CROSSING || is_arc_needed(sum, half))
+                return false;
+            continue;
+        }
+        if (v == PIR_NO_PAIR)
+            return false;
         for (uint32_t slot = sum->first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot]) {
             if (slot >= c->used || c->edge[slot] != e || ++count > sum->ee_count)
                 return false;

@@ -6,7 +6,7 @@
  * facet at its other end. An arc leaves a convex cell of Q through the one side whose corners it separates, right of it behind, left of
  * it ahead: seen counter-clockwise, the side at which s(e, ·) turns from negative to positive. Past the side it came in by, the corners'
  * signs are first negative, then positive, so the side is found by bisection when the cell has many. Facets of Q are located last, by
- * descent from an end of an edge whose arc crosses beside them.
+ * descent from an end of an edge whose arc crosses beside them. Where a region leaves features dormant, region.c does all this instead.
  */
 #include "dymsum/sum.h"
 
@@ -157,10 +157,16 @@ static void locate_facets_of_q(pir_sum *sum) {
 pir_status pir_walk_rebuild(pir_sum *sum) {
     uint64_t asked = pir_signs_asked(&sum->signs);
     pir_crossings_clear(sum);
-    if (!walk_arcs(sum))
-        return PIR_ERR_MEMORY;
-    locate_facets_of_q(sum);
-    pir_expire_all(sum);
-    sum->cost.walk = (double)(pir_signs_asked(&sum->signs) - asked);
+    if (sum->region.cone.set && !sum->region.cover.whole) {
+        if (!pir_region_walk(sum))
+            return PIR_ERR_MEMORY;
+    } else {
+        pir_region_open(sum);
+        if (!walk_arcs(sum))
+            return PIR_ERR_MEMORY;
+        locate_facets_of_q(sum);
+        pir_expire_all(sum);
+    }
+    sum->cost.walk = (double)(pir_signs_asked(&sum->signs) - asked) / pir_region_share(sum);
     return PIR_OK;
 }

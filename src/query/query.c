@@ -85,6 +85,9 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {
     if (!query || !input)
         return PIR_ERR_ARGUMENT;
+    // facets that a region leaves out are looked for
+    if (query->sum->region.cone.set)
+        return PIR_ERR_UNSUPPORTED;
     if (isnan(input->radius_p) || isnan(input->radius_q) || isnan(input->cutoff))
         return PIR_ERR_NOT_FINITE;
     if (!(input->radius_p >= 0 && input->radius_p < HUGE_VAL && input->radius_q >= 0 && input->radius_q < HUGE_VAL))
