@@ -13,6 +13,13 @@
  * Frame: every point and direction is in the frame of Q. `normal` is a unit vector and points from Q to P, the way to move P apart.
  * In every answer point_p = point_q + distance · normal, also at distance 0; distance is negative by the depth where the bodies overlap.
  *
+ * A sum with a region (pir_sum_set_region) answers pir_query_penetration and pir_query_directional_depth alone, by its facets whose normals
+ * are in the cone, as though those were all. PIR_OUTSIDE with PIR_SEPARATED then is a proof. Else the outcome is PIR_NOT_SEPARATED: the state
+ * is PIR_INSIDE, or PIR_BOUNDARY where a facet of the region passes through t, and depth, normal and points are those of the least depth
+ * there, which is the whole sum's where that has its normal in the cone, and else more; that the bodies overlap is not known. PIR_NO_HIT where
+ * the region has no facet, or none that the direction leads out through. All other calls, and rounding radii, are
+ * PIR_ERR_UNSUPPORTED on such a sum. The answer depends on placement and region, not on what else the sum keeps.
+ *
  * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast an answer is found,
  * never which. Threads: a query belongs to one thread at a time, that of its sum. No call allocates once the query has seen as many
  * ee pairs as it will, and a batch where there are to be batches; no loop is without a bound.
@@ -45,6 +52,7 @@ typedef enum pir_outcome {
     PIR_BEYOND_CUTOFF, /**< separated by more than the cutoff: distance is a proven lower bound, points are not set */
     PIR_NO_HIT,        /**< a cast or a direction that meets nothing, or recedes */
     PIR_STEP_LIMIT,    /**< the bound on steps was reached; the state is exact, other numbers are the best so far */
+    PIR_NOT_SEPARATED, /**< on a sum with a region: none of its facets there separates the bodies; see below */
 } pir_outcome;
 
 /** A kind of feature of a polytope. */

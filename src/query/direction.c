@@ -148,17 +148,41 @@ static pir_status begin(pir_query *query, const pir_query_input *input, pir_vec3
     return status;
 }
 
+/* The exit from what the facets in the region of the sum bound. */
+static void exit_region(pir_query *query, const pir_placement *placement, pir_vec3 u, pir_query_result *result) {
+    uint32_t slot;
+    double at = 0;
+    result->state = pir_region_find(query, placement, NULL, &slot, &at, &result->steps);
+    result->outcome = PIR_NO_HIT;
+    slot = result->state == PIR_INSIDE ? pir_region_exit(query, placement, u, &at, &result->steps) : PIR_NO_PLANE;
+    if (slot == PIR_NO_PLANE)
+        return;
+    result->outcome = PIR_NOT_SEPARATED;
+    set_contact(query, placement, u, at, slot, &result->normal, &result->point_q, &result->witness);
+    result->point_p = result->point_q;
+    result->distance = -pir_frame_length(query, at);
+}
+
 pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                        pir_query_result *ret_result) {
     pir_placement placement;
-    pir_status status = begin(query, input, direction, ret_result, &placement);
+    if (!ret_result)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_query_place(query, input, &placement);
     if (status != PIR_OK)
         return status;
+    if (!pir_vec_is_finite(direction))
+        return PIR_ERR_NOT_FINITE;
     pir_vec3 u;
     double length;
     if (!pir_unit_of(direction, &u, &length))
         return PIR_ERR_ARGUMENT;
     pir_query_result result = {0};
+    if (query->sum->region.cone.set) {
+        exit_region(query, &placement, u, &result);
+        *ret_result = result;
+        return PIR_OK;
+    }
     uint32_t slot = PIR_NO_PLANE;
     result.state = pir_state_find(query, &placement, NULL, &slot, &result.steps);
     result.outcome = PIR_NO_HIT;

@@ -82,12 +82,9 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
     return PIR_OK;
 }
 
-pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {
+pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {
     if (!query || !input)
         return PIR_ERR_ARGUMENT;
-    // facets that a region leaves out are looked for
-    if (query->sum->region.cone.set)
-        return PIR_ERR_UNSUPPORTED;
     if (isnan(input->radius_p) || isnan(input->radius_q) || isnan(input->cutoff))
         return PIR_ERR_NOT_FINITE;
     if (!(input->radius_p >= 0 && input->radius_p < HUGE_VAL && input->radius_q >= 0 && input->radius_q < HUGE_VAL))
@@ -95,6 +92,12 @@ pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_p
     pir_frame_follow(query);
     pir_status status = pir_planes_reserve(query);
     return status == PIR_OK ? pir_frame_place(query, input->translation, ret_placement) : status;
+}
+
+pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {
+    if (query && query->sum->region.cone.set)
+        return PIR_ERR_UNSUPPORTED;
+    return pir_query_place(query, input, ret_placement);
 }
 
 /* --- answers --- */
@@ -326,6 +329,22 @@ static void answer_depth(pir_query *query, const pir_placement *placement, uint3
     set_points(result, pir_witness_point(query, placement, slot, slack));
 }
 
+/* What the facets in the region of the sum tell. */
+static void answer_in_region(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
+                             pir_query_result *result) {
+    uint32_t slot;
+    double slack = 0;
+    set_state(result, pir_region_find(query, placement, cache, &slot, &slack, &result->steps));
+    if (result->state == PIR_OUTSIDE) {
+        pir_piece_keep(cache, query->planes.piece[slot]);
+    } else if (slot == PIR_NO_PLANE) {
+        result->outcome = PIR_NO_HIT;
+    } else {
+        answer_depth(query, placement, slot, result->state == PIR_BOUNDARY ? 0 : slack, cache, result);
+        result->outcome = PIR_NOT_SEPARATED;
+    }
+}
+
 /* --- radii --- */
 
 /* Grows both bodies by their radii in an answer that knows the signed distance. */
@@ -354,12 +373,20 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
     pir_placement placement;
     if (!ret_result)
         return PIR_ERR_ARGUMENT;
-    pir_status status = pir_query_begin(query, input, &placement);
+    pir_status status = pir_query_place(query, input, &placement);
     if (status != PIR_OK)
         return status;
+    // separation, and bodies that are rounded, need the whole sum
+    bool in_region = query->sum->region.cone.set;
+    if (in_region && (want != WANT_DEPTH || input->radius_p + input->radius_q > 0))
+        return PIR_ERR_UNSUPPORTED;
     // nothing fails from here on
     pir_query_result *const result = ret_result;
     clear(result);
+    if (in_region) {
+        answer_in_region(query, &placement, cache, result);
+        return PIR_OK;
+    }
     double radii = input->radius_p + input->radius_q, slack = 0;
     double limit = pir_frame_from(query, input->cutoff + radii);
     uint32_t slot = PIR_NO_PLANE;

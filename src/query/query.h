@@ -267,11 +267,11 @@ pir_state pir_state_find(pir_query *query, const pir_placement *placement, const
 
 /* --- depth.c --- */
 
-/* The slot of the piece of least slack, ties settled, and the slack. PIR_NO_PLANE where there is none. */
-#define PIR_NO_PLANE UINT32_MAX
-
 /* The order that settles ties: fv before vf before ee, then P's index, then Q's. */
 bool pir_piece_before(pir_piece a, pir_piece b);
+
+/* The slot of the piece of least slack, ties settled, and the slack. PIR_NO_PLANE where there is none. */
+#define PIR_NO_PLANE UINT32_MAX
 
 uint32_t pir_depth_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
                         double *ret_slack, uint32_t *steps);
@@ -351,9 +351,25 @@ pir_witness pir_witness_of_piece(const pir_query *query, pir_piece piece);
 /* Where x, moved by its slack along the normal of slot `slot`, meets the piece: the point of Q, in world coordinates. */
 pir_vec3 pir_witness_point(const pir_query *query, const pir_placement *placement, uint32_t slot, double slack);
 
+/* --- region.c --- */
+
+/*
+ * The state as the facets in the region of the sum tell it; *ret_slot is the slot of a plane that shows it, or, inside, of the piece of
+ * least slack, PIR_NO_PLANE where there is none in the region; *ret_slack its slack.
+ */
+pir_state pir_region_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
+                          uint32_t *ret_slot, double *ret_slack, uint32_t *steps);
+
+/* From inside: the slot of the facet in the region that is passed first along a unit direction, and how far that is; or PIR_NO_PLANE. */
+uint32_t pir_region_exit(pir_query *query, const pir_placement *placement, pir_vec3 along, double *ret_at,
+                         uint32_t *steps);
+
 /* --- query.c --- */
 
 /* What every call begins with: checks, the rotation, the placement. */
+pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
+
+/* The same for calls that need the whole sum: PIR_ERR_UNSUPPORTED where it has a region. */
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
 
 #endif
