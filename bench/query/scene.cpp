@@ -76,6 +76,52 @@ double clock_cost() {
     return times.median();
 }
 
+static pir_quat multiply(pir_quat a, pir_quat b) {
+    return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+            a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish) {
+    Random random;
+    std::vector<Pose> poses;
+    pir_sum_options options = pir_sum_options_default();
+    options.difference = 1;
+    pir_sum *sum;
+    pir_query *query;
+    pir_quat r{0.1, 0.2, 0.3, 0.9};
+    if (pir_sum_create(p, q, r, &options, &sum) != PIR_OK || pir_query_create(sum, &query) != PIR_OK)
+        std::exit(2);
+    pir_vec3 axis = random.direction(), out = random.direction(), drift = random.direction();
+    double size = size_of(p) + size_of(q);
+    for (int i = 0; i < FRAMES; i++) {
+        if (i % 50 == 0)
+            axis = random.direction(), drift = random.direction();
+        double half = M_PI / 500, s = std::sin(half);
+        r = multiply({axis.x * s, axis.y * s, axis.z * s, std::cos(half)}, r);
+        double n = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w);
+        r = {r.x / n, r.y / n, r.z / n, r.w / n};
+        out = {out.x + 0.01 * drift.x, out.y + 0.01 * drift.y, out.z + 0.01 * drift.z};
+        n = std::sqrt(out.x * out.x + out.y * out.y + out.z * out.z);
+        out = {out.x / n, out.y / n, out.z / n};
+        pir_sum_rotate(sum, r, PIR_METHOD_AUTO);
+        pir_query_input input = pir_query_input_default();
+        pir_query_result result;
+        // inside: a fraction of the way out from the middle; outside: the gap beyond it
+        double at = 0;
+        pir_vec3 low_p, high_p, low_q, high_q;
+        pir_polytope_bounds(p, &low_p, &high_p), pir_polytope_bounds(q, &low_q, &high_q);
+        pir_vec3 c{(low_q.x + high_q.x) / 2, (low_q.y + high_q.y) / 2, (low_q.z + high_q.z) / 2};
+        if (pir_query_directional_depth(query, (input.translation = c, &input), out, &result) == PIR_OK &&
+            result.outcome == PIR_OVERLAPPING)
+            at = -result.distance;
+        at = wish < 0 ? at * (1 + wish) : at + wish * size;
+        poses.push_back({r, {c.x + at * out.x, c.y + at * out.y, c.z + at * out.z}});
+    }
+    pir_query_destroy(query);
+    pir_sum_destroy(sum);
+    return poses;
+}
+
 std::vector<Exact> exact_answers(pir_polytope *p, pir_polytope *q, const std::vector<Pose> &poses) {
     std::vector<Exact> answers;
     for (const Pose &pose : poses) {

@@ -30,6 +30,13 @@ pir_polytope *shape(const char *name, pir_vec3 scale = {1, 1, 1}, pir_vec3 offse
 // The farthest vertex from the body's own middle.
 double size_of(const pir_polytope *p);
 
+// How many poses a set has.
+constexpr int FRAMES = 1000;
+
+// Rotations of 1/500 of a turn each, about an axis that changes every 50 poses, and translations at a wished signed distance: along a drifting
+// direction, as far as the exact directional query says.
+std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish);
+
 struct Times {
     std::vector<double> ns;
     double median();
