@@ -39,6 +39,24 @@ static bool read_outputs(const struct args *args, struct track_request *request)
     return args_count(args, "--every", 1, FRAMES_MOST, &request->dump_every);
 }
 
+/* The region, all of the sphere where none is asked for. */
+static bool read_region(const struct args *args, struct track_request *request) {
+    double given[4] = {0, 0, 1, 180};
+    if (!args_numbers(args, "--region", 4, given))
+        return false;
+    request->region = (pir_vec3){given[0], given[1], given[2]};
+    request->region_degrees = given[3];
+    if (given[0] == 0 && given[1] == 0 && given[2] == 0) {
+        complain("track: --region: an axis 0,0,0 has no direction");
+        return false;
+    }
+    if (!(given[3] >= 0 && given[3] <= 180)) {
+        complain("track: --region: %g is not between 0 and 180 degrees", given[3]);
+        return false;
+    }
+    return true;
+}
+
 static bool read_request(const struct args *args, struct track_request *request) {
     int method = 0;
     *request = (struct track_request){
@@ -55,7 +73,7 @@ static bool read_request(const struct args *args, struct track_request *request)
         !args_count(args, "--verify-every", 1, FRAMES_MOST, &request->verify_every) ||
         !args_choice(args, "--method", method_names, &method))
         return false;
-    if (!args_numbers(args, "--tolerance", 1, &request->tolerance))
+    if (!read_region(args, request) || !args_numbers(args, "--tolerance", 1, &request->tolerance))
         return false;
     if (request->tolerance < 0) {
         complain("track: --tolerance: %g is less than 0", request->tolerance);
@@ -99,6 +117,7 @@ static const struct option options[] = {
     {"--seed", "N", "of the random axes (1)"},
     {"--method", "auto|update|walk|cgm", "how each rotation is brought into the sum (auto)"},
     {"--tolerance", "T", "let the pairing stay behind while its support falls short by at most this length (0)"},
+    {"--region", "x,y,z,DEGREES", "keep only facets whose normals are within so many degrees of the axis (180: all)"},
     {"--verify", NULL, "hold every frame against a rebuilt sum; exit status 1 when one differs"},
     {"--verify-every", "K", "hold frames 0, K, 2K, ... against a rebuilt sum"},
     {"--brute", NULL, "also time the re-check of all pairs, on a few frames"},

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The run. Up to four sums of the same polytopes go through the same rotations: the tracked one; one that is rebuilt by walk,
- * on the frames where that is timed or compared; one rebuilt by CGM and one re-checked by brute force, on a few frames. Each timed call stands alone
+ * on the frames where that is timed or compared; one rebuilt by CGM and one re-checked by brute force, on a few frames. A region is kept by
+ * the first two; the others are whole. Each timed call stands alone
  * between two looks at the clock. All are timed in turn in one run, so that what else the machine does falls on all alike.
  */
 #include "track.h"
@@ -63,6 +64,12 @@ static bool told(uint64_t frame, pir_status status) {
     return false;
 }
 
+static pir_status set_region(const struct run *run, pir_sum *sum) {
+    const double radians = 3.14159265358979323846 / 180, whole = 4;
+    double degrees = run->request->region_degrees;
+    return pir_sum_set_region(sum, run->request->region, degrees < 180 ? degrees * radians : whole);
+}
+
 /* Sums at the rotation before the first frame, and room for the times. */
 static bool prepare(struct run *run, pir_polytope *p, pir_polytope *q) {
     const struct track_request *request = run->request;
@@ -87,7 +94,11 @@ static bool prepare(struct run *run, pir_polytope *p, pir_polytope *q) {
     if (status == PIR_OK)
         status = pir_sum_set_tolerance(run->tracked, request->tolerance);
     if (status == PIR_OK)
+        status = set_region(run, run->tracked);
+    if (status == PIR_OK)
         status = pir_sum_create(p, q, before, NULL, &run->rebuilt);
+    if (status == PIR_OK)
+        status = set_region(run, run->rebuilt);
     if (status == PIR_OK)
         status = pir_sum_create(p, q, before, NULL, &run->overlaid);
     if (status == PIR_OK && request->brute)
@@ -117,7 +128,7 @@ static bool is_behind(const struct run *run) {
 
 /*
  * Whether the tracked and the rebuilt sum are the same, as pairings and as meshes. A pairing that stayed behind is that of another rotation: the
- * rebuilt sum goes there.
+ * rebuilt sum goes there. Of a region there is no mesh.
  */
 static pir_status compare(const struct run *run, bool *ret_same) {
     if (is_behind(run)) {
@@ -125,6 +136,10 @@ static pir_status compare(const struct run *run, bool *ret_same) {
         if (status == PIR_OK)
             *ret_same = pir_sum_same_pairing(run->tracked, run->rebuilt);
         return status;
+    }
+    if (run->request->region_degrees < 180) {
+        *ret_same = pir_sum_same_pairing(run->tracked, run->rebuilt);
+        return PIR_OK;
     }
     pir_mesh *tracked = NULL, *rebuilt = NULL;
     pir_status status = pir_sum_mesh(run->tracked, PIR_DOUBLE, &tracked);

@@ -16,6 +16,8 @@ struct track_request {
     pir_method method;
     const char *method_name;
     double tolerance; /* 0: exact */
+    pir_vec3 region;  /* the axis of the region that is kept, where its half-angle is below 180 degrees */
+    double region_degrees;
     bool brute;
     uint64_t verify_every; /* 0: never */
     const char *dump;      /* a folder; NULL for none */

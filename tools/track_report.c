@@ -67,6 +67,11 @@ bool track_print_json(const struct track_request *request, const struct track_re
     add_request(&json, request);
     add_times(&json, result);
     add_work(&json, result, request->frames);
+    if (request->region_degrees < 180) {
+        json_add_numbers(&json, json.root, "region",
+                         (const double[]){request->region.x, request->region.y, request->region.z}, 3);
+        json_add_number(&json, json.root, "region_degrees", request->region_degrees);
+    }
     if (request->tolerance > 0) {
         json_add_number(&json, json.root, "tolerance", request->tolerance);
         json_add_number(&json, json.root, "shortfall", result->shortfall);
@@ -89,6 +94,9 @@ static void print_motion(const struct track_request *request) {
     else
         printf("axis %g,%g,%g", request->axis.x, request->axis.y, request->axis.z);
     printf(", method %s\n", request->method_name);
+    if (request->region_degrees < 180)
+        printf("  kept are facets whose normals are within %g degrees of %g,%g,%g\n", request->region_degrees,
+               request->region.x, request->region.y, request->region.z);
 }
 
 static void print_slower(const char *name, double time_ns, double update_ns) {

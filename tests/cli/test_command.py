@@ -504,6 +504,20 @@ class Track(CommandTest):
                     told = self.data("track", *pair, f"--axis={axis}", "--steps", steps, "--frames=60", "--verify")
                     self.assertEqual([told["mismatches"], told["verified"]], [0, 60])
 
+    def test_region_is_kept_and_verified(self):
+        for region in ("0,0,1,30", "-1,2,0.5,5", "1,0,0,120", "0,1,0,0"):
+            told = self.data("track", "shape:gs4", self.pyramid, "--frames=80", "--verify", f"--region={region}")
+            self.assertEqual([told["mismatches"], told["verified"]], [0, 80])
+            self.assertEqual(told["region"] + [told["region_degrees"]], [float(x) for x in region.split(",")])
+        part = self.data("track", "shape:gs4", "shape:gs4", "--frames=80", "--region=0,0,1,30")
+        whole = self.data("track", "shape:gs4", "shape:gs4", "--frames=80", "--region=0,0,1,180")
+        self.assertLess(part["checked_per_frame"], whole["checked_per_frame"] / 3)
+        self.assertNotIn("region", whole)
+        self.assertIn("within 30 degrees of 0,0,1",
+                      self.good("track", self.pyramid, self.pyramid, "--frames=5", "--region=0,0,1,30"))
+        for bad in ("0,0,1", "0,0,0,30", "0,0,1,181", "0,0,1,-1", "0,0,1,nan", "x"):
+            self.bad("track", self.pyramid, self.pyramid, f"--region={bad}", says="--region")
+
     def test_methods_do_what_they_say(self):
         pair = ["track", self.tetrahedron, self.pyramid, "--frames", "50", "--method"]
         self.assertEqual([self.data(*pair, "update")[k] for k in ("updates", "rebuilds")], [50, 0])
