@@ -34,7 +34,7 @@ static bool allocate(pir_query *query) {
         query->polygon_side[k] = PIR_NEW(a, uint32_t, query->polygon_capacity);
         done = done && query->polygon[k] && query->polygon_side[k];
     }
-    return done;
+    return pir_region_init(query) && done;
 }
 
 void pir_query_destroy(pir_query *query) {
@@ -53,6 +53,7 @@ void pir_query_destroy(pir_query *query) {
     pir_leaves_finish(query);
     pir_bounds_finish(query);
     pir_planes_finish(query);
+    pir_region_free(query);
     PIR_FREE(a, query, 1);
 }
 

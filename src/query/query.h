@@ -139,6 +139,12 @@ struct pir_query {
     pir_planes planes;
     pir_leaves leaves;
 
+    /* for sums with a region, see region.c: bounds per facet of P, of Q and edge of P, the ways, and where the last search was */
+    double *known_p, *known_q, *known_edge;
+    double way_p, way_q;
+    pir_quat way_unit;
+    pir_vec3 way_x;
+
     pir_limbs scratch; /* of exact signs */
     pir_vec3 beyond;   /* a unit normal that separates, where side.c found a flat difference beside t */
     pir_vec3 *polygon[2];
@@ -352,6 +358,10 @@ pir_witness pir_witness_of_piece(const pir_query *query, pir_piece piece);
 pir_vec3 pir_witness_point(const pir_query *query, const pir_placement *placement, uint32_t slot, double slack);
 
 /* --- region.c --- */
+
+/* Room for what a search remembers; false when out of memory. */
+bool pir_region_init(pir_query *query);
+void pir_region_free(pir_query *query);
 
 /*
  * The state as the facets in the region of the sum tell it; *ret_slot is the slot of a plane that shows it, or, inside, of the piece of

@@ -5,8 +5,14 @@
  * inside of D the facets that are left out would have to say.
  *
  * The sum keeps a superset that depends on how it came here. So every piece is asked whether it is in the cone, and the answer depends on the
- * placement and the region alone. What is kept is little: all of it is looked at, without groups and their bounds. A piece that may hold the
- * least slack by its doubles is made a plane, in the slots that groups have theirs in; those are forgotten.
+ * placement and the region alone. What is kept is little, and is looked at one by one, without groups. A piece that may hold the least slack
+ * by its doubles is made a plane, in the slots that groups have theirs in; those are forgotten.
+ *
+ * Bounds last as those of groups do (planes.c): s(n) in a direction that stands in P's frame changes, while R turns by θ and x moves by d, by
+ * at most θ·(swing_q + |x|) + d, and in one of Q's by θ·swing_p + d. The sums of these over all queries are the ways, way_p and way_q. For
+ * each facet, and each edge of P, `known` is a number that its slacks were not below when it was last looked at, plus the way then; less the way of
+ * now they are not below it. On an arc, which is shorter than half a turn unless P is flat, s is nowhere less than at its crossings and ends
+ * while those are positive. It is geometry alone: whether a feature has been active in between does not matter.
  */
 #include "query/query.h"
 
@@ -15,22 +21,63 @@ struct search {
     const pir_placement *placement;
     const pir_cone *cone;
     double tie, limit; /* the least slack is not above limit */
-    pir_vec3 along;    /* of the way out, or zero: then `limit` is of slacks, else of how far along it */
-    uint32_t count;    /* planes, from slot 0 */
+    double hair;       /* what slacks worked out one way or another may differ by */
+    double most;       /* slacks by doubles above this are not looked for */
+    bool goes;         /* along the way out: then `limit` is of how far along it */
+    pir_vec3 along;
+    uint32_t count; /* planes, from slot 0 */
 };
 
 /* A rate of leaving this small, of two unit vectors, is along. */
 #define ALONG 0x1p-46
 
-static bool goes_along(const struct search *search) {
-    return search->along.x != 0 || search->along.y != 0 || search->along.z != 0;
+/* Ways begin again when they pass this, in units of the frame: what adding to them rounds then stays below the error of a slack. */
+#define FARTHEST_WAY 16.0
+
+/* --- memory --- */
+
+static void forget(pir_query *query) {
+    for (uint32_t f = 0; f < query->p->facet_count; f++)
+        query->known_p[f] = -HUGE_VAL;
+    for (uint32_t g = 0; g < query->q->facet_count; g++)
+        query->known_q[g] = -HUGE_VAL;
+    for (uint32_t e = 0; e < query->p->edge_count; e++)
+        query->known_edge[e] = -HUGE_VAL;
+}
+
+bool pir_region_init(pir_query *query) {
+    const pir_allocator *a = &query->allocator;
+    query->known_p = PIR_NEW(a, double, query->p->facet_count);
+    query->known_q = PIR_NEW(a, double, query->q->facet_count);
+    query->known_edge = PIR_NEW(a, double, query->p->edge_count);
+    if (!query->known_p || !query->known_q || !query->known_edge)
+        return false;
+    forget(query);
+    return true;
+}
+
+void pir_region_free(pir_query *query) {
+    const pir_allocator *a = &query->allocator;
+    PIR_FREE(a, query->known_p, query->p->facet_count);
+    PIR_FREE(a, query->known_q, query->q->facet_count);
+    PIR_FREE(a, query->known_edge, query->p->edge_count);
+}
+
+/* --- the search --- */
+
+/* A number that the least slack, or way, is not above. */
+static void lower_limit(struct search *search, double limit) {
+    if (!(limit < search->limit))
+        return;
+    search->limit = limit;
+    search->most = search->goes ? HUGE_VAL : limit + search->tie + search->hair;
 }
 
 /* How far out of the half-space of slot `slot` it is: the slack, or that along the way; HUGE_VAL where the way does not lead out. */
 static double way_out(const struct search *search, uint32_t slot) {
     const pir_planes *planes = &search->query->planes;
     double slack = pir_plane_slack(planes, slot, search->placement->x);
-    if (!goes_along(search))
+    if (!search->goes)
         return slack;
     double rate = pir_vec_dot(pir_plane_normal(planes, slot), search->along);
     return rate > ALONG * planes->err[slot] ? slack / rate : HUGE_VAL;
@@ -44,10 +91,10 @@ static void take(struct search *search, pir_piece piece) {
     if (!pir_plane_make(query, piece, slot) || !pir_plane_refine(query, slot) ||
         !pir_cone_has(search->cone, pir_plane_normal(planes, slot)))
         return;
-    double out = way_out(search, slot), error = goes_along(search) ? 0 : search->placement->error * planes->err[slot];
+    double out = way_out(search, slot), error = search->goes ? 0 : search->placement->error * planes->err[slot];
     if (out - error > search->limit + search->tie)
         return;
-    search->limit = fmin(search->limit, out + error);
+    lower_limit(search, out + error);
     search->count++;
 }
 
@@ -56,8 +103,12 @@ static void take(struct search *search, pir_piece piece) {
  * told without the root.
  */
 static inline bool may_win(const struct search *search, double out, double square) {
-    double most = search->limit + search->tie, hair = 4 * search->placement->error;
-    return goes_along(search) || !(out > hair) || (out - hair) * (out - hair) <= most * most * square;
+    double over = out - search->hair;
+    return !(over > 0) || over * over <= search->most * search->most * square;
+}
+
+static inline double least_of(double a, double b) {
+    return a < b ? a : b;
 }
 
 static void take_facets(struct search *search) {
@@ -65,45 +116,87 @@ static void take_facets(struct search *search) {
     const pir_sum *sum = query->sum;
     const pir_members *of_p = &sum->region.p.members, *of_q = &sum->region.q.members;
     const pir_cone *cone = search->cone;
-    pir_vec3 x = search->placement->x;
+    pir_vec3 x = search->placement->x, back = pir_mat_apply_transposed(&query->r, x);
+    double hair = search->hair;
     for (uint32_t i = 0; i < of_p->count; i++) {
         uint32_t f = of_p->at[i];
+        if (query->known_p[f] > search->most + query->way_p)
+            continue;
         pir_vec3 n = pir_mat_apply(&query->r, query->p->normal[f]);
-        if (may_win(search, query->hp[f] + pir_vec_dot(n, pir_vec_sub(query->vq[sum->fv[f]], x)), 1) &&
-            pir_vec_dot(n, cone->axis) >= cone->cosine)
+        double slack = query->hp[f] + pir_vec_dot(n, pir_vec_sub(query->vq[sum->fv[f]], x));
+        query->known_p[f] = slack - hair + query->way_p;
+        if (may_win(search, slack, 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
             take(search, (pir_piece){PIR_FACET_FV, f, 0});
     }
-    pir_vec3 back = pir_mat_apply_transposed(&query->r, x);
     for (uint32_t i = 0; i < of_q->count; i++) {
         uint32_t g = of_q->at[i];
+        if (query->known_q[g] > search->most + query->way_q)
+            continue;
         pir_vec3 n = query->q->normal[g], from = pir_mat_apply(&query->r, pir_vec_sub(query->vp[sum->vf[g]], back));
-        if (may_win(search, query->hq[g] + pir_vec_dot(n, from), 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
+        double slack = query->hq[g] + pir_vec_dot(n, from);
+        query->known_q[g] = slack - hair + query->way_q;
+        if (may_win(search, slack, 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
             take(search, (pir_piece){PIR_FACET_VF, 0, g});
     }
 }
 
-static void take_crossings(struct search *search) {
+/* Takes what crosses an edge of P; returns a number that no slack there is below, −HUGE_VAL where doubles do not tell. */
+static double take_crossings_of(struct search *search, uint32_t edge) {
     const pir_query *query = search->query;
     const pir_sum *sum = query->sum;
     const pir_polytope *p = query->p, *q = query->q;
-    for (uint32_t i = 0; i < sum->region.edges.count; i++) {
-        uint32_t edge = sum->region.edges.at[i], half = p->edge_half[edge];
-        if (sum->first[edge] == PIR_NO_CROSSING)
+    uint32_t half = p->edge_half[edge];
+    pir_vec3 e = pir_mat_apply(&query->r, p->direction[half]);
+    pir_vec3 from = pir_vec_sub(pir_mat_apply(&query->r, query->vp[p->origin[half]]), search->placement->x);
+    double least = HUGE_VAL, hair = search->hair;
+    for (uint32_t at = sum->first[edge]; at != PIR_NO_CROSSING; at = sum->crossings.next[at]) {
+        uint32_t h = sum->crossings.half[at];
+        pir_vec3 n = pir_vec_cross(q->direction[h], e);
+        double square = pir_vec_dot(n, n), out = pir_vec_dot(n, pir_vec_add(from, query->vq[q->origin[h]]));
+        bool tells = square >= PIR_SIN_EXACT * PIR_SIN_EXACT;
+        least = least_of(least, tells ? (out - hair) / sqrt(square) : -HUGE_VAL);
+        // small angles are told by their exact normals
+        if (tells && (!may_win(search, out, square) ||
+                      (square >= PIR_SIN_REFINED * PIR_SIN_REFINED && !pir_cone_has(search->cone, n))))
             continue;
-        pir_vec3 e = pir_mat_apply(&query->r, p->direction[half]);
-        pir_vec3 from = pir_vec_sub(pir_mat_apply(&query->r, query->vp[p->origin[half]]), search->placement->x);
-        for (uint32_t at = sum->first[edge]; at != PIR_NO_CROSSING; at = sum->crossings.next[at]) {
-            uint32_t h = sum->crossings.half[at];
-            pir_vec3 n = pir_vec_cross(q->direction[h], e);
-            double square = pir_vec_dot(n, n), out = pir_vec_dot(n, pir_vec_add(from, query->vq[q->origin[h]]));
-            // small angles are told by their exact normals
-            if (square >= PIR_SIN_EXACT * PIR_SIN_EXACT &&
-                (!may_win(search, out, square) ||
-                 (square >= PIR_SIN_REFINED * PIR_SIN_REFINED && !pir_cone_has(search->cone, n))))
-                continue;
-            take(search, (pir_piece){PIR_FACET_EE, edge, h});
-        }
+        take(search, (pir_piece){PIR_FACET_EE, edge, h});
     }
+    return least;
+}
+
+static void take_crossings(struct search *search) {
+    const pir_query *query = search->query;
+    const pir_polytope *p = query->p;
+    const pir_members *edges = &query->sum->region.edges;
+    for (uint32_t i = 0; i < edges->count; i++) {
+        uint32_t edge = edges->at[i];
+        if (query->known_edge[edge] > search->most + query->way_p)
+            continue;
+        uint32_t half = p->edge_half[edge];
+        double crossings = take_crossings_of(search, edge) + query->way_p;
+        double ends = least_of(query->known_p[p->left[half]], query->known_p[pir_right(p, half)]);
+        double least = least_of(crossings, ends);
+        query->known_edge[edge] = p->dimension == 3 && least > query->way_p ? least : -HUGE_VAL;
+    }
+}
+
+/* Adds how much slacks may have changed since the last search. */
+static void go_on(pir_query *query, const pir_placement *placement) {
+    pir_quat unit = query->sum->signs.rotation.unit;
+    pir_vec3 off = pir_vec_sub(placement->x, query->way_x);
+    double moved = sqrt(pir_vec_dot(off, off)), turned = pir_rotation_angle_bound(query->way_unit, unit);
+    double far = placement->reach - query->size_p - query->size_q + moved;
+    // reach is rounded, and so are these sums
+    far += 0x1p-40 * placement->reach;
+    query->way_p = (query->way_p + turned * (query->swing_q + far) + moved) * (1 + 0x1p-50);
+    query->way_q = (query->way_q + turned * query->swing_p + moved) * (1 + 0x1p-50);
+    query->way_x = placement->x;
+    query->way_unit = unit;
+    // what has gone far rounds badly: it begins again
+    if (query->way_p < FARTHEST_WAY && query->way_q < FARTHEST_WAY)
+        return;
+    query->way_p = query->way_q = 0;
+    forget(query);
 }
 
 /* Whether a piece is one that the sum keeps. */
@@ -134,9 +227,13 @@ static struct search search_all(pir_query *query, const pir_placement *placement
                             .cone = &query->sum->region.cone,
                             .tie = PIR_TIE * (query->size_p + query->size_q),
                             .limit = HUGE_VAL,
+                            .hair = 4 * placement->error,
+                            .most = HUGE_VAL,
+                            .goes = along.x != 0 || along.y != 0 || along.z != 0,
                             .along = along};
     query->stamp++;
     query->planes.used = 0;
+    go_on(query, placement);
     if (cache && cache->pieces == 1) {
         pir_piece last = {cache->kind, cache->first, cache->second};
         if (is_kept(query, last))
