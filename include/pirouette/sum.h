@@ -125,7 +125,7 @@ PIR_API pir_status pir_sum_settle(pir_sum *sum);
 /**
  * Keeps only the part of the sum whose outward normals are within `half_angle` radians of `axis`, of any length, in the frame of Q. The
  * default, and every half-angle of 3.15 and more, is the whole sphere. Updates then cost what the cone holds, with a skin around it of
- * 1 to 7 degrees, four steps of the motion.
+ * 1 to 7 degrees, five steps of the motion.
  *
  * All pairs in the cone are there and right, rounding erring towards keeping; of others some may be, depending on how the sum came here,
  * and those are right too. What is left out has PIR_NO_PAIR for its vertex, and no ee pairs. A P of dimension below 3 is kept whole.

@@ -2,10 +2,13 @@
 /*
  * Regions: what a sum with a cone keeps is the whole sum's part in it, however the bodies turn and the cone moves; a sum whose memory
  * runs out stays whole at the region it had; and nothing allocates after the warm-up.
+ *
+ * PIR_TEST_ROUNDS in the environment makes the random tests so many times as long.
  */
 #include "support/test.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <pirouette/live_mesh.h>
@@ -141,10 +144,15 @@ static void run(struct sums *s, test_random *random, uint64_t number, const char
     }
 }
 
+static uint64_t rounds(void) {
+    const char *asked = getenv("PIR_TEST_ROUNDS");
+    return asked ? strtoull(asked, NULL, 10) : 1;
+}
+
 static void tracked_region_is_the_part_of_the_whole_sum_in_the_cone(void **state) {
     (void)state;
     uint32_t partial = 0;
-    for (uint64_t i = 0; i < 300; i++) {
+    for (uint64_t i = 0; i < 300 * rounds(); i++) {
         test_random random = test_random_case("region", i);
         test_pose pose;
         struct sums s;
@@ -159,7 +167,7 @@ static void tracked_region_is_the_part_of_the_whole_sum_in_the_cone(void **state
 static void many_facets_are_tracked_in_a_cone(void **state) {
     (void)state;
     uint32_t partial = 0;
-    for (uint64_t i = 0; i < 40; i++) {
+    for (uint64_t i = 0; i < 40 * rounds(); i++) {
         test_random random = test_random_case("region of spheres", i);
         test_pose pose = {.situation = "two spheres"};
         struct sums s;

@@ -31,6 +31,19 @@ static void check_mesh(pir_sum *sum, pir_polytope *p, pir_polytope *q, const pir
     pir_mesh_destroy(mesh);
 }
 
+/* A sum with a region that the bytes have chosen by the way: about the last axis, or about another in some steps. */
+static void check_region(pir_sum *part, const pir_sum *whole, pir_quat rotation, int step) {
+    fuzz_require(pir_sum_rotate(part, rotation, PIR_METHOD_UPDATE) == PIR_OK, "a part can be updated");
+    fuzz_require(pir_sum_same_pairing(part, whole) && pir_sum_is_valid(part), "the part is that of the whole");
+    pir_vec3 axis =
+        step % 4 == 3 ? (pir_vec3){rotation.w, rotation.x, rotation.y} : (pir_vec3){rotation.x, rotation.y, rotation.z};
+    if (axis.x == 0 && axis.y == 0 && axis.z == 0)
+        axis.z = 1;
+    fuzz_require(pir_sum_set_region(part, axis, step % 6 == 5 ? 1.4 : 0.3) == PIR_OK, "a region can be set");
+    fuzz_require(pir_sum_same_pairing(part, whole) && pir_sum_is_valid(part),
+                 "the part in the new region is that of the whole");
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     struct fuzz_input input = {data, size, 0};
     pir_sum_options options = pir_sum_options_default();
@@ -39,8 +52,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     pir_polytope *p = fuzz_body(&input, FUZZ_POINTS_MAX),
                  *q = form & 2 ? pir_polytope_retain(p) : fuzz_body(&input, FUZZ_POINTS_MAX);
     pir_quat rotation = fuzz_rotation(&input, (pir_quat){0, 0, 0, 1});
-    pir_sum *tracked = NULL, *rebuilt = NULL;
+    pir_sum *tracked = NULL, *rebuilt = NULL, *part = NULL;
     fuzz_require(pir_sum_create(p, q, rotation, &options, &tracked) == PIR_OK, "a sum can be made");
+    fuzz_require(pir_sum_clone(tracked, NULL, &part) == PIR_OK, "a sum can be cloned");
     fuzz_require(pir_sum_create(p, q, rotation, &options, &rebuilt) == PIR_OK, "a sum can be made twice");
     for (int step = 0; step < STEPS; step++) {
         rotation = fuzz_rotation(&input, rotation);
@@ -49,6 +63,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(pir_sum_rotate(rebuilt, rotation, PIR_METHOD_WALK) == PIR_OK, "a sum can be rebuilt");
         fuzz_require(pir_sum_same_pairing(tracked, rebuilt), "update and walk agree");
         fuzz_require(pir_sum_is_valid(tracked), "the pairing is valid");
+        check_region(part, tracked, rotation, step);
         if (step % 7 == 0)
             check_mesh(tracked, p, q, &options);
         if (step % 10 == 0) {
@@ -58,6 +73,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         if (input.at >= input.size)
             break;
     }
+    pir_sum_destroy(part);
     pir_sum_destroy(rebuilt);
     pir_sum_destroy(tracked);
     pir_polytope_release(q);
