@@ -207,6 +207,9 @@ uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_sleep *ret_
 
 #define PIR_TRACE_LONGEST 8
 
+/* Steps of a greater angle are not followed: what such a step may have touched is nearly all. */
+#define PIR_TRACE_FARTHEST 0.25
+
 /* The way of a facet through the last step: the sides that it has crossed, in order, the cell where it is, and how long it stays there. */
 typedef struct pir_trace {
     uint32_t count, crossed[PIR_TRACE_LONGEST], cell;

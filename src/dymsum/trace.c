@@ -72,7 +72,7 @@ static struct exit look_for_exit(const struct tracer *tracer, uint32_t v) {
 }
 
 static bool follow(pir_sum *sum, const struct tracer *tracer, uint32_t from, pir_trace *ret_trace) {
-    if (!(fabs(tracer->stride) < 0.25))
+    if (!(fabs(tracer->stride) <= PIR_TRACE_FARTHEST))
         return false;
     ret_trace->count = 0;
     ret_trace->cell = from;

@@ -18,6 +18,9 @@
 /* How many cells a facet is followed back through before every edge is taken to have changed. */
 #define FOLLOWED_CELLS 16
 
+/* One in so many facets is many. */
+#define MANY_OPEN 8
+
 struct update {
     pir_sum *sum;
     uint32_t
@@ -92,7 +95,7 @@ static void settle_of_p(struct update *update, uint32_t f) {
     pir_sum *sum = update->sum;
     const pir_polytope *p = sum->p;
     pir_trace trace;
-    if (pir_trace_fv(sum, f, &trace)) {
+    if (!update->all && pir_trace_fv(sum, f, &trace)) {
         pir_fall_asleep(sum, f, &trace.sleep);
         sum->statistics.repaired += trace.count;
         sum->fv[f] = trace.cell;
@@ -147,7 +150,7 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
 static void settle_of_q(struct update *update, uint32_t g) {
     pir_sum *sum = update->sum;
     pir_trace trace;
-    if (pir_trace_vf(sum, g, &trace)) {
+    if (!update->all && pir_trace_vf(sum, g, &trace)) {
         pir_fall_asleep(sum, sum->q_facets.first_alarm + g, &trace.sleep);
         sum->statistics.repaired += trace.count;
         sum->vf[g] = trace.cell;
@@ -167,7 +170,7 @@ static void settle_of_q(struct update *update, uint32_t g) {
 void pir_set_moment(pir_sum *sum) {
     const pir_clock *clock = &sum->clock;
     double reach = fabs(clock->stride) * (1 + 0x1p-20);
-    float most = reach <= (double)PIR_FARTHEST ? (float)reach : HUGE_VALF;
+    float most = reach <= PIR_TRACE_FARTHEST ? (float)reach : HUGE_VALF;
     bool forwards = clock->stride >= 0;
     sum->moment = (pir_moment){.reach_ahead = forwards ? 0 : most,
                                .reach_behind = forwards ? most : 0,
@@ -184,6 +187,14 @@ void pir_set_moment(pir_sum *sum) {
     }
 }
 
+/* Whether so many of the suspects are to be settled that leading every edge anew is less work than finding out which. */
+static bool are_many_open(const pir_sum *sum, uint32_t suspects) {
+    uint32_t open = 0;
+    for (uint32_t i = 0; i < suspects; i++)
+        open += sum->suspects[i].crossed == PIR_NO_CROSSING;
+    return open > pir_alarm_count(sum) / MANY_OPEN;
+}
+
 /* Looks at the facets that wake, and brings along what they have touched or notes it. */
 static void review(struct update *update, uint32_t woken) {
     pir_sum *sum = update->sum;
@@ -197,6 +208,7 @@ static void review(struct update *update, uint32_t woken) {
     uint32_t of_q = sum->kernels->review(&sum->q_facets, &sum->moment, &sum->alarms, alarm + woken_of_p,
                                          woken - woken_of_p, sum->suspects + of_p, &sum->signs.by_filter);
     const pir_suspect *suspect = sum->suspects;
+    update->all |= are_many_open(sum, of_p + of_q);
     for (uint32_t i = 0; i < of_p; i++, suspect++) {
         if (suspect->crossed == PIR_NO_CROSSING) {
             settle_of_p(update, suspect->facet);
