@@ -46,10 +46,14 @@ static void take_triangle(const pir_dd3 *w, uint32_t a, uint32_t b, uint32_t c, 
     if (!(wa.hi > 0 && wb.hi > 0 && wc.hi > 0) || whole.hi == 0)
         return;
     pir_dd sum = pir_dd_add(pir_dd_add(wa, wb), wc);
+    // the plane's distance from the nearest corner: from a far one it cancels, and faces of a sliver are not told apart
+    double qa = pir_dd3_product(w[a], w[a]).hi, qb = pir_dd3_product(w[b], w[b]).hi,
+           qc = pir_dd3_product(w[c], w[c]).hi;
+    uint32_t corner = qa <= qb && qa <= qc ? a : qb <= qc ? b : c;
     take(best, (struct nearest){.count = 3,
                                 .index = {a, b, c},
                                 .weight = {pir_dd_divide(wa, sum), pir_dd_divide(wb, sum), pir_dd_divide(wc, sum)},
-                                .v = pir_dd3_times(n, pir_dd_divide(pir_dd3_product(n, w[a]), whole))});
+                                .v = pir_dd3_times(n, pir_dd_divide(pir_dd3_product(n, w[corner]), whole))});
 }
 
 /* Every face of up to four points: which of them are new does not matter here. */

@@ -105,36 +105,45 @@ static void check_pose(pir_query *query, place_oracle *oracle, pir_query_cache *
                "warm and cold depths differ (%s, case %llu)", situation, (unsigned long long)number);
 }
 
+/* One pair of bodies at two rotations, each with many translations. */
+static void check_pair(uint64_t number) {
+    test_random random = test_random_case("placements", number);
+    test_pose pose;
+    test_random_pose(&random, 10, &pose);
+    pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
+    pir_sum_options options = pir_sum_options_default();
+    options.difference = 1;
+    pir_sum *sum;
+    pir_query *query;
+    assert_int_equal(pir_sum_create(p, q, pose.rotation, &options, &sum), PIR_OK);
+    assert_int_equal(pir_query_create(sum, &query), PIR_OK);
+    pir_query_cache cache = {0};
+    pir_quat rotation = pose.rotation;
+    for (int turn = 0; turn < 2; turn++) {
+        place_oracle *oracle = place_oracle_make(p, q, rotation);
+        for (int i = 0; i < POSES; i++)
+            check_pose(query, oracle, &cache, some_translation(&random, oracle), pose.situation, number, rotation);
+        place_oracle_free(oracle);
+        rotation = test_rotation(&random);
+        assert_int_equal(pir_sum_rotate(sum, rotation, PIR_METHOD_AUTO), PIR_OK);
+    }
+    pir_query_destroy(query);
+    pir_sum_destroy(sum);
+    pir_polytope_release(p);
+    pir_polytope_release(q);
+}
+
+/* Pairs that once failed, with the first seed: slivers in which x lies next to faces that are equally near but for rounding. */
+static const uint64_t kept[] = {11790};
+
 static void answers_agree_with_exact_arithmetic(void **state) {
     (void)state;
     const char *asked = getenv("PIR_TEST_PAIRS");
     uint64_t pairs = asked ? strtoull(asked, NULL, 10) : 120;
-    for (uint64_t number = 0; number < pairs; number++) {
-        test_random random = test_random_case("placements", number);
-        test_pose pose;
-        test_random_pose(&random, 10, &pose);
-        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
-        pir_sum_options options = pir_sum_options_default();
-        options.difference = 1;
-        pir_sum *sum;
-        pir_query *query;
-        assert_int_equal(pir_sum_create(p, q, pose.rotation, &options, &sum), PIR_OK);
-        assert_int_equal(pir_query_create(sum, &query), PIR_OK);
-        pir_query_cache cache = {0};
-        pir_quat rotation = pose.rotation;
-        for (int turn = 0; turn < 2; turn++) {
-            place_oracle *oracle = place_oracle_make(p, q, rotation);
-            for (int i = 0; i < POSES; i++)
-                check_pose(query, oracle, &cache, some_translation(&random, oracle), pose.situation, number, rotation);
-            place_oracle_free(oracle);
-            rotation = test_rotation(&random);
-            assert_int_equal(pir_sum_rotate(sum, rotation, PIR_METHOD_AUTO), PIR_OK);
-        }
-        pir_query_destroy(query);
-        pir_sum_destroy(sum);
-        pir_polytope_release(p);
-        pir_polytope_release(q);
-    }
+    for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++)
+        check_pair(kept[i]);
+    for (uint64_t number = 0; number < pairs; number++)
+        check_pair(number);
 }
 
 int main(void) {
