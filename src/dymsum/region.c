@@ -17,13 +17,15 @@
  *   - all of the sum in the cone is kept: a facet or arc of P that meets the cone comes within α + σ_P of a_P, a facet of Q in it
  *     within α + σ_Q of a_Q, and a crossing in it is on such an arc;
  *   - what is kept is right: an active facet is in its cell, an active edge has its whole list of crossings. In a step of at most τ
- *     no dormant facet of Q comes to an active arc: a point of that is within ρ of a_P, within ρ + σ_P of where the axis was, within
- *     ρ + σ_P + τ on the way, and within ρ + σ_P + σ_Q + τ of a_Q. So the events of active facets are all that active edges have to hear of; after a
- *     longer step every active edge is led anew.
+ *     from where the cover holds, or to there, no dormant facet of Q comes to an active arc: a point of that is within ρ of a_P, within ρ + σ_P
+ *     of where the axis was, within ρ + σ_P + τ on the way, and within ρ + σ_P + σ_Q + τ of a_Q. Nor does one in any step, of one radian at most,
+ *     from where it holds to where it holds still: the axis goes along an arc of a circle whose ends are within σ_P of a_P, and leaves that by
+ *     less than σ_P·(√(1 + tan² ¼) − 1) < σ_P/30, less than any τ. So the events of active facets are all that active edges have to hear of.
  *
  * An update in which the cover stops to hold first lets go of what a new one leaves out, then repairs what stays, and last brings in what is
- * new: a facet by descent from a neighbour's cell, an edge from cell to cell. What stays is in both covers, and a facet of Q that only the old
- * one had is beyond the reach of the edges that stay, by the same sums with the step's end for its beginning.
+ * new: a facet by descent from a neighbour's cell, an edge from cell to cell. What stays is in both covers. A facet of Q that the old one left
+ * dormant is beyond the reach of the edges that stay when the step is within the old stride, one that the new one leaves out when it is
+ * within the new. After a longer step, a leap, every edge that stays is led anew.
  *
  * The skins grow with how fast the axis goes in the sight of P and of Q, so a sweep lasts for some frames. Flat operands P have arcs of half a turn: they are kept whole.
  */
@@ -39,6 +41,9 @@
 #define MOST_SKIN    0x1p-3
 #define STRIDE_STEPS 1.25
 #define LEAST_STRIDE 0x1p-7
+
+/* Radians: steps of more are leaps, wherever they begin and end. */
+#define LONGEST_STEP 1.0
 
 /* Half-angles of so much are the whole sphere. */
 #define WHOLE_HALF_ANGLE 3.15
@@ -173,11 +178,6 @@ bool pir_region_holds(const pir_sum *sum, const pir_rotation *rotation) {
     return !region->cone.set || cover->whole ||
            (pir_vec_dot(region->cone.axis, cover->axis_q) >= cover->cosine_q &&
             pir_vec_dot(pir_mat_apply_transposed(&rotation->r, region->cone.axis), cover->axis_p) >= cover->cosine_p);
-}
-
-bool pir_region_strides(const pir_sum *sum, double angle) {
-    const pir_region *region = &sum->region;
-    return region->cone.set && !region->cover.whole && !(angle <= region->cover.stride);
 }
 
 /* Centres the cover on the region of now. Each sight of the axis is taken to go on as it went, or to rest where `afresh`. */
@@ -374,11 +374,15 @@ static void choose(pir_sum *sum) {
 }
 
 void pir_region_follow(pir_sum *sum) {
-    sum->region.steps++;
+    pir_region *region = &sum->region;
+    double angle = fabs(sum->clock.stride), allowed = region->cover.stride;
+    region->steps++;
+    region->leapt = region->cone.set && !region->cover.whole && !(angle <= LONGEST_STEP);
     if (pir_region_holds(sum, &sum->signs.rotation))
         return;
     centre(sum, false);
     choose(sum);
+    region->leapt = region->leapt || !(angle <= fmin(allowed, region->cover.stride));
 }
 
 /* --- waking up --- */

@@ -23,7 +23,7 @@ typedef struct pir_cover {
     pir_arc half_angle;      /* the region's */
     double skin_p, skin_q;   /* radians: how far either sight of the axis may go */
     double cosine_p, cosine_q;
-    double stride; /* radians: how far one step may */
+    double stride; /* radians: how far a step that leads out of here may, or has led in here */
 } pir_cover;
 
 /* Features of one kind. */
@@ -54,6 +54,7 @@ typedef struct pir_region {
     pir_cone cone;
     pir_cover cover;
     bool admits;             /* a sweep has counted in features that are still dormant */
+    bool leapt;              /* the last step may have carried what was or is dormant through what is active */
     uint32_t steps;          /* since the cover was centred */
     uint32_t sweep, changes; /* changes: how often the active features have become others */
     pir_region_facets p, q;  /* memory from the first cone on, as for the edges */
@@ -78,9 +79,6 @@ bool pir_region_copy(struct pir_sum *to, const struct pir_sum *from);
 
 /* Whether what is kept holds all that the region needs at `rotation`. */
 bool pir_region_holds(const struct pir_sum *sum, const struct pir_rotation *rotation);
-
-/* Whether a step of at most `angle` may have carried what is dormant through what is active. */
-bool pir_region_strides(const struct pir_sum *sum, double angle);
 
 /* --- around an update --- */
 

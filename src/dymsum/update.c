@@ -243,13 +243,13 @@ pir_status pir_update_repair(pir_sum *sum) {
         pir_alarms_collect(&sum->alarms, sum->kernels, pir_alarm_count(sum), pir_alarm_time_of(&sum->clock));
     sum->woken += woken;
     // what sleeps tells nothing of a step that dormant facets may have come in by
-    bool strides = pir_region_strides(sum, fabs(sum->clock.stride));
-    if (woken == 0 && !strides)
+    bool leapt = sum->region.leapt;
+    if (woken == 0 && !leapt)
         return PIR_OK;
     sum->statistics.checked += woken;
     pir_set_moment(sum);
     struct update update = {.sum = sum, .stamp = next_stamp(sum)};
-    update.all = strides || !(fmaxf(sum->moment.reach_ahead, sum->moment.reach_behind) < HUGE_VALF);
+    update.all = leapt || !(fmaxf(sum->moment.reach_ahead, sum->moment.reach_behind) < HUGE_VALF);
     review(&update, woken);
     for (uint32_t e = 0; update.all && e < sum->p->edge_count; e++)
         note_edge(&update, e);

@@ -206,6 +206,57 @@ static void jumps_out_of_a_thin_skin_are_right(void **state) {
     }
 }
 
+/*
+ * A jump out of the cover can carry the edges at its rim over facets that were dormant before and are active after, whose events nobody
+ * hears: only a proof of what is kept beyond the cone shows it, for a frame.
+ */
+static void jumps_over_dormant_facets_are_right(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 8; i++) {
+        test_random random = test_random_case("region leaps", i);
+        test_pose pose = {.situation = "many facets", .rotation = {0.1, 0.2, 0.3, 0.9}};
+        struct sums s;
+        test_body_points(&random, TEST_SPHERE, 500, &pose.p);
+        test_body_points(&random, TEST_SPHERE, 200, &pose.q);
+        sums_init(&s, &pose, i % 2);
+        pir_quat r = pose.rotation;
+        for (int frame = 0; frame < 100; frame++) {
+            pir_vec3 a = test_random_direction(&random), d = test_random_direction(&random);
+            pir_vec3 k = {a.y * d.z - a.z * d.y, a.z * d.x - a.x * d.z, a.x * d.y - a.y * d.x};
+            double length = sqrt(k.x * k.x + k.y * k.y + k.z * k.z);
+            set_region(&s, a, 4);
+            set_region(&s, a, 0.3 + fabs(test_random_unit(&random)));
+            r = turn(r, (pir_vec3){k.x / length, k.y / length, k.z / length},
+                     0.1 + 0.024 * fabs(test_random_unit(&random)));
+            assert_int_equal(pir_sum_rotate(s.tracked, r, PIR_METHOD_UPDATE), PIR_OK);
+            expect(pir_sum_is_valid(s.tracked), "case %llu, frame %d", (unsigned long long)i, frame);
+        }
+        sums_clear(&s);
+    }
+}
+
+/* About the region's own axis, where the cover holds for good, and about axes near it; more than a radian a step too. */
+static void spins_within_the_skin_are_right(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 12; i++) {
+        test_random random = test_random_case("region spins", i);
+        test_pose pose = {.situation = "many facets", .rotation = {0.1, 0.2, 0.3, 0.9}};
+        struct sums s;
+        test_body_points(&random, TEST_SPHERE, 20 + 20 * (size_t)i, &pose.p);
+        test_body_points(&random, TEST_SPHERE, 240, &pose.q);
+        sums_init(&s, &pose, 0);
+        pir_quat r = pose.rotation;
+        pir_vec3 axis = test_random_direction(&random);
+        set_region(&s, axis, 0.2 * (double)(i + 1));
+        for (int frame = 0; frame < 40; frame++) {
+            r = turn(r, i % 2 ? axis : nudge(&random, axis, 0.02), 0.03 * (double)test_random_below(&random, 40));
+            assert_int_equal(pir_sum_rotate(s.tracked, r, PIR_METHOD_UPDATE), PIR_OK);
+            expect(pir_sum_is_valid(s.tracked), "case %llu, frame %d", (unsigned long long)i, frame);
+        }
+        sums_clear(&s);
+    }
+}
+
 /* Whatever a motion has needed once, it does not ask for again. */
 static void tracking_a_region_allocates_nothing_after_the_warm_up(void **state) {
     (void)state;
@@ -381,6 +432,8 @@ int main(void) {
         cmocka_unit_test(tracked_region_is_the_part_of_the_whole_sum_in_the_cone),
         cmocka_unit_test(many_facets_are_tracked_in_a_cone),
         cmocka_unit_test(jumps_out_of_a_thin_skin_are_right),
+        cmocka_unit_test(jumps_over_dormant_facets_are_right),
+        cmocka_unit_test(spins_within_the_skin_are_right),
         cmocka_unit_test(tracking_a_region_allocates_nothing_after_the_warm_up),
         cmocka_unit_test(bad_regions_are_refused),
         cmocka_unit_test(clone_mesh_reset_and_scale_go_with_a_region),
