@@ -88,7 +88,7 @@ typedef enum pir_operand {
 
 /**
  * Makes an operand `scale` times as large as the sum was made with, about its own origin: not times its size of now. The scale is taken
- * exactly. No pair changes, so nothing is rebuilt; pir_sum_p and pir_sum_q, and what is asked of the sum from here on, are of the new
+ * exactly. No pair changes, so nothing is rebuilt, but a pairing that a tolerance lets stay behind is settled first; pir_sum_p and pir_sum_q, and what is asked of the sum from here on, are of the new
  * size. Queries made for the sum are to be made anew. O(n) for the operand's n vertices.
  * Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT (not positive), PIR_ERR_LIMIT (a coordinate beyond the doubles), PIR_ERR_MEMORY; the
  * sum then stays as it was.

@@ -46,24 +46,42 @@ static void take_pair(double distance, double slack, const double *lengths, doub
             angles[k] = fmin(angles[k], (below + arc_sine_below(lengths[k] / distance)) * (1 - 0x1p-50));
 }
 
-/* The angles up to which S_B is at most each of `lengths`: a pass over facets and vertices. */
-static void measure(const pir_polytope *p, const double *lengths, double *ret_angles) {
-    double far = 0;
-    for (uint32_t v = 0; v < p->vertex_count; v++)
-        far = fmax(far, pir_vec_dot(p->vertex[v], p->vertex[v]));
-    double size = sqrt(far), error = size * SLACK_ERROR;
+/* A power of two that brings p's coordinates below 1, and near it where doubles reach: squares then neither vanish nor overflow. */
+static double scale_of(const pir_polytope *p) {
+    double most = 0;
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        pir_vec3 at = p->vertex[v];
+        most = fmax(most, fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z))));
+    }
+    int exponent;
+    frexp(most, &exponent);
+    return ldexp(1, exponent < -1000 ? 1000 : -exponent);
+}
+
+/* The angles up to which S_B is at most each of the lengths: a pass over facets and vertices. */
+static void measure(const pir_polytope *p, const double *given_lengths, double *ret_angles) {
+    double far = 0, by = scale_of(p), lengths[PIR_LAG_KNOTS];
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        lengths[k] = given_lengths[k] * by;
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        pir_vec3 at = pir_vec_scale(p->vertex[v], by);
+        far = fmax(far, pir_vec_dot(at, at));
+    }
+    // vertices below the normal doubles are off by more
+    double size = sqrt(far), error = size * SLACK_ERROR + by * 0x1p-1070;
     for (int k = 0; k < PIR_LAG_KNOTS; k++)
         ret_angles[k] = FARTHEST_LAG;
     for (uint32_t f = 0; f < p->facet_count; f++) {
         uint32_t start = p->loop_start[f], end = p->loop_start[f + 1];
-        double offset = pir_vec_dot(p->normal[f], p->vertex[p->origin[p->loop[start]]]);
+        double offset = pir_vec_dot(p->normal[f], pir_vec_scale(p->vertex[p->origin[p->loop[start]]], by));
         for (uint32_t w = 0; w < p->vertex_count; w++) {
-            double slack = fmax(0, offset - pir_vec_dot(p->normal[f], p->vertex[w]) - error);
+            pir_vec3 at = pir_vec_scale(p->vertex[w], by);
+            double slack = fmax(0, offset - pir_vec_dot(p->normal[f], at) - error);
             // no two vertices are farther apart than twice the size: past this, no angle is lowered
             if (slack > 2 * size * ret_angles[PIR_LAG_KNOTS - 1])
                 continue;
             for (uint32_t i = start; i < end; i++) {
-                pir_vec3 apart = pir_vec_sub(p->vertex[w], p->vertex[p->origin[p->loop[i]]]);
+                pir_vec3 apart = pir_vec_sub(at, pir_vec_scale(p->vertex[p->origin[p->loop[i]]], by));
                 double distance = sqrt(pir_vec_dot(apart, apart)) * (1 + 0x1p-50) + error;
                 if (p->origin[p->loop[i]] != w)
                     take_pair(distance, slack, lengths, ret_angles);

@@ -4,20 +4,27 @@
  *
  * Every certificate is the sign of s(n, e) for a facet normal n and an edge vector e, and scaling a body by a positive number turns neither
  * (the invariance that Diktas and Sahiner, Parametric Minkowski Sums in Object Space, 2006, draw on). So the operand is replaced by
- * the same polytope on another scale, its features under the same numbers, and all else stays: the pairing, the alarms, the clock.
+ * the same polytope on another scale, its features under the same numbers, and all else stays: the pairing, the alarms, the clock. Only what
+ * it costs to stay behind a rotation grows with the body: a pairing that has comes along first.
  */
 #include <pirouette/exact.h>
 
 #include "dymsum/sum.h"
 
-/* Puts `scaled` in the operand's place, and takes the reference. */
-static void replace(pir_sum *sum, pir_operand operand, pir_polytope *scaled) {
+/* Puts `scaled` in the operand's place, and takes the reference. Errors as pir_sum_settle. */
+static pir_status replace(pir_sum *sum, pir_operand operand, pir_polytope *scaled) {
+    pir_status status = pir_sum_settle(sum);
+    if (status != PIR_OK) {
+        pir_polytope_release(scaled);
+        return status;
+    }
     pir_polytope **place = operand == PIR_OPERAND_P ? &sum->p : &sum->q;
     PIR_ASSERT(scaled->half_count == (*place)->half_count && scaled->facet_count == (*place)->facet_count);
     pir_polytope_release(*place);
     *place = scaled;
     pir_sum_link_facets(sum);
     pir_lag_measure(sum);
+    return PIR_OK;
 }
 
 pir_status pir_sum_set_scale(pir_sum *sum, pir_operand operand, double scale) {
@@ -25,9 +32,7 @@ pir_status pir_sum_set_scale(pir_sum *sum, pir_operand operand, double scale) {
         return PIR_ERR_ARGUMENT;
     pir_polytope *scaled;
     pir_status status = pir_polytope_scale(sum->made_of[operand], scale, &scaled);
-    if (status == PIR_OK)
-        replace(sum, operand, scaled);
-    return status;
+    return status == PIR_OK ? replace(sum, operand, scaled) : status;
 }
 
 pir_status pir_sum_set_scale_exact(pir_sum *sum, pir_operand operand, const mpq_t scale) {
@@ -35,7 +40,5 @@ pir_status pir_sum_set_scale_exact(pir_sum *sum, pir_operand operand, const mpq_
         return PIR_ERR_ARGUMENT;
     pir_polytope *scaled;
     pir_status status = pir_polytope_scale_exact(sum->made_of[operand], scale, &scaled);
-    if (status == PIR_OK)
-        replace(sum, operand, scaled);
-    return status;
+    return status == PIR_OK ? replace(sum, operand, scaled) : status;
 }

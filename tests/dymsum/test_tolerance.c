@@ -147,6 +147,84 @@ static pir_quat turn(test_random *random, pir_quat from, double angle) {
     return test_compose((pir_quat){angle / 2 * d.x, angle / 2 * d.y, angle / 2 * d.z, 1}, from, 1);
 }
 
+/* Holds a sum that may lag against its bound along the normals of both operands. */
+static void check_bound(struct supports *s, pir_sum *sum, const char *what, int number) {
+    pir_live_mesh *live;
+    bool is_short;
+    assert_int_equal(pir_live_mesh_create(sum, &live), PIR_OK);
+    double bound = pir_sum_shortfall_bound(sum);
+    expect(bound <= pir_sum_tolerance(sum), "%s %d: bound %g", what, number, bound);
+    const pir_polytope *bodies[2] = {pir_sum_p(sum), pir_sum_q(sum)};
+    for (int k = 0; k < 2; k++)
+        for (uint32_t f = 0; f < pir_polytope_facet_count(bodies[k]); f++)
+            expect(is_within(s, sum, live, pir_polytope_normal(bodies[k], f), bound, &is_short), "%s %d, facet %u",
+                   what, number, f);
+    pir_live_mesh_destroy(live);
+}
+
+/* The bound is one of lengths: what is behind before bodies grow is too far behind after. */
+static void bound_holds_when_the_scale_changes(void **state) {
+    (void)state;
+    struct supports s;
+    start(&s);
+    for (int i = 0; i < 4; i++) {
+        test_random random = test_random_case("tolerance and scale", (uint64_t)i);
+        pir_polytope *p = test_sphere(&random, 60), *q = test_sphere(&random, 50);
+        pir_sum *sum;
+        pir_quat there = turn(&random, test_general_rotation(&random), 0.1);
+        assert_int_equal(pir_sum_create(p, q, there, NULL, &sum), PIR_OK);
+        assert_int_equal(pir_sum_set_tolerance(sum, 1.2), PIR_OK);
+        assert_int_equal(pir_sum_rotate(sum, turn(&random, there, 0.4), PIR_METHOD_UPDATE), PIR_OK);
+        assert_int_equal(pir_sum_get_statistics(sum).kept, 1);
+        assert_int_equal(pir_sum_set_scale(sum, PIR_OPERAND_P, 1e6), PIR_OK);
+        check_bound(&s, sum, "P grown", i);
+        assert_int_equal(pir_sum_set_scale(sum, PIR_OPERAND_Q, i % 2 ? 1e6 : 1e3), PIR_OK);
+        check_bound(&s, sum, "both scaled", i);
+        pir_sum_destroy(sum);
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+    finish(&s);
+}
+
+/* Squares of such coordinates are beyond the doubles. */
+static void bound_holds_for_tiny_and_huge_bodies(void **state) {
+    (void)state;
+    static const int exponents[] = {-1060, -560, -530, 510, 600, 1000};
+    struct supports s;
+    start(&s);
+    uint32_t kept = 0;
+    for (int i = 0; i < 6; i++) {
+        test_random random = test_random_case("tolerance of tiny bodies", (uint64_t)i);
+        test_points points[2];
+        pir_polytope *bodies[2];
+        for (int k = 0; k < 2; k++) {
+            test_body_points(&random, TEST_SPHERE, 18, &points[k]);
+            for (size_t v = 0; v < points[k].count; v++) {
+                pir_vec3 *at = &points[k].at[v];
+                *at = (pir_vec3){ldexp(at->x, exponents[i]), ldexp(at->y, exponents[i]), ldexp(at->z, exponents[i])};
+            }
+            bodies[k] = test_polytope(&points[k]);
+        }
+        pir_sum *sum;
+        pir_quat there = turn(&random, test_general_rotation(&random), 0.1);
+        assert_int_equal(pir_sum_create(bodies[0], bodies[1], there, NULL, &sum), PIR_OK);
+        assert_int_equal(pir_sum_set_tolerance(sum, ldexp(1, exponents[i] - 5)), PIR_OK);
+        for (int step = 0; step < 8; step++) {
+            there = turn(&random, there, 0.01 * (1 << step));
+            assert_int_equal(pir_sum_rotate(sum, there, PIR_METHOD_UPDATE), PIR_OK);
+            check_bound(&s, sum, "exponent", exponents[i]);
+        }
+        uint32_t so_far = kept;
+        kept += (uint32_t)pir_sum_get_statistics(sum).kept;
+        expect(kept > so_far, "exponent %d: never behind", exponents[i]);
+        pir_sum_destroy(sum);
+        pir_polytope_release(bodies[0]);
+        pir_polytope_release(bodies[1]);
+    }
+    finish(&s);
+}
+
 static void support_falls_short_by_no_more_than_the_bound(void **state) {
     (void)state;
     struct supports s;
@@ -267,6 +345,8 @@ static void tolerance_that_is_no_length_is_refused(void **state) {
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bound_holds_when_the_scale_changes),
+        cmocka_unit_test(bound_holds_for_tiny_and_huge_bodies),
         cmocka_unit_test(support_falls_short_by_no_more_than_the_bound),
         cmocka_unit_test(lagging_sum_is_copied_and_kept_in_bytes),
         cmocka_unit_test(tolerance_that_is_no_length_is_refused),
