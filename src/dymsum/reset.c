@@ -6,7 +6,7 @@ pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
     pir_status status = pir_sum_rotate(sum, rotation, PIR_METHOD_WALK);
     if (status != PIR_OK)
         return status;
-    // the walk has let every certificate expire, whatever the clock says
+    // the walk has made every certificate anew or let it expire, and a clock that knows no rotation begins an epoch
     sum->clock = (pir_clock){0};
     sum->cost = (pir_cost_model){.walk = sum->cost.walk};
     return PIR_OK;
