@@ -11,6 +11,7 @@
 
 #include <pirouette/query.h>
 
+#include "query/query_of.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 
@@ -40,16 +41,12 @@ static pir_polytope *cube(double side) {
 /* Takes over the two polytopes. */
 static struct scene make(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
     struct scene scene = {.p = p, .q = q};
-    pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
-    assert_int_equal(pir_sum_create(p, q, rotation, &options, &scene.sum), PIR_OK);
-    assert_int_equal(pir_query_create(scene.sum, &scene.query), PIR_OK);
+    test_query_make(p, q, rotation, &scene.sum, &scene.query);
     return scene;
 }
 
 static void clear(struct scene *scene) {
-    pir_query_destroy(scene->query);
-    pir_sum_destroy(scene->sum);
+    test_query_free(scene->query, scene->sum);
     pir_polytope_release(scene->p);
     pir_polytope_release(scene->q);
 }

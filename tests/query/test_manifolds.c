@@ -12,6 +12,7 @@
 
 #include <pirouette/query.h>
 
+#include "query/query_of.h"
 #include "support/bodies.h"
 
 #define MOST 256
@@ -63,10 +64,7 @@ struct scene {
 
 static struct scene make(pir_polytope *p, pir_polytope *q, pir_quat r) {
     struct scene scene = {.p = p, .q = q, .r = r, .size = 1};
-    pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
-    assert_int_equal(pir_sum_create(p, q, r, &options, &scene.sum), PIR_OK);
-    assert_int_equal(pir_query_create(scene.sum, &scene.query), PIR_OK);
+    test_query_make(p, q, r, &scene.sum, &scene.query);
     const pir_polytope *both[2] = {p, q};
     for (int k = 0; k < 2; k++)
         for (uint32_t v = 0; v < pir_polytope_vertex_count(both[k]); v++)
@@ -75,8 +73,7 @@ static struct scene make(pir_polytope *p, pir_polytope *q, pir_quat r) {
 }
 
 static void clear(struct scene *scene) {
-    pir_query_destroy(scene->query);
-    pir_sum_destroy(scene->sum);
+    test_query_free(scene->query, scene->sum);
     pir_polytope_release(scene->p);
     pir_polytope_release(scene->q);
 }

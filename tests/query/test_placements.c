@@ -15,6 +15,7 @@
 #include <pirouette/query.h>
 
 #include "query/place_oracle.h"
+#include "query/query_of.h"
 #include "support/bodies.h"
 
 #define POSES 24
@@ -111,12 +112,9 @@ static void check_pair(uint64_t number) {
     test_pose pose;
     test_random_pose(&random, 10, &pose);
     pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
-    pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
     pir_sum *sum;
     pir_query *query;
-    assert_int_equal(pir_sum_create(p, q, pose.rotation, &options, &sum), PIR_OK);
-    assert_int_equal(pir_query_create(sum, &query), PIR_OK);
+    test_query_make(p, q, pose.rotation, &sum, &query);
     pir_query_cache cache = {0};
     pir_quat rotation = pose.rotation;
     for (int turn = 0; turn < 2; turn++) {
@@ -127,8 +125,7 @@ static void check_pair(uint64_t number) {
         rotation = test_rotation(&random);
         assert_int_equal(pir_sum_rotate(sum, rotation, PIR_METHOD_AUTO), PIR_OK);
     }
-    pir_query_destroy(query);
-    pir_sum_destroy(sum);
+    test_query_free(query, sum);
     pir_polytope_release(p);
     pir_polytope_release(q);
 }

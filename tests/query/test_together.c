@@ -12,6 +12,7 @@
 #include <pirouette/shape.h>
 
 #include "query/place_oracle.h"
+#include "query/query_of.h"
 #include "support/bodies.h"
 
 #define BOUND 1e-12
@@ -31,16 +32,12 @@ static struct scene make(const char *shape) {
     assert_int_equal(pir_shape_create(shape, NULL, &report, &scene.p), PIR_OK);
     pir_polytope_bounds(scene.p, &low, &high);
     scene.size = high.x - low.x;
-    pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
-    assert_int_equal(pir_sum_create(scene.p, scene.p, (pir_quat){0, 0, 0, 1}, &options, &scene.sum), PIR_OK);
-    assert_int_equal(pir_query_create(scene.sum, &scene.query), PIR_OK);
+    test_query_make(scene.p, scene.p, (pir_quat){0, 0, 0, 1}, &scene.sum, &scene.query);
     return scene;
 }
 
 static void clear(struct scene *scene) {
-    pir_query_destroy(scene->query);
-    pir_sum_destroy(scene->sum);
+    test_query_free(scene->query, scene->sum);
     pir_polytope_release(scene->p);
 }
 
