@@ -4,64 +4,43 @@
 
 #include "dymsum/kernels.h"
 
-static void free_alarms(const pir_alarms *alarms, const pir_allocator *allocator) {
-    uint32_t blocks = alarms->capacity / PIR_ALARM_BLOCK;
-    PIR_FREE(allocator, alarms->margin, alarms->capacity);
-    for (int k = 0; k < 4; k++)
-        PIR_FREE(allocator, alarms->at[k], alarms->capacity);
-    PIR_FREE(allocator, alarms->ahead, alarms->capacity);
-    PIR_FREE(allocator, alarms->behind, alarms->capacity);
-    PIR_FREE(allocator, alarms->block_ahead, blocks);
-    PIR_FREE(allocator, alarms->block_behind, blocks);
-    PIR_FREE(allocator, alarms->woken, alarms->capacity);
-}
-
-bool pir_alarms_reserve(pir_alarms *alarms, const pir_allocator *allocator, uint32_t capacity) {
-    uint32_t old = alarms->capacity, blocks = (capacity + 8 * PIR_ALARM_BLOCK - 1) / (8 * PIR_ALARM_BLOCK) * 8;
-    capacity = blocks * PIR_ALARM_BLOCK;
-    if (capacity <= old)
-        return true;
-    pir_alarms grown = {.margin = PIR_NEW(allocator, float, capacity),
-                        .ahead = PIR_NEW(allocator, float, capacity),
-                        .behind = PIR_NEW(allocator, float, capacity),
-                        .block_ahead = PIR_NEW(allocator, float, blocks),
-                        .block_behind = PIR_NEW(allocator, float, blocks),
-                        .woken = PIR_NEW(allocator, uint32_t, capacity),
-                        .capacity = capacity};
-    bool all = grown.margin && grown.ahead && grown.behind && grown.block_ahead && grown.block_behind && grown.woken;
-    for (int k = 0; k < 4; k++) {
-        grown.at[k] = PIR_NEW(allocator, float, capacity);
-        grown.now[k] = alarms->now[k];
-        all = all && grown.at[k];
-    }
+bool pir_alarms_init(pir_alarms *alarms, const pir_allocator *allocator, uint32_t count) {
+    uint32_t blocks = (count + 8 * PIR_ALARM_BLOCK - 1) / (8 * PIR_ALARM_BLOCK) * 8;
+    uint32_t capacity = blocks * PIR_ALARM_BLOCK;
+    *alarms = (pir_alarms){.margin = PIR_NEW(allocator, float, capacity),
+                           .at = PIR_NEW(allocator, pir_float4, capacity),
+                           .ahead = PIR_NEW(allocator, float, capacity),
+                           .behind = PIR_NEW(allocator, float, capacity),
+                           .block_ahead = PIR_NEW(allocator, float, blocks),
+                           .block_behind = PIR_NEW(allocator, float, blocks),
+                           .back = PIR_NEW(allocator, pir_way_back, capacity),
+                           .woken = PIR_NEW(allocator, uint32_t, capacity),
+                           .capacity = capacity};
+    bool all = alarms->margin && alarms->at && alarms->ahead && alarms->behind && alarms->block_ahead &&
+               alarms->block_behind && alarms->back && alarms->woken;
     if (!all) {
-        free_alarms(&grown, allocator);
+        pir_alarms_finish(alarms, allocator);
         return false;
     }
-    // what was there, then alarms that never ring; `woken` may be in use: a repair may need room while it is read
-    for (uint32_t i = 0; i < capacity; i++) {
-        if (i >= old) {
-            pir_alarm_clear(&grown, i);
-            continue;
-        }
-        grown.margin[i] = alarms->margin[i];
-        for (int k = 0; k < 4; k++)
-            grown.at[k][i] = alarms->at[k][i];
-        grown.ahead[i] = alarms->ahead[i];
-        grown.behind[i] = alarms->behind[i];
-        grown.woken[i] = alarms->woken[i];
-    }
+    for (uint32_t i = 0; i < capacity; i++)
+        pir_alarm_clear(alarms, i);
     for (uint32_t b = 0; b < blocks; b++) {
-        grown.block_ahead[b] = b < old / PIR_ALARM_BLOCK ? alarms->block_ahead[b] : PIR_FOR_GOOD;
-        grown.block_behind[b] = b < old / PIR_ALARM_BLOCK ? alarms->block_behind[b] : -PIR_FOR_GOOD;
+        alarms->block_ahead[b] = PIR_FOR_GOOD;
+        alarms->block_behind[b] = -PIR_FOR_GOOD;
     }
-    free_alarms(alarms, allocator);
-    *alarms = grown;
     return true;
 }
 
 void pir_alarms_finish(pir_alarms *alarms, const pir_allocator *allocator) {
-    free_alarms(alarms, allocator);
+    uint32_t blocks = alarms->capacity / PIR_ALARM_BLOCK;
+    PIR_FREE(allocator, alarms->margin, alarms->capacity);
+    PIR_FREE(allocator, alarms->at, alarms->capacity);
+    PIR_FREE(allocator, alarms->ahead, alarms->capacity);
+    PIR_FREE(allocator, alarms->behind, alarms->capacity);
+    PIR_FREE(allocator, alarms->block_ahead, blocks);
+    PIR_FREE(allocator, alarms->block_behind, blocks);
+    PIR_FREE(allocator, alarms->back, alarms->capacity);
+    PIR_FREE(allocator, alarms->woken, alarms->capacity);
     *alarms = (pir_alarms){0};
 }
 
@@ -80,7 +59,18 @@ uint32_t pir_alarms_collect(pir_alarms *alarms, const pir_kernels *kernels, uint
     return kernels->collect(alarms, (used + PIR_ALARM_BLOCK - 1) / PIR_ALARM_BLOCK, time);
 }
 
+/* From here on keys mean other phases: what is kept is of no use. */
+static void begin_stretch(pir_alarms *alarms) {
+    if (++alarms->stretch != PIR_NO_STRETCH)
+        return;
+    // numbers have run out: begin again
+    for (uint32_t i = 0; i < alarms->capacity; i++)
+        pir_alarm_forget(alarms, i);
+    alarms->stretch = 0;
+}
+
 void pir_alarms_shift(pir_alarms *alarms, uint32_t used, double shift) {
+    begin_stretch(alarms);
     for (uint32_t i = 0; i < used; i++) {
         alarms->ahead[i] = pir_float_below((double)alarms->ahead[i] - shift);
         alarms->behind[i] = pir_float_above((double)alarms->behind[i] - shift);
@@ -98,10 +88,10 @@ void pir_alarms_shift(pir_alarms *alarms, uint32_t used, double shift) {
 
 /* What is left of certificate i's margin, at most, never mind the epoch. */
 static inline float left_of(const pir_alarms *alarms, uint32_t i) {
-    const float *now = alarms->now;
+    const float *now = alarms->now.c;
     float apart = 0, across = 0;
     for (int k = 0; k < 4; k++) {
-        float minus = alarms->at[k][i] - now[k], plus = alarms->at[k][i] + now[k];
+        float minus = alarms->at[i].c[k] - now[k], plus = alarms->at[i].c[k] + now[k];
         apart += minus * minus;
         across += plus * plus;
     }
@@ -111,6 +101,7 @@ static inline float left_of(const pir_alarms *alarms, uint32_t i) {
 
 void pir_alarms_new_epoch(pir_alarms *alarms, uint32_t used, bool axial, double expected) {
     const float slack = axial ? (float)PIR_DRIFT_SLACK : 0, enough = axial ? (float)expected : -HUGE_VALF;
+    begin_stretch(alarms);
     for (uint32_t b = 0; b * PIR_ALARM_BLOCK < used; b++) {
         float left[PIR_ALARM_BLOCK];
         for (uint32_t i = 0; i < PIR_ALARM_BLOCK; i++)
@@ -130,10 +121,12 @@ void pir_alarms_new_epoch(pir_alarms *alarms, uint32_t used, bool axial, double 
 void pir_alarms_set_now(pir_alarms *alarms, pir_quat unit) {
     const double q[4] = {unit.x, unit.y, unit.z, unit.w};
     for (int k = 0; k < 4; k++)
-        alarms->now[k] = (float)q[k];
+        alarms->now.c[k] = (float)q[k];
 }
 
 void pir_alarms_wake(pir_alarms *alarms, uint32_t first, uint32_t count) {
-    for (uint32_t i = first; i < first + count; i++)
+    for (uint32_t i = first; i < first + count; i++) {
         pir_alarm_set(alarms, i, -1, -PIR_FOR_GOOD, PIR_FOR_GOOD);
+        pir_alarm_forget(alarms, i);
+    }
 }

@@ -12,6 +12,12 @@
  *
  * Keys are kept as floats, rounded so that certificates wake early; a clock counts them from nearby (clock.h).
  *
+ * A body that swings brings facets back to where they came from. In an axial epoch a certificate speaks of phases, and goes on to hold at
+ * those after its facet has left them; so one that has crossed a single side keeps the certificate of the cell it left, with the way back.
+ * When it wakes at a phase which that certificate is good for, it is in that cell again, and all that it has passed through is that side:
+ * from where it crossed, every phase up to now's was seen to leave it in its new cell, the step in which it crossed touched no
+ * other side, and what lies beyond is the kept certificate's, whose phases are an interval. No look is needed. See pir_alarm_go_back.
+ *
  * Invariant: a block's bounds are at most, and at least, those of its certificates.
  */
 #ifndef PIR_DYMSUM_ALARMS_H
@@ -26,18 +32,33 @@
 
 typedef struct pir_kernels pir_kernels;
 
+/* The certificate of the cell that a facet was in before, and the way there. */
+typedef struct pir_way_back {
+    float ahead, behind;
+    uint32_t half;    /* the halfedge of the other operand that leads there from the facet's cell */
+    uint32_t stretch; /* in which the keys are phases, or PIR_NO_STRETCH */
+} pir_way_back;
+
+#define PIR_NO_STRETCH UINT32_MAX
+
+typedef struct pir_float4 {
+    float c[4];
+} pir_float4;
+
 typedef struct pir_alarms {
     float *ahead, *behind; /* per certificate */
     float *margin;
-    float *at[4]; /* the unit quaternion it was made at */
-    float now[4]; /* that of R */
+    pir_float4 *at; /* the unit quaternion it was made at */
+    pir_float4 now; /* that of R */
     float *block_ahead, *block_behind;
-    uint32_t *woken;   /* what the last collecting found, rising */
-    uint32_t capacity; /* a multiple of eight blocks */
+    pir_way_back *back; /* per certificate */
+    uint32_t stretch;   /* the number of the time since keys were last made anew or shifted */
+    uint32_t *woken;    /* what the last collecting found, rising */
+    uint32_t capacity;  /* a multiple of eight blocks */
 } pir_alarms;
 
-/* Room for `capacity` certificates at least; new ones never wake. What was there stays on failure. */
-bool pir_alarms_reserve(pir_alarms *alarms, const pir_allocator *allocator, uint32_t capacity);
+/* Room for `count` certificates at least, which never wake; false when out of memory. */
+bool pir_alarms_init(pir_alarms *alarms, const pir_allocator *allocator, uint32_t count);
 void pir_alarms_finish(pir_alarms *alarms, const pir_allocator *allocator);
 
 /* Far beyond any turn, and finite, so that subtracting from it stays a number. */
@@ -52,17 +73,48 @@ static inline float pir_float_above(double x) {
     return -pir_float_below(-x);
 }
 
-/* Files certificate i. */
-static inline void pir_alarm_set(pir_alarms *alarms, uint32_t i, float margin, float ahead, float behind) {
+/* Sets the keys of certificate i. */
+static inline void pir_alarm_set_keys(pir_alarms *alarms, uint32_t i, float ahead, float behind) {
     uint32_t block = i / PIR_ALARM_BLOCK;
     float least = alarms->block_ahead[block], greatest = alarms->block_behind[block];
     alarms->ahead[i] = ahead;
     alarms->behind[i] = behind;
-    alarms->margin[i] = margin;
-    for (int k = 0; k < 4; k++)
-        alarms->at[k][i] = alarms->now[k];
     alarms->block_ahead[block] = ahead < least ? ahead : least;
     alarms->block_behind[block] = behind > greatest ? behind : greatest;
+}
+
+/* Files certificate i, made at alarms->now. */
+static inline void pir_alarm_set(pir_alarms *alarms, uint32_t i, float margin, float ahead, float behind) {
+    pir_alarm_set_keys(alarms, i, ahead, behind);
+    alarms->margin[i] = margin;
+    alarms->at[i] = alarms->now;
+}
+
+/* Forgets where the facet of certificate i came from: it is not known that it has stayed in its cell since, or came by one side. */
+static inline void pir_alarm_forget(pir_alarms *alarms, uint32_t i) {
+    alarms->back[i].stretch = PIR_NO_STRETCH;
+}
+
+/* Keeps certificate i, of a cell just left, before it is filed for the next cell; `half` leads back. The step touched no other side. */
+static inline void pir_alarm_keep(pir_alarms *alarms, uint32_t i, uint32_t half) {
+    alarms->back[i] = (pir_way_back){alarms->ahead[i], alarms->behind[i], half, alarms->stretch};
+}
+
+/*
+ * Whether the facet of certificate i, awake at phase `phase` of an axial epoch, is for certain where it came from; then that certificate is
+ * filed and the other kept. twin: of the other operand's halfedges. *ret_half: the side crossed. What is filed ends with the epoch:
+ * its margin is none.
+ */
+static inline bool pir_alarm_go_back(pir_alarms *alarms, uint32_t i, double phase, const uint32_t *twin,
+                                     uint32_t *ret_half) {
+    const pir_way_back back = alarms->back[i];
+    if (back.stretch != alarms->stretch || !((double)back.ahead > phase && (double)back.behind < phase))
+        return false;
+    pir_alarm_keep(alarms, i, twin[back.half]);
+    pir_alarm_set_keys(alarms, i, back.ahead, back.behind);
+    alarms->margin[i] = -1;
+    *ret_half = back.half;
+    return true;
 }
 
 /* Lets certificate i sleep for good: its pair is gone. */
@@ -70,8 +122,8 @@ static inline void pir_alarm_clear(pir_alarms *alarms, uint32_t i) {
     alarms->ahead[i] = PIR_FOR_GOOD;
     alarms->behind[i] = -PIR_FOR_GOOD;
     alarms->margin[i] = PIR_FOR_GOOD;
-    for (int k = 0; k < 4; k++)
-        alarms->at[k][i] = 0;
+    alarms->at[i] = (pir_float4){{0}};
+    pir_alarm_forget(alarms, i);
 }
 
 /* What certificates' keys are compared with. */

@@ -30,6 +30,7 @@ REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const p
     if (sides > PIR_SIDE_BITS || (there.touched & mask) != back || (there.above & mask) != 0)
         return false;
     facets->cell[f] = next;
+    pir_alarm_keep(alarms, facets->first_alarm + f, facets->twin[half]);
     pir_sleep_look(facets, moment, alarms, f, &there);
     return true;
 }

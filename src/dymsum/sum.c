@@ -51,7 +51,7 @@ static bool allocate(pir_sum *sum) {
     sum->suspects = PIR_NEW(a, pir_suspect, pir_alarm_count(sum));
     sum->passes = PIR_NEW(a, pir_suspect, q->facet_count);
     if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->touched ||
-        !sum->suspects || !sum->passes || !pir_alarms_reserve(&sum->alarms, a, pir_alarm_count(sum)))
+        !sum->suspects || !sum->passes || !pir_alarms_init(&sum->alarms, a, pir_alarm_count(sum)))
         return false;
     pir_sum_link_facets(sum);
     // room for what most rotations need, so that tracking seldom grows it

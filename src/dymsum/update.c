@@ -83,11 +83,12 @@ static void pass_facets(struct update *update) {
     }
 }
 
-/* Spans beyond the farthest that is foretold are cut, and all are rounded down. */
+/* Spans beyond the farthest that is foretold are cut, and all are rounded down. The way here is not known. */
 void pir_fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
     pir_sleep_file(&sum->moment, &sum->alarms, i, pir_float_below(fmin(sleep->margin, 4)),
                    pir_float_below(fmin(sleep->ahead, (double)PIR_FARTHEST)),
                    pir_float_below(fmin(-sleep->behind, (double)PIR_FARTHEST)));
+    pir_alarm_forget(&sum->alarms, i);
 }
 
 /* Facet f of P may have touched one side or another. */
@@ -167,10 +168,15 @@ static void settle_of_q(struct update *update, uint32_t g) {
         follow_back(update, g, v);
 }
 
+/* How far back the last step lies, as looks take it: any distance for one that is too long to follow. */
+static float step_reach(const pir_sum *sum) {
+    double reach = fabs(sum->clock.stride) * (1 + 0x1p-20);
+    return reach <= PIR_TRACE_FARTHEST ? (float)reach : HUGE_VALF;
+}
+
 void pir_set_moment(pir_sum *sum) {
     const pir_clock *clock = &sum->clock;
-    double reach = fabs(clock->stride) * (1 + 0x1p-20);
-    float most = reach <= PIR_TRACE_FARTHEST ? (float)reach : HUGE_VALF;
+    float most = step_reach(sum);
     bool forwards = clock->stride >= 0;
     sum->moment = (pir_moment){.reach_ahead = forwards ? 0 : most,
                                .reach_behind = forwards ? most : 0,
@@ -188,43 +194,85 @@ void pir_set_moment(pir_sum *sum) {
 }
 
 /* Whether so many of the suspects are to be settled that leading every edge anew is less work than finding out which. */
-static bool are_many_open(const pir_sum *sum, uint32_t suspects) {
+static bool are_many_open(const pir_sum *sum, const pir_suspect *suspects, uint32_t count) {
     uint32_t open = 0;
-    for (uint32_t i = 0; i < suspects; i++)
-        open += sum->suspects[i].crossed == PIR_NO_CROSSING;
+    for (uint32_t i = 0; i < count; i++)
+        open += suspects[i].crossed == PIR_NO_CROSSING;
     return open > pir_alarm_count(sum) / MANY_OPEN;
 }
 
-/* Looks at the facets that wake, and brings along what they have touched or notes it. */
+/*
+ * Takes those back that are where they came from: facets of P with their edges; those of Q are listed in sum->suspects, *ret_of_q of them.
+ * What is left of alarms->woken is the others; returns their number.
+ */
+static uint32_t take_back(struct update *update, uint32_t woken, uint32_t *ret_of_q) {
+    pir_sum *sum = update->sum;
+    uint32_t *alarm = sum->alarms.woken, left = 0, of_q = 0;
+    for (uint32_t k = 0; k < woken; k++) {
+        uint32_t i = alarm[k], half;
+        bool of_p = i < sum->q_facets.first_alarm;
+        const pir_facets *facets = of_p ? &sum->p_facets : &sum->q_facets;
+        uint32_t f = i - facets->first_alarm;
+        if (!sum->clock.axial || !pir_alarm_go_back(&sum->alarms, i, sum->clock.phase, facets->twin, &half)) {
+            alarm[left++] = i;
+            continue;
+        }
+        facets->cell[f] = facets->target[half];
+        if (of_p) {
+            cross_of_p(update, f, half);
+            sum->statistics.repaired++;
+        } else {
+            sum->suspects[of_q++] = (pir_suspect){f, half};
+        }
+    }
+    *ret_of_q = of_q;
+    return left;
+}
+
+/* What is seen of facets of Q, after all of P: their edges tell then whether another event has touched them. */
+static void take_along_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        if (suspects[i].crossed == PIR_NO_CROSSING) {
+            settle_of_q(update, suspects[i].facet);
+        } else {
+            note_crossing_of_q(update, suspects[i].facet, suspects[i].crossed);
+            update->sum->statistics.repaired++;
+        }
+    }
+}
+
+static void take_along_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        if (suspects[i].crossed == PIR_NO_CROSSING) {
+            settle_of_p(update, suspects[i].facet);
+        } else {
+            cross_of_p(update, suspects[i].facet, suspects[i].crossed);
+            update->sum->statistics.repaired++;
+        }
+    }
+}
+
+/* Finds where the facets that wake are, and brings along what they have touched or notes it. */
 static void review(struct update *update, uint32_t woken) {
     pir_sum *sum = update->sum;
-    const uint32_t *alarm = sum->alarms.woken;
-    uint32_t woken_of_p = 0;
-    while (woken_of_p < woken && alarm[woken_of_p] < sum->q_facets.first_alarm)
-        woken_of_p++;
-    // all looks before anything that depends on what they see: processors look ahead
-    uint32_t of_p = sum->kernels->review(&sum->p_facets, &sum->moment, &sum->alarms, alarm, woken_of_p, sum->suspects,
-                                         &sum->signs.by_filter);
-    uint32_t of_q = sum->kernels->review(&sum->q_facets, &sum->moment, &sum->alarms, alarm + woken_of_p,
-                                         woken - woken_of_p, sum->suspects + of_p, &sum->signs.by_filter);
-    const pir_suspect *suspect = sum->suspects;
-    update->all |= are_many_open(sum, of_p + of_q);
-    for (uint32_t i = 0; i < of_p; i++, suspect++) {
-        if (suspect->crossed == PIR_NO_CROSSING) {
-            settle_of_p(update, suspect->facet);
-        } else {
-            cross_of_p(update, suspect->facet, suspect->crossed);
-            sum->statistics.repaired++;
-        }
+    uint32_t back, left = take_back(update, woken, &back), of_p = 0, of_q = 0;
+    pir_suspect *seen = sum->suspects + back;
+    if (left > 0) {
+        const uint32_t *alarm = sum->alarms.woken;
+        uint32_t left_of_p = 0;
+        while (left_of_p < left && alarm[left_of_p] < sum->q_facets.first_alarm)
+            left_of_p++;
+        pir_set_moment(sum);
+        // all looks before anything that depends on what they see: processors look ahead
+        of_p = sum->kernels->review(&sum->p_facets, &sum->moment, &sum->alarms, alarm, left_of_p, seen,
+                                    &sum->signs.by_filter);
+        of_q = sum->kernels->review(&sum->q_facets, &sum->moment, &sum->alarms, alarm + left_of_p, left - left_of_p,
+                                    seen + of_p, &sum->signs.by_filter);
+        update->all |= are_many_open(sum, seen, of_p + of_q);
     }
-    for (uint32_t i = 0; i < of_q; i++, suspect++) {
-        if (suspect->crossed == PIR_NO_CROSSING) {
-            settle_of_q(update, suspect->facet);
-        } else {
-            note_crossing_of_q(update, suspect->facet, suspect->crossed);
-            sum->statistics.repaired++;
-        }
-    }
+    take_along_of_p(update, seen, of_p);
+    take_along_of_q(update, sum->suspects, back);
+    take_along_of_q(update, seen + of_p, of_q);
     pass_facets(update);
 }
 
@@ -247,9 +295,8 @@ pir_status pir_update_repair(pir_sum *sum) {
     if (woken == 0 && !leapt)
         return PIR_OK;
     sum->statistics.checked += woken;
-    pir_set_moment(sum);
     struct update update = {.sum = sum, .stamp = next_stamp(sum)};
-    update.all = leapt || !(fmaxf(sum->moment.reach_ahead, sum->moment.reach_behind) < HUGE_VALF);
+    update.all = leapt || !(step_reach(sum) < HUGE_VALF);
     review(&update, woken);
     for (uint32_t e = 0; update.all && e < sum->p->edge_count; e++)
         note_edge(&update, e);

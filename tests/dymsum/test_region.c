@@ -106,6 +106,8 @@ static void run(struct sums *s, test_random *random, uint64_t number, const char
     static const double steps[] = {1e-4, 2e-3, 0.0126, 0.05, 0.4}, drifts[] = {0, 1e-3, 0.01, 0.1};
     static const double sizes[] = {0, 0.1, 0.26, 0.52, 1.05, 1.57, 2.5, 3.1};
     double step = steps[test_random_below(random, 5)], drift = drifts[test_random_below(random, 4)];
+    bool swings = test_random_below(random, 3) == 0;
+    pir_quat middle = r;
     pir_vec3 axis = test_random_direction(random);
     set_region(s, test_random_below(random, 2) ? test_random_direction(random) : (pir_vec3){0, 0, 5},
                sizes[test_random_below(random, 8)]);
@@ -118,7 +120,9 @@ static void run(struct sums *s, test_random *random, uint64_t number, const char
         else if (what == 2)
             r = after(test_integer_rotation(random), r);
         else
-            r = turn(r, axis, step);
+            r = swings ? turn(middle, axis, step * test_random_between(random, -2, 2)) : turn(r, axis, step);
+        if (what < 3)
+            middle = r;
         pir_method method = what == 3   ? PIR_METHOD_AUTO
                             : what == 4 ? PIR_METHOD_WALK
                             : what == 5 ? PIR_METHOD_CGM

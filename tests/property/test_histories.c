@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Random histories of one sum: bodies of all kinds turn by steps of 1e-9 to half a turn, about steady, alternating, ever new and aligned axes, by
- * any method, and in between the sum is cloned, reset, scaled, written and read again, let stay behind, refused nonsense, and left without
+ * Random histories of one sum: bodies of all kinds turn by steps of 1e-9 to half a turn, about steady, alternating, ever new and aligned axes or to and
+ * fro about one, by any method, and in between the sum is cloned, reset, scaled, written and read again, let stay behind, refused nonsense, and left without
  * memory. After every step its pairing is that of a second sum, which has no history because it walks each time; now and
  * then that one goes by brute force, the whole pairing is proven, and meshes are held against the hull of all sums of vertices.
  *
@@ -23,7 +23,7 @@
 #define RUN_STEPS 24 /* the most steps of one */
 
 /* How a run's axis goes on. */
-enum axes { STEADY, ALTERNATING, EVER_NEW, ALIGNED, AXES_COUNT };
+enum axes { STEADY, ALTERNATING, SWINGING, EVER_NEW, ALIGNED, AXES_COUNT };
 
 struct history {
     uint64_t number;
@@ -82,6 +82,11 @@ static pir_quat next_rotation(struct history *h) {
     case ALTERNATING:
         turn = h->steps % 2 ? turn : -turn;
         break;
+    case SWINGING:
+        // some places of a swing, the same ones time and again
+        from = is_middling(h->base) ? h->base : from;
+        turn *= test_random_between(&h->random, -3, 3);
+        break;
     case EVER_NEW:
         h->axis = test_random_direction(&h->random);
         break;
@@ -94,7 +99,7 @@ static pir_quat next_rotation(struct history *h) {
         break;
     }
     pir_quat step = {h->axis.x * turn, h->axis.y * turn, h->axis.z * turn, 1};
-    if (h->axes != ALIGNED && below(h, 40) == 0)
+    if (h->axes != ALIGNED && h->axes != SWINGING && below(h, 40) == 0)
         step.w = 0; // half a turn
     pir_quat next = test_compose(step, from, h->axes != ALIGNED);
     switch (below(h, 30)) {

@@ -123,7 +123,7 @@ static void collections_list_the_same_alarms(void **state) {
             test_random random = test_random_case("kernels collect", i);
             uint32_t count = 1 + test_random_below(&random, 700);
             pir_alarms alarms = {0};
-            assert_true(pir_alarms_reserve(&alarms, &allocator, count));
+            assert_true(pir_alarms_init(&alarms, &allocator, count));
             uint32_t blocks = alarms.capacity / PIR_ALARM_BLOCK;
             set_alarms(&random, &alarms, count);
             uint64_t hash = 0xcbf29ce484222325u;
