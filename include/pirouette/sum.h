@@ -133,8 +133,8 @@ PIR_API pir_status pir_sum_settle(pir_sum *sum);
  * May be called in every frame: while the axis stays within the skin nothing is looked at. Past it, or with another half-angle, what is
  * kept is chosen anew in O(facets), a few operations each, and what is new is located. The first region allocates its work space, O(size of both
  * operands); later calls only as pir_sum_rotate does. Other calls on a sum with a region: a mesh is that of the whole sum, made
- * for the occasion; pairings are compared as far as both regions reach; a live mesh has slots for what is kept; a clone has the region; it
- * cannot be written (PIR_ERR_UNSUPPORTED); queries answer for the region or not at all (query.h). With a tolerance, the bound on the
+ * for the occasion; pairings are compared as far as both regions reach; a live mesh has slots for what is kept; a clone and a
+ * file have the region; queries answer for the region or not at all (query.h). With a tolerance, the bound on the
  * support function holds for the directions of the cone.
  * Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE, PIR_ERR_MEMORY; the sum then keeps the region it had.
  */
@@ -196,10 +196,9 @@ PIR_API pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation);
 
 /**
  * Writes the sum as bytes that any machine reads: both operands in exact coordinates, the scale each is set to, the rotation, the
- * pairing, the tolerance; with a version and a checksum. Not its certificates and counters.
+ * pairing, the tolerance, the region; with a version and a checksum. Not its certificates and counters.
  *
- * memory, size  the caller's, of exactly pir_sum_serialised_size bytes, which is 0 for a sum with a region. Errors: PIR_ERR_ARGUMENT,
- *               PIR_ERR_UNSUPPORTED (a sum with a region). O(size of the sum).
+ * memory, size  the caller's, of exactly pir_sum_serialised_size bytes. Errors: PIR_ERR_ARGUMENT. O(size of the sum).
  */
 PIR_API size_t pir_sum_serialised_size(const pir_sum *sum);
 PIR_API pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size);

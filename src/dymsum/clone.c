@@ -47,7 +47,11 @@ pir_status pir_sum_clone(const pir_sum *sum, const pir_allocator *allocator, pir
         pir_polytope_release(copy->made_of[i]);
         copy->made_of[i] = pir_polytope_retain(sum->made_of[i]);
     }
-    if (!copy_pairing(copy, sum) || !pir_region_copy(copy, sum)) {
+    bool done = copy_pairing(copy, sum), fits = true;
+    if (done && sum->region.cone.set)
+        done = pir_region_adopt(copy, &sum->region.cone, &sum->region.cover, &fits);
+    PIR_ASSERT(fits);
+    if (!done) {
         pir_sum_destroy(copy);
         return PIR_ERR_MEMORY;
     }

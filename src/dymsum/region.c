@@ -35,58 +35,17 @@
 
 #include "dymsum/sum.h"
 
-/* Skins, by how far the axis goes in a step, and their bounds in radians; the stride likewise, by the step's angle. */
+/* Skins, by how far the axis goes in a step; the stride likewise, by the step's angle. */
 #define SKIN_STEPS   5.0
-#define LEAST_SKIN   0x1p-6
-#define MOST_SKIN    0x1p-3
 #define STRIDE_STEPS 1.25
-#define LEAST_STRIDE 0x1p-7
 
 /* Radians: steps of more are leaps, wherever they begin and end. */
 #define LONGEST_STEP 1.0
-
-/* Half-angles of so much are the whole sphere. */
-#define WHOLE_HALF_ANGLE 3.15
-
-/*
- * What a region gives away, so that rounding never keeps out a facet that is in it. Which facets are listed is no question of the
- * pairing's.
- */
-#define REGION_SLACK 0x1p-40
 
 /* What the sweep gives away: floats are off by less than 2^-20 in the cosine; where that is turned into an angle, by less than 2^-14. */
 #define FLOAT_SLACK 0x1p-18f
 #define EDGE_SLACK  0x1p-40
 #define ANGLE_SLACK 0x1p-13
-
-/* --- angles, by sums and products alone, so that they are the same on every machine --- */
-
-static pir_arc arc_of(double angle) {
-    double x = angle / 8, y = x * x;
-    double s = x * (1 - y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72 * (1 - y / 110)))));
-    double c = 1 - y / 2 * (1 - y / 12 * (1 - y / 30 * (1 - y / 56 * (1 - y / 90))));
-    for (int i = 0; i < 3; i++) {
-        double twice = 2 * s * c;
-        c = c * c - s * s;
-        s = twice;
-    }
-    return s < 0 ? (pir_arc){-1, 0} : (pir_arc){c, s};
-}
-
-/* The sum of two, at most π. */
-static pir_arc arc_add(pir_arc a, pir_arc b) {
-    pir_arc sum = {a.cosine * b.cosine - a.sine * b.sine, a.sine * b.cosine + a.cosine * b.sine};
-    return sum.sine < 0 ? (pir_arc){-1, 0} : sum;
-}
-
-static pir_arc arc_from_cosine(double c) {
-    c = fmin(1, fmax(-1, c));
-    return (pir_arc){c, sqrt((1 - c) * (1 + c))};
-}
-
-static double clamp(double x, double least, double most) {
-    return fmin(most, fmax(least, x));
-}
 
 /* --- memory --- */
 
@@ -180,6 +139,11 @@ bool pir_region_holds(const pir_sum *sum, const pir_rotation *rotation) {
             pir_vec_dot(pir_mat_apply_transposed(&rotation->r, region->cone.axis), cover->axis_p) >= cover->cosine_p);
 }
 
+/* Whether all is kept for a reason besides what the region needs. */
+static bool is_whole(const pir_sum *sum) {
+    return !sum->region.cone.set || sum->p->dimension < 3;
+}
+
 /* Centres the cover on the region of now. Each sight of the axis is taken to go on as it went, or to rest where `afresh`. */
 static void centre(pir_sum *sum, bool afresh) {
     pir_region *region = &sum->region;
@@ -189,17 +153,9 @@ static void centre(pir_sum *sum, bool afresh) {
     double steps = afresh ? HUGE_VAL : fmax(1, region->steps) / SKIN_STEPS;
     // whatever P sees, the axis may go with Q once: when it is set before the rotation that it is set for
     double stride = afresh ? 0 : STRIDE_STEPS * fabs(sum->clock.stride);
-    double skin_p = clamp(fmax(sqrt(pir_vec_dot(off_p, off_p)) / steps, stride), LEAST_SKIN, MOST_SKIN);
-    double skin_q = clamp(sqrt(pir_vec_dot(off_q, off_q)) / steps, LEAST_SKIN, MOST_SKIN);
-    region->cover = (pir_cover){.whole = !region->cone.set || sum->p->dimension < 3,
-                                .axis_p = axis_p,
-                                .axis_q = axis_q,
-                                .half_angle = arc_of(region->cone.half_angle),
-                                .skin_p = skin_p,
-                                .skin_q = skin_q,
-                                .cosine_p = arc_of(skin_p).cosine,
-                                .cosine_q = arc_of(skin_q).cosine,
-                                .stride = clamp(stride, LEAST_STRIDE, MOST_SKIN)};
+    double skin_p = fmax(sqrt(pir_vec_dot(off_p, off_p)) / steps, stride);
+    double skin_q = sqrt(pir_vec_dot(off_q, off_q)) / steps;
+    region->cover = pir_cover_make(&region->cone, is_whole(sum), axis_p, axis_q, skin_p, skin_q, stride);
     region->steps = 0;
 }
 
@@ -275,12 +231,13 @@ static pir_arc sweep_p(pir_sum *sum, pir_arc reach) {
         uint32_t f = facets->members.next[i];
         double x = pir_vec_dot(axis, p->normal[f]);
         if (x < 0)
-            x = arc_add(arc_from_cosine(x), (pir_arc){(double)facets->cosine[f], (double)facets->sine[f]}).cosine;
+            x = pir_arc_add(pir_arc_from_cosine(x), (pir_arc){(double)facets->cosine[f], (double)facets->sine[f]})
+                    .cosine;
         least = fmin(least, x);
     }
     region->edges.count = edges;
     facets->members.count = ends;
-    return arc_from_cosine(least);
+    return pir_arc_from_cosine(least);
 }
 
 static void sweep_q(pir_sum *sum, pir_arc reach) {
@@ -322,8 +279,8 @@ static void sweep(pir_sum *sum) {
         sweep_all(&region->edges, region->sweep);
         return;
     }
-    pir_arc farthest = sweep_p(sum, arc_add(cover->half_angle, arc_of(cover->skin_p)));
-    sweep_q(sum, arc_add(farthest, arc_of(cover->skin_p + cover->skin_q + cover->stride + ANGLE_SLACK)));
+    pir_arc farthest = sweep_p(sum, pir_arc_add(cover->half_angle, pir_arc_of(cover->skin_p)));
+    sweep_q(sum, pir_arc_add(farthest, pir_arc_of(cover->skin_p + cover->skin_q + cover->stride + ANGLE_SLACK)));
 }
 
 /* --- falling dormant --- */
@@ -504,19 +461,34 @@ bool pir_region_walk(pir_sum *sum) {
     return pir_region_admit(sum);
 }
 
-bool pir_region_copy(pir_sum *to, const pir_sum *from) {
-    const pir_region *region = &from->region;
-    if (!region->edges.at)
-        return true;
-    if (!allocate(to))
+/* Whether the members have cells and no other facet has. */
+static bool fit(const pir_members *members, const uint32_t *cell, uint32_t with_cells) {
+    for (uint32_t i = 0; i < members->count; i++)
+        if (cell[members->at[i]] == PIR_NO_PAIR)
+            return false;
+    return members->count == with_cells;
+}
+
+static uint32_t count_with_cells(const uint32_t *cell, uint32_t count) {
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < count; i++)
+        found += cell[i] != PIR_NO_PAIR;
+    return found;
+}
+
+bool pir_region_adopt(pir_sum *sum, const pir_cone *cone, const pir_cover *cover, bool *ret_fits) {
+    pir_region *region = &sum->region;
+    if (!allocate(sum))
         return false;
-    to->region.cone = region->cone;
-    to->region.cover = region->cover;
-    // the pairing has been copied: what it lacks is left out
-    if (region->cone.set) {
-        choose(to);
-        to->region.admits = false;
-    }
+    region->cone = *cone;
+    region->cover = *cover;
+    region->cover.whole = is_whole(sum);
+    uint32_t of_p = count_with_cells(sum->fv, sum->p->facet_count),
+             of_q = count_with_cells(sum->vf, sum->q->facet_count), pairs = sum->ee_count;
+    choose(sum);
+    region->admits = false;
+    *ret_fits = fit(&region->p.members, sum->fv, of_p) && fit(&region->q.members, sum->vf, of_q) &&
+                sum->ee_count == pairs && pir_region_holds(sum, &sum->signs.rotation);
     return true;
 }
 
@@ -528,21 +500,6 @@ double pir_region_share(const pir_sum *sum) {
 }
 
 /* --- the calls --- */
-
-pir_status pir_cone_make(pir_vec3 axis, double half_angle, pir_cone *ret_cone) {
-    if (!pir_vec_is_finite(axis) || !isfinite(half_angle))
-        return PIR_ERR_NOT_FINITE;
-    // brought near 1, so that squares neither vanish nor overflow
-    double most = fmax(fabs(axis.x), fmax(fabs(axis.y), fabs(axis.z)));
-    if (most == 0 || half_angle < 0)
-        return PIR_ERR_ARGUMENT;
-    axis = (pir_vec3){axis.x / most, axis.y / most, axis.z / most};
-    *ret_cone = (pir_cone){.set = half_angle < WHOLE_HALF_ANGLE,
-                           .axis = pir_vec_scale(axis, 1 / sqrt(pir_vec_dot(axis, axis))),
-                           .half_angle = half_angle,
-                           .cosine = arc_of(half_angle).cosine - REGION_SLACK};
-    return PIR_OK;
-}
 
 /* Brings what is kept to a cone that the cover does not hold. */
 static pir_status change_cone(pir_sum *sum, const pir_cone *cone) {

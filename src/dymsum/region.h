@@ -10,21 +10,7 @@
 
 #include "base/memory.h"
 #include "base/vec.h"
-
-/* An angle from 0 to π by its cosine and sine. */
-typedef struct pir_arc {
-    double cosine, sine;
-} pir_arc;
-
-/* Where the region was, and how far it and the bodies may go, when what is kept was chosen: that is a function of this alone. */
-typedef struct pir_cover {
-    bool whole;              /* all is kept */
-    pir_vec3 axis_p, axis_q; /* the region's axis, unit: as P saw it, and Q */
-    pir_arc half_angle;      /* the region's */
-    double skin_p, skin_q;   /* radians: how far either sight of the axis may go */
-    double cosine_p, cosine_q;
-    double stride; /* radians: how far a step that leads out of here may, or has led in here */
-} pir_cover;
+#include "dymsum/cover.h"
 
 /* Features of one kind. */
 typedef struct pir_members {
@@ -43,13 +29,6 @@ typedef struct pir_region_facets {
     pir_members members;
 } pir_region_facets;
 
-/* A cone of directions in the frame of Q, or all of them. */
-typedef struct pir_cone {
-    bool set;                  /* else all */
-    pir_vec3 axis;             /* unit */
-    double half_angle, cosine; /* cosine: rounded down */
-} pir_cone;
-
 typedef struct pir_region {
     pir_cone cone;
     pir_cover cover;
@@ -64,18 +43,13 @@ typedef struct pir_region {
 struct pir_sum;
 struct pir_rotation;
 
-/* Whether a direction of any length is in the cone, rounding towards yes; what has no direction is. */
-static inline bool pir_cone_has(const pir_cone *cone, pir_vec3 n) {
-    return !cone->set || pir_vec_dot(n, cone->axis) >= cone->cosine * sqrt(pir_vec_dot(n, n));
-}
-
-/* The cone about an axis of any length. Errors as pir_sum_set_region. */
-pir_status pir_cone_make(pir_vec3 axis, double half_angle, pir_cone *ret_cone);
-
 void pir_region_finish(struct pir_sum *sum);
 
-/* Gives `to`, a sum of the same operands and of no pairing, the region and the active features of `from`; false when out of memory. */
-bool pir_region_copy(struct pir_sum *to, const struct pir_sum *from);
+/*
+ * Gives a sum that has no region, but the pairing of one, that region; *ret_fits: whether the pairing has a cell for every facet that the
+ * cover asks for, none for any other, no crossings else, and the cover holds. Cells are in range or PIR_NO_PAIR. False when out of memory.
+ */
+bool pir_region_adopt(struct pir_sum *sum, const pir_cone *cone, const pir_cover *cover, bool *ret_fits);
 
 /* Whether what is kept holds all that the region needs at `rotation`. */
 bool pir_region_holds(const struct pir_sum *sum, const struct pir_rotation *rotation);

@@ -19,6 +19,7 @@ struct source {
     const uint8_t *data;
     size_t size, at;
     const char *part; /* what is being read, for reports */
+    bool has_region;
     const pir_allocator *allocator;
     pir_report *report;
 };
@@ -55,6 +56,14 @@ static double get_double(struct source *from) {
     double value;
     memcpy(&value, &bits, sizeof value);
     return value;
+}
+
+static pir_vec3 get_vec(struct source *from) {
+    pir_vec3 v;
+    v.x = get_double(from);
+    v.y = get_double(from);
+    v.z = get_double(from);
+    return v;
 }
 
 static pir_quat get_quat(struct source *from) {
@@ -281,14 +290,25 @@ static pir_status get_operand(struct source *from, struct operand *operand, pir_
 
 /* --- the sum --- */
 
+/* Vertices of `other` into `cell`; none only where there is a region. */
+static pir_status get_cells(struct source *from, uint32_t *cell, uint32_t count, const pir_polytope *other) {
+    for (uint32_t i = 0; i < count; i++) {
+        cell[i] = get_u32(from);
+        if (cell[i] >= other->vertex_count && !(from->has_region && cell[i] == PIR_NO_PAIR))
+            return broken(from, "a pair with no vertex");
+    }
+    return PIR_OK;
+}
+
 static pir_status get_pairing(struct source *from, pir_sum *sum) {
     const pir_polytope *p = sum->p, *q = sum->q;
     if (!are_left(from, (uint64_t)p->facet_count + q->facet_count + p->edge_count, 4))
         return broken(from, "truncated");
-    for (uint32_t f = 0; f < p->facet_count; f++)
-        sum->fv[f] = get_u32(from);
-    for (uint32_t g = 0; g < q->facet_count; g++)
-        sum->vf[g] = get_u32(from);
+    pir_status status = get_cells(from, sum->fv, p->facet_count, q);
+    if (status == PIR_OK)
+        status = get_cells(from, sum->vf, q->facet_count, p);
+    if (status != PIR_OK)
+        return status;
     size_t counts_at = from->at;
     uint64_t total = 0;
     for (uint32_t e = 0; e < p->edge_count; e++)
@@ -313,6 +333,37 @@ static pir_status get_pairing(struct source *from, pir_sum *sum) {
     }
     pir_expire_all(sum);
     return from->at == from->size ? PIR_OK : broken(from, "bytes past the end");
+}
+
+static bool is_unit(pir_vec3 v) {
+    return fabs(pir_vec_dot(v, v) - 1) <= 0x1p-40;
+}
+
+static pir_status get_region(struct source *from, pir_cone *ret_cone, pir_cover *ret_cover) {
+    if (!are_left(from, 1, 13 * 8))
+        return broken(from, "truncated");
+    pir_vec3 axis = get_vec(from);
+    double half_angle = get_double(from);
+    pir_vec3 axis_p = get_vec(from), axis_q = get_vec(from);
+    double skin_p = get_double(from), skin_q = get_double(from), stride = get_double(from);
+    if (!is_unit(axis) || !is_unit(axis_p) || !is_unit(axis_q))
+        return broken(from, "an axis that is not of unit length");
+    if (pir_cone_make(axis, half_angle, ret_cone) != PIR_OK || !ret_cone->set)
+        return broken(from, "a half-angle of no cone");
+    // as it was, to the bit
+    ret_cone->axis = axis;
+    *ret_cover = pir_cover_make(ret_cone, false, axis_p, axis_q, skin_p, skin_q, stride);
+    if (ret_cover->skin_p != skin_p || ret_cover->skin_q != skin_q || ret_cover->stride != stride)
+        return broken(from, "a skin or stride out of bounds");
+    return PIR_OK;
+}
+
+/* Limits the pairing that was read to the region. */
+static pir_status set_region(const struct source *from, pir_sum *sum, const pir_cone *cone, const pir_cover *cover) {
+    bool fits;
+    if (!pir_region_adopt(sum, cone, cover, &fits))
+        return no_memory(from);
+    return fits ? PIR_OK : broken(from, "not the pairs that the region asks for");
 }
 
 /* The rotation shown and the tolerance, once the pairing is there. */
@@ -347,8 +398,16 @@ static pir_status get_sum(struct source *from, pir_polytope *const made[2], pir_
         pir_polytope_release(sum->made_of[i]);
         sum->made_of[i] = pir_polytope_retain(made[i]);
     }
+    pir_cone cone;
+    pir_cover cover;
+    from->part = "region";
+    if (from->has_region)
+        status = get_region(from, &cone, &cover);
     from->part = "pairing";
-    status = get_pairing(from, sum);
+    if (status == PIR_OK)
+        status = get_pairing(from, sum);
+    if (status == PIR_OK && from->has_region)
+        status = set_region(from, sum, &cone, &cover);
     if (status == PIR_OK && !pir_sum_is_valid(sum))
         status = broken(from, "not the pairing at this rotation");
     if (status == PIR_OK)
@@ -371,8 +430,10 @@ static pir_status get_header(struct source *from, uint64_t *ret_length, uint64_t
     if (version != PIR_SUM_VERSION)
         return pir_fail(from->report, PIR_ERR_UNSUPPORTED, "sum: header: version %u, this library reads version %u",
                         (unsigned)version, PIR_SUM_VERSION);
-    if (get_u32(from) != 0)
-        return broken(from, "a word that must be zero is not");
+    uint32_t region = get_u32(from);
+    if (region > 1)
+        return broken(from, "neither with a region nor without");
+    from->has_region = region == 1;
     *ret_length = get_u64(from);
     *ret_checksum = get_u64(from);
     return *ret_length < PIR_SUM_HEADER_SIZE ? broken(from, "a length that lies") : PIR_OK;
@@ -383,7 +444,7 @@ pir_status pir_sum_restore(const void *data, size_t size, const pir_allocator *a
     if (!data || !ret_sum)
         return pir_fail(report, PIR_ERR_ARGUMENT, "sum: no data, or nowhere to put the sum");
     const pir_allocator used = pir_allocator_or_default(allocator);
-    struct source from = {data, size, 0, "header", &used, report};
+    struct source from = {data, size, 0, "header", false, &used, report};
     if (size == 0)
         return pir_fail(report, PIR_ERR_EMPTY, "sum: no bytes at all");
     if (size < PIR_SUM_HEADER_SIZE)
@@ -448,7 +509,7 @@ pir_status pir_sum_read(FILE *file, const pir_allocator *allocator, pir_report *
     uint8_t *data = NULL;
     size_t size = 0;
     uint64_t length = 0, checksum;
-    struct source from = {NULL, 0, 0, "header", &used, report};
+    struct source from = {NULL, 0, 0, "header", false, &used, report};
     pir_status status = fill(file, &from, &data, &size, PIR_SUM_HEADER_SIZE);
     if (status == PIR_OK) {
         from.data = data;

@@ -47,6 +47,12 @@ static void put_double(struct sink *sink, double value) {
     put_u64(sink, bits);
 }
 
+static void put_vec(struct sink *sink, pir_vec3 v) {
+    put_double(sink, v.x);
+    put_double(sink, v.y);
+    put_double(sink, v.z);
+}
+
 static void put_quat(struct sink *sink, pir_quat q) {
     put_double(sink, q.x);
     put_double(sink, q.y);
@@ -139,12 +145,22 @@ static void put_pairing(struct sink *sink, const pir_sum *sum) {
         }
 }
 
+static void put_region(struct sink *sink, const pir_cone *cone, const pir_cover *cover) {
+    put_vec(sink, cone->axis);
+    put_double(sink, cone->half_angle);
+    put_vec(sink, cover->axis_p);
+    put_vec(sink, cover->axis_q);
+    put_double(sink, cover->skin_p);
+    put_double(sink, cover->skin_q);
+    put_double(sink, cover->stride);
+}
+
 /* Puts it all, with `length` and `checksum` in the header. */
 static void put_sum(struct sink *sink, const pir_sum *sum, uint64_t length, uint64_t checksum) {
     for (int k = 0; k < 8; k++)
         put_byte(sink, (uint8_t)PIR_SUM_MAGIC[k]);
     put_u32(sink, PIR_SUM_VERSION);
-    put_u32(sink, 0);
+    put_u32(sink, sum->region.cone.set);
     put_u64(sink, length);
     put_u64(sink, checksum);
     put_operand(sink, sum->made_of[PIR_OPERAND_P], sum->p);
@@ -154,12 +170,12 @@ static void put_sum(struct sink *sink, const pir_sum *sum, uint64_t length, uint
     put_u32(sink, sum->lag.lagging);
     if (sum->lag.lagging)
         put_quat(sink, sum->lag.now.given);
+    if (sum->region.cone.set)
+        put_region(sink, &sum->region.cone, &sum->region.cover);
     put_pairing(sink, sum);
 }
 
 size_t pir_sum_serialised_size(const pir_sum *sum) {
-    if (sum->region.cone.set)
-        return 0;
     struct sink sink = {NULL, 0};
     put_sum(&sink, sum, 0, 0);
     return sink.used;
@@ -168,8 +184,6 @@ size_t pir_sum_serialised_size(const pir_sum *sum) {
 pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size) {
     if (!sum || !memory)
         return PIR_ERR_ARGUMENT;
-    if (sum->region.cone.set)
-        return PIR_ERR_UNSUPPORTED;
     if (size != pir_sum_serialised_size(sum))
         return PIR_ERR_ARGUMENT;
     struct sink sink = {memory, 0};
@@ -182,8 +196,6 @@ pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size) {
 pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *report) {
     if (!sum || !file)
         return pir_fail(report, PIR_ERR_ARGUMENT, "sum: no sum or no file to write");
-    if (sum->region.cone.set)
-        return pir_fail(report, PIR_ERR_UNSUPPORTED, "sum: only a whole pairing is written, not that of a region");
     size_t size = pir_sum_serialised_size(sum);
     uint8_t *data = PIR_NEW(&sum->allocator, uint8_t, size);
     if (!data)

@@ -4,7 +4,7 @@
  *
  *     header     8 bytes   "PIRSUM\r\n"
  *                u32       version, 1
- *                u32       0
+ *                u32       1 for a sum with a region, else 0
  *                u64       the length of the whole in bytes
  *                u64       checksum: FNV-1a of all other bytes
  *     operands   P, then Q, each:
@@ -17,8 +17,12 @@
  *     motion     4 u64     the quaternion that the pairing is exact at, as IEEE-754 doubles
  *                u64       the tolerance, a double
  *                u32       1 when another rotation is shown within the tolerance, and then 4 u64, its quaternion; else 0
+ *     region     where there is one, doubles as above: the axis, three; the half-angle; the axis as P saw it and as Q did when what is
+ *                kept was chosen, three each; the skins of P and of Q; the stride: see cover.h
  *     pairing    u32 each  fv; vf; the number of crossings of each edge of P; then, edge by edge, 2·(edge of Q), plus 1 when it is
  *                          crossed against its direction from the smaller vertex to the larger
+ *
+ * What a region leaves out has 2^32 - 1 for its vertex, and no crossings.
  *
  * Facets and edges of a polytope are numbered as polytope.h says, those of a segment included.
  */

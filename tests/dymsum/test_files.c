@@ -24,11 +24,14 @@ static struct bytes bytes_of(const pir_sum *sum) {
     return bytes;
 }
 
-static pir_sum *make_sum(const test_pose *pose, int difference) {
+#define WHOLE 4.0
+
+static pir_sum *make_sum(const test_pose *pose, int difference, double half_angle) {
     pir_polytope *p = test_polytope(&pose->p), *q = test_polytope(&pose->q);
     pir_sum_options options = {NULL, difference};
     pir_sum *sum = NULL;
     assert_int_equal(pir_sum_create(p, q, pose->rotation, &options, &sum), PIR_OK);
+    assert_int_equal(pir_sum_set_region(sum, (pir_vec3){0.2, -0.3, 1}, half_angle), PIR_OK);
     pir_polytope_release(q);
     pir_polytope_release(p);
     return sum;
@@ -55,13 +58,26 @@ static void expect_same(pir_sum *a, pir_sum *b, const char *situation) {
     pir_mesh_destroy(x);
 }
 
+/* The same region, and the same pairs kept for it. */
+static void expect_same_region(const pir_sum *a, const pir_sum *b) {
+    pir_vec3 x = {0, 0, 0}, y = {0, 0, 0};
+    double s = 0, t = 0;
+    assert_int_equal(pir_sum_region(a, &x, &s), pir_sum_region(b, &y, &t));
+    assert_true(x.x == y.x && x.y == y.y && x.z == y.z && s == t);
+    assert_int_equal(pir_sum_ee_count(a), pir_sum_ee_count(b));
+    uint32_t of_p = pir_polytope_facet_count(pir_sum_p(a)), of_q = pir_polytope_facet_count(pir_sum_q(a));
+    assert_memory_equal(pir_sum_fv(a), pir_sum_fv(b), of_p * sizeof(uint32_t));
+    assert_memory_equal(pir_sum_vf(a), pir_sum_vf(b), of_q * sizeof(uint32_t));
+}
+
 static void restored_sum_is_the_one_that_was_written(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 200; i++) {
         test_random random = test_random_case("files", i);
         test_pose pose;
         test_random_pose(&random, 14, &pose);
-        pir_sum *sum = make_sum(&pose, i % 2), *back = NULL;
+        const double half_angle = i % 5 < 2 ? 0.3 + 0.7 * (double)(i % 5) : WHOLE;
+        pir_sum *sum = make_sum(&pose, i % 2, half_angle), *back = NULL;
         if (i % 3 == 0)
             assert_int_equal(pir_sum_set_scale(sum, i % 2 ? PIR_OPERAND_P : PIR_OPERAND_Q, 1.3), PIR_OK);
         assert_int_equal(pir_sum_rotate(sum, test_rotation(&random), PIR_METHOD_UPDATE), PIR_OK);
@@ -72,6 +88,7 @@ static void restored_sum_is_the_one_that_was_written(void **state) {
         pir_status status = pir_sum_restore(bytes.data, bytes.size, &allocator, &report, &back);
         expect(status == PIR_OK, "case %d: %s: %s", (int)i, pose.situation, report.text);
         expect_same(sum, back, pose.situation);
+        expect_same_region(sum, back);
         // the bytes are the same again, and the sums go on alike
         struct bytes again = bytes_of(back);
         assert_int_equal(again.size, bytes.size);
@@ -82,6 +99,13 @@ static void restored_sum_is_the_one_that_was_written(void **state) {
         assert_int_equal(pir_sum_rotate(sum, next, PIR_METHOD_WALK), PIR_OK);
         assert_int_equal(pir_sum_rotate(back, next, PIR_METHOD_UPDATE), PIR_OK);
         expect_same(sum, back, pose.situation);
+        for (int step = 0; step < 10; step++) {
+            next = test_compose((pir_quat){0.01, -0.02, 0.01, 1}, next, 0);
+            if (pir_sum_rotate(back, next, PIR_METHOD_UPDATE) != PIR_OK)
+                break; // tiny or huge by now
+            assert_int_equal(pir_sum_rotate(sum, next, PIR_METHOD_UPDATE), PIR_OK);
+            expect_same(sum, back, pose.situation);
+        }
         pir_sum_destroy(back);
         assert_int_equal(memory.blocks, 0);
         assert_false(memory.wrong_size);
@@ -100,7 +124,7 @@ static void streams_hold_one_sum_after_another(void **state) {
     pir_sum *sums[4];
     for (int i = 0; i < 4; i++) {
         test_random_pose(&random, 40, &pose);
-        sums[i] = make_sum(&pose, 0);
+        sums[i] = make_sum(&pose, 0, i % 2 ? 0.9 : WHOLE);
         assert_int_equal(pir_sum_write(sums[i], file, NULL), PIR_OK);
     }
     rewind(file);
@@ -138,12 +162,11 @@ static void golden_bytes_are_read_on_every_machine(void **state) {
     pir_polytope_release(p);
 }
 
-static void bytes_that_were_cut_or_changed_are_refused(void **state) {
-    (void)state;
+static void refuse_cut_or_changed(double half_angle) {
     test_random random = test_random_case("cut", 0);
     test_pose pose;
     test_random_pose(&random, 12, &pose);
-    pir_sum *sum = make_sum(&pose, 0), *const before = (pir_sum *)&before, *back = before;
+    pir_sum *sum = make_sum(&pose, 0, half_angle), *const before = (pir_sum *)&before, *back = before;
     struct bytes bytes = bytes_of(sum);
     uint8_t *copy = malloc(bytes.size + 1);
     assert_non_null(copy);
@@ -177,6 +200,12 @@ static void bytes_that_were_cut_or_changed_are_refused(void **state) {
     free(copy);
     free(bytes.data);
     pir_sum_destroy(sum);
+}
+
+static void bytes_that_were_cut_or_changed_are_refused(void **state) {
+    (void)state;
+    refuse_cut_or_changed(WHOLE);
+    refuse_cut_or_changed(0.5);
 }
 
 /* One of the ways in which bytes go wrong. */
@@ -215,7 +244,7 @@ static void made_up_bytes_are_refused_or_true(void **state) {
         test_random random = test_random_case("made up", i);
         test_pose pose;
         test_random_pose(&random, 12, &pose);
-        pir_sum *sum = make_sum(&pose, 0);
+        pir_sum *sum = make_sum(&pose, 0, i % 3 ? WHOLE : 0.2 + 0.1 * (double)(i % 16));
         struct bytes bytes = bytes_of(sum);
         uint8_t *copy = malloc(bytes.size);
         assert_non_null(copy);
@@ -239,6 +268,9 @@ static void made_up_bytes_are_refused_or_true(void **state) {
             if (status == PIR_OK) {
                 accepted++;
                 expect(pir_sum_is_valid(back), "case %d, mutation %d", (int)i, n);
+                expect(pir_sum_rotate(back, (pir_quat){1, 2, 3, 5}, PIR_METHOD_UPDATE) == PIR_OK &&
+                           pir_sum_is_valid(back),
+                       "case %d, mutation %d, turned", (int)i, n);
                 expect(pir_polytope_is_valid(pir_sum_p(back)), "case %d, mutation %d", (int)i, n);
                 expect(memory.bytes <= 8 * most + 65536, "case %d, mutation %d: %zu bytes", (int)i, n, memory.bytes);
                 pir_sum_destroy(back);
@@ -262,7 +294,7 @@ static void restoring_without_memory_leaves_nothing_behind(void **state) {
     test_random random = test_random_case("file memory", 0);
     test_pose pose;
     test_random_pose(&random, 12, &pose);
-    pir_sum *sum = make_sum(&pose, 0);
+    pir_sum *sum = make_sum(&pose, 0, 1);
     struct bytes bytes = bytes_of(sum);
     uint64_t n = 0;
     for (bool failed = true; failed;) {

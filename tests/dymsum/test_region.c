@@ -312,12 +312,9 @@ static void bad_regions_are_refused(void **state) {
     assert_true(axis.x == 0 && axis.y == 0 && axis.z == 1 && half_angle == 0.5);
     assert_int_equal(pir_sum_set_region(sum, (pir_vec3){1e308, 1e308, 1e308}, 0.5), PIR_OK);
     assert_true(pir_sum_is_valid(sum));
-    assert_int_equal(pir_sum_serialised_size(sum), 0);
-    assert_int_equal(pir_sum_serialise(sum, &axis, sizeof axis), PIR_ERR_UNSUPPORTED);
-    assert_int_equal(pir_sum_write(sum, stdout, NULL), PIR_ERR_UNSUPPORTED);
     assert_int_equal(pir_sum_set_region(sum, (pir_vec3){1, 0, 0}, 3.15), PIR_OK);
     assert_int_equal(pir_sum_region(sum, &axis, &half_angle), 0);
-    assert_true(pir_sum_is_valid(sum) && pir_sum_serialised_size(sum) > 0);
+    assert_true(pir_sum_is_valid(sum));
     pir_sum_destroy(sum);
     pir_polytope_release(p);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Writes serialised sums of the tests' own small poses, to start fuzzing pir_sum_restore from: turned, scaled, behind within a tolerance,
- * differences. Usage: write_sums FOLDER
+ * Writes serialised sums of the tests' own small poses, to start fuzzing pir_sum_restore from: turned, scaled, behind within a tolerance, of
+ * a region, differences. Usage: write_sums FOLDER
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,6 +33,8 @@ static pir_sum *make_sum(test_random *random, uint32_t number) {
         fuzz_require(pir_sum_set_tolerance(sum, 1e3) == PIR_OK, "a tolerance is set");
         fuzz_require(pir_sum_rotate(sum, (pir_quat){1, 2, 3, 4.001}, PIR_METHOD_UPDATE) == PIR_OK, "it turns");
     }
+    if (number % 5 == 4)
+        fuzz_require(pir_sum_set_region(sum, (pir_vec3){1, 2, 2}, 0.4) == PIR_OK, "a region is set");
     return sum;
 }
 
