@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Any bytes as two small bodies, a rotation and twenty more: hulls, a sum, updates, each held against a walk, the check of the whole pairing
- * and, every few, the mesh against the hull of all sums of vertices.
+ * Any bytes as two small bodies, a rotation and twenty more, to and fro at times: hulls, a sum, updates, each held against a walk, the check
+ * of the whole pairing and, every few, the mesh against the hull of all sums of vertices.
  *
  * With an engine (clang's libFuzzer), from the root of the project:
  *
@@ -31,6 +31,13 @@ static void check_mesh(pir_sum *sum, pir_polytope *p, pir_polytope *q, const pir
     pir_mesh_destroy(mesh);
 }
 
+static void check_update(pir_sum *tracked, pir_sum *rebuilt, pir_quat rotation, pir_method method) {
+    fuzz_require(pir_sum_rotate(tracked, rotation, method) == PIR_OK, "a sum can be updated");
+    fuzz_require(pir_sum_rotate(rebuilt, rotation, PIR_METHOD_WALK) == PIR_OK, "a sum can be rebuilt");
+    fuzz_require(pir_sum_same_pairing(tracked, rebuilt), "update and walk agree");
+    fuzz_require(pir_sum_is_valid(tracked), "the pairing is valid");
+}
+
 /* A sum with a region that the bytes have chosen by the way: about the last axis, or about another in some steps. */
 static void check_region(pir_sum *part, const pir_sum *whole, pir_quat rotation, int step) {
     fuzz_require(pir_sum_rotate(part, rotation, PIR_METHOD_UPDATE) == PIR_OK, "a part can be updated");
@@ -57,12 +64,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_require(pir_sum_clone(tracked, NULL, &part) == PIR_OK, "a sum can be cloned");
     fuzz_require(pir_sum_create(p, q, rotation, &options, &rebuilt) == PIR_OK, "a sum can be made twice");
     for (int step = 0; step < STEPS; step++) {
+        const pir_quat before = rotation;
         rotation = fuzz_rotation(&input, rotation);
-        pir_method method = step % 5 == 4 ? PIR_METHOD_AUTO : PIR_METHOD_UPDATE;
-        fuzz_require(pir_sum_rotate(tracked, rotation, method) == PIR_OK, "a sum can be updated");
-        fuzz_require(pir_sum_rotate(rebuilt, rotation, PIR_METHOD_WALK) == PIR_OK, "a sum can be rebuilt");
-        fuzz_require(pir_sum_same_pairing(tracked, rebuilt), "update and walk agree");
-        fuzz_require(pir_sum_is_valid(tracked), "the pairing is valid");
+        check_update(tracked, rebuilt, rotation, step % 5 == 4 ? PIR_METHOD_AUTO : PIR_METHOD_UPDATE);
+        for (int swing = 0; step % 3 == 1 && swing < 6; swing++)
+            check_update(tracked, rebuilt, swing % 2 ? rotation : before, PIR_METHOD_UPDATE);
         check_region(part, tracked, rotation, step);
         if (step % 7 == 0)
             check_mesh(tracked, p, q, &options);
