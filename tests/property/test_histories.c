@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Random histories of one sum: bodies of all kinds turn by steps of 1e-9 to half a turn, about steady, alternating, ever new and aligned axes or to and
- * fro about one, by any method, and in between the sum is cloned, reset, scaled, written and read again, let stay behind, refused nonsense, and left without
- * memory. After every step its pairing is that of a second sum, which has no history because it walks each time; now and
- * then that one goes by brute force, the whole pairing is proven, and meshes are held against the hull of all sums of vertices.
+ * Random histories of one sum: bodies of all kinds turn by steps of 1e-9 to half a turn, about steady, alternating, ever new and aligned axes
+ * or to and fro about one, by any method, and in between the sum is cloned, reset, scaled, written and read again, let stay behind, limited to
+ * a region, refused nonsense, and left without memory. After every step its pairing is that of a second sum, which has no history
+ * because it walks each time; now and then that one goes by brute force, the whole pairing is proven, and meshes are held against
+ * the hull of all sums of vertices.
  *
  * PIR_TEST_HISTORIES in the environment sets the number of histories; a failure names the one and its step.
  */
@@ -169,6 +170,14 @@ static void set_tolerance(struct history *h) {
     assert_int_equal(pir_sum_set_tolerance(h->sum, tolerance), PIR_OK);
 }
 
+/* A cone that is kept from here on, or the whole again. */
+static void set_region(struct history *h) {
+    pir_vec3 axis = below(h, 2) ? test_random_direction(&h->random) : (pir_vec3){0, 0, 1};
+    double half_angle = below(h, 3) ? 0.05 + 0.1 * below(h, 16) : 4;
+    assert_int_equal(pir_sum_set_region(h->sum, axis, half_angle), PIR_OK);
+    hold(h, pir_sum_is_valid(h->sum));
+}
+
 /* Rotations that are none, and a rotation without memory: either it is done or nothing has happened. */
 static void try_in_vain(struct history *h) {
     assert_int_equal(pir_sum_rotate(h->sum, (pir_quat){0, 0, 0, 0}, PIR_METHOD_UPDATE), PIR_ERR_ZERO_QUATERNION);
@@ -189,16 +198,13 @@ static void happen(struct history *h) {
     static const struct {
         const char *name;
         void (*act)(struct history *h);
-    } acts[] = {{"clone", clone},
-                {"file", write_and_read},
-                {"scale", scale},
-                {"tolerance", set_tolerance},
-                {"vain", try_in_vain}};
-    uint32_t act = below(h, 7);
-    if (act < 5) {
+    } acts[] = {{"clone", clone},       {"file", write_and_read}, {"scale", scale}, {"tolerance", set_tolerance},
+                {"region", set_region}, {"vain", try_in_vain}};
+    uint32_t act = below(h, 8);
+    if (act < 6) {
         h->last = acts[act].name;
         acts[act].act(h);
-    } else if (act == 5) {
+    } else if (act == 6) {
         h->last = "reset";
         h->rotation = test_rotation(&h->random);
         assert_int_equal(pir_sum_reset(h->sum, h->rotation), PIR_OK);
