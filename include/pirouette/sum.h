@@ -223,7 +223,7 @@ PIR_API pir_status pir_sum_read(FILE *file, const pir_allocator *allocator, pir_
 typedef struct pir_sum_statistics {
     uint64_t updates, rebuilds; /**< rotations brought in by update and by rebuild */
     uint64_t kept;              /**< rotations that a tolerance let the pairing stay behind of */
-    uint64_t checked;           /**< certificates that expired and were looked at */
+    uint64_t checked;           /**< certificates that expired */
     uint64_t repaired;          /**< pairs that had failed */
     uint64_t by_filter;         /**< signs that the double filter decided */
     uint64_t by_exact;          /**< signs that exact arithmetic decided */

@@ -15,8 +15,9 @@
  * A body that swings brings facets back to where they came from. In an axial epoch a certificate speaks of phases, and goes on to hold at
  * those after its facet has left them; so one that has crossed a single side keeps the certificate of the cell it left, with the way back.
  * When it wakes at a phase which that certificate is good for, it is in that cell again, and all that it has passed through is that side:
- * from where it crossed, every phase up to now's was seen to leave it in its new cell, the step in which it crossed touched no
- * other side, and what lies beyond is the kept certificate's, whose phases are an interval. No look is needed. See pir_alarm_go_back.
+ * at every phase from where it crossed to the last rotation's it was seen or certified in its new cell, the step in which it
+ * crossed touched no other side, and what lies beyond is the kept certificate's, whose phases are an interval. No look is needed. See
+ * pir_alarm_go_back.
  *
  * Invariant: a block's bounds are at most, and at least, those of its certificates.
  */
@@ -52,7 +53,7 @@ typedef struct pir_alarms {
     pir_float4 now; /* that of R */
     float *block_ahead, *block_behind;
     pir_way_back *back; /* per certificate */
-    uint32_t stretch;   /* the number of the time since keys were last made anew or shifted */
+    uint32_t stretch;   /* counts how often keys have been made anew or shifted */
     uint32_t *woken;    /* what the last collecting found, rising */
     uint32_t capacity;  /* a multiple of eight blocks */
 } pir_alarms;
@@ -102,8 +103,8 @@ static inline void pir_alarm_keep(pir_alarms *alarms, uint32_t i, uint32_t half)
 
 /*
  * Whether the facet of certificate i, awake at phase `phase` of an axial epoch, is for certain where it came from; then that certificate is
- * filed and the other kept. twin: of the other operand's halfedges. *ret_half: the side crossed. What is filed ends with the epoch:
- * its margin is none.
+ * filed and the other kept. twin: of the other operand's halfedges. *ret_half: the side crossed. What is filed ends with the epoch,
+ * its margin being none: the margin and rotation that are there are the other cell's.
  */
 static inline bool pir_alarm_go_back(pir_alarms *alarms, uint32_t i, double phase, const uint32_t *twin,
                                      uint32_t *ret_half) {
@@ -140,7 +141,7 @@ static inline pir_alarm_time pir_alarm_time_of(const pir_clock *clock) {
 /* Lists in alarms->woken those of the first `used` certificates that do not hold for certain; returns their number. */
 uint32_t pir_alarms_collect(pir_alarms *alarms, const pir_kernels *kernels, uint32_t used, pir_alarm_time time);
 
-/* Subtracts `shift` from the phases of the first `used` certificates. */
+/* Subtracts `shift` from the phases of the first `used` certificates. This and the next two forget all ways back. */
 void pir_alarms_shift(pir_alarms *alarms, uint32_t used, double shift);
 
 /*

@@ -81,8 +81,8 @@ struct pir_kernels {
 
     /*
      * Looks at `count` facets, numbered as alarms in `woken`. Those that are in their cells, and certainly have been all through the last
-     * step, are filed to sleep; so are those that have crossed one side and touched no other, and these and the rest are listed. Returns
-     * their number; adds to *sides how many directions were looked at.
+     * step, are filed to sleep; so are those that have crossed one side and touched no other, their last certificates kept (alarms.h), and
+     * these and the rest are listed. Returns their number; adds to *sides how many directions were looked at.
      */
     uint32_t (*review)(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, const uint32_t *woken,
                        uint32_t count, pir_suspect *ret_suspects, uint64_t *sides);

@@ -85,7 +85,7 @@ struct pir_sum {
     pir_alarms alarms;
     uint64_t woken;                /* certificates, in this epoch */
     pir_facets p_facets, q_facets; /* each over the cells of the other */
-    pir_suspect *suspects;         /* what a review has listed */
+    pir_suspect *suspects;         /* facets of Q taken back, then what a review has listed */
     pir_suspect *passes;           /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */
     pir_cost_model cost;
     pir_lag lag;
@@ -269,7 +269,7 @@ bool pir_derive_edge(pir_sum *sum, uint32_t e);
 /* --- update.c --- */
 
 /*
- * Checks the certificates whose alarms ring at the clock's phase and repairs what has failed, at the rotation in sum->signs. As above
+ * Takes up the certificates whose alarms ring at the clock's phase and repairs what has failed, at the rotation in sum->signs. As above
  * on PIR_ERR_MEMORY.
  */
 pir_status pir_update_repair(pir_sum *sum);

@@ -51,7 +51,14 @@ static pir_quat next(test_random *random, struct swing *swing, int frame) {
         begin(random, at(swing, swing->reach), swing);
     if (what == 1)
         return test_rotation(random);
-    if (what < 24)
+    if (what < 8) {
+        // pushed off the axis, by little, near one of the places
+        pir_vec3 axis = test_random_direction(random);
+        double push = fabs(test_random_scaled(random, -20, -10));
+        return test_compose((pir_quat){axis.x * push, axis.y * push, axis.z * push, 1},
+                            at(swing, swing->place[test_random_below(random, PLACES)]), swing->normalised);
+    }
+    if (what < 28)
         return at(swing, swing->place[frame % 2]);
     if (what < 52)
         return at(swing, swing->place[test_random_below(random, PLACES)]);
