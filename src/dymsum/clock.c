@@ -77,13 +77,16 @@ static void begin_epoch(pir_clock *clock, bool axial, double expected) {
     clock->carried = 0;
     clock->drift = STRETCH_ERROR;
     clock->phase = clock->path = clock->net = clock->extent = 0;
+    clock->swings = false;
     clock->expected = expected;
     clock->steps = 0;
 }
 
 /* The step about the epoch's axis to `phase`. */
 static pir_clock_event turn_on(pir_clock *clock, double phase, double drift, double *ret_shift) {
-    clock->stride = phase - clock->phase;
+    double stride = phase - clock->phase;
+    clock->swings |= stride * clock->stride < 0;
+    clock->stride = stride;
     clock->phase = phase;
     clock->extent = fmax(clock->extent, fabs(phase));
     clock->drift = fmax(clock->drift, drift);
@@ -92,6 +95,7 @@ static pir_clock_event turn_on(pir_clock *clock, double phase, double drift, dou
     // the next stretch of the same epoch begins here
     *ret_shift = phase;
     clock->phase = 0;
+    clock->swings = false;
     clock->start = clock->at;
     clock->carried = drift;
     return PIR_CLOCK_REBASED;

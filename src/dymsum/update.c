@@ -208,12 +208,16 @@ static bool are_many_open(const pir_sum *sum, const pir_suspect *suspects, uint3
 static uint32_t take_back(struct update *update, uint32_t woken, uint32_t *ret_of_q) {
     pir_sum *sum = update->sum;
     uint32_t *alarm = sum->alarms.woken, left = 0, of_q = 0;
+    *ret_of_q = 0;
+    // who never turned round never comes back
+    if (!sum->clock.swings)
+        return woken;
     for (uint32_t k = 0; k < woken; k++) {
         uint32_t i = alarm[k], half;
         bool of_p = i < sum->q_facets.first_alarm;
         const pir_facets *facets = of_p ? &sum->p_facets : &sum->q_facets;
         uint32_t f = i - facets->first_alarm;
-        if (!sum->clock.axial || !pir_alarm_go_back(&sum->alarms, i, sum->clock.phase, facets->twin, &half)) {
+        if (!pir_alarm_go_back(&sum->alarms, i, sum->clock.phase, facets->twin, &half)) {
             alarm[left++] = i;
             continue;
         }
