@@ -28,7 +28,7 @@ static pir_glance see(const float *ring, uint32_t blocks, const pir_moment *mome
         touched = pir_side_mask_add(touched, i / PIR_LANES, (uint32_t)!clear << i % PIR_LANES);
         above = pir_side_mask_add(above, i / PIR_LANES, (uint32_t)(s > PIR_FLOAT_BOUND) << i % PIR_LANES);
     }
-    return (pir_glance){highest + 0.0f, which, {least - PIR_FLOAT_BOUND, ahead, behind, touched, above}};
+    return (pir_glance){highest + 0.0f, which, {least - PIR_FLOAT_BOUND, ahead, behind, 0, touched, above}};
 }
 
 static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],

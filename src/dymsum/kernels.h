@@ -37,6 +37,7 @@
 typedef struct pir_look {
     float margin;        /* by the path, until some s changes its sign; negative when one is too close to call */
     float ahead, behind; /* by the phase, both ≥ 0 */
+    float unused;        /* so that the four are a vector */
     uint64_t
         touched;    /* the sides that the facet may have touched in the last step, those too close to call among them */
     uint64_t above; /* those that it is past for certain: s > PIR_FLOAT_BOUND */

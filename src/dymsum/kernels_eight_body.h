@@ -60,9 +60,10 @@ TARGET static inline __m256 look(const float *ring, uint32_t blocks, const pir_m
         touched = b == 0 ? touched_here : pir_side_mask_add(touched, b, touched_here);
         above = b == 0 ? above_here : pir_side_mask_add(above, b, above_here);
     }
-    float spans[4];
-    _mm_storeu_ps(spans, least_of_each(seen.least, seen.ahead, seen.behind));
-    *ret_look = (pir_look){spans[0] - PIR_FLOAT_BOUND, spans[1], spans[2], touched, above};
+    __m128 spans = least_of_each(seen.least, seen.ahead, seen.behind);
+    _mm_storeu_ps((float *)ret_look, _mm_sub_ps(spans, _mm_setr_ps(PIR_FLOAT_BOUND, 0, 0, 0)));
+    ret_look->touched = touched;
+    ret_look->above = above;
     return seen.highest;
 }
 

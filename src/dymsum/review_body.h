@@ -40,26 +40,27 @@ REVIEW_TARGET static uint32_t review_chunk(const pir_facets *facets, const pir_m
                                            uint64_t *sides) {
     pir_look look[REVIEW_CHUNK];
     float turned[REVIEW_CHUNK][8];
-    uint8_t calm[REVIEW_CHUNK], stirred[REVIEW_CHUNK], crossing[REVIEW_CHUNK];
-    uint32_t calm_count = 0, stirred_count = 0, crossing_count = 0;
-    uint64_t looked_at = 0;
+    uint8_t stirred[REVIEW_CHUNK], crossing[REVIEW_CHUNK];
+    uint32_t stirred_count = 0, crossing_count = 0;
+    uint64_t looked_at = 0, not_calm = 0;
     for (uint32_t k = 0; k < count; k++) {
         uint32_t f = woken[k] - facets->first_alarm, cell = facets->cell[f];
         looked_at += facets->ring_start[cell + 1] - facets->ring_start[cell];
         turn_facet(facets, f, turned[k]);
         look_in(facets, moment, cell, turned[k], &look[k]);
-        bool is_calm = (look[k].touched | look[k].above) == 0;
-        calm[calm_count] = stirred[stirred_count] = (uint8_t)k;
-        calm_count += is_calm;
-        stirred_count += !is_calm;
+        not_calm |= (uint64_t)((look[k].touched | look[k].above) != 0) << k;
     }
-    for (uint32_t i = 0; i < calm_count; i++)
-        pir_sleep_look(facets, moment, alarms, woken[calm[i]] - facets->first_alarm, &look[calm[i]]);
-    for (uint32_t i = 0; i < stirred_count; i++) {
-        uint32_t f = woken[stirred[i]] - facets->first_alarm, half = side_crossed(facets, f, &look[stirred[i]]);
-        ret_suspects[i] = (pir_suspect){f, half};
-        crossing[crossing_count] = (uint8_t)i;
+    for (uint64_t left = ~not_calm & pir_side_mask(count); left; left &= left - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(left);
+        pir_sleep_look(facets, moment, alarms, woken[k] - facets->first_alarm, &look[k]);
+    }
+    for (uint64_t left = not_calm; left; left &= left - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(left), f = woken[k] - facets->first_alarm;
+        uint32_t half = side_crossed(facets, f, &look[k]);
+        ret_suspects[stirred_count] = (pir_suspect){f, half};
+        crossing[crossing_count] = (uint8_t)stirred_count;
         crossing_count += half != PIR_NO_CROSSING;
+        stirred[stirred_count++] = (uint8_t)k;
     }
     for (uint32_t i = 0; i < crossing_count; i++) {
         pir_suspect *suspect = &ret_suspects[crossing[i]];
