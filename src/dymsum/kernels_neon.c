@@ -50,7 +50,8 @@ static inline float look(const float *ring, uint32_t blocks, const pir_moment *m
         above =
             pir_side_mask_add(above, i / PIR_LANES, vaddvq_u32(vandq_u32(bit, vcgtq_f32(s, bound))) << i % PIR_LANES);
     }
-    *ret_look = (pir_look){vminvq_f32(least) - PIR_FLOAT_BOUND, vminvq_f32(ahead), vminvq_f32(behind), 0, touched, above};
+    *ret_look =
+        (pir_look){vminvq_f32(least) - PIR_FLOAT_BOUND, vminvq_f32(ahead), vminvq_f32(behind), 0, touched, above};
     return vmaxvq_f32(high);
 }
 
