@@ -43,8 +43,8 @@ PIR_API pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_
 PIR_API void pir_live_mesh_destroy(pir_live_mesh *live);
 
 /**
- * Brings slots, pairs and corners to the sum's pairing of now. Compares all pairs, a few arrays side by side; rewrites those that
- * changed. Allocates only while the sum is larger than it has ever been. On PIR_ERR_MEMORY it stays as it was.
+ * Brings slots, pairs and corners to the sum's pairing of now: rewrites those that changed. O(changes), where updates led here since the last
+ * refresh, few enough to be kept in mind (a thousand); after a rebuild, and with a region, O(size of the sum). Allocates only while the sum is larger than it has ever been. On PIR_ERR_MEMORY it stays as it was.
  */
 PIR_API pir_status pir_live_mesh_refresh(pir_live_mesh *live);
 

@@ -51,6 +51,7 @@ void pir_crossings_clear(pir_sum *sum) {
     sum->crossings.used = 0;
     sum->crossings.free = PIR_NO_CROSSING;
     sum->ee_count = 0;
+    pir_journal_note_all(&sum->journal);
 }
 
 uint32_t pir_crossing_new(pir_sum *sum, uint32_t e, uint32_t h) {
@@ -66,6 +67,7 @@ uint32_t pir_crossing_new(pir_sum *sum, uint32_t e, uint32_t h) {
     c->half[slot] = h;
     c->edge[slot] = e;
     c->next[slot] = PIR_NO_CROSSING;
+    pir_journal_note(&sum->journal, pir_alarm_count(sum) + slot);
     sum->ee_count++;
     return slot;
 }
@@ -75,5 +77,6 @@ void pir_crossing_free(pir_sum *sum, uint32_t slot) {
     c->edge[slot] = PIR_NO_CROSSING;
     c->next[slot] = c->free;
     c->free = slot;
+    pir_journal_note(&sum->journal, pir_alarm_count(sum) + slot);
     sum->ee_count--;
 }

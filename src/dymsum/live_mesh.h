@@ -46,6 +46,9 @@ struct pir_live_mesh {
     pir_live_vertices vertices;
     pir_live_pairs appeared, disappeared;
     uint32_t *rewritten, rewritten_count; /* room for every slot */
+    uint64_t *dirty;                      /* a bit for every slot, none set between refreshes */
+    uint64_t seen;                        /* entries of the sum's journal */
+    bool stale;                           /* whatever the journal says, all is to be compared */
     pir_cone cone;                        /* only facets whose normals are in it are held */
     pir_vec3 *turned;                     /* room for the vertices of P */
 };

@@ -290,6 +290,7 @@ static void drop_facet(pir_sum *sum, pir_region_facets *facets, uint32_t *cell, 
         facets->hint[f] = cell[f];
     cell[f] = PIR_NO_PAIR;
     pir_alarm_clear(&sum->alarms, alarm);
+    pir_journal_note(&sum->journal, alarm);
 }
 
 static void drop_edge(pir_sum *sum, uint32_t e) {
@@ -370,6 +371,7 @@ static void locate(const struct place *place, uint32_t f, uint32_t from) {
     place->cell[f] = place->of_p ? pir_descend_fv(sum, f, pir_rotated_normal(sum, f), from, &sleep)
                                  : pir_descend_vf(sum, f, from, &sleep);
     pir_fall_asleep(sum, place->first_alarm + f, &sleep);
+    pir_journal_note(&sum->journal, place->first_alarm + f);
 }
 
 /* Locates the members without a cell: from a neighbour that has one, where there is one, and then outwards, breadth first. */

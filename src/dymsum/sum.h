@@ -31,6 +31,7 @@
 #include "base/vec.h"
 #include "dymsum/alarms.h"
 #include "dymsum/clock.h"
+#include "dymsum/journal.h"
 #include "dymsum/kernels.h"
 #include "dymsum/region.h"
 #include "dymsum/sleep.h"
@@ -85,8 +86,9 @@ struct pir_sum {
     pir_alarms alarms;
     uint64_t woken;                /* certificates, in this epoch */
     pir_facets p_facets, q_facets; /* each over the cells of the other */
-    pir_suspect *suspects;         /* facets of Q taken back, then what a review has listed */
-    pir_suspect *passes;           /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */
+    pir_journal journal;
+    pir_suspect *suspects; /* facets of Q taken back, then what a review has listed */
+    pir_suspect *passes;   /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */
     pir_cost_model cost;
     pir_lag lag;
     pir_region region;

@@ -223,6 +223,7 @@ static uint32_t take_back(struct update *update, uint32_t woken, uint32_t *ret_o
         }
         facets->cell[f] = facets->target[half];
         if (of_p) {
+            pir_journal_note(&sum->journal, f);
             cross_of_p(update, f, half);
             sum->statistics.repaired++;
         } else {
@@ -236,6 +237,7 @@ static uint32_t take_back(struct update *update, uint32_t woken, uint32_t *ret_o
 /* What is seen of facets of Q, after all of P: their edges tell then whether another event has touched them. */
 static void take_along_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
+        pir_journal_note(&update->sum->journal, update->sum->q_facets.first_alarm + suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_CROSSING) {
             settle_of_q(update, suspects[i].facet);
         } else {
@@ -247,6 +249,7 @@ static void take_along_of_q(struct update *update, const pir_suspect *suspects, 
 
 static void take_along_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
+        pir_journal_note(&update->sum->journal, suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_CROSSING) {
             settle_of_p(update, suspects[i].facet);
         } else {

@@ -208,6 +208,96 @@ static void live_mesh_is_the_sum_after_every_rotation(void **state) {
     assert_true(plain > 100 && merged > 100);
 }
 
+/* Slot for slot the same, and the same lists of what changed. */
+static bool same_slots(const pir_live_mesh *a, const pir_live_mesh *b) {
+    uint32_t slots = pir_live_mesh_facet_slots(a), vertices = pir_live_mesh_vertex_slots(a), m, n;
+    if (slots != pir_live_mesh_facet_slots(b) || vertices != pir_live_mesh_vertex_slots(b))
+        return false;
+    for (uint32_t i = 0; i < slots; i++) {
+        const uint32_t *x = pir_live_mesh_facet(a, i, &m), *y = pir_live_mesh_facet(b, i, &n);
+        pir_sum_pair s = {0}, t = {0};
+        if (m != n || (m > 0 && memcmp(x, y, m * sizeof *x) != 0) ||
+            pir_live_mesh_pair(a, i, &s) != pir_live_mesh_pair(b, i, &t) || compare(&s, &t) != 0)
+            return false;
+    }
+    for (uint32_t i = 0; i < vertices; i++) {
+        uint32_t s[2] = {0, 0}, t[2] = {0, 0};
+        if (pir_live_mesh_vertex_pair(a, i, s) != pir_live_mesh_vertex_pair(b, i, t) || s[0] != t[0] || s[1] != t[1])
+            return false;
+    }
+    const uint32_t *x = pir_live_mesh_rewritten(a, &m), *y = pir_live_mesh_rewritten(b, &n);
+    if (m != n || memcmp(x, y, m * sizeof *x) != 0)
+        return false;
+    const pir_sum_pair *(*const lists[2])(const pir_live_mesh *, uint32_t *) = {pir_live_mesh_appeared,
+                                                                                pir_live_mesh_disappeared};
+    for (int k = 0; k < 2; k++) {
+        const pir_sum_pair *s = lists[k](a, &m), *t = lists[k](b, &n);
+        if (m != n)
+            return false;
+        for (uint32_t i = 0; i < n; i++)
+            if (compare(&s[i], &t[i]) != 0)
+                return false;
+    }
+    return true;
+}
+
+/* One mesh that goes by what the sum has noted, one that is made to compare all, and one that looks now and then. */
+static void what_is_noted_is_what_changed(void **state) {
+    (void)state;
+    static struct pairs held, late;
+    uint64_t few = 0;
+    for (uint64_t i = 0; i < 150; i++) {
+        test_random random = test_random_case("live journal", i);
+        test_pose pose;
+        test_random_pose(&random, i % 3 ? 14 : 120, &pose);
+        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
+        pir_sum *sum;
+        pir_live_mesh *noted, *compared, *seldom;
+        assert_int_equal(pir_sum_create(p, q, pose.rotation, NULL, &sum), PIR_OK);
+        assert_int_equal(pir_live_mesh_create(sum, &noted), PIR_OK);
+        assert_int_equal(pir_live_mesh_create(sum, &compared), PIR_OK);
+        assert_int_equal(pir_live_mesh_create(sum, &seldom), PIR_OK);
+        pir_quat there = test_general_rotation(&random), step = {0.01, 0.02, -0.01, 1};
+        for (int frame = 0; frame < 60; frame++) {
+            uint32_t what = (uint32_t)test_random_below(&random, 32);
+            pir_vec3 axis = test_random_direction(&random);
+            if (what < 12) // and back
+                step = (pir_quat){-step.x, -step.y, -step.z, 1};
+            else if (what < 18)
+                step = (pir_quat){0.003 * axis.x, 0.003 * axis.y, 0.003 * axis.z, 1};
+            else if (what == 18)
+                there = test_general_rotation(&random);
+            if (what == 19 || what == 20)
+                assert_int_equal(pir_sum_set_region(sum, axis, what == 19 ? 0.6 : 4), PIR_OK);
+            there = test_compose(step, there, 1);
+            static const pir_method methods[] = {PIR_METHOD_WALK, PIR_METHOD_CGM, PIR_METHOD_AUTO};
+            assert_int_equal(pir_sum_rotate(sum, there, what < 29 ? PIR_METHOD_UPDATE : methods[what - 29]), PIR_OK);
+            if (what == 21)
+                assert_int_equal(pir_sum_rotate_brute_force(sum, there), PIR_OK);
+            assert_int_equal(pir_live_mesh_refresh(noted), PIR_OK);
+            assert_int_equal(pir_live_mesh_set_region(compared, axis, 4), PIR_OK);
+            assert_int_equal(pir_live_mesh_refresh(compared), PIR_OK);
+            expect(same_slots(noted, compared), "case %d, %s, frame %d", (int)i, pose.situation, frame);
+            uint32_t count;
+            pir_live_mesh_rewritten(noted, &count);
+            few += count > 0 && count < 20;
+            if (test_random_below(&random, 8) > 0)
+                continue;
+            assert_int_equal(pir_live_mesh_refresh(seldom), PIR_OK);
+            list_live(seldom, &late);
+            list_live(noted, &held);
+            expect(same_pairs(&late, &held), "case %d, %s, frame %d, late", (int)i, pose.situation, frame);
+        }
+        pir_live_mesh_destroy(seldom);
+        pir_live_mesh_destroy(compared);
+        pir_live_mesh_destroy(noted);
+        pir_sum_destroy(sum);
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+    assert_true(few > 1000);
+}
+
 static void small_turns_rewrite_little_and_allocate_nothing(void **state) {
     (void)state;
     static struct pairs now, held;
@@ -353,6 +443,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(live_mesh_is_the_sum_after_every_rotation),
+        cmocka_unit_test(what_is_noted_is_what_changed),
         cmocka_unit_test(small_turns_rewrite_little_and_allocate_nothing),
         cmocka_unit_test(region_holds_the_facets_that_face_its_way),
         cmocka_unit_test(making_one_without_memory_leaves_nothing_behind),
