@@ -57,24 +57,13 @@ static bool reserve_crossings(pir_live_mesh *live, uint32_t least) {
     return done;
 }
 
-static bool reserve_pairs(pir_live_mesh *live, pir_live_pairs *pairs, uint32_t capacity) {
-    if (capacity <= pairs->capacity)
-        return true;
-    pir_sum_pair *at = PIR_RESIZE(&live->allocator, pairs->at, pairs->capacity, capacity);
-    if (!at)
-        return false;
-    pairs->at = at;
-    pairs->capacity = capacity;
-    return true;
-}
-
 /* Room for whatever the sum may hold now, so that the rest of a refresh cannot fail. */
 static bool reserve(pir_live_mesh *live) {
     // as much as the sum itself has room for: grows when the sum grows
     uint32_t crossings = live->sum->crossings.capacity, slots = live->facets_p + live->facets_q + crossings;
     uint32_t corners = live->corners_fixed + 4 * crossings;
-    return reserve_crossings(live, crossings) && reserve_pairs(live, &live->appeared, slots) &&
-           reserve_pairs(live, &live->disappeared, slots) &&
+    return reserve_crossings(live, crossings) && pir_live_pairs_reserve(&live->appeared, &live->allocator, slots) &&
+           pir_live_pairs_reserve(&live->disappeared, &live->allocator, slots) &&
            pir_live_vertices_reserve(&live->vertices, &live->allocator, corners + 8);
 }
 
@@ -91,8 +80,8 @@ void pir_live_mesh_destroy(pir_live_mesh *live) {
         PIR_FREE(a, live->rewritten, (size_t)live->facets_p + live->facets_q + live->capacity);
         PIR_FREE(a, live->dirty, words_for(live->facets_p + live->facets_q + live->capacity));
     }
-    PIR_FREE(a, live->appeared.at, live->appeared.capacity);
-    PIR_FREE(a, live->disappeared.at, live->disappeared.capacity);
+    pir_live_pairs_finish(&live->appeared, a);
+    pir_live_pairs_finish(&live->disappeared, a);
     PIR_FREE(a, live->turned, live->vertices_p);
     pir_live_vertices_finish(&live->vertices, a);
     PIR_FREE(a, live, 1);
@@ -142,14 +131,10 @@ pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double h
 
 /* --- the refresh --- */
 
-static void note(pir_live_pairs *pairs, pir_facet_kind kind, uint32_t p, uint32_t q) {
-    pairs->at[pairs->count++] = (pir_sum_pair){kind, p, q};
-}
-
 static void note_ee(pir_live_mesh *live, pir_live_pairs *pairs, uint32_t e, uint32_t h) {
     const pir_polytope *p = live->sum->p, *q = live->sum->q;
     // a segment's two edges are one to callers
-    note(pairs, PIR_FACET_EE, p->artificial ? 0 : e, q->artificial ? 0 : q->edge[h]);
+    pir_live_pairs_note(pairs, PIR_FACET_EE, p->artificial ? 0 : e, q->artificial ? 0 : q->edge[h]);
 }
 
 /* Compares a facet with the vertex that it is paired with now. */
@@ -174,9 +159,9 @@ static void refresh_facet(pir_live_mesh *live, bool of_p, uint32_t f) {
     live->rewritten[live->rewritten_count++] = of_p ? f : live->facets_p + f;
     // the facets of a segment are there to hold its edges only
     if (!of->artificial && before != PIR_NO_SLOT)
-        note(&live->disappeared, kind, of_p ? f : before, of_p ? before : f);
+        pir_live_pairs_note(&live->disappeared, kind, of_p ? f : before, of_p ? before : f);
     if (!of->artificial && v != PIR_NO_SLOT)
-        note(&live->appeared, kind, of_p ? f : v, of_p ? v : f);
+        pir_live_pairs_note(&live->appeared, kind, of_p ? f : v, of_p ? v : f);
     held[f] = v;
 }
 
@@ -257,62 +242,6 @@ static void refresh_noted(pir_live_mesh *live) {
     }
 }
 
-/* --- the lists --- */
-
-static int compare(const pir_sum_pair *a, const pir_sum_pair *b) {
-    if (a->kind != b->kind)
-        return a->kind < b->kind ? -1 : 1;
-    if (a->p != b->p)
-        return a->p < b->p ? -1 : 1;
-    return (a->q > b->q) - (a->q < b->q);
-}
-
-/* Lets the pair at `i` sink to where none below it is greater, in a heap of `count`. */
-static void sink(pir_sum_pair *at, uint32_t i, uint32_t count) {
-    for (;;) {
-        uint32_t child = 2 * i + 1;
-        if (child >= count)
-            return;
-        child += child + 1 < count && compare(&at[child], &at[child + 1]) < 0;
-        if (compare(&at[i], &at[child]) >= 0)
-            return;
-        pir_sum_pair swap = at[i];
-        at[i] = at[child];
-        at[child] = swap;
-        i = child;
-    }
-}
-
-/* Heap sort: in place, where the C library's may ask for memory. */
-static void sort_pairs(pir_live_pairs *pairs) {
-    for (uint32_t i = pairs->count / 2; i > 0; i--)
-        sink(pairs->at, i - 1, pairs->count);
-    for (uint32_t n = pairs->count; n > 1; n--) {
-        pir_sum_pair swap = pairs->at[0];
-        pairs->at[0] = pairs->at[n - 1];
-        pairs->at[n - 1] = swap;
-        sink(pairs->at, 0, n - 1);
-    }
-}
-
-/* Takes what is in both sorted lists out of both. */
-static void cancel(pir_live_pairs *came, pir_live_pairs *went) {
-    uint32_t i = 0, j = 0, kept_i = 0, kept_j = 0;
-    while (i < came->count || j < went->count) {
-        int order = i == came->count ? 1 : j == went->count ? -1 : compare(&came->at[i], &went->at[j]);
-        if (order == 0) {
-            i++;
-            j++;
-        } else if (order < 0) {
-            came->at[kept_i++] = came->at[i++];
-        } else {
-            went->at[kept_j++] = went->at[j++];
-        }
-    }
-    came->count = kept_i;
-    went->count = kept_j;
-}
-
 pir_status pir_live_mesh_refresh(pir_live_mesh *live) {
     if (!live)
         return PIR_ERR_ARGUMENT;
@@ -328,8 +257,6 @@ pir_status pir_live_mesh_refresh(pir_live_mesh *live) {
     live->seen = journal->count;
     live->used = live->sum->crossings.used;
     pir_live_vertices_sweep(&live->vertices);
-    sort_pairs(&live->appeared);
-    sort_pairs(&live->disappeared);
-    cancel(&live->appeared, &live->disappeared);
+    pir_live_pairs_settle(&live->appeared, &live->disappeared);
     return PIR_OK;
 }
