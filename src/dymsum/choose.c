@@ -2,9 +2,9 @@
 /*
  * The cost model. Work is counted in signs: a walk asks for them one by one, an update by rings of sides and by corners. Per sign asked
  * for, an update takes 1.1 to 1.2 times as long as a walk wherever the two are close, on bodies of 6 to 2,400 facets, and 0.87 where one
- * swings between two places, which processors learn to foresee; far from there it hardly matters. An update's work is taken to be in proportion to the angle, which holds while few certificates expire and overstates
- * large angles, where a walk is right anyway. Facets that swing back ask for no signs, and count as no work: they are so little that a walk
- * is never right for them.
+ * swings between two places, which processors learn to foresee; far from there it hardly matters. An update's work is taken to be in
+ * proportion to the angle, which holds while few certificates expire and overstates large angles, where a walk is right anyway. Facets
+ * that swing back ask for no signs, and count as no work: they are so little that a walk is never right for them.
  *
  * Where a region keeps a part of the features, both are reckoned for all of them, so that another region changes neither.
  *

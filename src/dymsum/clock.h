@@ -35,11 +35,10 @@ typedef struct pir_clock {
     pir_quat at;    /* the unit quaternion that the last step led to */
     uint32_t steps; /* in this epoch */
     bool axial;
-    pir_vec3 axis; /* of the last step, unit; axial: of the epoch */
-    double stride; /* the angle about it that the last step went through, at most */
-    double phase;  /* axial: since the epoch began */
-    bool
-        swings; /* axial, and of the steps since phases were last counted from here one went back where another came from */
+    pir_vec3 axis;   /* of the last step, unit; axial: of the epoch */
+    double stride;   /* the angle about it that the last step went through, at most */
+    double phase;    /* axial: since the epoch began */
+    bool swings;     /* axial: since phases were last counted from here, some step went back where another came from */
     double path;     /* since the epoch began */
     double net;      /* not axial: since the epoch began */
     double extent;   /* axial: how far the phase has been from 0, as far as one stretch goes */

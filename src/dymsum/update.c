@@ -9,9 +9,11 @@
  *
  * A facet that wakes may for certain be back where it came from (alarms.h). Else it is looked at where it is now. Mostly it is in its cell,
  * too far from each side to have touched one within the step, and sleeps on. Or it has crossed one side, into a cell of which it
- * can have touched no other side than the one it came in by. Both ways of crossing are one event, which changes the arcs concerned in a way known beforehand (repair.c), and at once. Of a facet of Q that has passed through an arc to which
- * something else has happened too the order is not known: that arc is led from cell to cell again at the end. Anything else, several
- * sides within reach, ties, is settled with care: the facet by descent, each arc that it may have passed through by leading it again.
+ * can have touched no other side than the one it came in by. Both ways of crossing are one event,
+ * which changes the arcs concerned in a way known beforehand (repair.c), and at once. Of a facet of Q that has passed through an arc to
+ * which something else has happened too the order is not known: that arc is led from cell to cell again at the end. Anything else,
+ * several sides within reach, ties, is settled with care: the facet by descent, each arc that it may have passed through by leading
+ * it again.
  */
 #include "dymsum/sum.h"
 
