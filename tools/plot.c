@@ -5,6 +5,7 @@
  */
 #include "plot.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -145,11 +146,11 @@ static void draw_level_lines(const struct scale *scale, FILE *file) {
         }
 }
 
-static void draw_frame_lines(const struct scale *scale, FILE *file) {
-    double last = scale->frames > 1 ? (double)(scale->frames - 1) : 1;
+static void draw_frame_lines(const struct scale *scale, uint64_t stride, FILE *file) {
+    double last = scale->frames > 1 ? (double)(scale->frames - 1) * (double)stride : 1;
     double step = fmax(1, round_up(last / 10));
     for (double frame = 0; frame <= last; frame += step) {
-        double x = place_x(scale, frame);
+        double x = place_x(scale, frame / (double)stride);
         fprintf(file, "<path d='M%.1f %dV%d' stroke='#ececec'/>\n", x, TOP, HEIGHT - BOTTOM);
         fprintf(file, "<text x='%.1f' y='%d' text-anchor='middle'>%.0f</text>\n", x, HEIGHT - BOTTOM + 18, frame);
     }
@@ -167,7 +168,7 @@ static void draw_frame(const struct plot *plot, const struct scale *scale, FILE 
     put_text(file, plot->subtitle);
     fputs("</text>\n", file);
     draw_level_lines(scale, file);
-    draw_frame_lines(scale, file);
+    draw_frame_lines(scale, plot->stride, file);
     fprintf(file, "<path d='M%d %dV%dH%d' fill='none' stroke='#555'/>\n", LEFT, TOP, HEIGHT - BOTTOM, WIDTH - RIGHT);
     fprintf(file, "<text x='%d' y='%d' text-anchor='middle' font-size='13'>frame</text>\n", (LEFT + WIDTH - RIGHT) / 2,
             HEIGHT - 16);
@@ -211,11 +212,14 @@ static void draw_legend(const struct plot *plot, FILE *file) {
         put_time(series->median, file);
         fputs("</text>\n", file);
     }
-    if (plot->frames > COLUMNS)
+    if (plot->frames > COLUMNS) {
         fprintf(file,
-                "<text x='%d' y='%d' text-anchor='end' fill='#555'>band: least to greatest of %zu frames side by "
-                "side</text>\n",
+                "<text x='%d' y='%d' text-anchor='end' fill='#555'>band: least to greatest of %zu frames side by side",
                 WIDTH - RIGHT, HEIGHT - 16, frames_per_column(plot));
+        if (plot->stride > 1)
+            fprintf(file, ", one in %" PRIu64, plot->stride);
+        fputs("</text>\n", file);
+    }
 }
 
 bool plot_write(const struct plot *plot, FILE *file) {

@@ -50,13 +50,6 @@ static uint64_t stride(uint64_t frames, uint64_t samples) {
     return frames > samples ? frames / samples : 1;
 }
 
-static double *new_times(uint64_t frames) {
-    double *times = malloc(frames * sizeof *times);
-    for (uint64_t i = 0; times && i < frames; i++)
-        times[i] = NAN;
-    return times;
-}
-
 static bool told(uint64_t frame, pir_status status) {
     if (status == PIR_OK)
         return true;
@@ -74,12 +67,11 @@ static pir_status set_region(const struct run *run, pir_sum *sum) {
 static bool prepare(struct run *run, pir_polytope *p, pir_polytope *q) {
     const struct track_request *request = run->request;
     struct track_result *result = run->result;
-    result->update_ns = new_times(request->frames);
-    result->walk_ns = new_times(request->frames);
-    result->cgm_ns = new_times(request->frames);
-    result->brute_ns = new_times(request->frames);
-    if (!result->update_ns || !result->walk_ns || !result->cgm_ns || !result->brute_ns)
-        return told(0, PIR_ERR_MEMORY);
+    struct times *const times[] = {&result->update_times, &result->walk_times, &result->cgm_times,
+                                   &result->brute_times};
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++)
+        if (!times_init(times[i], request->frames))
+            return told(0, PIR_ERR_MEMORY);
 
     run->motion = motion_new(request->random ? NULL : &request->axis, request->steps, request->seed);
     run->walk_stride = stride(request->frames, WALK_SAMPLES);
@@ -106,17 +98,18 @@ static bool prepare(struct run *run, pir_polytope *p, pir_polytope *q) {
     return told(0, status);
 }
 
-static pir_status rotate_timed(pir_sum *sum, pir_quat rotation, pir_method method, double *ret_ns) {
+static pir_status rotate_timed(pir_sum *sum, pir_quat rotation, pir_method method, struct times *times,
+                               uint64_t frame) {
     int64_t start = clock_now();
     pir_status status = pir_sum_rotate(sum, rotation, method);
-    *ret_ns = (double)(clock_now() - start);
+    times_add(times, frame, clock_now() - start);
     return status;
 }
 
-static pir_status brute_timed(pir_sum *sum, pir_quat rotation, double *ret_ns) {
+static pir_status brute_timed(pir_sum *sum, pir_quat rotation, struct times *times, uint64_t frame) {
     int64_t start = clock_now();
     pir_status status = pir_sum_rotate_brute_force(sum, rotation);
-    *ret_ns = (double)(clock_now() - start);
+    times_add(times, frame, clock_now() - start);
     return status;
 }
 
@@ -189,7 +182,7 @@ static pir_status rotate_tracked(struct run *run, uint64_t frame, pir_quat rotat
     struct track_result *result = run->result;
     uint64_t blocks = run->blocks;
     pir_sum_statistics before = pir_sum_get_statistics(run->tracked);
-    pir_status status = rotate_timed(run->tracked, rotation, run->request->method, &result->update_ns[frame]);
+    pir_status status = rotate_timed(run->tracked, rotation, run->request->method, &result->update_times, frame);
     pir_sum_statistics after = pir_sum_get_statistics(run->tracked);
     add_work(&result->did, &before, &after);
     result->shortfall = fmax(result->shortfall, pir_sum_shortfall_bound(run->tracked));
@@ -215,13 +208,13 @@ static pir_status rotate_all(struct run *run, uint64_t frame, pir_quat rotation)
     struct track_result *result = run->result;
     pir_status status = PIR_OK;
     if (is_rebuilt(run, frame))
-        status = rotate_timed(run->rebuilt, rotation, PIR_METHOD_WALK, &result->walk_ns[frame]);
+        status = rotate_timed(run->rebuilt, rotation, PIR_METHOD_WALK, &result->walk_times, frame);
     if (status == PIR_OK)
         status = rotate_tracked(run, frame, rotation);
     if (status == PIR_OK && is_overlaid(run, frame))
-        status = rotate_timed(run->overlaid, rotation, PIR_METHOD_CGM, &result->cgm_ns[frame]);
+        status = rotate_timed(run->overlaid, rotation, PIR_METHOD_CGM, &result->cgm_times, frame);
     if (status == PIR_OK && run->brute && frame % run->brute_stride == 0)
-        status = brute_timed(run->brute, rotation, &result->brute_ns[frame]);
+        status = brute_timed(run->brute, rotation, &result->brute_times, frame);
     if (status == PIR_OK && is_verified(run, frame))
         status = verify(run, frame);
     if (status == PIR_OK && !is_rebuilt(run, frame) && is_rebuilt(run, frame + 1))
@@ -251,9 +244,9 @@ static bool run_frames(struct run *run) {
     return good;
 }
 
-static bool summarise(struct track_result *result, size_t frames) {
-    return (order_of(result->update_ns, frames, &result->update) && order_of(result->walk_ns, frames, &result->walk) &&
-            order_of(result->cgm_ns, frames, &result->cgm) && order_of(result->brute_ns, frames, &result->brute)) ||
+static bool summarise(struct track_result *result, uint64_t frames) {
+    return (times_order(&result->update_times, &result->update) && times_order(&result->walk_times, &result->walk) &&
+            times_order(&result->cgm_times, &result->cgm) && times_order(&result->brute_times, &result->brute)) ||
            told(frames, PIR_ERR_MEMORY);
 }
 
@@ -290,8 +283,8 @@ done:
 }
 
 void track_finish(struct track_result *result) {
-    free(result->update_ns);
-    free(result->walk_ns);
-    free(result->cgm_ns);
-    free(result->brute_ns);
+    times_finish(&result->update_times);
+    times_finish(&result->walk_times);
+    times_finish(&result->cgm_times);
+    times_finish(&result->brute_times);
 }

@@ -6,7 +6,7 @@
 #include <pirouette/pirouette.h>
 
 #include "file.h"
-#include "measure.h"
+#include "times.h"
 
 struct track_request {
     const char *p, *q; /* the models as they were named */
@@ -26,7 +26,7 @@ struct track_request {
 };
 
 struct track_result {
-    double *update_ns, *walk_ns, *cgm_ns, *brute_ns; /* by frame; NaN where not measured */
+    struct times update_times, walk_times, cgm_times, brute_times;
     struct order update, walk, cgm, brute;
     pir_sum_statistics did;    /* by the tracked sum, over all frames */
     double shortfall;          /* the greatest bound attained, where there is a tolerance */

@@ -161,11 +161,18 @@ bool track_plot(const struct track_request *request, const struct track_result *
     snprintf(subtitle, sizeof subtitle, "%" PRIu64 " steps to a turn, %" PRIu64 " frames, %s, method %s",
              request->steps, request->frames, axis, request->method_name);
 
-    struct plot plot = {.title = title, .subtitle = subtitle, .frames = request->frames};
-    plot.series[plot.count++] = (struct plot_series){
-        .label = "tracked sum", .colour = "#0072b2", .times = result->update_ns, .median = result->update.median};
-    plot.series[plot.count++] = (struct plot_series){
-        .label = "rebuild by walk", .colour = "#d55e00", .times = result->walk_ns, .median = result->walk.median};
+    struct plot plot = {.title = title,
+                        .subtitle = subtitle,
+                        .frames = result->update_times.kept_count,
+                        .stride = result->update_times.stride};
+    plot.series[plot.count++] = (struct plot_series){.label = "tracked sum",
+                                                     .colour = "#0072b2",
+                                                     .times = result->update_times.kept,
+                                                     .median = result->update.median};
+    plot.series[plot.count++] = (struct plot_series){.label = "rebuild by walk",
+                                                     .colour = "#d55e00",
+                                                     .times = result->walk_times.kept,
+                                                     .median = result->walk.median};
     if (request->brute)
         plot.series[plot.count++] = (struct plot_series){
             .label = "brute-force re-check", .colour = "#007f5c", .times = NULL, .median = result->brute.median};
