@@ -21,7 +21,11 @@
 #define FIRST_PROBE  4
 #define LATEST_PROBE 64
 #define MEMORY       0.125
-#define NO_WORK      1e-6 /* per radian: so little that it never matters, and no number that processors are slow with */
+/*
+ * Signs per radian that stand for none, 0 meaning that nothing is known. No bound of any error: a walk asks for more within any angle, and what
+ * is chosen here is a way to the pairing, which every way finds alike. A number much smaller would be one that processors are slow with.
+ */
+#define NO_WORK 1e-6
 
 pir_method pir_choose_method(pir_sum *sum, double angle) {
     const pir_cost_model *cost = &sum->cost;

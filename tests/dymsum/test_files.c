@@ -10,17 +10,11 @@
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/meshes.h"
+#include "support/sum_bytes.h"
 
-struct bytes {
-    uint8_t *data;
-    size_t size;
-};
-
-static struct bytes bytes_of(const pir_sum *sum) {
-    struct bytes bytes = {NULL, pir_sum_serialised_size(sum)};
-    bytes.data = malloc(bytes.size);
+static test_bytes bytes_of(const pir_sum *sum) {
+    test_bytes bytes = test_bytes_of(sum);
     assert_non_null(bytes.data);
-    assert_int_equal(pir_sum_serialise(sum, bytes.data, bytes.size), PIR_OK);
     return bytes;
 }
 
@@ -35,15 +29,6 @@ static pir_sum *make_sum(const test_pose *pose, int difference, double half_angl
     pir_polytope_release(q);
     pir_polytope_release(p);
     return sum;
-}
-
-/* Sets the length and the checksum right, so that what was changed is found by what reads it. */
-static void seal(uint8_t *data, size_t size) {
-    for (int k = 0; k < 8; k++)
-        data[16 + k] = (uint8_t)((uint64_t)size >> (8 * k));
-    uint64_t checksum = pir_sum_file_checksum(data, size);
-    for (int k = 0; k < 8; k++)
-        data[PIR_SUM_CHECKSUM_AT + k] = (uint8_t)(checksum >> (8 * k));
 }
 
 static void expect_same(pir_sum *a, pir_sum *b, const char *situation) {
@@ -81,7 +66,7 @@ static void restored_sum_is_the_one_that_was_written(void **state) {
         if (i % 3 == 0)
             assert_int_equal(pir_sum_set_scale(sum, i % 2 ? PIR_OPERAND_P : PIR_OPERAND_Q, 1.3), PIR_OK);
         assert_int_equal(pir_sum_rotate(sum, test_rotation(&random), PIR_METHOD_UPDATE), PIR_OK);
-        struct bytes bytes = bytes_of(sum);
+        test_bytes bytes = bytes_of(sum);
         test_memory memory = {0};
         pir_allocator allocator = test_allocator(&memory);
         pir_report report;
@@ -90,7 +75,7 @@ static void restored_sum_is_the_one_that_was_written(void **state) {
         expect_same(sum, back, pose.situation);
         expect_same_region(sum, back);
         // the bytes are the same again, and the sums go on alike
-        struct bytes again = bytes_of(back);
+        test_bytes again = bytes_of(back);
         assert_int_equal(again.size, bytes.size);
         assert_memory_equal(again.data, bytes.data, bytes.size);
         assert_int_equal(pir_sum_set_scale(sum, PIR_OPERAND_P, 1), PIR_OK);
@@ -150,7 +135,7 @@ static void golden_bytes_are_read_on_every_machine(void **state) {
     pir_sum *sum;
     assert_int_equal(pir_polytope_create(points, 4, NULL, &p), PIR_OK);
     assert_int_equal(pir_sum_create(p, p, (pir_quat){0, 1, 2, 3}, NULL, &sum), PIR_OK);
-    struct bytes bytes = bytes_of(sum);
+    test_bytes bytes = bytes_of(sum);
     // the header and the first operand, byte by byte
     const uint8_t start[] = {'P', 'I', 'R', 'S', 'U', 'M', '\r', '\n', 1, 0, 0, 0, 0, 0, 0, 0};
     const uint8_t operand[] = {3, 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0,
@@ -167,7 +152,7 @@ static void refuse_cut_or_changed(double half_angle) {
     test_pose pose;
     test_random_pose(&random, 12, &pose);
     pir_sum *sum = make_sum(&pose, 0, half_angle), *const before = (pir_sum *)&before, *back = before;
-    struct bytes bytes = bytes_of(sum);
+    test_bytes bytes = bytes_of(sum);
     uint8_t *copy = malloc(bytes.size + 1);
     assert_non_null(copy);
     pir_report report;
@@ -177,14 +162,14 @@ static void refuse_cut_or_changed(double half_angle) {
         expect(status == (size == 0 ? PIR_ERR_EMPTY : PIR_ERR_FORMAT) && strlen(report.text) > 10, "size %zu", size);
         memcpy(copy, bytes.data, size);
         if (size >= PIR_SUM_HEADER_SIZE) {
-            seal(copy, size);
+            test_bytes_seal(copy, size);
             expect(pir_sum_restore(copy, size, NULL, &report, &back) == PIR_ERR_FORMAT, "sealed, size %zu", size);
         }
     }
     // one byte more
     memcpy(copy, bytes.data, bytes.size);
     copy[bytes.size] = 0;
-    seal(copy, bytes.size + 1);
+    test_bytes_seal(copy, bytes.size + 1);
     assert_int_equal(pir_sum_restore(copy, bytes.size + 1, NULL, &report, &back), PIR_ERR_FORMAT);
     // every bit of it
     memcpy(copy, bytes.data, bytes.size);
@@ -245,7 +230,7 @@ static void made_up_bytes_are_refused_or_true(void **state) {
         test_pose pose;
         test_random_pose(&random, 12, &pose);
         pir_sum *sum = make_sum(&pose, 0, i % 3 ? WHOLE : 0.2 + 0.1 * (double)(i % 16));
-        struct bytes bytes = bytes_of(sum);
+        test_bytes bytes = bytes_of(sum);
         uint8_t *copy = malloc(bytes.size);
         assert_non_null(copy);
         test_memory memory = {0};
@@ -261,7 +246,7 @@ static void made_up_bytes_are_refused_or_true(void **state) {
             memcpy(copy, bytes.data, bytes.size);
             for (uint32_t k = 1 + test_random_below(&random, 3); k > 0; k--)
                 mutate(&random, copy, bytes.size);
-            seal(copy, bytes.size);
+            test_bytes_seal(copy, bytes.size);
             pir_report report = {PIR_OK, ""};
             pir_sum *back = NULL;
             pir_status status = pir_sum_restore(copy, bytes.size, &allocator, &report, &back);
@@ -295,7 +280,7 @@ static void restoring_without_memory_leaves_nothing_behind(void **state) {
     test_pose pose;
     test_random_pose(&random, 12, &pose);
     pir_sum *sum = make_sum(&pose, 0, 1);
-    struct bytes bytes = bytes_of(sum);
+    test_bytes bytes = bytes_of(sum);
     uint64_t n = 0;
     for (bool failed = true; failed;) {
         test_memory memory = {.fail_at = ++n};

@@ -47,6 +47,20 @@ static void set_region(struct sums *s, pir_vec3 axis, double half_angle) {
     assert_int_equal(pir_sum_set_region(s->tracked, axis, half_angle), PIR_OK);
 }
 
+/* A pose of two bodies with so many points of the sphere each. */
+static test_pose spheres(test_random *random, size_t of_p, size_t of_q) {
+    test_pose pose = {.situation = "many facets", .rotation = {0.1, 0.2, 0.3, 0.9}};
+    test_body_points(random, TEST_SPHERE, of_p, &pose.p);
+    test_body_points(random, TEST_SPHERE, of_q, &pose.q);
+    return pose;
+}
+
+/* An update of the tracked sum, and a proof of all that it keeps. */
+static void update_and_prove(struct sums *s, pir_quat r, uint64_t number, int frame) {
+    assert_int_equal(pir_sum_rotate(s->tracked, r, PIR_METHOD_UPDATE), PIR_OK);
+    expect(pir_sum_is_valid(s->tracked), "case %llu, frame %d", (unsigned long long)number, frame);
+}
+
 /* Whether every pair that is in the tracked sum is one of the whole sum, and those in the cone are all there. */
 static const char *compare(const struct sums *s) {
     const uint32_t *fv = pir_sum_fv(s->tracked), *vf = pir_sum_vf(s->tracked);
@@ -218,10 +232,8 @@ static void jumps_over_dormant_facets_are_right(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 8; i++) {
         test_random random = test_random_case("region leaps", i);
-        test_pose pose = {.situation = "many facets", .rotation = {0.1, 0.2, 0.3, 0.9}};
+        test_pose pose = spheres(&random, 500, 200);
         struct sums s;
-        test_body_points(&random, TEST_SPHERE, 500, &pose.p);
-        test_body_points(&random, TEST_SPHERE, 200, &pose.q);
         sums_init(&s, &pose, i % 2);
         pir_quat r = pose.rotation;
         for (int frame = 0; frame < 100; frame++) {
@@ -232,8 +244,7 @@ static void jumps_over_dormant_facets_are_right(void **state) {
             set_region(&s, a, 0.3 + fabs(test_random_unit(&random)));
             r = turn(r, (pir_vec3){k.x / length, k.y / length, k.z / length},
                      0.1 + 0.024 * fabs(test_random_unit(&random)));
-            assert_int_equal(pir_sum_rotate(s.tracked, r, PIR_METHOD_UPDATE), PIR_OK);
-            expect(pir_sum_is_valid(s.tracked), "case %llu, frame %d", (unsigned long long)i, frame);
+            update_and_prove(&s, r, i, frame);
         }
         sums_clear(&s);
     }
@@ -244,18 +255,15 @@ static void spins_within_the_skin_are_right(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 12; i++) {
         test_random random = test_random_case("region spins", i);
-        test_pose pose = {.situation = "many facets", .rotation = {0.1, 0.2, 0.3, 0.9}};
+        test_pose pose = spheres(&random, 20 + 20 * (size_t)i, 240);
         struct sums s;
-        test_body_points(&random, TEST_SPHERE, 20 + 20 * (size_t)i, &pose.p);
-        test_body_points(&random, TEST_SPHERE, 240, &pose.q);
         sums_init(&s, &pose, 0);
         pir_quat r = pose.rotation;
         pir_vec3 axis = test_random_direction(&random);
         set_region(&s, axis, 0.2 * (double)(i + 1));
         for (int frame = 0; frame < 40; frame++) {
             r = turn(r, i % 2 ? axis : nudge(&random, axis, 0.02), 0.03 * (double)test_random_below(&random, 40));
-            assert_int_equal(pir_sum_rotate(s.tracked, r, PIR_METHOD_UPDATE), PIR_OK);
-            expect(pir_sum_is_valid(s.tracked), "case %llu, frame %d", (unsigned long long)i, frame);
+            update_and_prove(&s, r, i, frame);
         }
         sums_clear(&s);
     }

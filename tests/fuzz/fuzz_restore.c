@@ -18,6 +18,7 @@
 #include "fuzz/input.h"
 #include "support/bodies.h"
 #include "support/memory.h"
+#include "support/sum_bytes.h"
 
 #define SIZE_LIMIT 16384
 
@@ -25,28 +26,10 @@
 #define MEMORY_FIXED  (1u << 20)
 #define MEMORY_FACTOR 2048
 
-struct bytes {
-    uint8_t *data;
-    size_t size;
-};
-
-static struct bytes bytes_of(const pir_sum *sum) {
-    struct bytes bytes = {NULL, pir_sum_serialised_size(sum)};
-    bytes.data = malloc(bytes.size);
-    fuzz_require(bytes.data != NULL, "memory");
-    fuzz_require(pir_sum_serialise(sum, bytes.data, bytes.size) == PIR_OK, "a sum can be written");
+static test_bytes bytes_of(const pir_sum *sum) {
+    test_bytes bytes = test_bytes_of(sum);
+    fuzz_require(bytes.data != NULL, "a sum can be written");
     return bytes;
-}
-
-static void put_u64(uint8_t *to, uint64_t value) {
-    for (int k = 0; k < 8; k++)
-        to[k] = (uint8_t)(value >> (8 * k));
-}
-
-/* Makes the header's length and checksum fit. */
-static void seal(struct bytes bytes) {
-    put_u64(bytes.data + PIR_SUM_CHECKSUM_AT - 8, bytes.size);
-    put_u64(bytes.data + PIR_SUM_CHECKSUM_AT, pir_sum_file_checksum(bytes.data, bytes.size));
 }
 
 /* The pairing is the one that a walk finds, where it is exact. */
@@ -62,12 +45,12 @@ static void check_pairing(pir_sum *sum) {
 
 /* Written and read again it is the same, and so are the bytes. */
 static void check_round_trip(const pir_sum *sum) {
-    struct bytes first = bytes_of(sum);
+    test_bytes first = bytes_of(sum);
     pir_sum *again = NULL;
     pir_report report = {PIR_OK, ""};
     fuzz_require(pir_sum_restore(first.data, first.size, NULL, &report, &again) == PIR_OK, report.text);
     fuzz_require(pir_sum_same_pairing(sum, again), "the pairing comes back");
-    struct bytes second = bytes_of(again);
+    test_bytes second = bytes_of(again);
     fuzz_require(first.size == second.size && memcmp(first.data, second.data, first.size) == 0,
                  "the bytes are the same again");
     free(second.data);
@@ -102,7 +85,7 @@ static void check_sum(pir_sum *sum) {
     pir_mesh_destroy(mesh);
 }
 
-static void restore(struct bytes bytes) {
+static void restore(test_bytes bytes) {
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
     pir_report report = {PIR_OK, ""};
@@ -126,13 +109,13 @@ static void restore(struct bytes bytes) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (size > SIZE_LIMIT)
         return 0;
-    struct bytes copy = {malloc(size + 1), size};
+    test_bytes copy = {malloc(size + 1), size};
     fuzz_require(copy.data != NULL, "memory");
     if (size > 0)
         memcpy(copy.data, data, size);
     restore(copy);
     if (size >= PIR_SUM_HEADER_SIZE) {
-        seal(copy);
+        test_bytes_seal(copy.data, copy.size);
         restore(copy);
     }
     free(copy.data);
