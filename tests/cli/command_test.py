@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the `pirouette` command share: models, exact rotations, runs that must succeed or fail."""
+import json
+import os
+import select
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+from pathlib import Path
+
+TETRAHEDRON = """OFF
+4 4 6
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+"""
+# a square pyramid with rational corners, and a point inside that is no corner of the hull
+PYRAMID = """OFF # comment
+6 0 0
+-1/3 -1/3 0
+1/3 -1/3 0
+1/3 1/3 0
+-1/3 1/3 0
+1/7 -1/11 5/7
+0 0 1/5
+"""
+
+
+def rotation(quat):
+    """The exact matrix of a quaternion of doubles."""
+    x, y, z, w = (Fraction(c) for c in quat)
+    n = x * x + y * y + z * z + w * w
+    return [
+        [1 - 2 * (y * y + z * z) / n, 2 * (x * y - z * w) / n, 2 * (x * z + y * w) / n],
+        [2 * (x * y + z * w) / n, 1 - 2 * (x * x + z * z) / n, 2 * (y * z - x * w) / n],
+        [2 * (x * z - y * w) / n, 2 * (y * z + x * w) / n, 1 - 2 * (x * x + y * y) / n],
+    ]
+
+
+def numbers(values):
+    return ",".join(repr(float(v)) for v in values)
+
+
+def read_terminal(terminal, seconds):
+    """What comes from a terminal's other side within so many seconds; nothing when that side is closed."""
+    if not select.select([terminal], [], [], seconds)[0]:
+        return b""
+    try:
+        return os.read(terminal, 4096)
+    except OSError:
+        return b""  # how Linux tells that the other side is closed
+
+
+class CommandTest(unittest.TestCase):
+    command = ""  # the path of the built command
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = Path(self.folder.name)
+        self.tetrahedron = self.file("tetrahedron.off", TETRAHEDRON)
+        self.pyramid = self.file("pyramid.off", PYRAMID)
+
+    def file(self, name, text):
+        path = self.path / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    def run_command(self, *args):
+        return subprocess.run([self.command, *map(str, args)], capture_output=True, text=True, timeout=60)
+
+    def good(self, *args):
+        """stdout of a run that must succeed, with nothing on stderr."""
+        done = self.run_command(*args)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), args)
+        return done.stdout
+
+    def data(self, *args):
+        return json.loads(self.good(*args, "--json"))
+
+    def bad(self, *args, says=()):
+        """A run that must end with status 2 and one line on stderr, which holds every word of `says`."""
+        done = self.run_command(*args)
+        self.assertEqual(done.returncode, 2, (args, done.stdout, done.stderr))
+        self.assertEqual(done.stdout, "", args)
+        self.assertTrue(done.stderr.startswith("pirouette: "), (args, done.stderr))
+        self.assertTrue(done.stderr.endswith("\n"), args)
+        self.assertEqual(done.stderr.count("\n"), 1, (args, done.stderr))
+        for word in [says] if isinstance(says, str) else says:
+            self.assertIn(word, done.stderr, args)
+
+
+def main():
+    """Runs the tests of a file as `test_X.py COMMAND [CLASS...]`."""
+    CommandTest.command = sys.argv.pop(1)
+    unittest.main()

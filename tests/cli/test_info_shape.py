@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""pirouette info and pirouette shape. Usage: test_info_shape.py COMMAND [CLASS...]"""
+from command_test import CommandTest, main
+
+
+class Info(CommandTest):
+    def test_counts_bounds_and_volume(self):
+        self.assertEqual(self.data("info", "shape:box?x=1&y=2&z=0.5"), {
+            "model": "shape:box?x=1&y=2&z=0.5", "dimension": 3, "vertices": 8, "edges": 12, "facets": 6,
+            "bounds": {"low": [-0.5, -1, -0.25], "high": [0.5, 1, 0.25]}, "volume": 1,
+        })
+        pyramid = self.data("info", self.pyramid)
+        self.assertEqual([pyramid[k] for k in ("dimension", "vertices", "edges", "facets")], [3, 5, 8, 5])
+        self.assertEqual(pyramid["bounds"]["low"], [-1 / 3, -1 / 3, 0])
+        self.assertEqual(pyramid["bounds"]["high"], [1 / 3, 1 / 3, 5 / 7])
+        self.assertAlmostEqual(pyramid["volume"], 4 / 9 * 5 / 7 / 3, places=14)
+
+    def test_flat_bodies(self):
+        for name, text, counts in (
+                ("square.off", "OFF\n4 0 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n", [2, 4, 4, 2]),
+                ("segment.off", "OFF\n3 0 0\n0 0 0\n1 1 1\n2 2 2\n", [1, 2, 1, 0]),
+                ("point.off", "OFF\n2 0 0\n3 4 5\n3 4 5\n", [0, 1, 0, 0])):
+            told = self.data("info", self.file(name, text))
+            self.assertEqual([told[k] for k in ("dimension", "vertices", "edges", "facets")], counts)
+            self.assertEqual(told["volume"], 0)
+
+    def test_text_holds_the_same(self):
+        text = self.good("info", self.pyramid)
+        for pattern in (r"dimension +3\n", r"vertices +5\n", r"edges +8\n", r"facets +5\n", r"volume +0\.1058"):
+            self.assertRegex(text, pattern)
+
+
+class Shape(CommandTest):
+    def test_the_list_names_models_that_can_be_made(self):
+        shapes = self.data("shape", "--list")["shapes"]
+        self.assertGreater(len(shapes), 20)
+        self.assertEqual(self.good("shape"), self.good("shape", "--list"))
+        for shape in shapes:
+            self.assertTrue(shape["help"])
+            self.assertGreater(self.data("info", f"shape:{shape['name']}")["vertices"], 0, shape["name"])
+            self.assertIn(shape["name"], self.good("shape", "--list"))
+
+    def test_a_written_model_reads_back_as_itself(self):
+        for name in ("icosahedron", "dodecahedron", "truncated-cube", "geodesic?level=3"):
+            file = self.path / "shape.off"
+            told = self.data("shape", name, "-o", file)
+            first, again = self.data("info", f"shape:{name}"), self.data("info", file)
+            del first["model"], again["model"]
+            self.assertEqual(first, again)
+            self.assertNotIn("/", file.read_text())
+            self.assertEqual(told["vertices"], first["vertices"])
+            plain = file.read_bytes()
+            self.assertIn("written to", self.good("shape", f"shape:{name}", "-o", file))
+            self.assertEqual(file.read_bytes(), plain)
+
+    def test_exact_text_is_the_same_body(self):
+        for extra in ([], ["--exact"]):
+            self.good("shape", "gs2", "-o", self.path / f"a{len(extra)}.off", *extra)
+        self.assertNotEqual((self.path / "a0.off").read_bytes(), (self.path / "a1.off").read_bytes())
+        a, b = self.data("info", self.path / "a0.off"), self.data("info", self.path / "a1.off")
+        self.assertEqual(a["bounds"], b["bounds"])
+        self.assertEqual(a["facets"], b["facets"])
+
+    def test_what_is_missing_is_said(self):
+        self.bad("shape", "cube", says="-o")
+        self.bad("shape", "-o", self.path / "x.off", says="NAME")
+        self.bad("shape", "cube", "--list", says="--list")
+        self.bad("shape", "sphinx", "-o", self.path / "x.off", says="sphinx")
+        self.assertFalse((self.path / "x.off").exists())
+
+
+if __name__ == "__main__":
+    main()

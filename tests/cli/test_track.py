@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""pirouette track: figures, frames, charts, progress. Usage: test_track.py COMMAND [CLASS...]"""
+import json
+import math
+import os
+import pty
+import subprocess
+import time
+import xml.etree.ElementTree as ElementTree
+
+from command_test import CommandTest, TETRAHEDRON, main, numbers, read_terminal, rotation
+
+
+class Track(CommandTest):
+    def test_defaults_and_fields(self):
+        told = self.data("track", self.tetrahedron, self.pyramid)
+        self.assertEqual([told[k] for k in ("frames", "steps", "axis", "seed", "method")], [1000, 500, "random", 1, "auto"])
+        for key in ("rebuild_walk_ns", "speedup_walk", "checked_per_frame", "repaired_per_frame"):
+            self.assertGreater(told[key], 0, key)
+        self.assertLessEqual(told["update_ns"]["median"], told["update_ns"]["p99"])
+        self.assertLessEqual(told["update_ns"]["p99"], told["update_ns"]["max"])
+        self.assertAlmostEqual(told["speedup_walk"], told["rebuild_walk_ns"] / told["update_ns"]["median"])
+        self.assertEqual(told["updates"] + told["rebuilds"], 1000)
+        self.assertEqual(told["allocations"], 0)
+        self.assertAlmostEqual(sum(told["signs"][k] for k in ("filter", "exact", "perturbation")), 1)
+        # what was not asked for was not found out
+        self.assertEqual([told[k] for k in ("brute_ns", "mismatches")], [None] * 2)
+        self.assertGreater(told["rebuild_cgm_ns"], 0)
+        self.assertGreater(told["speedup_cgm"], 0)
+        self.assertEqual(told["verified"], 0)
+
+    def test_every_frame_equals_a_rebuild(self):
+        for axis in ("0,0,1", "1,1,1", "-1,2,0.5", "random"):
+            for steps in (1, 3, 8, 12, 100):
+                for pair in ((self.tetrahedron, self.pyramid), ("shape:cube", "shape:cube")):
+                    told = self.data("track", *pair, f"--axis={axis}", "--steps", steps, "--frames=60", "--verify")
+                    self.assertEqual([told["mismatches"], told["verified"]], [0, 60])
+
+    def test_region_is_kept_and_verified(self):
+        for region in ("0,0,1,30", "-1,2,0.5,5", "1,0,0,120", "0,1,0,0"):
+            told = self.data("track", "shape:gs4", self.pyramid, "--frames=80", "--verify", f"--region={region}")
+            self.assertEqual([told["mismatches"], told["verified"]], [0, 80])
+            self.assertEqual(told["region"] + [told["region_degrees"]], [float(x) for x in region.split(",")])
+        part = self.data("track", "shape:gs4", "shape:gs4", "--frames=80", "--region=0,0,1,30")
+        whole = self.data("track", "shape:gs4", "shape:gs4", "--frames=80", "--region=0,0,1,180")
+        self.assertLess(part["checked_per_frame"], whole["checked_per_frame"] / 3)
+        self.assertNotIn("region", whole)
+        self.assertIn("within 30 degrees of 0,0,1",
+                      self.good("track", self.pyramid, self.pyramid, "--frames=5", "--region=0,0,1,30"))
+        for bad in ("0,0,1", "0,0,0,30", "0,0,1,181", "0,0,1,-1", "0,0,1,nan", "x"):
+            self.bad("track", self.pyramid, self.pyramid, f"--region={bad}", says="--region")
+
+    def test_methods_do_what_they_say(self):
+        pair = ["track", self.tetrahedron, self.pyramid, "--frames", "50", "--method"]
+        self.assertEqual([self.data(*pair, "update")[k] for k in ("updates", "rebuilds")], [50, 0])
+        self.assertEqual([self.data(*pair, "walk")[k] for k in ("updates", "rebuilds")], [0, 50])
+
+    def test_verify_every_and_brute_force(self):
+        told = self.data("track", self.tetrahedron, self.pyramid, "--frames", "100", "--verify-every", "30", "--brute")
+        self.assertEqual([told["verified"], told["mismatches"]], [4, 0])
+        self.assertGreater(told["brute_ns"], 0)
+
+    def test_text_holds_the_figures(self):
+        text = self.good("track", self.tetrahedron, self.pyramid, "--frames", "40", "--brute", "--verify")
+        for word in ("40 frames", "500 steps", "method auto", "update", "median", "rebuild by walk", "brute force",
+                     "pairs checked", "pairs repaired", "rebuilds", "allocations", "signs"):
+            self.assertIn(word, text)
+        self.assertRegex(text, r"verified +40 frames, 0 differ")
+
+    def test_one_frame(self):
+        self.assertEqual(self.data("track", "shape:cube", self.pyramid, "--frames", "1", "--verify")["mismatches"], 0)
+
+
+class Frames(CommandTest):
+    def dump(self, name, *args):
+        folder = self.path / name
+        self.good("track", *args, "--dump", folder)
+        frames = json.loads((folder / "frames.json").read_text())["frames"]
+        self.assertEqual(sorted(p.name for p in folder.iterdir()), sorted([f["file"] for f in frames] + ["frames.json"]))
+        return [(f["index"], f["quat"], (folder / f["file"]).read_bytes()) for f in frames]
+
+    def test_every_kth_frame_from_the_first(self):
+        frames = self.dump("a", self.tetrahedron, self.pyramid, "--frames", "25", "--every", "10")
+        self.assertEqual([f[0] for f in frames], [0, 10, 20])
+        self.assertEqual(len(self.dump("b", self.tetrahedron, self.pyramid, "--frames", "7")), 7)
+
+    def test_a_frame_is_the_exact_sum_at_its_quaternion(self):
+        for axis in ("random", "0.3,-0.1,2"):
+            for index, quat, text in self.dump(axis, self.tetrahedron, self.pyramid, "--axis", axis, "--frames", "160",
+                                               "--every", "53"):
+                self.good("sum", self.tetrahedron, self.pyramid, f"--quat={numbers(quat)}", "--method", "hull", "--exact",
+                          "-o", self.path / "sum.off")
+                self.assertEqual((self.path / "sum.off").read_bytes(), text, index)
+
+    def test_aligned_boxes_recur_exactly(self):
+        box = "shape:box?x=1&y=1&z=2"
+        frames = self.dump("a", box, box, "--axis", "0,0,1", "--steps", "360", "--frames", "721", "--every", "90")
+        turns = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, -1, 0], [1, 0, 0], [0, 0, 1]],
+                 [[-1, 0, 0], [0, -1, 0], [0, 0, 1]], [[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+        for k, (index, quat, text) in enumerate(frames):
+            self.assertEqual(rotation(quat), turns[k % 4], index)
+            self.assertTrue(text.startswith(b"OFF\n8 6 12\n"), index)
+        thirds = self.dump("b", "shape:cube", "shape:cube", "--axis=1,1,1", "--steps=300", "--frames=301", "--every=100")
+        for index, quat, text in thirds:
+            self.assertTrue(text.startswith(b"OFF\n8 6 12\n"), index)
+            self.assertEqual({abs(c) for row in rotation(quat) for c in row}, {0, 1}, index)
+
+    def test_steps_are_equal_turns(self):
+        for index, (x, y, z, w), _ in self.dump("a", self.tetrahedron, self.pyramid, "--axis=0,0,3", "--steps=7",
+                                                "--frames", "20"):
+            turn = 2 * math.atan2(z, w) / (2 * math.pi)
+            self.assertAlmostEqual((turn - index / 7 + 0.5) % 1, 0.5, places=12)
+
+    def test_random_axes_change_after_fifty_frames_and_follow_the_seed(self):
+        args = [self.tetrahedron, self.pyramid, "--frames", "120", "--steps", "90"]
+        first = self.dump("a", *args)
+        self.assertEqual(first, self.dump("b", *args, "--seed", "1"))
+        self.assertNotEqual(first, self.dump("c", *args, "--seed", "2"))
+        self.assertEqual(rotation(first[0][1]), [[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+
+        def step(i):
+            # the axis of the turn from frame i - 1 to frame i
+            x, y, z, w = first[i][1]
+            a, b, c, d = (-first[i - 1][1][0], -first[i - 1][1][1], -first[i - 1][1][2], first[i - 1][1][3])
+            axis = (w * a + x * d + y * c - z * b, w * b - x * c + y * d + z * a, w * c + x * b - y * a + z * d)
+            size = sum(v * v for v in axis) ** 0.5
+            return [v / size for v in axis]
+
+        same = lambda i, j: sum(abs(a - b) for a, b in zip(step(i), step(j))) < 1e-9
+        self.assertTrue(same(1, 49) and same(50, 99) and same(100, 119))
+        self.assertFalse(same(49, 50) or same(99, 100))
+
+    def test_frames_do_not_depend_on_the_method(self):
+        args = [self.pyramid, "shape:icosahedron", "--frames", "90", "--steps", "40", "--every", "9", "--method"]
+        auto = self.dump("a", *args, "auto")
+        self.assertEqual(auto, self.dump("b", *args, "update"))
+        self.assertEqual(auto, self.dump("c", *args, "walk"))
+
+
+class Plot(CommandTest):
+    def plot(self, *args):
+        file = self.path / "plot.svg"
+        self.good("track", *args, "--plot", file)
+        root = ElementTree.parse(file).getroot()
+        words = " | ".join("".join(e.itertext()) for e in root.iter() if e.tag.endswith("text"))
+        for path in (e for e in root.iter() if e.tag.endswith("path")):
+            self.assertNotRegex(path.get("d"), "nan|inf")
+        return file.read_text(), words
+
+    def test_title_axes_and_legend(self):
+        _, words = self.plot(self.tetrahedron, self.pyramid, "--frames", "90", "--steps", "70", "--brute")
+        for word in ("tetrahedron.off", "pyramid.off", "70 steps", "90 frames", "method auto", "frame", "µs", "tracked sum, median",
+                     "rebuild by walk, median", "brute-force re-check, median"):
+            self.assertIn(word, words)
+        self.assertNotIn("brute", self.plot(self.tetrahedron, self.pyramid, "--frames", "90")[1])
+
+    def test_one_frame_and_many(self):
+        self.plot(self.tetrahedron, self.pyramid, "--frames", "1")
+        few, _ = self.plot(self.tetrahedron, self.pyramid, "--frames", "400")
+        many, words = self.plot(self.tetrahedron, self.pyramid, "--frames", "20000")
+        self.assertIn("50 frames", words)
+        self.assertLess(len(many), 2 * len(few))
+
+    def test_names_that_xml_must_escape(self):
+        name = self.file("a<b & c>.off", TETRAHEDRON)
+        self.assertIn("a<b & c>.off", self.plot(name, self.pyramid, "--frames", "3")[1])
+
+
+class Terminal(CommandTest):
+    def open_terminal(self):
+        try:
+            master, slave = pty.openpty()
+        except OSError:
+            self.skipTest("no pseudo-terminal to be had here")
+        self.addCleanup(os.close, master)
+        return master, slave
+
+    def test_a_long_run_shows_its_progress_on_a_terminal_only(self):
+        master, slave = self.open_terminal()
+        started = time.monotonic()
+        running = subprocess.Popen([self.command, "track", "shape:icosahedron", self.pyramid, "--frames", "5000000"],
+                                   stdout=subprocess.DEVNULL, stderr=slave)
+        os.close(slave)
+        shown = b""
+        while b"\r[" not in shown and time.monotonic() - started < 30 and running.poll() is None:
+            shown += read_terminal(master, 1)
+        waited = time.monotonic() - started
+        running.terminate()
+        running.wait()
+        self.assertIn(b"of 5000000", shown)
+        self.assertGreater(waited, 0.9)
+
+    def test_a_short_run_shows_nothing(self):
+        master, slave = self.open_terminal()
+        done = subprocess.run([self.command, "track", "shape:cube", self.pyramid, "--frames", "5"], stdout=subprocess.PIPE,
+                              stderr=slave, timeout=60)
+        os.close(slave)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(read_terminal(master, 0), b"")
+
+
+if __name__ == "__main__":
+    main()
