@@ -20,7 +20,7 @@
 static int find_option(const struct command *command, const char *text) {
     size_t length = strcspn(text, "=");
     for (int i = 0; command->options[i].name; i++)
-        if (strlen(command->options[i].name) == length && memcmp(command->options[i].name, text, length) == 0)
+        if (option_is(&command->options[i], text, length))
             return i;
     return -1;
 }
@@ -36,11 +36,11 @@ static bool take_option(struct args *args, int argc, char *const *argv, int *at)
     const struct option *option = &args->command->options[row];
     if (!option->value) {
         if (equals) {
-            complain("%s: %s takes no value, but is given '%s'", name, option->name, equals + 1);
+            complain("%s: %.*s takes no value, but is given '%s'", name, (int)(equals - text), text, equals + 1);
             return false;
         }
         args->value[row] = "";
-        args->help = strcmp(option->name, "--help") == 0;
+        args->help = option_is(option, "--help", strlen("--help"));
         return true;
     }
     if (!equals && *at + 1 >= argc) {
@@ -173,20 +173,4 @@ bool args_choice(const struct args *args, const char *name, const char *const *c
     }
     complain("%s: %s: '%s' is none of %s", args->command->name, name, text, list);
     return false;
-}
-
-void args_print_help(const struct command *command) {
-    printf("usage: pirouette %s", command->name);
-    for (size_t i = 0; command->positional[i]; i++)
-        printf(i < command->required ? " %s" : " [%s]", command->positional[i]);
-    printf(" [OPTION...]\n\n%s\n", command->summary);
-    if (command->details)
-        printf("\n%s\n", command->details);
-    printf("\noptions:\n");
-    for (const struct option *option = command->options; option->name; option++) {
-        char left[48];
-        snprintf(left, sizeof left, "%s%s%s", option->name, option->value ? " " : "",
-                 option->value ? option->value : "");
-        printf("  %-28s %s\n", left, option->help);
-    }
 }

@@ -41,7 +41,4 @@ bool args_numbers(const struct args *args, const char *name, size_t count, doubl
 /* One of the words in `choices`, which ends with NULL; *choice, an index, stays when the option was not given. */
 bool args_choice(const struct args *args, const char *name, const char *const *choices, int *choice);
 
-/* Prints the help of a command on stdout. */
-void args_print_help(const struct command *command);
-
 #endif

@@ -6,6 +6,7 @@
 
 #include "args.h"
 #include "cgm_picture.h"
+#include "cmd.h"
 #include "file.h"
 #include "json.h"
 #include "measure.h"
@@ -112,7 +113,7 @@ static bool load(const struct args *args, pir_polytope **p, pir_polytope **q) {
     return *p && (*q || args->positional_count == 1);
 }
 
-static int run(const struct args *args) {
+int cmd_cgm(const struct args *args) {
     pir_quat rotation;
     struct outcome outcome = {0};
     struct output_file file = {0};
@@ -148,23 +149,3 @@ done:
     pir_polytope_release(p);
     return result;
 }
-
-static const struct option options[] = {
-    POSE_OPTIONS,
-    {"--difference", NULL, "reflect P through the origin before it is turned"},
-    {"-o", "FILE", "draw the unfolded cube to FILE, .svg: arcs of P red, of Q blue, of both violet"},
-    COMMON_OPTIONS,
-};
-
-const struct command cmd_cgm = {
-    .name = "cgm",
-    .positional = {"P", "Q"},
-    .required = 1,
-    .summary = "the cubical Gaussian map of P, turned, or of the sum of P and Q",
-    .details =
-        "Vertices, halfedges and faces of the six planar maps, their squares and outer faces included. Of two models "
-        "it is the\n"
-        "overlay of their maps, which is the map of their sum.",
-    .options = options,
-    .run = run,
-};

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "args.h"
+#include "cmd.h"
 #include "json.h"
 #include "message.h"
 #include "model.h"
@@ -48,7 +49,7 @@ static void print_text(const char *model, const pir_polytope *polytope) {
     printf("  %-10s %s\n", "volume", volume);
 }
 
-static int run(const struct args *args) {
+int cmd_info(const struct args *args) {
     const char *model = args->positional[0];
     pir_polytope *polytope = model_load(model);
     if (!polytope)
@@ -61,14 +62,3 @@ static int run(const struct args *args) {
     pir_polytope_release(polytope);
     return result;
 }
-
-static const struct option options[] = {COMMON_OPTIONS};
-
-const struct command cmd_info = {
-    .name = "info",
-    .positional = {"MODEL"},
-    .required = 1,
-    .summary = "vertices, edges, facets of a model's exact convex hull, its bounds and volume",
-    .options = options,
-    .run = run,
-};

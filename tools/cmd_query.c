@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "args.h"
+#include "cmd.h"
 #include "json.h"
 #include "message.h"
 #include "model.h"
@@ -193,7 +194,7 @@ static int run_one(const struct args *args, const struct request *request, pir_p
     return EXIT_DONE;
 }
 
-static int run(const struct args *args) {
+int cmd_query(const struct args *args) {
     struct request request;
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
@@ -224,28 +225,3 @@ done:
     pir_polytope_release(p);
     return result;
 }
-
-static const struct option options[] = {
-    POSE_OPTIONS,
-    {"--translate", "x,y,z", "move P by this, after turning it"},
-    {"--direction", "x,y,z", "also how far P moves this way to leave Q, or to touch it"},
-    {"--cast", "x,y,z", "also when P touches Q while it moves by this"},
-    {"--radius-p", "R", "round P by a ball of this radius"},
-    {"--radius-q", "R", "round Q"},
-    {"--batch", "FILE.csv", "many placements: a translation x,y,z a line; answers go to -o"},
-    {"-o", "FILE", "a picture of both bodies with the answer drawn, .svg; with --batch the answers, .csv"},
-    COMMON_OPTIONS,
-};
-
-const struct command cmd_query = {
-    .name = "query",
-    .positional = {"P", "Q"},
-    .required = 2,
-    .summary = "overlap, distance and depth of P, turned and moved, against Q",
-    .details =
-        "the state, outside, boundary or inside, is exact; numbers are doubles. The witness names the features that "
-        "attain\n"
-        "the answer: v, e or f of P, then of Q, and their indices. Moving P by depth times normal parts the bodies.",
-    .options = options,
-    .run = run,
-};

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "args.h"
+#include "cmd.h"
 #include "json.h"
 #include "message.h"
 #include "model.h"
@@ -60,7 +61,7 @@ static int write_shape(const struct args *args, const char *name) {
     return result;
 }
 
-static int run(const struct args *args) {
+int cmd_shape(const struct args *args) {
     const char *name = args->positional[0], *file = args_value(args, "-o");
     if (!name && !file)
         return list_shapes(args_has(args, "--json"));
@@ -74,20 +75,3 @@ static int run(const struct args *args) {
         name += strlen(MODEL_SHAPE);
     return write_shape(args, name);
 }
-
-static const struct option options[] = {
-    {"-o", "FILE", "write the model to FILE: .off, .obj, .stl, .ply or .svg"},
-    {"--exact", NULL, "in .off: integers and a/b instead of doubles, which hold the same numbers"},
-    {"--list", NULL, "list the names and their parameters, as without arguments"},
-    COMMON_OPTIONS,
-};
-
-const struct command cmd_shape = {
-    .name = "shape",
-    .positional = {"NAME"},
-    .required = 0,
-    .summary = "write a built-in model to a file, or list all",
-    .details = "NAME may carry parameters, as in 'geodesic?level=4' or 'box?x=1&y=2&z=0.5'.",
-    .options = options,
-    .run = run,
-};

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "args.h"
+#include "cmd.h"
 #include "json.h"
 #include "measure.h"
 #include "message.h"
@@ -112,7 +113,7 @@ static void print_text(const struct args *args, const struct request *request, c
         printf("  %-10s %s\n", "file", args_value(args, "-o"));
 }
 
-static int run(const struct args *args) {
+int cmd_sum(const struct args *args) {
     struct request request;
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
@@ -146,25 +147,3 @@ done:
     pir_polytope_release(p);
     return result;
 }
-
-static const struct option options[] = {
-    POSE_OPTIONS,
-    {"--difference", NULL, "the sum of Q and the reflected, turned P: what P may be moved by to touch Q"},
-    {"--method", "walk|cgm|hull",
-     "by walking the Gaussian maps (default), by overlaying the cubical ones, or as the hull of all sums"},
-    {"--exact", NULL, "exact coordinates; in .off: integers and a/b instead of doubles"},
-    {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg"},
-    COMMON_OPTIONS,
-};
-
-const struct command cmd_sum = {
-    .name = "sum",
-    .positional = {"P", "Q"},
-    .required = 2,
-    .summary = "the Minkowski sum of P, turned, and Q",
-    .details = "vertices, edges and facets are those of the sum; fv, vf and ee count its pairs of features (facet of P "
-               "and vertex\n"
-               "of Q, the reverse, an edge of each) as they are when every tie is settled.",
-    .options = options,
-    .run = run,
-};

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "args.h"
+#include "cmd.h"
 #include "message.h"
 #include "model.h"
 #include "pose.h"
@@ -88,7 +89,7 @@ static bool read_request(const struct args *args, struct track_request *request)
     return true;
 }
 
-static int run(const struct args *args) {
+int cmd_track(const struct args *args) {
     struct track_request request;
     struct track_result result = {0};
     if (!read_request(args, &request))
@@ -109,32 +110,3 @@ static int run(const struct args *args) {
     pir_polytope_release(p);
     return status;
 }
-
-static const struct option options[] = {
-    {"--steps", "N", "frames to a full turn (500)"},
-    {"--frames", "N", "frames in all (1000)"},
-    {"--axis", "x,y,z|random", "turn about this axis, or about a new random one every 50 frames (random)"},
-    {"--seed", "N", "of the random axes (1)"},
-    {"--method", "auto|update|walk|cgm", "how each rotation is brought into the sum (auto)"},
-    {"--tolerance", "T", "let the pairing stay behind while its support falls short by at most this length (0)"},
-    {"--region", "x,y,z,DEGREES", "keep only facets whose normals are within so many degrees of the axis (180: all)"},
-    {"--verify", NULL, "hold every frame against a rebuilt sum; exit status 1 when one differs"},
-    {"--verify-every", "K", "hold frames 0, K, 2K, ... against a rebuilt sum"},
-    {"--brute", NULL, "also time the re-check of all pairs, on a few frames"},
-    {"--dump", "DIR", "write frames as exact OFF, and frames.json, into DIR"},
-    {"--every", "K", "dump frames 0, K, 2K, ... (1)"},
-    {"--plot", "FILE.svg", "draw update and rebuild time over frames"},
-    COMMON_OPTIONS,
-};
-
-const struct command cmd_track = {
-    .name = "track",
-    .positional = {"P", "Q"},
-    .required = 2,
-    .summary = "keep the sum of P and Q up to date while P turns, and time it",
-    .details = "Frame 0 is P as it stands; each frame turns it by 1/steps of a full turn. Times are of the sum's "
-               "pairing: one call\n"
-               "that brings the sum to the frame's rotation. Rebuilds are timed on a sample of frames in the same run.",
-    .options = options,
-    .run = run,
-};

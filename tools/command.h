@@ -1,39 +1,65 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a subcommand is: a name, what it takes, how it runs. main.c holds the table of all; each stands in its own cmd_*.c.
+ * What a subcommand is: its name, its arguments, its text. All of them stand in one table, command_table.c. The parser of
+ * arguments, `--help`, the manual pages and the completion of shells read that table, so none can tell what another does not.
+ * A subcommand runs in a cmd_*.c of its own, and main.c knows which.
  */
 #ifndef TOOLS_COMMAND_H
 #define TOOLS_COMMAND_H
 
+#include <stdbool.h>
 #include <stddef.h>
-
-struct args;
 
 /* How the command ends. */
 enum { EXIT_DONE = 0, EXIT_CHECK_FAILED = 1, EXIT_BAD_INPUT = 2 };
 
 struct option {
-    const char *name;  /* with its dashes; NULL ends a table */
-    const char *value; /* how help shows its value; NULL for an option that takes none */
+    const char *name; /* with its dashes, or several names with ", " between them; NULL ends a list of options */
+    const char
+        *value; /* how help shows its value, "a|b" where it is one of two words; NULL for an option that takes none */
     const char *help;
 };
 
-/* Rows that every table ends with. */
-#define COMMON_OPTIONS                                                                                                 \
-    {"--json", NULL, "print one JSON object"}, {"--help", NULL, "print this help"}, {                                  \
-        NULL, NULL, NULL                                                                                               \
-    }
+struct example {
+    const char *line; /* what follows `pirouette`; NULL ends a list of examples */
+    const char *what;
+};
+
+/* The most examples that a subcommand has, and the end of their list. */
+#define COMMAND_EXAMPLES 4
 
 struct command {
     const char *name;
     const char *positional[3]; /* names of its positional arguments, then NULL */
     size_t required;           /* how many of them must be there */
     const char *summary;       /* one line */
-    const char *details;       /* more lines for its help; NULL for none */
+    const char *details;       /* one paragraph for its help; NULL for none */
     const struct option *options;
-    int (*run)(const struct args *args);
+    struct example examples[COMMAND_EXAMPLES];
 };
 
-extern const struct command cmd_cgm, cmd_info, cmd_query, cmd_shape, cmd_sum, cmd_track;
+/* The subcommands in the order in which help lists them. */
+enum {
+    COMMAND_INFO,
+    COMMAND_CGM,
+    COMMAND_SHAPE,
+    COMMAND_SUM,
+    COMMAND_TRACK,
+    COMMAND_QUERY,
+    COMMAND_HELP,
+    COMMAND_COUNT,
+};
+
+extern const struct command command_table[COMMAND_COUNT];
+
+/* The options that stand before a subcommand, and what holds for every subcommand: what they do, their models, their exit status. */
+extern const struct option command_options[];
+extern const char command_about[], command_models[], command_exit[];
+
+/* NULL when no subcommand has this name. */
+const struct command *command_find(const char *name);
+
+/* Whether `length` characters of `text` are one of the option's names. */
+bool option_is(const struct option *option, const char *text, size_t length);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The `pirouette` command: finds the subcommand in a table and hands it its arguments. What a subcommand is stands in
- * command.h.
+ * The `pirouette` command: finds the subcommand in the table of command.h and hands it its arguments.
  */
 #include <signal.h>
 #include <stdio.h>
@@ -10,56 +9,60 @@
 #include <pirouette/version.h>
 
 #include "args.h"
+#include "cmd.h"
 #include "command.h"
+#include "help.h"
 #include "message.h"
 
-static const struct command *const commands[] = {&cmd_info, &cmd_cgm, &cmd_shape, &cmd_sum, &cmd_track, &cmd_query};
-
-#define COMMAND_COUNT (sizeof commands / sizeof commands[0])
-
-static const struct command *find_command(const char *name) {
-    for (size_t i = 0; i < COMMAND_COUNT; i++)
-        if (strcmp(commands[i]->name, name) == 0)
-            return commands[i];
-    return NULL;
+/* help SUBCOMMAND prints what SUBCOMMAND --help does. */
+static int run_help(const struct args *args) {
+    const char *name = args->positional_count > 0 ? args->positional[0] : NULL;
+    const struct command *command = name ? command_find(name) : NULL;
+    if (name && !command)
+        return complain("help: unknown subcommand '%s'; see pirouette --help", name);
+    if (command)
+        help_print_command(command);
+    else
+        help_print();
+    return EXIT_DONE;
 }
 
-static void print_help(void) {
-    printf("usage: pirouette SUBCOMMAND [ARGUMENT...]\n\n"
-           "Exact Minkowski sums of convex polyhedra, kept up to date while one of them rotates.\n\nsubcommands:\n");
-    for (size_t i = 0; i < COMMAND_COUNT; i++)
-        printf("  %-8s %s\n", commands[i]->name, commands[i]->summary);
-    printf("\n"
-           "pirouette SUBCOMMAND --help tells more, pirouette --version the version. A MODEL, P or Q is a file (.off, "
-           ".obj,\n"
-           ".stl, .ply) or shape:NAME for a built-in one; its convex hull is taken.\n"
-           "Exit status: 0 done; 1 a check that was asked for failed; 2 bad usage or bad input, told in one line on "
-           "stderr.\n");
-}
+static int (*const runs[COMMAND_COUNT])(const struct args *) = {
+    [COMMAND_INFO] = cmd_info,   [COMMAND_CGM] = cmd_cgm,     [COMMAND_SHAPE] = cmd_shape, [COMMAND_SUM] = cmd_sum,
+    [COMMAND_TRACK] = cmd_track, [COMMAND_QUERY] = cmd_query, [COMMAND_HELP] = run_help,
+};
 
 static int run_command(const struct command *command, int argc, char *const *argv) {
     struct args args;
     if (!args_parse(command, argc, argv, &args))
         return EXIT_BAD_INPUT;
     if (args.help) {
-        args_print_help(command);
+        help_print_command(command);
         return EXIT_DONE;
     }
-    return command->run(&args);
+    return runs[command - command_table](&args);
+}
+
+/* Whether `text` is the option of this name, which stands before a subcommand. */
+static bool is_option(const char *text, const char *name) {
+    for (const struct option *option = command_options; option->name; option++)
+        if (option_is(option, text, strlen(text)))
+            return option_is(option, name, strlen(name));
+    return false;
 }
 
 static int run(int argc, char *const *argv) {
     if (argc < 2)
         return complain("no subcommand; usage: pirouette SUBCOMMAND [ARGUMENT...], see pirouette --help");
-    if (strcmp(argv[1], "--help") == 0) {
-        print_help();
+    if (is_option(argv[1], "--help")) {
+        help_print();
         return EXIT_DONE;
     }
-    if (strcmp(argv[1], "--version") == 0) {
+    if (is_option(argv[1], "--version")) {
         printf("pirouette %s\n", pir_version());
         return EXIT_DONE;
     }
-    const struct command *command = find_command(argv[1]);
+    const struct command *command = command_find(argv[1]);
     if (!command)
         return complain("unknown %s '%s'; see pirouette --help", argv[1][0] == '-' ? "option" : "subcommand", argv[1]);
     return run_command(command, argc - 2, argv + 2);

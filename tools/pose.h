@@ -9,13 +9,6 @@
 
 #include "args.h"
 
-/* Rows for a command's table. */
-#define POSE_OPTIONS                                                                                                   \
-    {"--quat", "x,y,z,w", "turn P by this quaternion, exactly as given, of any length but 0"},                         \
-        {"--axis", "x,y,z", "turn P about this axis, of any length but 0, ..."}, {                                     \
-        "--angle", "DEGREES", "... by this angle"                                                                      \
-    }
-
 /* The rotation that the options ask for, the identity when there are none; false after a complaint. */
 bool pose_read(const struct args *args, pir_quat *ret_rotation);
 

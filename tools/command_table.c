@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The table of subcommands. A text is one paragraph without line breaks: whoever prints it wraps it. This file and those who
+ * print it on manual pages need nothing but the C library, so that a cross build can make the pages on the building machine.
+ */
+#include "command.h"
+
+#include <string.h>
+
+#define HELP_OPTION                                                                                                    \
+    {"-h, --help", NULL, "print this help"}, {                                                                         \
+        NULL, NULL, NULL                                                                                               \
+    }
+
+/* Rows that the options of every subcommand but help end with. */
+#define COMMON_OPTIONS {"--json", NULL, "print one JSON object"}, HELP_OPTION
+
+/* One rotation; pose.c reads them. */
+#define POSE_OPTIONS                                                                                                   \
+    {"--quat", "x,y,z,w", "turn P by this quaternion, exactly as given, of any length but 0"},                         \
+        {"--axis", "x,y,z", "turn P about this axis, of any length but 0, ..."}, {                                     \
+        "--angle", "DEGREES", "... by this angle"                                                                      \
+    }
+
+const char command_about[] = "Exact Minkowski sums of convex polyhedra, kept up to date while one of them rotates.";
+
+const char command_models[] =
+    "A MODEL, P or Q is a file (.off, .obj, .stl, .ply) or shape:NAME for a built-in one; its convex hull is taken.";
+
+const char command_exit[] =
+    "Exit status: 0 done; 1 a check that was asked for failed; 2 bad usage or bad input, told in "
+    "one line on stderr.";
+
+const struct option command_options[] = {
+    {"-h, --help", NULL, "print this help"},
+    {"--version", NULL, "print the version"},
+    {NULL, NULL, NULL},
+};
+
+static const struct option info_options[] = {COMMON_OPTIONS};
+
+static const struct option cgm_options[] = {
+    POSE_OPTIONS,
+    {"--difference", NULL, "reflect P through the origin before it is turned"},
+    {"-o", "FILE", "draw the unfolded cube to FILE, .svg: arcs of P red, of Q blue, of both violet"},
+    COMMON_OPTIONS,
+};
+
+static const struct option shape_options[] = {
+    {"-o", "FILE", "write the model to FILE: .off, .obj, .stl, .ply or .svg"},
+    {"--exact", NULL, "in .off: integers and a/b instead of doubles, which hold the same numbers"},
+    {"--list", NULL, "list the names and their parameters, as without arguments"},
+    COMMON_OPTIONS,
+};
+
+static const struct option sum_options[] = {
+    POSE_OPTIONS,
+    {"--difference", NULL, "the sum of Q and the reflected, turned P: what P may be moved by to touch Q"},
+    {"--method", "walk|cgm|hull",
+     "by walking the Gaussian maps (default), by overlaying the cubical ones, or as the hull of all sums"},
+    {"--exact", NULL, "exact coordinates; in .off: integers and a/b instead of doubles"},
+    {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg"},
+    COMMON_OPTIONS,
+};
+
+static const struct option track_options[] = {
+    {"--steps", "N", "frames to a full turn (500)"},
+    {"--frames", "N", "frames in all (1000)"},
+    {"--axis", "x,y,z|random", "turn about this axis, or about a new random one every 50 frames (random)"},
+    {"--seed", "N", "of the random axes (1)"},
+    {"--method", "auto|update|walk|cgm", "how each rotation is brought into the sum (auto)"},
+    {"--tolerance", "T", "let the pairing stay behind while its support falls short by at most this length (0)"},
+    {"--region", "x,y,z,DEGREES", "keep only facets whose normals are within so many degrees of the axis (180: all)"},
+    {"--verify", NULL, "hold every frame against a rebuilt sum; exit status 1 when one differs"},
+    {"--verify-every", "K", "hold frames 0, K, 2K, ... against a rebuilt sum"},
+    {"--brute", NULL, "also time the re-check of all pairs, on a few frames"},
+    {"--dump", "DIR", "write frames as exact OFF, and frames.json, into DIR"},
+    {"--every", "K", "dump frames 0, K, 2K, ... (1)"},
+    {"--plot", "FILE.svg", "draw update and rebuild time over frames"},
+    COMMON_OPTIONS,
+};
+
+static const struct option query_options[] = {
+    POSE_OPTIONS,
+    {"--translate", "x,y,z", "move P by this, after turning it"},
+    {"--direction", "x,y,z", "also how far P moves this way to leave Q, or to touch it"},
+    {"--cast", "x,y,z", "also when P touches Q while it moves by this"},
+    {"--radius-p", "R", "round P by a ball of this radius"},
+    {"--radius-q", "R", "round Q"},
+    {"--batch", "FILE.csv", "many placements: a translation x,y,z a line; answers go to -o"},
+    {"-o", "FILE", "a picture of both bodies with the answer drawn, .svg; with --batch the answers, .csv"},
+    COMMON_OPTIONS,
+};
+
+static const struct option help_options[] = {HELP_OPTION};
+
+const struct command command_table[COMMAND_COUNT] = {
+    [COMMAND_INFO] =
+        {
+            .name = "info",
+            .positional = {"MODEL"},
+            .required = 1,
+            .summary = "vertices, edges, facets of a model's exact convex hull, its bounds and volume",
+            .options = info_options,
+            .examples = {{"info shape:icosahedron", "the counts, bounds and volume of a built-in model"}},
+        },
+    [COMMAND_CGM] =
+        {
+            .name = "cgm",
+            .positional = {"P", "Q"},
+            .required = 1,
+            .summary = "the cubical Gaussian map of P, turned, or of the sum of P and Q",
+            .details =
+                "Vertices, halfedges and faces of the six planar maps, their squares and outer faces included. Of two "
+                "models it is the overlay of their maps, which is the map of their sum.",
+            .options = cgm_options,
+            .examples = {{"cgm shape:cube shape:octahedron -o map.svg", "draw the map of a sum"}},
+        },
+    [COMMAND_SHAPE] =
+        {
+            .name = "shape",
+            .positional = {"NAME"},
+            .required = 0,
+            .summary = "write a built-in model to a file, or list all",
+            .details = "NAME may carry parameters, as in 'geodesic?level=4' or 'box?x=1&y=2&z=0.5'.",
+            .options = shape_options,
+            .examples = {{"shape --list", "the names and their parameters"},
+                         {"shape 'geodesic?level=4' -o sphere.off", "write a model"}},
+        },
+    [COMMAND_SUM] =
+        {
+            .name = "sum",
+            .positional = {"P", "Q"},
+            .required = 2,
+            .summary = "the Minkowski sum of P, turned, and Q",
+            .details = "Vertices, edges and facets are those of the sum; fv, vf and ee count its pairs of features "
+                       "(facet of P "
+                       "and vertex of Q, the reverse, an edge of each) as they are when every tie is settled.",
+            .options = sum_options,
+            .examples = {{"sum shape:cube shape:gs4 --axis 0,0,1 --angle 30 -o sum.off",
+                          "turn the cube and write the sum"},
+                         {"sum shape:cube shape:cube --quat 1,2,3,4 --exact -o sum.off", "the same in exact numbers"}},
+        },
+    [COMMAND_TRACK] =
+        {
+            .name = "track",
+            .positional = {"P", "Q"},
+            .required = 2,
+            .summary = "keep the sum of P and Q up to date while P turns, and time it",
+            .details =
+                "Frame 0 is P as it stands; each frame turns it by 1/steps of a full turn. Times are of the sum's "
+                "pairing: one call that brings the sum to the frame's rotation. Rebuilds are timed on a sample of "
+                "frames in the same run.",
+            .options = track_options,
+            .examples = {{"track shape:cube shape:gs4 --frames 100 --verify", "hold every frame against a rebuilt sum"},
+                         {"track shape:cube shape:gs4 --frames 100 --plot times.svg --json", "draw the times"}},
+        },
+    [COMMAND_QUERY] =
+        {
+            .name = "query",
+            .positional = {"P", "Q"},
+            .required = 2,
+            .summary = "overlap, distance and depth of P, turned and moved, against Q",
+            .details =
+                "The state, outside, boundary or inside, is exact; numbers are doubles. The witness names the features "
+                "that attain the answer: v, e or f of P, then of Q, and their indices. Moving P by depth times normal "
+                "parts the bodies.",
+            .options = query_options,
+            .examples = {{"query shape:cube shape:cube --translate 3,0,0", "the distance of two cubes"},
+                         {"query shape:cube shape:gs4 --translate 3,0,0 --cast -4,0,0", "also when the cube touches"}},
+        },
+    [COMMAND_HELP] =
+        {
+            .name = "help",
+            .positional = {"SUBCOMMAND"},
+            .required = 0,
+            .summary = "what the command does, or a subcommand",
+            .options = help_options,
+            .examples = {{"help sum", "the same as pirouette sum --help"}},
+        },
+};
+
+const struct command *command_find(const char *name) {
+    for (size_t i = 0; i < COMMAND_COUNT; i++)
+        if (strcmp(command_table[i].name, name) == 0)
+            return &command_table[i];
+    return NULL;
+}
+
+bool option_is(const struct option *option, const char *text, size_t length) {
+    for (const char *name = option->name; *name;) {
+        size_t own = strcspn(name, ",");
+        if (own == length && memcmp(name, text, length) == 0)
+            return true;
+        name += own;
+        name += strspn(name, ", ");
+    }
+    return false;
+}
