@@ -176,7 +176,9 @@ PIR_API int pir_sum_is_valid(pir_sum *sum);
 
 /**
  * The true sum as a mesh: coplanar pieces merged, straight corners and pieces without area dropped. The mesh is the
- * caller's and uses the sum's allocator. O(size of the sum), more where many pieces merge.
+ * caller's and uses the sum's allocator. O(size of the sum). Beside the mesh it takes memory for the facets of the true sum and a bit for
+ * each crossing, so that a sum with more pairs than facets, as of two aligned prisms, stays small.
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY, PIR_ERR_LIMIT (2^32 corners of facets or more).
  */
 PIR_API pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh **ret_mesh);
 

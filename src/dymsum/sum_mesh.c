@@ -2,116 +2,142 @@
 /*
  * The true sum as a mesh.
  *
- * A facet made of one piece is that piece's polygon. A facet made of several is the convex polygon that their corners span, found
- * exactly, straight corners dropped: an extreme point of the sum is the sum of just one pair of vertices, so pairs name
- * vertices. Vertices are numbered by rising pair, facets put in canonical order: the mesh depends on the true sum alone.
+ * A facet made of one piece is that piece's polygon. A facet made of several is the sum of two faces, put together side
+ * by side without its pieces. An extreme point of the sum is the sum of just one pair of vertices, so pairs name
+ * vertices. Vertices are numbered by rising pair, facets put in canonical order: the mesh depends on the true sum
+ * alone.
+ *
+ * Beside the mesh itself, memory holds a bit for each crossing and what the facets of the true sum take: a sum that is
+ * all ties has few.
  */
 #include "dymsum/sum_mesh.h"
+#include "dymsum/face_sum.h"
 #include "dymsum/pieces.h"
 #include "dymsum/placing.h"
-#include "polytope/hull.h"
 
 #include <string.h>
 
 /* The facets of the true sum as polygons of pairs. */
 struct facets {
-    uint32_t count, corner_count, capacity; /* capacity: of both arrays, in corners */
+    uint32_t count, corner_count; /* so far */
+    uint32_t facet_room, corner_room;
     uint32_t *start;
     pir_corner *corner;
 };
 
-/* A direction in which the group's polygon can be seen exactly: the axis dropped, and the sign of its plane's normal there. */
-static int seen_axis(pir_sum *sum, uint32_t piece, int *ret_direction) {
+/* How many corners a facet of one operand can come to with the face of the other in its direction. */
+static uint32_t corner_bound(const pir_polytope *of, uint32_t facet, const pir_polytope *other, pir_face face) {
+    uint32_t own = pir_facet_edges(of, facet).count;
+    if (face.facet != PIR_NO_FACE)
+        return own + pir_facet_edges(other, face.facet).count;
+    return face.half != PIR_NO_FACE ? own + 2 : own;
+}
+
+/*
+ * Room for all facets; of two facets that make one the second is not counted. PIR_ERR_MEMORY, or PIR_ERR_LIMIT beyond
+ * 2^32 corners.
+ */
+static pir_status reserve_facets(struct facets *facets, const pir_sum *sum, const pir_pieces *pieces) {
     const pir_polytope *p = sum->p, *q = sum->q;
-    pir_signs *signs = &sum->signs;
-    uint32_t mark = signs->scratch.used;
-    // the piece that stands for a group of several is a facet of P or Q: those come first
-    pir_int3 n;
-    if (piece < p->facet_count) {
-        pir_int3 own = pir_normal_exact(p, piece);
-        pir_rotation_make_exact(&signs->rotation);
-        n = pir_int3_take(&signs->scratch, p->exact_normal.stride + PIR_MATRIX_LIMBS + 1);
-        pir_rotation_apply(&signs->rotation, &n, &own, &signs->scratch);
-    } else {
-        PIR_ASSERT(piece < p->facet_count + q->facet_count);
-        n = pir_normal_exact(q, piece - p->facet_count);
-    }
-    int axis = n.c[0].size != 0 ? 0 : n.c[1].size != 0 ? 1 : 2;
-    *ret_direction = pir_int_sign(&n.c[axis]);
-    signs->scratch.used = mark;
-    return axis;
+    uint64_t count = pieces->alone_count, corners = 4 * (uint64_t)pieces->alone_count;
+    for (uint32_t f = 0; f < p->facet_count && !p->artificial; f++, count++)
+        corners += corner_bound(p, f, q, pieces->of_p[f]);
+    for (uint32_t g = 0; g < q->facet_count && !q->artificial; g++)
+        if (pieces->of_q[g].facet == PIR_NO_FACE)
+            count++, corners += corner_bound(q, g, p, pieces->of_q[g]);
+    if (corners > UINT32_MAX)
+        return PIR_ERR_LIMIT;
+    facets->facet_room = (uint32_t)count;
+    facets->corner_room = (uint32_t)corners;
+    facets->start = PIR_NEW(&sum->allocator, uint32_t, (size_t)facets->facet_room + 1);
+    facets->corner = PIR_NEW(&sum->allocator, pir_corner, facets->corner_room);
+    if (!facets->start || !facets->corner)
+        return PIR_ERR_MEMORY;
+    facets->start[0] = 0;
+    return PIR_OK;
 }
 
-/* Reduces `count` corners at `corner` to those of the convex polygon they span; returns their number, 0 when out of memory. */
-static uint32_t span_polygon(pir_placing *placing, const pir_allocator *a, int axis, int direction, pir_corner *corner,
-                             uint32_t count) {
-    pir_vectors exact = {0};
-    pir_points points = {0};
-    uint32_t *index = PIR_NEW(a, uint32_t, count);
-    pir_corner *copy = PIR_NEW(a, pir_corner, count);
-    uint32_t corners = 0;
-    if (index && copy && pir_vectors_init(&exact, a, count, placing->stride)) {
-        for (uint32_t i = 0; i < count; i++) {
-            pir_placing_set(placing, corner[i].p, corner[i].q, &exact, i);
-            index[i] = i;
-            copy[i] = corner[i];
-        }
-        if (pir_points_init(&points, a, &exact))
-            corners = pir_polygon_corners(&points, a, axis, direction, index, count);
-        for (uint32_t i = 0; i < corners; i++)
-            corner[i] = copy[index[i]];
-    }
-    pir_points_finish(&points, a);
-    pir_vectors_finish(&exact, a);
-    PIR_FREE(a, index, count);
-    PIR_FREE(a, copy, count);
-    return corners;
+static void free_facets(struct facets *facets, const pir_allocator *a) {
+    PIR_FREE(a, facets->start, (size_t)facets->facet_room + 1);
+    PIR_FREE(a, facets->corner, facets->corner_room);
+    *facets = (struct facets){0};
 }
 
-/* Appends the facet that the chain of pieces from `first` along `next` makes; a chain ends in PIR_DROPPED. */
-static bool append_facet(struct facets *facets, pir_sum *sum, pir_placing *placing, const pir_pieces *pieces,
-                         uint32_t first, const uint32_t *next) {
-    uint32_t from = facets->corner_count, count = 0;
-    for (uint32_t i = first; i != PIR_DROPPED; i = next[i]) {
-        uint32_t n = pieces->start[i + 1] - pieces->start[i];
-        memcpy(facets->corner + from + count, pieces->corner + pieces->start[i], n * sizeof *facets->corner);
-        count += n;
-    }
-    if (next[first] != PIR_DROPPED) {
-        int direction, axis = seen_axis(sum, first, &direction);
-        count = span_polygon(placing, &sum->allocator, axis, direction, facets->corner + from, count);
-        if (count == 0)
-            return false;
-    }
-    facets->corner_count = from + count;
+/* Where the corners of the next facet go, and the end of that facet. */
+static pir_corner *next_facet(const struct facets *facets) {
+    return facets->corner + facets->corner_count;
+}
+
+static void end_facet(struct facets *facets, uint32_t corners) {
+    facets->corner_count += corners;
     facets->start[++facets->count] = facets->corner_count;
-    return true;
 }
 
-/* All facets, from the pieces and their groups. */
-static bool collect_facets(struct facets *facets, pir_sum *sum, pir_placing *placing, const pir_pieces *pieces) {
-    const pir_allocator *a = &sum->allocator;
-    facets->start = PIR_ZEROED(a, uint32_t, (size_t)pieces->count + 1);
-    facets->corner = PIR_NEW(a, pir_corner, pieces->corner_count);
-    facets->capacity = pieces->corner_count;
-    uint32_t *next = PIR_NEW(a, uint32_t, pieces->count), *last = PIR_NEW(a, uint32_t, pieces->count);
-    bool done = facets->start && facets->corner && next && last;
-    // chain the pieces of each group in rising order
-    for (uint32_t i = 0; done && i < pieces->count; i++) {
-        uint32_t group = pieces->group[i];
-        next[i] = PIR_DROPPED;
-        if (group == PIR_DROPPED)
-            continue;
-        if (group != i)
-            next[last[group]] = i;
-        last[group] = i;
+/* Appends the facet that facet f of P is or is part of. */
+static void append_facet_of_p(struct facets *facets, pir_sum *sum, const pir_pieces *pieces, uint32_t f) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    pir_face_edges own = pir_facet_edges(p, f);
+    pir_corner *corner = next_facet(facets);
+    pir_face face = pieces->of_p[f];
+    uint32_t count = own.count;
+    if (face.facet != PIR_NO_FACE || face.half != PIR_NO_FACE) {
+        const uint32_t sides[2] = {face.half, q->twin[face.half]};
+        pir_face_edges other = face.facet != PIR_NO_FACE ? pir_facet_edges(q, face.facet) : (pir_face_edges){sides, 2};
+        count = pir_face_sum(sum, own, other, (pir_facet_of){true, f}, corner);
+    } else {
+        for (uint32_t i = 0; i < count; i++)
+            corner[i] = (pir_corner){p->origin[own.half[i]], sum->fv[f]};
     }
-    for (uint32_t i = 0; done && i < pieces->count; i++)
-        if (pieces->group[i] == i)
-            done = append_facet(facets, sum, placing, pieces, i, next);
-    PIR_FREE(a, next, pieces->count);
-    PIR_FREE(a, last, pieces->count);
-    return done;
+    end_facet(facets, count);
+}
+
+/* Appends the facet that facet g of Q is or is part of, where that is no facet of P as well. */
+static void append_facet_of_q(struct facets *facets, pir_sum *sum, const pir_pieces *pieces, uint32_t g) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    pir_face_edges own = pir_facet_edges(q, g);
+    pir_corner *corner = next_facet(facets);
+    pir_face face = pieces->of_q[g];
+    uint32_t count = own.count;
+    if (face.half != PIR_NO_FACE) {
+        const uint32_t sides[2] = {face.half, p->twin[face.half]};
+        count = pir_face_sum(sum, (pir_face_edges){sides, 2}, own, (pir_facet_of){false, g}, corner);
+    } else {
+        for (uint32_t i = 0; i < count; i++)
+            corner[i] = (pir_corner){sum->vf[g], q->origin[own.half[i]]};
+    }
+    end_facet(facets, count);
+}
+
+/* Appends the parallelogram of a crossing: its outward normal is d × e. */
+static void append_crossing(struct facets *facets, const pir_sum *sum, uint32_t slot) {
+    uint32_t half = sum->p->edge_half[sum->crossings.edge[slot]], h = sum->crossings.half[slot];
+    uint32_t p0 = sum->p->origin[half], p1 = sum->p->target[half], q0 = sum->q->origin[h], q1 = sum->q->target[h];
+    pir_corner *corner = next_facet(facets);
+    corner[0] = (pir_corner){p0, q0};
+    corner[1] = (pir_corner){p0, q1};
+    corner[2] = (pir_corner){p1, q1};
+    corner[3] = (pir_corner){p1, q0};
+    end_facet(facets, 4);
+}
+
+/* All facets of the true sum; errors as reserve_facets. */
+static pir_status collect_facets(struct facets *facets, pir_sum *sum) {
+    pir_pieces pieces;
+    pir_status status = pir_pieces_make(&pieces, sum);
+    if (status != PIR_OK)
+        return status;
+    status = reserve_facets(facets, sum, &pieces);
+    bool done = status == PIR_OK;
+    for (uint32_t f = 0; done && f < sum->p->facet_count && !sum->p->artificial; f++)
+        append_facet_of_p(facets, sum, &pieces, f);
+    for (uint32_t g = 0; done && g < sum->q->facet_count && !sum->q->artificial; g++)
+        if (pieces.of_q[g].facet == PIR_NO_FACE)
+            append_facet_of_q(facets, sum, &pieces, g);
+    for (uint32_t slot = 0; done && slot < sum->crossings.used; slot++)
+        if (pir_piece_is_alone(&pieces, slot))
+            append_crossing(facets, sum, slot);
+    pir_pieces_finish(&pieces, sum);
+    return status;
 }
 
 /* Sorts the corners' places by pair, by counting: first by q, then by p. `order` and `work` hold one entry a corner. */
@@ -211,41 +237,39 @@ static pir_status mesh_of_whole(const pir_sum *sum, pir_precision precision, pir
     return status;
 }
 
+/* The facets as a mesh, its vertices placed exactly as well where that is asked for. */
+static pir_status mesh_of_facets(const struct facets *facets, pir_sum *sum, pir_precision precision,
+                                 pir_mesh **ret_mesh) {
+    pir_mesh *mesh = number_vertices(facets, sum);
+    pir_status status = mesh ? PIR_OK : PIR_ERR_MEMORY;
+    if (mesh && precision == PIR_EXACT) {
+        // facets are told apart where the pairing is exact, vertices placed where the sum is seen
+        pir_placing placing;
+        status = pir_placing_init(&placing, &sum->allocator, sum->p, sum->q, pir_rotation_now(sum));
+        if (status == PIR_OK) {
+            status = pir_placing_fill(&placing, mesh) ? PIR_OK : PIR_ERR_MEMORY;
+            pir_placing_finish(&placing, &sum->allocator);
+        }
+    }
+    if (status == PIR_OK)
+        *ret_mesh = mesh;
+    else
+        pir_mesh_destroy(mesh);
+    return status;
+}
+
 pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh **ret_mesh) {
     if (!sum || !ret_mesh || (precision != PIR_DOUBLE && precision != PIR_EXACT))
         return PIR_ERR_ARGUMENT;
     if (sum->region.cone.set)
         return mesh_of_whole(sum, precision, ret_mesh);
-    const pir_allocator *a = &sum->allocator;
     struct facets facets = {0};
-    pir_pieces pieces = {0};
-    pir_placing placing = {0};
-    pir_mesh *mesh = NULL;
-    pir_status status = pir_pieces_make(&pieces, sum);
-    if (status == PIR_OK && (pieces.merged || precision == PIR_EXACT))
-        status = pir_placing_init(&placing, a, sum->p, sum->q, &sum->signs.rotation);
-    if (status == PIR_OK && !collect_facets(&facets, sum, &placing, &pieces))
-        status = PIR_ERR_MEMORY;
-    if (status == PIR_OK && facets.count == 0) {
-        // a point or a segment: nothing has area
-        status = pir_hull_mesh(sum->p, sum->q, pir_rotation_now(sum), a, precision, &mesh);
-    } else if (status == PIR_OK) {
-        mesh = number_vertices(&facets, sum);
-        // facets are told apart where the pairing is exact, vertices placed where the sum is seen
-        if (mesh && precision == PIR_EXACT && sum->lag.lagging) {
-            pir_placing_finish(&placing, a);
-            status = pir_placing_init(&placing, a, sum->p, sum->q, &sum->lag.now);
-        }
-        if (!mesh || status != PIR_OK || (precision == PIR_EXACT && !pir_placing_fill(&placing, mesh)))
-            status = PIR_ERR_MEMORY;
-    }
-    PIR_FREE(a, facets.start, (size_t)pieces.count + 1);
-    PIR_FREE(a, facets.corner, facets.capacity);
-    pir_placing_finish(&placing, a);
-    pir_pieces_finish(&pieces, a);
-    if (status == PIR_OK)
-        *ret_mesh = mesh;
-    else
-        pir_mesh_destroy(mesh);
+    pir_status status = collect_facets(&facets, sum);
+    // where nothing has area the sum is a point or a segment
+    if (status == PIR_OK && facets.count == 0)
+        status = pir_hull_mesh(sum->p, sum->q, pir_rotation_now(sum), &sum->allocator, precision, ret_mesh);
+    else if (status == PIR_OK)
+        status = mesh_of_facets(&facets, sum, precision, ret_mesh);
+    free_facets(&facets, &sum->allocator);
     return status;
 }

@@ -22,6 +22,8 @@ static void *give(test_memory *memory, size_t size) {
     memset(start + HEADER, 0xa5, size);
     memory->blocks++;
     memory->bytes += size;
+    if (memory->bytes > memory->peak)
+        memory->peak = memory->bytes;
     return start + HEADER;
 }
 

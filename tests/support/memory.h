@@ -12,6 +12,7 @@
 
 typedef struct test_memory {
     size_t blocks, bytes; /* out at the moment */
+    size_t peak;          /* the most bytes that were out */
     uint64_t requests;    /* for memory, so far */
     uint64_t fail_at;     /* the request, counted from 1, that fails; 0 for none */
     bool fail_after;      /* all requests after that one fail as well */
