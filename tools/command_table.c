@@ -28,8 +28,7 @@ const char command_models[] =
     "A MODEL, P or Q is a file (.off, .obj, .stl, .ply) or shape:NAME for a built-in one; its convex hull is taken.";
 
 const char command_exit[] =
-    "Exit status: 0 done; 1 a check that was asked for failed; 2 bad usage or bad input, told in "
-    "one line on stderr.";
+    "0 done; 1 a check that was asked for failed; 2 bad usage or bad input, told in one line on stderr.";
 
 const struct option command_options[] = {
     {"-h, --help", NULL, "print this help"},

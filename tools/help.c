@@ -61,7 +61,7 @@ void help_print(void) {
     print_options(command_options);
     printf("\npirouette help SUBCOMMAND tells more.\n\n");
     print_wrapped(command_models, 0, 0);
-    print_wrapped(command_exit, 0, 0);
+    print_wrapped(command_exit, (size_t)printf("Exit status: "), 0);
 }
 
 void help_print_command(const struct command *command) {

@@ -1,7 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds the help of the `pirouette` command against what it takes: test_help.py COMMAND SOURCES [CLASS]"""
+"""
+Holds the help of the `pirouette` command, its manual pages and its completion against what it takes and against each other:
+test_help.py COMMAND SOURCES PAGES [CLASS]
+"""
+import os
+import pty
 import re
+import select
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -10,6 +17,7 @@ from pathlib import Path
 
 COMMAND = ""
 SOURCES = Path()
+PAGES = Path()
 
 
 def run(*args, **how):
@@ -22,12 +30,29 @@ def subcommands():
     return re.findall(r"^  ([a-z]+) ", listed, re.M)
 
 
-def help_options(text):
-    """The names of options that a help text lists, with what stands for their values."""
+def plain(text):
+    """The text with one blank between words, however its lines were broken."""
+    return " ".join(text.split())
+
+
+def option_table(text):
+    """The options that a help text lists: from what stands on the left, `-o FILE`, to what it says."""
     listed = text.split("options:\n")[1].split("\n\n")[0]
+    entries = re.findall(r"^  (-\S+(?:, -\S+)*(?: \S+)?)(?:  +|\n {8,})(.*(?:\n {8,}.*)*)", listed, re.M)
+    return {left: plain(right) for left, right in entries}
+
+
+def names(option):
+    """The names in `-h, --help` or `-o FILE`."""
+    return [part for part in option.replace(",", "").split() if part.startswith("-")]
+
+
+def help_options(text):
+    """The names of the options that a help text lists, with what stands for their values."""
     options = {}
-    for names, value in re.findall(r"^  ((?:-[a-z-]+, )*-[a-z-]+)(?: (\S+))?(?=  |$)", listed, re.M):
-        options.update(dict.fromkeys(names.split(", "), value))
+    for left in option_table(text):
+        words = left.split()
+        options.update(dict.fromkeys(names(left), None if words[-1].startswith("-") else words[-1]))
     return options
 
 
@@ -93,7 +118,148 @@ class Help(unittest.TestCase):
         self.assertGreaterEqual(count, len(subcommands()))
 
 
+def page_text(name):
+    """The source of a manual page with roff's escapes undone, its requests kept."""
+    text = (PAGES / name).read_text()
+    for escape, character in (("\\&", ""), ("\\-", "-"), ("\\(aq", "'"), ("\\(ga", "`"), ("\\(ha", "^"), ("\\(ti", "~"),
+                              ("\\fB", ""), ("\\fI", ""), ("\\fR", ""), ("\\e", "\\")):
+        text = text.replace(escape, character)
+    return text
+
+
+class Manual(unittest.TestCase):
+    def pages(self):
+        """Each page with the help that it stands for."""
+        self.assertEqual(sorted(page.name for page in PAGES.glob("*.1")),
+                         sorted(["pirouette.1", *(f"pirouette-{name}.1" for name in subcommands())]))
+        yield "pirouette.1", run("--help").stdout
+        for name in subcommands():
+            yield f"pirouette-{name}.1", run("help", name).stdout
+
+    def test_a_page_says_what_the_help_says(self):
+        for name, text in self.pages():
+            page = page_text(name)
+            options = page.split(".SH OPTIONS\n")[1].split("\n.SH")[0]
+            entries = re.findall(r"\.TP\n(.*)\n(.*)", options)
+            self.assertEqual(dict(entries), option_table(text), name)
+            self.assertEqual(len(entries), options.count(".TP"), name)
+            words = plain(re.sub(r"^\.[A-Z]+ ?", "", page, flags=re.M))
+            for paragraph in re.split(r"\n\n|(?=\n  pirouette )", text):
+                if not re.match("usage:|subcommands:|options:|examples:|pirouette help SUB|A MODEL", paragraph):
+                    for part in re.split(r"\n(?=      )|Exit status: ", paragraph):
+                        self.assertIn(plain(part), words.replace(" nf ", " ").replace(" fi ", " "), name)
+
+    def test_pages_name_all_subcommands_and_each_other(self):
+        general = page_text("pirouette.1")
+        for name in subcommands():
+            self.assertIn(f"pirouette-{name}(1)", general)
+            self.assertIn("pirouette(1)", page_text(f"pirouette-{name}.1"))
+
+    def test_roff_has_no_complaint_about_a_page(self):
+        if not shutil.which("groff"):
+            self.skipTest("groff is not installed")
+        for name, _ in self.pages():
+            result = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-rLL=78n", PAGES / name], capture_output=True, text=True,
+                                    timeout=60)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), name)
+            self.assertIn("EXIT STATUS", re.sub("\x1b[^m]*m|.\b", "", result.stdout))
+
+
+# Calls the completion for each line of stdin as bash does, and prints the replies in one line.
+COMPLETE = """
+compopt() { :; }
+source "$1"
+while IFS= read -r COMP_LINE; do
+    COMP_POINT=${#COMP_LINE} COMP_WORDS=("$2") COMPREPLY=()
+    _pirouette
+    printf '%s\n' "${COMPREPLY[*]}"
+done
+"""
+
+
+@unittest.skipUnless(shutil.which("bash"), "bash is not installed")
+class Completion(unittest.TestCase):
+    def complete(self, *lines):
+        """What may follow each of these lines."""
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("a.off", "b c.off", "sheep.off"):
+                (Path(folder) / name).touch()
+            (Path(folder) / "shelf").mkdir()
+            result = subprocess.run(["bash", "--norc", "-c", COMPLETE, "bash", PAGES / "pirouette", COMMAND], cwd=folder,
+                                    input="".join(line + "\n" for line in lines), capture_output=True, text=True, timeout=60)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        replies = [line.split(" ") if line else [] for line in result.stdout.splitlines()]
+        self.assertEqual(len(replies), len(lines))
+        return replies
+
+    def test_subcommands_and_options_are_those_of_the_help(self):
+        known = subcommands()
+        replies = self.complete("pirouette ", "pirouette help ", "pirouette -", *(f"pirouette {name} -" for name in known))
+        self.assertEqual(replies[:2], [known, known])
+        for args, reply in zip((["--help"], *(["help", name] for name in known)), replies[2:]):
+            self.assertEqual(sorted(reply), sorted(help_options(run(*args).stdout)), args)
+
+    def test_a_value_is_not_taken_for_an_argument_and_words_are_offered(self):
+        for name in subcommands():
+            for option, value in help_options(run("help", name).stdout).items():
+                words = [word for word in (value or "").split("|") if re.fullmatch("[a-z]+", word)]
+                beside, inside, after = self.complete(f"pirouette {name} {option} ", f"pirouette {name} {option}=",
+                                                      f"pirouette {name} {option} x -")
+                if value and not value.startswith(("FILE", "DIR")):
+                    self.assertEqual((beside, inside), (words, words), f"{name} {option}")
+                self.assertIn("--help", after)
+
+    def test_what_follows_the_cursor_and_the_breaks_of_words(self):
+        cases = {
+            "pirouette sum --method w": ["walk"],
+            "pirouette sum --method=w": ["walk"],
+            "pirouette --": ["--help", "--version"],
+            "pirouette sum shape:cub": ["cube", "cuboctahedron"],
+            "pirouette sum a.off s": ["sheep.off", "shelf/", "shape:"],
+            "pirouette sum a.off shape:tr": ["truncated-tetrahedron"],
+            "pirouette sum a.off a.off shape:": [],
+            "pirouette sum --axis 0,0,1 a.off sha": ["shape:"],
+            "pirouette sum -- --me": [],
+            "pirouette shape cub": ["cube", "cuboctahedron"],
+            "pirouette help tr": ["track"],
+            "pirouette track a.off a.off --dump sh": ["shelf/"],
+            "pirouette info a": [],  # bash's own completion of files follows
+            "pirouette nosuch -": [],
+        }
+        for line, expected, reply in zip(cases, cases.values(), self.complete(*cases)):
+            if line == "pirouette sum a.off shape:tr":
+                self.assertIn(expected[0], reply)
+            else:
+                self.assertEqual(reply, expected, line)
+
+    def test_a_terminal_completes(self):
+        """Types into an interactive bash, and reads what the command line becomes."""
+        process, terminal = pty.fork()
+        if process == 0:
+            os.chdir(Path(COMMAND).parent)
+            os.environ.update(PS1="$ ", TERM="dumb", INPUTRC="/dev/null", HISTFILE="", PATH=f".:{os.environ['PATH']}")
+            os.execvp("bash", ["bash", "--norc", "--noprofile", "-i"])
+        try:
+            os.write(terminal, f"source '{PAGES / 'pirouette'}'; echo rea''dy\n".encode())
+            self.read_until(terminal, "ready")
+            os.write(terminal, b"pirouette su\tshape:icosah\tshape:dodec\t--method=wal\t--js\t\x01echo [\x05]\n")
+            self.assertIn("\n[pirouette sum shape:icosahedron shape:dodecahedron --method=walk --json ]",
+                          self.read_until(terminal, "\n["))
+        finally:
+            os.close(terminal)
+            os.waitpid(process, 0)
+
+    def read_until(self, terminal, text):
+        """What the terminal shows, up to this text and the rest of its line."""
+        seen = ""
+        while not re.search(re.escape(text) + r".*\n", seen):
+            self.assertTrue(select.select([terminal], [], [], 30)[0], f"{text!r} does not come after {seen!r}")
+            seen += os.read(terminal, 4096).decode().replace("\r", "")
+        return seen
+
+
 if __name__ == "__main__":
     COMMAND = str(Path(sys.argv[1]).resolve())
     SOURCES = Path(sys.argv[2])
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    PAGES = Path(sys.argv[3]).resolve()
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * pages SCRIPT FILE...: writes each FILE by what its name asks for: `pirouette.1`, `pirouette-SUBCOMMAND.1`, or `pirouette`, the
+ * completion, which ends with SCRIPT. A page of an unknown subcommand, and a subcommand without a page, end the build.
+ */
+#include "pages.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *base_name(const char *path) {
+    const char *slash = strrchr(path, '/'), *backslash = strrchr(path, '\\');
+    const char *last = backslash > slash ? backslash : slash;
+    return last ? last + 1 : path;
+}
+
+/* The subcommand whose manual page has this name. */
+static const struct command *command_of_page(const char *name) {
+    for (size_t i = 0; i < COMMAND_COUNT; i++) {
+        char page[64];
+        snprintf(page, sizeof page, "pirouette-%s.1", command_table[i].name);
+        if (strcmp(page, name) == 0)
+            return &command_table[i];
+    }
+    return NULL;
+}
+
+static int fail(const char *what, const char *which) {
+    fprintf(stderr, "pages: %s %s\n", what, which);
+    return EXIT_FAILURE;
+}
+
+/* Writes one file; notes in `has_page` the subcommand that it is about. */
+static int write_page(const char *path, const char *script, bool has_page[COMMAND_COUNT]) {
+    const char *name = base_name(path);
+    bool general = strcmp(name, "pirouette.1") == 0, completion = strcmp(name, "pirouette") == 0;
+    const struct command *command = command_of_page(name);
+    if (!general && !completion && !command)
+        return fail("no subcommand has the page", name);
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return fail("cannot open", path);
+    bool written = true;
+    if (completion)
+        written = page_write_completion(file, script);
+    else
+        page_write_manual(file, command);
+    if (command)
+        has_page[command - command_table] = true;
+    written = !ferror(file) && written;
+    if (fclose(file) != 0 || !written)
+        return fail("cannot write", path);
+    return EXIT_SUCCESS;
+}
+
+int main(int argc, char **argv) {
+    bool has_page[COMMAND_COUNT] = {false};
+    for (int i = 2; i < argc; i++)
+        if (write_page(argv[i], argv[1], has_page) != EXIT_SUCCESS)
+            return EXIT_FAILURE;
+    for (size_t i = 0; i < COMMAND_COUNT; i++)
+        if (!has_page[i])
+            return fail("tools/pages/meson.build lists no page of the subcommand", command_table[i].name);
+    return EXIT_SUCCESS;
+}
