@@ -13,12 +13,13 @@
 #include "message.h"
 #include "model.h"
 #include "pose.h"
+#include "target.h"
 #include "text.h"
 
 struct outcome {
     pir_cgm *cgm;
     pir_mesh *mesh;
-    double seconds; /* from the polytopes to the map */
+    double seconds; /* from the polytopes to the mesh */
 };
 
 static pir_status compute(pir_polytope *p, pir_polytope *q, pir_quat rotation, struct outcome *outcome) {
@@ -33,10 +34,12 @@ static pir_status compute(pir_polytope *p, pir_polytope *q, pir_quat rotation, s
         outcome->cgm = of_p;
         of_p = NULL;
     }
+    if (status == PIR_OK)
+        status = pir_cgm_mesh(outcome->cgm, PIR_DOUBLE, &outcome->mesh);
     outcome->seconds = (double)(clock_now() - start) / 1e9;
     pir_cgm_destroy(of_p);
     pir_cgm_destroy(of_q);
-    return status == PIR_OK ? pir_cgm_mesh(outcome->cgm, PIR_DOUBLE, &outcome->mesh) : status;
+    return status;
 }
 
 static void add_counts(struct json *json, cJSON *parent, pir_cgm_counts counts) {
@@ -88,15 +91,6 @@ static void print_text(const struct args *args, const struct outcome *outcome) {
         printf("  %-10s %s\n", "file", args_value(args, "-o"));
 }
 
-/* Whether `path` is one that a picture goes to; complains when not. */
-static bool is_picture(const char *path) {
-    size_t length = strlen(path);
-    if (length > 4 && strcmp(path + length - 4, ".svg") == 0)
-        return true;
-    complain("%s: the name of the picture does not end in .svg", path);
-    return false;
-}
-
 /* P, reflected when the difference is asked for, and Q when there is one; false after a complaint. */
 static bool load(const struct args *args, pir_polytope **p, pir_polytope **q) {
     *p = model_load(args->positional[0]);
@@ -120,7 +114,7 @@ int cmd_cgm(const struct args *args) {
     pir_polytope *p = NULL, *q = NULL;
     const char *path = args_value(args, "-o");
     int result = EXIT_BAD_INPUT;
-    if (!pose_read(args, &rotation) || (path && !is_picture(path)) || !load(args, &p, &q))
+    if (!pose_read(args, &rotation) || !target_check(args, "-o", ".svg") || !load(args, &p, &q))
         goto done;
     if (path && !output_open(&file, path))
         goto done;
@@ -136,10 +130,10 @@ int cmd_cgm(const struct args *args) {
             goto done;
     }
     result = EXIT_DONE;
-    if (!args_has(args, "--json"))
+    if (args_has(args, "--json"))
+        result = print_json(args, &outcome) ? EXIT_DONE : EXIT_BAD_INPUT;
+    else if (!target_is_stdout(args, "-o"))
         print_text(args, &outcome);
-    else if (!print_json(args, &outcome))
-        result = EXIT_BAD_INPUT;
 
 done:
     output_discard(&file);

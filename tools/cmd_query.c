@@ -7,11 +7,13 @@
 #include "args.h"
 #include "cmd.h"
 #include "json.h"
+#include "measure.h"
 #include "message.h"
 #include "model.h"
 #include "pose.h"
 #include "query_batch.h"
 #include "query_picture.h"
+#include "target.h"
 
 struct request {
     pir_quat rotation;
@@ -24,6 +26,7 @@ struct answer {
     pir_query_result result;
     pir_query_result along; /* directional depth or distance */
     pir_cast_result cast;
+    double seconds; /* from the polytopes to the answer */
 };
 
 static bool read_vector(const struct args *args, const char *name, pir_vec3 *to) {
@@ -38,7 +41,7 @@ static bool read_radius(const struct args *args, const char *name, double *radiu
     if (!args_numbers(args, name, 1, radius))
         return false;
     if (*radius < 0) {
-        complain("query: %s: a radius is at least 0", name);
+        complain("query: %s: %s is less than 0", name, args_value(args, name));
         return false;
     }
     return true;
@@ -63,10 +66,11 @@ static bool read_request(const struct args *args, struct request *request) {
         return false;
     }
     if (request->has_direction && request->direction.x == 0 && request->direction.y == 0 && request->direction.z == 0) {
-        complain("query: --direction 0,0,0 is no direction");
+        complain("query: --direction: '%s' is the zero vector, which has no direction",
+                 args_value(args, "--direction"));
         return false;
     }
-    return true;
+    return target_check(args, "-o", args_has(args, "--batch") ? NULL : ".svg");
 }
 
 static pir_status ask(pir_query *query, const struct request *request, struct answer *answer) {
@@ -147,6 +151,7 @@ static bool print_json(const struct args *args, const struct request *request, c
     }
     add_witness(&json, json.root, &result->witness);
     json_add_number(&json, json.root, "steps", result->steps);
+    json_add_number(&json, json.root, "seconds", answer->seconds);
     return json_print(&json, stdout);
 }
 
@@ -180,9 +185,10 @@ static void print_text(const struct args *args, const struct request *request, c
 }
 
 static int run_one(const struct args *args, const struct request *request, pir_polytope *p, pir_polytope *q,
-                   pir_query *query) {
+                   pir_query *query, int64_t start) {
     struct answer answer = {0};
     pir_status status = ask(query, request, &answer);
+    answer.seconds = (double)(clock_now() - start) / 1e9;
     if (status != PIR_OK)
         return complain_status("query", status, NULL);
     const char *file = args_value(args, "-o");
@@ -190,7 +196,8 @@ static int run_one(const struct args *args, const struct request *request, pir_p
         return EXIT_BAD_INPUT;
     if (args_has(args, "--json"))
         return print_json(args, request, &answer) ? EXIT_DONE : EXIT_BAD_INPUT;
-    print_text(args, request, &answer);
+    if (!target_is_stdout(args, "-o"))
+        print_text(args, request, &answer);
     return EXIT_DONE;
 }
 
@@ -208,15 +215,16 @@ int cmd_query(const struct args *args) {
         goto done;
     pir_sum_options options = pir_sum_options_default();
     options.difference = 1;
+    int64_t start = clock_now();
     pir_status status = pir_sum_create(p, q, request.rotation, &options, &sum);
     if (status == PIR_OK)
         status = pir_query_create(sum, &query);
     if (status != PIR_OK)
         complain_status("query", status, NULL);
     else if (args_has(args, "--batch"))
-        result = query_batch_run(args, query, &request.input);
+        result = query_batch_run(args, query, &request.input, start);
     else
-        result = run_one(args, &request, p, q, query);
+        result = run_one(args, &request, p, q, query, start);
 
 done:
     pir_query_destroy(query);

@@ -9,6 +9,7 @@
 #include "json.h"
 #include "message.h"
 #include "model.h"
+#include "target.h"
 
 static int list_shapes(bool as_json) {
     if (!as_json) {
@@ -41,21 +42,27 @@ static bool print_written(const pir_polytope *polytope, const char *name, const 
     return json_print(&json, stdout);
 }
 
+/* Whether the shape was written, and is told of where that does not go to the same place. */
+static bool write_mesh(const struct args *args, const char *name, const pir_polytope *polytope, const pir_mesh *mesh) {
+    const char *path = args_value(args, "-o");
+    struct output_file file = {0};
+    bool done = output_open(&file, path) && target_write_mesh(&file, mesh, args_has(args, "--exact"));
+    output_discard(&file);
+    return done && (target_is_stdout(args, "-o") || print_written(polytope, name, path, args_has(args, "--json")));
+}
+
 static int write_shape(const struct args *args, const char *name) {
-    const char *file = args_value(args, "-o");
     pir_polytope *polytope = NULL;
     pir_mesh *mesh = NULL;
-    int result = EXIT_DONE;
+    int result = EXIT_BAD_INPUT;
     pir_report report = {0};
     pir_status status = pir_shape_create(name, NULL, &report, &polytope);
     if (status == PIR_OK)
         status = pir_mesh_from_polytope(polytope, &mesh);
-    if (status == PIR_OK)
-        status = pir_mesh_write(mesh, file, args_has(args, "--exact"), &report);
     if (status != PIR_OK)
-        result = complain_status(name, status, &report);
-    else if (!print_written(polytope, name, file, args_has(args, "--json")))
-        result = EXIT_BAD_INPUT;
+        complain_status(name, status, &report);
+    else if (write_mesh(args, name, polytope, mesh))
+        result = EXIT_DONE;
     pir_mesh_destroy(mesh);
     pir_polytope_release(polytope);
     return result;
@@ -73,5 +80,5 @@ int cmd_shape(const struct args *args) {
         return complain("shape: %s: -o FILE is missing; it says where to write the model", name);
     if (strncmp(name, MODEL_SHAPE, strlen(MODEL_SHAPE)) == 0)
         name += strlen(MODEL_SHAPE);
-    return write_shape(args, name);
+    return target_check(args, "-o", TARGET_MESH) ? write_shape(args, name) : EXIT_BAD_INPUT;
 }

@@ -10,6 +10,7 @@
 #include "message.h"
 #include "model.h"
 #include "pose.h"
+#include "target.h"
 #include "text.h"
 
 enum method { METHOD_WALK, METHOD_CGM, METHOD_HULL };
@@ -33,7 +34,8 @@ static bool read_request(const struct args *args, struct request *request) {
     *request = (struct request){.options = pir_sum_options_default(), .method = METHOD_WALK};
     request->options.difference = args_has(args, "--difference");
     request->precision = args_has(args, "--exact") ? PIR_EXACT : PIR_DOUBLE;
-    return pose_read(args, &request->rotation) && args_choice(args, "--method", method_names, &request->method);
+    return pose_read(args, &request->rotation) && args_choice(args, "--method", method_names, &request->method) &&
+           target_check(args, "-o", TARGET_MESH);
 }
 
 /* The mesh from the overlay of two cubical Gaussian maps, the pairing as that rebuild reads it. */
@@ -118,29 +120,30 @@ int cmd_sum(const struct args *args) {
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
     struct outcome outcome = {0};
+    struct output_file file = {0};
+    const char *path = args_value(args, "-o");
     int result = EXIT_BAD_INPUT;
-    pir_report report = {0};
     pir_polytope *q = NULL, *p = model_load(args->positional[0]);
     if (p)
         q = model_load(args->positional[1]);
-    if (!p || !q)
+    if (!p || !q || (path && !output_open(&file, path)))
         goto done;
 
     pir_status status = compute(&request, p, q, &outcome);
-    const char *file = args_value(args, "-o");
-    if (status == PIR_OK && file)
-        status = pir_mesh_write(outcome.mesh, file, args_has(args, "--exact"), &report);
     if (status != PIR_OK) {
-        complain_status("sum", status, &report);
+        complain_status("sum", status, NULL);
         goto done;
     }
+    if (path && !target_write_mesh(&file, outcome.mesh, args_has(args, "--exact")))
+        goto done;
     result = EXIT_DONE;
-    if (!args_has(args, "--json"))
+    if (args_has(args, "--json"))
+        result = print_json(args, &request, &outcome) ? EXIT_DONE : EXIT_BAD_INPUT;
+    else if (!target_is_stdout(args, "-o"))
         print_text(args, &request, &outcome);
-    else if (!print_json(args, &request, &outcome))
-        result = EXIT_BAD_INPUT;
 
 done:
+    output_discard(&file);
     pir_mesh_destroy(outcome.mesh);
     pir_sum_destroy(outcome.sum);
     pir_polytope_release(q);

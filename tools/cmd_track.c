@@ -7,6 +7,7 @@
 #include "message.h"
 #include "model.h"
 #include "pose.h"
+#include "target.h"
 #include "track.h"
 
 /* Times are kept for every frame. */
@@ -27,17 +28,13 @@ static bool read_motion(const struct args *args, struct track_request *request) 
 
 static bool read_outputs(const struct args *args, struct track_request *request) {
     request->dump = args_value(args, "--dump");
+    request->dump_exact = args_has(args, "--exact");
     request->plot = args_value(args, "--plot");
-    if (args_has(args, "--every") && !request->dump) {
-        complain("track: --every needs --dump DIR beside it");
+    if ((args_has(args, "--every") || request->dump_exact) && !request->dump) {
+        complain("track: %s needs --dump DIR beside it", request->dump_exact ? "--exact" : "--every");
         return false;
     }
-    size_t length = request->plot ? strlen(request->plot) : 0;
-    if (request->plot && (length < 4 || strcmp(request->plot + length - 4, ".svg") != 0)) {
-        complain("track: --plot: '%s' does not end in .svg", request->plot);
-        return false;
-    }
-    return args_count(args, "--every", 1, FRAMES_MOST, &request->dump_every);
+    return target_check(args, "--plot", ".svg") && args_count(args, "--every", 1, FRAMES_MOST, &request->dump_every);
 }
 
 /* The region, all of the sphere where none is asked for. */
@@ -66,6 +63,7 @@ static bool read_request(const struct args *args, struct track_request *request)
         .frames = 1000,
         .steps = 500,
         .seed = 1,
+        .difference = args_has(args, "--difference"),
         .brute = args_has(args, "--brute"),
         .verify_every = args_has(args, "--verify") ? 1 : 0,
         .dump_every = 1,
@@ -100,10 +98,10 @@ int cmd_track(const struct args *args) {
         q = model_load(request.q);
     if (p && q && track_run(&request, p, q, &result)) {
         status = result.mismatches ? EXIT_CHECK_FAILED : EXIT_DONE;
-        if (!args_has(args, "--json"))
+        if (args_has(args, "--json"))
+            status = track_print_json(&request, &result) ? status : EXIT_BAD_INPUT;
+        else if (!target_is_stdout(args, "--plot"))
             track_print_text(&request, &result);
-        else if (!track_print_json(&request, &result))
-            status = EXIT_BAD_INPUT;
     }
     track_finish(&result);
     pir_polytope_release(q);

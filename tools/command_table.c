@@ -24,8 +24,9 @@
 
 const char command_about[] = "Exact Minkowski sums of convex polyhedra, kept up to date while one of them rotates.";
 
-const char command_models[] =
-    "A MODEL, P or Q is a file (.off, .obj, .stl, .ply) or shape:NAME for a built-in one; its convex hull is taken.";
+const char command_models[] = "A MODEL, P or Q is a file (.off, .obj, .stl, .ply), - for OFF on standard input, or "
+                              "shape:NAME for a built-in one; "
+                              "its convex hull is taken. A file to write may be - for standard output.";
 
 const char command_exit[] =
     "0 done; 1 a check that was asked for failed; 2 bad usage or bad input, told in one line on stderr.";
@@ -73,7 +74,10 @@ static const struct option track_options[] = {
     {"--verify", NULL, "hold every frame against a rebuilt sum; exit status 1 when one differs"},
     {"--verify-every", "K", "hold frames 0, K, 2K, ... against a rebuilt sum"},
     {"--brute", NULL, "also time the re-check of all pairs, on a few frames"},
-    {"--dump", "DIR", "write frames as exact OFF, and frames.json, into DIR"},
+    {"--difference", NULL, "keep the sum of Q and the reflected, turned P"},
+    {"--dump", "DIR",
+     "write frames as OFF in doubles into DIR, in rationals into DIR/exact, and what they are to DIR/frames.json"},
+    {"--exact", NULL, "dump frames in rationals alone, into DIR"},
     {"--every", "K", "dump frames 0, K, 2K, ... (1)"},
     {"--plot", "FILE.svg", "draw update and rebuild time over frames"},
     COMMON_OPTIONS,
@@ -86,7 +90,7 @@ static const struct option query_options[] = {
     {"--cast", "x,y,z", "also when P touches Q while it moves by this"},
     {"--radius-p", "R", "round P by a ball of this radius"},
     {"--radius-q", "R", "round Q"},
-    {"--batch", "FILE.csv", "many placements: a translation x,y,z a line; answers go to -o"},
+    {"--batch", "FILE.csv", "many placements: a translation x,y,z a line; answers go to -o; - is standard input"},
     {"-o", "FILE", "a picture of both bodies with the answer drawn, .svg; with --batch the answers, .csv"},
     COMMON_OPTIONS,
 };

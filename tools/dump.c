@@ -6,45 +6,55 @@
 #include <stdlib.h>
 
 #include "message.h"
+#include "target.h"
 
-bool dump_open(struct dump *dump, const char *folder) {
-    *dump = (struct dump){.folder = folder};
-    if (!folder_make(folder))
-        return false;
-    char *path = path_join(folder, "frames.json");
-    bool good = path && output_open(&dump->index, path);
+static bool make_exact_folder(const char *folder) {
+    char *path = path_join(folder, EXACT_FOLDER);
+    bool good = path && folder_make(path);
     free(path);
-    if (!good)
+    return good;
+}
+
+bool dump_open(struct dump *dump, const char *folder, bool exact) {
+    *dump = (struct dump){.folder = folder, .exact = exact};
+    if (!folder_make(folder) || (!exact && !make_exact_folder(folder)))
+        return false;
+    dump->index_path = path_join(folder, "frames.json");
+    if (!dump->index_path || !output_open(&dump->index, dump->index_path))
         return false;
     dump->json = json_new();
     dump->frames = json_add_array(&dump->json, dump->json.root, "frames");
     return true;
 }
 
-static bool write_mesh(pir_sum *sum, const char *path) {
-    pir_mesh *mesh = NULL;
-    pir_report report = {0};
-    pir_status status = pir_sum_mesh(sum, PIR_EXACT, &mesh);
-    if (status == PIR_OK)
-        status = pir_mesh_write(mesh, path, 1, &report);
-    if (status != PIR_OK)
-        complain_status(path, status, &report);
-    pir_mesh_destroy(mesh);
-    return status == PIR_OK;
+static bool write_mesh(const struct dump *dump, const pir_mesh *mesh, const char *name, bool exact) {
+    struct output_file file = {0};
+    char *path = path_join(dump->folder, name);
+    bool good = path && output_open(&file, path) && target_write_mesh(&file, mesh, exact);
+    output_discard(&file);
+    free(path);
+    return good;
 }
 
 bool dump_frame(struct dump *dump, pir_sum *sum, uint64_t frame) {
-    char name[48];
-    snprintf(name, sizeof name, "frame-%06" PRIu64 ".off", frame);
-    char *path = path_join(dump->folder, name);
-    bool good = path && write_mesh(sum, path);
-    free(path);
+    char doubles[48], exact[64];
+    snprintf(doubles, sizeof doubles, "frame-%06" PRIu64 ".off", frame);
+    snprintf(exact, sizeof exact, "%s%s", dump->exact ? "" : EXACT_FOLDER "/", doubles);
+    pir_mesh *mesh = NULL;
+    pir_status status = pir_sum_mesh(sum, PIR_EXACT, &mesh);
+    if (status != PIR_OK)
+        complain_status(doubles, status, NULL);
+    bool good = status == PIR_OK && write_mesh(dump, mesh, exact, true) &&
+                (dump->exact || write_mesh(dump, mesh, doubles, false));
+    pir_mesh_destroy(mesh);
     if (!good)
         return false;
     pir_quat q = pir_sum_rotation(sum);
     cJSON *entry = json_add_object(&dump->json, dump->frames, NULL);
     json_add_number(&dump->json, entry, "index", (double)frame);
-    json_add_text(&dump->json, entry, "file", name);
+    json_add_text(&dump->json, entry, "file", exact);
+    if (!dump->exact)
+        json_add_text(&dump->json, entry, "doubles", doubles);
     json_add_numbers(&dump->json, entry, "quat", (const double[]){q.x, q.y, q.z, q.w}, 4);
     return true;
 }
@@ -56,4 +66,5 @@ bool dump_commit(struct dump *dump) {
 void dump_discard(struct dump *dump) {
     json_discard(&dump->json);
     output_discard(&dump->index);
+    free(dump->index_path);
 }

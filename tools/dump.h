@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A folder of frames: each as exact OFF, and frames.json, which says which rotation each has. Functions that return false have
- * complained.
+ * A folder of frames, and frames.json, which says which rotation each has. A frame's sum is written in doubles, which every reader of OFF
+ * takes, and, in the folder EXACT_FOLDER below, in rationals; or in rationals alone. Functions that return false have complained.
  */
 #ifndef TOOLS_DUMP_H
 #define TOOLS_DUMP_H
@@ -11,15 +11,20 @@
 #include "file.h"
 #include "json.h"
 
+/* In the folder of frames, the one of frames in rationals where there are both. */
+#define EXACT_FOLDER "exact"
+
 struct dump {
     const char *folder;
+    bool exact;               /* rationals alone */
     struct output_file index; /* frames.json */
     struct json json;
     cJSON *frames;
+    char *index_path;
 };
 
-/* Makes the folder unless it is there; its frames.json appears when all is done. */
-bool dump_open(struct dump *dump, const char *folder);
+/* Makes the folder unless it is there; its frames.json appears when all is done. `exact`: rationals alone. */
+bool dump_open(struct dump *dump, const char *folder, bool exact);
 
 bool dump_frame(struct dump *dump, pir_sum *sum, uint64_t frame);
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A file that is complete or absent: written beside its path and renamed when all of it is down. It is opened before a long
- * run, so that a path that cannot be written is known at once. Functions that return false have complained.
+ * Files that the command writes. A regular file is complete or as it was before: it is written under another name in its folder and
+ * renamed when all of it is down, and keeps the permissions that a file of its name had. Links are followed and stay. A
+ * device or a FIFO is opened and written to, "-" is standard output. A file is opened before a long run, so that a path that
+ * cannot be written is known at once. Functions that return false have complained.
  */
 #ifndef TOOLS_FILE_H
 #define TOOLS_FILE_H
@@ -10,10 +12,13 @@
 #include <stdio.h>
 
 struct output_file {
-    FILE *stream; /* NULL when not open */
-    char *path, *temporary;
+    FILE *stream;     /* NULL when not open */
+    const char *path; /* as it was given, for complaints; the caller's */
+    char *target;     /* what links lead to; NULL where it is written to as it stands */
+    char *temporary;  /* in the folder of the target; NULL likewise */
 };
 
+/* `path` must outlive the file. */
 bool output_open(struct output_file *file, const char *path);
 
 /* Closes the stream and gives the file its name. */
@@ -21,6 +26,15 @@ bool output_commit(struct output_file *file);
 
 /* Removes what is not committed; a file that is not open, or zeroed, is accepted. */
 void output_discard(struct output_file *file);
+
+/* Whether `path` is "-" or names the file that standard output goes to. Nothing else is printed there then. */
+bool output_is_stdout(const char *path);
+
+/* Whether `path` is written to as it stands, so that no ending has to tell its format: standard output, a device, a FIFO. */
+bool output_is_stream(const char *path);
+
+/* Whether `path` ends in `ending`, in either case; something stands before it. */
+bool output_ends_in(const char *path, const char *ending);
 
 /* `folder`/`name`, to be freed; NULL, with a complaint, when out of memory. */
 char *path_join(const char *folder, const char *name);

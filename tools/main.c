@@ -12,6 +12,7 @@
 #include "cmd.h"
 #include "command.h"
 #include "help.h"
+#include "interrupt.h"
 #include "message.h"
 
 /* help SUBCOMMAND prints what SUBCOMMAND --help does. */
@@ -71,8 +72,10 @@ static int run(int argc, char *const *argv) {
 int main(int argc, char **argv) {
     // A reader that goes away is a failed write, to be told like any other.
     signal(SIGPIPE, SIG_IGN);
+    interrupt_watch();
     int status = run(argc, argv);
     if (status != EXIT_BAD_INPUT && !stdout_arrived())
         status = EXIT_BAD_INPUT;
+    interrupt_end();
     return status;
 }

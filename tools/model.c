@@ -2,8 +2,10 @@
 /* Models by file or by name. */
 #include "model.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "input.h"
 #include "message.h"
 
 static const char *shape_of(const char *model) {
@@ -11,7 +13,23 @@ static const char *shape_of(const char *model) {
     return strncmp(model, MODEL_SHAPE, length) == 0 ? model + length : NULL;
 }
 
+/* OFF from standard input. */
+static pir_polytope *load_stdin(void) {
+    pir_polytope *polytope = NULL;
+    pir_report report = {0};
+    size_t size;
+    char *text = input_take() ? input_read(&size) : NULL;
+    if (!text)
+        return NULL;
+    if (pir_polytope_read_off(text, size, INPUT_NAME, NULL, &report, &polytope) != PIR_OK)
+        complain_status(INPUT_NAME, report.status, &report);
+    free(text);
+    return polytope;
+}
+
 pir_polytope *model_load(const char *model) {
+    if (input_is_stdin(model))
+        return load_stdin();
     pir_polytope *polytope = NULL;
     pir_report report = {0};
     const char *shape = shape_of(model);

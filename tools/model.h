@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A MODEL argument: a file, or shape:NAME for a built-in one. */
+/* A MODEL argument: a file, "-" for OFF on standard input, or shape:NAME for a built-in one. */
 #ifndef TOOLS_MODEL_H
 #define TOOLS_MODEL_H
 

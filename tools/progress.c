@@ -15,7 +15,7 @@
 struct progress progress_new(uint64_t total) {
     int64_t now = clock_now();
     return (struct progress){
-        .terminal = isatty(STDERR_FILENO) == 1, .total = total, .start = now, .next = now + FIRST_AFTER};
+        .terminal = total > 0 && isatty(STDERR_FILENO) == 1, .total = total, .start = now, .next = now + FIRST_AFTER};
 }
 
 void progress_show(struct progress *progress, uint64_t done) {

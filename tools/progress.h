@@ -12,7 +12,7 @@ struct progress {
     int64_t start, next; /* when it began and when to look again, in nanoseconds */
 };
 
-/* Starts the clock for `total` pieces of work. */
+/* Starts the clock for `total` pieces of work; 0, when that is not known, shows no bar. */
 struct progress progress_new(uint64_t total);
 
 /* Says that `done` pieces are done; draws at most ten times a second. */

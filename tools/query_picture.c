@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "file.h"
 #include "message.h"
@@ -130,11 +129,6 @@ static void put_answer(FILE *file, const struct view *view, const pir_query_resu
 
 bool query_picture_write(const char *path, const pir_polytope *p, const pir_polytope *q, pir_quat rotation,
                          pir_vec3 translation, const pir_query_result *answer) {
-    size_t length = strlen(path);
-    if (length < 4 || strcmp(path + length - 4, ".svg") != 0) {
-        complain("%s: the picture is an .svg file", path);
-        return false;
-    }
     struct view view = {0};
     struct output_file file = {0};
     turn_view(&view, answer->normal);

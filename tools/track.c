@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "dump.h"
+#include "interrupt.h"
 #include "message.h"
 #include "motion.h"
 #include "progress.h"
@@ -80,7 +81,9 @@ static bool prepare(struct run *run, pir_polytope *p, pir_polytope *q) {
     result->warm_up = request->frames / 10 < WARM_UP_MOST ? request->frames / 10 : WARM_UP_MOST;
 
     pir_quat before = motion_before(&run->motion);
-    pir_sum_options counted = pir_sum_options_default();
+    pir_sum_options plain = pir_sum_options_default();
+    plain.difference = request->difference;
+    pir_sum_options counted = plain;
     counted.allocator = &(pir_allocator){.resize = resize_counted, .context = &run->blocks};
     pir_status status = pir_sum_create(p, q, before, &counted, &run->tracked);
     if (status == PIR_OK)
@@ -88,13 +91,13 @@ static bool prepare(struct run *run, pir_polytope *p, pir_polytope *q) {
     if (status == PIR_OK)
         status = set_region(run, run->tracked);
     if (status == PIR_OK)
-        status = pir_sum_create(p, q, before, NULL, &run->rebuilt);
+        status = pir_sum_create(p, q, before, &plain, &run->rebuilt);
     if (status == PIR_OK)
         status = set_region(run, run->rebuilt);
     if (status == PIR_OK)
-        status = pir_sum_create(p, q, before, NULL, &run->overlaid);
+        status = pir_sum_create(p, q, before, &plain, &run->overlaid);
     if (status == PIR_OK && request->brute)
-        status = pir_sum_create(p, q, before, NULL, &run->brute);
+        status = pir_sum_create(p, q, before, &plain, &run->brute);
     return told(0, status);
 }
 
@@ -233,13 +236,18 @@ static bool run_frame(struct run *run, uint64_t frame) {
     return told(frame, status) && (!dumped || dump_frame(&run->dump, run->tracked, frame));
 }
 
+/* Runs until the last frame, or until a signal asks for an end after the frame that it came in. */
 static bool run_frames(struct run *run) {
+    struct track_result *result = run->result;
     run->progress = progress_new(run->request->frames);
     bool good = true;
-    for (uint64_t frame = 0; frame < run->request->frames && good; frame++) {
-        progress_show(&run->progress, frame);
-        good = run_frame(run, frame);
+    interrupt_put_off(true);
+    while (result->frames < run->request->frames && good && !interrupt_asked()) {
+        progress_show(&run->progress, result->frames);
+        good = run_frame(run, result->frames++);
     }
+    interrupt_put_off(false);
+    result->interrupted = interrupt_asked() && result->frames < run->request->frames;
     progress_end(&run->progress);
     return good;
 }
@@ -254,21 +262,24 @@ bool track_run(const struct track_request *request, pir_polytope *p, pir_polytop
     *result = (struct track_result){0};
     struct run run = {.request = request, .result = result};
     struct output_file plot = {0};
+    int64_t start = clock_now();
     bool good = false;
 
     // whatever cannot be written is known before the run
     if (request->plot && !output_open(&plot, request->plot))
         goto done;
-    if (request->dump && !dump_open(&run.dump, request->dump))
+    if (request->dump && !dump_open(&run.dump, request->dump, request->dump_exact))
         goto done;
     if (!prepare(&run, p, q))
         goto done;
 
     if (!run_frames(&run) || !summarise(result, request->frames))
         goto done;
+    result->seconds = (double)(clock_now() - start) / 1e9;
     if (request->dump && !dump_commit(&run.dump))
         goto done;
-    if (request->plot && !(track_plot(request, result, plot.stream) && output_commit(&plot)))
+    // of a run without frames there is nothing to draw
+    if (request->plot && result->frames > 0 && !(track_plot(request, result, plot.stream) && output_commit(&plot)))
         goto done;
     good = true;
 

@@ -13,6 +13,7 @@ struct track_request {
     uint64_t frames, steps, seed;
     bool random; /* random axes from seed, or else `axis` */
     pir_vec3 axis;
+    bool difference; /* of the sum of Q and the reflected P */
     pir_method method;
     const char *method_name;
     double tolerance; /* 0: exact */
@@ -21,6 +22,7 @@ struct track_request {
     bool brute;
     uint64_t verify_every; /* 0: never */
     const char *dump;      /* a folder; NULL for none */
+    bool dump_exact;       /* in rationals alone */
     uint64_t dump_every;
     const char *plot; /* a file; NULL for none */
 };
@@ -28,6 +30,9 @@ struct track_request {
 struct track_result {
     struct times update_times, walk_times, cgm_times, brute_times;
     struct order update, walk, cgm, brute;
+    uint64_t frames;           /* run through: those asked for, or fewer when a signal came */
+    bool interrupted;          /* by that signal */
+    double seconds;            /* from the polytopes to the last frame's answers */
     pir_sum_statistics did;    /* by the tracked sum, over all frames */
     double shortfall;          /* the greatest bound attained, where there is a tolerance */
     uint64_t warm_up;          /* frames after which memory should no longer grow */

@@ -22,10 +22,10 @@ static double asked(const pir_sum_statistics *did) {
 
 /* --- JSON --- */
 
-static void add_request(struct json *json, const struct track_request *request) {
+static void add_request(struct json *json, const struct track_request *request, const struct track_result *result) {
     json_add_text(json, json->root, "p", request->p);
     json_add_text(json, json->root, "q", request->q);
-    json_add_number(json, json->root, "frames", (double)request->frames);
+    json_add_number(json, json->root, "frames", (double)result->frames);
     json_add_number(json, json->root, "steps", (double)request->steps);
     if (request->random)
         json_add_text(json, json->root, "axis", "random");
@@ -33,7 +33,9 @@ static void add_request(struct json *json, const struct track_request *request) 
         json_add_numbers(json, json->root, "axis", (const double[]){request->axis.x, request->axis.y, request->axis.z},
                          3);
     json_add_number(json, json->root, "seed", (double)request->seed);
+    json_add_flag(json, json->root, "difference", request->difference);
     json_add_text(json, json->root, "method", request->method_name);
+    json_add_flag(json, json->root, "interrupted", result->interrupted);
 }
 
 static void add_times(struct json *json, const struct track_result *result) {
@@ -46,12 +48,14 @@ static void add_times(struct json *json, const struct track_result *result) {
     json_add_number(json, json->root, "speedup_walk", ratio(result->walk.median, result->update.median));
     json_add_number(json, json->root, "speedup_cgm", ratio(result->cgm.median, result->update.median));
     json_add_number(json, json->root, "brute_ns", result->brute.median);
+    json_add_number(json, json->root, "seconds", result->seconds);
 }
 
-static void add_work(struct json *json, const struct track_result *result, uint64_t frames) {
+static void add_work(struct json *json, const struct track_result *result) {
     const pir_sum_statistics *did = &result->did;
-    json_add_number(json, json->root, "checked_per_frame", ratio((double)did->checked, (double)frames));
-    json_add_number(json, json->root, "repaired_per_frame", ratio((double)did->repaired, (double)frames));
+    const double frames = (double)result->frames;
+    json_add_number(json, json->root, "checked_per_frame", ratio((double)did->checked, frames));
+    json_add_number(json, json->root, "repaired_per_frame", ratio((double)did->repaired, frames));
     json_add_number(json, json->root, "updates", (double)did->updates);
     json_add_number(json, json->root, "rebuilds", (double)did->rebuilds);
     json_add_number(json, json->root, "allocations", (double)result->late_allocations);
@@ -64,9 +68,9 @@ static void add_work(struct json *json, const struct track_result *result, uint6
 
 bool track_print_json(const struct track_request *request, const struct track_result *result) {
     struct json json = json_new();
-    add_request(&json, request);
+    add_request(&json, request, result);
     add_times(&json, result);
-    add_work(&json, result, request->frames);
+    add_work(&json, result);
     if (request->region_degrees < 180) {
         json_add_numbers(&json, json.root, "region",
                          (const double[]){request->region.x, request->region.y, request->region.z}, 3);
@@ -86,14 +90,16 @@ bool track_print_json(const struct track_request *request, const struct track_re
 
 /* --- text --- */
 
-static void print_motion(const struct track_request *request) {
+static void print_motion(const struct track_request *request, const struct track_result *result) {
     printf("%s turns against %s: %" PRIu64 " frames, %" PRIu64 " steps to a turn, ", request->p, request->q,
-           request->frames, request->steps);
+           result->frames, request->steps);
     if (request->random)
         printf("random axes from seed %" PRIu64, request->seed);
     else
         printf("axis %g,%g,%g", request->axis.x, request->axis.y, request->axis.z);
-    printf(", method %s\n", request->method_name);
+    printf(", method %s%s\n", request->method_name, request->difference ? ", difference" : "");
+    if (result->interrupted)
+        printf("  interrupted, %" PRIu64 " frames were asked for\n", request->frames);
     if (request->region_degrees < 180)
         printf("  kept are facets whose normals are within %g degrees of %g,%g,%g\n", request->region_degrees,
                request->region.x, request->region.y, request->region.z);
@@ -117,12 +123,12 @@ static void print_times(const struct track_request *request, const struct track_
         print_slower("brute force", result->brute.median, result->update.median);
 }
 
-static void print_work(const struct track_request *request, const struct track_result *result) {
+static void print_work(const struct track_result *result) {
     const pir_sum_statistics *did = &result->did;
-    double frames = (double)request->frames, signs = asked(did);
+    double frames = (double)result->frames, signs = asked(did);
     printf("  %-18s %.4g a frame\n", "pairs checked", (double)did->checked / frames);
     printf("  %-18s %.4g a frame\n", "pairs repaired", (double)did->repaired / frames);
-    printf("  %-18s %" PRIu64 " of %" PRIu64 " frames\n", "rebuilds", did->rebuilds, request->frames);
+    printf("  %-18s %" PRIu64 " of %" PRIu64 " frames\n", "rebuilds", did->rebuilds, result->frames);
     printf("  %-18s %" PRIu64 " after the first %" PRIu64 " frames\n", "allocations", result->late_allocations,
            result->warm_up);
     if (signs > 0)
@@ -132,12 +138,14 @@ static void print_work(const struct track_request *request, const struct track_r
 }
 
 void track_print_text(const struct track_request *request, const struct track_result *result) {
-    print_motion(request);
+    print_motion(request, result);
+    if (result->frames == 0)
+        return;
     print_times(request, result);
-    print_work(request, result);
+    print_work(result);
     if (request->tolerance > 0)
         printf("  %-18s %" PRIu64 " of %" PRIu64 " frames, the support short by %.3g at most, %.3g allowed\n",
-               "pairing kept", result->did.kept, request->frames, result->shortfall, request->tolerance);
+               "pairing kept", result->did.kept, result->frames, result->shortfall, request->tolerance);
     if (request->verify_every)
         printf("  %-18s %" PRIu64 " frames, %" PRIu64 " differ from a rebuild\n", "verified", result->verified,
                result->mismatches);
@@ -159,11 +167,11 @@ bool track_plot(const struct track_request *request, const struct track_result *
         snprintf(axis, sizeof axis, "axis %g,%g,%g", request->axis.x, request->axis.y, request->axis.z);
     snprintf(title, sizeof title, "%s turning against %s", model_title(request->p), model_title(request->q));
     snprintf(subtitle, sizeof subtitle, "%" PRIu64 " steps to a turn, %" PRIu64 " frames, %s, method %s",
-             request->steps, request->frames, axis, request->method_name);
+             request->steps, result->frames, axis, request->method_name);
 
     struct plot plot = {.title = title,
                         .subtitle = subtitle,
-                        .frames = result->update_times.kept_count,
+                        .frames = (size_t)((result->frames - 1) / result->update_times.stride + 1),
                         .stride = result->update_times.stride};
     plot.series[plot.count++] = (struct plot_series){.label = "tracked sum",
                                                      .colour = "#0072b2",

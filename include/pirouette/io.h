@@ -11,6 +11,8 @@
 #ifndef PIROUETTE_IO_H
 #define PIROUETTE_IO_H
 
+#include <stdio.h>
+
 #include <pirouette/base.h>
 #include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
@@ -42,10 +44,21 @@ PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const ch
  * exact   for OFF only: write exact integers and a/b; the mesh must hold exact coordinates. Otherwise doubles that read back
  *         as themselves.
  *
- * The file is complete or absent: it is written beside `path` and then renamed.
+ * A regular file is complete or absent: it is written under another name in its folder and then renamed, and keeps the permissions that a
+ * file of its name had. Symbolic links are followed and stay. What is no regular file, such as a device or a FIFO, is opened and
+ * written to, never replaced or removed.
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_UNSUPPORTED, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int exact, pir_report *report);
+
+/**
+ * The same to a stream, which is flushed and stays open.
+ *
+ * name    stands for the file in reports.
+ * format  "off", "obj", "stl", "ply" or "svg".
+ */
+PIR_API pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *name, const char *format,
+                                         int exact, pir_report *report);
 
 #ifdef __cplusplus
 }

@@ -2,7 +2,7 @@
 /*
  * The parts behind io.h of the public headers: bytes of a file, one reader or writer per format, pictures of bodies.
  *
- * Readers get the whole file in memory and a short name for reports; writers get an open stream and leave it to pir_mesh_write
+ * Readers get the whole file in memory and a short name for reports; writers get an open stream and leave it to write.c
  * to notice a stream in error. Numbers use '.' whatever the process's locale says.
  */
 #ifndef PIR_POLYTOPE_IO_H
@@ -23,6 +23,12 @@ struct pir_c_locale {
 };
 bool pir_c_locale_enter(struct pir_c_locale *ret_locale);
 void pir_c_locale_leave(struct pir_c_locale *locale);
+
+/* Which reader and writer a file has. */
+enum pir_file_type { PIR_FILE_UNKNOWN, PIR_FILE_OFF, PIR_FILE_ASSIMP, PIR_FILE_SVG };
+
+/* The type by the ending, in either case; ret_ending gets it in lower case without the dot. */
+enum pir_file_type pir_file_type_of(const char *path, char ret_ending[4]);
 
 /* The last part of a path, short enough to leave room for what went wrong. */
 const char *pir_short_name(const char *path);

@@ -77,7 +77,9 @@ class Frames(CommandTest):
         folder = self.path / name
         self.good("track", *args, "--dump", folder)
         frames = json.loads((folder / "frames.json").read_text())["frames"]
-        self.assertEqual(sorted(p.name for p in folder.iterdir()), sorted([f["file"] for f in frames] + ["frames.json"]))
+        files = [f[key] for f in frames for key in ("file", "doubles") if key in f]
+        self.assertEqual(sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()),
+                         sorted(files + ["frames.json"]))
         return [(f["index"], f["quat"], (folder / f["file"]).read_bytes()) for f in frames]
 
     def test_every_kth_frame_from_the_first(self):
