@@ -53,7 +53,7 @@ PIR_API pir_status pir_cgm_create(pir_polytope *polytope, const pir_quat *rotati
  */
 PIR_API pir_status pir_cgm_overlay(const pir_cgm *a, const pir_cgm *b, pir_cgm **ret_cgm);
 
-/** Frees; NULL is accepted. */
+/** Gives the caller's reference back; the map is freed once its locators are destroyed as well. NULL is accepted. */
 PIR_API void pir_cgm_destroy(pir_cgm *cgm);
 
 /**
@@ -161,8 +161,8 @@ typedef struct pir_cgm_location {
 typedef struct pir_cgm_locator pir_cgm_locator;
 
 /**
- * Prepares a map for questions about points: chooses a point inside. The map is borrowed and must outlive the locator, which belongs to
- * one thread at a time. O(n). Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ * Prepares a map for questions about points: chooses a point inside. The locator holds a reference to the map, which
+ * may be destroyed first; it belongs to one thread at a time. O(n). Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_locator_create(const pir_cgm *cgm, pir_cgm_locator **ret_locator);
 

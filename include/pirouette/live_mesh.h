@@ -9,7 +9,8 @@
  *
  * Coordinates and planes are worked out on demand, into memory of the caller's, all in one pass.
  *
- * A live mesh follows one sum, which must outlive it; both belong to one thread at a time.
+ * A live mesh follows one sum and holds a reference to it, so the sum may be destroyed first; both belong to one thread
+ * at a time.
  */
 #ifndef PIROUETTE_LIVE_MESH_H
 #define PIROUETTE_LIVE_MESH_H

@@ -56,7 +56,10 @@ PIR_API pir_sum_options pir_sum_options_default(void);
 PIR_API pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_sum_options *options,
                                   pir_sum **ret_sum);
 
-/** Frees the sum and its references; NULL is accepted. */
+/**
+ * Gives the caller's reference back. The sum is freed, and its references to the operands are given back, once the
+ * queries and live meshes that were made on it are destroyed as well. NULL is accepted.
+ */
 PIR_API void pir_sum_destroy(pir_sum *sum);
 
 /**
@@ -89,7 +92,7 @@ typedef enum pir_operand {
 /**
  * Makes an operand `scale` times as large as the sum was made with, about its own origin: not times its size of now. The scale is taken
  * exactly. No pair changes, so nothing is rebuilt, but a pairing that a tolerance lets stay behind is settled first; pir_sum_p and pir_sum_q, and what is asked of the sum from here on, are of the new
- * size. Queries made for the sum are to be made anew. O(n) for the operand's n vertices.
+ * size. Queries and live meshes follow. O(n) for the operand's n vertices.
  * Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT (not positive), PIR_ERR_LIMIT (a coordinate beyond the doubles), PIR_ERR_MEMORY; the
  * sum then stays as it was.
  */
@@ -198,7 +201,8 @@ PIR_API pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation);
 
 /**
  * Writes the sum as bytes that any machine reads: both operands in exact coordinates, the scale each is set to, the rotation, the
- * pairing, the tolerance, the region; with a version and a checksum. Not its certificates and counters.
+ * pairing, the tolerance, the region, whether it is a difference; with a version and a checksum. Not its certificates
+ * and counters.
  *
  * memory, size  the caller's, of exactly pir_sum_serialised_size bytes. Errors: PIR_ERR_ARGUMENT. O(size of the sum).
  */

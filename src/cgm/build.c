@@ -46,8 +46,14 @@ static void release_sources(pir_cgm *cgm) {
     }
 }
 
+pir_cgm *pir_cgm_retain(const pir_cgm *cgm) {
+    pir_cgm *held = (pir_cgm *)cgm;
+    atomic_fetch_add_explicit(&held->references, 1, memory_order_relaxed);
+    return held;
+}
+
 void pir_cgm_destroy(pir_cgm *cgm) {
-    if (!cgm)
+    if (!cgm || atomic_fetch_sub_explicit(&cgm->references, 1, memory_order_acq_rel) != 1)
         return;
     const pir_allocator allocator = cgm->allocator, *a = &allocator;
     size_t k = cgm->source_count;
@@ -118,6 +124,7 @@ static pir_cgm *new_cgm(const pir_allocator *allocator, uint32_t sources) {
     if (!cgm)
         return NULL;
     cgm->allocator = *allocator;
+    atomic_init(&cgm->references, 1);
     cgm->line_count = PIR_CUBE_PLANES;
     cgm->line_limbs = cgm->normal_limbs = 1;
     cgm->source = PIR_ZEROED(allocator, struct pir_cgm_source, sources);

@@ -31,6 +31,8 @@
 #ifndef PIR_CGM_CGM_H
 #define PIR_CGM_CGM_H
 
+#include <stdatomic.h>
+
 #include <pirouette/cgm.h>
 
 #include "base/memory.h"
@@ -66,6 +68,7 @@ struct pir_cgm_half {
 
 struct pir_cgm {
     pir_allocator allocator;
+    atomic_uint references; /* the caller's, and those of locators */
     uint32_t source_count;
     struct pir_cgm_source *source;
     uint32_t line_count, normal_count;
@@ -91,6 +94,9 @@ struct pir_cgm_line {
     pir_vec3 unit;
     double error;
 };
+
+/* Takes a reference, which pir_cgm_destroy gives back; the last one frees. Returns the map. */
+pir_cgm *pir_cgm_retain(const pir_cgm *cgm);
 
 static inline uint32_t pir_cgm_vertices(const pir_cgm *cgm) {
     return cgm->vertex_start[6];

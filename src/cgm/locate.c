@@ -19,7 +19,7 @@
 #define U 0x1p-53
 
 struct pir_cgm_locator {
-    const pir_cgm *cgm;
+    pir_cgm *cgm; /* a reference */
     struct pir_cgm_places places;
     bool solid; /* whether `centre` is strictly inside */
     pir_vec3 centre;
@@ -261,7 +261,6 @@ pir_status pir_cgm_locator_create(const pir_cgm *cgm, pir_cgm_locator **ret_loca
     pir_cgm_locator *l = PIR_ZEROED(a, pir_cgm_locator, 1);
     if (!l)
         return PIR_ERR_MEMORY;
-    l->cgm = cgm;
     if (!pir_cgm_places_init(&l->places, cgm)) {
         PIR_FREE(a, l, 1);
         return PIR_ERR_MEMORY;
@@ -276,6 +275,7 @@ pir_status pir_cgm_locator_create(const pir_cgm *cgm, pir_cgm_locator **ret_loca
         PIR_FREE(a, l, 1);
         return PIR_ERR_MEMORY;
     }
+    l->cgm = pir_cgm_retain(cgm);
     for (uint32_t s = 0; s < cgm->source_count; s++) {
         const pir_polytope *p = cgm->source[s].polytope;
         double most = 0;
@@ -294,5 +294,6 @@ void pir_cgm_locator_destroy(pir_cgm_locator *l) {
     const pir_allocator allocator = l->cgm->allocator;
     PIR_FREE(&allocator, l->scratch.base, l->scratch.capacity);
     pir_cgm_places_finish(&l->places);
+    pir_cgm_destroy(l->cgm);
     PIR_FREE(&allocator, l, 1);
 }

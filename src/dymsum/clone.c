@@ -55,6 +55,7 @@ pir_status pir_sum_clone(const pir_sum *sum, const pir_allocator *allocator, pir
         pir_sum_destroy(copy);
         return PIR_ERR_MEMORY;
     }
+    copy->difference = sum->difference;
     copy->cost = sum->cost;
     copy->lag = sum->lag;
     if (sum->lag.lagging)

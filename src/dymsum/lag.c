@@ -98,6 +98,7 @@ pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance) {
     pir_status status = pir_sum_settle(sum);
     if (status != PIR_OK)
         return status;
+    pir_sum_changes(sum);
     sum->lag.tolerance = tolerance;
     pir_lag_measure(sum);
     return PIR_OK;
@@ -160,6 +161,7 @@ pir_status pir_lag_behind(pir_sum *sum, pir_quat rotation, bool *ret_done) {
     *ret_done = angle <= lag->angle[PIR_LAG_KNOTS - 1] && pir_region_holds(sum, &now);
     if (!*ret_done)
         return PIR_OK;
+    pir_sum_changes(sum);
     pir_rotation_set(&lag->now, rotation);
     lag->bound = shortfall_at(lag, angle);
     lag->lagging = true;

@@ -84,6 +84,7 @@ void pir_live_mesh_destroy(pir_live_mesh *live) {
     pir_live_pairs_finish(&live->disappeared, a);
     PIR_FREE(a, live->turned, live->vertices_p);
     pir_live_vertices_finish(&live->vertices, a);
+    pir_sum_destroy(live->sum);
     PIR_FREE(a, live, 1);
 }
 
@@ -94,7 +95,7 @@ pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live) {
     pir_live_mesh *live = PIR_ZEROED(a, pir_live_mesh, 1);
     if (!live)
         return PIR_ERR_MEMORY;
-    live->sum = sum;
+    live->sum = pir_sum_retain(sum);
     live->allocator = *a;
     live->facets_p = sum->p->facet_count;
     live->facets_q = sum->q->facet_count;

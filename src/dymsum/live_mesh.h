@@ -40,7 +40,7 @@ typedef struct pir_live_pairs {
 #define PIR_LIVE_NUMBER_BITS 31
 
 struct pir_live_mesh {
-    const pir_sum *sum;
+    pir_sum *sum; /* a reference */
     pir_allocator allocator;
     uint32_t facets_p, facets_q, vertices_p, corners_fixed; /* corners_fixed: before the first crossing's */
     uint32_t *fv, *vf;                                      /* what the corners were written from */

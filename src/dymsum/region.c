@@ -532,6 +532,7 @@ pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle) {
         return status;
     if (!allocate(sum))
         return PIR_ERR_MEMORY;
+    pir_sum_changes(sum);
     if (before.set && cone.set && before.half_angle == cone.half_angle) {
         region->cone = cone;
         if (pir_region_holds(sum, &sum->signs.rotation) && pir_region_holds(sum, pir_rotation_now(sum)))

@@ -6,6 +6,7 @@ pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
     pir_status status = pir_sum_rotate(sum, rotation, PIR_METHOD_WALK);
     if (status != PIR_OK)
         return status;
+    pir_sum_changes(sum);
     // the walk has made every certificate anew or let it expire, and a clock that knows no rotation begins an epoch
     sum->clock = (pir_clock){0};
     sum->cost = (pir_cost_model){.walk = sum->cost.walk};

@@ -19,7 +19,7 @@ struct source {
     const uint8_t *data;
     size_t size, at;
     const char *part; /* what is being read, for reports */
-    bool has_region;
+    bool has_region, is_difference;
     const pir_allocator *allocator;
     pir_report *report;
 };
@@ -416,6 +416,7 @@ static pir_status get_sum(struct source *from, pir_polytope *const made[2], pir_
         pir_sum_destroy(sum);
         return status;
     }
+    sum->difference = from->is_difference;
     pir_sum_reset_statistics(sum);
     *ret_sum = sum;
     return PIR_OK;
@@ -430,10 +431,11 @@ static pir_status get_header(struct source *from, uint64_t *ret_length, uint64_t
     if (version != PIR_SUM_VERSION)
         return pir_fail(from->report, PIR_ERR_UNSUPPORTED, "sum: header: version %u, this library reads version %u",
                         (unsigned)version, PIR_SUM_VERSION);
-    uint32_t region = get_u32(from);
-    if (region > 1)
-        return broken(from, "neither with a region nor without");
-    from->has_region = region == 1;
+    uint32_t flags = get_u32(from);
+    if (flags & ~(PIR_SUM_REGION | PIR_SUM_DIFFERENCE))
+        return broken(from, "flags that no sum has");
+    from->has_region = flags & PIR_SUM_REGION;
+    from->is_difference = flags & PIR_SUM_DIFFERENCE;
     *ret_length = get_u64(from);
     *ret_checksum = get_u64(from);
     return *ret_length < PIR_SUM_HEADER_SIZE ? broken(from, "a length that lies") : PIR_OK;
@@ -444,7 +446,7 @@ pir_status pir_sum_restore(const void *data, size_t size, const pir_allocator *a
     if (!data || !ret_sum)
         return pir_fail(report, PIR_ERR_ARGUMENT, "sum: no data, or nowhere to put the sum");
     const pir_allocator used = pir_allocator_or_default(allocator);
-    struct source from = {data, size, 0, "header", false, &used, report};
+    struct source from = {data, size, 0, "header", false, false, &used, report};
     if (size == 0)
         return pir_fail(report, PIR_ERR_EMPTY, "sum: no bytes at all");
     if (size < PIR_SUM_HEADER_SIZE)
@@ -509,7 +511,7 @@ pir_status pir_sum_read(FILE *file, const pir_allocator *allocator, pir_report *
     uint8_t *data = NULL;
     size_t size = 0;
     uint64_t length = 0, checksum;
-    struct source from = {NULL, 0, 0, "header", false, &used, report};
+    struct source from = {NULL, 0, 0, "header", false, false, &used, report};
     pir_status status = fill(file, &from, &data, &size, PIR_SUM_HEADER_SIZE);
     if (status == PIR_OK) {
         from.data = data;

@@ -160,7 +160,7 @@ static void put_sum(struct sink *sink, const pir_sum *sum, uint64_t length, uint
     for (int k = 0; k < 8; k++)
         put_byte(sink, (uint8_t)PIR_SUM_MAGIC[k]);
     put_u32(sink, PIR_SUM_VERSION);
-    put_u32(sink, sum->region.cone.set);
+    put_u32(sink, (sum->region.cone.set ? PIR_SUM_REGION : 0) | (sum->difference ? PIR_SUM_DIFFERENCE : 0));
     put_u64(sink, length);
     put_u64(sink, checksum);
     put_operand(sink, sum->made_of[PIR_OPERAND_P], sum->p);

@@ -20,6 +20,7 @@ static pir_status replace(pir_sum *sum, pir_operand operand, pir_polytope *scale
     }
     pir_polytope **place = operand == PIR_OPERAND_P ? &sum->p : &sum->q;
     PIR_ASSERT(scaled->half_count == (*place)->half_count && scaled->facet_count == (*place)->facet_count);
+    pir_sum_changes(sum);
     pir_polytope_release(*place);
     *place = scaled;
     pir_sum_link_facets(sum);

@@ -58,9 +58,13 @@ static bool allocate(pir_sum *sum) {
     return pir_crossings_reserve(sum, 3 * (p->edge_count + q->edge_count) + 64);
 }
 
-void pir_sum_destroy(pir_sum *sum) {
-    if (!sum)
-        return;
+pir_sum *pir_sum_retain(const pir_sum *sum) {
+    pir_sum *held = (pir_sum *)sum;
+    atomic_fetch_add_explicit(&held->references, 1, memory_order_relaxed);
+    return held;
+}
+
+static void free_sum(pir_sum *sum) {
     const pir_allocator allocator = sum->allocator, *a = &allocator;
     const pir_polytope *p = sum->p, *q = sum->q;
     PIR_FREE(a, sum->fv, p->facet_count);
@@ -84,12 +88,19 @@ void pir_sum_destroy(pir_sum *sum) {
     PIR_FREE(a, sum, 1);
 }
 
+void pir_sum_destroy(pir_sum *sum) {
+    if (sum && atomic_fetch_sub_explicit(&sum->references, 1, memory_order_acq_rel) == 1)
+        free_sum(sum);
+}
+
 pir_status pir_sum_new(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_allocator *allocator,
                        pir_sum **ret_sum) {
     pir_sum *sum = PIR_ZEROED(allocator, pir_sum, 1);
     if (!sum)
         return PIR_ERR_MEMORY;
     sum->allocator = *allocator;
+    atomic_init(&sum->references, 1);
+    sum->generation = 1;
     sum->kernels = pir_kernels_choose();
     // from here on destroy can take it apart
     sum->p = pir_polytope_retain(p);
@@ -135,6 +146,7 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
         pir_sum_destroy(sum);
         return status;
     }
+    sum->difference = used.difference != 0;
     sum->statistics.allocations = 0;
     *ret_sum = sum;
     return PIR_OK;
@@ -185,6 +197,7 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
     pir_status status = pir_rotation_set(now, rotation);
     if (status != PIR_OK)
         return status;
+    pir_sum_changes(sum);
     advance_clock(sum, unit_before);
     double angle = fabs(sum->clock.stride);
     if (method == PIR_METHOD_AUTO)
@@ -221,6 +234,7 @@ pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation) {
     pir_status status = pir_rotation_set(&sum->signs.rotation, rotation);
     if (status != PIR_OK)
         return status;
+    pir_sum_changes(sum);
     status = pir_brute_rebuild(sum);
     if (status != PIR_OK)
         return restore(sum, before, &cover, status);

@@ -23,6 +23,7 @@
 #define PIR_DYMSUM_SUM_H
 
 #include <math.h>
+#include <stdatomic.h>
 
 #include <pirouette/cgm.h>
 #include <pirouette/sum.h>
@@ -74,6 +75,9 @@ typedef struct pir_lag {
 
 struct pir_sum {
     pir_allocator allocator;
+    atomic_uint references;   /* the caller's, and those of the queries and live meshes that stand on it */
+    uint64_t generation;      /* from 1: see pir_sum_generation */
+    bool difference;          /* made as one: p is the caller's P reflected */
     pir_polytope *p, *q;      /* at their scale of now */
     pir_polytope *made_of[2]; /* at scale 1, by pir_operand: the same objects until the scale is set */
     pir_signs signs;          /* holds the rotation */
@@ -174,6 +178,26 @@ static inline uint32_t pir_alarm_count(const pir_sum *sum) {
 }
 
 /* --- sum.c --- */
+
+/*
+ * Takes a reference, which pir_sum_destroy gives back; the last one frees. Returns the sum. The count is no part of
+ * what a sum says.
+ */
+pir_sum *pir_sum_retain(const pir_sum *sum);
+
+/*
+ * A number that is another after every call that may have changed anything that is read of the sum: operands, rotation,
+ * pairing, tolerance, region. Whoever derives something from a sum keeps the number beside it, and derives it anew when
+ * the two differ. Never 0.
+ */
+static inline uint64_t pir_sum_generation(const pir_sum *sum) {
+    return sum->generation;
+}
+
+/* Called before a change, whether or not that succeeds: a failed call may lay the same pairing out in another way. */
+static inline void pir_sum_changes(pir_sum *sum) {
+    sum->generation++;
+}
 
 /* A sum at `rotation` with all its memory and no pairing yet; it takes references of its own. */
 pir_status pir_sum_new(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_allocator *allocator,

@@ -3,8 +3,8 @@
  * Sums as bytes, the same on every machine. All numbers are little-endian, whatever the machine's own order; u32 and u64 are unsigned.
  *
  *     header     8 bytes   "PIRSUM\r\n"
- *                u32       version, 1
- *                u32       1 for a sum with a region, else 0
+ *                u32       version, 2
+ *                u32       flags: 1 for a sum with a region, 2 for one that was made as a difference, P reflected
  *                u64       the length of the whole in bytes
  *                u64       checksum: FNV-1a of all other bytes
  *     operands   P, then Q, each:
@@ -33,7 +33,9 @@
 #include <stdint.h>
 
 #define PIR_SUM_MAGIC       "PIRSUM\r\n"
-#define PIR_SUM_VERSION     1u
+#define PIR_SUM_VERSION     2u
+#define PIR_SUM_REGION      1u
+#define PIR_SUM_DIFFERENCE  2u
 #define PIR_SUM_HEADER_SIZE 32u
 #define PIR_SUM_CHECKSUM_AT 24u
 

@@ -137,7 +137,7 @@ static void golden_bytes_are_read_on_every_machine(void **state) {
     assert_int_equal(pir_sum_create(p, p, (pir_quat){0, 1, 2, 3}, NULL, &sum), PIR_OK);
     test_bytes bytes = bytes_of(sum);
     // the header and the first operand, byte by byte
-    const uint8_t start[] = {'P', 'I', 'R', 'S', 'U', 'M', '\r', '\n', 1, 0, 0, 0, 0, 0, 0, 0};
+    const uint8_t start[] = {'P', 'I', 'R', 'S', 'U', 'M', '\r', '\n', 2, 0, 0, 0, 0, 0, 0, 0};
     const uint8_t operand[] = {3, 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0,
                                1, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 1, 1};
     assert_memory_equal(bytes.data, start, sizeof start);
