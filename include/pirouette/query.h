@@ -23,6 +23,12 @@
  * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast an answer is found,
  * never which. Threads: a query belongs to one thread at a time, that of its sum. No call allocates once the query has seen as many
  * ee pairs as it will, and a batch where there are to be batches; no loop is without a bound.
+ *
+ * Lifetimes: a query holds references to its sum and to the operands, so they may be destroyed before it. It then goes
+ * on answering for the sum as it was left. It follows every change of the sum: rotation, scale, region, reset. The
+ * first call after pir_sum_set_scale makes anew what depends on coordinates, O(size of both operands), and allocates
+ * only where the scale has more digits than any before. When that fails (PIR_ERR_MEMORY, or PIR_ERR_LIMIT where a body
+ * is now too far away for its size) so does the call, and the next one tries again.
  */
 #ifndef PIROUETTE_QUERY_H
 #define PIROUETTE_QUERY_H
@@ -102,12 +108,14 @@ typedef struct pir_query_result {
 } pir_query_result;
 
 /**
- * Makes a query object on `difference`, a sum made with options.difference = 1, which it borrows and which must outlive it. Its
- * memory comes from the sum's allocator. O(size of both operands). Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ * Makes a query object on `difference`, a sum made with options.difference = 1, its clone, or one restored from its
+ * bytes; takes a reference to it. Its memory comes from the sum's allocator. O(size of both operands). Errors:
+ * PIR_ERR_ARGUMENT (among them: a sum that is no difference), PIR_ERR_LIMIT (a body farther from its origin than 2^400
+ * times the size of both), PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_query_create(pir_sum *difference, pir_query **ret_query);
 
-/** Frees; NULL is accepted. */
+/** Frees, and gives its references back; NULL is accepted. */
 PIR_API void pir_query_destroy(pir_query *query);
 
 /** Overlap: state and outcome, exact; witness and normal of a facet of the difference that shows it where one does; no distance. */

@@ -43,7 +43,7 @@ void pir_bounds_finish(pir_query *query) {
     PIR_FREE(a, query->cap_stamp, blocks_of(query));
 }
 
-static bool allocate(pir_query *query) {
+bool pir_bounds_init(pir_query *query) {
     const pir_allocator *a = &query->allocator;
     uint32_t groups = query->group_count;
     double **const lanes[] = {&query->bound, &query->when,    &query->lever,  &query->bend,
@@ -127,14 +127,11 @@ static void choose_cap(pir_query *query, uint32_t g) {
                  (group->of_q ? query->vq : query->vp)[of->origin[of->loop[of->loop_start[group->middle]]]]);
 }
 
-pir_status pir_bounds_init(pir_query *query) {
-    if (!allocate(query))
-        return PIR_ERR_MEMORY;
+void pir_bounds_fill(pir_query *query) {
     for (uint32_t g = 0; g < query->group_count; g++) {
         query->bound[g] = query->groups[g].facets == query->groups[g].own_end ? HUGE_VAL : -HUGE_VAL;
         choose_cap(query, g);
     }
-    return PIR_OK;
 }
 
 /* Brings the caps of groups [g, g + PIR_SCAN_LANES), of one body all, to the rotation. */

@@ -105,20 +105,28 @@ static double set_offsets(const pir_polytope *p, const pir_vec3 *vertices, doubl
     return sqrt(size * size - inner * inner) * (1 + 0x1p-40) + 0x1p-40 * size;
 }
 
-pir_status pir_frame_init(pir_query *query) {
+void pir_frame_finish(pir_query *query) {
+    const pir_allocator *a = &query->allocator;
+    PIR_FREE(a, query->vp, query->p->vertex_count);
+    PIR_FREE(a, query->vq, query->q->vertex_count);
+    PIR_FREE(a, query->hp, query->p->facet_count);
+    PIR_FREE(a, query->hq, query->q->facet_count);
+}
+
+bool pir_frame_init(pir_query *query) {
     const pir_polytope *p = query->p, *q = query->q;
     const pir_allocator *a = &query->allocator;
-    uint32_t limbs =
-        2 + (p->exact_vertex.stride > q->exact_vertex.stride ? p->exact_vertex.stride : q->exact_vertex.stride);
     query->vp = PIR_NEW(a, pir_vec3, p->vertex_count);
     query->vq = PIR_NEW(a, pir_vec3, q->vertex_count);
     query->hp = PIR_NEW(a, double, p->facet_count);
     query->hq = PIR_NEW(a, double, q->facet_count);
-    mp_limb_t *room = PIR_NEW(a, mp_limb_t, limbs);
-    if (!query->vp || !query->vq || !query->hp || !query->hq || !room) {
-        PIR_FREE(a, room, limbs);
-        return PIR_ERR_MEMORY;
-    }
+    return query->vp && query->vq && query->hp && query->hq;
+}
+
+pir_status pir_frame_fill(pir_query *query) {
+    const pir_polytope *p = query->p, *q = query->q;
+    // the scratch of exact signs is far more than a vertex and two limbs
+    mp_limb_t *room = query->scratch.base;
     int top_p = top_exponent(p, room), top_q = top_exponent(q, room);
     query->exponent = top_p > top_q ? top_p : top_q;
     if (query->exponent == INT_MIN)
@@ -128,7 +136,6 @@ pir_status pir_frame_init(pir_query *query) {
     query->down = normal ? ldexp(1, -query->exponent) : 0;
     bool fits = place_body(query, p, room, query->vp, &query->size_p, &query->centre_p) &&
                 place_body(query, q, room, query->vq, &query->size_q, &query->centre_q);
-    PIR_FREE(a, room, limbs);
     if (!fits)
         return PIR_ERR_LIMIT;
     pir_landmarks_set(p, query->landmarks_p);

@@ -236,7 +236,7 @@ static void make_groups(pir_query *query, uint64_t *keys, uint32_t *seen) {
 }
 
 /* Copies what the lists name into their order. */
-static void fill_lists(pir_query *query) {
+void pir_planes_fill(pir_query *query) {
     const pir_polytope *p = query->p;
     for (uint32_t g = 0; g < query->group_count; g++) {
         const pir_group *group = &query->groups[g];
@@ -254,7 +254,7 @@ static void fill_lists(pir_query *query) {
     }
 }
 
-pir_status pir_planes_init(pir_query *query) {
+bool pir_planes_init(pir_query *query) {
     const pir_polytope *p = query->p, *q = query->q;
     const pir_allocator *a = &query->allocator;
     for (unsigned i = 0; pir_scan_version(i); i++)
@@ -269,7 +269,6 @@ pir_status pir_planes_init(pir_query *query) {
     bool done = allocate(query) && keys && seen;
     if (done) {
         make_groups(query, keys, seen);
-        fill_lists(query);
         // room for what most rotations need
         uint32_t crossings = 3 * (p->edge_count + q->edge_count) + 64, facets = query->facet_list_count;
         done = planes_resize(query, facets + crossings + PIR_SCAN_BLOCK * query->group_count + PIR_SPARE_SLOTS) &&
@@ -277,7 +276,7 @@ pir_status pir_planes_init(pir_query *query) {
     }
     PIR_FREE(a, keys, most);
     PIR_FREE(a, seen, most);
-    return done ? PIR_OK : PIR_ERR_MEMORY;
+    return done;
 }
 
 /* --- planes --- */

@@ -84,13 +84,18 @@ typedef struct pir_leaves {
 
 struct pir_query {
     pir_allocator allocator;
+    /*
+     * references: to the sum, and to its operands as all below was made from them; p is reflected, as the sum holds it
+     */
     pir_sum *sum;
-    const pir_polytope *p, *q; /* p is reflected, as the sum holds it */
-    int exponent;              /* one unit of the frame is 2^exponent */
-    double up, down;           /* 2^exponent and 2^-exponent, or 0 where either is no normal number */
-    pir_vec3 *vp, *vq;         /* vertices in the frame */
-    double *hp, *hq;           /* per facet, normal · vertex */
-    double size_p, size_q;     /* the farthest vertices */
+    pir_polytope *p, *q;
+    bool fits;             /* whether what depends on their coordinates is filled */
+    uint64_t generation;   /* of the sum, that all below is for; 0 where it is for none: see follow.c */
+    int exponent;          /* one unit of the frame is 2^exponent */
+    double up, down;       /* 2^exponent and 2^-exponent, or 0 where either is no normal number */
+    pir_vec3 *vp, *vq;     /* vertices in the frame */
+    double *hp, *hq;       /* per facet, normal · vertex */
+    double size_p, size_q; /* the farthest vertices */
     uint32_t landmarks_p[PIR_LANDMARKS], landmarks_q[PIR_LANDMARKS];
     double swing_p, swing_q;    /* how fast supports change as directions turn: see planes.c */
     pir_dd3 centre_p, centre_q; /* in units of the frame */
@@ -163,8 +168,13 @@ typedef struct pir_placement {
 
 /* --- frame.c --- */
 
-/* Fills what does not depend on the rotation but the groups; PIR_ERR_MEMORY, PIR_ERR_LIMIT. */
-pir_status pir_frame_init(pir_query *query);
+/*
+ * Room for what does not depend on the rotation but the groups; false when out of memory. Filled, in that room:
+ * PIR_ERR_LIMIT.
+ */
+bool pir_frame_init(pir_query *query);
+void pir_frame_finish(pir_query *query);
+pir_status pir_frame_fill(pir_query *query);
 
 /* Takes note of the sum's rotation. */
 void pir_frame_follow(pir_query *query);
@@ -191,8 +201,13 @@ static inline pir_vec3 pir_frame_vertex(const pir_query *query, uint32_t a, uint
 
 /* --- planes.c --- */
 
-pir_status pir_planes_init(pir_query *query);
+/*
+ * Room, and the groups, which depend on normals alone; false when out of memory. Filled with what groups read of the
+ * bodies.
+ */
+bool pir_planes_init(pir_query *query);
 void pir_planes_finish(pir_query *query);
+void pir_planes_fill(pir_query *query);
 
 /* Room for the planes of the sum's present pairing; PIR_ERR_MEMORY. */
 pir_status pir_planes_reserve(pir_query *query);
@@ -218,8 +233,10 @@ double pir_group_sieve(pir_query *query, uint32_t g, const pir_placement *placem
 
 /* --- bounds.c --- */
 
-pir_status pir_bounds_init(pir_query *query);
+/* Room; false when out of memory. Filled: caps, and no bound known. */
+bool pir_bounds_init(pir_query *query);
 void pir_bounds_finish(pir_query *query);
+void pir_bounds_fill(pir_query *query);
 
 /*
  * query->low[g]: no slack of group g at x is below it; worked out no better than to tell it from `limit`. Returns a number that the least
@@ -362,6 +379,7 @@ pir_vec3 pir_witness_point(const pir_query *query, const pir_placement *placemen
 /* Room for what a search remembers; false when out of memory. */
 bool pir_region_init(pir_query *query);
 void pir_region_free(pir_query *query);
+void pir_region_forget(pir_query *query);
 
 /*
  * The state as the facets in the region of the sum tell it; *ret_slot is the slot of a plane that shows it, or, inside, of the piece of
@@ -374,9 +392,9 @@ pir_state pir_region_find(pir_query *query, const pir_placement *placement, cons
 uint32_t pir_region_exit(pir_query *query, const pir_placement *placement, pir_vec3 along, double *ret_at,
                          uint32_t *steps);
 
-/* --- query.c --- */
+/* --- follow.c --- */
 
-/* What every call begins with: checks, the rotation, the placement. */
+/* What every call begins with: checks, what has changed in the sum, the placement. */
 pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
 
 /* The same for calls that need the whole sum: PIR_ERR_UNSUPPORTED where it has a region. */

@@ -36,7 +36,8 @@ struct search {
 
 /* --- memory --- */
 
-static void forget(pir_query *query) {
+void pir_region_forget(pir_query *query) {
+    query->way_p = query->way_q = 0;
     for (uint32_t f = 0; f < query->p->facet_count; f++)
         query->known_p[f] = -HUGE_VAL;
     for (uint32_t g = 0; g < query->q->facet_count; g++)
@@ -50,10 +51,7 @@ bool pir_region_init(pir_query *query) {
     query->known_p = PIR_NEW(a, double, query->p->facet_count);
     query->known_q = PIR_NEW(a, double, query->q->facet_count);
     query->known_edge = PIR_NEW(a, double, query->p->edge_count);
-    if (!query->known_p || !query->known_q || !query->known_edge)
-        return false;
-    forget(query);
-    return true;
+    return query->known_p && query->known_q && query->known_edge;
 }
 
 void pir_region_free(pir_query *query) {
@@ -195,8 +193,7 @@ static void go_on(pir_query *query, const pir_placement *placement) {
     // what has gone far rounds badly: it begins again
     if (query->way_p < FARTHEST_WAY && query->way_q < FARTHEST_WAY)
         return;
-    query->way_p = query->way_q = 0;
-    forget(query);
+    pir_region_forget(query);
 }
 
 /* Whether a piece is one that the sum keeps. */
