@@ -23,11 +23,6 @@ static inline pir_sleep pir_sleep_long(void) {
     return (pir_sleep){HUGE_VAL, HUGE_VAL, -HUGE_VAL};
 }
 
-/* Not at all: some sign was too close to call. */
-static inline pir_sleep pir_sleep_none(void) {
-    return (pir_sleep){0, 0, 0};
-}
-
 /* What foretelling gives away: the slack for the drift, and a hair of it for the rounding of all this. */
 #define PIR_SLEEP_SLACK (PIR_DRIFT_SLACK * (1 + 0x1p-10))
 

@@ -99,10 +99,6 @@ void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs
     pir_int_add_mul(dst, &minus, b, scratch);
 }
 
-bool pir_int_equal(const pir_int *a, const pir_int *b) {
-    return a->size == b->size && (a->size == 0 || mpn_cmp(a->limb, b->limb, pir_int_length(a)) == 0);
-}
-
 void pir_int_shift_left(pir_int *dst, const pir_int *a, uint32_t bits) {
     uint32_t n = pir_int_length(a), whole = bits / GMP_NUMB_BITS, rest = bits % GMP_NUMB_BITS;
     if (n == 0) {

@@ -65,9 +65,6 @@ void pir_int_sub(pir_int *dst, const pir_int *a, const pir_int *b);
 void pir_int_add_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
 void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
 
-/* a == b. */
-bool pir_int_equal(const pir_int *a, const pir_int *b);
-
 /* dst = a·2^bits; room: |a| + bits / GMP_NUMB_BITS + 1; dst may be a. */
 void pir_int_shift_left(pir_int *dst, const pir_int *a, uint32_t bits);
 

@@ -55,14 +55,6 @@ void pir_vectors_strip(pir_vectors *vectors, uint32_t index) {
     pir_vectors_put(vectors, index, &v);
 }
 
-uint32_t pir_vectors_longest(const pir_vectors *vectors) {
-    uint32_t longest = 1;
-    for (size_t i = 0; i < (size_t)vectors->count * 3; i++)
-        if ((uint32_t)abs(vectors->size[i]) > longest)
-            longest = (uint32_t)abs(vectors->size[i]);
-    return longest;
-}
-
 pir_vec3 pir_int3_unit(const pir_int3 *v) {
     // mantissas and exponents, then all on the scale of the largest
     double m[3];

@@ -38,9 +38,6 @@ void pir_vectors_set(pir_vectors *vectors, uint32_t index, const pir_int3 *v);
 /* Divides all three components of vector `index` by their common power of two. */
 void pir_vectors_strip(pir_vectors *vectors, uint32_t index);
 
-/* The longest component of all, in limbs, at least 1. */
-uint32_t pir_vectors_longest(const pir_vectors *vectors);
-
 /* The unit vector along v, which is not zero: within 8·2^-53 of the exact direction in Euclidean length. */
 pir_vec3 pir_int3_unit(const pir_int3 *v);
 

@@ -195,14 +195,6 @@ double pir_groups_bound(pir_query *query, const pir_placement *placement, double
     return high;
 }
 
-uint32_t pir_group_likely(const pir_query *query) {
-    uint32_t best = 0;
-    for (uint32_t g = 1; g < query->group_count; g++)
-        if (query->low[g] < query->low[best])
-            best = g;
-    return best;
-}
-
 /* --- looking --- */
 
 void pir_group_look(pir_query *query, uint32_t g, const pir_placement *placement, double *ret_low, double *ret_high) {

@@ -96,10 +96,6 @@ static inline pir_dd3 pir_dd3_sub(pir_dd3 a, pir_dd3 b) {
     return (pir_dd3){{pir_dd_sub(a.c[0], b.c[0]), pir_dd_sub(a.c[1], b.c[1]), pir_dd_sub(a.c[2], b.c[2])}};
 }
 
-static inline pir_dd3 pir_dd3_scale(pir_dd3 a, double s) {
-    return (pir_dd3){{pir_dd_scale(a.c[0], s), pir_dd_scale(a.c[1], s), pir_dd_scale(a.c[2], s)}};
-}
-
 static inline pir_vec3 pir_dd3_round(pir_dd3 a) {
     return (pir_vec3){a.c[0].hi + a.c[0].lo, a.c[1].hi + a.c[1].lo, a.c[2].hi + a.c[2].lo};
 }

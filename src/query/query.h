@@ -250,9 +250,6 @@ void pir_group_look(pir_query *query, uint32_t g, const pir_placement *placement
 /* Keeps what is known of group `g` at x: no slack is below `low`, and no n·x below `along`. */
 void pir_bound_keep(pir_query *query, uint32_t g, const pir_placement *placement, double low, double along);
 
-/* The group whose bound, as pir_groups_bound left it, is least. */
-uint32_t pir_group_likely(const pir_query *query);
-
 static inline double pir_plane_slack(const pir_planes *planes, uint32_t i, pir_vec3 x) {
     return planes->h[i] - (planes->n.x[i] * x.x + planes->n.y[i] * x.y + planes->n.z[i] * x.z);
 }

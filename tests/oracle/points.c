@@ -105,12 +105,6 @@ void oracle_points_clear(oracle_points *points) {
     mpz_clear(points->den);
 }
 
-void oracle_points_negate(oracle_points *points) {
-    for (uint32_t i = 0; i < points->count; i++)
-        for (int k = 0; k < 3; k++)
-            mpz_neg(points->at[i][k], points->at[i][k]);
-}
-
 void oracle_points_common(oracle_points *const *sets, size_t count) {
     mpz_t den, factor;
     mpz_init_set_ui(den, 1);

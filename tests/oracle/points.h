@@ -32,7 +32,6 @@ void oracle_points_from_doubles(oracle_points *points, const pir_vec3 *from, siz
 void oracle_points_from_polytope(oracle_points *points, const pir_polytope *polytope);
 void oracle_points_from_mesh(oracle_points *points, const pir_mesh *mesh); /* one that holds exact coordinates */
 void oracle_points_clear(oracle_points *points);
-void oracle_points_negate(oracle_points *points);
 
 /* A quaternion as integers x, y, z, w on one scale. */
 typedef mpz_t oracle_quat[4];
