@@ -78,7 +78,8 @@ static bool add_facets(struct pir_arcs *arcs) {
     const pir_rotation *rotation = arcs->cgm->source[0].rotation;
     for (uint32_t f = 0; f < p->facet_count && !p->artificial; f++) {
         pir_vec3 n = rotation ? pir_mat_apply(&rotation->r, p->normal[f]) : p->normal[f];
-        struct pir_site site = {.point = {f, PIR_CGM_NONE, n, (rotation ? 42 : 8) * 0x1p-53}, .facet = f};
+        struct pir_site site = {.point = {f, PIR_CGM_NONE, n, rotation ? PIR_CGM_TURNED_ERROR : PIR_CGM_UNIT_ERROR},
+                                .facet = f};
         sign_planes(arcs, &site.point, arcs->facet_planes[f]);
         uint32_t corner = locate(arcs, arcs->facet_planes[f], &site);
         arcs->facet_site[f] = corner != PIR_CGM_NONE ? corner : add_site(arcs, site);

@@ -112,8 +112,8 @@ static bool set_lines(pir_cgm *cgm) {
         const pir_rotation *rotation = cgm->source[s].rotation;
         for (uint32_t e = 0; e < p->edge_count; e++) {
             pir_vec3 d = p->direction[p->edge_half[e]];
-            *line++ = rotation ? (struct pir_cgm_line){pir_mat_apply(&rotation->r, d), 42 * 0x1p-53}
-                               : (struct pir_cgm_line){d, 8 * 0x1p-53};
+            *line++ = rotation ? (struct pir_cgm_line){pir_mat_apply(&rotation->r, d), PIR_CGM_TURNED_ERROR}
+                               : (struct pir_cgm_line){d, PIR_CGM_UNIT_ERROR};
         }
     }
     return true;

@@ -41,6 +41,10 @@
 #include "exact/rotation.h"
 #include "polytope/polytope.h"
 
+/* Bounds on the unit vectors of a source, as they are and rotated; derived at the head of sides.c. */
+#define PIR_CGM_UNIT_ERROR   (8 * 0x1p-53)
+#define PIR_CGM_TURNED_ERROR (45 * 0x1p-53)
+
 struct pir_cgm_source {
     pir_polytope *polytope;
     pir_rotation *rotation; /* NULL when not rotated; shared by no one */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Points asked about on maps of sums, against an oracle that knows nothing of maps: a point is outside when it is a vertex of the hull of the
- * sum and itself, and on the boundary when it lies in the plane of a facet, by rationals.
+ * Points asked about on maps of sums, against oracles that know nothing of maps. A point is outside when it is a vertex of the hull of the
+ * sum and itself, and on the boundary when it lies in the plane of a facet, by rationals. Or, for solid sums: a point is outside when it is
+ * beyond the plane of a facet, and on the boundary when it is in one and beyond none.
  */
 #include "support/test.h"
 
@@ -11,6 +12,7 @@
 #include <pirouette/cgm.h>
 #include <pirouette/exact.h>
 
+#include "exact/rotation.h"
 #include "support/bodies.h"
 
 static void set_point(mpq_t x[3], pir_vec3 p) {
@@ -145,6 +147,181 @@ static void positions_are_exact(void **state) {
     assert_true(seen[0] > 300 && seen[1] > 300 && seen[2] > 300);
 }
 
+/* --- points an ulp off facets, edges and vertices --- */
+
+/* The planes of a solid mesh's facets, outwards: n·x − h in at[4f..4f+3], n and then h. */
+struct planes {
+    uint32_t count;
+    mpq_t *at;
+};
+
+static struct planes planes_of(const pir_mesh *mesh) {
+    mpq_t *points = exact_vertices(mesh), a[3], b[3], part;
+    struct planes planes = {pir_mesh_facet_count(mesh), NULL};
+    planes.at = malloc(4 * ((size_t)planes.count + 1) * sizeof *planes.at);
+    mpq_inits(a[0], a[1], a[2], b[0], b[1], b[2], part, NULL);
+    for (uint32_t f = 0; f < planes.count; f++) {
+        uint32_t count;
+        const uint32_t *corner = pir_mesh_facet(mesh, f, &count);
+        const mpq_t *x = (const mpq_t *)points + 3 * (size_t)corner[0];
+        mpq_t *plane = planes.at + 4 * (size_t)f;
+        for (int k = 0; k < 4; k++)
+            mpq_init(plane[k]);
+        for (int k = 0; k < 3; k++) {
+            mpq_sub(a[k], points[3 * (size_t)corner[1] + (size_t)k], x[k]);
+            mpq_sub(b[k], points[3 * (size_t)corner[2] + (size_t)k], x[k]);
+        }
+        for (int k = 0; k < 3; k++) {
+            mpq_mul(plane[k], a[(k + 1) % 3], b[(k + 2) % 3]);
+            mpq_mul(part, a[(k + 2) % 3], b[(k + 1) % 3]);
+            mpq_sub(plane[k], plane[k], part);
+            mpq_mul(part, plane[k], x[k]);
+            mpq_add(plane[3], plane[3], part);
+        }
+    }
+    mpq_clears(a[0], a[1], a[2], b[0], b[1], b[2], part, NULL);
+    for (uint32_t k = 0; k < 3 * (pir_mesh_vertex_count(mesh) + 1); k++)
+        mpq_clear(points[k]);
+    free(points);
+    return planes;
+}
+
+static void free_planes(struct planes *planes) {
+    for (uint32_t k = 0; k < 4 * planes->count; k++)
+        mpq_clear(planes->at[k]);
+    free(planes->at);
+}
+
+/* Where a point is by the signs of n·x − h. */
+static pir_cgm_position by_planes(const struct planes *planes, pir_vec3 point) {
+    mpq_t x[3], height, part;
+    mpq_inits(x[0], x[1], x[2], height, part, NULL);
+    set_point(x, point);
+    pir_cgm_position position = PIR_CGM_INSIDE;
+    for (uint32_t f = 0; f < planes->count && position != PIR_CGM_OUTSIDE; f++) {
+        mpq_neg(height, planes->at[4 * (size_t)f + 3]);
+        for (int k = 0; k < 3; k++) {
+            mpq_mul(part, planes->at[4 * (size_t)f + (size_t)k], x[k]);
+            mpq_add(height, height, part);
+        }
+        position = mpq_sgn(height) > 0 ? PIR_CGM_OUTSIDE : mpq_sgn(height) == 0 ? PIR_CGM_BOUNDARY : position;
+    }
+    mpq_clears(x[0], x[1], x[2], height, part, NULL);
+    return position;
+}
+
+/* As near a point of facet f as doubles come: of its inside, of an edge or a vertex; each coordinate perhaps an ulp or two off. */
+static pir_vec3 point_beside(test_random *random, const pir_mesh *mesh, uint32_t f) {
+    uint32_t n, kind = test_random_below(random, 3);
+    const uint32_t *corner = pir_mesh_facet(mesh, f, &n);
+    const pir_vec3 *vertex = pir_mesh_vertices(mesh);
+    uint32_t i = test_random_below(random, n);
+    pir_vec3 a = vertex[corner[i]], b = vertex[corner[(i + 1) % n]], c = vertex[corner[(i + 2) % n]];
+    double s = kind > 0 ? fabs(test_random_unit(random)) / 2 : 0, t = kind > 1 ? fabs(test_random_unit(random)) / 2 : 0;
+    double x[3] = {a.x + s * (b.x - a.x) + t * (c.x - a.x), a.y + s * (b.y - a.y) + t * (c.y - a.y),
+                   a.z + s * (b.z - a.z) + t * (c.z - a.z)};
+    for (int k = 0; k < 3; k++)
+        for (uint32_t steps = test_random_below(random, 3), up = test_random_below(random, 2); steps > 0; steps--)
+            x[k] = nextafter(x[k], up ? HUGE_VAL : -HUGE_VAL);
+    return (pir_vec3){x[0], x[1], x[2]};
+}
+
+/* Random bodies, as they are, far away, or of mixed size; some on grids, so that ulps cancel. */
+static pir_polytope *solid_body(test_random *random) {
+    static const test_body kinds[] = {TEST_SPHERE, TEST_BALL,   TEST_GRID,  TEST_PRISM,
+                                      TEST_FAR,    TEST_NEEDLE, TEST_SCALED};
+    pir_polytope *p = test_random_polytope(random, kinds[test_random_below(random, 7)], 14);
+    while (pir_polytope_dimension(p) < 3) {
+        pir_polytope_release(p);
+        p = test_random_polytope(random, TEST_SPHERE, 14);
+    }
+    return p;
+}
+
+/* Both bodies far from the origin, their sum near it: what is added up is large beside the sum. */
+static void move_apart(test_random *random, pir_quat rotation, pir_polytope **p, pir_polytope **q) {
+    pir_vec3 points[TEST_POINTS_MAX], far = test_random_direction(random);
+    pir_rotation turn;
+    assert_int_equal(pir_rotation_set(&turn, rotation), PIR_OK);
+    double distance = ldexp(1, test_random_between(random, 10, 40));
+    for (int side = 0; side < 2; side++) {
+        pir_polytope **body = side ? q : p;
+        pir_vec3 by = pir_vec_scale(far, side ? distance : -distance);
+        by = side ? by : pir_mat_apply_transposed(&turn.r, by);
+        uint32_t n = pir_polytope_vertex_count(*body);
+        for (uint32_t v = 0; v < n; v++)
+            points[v] = pir_vec_add(pir_polytope_vertex(*body, v), by);
+        pir_polytope_release(*body);
+        assert_int_equal(pir_polytope_create(points, n, NULL, body), PIR_OK);
+    }
+}
+
+/* Where doubles end: a grid of the smallest numbers there are, or a few times that. */
+static void shrink(test_random *random, pir_polytope **body) {
+    pir_vec3 points[TEST_POINTS_MAX];
+    uint32_t n = pir_polytope_vertex_count(*body);
+    double unit = ldexp(1, test_random_between(random, -1074, -1040));
+    for (uint32_t v = 0; v < n; v++) {
+        pir_vec3 x = pir_polytope_vertex(*body, v);
+        points[v] = (pir_vec3){x.x * unit, x.y * unit, x.z * unit};
+    }
+    pir_polytope_release(*body);
+    assert_int_equal(pir_polytope_create(points, n, NULL, body), PIR_OK);
+}
+
+static void points_an_ulp_off_are_placed_exactly(void **state) {
+    (void)state;
+    uint32_t seen[3] = {0, 0, 0};
+    for (uint64_t i = 0; i < 200; i++) {
+        test_random random = test_random_case("cgm ulps", i);
+        pir_polytope *p = solid_body(&random), *q = solid_body(&random);
+        pir_quat rotation = i % 4 ? test_rotation(&random) : (pir_quat){0, 0, 0, 1};
+        if (i % 5 == 1)
+            move_apart(&random, rotation, &p, &q);
+        if (i % 5 == 2) {
+            pir_polytope_release(p);
+            pir_polytope_release(q);
+            p = test_random_polytope(&random, TEST_BOX, 8);
+            q = test_random_polytope(&random, TEST_OCTAHEDRON, 8);
+            shrink(&random, &p);
+            shrink(&random, &q);
+        }
+        pir_cgm *a, *b, *sum;
+        pir_cgm_locator *locator;
+        pir_mesh *mesh = NULL;
+        assert_int_equal(pir_cgm_create(p, i % 4 ? &rotation : NULL, NULL, &a), PIR_OK);
+        assert_int_equal(pir_cgm_create(q, NULL, NULL, &b), PIR_OK);
+        assert_int_equal(pir_cgm_overlay(a, b, &sum), PIR_OK);
+        assert_int_equal(pir_cgm_mesh(sum, PIR_EXACT, &mesh), PIR_OK);
+        assert_int_equal(pir_cgm_locator_create(sum, &locator), PIR_OK);
+        struct planes planes = planes_of(mesh);
+        uint32_t witness = PIR_CGM_NONE;
+        // small bodies may become flat where doubles are far apart
+        bool solid = pir_mesh_facet_count(mesh) > 3;
+        for (int k = 0; k < 60 && solid; k++) {
+            uint32_t f = test_random_below(&random, pir_mesh_facet_count(mesh));
+            pir_vec3 point = point_beside(&random, mesh, f);
+            pir_cgm_location location;
+            pir_cgm_position expected = by_planes(&planes, point);
+            assert_int_equal(pir_cgm_locate(locator, point, k % 2 ? witness : PIR_CGM_NONE, &location), PIR_OK);
+            expect(location.position == expected, "case %llu point %d: %d, not %d", (unsigned long long)i, k,
+                   (int)location.position, (int)expected);
+            witness = location.witness;
+            seen[expected]++;
+        }
+        free_planes(&planes);
+        pir_cgm_locator_destroy(locator);
+        pir_mesh_destroy(mesh);
+        pir_cgm_destroy(sum);
+        pir_cgm_destroy(b);
+        pir_cgm_destroy(a);
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+    print_message("# %u outside, %u on the boundary, %u inside\n", seen[0], seen[1], seen[2]);
+    assert_true(seen[0] > 500 && seen[1] > 50 && seen[2] > 500);
+}
+
 static void witnesses_make_walks_short(void **state) {
     (void)state;
     test_random random = test_random_case("cgm witness", 0);
@@ -199,6 +376,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(positions_are_exact),
+        cmocka_unit_test(points_an_ulp_off_are_placed_exactly),
         cmocka_unit_test(witnesses_make_walks_short),
         cmocka_unit_test(bad_questions_are_refused),
     };
