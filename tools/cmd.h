@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The subcommands. Each runs with its arguments and returns how the command ends: EXIT_BAD_INPUT only after a complaint. */
+/* The subcommands. Each runs with its arguments and returns how the command ends: EXIT_BAD_INPUT after a complaint. */
 #ifndef TOOLS_CMD_H
 #define TOOLS_CMD_H
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a subcommand is: its name, its arguments, its text. All of them stand in one table, command_table.c. The parser of
- * arguments, `--help`, the manual pages and the completion of shells read that table, so none can tell what another does not.
- * A subcommand runs in a cmd_*.c of its own, and main.c knows which.
+ * What a subcommand is: its name, its arguments, its text. All of them stand in one table, command_table.c. The parser
+ * of arguments, `--help`, the manual pages and the completion of shells read that table, so all of them agree. A
+ * subcommand runs in a cmd_*.c of its own, and main.c knows which.
  */
 #ifndef TOOLS_COMMAND_H
 #define TOOLS_COMMAND_H
@@ -52,8 +52,10 @@ enum {
 
 extern const struct command command_table[COMMAND_COUNT];
 
-/* The options that stand before a subcommand, and what holds for every subcommand: what they do, their models, their exit status. */
+/* The options that stand before a subcommand. */
 extern const struct option command_options[];
+
+/* What the command does, what its models are, what its exit status means. */
 extern const char command_about[], command_models[], command_exit[];
 
 /* NULL when no subcommand has this name. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The table of subcommands. A text is one paragraph without line breaks: whoever prints it wraps it. This file and those who
- * print it on manual pages need nothing but the C library, so that a cross build can make the pages on the building machine.
+ * The table of subcommands. A text is one paragraph without line breaks: whoever prints it wraps it. This file needs
+ * nothing but the C library, so that a cross build can make the manual pages on the building machine.
  */
 #include "command.h"
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """
-Holds the help of the `pirouette` command, its manual pages and its completion against what it takes and against each other:
-test_help.py COMMAND SOURCES PAGES [CLASS]
+Holds the help of the `pirouette` command, its manual pages and its completion against what it takes and against each
+other: test_help.py COMMAND SOURCES PAGES [CLASS]
 """
 import os
 import pty
@@ -159,8 +159,8 @@ class Manual(unittest.TestCase):
         if not shutil.which("groff"):
             self.skipTest("groff is not installed")
         for name, _ in self.pages():
-            result = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-rLL=78n", PAGES / name], capture_output=True, text=True,
-                                    timeout=60)
+            result = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-rLL=78n", PAGES / name], capture_output=True,
+                                    text=True, timeout=60)
             self.assertEqual((result.returncode, result.stderr), (0, ""), name)
             self.assertIn("EXIT STATUS", re.sub("\x1b[^m]*m|.\b", "", result.stdout))
 
@@ -185,8 +185,9 @@ class Completion(unittest.TestCase):
             for name in ("a.off", "b c.off", "sheep.off"):
                 (Path(folder) / name).touch()
             (Path(folder) / "shelf").mkdir()
-            result = subprocess.run(["bash", "--norc", "-c", COMPLETE, "bash", PAGES / "pirouette", COMMAND], cwd=folder,
-                                    input="".join(line + "\n" for line in lines), capture_output=True, text=True, timeout=60)
+            result = subprocess.run(["bash", "--norc", "-c", COMPLETE, "bash", PAGES / "pirouette", COMMAND],
+                                    input="".join(line + "\n" for line in lines), cwd=folder, capture_output=True,
+                                    text=True, timeout=60)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         replies = [line.split(" ") if line else [] for line in result.stdout.splitlines()]
         self.assertEqual(len(replies), len(lines))
@@ -194,7 +195,8 @@ class Completion(unittest.TestCase):
 
     def test_subcommands_and_options_are_those_of_the_help(self):
         known = subcommands()
-        replies = self.complete("pirouette ", "pirouette help ", "pirouette -", *(f"pirouette {name} -" for name in known))
+        replies = self.complete("pirouette ", "pirouette help ", "pirouette -",
+                                *(f"pirouette {name} -" for name in known))
         self.assertEqual(replies[:2], [known, known])
         for args, reply in zip((["--help"], *(["help", name] for name in known)), replies[2:]):
             self.assertEqual(sorted(reply), sorted(help_options(run(*args).stdout)), args)

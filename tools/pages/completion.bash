@@ -18,7 +18,7 @@ _pirouette_model() {
     compopt -o nospace
 }
 
-# What begins with $1 and is of the kind $2. Bash completes files where COMPREPLY stays empty, unless that is switched off.
+# What begins with $1 and is of the kind $2. Where COMPREPLY stays empty bash completes files, unless told not to.
 _pirouette_kind() {
     case $2 in
     file) return ;;
@@ -42,7 +42,8 @@ _pirouette_kind() {
 }
 
 _pirouette() {
-    local line=${COMP_LINE:0:COMP_POINT} words word option='' i subcommand='' options arguments value='' ended='' count=0
+    local line=${COMP_LINE:0:COMP_POINT} words word i
+    local subcommand='' options arguments option='' value='' ended='' count=0
     COMPREPLY=()
 
     # Words end at blanks alone, not also where COMP_WORDBREAKS says.

@@ -7,7 +7,7 @@
 
 #include <pirouette/version.h>
 
-/* Prints a text so that roff shows it as it stands: no letter is a request, and hyphens and quotes stay what they are. */
+/* Prints a text so that roff shows it as it stands: nothing is a request, hyphens and quotes stay what they are. */
 static void print_text(FILE *file, const char *text) {
     if (*text == '.')
         fputs("\\&", file);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * pages SCRIPT FILE...: writes each FILE by what its name asks for: `pirouette.1`, `pirouette-SUBCOMMAND.1`, or `pirouette`, the
- * completion, which ends with SCRIPT. A page of an unknown subcommand, and a subcommand without a page, end the build.
+ * write_pages SCRIPT FILE...: writes each FILE by what its name asks for: `pirouette.1`, `pirouette-SUBCOMMAND.1`, or
+ * `pirouette`, the completion, which ends with SCRIPT. A page of an unknown subcommand, and a subcommand without a
+ * page, end the build.
  */
 #include "pages.h"
 
@@ -26,7 +27,7 @@ static const struct command *command_of_page(const char *name) {
 }
 
 static int fail(const char *what, const char *which) {
-    fprintf(stderr, "pages: %s %s\n", what, which);
+    fprintf(stderr, "write_pages: %s %s\n", what, which);
     return EXIT_FAILURE;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The pages that are made from the table of subcommands while the project is built: manual pages and the completion of bash.
- * A small program writes them. It is built for the building machine and stands on command_table.c and the C library alone.
+ * The pages that are made from the table of subcommands while the project is built: manual pages and the completion of
+ * bash. A small program writes them. It is built for the building machine, from command_table.c alone.
  */
 #ifndef TOOLS_PAGES_H
 #define TOOLS_PAGES_H
@@ -10,7 +10,7 @@
 
 #include "../command.h"
 
-/* What kind of word a positional argument is: "model", "shape" for the name of a built-in one, "subcommand" or "file". */
+/* What kind of word a positional argument is: "model", "shape" (the name of a built-in one), "subcommand" or "file". */
 const char *page_argument_kind(const char *name);
 
 /* pirouette.1, or pirouette-NAME.1 where a subcommand is given. */
