@@ -51,7 +51,7 @@ bool dump_frame(struct dump *dump, pir_sum *sum, uint64_t frame) {
         return false;
     pir_quat q = pir_sum_rotation(sum);
     cJSON *entry = json_add_object(&dump->json, dump->frames, NULL);
-    json_add_number(&dump->json, entry, "index", (double)frame);
+    json_add_count(&dump->json, entry, "index", frame);
     json_add_text(&dump->json, entry, "file", exact);
     if (!dump->exact)
         json_add_text(&dump->json, entry, "doubles", doubles);

@@ -2,6 +2,7 @@
 /* JSON through cJSON; see json.h. */
 #include "json.h"
 
+#include <inttypes.h>
 #include <math.h>
 
 #include "message.h"
@@ -29,6 +30,12 @@ void json_add_number(struct json *json, cJSON *parent, const char *name, double 
     }
     char text[TEXT_NUMBER];
     text_double(value, text);
+    add(json, parent, name, cJSON_CreateRaw(text));
+}
+
+void json_add_count(struct json *json, cJSON *parent, const char *name, uint64_t value) {
+    char text[TEXT_NUMBER];
+    snprintf(text, sizeof text, "%" PRIu64, value);
     add(json, parent, name, cJSON_CreateRaw(text));
 }
 

@@ -8,6 +8,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include <cjson/cJSON.h>
@@ -24,7 +25,8 @@ struct json json_new(void);
  * Each adds a member `name` to `parent`, an object, or, when `name` is NULL, an element to it, an array. `parent` may be
  * NULL after a failure.
  */
-void json_add_number(struct json *json, cJSON *parent, const char *name, double value); /* null when not finite */
+void json_add_number(struct json *json, cJSON *parent, const char *name, double value);  /* null when not finite */
+void json_add_count(struct json *json, cJSON *parent, const char *name, uint64_t value); /* with all its digits */
 void json_add_flag(struct json *json, cJSON *parent, const char *name, bool value);
 void json_add_text(struct json *json, cJSON *parent, const char *name, const char *text);
 void json_add_numbers(struct json *json, cJSON *parent, const char *name, const double *values, size_t count);

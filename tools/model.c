@@ -21,8 +21,9 @@ static pir_polytope *load_stdin(void) {
     char *text = input_take() ? input_read(&size) : NULL;
     if (!text)
         return NULL;
-    if (pir_polytope_read_off(text, size, INPUT_NAME, NULL, &report, &polytope) != PIR_OK)
-        complain_status(INPUT_NAME, report.status, &report);
+    pir_status status = pir_polytope_read_off(text, size, INPUT_NAME, NULL, &report, &polytope);
+    if (status != PIR_OK)
+        complain_status(INPUT_NAME, status, &report);
     free(text);
     return polytope;
 }

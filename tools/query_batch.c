@@ -143,8 +143,9 @@ static bool answer_line(struct batch *batch, pir_query *query, pir_query_input *
     pir_status status = pir_query_signed_distance(query, input, cache, &r);
     if (status != PIR_OK)
         return complain_at(batch, text, text, pir_status_text(status));
+    // + 0.0 turns −0 into 0
     fprintf(batch->out.stream, "%.17g,%.17g,%.17g,%s,%.17g,%.17g,%.17g,%.17g\n", v[0], v[1], v[2], state_names[r.state],
-            r.distance, r.normal.x, r.normal.y, r.normal.z);
+            r.distance, r.normal.x + 0.0, r.normal.y + 0.0, r.normal.z + 0.0);
     batch->counts[r.state]++;
     batch->done++;
     return true;
@@ -196,10 +197,10 @@ static bool report(const struct args *args, const struct batch *batch) {
         return true;
     }
     struct json json = json_new();
-    json_add_number(&json, json.root, "placements", (double)batch->done);
-    json_add_number(&json, json.root, "outside", (double)batch->counts[0]);
-    json_add_number(&json, json.root, "boundary", (double)batch->counts[1]);
-    json_add_number(&json, json.root, "inside", (double)batch->counts[2]);
+    json_add_count(&json, json.root, "placements", batch->done);
+    json_add_count(&json, json.root, "outside", batch->counts[0]);
+    json_add_count(&json, json.root, "boundary", batch->counts[1]);
+    json_add_count(&json, json.root, "inside", batch->counts[2]);
     json_add_flag(&json, json.root, "interrupted", batch->interrupted);
     json_add_number(&json, json.root, "seconds", batch->seconds);
     return json_print(&json, stdout);

@@ -25,14 +25,14 @@ static double asked(const pir_sum_statistics *did) {
 static void add_request(struct json *json, const struct track_request *request, const struct track_result *result) {
     json_add_text(json, json->root, "p", request->p);
     json_add_text(json, json->root, "q", request->q);
-    json_add_number(json, json->root, "frames", (double)result->frames);
-    json_add_number(json, json->root, "steps", (double)request->steps);
+    json_add_count(json, json->root, "frames", result->frames);
+    json_add_count(json, json->root, "steps", request->steps);
     if (request->random)
         json_add_text(json, json->root, "axis", "random");
     else
         json_add_numbers(json, json->root, "axis", (const double[]){request->axis.x, request->axis.y, request->axis.z},
                          3);
-    json_add_number(json, json->root, "seed", (double)request->seed);
+    json_add_count(json, json->root, "seed", request->seed);
     json_add_flag(json, json->root, "difference", request->difference);
     json_add_text(json, json->root, "method", request->method_name);
     json_add_flag(json, json->root, "interrupted", result->interrupted);
@@ -56,9 +56,9 @@ static void add_work(struct json *json, const struct track_result *result) {
     const double frames = (double)result->frames;
     json_add_number(json, json->root, "checked_per_frame", ratio((double)did->checked, frames));
     json_add_number(json, json->root, "repaired_per_frame", ratio((double)did->repaired, frames));
-    json_add_number(json, json->root, "updates", (double)did->updates);
-    json_add_number(json, json->root, "rebuilds", (double)did->rebuilds);
-    json_add_number(json, json->root, "allocations", (double)result->late_allocations);
+    json_add_count(json, json->root, "updates", did->updates);
+    json_add_count(json, json->root, "rebuilds", did->rebuilds);
+    json_add_count(json, json->root, "allocations", result->late_allocations);
     cJSON *signs = json_add_object(json, json->root, "signs");
     json_add_number(json, signs, "asked", asked(did));
     json_add_number(json, signs, "filter", ratio((double)did->by_filter, asked(did)));
@@ -79,12 +79,12 @@ bool track_print_json(const struct track_request *request, const struct track_re
     if (request->tolerance > 0) {
         json_add_number(&json, json.root, "tolerance", request->tolerance);
         json_add_number(&json, json.root, "shortfall", result->shortfall);
-        json_add_number(&json, json.root, "kept", (double)result->did.kept);
+        json_add_count(&json, json.root, "kept", result->did.kept);
     }
-    json_add_number(&json, json.root, "verified", (double)result->verified);
+    json_add_count(&json, json.root, "verified", result->verified);
     json_add_number(&json, json.root, "mismatches", request->verify_every ? (double)result->mismatches : NAN);
     if (request->dump)
-        json_add_number(&json, json.root, "dumped", (double)result->dumped);
+        json_add_count(&json, json.root, "dumped", result->dumped);
     return json_print(&json, stdout);
 }
 

@@ -60,6 +60,8 @@ def read_terminal(terminal, seconds):
 
 class CommandTest(unittest.TestCase):
     command = ""  # the path of the built command
+    answers_program = ""  # the one that asks the library itself
+    faulty = ""  # the command with faults, empty where the linker cannot put them in
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -85,6 +87,26 @@ class CommandTest(unittest.TestCase):
     def data(self, *args):
         return json.loads(self.good(*args, "--json"))
 
+    def answers(self, kind, *args, **keys):
+        """The library's own answers: a list of the values of each key, and of each row under "row"."""
+        given = [f"{key}={value if isinstance(value, (str, Path)) else numbers(value)}" for key, value in keys.items()]
+        done = subprocess.run([self.answers_program, kind, *map(str, args), *given], capture_output=True, text=True,
+                              timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), (kind, args, keys))
+        told = {"row": []}
+        for line in done.stdout.splitlines():
+            key, *values = line.split()
+            values = [float.fromhex(v) for v in values]
+            told["row"].append(values) if key == "row" else told.__setitem__(key, values)
+        return told
+
+    def fault(self, kind, number, *args):
+        """A run of the command in which a call goes wrong; see faulty.c."""
+        if not self.faulty:
+            self.skipTest("the linker cannot put faults into this build")
+        return subprocess.run([self.faulty, *map(str, args)], capture_output=True, text=True, timeout=60,
+                              env={**os.environ, "PIROUETTE_FAULT": f"{kind}:{number}"})
+
     def bad(self, *args, says=()):
         """A run that must end with status 2 and one line on stderr, which holds every word of `says`."""
         done = self.run_command(*args)
@@ -98,6 +120,6 @@ class CommandTest(unittest.TestCase):
 
 
 def main():
-    """Runs the tests of a file as `test_X.py COMMAND [CLASS...]`."""
-    CommandTest.command = sys.argv.pop(1)
+    """Runs the tests of a file as `test_X.py COMMAND ANSWERS FAULTY [CLASS...]`."""
+    CommandTest.command, CommandTest.answers_program, CommandTest.faulty = (sys.argv.pop(1) for _ in range(3))
     unittest.main()

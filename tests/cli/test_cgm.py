@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette cgm. Usage: test_cgm.py COMMAND [CLASS...]"""
+"""pirouette cgm. Usage: test_cgm.py COMMAND ANSWERS FAULTY [CLASS...]"""
+import re
 import xml.etree.ElementTree as ElementTree
 
-from command_test import CommandTest, main
+from command_test import CommandTest, main, numbers
 
 
 class Cgm(CommandTest):
@@ -14,6 +15,34 @@ class Cgm(CommandTest):
             self.assertEqual((one["vertices"], one["halfedges"], one["faces"]), (4, 8, 2))
         self.assertEqual(told["total"], {"vertices": 24, "halfedges": 48, "faces": 12})
         self.assertEqual(told["mesh"], {"vertices": 6, "edges": 12, "facets": 8})
+
+    def test_maps_are_the_librarys(self):
+        for q in ([], ["shape:gs2"], [self.pyramid]):
+            for difference in (0, 1):
+                quat = (0.1, 0.2, 0.3, 0.9)
+                told = self.data("cgm", self.tetrahedron, *q, f"--quat={numbers(quat)}", *["--difference"] * difference)
+                library = self.answers("cgm", self.tetrahedron, *q, quat=quat, difference=(difference,))
+                total = [0, 0, 0]
+                for one in told["maps"]:
+                    counts = [one[k] for k in ("vertices", "halfedges", "faces")]
+                    self.assertEqual(counts, library[one["face"]])
+                    total = [a + b for a, b in zip(total, counts)]
+                self.assertEqual([told["total"][k] for k in ("vertices", "halfedges", "faces")], total)
+                self.assertEqual([told["mesh"][k] for k in ("vertices", "edges", "facets")], library["mesh"])
+                self.assertEqual((told["p"], told.get("q")), (str(self.tetrahedron), str(q[0]) if q else None))
+                self.assertEqual(told["quat"], list(quat))
+                self.assertGreater(told["seconds"], 0)
+
+    def test_text_holds_the_counts(self):
+        for q in ([], [self.pyramid]):
+            told = self.data("cgm", self.tetrahedron, *q)
+            text = self.good("cgm", self.tetrahedron, *q, "-o", self.path / "map.svg")
+            for name, counts in [(m["face"], m) for m in told["maps"]] + [("total", told["total"])]:
+                row = r" +".join(str(counts[k]) for k in ("vertices", "halfedges", "faces"))
+                self.assertRegex(text, rf"\n  {re.escape(name)} +{row}\n")
+            self.assertRegex(text, r"\n  {} +vertices {vertices}, edges {edges}, facets {facets}\n".format(
+                "sum" if q else "polytope", **told["mesh"]))
+            self.assertRegex(text, r"\n  time +[0-9.]+ (ns|us|ms|s)\n  file +.*map\.svg\n$")
 
     def test_overlay_is_the_sum(self):
         for extra in ([], ["--difference"], ["--quat=0.1,0.2,0.3,0.9"]):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette info and pirouette shape. Usage: test_info_shape.py COMMAND [CLASS...]"""
+"""pirouette info and pirouette shape. Usage: test_info_shape.py COMMAND ANSWERS FAULTY [CLASS...]"""
 from command_test import CommandTest, main
 
 
@@ -15,6 +15,13 @@ class Info(CommandTest):
         self.assertEqual(pyramid["bounds"]["low"], [-1 / 3, -1 / 3, 0])
         self.assertEqual(pyramid["bounds"]["high"], [1 / 3, 1 / 3, 5 / 7])
         self.assertAlmostEqual(pyramid["volume"], 4 / 9 * 5 / 7 / 3, places=14)
+
+    def test_figures_are_the_librarys(self):
+        for model in (self.tetrahedron, self.pyramid, "shape:gs4", "shape:cone?sides=7", "shape:ellipsoid?level=3"):
+            told, library = self.data("info", model), self.answers("info", model)
+            for key in ("dimension", "vertices", "edges", "facets", "volume"):
+                self.assertEqual([told[key]], library[key], (model, key))
+            self.assertEqual([told["bounds"]["low"], told["bounds"]["high"]], [library["low"], library["high"]])
 
     def test_flat_bodies(self):
         for name, text, counts in (
@@ -61,6 +68,14 @@ class Shape(CommandTest):
         a, b = self.data("info", self.path / "a0.off"), self.data("info", self.path / "a1.off")
         self.assertEqual(a["bounds"], b["bounds"])
         self.assertEqual(a["facets"], b["facets"])
+
+    def test_a_written_model_is_the_librarys_mesh(self):
+        for exact in (0, 1):
+            told = self.data("shape", "gs2", "-o", self.path / "ours.off", *["--exact"] * exact)
+            library = self.answers("mesh", "shape:gs2", o=self.path / "library.off", exact=(exact,))
+            self.assertEqual([told[k] for k in ("vertices", "edges", "facets")], library["mesh"])
+            self.assertEqual((told["name"], told["file"]), ("gs2", str(self.path / "ours.off")))
+            self.assertEqual((self.path / "ours.off").read_bytes(), (self.path / "library.off").read_bytes())
 
     def test_what_is_missing_is_said(self):
         self.bad("shape", "cube", says="-o")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Where results go: links, FIFOs, devices, standard output, full disks, signals. Usage: test_streams.py COMMAND [CLASS...]"""
+"""Where results go: links, FIFOs, devices, standard output, full disks, signals. Usage: test_streams.py COMMAND ANSWERS FAULTY [CLASS...]"""
 import json
 import os
 import resource

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette sum and its poses. Usage: test_sum.py COMMAND [CLASS...]"""
+"""pirouette sum and its poses. Usage: test_sum.py COMMAND ANSWERS FAULTY [CLASS...]"""
 import math
 import xml.etree.ElementTree as ElementTree
 
@@ -100,6 +100,32 @@ class Sum(CommandTest):
         told = self.data("sum", self.tetrahedron, "shape:cube", "-o", self.path / "sum.off")
         self.assertEqual(self.data("info", self.path / "sum.off")["vertices"], told["vertices"])
         self.assertEqual(self.data("info", self.path / "sum.off")["bounds"], {"low": [-0.5] * 3, "high": [1.5] * 3})
+
+    def test_counts_are_the_librarys(self):
+        for p, q in ((self.tetrahedron, self.pyramid), ("shape:cube", "shape:cube"), (self.pyramid, "shape:gs2")):
+            for quat in ((0, 0, 0, 1), (0, 0, 1, 1), (0.1, -0.2, 0.3, 0.7)):
+                for difference in (0, 1):
+                    library = self.answers("sum", p, q, quat=quat, difference=(difference,))
+                    for method in ("walk", "cgm", "hull"):
+                        told = self.data("sum", p, q, f"--quat={numbers(quat)}", "--method", method,
+                                         *["--difference"] * difference)
+                        self.assertEqual([told[k] for k in ("vertices", "edges", "facets")], library["mesh"])
+                        self.assertEqual([[told[k]] for k in ("fv", "vf", "ee")], [library[k] for k in ("fv", "vf", "ee")])
+                        self.assertEqual((told["p"], told["q"], told["quat"]), (str(p), str(q), list(quat)))
+                        self.assertEqual((told["difference"], told["method"]), (bool(difference), method))
+                        self.assertGreater(told["seconds"], 0)
+
+    def test_files_are_the_librarys(self):
+        quat = (0.1, -0.2, 0.3, 0.7)
+        for ending in (".off", ".svg", ".obj", ".stl", ".ply", ".OFF"):
+            for exact in (0, 1) if ending == ".off" else (0,):
+                ours, library = self.path / f"ours{ending}", self.path / f"library{ending}"
+                args = ["sum", self.tetrahedron, "shape:gs2", f"--quat={numbers(quat)}", "-o", ours, *["--exact"] * exact]
+                if "no assimp" in self.run_command(*args).stderr:
+                    continue
+                self.good(*args)
+                self.answers("sum", self.tetrahedron, "shape:gs2", quat=quat, exact=(exact,), o=library)
+                self.assertEqual(ours.read_bytes(), library.read_bytes(), ending)
 
     def test_drawings_are_xml(self):
         self.good("sum", self.tetrahedron, "shape:cube", "-o", self.path / "sum.svg")

@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette track: figures, frames, charts, progress. Usage: test_track.py COMMAND [CLASS...]"""
+"""pirouette track: figures, frames, charts, progress. Usage: test_track.py COMMAND ANSWERS FAULTY [CLASS...]"""
 import json
 import math
 import os
 import pty
+import re
 import subprocess
 import time
 import xml.etree.ElementTree as ElementTree
+from fractions import Fraction
+from pathlib import Path
 
 from command_test import CommandTest, TETRAHEDRON, main, numbers, read_terminal, rotation
+from motion import motion
 
 
 class Track(CommandTest):
@@ -72,6 +76,80 @@ class Track(CommandTest):
         self.assertEqual(self.data("track", "shape:cube", self.pyramid, "--frames", "1", "--verify")["mismatches"], 0)
 
 
+METHODS = ["auto", "update", "walk", "cgm"]
+
+
+class Counters(CommandTest):
+    """What a run counts, held against the library's counters over the same rotations, which motion.py makes anew."""
+
+    def compare(self, p, q, frames, steps, options=(), axis=None, seed=1, method="auto", **given):
+        about = [f"--axis={numbers(axis)}"] if axis else ["--axis=random", f"--seed={seed}"]
+        told = self.data("track", p, q, f"--frames={frames}", f"--steps={steps}", "--method", method, *about, *options)
+        rotations = self.file("rotations.txt", "".join(numbers(r) + "\n" for r in motion(frames, steps, axis, seed)))
+        library = self.answers("track", p, q, list=rotations, method=(METHODS.index(method),), **given)
+        self.assertEqual([[told[k]] for k in ("updates", "rebuilds")], [library[k] for k in ("updates", "rebuilds")])
+        self.assertEqual([told["checked_per_frame"], told["repaired_per_frame"]],
+                         [library[k][0] / frames for k in ("checked", "repaired")])
+        self.assertEqual(told["signs"]["asked"], sum(library["signs"]))
+        for key, count in zip(("filter", "exact", "perturbation"), library["signs"]):
+            share = count / sum(library["signs"]) if sum(library["signs"]) else None
+            self.assertEqual(told["signs"][key], share)
+        self.assertEqual([told[k] for k in ("frames", "steps", "seed", "method")], [frames, steps, seed, method])
+        self.assertEqual(told["axis"], list(axis) if axis else "random")
+        return told, library
+
+    def test_methods_axes_and_seeds(self):
+        for p, q in ((self.tetrahedron, self.pyramid), ("shape:gs2", "shape:cube")):
+            for method in METHODS:
+                self.compare(p, q, 120, 300, method=method)
+            for axis in ((0, 0, 1), (1, 2, -0.5)):
+                for steps in (1, 2, 3, 4, 6, 12, 1000):
+                    self.compare(p, q, 30, steps, axis=axis)
+            self.compare(p, q, 120, 90, seed=2**64 - 1)
+
+    def test_what_else_is_done_in_a_frame_is_not_counted(self):
+        self.compare("shape:gs1", self.pyramid, 60, 50, ["--verify", "--brute", "--dump", self.path / "d", "--every", "7"])
+
+    def test_difference_region_and_tolerance(self):
+        told, _ = self.compare("shape:gs2", self.pyramid, 80, 500, ["--difference"], difference=(1,))
+        self.assertTrue(told["difference"])
+        told, _ = self.compare("shape:gs2", self.pyramid, 80, 500, ["--region=0,1,2,40"], region=(0, 1, 2, 40))
+        self.assertEqual((told["region"], told["region_degrees"], told["difference"]), ([0, 1, 2], 40, False))
+        told, library = self.compare("shape:gs2", self.pyramid, 200, 5000, ["--tolerance=0.01", "--verify"], tolerance=(0.01,))
+        self.assertEqual([told["kept"]], library["kept"])
+        self.assertEqual([told["shortfall"]], library["shortfall"])
+        self.assertGreater(told["kept"], 10)
+        self.assertTrue(0 < told["shortfall"] <= told["tolerance"] == 0.01)
+        self.assertEqual((told["verified"], told["mismatches"]), (200, 0))
+        text = self.good("track", "shape:gs2", self.pyramid, "--frames=200", "--steps=5000", "--tolerance=0.01")
+        self.assertRegex(text, rf"pairing kept +{told['kept']} of 200 frames, the support short by [0-9.e-]+ at most, 0\.01 allowed\n")
+
+    def test_the_counters_that_the_readme_quotes(self):
+        root = Path(__file__).resolve().parents[2]
+        models = {"controller, mug": [root / "examples/models" / f"{n}.off" for n in ("gamepad", "mug")],
+                  "gs4, gs4": ["shape:gs4"] * 2}
+        rows = re.findall(r"^\| ([a-z0-9, ]*)\| (\d+) \|(?: [0-9.]+ \|){3} ([0-9.]+) \| ([0-9.]+) \|$", (root / "README.md").read_text(), re.M)
+        self.assertEqual(len(rows), 6)
+        name = ""
+        for title, steps, checked, repaired in rows:
+            name = title.strip() or name
+            frames = 3000 if name == "gs4, gs4" else 2000
+            told = self.data("track", *models[name], f"--steps={steps}", f"--frames={frames}")
+            for quoted, counted in ((checked, told["checked_per_frame"]), (repaired, told["repaired_per_frame"])):
+                digits = len(quoted.split(".")[1]) if "." in quoted else 0
+                self.assertEqual(f"{counted:.{digits}f}", quoted, (name, steps))
+
+    def test_text_holds_the_counters(self):
+        args = ["track", "shape:gs2", self.pyramid, "--frames=60", "--steps=90"]
+        told, text = self.data(*args), self.good(*args)
+        self.assertIn(f"{told['checked_per_frame']:.4g} a frame\n", text)
+        self.assertRegex(text, rf"pairs repaired +{told['repaired_per_frame']:.4g} a frame\n")
+        self.assertRegex(text, rf"rebuilds +{told['rebuilds']} of 60 frames\n")
+        shares = [100 * told["signs"][k] for k in ("filter", "exact", "perturbation")]
+        self.assertIn("signs              {:.4g} a frame: {:.3f} % by filter, {:.3f} % by exact arithmetic, {:.3f} % ties\n".format(
+            told["signs"]["asked"] / 60, *shares), text)
+
+
 class Frames(CommandTest):
     def dump(self, name, *args):
         folder = self.path / name
@@ -94,6 +172,51 @@ class Frames(CommandTest):
                 self.good("sum", self.tetrahedron, self.pyramid, f"--quat={numbers(quat)}", "--method", "hull", "--exact",
                           "-o", self.path / "sum.off")
                 self.assertEqual((self.path / "sum.off").read_bytes(), text, index)
+
+    def parts(self, text):
+        """Coordinates as text and facets of an OFF file with one thing to a line."""
+        head, counts, *lines = text.decode().splitlines()
+        vertices, facets, _ = map(int, counts.split())
+        self.assertEqual((head, len(lines)), ("OFF", vertices + facets))
+        return [line.split() for line in lines[:vertices]], lines[vertices:]
+
+    def test_doubles_are_the_rationals_rounded(self):
+        for extra in ([], ["--difference"]):
+            folder = self.path / f"doubles{len(extra)}"
+            self.good("track", self.tetrahedron, self.pyramid, "--frames=9", "--every=4", "--steps=11", "--dump", folder, *extra)
+            for frame in json.loads((folder / "frames.json").read_text())["frames"]:
+                self.assertEqual(frame["file"], f"exact/{frame['doubles']}")
+                exact, facets = self.parts((folder / frame["file"]).read_bytes())
+                doubles, same_facets = self.parts((folder / frame["doubles"]).read_bytes())
+                self.assertEqual(facets, same_facets)
+                for given, rounded in zip(exact, doubles):
+                    for a, b in zip(given, rounded):
+                        # what any reader of OFF takes, and no digit more than the double needs
+                        self.assertRegex(b, r"^-?[0-9]+(\.[0-9]+)?(e[-+][0-9]+)?$")
+                        self.assertLessEqual(abs(Fraction(float(b)) - Fraction(a)), Fraction(1, 2**50))
+                        self.assertEqual(min((f"{float(b):.{n}g}" for n in (17, 16, 15) if float(f"{float(b):.{n}g}") == float(b)), key=len), b)
+
+    def test_exact_frames_stand_alone(self):
+        both = self.dump("a", self.tetrahedron, self.pyramid, "--frames=9", "--every=4")
+        exact = self.dump("b", self.tetrahedron, self.pyramid, "--frames=9", "--every=4", "--exact")
+        self.assertEqual(exact, both)
+        self.assertEqual(sorted(p.name for p in (self.path / "b").iterdir()),
+                         ["frame-000000.off", "frame-000004.off", "frame-000008.off", "frames.json"])
+        self.bad("track", self.tetrahedron, self.pyramid, "--exact", says=["--exact", "--dump"])
+        self.bad("track", self.tetrahedron, self.pyramid, "--tolerance=1", "--dump", self.path / "c", says=["--tolerance", "--dump"])
+        self.assertFalse((self.path / "c").exists())
+
+    def test_a_frame_of_a_difference_is_the_exact_difference(self):
+        for index, quat, text in self.dump("a", self.tetrahedron, self.pyramid, "--difference", "--frames=60", "--every=29"):
+            self.good("sum", self.tetrahedron, self.pyramid, f"--quat={numbers(quat)}", "--difference", "--method", "hull",
+                      "--exact", "-o", self.path / "sum.off")
+            self.assertEqual((self.path / "sum.off").read_bytes(), text, index)
+
+    def test_rotations_are_those_of_the_motion(self):
+        for axis, steps in (((0, 0, 1), 7), ((1, 2, -0.5), 100), (None, 90)):
+            about = [f"--axis={numbers(axis)}"] if axis else ["--seed=5"]
+            frames = self.dump(f"m{steps}", self.tetrahedron, self.pyramid, "--frames=120", f"--steps={steps}", *about)
+            self.assertEqual([tuple(f[1]) for f in frames], motion(120, steps, axis, 5)[1:])
 
     def test_aligned_boxes_recur_exactly(self):
         box = "shape:box?x=1&y=1&z=2"
