@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 extern "C" {
-#include "../../tests/query/place_oracle.h"
+#include "query/place_oracle.h"
 }
 
 pir_polytope *from_points(const std::vector<pir_vec3> &points) {

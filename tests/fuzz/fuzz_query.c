@@ -169,7 +169,8 @@ static struct ask next_ask(const struct scene *scene, struct fuzz_input *input, 
     int compared = reach > LEAST && reach < MOST && largest(ask.input.translation) < MOST &&
                    far <= FARTHEST * (extent > 0 ? extent : 1);
     ask.far = fmax(far, largest(ask.input.translation));
-    ask.bound = compared ? BOUND * reach : HUGE_VAL;
+    // points have no size: then coordinates in double-double are what is left
+    ask.bound = compared ? BOUND * reach + (extent == 0 ? 0x1p-100 * ask.far : 0) : HUGE_VAL;
     return ask;
 }
 

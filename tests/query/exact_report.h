@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/* What exact checks found: for each kind how many, how many failed, the worst error; the first failures of each kind are printed. */
+#ifndef PIR_TEST_EXACT_REPORT_H
+#define PIR_TEST_EXACT_REPORT_H
+
+#include <stdint.h>
+
+typedef enum exact_kind {
+    EXACT_ORACLE = 0, /* the oracle's two ways agree */
+    EXACT_FEATURES,   /* facets and edges of the bodies */
+    EXACT_STATE,      /* states and outcomes of placements, in every call */
+    EXACT_DISTANCE,
+    EXACT_DEPTH,
+    EXACT_NORMAL,           /* unit, in the exact direction */
+    EXACT_RELATION,         /* point_p = point_q + distance · normal */
+    EXACT_HOLDS,            /* the witness's features hold the points */
+    EXACT_LEAST,            /* no lesser face of them does */
+    EXACT_TIE,              /* the facet that the tie rule asks for */
+    EXACT_CACHE,            /* answers with any cache and history, bit for bit */
+    EXACT_BATCH,            /* answers of batches, bit for bit */
+    EXACT_EXIT,             /* directional depth */
+    EXACT_APPROACH_OUTCOME, /* directional distance */
+    EXACT_APPROACH,
+    EXACT_CAST_OUTCOME,
+    EXACT_CAST_TIME,
+    EXACT_CONTACT, /* points and features of casts and directions */
+    EXACT_ESCAPES,
+    EXACT_FARTHEST,
+    EXACT_ROUNDED, /* with radii */
+    EXACT_CUTOFF,
+    EXACT_MANIFOLD,
+    EXACT_KINDS,
+} exact_kind;
+
+/* What is being checked: printed with a failure, so that it can be made again. */
+typedef struct exact_where {
+    unsigned long long scene;
+    int turn, pose;
+    char text[1024];
+} exact_where;
+
+extern exact_where exact_at;
+
+/* Only the kinds of these names, with commas between them, are counted from here on; 0 when a name is none. */
+int exact_report_only(const char *names);
+
+/* Counts a check; when it failed, prints the printf-formatted text, for the first few of a kind. */
+void exact_check(exact_kind kind, int holds, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Counts a number: |is − should| must be at most bound·scale. The worst |is − should| / scale is kept. */
+void exact_number(exact_kind kind, const char *what, double is, double should, double scale);
+
+/* Prints the table; how many failed. */
+unsigned long long exact_report_print(void);
+
+#endif

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Every placement query against the oracle of placements (oracle/place.h): states and outcomes exactly, numbers to 1e-12, points on the bodies and on
+ * the features that the witness names, answers the same bit for bit with any cache, history and in batches.
+ *
+ *     query_exact_answers [POSES [KINDS [SCENE]]]
+ *
+ * checks about POSES poses, counting only checks of KINDS (names of the table with commas between them, or "all"), only of scene SCENE. PIR_TEST_SEED sets the
+ * seed, PIR_TEST_PRINTED how many failures of a kind are printed. Ends with 1 when a check failed.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "query/exact_checks.h"
+#include "query/exact_poses.h"
+#include "query/exact_report.h"
+
+#define TURNS 2
+#define POSES 12
+
+static void die(const char *what) {
+    fprintf(stderr, "exact answers: %s\n", what);
+    exit(2);
+}
+
+static double size_of(const pir_polytope *p, double *reach) {
+    pir_vec3 low, high;
+    pir_polytope_bounds(p, &low, &high);
+    *reach = fmax(*reach, fmax(exact_largest(low), exact_largest(high)));
+    return exact_length(exact_add(high, low, -1));
+}
+
+static void describe(const exact_scene *scene, pir_quat r, const exact_pose *pose) {
+    snprintf(exact_at.text, sizeof exact_at.text,
+             "%s, rotation %.17g,%.17g,%.17g,%.17g, t %.17g,%.17g,%.17g, direction %.17g,%.17g,%.17g", scene->situation,
+             r.x, r.y, r.z, r.w, pose->t.x, pose->t.y, pose->t.z, pose->direction.x, pose->direction.y,
+             pose->direction.z);
+}
+
+static void print_body(const char *name, const pir_polytope *p) {
+    printf("# %s:", name);
+    for (uint32_t i = 0; i < pir_polytope_vertex_count(p); i++) {
+        pir_vec3 v = pir_polytope_vertex(p, i);
+        printf(" %.17g,%.17g,%.17g", v.x, v.y, v.z);
+    }
+    printf("\n");
+}
+
+/* All poses at once give what each gave alone. */
+static void check_batch(exact_pair *pair, const exact_pose *poses) {
+    pir_vec3 t[POSES];
+    pir_state states[POSES], more[POSES];
+    double depths[POSES], distances[POSES];
+    size_t count = 0;
+    const exact_pose *of[POSES];
+    for (int i = 0; i < POSES; i++)
+        if (!poses[i].limit) {
+            of[count] = &poses[i];
+            t[count++] = poses[i].t;
+        }
+    if (pir_query_batch_states(pair->query, t, count, states) != PIR_OK ||
+        pir_query_batch_depths(pair->query, t, count, depths, more) != PIR_OK)
+        die("a batch is refused");
+    for (size_t i = 0; i < count; i++) {
+        const pir_query_result *r = &of[i]->answer;
+        double depth = r->state == PIR_INSIDE ? -r->distance : 0;
+        exact_at.pose = (int)(of[i] - poses);
+        exact_check(EXACT_BATCH, states[i] == r->state && more[i] == r->state && depths[i] == depth,
+                    "states %d %d, not %d, depth %.17g, not %.17g", (int)states[i], (int)more[i], (int)r->state,
+                    depths[i], depth);
+    }
+    if (pir_query_batch_distances(pair->fresh, t, count, distances, more) != PIR_OK)
+        die("a batch is refused");
+    for (size_t i = 0; i < count; i++)
+        exact_check(EXACT_BATCH, more[i] == of[i]->answer.state && distances[i] == of[i]->answer.distance,
+                    "state %d, not %d, distance %.17g, not %.17g", (int)more[i], (int)of[i]->answer.state, distances[i],
+                    of[i]->answer.distance);
+}
+
+static void check_turn(exact_pair *pair, test_random *random, const exact_scene *scene, pir_quat rotation) {
+    exact_pose poses[POSES];
+    for (int i = 0; i < POSES; i++) {
+        exact_pose *pose = &poses[i];
+        *pose = (exact_pose){.input = pir_query_input_default()};
+        pose->t = exact_translation(random, pair->place, pair->size);
+        pose->direction = exact_direction(random, pair->place, pose->t, pair->size);
+        pose->input.translation = pose->t;
+        exact_at.pose = i;
+        describe(scene, rotation, pose);
+        exact_check_pose(pair, random, pose);
+        if (pose->limit)
+            continue;
+        exact_check_directions(pair, pose);
+        if (i % 3 == 0)
+            exact_check_others(pair, random, pose);
+    }
+    check_batch(pair, poses);
+}
+
+static void check_scene(uint64_t number, int prints) {
+    test_random random = test_random_case("exact answers", number);
+    static exact_scene scene;
+    exact_scene_make(&random, number, &scene);
+    pir_sum_options options = pir_sum_options_default();
+    options.difference = 1;
+    exact_pair pair = {.p = test_polytope(&scene.points_p), .q = test_polytope(&scene.points_q)};
+    pair.size = size_of(pair.p, &pair.reach) + size_of(pair.q, &pair.reach);
+    if (prints) {
+        print_body("P", pair.p);
+        print_body("Q", pair.q);
+    }
+    // two points: every size is right
+    pair.size = pair.size > 0 ? pair.size : scene.scale;
+    pair.solid_p = oracle_solid_make(pair.p);
+    pair.solid_q = oracle_solid_make(pair.q);
+    exact_at.scene = number;
+    const char *wrong_p = oracle_solid_compare(pair.solid_p, pair.p),
+               *wrong_q = oracle_solid_compare(pair.solid_q, pair.q);
+    exact_check(EXACT_FEATURES, !wrong_p && !wrong_q, "P: %s; Q: %s", wrong_p ? wrong_p : "right",
+                wrong_q ? wrong_q : "right");
+    pir_sum *sum;
+    pir_quat rotation = scene.rotation;
+    if (pir_sum_create(pair.p, pair.q, rotation, &options, &sum) != PIR_OK ||
+        pir_query_create(sum, &pair.query) != PIR_OK)
+        die("no query");
+    for (int turn = 0; turn < TURNS; turn++) {
+        exact_at.turn = turn;
+        if (pir_sum_rotate(sum, rotation, PIR_METHOD_AUTO) != PIR_OK || pir_query_create(sum, &pair.fresh) != PIR_OK)
+            die("no rotation");
+        pair.place = oracle_place_make(pair.solid_p, pair.solid_q, rotation);
+        check_turn(&pair, &random, &scene, rotation);
+        oracle_place_free(pair.place);
+        pir_query_destroy(pair.fresh);
+        rotation = exact_rotation(&random, &scene);
+    }
+    pir_query_destroy(pair.query);
+    pir_sum_destroy(sum);
+    oracle_solid_free(pair.solid_p);
+    oracle_solid_free(pair.solid_q);
+    pir_polytope_release(pair.p);
+    pir_polytope_release(pair.q);
+}
+
+int main(int argc, char **argv) {
+    uint64_t poses = argc > 1 ? strtoull(argv[1], NULL, 10) : 2000,
+             scenes = (poses + TURNS * POSES - 1) / (TURNS * POSES);
+    if (argc > 2 && strcmp(argv[2], "all") != 0 && !exact_report_only(argv[2]))
+        die("no such kind of check");
+    test_print_seed();
+    if (argc > 3)
+        check_scene(strtoull(argv[3], NULL, 10), 1);
+    else
+        for (uint64_t number = 0; number < scenes; number++)
+            check_scene(number, 0);
+    printf("# %llu poses\n", (unsigned long long)(argc > 3 ? 1 : scenes) * TURNS * POSES);
+    return exact_report_print() ? 1 : 0;
+}
