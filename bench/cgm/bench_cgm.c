@@ -2,9 +2,12 @@
 /*
  * Cubical Gaussian maps: what an exact sum by overlay costs beside other ways to one, and how the cost grows with the result.
  *
- * Printed: for pairs of models, the time of overlay and mesh from two finished maps, the share of signs that the filter settled, bytes per
- * halfedge, and the peers that the build found; for geodesic spheres of rising level, time against the size of the result, and the exponent
- * of a least-squares fit on logarithms. With arguments, shapes or model files, only those pairs, each with itself turned.
+ * Usage: bench_cgm FOLDER [MODEL...]
+ *
+ * cgm.csv: for pairs of models, the time of overlay and mesh from two finished maps, the share of signs that the filter settled, bytes per
+ * halfedge, and the peers that the build found. cgm_growth.csv: for geodesic spheres of rising level, time against the size of the result.
+ * Printed is the same, and the exponent of a least-squares fit on logarithms. With models, shapes or files, only those pairs are printed,
+ * each with itself turned. All times are CPU time of the thread.
  */
 #include <math.h>
 #include <stdio.h>
@@ -19,13 +22,14 @@
 #include <pirouette/pirouette.h>
 
 #include "peers.h"
+#include "results.h"
 
 #define RUNS_OF_OURS  51
 #define RUNS_OF_PEERS 5
 
 double peer_clock(void) {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
@@ -54,10 +58,11 @@ struct measured {
     double filter, bytes;
 };
 
-static struct measured measure(pir_polytope *p, pir_polytope *q, pir_quat rotation, int runs) {
+static struct measured measure(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
     double times[RUNS_OF_OURS], maps[RUNS_OF_OURS];
     struct measured m = {0};
-    for (int run = 0; run < runs; run++) {
+    uint32_t runs = results_count(RUNS_OF_OURS);
+    for (uint32_t run = 0; run < runs; run++) {
         pir_cgm *a, *b, *sum;
         pir_mesh *mesh;
         double start = peer_clock();
@@ -80,9 +85,9 @@ static struct measured measure(pir_polytope *p, pir_polytope *q, pir_quat rotati
         pir_cgm_destroy(b);
         pir_cgm_destroy(a);
     }
-    m.milliseconds = median(times, (size_t)runs);
+    m.milliseconds = median(times, runs);
     m.fastest = times[0];
-    m.maps = median(maps, (size_t)runs);
+    m.maps = median(maps, runs);
     return m;
 }
 
@@ -92,27 +97,39 @@ static double measure_rebuild(pir_polytope *p, pir_polytope *q, pir_quat rotatio
     pir_sum *sum;
     need(pir_sum_create(p, q, rotation, NULL, &sum), "sum");
     need(pir_sum_rotate(sum, rotation, method), "rebuild");
-    for (int run = 0; run < RUNS_OF_OURS; run++) {
+    uint32_t runs = results_count(RUNS_OF_OURS);
+    for (uint32_t run = 0; run < runs; run++) {
         double start = peer_clock();
         need(pir_sum_rotate(sum, rotation, method), "rebuild");
         times[run] = peer_clock() - start;
     }
     pir_sum_destroy(sum);
-    return median(times, RUNS_OF_OURS);
+    return median(times, runs);
 }
 
 #if PIR_HAVE_CGAL || PIR_HAVE_QHULL
+/* What the rows of one pair share: the table, or NULL, the pair's name, the facets of the sum, the median of overlay and mesh. */
+struct row {
+    FILE *csv;
+    const char *name;
+    uint32_t facets;
+    double ours;
+};
+
 static void run_peer(const char *name, peer_run *run, pir_polytope *p, double matrix[3][3], pir_polytope *q,
-                     double ours) {
+                     const struct row *row) {
     double times[RUNS_OF_PEERS];
     struct peer_result result = {0, 0, 0};
-    for (int i = 0; i < RUNS_OF_PEERS; i++) {
+    uint32_t runs = results_count(RUNS_OF_PEERS);
+    for (uint32_t i = 0; i < runs; i++) {
         result = run(p, matrix, q);
         times[i] = result.milliseconds;
     }
-    double time = median(times, RUNS_OF_PEERS);
-    printf("  %-34s %10.3f ms %8.1f times   %u vertices, %u facets\n", name, time, time / ours, result.vertices,
+    double time = median(times, runs);
+    printf("  %-34s %10.3f ms %8.1f times   %u vertices, %u facets\n", name, time, time / row->ours, result.vertices,
            result.facets);
+    if (row->csv)
+        fprintf(row->csv, "%s,%u,%s,%.3f,%.1f,,\n", row->name, row->facets, name, time, time / row->ours);
 }
 #endif
 
@@ -132,23 +149,32 @@ static pir_polytope *make_model(const char *name) {
     return p;
 }
 
-static void bench_pair(const char *name, pir_quat rotation) {
+static void bench_pair(const char *name, pir_quat rotation, FILE *csv) {
     pir_polytope *p = make_model(name), *q = make_model(name);
     double matrix[3][3];
     matrix_of(rotation, matrix);
-    struct measured m = measure(p, q, rotation, RUNS_OF_OURS);
+    struct measured m = measure(p, q, rotation);
     printf("%s and itself turned: %u vertices, %u edges, %u facets; map %u/%u/%u\n", name, m.vertices, m.edges,
            m.facets, m.counts.vertices, m.counts.halfedges, m.counts.faces);
     printf("  %-34s %10.3f ms  (fastest %.3f; both maps %.3f; filter %.4f; %.1f bytes a halfedge)\n",
            "overlay and mesh", m.milliseconds, m.fastest, m.maps, m.filter, m.bytes);
-    printf("  %-34s %10.3f ms by cgm, %.3f ms by walk\n", "pairing of a tracked sum",
-           measure_rebuild(p, q, rotation, PIR_METHOD_CGM), measure_rebuild(p, q, rotation, PIR_METHOD_WALK));
+    double by_cgm = measure_rebuild(p, q, rotation, PIR_METHOD_CGM),
+           by_walk = measure_rebuild(p, q, rotation, PIR_METHOD_WALK);
+    printf("  %-34s %10.3f ms by cgm, %.3f ms by walk\n", "pairing of a tracked sum", by_cgm, by_walk);
+    if (csv) {
+        fprintf(csv, "%s,%u,overlay and mesh,%.3f,1,%.4f,%.1f\n", name, m.facets, m.milliseconds, m.filter, m.bytes);
+        fprintf(csv, "%s,%u,pairing by cgm,%.3f,,,\n", name, m.facets, by_cgm);
+        fprintf(csv, "%s,%u,pairing by walk,%.3f,,,\n", name, m.facets, by_walk);
+    }
+#if PIR_HAVE_CGAL || PIR_HAVE_QHULL
+    struct row row = {csv, name, m.facets, m.milliseconds};
+#endif
 #if PIR_HAVE_CGAL
-    run_peer("CGAL spherical map overlay", peer_cgal_sgm, p, matrix, q, m.milliseconds);
-    run_peer("CGAL convex_hull_3 of all sums", peer_cgal_hull, p, matrix, q, m.milliseconds);
+    run_peer("CGAL spherical map overlay", peer_cgal_sgm, p, matrix, q, &row);
+    run_peer("CGAL convex_hull_3 of all sums", peer_cgal_hull, p, matrix, q, &row);
 #endif
 #if PIR_HAVE_QHULL
-    run_peer("qhull of all sums", peer_qhull, p, matrix, q, m.milliseconds);
+    run_peer("qhull of all sums", peer_qhull, p, matrix, q, &row);
 #endif
     pir_polytope_release(q);
     pir_polytope_release(p);
@@ -168,18 +194,21 @@ static double fit_exponent(const struct fit *fit) {
     return (fit->count * fit->xy - fit->x * fit->y) / (fit->count * fit->xx - fit->x * fit->x);
 }
 
-static void bench_growth(pir_quat rotation) {
+static void bench_growth(pir_quat rotation, FILE *csv) {
     struct fit features = {0}, halfedges = {0};
     printf("geodesic spheres: level, facets of each, facets of the sum, halfedges, overlay and mesh in ms (median, "
            "fastest)\n");
-    for (int level = 2; level <= 20; level++) {
+    fprintf(csv, "level,facets of each,facets of the sum,halfedges,median ms,fastest ms\n");
+    for (uint32_t level = 2; level < 2 + results_count(19); level++) {
         char name[32];
-        snprintf(name, sizeof name, "geodesic?level=%d", level);
+        snprintf(name, sizeof name, "geodesic?level=%u", (unsigned)level);
         pir_polytope *p;
         need(pir_shape_create(name, NULL, NULL, &p), name);
-        struct measured m = measure(p, p, rotation, RUNS_OF_OURS);
-        printf("  %2d %5u %6u %7u %9.3f %9.3f\n", level, pir_polytope_facet_count(p), m.facets, m.counts.halfedges,
-               m.milliseconds, m.fastest);
+        struct measured m = measure(p, p, rotation);
+        printf("  %2u %5u %6u %7u %9.3f %9.3f\n", (unsigned)level, pir_polytope_facet_count(p), m.facets,
+               m.counts.halfedges, m.milliseconds, m.fastest);
+        fprintf(csv, "%u,%u,%u,%u,%.3f,%.3f\n", (unsigned)level, pir_polytope_facet_count(p), m.facets,
+                m.counts.halfedges, m.milliseconds, m.fastest);
         fit_add(&features, m.vertices + m.edges + m.facets, m.milliseconds);
         fit_add(&halfedges, m.counts.halfedges, m.milliseconds);
         pir_polytope_release(p);
@@ -189,6 +218,10 @@ static void bench_growth(pir_quat rotation) {
 }
 
 int main(int argc, char **argv) {
+    if (argc < 2) {
+        fprintf(stderr, "usage: bench_cgm FOLDER [MODEL...]\n");
+        return 2;
+    }
 #ifdef __GLIBC__
     // memory once had stays with the process, whoever asks for it: what is measured is not the kernel handing out pages
     mallopt(M_MMAP_THRESHOLD, 1 << 30);
@@ -196,13 +229,19 @@ int main(int argc, char **argv) {
 #endif
     // a turn that ties nothing, and the one that ties everything
     const pir_quat turned = {0.1, 0.2, 0.3, 0.9}, identity = {0, 0, 0, 1};
-    for (int i = 1; i < argc; i++)
-        bench_pair(argv[i], turned);
-    if (argc > 1)
+    for (int i = 2; i < argc; i++)
+        bench_pair(argv[i], turned, NULL);
+    if (argc > 2)
         return 0;
-    bench_pair("gs4", turned);
-    bench_pair("ellipse", turned);
-    bench_pair("gs4", identity);
-    bench_growth(turned);
+    struct results results = results_new(argv[1]);
+    FILE *pairs = results_open(&results, "cgm.csv"), *growth = results_open(&results, "cgm_growth.csv");
+    fprintf(pairs, "pair,facets of the sum,way,median ms,times overlay and mesh,filter share,bytes a halfedge\n");
+    bench_pair("gs4", turned, pairs);
+    bench_pair("ellipse", turned, pairs);
+    bench_pair("gs4", identity, pairs);
+    bench_growth(turned, growth);
+    results_close(pairs, "cgm.csv");
+    results_close(growth, "cgm_growth.csv");
+    printf("results in %s\n", results.folder);
     return 0;
 }

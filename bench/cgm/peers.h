@@ -27,7 +27,7 @@ peer_run peer_cgal_hull;
 /* qhull of all pairwise sums of vertices, in double. */
 peer_run peer_qhull;
 
-/* A moment, in milliseconds. */
+/* A moment of the thread's CPU time, in milliseconds. */
 double peer_clock(void);
 
 #ifdef __cplusplus

@@ -38,13 +38,14 @@ struct pass {
 static void measure(const struct pass *pass, FILE *csv, FILE *page) {
     static double times[VERSIONS_MAX][PASSES];
     double clock = trial_clock_cost(), reference = 0;
-    for (int i = 0; i < PASSES; i++)
+    uint32_t passes = results_count(PASSES);
+    for (uint32_t i = 0; i < passes; i++)
         for (unsigned k = 0; k < pass->versions; k++)
             times[k][i] = pass->run(pass->context, k) - clock;
     fprintf(page, "| %s | %s | %u |", pass->loop, pass->model, (unsigned)pass->items);
     for (unsigned k = 0; k < pass->versions; k++) {
         // the fastest is the first once they are sorted
-        double median = trial_median(times[k], PASSES) / pass->items, fastest = times[k][0] / pass->items;
+        double median = trial_median(times[k], passes) / pass->items, fastest = times[k][0] / pass->items;
         reference = k == 0 ? median : reference;
         fprintf(csv, "%s,%s,%u,%s,%.3f,%.3f,%.2f\n", pass->loop, pass->model, (unsigned)pass->items, pass->names[k],
                 median, fastest, reference / median);
@@ -150,7 +151,7 @@ static double run_collect(void *context, unsigned index) {
 static void write_update_loops(const char *model, FILE *csv, FILE *page, bool first) {
     struct scene scene = scene_make(model);
     uint32_t facets = scene.sum->p_facets.count, alarms = scene.blocks * PIR_ALARM_BLOCK;
-    struct pass pass = {"collect, none wakes", model, run_collect, &scene, alarms, 0, {NULL}};
+    struct pass pass = {"collect (none wakes)", model, run_collect, &scene, alarms, 0, {NULL}};
     for (; pass.versions < VERSIONS_MAX && pir_kernels_version(pass.versions); pass.versions++)
         pass.names[pass.versions] = pir_kernels_version(pass.versions)->name;
     if (first)
@@ -159,7 +160,7 @@ static void write_update_loops(const char *model, FILE *csv, FILE *page, bool fi
     // so much later, at the steady axis of these frames, that some have to be looked at
     scene.time.ahead += 0.01;
     scene.time.behind += 0.01;
-    pass.loop = "collect, 8 steps on";
+    pass.loop = "collect (8 steps on)";
     measure(&pass, csv, page);
     pass.loop = "glance", pass.run = run_glance, pass.items = facets;
     measure(&pass, csv, page);

@@ -44,26 +44,27 @@ static void region_of(const char *name, double steps, int carried, FILE *csv, FI
         half_angles[k] = widths[k] < 180 ? widths[k] * (3.14159265358979323846 / 180) : 4;
         trial_need(pir_sum_create(p, p, spin.now, NULL, &sums[k]), "sum");
     }
-    for (int i = -WARM_UP; i < FRAMES; i++) {
+    uint32_t frames = results_count(FRAMES), warm_up = results_count(WARM_UP);
+    for (uint32_t i = 0; i < warm_up + frames; i++) {
         pir_quat rotation = spin_next(&spin);
         pir_vec3 now = carried ? turned(rotation, axis) : axis;
         for (int k = 0; k < WIDTHS; k++) {
             double start = trial_now();
             trial_need(pir_sum_set_region(sums[k], now, half_angles[k]), "region");
             trial_need(pir_sum_rotate(sums[k], rotation, PIR_METHOD_UPDATE), "rotation");
-            if (i >= 0)
-                times[k][i] = trial_now() - start;
+            if (i >= warm_up)
+                times[k][i - warm_up] = trial_now() - start;
         }
     }
     for (int k = 0; k < WIDTHS; k++) {
         pir_sum_statistics did = pir_sum_get_statistics(sums[k]);
-        double mean = mean_of(times[k], FRAMES), median = trial_median(times[k], FRAMES);
-        double checked = (double)did.checked / (FRAMES + WARM_UP);
+        double mean = mean_of(times[k], frames), median = trial_median(times[k], frames);
+        double checked = (double)did.checked / (frames + warm_up);
         const char *of = carried ? "P" : "Q";
         fprintf(csv, "%s,%.0f,%s,%.0f,%.1f,%.1f,%.1f,%.1f,%.1f\n", name, steps, of, widths[k], median, mean,
-                times[k][FRAMES / 100], times[k][FRAMES - FRAMES / 100], checked);
+                times[k][frames / 100], times[k][frames - 1 - frames / 100], checked);
         fprintf(page, "| %s | %.0f | %s | %.0f | %.0f | %.0f | %.0f | %.0f | %.1f |\n", name, steps, of, widths[k],
-                median, mean, times[k][FRAMES / 100], times[k][FRAMES - FRAMES / 100], checked);
+                median, mean, times[k][frames / 100], times[k][frames - 1 - frames / 100], checked);
         pir_sum_destroy(sums[k]);
     }
     pir_polytope_release(p);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The measurement of trial.h. Times stand between two looks at the monotonic clock, which are part of them. */
+/* The measurement of trial.h. Times stand between two looks at a clock, which are part of them. */
 #include "trial.h"
 
 #include <math.h>
@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "results.h"
 #include "spin.h"
 
 void trial_need(pir_status status, const char *what) {
@@ -22,10 +23,29 @@ pir_polytope *trial_model(const char *name) {
     return polytope;
 }
 
-double trial_now(void) {
+static double look_at(clockid_t clock) {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
+}
+
+double trial_now(void) {
+    return look_at(CLOCK_MONOTONIC);
+}
+
+/* What two looks at a clock take. */
+static double look_cost(clockid_t clock) {
+    enum { LOOKS = 2001 };
+    double times[LOOKS];
+    for (int i = 0; i < LOOKS; i++) {
+        double before = look_at(clock);
+        times[i] = look_at(clock) - before;
+    }
+    return trial_median(times, LOOKS);
+}
+
+double trial_clock_cost(void) {
+    return look_cost(CLOCK_MONOTONIC);
 }
 
 static int compare(const void *a, const void *b) {
@@ -44,13 +64,20 @@ struct lap {
     pir_sum *sum; /* NULL where the way is left out */
     double *times;
     uint32_t count, stride; /* timed in every stride-th frame */
+    clockid_t clock;
+    double look; /* what is taken off each time */
 };
 
-static struct lap lap_new(pir_polytope *p, pir_polytope *q, pir_quat start, uint32_t frames, uint32_t samples) {
+/* Of a way that is short, timed by the monotonic clock, or of one that takes long enough for the thread's own. */
+static struct lap lap_new(pir_polytope *p, pir_polytope *q, pir_quat start, uint32_t frames, uint32_t samples,
+                          bool is_short) {
     struct lap lap = {0};
     if (samples == 0)
         return lap;
-    lap.stride = samples < frames ? frames / samples : 1;
+    // of fewer frames than samples, one is timed
+    lap.stride = samples <= frames ? frames / samples : frames;
+    lap.clock = is_short ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID;
+    lap.look = is_short ? 0 : look_cost(lap.clock);
     lap.times = malloc(frames * sizeof *lap.times);
     trial_need(lap.times ? PIR_OK : PIR_ERR_MEMORY, "times");
     trial_need(pir_sum_create(p, q, start, NULL, &lap.sum), "sum");
@@ -74,41 +101,33 @@ static struct trial_times lap_finish(struct lap *lap) {
 static bool lap_rotate(struct lap *lap, pir_quat rotation, uint64_t frame, bool timed, pir_method method, bool brute) {
     if (!lap->sum || frame % lap->stride != 0)
         return false;
-    double before = trial_now();
+    double before = look_at(lap->clock);
     pir_status status =
         brute ? pir_sum_rotate_brute_force(lap->sum, rotation) : pir_sum_rotate(lap->sum, rotation, method);
-    double after = trial_now();
+    double after = look_at(lap->clock);
     trial_need(status, "rotation");
     if (timed)
-        lap->times[lap->count++] = after - before;
+        lap->times[lap->count++] = after - before - lap->look;
     return timed;
 }
 
 /* --- the run --- */
 
-static double events_of(const pir_sum *sum) {
-    pir_sum_statistics did = pir_sum_get_statistics(sum);
-    return (double)(did.checked + did.repaired);
-}
-
 /* One pass of the motion: the tracked sum by `method`, and the others beside it in some frames. */
 static struct trial_times pass(const struct trial_request *request, pir_polytope *p, pir_polytope *q,
                                trial_motion *motion, void *context, pir_method method, struct trial_result *result) {
-    uint32_t frames = request->frames, warm_up = request->warm_up;
+    uint32_t frames = results_count(request->frames), warm_up = results_count(request->warm_up);
     bool alone = method != PIR_METHOD_UPDATE;
     pir_quat start = motion(context, 0);
-    struct lap tracked = lap_new(p, q, start, frames, frames),
-               walk = lap_new(p, q, start, frames, alone ? 0 : request->walk_samples),
-               brute = lap_new(p, q, start, frames, alone ? 0 : request->brute_samples);
-    double events = 0;
-    uint64_t allocations = 0;
+    struct lap tracked = lap_new(p, q, start, frames, frames, true),
+               walk = lap_new(p, q, start, frames, alone ? 0 : request->walk_samples, false),
+               brute = lap_new(p, q, start, frames, alone ? 0 : request->brute_samples, false);
+    pir_sum_statistics before = {0};
     for (uint64_t i = 1; i <= (uint64_t)warm_up + frames; i++) {
         pir_quat rotation = motion(context, i);
         bool timed = i > warm_up;
-        if (i == warm_up + 1) {
-            events = events_of(tracked.sum);
-            allocations = pir_sum_get_statistics(tracked.sum).allocations;
-        }
+        if (i == warm_up + 1)
+            before = pir_sum_get_statistics(tracked.sum);
         lap_rotate(&tracked, rotation, i, timed, method, false);
         lap_rotate(&walk, rotation, i, timed, PIR_METHOD_WALK, false);
         if (lap_rotate(&brute, rotation, i, timed, PIR_METHOD_WALK, true)) {
@@ -116,17 +135,16 @@ static struct trial_times pass(const struct trial_request *request, pir_polytope
             result->mismatches += !pir_sum_same_pairing(tracked.sum, brute.sum);
         }
     }
-    struct trial_times times;
     if (!alone) {
-        result->events = (events_of(tracked.sum) - events) / frames;
-        result->allocations = pir_sum_get_statistics(tracked.sum).allocations - allocations;
-    }
-    times = lap_finish(&tracked);
-    if (!alone) {
+        pir_sum_statistics after = pir_sum_get_statistics(tracked.sum);
+        result->checked = (double)(after.checked - before.checked) / frames;
+        result->repaired = (double)(after.repaired - before.repaired) / frames;
+        result->events = result->checked + result->repaired;
+        result->allocations = after.allocations - before.allocations;
         result->walk = lap_finish(&walk);
         result->brute = lap_finish(&brute);
     }
-    return times;
+    return lap_finish(&tracked);
 }
 
 struct trial_result trial_run_along(const struct trial_request *request, pir_polytope *p, pir_polytope *q,
@@ -155,14 +173,4 @@ static pir_quat spin_motion(void *context, uint64_t frame) {
 struct trial_result trial_run(const struct trial_request *request, pir_polytope *p, pir_polytope *q) {
     struct spinning spinning = {.request = request};
     return trial_run_along(request, p, q, spin_motion, &spinning);
-}
-
-double trial_clock_cost(void) {
-    enum { LOOKS = 2001 };
-    double times[LOOKS];
-    for (int i = 0; i < LOOKS; i++) {
-        double before = trial_now();
-        times[i] = trial_now() - before;
-    }
-    return trial_median(times, LOOKS);
 }

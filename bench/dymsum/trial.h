@@ -4,7 +4,9 @@
  *
  * Each way has a sum of its own. Update is timed in every frame; walk and brute force, which do not depend on the step, in
  * frames spread evenly over the same run, so that what else the machine does falls on all alike. Where brute force is timed its
- * pairing is held against the updated one's. Auto goes through the same motion afterwards, alone, so as not to find or leave a cache
+ * pairing is held against the updated one's. Update and auto, which may take less than a look at the thread's own clock, are timed by the
+ * monotonic one: the few frames in which the machine did something else do not move a median. Walk and brute force are in CPU time of the
+ * thread, what looking at its clock takes taken off. Auto goes through the same motion afterwards, alone, so as not to find or leave a cache
  * that another tracked sum has warmed.
  */
 #ifndef BENCH_TRIAL_H
@@ -32,9 +34,10 @@ struct trial_times {
 
 struct trial_result {
     struct trial_times update, automatic, walk, brute;
-    double events;       /* certificates checked and pairs repaired by update, a frame */
-    uint32_t compared;   /* frames in which brute force was run */
-    uint32_t mismatches; /* how many of those gave another pairing */
+    double checked, repaired; /* certificates and pairs, by update, a frame */
+    double events;            /* both */
+    uint32_t compared;        /* frames in which brute force was run */
+    uint32_t mismatches;      /* how many of those gave another pairing */
     uint64_t allocations;
 };
 
@@ -58,7 +61,7 @@ void trial_need(pir_status status, const char *what);
 double trial_now(void);
 double trial_median(double *times, uint32_t count);
 
-/* What two looks at the clock take by themselves, in nanoseconds: it is in every time above. */
+/* What two looks at the monotonic clock take by themselves, in nanoseconds: it is in every time of update and auto. */
 double trial_clock_cost(void);
 
 #endif

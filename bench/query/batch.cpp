@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "results.h"
 #include "scene.hpp"
 
 namespace {
 
 constexpr size_t COUNT = 10000;
-constexpr int ROUNDS = 15;
+constexpr uint32_t ROUNDS = 15;
 
 // Uniform in the box of the difference of the body from itself, `scale` times as large; inside it alone if asked.
 std::vector<pir_vec3> translations(pir_query *query, const pir_polytope *p, double scale, bool inside) {
@@ -43,14 +44,13 @@ void run_batches(FILE *csv, const char *set, pir_polytope *p) {
         std::vector<pir_vec3> t = translations(query, p, inside ? 1 : 1.25, inside != 0);
         auto line = [&](const char *what, auto &&batch) {
             Times times;
-            for (int round = 0; round < ROUNDS; round++)
-                times.ns.push_back(nanoseconds(0, batch) / COUNT);
+            for (uint32_t round = 0; round < results_count(ROUNDS); round++)
+                times.ns.push_back(cpu_nanoseconds(batch) / COUNT);
             const char *where = inside ? "inside" : "in and around";
             std::printf("%-14s %-14s batch %-10s %9.4f %9.4f\n", set, where, what, times.median() / 1e3,
                         times.fastest() / 1e3);
-            if (csv)
-                std::fprintf(csv, "%s,batch %s,ours %s,%.1f,%.1f,,,,,\n", set, where, what, times.median(),
-                             times.fastest());
+            std::fprintf(csv, "%s,batch %s,ours %s,%.1f,%.1f,,,,,\n", set, where, what, times.median(),
+                         times.fastest());
         };
         line("states", [&] { pir_query_batch_states(query, t.data(), COUNT, states.data()); });
         line("depths", [&] { pir_query_batch_depths(query, t.data(), COUNT, numbers.data(), nullptr); });

@@ -6,9 +6,9 @@
 // error of a number relative to the bodies' size, states, numbers off by more than 1e-6 of it, failures. Wrong is what differs from the
 // exact answer, ours being held to it as well; where bodies are too large for that at every pose, from ours, which the property tests hold to it.
 //
-// Last, many translations at one rotation, per translation.
+// Last, many translations at one rotation, per translation, in CPU time. All lines go to query.csv.
 //
-//     bench_query [CSV]
+//     bench_query FOLDER
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -16,6 +16,7 @@
 #include <string>
 
 #include "peers.hpp"
+#include "results.h"
 #include "scene.hpp"
 
 namespace {
@@ -111,9 +112,8 @@ void print_line(FILE *csv, const char *set, const char *situation, const char *w
                 const char *reference) {
     std::printf("%-14s %-9s %-16s %9.3f %9.3f  %9.2e %5d %5d %5d  %s\n", set, situation, who, times.median() / 1e3,
                 times.fastest() / 1e3, v.error, v.wrong_states, v.wrong_numbers, v.failures, reference);
-    if (csv)
-        std::fprintf(csv, "%s,%s,%s,%.1f,%.1f,%.3e,%d,%d,%d,%s\n", set, situation, who, times.median(), times.fastest(),
-                     v.error, v.wrong_states, v.failures, v.wrong_numbers, reference);
+    std::fprintf(csv, "%s,%s,%s,%.1f,%.1f,%.3e,%d,%d,%d,%s\n", set, situation, who, times.median(), times.fastest(),
+                 v.error, v.wrong_states, v.failures, v.wrong_numbers, reference);
 }
 
 void run_peer(FILE *csv, const char *set, const char *situation, Peer &peer, const std::vector<Pose> &poses,
@@ -178,11 +178,11 @@ std::vector<Pose> face_to_face(double h) {
     static const pir_quat turns[] = {{0, 0, 0, 1}, {0, 0, 1, 1}, {1, 0, 0, 1}, {1, 1, 1, 1}};
     Random random;
     std::vector<Pose> poses;
-    for (int i = 0; i < FRAMES; i++) {
+    for (int i = 0; i < frames(); i++) {
         double t[3] = {h * random.unit(), h * random.unit(), h * random.unit()};
         double out = 2 * h * (1 + some_gap(random));
         t[i % 3] = random.unit() < 0 ? -out : out;
-        poses.push_back({turns[i / 250], {t[0], t[1], t[2]}});
+        poses.push_back({turns[4 * i / frames()], {t[0], t[1], t[2]}});
     }
     return poses;
 }
@@ -191,7 +191,7 @@ std::vector<Pose> face_to_face(double h) {
 std::vector<Pose> edge_to_edge(double h) {
     Random random;
     std::vector<Pose> poses;
-    for (int i = 0; i < FRAMES; i++) {
+    for (int i = 0; i < frames(); i++) {
         double at = 2 * h * (1 + some_gap(random));
         poses.push_back({{1, 1, 0, std::sqrt(2.0)}, {at, at, 0.5 * h * random.unit()}});
     }
@@ -214,11 +214,12 @@ std::vector<Pose> concentric(int count) {
 } // namespace
 
 int main(int argc, char **argv) {
-    FILE *csv = argc > 1 ? std::fopen(argv[1], "w") : nullptr;
-    if (argc > 1 && !csv) {
-        std::fprintf(stderr, "bench_query: cannot write %s\n", argv[1]);
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: bench_query FOLDER\n");
         return 2;
     }
+    results where = results_new(argv[1]);
+    FILE *csv = results_open(&where, "query.csv");
     double overhead = clock_cost();
     struct {
         std::string name;
@@ -233,9 +234,8 @@ int main(int argc, char **argv) {
                   {"cubes 1e6", shape("cube", {1e6, 1e6, 1e6})}};
     std::printf("%-14s %-9s %-16s %9s %9s  %9s %5s %5s %5s  %s\n", "set", "poses", "who", "median us", "fastest",
                 "error", "state", "wrong", "fail", "against");
-    if (csv)
-        std::fprintf(
-            csv, "set,poses,who,median_ns,fastest_ns,largest_error,wrong_states,failures,wrong_numbers,reference\n");
+    std::fprintf(csv,
+                 "set,poses,who,median_ns,fastest_ns,largest_error,wrong_states,failures,wrong_numbers,reference\n");
     // what comes first would pay for the processor's waking
     run_ours(bodies[0].polytope, bodies[0].polytope, make_poses(bodies[0].polytope, bodies[0].polytope, 0.25),
              SEPARATION, overhead);
@@ -250,12 +250,12 @@ int main(int argc, char **argv) {
     pir_polytope_bounds(cube, &low, &high);
     run_set(csv, "cubes", "face-face", cube, cube, face_to_face(high.x), SIGNED, true, true, overhead);
     run_set(csv, "cubes", "edge-edge", cube, cube, edge_to_edge(high.x), SIGNED, true, true, overhead);
-    run_set(csv, "cubes", "together", cube, cube, concentric(FRAMES), DEPTH, true, true, overhead);
-    run_set(csv, "gs4", "together", gs4, gs4, concentric(40), DEPTH, true, true, overhead);
+    run_set(csv, "cubes", "together", cube, cube, concentric(frames()), DEPTH, true, true, overhead);
+    run_set(csv, "gs4", "together", gs4, gs4, concentric((int)results_count(40)), DEPTH, true, true, overhead);
     run_batches(csv, "gs4", gs4);
     for (auto &body : bodies)
         pir_polytope_release(body.polytope);
-    if (csv)
-        std::fclose(csv);
+    results_close(csv, "query.csv");
+    std::printf("results in %s\n", where.folder);
     return 0;
 }

@@ -4,7 +4,9 @@
 // updated, the penetration asked for. By the half-angle of the region; beside FCL and Bullet, which keep nothing, over the same poses as in
 // bench_query, "deep". `agree` is the part of the frames whose depth is the whole sum's.
 //
-//     bench_query_region [CSV]
+// All lines go to query_region.csv.
+//
+//     bench_query_region FOLDER
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +14,7 @@
 #include <pirouette/query.h>
 
 #include "peers.hpp"
+#include "results.h"
 #include "scene.hpp"
 
 namespace {
@@ -106,32 +109,30 @@ void run_set(FILE *csv, const char *set, pir_polytope *body, double overhead) {
         double agree = (double)t.agree / (double)poses.size();
         std::printf("%-14s ours frame, region %3.0f  %8.3f  %8.3f %8.3f %8.3f  %5.3f\n", set, WIDTHS[k],
                     t.frame.median() / 1e3, t.set.median() / 1e3, t.update.median() / 1e3, t.ask.median() / 1e3, agree);
-        if (csv)
-            std::fprintf(csv, "%s,ours frame region %.0f,%.1f,%.1f,%.1f,%.1f,%.4f\n", set, WIDTHS[k], t.frame.median(),
-                         t.set.median(), t.update.median(), t.ask.median(), agree);
+        std::fprintf(csv, "%s,ours frame region %.0f,%.1f,%.1f,%.1f,%.1f,%.4f\n", set, WIDTHS[k], t.frame.median(),
+                     t.set.median(), t.update.median(), t.ask.median(), agree);
         pir_query_destroy(t.query);
         pir_sum_destroy(t.sum);
     }
     for (size_t k = 0; k < peers.size(); k++) {
         std::printf("%-14s %-22s  %8.3f\n", set, peers[k]->name(), peer_times[k].median() / 1e3);
-        if (csv)
-            std::fprintf(csv, "%s,%s,%.1f,,,,\n", set, peers[k]->name(), peer_times[k].median());
+        std::fprintf(csv, "%s,%s,%.1f,,,,\n", set, peers[k]->name(), peer_times[k].median());
     }
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-    FILE *csv = argc > 1 ? std::fopen(argv[1], "w") : nullptr;
-    if (argc > 1 && !csv) {
-        std::fprintf(stderr, "bench_query_region: cannot write %s\n", argv[1]);
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: bench_query_region FOLDER\n");
         return 2;
     }
+    results where = results_new(argv[1]);
+    FILE *csv = results_open(&where, "query_region.csv");
     double overhead = clock_cost();
     std::printf("medians in us\n%-14s %-22s  %8s  %8s %8s %8s  %5s\n", "set", "who", "frame", "region", "update", "ask",
                 "agree");
-    if (csv)
-        std::fprintf(csv, "set,who,frame_ns,region_ns,update_ns,ask_ns,agree\n");
+    std::fprintf(csv, "set,who,frame_ns,region_ns,update_ns,ask_ns,agree\n");
     struct {
         const char *name;
         pir_polytope *polytope;
@@ -140,7 +141,7 @@ int main(int argc, char **argv) {
         run_set(csv, body.name, body.polytope, overhead);
         pir_polytope_release(body.polytope);
     }
-    if (csv)
-        std::fclose(csv);
+    results_close(csv, "query_region.csv");
+    std::printf("results in %s\n", where.folder);
     return 0;
 }

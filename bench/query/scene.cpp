@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
+
+#include "results.h"
 
 extern "C" {
 #include "query/place_oracle.h"
@@ -69,6 +72,16 @@ double Times::fastest() const {
     return *std::min_element(ns.begin(), ns.end());
 }
 
+int frames() {
+    return (int)results_count(1000);
+}
+
+double cpu_now() {
+    timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
+}
+
 double clock_cost() {
     Times times;
     for (int i = 0; i < 10000; i++)
@@ -93,7 +106,8 @@ std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish) {
         std::exit(2);
     pir_vec3 axis = random.direction(), out = random.direction(), drift = random.direction();
     double size = size_of(p) + size_of(q);
-    for (int i = 0; i < FRAMES; i++) {
+    int count = frames();
+    for (int i = 0; i < count; i++) {
         if (i % 50 == 0)
             axis = random.direction(), drift = random.direction();
         double half = M_PI / 500, s = std::sin(half);

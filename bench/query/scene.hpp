@@ -30,8 +30,8 @@ pir_polytope *shape(const char *name, pir_vec3 scale = {1, 1, 1}, pir_vec3 offse
 // The farthest vertex from the body's own middle.
 double size_of(const pir_polytope *p);
 
-// How many poses a set has.
-constexpr int FRAMES = 1000;
+// How many poses a set has: 1,000, or few where results_count says so.
+int frames();
 
 // Rotations of 1/500 of a turn each, about an axis that changes every 50 poses, and translations at a wished signed distance: along a drifting
 // direction, as far as the exact directional query says.
@@ -53,6 +53,15 @@ template <class Work> double nanoseconds(double overhead, Work &&work) {
     work();
     auto to = clock_type::now();
     return std::chrono::duration<double, std::nano>(to - from).count() - overhead;
+}
+
+// In CPU time of the thread, which looking at takes half a microsecond: for work that takes far longer.
+double cpu_now();
+
+template <class Work> double cpu_nanoseconds(Work &&work) {
+    double from = cpu_now();
+    work();
+    return cpu_now() - from;
 }
 
 // The state and signed distance at a pose, from the exact hull of all pairwise sums, in rationals; rounded once.
