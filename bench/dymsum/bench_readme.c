@@ -2,13 +2,15 @@
 /*
  * The table of README.md, row by row. Usage: bench_readme FOLDER MODELS [BODIES STEPS]
  *
- * MODELS is the folder of the game controller and the mug. readme.csv holds the figures, readme.md the table as it stands in README.md. With
+ * Each row turns P as `pirouette track --axis random` does, so that its counters are those of the command. MODELS is the folder of the
+ * game controller and the mug. readme.csv holds the figures, readme.md the table as it stands in README.md. With
  * BODIES (controller or gs4) and STEPS (to a full turn) only that row is made, and printed.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "motion.h"
 #include "results.h"
 #include "trial.h"
 
@@ -32,18 +34,35 @@ static pir_polytope *read_model(const char *folder, const char *file) {
     return polytope;
 }
 
+/* A row's motion, begun anew for frame 0. */
+struct turning {
+    uint64_t steps;
+    struct motion motion;
+};
+
+static pir_quat turn(void *context, uint64_t frame) {
+    struct turning *turning = context;
+    if (frame > 0)
+        return motion_next(&turning->motion);
+    turning->motion = motion_new(NULL, turning->steps, 1);
+    return motion_before(&turning->motion);
+}
+
+/* Two digits, or all before the point. */
+static void write_number(FILE *page, double x) {
+    fprintf(page, x < 1 ? " %.2f |" : x < 10 ? " %.1f |" : " %.0f |", x);
+}
+
 /* One row of readme.md, and of readme.csv unless `csv` is NULL. */
 static void write_row(const struct bodies *bodies, double steps, bool titled, FILE *csv, FILE *page) {
-    struct trial_request request = {.frames = bodies->frames,
-                                    .warm_up = 200,
-                                    .walk_samples = 200,
-                                    .brute_samples = 20,
-                                    .steps = steps,
-                                    .seed = 1,
-                                    .from_identity = true};
-    struct trial_result t = trial_run(&request, bodies->p, bodies->q);
-    fprintf(page, "| %s | %.0f | %.2g | %.2g | %.4g | %.2g | %.2g |\n", titled ? bodies->title : "", steps,
-            t.update.median / 1e3, t.walk.median / 1e3, t.brute.median / 1e3, t.checked, t.repaired);
+    struct trial_request request = {.frames = bodies->frames, .walk_samples = 200, .brute_samples = 20, .choose = true};
+    struct turning turning = {.steps = (uint64_t)steps};
+    struct trial_result t = trial_run_along(&request, bodies->p, bodies->q, turn, &turning);
+    const double numbers[] = {t.update.median / 1e3, t.walk.median / 1e3, t.brute.median / 1e3, t.checked, t.repaired};
+    fprintf(page, "| %s | %.0f |", titled ? bodies->title : "", steps);
+    for (int k = 0; k < 5; k++)
+        write_number(page, numbers[k]);
+    fprintf(page, "\n");
     if (csv)
         fprintf(csv, "%s,%.0f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f,%.2f,%.2f,%u,%u\n", bodies->name, steps, t.update.median,
                 t.update.fastest, t.walk.median, t.walk.fastest, t.brute.median, t.brute.fastest, t.checked, t.repaired,

@@ -113,11 +113,11 @@ static bool lap_rotate(struct lap *lap, pir_quat rotation, uint64_t frame, bool 
 
 /* --- the run --- */
 
-/* One pass of the motion: the tracked sum by `method`, and the others beside it in some frames. */
+/* One pass of the motion: the tracked sum by update, with walk and brute force beside it in some frames; or by auto, alone. */
 static struct trial_times pass(const struct trial_request *request, pir_polytope *p, pir_polytope *q,
-                               trial_motion *motion, void *context, pir_method method, struct trial_result *result) {
+                               trial_motion *motion, void *context, bool alone, struct trial_result *result) {
     uint32_t frames = results_count(request->frames), warm_up = results_count(request->warm_up);
-    bool alone = method != PIR_METHOD_UPDATE;
+    pir_method method = alone || request->choose ? PIR_METHOD_AUTO : PIR_METHOD_UPDATE;
     pir_quat start = motion(context, 0);
     struct lap tracked = lap_new(p, q, start, frames, frames, true),
                walk = lap_new(p, q, start, frames, alone ? 0 : request->walk_samples, false),
@@ -150,9 +150,9 @@ static struct trial_times pass(const struct trial_request *request, pir_polytope
 struct trial_result trial_run_along(const struct trial_request *request, pir_polytope *p, pir_polytope *q,
                                     trial_motion *motion, void *context) {
     struct trial_result result = {.automatic = {NAN, NAN, NAN}};
-    result.update = pass(request, p, q, motion, context, PIR_METHOD_UPDATE, &result);
+    result.update = pass(request, p, q, motion, context, false, &result);
     if (request->automatic)
-        result.automatic = pass(request, p, q, motion, context, PIR_METHOD_AUTO, &result);
+        result.automatic = pass(request, p, q, motion, context, true, &result);
     return result;
 }
 

@@ -22,7 +22,8 @@ struct trial_request {
     uint32_t warm_up;
     uint32_t walk_samples, brute_samples; /* 0: that way is left out */
     bool automatic;                       /* time PIR_METHOD_AUTO as well */
-    double steps;                         /* to a full turn */
+    bool choose;  /* what is called update may be a walk where that is cheaper, as `pirouette track` has it */
+    double steps; /* to a full turn */
     uint64_t seed;
     bool from_identity; /* where identical bodies lie on each other, all ties; else from a random pose */
 };
