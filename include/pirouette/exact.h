@@ -23,8 +23,8 @@ extern "C" {
  * The exact convex hull of `count` rational points: x, y, z of point i in coordinates[3i..3i+2], canonical; copied.
  * Otherwise as pir_polytope_create.
  */
-PIR_API pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, const pir_allocator *allocator,
-                                             pir_polytope **ret_polytope);
+PIR_API pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count,
+                                             const pir_polytope_options *options, pir_polytope **ret_polytope);
 
 /** As pir_polytope_scale, by a rational; PIR_ERR_LIMIT also when the scale then takes more than 65536 bits. */
 PIR_API pir_status pir_polytope_scale_exact(const pir_polytope *polytope, const mpq_t factor,

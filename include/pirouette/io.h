@@ -25,17 +25,17 @@ extern "C" {
  * Reads the model in `path`, by its ending (.off, .obj, .stl, .ply), and makes the exact convex hull of its points.
  * In OFF the facets, when there are any, must close: each edge on exactly two, either way round; the hull is of all points.
  * Their indices count from 0 or, throughout a file, from 1; colours after them are passed over. Limits: a file of 2 GiB, a number
- * of 4096 characters, a common denominator of 65536 bits.
+ * of 4096 characters, a common denominator of 65536 bits. `options` as for pir_polytope_create, NULL for the defaults.
  *
  * Errors: PIR_ERR_ARGUMENT (another ending), PIR_ERR_FILE, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE, PIR_ERR_NOT_CLOSED,
  * PIR_ERR_LIMIT, PIR_ERR_UNSUPPORTED, PIR_ERR_MEMORY.
  */
-PIR_API pir_status pir_polytope_read(const char *path, const pir_allocator *allocator, pir_report *report,
+PIR_API pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
                                      pir_polytope **ret_polytope);
 
 /** The same for OFF text in memory; `name` stands for the file in reports. The text need not end in a zero. */
 PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const char *name,
-                                         const pir_allocator *allocator, pir_report *report,
+                                         const pir_polytope_options *options, pir_report *report,
                                          pir_polytope **ret_polytope);
 
 /**

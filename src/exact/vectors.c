@@ -55,6 +55,50 @@ void pir_vectors_strip(pir_vectors *vectors, uint32_t index) {
     pir_vectors_put(vectors, index, &v);
 }
 
+/* The longest component of all, in limbs, at least 1. */
+static uint32_t longest_of(const pir_vectors *vectors) {
+    uint32_t longest = 1;
+    for (size_t i = 0; i < (size_t)vectors->count * 3; i++)
+        if ((uint32_t)abs(vectors->size[i]) > longest)
+            longest = (uint32_t)abs(vectors->size[i]);
+    return longest;
+}
+
+/* Divides vector `index` by the greatest common divisor of its components. */
+static void reduce(pir_vectors *vectors, uint32_t index, mpz_t divisor, mpz_t quotient) {
+    pir_int3 v = pir_vectors_at(vectors, index);
+    mpz_t view;
+    mpz_set_ui(divisor, 0);
+    for (int k = 0; k < 3; k++)
+        mpz_gcd(divisor, divisor, mpz_roinit_n(view, v.c[k].limb, v.c[k].size));
+    if (mpz_cmp_ui(divisor, 1) <= 0)
+        return;
+    for (int k = 0; k < 3; k++) {
+        mpz_divexact(quotient, mpz_roinit_n(view, v.c[k].limb, v.c[k].size), divisor);
+        memcpy(v.c[k].limb, mpz_limbs_read(quotient), mpz_size(quotient) * sizeof(mp_limb_t));
+        v.c[k].size = mpz_sgn(quotient) * (int32_t)mpz_size(quotient);
+    }
+    pir_vectors_put(vectors, index, &v);
+}
+
+bool pir_vectors_reduce(pir_vectors *vectors, const pir_allocator *allocator) {
+    mpz_t divisor, quotient;
+    mpz_inits(divisor, quotient, NULL);
+    for (uint32_t i = 0; i < vectors->count; i++)
+        reduce(vectors, i, divisor, quotient);
+    mpz_clears(divisor, quotient, NULL);
+    pir_vectors shorter;
+    if (!pir_vectors_init(&shorter, allocator, vectors->count, longest_of(vectors)))
+        return false;
+    for (uint32_t i = 0; i < vectors->count; i++) {
+        pir_int3 v = pir_vectors_at(vectors, i);
+        pir_vectors_set(&shorter, i, &v);
+    }
+    pir_vectors_finish(vectors, allocator);
+    *vectors = shorter;
+    return true;
+}
+
 pir_vec3 pir_int3_unit(const pir_int3 *v) {
     // mantissas and exponents, then all on the scale of the largest
     double m[3];

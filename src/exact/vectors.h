@@ -38,6 +38,12 @@ void pir_vectors_set(pir_vectors *vectors, uint32_t index, const pir_int3 *v);
 /* Divides all three components of vector `index` by their common power of two. */
 void pir_vectors_strip(pir_vectors *vectors, uint32_t index);
 
+/*
+ * Divides each vector by the greatest common divisor of its components, and gives the block the stride that the longest
+ * then takes. With GMP's memory beside the allocator's; false when out of memory.
+ */
+bool pir_vectors_reduce(pir_vectors *vectors, const pir_allocator *allocator);
+
 /* The unit vector along v, which is not zero: within 8·2^-53 of the exact direction in Euclidean length. */
 pir_vec3 pir_int3_unit(const pir_int3 *v);
 

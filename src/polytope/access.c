@@ -21,6 +21,10 @@ uint32_t pir_polytope_facet_count(const pir_polytope *p) {
     return p->artificial ? 0 : p->facet_count;
 }
 
+double pir_polytope_merge_bound(const pir_polytope *p) {
+    return p->merge_bound;
+}
+
 pir_vec3 pir_polytope_vertex(const pir_polytope *p, uint32_t vertex) {
     return p->vertex[vertex];
 }

@@ -86,17 +86,19 @@ static pir_status copy_points(const struct aiScene *scene, const char *name, pir
 }
 
 pir_status pir_polytope_read_assimp(const char *data, size_t size, const char *ending, const char *name,
-                                    const pir_allocator *allocator, pir_report *report, pir_polytope **ret_polytope) {
+                                    const pir_polytope_options *options, pir_report *report,
+                                    pir_polytope **ret_polytope) {
     if (strcmp(ending, "ply") == 0 && check_ply_counts(data, size, name, report) != PIR_OK)
         return PIR_ERR_FORMAT;
     const struct aiScene *scene = aiImportFileFromMemory(data, (unsigned)size, 0, ending);
     if (!scene)
         return pir_fail(report, PIR_ERR_FORMAT, "%s: assimp cannot read it: %s", name, aiGetErrorString());
+    const pir_allocator memory = pir_allocator_or_default(options ? options->allocator : NULL);
     pir_status status = PIR_ERR_MEMORY;
     size_t count = 0;
     for (unsigned m = 0; m < scene->mNumMeshes; m++)
         count += scene->mMeshes[m]->mNumVertices;
-    pir_vec3 *points = PIR_NEW(allocator, pir_vec3, count);
+    pir_vec3 *points = PIR_NEW(&memory, pir_vec3, count);
     if (!points) {
         pir_fail(report, status, "%s: out of memory", name);
         goto done;
@@ -108,11 +110,11 @@ pir_status pir_polytope_read_assimp(const char *data, size_t size, const char *e
     status = copy_points(scene, name, report, points);
     if (status != PIR_OK)
         goto done;
-    status = pir_polytope_create(points, count, allocator, ret_polytope);
+    status = pir_polytope_create(points, count, options, ret_polytope);
     if (status != PIR_OK)
         pir_fail(report, status, "%s: the convex hull of its points: %s", name, pir_status_text(status));
 done:
-    PIR_FREE(allocator, points, count);
+    PIR_FREE(&memory, points, count);
     aiReleaseImport(scene);
     return status;
 }
@@ -227,8 +229,9 @@ pir_status pir_mesh_write_assimp(const pir_mesh *mesh, FILE *file, const char *e
 #else
 
 pir_status pir_polytope_read_assimp(const char *data, size_t size, const char *ending, const char *name,
-                                    const pir_allocator *allocator, pir_report *report, pir_polytope **ret_polytope) {
-    (void)data, (void)size, (void)allocator, (void)ret_polytope;
+                                    const pir_polytope_options *options, pir_report *report,
+                                    pir_polytope **ret_polytope) {
+    (void)data, (void)size, (void)options, (void)ret_polytope;
     return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: this build has no assimp, which reads .%s; it reads .off", name,
                     ending);
 }

@@ -11,6 +11,7 @@
 #include <pirouette/exact.h>
 
 #include "base/vec.h"
+#include "polytope/merge.h"
 #include "polytope/polytope.h"
 
 /* The exponents of the lowest and above the highest set bit among all coordinates; false when all are zero. */
@@ -34,24 +35,53 @@ static bool exponent_range(const pir_vec3 *points, size_t count, int *ret_low, i
     return any;
 }
 
-pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_allocator *allocator,
-                               pir_polytope **ret_polytope) {
+pir_polytope_options pir_polytope_options_default(void) {
+    return (pir_polytope_options){NULL, 0};
+}
+
+/* What both ways to make a polytope ask of their arguments. */
+static pir_status check_arguments(const void *points, size_t count, const pir_polytope_options *options,
+                                  pir_polytope **ret_polytope) {
     if (!ret_polytope || (!points && count > 0))
+        return PIR_ERR_ARGUMENT;
+    if (options && !isfinite(options->merge_tolerance))
+        return PIR_ERR_NOT_FINITE;
+    if (options && options->merge_tolerance < 0)
         return PIR_ERR_ARGUMENT;
     if (count == 0)
         return PIR_ERR_EMPTY;
-    if (count >= (size_t)1 << 30)
-        return PIR_ERR_LIMIT;
+    return count >= (size_t)1 << 30 ? PIR_ERR_LIMIT : PIR_OK;
+}
+
+/* The hull of exact points, its facets merged where `tolerance` is not 0. */
+static pir_status build(const pir_polytope_parts *parts, const pir_allocator *allocator, double tolerance,
+                        pir_polytope **ret_polytope) {
+    pir_polytope *hull = NULL, *merged = NULL;
+    pir_status status = pir_polytope_build_hull(parts, allocator, &hull);
+    if (status == PIR_OK && tolerance > 0 && hull->dimension == 3)
+        status = pir_polytope_merge(hull, tolerance, &merged);
+    if (status != PIR_OK || merged)
+        pir_polytope_release(hull);
+    if (status == PIR_OK)
+        *ret_polytope = merged ? merged : hull;
+    return status;
+}
+
+pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_polytope_options *options,
+                               pir_polytope **ret_polytope) {
+    pir_status status = check_arguments(points, count, options, ret_polytope);
+    if (status != PIR_OK)
+        return status;
     for (size_t i = 0; i < count; i++)
         if (!pir_vec_is_finite(points[i]))
             return PIR_ERR_NOT_FINITE;
-    const pir_allocator used = pir_allocator_or_default(allocator);
+    const pir_allocator used = pir_allocator_or_default(options ? options->allocator : NULL);
     int low = 0, top = 0;
     exponent_range(points, count, &low, &top);
     // the coordinates as integers in units of 2^low
     pir_vectors exact = {0};
     pir_scale scale = {{NULL, 0}, {NULL, 0}};
-    pir_status status = PIR_ERR_MEMORY;
+    status = PIR_ERR_MEMORY;
     if (pir_scale_init_power(&scale, &used, low) &&
         pir_vectors_init(&exact, &used, (uint32_t)count, pir_double_limbs(top, low))) {
         for (uint32_t i = 0; i < count; i++) {
@@ -61,8 +91,8 @@ pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_a
             pir_int_set_double(&v.c[2], points[i].z, low);
             pir_vectors_put(&exact, i, &v);
         }
-        status = pir_polytope_build_hull(&(pir_polytope_parts){.points = &exact, .scale = &scale, .doubles = points},
-                                         &used, ret_polytope);
+        status = build(&(pir_polytope_parts){.points = &exact, .scale = &scale, .doubles = points}, &used,
+                       options ? options->merge_tolerance : 0, ret_polytope);
     }
     pir_vectors_finish(&exact, &used);
     pir_scale_finish(&scale, &used);
@@ -101,15 +131,12 @@ static bool scale_rationals(pir_vectors *exact, const pir_allocator *allocator, 
     return true;
 }
 
-pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, const pir_allocator *allocator,
+pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, const pir_polytope_options *options,
                                      pir_polytope **ret_polytope) {
-    if (!ret_polytope || (!coordinates && count > 0))
-        return PIR_ERR_ARGUMENT;
-    if (count == 0)
-        return PIR_ERR_EMPTY;
-    if (count >= (size_t)1 << 30)
-        return PIR_ERR_LIMIT;
-    const pir_allocator used = pir_allocator_or_default(allocator);
+    pir_status status = check_arguments(coordinates, count, options, ret_polytope);
+    if (status != PIR_OK)
+        return status;
+    const pir_allocator used = pir_allocator_or_default(options ? options->allocator : NULL);
     mpz_t common;
     mpz_init_set_ui(common, 1);
     for (size_t i = 0; i < 3 * count; i++)
@@ -117,9 +144,10 @@ pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, con
     mp_limb_t one_limb = 1;
     pir_scale scale = {{&one_limb, 1}, view_of(common)};
     pir_vectors exact = {0};
-    pir_status status = PIR_ERR_MEMORY;
+    status = PIR_ERR_MEMORY;
     if (scale_rationals(&exact, &used, coordinates, count, common))
-        status = pir_polytope_build_hull(&(pir_polytope_parts){.points = &exact, .scale = &scale}, &used, ret_polytope);
+        status = build(&(pir_polytope_parts){.points = &exact, .scale = &scale}, &used,
+                       options ? options->merge_tolerance : 0, ret_polytope);
     pir_vectors_finish(&exact, &used);
     mpz_clear(common);
     return status;
@@ -161,6 +189,7 @@ pir_status pir_polytope_reflect(const pir_polytope *p, pir_polytope **ret_polyto
         status = pir_polytope_build(&parts, a, &reflected);
         if (status == PIR_OK) {
             memcpy(reflected->source, p->source, p->vertex_count * sizeof *p->source);
+            reflected->merge_bound = p->merge_bound;
             *ret_polytope = reflected;
         }
     }

@@ -120,7 +120,7 @@ static pir_status read_file(const char *path, const pir_allocator *allocator, pi
     return status;
 }
 
-pir_status pir_polytope_read(const char *path, const pir_allocator *allocator, pir_report *report,
+pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
                              pir_polytope **ret_polytope) {
     if (!path || !ret_polytope)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the polytope");
@@ -132,15 +132,15 @@ pir_status pir_polytope_read(const char *path, const pir_allocator *allocator, p
     if (type == PIR_FILE_UNKNOWN)
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name does not end in .off, .obj, .stl or .ply", name);
 
-    pir_allocator memory = pir_allocator_or_default(allocator);
+    pir_allocator memory = pir_allocator_or_default(options ? options->allocator : NULL);
     struct bytes bytes = {0};
     pir_status status = read_file(path, &memory, report, &bytes);
     if (status == PIR_OK && bytes.size == 0)
         status = pir_fail(report, PIR_ERR_EMPTY, "%s: the file is empty", name);
     if (status == PIR_OK && type == PIR_FILE_OFF)
-        status = pir_polytope_read_off(bytes.data, bytes.size, name, &memory, report, ret_polytope);
+        status = pir_polytope_read_off(bytes.data, bytes.size, name, options, report, ret_polytope);
     if (status == PIR_OK && type == PIR_FILE_ASSIMP)
-        status = pir_polytope_read_assimp(bytes.data, bytes.size, ending, name, &memory, report, ret_polytope);
+        status = pir_polytope_read_assimp(bytes.data, bytes.size, ending, name, options, report, ret_polytope);
     PIR_FREE(&memory, bytes.data, bytes.capacity);
     return status;
 }

@@ -41,7 +41,8 @@ pir_status pir_mesh_write_off(const pir_mesh *mesh, FILE *file, bool exact);
 
 /* OBJ, STL and PLY through assimp; `ending` is "obj", "stl" or "ply". Where the build has no assimp: PIR_ERR_UNSUPPORTED. */
 pir_status pir_polytope_read_assimp(const char *data, size_t size, const char *ending, const char *name,
-                                    const pir_allocator *allocator, pir_report *report, pir_polytope **ret_polytope);
+                                    const pir_polytope_options *options, pir_report *report,
+                                    pir_polytope **ret_polytope);
 pir_status pir_mesh_write_assimp(const pir_mesh *mesh, FILE *file, const char *ending, const char *name,
                                  pir_report *report);
 

@@ -2,9 +2,9 @@
 /*
  * Building polytopes. The layout and its invariants stand in polytope.h.
  *
- * Twins are found without searching: the halfedges sorted by (origin, target) and by (target, origin), both by counting, stand
- * opposite each other. Rings are then followed from each vertex's first halfedge: the next one counter-clockwise is the twin of
- * the one before it in its facet.
+ * Twins are found without searching: the halfedges sorted by (origin, target) and by (target, origin), both by
+ * counting, stand opposite each other. Rings are then followed from each vertex's first halfedge: the next one
+ * counter-clockwise is the twin of the one before it in its facet.
  */
 #include "polytope/polytope.h"
 
@@ -234,6 +234,15 @@ static bool set_vertices(pir_polytope *p, const pir_polytope_parts *parts) {
     return true;
 }
 
+/*
+ * Whether edges and normals are to be divided by their common factors. Where the scale is the common denominator of
+ * many rationals the vertices are long, but what an edge's components have in common is nearly all of their length:
+ * divided, signs of s(n, e) stay cheap. Edges of doubles seldom take more limbs than this, and have little in common.
+ */
+static bool is_long(const pir_polytope *p) {
+    return p->exact_vertex.stride >= 4;
+}
+
 static bool set_directions(pir_polytope *p) {
     const pir_allocator *a = &p->allocator;
     if (!pir_vectors_init(&p->exact_edge, a, p->edge_count, p->exact_vertex.stride + 1))
@@ -250,7 +259,7 @@ static bool set_directions(pir_polytope *p) {
         p->direction[h] = pir_int3_unit(&d);
         p->direction[p->twin[h]] = pir_vec_scale(p->direction[h], -1);
     }
-    return true;
+    return !is_long(p) || pir_vectors_reduce(&p->exact_edge, a);
 }
 
 static bool set_normals(pir_polytope *p) {
@@ -276,7 +285,7 @@ static bool set_normals(pir_polytope *p) {
         p->normal[f] = pir_int3_unit(&n);
     }
     PIR_FREE(a, scratch.base, capacity);
-    return true;
+    return !is_long(p) || pir_vectors_reduce(&p->exact_normal, a);
 }
 
 /* Lays the directions of each ring and the normals out for vector loops, as floats. */

@@ -34,7 +34,8 @@ struct pir_polytope {
     atomic_uint references;
     pir_allocator allocator;
     int dimension;
-    bool artificial; /* the two facets and the second edge of a segment */
+    double merge_bound; /* how far it may be from the hull of the points it was made from, a length */
+    bool artificial;    /* the two facets and the second edge of a segment */
     uint32_t vertex_count, edge_count, facet_count, half_count;
 
     uint32_t *ring_start;             /* vertex_count + 1 */

@@ -515,11 +515,11 @@ static pir_status read_model(struct reader *reader, struct model *model) {
     return status;
 }
 
-static pir_status make_polytope(const struct reader *reader, const struct model *model, pir_polytope **ret_polytope) {
-    pir_status status = model->exact
-                            ? pir_polytope_create_exact((const mpq_t *)model->exact, model->vertex_count,
-                                                        &reader->allocator, ret_polytope)
-                            : pir_polytope_create(model->points, model->vertex_count, &reader->allocator, ret_polytope);
+static pir_status make_polytope(const struct reader *reader, const struct model *model,
+                                const pir_polytope_options *options, pir_polytope **ret_polytope) {
+    pir_status status = model->exact ? pir_polytope_create_exact((const mpq_t *)model->exact, model->vertex_count,
+                                                                 options, ret_polytope)
+                                     : pir_polytope_create(model->points, model->vertex_count, options, ret_polytope);
     if (status != PIR_OK)
         pir_fail(reader->report, status, "%s: the convex hull of its points: %s", reader->name,
                  pir_status_text(status));
@@ -535,7 +535,7 @@ static void free_model(const struct reader *reader, struct model *model) {
     PIR_FREE(&reader->allocator, model->points, model->vertex_count);
 }
 
-pir_status pir_polytope_read_off(const char *text, size_t size, const char *name, const pir_allocator *allocator,
+pir_status pir_polytope_read_off(const char *text, size_t size, const char *name, const pir_polytope_options *options,
                                  pir_report *report, pir_polytope **ret_polytope) {
     name = name ? pir_short_name(name) : "text";
     if ((!text && size > 0) || !ret_polytope)
@@ -547,12 +547,12 @@ pir_status pir_polytope_read_off(const char *text, size_t size, const char *name
         return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", name);
 
     struct reader reader = {.text = text, .size = size, .line = 1, .token_line = 1, .name = name, .report = report};
-    reader.allocator = pir_allocator_or_default(allocator);
+    reader.allocator = pir_allocator_or_default(options ? options->allocator : NULL);
     struct model model = {0};
     mpz_init_set_ui(model.common, 1);
     pir_status status = read_model(&reader, &model);
     if (status == PIR_OK)
-        status = make_polytope(&reader, &model, ret_polytope);
+        status = make_polytope(&reader, &model, options, ret_polytope);
     free_model(&reader, &model);
     pir_c_locale_leave(&locale);
     return status;

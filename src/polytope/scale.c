@@ -37,6 +37,34 @@ static bool is_finite(const pir_polytope *p) {
     return true;
 }
 
+/* to = the scale, in lowest terms. */
+static void set_scale(mpq_t to, const pir_scale *scale) {
+    mpz_t view;
+    mpz_set(mpq_numref(to), mpz_roinit_n(view, scale->num.limb, scale->num.size));
+    mpz_set(mpq_denref(to), mpz_roinit_n(view, scale->den.limb, scale->den.size));
+    mpq_canonicalize(to);
+}
+
+/* The merge bound of `p` on another scale, rounded up. */
+static double scaled_bound(const pir_polytope *p, const pir_scale *scale) {
+    if (p->merge_bound == 0)
+        return 0;
+    mpq_t exact, factor;
+    mpq_inits(exact, factor, NULL);
+    mpq_set_d(exact, p->merge_bound);
+    set_scale(factor, scale);
+    mpq_mul(exact, exact, factor);
+    set_scale(factor, &p->scale);
+    mpq_div(exact, exact, factor);
+    // mpq_get_d cuts off
+    double bound = mpq_get_d(exact);
+    mpq_set_d(factor, bound);
+    if (mpq_cmp(factor, exact) < 0)
+        bound = nextafter(bound, INFINITY);
+    mpq_clears(exact, factor, NULL);
+    return bound;
+}
+
 pir_status pir_polytope_rescale(const pir_polytope *p, const pir_scale *scale, pir_polytope **ret_polytope) {
     const pir_allocator *a = &p->allocator;
     pir_loops loops = {0};
@@ -60,6 +88,7 @@ pir_status pir_polytope_rescale(const pir_polytope *p, const pir_scale *scale, p
     }
     if (status == PIR_OK) {
         memcpy(scaled->source, p->source, p->vertex_count * sizeof *p->source);
+        scaled->merge_bound = scaled_bound(p, scale);
         *ret_polytope = scaled;
     }
     pir_loops_finish(&loops, a, p->dimension >= 2 ? p->half_count : 0);
@@ -71,11 +100,8 @@ pir_status pir_polytope_scale_exact(const pir_polytope *p, const mpq_t factor, p
     if (!p || !ret_polytope || mpq_sgn(factor) <= 0)
         return PIR_ERR_ARGUMENT;
     mpq_t product;
-    mpz_t view;
     mpq_init(product);
-    mpz_set(mpq_numref(product), mpz_roinit_n(view, p->scale.num.limb, p->scale.num.size));
-    mpz_set(mpq_denref(product), mpz_roinit_n(view, p->scale.den.limb, p->scale.den.size));
-    mpq_canonicalize(product);
+    set_scale(product, &p->scale);
     mpq_mul(product, product, factor);
     pir_status status = PIR_ERR_LIMIT;
     if (mpz_sizeinbase(mpq_numref(product), 2) <= BITS_MAX && mpz_sizeinbase(mpq_denref(product), 2) <= BITS_MAX) {

@@ -34,7 +34,8 @@ static int ran_out(struct run *run, pir_status status) {
 static pir_polytope *try_polytope(struct run *run, const test_points *points) {
     pir_polytope *const before = (pir_polytope *)&before;
     pir_polytope *polytope = before;
-    if (!ran_out(run, pir_polytope_create(points->at, points->count, &run->allocator, &polytope)))
+    const pir_polytope_options options = {&run->allocator, 0};
+    if (!ran_out(run, pir_polytope_create(points->at, points->count, &options, &polytope)))
         return polytope;
     assert_ptr_equal(polytope, before);
     return NULL;
@@ -225,7 +226,8 @@ static void rational_points_survive_every_failing_request(void **state) {
         pir_allocator allocator = test_allocator(&memory);
         pir_polytope *const before = (pir_polytope *)&before;
         pir_polytope *polytope = before, *minus = before;
-        pir_status status = pir_polytope_create_exact((const mpq_t *)x, 8, &allocator, &polytope);
+        const pir_polytope_options options = {&allocator, 0};
+        pir_status status = pir_polytope_create_exact((const mpq_t *)x, 8, &options, &polytope);
         if (status != PIR_OK) {
             assert_int_equal(status, PIR_ERR_MEMORY);
             assert_ptr_equal(polytope, before);
@@ -264,8 +266,9 @@ static void allocator_changes_no_bit_of_the_result(void **state) {
             pir_polytope *p = NULL, *q = NULL;
             pir_sum *sum = NULL;
             pir_mesh *mesh = NULL;
-            assert_int_equal(pir_polytope_create(pose.p.at, pose.p.count, options.allocator, &p), PIR_OK);
-            assert_int_equal(pir_polytope_create(pose.q.at, pose.q.count, options.allocator, &q), PIR_OK);
+            const pir_polytope_options body = {options.allocator, 0};
+            assert_int_equal(pir_polytope_create(pose.p.at, pose.p.count, &body, &p), PIR_OK);
+            assert_int_equal(pir_polytope_create(pose.q.at, pose.q.count, &body, &q), PIR_OK);
             assert_int_equal(pir_sum_create(p, q, pose.rotation, &options, &sum), PIR_OK);
             assert_int_equal(pir_sum_mesh(sum, PIR_DOUBLE, &mesh), PIR_OK);
             hash[own] = test_hash_mesh(test_hash_pairing(TEST_HASH_START, sum), mesh);

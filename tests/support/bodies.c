@@ -141,6 +141,19 @@ void test_shuffle(test_random *random, test_points *points) {
     }
 }
 
+void test_bake(test_points *points, pir_quat q) {
+    double size = sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    double x = q.x / size, y = q.y / size, z = q.z / size, w = q.w / size;
+    for (size_t i = 0; i < points->count; i++) {
+        pir_vec3 v = points->at[i];
+        points->at[i] = (pir_vec3){
+            (1 - 2 * (y * y + z * z)) * v.x + 2 * (x * y - w * z) * v.y + 2 * (x * z + w * y) * v.z,
+            2 * (x * y + w * z) * v.x + (1 - 2 * (x * x + z * z)) * v.y + 2 * (y * z - w * x) * v.z,
+            2 * (x * z - w * y) * v.x + 2 * (y * z + w * x) * v.y + (1 - 2 * (x * x + y * y)) * v.z,
+        };
+    }
+}
+
 pir_polytope *test_polytope(const test_points *points) {
     pir_polytope *polytope = NULL;
     pir_status status = pir_polytope_create(points->at, points->count, NULL, &polytope);

@@ -39,6 +39,9 @@ void test_body_points(test_random *random, test_body body, size_t most, test_poi
 /* Puts the points in random order. */
 void test_shuffle(test_random *random, test_points *points);
 
+/* Turns the points by the rotation of q in doubles, rounding as programs that make models do. */
+void test_bake(test_points *points, pir_quat q);
+
 /* The hull of points that must have one; ends the program with a message when they have not. */
 pir_polytope *test_polytope(const test_points *points);
 

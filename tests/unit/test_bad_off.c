@@ -247,7 +247,8 @@ static void test_no_memory_at_every_allocation(void **state) {
             const pir_allocator allocator = {resize_within_budget, &budget};
             pir_polytope *p = NULL;
             pir_report report = {PIR_OK, ""};
-            status = pir_polytope_read_off(texts[t], strlen(texts[t]), "m.off", &allocator, &report, &p);
+            const pir_polytope_options options = {&allocator, 0};
+            status = pir_polytope_read_off(texts[t], strlen(texts[t]), "m.off", &options, &report, &p);
             assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && strstr(report.text, "out of memory")));
             pir_polytope_release(p);
             assert_int_equal(budget.in_use, 0);

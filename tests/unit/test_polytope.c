@@ -189,7 +189,8 @@ static void last_reference_frees(void **state) {
     pir_allocator allocator = test_allocator(&memory);
     const pir_vec3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     pir_polytope *p = NULL;
-    assert_int_equal(pir_polytope_create(points, 4, &allocator, &p), PIR_OK);
+    const pir_polytope_options options = {&allocator, 0};
+    assert_int_equal(pir_polytope_create(points, 4, &options, &p), PIR_OK);
     assert_ptr_equal(pir_polytope_retain(p), p);
     pir_polytope_release(p);
     assert_true(memory.blocks > 0 && pir_polytope_is_valid(p));

@@ -98,7 +98,7 @@ static void sum_holds_its_operands_alive(void **state) {
     for (int difference = 0; difference < 2; difference++) {
         pir_polytope *p = NULL;
         pir_sum_options options = {&allocator, difference};
-        assert_int_equal(pir_polytope_create(points, 4, &allocator, &p), PIR_OK);
+        assert_int_equal(pir_polytope_create(points, 4, &(pir_polytope_options){&allocator, 0}, &p), PIR_OK);
         pir_sum *sum = make_sum(p, p, identity, &options);
         pir_polytope_release(p);
         assert_int_equal(pir_sum_rotate(sum, (pir_quat){1, 2, 3, 4}, PIR_METHOD_UPDATE), PIR_OK);
