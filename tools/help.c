@@ -61,6 +61,7 @@ void help_print(void) {
     print_options(command_options);
     printf("\npirouette help SUBCOMMAND tells more.\n\n");
     print_wrapped(command_models, 0, 0);
+    putchar('\n');
     print_wrapped(command_exit, (size_t)printf("Exit status: "), 0);
 }
 

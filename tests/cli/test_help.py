@@ -4,6 +4,7 @@
 Holds the help of the `pirouette` command, its manual pages and its completion against what it takes and against each
 other: test_help.py COMMAND SOURCES PAGES [CLASS]
 """
+import functools
 import os
 import pty
 import re
@@ -12,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import unittest
 from pathlib import Path
 
@@ -20,8 +22,9 @@ SOURCES = Path()
 PAGES = Path()
 
 
-def run(*args, **how):
-    return subprocess.run([COMMAND, *args], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL, **how)
+@functools.lru_cache(maxsize=None)
+def run(*args):
+    return subprocess.run([COMMAND, *args], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL)
 
 
 def subcommands():
@@ -33,6 +36,13 @@ def subcommands():
 def plain(text):
     """The text with one blank between words, however its lines were broken."""
     return " ".join(text.split())
+
+
+def wrapped(left, text, indent):
+    """The text in lines of at most 80 columns that begin at column `indent`, and `left` before them."""
+    lines = textwrap.wrap(plain(text), 80 - indent, break_long_words=False, break_on_hyphens=False)
+    lines = [" " * indent + line for line in lines]
+    return "\n".join([left, *lines] if len(left) >= indent > 0 else [left + lines[0][len(left):], *lines[1:]])
 
 
 def option_table(text):
@@ -83,11 +93,23 @@ class Help(unittest.TestCase):
             self.assertEqual(result.stderr.count("\n"), 1)
             self.assertIn(named, result.stderr)
 
-    def test_no_line_of_help_is_longer_than_a_terminal(self):
+    def test_text_is_wrapped_at_80_columns(self):
         for args in (["--help"], *(["help", name] for name in subcommands())):
-            for line in self.help(*args).splitlines():
-                # an example is one word to copy, and is not broken
-                self.assertTrue(len(line) <= 80 or line.startswith("  pirouette "), line)
+            for paragraph in self.help(*args)[:-1].split("\n\n"):
+                heading, *rest = paragraph.split("\n", 1)
+                if heading == "subcommands:":
+                    expected = [wrapped(f"  {name}", text, 11) for name, text in re.findall(
+                        r"^  (\S+) +(.*(?:\n {8}.*)*)", rest[0], re.M)]
+                elif heading == "options:":
+                    expected = [wrapped(f"  {left}", text, 28) for left, text in option_table(paragraph).items()]
+                elif heading == "examples:":
+                    expected = [line if line.startswith("  pirouette ") else wrapped("     ", line, 6)
+                                for line in rest[0].splitlines()]
+                else:
+                    self.assertEqual(paragraph, wrapped("", paragraph, 0), args)
+                    continue
+                self.assertGreater(len(expected), 0)
+                self.assertEqual(rest[0], "\n".join(expected), args)
 
     def test_the_parser_takes_the_options_of_the_help_and_no_others(self):
         written = set()
