@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #include <pirouette/base.h>
 
@@ -56,9 +57,16 @@ typedef struct pir_cover {
     double skin_p, skin_q;   /* radians: how far either sight of the axis may go */
     double cosine_p, cosine_q;
     double stride; /* radians: how far a step that leads out of here may, or has led in here */
+
+    /* the motion since, which the next cover is made from; what is kept does not depend on it */
+    uint32_t steps; /* updates */
+    double step;    /* radians: the last step, at most */
 } pir_cover;
 
-/* A cover of the cone; skins and stride are brought within their bounds. */
+/* The greatest that `step` can be. */
+#define PIR_MOST_STEP 4.0
+
+/* A cover of the cone, without a motion yet; skins and stride are brought within their bounds. */
 pir_cover pir_cover_make(const pir_cone *cone, bool whole, pir_vec3 axis_p, pir_vec3 axis_q, double skin_p,
                          double skin_q, double stride);
 

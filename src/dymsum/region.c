@@ -27,6 +27,24 @@
  * dormant is beyond the reach of the edges that stay when the step is within the old stride, one that the new one leaves out when it is
  * within the new. After a longer step, a leap, every edge that stays is led anew.
  *
+ * What is kept is a function of the cover alone, whatever the history. The members (region.h) are the active features,
+ * and whatever is no member has no cell and no crossings, at every moment, in the midst of a call too:
+ *
+ *   - a choice sweeps with nothing but the cover and the normals, clears the members that the sweep leaves out, and
+ *     makes members of those it found; what is no member before or after had nothing and gets nothing;
+ *   - a rebuild that pairs all features, one kind after the other, first makes members of all of them (open), and then
+ *     chooses (close);
+ *   - an update moves cells and crossings of active features alone; admission gives cells and crossings to members
+ *     alone;
+ *   - a walk within a region clears all members, chooses and admits.
+ *
+ * Each call that succeeds and changes the cover chooses after that, and admits unless all had been paired. One that
+ * fails puts the old cover back and walks. So after every call the members are what the sweep finds for the cover, and
+ * a sum restored from the cover and the pairing finds the same (pir_region_adopt). The next cover is made from this
+ * one, the cone, the rotations and the motion noted in the cover: two sums that agree in these go on to agree as long
+ * as they are brought along by the same methods. Which method PIR_METHOD_AUTO takes is told from counted work, and that
+ * depends on the history.
+ *
  * The skins grow with how fast the axis goes in the sight of P and of Q, so a sweep lasts for some frames. Flat operands P have arcs of half a turn: they are kept whole.
  */
 #include "dymsum/region.h"
@@ -34,6 +52,7 @@
 #include <string.h>
 
 #include "dymsum/sum.h"
+#include "dymsum/sweep.h"
 
 /* Skins, by how far the axis goes in a step; the stride likewise, by the step's angle. */
 #define SKIN_STEPS   5.0
@@ -42,65 +61,7 @@
 /* Radians: steps of more are leaps, wherever they begin and end. */
 #define LONGEST_STEP 1.0
 
-/* What the sweep gives away: floats are off by less than 2^-20 in the cosine; where that is turned into an angle, by less than 2^-14. */
-#define FLOAT_SLACK 0x1p-18f
-#define EDGE_SLACK  0x1p-40
-#define ANGLE_SLACK 0x1p-13
-
 /* --- memory --- */
-
-static bool members_new(pir_members *members, const pir_allocator *a, uint32_t capacity) {
-    members->capacity = capacity;
-    members->at = PIR_NEW(a, uint32_t, capacity);
-    members->next = PIR_NEW(a, uint32_t, capacity);
-    members->seen = PIR_ZEROED(a, uint32_t, capacity);
-    return members->at && members->next && members->seen;
-}
-
-static void members_free(pir_members *members, const pir_allocator *a) {
-    PIR_FREE(a, members->at, members->capacity);
-    PIR_FREE(a, members->next, members->capacity);
-    PIR_FREE(a, members->seen, members->capacity);
-}
-
-static bool facets_new(pir_region_facets *facets, const pir_allocator *a, uint32_t count) {
-    float **lane[6] = {&facets->x, &facets->y, &facets->z, &facets->cosine, &facets->sine, &facets->apart};
-    bool done = members_new(&facets->members, a, count);
-    for (int k = 0; k < 6; k++)
-        done = (*lane[k] = PIR_NEW(a, float, count)) != NULL && done;
-    facets->hint = PIR_ZEROED(a, uint32_t, count);
-    return done && facets->hint;
-}
-
-static void facets_free(pir_region_facets *facets, const pir_allocator *a) {
-    uint32_t count = facets->members.capacity;
-    float *const lane[6] = {facets->x, facets->y, facets->z, facets->cosine, facets->sine, facets->apart};
-    for (int k = 0; k < 6; k++)
-        PIR_FREE(a, lane[k], count);
-    PIR_FREE(a, facets->hint, count);
-    members_free(&facets->members, a);
-}
-
-void pir_region_finish(pir_sum *sum) {
-    const pir_allocator *a = &sum->allocator;
-    facets_free(&sum->region.p, a);
-    facets_free(&sum->region.q, a);
-    members_free(&sum->region.edges, a);
-}
-
-/* What the sweep reads of p's facets: that holds at every scale. */
-static void fill_facets(pir_region_facets *facets, const pir_polytope *p) {
-    for (uint32_t f = 0; f < p->facet_count; f++) {
-        pir_vec3 n = p->normal[f];
-        double least = 1;
-        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
-            least = fmin(least, pir_vec_dot(n, p->normal[pir_right(p, p->loop[i])]));
-        least = fmax(-1, least);
-        facets->x[f] = (float)n.x, facets->y[f] = (float)n.y, facets->z[f] = (float)n.z;
-        facets->cosine[f] = (float)sqrt((1 + least) / 2);
-        facets->sine[f] = (float)sqrt((1 - least) / 2);
-    }
-}
 
 static void list_all(pir_members *members) {
     members->count = members->capacity;
@@ -111,20 +72,12 @@ static void list_all(pir_members *members) {
 /* Memory for regions, unless it is there, all features being active; false when out of memory. */
 static bool allocate(pir_sum *sum) {
     pir_region *region = &sum->region;
-    const pir_allocator *a = &sum->allocator;
     if (region->edges.at)
         return true;
-    region->admits = true;
-    bool done = facets_new(&region->p, a, sum->p->facet_count);
-    done = facets_new(&region->q, a, sum->q->facet_count) && done;
-    done = members_new(&region->edges, a, sum->p->edge_count) && done;
-    if (!done) {
-        pir_region_finish(sum);
+    if (!pir_sweep_allocate(sum)) {
         *region = (pir_region){0};
         return false;
     }
-    fill_facets(&region->p, sum->p);
-    fill_facets(&region->q, sum->q);
     pir_region_open(sum);
     return true;
 }
@@ -150,137 +103,18 @@ static void centre(pir_sum *sum, bool afresh) {
     const pir_cover before = region->cover;
     pir_vec3 axis_q = region->cone.axis, axis_p = pir_mat_apply_transposed(&sum->signs.rotation.r, axis_q);
     pir_vec3 off_p = pir_vec_sub(axis_p, before.axis_p), off_q = pir_vec_sub(axis_q, before.axis_q);
-    double steps = afresh ? HUGE_VAL : fmax(1, region->steps) / SKIN_STEPS;
+    double steps = afresh ? HUGE_VAL : fmax(1, before.steps) / SKIN_STEPS;
     // whatever P sees, the axis may go with Q once: when it is set before the rotation that it is set for
-    double stride = afresh ? 0 : STRIDE_STEPS * fabs(sum->clock.stride);
+    double stride = afresh ? 0 : STRIDE_STEPS * before.step;
     double skin_p = fmax(sqrt(pir_vec_dot(off_p, off_p)) / steps, stride);
     double skin_q = sqrt(pir_vec_dot(off_q, off_q)) / steps;
     region->cover = pir_cover_make(&region->cone, is_whole(sum), axis_p, axis_q, skin_p, skin_q, stride);
-    region->steps = 0;
+    region->cover.step = afresh ? 0 : before.step;
 }
 
-/* --- the sweep --- */
-
-static void count_in(pir_members *members, uint32_t i, uint32_t sweep, uint32_t *count) {
-    if (members->seen[i] == sweep)
-        return;
-    members->seen[i] = sweep;
-    members->next[(*count)++] = i;
-}
-
-/*
- * facets->apart: below zero for those farther than `reach` from the axis, by the cosine, and, `by_arc`, farther by more than half of the
- * longest of their arcs. One plain loop, which compilers make vectors of.
- */
-static void find_apart(pir_region_facets *facets, pir_vec3 axis, pir_arc reach, bool by_arc) {
-    const float *restrict x = facets->x, *restrict y = facets->y, *restrict z = facets->z;
-    const float *restrict c = facets->cosine, *restrict s = facets->sine;
-    float *restrict apart = facets->apart;
-    const float ax = (float)axis.x, ay = (float)axis.y, az = (float)axis.z;
-    const float rc = (float)reach.cosine, rs = (float)reach.sine;
-    uint32_t count = facets->members.capacity;
-    if (by_arc) {
-        for (uint32_t f = 0; f < count; f++) {
-            float beyond = (x[f] * ax + y[f] * ay + z[f] * az) - (rc * c[f] - rs * s[f]),
-                  past = -(rs * c[f] + rc * s[f]);
-            // farther than π in all is everywhere
-            apart[f] = (beyond > past ? beyond : past) + FLOAT_SLACK;
-        }
-    } else {
-        for (uint32_t f = 0; f < count; f++)
-            apart[f] = (x[f] * ax + y[f] * ay + z[f] * az) - rc + FLOAT_SLACK;
-    }
-}
-
-/* Whether the arc of halfedge h of P comes within `reach` of the axis, neither end being so near. */
-static bool passes(const pir_polytope *p, uint32_t h, pir_vec3 axis, pir_arc reach) {
-    // its circle does not come so near
-    if (reach.cosine > 0 && fabs(pir_vec_dot(axis, p->direction[h])) > reach.sine + EDGE_SLACK)
-        return false;
-    pir_vec3 from = p->normal[p->left[h]], to = p->normal[pir_right(p, h)];
-    double c = pir_vec_dot(from, to), x = pir_vec_dot(axis, from), y = pir_vec_dot(axis, to);
-    // the foot of the axis on the arc's circle is between its ends
-    return x - c * y >= -EDGE_SLACK && y - c * x >= -EDGE_SLACK;
-}
-
-/* Counts in the edges of P within `reach` and the facets at their ends; returns how far their arcs lead from the axis. */
-static pir_arc sweep_p(pir_sum *sum, pir_arc reach) {
-    pir_region *region = &sum->region;
-    pir_region_facets *facets = &region->p;
-    const pir_polytope *p = sum->p;
-    pir_vec3 axis = region->cover.axis_p;
-    uint32_t edges = 0, ends = 0;
-    double inner = reach.cosine - (double)FLOAT_SLACK;
-    find_apart(facets, axis, reach, true);
-    for (uint32_t f = 0; f < facets->members.capacity; f++) {
-        if (facets->apart[f] < 0)
-            continue;
-        bool inside = pir_vec_dot(axis, p->normal[f]) >= inner;
-        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
-            uint32_t h = p->loop[i], e = p->edge[h];
-            if (region->edges.seen[e] == region->sweep || (!inside && !passes(p, h, axis, reach)))
-                continue;
-            count_in(&region->edges, e, region->sweep, &edges);
-            count_in(&facets->members, f, region->sweep, &ends);
-            count_in(&facets->members, pir_right(p, h), region->sweep, &ends);
-        }
-    }
-    // an arc whose ends are within a quarter turn goes no farther than they do
-    double least = reach.cosine;
-    for (uint32_t i = 0; i < ends; i++) {
-        uint32_t f = facets->members.next[i];
-        double x = pir_vec_dot(axis, p->normal[f]);
-        if (x < 0)
-            x = pir_arc_add(pir_arc_from_cosine(x), (pir_arc){(double)facets->cosine[f], (double)facets->sine[f]})
-                    .cosine;
-        least = fmin(least, x);
-    }
-    region->edges.count = edges;
-    facets->members.count = ends;
-    return pir_arc_from_cosine(least);
-}
-
-static void sweep_q(pir_sum *sum, pir_arc reach) {
-    pir_region *region = &sum->region;
-    uint32_t count = 0;
-    find_apart(&region->q, region->cover.axis_q, reach, false);
-    for (uint32_t g = 0; g < region->q.members.capacity; g++)
-        if (region->q.apart[g] >= 0)
-            count_in(&region->q.members, g, region->sweep, &count);
-    region->q.members.count = count;
-}
-
-static void sweep_all(pir_members *members, uint32_t sweep) {
-    members->count = 0;
-    for (uint32_t i = 0; i < members->capacity; i++)
-        count_in(members, i, sweep, &members->count);
-}
-
-static void next_sweep(pir_region *region) {
-    pir_members *const all[3] = {&region->p.members, &region->q.members, &region->edges};
-    if (++region->sweep != 0)
-        return;
-    // numbers have run out: begin again
-    for (int k = 0; k < 3; k++)
-        memset(all[k]->seen, 0, all[k]->capacity * sizeof *all[k]->seen);
-    region->sweep = 1;
-}
-
-/* Finds the features that the cover asks for: in members->next, each member's `seen` being the number of the sweep. */
-static void sweep(pir_sum *sum) {
-    pir_region *region = &sum->region;
-    const pir_cover *cover = &region->cover;
-    next_sweep(region);
-    region->changes++;
-    region->admits = true;
-    if (cover->whole) {
-        sweep_all(&region->p.members, region->sweep);
-        sweep_all(&region->q.members, region->sweep);
-        sweep_all(&region->edges, region->sweep);
-        return;
-    }
-    pir_arc farthest = sweep_p(sum, pir_arc_add(cover->half_angle, pir_arc_of(cover->skin_p)));
-    sweep_q(sum, pir_arc_add(farthest, pir_arc_of(cover->skin_p + cover->skin_q + cover->stride + ANGLE_SLACK)));
+void pir_region_step(pir_sum *sum, pir_quat before) {
+    if (sum->region.cone.set)
+        sum->region.cover.step = pir_rotation_angle_bound(before, sum->signs.rotation.unit);
 }
 
 /* --- falling dormant --- */
@@ -316,7 +150,8 @@ static void choose(pir_sum *sum) {
     pir_region *region = &sum->region;
     pir_members *p = &region->p.members, *q = &region->q.members, *edges = &region->edges;
     uint32_t of_p = p->count, of_q = q->count, of_edges = edges->count;
-    sweep(sum);
+    region->admits = true;
+    pir_sweep(sum);
     for (uint32_t i = 0; i < of_edges; i++)
         if (edges->seen[edges->at[i]] != region->sweep)
             drop_edge(sum, edges->at[i]);
@@ -333,8 +168,8 @@ static void choose(pir_sum *sum) {
 
 void pir_region_follow(pir_sum *sum) {
     pir_region *region = &sum->region;
-    double angle = fabs(sum->clock.stride), allowed = region->cover.stride;
-    region->steps++;
+    double angle = region->cover.step, allowed = region->cover.stride;
+    region->cover.steps += region->cover.steps < UINT32_MAX;
     region->leapt = region->cone.set && !region->cover.whole && !(angle <= LONGEST_STEP);
     if (pir_region_holds(sum, &sum->signs.rotation))
         return;
@@ -428,9 +263,15 @@ void pir_region_renew(pir_sum *sum) {
         centre(sum, true);
 }
 
+static bool is_full(const pir_members *members) {
+    return members->count == members->capacity;
+}
+
 void pir_region_open(pir_sum *sum) {
     pir_region *region = &sum->region;
-    if (!region->edges.at || (region->edges.count == region->edges.capacity && !region->admits))
+    // each kind by itself: facets of Q may be dormant where all arcs of P are active
+    bool all = is_full(&region->p.members) && is_full(&region->q.members) && is_full(&region->edges);
+    if (!region->edges.at || (all && !region->admits))
         return;
     list_all(&region->p.members);
     list_all(&region->q.members);

@@ -32,18 +32,15 @@ typedef struct pir_region_facets {
 typedef struct pir_region {
     pir_cone cone;
     pir_cover cover;
-    bool admits;             /* a sweep has counted in features that are still dormant */
-    bool leapt;              /* the last step may have carried what was or is dormant through what is active */
-    uint32_t steps;          /* since the cover was centred */
-    uint32_t sweep, changes; /* changes: how often the active features have become others */
-    pir_region_facets p, q;  /* memory from the first cone on, as for the edges */
-    pir_members edges;       /* of P */
+    bool admits;            /* a sweep has counted in features that are still dormant */
+    bool leapt;             /* the last step may have carried what was or is dormant through what is active */
+    uint32_t sweep;         /* the number of the last sweep */
+    pir_region_facets p, q; /* memory from the first cone on, as for the edges */
+    pir_members edges;      /* of P */
 } pir_region;
 
 struct pir_sum;
 struct pir_rotation;
-
-void pir_region_finish(struct pir_sum *sum);
 
 /*
  * Gives a sum that has no region, but the pairing of one, that region; *ret_fits: whether the pairing has a cell for every facet that the
@@ -53,6 +50,9 @@ bool pir_region_adopt(struct pir_sum *sum, const pir_cone *cone, const pir_cover
 
 /* Whether what is kept holds all that the region needs at `rotation`. */
 bool pir_region_holds(const struct pir_sum *sum, const struct pir_rotation *rotation);
+
+/* Takes note of a step from the rotation of unit quaternion `before`, which the sum was at, to that of now. */
+void pir_region_step(struct pir_sum *sum, pir_quat before);
 
 /* --- around an update --- */
 

@@ -153,6 +153,8 @@ static void put_region(struct sink *sink, const pir_cone *cone, const pir_cover 
     put_double(sink, cover->skin_p);
     put_double(sink, cover->skin_q);
     put_double(sink, cover->stride);
+    put_u32(sink, cover->steps);
+    put_double(sink, cover->step);
 }
 
 /* Puts it all, with `length` and `checksum` in the header. */

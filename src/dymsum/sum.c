@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "dymsum/choose.h"
+#include "dymsum/sweep.h"
 
 pir_sum_options pir_sum_options_default(void) {
     return (pir_sum_options){.allocator = NULL, .difference = 0};
@@ -78,7 +79,7 @@ static void free_sum(pir_sum *sum) {
     PIR_FREE(a, sum->passes, q->facet_count);
     pir_alarms_finish(&sum->alarms, a);
     pir_crossings_finish(sum);
-    pir_region_finish(sum);
+    pir_sweep_finish(sum);
     pir_signs_finish(&sum->signs, a);
     pir_cgm_destroy(sum->cgm_q);
     pir_polytope_release(sum->p);
@@ -198,6 +199,7 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
     if (status != PIR_OK)
         return status;
     pir_sum_changes(sum);
+    pir_region_step(sum, unit_before);
     advance_clock(sum, unit_before);
     double angle = fabs(sum->clock.stride);
     if (method == PIR_METHOD_AUTO)
