@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Drawing a cubical Gaussian map, as in Fogel and Halperin's figures: the cube unfolded to a cross around its +z face, each face seen from
- * outside and turned so that neighbours join along their common side.
+ * Drawing a cubical Gaussian map, as in Fogel and Halperin's figures: the cube unfolded to a cross around its +z
+ * face, each face seen from outside and turned so that neighbours join along their common side.
  *
  *            +y
  *        -x  +z  +x  -z

@@ -7,7 +7,10 @@
 
 #include <pirouette/cgm.h>
 
-/* Writes a whole SVG. Arcs of source 0 are red, of source 1 blue, of any other green, of several violet; what is not real is grey. */
+/*
+ * Writes a whole SVG. Arcs of source 0 are red, of source 1 blue, of any other green, of several violet; what is not
+ * real is grey.
+ */
 void cgm_picture_write(FILE *file, const pir_cgm *cgm);
 
 #endif

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* pirouette query: P, turned and moved, against Q: overlap, distance, depth, a direction, a cast; one placement or a file of them. */
+/*
+ * pirouette query: P, turned and moved, against Q: overlap, distance, depth, a direction, a cast; one placement or a
+ * file of them.
+ */
 #include <stdio.h>
 
 #include <math.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A folder of frames, and frames.json, which says which rotation each has. A frame's sum is written in doubles, which every reader of OFF
- * takes, and, in the folder EXACT_FOLDER below, in rationals; or in rationals alone. Functions that return false have complained.
+ * A folder of frames, and frames.json, which says which rotation each has. A frame's sum is written in doubles, which
+ * every reader of OFF takes, and, in the folder EXACT_FOLDER below, in rationals; or in rationals alone. Functions
+ * that return false have complained.
  */
 #ifndef TOOLS_DUMP_H
 #define TOOLS_DUMP_H

@@ -53,7 +53,10 @@ bool output_ends_in(const char *path, const char *ending) {
     return length > own && strcasecmp(path + length - own, ending) == 0;
 }
 
-/* What `path` leads to when links are followed, whether it is there or not, to be freed. NULL, with errno set, for a circle. */
+/*
+ * What `path` leads to when links are followed, whether it is there or not, to be freed. NULL, with errno set, for a
+ * circle.
+ */
 static char *follow_links(const char *path) {
     char next[PATH_SIZE], *target = strdup(path);
     for (int links = 0; target && links < LINKS_MOST; links++) {

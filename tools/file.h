@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Files that the command writes. A regular file is complete or as it was before: it is written under another name in its folder and
- * renamed when all of it is down, and keeps the permissions that a file of its name had. Links are followed and stay. A
- * device or a FIFO is opened and written to, "-" is standard output. A file is opened before a long run, so that a path that
- * cannot be written is known at once. Functions that return false have complained.
+ * Files that the command writes. A regular file is complete or as it was before: it is written under another name in
+ * its folder and renamed when all of it is down, and keeps the permissions that a file of its name had. Links are
+ * followed and stay. A device or a FIFO is opened and written to, "-" is standard output. A file is opened before a
+ * long run, so that a path that cannot be written is known at once. Functions that return false have complained.
  */
 #ifndef TOOLS_FILE_H
 #define TOOLS_FILE_H
@@ -30,7 +30,10 @@ void output_discard(struct output_file *file);
 /* Whether `path` is "-" or names the file that standard output goes to. Nothing else is printed there then. */
 bool output_is_stdout(const char *path);
 
-/* Whether `path` is written to as it stands, so that no ending has to tell its format: standard output, a device, a FIFO. */
+/*
+ * Whether `path` is written to as it stands, so that no ending has to tell its format: standard output, a device, a
+ * FIFO.
+ */
 bool output_is_stream(const char *path);
 
 /* Whether `path` ends in `ending`, in either case; something stands before it. */

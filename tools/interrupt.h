@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * SIGINT, SIGTERM and SIGHUP: what they leave behind. Each removes the temporary files and ends the process as the signal does by
- * itself. A long run can put that off, to end at a place of its own choice and report what it has measured; a second signal is
- * not put off.
+ * SIGINT, SIGTERM and SIGHUP: what they leave behind. Each removes the temporary files and ends the process as the
+ * signal does by itself. A long run can put that off, to end at a place of its own choice and report what it has
+ * measured; a second signal is not put off.
  */
 #ifndef TOOLS_INTERRUPT_H
 #define TOOLS_INTERRUPT_H
@@ -27,8 +27,8 @@ bool interrupt_asked(void);
 void interrupt_end(void);
 
 /*
- * Creates the temporary file `path`, which must not exist and stays the caller's; a signal removes it until interrupt_keep. NULL with
- * errno set on failure.
+ * Creates the temporary file `path`, which must not exist and stays the caller's; a signal removes it until
+ * interrupt_keep. NULL with errno set on failure.
  */
 FILE *interrupt_create(char *path);
 

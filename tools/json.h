@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * JSON objects through cJSON, with doubles that read back as themselves (cJSON's own printing may lose the last bit) and a
- * memory failure that is remembered, so that it is asked for once, at the end.
+ * JSON objects through cJSON, with doubles that read back as themselves (cJSON's own printing may lose the last bit)
+ * and a memory failure that is remembered, so that it is asked for once, at the end.
  */
 #ifndef TOOLS_JSON_H
 #define TOOLS_JSON_H
@@ -22,8 +22,8 @@ struct json {
 struct json json_new(void);
 
 /*
- * Each adds a member `name` to `parent`, an object, or, when `name` is NULL, an element to it, an array. `parent` may be
- * NULL after a failure.
+ * Each adds a member `name` to `parent`, an object, or, when `name` is NULL, an element to it, an array. `parent` may
+ * be NULL after a failure.
  */
 void json_add_number(struct json *json, cJSON *parent, const char *name, double value);  /* null when not finite */
 void json_add_count(struct json *json, cJSON *parent, const char *name, uint64_t value); /* with all its digits */

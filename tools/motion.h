@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The motion of P in a tracked run: one step of 1/steps of a turn from frame to frame, about a fixed axis or about random
- * axes in turn. Frame 0 is the identity.
+ * The motion of P in a tracked run: one step of 1/steps of a turn from frame to frame, about a fixed axis or about
+ * random axes in turn. Frame 0 is the identity.
  */
 #ifndef TOOLS_MOTION_H
 #define TOOLS_MOTION_H
@@ -30,8 +30,8 @@ struct motion motion_new(const pir_vec3 *axis, uint64_t steps, uint64_t seed);
 pir_quat motion_before(const struct motion *motion);
 
 /*
- * The rotation of the next frame. About a fixed axis it is made from the frame's number alone, so that it recurs exactly turn
- * after turn; about random axes it is the last one turned once more, brought back to length 1.
+ * The rotation of the next frame. About a fixed axis it is made from the frame's number alone, so that it recurs
+ * exactly turn after turn; about random axes it is the last one turned once more, brought back to length 1.
  */
 pir_quat motion_next(struct motion *motion);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The chart. Where there are more frames than columns, neighbouring frames share a column, drawn as a band from the least to the
- * greatest time and a line through the medians; the file's size does not grow with the number of frames.
+ * The chart. Where there are more frames than columns, neighbouring frames share a column, drawn as a band from the
+ * least to the greatest time and a line through the medians; the file's size does not grow with the number of frames.
  */
 #include "plot.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Lines of `x,y,z` in, lines of `x,y,z,state,distance,nx,ny,nz` out. A first line of three names is a heading; empty lines are
- * passed over. The distance is signed: minus the depth inside.
+ * Lines of `x,y,z` in, lines of `x,y,z,state,distance,nx,ny,nz` out. A first line of three names is a heading; empty
+ * lines are passed over. The distance is signed: minus the depth inside.
  */
 #include "query_batch.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Orthographic, seen along the direction that shows the answer's segment at full length: its normal lies in the plane of the picture. Edges in
- * front of either body's middle are drawn strong, the others faint.
+ * Orthographic, seen along the direction that shows the answer's segment at full length: its normal lies in the plane
+ * of the picture. Edges in front of either body's middle are drawn strong, the others faint.
  */
 #include "query_picture.h"
 

@@ -14,8 +14,9 @@
 #define TARGET_MESH ".off, .obj, .stl, .ply or .svg"
 
 /*
- * Whether the value of option `name`, where it was given, ends in one of the `endings`, told in words as in TARGET_MESH; NULL stands for any. A
- * stream needs no ending, but standard output is not for it and --json. False after a complaint.
+ * Whether the value of option `name`, where it was given, ends in one of the `endings`, told in words as in
+ * TARGET_MESH; NULL stands for any. A stream needs no ending, but standard output is not for it and --json. False
+ * after a complaint.
  */
 bool target_check(const struct args *args, const char *name, const char *endings);
 

@@ -5,7 +5,10 @@
 
 #include "measure.h"
 
-/* Runs of up to so many frames keep every time; of longer ones it keeps one in `stride`, for the chart, and counts all by size. */
+/*
+ * Runs of up to so many frames keep every time; of longer ones it keeps one in `stride`, for the chart, and counts
+ * all by size.
+ */
 #define TIMES_KEPT 65536
 
 struct times {

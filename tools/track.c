@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The run. Up to four sums of the same polytopes go through the same rotations: the tracked one; one that is rebuilt by walk,
- * on the frames where that is timed or compared; one rebuilt by CGM and one re-checked by brute force, on a few frames. A region is kept by
- * the first two; the others are whole. Each timed call stands alone
- * between two looks at the clock. All are timed in turn in one run, so that what else the machine does falls on all alike.
+ * The run. Up to four sums of the same polytopes go through the same rotations: the tracked one; one that is rebuilt
+ * by walk, on the frames where that is timed or compared; one rebuilt by CGM and one re-checked by brute force, on a
+ * few frames. A region is kept by the first two; the others are whole. Each timed call stands alone between two looks
+ * at the clock. All are timed in turn in one run, so that what else the machine does falls on all alike.
  */
 #include "track.h"
 
@@ -123,8 +123,8 @@ static bool is_behind(const struct run *run) {
 }
 
 /*
- * Whether the tracked and the rebuilt sum are the same, as pairings and as meshes. A pairing that stayed behind is that of another rotation: the
- * rebuilt sum goes there. Of a region there is no mesh.
+ * Whether the tracked and the rebuilt sum are the same, as pairings and as meshes. A pairing that stayed behind is
+ * that of another rotation: the rebuilt sum goes there. Of a region there is no mesh.
  */
 static pir_status compare(const struct run *run, bool *ret_same) {
     if (is_behind(run)) {
@@ -180,7 +180,10 @@ static void add_work(pir_sum_statistics *did, const pir_sum_statistics *before, 
     did->allocations += after->allocations - before->allocations;
 }
 
-/* The rotation that all is about. Its work is counted by itself: comparing and writing meshes ask for signs and memory, too. */
+/*
+ * The rotation that all is about. Its work is counted by itself: comparing and writing meshes ask for signs and
+ * memory, too.
+ */
 static pir_status rotate_tracked(struct run *run, uint64_t frame, pir_quat rotation) {
     struct track_result *result = run->result;
     uint64_t blocks = run->blocks;
@@ -204,8 +207,8 @@ static bool is_rebuilt(const struct run *run, uint64_t frame) {
 }
 
 /*
- * All sums of one frame. The rebuild comes before the tracked sum, after which the processor would know the way, and after a
- * rebuild of the frame before, as it would if every frame were rebuilt.
+ * All sums of one frame. The rebuild comes before the tracked sum, after which the processor would know the way, and
+ * after a rebuild of the frame before, as it would if every frame were rebuilt.
  */
 static pir_status rotate_all(struct run *run, uint64_t frame, pir_quat rotation) {
     struct track_result *result = run->result;

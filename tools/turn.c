@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Turns as quaternions. With h half the angle, q ~ (axis, |axis|·cot h). For the angles that matter cot² h is 0, 1/3, 1 or 3, so
- * |axis|·cot h is one square root, which is exact when its argument is a square. Other angles take (axis·sin h, |axis|·cos h),
- * with h brought into the first octant by exact steps.
+ * Turns as quaternions. With h half the angle, q ~ (axis, |axis|·cot h). For the angles that matter cot² h is 0, 1/3,
+ * 1 or 3, so |axis|·cot h is one square root, which is exact when its argument is a square. Other angles take
+ * (axis·sin h, |axis|·cos h), with h brought into the first octant by exact steps.
  */
 #include "turn.h"
 

@@ -2,9 +2,9 @@
 /*
  * Meshes into files: which writer, and a file that is whole or as it was before.
  *
- * A regular file is written under a name of its own in the same folder, opened so that it cannot already exist, and renamed to
- * its target only when every byte is down; on any failure it is removed. The target is what the path leads to when all links are
- * followed. A device or a FIFO cannot be replaced by a file, so it is opened and written to.
+ * A regular file is written under a name of its own in the same folder, opened so that it cannot already exist, and
+ * renamed to its target only when every byte is down; on any failure it is removed. The target is what the path leads
+ * to when all links are followed. A device or a FIFO cannot be replaced by a file, so it is opened and written to.
  */
 #include <errno.h>
 #include <string.h>
@@ -14,7 +14,10 @@
 #include "base/report.h"
 #include "polytope/io.h"
 
-/* Names tried for the file beside the target before giving up: one for each thread that writes into the folder at once. */
+/*
+ * Names tried for the file beside the target before giving up: one for each thread that writes into the folder at
+ * once.
+ */
 #define TEMPORARY_NAMES 100
 
 /* The longest path that POSIX systems take, its final zero included. */
@@ -74,7 +77,10 @@ pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *n
 
 /* --- files --- */
 
-/* What `path` leads to when links are followed, whether it is there or not. False, with errno set, for a circle or too long a name. */
+/*
+ * What `path` leads to when links are followed, whether it is there or not. False, with errno set, for a circle or
+ * too long a name.
+ */
 static bool follow_links(const char *path, char ret_target[PATH_SIZE]) {
     errno = ENAMETOOLONG;
     size_t length = strlen(path);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The library's own answers, for tests of the command to hold its JSON against: the same questions asked through the public
- * headers. Prints lines of a key and its values; numbers are hexadecimal, which hold a double exactly.
+ * The library's own answers, for tests of the command to hold its JSON against: the same questions asked through the
+ * public headers. Prints lines of a key and its values; numbers are hexadecimal, which hold a double exactly.
  *
  *     answers info|mesh|cgm|sum|query|track P [Q] [key=value...]
  *
- * Keys: quat, translate, direction, cast, region (numbers between commas); radius_p, radius_q, tolerance; method, an index
- * into pir_method; difference and exact, 0 or 1; o, a file for the mesh; list, a file of quaternions for track, the first
- * being where the sum is made, or of translations for query.
+ * Keys: quat, translate, direction, cast, region (numbers between commas); radius_p, radius_q, tolerance; method, an
+ * index into pir_method; difference and exact, 0 or 1; o, a file for the mesh; list, a file of quaternions for track,
+ * the first being where the sum is made, or of translations for query.
  */
 #include <stdarg.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Faults for the command: linked with its objects and the linker's --wrap into a program of its own, which nobody installs. The
- * environment variable PIROUETTE_FAULT says which fault, and at which call: KIND:N, N from 1.
+ * Faults for the command: linked with its objects and the linker's --wrap into a program of its own, which nobody
+ * installs. The environment variable PIROUETTE_FAULT says which fault, and at which call: KIND:N, N from 1.
  *
  *     memory    the N-th of all allocations of the command and of its calls of the library that can run out of memory does
  *     update    the N-th rotation of a tracked sum goes astray

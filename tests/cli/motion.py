@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The rotations of a tracked run, from the text of tools/motion.h and tools/turn.h alone: SplitMix64, turns, products."""
+"""The rotations of a tracked run, from the text of tools/motion.h and tools/turn.h alone."""
 import math
 
 MASK = 2**64 - 1
@@ -24,7 +24,7 @@ def axes(seed):
 
 
 def turn(axis, part, whole):
-    """About `axis` by part/whole of a full turn, for the parts that runs take: less than a quarter turn, or an exact one."""
+    """About `axis` by part/whole of a full turn."""
     back, part = part < 0, math.fmod(abs(part), whole)
     if 2 * part > whole:
         part, back = whole - part, not back

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette cgm. Usage: test_cgm.py COMMAND ANSWERS FAULTY [CLASS...]"""
+"""pirouette cgm."""
 import re
 import xml.etree.ElementTree as ElementTree
 

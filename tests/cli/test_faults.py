@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The command when memory runs out or the library errs. Usage: test_faults.py COMMAND ANSWERS FAULTY [CLASS...]"""
+"""The command when memory runs out or the library errs."""
 import json
 import os
 import re
@@ -14,7 +14,7 @@ class MemoryTest(CommandTest):
         return sorted(str(p.relative_to(self.path)) for p in self.path.rglob("*") if p.is_file() and not p.is_symlink())
 
     def exhaust(self, *args):
-        """Lets each call that takes memory fail in turn, until none is left; whole files may be there then, halves may not."""
+        """Lets each call that takes memory fail in turn, until none is left; a run that fails leaves no half file."""
         before, number = self.left(), 0
         self.assertEqual(self.run_command(*args).returncode, 0)
         whole = {name: (self.path / name).read_bytes() for name in set(self.left()) - set(before)}
@@ -26,11 +26,13 @@ class MemoryTest(CommandTest):
             if done.returncode == 0:
                 break
             self.assertEqual((done.returncode, done.stdout), (2, ""), (number, args, done.stderr))
-            self.assertRegex(done.stderr, r"^pirouette: [^\n]*(out of memory|Cannot allocate memory)[^\n]*\n$", (number, args))
+            self.assertRegex(done.stderr, r"^pirouette: [^\n]*(out of memory|Cannot allocate memory)[^\n]*\n$",
+                             (number, args))
             for name in set(self.left()) - set(before):
                 # the times of a chart are others in each run
                 same = (self.path / name).read_bytes() == whole.get(name)
-                self.assertTrue(same or (name == "chart.svg" and (self.path / name).read_text().endswith("</svg>\n")), (name, number))
+                self.assertTrue(same or (name == "chart.svg" and (self.path / name).read_text().endswith("</svg>\n")),
+                                (name, number))
         self.assertEqual((done.stderr, sorted(set(self.left()) - set(before))), ("", sorted(whole)))
         return number - 1
 
@@ -49,7 +51,8 @@ class Memory(MemoryTest):
         if not self.faulty:
             self.skipTest("the linker cannot put faults into this build")
         for number in range(1, 20):
-            done = subprocess.run([self.faulty, "info", "-"], input=TETRAHEDRON, capture_output=True, text=True, timeout=60,
+            done = subprocess.run([self.faulty, "info", "-"], input=TETRAHEDRON, capture_output=True, text=True,
+                                  timeout=60,
                                   env={**os.environ, "PIROUETTE_FAULT": f"memory:{number}"})
             if done.returncode == 0:
                 break
@@ -62,22 +65,26 @@ class MemoryOfRuns(MemoryTest):
     def test_cgm_and_query(self):
         self.exhaust("cgm", self.tetrahedron, self.pyramid, "--difference", "-o", self.path / "a.svg")
         for place in ("0,0,0", "3,0,0"):
-            self.exhaust("query", "shape:cube", self.pyramid, f"--translate={place}", "--direction=1,0,0", "--cast=-9,0,0", "-o",
+            self.exhaust("query", "shape:cube", self.pyramid, f"--translate={place}", "--direction=1,0,0",
+                         "--cast=-9,0,0", "-o",
                          self.path / "a.svg")
         places = self.file("places.csv", "1,2,3\n4,5,6\n")
         self.exhaust("query", "shape:cube", self.pyramid, "--batch", places, "-o", self.path / "a.csv")
 
     def test_json_of_a_query(self):
-        self.exhaust("query", "shape:cube", self.pyramid, "--translate=3,0,0", "--direction=-1,0,0", "--cast=-9,0,0", "--json")
+        self.exhaust("query", "shape:cube", self.pyramid, "--translate=3,0,0", "--direction=-1,0,0", "--cast=-9,0,0",
+                     "--json")
 
     def test_track(self):
-        self.exhaust("track", self.tetrahedron, self.pyramid, "--frames=2", "--verify", "--brute", "--tolerance=0.1", "--plot",
+        self.exhaust("track", self.tetrahedron, self.pyramid, "--frames=2", "--verify", "--brute", "--tolerance=0.1",
+                     "--plot",
                      self.path / "chart.svg")
-        self.exhaust("track", self.tetrahedron, self.pyramid, "--frames=2", "--axis=0,0,1", "--verify", "--dump", self.path / "dump")
+        self.exhaust("track", self.tetrahedron, self.pyramid, "--frames=2", "--axis=0,0,1", "--verify", "--dump",
+                     self.path / "dump")
 
 
 class Mismatch(CommandTest):
-    """A wrong sum must be noticed, whichever of the ways to look at it shows it; a wrong comparison is what it reports."""
+    """A wrong sum is noticed, whichever comparison shows it; so is a comparison that comes out wrong."""
 
     def track(self, kind, number, *extra):
         args = ["track", "shape:gs2", self.pyramid, "--frames=40", *extra]

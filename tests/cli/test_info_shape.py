@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette info and pirouette shape. Usage: test_info_shape.py COMMAND ANSWERS FAULTY [CLASS...]"""
+"""pirouette info and pirouette shape."""
 from command_test import CommandTest, main
 
 

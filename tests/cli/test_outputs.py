@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Where results go, and what is left when that fails. Usage: test_outputs.py COMMAND ANSWERS FAULTY [CLASS...]"""
+"""Where results go, and what is left when that fails."""
 import os
 import subprocess
 import unittest

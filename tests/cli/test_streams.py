@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Where results go: links, FIFOs, devices, standard output, full disks, signals. Usage: test_streams.py COMMAND ANSWERS FAULTY [CLASS...]"""
+"""Where results go: links, FIFOs, devices, standard output, full disks, signals."""
 import json
 import os
 import resource
@@ -29,7 +29,8 @@ class StreamTest(CommandTest):
         pair = [self.tetrahedron, self.pyramid]
         # each command, the option and the ending of the file that it writes
         self.writers = [
-            (["sum", *pair], "-o", ".off"), (["sum", *pair, "--exact"], "-o", ".off"), (["shape", "cube"], "-o", ".off"),
+            (["sum", *pair], "-o", ".off"), (["sum", *pair, "--exact"], "-o", ".off"),
+            (["shape", "cube"], "-o", ".off"),
             (["cgm", *pair], "-o", ".svg"), (["query", *pair, "--translate=2,0,0"], "-o", ".svg"),
             (["query", *pair, "--batch", self.places], "-o", ".csv"), (["sum", *pair], "-o", ".svg"),
         ]
@@ -143,7 +144,8 @@ class Targets(StreamTest):
             else:
                 target.write_text("old")
             before = self.left()
-            done = subprocess.run([self.command, *map(str, args), option, str(target)], stdout=subprocess.PIPE, text=True,
+            done = subprocess.run([self.command, *map(str, args), option, str(target)], stdout=subprocess.PIPE,
+                                  text=True,
                                   stderr=subprocess.PIPE, timeout=60, preexec_fn=least_files)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), args)
             self.assertIn("cannot write: File too large", done.stderr)
@@ -183,7 +185,8 @@ class StandardInput(StreamTest):
             self.assertTrue(err.startswith("pirouette: standard input"), err)
 
     def test_it_is_read_once(self):
-        for args in (["sum", "-", "-"], ["track", "-", "-"], ["query", "-", "-", "--translate=0,0,0"], ["cgm", "-", "-"],
+        for args in (["sum", "-", "-"], ["track", "-", "-"], ["query", "-", "-", "--translate=0,0,0"],
+                     ["cgm", "-", "-"],
                      ["query", "-", "shape:cube", "--batch", "-", "-o", "-"]):
             self.assertEqual(self.feed(TETRAHEDRON, *args),
                              (2, "", "pirouette: '-' is given twice, and standard input is read once\n"))
@@ -192,7 +195,8 @@ class StandardInput(StreamTest):
         folder = os.open(self.path, os.O_RDONLY)
         self.addCleanup(os.close, folder)
         done = subprocess.run([self.command, "info", "-"], stdin=folder, capture_output=True, text=True, timeout=60)
-        self.assertEqual((done.returncode, done.stderr), (2, "pirouette: standard input: cannot read: Is a directory\n"))
+        self.assertEqual((done.returncode,
+                          done.stderr), (2, "pirouette: standard input: cannot read: Is a directory\n"))
 
 
 class Signals(StreamTest):
@@ -223,7 +227,8 @@ class Signals(StreamTest):
         dump, plot = self.path / "dump", self.path / "plot.svg"
         args = ["track", self.tetrahedron, self.pyramid, "--frames=10000000", "--verify-every=100", "--dump", dump,
                 "--every=1000", "--plot", plot]
-        for number, extra in ((signal.SIGINT, ["--json"]), (signal.SIGTERM, []), (signal.SIGHUP, ["--json", "--exact"])):
+        for number, extra in ((signal.SIGINT, ["--json"]), (signal.SIGTERM, []),
+                              (signal.SIGHUP, ["--json", "--exact"])):
             running = self.start(*args, *extra)
             self.wait_for(running, lambda: (dump / "frame-005000.off").exists())
             running.send_signal(number)
@@ -252,7 +257,8 @@ class Signals(StreamTest):
     def test_a_batch_that_is_stopped_tells_what_it_answered(self):
         before = self.left()
         for extra in ([], ["--json"]):
-            running = self.start("query", self.tetrahedron, self.pyramid, "--batch", "-", "-o", self.path / "answers.csv", *extra,
+            running = self.start("query", self.tetrahedron, self.pyramid, "--batch", "-", "-o",
+                                 self.path / "answers.csv", *extra,
                                  stdin=subprocess.PIPE)
             running.stdin.write("0,0,0\n9,0,0\n9,9,0\n")
             running.stdin.flush()

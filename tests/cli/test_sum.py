@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette sum and its poses. Usage: test_sum.py COMMAND ANSWERS FAULTY [CLASS...]"""
+"""pirouette sum and its poses."""
 import math
 import xml.etree.ElementTree as ElementTree
 
@@ -66,7 +66,8 @@ class Sum(CommandTest):
              ["--axis", "1,1,1", "--angle", "120"])
 
     def test_walk_and_hull_write_the_same_bytes(self):
-        for p, q in ((self.tetrahedron, self.pyramid), ("shape:cube", "shape:cube"), (self.pyramid, "shape:icosahedron")):
+        for p, q in ((self.tetrahedron, self.pyramid), ("shape:cube", "shape:cube"),
+                     (self.pyramid, "shape:icosahedron")):
             for pose in self.POSES:
                 for extra in ([], ["--difference"]):
                     told = {}
@@ -110,7 +111,8 @@ class Sum(CommandTest):
                         told = self.data("sum", p, q, f"--quat={numbers(quat)}", "--method", method,
                                          *["--difference"] * difference)
                         self.assertEqual([told[k] for k in ("vertices", "edges", "facets")], library["mesh"])
-                        self.assertEqual([[told[k]] for k in ("fv", "vf", "ee")], [library[k] for k in ("fv", "vf", "ee")])
+                        self.assertEqual([[told[k]] for k in ("fv", "vf", "ee")],
+                                         [library[k] for k in ("fv", "vf", "ee")])
                         self.assertEqual((told["p"], told["q"], told["quat"]), (str(p), str(q), list(quat)))
                         self.assertEqual((told["difference"], told["method"]), (bool(difference), method))
                         self.assertGreater(told["seconds"], 0)
@@ -120,7 +122,8 @@ class Sum(CommandTest):
         for ending in (".off", ".svg", ".obj", ".stl", ".ply", ".OFF"):
             for exact in (0, 1) if ending == ".off" else (0,):
                 ours, library = self.path / f"ours{ending}", self.path / f"library{ending}"
-                args = ["sum", self.tetrahedron, "shape:gs2", f"--quat={numbers(quat)}", "-o", ours, *["--exact"] * exact]
+                args = ["sum", self.tetrahedron, "shape:gs2", f"--quat={numbers(quat)}", "-o", ours,
+                        *["--exact"] * exact]
                 if "no assimp" in self.run_command(*args).stderr:
                     continue
                 self.good(*args)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Arguments: subcommands, options, numbers, files that are no models. Usage: test_usage.py COMMAND ANSWERS FAULTY [CLASS...]"""
+"""Arguments: subcommands, options, numbers, files that are no models."""
 from command_test import CommandTest, TETRAHEDRON, main
 
 
