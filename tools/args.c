@@ -114,20 +114,18 @@ bool args_count(const struct args *args, const char *name, uint64_t least, uint6
     return true;
 }
 
-/* A finite number that takes up the whole of `text`. */
-static bool read_number(const struct args *args, const char *name, const char *text, double *ret_number) {
+/* A finite number that takes up the whole of `text`; `place` says which of several it is, or is empty. */
+static bool read_number(const struct args *args, const char *name, const char *place, const char *text,
+                        double *ret_number) {
     char *end;
     double value = strtod(text, &end);
-    if (end == text || *end != '\0' || isspace((unsigned char)text[0])) {
-        complain("%s: %s: '%s' is not a number", args->command->name, name, text);
-        return false;
+    bool is_number = end != text && *end == '\0' && !isspace((unsigned char)text[0]);
+    if (is_number && isfinite(value)) {
+        *ret_number = value;
+        return true;
     }
-    if (!isfinite(value)) {
-        complain("%s: %s: '%s' is not finite", args->command->name, name, text);
-        return false;
-    }
-    *ret_number = value;
-    return true;
+    complain("%s: %s: %s'%s' is not %s", args->command->name, name, place, text, is_number ? "finite" : "a number");
+    return false;
 }
 
 bool args_numbers(const struct args *args, const char *name, size_t count, double *numbers) {
@@ -144,14 +142,17 @@ bool args_numbers(const struct args *args, const char *name, size_t count, doubl
     }
     for (size_t i = 0; i < count; i++) {
         size_t length = strcspn(text, ",");
-        char part[NUMBER_LENGTH];
+        char part[NUMBER_LENGTH], place[64] = "";
+        if (count > 1)
+            snprintf(place, sizeof place, "number %zu of %zu, ", i + 1, count);
         if (length >= sizeof part) {
-            complain("%s: %s: a number of more than %d characters", args->command->name, name, NUMBER_LENGTH - 1);
+            complain("%s: %s: %sof more than %d characters", args->command->name, name, count > 1 ? place : "a number ",
+                     NUMBER_LENGTH - 1);
             return false;
         }
         memcpy(part, text, length);
         part[length] = '\0';
-        if (!read_number(args, name, part, &numbers[i]))
+        if (!read_number(args, name, place, part, &numbers[i]))
             return false;
         text += length + 1;
     }

@@ -76,15 +76,21 @@ static bool read_request(const struct args *args, struct request *request) {
     return target_check(args, "-o", args_has(args, "--batch") ? NULL : ".svg");
 }
 
-static pir_status ask(pir_query *query, const struct request *request, struct answer *answer) {
+/* Asks all that is asked for; *ret_option names the option that a failure is about. */
+static pir_status ask(pir_query *query, const struct request *request, struct answer *answer, const char **ret_option) {
     pir_query_cache cache = {0};
+    *ret_option = "--translate";
     pir_status status = pir_query_signed_distance(query, &request->input, &cache, &answer->result);
-    if (status == PIR_OK && request->has_direction)
+    if (status == PIR_OK && request->has_direction) {
+        *ret_option = "--direction";
         status = answer->result.state == PIR_INSIDE
                      ? pir_query_directional_depth(query, &request->input, request->direction, &answer->along)
                      : pir_query_directional_distance(query, &request->input, request->direction, &answer->along);
-    if (status == PIR_OK && request->casts)
+    }
+    if (status == PIR_OK && request->casts) {
+        *ret_option = "--cast";
         status = pir_query_cast(query, &request->input, request->motion, &answer->cast);
+    }
     return status;
 }
 
@@ -190,10 +196,11 @@ static void print_text(const struct args *args, const struct request *request, c
 static int run_one(const struct args *args, const struct request *request, pir_polytope *p, pir_polytope *q,
                    pir_query *query, int64_t start) {
     struct answer answer = {0};
-    pir_status status = ask(query, request, &answer);
+    const char *option;
+    pir_status status = ask(query, request, &answer, &option);
     answer.seconds = (double)(clock_now() - start) / 1e9;
     if (status != PIR_OK)
-        return complain_status("query", status, NULL);
+        return complain("query: %s: '%s': %s", option, args_value(args, option), pir_status_text(status));
     const char *file = args_value(args, "-o");
     if (file && !query_picture_write(file, p, q, request->rotation, request->input.translation, &answer.result))
         return EXIT_BAD_INPUT;

@@ -142,7 +142,7 @@ static bool answer_line(struct batch *batch, pir_query *query, pir_query_input *
     input->translation = (pir_vec3){v[0], v[1], v[2]};
     pir_status status = pir_query_signed_distance(query, input, cache, &r);
     if (status != PIR_OK)
-        return complain_at(batch, text, text, pir_status_text(status));
+        return complain_at(batch, text, text, status == PIR_ERR_LIMIT ? "x,y,z: too large" : pir_status_text(status));
     // + 0.0 turns −0 into 0
     fprintf(batch->out.stream, "%.17g,%.17g,%.17g,%s,%.17g,%.17g,%.17g,%.17g\n", v[0], v[1], v[2], state_names[r.state],
             r.distance, r.normal.x + 0.0, r.normal.y + 0.0, r.normal.z + 0.0);

@@ -2,6 +2,7 @@
 """What the tests of the `pirouette` command share: models, exact rotations, runs that must succeed or fail."""
 import json
 import os
+import re
 import select
 import subprocess
 import sys
@@ -85,7 +86,11 @@ class CommandTest(unittest.TestCase):
         return done.stdout
 
     def data(self, *args):
-        return json.loads(self.good(*args, "--json"))
+        """The object that a run prints: strict JSON, whose times are seconds or end in _ns."""
+        told = json.loads(self.good(*args, "--json"), parse_constant=self.fail)
+        self.assertEqual({key for key in told if re.search("time|second|_[munp]?s$", key)} - {"seconds"},
+                         {"update_ns", "rebuild_walk_ns", "rebuild_cgm_ns", "brute_ns"} & set(told))
+        return told
 
     def answers(self, kind, *args, **keys):
         """The library's own answers: a list of the values of each key, and of each row under "row"."""

@@ -20,10 +20,19 @@
 #include <cjson/cJSON.h>
 #include <pirouette/pirouette.h>
 
+/* The command has ended: what runs now, such as the writing of coverage, is not its own. */
+static bool has_ended;
+
+static void end(void) {
+    has_ended = true;
+}
+
 /* Whether this call, one of those that `kind` counts, is the one that fails. */
 static bool is_due(const char *kind) {
     static unsigned long calls, due;
     static const char *chosen;
+    if (has_ended)
+        return false;
     if (!chosen) {
         const char *fault = getenv("PIROUETTE_FAULT");
         chosen = fault ? fault : "";
@@ -68,7 +77,8 @@ char *__wrap_strdup(const char *text) {
     return is_out_of_memory() ? NULL : __real_strdup(text);
 }
 
-__attribute__((constructor)) static void count_json(void) {
+__attribute__((constructor)) static void start(void) {
+    atexit(end);
     cJSON_InitHooks(&(cJSON_Hooks){__wrap_malloc, free});
 }
 

@@ -23,6 +23,10 @@ class Info(CommandTest):
                 self.assertEqual([told[key]], library[key], (model, key))
             self.assertEqual([told["bounds"]["low"], told["bounds"]["high"]], [library["low"], library["high"]])
 
+    def test_what_is_not_finite_is_null(self):
+        told = self.data("info", self.file("large.off", "OFF 4 0 0 0 0 0 1e150 0 0 0 1e150 0 0 0 1e150"))
+        self.assertIsNone(told["volume"])
+
     def test_flat_bodies(self):
         for name, text, counts in (
                 ("square.off", "OFF\n4 0 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n", [2, 4, 4, 2]),

@@ -160,6 +160,11 @@ class Query(CommandTest):
             for text in ("-1", "-1e-300", "x", "inf", "1,2", ""):
                 self.bad(*pair, "--translate=0,0,0", f"{option}={text}", says=option)
         self.bad(*pair, "--translate=0,0,0", "--direction=0,-0,0", says=["--direction", "zero"])
+        # numbers that are finite, but not what is made of them
+        huge = "1.7e308,1.7e308,1.7e308"
+        self.bad(*pair, f"--translate={huge}", says=["--translate", huge, "too large"])
+        self.bad(*pair, "--batch", self.file("places.csv", f"0,0,0\n{huge}\n"), "-o", self.path / "a.csv",
+                 says=["places.csv:2:1: x,y,z: too large"])
         self.bad(*pair, "--translate=0,0,0", "-o", self.path / "picture.png", says=["-o", "picture.png", ".svg"])
         self.bad(*pair, "--translate=0,0,0", "-o", self.path / "no" / "picture.svg", says="picture.svg")
         self.bad("query", "shape:cube", self.path / "none.off", "--translate=0,0,0", says="none.off")
@@ -233,6 +238,7 @@ class Batch(CommandTest):
         self.bad(*pair, self.path / "none.csv", *out, says=["none.csv", "cannot open"])
         self.bad(*pair, self.path, *out, says="cannot read")
         self.bad(*pair, self.file("places.csv", "1,2,3"), says="-o")
+        self.bad(*pair, self.file("places.csv", "1,2,3"), "-o", "", says="cannot write: No such file")
         self.bad(*pair, self.file("places.csv", "1,2,3"), "-o", self.path / "no" / "a.csv", says="a.csv")
         self.assertFalse((self.path / "answers.csv").exists())
 

@@ -73,6 +73,18 @@ class Track(CommandTest):
             self.assertIn(word, text)
         self.assertRegex(text, r"verified +40 frames, 0 differ")
 
+    def test_long_runs_keep_times_by_size(self):
+        """Beyond 65536 frames the times are counted; the figures still hold together, and the chart says what it shows."""
+        args = ["track", "shape:tetrahedron", "shape:tetrahedron", "--axis=0,0,1", "--frames=70000"]
+        told = self.data(*args, "--plot", self.path / "plot.svg")
+        self.assertTrue(0 < told["update_ns"]["median"] <= told["update_ns"]["p99"] <= told["update_ns"]["max"])
+        self.assertEqual(told["updates"] + told["rebuilds"], 70000)
+        self.assertIn("side by side, one in 2<", (self.path / "plot.svg").read_text())
+
+    def test_bad_tolerances(self):
+        for text in ("-1", "-1e-300", "x", "nan", "", "1,2"):
+            self.bad("track", self.tetrahedron, self.pyramid, f"--tolerance={text}", says="--tolerance")
+
     def test_one_frame(self):
         self.assertEqual(self.data("track", "shape:cube", self.pyramid, "--frames", "1", "--verify")["mismatches"], 0)
 
@@ -293,6 +305,10 @@ class Plot(CommandTest):
             self.assertIn(word, words)
         self.assertNotIn("brute", self.plot(self.tetrahedron, self.pyramid, "--frames", "90")[1])
 
+    def test_the_axis_is_told(self):
+        self.assertIn("axis 0,1,0.5", self.plot(self.tetrahedron, self.pyramid, "--frames=5", "--axis=0,1,0.5")[1])
+        self.assertIn("a new random axis every 50 frames", self.plot(self.tetrahedron, self.pyramid, "--frames=5")[1])
+
     def test_one_frame_and_many(self):
         self.plot(self.tetrahedron, self.pyramid, "--frames", "1")
         few, _ = self.plot(self.tetrahedron, self.pyramid, "--frames", "400")
@@ -315,19 +331,31 @@ class Terminal(CommandTest):
         return master, slave
 
     def test_a_long_run_shows_its_progress_on_a_terminal_only(self):
+        """The bar, its parts and their agreement; wiped away before anything else is printed."""
         master, slave = self.open_terminal()
         started = time.monotonic()
         running = subprocess.Popen([self.command, "track", "shape:icosahedron", self.pyramid, "--frames", "5000000"],
                                    stdout=subprocess.DEVNULL, stderr=slave)
         os.close(slave)
         shown = b""
-        while b"\r[" not in shown and time.monotonic() - started < 30 and running.poll() is None:
+        while shown.count(b"\r[") < 3 and time.monotonic() - started < 30 and running.poll() is None:
             shown += read_terminal(master, 1)
-        waited = time.monotonic() - started
+            waited = time.monotonic() - started if shown.count(b"\r[") <= 1 else waited
         running.terminate()
         running.wait()
-        self.assertIn(b"of 5000000", shown)
-        self.assertGreater(waited, 0.9)
+        shown += read_terminal(master, 1)
+        bars = re.findall(rb"\r\[([#.]{30})\] +(\d+) %  (\d+) of 5000000, (\d+) s left\033\[K", shown)
+        self.assertGreaterEqual(len(bars), 3)
+        self.assertTrue(0.9 < waited < 15)
+        before = 0
+        for bar, percent, done, left in bars:
+            part = int(done) / 5000000
+            self.assertEqual((bar.rstrip(b"."), int(percent)), (b"#" * math.ceil(30 * part), round(100 * part)))
+            self.assertGreater(int(done), before)
+            before = int(done)
+            # the time that is left, by the time that it took until now
+            self.assertLess(int(left), 30 / part)
+        self.assertTrue(shown.endswith(b"\r\033[K"), shown[-80:])
 
     def test_a_short_run_shows_nothing(self):
         master, slave = self.open_terminal()

@@ -56,6 +56,18 @@ class BadNumbers(CommandTest):
             for form in (["--quat", text], [f"--quat={text}"]):
                 self.bad("sum", self.tetrahedron, self.pyramid, *form, says="--quat")
 
+    def test_the_number_that_is_wrong_is_named(self):
+        pair = ["sum", self.tetrahedron, self.pyramid]
+        for text, says in (("1,2,x,4", "number 3 of 4, 'x' is not a number"),
+                           ("1,,3,4", "number 2 of 4, '' is not a number"),
+                           ("1,2,3,inf", "number 4 of 4, 'inf' is not finite"),
+                           ("1,2,3", "'1,2,3' is 3 numbers, not 4"),
+                           ("7" * 200 + ",0,0,1", "number 1 of 4, of more than 127 characters")):
+            self.bad(*pair, f"--quat={text}", says=f"sum: --quat: {says}\n")
+        self.bad(*pair, "--axis=0,0,1", "--angle=1_0", says="sum: --angle: '1_0' is not a number\n")
+        self.bad(*pair, "--axis=0,0,1", "--angle=" + "1" * 128,
+                 says="sum: --angle: a number of more than 127 characters\n")
+
     def test_axes_and_angles(self):
         for axis in ("0,0,0", "1,0", "x,y,z", "nan,1,0", "random"):
             self.bad("sum", self.tetrahedron, self.pyramid, "--axis", axis, "--angle", "90", says="--axis")
