@@ -4,8 +4,8 @@
  * twice: as half-spaces, from the facets of both bodies and all pairs of their edges (place_make.c), and as the hull of all differences of
  * vertices (place_nearest.c). Nothing of the library is used but vertices as doubles.
  *
- * Integers: a rotated body has coordinates in units of 2^unit / |q|². A pose adds a power of two, `shift`, to hold the doubles of its
- * translation and direction too.
+ * Integers: a rotated body has coordinates in units of 2^unit / |q|². A pose has units smaller by a whole factor, `grain`, to hold the doubles of its
+ * translation and direction too, or a rational point.
  */
 #ifndef PIR_ORACLE_PLACE_H
 #define PIR_ORACLE_PLACE_H
@@ -47,7 +47,7 @@ typedef struct oracle_place {
     oracle_plane *plane; /* its facets; of a flat difference two for each plane it lies in, and its sides */
 
     /* the pose */
-    unsigned long shift;
+    mpz_t grain;       /* one unit of the difference in units of the pose */
     oracle_vec t, d;   /* translation, less first_q − first_p, and direction */
     oracle_real scale; /* one unit of the pose as a length */
     mpz_t *slack;      /* offset − normal · t of each plane */
@@ -106,6 +106,15 @@ double oracle_place_farthest(oracle_place *place);
 
 /* How far the difference reaches along a direction, less t; over the direction's length. */
 double oracle_place_reach(oracle_place *place, pir_vec3 direction);
+
+/* --- moving on from a pose that oracle_place_set set: only nearest points can be asked then --- */
+
+/* To the nearest point of the difference; to the foot on a plane; along the direction to a plane. */
+void oracle_place_to_nearest(oracle_place *place);
+void oracle_place_to_plane(oracle_place *place, uint32_t i);
+void oracle_place_along_to_plane(oracle_place *place, uint32_t i);
+
+/* --- of one body --- */
 
 /* Sets the pose, of P at `translation`, to one whose distances from {−a} and from {b} are those of `point` from P and from Q. */
 void oracle_place_set_point(oracle_place *place, pir_operand operand, pir_vec3 point, pir_vec3 translation);

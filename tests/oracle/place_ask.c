@@ -61,11 +61,12 @@ static void set_vector(oracle_place *o, oracle_vec r, pir_vec3 x, long unit) {
     }
 }
 
-/* The unit that holds both vectors and the bodies; sets shift and scale. */
+/* The unit that holds both vectors and the bodies; sets grain and scale. */
 static long take_unit(oracle_place *o, pir_vec3 x, pir_vec3 y) {
     const double c[6] = {x.x, x.y, x.z, y.x, y.y, y.z};
     long unit = oracle_unit(c, 6, o->unit);
-    o->shift = (unsigned long)(o->unit - unit);
+    mpz_set_ui(o->grain, 1);
+    mpz_mul_2exp(o->grain, o->grain, (mp_bitcnt_t)(o->unit - unit));
     o->scale = over((oracle_real){1, unit}, real_of(o->square));
     return unit;
 }
@@ -78,13 +79,13 @@ void oracle_place_set(oracle_place *o, pir_vec3 translation, pir_vec3 direction)
     set_vector(o, o->d, direction, unit);
     for (int k = 0; k < 3; k++) {
         mpz_sub(x, o->first_q[k], o->first_p[k]);
-        mpz_mul_2exp(x, x, o->shift);
+        mpz_mul(x, x, o->grain);
         mpz_sub(o->t[k], o->t[k], x);
     }
     for (uint32_t i = 0; i < o->plane_count; i++) {
         oracle_dot(o->rate[i], o->plane[i].normal, o->d);
         oracle_dot(x, o->plane[i].normal, o->t);
-        mpz_mul_2exp(o->slack[i], o->plane[i].offset, o->shift);
+        mpz_mul(o->slack[i], o->plane[i].offset, o->grain);
         mpz_sub(o->slack[i], o->slack[i], x);
     }
     mpz_clear(x);
@@ -100,7 +101,7 @@ void oracle_place_set_point(oracle_place *o, pir_operand operand, pir_vec3 point
         oracle_vec *first = operand == PIR_OPERAND_P ? &o->first_p : &o->first_q;
         mpz_t at;
         mpz_init(at);
-        mpz_mul_2exp(at, (*first)[k], o->shift);
+        mpz_mul(at, (*first)[k], o->grain);
         mpz_sub(o->t[k], o->t[k], at);
         if (operand == PIR_OPERAND_P) {
             // {−a} is looked at from first + translation − point
@@ -109,6 +110,34 @@ void oracle_place_set_point(oracle_place *o, pir_operand operand, pir_vec3 point
         mpz_clear(at);
     }
     oracle_vec_clear(x);
+}
+
+/* t + v·part / whole, whole > 0. */
+static void move(oracle_place *o, oracle_vec v, mpz_t part, mpz_t whole) {
+    for (int k = 0; k < 3; k++) {
+        mpz_mul(o->t[k], o->t[k], whole);
+        mpz_addmul(o->t[k], v[k], part);
+    }
+    mpz_mul(o->grain, o->grain, whole);
+}
+
+void oracle_place_to_plane(oracle_place *o, uint32_t i) {
+    mpz_t square;
+    mpz_init(square);
+    oracle_dot(square, o->plane[i].normal, o->plane[i].normal);
+    move(o, o->plane[i].normal, o->slack[i], square);
+    mpz_clear(square);
+}
+
+void oracle_place_along_to_plane(oracle_place *o, uint32_t i) {
+    mpz_t part, whole;
+    mpz_init_set(part, o->slack[i]);
+    mpz_init_set(whole, o->rate[i]);
+    if (mpz_sgn(whole) < 0)
+        mpz_neg(part, part);
+    mpz_abs(whole, whole);
+    move(o, o->d, part, whole);
+    mpz_clears(part, whole, NULL);
 }
 
 /* --- inside --- */
@@ -215,7 +244,7 @@ double oracle_place_farthest(oracle_place *o) {
         for (uint32_t j = 0; j < o->q->count; j++) {
             for (int k = 0; k < 3; k++) {
                 mpz_sub(y[k], o->b[j][k], o->a[i][k]);
-                mpz_mul_2exp(y[k], y[k], o->shift);
+                mpz_mul(y[k], y[k], o->grain);
                 mpz_sub(y[k], y[k], o->t[k]);
             }
             oracle_dot(square, y, y);
@@ -255,7 +284,7 @@ double oracle_place_reach(oracle_place *o, pir_vec3 direction) {
         mpz_add(most, most, best);
         mpz_clear(best);
     }
-    mpz_mul_2exp(most, most, o->shift);
+    mpz_mul(most, most, o->grain);
     oracle_dot(height, n, o->t);
     mpz_sub(most, most, height);
     oracle_dot(height, n, n);

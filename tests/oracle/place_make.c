@@ -424,6 +424,7 @@ oracle_place *oracle_place_make(const oracle_solid *p, const oracle_solid *q, pi
     find_planes(o);
     oracle_vec_init(o->t);
     oracle_vec_init(o->d);
+    mpz_init_set_ui(o->grain, 1);
     o->slack = oracle_new(o->plane_count, sizeof *o->slack);
     o->rate = oracle_new(o->plane_count, sizeof *o->rate);
     for (uint32_t i = 0; i < o->plane_count; i++)
@@ -446,7 +447,7 @@ void oracle_place_free(oracle_place *o) {
     for (int i = 0; i < 4; i++)
         oracle_vec_clear(*vectors[i]);
     oracle_quat_clear(o->quat);
-    mpz_clear(o->square);
+    mpz_clears(o->square, o->grain, NULL);
     void *blocks[9] = {o->a, o->b, o->near_a, o->near_b, o->only_p, o->only_q, o->plane, o->slack, o->rate};
     for (int i = 0; i < 9; i++)
         free(blocks[i]);

@@ -29,7 +29,11 @@ struct hull {
 
 static struct hull hull_of(const oracle_place *o, const oracle_set *p, const oracle_set *q) {
     struct hull h = {o, p, q, {0}};
-    oracle_near_at(h.t, ((oracle_place *)o)->t, o->exponent + (long)o->shift);
+    long e;
+    double m = mpz_get_d_2exp(&e, o->grain);
+    oracle_near_at(h.t, ((oracle_place *)o)->t, o->exponent + e);
+    for (int k = 0; k < 3; k++)
+        h.t[k] /= m;
     return h;
 }
 
@@ -160,33 +164,31 @@ double oracle_place_near(const oracle_place *o, const oracle_set *p, const oracl
     struct hull h = hull_of(o, p, q);
     struct simplex s;
     double distance = sqrt(descend_near(&h, &s));
-    return oracle_real_double((oracle_real){distance * o->scale.m, o->scale.e + o->exponent + (long)o->shift});
+    long e;
+    double m = mpz_get_d_2exp(&e, o->grain);
+    return oracle_real_double((oracle_real){distance * m * o->scale.m, o->scale.e + o->exponent + e});
 }
 
 /* --- exactly --- */
 
-/* The nearest point x = X / den of a simplex, seen from t. */
-struct foot {
-    oracle_vec x;
-    mpz_t den;
-};
-
 struct work {
     oracle_place *o;
     const oracle_set *p, *q;
-    oracle_vec y[4], u, v, n;
-    mpz_t r, s, square, best;
-    struct foot foot;
+    oracle_vec y[4], u, v, n, foot; /* the nearest point of a simplex, seen from t, is foot / den */
+    mpz_t r, s, square, best, den;
 };
 
-static void work_init(struct work *w) {
+static void work_init(struct work *w, oracle_place *o, const oracle_set *p, const oracle_set *q) {
+    w->o = o;
+    w->p = p;
+    w->q = q;
     for (int i = 0; i < 4; i++)
         oracle_vec_init(w->y[i]);
     oracle_vec_init(w->u);
     oracle_vec_init(w->v);
     oracle_vec_init(w->n);
-    oracle_vec_init(w->foot.x);
-    mpz_inits(w->r, w->s, w->square, w->best, w->foot.den, NULL);
+    oracle_vec_init(w->foot);
+    mpz_inits(w->r, w->s, w->square, w->best, w->den, NULL);
 }
 
 static void work_clear(struct work *w) {
@@ -195,28 +197,28 @@ static void work_clear(struct work *w) {
     oracle_vec_clear(w->u);
     oracle_vec_clear(w->v);
     oracle_vec_clear(w->n);
-    oracle_vec_clear(w->foot.x);
-    mpz_clears(w->r, w->s, w->square, w->best, w->foot.den, NULL);
+    oracle_vec_clear(w->foot);
+    mpz_clears(w->r, w->s, w->square, w->best, w->den, NULL);
 }
 
 static void at_exact(oracle_place *o, uint32_t i, uint32_t j, oracle_vec y) {
     for (int k = 0; k < 3; k++) {
         mpz_sub(y[k], o->b[j][k], o->a[i][k]);
-        mpz_mul_2exp(y[k], y[k], o->shift);
+        mpz_mul(y[k], y[k], o->grain);
         mpz_sub(y[k], y[k], o->t[k]);
     }
 }
 
 static bool foot_of_segment(struct work *w, oracle_vec *y0, oracle_vec *y1) {
     oracle_sub(w->u, *y1, *y0);
-    oracle_dot(w->foot.den, w->u, w->u);
+    oracle_dot(w->den, w->u, w->u);
     oracle_dot(w->r, w->u, *y0);
     mpz_neg(w->r, w->r);
-    if (mpz_sgn(w->r) < 0 || mpz_cmp(w->r, w->foot.den) > 0 || mpz_sgn(w->foot.den) == 0)
+    if (mpz_sgn(w->r) < 0 || mpz_cmp(w->r, w->den) > 0 || mpz_sgn(w->den) == 0)
         return false;
     for (int k = 0; k < 3; k++) {
-        mpz_mul(w->foot.x[k], w->foot.den, (*y0)[k]);
-        mpz_addmul(w->foot.x[k], w->r, w->u[k]);
+        mpz_mul(w->foot[k], w->den, (*y0)[k]);
+        mpz_addmul(w->foot[k], w->r, w->u[k]);
     }
     return true;
 }
@@ -225,8 +227,8 @@ static bool foot_of_triangle(struct work *w, oracle_vec *y[3]) {
     oracle_sub(w->u, *y[1], *y[0]);
     oracle_sub(w->v, *y[2], *y[0]);
     oracle_cross(w->n, w->u, w->v);
-    oracle_dot(w->foot.den, w->n, w->n);
-    if (mpz_sgn(w->foot.den) == 0)
+    oracle_dot(w->den, w->n, w->n);
+    if (mpz_sgn(w->den) == 0)
         return false;
     for (int i = 0; i < 3; i++) {
         oracle_cross(w->u, *y[(i + 1) % 3], *y[(i + 2) % 3]);
@@ -236,7 +238,7 @@ static bool foot_of_triangle(struct work *w, oracle_vec *y[3]) {
     }
     oracle_dot(w->r, w->n, *y[0]);
     for (int k = 0; k < 3; k++)
-        mpz_mul(w->foot.x[k], w->n[k], w->r);
+        mpz_mul(w->foot[k], w->n[k], w->r);
     return true;
 }
 
@@ -259,18 +261,18 @@ static bool foot_of_tetrahedron(struct work *w) {
         if (first == 0 || -mpz_sgn(w->s) * first < 0)
             return false;
     }
-    mpz_set_ui(w->foot.den, 1);
+    mpz_set_ui(w->den, 1);
     for (int k = 0; k < 3; k++)
-        mpz_set_ui(w->foot.x[k], 0);
+        mpz_set_ui(w->foot[k], 0);
     return true;
 }
 
 /* Whether no point of the simplex lies nearer than the foot: X · (y·den − X) ≥ 0. */
 static bool is_least(struct work *w, uint32_t count) {
-    oracle_dot(w->square, w->foot.x, w->foot.x);
+    oracle_dot(w->square, w->foot, w->foot);
     for (uint32_t i = 0; i < count; i++) {
-        oracle_dot(w->r, w->foot.x, w->y[i]);
-        mpz_mul(w->r, w->r, w->foot.den);
+        oracle_dot(w->r, w->foot, w->y[i]);
+        mpz_mul(w->r, w->r, w->den);
         if (mpz_cmp(w->r, w->square) < 0)
             return false;
     }
@@ -288,8 +290,8 @@ static bool foot_of_subset(struct work *w, const uint32_t *index, uint32_t count
     if (count == 2)
         return foot_of_segment(w, y[0], y[1]);
     for (int k = 0; k < 3; k++)
-        mpz_set(w->foot.x[k], (*y[0])[k]);
-    mpz_set_ui(w->foot.den, 1);
+        mpz_set(w->foot[k], (*y[0])[k]);
+    mpz_set_ui(w->den, 1);
     return true;
 }
 
@@ -337,7 +339,7 @@ static uint32_t least(struct work *w, bool of_p, const double near[3]) {
     for (uint32_t i = 0; i < count; i++) {
         if ((set && !oracle_set_has(set, i)) || sign * dot(near, all[i]) > low + CERTAIN)
             continue;
-        oracle_dot(w->r, w->foot.x, at[i]);
+        oracle_dot(w->r, w->foot, at[i]);
         if (!any || sign * mpz_cmp(w->r, w->best) < 0) {
             mpz_set(w->best, w->r);
             best = i;
@@ -350,14 +352,14 @@ static uint32_t least(struct work *w, bool of_p, const double near[3]) {
 /* Takes the vertex that lies farthest towards t into the simplex; false when none lies beyond the nearest point. */
 static bool step(struct work *w, struct simplex *s) {
     double near[3];
-    oracle_near(near, w->foot.x);
+    oracle_near(near, w->foot);
     uint32_t i = least(w, true, near), j = least(w, false, near), n = s->count;
     // the points of the simplex that are left, and the new one
     for (uint32_t k = 0; k < n; k++)
         at_exact(w->o, s->p[k], s->q[k], w->y[k]);
     at_exact(w->o, i, j, w->y[n]);
-    oracle_dot(w->r, w->foot.x, w->y[n]);
-    mpz_mul(w->r, w->r, w->foot.den);
+    oracle_dot(w->r, w->foot, w->y[n]);
+    mpz_mul(w->r, w->r, w->den);
     if (mpz_cmp(w->r, w->square) >= 0)
         return false;
     s->p[n] = i;
@@ -366,29 +368,49 @@ static bool step(struct work *w, struct simplex *s) {
     return true;
 }
 
-oracle_nearest oracle_place_nearest(oracle_place *o, const oracle_set *p, const oracle_set *q) {
-    struct hull h = hull_of(o, p, q);
-    struct simplex s;
-    struct work w = {.o = o, .p = p, .q = q};
-    descend_near(&h, &s);
-    work_init(&w);
-    for (uint32_t i = 0; i < s.count; i++)
-        at_exact(o, s.p[i], s.q[i], w.y[i]);
-    do
-        reduce(&w, &s);
-    while (mpz_sgn(w.square) != 0 && step(&w, &s));
-    oracle_nearest nearest = {.count = s.count, .apart = mpz_sgn(w.square) != 0};
-    memcpy(nearest.p, s.p, sizeof s.p);
-    memcpy(nearest.q, s.q, sizeof s.q);
+/* Distance and normal from the foot, not 0. */
+static void round_foot(struct work *w, oracle_nearest *nearest) {
     double near[3];
     long e, f;
-    if (nearest.apart) {
-        oracle_near(near, w.foot.x);
-        double length = sqrt(dot(near, near)), m = mpz_get_d_2exp(&e, w.square), d = mpz_get_d_2exp(&f, w.foot.den);
-        nearest.normal = (pir_vec3){-near[0] / length, -near[1] / length, -near[2] / length};
-        oracle_real root = e % 2 == 0 ? (oracle_real){sqrt(m), e / 2} : (oracle_real){sqrt(2 * m), (e - 1) / 2};
-        nearest.distance = oracle_real_double((oracle_real){root.m / d * o->scale.m, root.e - f + o->scale.e});
+    oracle_near(near, w->foot);
+    double length = sqrt(dot(near, near)), m = mpz_get_d_2exp(&e, w->square), d = mpz_get_d_2exp(&f, w->den);
+    nearest->normal = (pir_vec3){-near[0] / length, -near[1] / length, -near[2] / length};
+    oracle_real root = e % 2 == 0 ? (oracle_real){sqrt(m), e / 2} : (oracle_real){sqrt(2 * m), (e - 1) / 2};
+    nearest->distance = oracle_real_double((oracle_real){root.m / d * w->o->scale.m, root.e - f + w->o->scale.e});
+}
+
+/* The nearest point of a hull; t goes there when `moves`. */
+static oracle_nearest find(oracle_place *o, const oracle_set *p, const oracle_set *q, bool moves) {
+    struct work *w = oracle_new(1, sizeof *w);
+    struct hull h = hull_of(o, p, q);
+    struct simplex s;
+    work_init(w, o, p, q);
+    descend_near(&h, &s);
+    for (uint32_t i = 0; i < s.count; i++)
+        at_exact(o, s.p[i], s.q[i], w->y[i]);
+    do
+        reduce(w, &s);
+    while (mpz_sgn(w->square) != 0 && step(w, &s));
+    oracle_nearest nearest = {.apart = mpz_sgn(w->square) != 0, .count = s.count};
+    memcpy(nearest.p, s.p, sizeof s.p);
+    memcpy(nearest.q, s.q, sizeof s.q);
+    if (nearest.apart)
+        round_foot(w, &nearest);
+    for (int k = 0; k < 3 && moves; k++) {
+        mpz_mul(o->t[k], o->t[k], w->den);
+        mpz_add(o->t[k], o->t[k], w->foot[k]);
     }
-    work_clear(&w);
+    if (moves)
+        mpz_mul(o->grain, o->grain, w->den);
+    work_clear(w);
+    free(w);
     return nearest;
+}
+
+oracle_nearest oracle_place_nearest(oracle_place *o, const oracle_set *p, const oracle_set *q) {
+    return find(o, p, q, false);
+}
+
+void oracle_place_to_nearest(oracle_place *o) {
+    find(o, NULL, NULL, true);
 }

@@ -46,36 +46,48 @@ static double distance_of(exact_pair *pair, pir_operand operand, const oracle_se
     return oracle_place_nearest(o, p, q).distance;
 }
 
-/* Whether an edge or a vertex of the feature holds the point exactly. */
-static int is_held_by_less(exact_pair *pair, pir_operand operand, pir_feature feature, const oracle_set *set) {
-    const oracle_solid *s = solid_of(pair, operand);
-    oracle_set *less = oracle_new(s->words, sizeof *less);
-    int held = 0;
-    for (uint32_t e = 0; feature.kind == PIR_FEATURE_FACET && e < s->edge_count && !held; e++) {
-        if (!oracle_set_has(set, s->edge[e][0]) || !oracle_set_has(set, s->edge[e][1]))
-            continue;
-        memset(less, 0, s->words * sizeof *less);
-        oracle_set_put(less, s->edge[e][0]);
-        oracle_set_put(less, s->edge[e][1]);
-        held = distance_of(pair, operand, less, 0) == 0;
-    }
-    for (uint32_t v = 0; feature.kind == PIR_FEATURE_EDGE && v < s->count && !held; v++) {
-        if (!oracle_set_has(set, v))
-            continue;
-        memset(less, 0, s->words * sizeof *less);
-        oracle_set_put(less, v);
-        held = distance_of(pair, operand, less, 0) == 0;
-    }
-    free(less);
-    return held;
+/* Whether the lesser face holds the point exactly. */
+static int less_holds(exact_pair *pair, pir_operand operand, oracle_set *less, uint32_t i, uint32_t j) {
+    memset(less, 0, solid_of(pair, operand)->words * sizeof *less);
+    oracle_set_put(less, i);
+    oracle_set_put(less, j);
+    return distance_of(pair, operand, less, 0) == 0;
 }
 
-void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point, pir_vec3 translation,
-                       double tolerance) {
+/* An edge or a vertex of the feature that holds the point exactly, into `less`; 0 when there is none. */
+static int find_less(exact_pair *pair, pir_operand operand, pir_feature feature, const oracle_set *set,
+                     oracle_set *less) {
+    const oracle_solid *s = solid_of(pair, operand);
+    for (uint32_t v = 0; feature.kind != PIR_FEATURE_VERTEX && v < s->count; v++)
+        if (oracle_set_has(set, v) && less_holds(pair, operand, less, v, v))
+            return 1;
+    for (uint32_t e = 0; feature.kind == PIR_FEATURE_FACET && e < s->edge_count; e++)
+        if (oracle_set_has(set, s->edge[e][0]) && oracle_set_has(set, s->edge[e][1]) &&
+            less_holds(pair, operand, less, s->edge[e][0], s->edge[e][1]))
+            return 1;
+    return 0;
+}
+
+/* Whether bodies can meet, exactly, with a point of this face of the operand. */
+static int can_meet_on(exact_pair *pair, pir_operand operand, const oracle_set *face, const exact_contact *contact) {
+    oracle_place *o = pair->place;
+    oracle_place_set(o, contact->t, contact->direction);
+    if (contact->way == EXACT_NEAREST)
+        oracle_place_to_nearest(o);
+    else if (contact->way == EXACT_TO_PLANE)
+        oracle_place_to_plane(o, contact->plane);
+    else
+        oracle_place_along_to_plane(o, contact->plane);
+    return operand == PIR_OPERAND_P ? !oracle_place_nearest(o, face, NULL).apart
+                                    : !oracle_place_nearest(o, NULL, face).apart;
+}
+
+void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point,
+                       const exact_contact *contact, double tolerance) {
     const oracle_solid *s = solid_of(pair, operand);
     const char *name = operand == PIR_OPERAND_P ? "P" : "Q";
-    oracle_set *set = oracle_new(s->words, sizeof *set);
-    oracle_place_set_point(pair->place, operand, point, translation);
+    oracle_set *set = oracle_new(s->words, sizeof *set), *less = oracle_new(s->words, sizeof *less);
+    oracle_place_set_point(pair->place, operand, point, contact->there);
     if (!oracle_solid_feature(s, polytope_of(pair, operand), feature, set)) {
         exact_check(EXACT_HOLDS, 0, "%s has no feature %d %u", name, (int)feature.kind, feature.index);
     } else {
@@ -83,10 +95,13 @@ void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature featur
         exact_check(EXACT_HOLDS, away <= tolerance,
                     "point (%.17g, %.17g, %.17g) is %.3g of the size off feature %d %u of %s", point.x, point.y,
                     point.z, away / pair->size, (int)feature.kind, feature.index, name);
-        exact_check(EXACT_LEAST, away > tolerance || !is_held_by_less(pair, operand, feature, set),
+        int lies_on_less = away <= tolerance && find_less(pair, operand, feature, set, less);
+        exact_check(EXACT_LEAST, !lies_on_less || !can_meet_on(pair, operand, less, contact),
                     "point (%.17g, %.17g, %.17g) is on a lesser face of feature %d %u of %s", point.x, point.y, point.z,
                     (int)feature.kind, feature.index, name);
     }
+    oracle_place_set(pair->place, contact->t, contact->direction);
+    free(less);
     free(set);
 }
 
@@ -166,6 +181,15 @@ static double turn_from(const oracle_plane *plane, pir_vec3 normal) {
     return exact_length((pir_vec3){normal.x - plane->near[0], normal.y - plane->near[1], normal.z - plane->near[2]});
 }
 
+/* The plane whose normal is the nearest. */
+static uint32_t plane_of(const oracle_place *o, pir_vec3 normal) {
+    uint32_t best = 0;
+    for (uint32_t i = 1; i < o->plane_count; i++)
+        if (turn_from(&o->plane[i], normal) < turn_from(&o->plane[best], normal))
+            best = i;
+    return best;
+}
+
 /* The normal of a depth is that of the facet which the rule puts first among those that tie. */
 static void check_tie(const exact_pair *pair, uint32_t deepest, const pir_query_result *r) {
     const oracle_place *o = pair->place;
@@ -203,7 +227,7 @@ static void check_tie(const exact_pair *pair, uint32_t deepest, const pir_query_
 
 /* --- a pose --- */
 
-static int same_bits(const pir_query_result *a, const pir_query_result *b) {
+int exact_same_bits(const pir_query_result *a, const pir_query_result *b) {
     return a->state == b->state && a->outcome == b->outcome &&
            memcmp(&a->distance, &b->distance, sizeof a->distance) == 0 &&
            memcmp(&a->normal, &b->normal, sizeof a->normal) == 0 &&
@@ -213,7 +237,7 @@ static int same_bits(const pir_query_result *a, const pir_query_result *b) {
 }
 
 static void expect_same(const char *how, const pir_query_result *a, const pir_query_result *b) {
-    exact_check(EXACT_CACHE, same_bits(a, b),
+    exact_check(EXACT_CACHE, exact_same_bits(a, b),
                 "%s: state %d %d, distance %.17g %.17g, normal (%.17g, %.17g, %.17g) (%.17g, %.17g, %.17g), point_p "
                 "(%.17g, %.17g, %.17g) (%.17g, %.17g, %.17g), witness %d %u, %d %u and %d %u, %d %u",
                 how, (int)a->state, (int)b->state, a->distance, b->distance, a->normal.x, a->normal.y, a->normal.z,
@@ -282,9 +306,25 @@ static void check_points(exact_pair *pair, const exact_pose *pose, const pir_que
                 "point_p is not point_q + distance · normal by %.3g of coordinates", exact_length(miss) / coordinates);
     exact_check(EXACT_NORMAL, fabs(exact_length(r->normal) - 1) <= 4e-15, "the normal's length is 1 + %.3g",
                 exact_length(r->normal) - 1);
+    exact_contact contact = {.t = pose->t, .direction = pose->direction, .there = pose->t};
+    if (pose->state == PIR_INSIDE) {
+        contact.way = EXACT_TO_PLANE;
+        contact.plane = plane_of(pair->place, r->normal);
+    }
     double tolerance = 0x1p-50 * coordinates + 1e-14 * pair->size;
-    exact_check_holds(pair, PIR_OPERAND_P, r->witness.p, r->point_p, pose->t, tolerance);
-    exact_check_holds(pair, PIR_OPERAND_Q, r->witness.q, r->point_q, pose->t, tolerance);
+    exact_check_holds(pair, PIR_OPERAND_P, r->witness.p, r->point_p, &contact, tolerance);
+    exact_check_holds(pair, PIR_OPERAND_Q, r->witness.q, r->point_q, &contact, tolerance);
+}
+
+/* Overlap's normal, where there is one, is that of a facet which has t on its outer side. */
+static void check_separating(exact_pair *pair, const pir_query_result *r) {
+    if (exact_length(r->normal) == 0)
+        return;
+    double turn = turn_from(&pair->place->plane[plane_of(pair->place, r->normal)], r->normal);
+    double reach = oracle_place_reach(pair->place, r->normal);
+    exact_check(EXACT_NORMAL, reach <= 1e-15 * pair->size, "the difference reaches %.3g along overlap's normal", reach);
+    exact_check(EXACT_NORMAL, pair->place->dimension < 3 || turn <= 1e-12, "overlap's normal is %.3g off every facet's",
+                turn);
 }
 
 void exact_check_pose(exact_pair *pair, test_random *random, exact_pose *pose) {
@@ -293,8 +333,10 @@ void exact_check_pose(exact_pair *pair, test_random *random, exact_pose *pose) {
     oracle_place_set(o, pose->t, pose->direction);
     pose->state = oracle_place_state(o);
     ask_all_ways(pair, random, pose, r);
-    if (pose->limit)
+    if (pose->limit) {
+        exact_check(EXACT_STATE, exact_largest(pose->t) > 0x1p390 * pair->size, "refused as too far");
         return;
+    }
     pose->answer = r[0];
     if (pose->state != PIR_OUTSIDE)
         exact_check(EXACT_ORACLE, !oracle_place_nearest(o, NULL, NULL).apart,
@@ -314,6 +356,7 @@ void exact_check_pose(exact_pair *pair, test_random *random, exact_pose *pose) {
                      exact_length(exact_add(r[0].normal, nearest.normal, -1)), 0, scale / nearest.distance);
         exact_check(EXACT_DEPTH, r[1].distance == 0, "penetration %.17g, not 0", r[1].distance);
         check_points(pair, pose, &r[2]);
+        check_separating(pair, &r[3]);
     }
     if (pose->state == PIR_INSIDE) {
         uint32_t deepest = oracle_place_deepest(o);

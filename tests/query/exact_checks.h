@@ -41,9 +41,29 @@ void exact_check_others(exact_pair *pair, test_random *random, const exact_pose 
 
 /* --- what these share --- */
 
-/* Whether a feature of an operand holds a point, P standing at `translation`: the distance is at most `tolerance`. */
-void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point, pir_vec3 translation,
-                       double tolerance);
+/* Where bodies meet, exactly: at the point of the difference that is nearest to t, at the foot of t on a plane, or along the direction at one. */
+typedef enum exact_way {
+    EXACT_NEAREST = 0,
+    EXACT_TO_PLANE,
+    EXACT_ALONG,
+} exact_way;
+
+typedef struct exact_contact {
+    exact_way way;
+    uint32_t plane;
+    pir_vec3 t, direction; /* the pose */
+    pir_vec3 there;        /* where P then is: t, or moved along the direction, rounded */
+} exact_contact;
+
+/*
+ * Whether a feature of an operand holds a point of contact: the distance is at most `tolerance`. And that it is a least face that does: where
+ * the point lies exactly on a lesser one, bodies cannot meet there, exactly: then it was rounding that moved it.
+ */
+void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point,
+                       const exact_contact *contact, double tolerance);
+
+/* All of two answers but their steps. */
+int exact_same_bits(const pir_query_result *a, const pir_query_result *b);
 
 double exact_length(pir_vec3 v);
 pir_vec3 exact_add(pir_vec3 a, pir_vec3 b, double s);

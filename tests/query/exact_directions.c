@@ -1,33 +1,51 @@
 /* SPDX-License-Identifier: MIT */
 /* See exact_checks.h: along a direction. */
 #include <math.h>
+#include <string.h>
 
 #include "query/exact_checks.h"
 #include "query/exact_report.h"
 
-/* The normal at t + s·d is that of a plane which passes there, or lies between such. */
-static void check_normal(exact_pair *pair, const exact_pose *pose, double s, pir_vec3 normal, double scale) {
+/* What a query says of the contact at t + s·d. */
+struct said {
+    pir_vec3 point, normal;
+    pir_witness witness;
+};
+
+/* The normal is that of a plane which passes there, or lies between such. */
+static void check_normal(exact_pair *pair, const exact_contact *contact, pir_vec3 normal, double scale) {
     oracle_place *o = pair->place;
-    pir_vec3 there = exact_add(pose->t, pose->direction, s);
-    double coordinates = fmax(pair->reach, exact_largest(there));
-    oracle_place_set(o, there, (pir_vec3){0, 0, 0});
+    double coordinates = fmax(pair->reach, exact_largest(contact->there));
+    oracle_place_set(o, contact->there, (pir_vec3){0, 0, 0});
     double reach = oracle_place_reach(o, normal);
     exact_check(EXACT_CONTACT, fabs(exact_length(normal) - 1) <= 4e-15, "the normal's length is 1 + %.3g",
                 exact_length(normal) - 1);
     exact_check(EXACT_CONTACT, fabs(reach) <= 4e-12 * scale + 0x1p-48 * coordinates,
                 "the difference reaches %.3g of the scale beyond the contact along its normal (%g, %g, %g)",
                 reach / scale, normal.x, normal.y, normal.z);
-    oracle_place_set(o, pose->t, pose->direction);
+    oracle_place_set(o, contact->t, contact->direction);
 }
 
-static void check_contact(exact_pair *pair, const exact_pose *pose, double s, pir_vec3 point, pir_witness witness,
-                          double scale) {
-    pir_vec3 there = exact_add(pose->t, pose->direction, s);
-    double coordinates = fmax(pair->reach, fmax(exact_largest(there), exact_largest(point)));
+/* The contact at time s, through plane i where the motion gets to one. */
+static void check_contact(exact_pair *pair, const exact_pose *pose, double s, uint32_t i, const struct said *said) {
+    double scale = pair->size + s * exact_length(pose->direction);
+    exact_contact contact = {s > 0 ? EXACT_ALONG : EXACT_NEAREST, i, pose->t, pose->direction,
+                             exact_add(pose->t, pose->direction, s)};
+    double coordinates = fmax(pair->reach, fmax(exact_largest(contact.there), exact_largest(said->point)));
     double tolerance = 2e-12 * scale + 0x1p-49 * coordinates;
-    exact_check_holds(pair, PIR_OPERAND_P, witness.p, point, there, tolerance);
-    exact_check_holds(pair, PIR_OPERAND_Q, witness.q, point, there, tolerance);
-    oracle_place_set(pair->place, pose->t, pose->direction);
+    check_normal(pair, &contact, said->normal, scale);
+    exact_check_holds(pair, PIR_OPERAND_P, said->witness.p, said->point, &contact, tolerance);
+    exact_check_holds(pair, PIR_OPERAND_Q, said->witness.q, said->point, &contact, tolerance);
+}
+
+/* The same from a query that has no history of other rotations, bit for bit. */
+static void check_same(exact_pair *pair, const exact_pose *pose, const char *name,
+                       pir_status (*ask)(pir_query *, const pir_query_input *, pir_vec3, pir_query_result *),
+                       const pir_query_result *r) {
+    pir_query_result other;
+    pir_status status = ask(pair->fresh, &pose->input, pose->direction, &other);
+    exact_check(EXACT_CACHE, status == PIR_OK && exact_same_bits(r, &other), "%s: %.17g and %.17g", name, r->distance,
+                other.distance);
 }
 
 static void check_exit(exact_pair *pair, const exact_pose *pose, const oracle_ray *ray, double length) {
@@ -37,6 +55,7 @@ static void check_exit(exact_pair *pair, const exact_pose *pose, const oracle_ra
                 "directional depth: status %d, state %d, not %d", (int)status, (int)r.state, (int)pose->state);
     if (status != PIR_OK)
         return;
+    check_same(pair, pose, "directional depth", pir_query_directional_depth, &r);
     exact_check(EXACT_STATE, (r.outcome == PIR_NO_HIT) == (pose->state != PIR_INSIDE),
                 "directional depth: outcome %d in state %d", (int)r.outcome, (int)pose->state);
     if (pose->state != PIR_INSIDE)
@@ -45,8 +64,7 @@ static void check_exit(exact_pair *pair, const exact_pose *pose, const oracle_ra
     exact_number(EXACT_EXIT, "directional depth", r.distance, -should, pair->size + should);
     if (fabs(r.distance + should) > 1e-12 * (pair->size + should))
         return;
-    check_normal(pair, pose, ray->leave, r.normal, pair->size);
-    check_contact(pair, pose, ray->leave, r.point_p, r.witness, pair->size);
+    check_contact(pair, pose, ray->leave, ray->last, &(struct said){r.point_p, r.normal, r.witness});
 }
 
 static void check_approach(exact_pair *pair, const exact_pose *pose, const oracle_ray *ray, double length) {
@@ -56,6 +74,7 @@ static void check_approach(exact_pair *pair, const exact_pose *pose, const oracl
                 "directional distance: status %d, state %d, not %d", (int)status, (int)r.state, (int)pose->state);
     if (status != PIR_OK)
         return;
+    check_same(pair, pose, "directional distance", pir_query_directional_distance, &r);
     exact_check(EXACT_APPROACH_OUTCOME, (r.outcome == PIR_NO_HIT) == !ray->meets,
                 "directional distance: outcome %d at %.17g of the size; exactly: %s at %.17g, state %d", (int)r.outcome,
                 r.distance / pair->size, ray->meets ? "meets" : "never meets", ray->enter * length / pair->size,
@@ -66,8 +85,7 @@ static void check_approach(exact_pair *pair, const exact_pose *pose, const oracl
     exact_number(EXACT_APPROACH, "directional distance", r.distance, should, pair->size + should);
     if (pose->state != PIR_OUTSIDE || fabs(r.distance - should) > 1e-12 * (pair->size + should))
         return;
-    check_normal(pair, pose, ray->enter, r.normal, pair->size + should);
-    check_contact(pair, pose, ray->enter, r.point_p, r.witness, pair->size + should);
+    check_contact(pair, pose, ray->enter, ray->first, &(struct said){r.point_p, r.normal, r.witness});
 }
 
 static pir_cast_outcome right_outcome(const exact_pose *pose, const oracle_ray *ray, double length) {
@@ -86,6 +104,15 @@ static void check_cast(exact_pair *pair, const exact_pose *pose, const oracle_ra
     exact_check(EXACT_STATE, status == PIR_OK, "cast: status %d", (int)status);
     if (status != PIR_OK)
         return;
+    pir_cast_result other;
+    status = pir_query_cast(pair->fresh, &pose->input, pose->direction, &other);
+    exact_check(EXACT_CACHE,
+                status == PIR_OK && other.outcome == r.outcome && memcmp(&other.time, &r.time, sizeof r.time) == 0 &&
+                    memcmp(&other.normal, &r.normal, sizeof r.normal) == 0 &&
+                    memcmp(&other.point, &r.point, sizeof r.point) == 0 &&
+                    memcmp(&other.witness, &r.witness, sizeof r.witness) == 0,
+                "cast: outcomes %d and %d, times %.17g and %.17g", (int)r.outcome, (int)other.outcome, r.time,
+                other.time);
     pir_cast_outcome right = right_outcome(pose, ray, length);
     exact_check(EXACT_CAST_OUTCOME, r.outcome == right,
                 "cast: outcome %d, not %d, time %.17g; exactly %.17g to %.17g, state %d, distance %.3g of the size",
@@ -99,8 +126,7 @@ static void check_cast(exact_pair *pair, const exact_pose *pose, const oracle_ra
                      should * (length / pair->size), 1 + should * (length / pair->size));
     if (right != PIR_CAST_HIT || fabs(r.time - should) * length > 1e-12 * (pair->size + should * length))
         return;
-    check_normal(pair, pose, should, r.normal, pair->size + should * length);
-    check_contact(pair, pose, should, r.point, r.witness, pair->size + should * length);
+    check_contact(pair, pose, should, ray->first, &(struct said){r.point, r.normal, r.witness});
 }
 
 void exact_check_directions(exact_pair *pair, const exact_pose *pose) {

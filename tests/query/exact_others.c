@@ -72,8 +72,9 @@ static void check_farthest(exact_pair *pair, const exact_pose *pose) {
     exact_check(EXACT_FARTHEST, r.witness.p.kind == PIR_FEATURE_VERTEX && r.witness.q.kind == PIR_FEATURE_VERTEX,
                 "witness of kinds %d, %d", (int)r.witness.p.kind, (int)r.witness.q.kind);
     double tolerance = 0x1p-50 * coordinates + 1e-14 * pair->size;
-    exact_check_holds(pair, PIR_OPERAND_P, r.witness.p, r.point_p, pose->t, tolerance);
-    exact_check_holds(pair, PIR_OPERAND_Q, r.witness.q, r.point_q, pose->t, tolerance);
+    exact_contact contact = {.t = pose->t, .there = pose->t};
+    exact_check_holds(pair, PIR_OPERAND_P, r.witness.p, r.point_p, &contact, tolerance);
+    exact_check_holds(pair, PIR_OPERAND_Q, r.witness.q, r.point_q, &contact, tolerance);
 }
 
 static void check_rounded(exact_pair *pair, test_random *random, const exact_pose *pose) {
