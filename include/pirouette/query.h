@@ -20,8 +20,12 @@
  * the region has no facet, or none that the direction leads out through. All other calls, and rounding radii, are
  * PIR_ERR_UNSUPPORTED on such a sum. The answer depends on placement and region, not on what else the sum keeps.
  *
- * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast an answer is found,
- * never which. Threads: a query belongs to one thread at a time, that of its sum. No call allocates once the query has seen as many
+ * One answer: an answer depends on the bodies, the rotation and the input alone. Every number and witness is the same, bit for bit, with any
+ * cache or none, whatever was asked before, and in a batch; only `steps` tells of the way there.
+ *
+ * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast an answer is found.
+ *
+ * Threads: a query belongs to one thread at a time, that of its sum. No call allocates once the query has seen as many
  * ee pairs as it will, and a batch where there are to be batches; no loop is without a bound.
  *
  * Lifetimes: a query holds references to its sum and to the operands, so they may be destroyed before it. It then goes
@@ -55,7 +59,7 @@ typedef enum pir_outcome {
     PIR_SEPARATED = 0, /**< the bodies share no point; numbers are those of the separation */
     PIR_TOUCHING,      /**< they share a point, no interiors do; distance is 0 */
     PIR_OVERLAPPING,   /**< interiors meet; numbers are those of the penetration */
-    PIR_BEYOND_CUTOFF, /**< separated by more than the cutoff: distance is a proven lower bound, points are not set */
+    PIR_BEYOND_CUTOFF, /**< separated by more than the cutoff: distance is the cutoff, normal and points are not set */
     PIR_NO_HIT,        /**< a cast or a direction that meets nothing, or recedes */
     PIR_STEP_LIMIT,    /**< the bound on steps was reached; the state is exact, other numbers are the best so far */
     PIR_NOT_SEPARATED, /**< on a sum with a region: none of its facets there separates the bodies; see below */
@@ -74,7 +78,12 @@ typedef struct pir_feature {
     uint32_t index;
 } pir_feature;
 
-/** The features of P and Q that attain an answer: their least faces that hold the two points. */
+/**
+ * The features of P and Q that attain an answer: the least faces that hold the two points. The points are exact ones, of which the
+ * result holds the nearest doubles, and the faces are decided exactly. Where parallel features leave more than one pair of points, it is the vertex
+ * of Q of lowest index that lies on P's face; else the vertex of P of lowest index that lies on Q's; else the first edges that cross, by rising edge of P,
+ * then of Q.
+ */
 typedef struct pir_witness {
     pir_feature p, q;
 } pir_witness;
@@ -118,7 +127,7 @@ PIR_API pir_status pir_query_create(pir_sum *difference, pir_query **ret_query);
 /** Frees, and gives its references back; NULL is accepted. */
 PIR_API void pir_query_destroy(pir_query *query);
 
-/** Overlap: state and outcome, exact; witness and normal of a facet of the difference that shows it where one does; no distance. */
+/** Overlap: state and outcome, exact. On the boundary normal, points and witness are those of the contact; else they are not set. No distance. */
 PIR_API pir_status pir_query_overlap(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                      pir_query_result *ret_result);
 
@@ -131,8 +140,9 @@ PIR_API pir_status pir_query_distance(pir_query *query, const pir_query_input *i
                                       pir_query_result *ret_result);
 
 /**
- * The penetration depth: the least translation of P that ends the overlap, the minimum over every facet of the difference. Where facets
- * tie, within 2^-40 of the size of the bodies, the first wins: fv before vf before ee, then the lower index of P, then of Q.
+ * The penetration depth: the least translation of P that ends the overlap, the minimum over every facet of the difference. Which is least is
+ * decided exactly. Of facets that tie exactly the first wins: those on which a facet of P lies, by its index; then those on which a facet of Q
+ * lies, by its index; then those of two edges, by P's index, then by Q's.
  * Where the bodies do not overlap the distance is 0, and the outcome says why.
  */
 PIR_API pir_status pir_query_penetration(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
@@ -151,7 +161,8 @@ typedef struct pir_escape {
 
 /**
  * Every facet of the difference through which P leaves by at most the depth plus `slack` (≥ 0), in the order of the tie rule: up to
- * `capacity` go to `ret_escapes`, *ret_count is how many there are. None unless the bodies overlap.
+ * `capacity` go to `ret_escapes`, *ret_count is how many there are. None unless the bodies overlap. A witness here names the faces of P and Q that
+ * make the facet. Within 2^-44 of the size of the bodies a facet counts as within `slack`. O(size of the sum) for each.
  */
 PIR_API pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, double slack, size_t capacity,
                                      pir_escape *ret_escapes, size_t *ret_count);
@@ -164,14 +175,17 @@ PIR_API pir_status pir_query_escapes(pir_query *query, const pir_query_input *in
 PIR_API pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                                pir_query_result *ret_result);
 
-/** How far P moves along `direction` until it touches Q; 0 where it touches or overlaps already, PIR_NO_HIT when it never does. */
+/**
+ * How far P moves along `direction` until it touches Q; 0 where it touches or overlaps already, PIR_NO_HIT when it never does. Whether it does is exact: to
+ * graze is to touch, to slide along a face with any gap at all is not.
+ */
 PIR_API pir_status pir_query_directional_distance(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                                   pir_query_result *ret_result);
 
 typedef enum pir_cast_outcome {
     PIR_CAST_HIT = 0,      /**< touches at `time` in [0, 1] */
     PIR_CAST_MISS,         /**< never within the motion */
-    PIR_CAST_RECEDING,     /**< touches at the start and moves apart, or along: time 0, nothing to stop */
+    PIR_CAST_RECEDING,     /**< touches at the start and moves apart, along, or not at all: time 0, nothing to stop */
     PIR_CAST_START_INSIDE, /**< overlaps at the start: time 0, normal of the least penetration */
     PIR_CAST_AT_REST,      /**< motion zero and no contact */
     PIR_CAST_STEP_LIMIT,   /**< not within tolerance after the bound on steps; `time` is safe: no contact before it */
@@ -186,7 +200,7 @@ typedef struct pir_cast_result {
     uint32_t steps;
 } pir_cast_result;
 
-/** Linear cast: P moves from input->translation by `motion`. */
+/** Linear cast: P moves from input->translation by `motion`. The outcome is exact. */
 PIR_API pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 motion,
                                   pir_cast_result *ret_result);
 

@@ -4,7 +4,7 @@
  * at once: within the depth of the middle everything is inside, beyond the sizes of the bodies everything is outside. What the
  * leaves leave open is asked for by itself.
  */
-#include "query/query.h"
+#include "query/facet.h"
 
 struct batch {
     pir_query *query;
@@ -26,10 +26,8 @@ static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *t
     middle.x = (pir_vec3){0, 0, 0};
     middle.reach = query->size_p + query->size_q;
     middle.error = PIR_SLACK_BOUND * middle.reach;
-    double slack = -1;
-    uint32_t slot = pir_leaves_depth(query, &middle, &slack);
     // what is taken off holds the errors of a slack and of x
-    batch->inner = slot != PIR_NO_PLANE ? slack - 64 * middle.error - PIR_TIE * middle.reach : -1;
+    batch->inner = pir_leaves_least(query, &middle) - 64 * middle.error;
     return PIR_OK;
 }
 
@@ -68,11 +66,15 @@ pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations
 /* The state, and the depth where that is inside, where a ball or the leaves tell it. */
 static bool find_depth(const struct batch *batch, const pir_placement *placement, double *ret_depth,
                        pir_state *ret_state) {
-    double slack = 0;
+    pir_facet facet;
+    *ret_depth = 0;
     if (!settle(batch, placement, ret_state) && !pir_leaves_state(batch->query, placement, ret_state))
         return false;
-    if (*ret_state == PIR_INSIDE && pir_leaves_depth(batch->query, placement, &slack) == PIR_NO_PLANE)
+    if (*ret_state != PIR_INSIDE)
+        return true;
+    if (!pir_leaves_depth(batch->query, placement, &facet))
         return false;
+    double slack = pir_facet_slack(batch->query, placement, &facet);
     *ret_depth = pir_frame_length(batch->query, slack > 0 ? slack : 0);
     return true;
 }

@@ -64,24 +64,12 @@ static inline pir_dd pir_dd_mul(pir_dd a, pir_dd b) {
     return pir_dd_quick_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
-static inline bool pir_dd_less(pir_dd a, pir_dd b) {
-    return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
-}
-
 static inline pir_dd pir_dd_divide(pir_dd a, pir_dd b) {
     double first = a.hi / b.hi;
     pir_dd rest = pir_dd_sub(a, pir_dd_scale(b, first));
     double second = rest.hi / b.hi;
     rest = pir_dd_sub(rest, pir_dd_scale(b, second));
     return pir_dd_add(pir_dd_quick_sum(first, second), (pir_dd){rest.hi / b.hi, 0});
-}
-
-static inline pir_dd3 pir_dd3_from(pir_vec3 v) {
-    return (pir_dd3){{{v.x, 0}, {v.y, 0}, {v.z, 0}}};
-}
-
-static inline pir_dd3 pir_dd3_add(pir_dd3 a, pir_dd3 b) {
-    return (pir_dd3){{pir_dd_add(a.c[0], b.c[0]), pir_dd_add(a.c[1], b.c[1]), pir_dd_add(a.c[2], b.c[2])}};
 }
 
 static inline pir_dd3 pir_dd3_add_vec(pir_dd3 a, pir_vec3 b) {
@@ -92,34 +80,8 @@ static inline pir_dd3 pir_dd3_negate(pir_dd3 a) {
     return (pir_dd3){{pir_dd_negate(a.c[0]), pir_dd_negate(a.c[1]), pir_dd_negate(a.c[2])}};
 }
 
-static inline pir_dd3 pir_dd3_sub(pir_dd3 a, pir_dd3 b) {
-    return (pir_dd3){{pir_dd_sub(a.c[0], b.c[0]), pir_dd_sub(a.c[1], b.c[1]), pir_dd_sub(a.c[2], b.c[2])}};
-}
-
 static inline pir_vec3 pir_dd3_round(pir_dd3 a) {
     return (pir_vec3){a.c[0].hi + a.c[0].lo, a.c[1].hi + a.c[1].lo, a.c[2].hi + a.c[2].lo};
-}
-
-static inline pir_dd3 pir_dd3_times(pir_dd3 a, pir_dd s) {
-    return (pir_dd3){{pir_dd_mul(a.c[0], s), pir_dd_mul(a.c[1], s), pir_dd_mul(a.c[2], s)}};
-}
-
-static inline pir_dd pir_dd3_product(pir_dd3 a, pir_dd3 b) {
-    return pir_dd_add(pir_dd_add(pir_dd_mul(a.c[0], b.c[0]), pir_dd_mul(a.c[1], b.c[1])), pir_dd_mul(a.c[2], b.c[2]));
-}
-
-static inline pir_dd3 pir_dd3_cross(pir_dd3 a, pir_dd3 b) {
-    pir_dd3 r;
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        r.c[k] = pir_dd_sub(pir_dd_mul(a.c[i], b.c[j]), pir_dd_mul(a.c[j], b.c[i]));
-    }
-    return r;
-}
-
-/* a·b for a vector of doubles b. */
-static inline pir_dd pir_dd3_dot(pir_dd3 a, pir_vec3 b) {
-    return pir_dd_add(pir_dd_add(pir_dd_scale(a.c[0], b.x), pir_dd_scale(a.c[1], b.y)), pir_dd_scale(a.c[2], b.z));
 }
 
 #endif

@@ -213,10 +213,6 @@ static inline uint32_t place_of(const pir_simplex *simplex, uint32_t a, uint32_t
     return i;
 }
 
-bool pir_simplex_holds(const pir_simplex *simplex, uint32_t a, uint32_t b) {
-    return place_of(simplex, a, b) < simplex->count;
-}
-
 /* The landmark of a vector: by the signs of its components and by the greatest. */
 static uint32_t landmark_of(pir_vec3 n) {
     double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);

@@ -3,7 +3,7 @@
  * The largest distance: that from x to the farthest vertex of D. Every vertex of D is a corner of a piece of the pairing, so the pieces' corners
  * are looked at, not all pairs of vertices.
  */
-#include "query/query.h"
+#include "query/facet.h"
 
 struct farthest {
     uint32_t a, b;
@@ -49,7 +49,8 @@ pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *i
     pir_vec3 w = pir_vec_sub(placement.x, pir_frame_vertex(query, best.a, best.b));
     pir_query_result result = {.outcome = PIR_SEPARATED, .distance = pir_frame_length(query, length), .steps = 1};
     uint32_t slot;
-    result.state = pir_state_find(query, &placement, NULL, &slot, &result.steps);
+    pir_least touching;
+    result.state = pir_state_find(query, &placement, NULL, &slot, &touching, &result.steps);
     result.normal = length > 0 ? pir_vec_scale(w, 1 / length) : (pir_vec3){1, 0, 0};
     result.point_q = pir_frame_world(query, query->vq[best.b]);
     result.witness = (pir_witness){{PIR_FEATURE_VERTEX, best.a}, {PIR_FEATURE_VERTEX, best.b}};

@@ -67,7 +67,7 @@ void pir_query_destroy(pir_query *query) {
 
 /* Room for exact signs at the operands' scales; what was in it is lost. */
 static bool reserve_scratch(pir_query *query) {
-    uint32_t need = pir_side_limbs(query);
+    uint32_t need = pir_exact_limbs(query->p, query->q);
     if (query->scratch.base && need <= query->scratch.capacity)
         return true;
     const pir_allocator *a = &query->allocator;

@@ -206,6 +206,7 @@ void pir_frame_follow(pir_query *query) {
     query->r = now->r;
     query->has_fine = false;
     set_offset(query);
+    query->exact.made = false;
     query->stamp++;
     query->planes.used = 0;
 }

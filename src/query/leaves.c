@@ -10,7 +10,7 @@
  */
 #include <string.h>
 
-#include "query/query.h"
+#include "query/facet.h"
 
 #define LEAF 32
 
@@ -231,41 +231,51 @@ static uint32_t collect(pir_query *query, const pir_placement *placement, uint32
     return count;
 }
 
-/* The slot of the least slack among the first `count` of the work space, ties settled as in depth.c. */
-static uint32_t first_of(const pir_query *query, const pir_placement *placement, uint32_t count, double tie,
-                         double *ret_slack) {
-    const pir_planes *planes = &query->planes;
-    const uint32_t *slot = query->leaves.cell;
-    double least = HUGE_VAL;
-    uint32_t best = PIR_NO_PLANE;
-    for (uint32_t i = 0; i < count; i++) {
-        double s = pir_plane_slack(planes, slot[i], placement->x);
-        least = s < least ? s : least;
-    }
-    for (uint32_t i = 0; i < count; i++)
-        if (pir_plane_slack(planes, slot[i], placement->x) <= least + tie &&
-            (best == PIR_NO_PLANE || pir_piece_before(planes->piece[slot[i]], planes->piece[best])))
-            best = slot[i];
-    if (best != PIR_NO_PLANE)
-        *ret_slack = pir_plane_slack(planes, best, placement->x);
-    return best;
-}
-
-uint32_t pir_leaves_depth(pir_query *query, const pir_placement *placement, double *ret_slack) {
+/*
+ * Looks at the leaves that may hold the least slack: their numbers in `looked`, what it is not above in *ret_limit. Returns how many there are.
+ */
+static uint32_t look_at_leaves(pir_query *query, const pir_placement *placement, double *ret_limit) {
     pir_leaves *leaves = &query->leaves;
-    if (leaves->leaf_count == 0)
-        return PIR_NO_PLANE;
-    double tie = PIR_TIE * (query->size_p + query->size_q);
     uint32_t first = leaf_along(leaves, placement->x), looked = 0;
     double limit = least_of(query, first, placement->x) + placement->error * leaves->box_err[first];
     bound_leaves(query, placement);
     for (uint32_t leaf = 0; leaf < leaves->leaf_count; leaf++) {
-        if (leaves->low[leaf] > limit + tie)
+        if (leaves->low[leaf] > limit)
             continue;
         double s = least_of(query, leaf, placement->x), error = placement->error * leaves->box_err[leaf];
         leaves->low[leaf] = s - error;
         leaves->looked[looked++] = leaf;
         limit = s + error < limit ? s + error : limit;
     }
-    return first_of(query, placement, collect(query, placement, looked, limit + tie), tie, ret_slack);
+    *ret_limit = limit;
+    return looked;
+}
+
+double pir_leaves_least(pir_query *query, const pir_placement *placement) {
+    const pir_leaves *leaves = &query->leaves;
+    double limit, least = HUGE_VAL;
+    if (leaves->leaf_count == 0)
+        return -HUGE_VAL;
+    uint32_t looked = look_at_leaves(query, placement, &limit);
+    for (uint32_t k = 0; k < looked; k++)
+        least = leaves->low[leaves->looked[k]] < least ? leaves->low[leaves->looked[k]] : least;
+    return least;
+}
+
+bool pir_leaves_depth(pir_query *query, const pir_placement *placement, pir_facet *ret_facet) {
+    if (query->leaves.leaf_count == 0)
+        return false;
+    double limit;
+    uint32_t looked = look_at_leaves(query, placement, &limit), count = collect(query, placement, looked, limit);
+    const uint32_t *slot = query->leaves.cell;
+    const pir_planes *planes = &query->planes;
+    for (uint32_t i = 0; i < count; i++)
+        limit = fmin(limit, pir_plane_slack(planes, slot[i], placement->x) + placement->error * planes->err[slot[i]]);
+    pir_least least = {.some = false};
+    for (uint32_t i = 0; i < count; i++)
+        if (pir_plane_slack(planes, slot[i], placement->x) - placement->error * planes->err[slot[i]] <= limit)
+            pir_least_offer(query, placement, &least, planes->piece[slot[i]]);
+    if (least.some)
+        *ret_facet = least.facet;
+    return least.some;
 }

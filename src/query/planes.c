@@ -288,10 +288,6 @@ static void put_plane(pir_planes *planes, uint32_t slot, pir_vec3 n, double h, d
     planes->piece[slot] = piece;
 }
 
-void pir_plane_copy(pir_planes *planes, uint32_t from, uint32_t to) {
-    put_plane(planes, to, pir_plane_normal(planes, from), planes->h[from], planes->err[from], planes->piece[from]);
-}
-
 static void make_fv(pir_query *query, uint32_t f, uint32_t slot) {
     pir_vec3 n = pir_mat_apply(&query->r, query->p->normal[f]);
     double h = query->hp[f] + pir_vec_dot(n, query->vq[query->sum->fv[f]]);

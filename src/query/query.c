@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries on one placement: overlap, separation, penetration. What they share is the exact state; the rest is told in descent.c and depth.c.
+ * Queries on one placement: overlap, separation, penetration. What they share is the exact state; the rest is told in
+ * descent.c and depth.c.
  */
-#include "query/query.h"
+#include "query/flat.h"
+#include "query/nearest.h"
 
-/* Distances above this, relative to the placement's reach, are tried for a quick proof; nearer ones go to the exact search at once. */
+/*
+ * Distances above this, relative to the placement's reach, are tried for a quick proof; nearer ones go to the exact
+ * search at once.
+ */
 #define CLEARLY_APART 0x1p-40
 
 pir_query_input pir_query_input_default(void) {
@@ -12,10 +17,6 @@ pir_query_input pir_query_input_default(void) {
 }
 
 /* --- answers --- */
-
-static pir_vec3 plane_normal(const pir_query *query, uint32_t slot) {
-    return pir_plane_normal(&query->planes, slot);
-}
 
 static const pir_outcome outcome_of[] = {
     [PIR_OUTSIDE] = PIR_SEPARATED, [PIR_BOUNDARY] = PIR_TOUCHING, [PIR_INSIDE] = PIR_OVERLAPPING};
@@ -42,45 +43,35 @@ static void set_points(pir_query_result *result, pir_vec3 point_q) {
     result->point_p = pir_vec_add(point_q, pir_vec_scale(result->normal, result->distance));
 }
 
-/* Any direction that D does not extend along, for touching where no plane shows it: flat D and t at its rim. */
-static void touch_anyhow(pir_query *query, const pir_placement *placement, pir_query_result *result) {
-    pir_simplex simplex = {0};
-    pir_descend_finely(query, placement, &simplex, &result->steps);
-    double length = sqrt(pir_vec_dot(simplex.direction, simplex.direction));
-    result->normal = length > 0 ? simplex.direction : (pir_vec3){1, 0, 0};
-    result->witness.p = pir_feature_of(query->p, simplex.a, simplex.count);
-    result->witness.q = pir_feature_of(query->q, simplex.b, simplex.count);
-    set_points(result, pir_frame_world(query, query->vq[simplex.b[0]]));
+/* The faces of a body as a whole, where D is a point or in a line. */
+static pir_feature whole_of(const pir_polytope *p) {
+    return (pir_feature){p->edge_count > 0 ? PIR_FEATURE_EDGE : PIR_FEATURE_VERTEX, 0};
 }
 
-static void answer_touching(pir_query *query, const pir_placement *placement, uint32_t slot, pir_query_cache *cache,
-                            pir_query_result *result) {
+/* Where t lies on the boundary: `touching` is the first true facet that it is on. */
+static void answer_touching(pir_query *query, const pir_placement *placement, const pir_least *touching,
+                            pir_query_cache *cache, pir_query_result *result) {
+    pir_touch touch = {{{0}, {0}}, {0, 0, 0}};
     result->distance = 0;
-    if (slot == PIR_NO_PLANE) {
-        touch_anyhow(query, placement, result);
-        return;
+    if (touching->some) {
+        result->normal = touching->facet.n;
+        pir_touch_facet(query, placement, &touching->facet, 0, NULL, &touch);
+        pir_piece_keep(cache, touching->facet.piece);
+    } else {
+        // D has no area, and any direction across it is a normal
+        pir_normal normal = {.unit = pir_flat_across(query), .err = 1};
+        pir_meeting meeting = {.normal = &normal, .faces = {whole_of(query->p), whole_of(query->q)}};
+        result->normal = normal.unit;
+        pir_touch_find(query, placement, &meeting, &touch);
     }
-    pir_plane_refine(query, slot);
-    result->normal = plane_normal(query, slot);
-    result->witness = pir_witness_of_piece(query, query->planes.piece[slot]);
-    pir_piece_keep(cache, query->planes.piece[slot]);
-    // the features that meet may be less than the piece's: the simplex holds the point itself
-    pir_simplex simplex = {0};
-    pir_descend_finely(query, placement, &simplex, &result->steps);
-    pir_vec3 y = {0, 0, 0};
-    double sum = 0;
-    for (uint32_t i = 0; i < simplex.count; i++) {
-        y = pir_vec_add(y, pir_vec_scale(query->vq[simplex.b[i]], simplex.weight[i]));
-        sum += simplex.weight[i];
-    }
-    set_points(result, pir_frame_world(query, pir_vec_scale(y, 1 / sum)));
+    result->witness = touch.witness;
+    set_points(result, pir_frame_world(query, touch.point_q));
 }
 
 /* --- separation --- */
 
 static void recall_simplex(const pir_query *query, const pir_query_cache *cache, pir_simplex *simplex) {
     simplex->count = 0;
-    simplex->parts = false;
     for (uint32_t i = 0; i < 4; i++)
         simplex->a[i] = simplex->b[i] = 0;
     if (!cache || cache->points == 0 || cache->points > 3)
@@ -110,7 +101,10 @@ static bool separates(const pir_query *query, uint32_t slot, const pir_placement
     return pir_plane_slack(&query->planes, slot, placement->x) < -placement->error * query->planes.err[slot];
 }
 
-/* Bodies that are apart by less than their coordinates can tell still have two points, apart by one rounding along the normal. */
+/*
+ * Bodies that are apart by less than their coordinates can tell still have two points, apart by one rounding along the
+ * normal.
+ */
 static void separate_points(pir_query_result *result) {
     pir_vec3 *p = &result->point_p, *q = &result->point_q, n = result->normal;
     if (p->x != q->x || p->y != q->y || p->z != q->z)
@@ -120,71 +114,73 @@ static void separate_points(pir_query_result *result) {
     *most = nextafter(*most, along > 0 ? HUGE_VAL : -HUGE_VAL);
 }
 
-static pir_witness witness_of(const pir_query *query, const pir_simplex *simplex) {
-    return (pir_witness){pir_feature_of(query->p, simplex->a, simplex->count),
-                         pir_feature_of(query->q, simplex->b, simplex->count)};
-}
+/* Distances are known this well, relative to the placement's reach, however they are found. */
+#define DISTANCE_ERROR 0x1p-42
 
-/* The answer of a descent that ended, the state being outside; the witness is set. */
-static void answer_separation(const pir_query *query, const pir_simplex *simplex, pir_query_cache *cache,
-                              pir_query_result *result) {
-    keep_simplex(cache, simplex);
-    result->distance = pir_frame_length(query, simplex->upper);
-    result->normal = simplex->direction;
-    result->outcome = simplex->certain ? PIR_SEPARATED : PIR_STEP_LIMIT;
-    pir_vec3 y = {0, 0, 0};
-    for (uint32_t i = 0; i < simplex->count; i++)
-        y = pir_vec_add(y, pir_vec_scale(query->vq[simplex->b[i]], simplex->weight[i]));
-    set_points(result, pir_frame_world(query, y));
+static void answer_separation(const pir_query *query, const pir_nearest *nearest, pir_query_result *result) {
+    set_state(result, PIR_OUTSIDE);
+    result->distance = pir_frame_length(query, nearest->distance);
+    result->normal = nearest->normal;
+    result->witness = nearest->touch.witness;
+    set_points(result, pir_frame_world(query, nearest->touch.point_q));
     separate_points(result);
 }
 
+static void answer_beyond(pir_query_result *result) {
+    uint32_t steps = result->steps;
+    clear(result);
+    result->steps = steps;
+    result->outcome = PIR_BEYOND_CUTOFF;
+}
+
+/* What a descent that found no nearest point leaves: the best so far. */
+static void answer_unfinished(const pir_query *query, const pir_simplex *simplex, pir_query_result *result) {
+    set_state(result, PIR_OUTSIDE);
+    result->outcome = PIR_STEP_LIMIT;
+    result->distance = pir_frame_length(query, fmax(0, simplex->upper));
+}
+
 /*
- * The separation, or only the state where there is none. Returns the state; *ret_slot as pir_state_find. `limit` is the cutoff in the
- * frame: beyond it, only the bound is told.
+ * The separation, or only the state where there is none. Returns the state; on the boundary *ret_touching is as
+ * pir_state_find sets it. `limit` is the cutoff in the frame.
  */
 static pir_state separation(pir_query *query, const pir_placement *placement, double limit, pir_query_cache *cache,
-                            uint32_t *ret_slot, pir_query_result *result) {
+                            pir_least *ret_touching, pir_query_result *result) {
     pir_simplex simplex;
+    pir_nearest nearest;
     recall_simplex(query, cache, &simplex);
-    pir_descend_to_point(query, placement, limit, &simplex, &result->steps);
-    bool far = simplex.lower > CLEARLY_APART * placement->reach;
-    pir_witness witness = {{0}, {0}};
-    if (far)
-        witness = witness_of(query, &simplex);
-    if (!far || !pir_prove_outside(query, placement, &simplex, &witness, cache)) {
-        pir_state state = pir_state_find(query, placement, cache, ret_slot, &result->steps);
+    pir_descend_to_point(query, placement, limit + DISTANCE_ERROR * placement->reach, &simplex, &result->steps);
+    bool far = simplex.lower > CLEARLY_APART * placement->reach && simplex.lower > 4 * placement->error;
+    bool beyond = simplex.lower > limit + DISTANCE_ERROR * placement->reach;
+    bool proven = far && !beyond && pir_nearest_prove(query, placement, &simplex, &nearest);
+    if (!proven && !(far && pir_prove_outside(query, placement, &simplex, NULL, cache))) {
+        uint32_t slot;
+        pir_state state = pir_state_find(query, placement, cache, &slot, ret_touching, &result->steps);
         if (state != PIR_OUTSIDE)
             return state;
-        if (*ret_slot != PIR_NO_PLANE)
-            pir_piece_keep(cache, query->planes.piece[*ret_slot]);
+        if (slot != PIR_NO_PLANE)
+            pir_piece_keep(cache, query->planes.piece[slot]);
     }
-    set_state(result, PIR_OUTSIDE);
-    if (simplex.lower > limit) {
-        result->outcome = PIR_BEYOND_CUTOFF;
-        result->distance = pir_frame_length(query, simplex.lower);
-        result->normal = simplex.direction;
-        keep_simplex(cache, &simplex);
+    keep_simplex(cache, &simplex);
+    if (beyond) {
+        answer_beyond(result);
         return PIR_OUTSIDE;
     }
-    bool fine = !simplex.certain;
-    if (fine)
-        pir_descend_finely(query, placement, &simplex, &result->steps);
-    result->witness = far && !fine ? witness : witness_of(query, &simplex);
-    bool next_to_nothing = simplex.upper <= PIR_MEET * placement->reach && !simplex.parts;
-    if (next_to_nothing)
-        simplex.direction = *ret_slot != PIR_NO_PLANE ? plane_normal(query, *ret_slot) : query->beyond;
-    answer_separation(query, &simplex, cache, result);
-    // apart by less than rounding tells: the facet that separates stands for the features
-    if (next_to_nothing && *ret_slot != PIR_NO_PLANE)
-        result->witness = pir_witness_of_piece(query, query->planes.piece[*ret_slot]);
+    if (!proven && !pir_nearest_find(query, placement, &simplex, &nearest, &result->steps)) {
+        answer_unfinished(query, &simplex, result);
+        return PIR_OUTSIDE;
+    }
+    answer_separation(query, &nearest, result);
+    if (result->distance > pir_frame_length(query, limit))
+        answer_beyond(result);
     return PIR_OUTSIDE;
 }
 
 /* The state alone: cheap certain answers first, then the search. */
-static pir_state overlap(pir_query *query, const pir_placement *placement, pir_query_cache *cache, uint32_t *ret_slot,
-                         uint32_t *steps) {
-    if (pir_piece_recall(query, cache, ret_slot) && separates(query, *ret_slot, placement))
+static pir_state overlap(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
+                         pir_least *ret_touching, uint32_t *steps) {
+    uint32_t slot;
+    if (pir_piece_recall(query, cache, &slot) && separates(query, slot, placement))
         return PIR_OUTSIDE;
     bool inside = query->group_count > 0;
     pir_groups_bound(query, placement, 0);
@@ -197,61 +193,74 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
     pir_descend_to_point(query, placement, CLEARLY_APART * placement->reach, &simplex, steps);
     if (simplex.lower > CLEARLY_APART * placement->reach &&
         pir_prove_outside(query, placement, &simplex, NULL, cache)) {
-        *ret_slot = query->planes.capacity - 1;
         keep_simplex(cache, &simplex);
         return PIR_OUTSIDE;
     }
-    return pir_state_find(query, placement, cache, ret_slot, steps);
-}
-
-/*
- * The state and, inside, the slot of the least slack: most often the least slack tells the state as well. *ret_slack is set when inside.
- */
-static pir_state depth_and_state(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
-                                 uint32_t *ret_slot, double *ret_slack, uint32_t *steps) {
-    if (pir_piece_recall(query, cache, ret_slot) && separates(query, *ret_slot, placement))
-        return PIR_OUTSIDE;
-    *ret_slot = pir_depth_find(query, placement, cache, ret_slack, steps);
-    if (*ret_slot != PIR_NO_PLANE) {
-        double error = placement->error * query->planes.err[*ret_slot];
-        // a tie may hide a slack below by its width
-        if (*ret_slack - PIR_TIE * (query->size_p + query->size_q) > error)
-            return PIR_INSIDE;
-        if (*ret_slack < -error)
-            return PIR_OUTSIDE;
-    }
-    uint32_t slot = *ret_slot;
-    pir_state state = pir_state_find(query, placement, cache, &slot, steps);
-    if (state != PIR_INSIDE)
-        *ret_slot = slot;
+    pir_state state = pir_state_find(query, placement, cache, &slot, ret_touching, steps);
+    if (state == PIR_OUTSIDE && slot != PIR_NO_PLANE)
+        pir_piece_keep(cache, query->planes.piece[slot]);
     return state;
 }
 
-static void answer_depth(pir_query *query, const pir_placement *placement, uint32_t slot, double slack,
+/*
+ * The state and, inside, the facet of least slack: most often the least slack tells the state as well. On the boundary
+ * *ret_least is the first facet that touches.
+ */
+static pir_state depth_and_state(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
+                                 pir_least *ret_least, uint32_t *steps) {
+    uint32_t slot;
+    if (pir_piece_recall(query, cache, &slot) && separates(query, slot, placement))
+        return PIR_OUTSIDE;
+    ret_least->some = pir_depth_find(query, placement, cache, &ret_least->facet, steps);
+    if (ret_least->some) {
+        const pir_facet *facet = &ret_least->facet;
+        double slack = facet->h - pir_vec_dot(facet->n, placement->x), error = placement->error * facet->err;
+        if (slack > error)
+            return PIR_INSIDE;
+        if (slack < -error) {
+            pir_piece_keep(cache, facet->piece);
+            return PIR_OUTSIDE;
+        }
+    }
+    pir_least touching;
+    pir_state state = pir_state_find(query, placement, cache, &slot, &touching, steps);
+    if (state == PIR_BOUNDARY)
+        *ret_least = touching;
+    else if (state == PIR_OUTSIDE && slot != PIR_NO_PLANE)
+        pir_piece_keep(cache, query->planes.piece[slot]);
+    return state;
+}
+
+static void answer_depth(pir_query *query, const pir_placement *placement, const pir_facet *facet,
                          pir_query_cache *cache, pir_query_result *result) {
     // exactly inside: a slack that rounds below zero is one of next to nothing
-    slack = fmax(slack, 0);
-    pir_piece_keep(cache, query->planes.piece[slot]);
+    double slack = fmax(pir_facet_slack(query, placement, facet), 0);
+    pir_touch touch;
+    // in a region the foot may be beside the facet
+    if (!pir_touch_facet(query, placement, facet, slack, NULL, &touch))
+        touch = (pir_touch){facet->faces, pir_facet_point(query, placement, facet, slack)};
+    pir_piece_keep(cache, facet->piece);
     if (cache)
         cache->points = 0;
-    result->normal = plane_normal(query, slot);
+    result->normal = facet->n;
     result->distance = -pir_frame_length(query, slack);
-    result->witness = pir_witness_of_piece(query, query->planes.piece[slot]);
-    set_points(result, pir_witness_point(query, placement, slot, slack));
+    result->witness = touch.witness;
+    set_points(result, pir_frame_world(query, touch.point_q));
 }
 
 /* What the facets in the region of the sum tell. */
 static void answer_in_region(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                              pir_query_result *result) {
-    uint32_t slot;
-    double slack = 0;
-    set_state(result, pir_region_find(query, placement, cache, &slot, &slack, &result->steps));
-    if (result->state == PIR_OUTSIDE) {
-        pir_piece_keep(cache, query->planes.piece[slot]);
-    } else if (slot == PIR_NO_PLANE) {
+    pir_least least;
+    set_state(result, pir_region_find(query, placement, cache, &least, &result->steps));
+    if (!least.some) {
         result->outcome = PIR_NO_HIT;
+        return;
+    }
+    if (result->state == PIR_OUTSIDE) {
+        pir_piece_keep(cache, least.facet.piece);
     } else {
-        answer_depth(query, placement, slot, result->state == PIR_BOUNDARY ? 0 : slack, cache, result);
+        answer_depth(query, placement, &least.facet, cache, result);
         result->outcome = PIR_NOT_SEPARATED;
     }
 }
@@ -261,11 +270,11 @@ static void answer_in_region(pir_query *query, const pir_placement *placement, p
 /* Grows both bodies by their radii in an answer that knows the signed distance. */
 static void add_radii(const pir_query_input *input, pir_query_result *result) {
     double sum = input->radius_p + input->radius_q;
-    if (sum == 0)
+    if (result->outcome == PIR_BEYOND_CUTOFF)
+        result->distance = fmax(input->cutoff, 0);
+    if (sum == 0 || result->outcome == PIR_BEYOND_CUTOFF)
         return;
     result->distance -= sum;
-    if (result->outcome == PIR_BEYOND_CUTOFF)
-        return;
     result->point_q = pir_vec_add(result->point_q, pir_vec_scale(result->normal, input->radius_q));
     result->point_p = pir_vec_add(result->point_q, pir_vec_scale(result->normal, result->distance));
     pir_outcome outcome = result->outcome;
@@ -298,32 +307,25 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
         answer_in_region(query, &placement, cache, result);
         return PIR_OK;
     }
-    double radii = input->radius_p + input->radius_q, slack = 0;
-    double limit = pir_frame_from(query, input->cutoff + radii);
-    uint32_t slot = PIR_NO_PLANE;
+    double radii = input->radius_p + input->radius_q, limit = pir_frame_from(query, fmax(input->cutoff, 0) + radii);
     // rounded bodies overlap where the polytopes are apart
     if (radii > 0)
         want |= WANT_SEPARATION;
     bool depth_first =
         (want & WANT_DEPTH) && (!(want & WANT_SEPARATION) || (cache && cache->points == 0 && cache->pieces == 1));
-    pir_state state;
-    bool separated = false;
-    if (depth_first)
-        state = depth_and_state(query, &placement, cache, &slot, &slack, &result->steps);
-    else
-        state = separation(query, &placement, limit, cache, &slot, result), separated = state == PIR_OUTSIDE;
+    pir_least least = {.some = false};
+    pir_state state = depth_first ? depth_and_state(query, &placement, cache, &least, &result->steps)
+                                  : separation(query, &placement, limit, cache, &least, result);
     if (depth_first && state == PIR_OUTSIDE && (want & WANT_SEPARATION))
-        separation(query, &placement, limit, cache, &slot, result), separated = true;
-    if (!separated)
+        separation(query, &placement, limit, cache, &least, result);
+    if (state != PIR_OUTSIDE || !(want & WANT_SEPARATION))
         set_state(result, state);
     if (state == PIR_BOUNDARY) {
-        answer_touching(query, &placement, slot, cache, result);
+        answer_touching(query, &placement, &least, cache, result);
     } else if (state == PIR_INSIDE && ((want & WANT_DEPTH) || radii > 0)) {
         if (!depth_first)
-            slot = pir_depth_find(query, &placement, cache, &slack, &result->steps);
-        answer_depth(query, &placement, slot, slack, cache, result);
-    } else if (state == PIR_OUTSIDE && !separated && slot != PIR_NO_PLANE) {
-        pir_piece_keep(cache, query->planes.piece[slot]);
+            least.some = pir_depth_find(query, &placement, cache, &least.facet, &result->steps);
+        answer_depth(query, &placement, &least.facet, cache, result);
     }
     add_radii(input, result);
     return PIR_OK;
@@ -343,14 +345,10 @@ pir_status pir_query_overlap(pir_query *query, const pir_query_input *input, pir
         return answer(query, &near, WANT_SEPARATION, cache, ret_result);
     }
     pir_query_result result = {0};
-    uint32_t slot = PIR_NO_PLANE;
-    pir_state state = overlap(query, &placement, cache, &slot, &result.steps);
-    set_state(&result, state);
-    if (state != PIR_INSIDE && slot != PIR_NO_PLANE) {
-        result.normal = plane_normal(query, slot);
-        result.witness = pir_witness_of_piece(query, query->planes.piece[slot]);
-        pir_piece_keep(cache, query->planes.piece[slot]);
-    }
+    pir_least touching = {.some = false};
+    set_state(&result, overlap(query, &placement, cache, &touching, &result.steps));
+    if (result.state == PIR_BOUNDARY)
+        answer_touching(query, &placement, &touching, cache, &result);
     *ret_result = result;
     return PIR_OK;
 }

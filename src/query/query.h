@@ -21,6 +21,7 @@
 
 #include "dymsum/sum.h"
 #include "query/dd.h"
+#include "query/exact.h"
 #include "query/lanes.h"
 #include "query/scan.h"
 
@@ -32,9 +33,6 @@
  */
 #define PIR_SLACK_BOUND 0x1p-46
 
-/* Depths closer than this, relative to r_P + r_Q, tie. */
-#define PIR_TIE 0x1p-40
-
 /* Edge pairs with a smaller |sin| get their normal from exact integers before they decide an answer, and at once below the second. */
 #define PIR_SIN_REFINED 0x1p-5
 #define PIR_SIN_EXACT   0x1p-40
@@ -42,13 +40,17 @@
 /* How many directions a climb has vertices at hand for, to start from: see descent.c. */
 #define PIR_LANDMARKS 24
 
-/* The last slots are spare: the last of all for a piece by itself, the one before for the least slack. */
-#define PIR_SPARE_SLOTS 2
+/* The last slot is spare: for a piece by itself. */
+#define PIR_SPARE_SLOTS 1
 
 /* A facet of D: PIR_FACET_FV (first: facet of P), VF (second: facet of Q), EE (first: edge of P, second: halfedge of Q). */
 typedef struct pir_piece {
     uint32_t kind, first, second;
 } pir_piece;
+
+/* facet.h */
+typedef struct pir_facet pir_facet;
+typedef struct pir_least pir_least;
 
 /* Parallel arrays of planes. */
 typedef struct pir_planes {
@@ -151,7 +153,7 @@ struct pir_query {
     pir_vec3 way_x;
 
     pir_limbs scratch; /* of exact signs */
-    pir_vec3 beyond;   /* a unit normal that separates, where side.c found a flat difference beside t */
+    pir_exact exact;
     pir_vec3 *polygon[2];
     uint32_t *polygon_side[2];
     uint32_t polygon_capacity;
@@ -218,18 +220,16 @@ bool pir_plane_make(pir_query *query, pir_piece piece, uint32_t slot);
 /* The plane of slot `slot` from exact integers; false when its edges are parallel. */
 bool pir_plane_refine(pir_query *query, uint32_t slot);
 
-void pir_plane_copy(pir_planes *planes, uint32_t from, uint32_t to);
-
 /* Makes the planes of group `g` unless they are there. */
 void pir_group_make(pir_query *query, uint32_t g);
 
 /* --- sieve.c --- */
 
 /*
- * Adds to the candidates those pieces of group `g` whose slack may be at most limit + tie, without making its other planes; keeps the group's
+ * Adds to the candidates those pieces of group `g` whose slack may be at most `limit`, without making its other planes; keeps the group's
  * bound. Returns what the least slack of all is not above, `limit` or less.
  */
-double pir_group_sieve(pir_query *query, uint32_t g, const pir_placement *placement, double tie, double limit);
+double pir_group_sieve(pir_query *query, uint32_t g, const pir_placement *placement, double limit);
 
 /* --- bounds.c --- */
 
@@ -267,34 +267,34 @@ void pir_piece_keep(pir_query_cache *cache, pir_piece piece);
 /* The exact sign of the slack of a piece at a translation. The piece's edges must not be parallel. */
 int pir_side_exact(pir_query *query, pir_piece piece, pir_vec3 translation);
 
-/* For flat operands: whether t, on the planes of all pieces or inside, is in the difference at all; if not, query->beyond separates. */
-bool pir_side_in_flat(pir_query *query, pir_vec3 translation);
+/* A corner of a piece. */
+void pir_piece_corner(const pir_query *query, pir_piece piece, uint32_t *ret_a, uint32_t *ret_b);
 
 /* The exact unit normal of an edge pair; false when parallel. */
 bool pir_side_normal(pir_query *query, pir_piece piece, pir_vec3 *ret_normal);
 
-/* Limbs that the calls above need. */
-uint32_t pir_side_limbs(const pir_query *query);
-
 /* --- state.c --- */
 
+#define PIR_NO_PLANE UINT32_MAX
+
 /*
- * The exact state. *ret_slot is the slot of a plane that shows it: one that separates when outside, that touches on the boundary (UINT32_MAX
- * when no plane does); unchanged when inside.
+ * The exact state. When outside, *ret_slot is the slot of a plane that separates, PIR_NO_PLANE where none is known. On the boundary,
+ * *ret_touching is the first true facet in order that t lies on; there may be none where D has no area.
  */
 pir_state pir_state_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
-                         uint32_t *ret_slot, uint32_t *steps);
+                         uint32_t *ret_slot, pir_least *ret_touching, uint32_t *steps);
 
 /* --- depth.c --- */
 
 /* The order that settles ties: fv before vf before ee, then P's index, then Q's. */
 bool pir_piece_before(pir_piece a, pir_piece b);
 
-/* The slot of the piece of least slack, ties settled, and the slack. PIR_NO_PLANE where there is none. */
-#define PIR_NO_PLANE UINT32_MAX
+/* Keeps the true facet of least slack, and the first in order of those that tie, of all whose pieces were offered. */
+void pir_least_offer(pir_query *query, const pir_placement *placement, pir_least *least, pir_piece piece);
 
-uint32_t pir_depth_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
-                        double *ret_slack, uint32_t *steps);
+/* The true facet of least slack; false where D has none. Which it is means nothing when x is outside, but for the sign of its slack. */
+bool pir_depth_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
+                    pir_facet *ret_facet, uint32_t *steps);
 
 /* --- leaves.c --- */
 
@@ -306,7 +306,10 @@ void pir_leaves_finish(pir_query *query);
 bool pir_leaves_state(pir_query *query, const pir_placement *placement, pir_state *ret_state);
 
 /* As pir_depth_find. */
-uint32_t pir_leaves_depth(pir_query *query, const pir_placement *placement, double *ret_slack);
+bool pir_leaves_depth(pir_query *query, const pir_placement *placement, pir_facet *ret_facet);
+
+/* A number that no slack is below. */
+double pir_leaves_least(pir_query *query, const pir_placement *placement);
 
 /* --- descent.c --- */
 
@@ -324,7 +327,6 @@ typedef struct pir_simplex {
     pir_vec3 direction;  /* unit, from D to x */
     double upper, lower; /* bounds on the distance */
     bool certain;        /* the bounds met */
-    bool parts;          /* fine.c: no vertex is beyond x along `direction`, but for rounding */
 } pir_simplex;
 
 /* Descends from `simplex` (count 0: cold) until the bounds meet, the lower passes `cutoff`, or no step helps. */
@@ -336,7 +338,6 @@ void pir_landmarks_set(const pir_polytope *polytope, uint32_t landmarks[PIR_LAND
 
 /* A first vertex when there is none: that towards x. */
 void pir_simplex_start(const pir_query *query, const pir_placement *placement, pir_simplex *simplex);
-bool pir_simplex_holds(const pir_simplex *simplex, uint32_t a, uint32_t b);
 
 /* --- proof.c --- */
 
@@ -346,11 +347,6 @@ bool pir_simplex_holds(const pir_simplex *simplex, uint32_t a, uint32_t b);
  */
 bool pir_prove_outside(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
                        const pir_witness *witness, pir_query_cache *cache);
-
-/* --- fine.c --- */
-
-/* The same in double-double, where x is near D but not in its inside. */
-void pir_descend_finely(pir_query *query, const pir_placement *placement, pir_simplex *simplex, uint32_t *steps);
 
 /* The vertex of a polytope farthest along unit n, from `from` uphill. */
 uint32_t pir_climb(const pir_polytope *polytope, pir_vec3 n, uint32_t from);
@@ -365,12 +361,6 @@ bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length);
 /* The least face of `polytope` that holds the given vertices; the first vertex where no face holds all. */
 pir_feature pir_feature_of(const pir_polytope *polytope, const uint32_t *vertices, uint32_t count);
 
-/* The features of a piece. */
-pir_witness pir_witness_of_piece(const pir_query *query, pir_piece piece);
-
-/* Where x, moved by its slack along the normal of slot `slot`, meets the piece: the point of Q, in world coordinates. */
-pir_vec3 pir_witness_point(const pir_query *query, const pir_placement *placement, uint32_t slot, double slack);
-
 /* --- region.c --- */
 
 /* Room for what a search remembers; false when out of memory. */
@@ -379,15 +369,11 @@ void pir_region_free(pir_query *query);
 void pir_region_forget(pir_query *query);
 
 /*
- * The state as the facets in the region of the sum tell it; *ret_slot is the slot of a plane that shows it, or, inside, of the piece of
- * least slack, PIR_NO_PLANE where there is none in the region; *ret_slack its slack.
+ * The state as the facets in the region of the sum tell it. *ret_least is the facet that separates, or touches, or is the one of least slack;
+ * there is none where the region has none.
  */
 pir_state pir_region_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
-                          uint32_t *ret_slot, double *ret_slack, uint32_t *steps);
-
-/* From inside: the slot of the facet in the region that is passed first along a unit direction, and how far that is; or PIR_NO_PLANE. */
-uint32_t pir_region_exit(pir_query *query, const pir_placement *placement, pir_vec3 along, double *ret_at,
-                         uint32_t *steps);
+                          pir_least *ret_least, uint32_t *steps);
 
 /* --- follow.c --- */
 

@@ -14,22 +14,18 @@
  * now they are not below it. On an arc, which is shorter than half a turn unless P is flat, s is nowhere less than at its crossings and ends
  * while those are positive. It is geometry alone: whether a feature has been active in between does not matter.
  */
-#include "query/query.h"
+#include "query/line.h"
 
 struct search {
     pir_query *query;
     const pir_placement *placement;
     const pir_cone *cone;
-    double tie, limit; /* the least slack is not above limit */
-    double hair;       /* what slacks worked out one way or another may differ by */
-    double most;       /* slacks by doubles above this are not looked for */
-    bool goes;         /* along the way out: then `limit` is of how far along it */
-    pir_vec3 along;
+    bool all;       /* keep every plane, not just those that may have the least slack */
+    double limit;   /* the least slack is not above limit */
+    double hair;    /* what slacks worked out one way or another may differ by */
+    double most;    /* slacks by doubles above this are not looked for */
     uint32_t count; /* planes, from slot 0 */
 };
-
-/* A rate of leaving this small, of two unit vectors, is along. */
-#define ALONG 0x1p-46
 
 /* Ways begin again when they pass this, in units of the frame: what adding to them rounds then stays below the error of a slack. */
 #define FARTHEST_WAY 16.0
@@ -63,22 +59,12 @@ void pir_region_free(pir_query *query) {
 
 /* --- the search --- */
 
-/* A number that the least slack, or way, is not above. */
+/* A number that the least slack is not above. */
 static void lower_limit(struct search *search, double limit) {
-    if (!(limit < search->limit))
+    if (!(limit < search->limit) || search->all)
         return;
     search->limit = limit;
-    search->most = search->goes ? HUGE_VAL : limit + search->tie + search->hair;
-}
-
-/* How far out of the half-space of slot `slot` it is: the slack, or that along the way; HUGE_VAL where the way does not lead out. */
-static double way_out(const struct search *search, uint32_t slot) {
-    const pir_planes *planes = &search->query->planes;
-    double slack = pir_plane_slack(planes, slot, search->placement->x);
-    if (!search->goes)
-        return slack;
-    double rate = pir_vec_dot(pir_plane_normal(planes, slot), search->along);
-    return rate > ALONG * planes->err[slot] ? slack / rate : HUGE_VAL;
+    search->most = limit + search->hair;
 }
 
 /* Makes a piece a plane and keeps it where it is in the cone and may be the one that is looked for. */
@@ -89,10 +75,11 @@ static void take(struct search *search, pir_piece piece) {
     if (!pir_plane_make(query, piece, slot) || !pir_plane_refine(query, slot) ||
         !pir_cone_has(search->cone, pir_plane_normal(planes, slot)))
         return;
-    double out = way_out(search, slot), error = search->goes ? 0 : search->placement->error * planes->err[slot];
-    if (out - error > search->limit + search->tie)
+    double slack = pir_plane_slack(planes, slot, search->placement->x),
+           error = search->placement->error * planes->err[slot];
+    if (slack - error > search->limit)
         return;
-    lower_limit(search, out + error);
+    lower_limit(search, slack + error);
     search->count++;
 }
 
@@ -217,17 +204,15 @@ static bool is_kept(const pir_query *query, pir_piece piece) {
 }
 
 /* Looks at all that is kept, first at the piece that won last time. */
-static struct search search_all(pir_query *query, const pir_placement *placement, pir_vec3 along,
+static struct search search_all(pir_query *query, const pir_placement *placement, bool all,
                                 const pir_query_cache *cache) {
     struct search search = {.query = query,
                             .placement = placement,
                             .cone = &query->sum->region.cone,
-                            .tie = PIR_TIE * (query->size_p + query->size_q),
+                            .all = all,
                             .limit = HUGE_VAL,
                             .hair = 4 * placement->error,
-                            .most = HUGE_VAL,
-                            .goes = along.x != 0 || along.y != 0 || along.z != 0,
-                            .along = along};
+                            .most = HUGE_VAL};
     query->stamp++;
     query->planes.used = 0;
     go_on(query, placement);
@@ -243,54 +228,38 @@ static struct search search_all(pir_query *query, const pir_placement *placement
     return search;
 }
 
-/* The first piece in order of those whose way out is the least but for a tie, or PIR_NO_PLANE. */
-static uint32_t first_of_least(const struct search *search) {
-    uint32_t best = PIR_NO_PLANE;
-    double least = HUGE_VAL;
-    for (uint32_t i = 0; i < search->count; i++)
-        least = fmin(least, way_out(search, i));
-    for (uint32_t i = 0; i < search->count && least < HUGE_VAL; i++)
-        if (way_out(search, i) <= least + search->tie &&
-            (best == PIR_NO_PLANE ||
-             pir_piece_before(search->query->planes.piece[i], search->query->planes.piece[best])))
-            best = i;
-    return best;
-}
-
 pir_state pir_region_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
-                          uint32_t *ret_slot, double *ret_slack, uint32_t *steps) {
+                          pir_least *ret_least, uint32_t *steps) {
     const pir_planes *planes = &query->planes;
-    struct search search = search_all(query, placement, (pir_vec3){0, 0, 0}, cache);
+    struct search search = search_all(query, placement, false, cache);
     ++*steps;
-    *ret_slot = first_of_least(&search);
-    if (*ret_slot == PIR_NO_PLANE)
+    // none of the pieces that doubles leave open is above the limit: they are all there
+    *ret_least = (pir_least){.some = false};
+    for (uint32_t i = 0; i < search.count; i++)
+        if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] <= search.limit)
+            pir_least_offer(query, placement, ret_least, planes->piece[i]);
+    if (!ret_least->some)
         return PIR_INSIDE;
-    *ret_slack = pir_plane_slack(planes, *ret_slot, placement->x);
-    // doubles are certain, or the pieces that they leave open are all there, for none of them is above the limit
-    pir_state state = PIR_INSIDE;
-    for (uint32_t i = 0; i < search.count; i++) {
-        double slack = pir_plane_slack(planes, i, placement->x), error = placement->error * planes->err[i];
-        if (slack > error)
-            continue;
-        int sign = slack < -error ? -1 : pir_side_exact(query, planes->piece[i], placement->translation);
-        if (sign < 0) {
-            *ret_slot = i;
-            return PIR_OUTSIDE;
-        }
-        if (sign == 0 && state == PIR_INSIDE) {
-            state = PIR_BOUNDARY;
-            *ret_slot = i;
-        }
-    }
-    return state;
+    int side = pir_facet_side(query, placement, &ret_least->facet);
+    return side < 0 ? PIR_OUTSIDE : side == 0 ? PIR_BOUNDARY : PIR_INSIDE;
 }
 
-uint32_t pir_region_exit(pir_query *query, const pir_placement *placement, pir_vec3 along, double *ret_at,
-                         uint32_t *steps) {
-    struct search search = search_all(query, placement, along, NULL);
+bool pir_region_exit(pir_query *query, const pir_line *line, pir_arrival *ret_arrival, uint32_t *steps) {
+    struct search search = search_all(query, line->placement, true, NULL);
+    pir_clip clip = PIR_CLIP_NONE;
+    for (uint32_t i = 0; i < search.count; i++)
+        pir_clip_bound(query, line, &clip, i);
+    for (uint32_t i = 0; i < search.count; i++)
+        pir_clip_take(query, line, &clip, i);
     ++*steps;
-    uint32_t slot = first_of_least(&search);
-    if (slot != PIR_NO_PLANE)
-        *ret_at = fmax(way_out(&search, slot), 0);
-    return slot;
+    if (!clip.leave.some)
+        return false;
+    const pir_facet *facet = &clip.leave.facet;
+    if (!pir_line_arrive(query, line, facet, ret_arrival)) {
+        // beside the facet
+        pir_placement there = *line->placement;
+        there.x = pir_vec_add(there.x, pir_vec_scale(line->u, ret_arrival->at));
+        ret_arrival->touch = (pir_touch){facet->faces, pir_facet_point(query, &there, facet, 0)};
+    }
+    return true;
 }

@@ -16,7 +16,7 @@
 /* A search at work: what it compares with, and the least that the group in hand can have. */
 struct search {
     const pir_placement *placement;
-    double limit, tie, low;
+    double limit, low;
 };
 
 static inline double lesser(double a, double b) {
@@ -33,7 +33,7 @@ static void try_piece(pir_query *query, pir_piece piece, struct search *search) 
     double s = pir_plane_slack(planes, slot, search->placement->x),
            error = search->placement->error * planes->err[slot];
     search->low = lesser(search->low, s - error);
-    if (s - error <= search->limit + search->tie) {
+    if (s - error <= search->limit) {
         query->candidates = slot;
         search->limit = lesser(search->limit, s + error);
     }
@@ -74,7 +74,7 @@ static void sieve_crossings(pir_query *query, uint32_t i, uint32_t at, struct se
         double err = 1 / sqrt(pir_vec_dot(n, n)), s = pir_vec_dot(n, pir_vec_add(o, query->vq[q->origin[h]])) * err;
         double low = s - off * err;
         // a normal that is nothing but rounding is not above the limit either
-        if (low > search->limit + search->tie)
+        if (low > search->limit)
             search->low = lesser(search->low, low);
         else
             try_piece(query, (pir_piece){PIR_FACET_EE, query->edge_list[i], h}, search);
@@ -96,21 +96,21 @@ static void sieve_edges(pir_query *query, const pir_group *group, struct search 
         double of_b = offset[a] + pir_vec_dot(pir_lane_get(normal, a), pir_lane_get(to, b));
         double first = lesser(s[a], of_a), second = lesser(s[b], of_b);
         double bound = (first > second ? first : second) - off;
-        if (bounds && bound > 0 && bound > search->limit + search->tie)
+        if (bounds && bound > 0 && bound > search->limit)
             search->low = lesser(search->low, bound);
         else
             sieve_crossings(query, i, at, search);
     }
 }
 
-double pir_group_sieve(pir_query *query, uint32_t g, const pir_placement *placement, double tie, double limit) {
+double pir_group_sieve(pir_query *query, uint32_t g, const pir_placement *placement, double limit) {
     pir_group *group = &query->groups[g];
     const double off = 2 * placement->error;
     double along, least = facet_slacks(query, group, placement, &along);
-    struct search search = {placement, lesser(limit, least + off), tie, least - off};
+    struct search search = {placement, lesser(limit, least + off), least - off};
     group->sieved = query->stamp;
-    for (uint32_t i = group->facets; least - off <= search.limit + tie && i < group->own_end; i++)
-        if (query->work[2].x[i - group->facets] - off <= search.limit + tie) {
+    for (uint32_t i = group->facets; least - off <= search.limit && i < group->own_end; i++)
+        if (query->work[2].x[i - group->facets] - off <= search.limit) {
             uint32_t f = query->facet_list[i];
             try_piece(query, group->of_q ? (pir_piece){PIR_FACET_VF, 0, f} : (pir_piece){PIR_FACET_FV, f, 0}, &search);
         }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Inside, boundary or outside, exactly: by the facet that decided last time, then by groups that could hold a slack of zero or less, and
- * where doubles leave it open by integers.
+ * Inside, boundary or outside, exactly: by the facet that decided last time, then by groups that could hold a slack of
+ * zero or less, and where doubles leave it open by integers.
  */
-#include "query/query.h"
+#include "query/flat.h"
 
 /* A slot of group `group` whose slack is certainly negative. */
 static uint32_t separating_slot(const pir_query *query, const pir_group *group, const pir_placement *placement) {
@@ -17,11 +17,21 @@ static uint32_t separating_slot(const pir_query *query, const pir_group *group, 
     return best;
 }
 
+/* Takes note of the true facet of a piece that t lies on; the first in order stays. */
+static void offer_touching(pir_query *query, pir_piece piece, pir_least *touching) {
+    pir_facet facet;
+    if (!pir_facet_of(query, piece, &facet))
+        return;
+    if (!touching->some || pir_facet_before(&facet, &touching->facet))
+        touching->facet = facet;
+    touching->some = true;
+}
+
 /* What is open after doubles: the exact signs of slacks near zero. */
-static pir_state settle(pir_query *query, const pir_placement *placement, uint32_t *ret_slot) {
+static pir_state settle(pir_query *query, const pir_placement *placement, uint32_t *ret_slot, pir_least *ret_touching) {
     const pir_planes *planes = &query->planes;
     bool touches = false, any = false;
-    uint32_t touching = PIR_NO_PLANE;
+    ret_touching->some = false;
     for (uint32_t g = 0; g < query->group_count; g++) {
         const pir_group *group = &query->groups[g];
         any |= query->slack[g] == HUGE_VAL || group->count > 0;
@@ -35,24 +45,21 @@ static pir_state settle(pir_query *query, const pir_placement *placement, uint32
                 *ret_slot = i;
                 return PIR_OUTSIDE;
             }
-            if (sign == 0 && !touches) {
+            if (sign == 0) {
                 touches = true;
-                touching = i;
+                offer_touching(query, planes->piece[i], ret_touching);
             }
         }
     }
     if (any && !touches)
         return PIR_INSIDE;
-    if (query->p->dimension < 3 && query->q->dimension < 3 && !pir_side_in_flat(query, placement->translation))
-        touching = PIR_NO_PLANE, touches = false;
-    else
-        touches = true;
-    *ret_slot = touching;
-    return touches ? PIR_BOUNDARY : PIR_OUTSIDE;
+    bool flat = query->p->dimension < 3 && query->q->dimension < 3;
+    *ret_slot = PIR_NO_PLANE;
+    return flat && !pir_flat_holds(query, placement->translation) ? PIR_OUTSIDE : PIR_BOUNDARY;
 }
 
 pir_state pir_state_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
-                         uint32_t *ret_slot, uint32_t *steps) {
+                         uint32_t *ret_slot, pir_least *ret_touching, uint32_t *steps) {
     uint32_t slot;
     if (pir_piece_recall(query, cache, &slot)) {
         ++*steps;
@@ -77,5 +84,5 @@ pir_state pir_state_find(pir_query *query, const pir_placement *placement, const
         }
         open |= query->slack[g] <= 0 || query->groups[g].count == 0;
     }
-    return open ? settle(query, placement, ret_slot) : PIR_INSIDE;
+    return open ? settle(query, placement, ret_slot, ret_touching) : PIR_INSIDE;
 }

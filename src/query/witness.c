@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Which features and which points attain an answer. */
-#include "query/query.h"
+#include "query/facet.h"
 
 static bool facet_has(const pir_polytope *p, uint32_t f, uint32_t v) {
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
@@ -52,38 +52,19 @@ pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint
     return (pir_feature){PIR_FEATURE_VERTEX, v[0]};
 }
 
-pir_witness pir_witness_of_piece(const pir_query *query, pir_piece piece) {
+pir_vec3 pir_facet_point(const pir_query *query, const pir_placement *placement, const pir_facet *facet, double slack) {
     const pir_polytope *p = query->p, *q = query->q;
-    switch (piece.kind) {
-    case PIR_FACET_FV:
-        return (pir_witness){shown(p, (pir_feature){PIR_FEATURE_FACET, piece.first}),
-                             {PIR_FEATURE_VERTEX, query->sum->fv[piece.first]}};
-    case PIR_FACET_VF:
-        return (pir_witness){{PIR_FEATURE_VERTEX, query->sum->vf[piece.second]},
-                             shown(q, (pir_feature){PIR_FEATURE_FACET, piece.second})};
-    default:
-        return (pir_witness){shown(p, (pir_feature){PIR_FEATURE_EDGE, piece.first}),
-                             shown(q, (pir_feature){PIR_FEATURE_EDGE, q->edge[piece.second]})};
-    }
-}
-
-pir_vec3 pir_witness_point(const pir_query *query, const pir_placement *placement, uint32_t slot, double slack) {
-    const pir_polytope *p = query->p, *q = query->q;
-    const pir_planes *planes = &query->planes;
-    pir_piece piece = planes->piece[slot];
-    pir_vec3 n = pir_plane_normal(planes, slot);
-    if (piece.kind == PIR_FACET_FV)
-        return pir_frame_world(query, query->vq[query->sum->fv[piece.first]]);
-    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(n, slack));
-    if (piece.kind == PIR_FACET_VF)
-        return pir_frame_world(query,
-                               pir_vec_sub(y, pir_mat_apply(&query->r, query->vp[query->sum->vf[piece.second]])));
+    if (facet->piece.kind == PIR_FACET_FV)
+        return query->vq[facet->b];
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
+    if (facet->piece.kind == PIR_FACET_VF)
+        return pir_vec_sub(y, pir_mat_apply(&query->r, query->vp[facet->a]));
     // y = corner + λ e + μ d on the parallelogram
-    uint32_t half = p->edge_half[piece.first], h = piece.second;
+    uint32_t half = p->edge_half[facet->piece.first], h = facet->piece.second;
     pir_vec3 from = query->vq[q->origin[h]], d = pir_vec_sub(query->vq[q->target[h]], from);
     pir_vec3 corner = pir_frame_vertex(query, p->origin[half], q->origin[h]);
-    pir_vec3 across = pir_vec_cross(pir_mat_apply(&query->r, p->direction[half]), n);
+    pir_vec3 across = pir_vec_cross(pir_mat_apply(&query->r, p->direction[half]), facet->n);
     double whole = pir_vec_dot(d, across);
     double part = whole != 0 ? pir_vec_dot(pir_vec_sub(y, corner), across) / whole : 0;
-    return pir_frame_world(query, pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part)))));
+    return pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part))));
 }

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Where answers are attained: points on the bodies where features are parallel, casts that slide or recede next to a face, lines nearly along the
+ * facet that decides, and the same bits whatever was asked before. Small cases, with the answers that plain geometry gives; the same at
+ * random, and against exact arithmetic, is in test_exact_answers.c.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <pirouette/query.h>
+
+#include "query/query_of.h"
+
+static const pir_quat still = {0, 0, 0, 1};
+static const pir_quat eighth = {0, 0.3826834323650898, 0, 0.9238795325112867}; /* of a turn, about y */
+
+struct pair {
+    pir_polytope *p, *q;
+    pir_sum *sum;
+    pir_query *query;
+};
+
+static pir_polytope *box(double x, double y, double z) {
+    pir_vec3 points[8];
+    pir_polytope *p;
+    for (int i = 0; i < 8; i++)
+        points[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
+    assert_int_equal(pir_polytope_create(points, 8, NULL, &p), PIR_OK);
+    return p;
+}
+
+static struct pair make(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
+    struct pair pair = {.p = p, .q = q};
+    test_query_make(p, q, rotation, &pair.sum, &pair.query);
+    return pair;
+}
+
+static void clear(struct pair *pair) {
+    test_query_free(pair->query, pair->sum);
+    pir_polytope_release(pair->p);
+    pir_polytope_release(pair->q);
+}
+
+static pir_query_input at(double x, double y, double z) {
+    pir_query_input input = pir_query_input_default();
+    input.translation = (pir_vec3){x, y, z};
+    return input;
+}
+
+static pir_query_result ask(struct pair *pair, double x, double y, double z) {
+    pir_query_input input = at(x, y, z);
+    pir_query_result result;
+    assert_int_equal(pir_query_signed_distance(pair->query, &input, NULL, &result), PIR_OK);
+    return result;
+}
+
+static int in_box(pir_vec3 point, pir_vec3 low, pir_vec3 high) {
+    const double hair = 4e-16;
+    return point.x >= low.x - hair && point.x <= high.x + hair && point.y >= low.y - hair && point.y <= high.y + hair &&
+           point.z >= low.z - hair && point.z <= high.z + hair;
+}
+
+/* --- points on the bodies --- */
+
+static void cubes_face_on_face_touch_where_both_are(void **state) {
+    (void)state;
+    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    const double heights[3] = {0.9, 1, 1.25};
+    for (int i = 0; i < 3; i++) {
+        pir_query_result r = ask(&pair, 0.3, 0.2, heights[i]);
+        assert_true(fabs(r.distance - (heights[i] - 1)) <= 1e-15 && r.normal.z == 1);
+        pir_vec3 low = {-0.2, -0.3, heights[i] - 0.5}, high = {0.8, 0.7, heights[i] + 0.5};
+        assert_true(in_box(r.point_p, low, high));
+        assert_true(in_box(r.point_q, (pir_vec3){-0.5, -0.5, -0.5}, (pir_vec3){0.5, 0.5, 0.5}));
+    }
+    clear(&pair);
+}
+
+static void a_cube_on_its_edge_touches_where_both_are(void **state) {
+    (void)state;
+    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), eighth);
+    double half = sqrt(0.5);
+    for (double along = -0.9; along < 1; along += 0.45)
+        for (double height = -0.1; height <= 0.1; height += 0.1) {
+            pir_query_result r = ask(&pair, 0.2, along, 0.5 + half + height);
+            assert_true(fabs(r.distance - height) <= 1e-15);
+            assert_true(in_box(r.point_q, (pir_vec3){-0.5, -0.5, -0.5}, (pir_vec3){0.5, 0.5, 0.5}));
+            assert_true(fabs(r.point_p.x - 0.2) <= 1e-15 && fabs(r.point_p.y - along) <= 0.5 + 1e-15);
+            assert_true(r.witness.p.kind != PIR_FEATURE_FACET && r.witness.q.kind != PIR_FEATURE_NONE);
+        }
+    clear(&pair);
+}
+
+static void the_least_faces_are_named(void **state) {
+    (void)state;
+    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    // corners of Q under the inside, an edge and a corner of P's face
+    const struct {
+        double x, y;
+        pir_feature_kind p;
+    } cases[3] = {{0.25, 0.125, PIR_FEATURE_FACET}, {0, 0.125, PIR_FEATURE_EDGE}, {0, 0, PIR_FEATURE_VERTEX}};
+    for (int i = 0; i < 3; i++) {
+        pir_query_result r = ask(&pair, cases[i].x, cases[i].y, 0.75);
+        assert_int_equal(r.witness.p.kind, cases[i].p);
+        assert_int_equal(r.witness.q.kind, PIR_FEATURE_VERTEX);
+    }
+    clear(&pair);
+}
+
+/* --- casts and directions --- */
+
+static void casts_slide_along_a_face_at_any_gap(void **state) {
+    (void)state;
+    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    for (int i = 1; i <= 52; i++) {
+        double gap = ldexp(1, -i);
+        pir_query_input input = at(0.25, 0, 1 + gap);
+        const pir_vec3 ways[3] = {{1, 0, 0}, {-0.5, 2, 0}, {1, 1, ldexp(1, -1000)}};
+        for (int k = 0; k < 3; k++) {
+            pir_cast_result cast;
+            pir_query_result r;
+            assert_int_equal(pir_query_cast(pair.query, &input, ways[k], &cast), PIR_OK);
+            assert_int_equal(cast.outcome, PIR_CAST_MISS);
+            assert_int_equal(pir_query_directional_distance(pair.query, &input, ways[k], &r), PIR_OK);
+            assert_int_equal(r.outcome, PIR_NO_HIT);
+        }
+        // and the least descent arrives, at the very time
+        pir_cast_result cast;
+        assert_int_equal(pir_query_cast(pair.query, &input, (pir_vec3){0.125, 0, -2 * gap}, &cast), PIR_OK);
+        assert_int_equal(cast.outcome, PIR_CAST_HIT);
+        assert_true(cast.time == 0.5);
+    }
+    clear(&pair);
+}
+
+static void lines_leave_by_facets_that_they_are_nearly_along(void **state) {
+    (void)state;
+    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    for (int i = 10; i <= 50; i++) {
+        // half way to the next face when it passes this one
+        double slope = ldexp(1, -i);
+        pir_query_input input = at(0, 1 - slope / 2, 0);
+        pir_query_result r;
+        assert_int_equal(pir_query_directional_depth(pair.query, &input, (pir_vec3){1, slope, 0}, &r), PIR_OK);
+        assert_true(fabs(r.distance + 0.5 * sqrt(1 + slope * slope)) <= 1e-15 && r.normal.y == 1);
+        input = at(-2, 1 + slope / 2 + slope, 0);
+        assert_int_equal(pir_query_directional_distance(pair.query, &input, (pir_vec3){1, -slope, 0}, &r), PIR_OK);
+        assert_int_equal(r.outcome, PIR_SEPARATED);
+        assert_true(fabs(r.distance - 1.5 * sqrt(1 + slope * slope)) <= 2e-15 && r.normal.y == 1);
+    }
+    clear(&pair);
+}
+
+/* --- the same bits --- */
+
+static int same(const pir_query_result *a, const pir_query_result *b) {
+    return a->state == b->state && a->outcome == b->outcome && a->distance == b->distance &&
+           memcmp(&a->normal, &b->normal, sizeof a->normal) == 0 &&
+           memcmp(&a->point_p, &b->point_p, sizeof a->point_p) == 0 &&
+           memcmp(&a->point_q, &b->point_q, sizeof a->point_q) == 0 &&
+           memcmp(&a->witness, &b->witness, sizeof a->witness) == 0;
+}
+
+static void any_cache_gives_the_same_bits(void **state) {
+    (void)state;
+    const pir_quat rotations[3] = {still, eighth, {0.1, -0.2, 0.3, 0.9}};
+    for (int k = 0; k < 3; k++) {
+        struct pair pair = make(box(0.5, 0.25, 0.75), box(0.5, 0.5, 0.5), rotations[k]);
+        pir_query_cache last = {0};
+        for (uint32_t i = 0; i < 400; i++) {
+            pir_query_input input = at((i % 7) * 0.25 - 0.75, (i % 5) * 0.375 - 0.75, (i % 13) * 0.125);
+            pir_query_cache any = {
+                1 + i % 3, {i % 8, (i / 8) % 8, (i / 64) % 8}, {i % 5, i % 3, i % 8}, i % 2, i % 3, i % 6, i % 11};
+            pir_query_result cold, warm, strange;
+            assert_int_equal(pir_query_signed_distance(pair.query, &input, NULL, &cold), PIR_OK);
+            assert_int_equal(pir_query_signed_distance(pair.query, &input, &last, &warm), PIR_OK);
+            assert_int_equal(pir_query_signed_distance(pair.query, &input, &any, &strange), PIR_OK);
+            double number;
+            assert_int_equal(pir_query_batch_distances(pair.query, &input.translation, 1, &number, NULL), PIR_OK);
+            assert_true(same(&cold, &warm) && same(&cold, &strange) && number == cold.distance);
+        }
+        clear(&pair);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cubes_face_on_face_touch_where_both_are),
+        cmocka_unit_test(a_cube_on_its_edge_touches_where_both_are),
+        cmocka_unit_test(the_least_faces_are_named),
+        cmocka_unit_test(casts_slide_along_a_face_at_any_gap),
+        cmocka_unit_test(lines_leave_by_facets_that_they_are_nearly_along),
+        cmocka_unit_test(any_cache_gives_the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
