@@ -12,11 +12,13 @@
  *
  *     1, ε₁, ε₁², ε₂, ε₁ε₂, ε₂², ε₃, ε₁ε₃, ε₂ε₃, ε₃², ε₄, ε₁ε₄, ε₂ε₄, ε₃ε₄, ε₄²
  *
- * and the first coefficient that is not zero gives the sign. One is not: A = 0 means d = 0 and c = 0, hence a = 0 or b = 0.
+ * and the first coefficient that is not zero gives the sign. One without ε₄ is not: were A_kl = 0 for all k and l among x, y, z, then
+ * a bᵀ + b aᵀ = d I, of rank 2 at most, so that d = 0; then a_k b_l = −a_l b_k, and a_k b_k = 0, whence a = 0 or b = 0.
  *
  * Most ties of real scenes are of small integers, and s vanishes product by product: a body turning on a table has two components of
- * q zero, and normals and edges along axes. So doubles try first. A sum of products whose magnitudes add up to 0 is 0; one that is not
- * small beside what they add up to has the sign that it seems to have. Where neither holds the integers decide.
+ * q zero, and normals and edges along axes. So doubles try first. Where s vanishes so, a_k b_k = 0 for every k: hence d = 0, A_kk = 0,
+ * and A_kl is a single product, as c_k is. What is left are sums like b·v. One of which all products are 0 is 0; one that is not small
+ * beside what the magnitudes of its products add up to has the sign that it seems to have. Where neither holds the integers decide.
  */
 #include "exact/sign.h"
 
@@ -76,27 +78,19 @@ struct tie {
     pir_int sum;
 };
 
-/* The sign of (Aq)_k, k = 3 for w. */
+/* The sign of (Aq)_k, k among x, y, z. */
 static int gradient_sign(struct tie *tie, int k, pir_limbs *scratch) {
     const pir_int *q = tie->q;
     tie->sum.size = 0;
-    if (k == 3) {
-        for (int l = 0; l < 3; l++)
-            pir_int_add_mul(&tie->sum, &tie->c.c[l], &q[l], scratch);
-        pir_int_add_mul(&tie->sum, &tie->d, &q[3], scratch);
-    } else {
-        pir_int_add_mul(&tie->sum, &tie->a->c[k], &tie->bv, scratch);
-        pir_int_add_mul(&tie->sum, &tie->b->c[k], &tie->av, scratch);
-        pir_int_sub_mul(&tie->sum, &tie->d, &q[k], scratch);
-        pir_int_add_mul(&tie->sum, &tie->c.c[k], &q[3], scratch);
-    }
+    pir_int_add_mul(&tie->sum, &tie->a->c[k], &tie->bv, scratch);
+    pir_int_add_mul(&tie->sum, &tie->b->c[k], &tie->av, scratch);
+    pir_int_sub_mul(&tie->sum, &tie->d, &q[k], scratch);
+    pir_int_add_mul(&tie->sum, &tie->c.c[k], &q[3], scratch);
     return pir_int_sign(&tie->sum);
 }
 
-/* The sign of A_kl, l ≤ k. */
+/* The sign of A_kl, l ≤ k, both among x, y, z. */
 static int form_sign(struct tie *tie, int k, int l, pir_limbs *scratch) {
-    if (k == 3)
-        return pir_int_sign(l == 3 ? &tie->d : &tie->c.c[l]);
     tie->sum.size = 0;
     pir_int_add_mul(&tie->sum, &tie->a->c[k], &tie->b->c[l], scratch);
     pir_int_add_mul(&tie->sum, &tie->a->c[l], &tie->b->c[k], scratch);
@@ -122,7 +116,7 @@ static int tie_sign(pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
     pir_int3_dot(&tie.bv, b, &v, scratch);
     tie.sum = pir_limbs_take(scratch, la + lb + PIR_QUAT_LIMBS + 4);
     int sign = 0;
-    for (int k = 0; k < 4 && sign == 0; k++) {
+    for (int k = 0; k < 3 && sign == 0; k++) {
         sign = gradient_sign(&tie, k, scratch);
         for (int l = 0; l <= k && sign == 0; l++)
             sign = form_sign(&tie, k, l, scratch);
@@ -189,39 +183,24 @@ static bool vanishes(const double q[4], const double a[3], const double b[3]) {
     return true;
 }
 
-/* tie_sign by doubles, or TOO_CLOSE. */
+/* tie_sign by doubles where s vanishes product by product, or TOO_CLOSE. */
 static int small_tie_sign(const double q[4], const double a[3], const double b[3]) {
-    struct sized d = {0, 0}, av = {0, 0}, bv = {0, 0}, c[3];
+    struct sized av = {0, 0}, bv = {0, 0};
     for (int k = 0; k < 3; k++) {
-        int l = (k + 1) % 3, m = (k + 2) % 3;
-        add_term(&d, a[k] * b[k], fabs(a[k] * b[k]));
         add_term(&av, a[k] * q[k], fabs(a[k] * q[k]));
         add_term(&bv, b[k] * q[k], fabs(b[k] * q[k]));
-        c[k] = (struct sized){a[l] * b[m] - a[m] * b[l], fabs(a[l] * b[m]) + fabs(a[m] * b[l])};
     }
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        double turn = (a[i] * b[j] - a[j] * b[i]) * q[3];
         struct sized x = {0, 0};
-        for (int l = 0; l < 3 && k == 3; l++)
-            add_term(&x, c[l].sum * q[l], c[l].size * fabs(q[l]));
-        if (k == 3) {
-            add_term(&x, d.sum * q[3], d.size * fabs(q[3]));
-        } else {
-            add_term(&x, a[k] * bv.sum, fabs(a[k]) * bv.size);
-            add_term(&x, b[k] * av.sum, fabs(b[k]) * av.size);
-            add_term(&x, -d.sum * q[k], d.size * fabs(q[k]));
-            add_term(&x, c[k].sum * q[3], c[k].size * fabs(q[3]));
-        }
+        add_term(&x, a[k] * bv.sum, fabs(a[k]) * bv.size);
+        add_term(&x, b[k] * av.sum, fabs(b[k]) * av.size);
+        add_term(&x, turn, fabs(turn));
         int sign = sized_sign(x);
-        for (int l = 0; l <= k && sign == 0; l++) {
-            x = k < 3    ? (struct sized){a[k] * b[l] + a[l] * b[k], fabs(a[k] * b[l]) + fabs(a[l] * b[k])}
-                : l == 3 ? d
-                         : c[l];
-            if (k == l && k < 3)
-                add_term(&x, -d.sum, d.size);
-            sign = sized_sign(x);
-            // integers that doubles hold cancel exactly
-            if (sign == TOO_CLOSE && x.size < 0x1p53)
-                sign = (x.sum > 0) - (x.sum < 0);
+        for (int l = 0; l < k && sign == 0; l++) {
+            double form = a[k] * b[l] + a[l] * b[k];
+            sign = (form > 0) - (form < 0);
         }
         if (sign != 0)
             return sign;

@@ -218,6 +218,42 @@ static void draw_tie(struct question *question, test_random *random) {
     }
 }
 
+/*
+ * About an axis of coordinates: a vector along it and one across it, which make s vanish whatever the angle is, and an angle for which its
+ * derivative vanishes, too, or is within a few ulps of that.
+ */
+static void draw_close_call(struct question *question, test_random *random) {
+    int k = (int)test_random_below(random, 3), l = (k + 1) % 3, m = (k + 2) % 3;
+    double a[3] = {0, 0, 0}, b[3] = {0, 0, 0}, q[4] = {0, 0, 0, 0};
+    a[k] = floor(test_random_unit(random) * 0x1p50);
+    a[l] = 1 + floor(fabs(test_random_unit(random)) * 0x1p50);
+    b[m] = 1 + floor(fabs(test_random_unit(random)) * 0x1p50);
+    bool first = test_random_below(random, 2);
+    q[m] = ldexp(first ? a[l] : a[k], -60);
+    q[3] = ldexp(first ? -a[k] : a[l], -60);
+    for (uint32_t i = test_random_below(random, 6); i > 0; i--) {
+        int which = test_random_below(random, 2) ? m : 3;
+        q[which] = nextafter(q[which], test_random_below(random, 2) ? HUGE_VAL : -HUGE_VAL);
+    }
+    bool swapped = test_random_below(random, 2);
+    question_set(question, (pir_quat){q[0], q[1], q[2], q[3]}, swapped ? b : a, swapped ? a : b);
+}
+
+/* Multiplies both vectors by factors of a few limbs, which no double holds. */
+static void lengthen(struct question *question, test_random *random) {
+    mpz_t factor;
+    mpz_init(factor);
+    for (int side = 0; side < 2; side++) {
+        mpz_ui_pow_ui(factor, 3, 41 + test_random_below(random, 60));
+        for (int k = 0; k < 3; k++) {
+            mpz_ptr exact = side ? question->exact_b[k] : question->exact_a[k];
+            mpz_mul(exact, exact, factor);
+            test_int_set(side ? &question->b.value.c[k] : &question->a.value.c[k], exact);
+        }
+    }
+    mpz_clear(factor);
+}
+
 static void tie_is_settled_as_a_real_tiny_perturbation_settles_it(void **state) {
     (void)state;
     pir_allocator allocator = from_malloc();
@@ -226,17 +262,45 @@ static void tie_is_settled_as_a_real_tiny_perturbation_settles_it(void **state) 
     question_init(&question, &allocator);
     for (uint64_t i = 0; i < 3000; i++) {
         test_random random = test_random_case("sign ties", i);
-        draw_tie(&question, &random);
+        if (i % 5 == 4)
+            draw_close_call(&question, &random);
+        else
+            draw_tie(&question, &random);
+        // where small integers are settled by doubles, long ones of the same directions are settled exactly
+        if (i % 3 == 2)
+            lengthen(&question, &random);
         oracle_quat q;
-        oracle_perturbed_quat_init(q, question.q, 64);
+        oracle_perturbed_quat_init(q, question.q, 256);
         int expected = oracle_sign(q, question.exact_a, question.exact_b);
         oracle_quat_clear(q);
+        uint64_t before = question.signs.by_exact;
         ties += pir_sign_true(&question.signs, &question.a.value, &question.b.value) == 0;
+        assert_int_equal(question.signs.by_exact, before + 1);
         int sign = pir_sign_perturbed(&question.signs, &question.a.value, &question.b.value);
         expect(expected != 0 && sign == expected, "case %llu: %d, not %d", (unsigned long long)i, sign, expected);
     }
     assert_true(ties > 500);
     print_message("# %u of 3000 were ties\n", ties);
+    question_clear(&question, &allocator);
+}
+
+/* Doubles settle the ties of small integers where they can; long vectors of the same directions are settled by integers alone. */
+static void sign_is_that_of_the_directions(void **state) {
+    (void)state;
+    pir_allocator allocator = from_malloc();
+    struct question question;
+    question_init(&question, &allocator);
+    for (uint64_t i = 0; i < 20000; i++) {
+        test_random random = test_random_case("sign directions", i);
+        if (i % 4)
+            draw_close_call(&question, &random);
+        else
+            draw_tie(&question, &random);
+        int sign = pir_sign_perturbed(&question.signs, &question.a.value, &question.b.value);
+        lengthen(&question, &random);
+        expect(pir_sign_perturbed(&question.signs, &question.a.value, &question.b.value) == sign, "case %llu",
+               (unsigned long long)i);
+    }
     question_clear(&question, &allocator);
 }
 
@@ -342,6 +406,7 @@ int main(void) {
         cmocka_unit_test(filter_is_within_its_bound_and_never_wrong),
         cmocka_unit_test(exact_sign_is_that_of_rational_arithmetic),
         cmocka_unit_test(tie_is_settled_as_a_real_tiny_perturbation_settles_it),
+        cmocka_unit_test(sign_is_that_of_the_directions),
         cmocka_unit_test(reversing_a_vector_reverses_the_sign_ties_included),
         cmocka_unit_test(each_sign_is_counted_once_and_scratch_is_given_back),
         cmocka_unit_test(unit_vectors_are_within_their_bound),
