@@ -229,16 +229,23 @@ bool pir_cgm_connect(pir_cgm *cgm) {
     return cgm->vertex_facet && cgm->edge_half && cgm->face_vertex;
 }
 
-/* Whether at least three cells meet at v. */
-static bool is_real(const pir_cgm *cgm, uint32_t v) {
+/* Whether both faces carry the same vertices of `count` sources from `first` on. */
+static bool same_vertices(const pir_cgm *cgm, uint32_t f, uint32_t g, uint32_t first, uint32_t count) {
+    for (uint32_t s = first; s < first + count; s++)
+        if (pir_cgm_source_vertex(cgm, f, s) != pir_cgm_source_vertex(cgm, g, s))
+            return false;
+    return true;
+}
+
+bool pir_cgm_is_facet_of(const pir_cgm *cgm, uint32_t v, uint32_t first, uint32_t count) {
     struct pir_cgm_around around = pir_cgm_around_new(cgm, v);
-    uint32_t first = cgm->half[around.half].face, last = first, changes = 0;
+    uint32_t start = cgm->half[around.half].face, last = start, changes = 0;
     while (pir_cgm_around_next(cgm, &around)) {
         uint32_t face = cgm->half[around.half].face;
-        changes += !pir_cgm_same_cell(cgm, last, face);
+        changes += !same_vertices(cgm, last, face, first, count);
         last = face;
     }
-    return changes + !pir_cgm_same_cell(cgm, last, first) >= 3;
+    return changes + !same_vertices(cgm, last, start, first, count) >= 3;
 }
 
 /* Gives a block's spare room back; where that fails it stays as it is. */
@@ -265,5 +272,5 @@ void pir_cgm_trim(pir_cgm *cgm) {
 
 void pir_cgm_flag_vertices(pir_cgm *cgm) {
     for (uint32_t v = 0; v < pir_cgm_vertices(cgm); v++)
-        cgm->vertex[v].real = is_real(cgm, v);
+        cgm->vertex[v].real = pir_cgm_is_facet_of(cgm, v, 0, cgm->source_count);
 }

@@ -43,6 +43,9 @@ bool pir_cgm_trace_faces(pir_cgm *cgm, uint32_t map);
 /* When all maps are there: copies, and room for what sources contribute, all PIR_CGM_NONE. False when out of memory. */
 bool pir_cgm_connect(pir_cgm *cgm);
 
+/* Whether v is the normal of a facet of the sum of `count` sources from `first` on: at least three of its cells meet there. */
+bool pir_cgm_is_facet_of(const pir_cgm *cgm, uint32_t v, uint32_t first, uint32_t count);
+
 /* When all is there but the vertices' flags: sets them. */
 void pir_cgm_flag_vertices(pir_cgm *cgm);
 

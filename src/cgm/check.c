@@ -2,7 +2,7 @@
 /*
  * The whole-structure check of a map. What it proves: six planar maps whose inner faces are convex, joined along the cube's edges; and that
  * every corner of every face has the vertices that the face carries as extreme ones, so that each face lies in its cell, and the faces, which
- * fill the cube, are the overlay of the sources' Gaussian maps cut by the cube.
+ * fill the cube, are the overlay of the sources' Gaussian maps cut by the cube; and that each vertex names the facets whose normal it is.
  */
 #include "cgm/build.h"
 #include "cgm/sides.h"
@@ -15,6 +15,48 @@ struct check {
 static int side(struct check *check, uint32_t half, uint32_t vertex) {
     const pir_cgm *cgm = check->cgm;
     return pir_cgm_side(&check->sides, cgm, pir_cgm_half_line(cgm, half), cgm, &cgm->vertex[vertex].point);
+}
+
+/* Whether a feature of a source is one, or absent where that may be. */
+static bool is_feature(uint32_t index, uint32_t count, bool may_be_absent) {
+    return index < count || (index == PIR_CGM_NONE && may_be_absent);
+}
+
+/* Whether `copy` is a vertex, one on the rim of its map where that is asked for. */
+static bool is_copy(const pir_cgm *cgm, uint32_t copy, bool on_rim) {
+    if (copy >= pir_cgm_vertices(cgm) || cgm->vertex[copy].map >= 6)
+        return false;
+    uint32_t map = cgm->vertex[copy].map;
+    return !on_rim || copy - cgm->vertex_start[map] < cgm->rim[map];
+}
+
+/* Whether all that stands for something stands for something that is there, so that what follows may look at it. */
+static bool indices_are_valid(const pir_cgm *cgm, uint32_t map) {
+    uint32_t k = cgm->source_count;
+    for (uint32_t s = 0; s < k; s++) {
+        const pir_polytope *p = cgm->source[s].polytope;
+        for (uint32_t v = cgm->vertex_start[map]; v < cgm->vertex_start[map + 1]; v++)
+            if (!is_feature(cgm->vertex_facet[(size_t)v * k + s], p->facet_count, true))
+                return false;
+        for (uint32_t e = cgm->edge_start[map]; e < cgm->edge_start[map + 1]; e++)
+            if (!is_feature(cgm->edge_half[(size_t)e * k + s], p->half_count, true))
+                return false;
+        for (uint32_t f = cgm->face_start[map]; f < cgm->face_start[map + 1]; f++)
+            if (!is_feature(cgm->face_vertex[(size_t)f * k + s], pir_cgm_is_outer(cgm, f, map) ? 0 : p->vertex_count,
+                            pir_cgm_is_outer(cgm, f, map)))
+                return false;
+    }
+    for (uint32_t e = cgm->edge_start[map]; e < cgm->edge_start[map + 1]; e++)
+        if (cgm->edge_line[e] >> 1 >= cgm->line_count)
+            return false;
+    for (uint32_t v = cgm->vertex_start[map]; v < cgm->vertex_start[map + 1]; v++)
+        if (cgm->vertex[v].map != map || cgm->vertex[v].out >= 2 * pir_cgm_edges(cgm) ||
+            !is_copy(cgm, cgm->vertex[v].copy, v - cgm->vertex_start[map] < cgm->rim[map]))
+            return false;
+    for (uint32_t f = cgm->face_start[map]; f < cgm->face_start[map + 1]; f++)
+        if (cgm->face_half[f] >= 2 * pir_cgm_edges(cgm))
+            return false;
+    return true;
 }
 
 static bool links_are_valid(const pir_cgm *cgm, uint32_t map) {
@@ -33,7 +75,7 @@ static bool links_are_valid(const pir_cgm *cgm, uint32_t map) {
         if (cgm->half[cgm->face_half[f]].face != f)
             return false;
     for (uint32_t v = cgm->vertex_start[map]; v < cgm->vertex_start[map + 1]; v++)
-        if (cgm->vertex[v].map != map || cgm->half[cgm->vertex[v].out].origin != v)
+        if (cgm->half[cgm->vertex[v].out].origin != v)
             return false;
     // connected: Euler's formula, and all halfedges of a face or around a vertex on one cycle
     uint32_t in_faces = 0, around_vertices = 0;
@@ -72,9 +114,9 @@ static bool rim_is_valid(struct check *check, uint32_t map) {
         const struct pir_cgm_vertex *vertex = &cgm->vertex[v];
         if (vertex->out != h || cgm->half[h].origin != v || !pir_cgm_is_outer(cgm, cgm->half[h ^ 1].face, map))
             return false;
-        if (vertex->place == PIR_CGM_CORNER && cgm->corner[map][pir_side_corner(corners++)] != v)
+        if (vertex->place == PIR_CGM_CORNER && (corners == 4 || cgm->corner[map][pir_side_corner(corners++)] != v))
             return false;
-        if (pir_cgm_half_line(cgm, h) != pir_side_line(map, corners - 1))
+        if (corners == 0 || pir_cgm_half_line(cgm, h) != pir_side_line(map, corners - 1))
             return false;
         for (uint32_t copy = vertex->copy; copy != v && copies < 4; copy = cgm->vertex[copy].copy, copies++)
             if (!same_direction(check, v, copy) || cgm->vertex[copy].place != vertex->place)
@@ -141,6 +183,18 @@ static bool cells_are_valid(struct check *check, uint32_t map) {
     return true;
 }
 
+/* Whether the direction of vertex v is the normal of facet f of source s. */
+static bool is_normal(struct check *check, uint32_t s, uint32_t f, uint32_t v) {
+    const struct pir_cgm_source *source = &check->cgm->source[s];
+    const pir_polytope *p = source->polytope;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+        if (!is_extreme(check, s, p->origin[p->loop[i]], v))
+            return false;
+    // a polygon's vertices are extreme on both of its sides: no rounding can hide which
+    pir_vec3 n = source->rotation ? pir_mat_apply(&source->rotation->r, p->normal[f]) : p->normal[f];
+    return pir_vec_dot(n, check->cgm->vertex[v].point.unit) > 0;
+}
+
 /* Every contributed facet and edge is where its normal and its arc are. */
 static bool sources_are_valid(struct check *check, uint32_t map) {
     const pir_cgm *cgm = check->cgm;
@@ -148,10 +202,7 @@ static bool sources_are_valid(struct check *check, uint32_t map) {
         const struct pir_cgm_source *source = &cgm->source[s];
         for (uint32_t v = cgm->vertex_start[map]; v < cgm->vertex_start[map + 1]; v++) {
             uint32_t facet = pir_cgm_vertex_facet(cgm, v, s);
-            if (facet != PIR_CGM_NONE &&
-                (!cgm->vertex[v].real || facet >= source->polytope->facet_count ||
-                 !is_extreme(check, s,
-                             source->polytope->origin[source->polytope->loop[source->polytope->loop_start[facet]]], v)))
+            if (facet != PIR_CGM_NONE && (!cgm->vertex[v].real || !is_normal(check, s, facet, v)))
                 return false;
         }
         for (uint32_t h = 2 * cgm->edge_start[map]; h < 2 * cgm->edge_start[map + 1]; h++) {
@@ -165,14 +216,33 @@ static bool sources_are_valid(struct check *check, uint32_t map) {
     return true;
 }
 
+/* When all maps and what joins them are valid: every vertex that is a facet's normal says so, of the sum and of each source. */
+static bool facets_are_valid(const pir_cgm *cgm) {
+    for (uint32_t v = 0; v < pir_cgm_vertices(cgm); v++) {
+        if (cgm->vertex[v].real != pir_cgm_is_facet_of(cgm, v, 0, cgm->source_count))
+            return false;
+        for (uint32_t s = 0; s < cgm->source_count; s++)
+            if ((pir_cgm_vertex_facet(cgm, v, s) != PIR_CGM_NONE) != pir_cgm_is_facet_of(cgm, v, s, 1))
+                return false;
+    }
+    return true;
+}
+
 int pir_cgm_is_valid(const pir_cgm *cgm) {
     struct check check = {.cgm = cgm};
     if (!pir_cgm_sides_init(&check.sides, &cgm->allocator, cgm, cgm))
         return 0;
+    // each kind of question rests on the answers to those before it, for all maps
     bool valid = true;
     for (uint32_t map = 0; map < 6 && valid; map++)
-        valid = links_are_valid(cgm, map) && rim_is_valid(&check, map) && faces_are_convex(&check, map) &&
-                cells_are_valid(&check, map) && sources_are_valid(&check, map);
+        valid = indices_are_valid(cgm, map);
+    for (uint32_t map = 0; map < 6 && valid; map++)
+        valid = links_are_valid(cgm, map);
+    for (uint32_t map = 0; map < 6 && valid; map++)
+        valid = rim_is_valid(&check, map);
+    for (uint32_t map = 0; map < 6 && valid; map++)
+        valid = faces_are_convex(&check, map) && cells_are_valid(&check, map) && sources_are_valid(&check, map);
+    valid = valid && facets_are_valid(cgm);
     pir_cgm_sides_finish(&check.sides, &cgm->allocator);
     return valid;
 }

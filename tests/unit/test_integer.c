@@ -147,6 +147,8 @@ static void doubles_of_any_size_become_integers_and_back(void **state) {
         test_int a;
         test_int_init(&a);
         assert_true(pir_double_limbs(top, exponent) <= TEST_LIMBS);
+        // whatever it was before
+        a.value.size = test_random_between(&random, -2, 2);
         pir_int_set_double(&a.value, x, exponent);
         assert_true(pir_int_length(&a.value) <= pir_double_limbs(top, exponent));
 
