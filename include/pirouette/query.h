@@ -101,9 +101,10 @@ typedef struct pir_query_input {
     double radius_p,
         radius_q; /**< rounding radii, ≥ 0: each body is grown by a ball. The state is then told from the rounded distance. */
     double cutoff; /**< distances above this need not be worked out; HUGE_VAL for none */
+    double margin; /**< of pir_query_manifold alone, ≥ 0: contacts up to this distance apart are given too */
 } pir_query_input;
 
-/** Translation 0, no radii, no cutoff. */
+/** Translation 0, no radii, no cutoff, no margin. */
 PIR_API pir_query_input pir_query_input_default(void);
 
 typedef struct pir_query_result {
@@ -223,7 +224,7 @@ PIR_API pir_status pir_query_advance(pir_query *query, const pir_motion *motion,
 PIR_API pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *input,
                                               pir_query_result *ret_result);
 
-/** A point of a contact manifold. */
+/** A contact: a point of each body, one over the other along the normal. */
 typedef struct pir_contact {
     pir_vec3 point_p, point_q;
     double distance; /**< along the manifold's normal; negative where P is in Q */
@@ -231,10 +232,29 @@ typedef struct pir_contact {
 } pir_contact;
 
 /**
- * The contact manifold of an answer of pir_query_signed_distance at the same pose: where a facet carries the answer, the other body's
- * facet that faces it, clipped to it; a segment where an edge meets a facet or a parallel edge; else a point. Up to `capacity` contacts go
- * to `ret_contacts`; PIR_ERR_LIMIT when there are more, *ret_count then being how many. They are counter-clockwise about the normal, their
- * ids distinct.
+ * The contact manifold of `answer`, that of pir_query_signed_distance at the same rotation and with the same input:
+ * where the patches of surface that carry the answer lie over each other, seen along the answer's normal.
+ *
+ * A patch is the vertex, edge or facet that carries the answer, with all that edges in its plane lead to, within
+ * 0.056° (a sine of 2^-10): facets that are coplanar but for rounding are one. Where a body meets the other's area
+ * with less, it is tilted, and its patch is the facet there that faces the other body most.
+ *
+ * The first contact is the answer itself, its points and its distance. The others are the corners of the region that
+ * the patches share, counter-clockwise about the normal. The first is one of them where the answer lies on a corner;
+ * where it lies elsewhere in the region, both top bits of its id are set, and of no other. Two parallel edges share a
+ * segment, with two corners. Points lie on the surfaces of their bodies, and point_p = point_q + distance · normal;
+ * for edges that are parallel within 2^-20 only, up to that part of their length.
+ *
+ * Kept are the corners whose distance is at most input->margin, or that of the answer, or 0, whichever is most; and
+ * those that rise from the answer's point by at most 2^-20 of the way. So a larger margin only adds contacts, and
+ * bodies apart by less than it have contacts of positive distance, which a solver may let close by that distance in a
+ * step ("speculative contacts"). Ids are distinct. With radii, points move by them along the normal; where a facet is
+ * tilted, that is inside of the rounded body by up to radius · (1 − cosine).
+ *
+ * Up to `capacity` contacts go to `ret_contacts`; PIR_ERR_LIMIT when there are more, *ret_count then being how many.
+ * There are none where the answer has no points (PIR_BEYOND_CUTOFF, PIR_NO_HIT). O(p · q) for patches of p and q
+ * vertices. Errors: PIR_ERR_ARGUMENT (also for a margin below 0, and an answer without a unit normal or features of
+ * these bodies), PIR_ERR_NOT_FINITE, PIR_ERR_UNSUPPORTED on a sum with a region.
  */
 PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
                                       size_t capacity, pir_contact *ret_contacts, size_t *ret_count);

@@ -16,44 +16,14 @@
  *
  * A call that fails on the way leaves the generation behind: the next one goes the same way again.
  */
-#include "query/query.h"
-
-static uint32_t largest_loop(const pir_polytope *p) {
-    uint32_t most = 4;
-    for (uint32_t f = 0; f < p->facet_count; f++) {
-        uint32_t n = p->loop_start[f + 1] - p->loop_start[f];
-        most = n > most ? n : most;
-    }
-    return most;
-}
-
-/* Room for the corners of two clipped facets; clipping one to another adds at most one corner a side. */
-static bool polygons_init(pir_query *query) {
-    const pir_allocator *a = &query->allocator;
-    bool done = true;
-    query->polygon_capacity = 2 * (largest_loop(query->p) + largest_loop(query->q)) + 8;
-    for (int k = 0; k < 2; k++) {
-        query->polygon[k] = PIR_NEW(a, pir_vec3, query->polygon_capacity);
-        query->polygon_side[k] = PIR_NEW(a, uint32_t, query->polygon_capacity);
-        done = done && query->polygon[k] && query->polygon_side[k];
-    }
-    return done;
-}
-
-static void polygons_finish(pir_query *query) {
-    const pir_allocator *a = &query->allocator;
-    for (int k = 0; k < 2; k++) {
-        PIR_FREE(a, query->polygon[k], query->polygon_capacity);
-        PIR_FREE(a, query->polygon_side[k], query->polygon_capacity);
-    }
-}
+#include "query/patch.h"
 
 void pir_query_destroy(pir_query *query) {
     if (!query)
         return;
     const pir_allocator allocator = query->allocator, *a = &allocator;
     PIR_FREE(a, query->scratch.base, query->scratch.capacity);
-    polygons_finish(query);
+    pir_patch_room_free(a, query->patches, query->p, query->q);
     pir_leaves_finish(query);
     pir_bounds_finish(query);
     pir_planes_finish(query);
@@ -116,7 +86,8 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
     query->sum = pir_sum_retain(difference);
     hold(&query->p, difference->p);
     hold(&query->q, difference->q);
-    bool done = polygons_init(query) && pir_frame_init(query) && pir_planes_init(query) && pir_bounds_init(query) &&
+    query->patches = pir_patch_room_new(a, query->p, query->q);
+    bool done = query->patches && pir_frame_init(query) && pir_planes_init(query) && pir_bounds_init(query) &&
                 pir_region_init(query);
     pir_status status = done ? fit(query) : PIR_ERR_MEMORY;
     if (status != PIR_OK) {

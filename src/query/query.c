@@ -13,7 +13,7 @@
 #define CLEARLY_APART 0x1p-40
 
 pir_query_input pir_query_input_default(void) {
-    return (pir_query_input){{0, 0, 0}, 0, 0, HUGE_VAL};
+    return (pir_query_input){{0, 0, 0}, 0, 0, HUGE_VAL, 0};
 }
 
 /* --- answers --- */

@@ -84,6 +84,8 @@ typedef struct pir_leaves {
     uint32_t *looked;
 } pir_leaves;
 
+typedef struct pir_patch_room pir_patch_room;
+
 struct pir_query {
     pir_allocator allocator;
     /*
@@ -154,9 +156,7 @@ struct pir_query {
 
     pir_limbs scratch; /* of exact signs */
     pir_exact exact;
-    pir_vec3 *polygon[2];
-    uint32_t *polygon_side[2];
-    uint32_t polygon_capacity;
+    pir_patch_room *patches; /* of manifold.c */
 };
 
 /* A placement brought into the frame. */

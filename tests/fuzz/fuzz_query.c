@@ -338,6 +338,10 @@ static void check_rest(struct scene *scene, const struct ask *ask, const pir_que
     size_t count = 0;
     fuzz_require(pir_query_manifold(scene->query, &ask->input, single, 64, contacts, &count) == PIR_OK, "a manifold");
     fuzz_require(count > 0 && count <= 64, "a manifold has a contact");
+    fuzz_require(contacts[0].distance == single->distance && contacts[0].point_q.x == single->point_q.x,
+                 "a manifold holds its answer");
+    for (size_t i = 0; i < count; i++)
+        fuzz_require(isfinite(contacts[i].distance), "a contact has a distance");
 }
 
 /* Support functions alone: not exact, but what they say is so. */

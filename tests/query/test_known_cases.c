@@ -363,7 +363,10 @@ static void nothing_allocates_after_the_first_query(void **state) {
         pir_vec3 d = test_random_direction(&random);
         pir_query_input input = at(d.x * (i % 5), d.y * (i % 5), d.z * (i % 5));
         pir_query_result r;
+        pir_contact contacts[64];
+        size_t count;
         assert_int_equal(pir_query_signed_distance(query, &input, &cache, &r), PIR_OK);
+        assert_int_equal(pir_query_manifold(query, &input, &r, 64, contacts, &count), PIR_OK);
         assert_int_equal(pir_query_overlap(query, &input, &cache, &r), PIR_OK);
         assert_int_equal(pir_query_penetration(query, &input, &cache, &r), PIR_OK);
         pir_vec3 many[3] = {d, input.translation, {0, 0, 0}};
