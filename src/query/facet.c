@@ -3,8 +3,8 @@
 #include "query/facet.h"
 
 /*
- * A dot product of a unit normal, off by 64u·err at most (u = 2^-53), with a unit edge vector, off by 8u and turned by
- * a matrix that is off by 31u, both with 8u of rounding: below 128u·err.
+ * A unit normal is off by 64u·err at most (u = 2^-53), and by 37u more when it is turned into P's frame; a unit edge vector
+ * by 8u; their dot product rounds by 4u: below 128u·err.
  */
 #define SLOPE_BOUND 0x1p-46
 
@@ -17,28 +17,27 @@ pir_int3 pir_normal_integers(pir_query *query, const pir_normal *normal) {
     return normal->exact ? *normal->exact : pir_exact_normal(query, normal->piece);
 }
 
-static int exact_slope(pir_query *query, const pir_normal *normal, uint32_t half, bool of_p) {
+static int exact_slope(pir_query *query, const pir_normal *normal, uint32_t half, bool of_q) {
     uint32_t mark = query->scratch.used;
     pir_rotation_make_exact(&query->sum->signs.rotation);
     pir_int3 n = pir_normal_integers(query, normal);
-    pir_int3 e = of_p ? pir_exact_half_p(query, half) : pir_exact_half_q(query, half);
+    pir_int3 e = of_q ? pir_exact_half_q(query, half) : pir_exact_half_p(query, half);
     int sign = pir_exact_dot_sign(query, &n, &e);
     query->scratch.used = mark;
     return sign;
 }
 
-int pir_slope_p(pir_query *query, const pir_normal *normal, uint32_t half) {
-    double slope = pir_vec_dot(normal->unit, pir_mat_apply(&query->r, query->p->direction[half]));
-    if (fabs(slope) > SLOPE_BOUND * normal->err)
-        return (slope > 0) - (slope < 0);
-    return exact_slope(query, normal, half, true);
+pir_view pir_view_of(const pir_query *query, const pir_normal *normal, bool of_q) {
+    if (of_q)
+        return (pir_view){query->q, true, normal->unit};
+    return (pir_view){query->p, false, pir_mat_apply_transposed(&query->r, normal->unit)};
 }
 
-int pir_slope_q(pir_query *query, const pir_normal *normal, uint32_t half) {
-    double slope = pir_vec_dot(normal->unit, query->q->direction[half]);
+int pir_slope(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t half) {
+    double slope = pir_vec_dot(view->unit, view->body->direction[half]);
     if (fabs(slope) > SLOPE_BOUND * normal->err)
         return (slope > 0) - (slope < 0);
-    return exact_slope(query, normal, half, false);
+    return exact_slope(query, normal, half, view->of_q);
 }
 
 /*
@@ -64,14 +63,12 @@ struct from {
 
 #define NO_HALF UINT32_MAX
 
-typedef int slope_function(pir_query *query, const pir_normal *normal, uint32_t half);
-
-/* The exposed face that holds the vertex of `from`; `unit` is the normal in the body's frame. */
-static pir_feature exposed(pir_query *query, const pir_normal *normal, const pir_polytope *p, struct from from,
-                           slope_function *slope, pir_vec3 unit) {
+/* The exposed face that holds the vertex of `from`. */
+static pir_feature exposed(pir_query *query, const pir_normal *normal, const pir_view *view, struct from from) {
+    const pir_polytope *p = view->body;
     uint32_t across[2] = {0, 0}, count = 0, vertex = from.vertex;
     for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1] && count < 2; h++)
-        if (h == from.across || slope(query, normal, h) == 0)
+        if (h == from.across || pir_slope(query, normal, view, h) == 0)
             across[count++] = h;
     if (count == 0)
         return (pir_feature){PIR_FEATURE_VERTEX, vertex};
@@ -79,23 +76,11 @@ static pir_feature exposed(pir_query *query, const pir_normal *normal, const pir
         return (pir_feature){PIR_FEATURE_EDGE, 0};
     if (count == 1)
         return (pir_feature){PIR_FEATURE_EDGE, p->edge[across[0]]};
-    return (pir_feature){PIR_FEATURE_FACET, shared_facet(p, across[0], across[1], unit)};
+    return (pir_feature){PIR_FEATURE_FACET, shared_facet(p, across[0], across[1], view->unit)};
 }
 
-static pir_feature exposed_p(pir_query *query, const pir_normal *normal, struct from from) {
-    return exposed(query, normal, query->p, from, pir_slope_p, pir_mat_apply_transposed(&query->r, normal->unit));
-}
-
-static pir_feature exposed_q(pir_query *query, const pir_normal *normal, struct from from) {
-    return exposed(query, normal, query->q, from, pir_slope_q, normal->unit);
-}
-
-pir_feature pir_exposed_p(pir_query *query, const pir_normal *normal, uint32_t vertex) {
-    return exposed_p(query, normal, (struct from){vertex, NO_HALF});
-}
-
-pir_feature pir_exposed_q(pir_query *query, const pir_normal *normal, uint32_t vertex) {
-    return exposed_q(query, normal, (struct from){vertex, NO_HALF});
+pir_feature pir_exposed(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t vertex) {
+    return exposed(query, normal, view, (struct from){vertex, NO_HALF});
 }
 
 uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face) {
@@ -208,11 +193,12 @@ bool pir_facet_of(pir_query *query, pir_piece piece, pir_facet *ret_facet) {
         a.across = p->edge_half[piece.first];
         b.across = piece.second;
     }
+    pir_view of_p = pir_view_of(query, &normal, false), of_q = pir_view_of(query, &normal, true);
     // a facet's own normal exposes it
     faces.p = piece.kind == PIR_FACET_FV && !p->artificial ? (pir_feature){PIR_FEATURE_FACET, piece.first}
-                                                           : exposed_p(query, &normal, a);
+                                                           : exposed(query, &normal, &of_p, a);
     faces.q = piece.kind == PIR_FACET_VF && !q->artificial ? (pir_feature){PIR_FEATURE_FACET, piece.second}
-                                                           : exposed_q(query, &normal, b);
+                                                           : exposed(query, &normal, &of_q, b);
     return pir_facet_of_faces(query, &normal, faces, ret_facet);
 }
 

@@ -40,13 +40,20 @@ struct pir_least {
 /* The exact normal, in the scratch. */
 pir_int3 pir_normal_integers(pir_query *query, const pir_normal *normal);
 
-/* The exact sign of n·e for a halfedge of P, turned, or of Q. */
-int pir_slope_p(pir_query *query, const pir_normal *normal, uint32_t half);
-int pir_slope_q(pir_query *query, const pir_normal *normal, uint32_t half);
+/* A direction as one of the bodies sees it: the unit normal in the frame of the body's own vertices. */
+typedef struct pir_view {
+    const pir_polytope *body;
+    bool of_q;
+    pir_vec3 unit;
+} pir_view;
 
-/* The face that n exposes, given a vertex of it. */
-pir_feature pir_exposed_p(pir_query *query, const pir_normal *normal, uint32_t vertex);
-pir_feature pir_exposed_q(pir_query *query, const pir_normal *normal, uint32_t vertex);
+pir_view pir_view_of(const pir_query *query, const pir_normal *normal, bool of_q);
+
+/* The exact sign of n·e for a halfedge of the body. */
+int pir_slope(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t half);
+
+/* The face of the body that n exposes, given a vertex of it. */
+pir_feature pir_exposed(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t vertex);
 
 /* The vertex of lowest number of a face. */
 uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face);

@@ -228,8 +228,9 @@ bool pir_flat_enter(pir_query *query, const pir_line *line, pir_arrival *ret_arr
         ret_arrival->normal = normal.unit;
         pir_facet facet;
         pir_meeting meeting = {.normal = &normal, .way = &way};
-        meeting.faces.p = pir_exposed_p(query, &normal, enter.a);
-        meeting.faces.q = pir_exposed_q(query, &normal, enter.b);
+        pir_view of_p = pir_view_of(query, &normal, false), of_q = pir_view_of(query, &normal, true);
+        meeting.faces.p = pir_exposed(query, &normal, &of_p, enter.a);
+        meeting.faces.q = pir_exposed(query, &normal, &of_q, enter.b);
         meeting.flat = pir_facet_of_faces(query, &normal, meeting.faces, &facet);
         hit = pir_touch_find(query, line->placement, &meeting, &ret_arrival->touch);
     }

@@ -125,13 +125,11 @@ static bool nearest_face(pir_query *query, struct corners *set, pir_int3 *ret_n)
 
 /* --- the way there --- */
 
-typedef int slope_function(pir_query *query, const pir_normal *normal, uint32_t half);
-
 /* The vertex farthest along the normal, from `from` uphill. */
-static uint32_t climb(pir_query *query, const pir_polytope *p, const pir_normal *normal, slope_function *slope,
-                      uint32_t from) {
+static uint32_t climb(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t from) {
+    const pir_polytope *p = view->body;
     for (uint32_t h = p->ring_start[from]; h < p->ring_start[from + 1]; h++)
-        if (slope(query, normal, h) > 0) {
+        if (pir_slope(query, normal, view, h) > 0) {
             from = p->target[h];
             h = p->ring_start[from] - 1;
         }
@@ -153,15 +151,15 @@ static bool step(pir_query *query, struct corners *set, pir_witness *ret_faces, 
         return false;
     }
     pir_normal normal = {.unit = pir_int3_unit(&n), .err = 1, .exact = &n};
-    uint32_t a = climb(query, query->p, &normal, pir_slope_p, set->a[0]),
-             b = climb(query, query->q, &normal, pir_slope_q, set->b[0]);
+    pir_view of_p = pir_view_of(query, &normal, false), of_q = pir_view_of(query, &normal, true);
+    uint32_t a = climb(query, &normal, &of_p, set->a[0]), b = climb(query, &normal, &of_q, set->b[0]);
     if (a != set->a[0] || b != set->b[0]) {
         set->a[set->count] = a;
         set->b[set->count++] = b;
         return false;
     }
-    ret_faces->p = pir_exposed_p(query, &normal, a);
-    ret_faces->q = pir_exposed_q(query, &normal, b);
+    ret_faces->p = pir_exposed(query, &normal, &of_p, a);
+    ret_faces->q = pir_exposed(query, &normal, &of_q, b);
     *ret_flat = pir_facet_of_faces(query, &normal, *ret_faces, ret_facet);
     return true;
 }

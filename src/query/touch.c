@@ -68,30 +68,57 @@ static int exact_position(const struct touch *touch, struct side side, bool alon
     return sign;
 }
 
-static int position(const struct touch *touch, struct side side, bool along, uint32_t a, uint32_t b) {
+/* The sign of m·(y − corner (a, b)), m = n × e. */
+static int position(const struct touch *touch, struct side side, uint32_t a, uint32_t b) {
     const pir_query *query = touch->query;
-    pir_vec3 e = direction_of(query, side), m = along ? e : pir_vec_cross(touch->normal->unit, e);
+    pir_vec3 m = pir_vec_cross(touch->normal->unit, direction_of(query, side));
     double s = pir_vec_dot(m, pir_vec_sub(touch->x, pir_frame_vertex(query, a, b)));
     if (fabs(s) > touch->error)
         return (s > 0) - (s < 0);
-    return exact_position(touch, side, along, a, b);
+    return exact_position(touch, side, false, a, b);
 }
 
 /* --- whether a point is on a face --- */
 
-/* Position among corners of the face's own body, the other body's vertex being `fixed`. */
-static int position_of(const struct touch *touch, struct side side, bool along, uint32_t own, uint32_t fixed) {
-    return side.of_q ? position(touch, side, along, fixed, own) : position(touch, side, along, own, fixed);
+/* y less a vertex of the other body, as the face's body has its vertices. */
+struct point {
+    const struct touch *touch;
+    pir_view view;
+    const pir_vec3 *vertex; /* of the body */
+    pir_vec3 at;
+    uint32_t fixed; /* the other body's vertex */
+};
+
+static struct point point_less(const struct touch *touch, bool of_q, uint32_t fixed) {
+    const pir_query *query = touch->query;
+    struct point point = {.touch = touch, .view = pir_view_of(query, touch->normal, of_q), .fixed = fixed};
+    if (of_q) {
+        point.vertex = query->vq;
+        point.at = pir_vec_sub(touch->x, pir_mat_apply(&query->r, query->vp[fixed]));
+    } else {
+        point.vertex = query->vp;
+        point.at = pir_mat_apply_transposed(&query->r, pir_vec_sub(touch->x, query->vq[fixed]));
+    }
+    return point;
 }
 
-/* Whether y less the other body's vertex is on the edge. */
-static bool on_edge(const struct touch *touch, bool of_q, uint32_t edge, uint32_t fixed, pir_feature *ret_least) {
-    const pir_polytope *p = of_q ? touch->query->q : touch->query->p;
-    struct side side = {of_q, p->edge_half[edge]};
-    uint32_t from = p->origin[side.half], to = p->target[side.half];
-    if (touch->flat && position_of(touch, side, false, from, fixed) != 0)
+/* The sign of m·(y − corner), m = n × e or, `along`, e, for a halfedge and the body's own vertex at the corner. */
+static int position_of(const struct point *point, uint32_t half, bool along, uint32_t own) {
+    bool of_q = point->view.of_q;
+    pir_vec3 e = point->view.body->direction[half], m = along ? e : pir_vec_cross(point->view.unit, e);
+    double s = pir_vec_dot(m, pir_vec_sub(point->at, point->vertex[own]));
+    if (fabs(s) > point->touch->error)
+        return (s > 0) - (s < 0);
+    return exact_position(point->touch, (struct side){of_q, half}, along, of_q ? point->fixed : own,
+                          of_q ? own : point->fixed);
+}
+
+static bool on_edge(const struct point *point, uint32_t edge, pir_feature *ret_least) {
+    const pir_polytope *p = point->view.body;
+    uint32_t half = p->edge_half[edge], from = p->origin[half], to = p->target[half];
+    if (point->touch->flat && position_of(point, half, false, from) != 0)
         return false;
-    int after = position_of(touch, side, true, from, fixed), before = position_of(touch, side, true, to, fixed);
+    int after = position_of(point, half, true, from), before = position_of(point, half, true, to);
     if (after < 0 || before > 0)
         return false;
     *ret_least = after == 0    ? (pir_feature){PIR_FEATURE_VERTEX, from}
@@ -100,11 +127,11 @@ static bool on_edge(const struct touch *touch, bool of_q, uint32_t edge, uint32_
     return true;
 }
 
-static bool on_facet(const struct touch *touch, bool of_q, uint32_t facet, uint32_t fixed, pir_feature *ret_least) {
-    const pir_polytope *p = of_q ? touch->query->q : touch->query->p;
+static bool on_facet(const struct point *point, uint32_t facet, pir_feature *ret_least) {
+    const pir_polytope *p = point->view.body;
     uint32_t start = p->loop_start[facet], end = p->loop_start[facet + 1], zeros = 0, on[2] = {0, 0};
     for (uint32_t i = start; i < end; i++) {
-        int sign = position_of(touch, (struct side){of_q, p->loop[i]}, false, p->origin[p->loop[i]], fixed);
+        int sign = position_of(point, p->loop[i], false, p->origin[p->loop[i]]);
         if (sign < 0)
             return false;
         if (sign == 0 && zeros < 2)
@@ -122,12 +149,12 @@ static bool on_facet(const struct touch *touch, bool of_q, uint32_t facet, uint3
 
 /* Whether y less the other body's vertex `fixed` is on the face, and the least face that holds it. */
 static bool on_face(const struct touch *touch, bool of_q, pir_feature face, uint32_t fixed, pir_feature *ret_least) {
-    if (face.kind == PIR_FEATURE_FACET)
-        return on_facet(touch, of_q, face.index, fixed, ret_least);
-    if (face.kind == PIR_FEATURE_EDGE)
-        return on_edge(touch, of_q, face.index, fixed, ret_least);
     *ret_least = face;
-    return true;
+    if (face.kind == PIR_FEATURE_VERTEX)
+        return true;
+    struct point point = point_less(touch, of_q, fixed);
+    return face.kind == PIR_FEATURE_FACET ? on_facet(&point, face.index, ret_least)
+                                          : on_edge(&point, face.index, ret_least);
 }
 
 /* --- the parts of a face in order --- */
@@ -227,10 +254,10 @@ static bool edges_cross(const struct touch *touch, uint32_t e, uint32_t d, pir_w
     if (turn == 0)
         return false;
     uint32_t a[2] = {p->origin[of_p.half], p->target[of_p.half]}, b[2] = {q->origin[of_q.half], q->target[of_q.half]};
-    int after_a = turn * position(touch, of_q, false, a[0], b[0]);
-    int before_a = turn * position(touch, of_q, false, a[1], b[0]);
-    int after_b = -turn * position(touch, of_p, false, a[0], b[0]);
-    int before_b = -turn * position(touch, of_p, false, a[0], b[1]);
+    int after_a = turn * position(touch, of_q, a[0], b[0]);
+    int before_a = turn * position(touch, of_q, a[1], b[0]);
+    int after_b = -turn * position(touch, of_p, a[0], b[0]);
+    int before_b = -turn * position(touch, of_p, a[0], b[1]);
     if (after_a < 0 || before_a > 0 || after_b < 0 || before_b > 0)
         return false;
     ret_witness->p = after_a == 0    ? (pir_feature){PIR_FEATURE_VERTEX, a[0]}
