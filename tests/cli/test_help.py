@@ -4,6 +4,7 @@
 Holds the help of the `pirouette` command, its manual pages and its completion against what it takes and against each
 other: test_help.py COMMAND SOURCES PAGES [CLASS]
 """
+import collections
 import functools
 import os
 import pty
@@ -140,13 +141,46 @@ class Help(unittest.TestCase):
         self.assertGreaterEqual(count, len(subcommands()))
 
 
-def page_text(name):
-    """The source of a manual page with roff's escapes undone, its requests kept."""
-    text = (PAGES / name).read_text()
-    for escape, character in (("\\&", ""), ("\\-", "-"), ("\\(aq", "'"), ("\\(ga", "`"), ("\\(ha", "^"), ("\\(ti", "~"),
-                              ("\\fB", ""), ("\\fI", ""), ("\\fR", ""), ("\\e", "\\")):
-        text = text.replace(escape, character)
-    return text
+def roff(text):
+    """How a manual page writes a text."""
+    escapes = {"\\": "\\e", "-": "\\-", "'": "\\(aq", "`": "\\(ga", "^": "\\(ha", "~": "\\(ti"}
+    text = "".join(escapes.get(character, character) for character in text)
+    return "\\&" + text if text.startswith(".") else text
+
+
+def expected_page(text):
+    """The source of the manual page that says what this help says, without changes of font."""
+    general = run("--help").stdout
+    parts = collections.defaultdict(list)  # of the help, by what they begin with
+    for paragraph in text[:-1].split("\n\n"):
+        start = re.match(r"usage|subcommands|options|examples|A MODEL|Exit status|pirouette help|", paragraph)[0]
+        parts[start].append(paragraph)
+    usage = parts["usage"][0].removeprefix("usage: ")
+    words = [roff(plain(paragraph)) for paragraph in parts[""]]
+    name = "pirouette" if text == general else "-".join(usage.split()[:2])
+    models, status = (re.search(rf"^{start}((?:.|\n)*?)(?=\n\n|\n\Z)", general, re.M)[1]
+                      for start in ("(?=A MODEL)", "Exit status: "))
+    lines = [f'.TH {roff(name.upper())} 1 "" "{run("--version").stdout.strip()}" "User Commands"', ".SH NAME"]
+    what = words[0] if text != general else "exact Minkowski sums of rotating convex polyhedra"
+    lines += [roff(name) + r" \- " + what, ".SH SYNOPSIS", roff(usage), ".SH DESCRIPTION", words[-1]]
+    if re.search(r"\b(MODEL|P|SUBCOMMAND \[ARG)", usage):
+        lines += [".PP", roff(plain(models))]
+    if text == general:
+        lines += [".SH SUBCOMMANDS"]
+        for subcommand in subcommands():
+            summary = run("help", subcommand).stdout.split("\n\n")[1]
+            lines += [".TP", roff(f"pirouette-{subcommand}") + "(1)", roff(plain(summary))]
+    lines += [".SH OPTIONS"]
+    for left, right in option_table(text).items():
+        lines += [".TP", roff(left), roff(right)]
+    for paragraph in parts["examples"]:
+        lines += [".SH EXAMPLES"]
+        for line, what in re.findall(r"^  (pirouette .*)\n {6}(.*(?:\n {6}.*)*)", paragraph, re.M):
+            lines += [".PP", ".nf", roff(line), ".fi", ".RS 4", roff(plain(what)), ".RE"]
+    lines += [".SH EXIT STATUS", roff(plain(status))]
+    if text != general:
+        lines += [".SH SEE ALSO", "pirouette(1)"]
+    return "\n".join(lines) + "\n"
 
 
 class Manual(unittest.TestCase):
@@ -160,22 +194,44 @@ class Manual(unittest.TestCase):
 
     def test_a_page_says_what_the_help_says(self):
         for name, text in self.pages():
-            page = page_text(name)
-            options = page.split(".SH OPTIONS\n")[1].split("\n.SH")[0]
-            entries = re.findall(r"\.TP\n(.*)\n(.*)", options)
-            self.assertEqual(dict(entries), option_table(text), name)
-            self.assertEqual(len(entries), options.count(".TP"), name)
-            words = plain(re.sub(r"^\.[A-Z]+ ?", "", page, flags=re.M))
-            for paragraph in re.split(r"\n\n|(?=\n  pirouette )", text):
-                if not re.match("usage:|subcommands:|options:|examples:|pirouette help SUB|A MODEL", paragraph):
-                    for part in re.split(r"\n(?=      )|Exit status: ", paragraph):
-                        self.assertIn(plain(part), words.replace(" nf ", " ").replace(" fi ", " "), name)
+            page = (PAGES / name).read_text()
+            self.assertEqual(re.sub(r"\\f[BIR]", "", page), expected_page(text), name)
 
-    def test_pages_name_all_subcommands_and_each_other(self):
-        general = page_text("pirouette.1")
-        for name in subcommands():
-            self.assertIn(f"pirouette-{name}(1)", general)
-            self.assertIn("pirouette(1)", page_text(f"pirouette-{name}.1"))
+    def test_fonts_begin_and_end_in_a_line(self):
+        for name, text in self.pages():
+            for line in (PAGES / name).read_text().splitlines():
+                closed = re.sub(r"\\f[BI][^\\]*(?:\\[-e(][^\\]*)*\\fR", "", line)
+                self.assertNotIn("\\f", closed, f"{name}: {line}")
+            for left in option_table(text):
+                option, *value = left.rsplit(" ", 1) if not left.split()[-1].startswith("-") else [left]
+                tag = f"\n\\fB{roff(option)}\\fR" + "".join(f" \\fI{roff(word)}\\fR" for word in value) + "\n"
+                self.assertIn(tag, (PAGES / name).read_text(), name)
+
+    def test_a_page_that_cannot_be_right_ends_the_build(self):
+        """What writes the pages, with names and places that are wrong."""
+        script = SOURCES / "pages" / "completion.bash"
+        good = ["pirouette", "pirouette.1", *(f"pirouette-{name}.1" for name in subcommands())]
+        with tempfile.TemporaryDirectory() as folder:
+            for files, names, says in (
+                (script, good, ""),
+                (script, good[:-1], f"no page of the subcommand {subcommands()[-1]}"),
+                (script, [*good[:2], *good[3:]], f"no page of the subcommand {subcommands()[0]}"),
+                (script, [*good, "pirouette-nosuch.1"], "no subcommand has the page pirouette-nosuch.1"),
+                (script, ["nosuch/pirouette.1"], "cannot open "),
+                (Path(folder) / "nosuch.bash", good, "cannot write "),
+            ):
+                result = subprocess.run([PAGES / "write_pages", files, *names], cwd=folder, capture_output=True,
+                                        text=True, timeout=60)
+                self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1) if says else (0, 0), names)
+                self.assertIn(says, result.stderr)
+            for name in good[:2]:
+                full = Path(folder) / "full"
+                full.mkdir(exist_ok=True)
+                (full / name).symlink_to("/dev/full")
+                result = subprocess.run([PAGES / "write_pages", script, full / name], capture_output=True,
+                                        text=True, timeout=60)
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("cannot write ", result.stderr)
 
     def test_roff_has_no_complaint_about_a_page(self):
         if not shutil.which("groff"):
@@ -284,6 +340,6 @@ class Completion(unittest.TestCase):
 
 if __name__ == "__main__":
     COMMAND = str(Path(sys.argv[1]).resolve())
-    SOURCES = Path(sys.argv[2])
+    SOURCES = Path(sys.argv[2]).resolve()
     PAGES = Path(sys.argv[3]).resolve()
     unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

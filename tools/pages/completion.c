@@ -37,11 +37,14 @@ static void print_value_kind(FILE *file, const char *value) {
         fputs("text", file);
 }
 
-/* The option's names with `between` between them. */
-static void print_names(FILE *file, const struct option *option, const char *between) {
+/* The option's names between blanks; or, for a `case` of a subcommand and an option, each after the subcommand's. */
+static void print_names(FILE *file, const struct option *option, const char *subcommand) {
     for (const char *name = option->name; *name;) {
-        size_t length = strcspn(name, ",");
-        fprintf(file, "%s%.*s", name == option->name ? "" : between, (int)length, name);
+        int length = (int)strcspn(name, ",");
+        if (subcommand)
+            fprintf(file, "%s'%s %.*s'", name == option->name ? "" : " | ", subcommand, length, name);
+        else
+            fprintf(file, "%s%.*s", name == option->name ? "" : " ", length, name);
         name += length;
         name += strspn(name, ", ");
     }
@@ -51,7 +54,7 @@ static void print_options(FILE *file, const struct option *options) {
     fputs(" options=(", file);
     for (const struct option *option = options; option->name; option++) {
         fputs(option == options ? "" : " ", file);
-        print_names(file, option, " ");
+        print_names(file, option, NULL);
     }
     fputc(')', file);
 }
@@ -80,11 +83,9 @@ static void print_values(FILE *file) {
         for (const struct option *option = command_table[i].options; option->name; option++) {
             if (!option->value)
                 continue;
-            fprintf(file, "    '%s ", command_table[i].name);
-            char between[64];
-            snprintf(between, sizeof between, "' | '%s ", command_table[i].name);
-            print_names(file, option, between);
-            fputs("') value='", file);
+            fputs("    ", file);
+            print_names(file, option, command_table[i].name);
+            fputs(") value='", file);
             print_value_kind(file, option->value);
             fputs("' ;;\n", file);
         }

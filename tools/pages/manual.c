@@ -7,25 +7,25 @@
 
 #include <pirouette/version.h>
 
-/* Prints a text so that roff shows it as it stands: nothing is a request, hyphens and quotes stay what they are. */
+/* Characters that mean something else to roff, and how it is told to show them as they stand. */
+static const struct {
+    char plain;
+    const char *roff;
+} escapes[] = {{'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
+
+/* Prints a text so that roff shows it as it stands. A dot at the beginning would be a request. */
 static void print_text(FILE *file, const char *text) {
     if (*text == '.')
         fputs("\\&", file);
-    for (const char *c = text; *c; c++) {
-        if (*c == '\\')
-            fputs("\\e", file);
-        else if (*c == '-')
-            fputs("\\-", file);
-        else if (*c == '\'')
-            fputs("\\(aq", file);
-        else if (*c == '`')
-            fputs("\\(ga", file);
-        else if (*c == '^')
-            fputs("\\(ha", file);
-        else if (*c == '~')
-            fputs("\\(ti", file);
+    for (; *text; text++) {
+        const char *roff = NULL;
+        for (size_t i = 0; i < sizeof escapes / sizeof escapes[0]; i++)
+            if (escapes[i].plain == *text)
+                roff = escapes[i].roff;
+        if (roff)
+            fputs(roff, file);
         else
-            fputc(*c, file);
+            fputc(*text, file);
     }
 }
 
