@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
- * Exact coordinates in and out, as GMP rationals. The one public header that shows GMP; pirouette.h does not include it.
+ * Exact coordinates in and out, as GMP rationals. The one public header that shows GMP; pirouette.h does not include
+ * it.
  *
  * GMP's own allocation functions serve the mpq_t arguments; GMP ends the process when they run out of memory.
  */
@@ -21,7 +22,8 @@ extern "C" {
 
 /**
  * The exact convex hull of `count` rational points: x, y, z of point i in coordinates[3i..3i+2], canonical; copied.
- * Otherwise as pir_polytope_create.
+ * Otherwise as pir_polytope_create. PIR_ERR_LIMIT also when the least common denominator takes more than 65536 bits, or
+ * a coordinate over it more than 131072.
  */
 PIR_API pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count,
                                              const pir_polytope_options *options, pir_polytope **ret_polytope);
@@ -40,8 +42,8 @@ PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t ve
 PIR_API pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t ret_coordinates[3]);
 
 /**
- * The support plane of a map's polytope or sum in the direction of a vertex: a normal (a, b, c) of integers and the offset d of
- * a·x + b·y + c·z = d, into four initialised rationals. PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ * The support plane of a map's polytope or sum in the direction of a vertex: a normal (a, b, c) of integers and the
+ * offset d of a·x + b·y + c·z = d, into four initialised rationals. PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_vertex_plane_exact(const pir_cgm *cgm, uint32_t vertex, mpq_t ret_plane[4]);
 

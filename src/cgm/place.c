@@ -56,7 +56,7 @@ bool pir_cgm_places_init(struct pir_cgm_places *places, const pir_cgm *cgm) {
     for (uint32_t s = 0; s < k; s++)
         places->factor[s] = pir_limbs_take(&room, factor);
     places->scratch = (pir_limbs){room.base + room.used, 0, room.capacity - room.used};
-    pir_int work = {places->scratch.base, 0};
+    pir_int work = {places->scratch.base, 0, places->scratch.capacity};
     pir_int_copy(&places->scale.den, &one);
     multiply_denominators(cgm, PIR_CGM_NONE, &places->scale.den, &work);
     for (uint32_t s = 0; s < k; s++) {

@@ -31,7 +31,7 @@ pir_status pir_cgm_vertex_plane_exact(const pir_cgm *cgm, uint32_t vertex, mpq_t
     if (room.base) {
         const struct pir_cgm_vertex *v = &cgm->vertex[vertex];
         mp_limb_t one_limb = 1;
-        pir_scale whole = {{&one_limb, 1}, {&one_limb, 1}};
+        pir_scale whole = {{&one_limb, 1, 0}, {&one_limb, 1, 0}};
         pir_int3 n = pir_cgm_point_exact(cgm, &v->point, &sides.scratch), x = pir_int3_take(&room, places.stride);
         pir_cgm_place_exact(&places, cgm->half[v->out].face, &x);
         pir_int offset = pir_limbs_take(&room, places.stride + pir_cgm_point_limbs(cgm) + 2);

@@ -29,7 +29,7 @@ pir_status pir_placing_init(pir_placing *placing, const pir_allocator *allocator
     pir_limbs room = {limbs, 0, count};
     placing->p_factor = pir_limbs_take(&room, p_limbs);
     placing->q_factor = pir_limbs_take(&room, q_limbs);
-    placing->scale.num = (pir_int){&placing->one, 1};
+    placing->scale.num = (pir_int){&placing->one, 1, 0};
     placing->scale.den = pir_limbs_take(&room, den_limbs);
     placing->scratch = (pir_limbs){limbs + room.used, 0, work};
     // the products of the head of this file

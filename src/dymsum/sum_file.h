@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Sums as bytes, the same on every machine. All numbers are little-endian, whatever the machine's own order; u32 and u64 are unsigned.
+ * Sums as bytes, the same on every machine. All numbers are little-endian, whatever the machine's own order; u32 and
+ * u64 are unsigned.
  *
  *     header     8 bytes   "PIRSUM\r\n"
  *                u32       version, 2
@@ -33,6 +34,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "polytope/polytope.h"
+
 #define PIR_SUM_MAGIC       "PIRSUM\r\n"
 #define PIR_SUM_VERSION     2u
 #define PIR_SUM_REGION      1u
@@ -40,9 +43,11 @@
 #define PIR_SUM_HEADER_SIZE 32u
 #define PIR_SUM_CHECKSUM_AT 24u
 
-/* The most bytes that a coordinate and a number of the scale may take. */
-#define PIR_SUM_COORDINATE_MAX 16384u
-#define PIR_SUM_NUMBER_MAX     8200u
+/*
+ * The most bytes that a coordinate and a number of the scale may take: as many as those of any polytope take at most.
+ */
+#define PIR_SUM_COORDINATE_MAX (PIR_COORDINATE_BITS_MAX / 8)
+#define PIR_SUM_NUMBER_MAX     (PIR_SCALE_BITS_MAX / 8)
 
 /* The checksum of a whole file, header and all. */
 uint64_t pir_sum_file_checksum(const uint8_t *data, size_t size);

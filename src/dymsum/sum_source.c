@@ -60,6 +60,7 @@ uint32_t pir_limbs_for_bytes(uint32_t bytes) {
 
 void pir_source_magnitude(pir_source *from, uint32_t bytes, pir_int *to) {
     uint32_t limbs = pir_limbs_for_bytes(bytes);
+    pir_int_check_room(to->room, limbs);
     memset(to->limb, 0, limbs * sizeof *to->limb);
     for (uint32_t k = 0; k < bytes; k++)
         to->limb[8 * k / GMP_NUMB_BITS] |= (mp_limb_t)from->data[from->at++] << (8 * k % GMP_NUMB_BITS);
@@ -69,7 +70,7 @@ void pir_source_magnitude(pir_source *from, uint32_t bytes, pir_int *to) {
 }
 
 pir_status pir_source_scale(pir_source *from, pir_scale_room *room, pir_scale *ret_scale) {
-    pir_scale scale = {{room->num, 0}, {room->den, 0}};
+    pir_scale scale = {{room->num, 0, PIR_SCALE_LIMBS}, {room->den, 0, PIR_SCALE_LIMBS}};
     pir_int *part[2] = {&scale.num, &scale.den};
     for (int i = 0; i < 2; i++) {
         if (!pir_source_has(from, 1, 4))

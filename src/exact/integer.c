@@ -5,7 +5,14 @@
 #include "exact/integer.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+void pir_int_outgrown(void) {
+    fputs("pirouette: an integer would outgrow the memory that is reserved for it: a bug, please report it\n", stderr);
+    abort();
+}
 
 /* Drops zero limbs from the top of n limbs. */
 static int32_t normal_size(const mp_limb_t *limb, uint32_t n) {
@@ -15,6 +22,7 @@ static int32_t normal_size(const mp_limb_t *limb, uint32_t n) {
 }
 
 void pir_int_copy(pir_int *dst, const pir_int *a) {
+    pir_int_check_room(dst->room, pir_int_length(a));
     memcpy(dst->limb, a->limb, pir_int_length(a) * sizeof(mp_limb_t));
     dst->size = a->size;
 }
@@ -25,6 +33,7 @@ void pir_int_mul(pir_int *dst, const pir_int *a, const pir_int *b) {
         dst->size = 0;
         return;
     }
+    pir_int_check_room(dst->room, (size_t)na + nb);
     if (nb == 1)
         dst->limb[na] = mpn_mul_1(dst->limb, a->limb, na, b->limb[0]);
     else if (na == 1)
@@ -51,6 +60,7 @@ static void add_signed(pir_int *dst, const pir_int *a, const pir_int *b, int32_t
         int32_t s = size_a;
         size_a = size_b, size_b = s;
     }
+    pir_int_check_room(dst->room, na);
     if (nb == 0) {
         if (dst->limb != la)
             memcpy(dst->limb, la, na * sizeof(mp_limb_t));
@@ -59,8 +69,10 @@ static void add_signed(pir_int *dst, const pir_int *a, const pir_int *b, int32_t
     }
     if ((size_a < 0) == (size_b < 0)) {
         mp_limb_t carry = mpn_add(dst->limb, la, na, lb, nb);
-        if (carry)
+        if (carry) {
+            pir_int_check_room(dst->room, (size_t)na + 1);
             dst->limb[na] = carry;
+        }
         int32_t size = (int32_t)(na + (carry != 0));
         dst->size = size_a < 0 ? -size : size;
         return;
@@ -95,7 +107,7 @@ void pir_int_add_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs
 }
 
 void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch) {
-    pir_int minus = {a->limb, -a->size};
+    pir_int minus = {a->limb, -a->size, 0};
     pir_int_add_mul(dst, &minus, b, scratch);
 }
 
@@ -105,6 +117,7 @@ void pir_int_shift_left(pir_int *dst, const pir_int *a, uint32_t bits) {
         dst->size = 0;
         return;
     }
+    pir_int_check_room(dst->room, (size_t)n + whole);
     mp_limb_t carry = 0;
     if (rest)
         carry = mpn_lshift(dst->limb + whole, a->limb, n, rest);
@@ -112,8 +125,10 @@ void pir_int_shift_left(pir_int *dst, const pir_int *a, uint32_t bits) {
         memmove(dst->limb + whole, a->limb, n * sizeof(mp_limb_t));
     memset(dst->limb, 0, whole * sizeof(mp_limb_t));
     n += whole;
-    if (carry)
+    if (carry) {
+        pir_int_check_room(dst->room, (size_t)n + 1);
         dst->limb[n++] = carry;
+    }
     dst->size = a->size < 0 ? -(int32_t)n : (int32_t)n;
 }
 
@@ -158,7 +173,7 @@ void pir_int_set_double(pir_int *dst, double x, int exponent) {
         shift = 0;
     }
     mp_limb_t limb = mantissa;
-    pir_int whole = {&limb, x < 0 ? -1 : 1};
+    pir_int whole = {&limb, x < 0 ? -1 : 1, 0};
     pir_int_shift_left(dst, &whole, (uint32_t)shift);
 }
 

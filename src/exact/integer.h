@@ -2,10 +2,17 @@
 /*
  * Integers of any size over GMP's mpn layer, in memory that the caller has reserved.
  *
- * mpn works on bare limbs and never asks for memory of its own at the sizes used here, so the hot paths do not allocate and running
- * out of memory is a status, not GMP's abort. An integer is a sign, a length and a pointer; whoever makes one sees to its room.
+ * mpn works on bare limbs and never asks for memory of its own at the sizes used here, so the hot paths do not allocate
+ * and running out of memory is a status, not GMP's abort. An integer is a sign, a length, a pointer and the room there;
+ * whoever makes one sees to its room, from the lengths of what goes into it, with the derivation beside the
+ * reservation.
  *
- * Invariant: the top limb, limb[|size| − 1], is not zero; zero has size 0.
+ * No reservation is trusted. Every call that writes limbs, and every reservation from scratch, first compares what it
+ * needs with the room there is, in every build: where a derivation is wrong the process ends with a line on stderr, and
+ * nothing is overwritten.
+ *
+ * Invariants: the top limb, limb[|size| − 1], is not zero; zero has size 0; |size| ≤ room, unless room is 0: such an
+ * integer is a view, to be read only.
  */
 #ifndef PIR_EXACT_INTEGER_H
 #define PIR_EXACT_INTEGER_H
@@ -20,6 +27,7 @@
 typedef struct pir_int {
     mp_limb_t *limb; /* least significant first */
     int32_t size;    /* the number of limbs, negative for a negative integer */
+    uint32_t room;   /* limbs that may be written; 0 for a view */
 } pir_int;
 
 typedef struct pir_int3 {
@@ -32,9 +40,18 @@ typedef struct pir_limbs {
     uint32_t used, capacity;
 } pir_limbs;
 
+/* Ends the process: an integer would outgrow its room. A bug of ours; no input can cause it. */
+_Noreturn void pir_int_outgrown(void);
+
+/* Sees that `room` limbs hold `need`. */
+static inline void pir_int_check_room(uint32_t room, size_t need) {
+    if (need > room)
+        pir_int_outgrown();
+}
+
 static inline pir_int pir_limbs_take(pir_limbs *limbs, uint32_t count) {
-    PIR_ASSERT(limbs->capacity - limbs->used >= count);
-    pir_int taken = {limbs->base + limbs->used, 0};
+    pir_int_check_room(limbs->capacity - limbs->used, count);
+    pir_int taken = {limbs->base + limbs->used, 0, count};
     limbs->used += count;
     return taken;
 }

@@ -71,7 +71,7 @@ static int low_exponent(const double c[4]) {
 /* dst += sign · 2^doubled · a·b. */
 static void add_product(pir_int *dst, const pir_int *a, const pir_int *b, int sign, bool doubled) {
     mp_limb_t limbs[PIR_MATRIX_LIMBS];
-    pir_int product = {limbs, 0};
+    pir_int product = {limbs, 0, PIR_MATRIX_LIMBS};
     pir_int_mul(&product, a, b);
     if (doubled)
         pir_int_shift_left(&product, &product, 1);

@@ -35,7 +35,6 @@ void pir_vectors_finish(pir_vectors *vectors, const pir_allocator *allocator) {
 void pir_vectors_set(pir_vectors *vectors, uint32_t index, const pir_int3 *v) {
     pir_int3 to = pir_vectors_at(vectors, index);
     for (int k = 0; k < 3; k++) {
-        PIR_ASSERT(pir_int_length(&v->c[k]) <= vectors->stride);
         pir_int_copy(&to.c[k], &v->c[k]);
     }
     pir_vectors_put(vectors, index, &to);
@@ -75,8 +74,8 @@ static void reduce(pir_vectors *vectors, uint32_t index, mpz_t divisor, mpz_t qu
         return;
     for (int k = 0; k < 3; k++) {
         mpz_divexact(quotient, mpz_roinit_n(view, v.c[k].limb, v.c[k].size), divisor);
-        memcpy(v.c[k].limb, mpz_limbs_read(quotient), mpz_size(quotient) * sizeof(mp_limb_t));
-        v.c[k].size = mpz_sgn(quotient) * (int32_t)mpz_size(quotient);
+        pir_int whole = {(mp_limb_t *)mpz_limbs_read(quotient), mpz_sgn(quotient) * (int32_t)mpz_size(quotient), 0};
+        pir_int_copy(&v.c[k], &whole);
     }
     pir_vectors_put(vectors, index, &v);
 }
@@ -117,7 +116,8 @@ pir_vec3 pir_int3_unit(const pir_int3 *v) {
 
 /* A copy of `a` in a block of exactly its length. */
 static bool int_duplicate(pir_int *dst, const pir_allocator *allocator, const pir_int *a) {
-    dst->limb = PIR_NEW(allocator, mp_limb_t, pir_int_length(a));
+    dst->room = pir_int_length(a);
+    dst->limb = PIR_NEW(allocator, mp_limb_t, dst->room);
     if (!dst->limb)
         return false;
     pir_int_copy(dst, a);
@@ -125,7 +125,7 @@ static bool int_duplicate(pir_int *dst, const pir_allocator *allocator, const pi
 }
 
 bool pir_scale_copy(pir_scale *dst, const pir_allocator *allocator, const pir_scale *scale) {
-    *dst = (pir_scale){{NULL, 0}, {NULL, 0}};
+    *dst = (pir_scale){{NULL, 0, 0}, {NULL, 0, 0}};
     if (int_duplicate(&dst->num, allocator, &scale->num) && int_duplicate(&dst->den, allocator, &scale->den))
         return true;
     pir_scale_finish(dst, allocator);
@@ -135,7 +135,7 @@ bool pir_scale_copy(pir_scale *dst, const pir_allocator *allocator, const pir_sc
 bool pir_scale_init_power(pir_scale *dst, const pir_allocator *allocator, int exponent) {
     // 2^1100 takes fewer limbs than this
     mp_limb_t power_limbs[1100 / GMP_NUMB_BITS + 2], one_limb = 1;
-    pir_int one = {&one_limb, 1}, power = {power_limbs, 0};
+    pir_int one = {&one_limb, 1, 0}, power = {power_limbs, 0, sizeof power_limbs / sizeof *power_limbs};
     pir_int_shift_left(&power, &one, (uint32_t)abs(exponent));
     pir_scale scale = exponent < 0 ? (pir_scale){one, power} : (pir_scale){power, one};
     return pir_scale_copy(dst, allocator, &scale);
@@ -144,7 +144,7 @@ bool pir_scale_init_power(pir_scale *dst, const pir_allocator *allocator, int ex
 void pir_scale_finish(pir_scale *scale, const pir_allocator *allocator) {
     PIR_FREE(allocator, scale->num.limb, pir_int_length(&scale->num));
     PIR_FREE(allocator, scale->den.limb, pir_int_length(&scale->den));
-    *scale = (pir_scale){{NULL, 0}, {NULL, 0}};
+    *scale = (pir_scale){{NULL, 0, 0}, {NULL, 0, 0}};
 }
 
 double pir_scaled_nearest_double(const pir_int *a, const pir_int *num, const pir_int *den) {

@@ -22,8 +22,8 @@ void pir_vectors_finish(pir_vectors *vectors, const pir_allocator *allocator);
 static inline pir_int3 pir_vectors_at(const pir_vectors *vectors, uint32_t index) {
     pir_int3 v;
     for (uint32_t k = 0; k < 3; k++)
-        v.c[k] =
-            (pir_int){vectors->limb + ((size_t)index * 3 + k) * vectors->stride, vectors->size[(size_t)index * 3 + k]};
+        v.c[k] = (pir_int){vectors->limb + ((size_t)index * 3 + k) * vectors->stride,
+                           vectors->size[(size_t)index * 3 + k], vectors->stride};
     return v;
 }
 

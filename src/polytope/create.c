@@ -80,7 +80,7 @@ pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_p
     exponent_range(points, count, &low, &top);
     // the coordinates as integers in units of 2^low
     pir_vectors exact = {0};
-    pir_scale scale = {{NULL, 0}, {NULL, 0}};
+    pir_scale scale = {{NULL, 0, 0}, {NULL, 0, 0}};
     status = PIR_ERR_MEMORY;
     if (pir_scale_init_power(&scale, &used, low) &&
         pir_vectors_init(&exact, &used, (uint32_t)count, pir_double_limbs(top, low))) {
@@ -101,12 +101,28 @@ pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_p
 
 /* The integer of a GMP integer, borrowed. */
 static pir_int view_of(mpz_srcptr z) {
-    return (pir_int){(mp_limb_t *)mpz_limbs_read(z), mpz_sgn(z) * (int32_t)mpz_size(z)};
+    return (pir_int){(mp_limb_t *)mpz_limbs_read(z), mpz_sgn(z) * (int32_t)mpz_size(z), 0};
+}
+
+/* The least common denominator; PIR_ERR_LIMIT where it or a coordinate over it is too long. */
+static pir_status find_common(mpz_t common, const mpq_t *coordinates, size_t count) {
+    mpz_set_ui(common, 1);
+    for (size_t i = 0; i < 3 * count; i++) {
+        mpz_lcm(common, common, mpq_denref(coordinates[i]));
+        if (mpz_sizeinbase(common, 2) > PIR_SCALE_BITS_MAX)
+            return PIR_ERR_LIMIT;
+    }
+    // a product has as many bits as its factors together, at most
+    for (size_t i = 0; i < 3 * count; i++)
+        if (mpz_sizeinbase(mpq_numref(coordinates[i]), 2) + mpz_sizeinbase(common, 2) > PIR_COORDINATE_BITS_MAX)
+            return PIR_ERR_LIMIT;
+    return PIR_OK;
 }
 
 /* coordinates · common, as integers. */
 static bool scale_rationals(pir_vectors *exact, const pir_allocator *allocator, const mpq_t *coordinates, size_t count,
                             const mpz_t common) {
+    // a product has as many limbs as its factors together, at most
     size_t longest = 1;
     for (size_t i = 0; i < 3 * count; i++) {
         size_t limbs = mpz_size(mpq_numref(coordinates[i])) + mpz_size(common);
@@ -138,11 +154,14 @@ pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, con
         return status;
     const pir_allocator used = pir_allocator_or_default(options ? options->allocator : NULL);
     mpz_t common;
-    mpz_init_set_ui(common, 1);
-    for (size_t i = 0; i < 3 * count; i++)
-        mpz_lcm(common, common, mpq_denref(coordinates[i]));
+    mpz_init(common);
+    status = find_common(common, coordinates, count);
+    if (status != PIR_OK) {
+        mpz_clear(common);
+        return status;
+    }
     mp_limb_t one_limb = 1;
-    pir_scale scale = {{&one_limb, 1}, view_of(common)};
+    pir_scale scale = {{&one_limb, 1, 0}, view_of(common)};
     pir_vectors exact = {0};
     status = PIR_ERR_MEMORY;
     if (scale_rationals(&exact, &used, coordinates, count, common))

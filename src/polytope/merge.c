@@ -376,9 +376,10 @@ static pir_status build_merged(struct merging *m, double tolerance, pir_polytope
         mpq_mul(m->at[i], m->at[i], m->unit);
     pir_polytope *merged = NULL;
     pir_status status = pir_polytope_create_exact((const mpq_t *)m->at, hull->vertex_count, &options, &merged);
-    if (status != PIR_OK)
+    if (status != PIR_OK && status != PIR_ERR_LIMIT)
         return status;
-    if (merged->facet_count >= hull->facet_count) {
+    // coordinates that were as long as is allowed before stay as they were
+    if (status == PIR_ERR_LIMIT || merged->facet_count >= hull->facet_count) {
         pir_polytope_release(merged);
         *ret_merged = NULL;
         return PIR_OK;

@@ -196,7 +196,7 @@ static void connect_segment(pir_polytope *p) {
 /* A vector across a segment's edge e: (e_y, −e_x, 0), or (1, 0, 0) when that is zero. */
 static void set_across(pir_vectors *normals, const pir_int3 *e, int sign) {
     mp_limb_t one_limb = 1;
-    pir_int one = {&one_limb, sign}, zero = {&one_limb, 0};
+    pir_int one = {&one_limb, sign, 0}, zero = {&one_limb, 0, 0};
     pir_int3 across = {{e->c[1], e->c[0], zero}};
     across.c[1].size = -across.c[1].size;
     if (pir_int3_is_zero(&across))

@@ -2,9 +2,10 @@
 /*
  * The inside of a polytope: a halfedge structure laid out by rings, exact vectors, and unit vectors in double.
  *
- * Halfedges are numbered vertex by vertex: those that leave vertex v are ring_start[v] .. ring_start[v+1] − 1, counter-clockwise
- * from outside, the facet left of each lying between it and the next. So a vertex's neighbourhood is a contiguous slice, and in
- * the Gaussian map that slice is the boundary of v's cell: corner left[h], then side h + 1 (cyclically), and so on.
+ * Halfedges are numbered vertex by vertex: those that leave vertex v are ring_start[v] .. ring_start[v+1] − 1,
+ * counter-clockwise from outside, the facet left of each lying between it and the next. So a vertex's neighbourhood is
+ * a contiguous slice, and in the Gaussian map that slice is the boundary of v's cell: corner left[h], then side h + 1
+ * (cyclically), and so on.
  *
  * Invariants
  *   - twin is an involution without fixed points; left[twin[h]] is the facet right of h; target[h] is the origin of twin[h].
@@ -13,9 +14,9 @@
  *     counter-clockwise about the edge's vector: n_left × n_right is a positive multiple of it.
  *   - exact vectors: vertices on the common scale `scale`; edge vectors and facet normals along the true direction, of any length.
  *
- * Lower dimensions keep the same form, so that nothing else needs to know: a polygon has its two sides as facets; a segment
- * has two facets with opposite normals across it and two edges, all its two corners at a time (`artificial`: no area,
- * hidden from callers); a point has a vertex and nothing else.
+ * Lower dimensions keep the same form, so that nothing else needs to know: a polygon has its two sides as facets; a
+ * segment has two facets with opposite normals across it and two edges, all its two corners at a time (`artificial`: no
+ * area, hidden from callers); a point has a vertex and nothing else.
  */
 #ifndef PIR_POLYTOPE_POLYTOPE_H
 #define PIR_POLYTOPE_POLYTOPE_H
@@ -26,6 +27,14 @@
 
 #include "exact/vectors.h"
 #include "polytope/loops.h"
+
+/*
+ * The most bits of a coordinate as an integer, and of either number of the scale; what is longer is refused with
+ * PIR_ERR_LIMIT. Doubles take 2098 bits at most. So no sum of lengths that a reservation is derived from comes near
+ * 2^32 limbs.
+ */
+#define PIR_COORDINATE_BITS_MAX 131072u
+#define PIR_SCALE_BITS_MAX      65536u
 
 /* How many directions of a ring stand together. */
 #define PIR_LANES 8
@@ -50,8 +59,9 @@ struct pir_polytope {
     pir_vec3 *normal;    /* per facet: outward unit normal */
 
     /*
-     * The directions of each vertex's ring again, for vector loops, as floats: from block ring_block[v] up to ring_block[v + 1], each block PIR_LANES
-     * x, as many y, as many z. The last block is filled up with the ring's first direction, which changes no minimum or maximum.
+     * The directions of each vertex's ring again, for vector loops, as floats: from block ring_block[v] up to
+     * ring_block[v + 1], each block PIR_LANES x, as many y, as many z. The last block is filled up with the ring's
+     * first direction, which changes no minimum or maximum.
      */
     uint32_t *ring_block;
     float *ring;
@@ -82,7 +92,8 @@ pir_status pir_polytope_build_hull(const pir_polytope_parts *parts, const pir_al
                                    pir_polytope **ret_polytope);
 
 /*
- * The same polytope with its integers on another scale. PIR_ERR_LIMIT when a coordinate is beyond the doubles, PIR_ERR_MEMORY.
+ * The same polytope with its integers on another scale. PIR_ERR_LIMIT when a coordinate is beyond the doubles,
+ * PIR_ERR_MEMORY.
  */
 pir_status pir_polytope_rescale(const pir_polytope *polytope, const pir_scale *scale, pir_polytope **ret_polytope);
 

@@ -11,11 +11,8 @@
 #include "base/vec.h"
 #include "polytope/polytope.h"
 
-/* The largest scale: bits of its numerator and denominator. */
-#define BITS_MAX 65536
-
 static pir_int view_of(mpz_srcptr z) {
-    return (pir_int){(mp_limb_t *)mpz_limbs_read(z), (int32_t)mpz_size(z)};
+    return (pir_int){(mp_limb_t *)mpz_limbs_read(z), (int32_t)mpz_size(z), 0};
 }
 
 /* The facets of `p` as loops of vertices, none below dimension 2. */
@@ -104,7 +101,8 @@ pir_status pir_polytope_scale_exact(const pir_polytope *p, const mpq_t factor, p
     set_scale(product, &p->scale);
     mpq_mul(product, product, factor);
     pir_status status = PIR_ERR_LIMIT;
-    if (mpz_sizeinbase(mpq_numref(product), 2) <= BITS_MAX && mpz_sizeinbase(mpq_denref(product), 2) <= BITS_MAX) {
+    if (mpz_sizeinbase(mpq_numref(product), 2) <= PIR_SCALE_BITS_MAX &&
+        mpz_sizeinbase(mpq_denref(product), 2) <= PIR_SCALE_BITS_MAX) {
         pir_scale scale = {view_of(mpq_numref(product)), view_of(mpq_denref(product))};
         status = pir_polytope_rescale(p, &scale, ret_polytope);
     }

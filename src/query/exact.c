@@ -179,7 +179,7 @@ void pir_exact_begin(pir_query *query, pir_vec3 translation) {
     pir_rotation *rotation = &query->sum->signs.rotation;
     pir_rotation_make_exact(rotation);
     mp_limb_t one_limb = 1;
-    pir_int one = {&one_limb, 1};
+    pir_int one = {&one_limb, 1, 0};
     query->scratch.used = 0;
     exact->translation = translation;
     int exponent;

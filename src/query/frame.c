@@ -29,7 +29,7 @@ static double scaled(const pir_int *a, const pir_scale *scale, int *ret_exponent
 /* Component k of vertex v less vertex 0, as m · 2^*ret_exponent, through `room` of a vertex's limbs and one. */
 static double from_first(const pir_polytope *p, uint32_t v, int k, mp_limb_t *room, int *ret_exponent) {
     pir_int3 a = pir_vertex_exact(p, v), o = pir_vertex_exact(p, 0);
-    pir_int difference = {room, 0};
+    pir_int difference = {room, 0, p->exact_vertex.stride + 1};
     pir_int_sub(&difference, &a.c[k], &o.c[k]);
     return scaled(&difference, &p->scale, ret_exponent);
 }

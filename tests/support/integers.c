@@ -6,12 +6,12 @@
 #include <stdlib.h>
 
 void test_int_init(test_int *a) {
-    a->value = (pir_int){a->limb, 0};
+    a->value = (pir_int){a->limb, 0, TEST_LIMBS};
 }
 
 void test_int3_init(test_int3 *a) {
     for (int k = 0; k < 3; k++)
-        a->value.c[k] = (pir_int){a->limb[k], 0};
+        a->value.c[k] = (pir_int){a->limb[k], 0, TEST_LIMBS};
 }
 
 void test_int_set(pir_int *a, mpz_t z) {
