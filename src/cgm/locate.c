@@ -2,15 +2,18 @@
 /*
  * Where a point is (Fogel and Halperin, section 4).
  *
- * With c strictly inside and s the point asked about, the ray from c through s stabs the facet with the greatest a/b, where for a normal n
- * and a point x of its facet a = n·(s − c) and b = n·(x − c) > 0. That is a linear function on the polar polytope about c, the vertices and
- * edges of which are the real vertices and real edges of the map: a walk that goes on as long as a neighbour is strictly better ends at
- * the greatest. Then s is outside, on the boundary or inside as n·(s − x) is positive, zero or negative.
+ * With c strictly inside and s the point asked about, the ray from c through s stabs the facet with the greatest a/b,
+ * where for a normal n and a point x of its facet a = n·(s − c) and b = n·(x − c) > 0. That is a linear function on the
+ * polar polytope about c, the vertices and edges of which are the real vertices and real edges of the map: a walk that
+ * goes on as long as a neighbour is strictly better ends at the greatest. Then s is outside, on the boundary or inside
+ * as n·(s − x) is positive, zero or negative.
  *
- * Without such a c every vertex of the maps is looked at, the artificial ones too. A body is what lies below all its support planes in those
- * directions, even when it is flat: the ends of arcs on cube edges and the corners of the cube hold what the facets leave open.
+ * Without such a c every vertex of the maps is looked at, the artificial ones too. A body is what lies below all its
+ * support planes in those directions, even when it is flat: the ends of arcs on cube edges and the corners of the cube
+ * hold what the facets leave open.
  *
- * Signs are settled by doubles with a bound, or else by integers; a point, a double, is an integer times a power of two.
+ * Signs are settled by doubles with a bound, or else by integers; a point, a double, is an integer times a power of
+ * two.
  */
 #include "cgm/build.h"
 #include "cgm/place.h"
@@ -154,7 +157,9 @@ static bool is_better(struct pir_cgm_locator *l, const struct probe *s, uint32_t
     return exact_order(l, s, w, v) > 0;
 }
 
-/* The real vertex at the other end of the arc that real halfedge h begins, past the places where it crosses cube edges. */
+/*
+ * The real vertex at the other end of the arc that real halfedge h begins, past the places where it crosses cube edges.
+ */
 static uint32_t follow_arc(const pir_cgm *cgm, uint32_t h) {
     uint32_t v = pir_cgm_target(cgm, h), cell = cgm->half[h].face;
     while (!cgm->vertex[v].real) {
@@ -265,7 +270,12 @@ pir_status pir_cgm_locator_create(const pir_cgm *cgm, pir_cgm_locator **ret_loca
         PIR_FREE(a, l, 1);
         return PIR_ERR_MEMORY;
     }
-    // three points, two heights with what they are made of, their products
+    /*
+     * exact_order takes most: three points (9 (POINT_LIMBS + 1)); two products a and two heights b, none longer than
+     * `height`; while the second is made, its point x and difference d of three components each and one product; and a
+     * direction of three components (3 point) with the two lines it is made from (6 line) and one product. So 11
+     * heights, 3 directions and 7 lines at a time; the last product, of two heights, comes when x and d are gone.
+     */
     uint32_t point = pir_cgm_point_limbs(cgm),
              height = l->places.stride + POINT_LIMBS + point + l->places.limb_count + 8;
     uint32_t capacity = 10 * (POINT_LIMBS + 1) + 12 * height + 12 * point + 16 * cgm->line_limbs;

@@ -36,7 +36,11 @@ bool pir_cgm_places_init(struct pir_cgm_places *places, const pir_cgm *cgm) {
         v += source->rotation ? PIR_MATRIX_LIMBS + 1 : 0;
         longest = v > longest ? v : longest;
     }
-    // a factor is at most a numerator times the denominator; a sum of k products may need one limb more
+    /*
+     * A factor is a numerator times what is left of the denominator. A sum of k products, none longer than a factor and
+     * a turned vertex together, takes one limb more. The scratch holds a turned vertex and one product, each component
+     * no longer than `stride`; or, while factors are made, one product no longer than a factor.
+     */
     factor += den;
     *places = (struct pir_cgm_places){.cgm = cgm, .stride = factor + longest + 1};
     places->limb_count = den + k * factor + 4 * places->stride + factor;

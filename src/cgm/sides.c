@@ -2,10 +2,11 @@
 /*
  * Signs over lines and directions of maps.
  *
- * Errors, with u = 2^-53. A polytope's unit vectors are within 8u (polytope.h); rotated by a matrix within 31u (rotation.h), which rounds by
- * 5.3u (sign.h), within 45u. A cube plane's (±1, ±1, 0)/√2 is within 2u. A meeting direction v = a × b, |a|, |b| ≤ 1 + 2^-40, is off by
- * e = |δa| + |δb| + 5u before it is made a unit vector, which then is within 2e/|v| + 4u of the true one as long as e < |v|/2.
- * A dot product of unit vectors rounds by less than 4u, a triple product by less than 12u.
+ * Errors, with u = 2^-53. A polytope's unit vectors are within 8u (polytope.h); rotated by a matrix within 31u
+ * (rotation.h), which rounds by 5.3u (sign.h), within 45u. A cube plane's (±1, ±1, 0)/√2 is within 2u. A meeting
+ * direction v = a × b, |a|, |b| ≤ 1 + 2^-40, is off by e = |δa| + |δb| + 5u before it is made a unit vector, which then
+ * is within 2e/|v| + 4u of the true one as long as e < |v|/2. A dot product of unit vectors rounds by less than 4u, a
+ * triple product by less than 12u.
  */
 #include "cgm/sides.h"
 
@@ -23,7 +24,11 @@ bool pir_cgm_sides_init(struct pir_cgm_sides *sides, const pir_allocator *alloca
                         const pir_cgm *b) {
     uint32_t line = a->line_limbs > b->line_limbs ? a->line_limbs : b->line_limbs;
     uint32_t pa = pir_cgm_point_limbs(a), pb = pir_cgm_point_limbs(b), point = pa > pb ? pa : pb;
-    // the greatest need: two directions with the two lines of each, their cross product, and its dot product with a line
+    /*
+     * pir_cgm_ahead takes most: two directions of three components, their cross product (2 point + 1 limbs), a line, a
+     * dot product (2 point + line + 2) and one product on the way to it. While a direction is made from two lines,
+     * those two and one product of theirs stand in its stead.
+     */
     uint32_t capacity = 3 * (5 * (line + 1) + 2 * (point + 1) + (2 * point + 1)) + 4 * (2 * point + line + 4);
     mp_limb_t *base = PIR_NEW(allocator, mp_limb_t, capacity);
     if (!base)

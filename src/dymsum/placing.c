@@ -17,9 +17,15 @@ pir_status pir_placing_init(pir_placing *placing, const pir_allocator *allocator
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             m = pir_int_length(&rotation->m[i][j]) > m ? pir_int_length(&rotation->m[i][j]) : m;
+    /*
+     * Products have as many limbs as their factors together; a sum of three products, all of one length at most, one
+     * more. A component of M·p so has m + stride + 1, and pir_placing_set, which takes most of the scratch, holds one
+     * (no longer than `stride`) and a product of it with p_factor or of q_factor with q (no longer than `stride`
+     * either); what is made here first, N·d and its product with m or c, fits beside.
+     */
     uint32_t p_limbs = np + dq, q_limbs = norm + nq + dp, den_limbs = norm + dp + dq;
     uint32_t from_p = p_limbs + m + 1 + p->exact_vertex.stride, from_q = q_limbs + q->exact_vertex.stride;
-    uint32_t stride = (from_p > from_q ? from_p : from_q) + 1, work = 4 * stride + 2 * den_limbs;
+    uint32_t stride = (from_p > from_q ? from_p : from_q) + 1, work = 2 * stride + den_limbs + q_limbs;
     uint32_t count = p_limbs + q_limbs + den_limbs + work;
     mp_limb_t *limbs = PIR_NEW(allocator, mp_limb_t, count);
     if (!limbs)

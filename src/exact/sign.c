@@ -7,8 +7,8 @@
  *     A_kl = a_k b_l + a_l b_k − δ_kl d,   A_kw = c_k,   A_ww = d         (k, l among x, y, z)
  *     (Aq)_k = a_k (b·v) + b_k (a·v) − d v_k + c_k w,   (Aq)_w = c·v + d w.
  *
- * Perturbed, s(q + ε) = s + 2 (Aq)·ε + εᵀAε. Each ε is smaller than every power of the one before, so monomials rank by the power of ε₄
- * first, then of ε₃, and so on, the lower the greater:
+ * Perturbed, s(q + ε) = s + 2 (Aq)·ε + εᵀAε. Each ε is smaller than every power of the one before, so monomials rank by
+ * the power of ε₄ first, then of ε₃, and so on, the lower the greater:
  *
  *     1, ε₁, ε₁², ε₂, ε₁ε₂, ε₂², ε₃, ε₁ε₃, ε₂ε₃, ε₃², ε₄, ε₁ε₄, ε₂ε₄, ε₃ε₄, ε₄²
  *
@@ -25,9 +25,17 @@
 #include <math.h>
 
 pir_status pir_signs_init(pir_signs *signs, const pir_allocator *allocator, uint32_t a_limbs, uint32_t b_limbs) {
-    // M·a and the sum of its products with b; a tie takes a × b, a·b, two more dot products and a sum: all shorter than six of these
+    /*
+     * No number is longer than `longest`: those of exact_sign are M·a, of PIR_MATRIX_LIMBS + a_limbs + 1 limbs, its
+     * products with b, and sums of three of those; those of tie_sign are products of a, b and q with two carries, and q
+     * is shorter than M. At a time live in the scratch
+     *
+     *   exact_sign   a row of M·a, the sum, a product                                     3
+     *   tie_sign     a × b, a·b, a·v, b·v, a sum, a product                               8
+     *   edge_pair.c  M·e, d × M·e, a product; then, the product gone, M·n and a product  10
+     */
     uint32_t longest = PIR_MATRIX_LIMBS + a_limbs + b_limbs + 4;
-    uint32_t capacity = 16 * longest;
+    uint32_t capacity = 10 * longest;
     mp_limb_t *base = PIR_NEW(allocator, mp_limb_t, capacity);
     if (!base)
         return PIR_ERR_MEMORY;

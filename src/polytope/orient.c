@@ -11,7 +11,10 @@ static void difference(const pir_points *points, pir_int3 *dst, uint32_t p, uint
         pir_int_sub(&dst->c[k], &vp.c[k], &va.c[k]);
 }
 
-/* Fills `near` along one axis: differences from the first point as mantissa and exponent, then all by the greatest exponent. */
+/*
+ * Fills `near` along one axis: differences from the first point as mantissa and exponent, then all by the greatest
+ * exponent.
+ */
 static void approximate_axis(pir_points *points, int axis, double *mantissa, int *exponent) {
     uint32_t count = points->exact->count, mark = points->scratch.used;
     pir_int3 d = pir_int3_take(&points->scratch, points->exact->stride + 1);
@@ -31,8 +34,12 @@ static void approximate_axis(pir_points *points, int axis, double *mantissa, int
 }
 
 bool pir_points_init(pir_points *points, const pir_allocator *allocator, const pir_vectors *exact) {
-    // room for three differences, their cross product, a dot product and what is on the way
-    uint32_t limbs = 30 * (exact->stride + 2);
+    /*
+     * With d = stride + 1 limbs for a difference, pir_orient_exact, which takes most, holds three differences (9 d),
+     * their cross product (3 (2 d + 1)), a dot product (3 d + 2), and on the way to it one product of a component of
+     * each (3 d + 1): 21 d + 6.
+     */
+    uint32_t limbs = 21 * (exact->stride + 1) + 6;
     *points = (pir_points){.exact = exact};
     points->near = PIR_NEW(allocator, pir_vec3, exact->count);
     points->scratch = (pir_limbs){PIR_NEW(allocator, mp_limb_t, limbs), 0, limbs};
