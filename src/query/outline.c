@@ -47,27 +47,33 @@ static void sort(pir_corner *points, uint32_t count) {
     }
 }
 
-/* Whether b stands out to the right of the line from a to c by more than `snap`. */
-static bool stands_out(const pir_corner *a, const pir_corner *b, const pir_corner *c, double snap) {
-    double u = c->u - a->u, v = c->v - a->v;
-    return (b->u - a->u) * v - (b->v - a->v) * u > snap * sqrt(u * u + v * v);
+/* Whether b lies to the right of the line from a to c. */
+static bool is_right(const pir_corner *a, const pir_corner *b, const pir_corner *c) {
+    return (b->u - a->u) * (c->v - a->v) - (b->v - a->v) * (c->u - a->u) > 0;
 }
 
-/* Drops corners that stand out by at most `snap`: the ends of the chains may. */
-static uint32_t drop_straight(pir_corner *hull, uint32_t count, double snap) {
-    for (uint32_t i = 0, kept = 0; count > 2 && kept < count;) {
-        const pir_corner *last = &hull[i > 0 ? i - 1 : count - 1], *next = &hull[i + 1 < count ? i + 1 : 0];
-        if (stands_out(last, &hull[i], next, snap)) {
-            kept++;
-        } else {
-            memmove(&hull[i], &hull[i + 1], (count - 1 - i) * sizeof *hull);
-            count--;
-            i = i > 0 ? i - 1 : count - 1;
-            kept = 0;
-            continue;
-        }
-        i = i + 1 < count ? i + 1 : 0;
+/* Whether b is farther than `snap` from the segment from a to c. Beside the line is not enough: b may be its end. */
+static bool stands_out(const pir_corner *a, const pir_corner *b, const pir_corner *c, double snap) {
+    double u = c->u - a->u, v = c->v - a->v, square = u * u + v * v;
+    double along = square > 0 ? (u * (b->u - a->u) + v * (b->v - a->v)) / square : 0;
+    double t = fmin(1, fmax(0, along)), x = b->u - a->u - t * u, y = b->v - a->v - t * v;
+    return x * x + y * y > snap * snap;
+}
+
+/* Drops the first corners and the last as long as they stand out by at most `snap`. */
+static uint32_t drop_ends(pir_corner *hull, uint32_t count, double snap) {
+    uint32_t first = 0, end = count;
+    for (bool dropped = true; dropped && end - first > 2;) {
+        dropped = true;
+        if (!stands_out(&hull[end - 2], &hull[end - 1], &hull[first], snap))
+            end--;
+        else if (!stands_out(&hull[end - 1], &hull[first], &hull[first + 1], snap))
+            first++;
+        else
+            dropped = false;
     }
+    memmove(hull, hull + first, (end - first) * sizeof *hull);
+    count = end - first;
     return count == 2 && pir_outline_distance(&hull[0], &hull[1]) <= snap ? 1 : count;
 }
 
@@ -77,18 +83,24 @@ uint32_t pir_outline_hull(pir_corner *points, uint32_t count, double snap, pir_c
     sort(points, count);
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
-        while (n > 1 && !stands_out(&room[n - 2], &room[n - 1], &points[i], snap))
+        while (n > 1 && !is_right(&room[n - 2], &room[n - 1], &points[i]))
             n--;
         room[n++] = points[i];
     }
     // back along the other side; the last point is the first again
     for (uint32_t i = count - 1, lower = n; i-- > 0;) {
-        while (n > lower && !stands_out(&room[n - 2], &room[n - 1], &points[i], snap))
+        while (n > lower && !is_right(&room[n - 2], &room[n - 1], &points[i]))
             n--;
         room[n++] = points[i];
     }
-    memcpy(points, room, (n - 1) * sizeof *points);
-    return drop_straight(points, n - 1, snap);
+    // now that they are in order, those that only rounding made corners go
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i + 1 < n; i++) {
+        while (kept > 1 && !stands_out(&points[kept - 2], &points[kept - 1], &room[i], snap))
+            kept--;
+        points[kept++] = room[i];
+    }
+    return drop_ends(points, kept, snap);
 }
 
 static uint32_t farthest(const pir_corner *hull, uint32_t count, const pir_corner *from) {
@@ -111,8 +123,8 @@ uint32_t pir_outline_slim(pir_corner *hull, uint32_t count, double part) {
     }
     if (high - low > part * (u * u + v * v))
         return count;
-    hull[0] = before(&a, &b) ? a : b;
-    hull[1] = before(&a, &b) ? b : a;
+    hull[0] = a;
+    hull[1] = b;
     return 2;
 }
 
@@ -174,6 +186,11 @@ static void put_other(struct cut *cut, uint32_t j) {
     put(cut, &cut->by.at[j], cut->of_p ? PIR_CORNER_Q : PIR_CORNER_P, j, j);
 }
 
+/* Whether two corners are one: each may be off by `snap` along two sides. */
+static bool is_one(const struct cut *cut, const pir_corner *a, const pir_corner *b) {
+    return pir_outline_distance(a, b) <= 4 * cut->snap;
+}
+
 /* Part t of the way from a to b. */
 static pir_corner between(const pir_corner *a, const pir_corner *b, double t) {
     return (pir_corner){a->u + t * (b->u - a->u), a->v + t * (b->v - a->v), PIR_CORNER_CROSSING, 0, 0};
@@ -202,13 +219,13 @@ static void put_crossing(struct cut *cut, uint32_t i, uint32_t j, double part) {
     pir_corner x;
     if (!cross_at(a, b, &cut->by.at[j], &cut->by.at[j_end], &x))
         x = between(a, b, part);
-    if (pir_outline_distance(&x, a) <= cut->snap)
+    if (is_one(cut, &x, a))
         put_own(cut, i);
-    else if (pir_outline_distance(&x, b) <= cut->snap)
+    else if (is_one(cut, &x, b))
         put_own(cut, i_end);
-    else if (pir_outline_distance(&x, &cut->by.at[j]) <= cut->snap)
+    else if (is_one(cut, &x, &cut->by.at[j]))
         put_other(cut, j);
-    else if (pir_outline_distance(&x, &cut->by.at[j_end]) <= cut->snap)
+    else if (is_one(cut, &x, &cut->by.at[j_end]))
         put_other(cut, j_end);
     else
         put(cut, &x, PIR_CORNER_CROSSING, cut->of_p ? i : j, cut->of_p ? j : i);
@@ -241,7 +258,7 @@ static void put_others_inside(struct cut *cut) {
         uint32_t same = NO_SIDE;
         for (uint32_t i = 0; i < cut->of.count && inside; i++) {
             inside = inside_of(cut->of, i, x) >= -cut->snap;
-            if (pir_outline_distance(x, &cut->of.at[i]) <= 4 * cut->snap)
+            if (is_one(cut, x, &cut->of.at[i]))
                 same = i;
         }
         if (!inside)
@@ -289,7 +306,7 @@ static void share_segment(struct cut *cut, double part) {
         cut->corners[end] = found;
     }
     cut->count = cut->count > 2 ? 2 : cut->count;
-    if (cut->count == 2 && pir_outline_distance(&cut->corners[0], &cut->corners[1]) <= 4 * cut->snap)
+    if (cut->count == 2 && is_one(cut, &cut->corners[0], &cut->corners[1]))
         cut->count = 1;
 }
 
