@@ -165,6 +165,13 @@ static bool is_extreme(struct check *check, uint32_t s, uint32_t p, uint32_t v) 
     return true;
 }
 
+/* Whether `half` of a source leads from vertex `right` to `left`, or is absent where both are one. */
+static bool is_arc(const struct pir_cgm_source *source, uint32_t half, uint32_t left, uint32_t right) {
+    if (half == PIR_CGM_NONE)
+        return left == right;
+    return source->polytope->target[half] == left && source->polytope->origin[half] == right;
+}
+
 static bool cells_are_valid(struct check *check, uint32_t map) {
     const pir_cgm *cgm = check->cgm;
     for (uint32_t h = 2 * cgm->edge_start[map]; h < 2 * cgm->edge_start[map + 1]; h++) {
@@ -174,11 +181,13 @@ static bool cells_are_valid(struct check *check, uint32_t map) {
         for (uint32_t s = 0; s < cgm->source_count; s++)
             if (!is_extreme(check, s, pir_cgm_source_vertex(cgm, face, s), cgm->half[h].origin))
                 return false;
-        // an edge is real exactly when it parts two cells
+        // what a source has there is the arc between the cells on both sides, or none where that is one cell
         if (pir_cgm_is_outer(cgm, beyond, map))
             beyond = cgm->half[pir_cgm_beyond(cgm, h)].face;
-        if (pir_cgm_edge_is_real(cgm, h >> 1) == pir_cgm_same_cell(cgm, face, beyond))
-            return false;
+        for (uint32_t s = 0; s < cgm->source_count; s++)
+            if (!is_arc(&cgm->source[s], pir_cgm_source_half(cgm, h, s), pir_cgm_source_vertex(cgm, face, s),
+                        pir_cgm_source_vertex(cgm, beyond, s)))
+                return false;
     }
     return true;
 }
@@ -195,35 +204,19 @@ static bool is_normal(struct check *check, uint32_t s, uint32_t f, uint32_t v) {
     return pir_vec_dot(n, check->cgm->vertex[v].point.unit) > 0;
 }
 
-/* Every contributed facet and edge is where its normal and its arc are. */
-static bool sources_are_valid(struct check *check, uint32_t map) {
-    const pir_cgm *cgm = check->cgm;
-    for (uint32_t s = 0; s < cgm->source_count; s++) {
-        const struct pir_cgm_source *source = &cgm->source[s];
-        for (uint32_t v = cgm->vertex_start[map]; v < cgm->vertex_start[map + 1]; v++) {
-            uint32_t facet = pir_cgm_vertex_facet(cgm, v, s);
-            if (facet != PIR_CGM_NONE && (!cgm->vertex[v].real || !is_normal(check, s, facet, v)))
-                return false;
-        }
-        for (uint32_t h = 2 * cgm->edge_start[map]; h < 2 * cgm->edge_start[map + 1]; h++) {
-            uint32_t half = pir_cgm_source_half(cgm, h, s);
-            if (half == PIR_CGM_NONE || pir_cgm_is_outer(cgm, cgm->half[h].face, map))
-                continue;
-            if (pir_cgm_source_vertex(cgm, cgm->half[h].face, s) != source->polytope->target[half])
-                return false;
-        }
-    }
-    return true;
-}
-
 /* When all maps and what joins them are valid: every vertex that is a facet's normal says so, of the sum and of each source. */
-static bool facets_are_valid(const pir_cgm *cgm) {
+static bool facets_are_valid(struct check *check) {
+    const pir_cgm *cgm = check->cgm;
     for (uint32_t v = 0; v < pir_cgm_vertices(cgm); v++) {
         if (cgm->vertex[v].real != pir_cgm_is_facet_of(cgm, v, 0, cgm->source_count))
             return false;
-        for (uint32_t s = 0; s < cgm->source_count; s++)
-            if ((pir_cgm_vertex_facet(cgm, v, s) != PIR_CGM_NONE) != pir_cgm_is_facet_of(cgm, v, s, 1))
+        for (uint32_t s = 0; s < cgm->source_count; s++) {
+            uint32_t facet = pir_cgm_vertex_facet(cgm, v, s);
+            bool right = pir_cgm_is_facet_of(cgm, v, s, 1) ? facet != PIR_CGM_NONE && is_normal(check, s, facet, v)
+                                                           : facet == PIR_CGM_NONE;
+            if (!right)
                 return false;
+        }
     }
     return true;
 }
@@ -241,8 +234,8 @@ int pir_cgm_is_valid(const pir_cgm *cgm) {
     for (uint32_t map = 0; map < 6 && valid; map++)
         valid = rim_is_valid(&check, map);
     for (uint32_t map = 0; map < 6 && valid; map++)
-        valid = faces_are_convex(&check, map) && cells_are_valid(&check, map) && sources_are_valid(&check, map);
-    valid = valid && facets_are_valid(cgm);
+        valid = faces_are_convex(&check, map) && cells_are_valid(&check, map);
+    valid = valid && facets_are_valid(&check);
     pir_cgm_sides_finish(&check.sides, &cgm->allocator);
     return valid;
 }
