@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The same inputs give the same bits on every machine and with every compiler: hashes of pairings and meshes against kept ones. They may
- * change only when what a sum looks like is meant to change. Inputs are made with +, −, ·, / and sqrt alone.
+ * change only when what a sum looks like is meant to change. So with the work that was done, which decides between update and walk. Inputs are made with +, −, ·, / and sqrt alone.
  */
 #include "support/test.h"
 
 #include <inttypes.h>
+#include <stdbool.h>
 
 #include "support/bodies.h"
 #include "support/meshes.h"
@@ -69,10 +70,60 @@ static void track_of_two_hundred_frames_keeps_its_bits(void **state) {
     pir_polytope_release(p);
 }
 
+/* The work of `frames` small steps by `method`: a new axis every 40 frames, or to and fro about one. */
+static pir_sum_statistics work_of(test_body body, bool swings, pir_method method, uint32_t frames, uint64_t number) {
+    test_random random = fixed_random(number);
+    pir_polytope *p = test_random_polytope(&random, body, 60), *q = test_sphere(&random, 50);
+    pir_quat r = {0.1, 0.2, -0.3, 0.9}, step = {0.004, -0.003, 0.002, 1};
+    pir_sum *sum = NULL;
+    assert_int_equal(pir_sum_create(p, q, r, NULL, &sum), PIR_OK);
+    pir_sum_reset_statistics(sum);
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        if (!swings && frame % 40 == 39)
+            step = (pir_quat){step.y, -step.z, step.x, 1};
+        if (swings && frame % 7 == 6)
+            step = (pir_quat){-step.x, -step.y, -step.z, 1};
+        r = test_compose(step, r, 1);
+        assert_int_equal(pir_sum_rotate(sum, r, method), PIR_OK);
+    }
+    pir_sum_statistics did = pir_sum_get_statistics(sum);
+    pir_sum_destroy(sum);
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+    return did;
+}
+
+static void expect_work(const char *what, pir_sum_statistics did, const uint64_t kept[7]) {
+    const uint64_t counted[7] = {did.updates,   did.rebuilds, did.checked,        did.repaired,
+                                 did.by_filter, did.by_exact, did.by_perturbation};
+    int same = 1;
+    for (int k = 0; k < 7; k++)
+        same = same && counted[k] == kept[k];
+    if (!same)
+        for (int k = 0; k < 7; k++)
+            print_error("%s%" PRIu64 "%s", k ? ", " : "counted: ", counted[k], k < 6 ? "" : "\n");
+    expect(same, "%s", what);
+}
+
+/* How much an update looks at is part of what it promises. These numbers may change when an update is meant to look at other things. */
+static void updates_look_at_no_more_than_they_did(void **state) {
+    (void)state;
+    expect_work("new axes", work_of(TEST_SPHERE, false, PIR_METHOD_UPDATE, 400, 11),
+                (uint64_t[7]){400, 0, 5979, 4422, 37211, 0, 0});
+    expect_work("to and fro", work_of(TEST_SPHERE, true, PIR_METHOD_UPDATE, 400, 12),
+                (uint64_t[7]){400, 0, 2267, 5005, 3917, 0, 0});
+    expect_work("a grid", work_of(TEST_GRID, false, PIR_METHOD_UPDATE, 400, 13),
+                (uint64_t[7]){400, 0, 2463, 1414, 10523, 0, 0});
+    expect_work("a prism, to and fro", work_of(TEST_PRISM, true, PIR_METHOD_AUTO, 400, 14),
+                (uint64_t[7]){400, 0, 434, 598, 663, 0, 0});
+    expect_work("walks", work_of(TEST_GRID, false, PIR_METHOD_WALK, 40, 15), (uint64_t[7]){0, 40, 0, 0, 33742, 0, 0});
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sums_keep_their_bits),
         cmocka_unit_test(track_of_two_hundred_frames_keeps_its_bits),
+        cmocka_unit_test(updates_look_at_no_more_than_they_did),
     };
     return cmocka_run_group_tests_name("golden", tests, NULL, NULL);
 }
