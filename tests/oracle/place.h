@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The oracle of placements: P, turned by a quaternion and moved by t, against Q, in exact arithmetic. The difference Q ⊕ (−R·P) is made
- * twice: as half-spaces, from the facets of both bodies and all pairs of their edges (place_make.c), and as the hull of all differences of
- * vertices (place_nearest.c). Nothing of the library is used but vertices as doubles.
+ * The oracle of placements: P, turned by a quaternion and moved by t, against Q, in exact arithmetic. The difference Q
+ * ⊕ (−R·P) is made twice: as half-spaces, from the facets of both bodies and all pairs of their edges (place_make.c),
+ * and as the hull of all differences of vertices (place_nearest.c). Nothing of the library is used but vertices as
+ * doubles.
  *
- * Integers: a rotated body has coordinates in units of 2^unit / |q|². A pose has units smaller by a whole factor, `grain`, to hold the doubles of its
- * translation and direction too, or a rational point.
+ * Integers: a rotated body has coordinates in units of 2^unit / |q|². A pose has units smaller by a whole factor,
+ * `grain`, to hold the doubles of its translation and direction too, or a rational point.
  */
 #ifndef PIR_ORACLE_PLACE_H
 #define PIR_ORACLE_PLACE_H
@@ -116,7 +117,10 @@ void oracle_place_along_to_plane(oracle_place *place, uint32_t i);
 
 /* --- of one body --- */
 
-/* Sets the pose, of P at `translation`, to one whose distances from {−a} and from {b} are those of `point` from P and from Q. */
+/*
+ * Sets the pose, of P at `translation`, to one whose distances from {−a} and from {b} are those of `point` from P and
+ * from Q.
+ */
 void oracle_place_set_point(oracle_place *place, pir_operand operand, pir_vec3 point, pir_vec3 translation);
 
 #endif

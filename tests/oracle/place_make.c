@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See place.h: the difference D as half-spaces. A facet of D with outward normal n is F_Q(n) − F_P(−n), the difference of the sets of vertices
- * that lie farthest. One of them is a facet, or both hold edges that are not parallel: so n is that of a facet of −R·P or Q, or ± the cross
- * product of two edges. All are tried.
+ * See place.h: the difference D as half-spaces. A facet of D with outward normal n is F_Q(n) − F_P(−n), the difference
+ * of the sets of vertices that lie farthest. One of them is a facet, or both hold edges that are not parallel: so n is
+ * that of a facet of −R·P or Q, or ± the cross product of two edges. All are tried.
  */
 #include "oracle/place.h"
 
@@ -13,8 +13,8 @@
 #include <string.h>
 
 /*
- * The filter: coordinates of bodies below 1 and within 2^-52 of the exact ones; a direction below 1, each coordinate within 2^-48. Then a height is
- * off by less than 3·(2^-48 + 2^-52) + 2^-50, the difference of two by less than 2^-45.
+ * The filter: coordinates of bodies below 1 and within 2^-52 of the exact ones; a direction below 1, each coordinate
+ * within 2^-48. Then a height is off by less than 3·(2^-48 + 2^-52) + 2^-50, the difference of two by less than 2^-45.
  */
 #define CERTAIN 0x1p-45
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See place.h: the nearest point of a hull of differences of vertices. A descent from simplex to simplex (Gilbert, Johnson and Keerthi, 1988), in
- * doubles as long as they get nearer, then in integers: each step takes the face of the simplex that is nearest to t, exactly, and
- * ends when no vertex lies on t's side of the plane through the nearest point across the way to t. Else that vertex joins the simplex. Distances
- * strictly fall and simplices are finitely many, so it ends.
+ * See place.h: the nearest point of a hull of differences of vertices. A descent from simplex to simplex (Gilbert,
+ * Johnson and Keerthi, 1988), in doubles as long as they get nearer, then in integers: each step takes the face of the
+ * simplex that is nearest to t, exactly, and ends when no vertex lies on t's side of the plane through the nearest
+ * point across the way to t. Else that vertex joins the simplex. Distances strictly fall and simplices are finitely
+ * many, so it ends.
  */
 #include "oracle/place.h"
 
@@ -62,7 +63,10 @@ static uint32_t least_near(double (*near)[3], uint32_t count, const oracle_set *
     return best;
 }
 
-/* Barycentric coordinates, up to a common factor, of the foot of the origin on the flat through up to 3 points; false when it is outside. */
+/*
+ * Barycentric coordinates, up to a common factor, of the foot of the origin on the flat through up to 3 points; false
+ * when it is outside.
+ */
 static bool foot_near(double (*y)[3], const uint32_t *index, uint32_t count, double x[3]) {
     double w[3] = {1, 0, 0}, sum = 0, u[3], v[3];
     if (count > 1)

@@ -9,8 +9,8 @@
 #include <string.h>
 
 /*
- * The filter. With a, b, c, d below 1 and within 2^-52 of the exact ones, differences are below 2 and off by 2^-50.4 at most, the cross product's
- * coordinates below 8 and off by 2^-46, and the volume by less than 2^-43.
+ * The filter. With a, b, c, d below 1 and within 2^-52 of the exact ones, differences are below 2 and off by 2^-50.4 at
+ * most, the cross product's coordinates below 8 and off by 2^-46, and the volume by less than 2^-43.
  */
 #define CERTAIN 0x1p-42
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The facets and edges of a convex polytope by brute force: every plane through three vertices that supports all others is a facet's. Signs
- * are exact: a filter in doubles skips what is plain, GMP integers decide the rest. Only the vertices of the polytope are read.
+ * The facets and edges of a convex polytope by brute force: every plane through three vertices that supports all others
+ * is a facet's. Signs are exact: a filter in doubles skips what is plain, GMP integers decide the rest. Only the
+ * vertices of the polytope are read.
  */
 #ifndef PIR_ORACLE_SOLID_H
 #define PIR_ORACLE_SOLID_H
@@ -48,7 +49,10 @@ long oracle_unit(const double *x, size_t count, long most);
 /* x / 2^unit, which is an integer. */
 void oracle_set_double(mpz_t r, double x, long unit);
 
-/* v times the power of two that brings the largest coordinate into [1/2, 1), truncated; its exponent, or LONG_MIN for zero. */
+/*
+ * v times the power of two that brings the largest coordinate into [1/2, 1), truncated; its exponent, or LONG_MIN for
+ * zero.
+ */
 long oracle_near(double ret_near[3], oracle_vec v);
 
 /* `from` times 2^-exponent. */

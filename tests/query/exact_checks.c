@@ -34,7 +34,10 @@ static const oracle_solid *solid_of(const exact_pair *pair, pir_operand operand)
     return operand == PIR_OPERAND_P ? pair->solid_p : pair->solid_q;
 }
 
-/* The distance of the point that the oracle is set to from a part of one operand: about, then exactly where that leaves it open. */
+/*
+ * The distance of the point that the oracle is set to from a part of one operand: about, then exactly where that leaves
+ * it open.
+ */
 static double distance_of(exact_pair *pair, pir_operand operand, const oracle_set *set, double tolerance) {
     oracle_place *o = pair->place;
     const oracle_set *p = operand == PIR_OPERAND_P ? set : o->only_p, *q = operand == PIR_OPERAND_P ? o->only_q : set;
@@ -130,7 +133,10 @@ static int faces(const exact_pair *pair, pir_operand operand, uint32_t facet, co
     return operand == PIR_OPERAND_P ? height < 0 : height > 0;
 }
 
-/* The index of the feature that is exactly the set, by the polytope's own numbers; of a polygon's two facets the one that faces `along`. */
+/*
+ * The index of the feature that is exactly the set, by the polytope's own numbers; of a polygon's two facets the one
+ * that faces `along`.
+ */
 static uint32_t index_of(const exact_pair *pair, pir_operand operand, pir_feature_kind kind, const oracle_set *set,
                          const double along[3]) {
     const oracle_solid *s = solid_of(pair, operand);

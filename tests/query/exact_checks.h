@@ -41,7 +41,10 @@ void exact_check_others(exact_pair *pair, test_random *random, const exact_pose 
 
 /* --- what these share --- */
 
-/* Where bodies meet, exactly: at the point of the difference that is nearest to t, at the foot of t on a plane, or along the direction at one. */
+/*
+ * Where bodies meet, exactly: at the point of the difference that is nearest to t, at the foot of t on a plane, or
+ * along the direction at one.
+ */
 typedef enum exact_way {
     EXACT_NEAREST = 0,
     EXACT_TO_PLANE,
@@ -56,8 +59,9 @@ typedef struct exact_contact {
 } exact_contact;
 
 /*
- * Whether a feature of an operand holds a point of contact: the distance is at most `tolerance`. And that it is a least face that does: where
- * the point lies exactly on a lesser one, bodies cannot meet there, exactly: then it was rounding that moved it.
+ * Whether a feature of an operand holds a point of contact: the distance is at most `tolerance`. And that it is a least
+ * face that does: where the point lies exactly on a lesser one, bodies cannot meet there, exactly: then it was rounding
+ * that moved it.
  */
 void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point,
                        const exact_contact *contact, double tolerance);

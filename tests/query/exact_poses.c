@@ -47,7 +47,9 @@ static void fill_cylinder(test_random *random, test_points *points) {
     }
 }
 
-/* Small bodies whose features line up with those of others: on a grid, boxes with a corner or the middle at the origin. */
+/*
+ * Small bodies whose features line up with those of others: on a grid, boxes with a corner or the middle at the origin.
+ */
 static void fill_aligned(test_random *random, test_points *points) {
     static const test_body bodies[4] = {TEST_GRID, TEST_BOX, TEST_OCTAHEDRON, TEST_PRISM};
     int choice = test_random_between(random, 0, 6);

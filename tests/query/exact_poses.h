@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scenes and poses for exact checks of placement queries: a third of the scenes degenerate (aligned, equal, of one grid, flat), a third nearly so (moved by
- * an ulp to 1e-10, baked by a rotation in double), a third in general position; some about 1e150 or 1e-150 in size.
+ * Scenes and poses for exact checks of placement queries: a third of the scenes degenerate (aligned, equal, of one
+ * grid, flat), a third nearly so (moved by an ulp to 1e-10, baked by a rotation in double), a third in general
+ * position; some about 1e150 or 1e-150 in size.
  */
 #ifndef PIR_TEST_EXACT_POSES_H
 #define PIR_TEST_EXACT_POSES_H
@@ -23,10 +24,16 @@ void exact_scene_make(test_random *random, uint64_t number, exact_scene *ret_sce
 /* Another rotation for the scene. */
 pir_quat exact_rotation(test_random *random, const exact_scene *scene);
 
-/* A translation: far, near, deep, and on vertices, edges and facets of the difference, or off them by an ulp and more. `size` is that of the bodies. */
+/*
+ * A translation: far, near, deep, and on vertices, edges and facets of the difference, or off them by an ulp and more.
+ * `size` is that of the bodies.
+ */
 pir_vec3 exact_translation(test_random *random, const oracle_place *place, double size);
 
-/* A direction at a translation: any, along an axis, an edge or a facet, nearly along a facet, to the middle of the difference. */
+/*
+ * A direction at a translation: any, along an axis, an edge or a facet, nearly along a facet, to the middle of the
+ * difference.
+ */
 pir_vec3 exact_direction(test_random *random, const oracle_place *place, pir_vec3 translation, double size);
 
 #endif

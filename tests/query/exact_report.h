@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* What exact checks found: for each kind how many, how many failed, the worst error; the first failures of each kind are printed. */
+/*
+ * What exact checks found: for each kind how many, how many failed, the worst error; the first failures of each kind
+ * are printed.
+ */
 #ifndef PIR_TEST_EXACT_REPORT_H
 #define PIR_TEST_EXACT_REPORT_H
 

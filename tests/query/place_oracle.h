@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The oracle of placements (oracle/place.h) as tests of single poses use it: where a translation lies in the difference, how far from it,
- * how deep in it.
+ * The oracle of placements (oracle/place.h) as tests of single poses use it: where a translation lies in the
+ * difference, how far from it, how deep in it.
  */
 #ifndef PIR_TEST_PLACE_ORACLE_H
 #define PIR_TEST_PLACE_ORACLE_H
@@ -26,8 +26,8 @@ place_answer place_oracle_ask(place_oracle *oracle, pir_vec3 translation);
 double place_oracle_slack(place_oracle *oracle, pir_vec3 translation, pir_vec3 direction);
 
 /*
- * A vertex of the difference (index modulo their number), the middle of a facet, a point between two of its vertices, rounded: translations nearly or
- * quite on the boundary.
+ * A vertex of the difference (index modulo their number), the middle of a facet, a point between two of its vertices,
+ * rounded: translations nearly or quite on the boundary.
  */
 pir_vec3 place_oracle_vertex(const place_oracle *oracle, uint32_t index);
 pir_vec3 place_oracle_on_facet(const place_oracle *oracle, uint32_t index);

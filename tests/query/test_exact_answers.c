@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Every placement query against the oracle of placements (oracle/place.h): states and outcomes exactly, numbers to 1e-12, points on the bodies and on
- * the features that the witness names, answers the same bit for bit with any cache, history and in batches.
+ * Every placement query against the oracle of placements (oracle/place.h): states and outcomes exactly, numbers to
+ * 1e-12, points on the bodies and on the features that the witness names, answers the same bit for bit with any cache,
+ * history and in batches.
  *
  *     query_exact_answers [POSES [KINDS [SCENE]]]
  *
- * checks about POSES poses, counting only checks of KINDS (names of the table with commas between them, or "all"), only of scene SCENE. PIR_TEST_SEED sets the
- * seed, PIR_TEST_PRINTED how many failures of a kind are printed. Ends with 1 when a check failed.
+ * checks about POSES poses, counting only checks of KINDS (names of the table with commas between them, or "all"), only
+ * of scene SCENE. PIR_TEST_SEED sets the seed, PIR_TEST_PRINTED how many failures of a kind are printed. Ends with 1
+ * when a check failed.
  */
 #include <math.h>
 #include <stdio.h>
