@@ -88,7 +88,10 @@ typedef struct oracle_nearest {
 /* Of the hull of b − a for all a of `p` and b of `q`; NULL stands for all. Exact but for the last rounding. */
 oracle_nearest oracle_place_nearest(oracle_place *place, const oracle_set *p, const oracle_set *q);
 
-/* The same in doubles: at least the distance, less 2^-48 of the size of things. For quick looks. */
+/* Whether it does not hold t, exactly. */
+int oracle_place_is_apart(oracle_place *place, const oracle_set *p, const oracle_set *q);
+
+/* The distance in doubles: at least the exact one, less 2^-48 of the size of things. For quick looks. */
 double oracle_place_near(const oracle_place *place, const oracle_set *p, const oracle_set *q);
 
 /* When the ray t + s·d is in the difference: s from `enter` to `leave`. */

@@ -138,10 +138,13 @@ static uint32_t first_of(const oracle_set *set) {
     return i;
 }
 
-/* The simplex where doubles get no nearer; the square of its distance. */
-static double descend_near(const struct hull *h, struct simplex *s) {
+/*
+ * The simplex where doubles get no nearer; the square of its distance. Stops where t is certainly apart and ret_apart
+ * is not NULL.
+ */
+static double descend_near(const struct hull *h, struct simplex *s, bool *ret_apart) {
     const oracle_place *o = h->o;
-    double y[4][3], x[3], square;
+    double y[4][3], x[3], square, far = 1 + fabs(h->t[0]) + fabs(h->t[1]) + fabs(h->t[2]);
     *s = (struct simplex){.count = 1, .p = {first_of(h->p)}, .q = {first_of(h->q)}};
     at_near(h, s->p[0], s->q[0], y[0]);
     memcpy(x, y[0], sizeof x);
@@ -153,7 +156,13 @@ static double descend_near(const struct hull *h, struct simplex *s) {
         larger.p[larger.count] = i;
         larger.q[larger.count] = j;
         at_near(h, i, j, y[larger.count]);
-        if (!(square - dot(x, y[larger.count++]) > 0x1p-51 * square))
+        double least = dot(x, y[larger.count++]);
+        // all of the hull lies beyond a plane across x
+        if (ret_apart && square > 0x1p-80 * far * far && least > 0x1p-40 * sqrt(square) * far) {
+            *ret_apart = true;
+            break;
+        }
+        if (!(square - least > 0x1p-51 * square))
             break;
         double next = reduce_near(&larger, y, x);
         if (!(next < square) || larger.count == 4)
@@ -167,7 +176,7 @@ static double descend_near(const struct hull *h, struct simplex *s) {
 double oracle_place_near(const oracle_place *o, const oracle_set *p, const oracle_set *q) {
     struct hull h = hull_of(o, p, q);
     struct simplex s;
-    double distance = sqrt(descend_near(&h, &s));
+    double distance = sqrt(descend_near(&h, &s, NULL));
     long e;
     double m = mpz_get_d_2exp(&e, o->grain);
     return oracle_real_double((oracle_real){distance * m * o->scale.m, o->scale.e + o->exponent + e});
@@ -389,7 +398,7 @@ static oracle_nearest find(oracle_place *o, const oracle_set *p, const oracle_se
     struct hull h = hull_of(o, p, q);
     struct simplex s;
     work_init(w, o, p, q);
-    descend_near(&h, &s);
+    descend_near(&h, &s, NULL);
     for (uint32_t i = 0; i < s.count; i++)
         at_exact(o, s.p[i], s.q[i], w->y[i]);
     do
@@ -417,4 +426,12 @@ oracle_nearest oracle_place_nearest(oracle_place *o, const oracle_set *p, const 
 
 void oracle_place_to_nearest(oracle_place *o) {
     find(o, NULL, NULL, true);
+}
+
+int oracle_place_is_apart(oracle_place *o, const oracle_set *p, const oracle_set *q) {
+    struct hull h = hull_of(o, p, q);
+    struct simplex s;
+    bool apart = false;
+    descend_near(&h, &s, &apart);
+    return apart || find(o, p, q, false).apart;
 }

@@ -3,22 +3,8 @@
 #ifndef PIR_TEST_EXACT_CHECKS_H
 #define PIR_TEST_EXACT_CHECKS_H
 
-#include <pirouette/query.h>
-
-#include "oracle/place.h"
+#include "query/exact_pair.h"
 #include "support/random.h"
-
-/* Two bodies at a rotation. */
-typedef struct exact_pair {
-    pir_polytope *p, *q;
-    oracle_solid *solid_p, *solid_q;
-    oracle_place *place;
-    pir_query *query; /* of the scene: it has seen other rotations */
-    pir_query *fresh; /* made at this rotation */
-    pir_query_cache cache;
-    double size;  /* of both bodies */
-    double reach; /* the largest coordinate of either */
-} exact_pair;
 
 /* What was asked and answered at a pose. */
 typedef struct exact_pose {
@@ -42,8 +28,8 @@ void exact_check_others(exact_pair *pair, test_random *random, const exact_pose 
 /* --- what these share --- */
 
 /*
- * Where bodies meet, exactly: at the point of the difference that is nearest to t, at the foot of t on a plane, or
- * along the direction at one.
+ * Where bodies meet, exactly: at the nearest point of the difference, the foot on a plane, or along the direction at
+ * one.
  */
 typedef enum exact_way {
     EXACT_NEAREST = 0,
@@ -59,20 +45,17 @@ typedef struct exact_contact {
 } exact_contact;
 
 /*
- * Whether a feature of an operand holds a point of contact: the distance is at most `tolerance`. And that it is a least
- * face that does: where the point lies exactly on a lesser one, bodies cannot meet there, exactly: then it was rounding
- * that moved it.
+ * Whether the witness is that of the points which the rule of pir_witness asks for, exactly, and its features hold the
+ * points: at most `tolerance` away. The oracle is left at the contact's pose.
  */
-void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point,
-                       const exact_contact *contact, double tolerance);
+void exact_check_witness(exact_pair *pair, const exact_contact *contact, const pir_witness *witness, pir_vec3 point_p,
+                         pir_vec3 point_q, double tolerance);
+
+/* Whether a feature of an operand holds a point, P standing at `translation`: the distance is at most `tolerance`. */
+void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point, pir_vec3 translation,
+                       double tolerance);
 
 /* All of two answers but their steps. */
 int exact_same_bits(const pir_query_result *a, const pir_query_result *b);
-
-double exact_length(pir_vec3 v);
-pir_vec3 exact_add(pir_vec3 a, pir_vec3 b, double s);
-
-/* The largest coordinate. */
-double exact_largest(pir_vec3 v);
 
 #endif

@@ -34,8 +34,7 @@ static void check_contact(exact_pair *pair, const exact_pose *pose, double s, ui
     double coordinates = fmax(pair->reach, fmax(exact_largest(contact.there), exact_largest(said->point)));
     double tolerance = 2e-12 * scale + 0x1p-49 * coordinates;
     check_normal(pair, &contact, said->normal, scale);
-    exact_check_holds(pair, PIR_OPERAND_P, said->witness.p, said->point, &contact, tolerance);
-    exact_check_holds(pair, PIR_OPERAND_Q, said->witness.q, said->point, &contact, tolerance);
+    exact_check_witness(pair, &contact, &said->witness, said->point, said->point, tolerance);
 }
 
 /* The same from a query that has no history of other rotations, bit for bit. */

@@ -8,51 +8,53 @@
 
 #define ROOM 4096
 
-/* Whether some escape has the plane's normal and slack. */
-static int is_listed(const oracle_plane *plane, double slack, const pir_escape *escapes, size_t count, double bound) {
-    for (size_t i = 0; i < count; i++) {
-        pir_vec3 n = escapes[i].normal;
-        if (fabs(n.x - plane->near[0]) + fabs(n.y - plane->near[1]) + fabs(n.z - plane->near[2]) < 1e-13 &&
-            fabs(escapes[i].depth - slack) <= bound)
-            return 1;
-    }
-    return 0;
+/* Whether an escape is a plane's: witness, normal, depth. */
+static int is_escape(const exact_pair *pair, const pir_escape *escape, uint32_t i) {
+    const oracle_plane *plane = &pair->place->plane[i];
+    const exact_body *p = &pair->body[PIR_OPERAND_P], *q = &pair->body[PIR_OPERAND_Q];
+    return exact_same_feature(p, escape->witness.p, exact_feature_of(p, plane->p)) &&
+           exact_same_feature(q, escape->witness.q, exact_feature_of(q, plane->q)) &&
+           exact_turn_from(plane, escape->normal) <= 4e-15 &&
+           fabs(escape->depth - oracle_place_slack(pair->place, i)) <= 1e-12 * pair->size;
 }
 
-static int is_plane(const exact_pair *pair, const pir_escape *escape, double most, double bound) {
-    for (uint32_t i = 0; i < pair->place->plane_count; i++) {
-        double slack = oracle_place_slack(pair->place, i);
-        if (slack <= most + bound && is_listed(&pair->place->plane[i], slack, escape, 1, bound))
-            return 1;
+/*
+ * All planes within the slack in the order of the tie rule, each once; `doubtful` of the size either way may be told or
+ * not.
+ */
+static void check_list(const exact_pair *pair, double most, const pir_escape *escapes, size_t count) {
+    const oracle_place *o = pair->place;
+    double doubtful = 0x1p-43 * pair->size;
+    size_t next = 0;
+    for (uint32_t k = 0; k < o->plane_count; k++) {
+        uint32_t i = pair->order[k];
+        double slack = oracle_place_slack(o, i);
+        if (slack > most + doubtful)
+            continue;
+        if (next < count && is_escape(pair, &escapes[next], i))
+            next++;
+        else
+            exact_check(EXACT_ESCAPES, slack > most - doubtful,
+                        "escape %zu of %zu is not the facet of kind %u (%u, %u), normal (%g, %g, %g) and depth %.17g",
+                        next, count, pair->rank[i].kind, pair->rank[i].first, pair->rank[i].second, o->plane[i].near[0],
+                        o->plane[i].near[1], o->plane[i].near[2], slack);
     }
-    return 0;
+    exact_check(EXACT_ESCAPES, next == count, "%zu of %zu escapes are facets within %.17g, in order", next, count,
+                most);
 }
 
 static void check_escapes(exact_pair *pair, const exact_pose *pose, double slack) {
     static pir_escape escapes[ROOM];
     size_t count = 0;
-    double bound = 2e-12 * pair->size, most = -pose->should + slack;
     pir_status status = pir_query_escapes(pair->query, &pose->input, slack, ROOM, escapes, &count);
     exact_check(EXACT_ESCAPES, status == PIR_OK, "escapes: status %d", (int)status);
     if (status != PIR_OK || count > ROOM)
         return;
     exact_check(EXACT_ESCAPES, pose->state == PIR_INSIDE || count == 0, "%zu escapes in state %d", count,
                 (int)pose->state);
-    if (pose->state != PIR_INSIDE)
-        return;
     oracle_place_set(pair->place, pose->t, (pir_vec3){0, 0, 0});
-    for (uint32_t i = 0; i < pair->place->plane_count; i++) {
-        double is = oracle_place_slack(pair->place, i);
-        const double *n = pair->place->plane[i].near;
-        if (is <= most - bound)
-            exact_check(EXACT_ESCAPES, is_listed(&pair->place->plane[i], is, escapes, count, bound),
-                        "the facet of normal (%g, %g, %g) and depth %.17g is not among the %zu escapes within %.17g",
-                        n[0], n[1], n[2], is, count, most);
-    }
-    for (size_t i = 0; i < count; i++)
-        exact_check(EXACT_ESCAPES, is_plane(pair, &escapes[i], most, bound),
-                    "escape %zu of %zu, normal (%g, %g, %g) and depth %.17g, is no facet within %.17g", i, count,
-                    escapes[i].normal.x, escapes[i].normal.y, escapes[i].normal.z, escapes[i].depth, most);
+    if (pose->state == PIR_INSIDE)
+        check_list(pair, -pose->should + slack, escapes, count);
 }
 
 static void check_farthest(exact_pair *pair, const exact_pose *pose) {
@@ -72,9 +74,8 @@ static void check_farthest(exact_pair *pair, const exact_pose *pose) {
     exact_check(EXACT_FARTHEST, r.witness.p.kind == PIR_FEATURE_VERTEX && r.witness.q.kind == PIR_FEATURE_VERTEX,
                 "witness of kinds %d, %d", (int)r.witness.p.kind, (int)r.witness.q.kind);
     double tolerance = 0x1p-50 * coordinates + 1e-14 * pair->size;
-    exact_contact contact = {.t = pose->t, .there = pose->t};
-    exact_check_holds(pair, PIR_OPERAND_P, r.witness.p, r.point_p, &contact, tolerance);
-    exact_check_holds(pair, PIR_OPERAND_Q, r.witness.q, r.point_q, &contact, tolerance);
+    exact_check_holds(pair, PIR_OPERAND_P, r.witness.p, r.point_p, pose->t, tolerance);
+    exact_check_holds(pair, PIR_OPERAND_Q, r.witness.q, r.point_q, pose->t, tolerance);
 }
 
 static void check_rounded(exact_pair *pair, test_random *random, const exact_pose *pose) {

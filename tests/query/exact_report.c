@@ -15,7 +15,7 @@
 
 static const char *const names[EXACT_KINDS] = {
     "oracle",    "features", "state",   "distance", "depth",   "normal",           "relation", "holds",
-    "least",     "tie",      "cache",   "batch",    "exit",    "approach-outcome", "approach", "cast-outcome",
+    "witness",   "tie",      "cache",   "batch",    "exit",    "approach-outcome", "approach", "cast-outcome",
     "cast-time", "contact",  "escapes", "farthest", "rounded", "cutoff",           "manifold"};
 
 static struct {

@@ -17,8 +17,8 @@ typedef enum exact_kind {
     EXACT_NORMAL,           /* unit, in the exact direction */
     EXACT_RELATION,         /* point_p = point_q + distance · normal */
     EXACT_HOLDS,            /* the witness's features hold the points */
-    EXACT_LEAST,            /* no lesser face of them does */
-    EXACT_TIE,              /* the facet that the tie rule asks for */
+    EXACT_WITNESS,          /* they are the faces that the rule of pir_witness asks for, exactly */
+    EXACT_TIE,              /* the facet that the tie rule asks for, exactly */
     EXACT_CACHE,            /* answers with any cache and history, bit for bit */
     EXACT_BATCH,            /* answers of batches, bit for bit */
     EXACT_EXIT,             /* directional depth */

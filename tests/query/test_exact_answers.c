@@ -27,13 +27,6 @@ static void die(const char *what) {
     exit(2);
 }
 
-static double size_of(const pir_polytope *p, double *reach) {
-    pir_vec3 low, high;
-    pir_polytope_bounds(p, &low, &high);
-    *reach = fmax(*reach, fmax(exact_largest(low), exact_largest(high)));
-    return exact_length(exact_add(high, low, -1));
-}
-
 static void describe(const exact_scene *scene, pir_quat r, const exact_pose *pose) {
     snprintf(exact_at.text, sizeof exact_at.text,
              "%s, rotation %.17g,%.17g,%.17g,%.17g, t %.17g,%.17g,%.17g, direction %.17g,%.17g,%.17g", scene->situation,
@@ -101,36 +94,15 @@ static void check_turn(exact_pair *pair, test_random *random, const exact_scene 
     check_batch(pair, poses);
 }
 
-/* The bodies, and the oracle's; their size is 1 in the scene's scale where both are points. */
-static exact_pair make_pair(const exact_scene *scene) {
-    exact_pair pair = {.p = test_polytope(&scene->points_p), .q = test_polytope(&scene->points_q)};
-    pair.size = size_of(pair.p, &pair.reach) + size_of(pair.q, &pair.reach);
-    pair.size = pair.size > 0 ? pair.size : scene->scale;
-    pair.solid_p = oracle_solid_make(pair.p);
-    pair.solid_q = oracle_solid_make(pair.q);
-    const char *wrong_p = oracle_solid_compare(pair.solid_p, pair.p),
-               *wrong_q = oracle_solid_compare(pair.solid_q, pair.q);
-    exact_check(EXACT_FEATURES, !wrong_p && !wrong_q, "P: %s; Q: %s", wrong_p ? wrong_p : "right",
-                wrong_q ? wrong_q : "right");
-    return pair;
-}
-
-static void free_pair(exact_pair *pair) {
-    oracle_solid_free(pair->solid_p);
-    oracle_solid_free(pair->solid_q);
-    pir_polytope_release(pair->p);
-    pir_polytope_release(pair->q);
-}
-
 static void check_turns(exact_pair *pair, test_random *random, const exact_scene *scene, pir_sum *sum) {
     pir_quat rotation = scene->rotation;
     for (int turn = 0; turn < TURNS; turn++) {
         exact_at.turn = turn;
         if (pir_sum_rotate(sum, rotation, PIR_METHOD_AUTO) != PIR_OK || pir_query_create(sum, &pair->fresh) != PIR_OK)
             die("no rotation");
-        pair->place = oracle_place_make(pair->solid_p, pair->solid_q, rotation);
+        exact_pair_turn(pair, rotation);
         check_turn(pair, random, scene, rotation);
-        oracle_place_free(pair->place);
+        exact_pair_leave(pair);
         pir_query_destroy(pair->fresh);
         rotation = exact_rotation(random, scene);
     }
@@ -142,26 +114,29 @@ static void check_scene(uint64_t number, int prints) {
     exact_at = (exact_where){.scene = number};
     exact_scene_make(&random, number, &scene);
     snprintf(exact_at.text, sizeof exact_at.text, "%s", scene.situation);
-    exact_pair pair = make_pair(&scene);
-    if (prints) {
-        print_body("P", pair.p);
-        print_body("Q", pair.q);
+    exact_pair pair = exact_pair_make(test_polytope(&scene.points_p), test_polytope(&scene.points_q), scene.scale);
+    uint32_t vertices = 0;
+    for (int i = 0; i < 2; i++) {
+        const char *wrong = oracle_solid_compare(pair.body[i].solid, pair.body[i].polytope);
+        exact_check(EXACT_FEATURES, !wrong, "%s: %s", i ? "Q" : "P", wrong ? wrong : "");
+        vertices += pair.body[i].solid->count;
+        if (prints)
+            print_body(i ? "Q" : "P", pair.body[i].polytope);
     }
     pir_sum_options options = pir_sum_options_default();
     options.difference = 1;
     pir_sum *sum;
-    if (pir_sum_create(pair.p, pair.q, scene.rotation, &options, &sum) != PIR_OK)
+    if (pir_sum_create(pair.body[0].polytope, pair.body[1].polytope, scene.rotation, &options, &sum) != PIR_OK)
         die("no sum");
     pir_status status = pir_query_create(sum, &pair.query);
     // two points may be too far away for their size, which then is 1
-    int points = pair.solid_p->count + pair.solid_q->count == 2;
-    exact_check(EXACT_STATE, status == PIR_OK || (status == PIR_ERR_LIMIT && points), "no query: status %d",
+    exact_check(EXACT_STATE, status == PIR_OK || (status == PIR_ERR_LIMIT && vertices == 2), "no query: status %d",
                 (int)status);
     if (status == PIR_OK)
         check_turns(&pair, &random, &scene, sum);
     pir_query_destroy(status == PIR_OK ? pair.query : NULL);
     pir_sum_destroy(sum);
-    free_pair(&pair);
+    exact_pair_free(&pair);
 }
 
 int main(int argc, char **argv) {
