@@ -51,7 +51,14 @@ typedef struct exact_contact {
 void exact_check_witness(exact_pair *pair, const exact_contact *contact, const pir_witness *witness, pir_vec3 point_p,
                          pir_vec3 point_q, double tolerance);
 
-/* Whether a feature of an operand holds a point, P standing at `translation`: the distance is at most `tolerance`. */
+/*
+ * How far a point is, at most, from a part of an operand, P standing at `translation`; NULL for all of it. Exact beyond
+ * `tolerance`.
+ */
+double exact_distance_from(exact_pair *pair, pir_operand operand, const oracle_set *part, pir_vec3 point,
+                           pir_vec3 translation, double tolerance);
+
+/* Whether a feature of an operand holds a point: that distance is at most `tolerance`. */
 void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point, pir_vec3 translation,
                        double tolerance);
 

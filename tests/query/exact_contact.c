@@ -90,18 +90,23 @@ static pir_witness right_witness(exact_pair *pair, const exact_contact *contact)
     return witness;
 }
 
+double exact_distance_from(exact_pair *pair, pir_operand operand, const oracle_set *part, pir_vec3 point,
+                           pir_vec3 translation, double tolerance) {
+    oracle_place *o = pair->place;
+    const oracle_set *p = operand == PIR_OPERAND_P ? part : o->only_p, *q = operand == PIR_OPERAND_P ? o->only_q : part;
+    oracle_place_set_point(o, operand, point, translation);
+    double away = oracle_place_near(o, p, q);
+    // what doubles leave open
+    return away <= 0.5 * tolerance ? away : oracle_place_nearest(o, p, q).distance;
+}
+
 void exact_check_holds(exact_pair *pair, pir_operand operand, pir_feature feature, pir_vec3 point, pir_vec3 translation,
                        double tolerance) {
     const exact_body *body = &pair->body[operand];
-    oracle_place *o = pair->place;
     oracle_set *set = oracle_new(body->solid->words, sizeof *set);
-    int exists = exact_feature_set(body, feature, set);
-    const oracle_set *p = operand == PIR_OPERAND_P ? set : o->only_p, *q = operand == PIR_OPERAND_P ? o->only_q : set;
-    oracle_place_set_point(o, operand, point, translation);
-    double away = exists ? oracle_place_near(o, p, q) : HUGE_VAL;
-    // what doubles leave open
-    if (exists && away > 0.5 * tolerance)
-        away = oracle_place_nearest(o, p, q).distance;
+    double away = HUGE_VAL;
+    if (exact_feature_set(body, feature, set))
+        away = exact_distance_from(pair, operand, set, point, translation, tolerance);
     exact_check(EXACT_HOLDS, away <= tolerance,
                 "point (%.17g, %.17g, %.17g) is %.3g of the size, %.3g of the tolerance off feature %d %u of %s",
                 point.x, point.y, point.z, away / pair->size, away / tolerance, (int)feature.kind, feature.index,

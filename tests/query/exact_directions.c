@@ -26,10 +26,13 @@ static void check_normal(exact_pair *pair, const exact_contact *contact, pir_vec
     oracle_place_set(o, contact->t, contact->direction);
 }
 
-/* The contact at time s, through plane i where the motion gets to one. */
+/* The contact at time s, through plane i unless the bodies touch at the start. */
 static void check_contact(exact_pair *pair, const exact_pose *pose, double s, uint32_t i, const struct said *said) {
+    // a gap or a depth that counts as 0 but for the state
+    if (pose->state != PIR_BOUNDARY && fabs(pose->should) <= 0x1p-900 * pair->size)
+        return;
     double scale = pair->size + s * exact_length(pose->direction);
-    exact_contact contact = {s > 0 ? EXACT_ALONG : EXACT_NEAREST, i, pose->t, pose->direction,
+    exact_contact contact = {pose->state == PIR_BOUNDARY ? EXACT_NEAREST : EXACT_ALONG, i, pose->t, pose->direction,
                              exact_add(pose->t, pose->direction, s)};
     double coordinates = fmax(pair->reach, fmax(exact_largest(contact.there), exact_largest(said->point)));
     double tolerance = 2e-12 * scale + 0x1p-49 * coordinates;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* See exact_checks.h: escapes, the largest distance, radii, cutoff, the manifold. */
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 #include "query/exact_checks.h"
 #include "query/exact_report.h"
@@ -122,16 +122,37 @@ static void check_cutoff(exact_pair *pair, test_random *random, const exact_pose
         exact_number(EXACT_CUTOFF, "within a cutoff", r.distance, pose->should, pair->size + distance);
 }
 
-static void check_manifold(exact_pair *pair, const exact_pose *pose) {
+static double from_body(exact_pair *pair, const exact_pose *pose, pir_operand operand, pir_vec3 point) {
+    return exact_distance_from(pair, operand, NULL, point, pose->t, 0x1p-50 * pair->reach) / pair->size;
+}
+
+/* The first contact is the answer; no other is nearer or deeper, and all lie on the bodies. */
+static void check_manifold(exact_pair *pair, test_random *random, const exact_pose *pose) {
     static pir_contact contacts[ROOM];
     size_t count = 0;
-    double scale = pair->size + fabs(pose->should), least = HUGE_VAL;
-    pir_status status = pir_query_manifold(pair->query, &pose->input, &pose->answer, ROOM, contacts, &count);
+    pir_query_input input = pose->input;
+    const pir_query_result *r = &pose->answer;
+    double largest = fmax(pair->reach, exact_largest(pose->t)), least = HUGE_VAL;
+    input.margin = test_random_below(random, 2) ? 0 : pair->size * ldexp(1, -test_random_between(random, 0, 20));
+    pir_status status = pir_query_manifold(pair->query, &input, r, ROOM, contacts, &count);
     exact_check(EXACT_MANIFOLD, status == PIR_OK && count > 0, "manifold: status %d, %zu contacts", (int)status, count);
-    for (size_t i = 0; status == PIR_OK && i < count; i++)
-        least = fmin(least, contacts[i].distance);
-    if (status == PIR_OK && count > 0)
-        exact_number(EXACT_MANIFOLD, "least contact", least, pose->answer.distance, scale);
+    if (status != PIR_OK || count == 0)
+        return;
+    exact_check(EXACT_MANIFOLD,
+                contacts[0].distance == r->distance &&
+                    memcmp(&contacts[0].point_p, &r->point_p, sizeof r->point_p) == 0,
+                "the first contact, at %.17g, is not the answer, at %.17g", contacts[0].distance, r->distance);
+    for (size_t i = 0; i < count; i++) {
+        const pir_contact *c = &contacts[i];
+        double tolerance = 1e-12 + 0x1p-49 * largest / pair->size,
+               off_p = from_body(pair, pose, PIR_OPERAND_P, c->point_p),
+               off_q = from_body(pair, pose, PIR_OPERAND_Q, c->point_q);
+        exact_check(EXACT_MANIFOLD, fmax(off_p, off_q) <= tolerance,
+                    "contact %zu of %zu, at %.17g, is %.3g of the size off P and %.3g off Q", i, count, c->distance,
+                    off_p, off_q);
+        least = fmin(least, c->distance);
+    }
+    exact_number(EXACT_MANIFOLD, "least contact", least, r->distance, pair->size + fabs(pose->should));
 }
 
 void exact_check_others(exact_pair *pair, test_random *random, const exact_pose *pose) {
@@ -140,5 +161,5 @@ void exact_check_others(exact_pair *pair, test_random *random, const exact_pose 
     check_farthest(pair, pose);
     check_rounded(pair, random, pose);
     check_cutoff(pair, random, pose);
-    check_manifold(pair, pose);
+    check_manifold(pair, random, pose);
 }
