@@ -10,9 +10,8 @@
 #include <string.h>
 
 static const char *base_name(const char *path) {
-    const char *slash = strrchr(path, '/'), *backslash = strrchr(path, '\\');
-    const char *last = backslash > slash ? backslash : slash;
-    return last ? last + 1 : path;
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
 }
 
 /* The subcommand whose manual page has this name. */
