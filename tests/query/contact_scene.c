@@ -56,6 +56,13 @@ pir_polytope *contact_scene_baked(const pir_vec3 *points, size_t count, pir_quat
     return result;
 }
 
+pir_polytope *contact_scene_box(double x, double y, double z) {
+    pir_vec3 points[8];
+    for (int i = 0; i < 8; i++)
+        points[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
+    return contact_scene_baked(points, 8, (pir_quat){0, 0, 0, 1});
+}
+
 /* --- surfaces --- */
 
 static double off_segment(pir_vec3 a, pir_vec3 b, pir_vec3 x) {

@@ -46,4 +46,7 @@ double contact_scene_off(const pir_polytope *body, pir_vec3 x);
 /* The hull of the points, each turned in double before. */
 pir_polytope *contact_scene_baked(const pir_vec3 *points, size_t count, pir_quat turned);
 
+/* The box of these half sides about the origin. */
+pir_polytope *contact_scene_box(double x, double y, double z);
+
 #endif

@@ -14,13 +14,6 @@
 
 static const pir_quat still = {0, 0, 0, 1};
 
-static pir_polytope *box(double x, double y, double z) {
-    pir_vec3 points[8];
-    for (int i = 0; i < 8; i++)
-        points[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
-    return contact_scene_baked(points, 8, still);
-}
-
 static pir_polytope *shape(const char *name) {
     pir_polytope *p;
     assert_int_equal(pir_shape_create(name, NULL, NULL, &p), PIR_OK);
@@ -212,7 +205,7 @@ static void contacts_of_a_bent_face_lie_on_it(void **state) {
     at[8] = (pir_vec3){0, -1, -2.5e-4};
     at[9] = (pir_vec3){0, 1, -2.5e-4};
     contact_scene scene =
-        contact_scene_make(contact_scene_baked(at, 10, still), box(0.5, 2, 1), (pir_quat){0, 0, 0.1, 1});
+        contact_scene_make(contact_scene_baked(at, 10, still), contact_scene_box(0.5, 2, 1), (pir_quat){0, 0, 0.1, 1});
     scene.t = (pir_vec3){0.2, 0, 0.99};
     contact_scene_check(&scene, "bent", 0);
     assert_true(contact_scene_corners(&scene) == 4 && fabs(scene.answer.distance + 0.01025) < 1e-12);
@@ -230,7 +223,7 @@ static void corners_on_a_rim_are_as_deep_as_the_face(void **state) {
         at[i] = (pir_vec3){i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? 0 : -1};
     }
     for (int i = -20; i <= 20; i++) {
-        contact_scene scene = contact_scene_make(box(1, 1, 1), contact_scene_baked(at, 8, still), still);
+        contact_scene scene = contact_scene_make(contact_scene_box(1, 1, 1), contact_scene_baked(at, 8, still), still);
         scene.t = (pir_vec3){i * 1e-14, i * 2e-14, 0.99};
         contact_scene_check(&scene, "rim", (uint64_t)(i + 20));
         assert_int_equal(contact_scene_corners(&scene), 4);
@@ -252,8 +245,8 @@ static void equal_faces_have_four_corners_with_ids_that_last(void **state) {
     for (uint64_t i = 0; i < 100; i++) {
         test_random random = test_random_case("contacts, equal", i);
         double hair = i == 0 ? 0 : 1e-14;
-        contact_scene scene =
-            contact_scene_make(box(1, 1, 1), box(1, 1, 1), (pir_quat){0, 0, hair * test_random_unit(&random), 1});
+        contact_scene scene = contact_scene_make(contact_scene_box(1, 1, 1), contact_scene_box(1, 1, 1),
+                                                 (pir_quat){0, 0, hair * test_random_unit(&random), 1});
         scene.t = (pir_vec3){hair * test_random_unit(&random), hair * test_random_unit(&random), 1.75};
         contact_scene_check(&scene, "equal faces", i);
         expect(contact_scene_corners(&scene) == 4, "case %d: %zu corners", (int)i, contact_scene_corners(&scene));
@@ -267,6 +260,23 @@ static void equal_faces_have_four_corners_with_ids_that_last(void **state) {
                 ids[k] = corner[k].id;
         else
             expect(same == 4, "case %d: %zu ids of 4 lasted", (int)i, same);
+        contact_scene_clear(&scene);
+    }
+}
+
+/* Far from the origin points are coarse; the answer's is still the corner that it is. */
+static void answers_far_from_the_origin_are_corners(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 50; number++) {
+        test_random random = test_random_case("contacts, far", number);
+        pir_vec3 at[8], origin = {1e7 * test_random_unit(&random), 1e7 * test_random_unit(&random), 0};
+        for (int i = 0; i < 8; i++)
+            at[i] = test_add(origin, (pir_vec3){i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1}, 1);
+        contact_scene scene =
+            contact_scene_make(contact_scene_box(1, 1, 1), contact_scene_baked(at, 8, still), (pir_quat){0, 0, 0.2, 1});
+        scene.t = test_add(origin, (pir_vec3){0.25 * test_random_unit(&random), 0.25, 1.9}, 1);
+        contact_scene_check(&scene, "far", number);
+        expect(scene.count == contact_scene_corners(&scene), "case %d: %zu contacts", (int)number, scene.count);
         contact_scene_clear(&scene);
     }
 }
@@ -316,8 +326,34 @@ static void flat_bodies_share_segments_and_points(void **state) {
                    "a segment on a triangle");
     expect_corners(flat(3, triangle_at, 0), flat(3, triangle_at, 0), still, (pir_vec3){0.25, 0, 0.25}, 3,
                    "a triangle on a triangle");
-    expect_corners(flat(2, segment_at, 0), box(1, 1, 1), still, (pir_vec3){0, -1.5, 1.5}, 2, "a segment along an edge");
+    expect_corners(flat(2, segment_at, 0), contact_scene_box(1, 1, 1), still, (pir_vec3){0, -1.5, 1.5}, 2,
+                   "a segment along an edge");
     expect_corners(flat(1, point_at, 0), flat(1, point_at, 0), still, (pir_vec3){0, 0, 1}, 0, "a point and a point");
+}
+
+/* The id of where a segment crosses the rim of a slab, as it turns: its ends change their order in any plane. */
+static void ids_last_while_a_segment_turns(void **state) {
+    (void)state;
+    contact_scene scene = contact_scene_make(flat(2, segment_at, 0), slab(), still);
+    uint64_t before = 0;
+    scene.t = (pir_vec3){10, 0.5, 0.99};
+    for (int i = -8; i <= 8; i++) {
+        uint64_t crossing = 0;
+        scene.r = (pir_quat){0, 0, sin(0.08 * i), cos(0.08 * i)};
+        assert_int_equal(pir_sum_rotate(scene.sum, scene.r, PIR_METHOD_AUTO), PIR_OK);
+        contact_scene_check(&scene, "a segment turns", (uint64_t)(i + 8));
+        for (size_t k = 0; k < scene.count; k++)
+            crossing = fabs(scene.contact[k].point_q.x - 10) < 1e-12 ? scene.contact[k].id : crossing;
+        assert_true(crossing >> 62 == 2 && (i == -8 || crossing == before));
+        before = crossing;
+    }
+    contact_scene_clear(&scene);
+    // a contact that stands alone is named by its vertex
+    scene = contact_scene_make(flat(1, point_at, 0), slab(), still);
+    scene.t = (pir_vec3){0, 0, 1};
+    contact_scene_check(&scene, "a point", 0);
+    assert_true(scene.count == 1 && scene.contact[0].id >> 62 == 0);
+    contact_scene_clear(&scene);
 }
 
 /* Points, segments, polygons and boxes in poses level and not, apart and touching. */
@@ -329,8 +365,8 @@ static void contacts_of_flat_bodies_lie_on_them(void **state) {
         for (int k = 0; k < 2; k++) {
             static const double(*const at[3])[2] = {point_at, segment_at, triangle_at};
             uint32_t kind = test_random_below(&random, 4);
-            body[k] =
-                kind == 3 ? box(0.5, 1, 0.25) : flat(kind + 1, at[kind], number % 3 ? test_random_unit(&random) : 0);
+            body[k] = kind == 3 ? contact_scene_box(0.5, 1, 0.25)
+                                : flat(kind + 1, at[kind], number % 3 ? test_random_unit(&random) : 0);
         }
         double tilt = number % 2 ? 0 : ldexp(test_random_unit(&random), -test_random_between(&random, 0, 50));
         contact_scene scene = contact_scene_make(
@@ -348,7 +384,7 @@ static void contacts_of_flat_bodies_lie_on_them(void **state) {
 
 static void a_margin_brings_contacts_before_bodies_meet(void **state) {
     (void)state;
-    contact_scene scene = contact_scene_make(box(1, 1, 1), slab(), still);
+    contact_scene scene = contact_scene_make(contact_scene_box(1, 1, 1), slab(), still);
     scene.t = (pir_vec3){0, 0, 2.01};
     scene.margin = 0.02;
     contact_scene_check(&scene, "apart", 0);
@@ -358,7 +394,7 @@ static void a_margin_brings_contacts_before_bodies_meet(void **state) {
         assert_true(fabs(scene.contact[i].distance - 0.01) < 1e-12);
     contact_scene_clear(&scene);
     // standing on an edge, tilted so that the other two corners are 0.2 · sin above the slab
-    scene = contact_scene_make(box(1, 1, 1), slab(), (pir_quat){0, 0.01, 0, 1});
+    scene = contact_scene_make(contact_scene_box(1, 1, 1), slab(), (pir_quat){0, 0.01, 0, 1});
     double angle = 2 * atan(0.01), low = cos(angle) + sin(angle), risen = 2 * sin(angle);
     scene.t = (pir_vec3){0, 0, 1 + low};
     static const double margins[4] = {0, 0.9, 1.1, HUGE_VAL};
@@ -375,7 +411,7 @@ static void a_margin_brings_contacts_before_bodies_meet(void **state) {
 /* Radii move the points along the normal, and shorten every distance by their sum. */
 static void radii_move_the_contacts(void **state) {
     (void)state;
-    contact_scene scene = contact_scene_make(box(1, 1, 1), slab(), still);
+    contact_scene scene = contact_scene_make(contact_scene_box(1, 1, 1), slab(), still);
     pir_query_input input = pir_query_input_default();
     pir_query_result answer;
     pir_contact contact[8];
@@ -396,7 +432,7 @@ static void radii_move_the_contacts(void **state) {
 
 static void bad_margins_and_answers_are_refused(void **state) {
     (void)state;
-    contact_scene scene = contact_scene_make(box(1, 1, 1), slab(), still);
+    contact_scene scene = contact_scene_make(contact_scene_box(1, 1, 1), slab(), still);
     scene.t = (pir_vec3){0, 0, 1.9};
     contact_scene_ask(&scene);
     const pir_query_result right = scene.answer;
@@ -453,6 +489,8 @@ int main(void) {
         cmocka_unit_test(corners_on_a_rim_are_as_deep_as_the_face),
         cmocka_unit_test(equal_faces_have_four_corners_with_ids_that_last),
         cmocka_unit_test(flat_bodies_share_segments_and_points),
+        cmocka_unit_test(ids_last_while_a_segment_turns),
+        cmocka_unit_test(answers_far_from_the_origin_are_corners),
         cmocka_unit_test(contacts_of_flat_bodies_lie_on_them),
         cmocka_unit_test(a_margin_brings_contacts_before_bodies_meet),
         cmocka_unit_test(radii_move_the_contacts),

@@ -282,13 +282,6 @@ static void bodies_rotated_in_double_keep_their_answer(void **state) {
 
 /* --- known regions --- */
 
-static pir_polytope *box(double x, double y, double z) {
-    pir_vec3 points[8];
-    for (int i = 0; i < 8; i++)
-        points[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
-    return contact_scene_baked(points, 8, still);
-}
-
 /*
  * A slab that lies on a table, turned about the upright by any angle: as many contacts as the overlap of two
  * rectangles has corners.
@@ -299,8 +292,8 @@ static void slabs_lie_flat(void **state) {
     for (int i = 0; i < 200; i++) {
         test_random random = test_random_case("manifolds, flat", (uint64_t)i);
         double angle = i % 4 == 0 ? 0 : test_random_unit(&random), gap = i % 3 == 0 ? 0 : ldexp(1, -i % 40 - 4);
-        contact_scene scene =
-            contact_scene_make(box(1, 1, 0.25), box(1, 1, 0.5), (pir_quat){0, 0, sin(angle / 2), cos(angle / 2)});
+        contact_scene scene = contact_scene_make(contact_scene_box(1, 1, 0.25), contact_scene_box(1, 1, 0.5),
+                                                 (pir_quat){0, 0, sin(angle / 2), cos(angle / 2)});
         scene.t = (pir_vec3){0.4 * test_random_unit(&random), 0.4 * test_random_unit(&random),
                              i % 2 ? 0.75 + gap : 0.75 - gap};
         contact_scene_check(&scene, "flat", (uint64_t)i);
@@ -321,8 +314,9 @@ static void parallel_edges_share_a_segment(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 60; i++) {
         test_random random = test_random_case("manifolds, edges", i);
-        contact_scene scene = contact_scene_make(box(1, 1, 1), box(1, 1, 0.5 + 0.75 * (double)(i % 3)),
-                                                 (pir_quat){0, 0, (double)(i % 2), 1});
+        contact_scene scene =
+            contact_scene_make(contact_scene_box(1, 1, 1), contact_scene_box(1, 1, 0.5 + 0.75 * (double)(i % 3)),
+                               (pir_quat){0, 0, (double)(i % 2), 1});
         double along = 1.2 * test_random_unit(&random), apart = i % 5 ? ldexp(1, -(int)(i % 20)) : 0.5;
         scene.t = (pir_vec3){2 + apart, i % 4 < 2 ? 2 + apart : -2 - apart, along};
         contact_scene_check(&scene, "parallel edges", i);
