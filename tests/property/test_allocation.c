@@ -213,6 +213,46 @@ static void list_of_crossings_that_cannot_grow_leaves_the_sum_whole(void **state
     pir_polytope_release(p);
 }
 
+/* Small steps, so that arcs gain and lose crossings at their ends: whenever the list has to grow, it cannot at first. */
+static void step_that_finds_no_memory_can_be_taken_again(void **state) {
+    (void)state;
+    uint32_t failures = 0;
+    for (uint64_t i = 0; i < 40; i++) {
+        test_random random = test_random_case("allocation steps", i);
+        pir_polytope *p = fluted_prism(1), *q = fluted_prism(0);
+        test_memory memory = {0};
+        pir_allocator allocator = test_allocator(&memory);
+        pir_sum_options options = {&allocator, 0};
+        pir_sum *sum = NULL, *fresh = NULL;
+        pir_quat now = {0, 0, 1, 0.001};
+        pir_vec3 tilt = test_random_direction(&random);
+        uint32_t steps = 10 + test_random_below(&random, 600);
+        assert_int_equal(pir_sum_create(p, q, now, &options, &sum), PIR_OK);
+        for (uint32_t step = 1; step <= steps; step++) {
+            // half a turn about z in all, not quite
+            pir_quat next = {0.01 * tilt.x, 0.01 * tilt.y, 1 - (double)step / steps, 0.001 + (double)step / steps};
+            memory.fail_at = memory.requests + 1;
+            pir_status status = pir_sum_rotate(sum, next, PIR_METHOD_UPDATE);
+            memory.fail_at = 0;
+            if (status != PIR_OK) {
+                assert_int_equal(status, PIR_ERR_MEMORY);
+                failures++;
+                assert_true(pir_sum_is_valid(sum));
+                assert_int_equal(pir_sum_rotate(sum, next, PIR_METHOD_UPDATE), PIR_OK);
+            }
+            now = next;
+        }
+        assert_int_equal(pir_sum_create(p, q, now, NULL, &fresh), PIR_OK);
+        assert_true(pir_sum_same_pairing(sum, fresh) && pir_sum_is_valid(sum));
+        pir_sum_destroy(fresh);
+        pir_sum_destroy(sum);
+        expect_balance(&memory, "steps");
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+    assert_true(failures > 12);
+}
+
 static void rational_points_survive_every_failing_request(void **state) {
     (void)state;
     mpq_t x[24];
@@ -287,6 +327,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_failing_request_is_survived),
         cmocka_unit_test(list_of_crossings_that_cannot_grow_leaves_the_sum_whole),
+        cmocka_unit_test(step_that_finds_no_memory_can_be_taken_again),
         cmocka_unit_test(rational_points_survive_every_failing_request),
         cmocka_unit_test(allocator_changes_no_bit_of_the_result),
     };

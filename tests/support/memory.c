@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* See memory.h. Each block is preceded by its size, in a header as large as malloc's alignment. */
+/* See memory.h. Each block is preceded by its size, in a header as large as malloc's alignment, and followed by a guard that nobody may write to. */
 #include "support/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define HEADER (_Alignof(max_align_t) > sizeof(size_t) ? _Alignof(max_align_t) : sizeof(size_t))
+
+#define GUARD      16
+#define GUARD_BYTE 0xc3
 
 static size_t size_of(const char *start) {
     size_t size;
@@ -14,12 +17,13 @@ static size_t size_of(const char *start) {
 }
 
 static void *give(test_memory *memory, size_t size) {
-    char *start = malloc(HEADER + size);
+    char *start = malloc(HEADER + size + GUARD);
     if (!start)
         abort();
     memcpy(start, &size, sizeof size);
     // what nobody wrote must not look like zeros
     memset(start + HEADER, 0xa5, size);
+    memset(start + HEADER + size, GUARD_BYTE, GUARD);
     memory->blocks++;
     memory->bytes += size;
     if (memory->bytes > memory->peak)
@@ -28,6 +32,11 @@ static void *give(test_memory *memory, size_t size) {
 }
 
 static void take_back(test_memory *memory, char *start) {
+    const unsigned char *guard = (const unsigned char *)start + HEADER + size_of(start);
+    for (int i = 0; i < GUARD; i++)
+        memory->overrun = memory->overrun || guard[i] != GUARD_BYTE;
+    // those who ask about sizes hear of it
+    memory->wrong_size = memory->wrong_size || memory->overrun;
     memory->blocks--;
     memory->bytes -= size_of(start);
     memset(start + HEADER, 0x5a, size_of(start));

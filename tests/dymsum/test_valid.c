@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT */
+/* The check of a sum sees damage: a cell that is another, a crossing that is another, and, with a region, whatever of it is taken out. */
+#include "support/test.h"
+
+#include <math.h>
+
+#include "dymsum/sum.h"
+#include "support/bodies.h"
+
+enum { SEEN, HARMLESS };
+
+/* Gives a facet another cell, or none, which only a region allows. */
+static void damage_cells(test_random *random, pir_sum *sum, uint32_t *cell, uint32_t count, uint32_t others,
+                         uint32_t told[2]) {
+    for (int n = 0; n < 20; n++) {
+        uint32_t f = test_random_below(random, count), before = cell[f];
+        cell[f] = n % 4 == 0 && !sum->region.cone.set ? PIR_NO_PAIR : test_random_below(random, others);
+        if (cell[f] != before && before != PIR_NO_PAIR) {
+            // at the perturbed rotation no two vertices are farthest at once
+            expect(!pir_sum_is_valid(sum), "facet %u in %u, not %u", f, cell[f], before);
+            told[SEEN]++;
+        }
+        cell[f] = before;
+    }
+}
+
+/* Whether a normal of P is inside the region beyond doubt. */
+static bool is_inside(const pir_sum *sum, uint32_t f) {
+    return pir_vec_dot(sum->region.cone.axis, pir_rotated_normal(sum, f)) > sum->region.cone.cosine + 1e-6;
+}
+
+/* Takes the crossings of an edge of P out, as if it were dormant: harmless where its arc keeps out of the region. */
+static void damage_edges(pir_sum *sum, uint32_t told[2]) {
+    for (uint32_t e = 0; e < sum->p->edge_count; e++) {
+        uint32_t half = sum->p->edge_half[e], first = sum->first[e], stamp = sum->touched[e], left = sum->p->left[half],
+                 right = pir_right(sum->p, half);
+        if (stamp == PIR_DORMANT || first != PIR_NO_CROSSING)
+            continue;
+        // an arc that crosses nothing: dormant or not is all the difference
+        sum->touched[e] = PIR_DORMANT;
+        bool valid = pir_sum_is_valid(sum) != 0;
+        sum->touched[e] = stamp;
+        told[valid ? HARMLESS : SEEN]++;
+        if (is_inside(sum, left) || is_inside(sum, right))
+            expect(!valid, "edge %u", e);
+    }
+}
+
+/* Puts the half of a crossing in place of another's. */
+static void damage_crossings(test_random *random, pir_sum *sum, uint32_t told[2]) {
+    pir_crossings *c = &sum->crossings;
+    for (uint32_t slot = 0; slot < c->used; slot++) {
+        uint32_t before = c->half[slot], other = test_random_below(random, sum->q->half_count);
+        if (c->edge[slot] == PIR_NO_CROSSING || other == before)
+            continue;
+        c->half[slot] = other;
+        expect(!pir_sum_is_valid(sum), "crossing %u", slot);
+        c->half[slot] = before;
+        told[SEEN]++;
+    }
+}
+
+static void damage_is_seen(void **state) {
+    (void)state;
+    uint32_t told[3][2] = {{0}};
+    for (uint64_t i = 0; i < 120; i++) {
+        test_random random = test_random_case("sum damage", i);
+        test_pose pose;
+        test_random_pose(&random, 14, &pose);
+        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
+        pir_sum *sum = NULL;
+        assert_int_equal(pir_sum_create(p, q, pose.rotation, NULL, &sum), PIR_OK);
+        if (pir_polytope_dimension(p) == 3 && pir_polytope_dimension(q) == 3)
+            for (int region = 0; region < 2; region++) {
+                if (region)
+                    assert_int_equal(pir_sum_set_region(sum, test_random_direction(&random), 1.2), PIR_OK);
+                assert_true(pir_sum_is_valid(sum));
+                damage_cells(&random, sum, sum->fv, p->facet_count, q->vertex_count, told[0]);
+                damage_cells(&random, sum, sum->vf, q->facet_count, p->vertex_count, told[0]);
+                damage_crossings(&random, sum, told[1]);
+                if (region)
+                    damage_edges(sum, told[2]);
+                assert_true(pir_sum_is_valid(sum));
+            }
+        pir_sum_destroy(sum);
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+    print_message("# cells %u seen, crossings %u, edges %u and %u harmless\n", told[0][SEEN], told[1][SEEN],
+                  told[2][SEEN], told[2][HARMLESS]);
+    assert_true(told[0][SEEN] > 1000 && told[1][SEEN] > 500 && told[2][SEEN] > 30);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {cmocka_unit_test(damage_is_seen)};
+    return cmocka_run_group_tests_name("dymsum valid", tests, NULL, NULL);
+}
