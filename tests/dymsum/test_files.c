@@ -194,6 +194,31 @@ static void bytes_that_were_cut_or_changed_are_refused(void **state) {
 }
 
 /* One of the ways in which bytes go wrong. */
+/* Another version of the format is told by its number, whatever comes after it. */
+static void other_versions_are_named(void **state) {
+    (void)state;
+    test_random random = test_random_case("file versions", 0);
+    test_pose pose;
+    test_random_pose(&random, 10, &pose);
+    pir_sum *sum = make_sum(&pose, 0, WHOLE), *const before = (pir_sum *)&before, *back = before;
+    test_bytes bytes = test_bytes_of(sum);
+    const uint8_t own = bytes.data[8];
+    for (int version = 0; version < 256; version++) {
+        pir_report report;
+        char named[32];
+        bytes.data[8] = (uint8_t)version;
+        test_bytes_seal(bytes.data, bytes.size);
+        if (version == own)
+            continue;
+        assert_int_equal(pir_sum_restore(bytes.data, bytes.size, NULL, &report, &back), PIR_ERR_UNSUPPORTED);
+        snprintf(named, sizeof named, "version %d,", version);
+        assert_non_null(strstr(report.text, named));
+        assert_ptr_equal(back, before);
+    }
+    free(bytes.data);
+    pir_sum_destroy(sum);
+}
+
 static void mutate(test_random *random, uint8_t *data, size_t size) {
     size_t at = PIR_SUM_HEADER_SIZE + test_random_below(random, (uint32_t)(size - PIR_SUM_HEADER_SIZE));
     size_t other = PIR_SUM_HEADER_SIZE + test_random_below(random, (uint32_t)(size - PIR_SUM_HEADER_SIZE));
@@ -305,6 +330,7 @@ int main(void) {
         cmocka_unit_test(streams_hold_one_sum_after_another),
         cmocka_unit_test(golden_bytes_are_read_on_every_machine),
         cmocka_unit_test(bytes_that_were_cut_or_changed_are_refused),
+        cmocka_unit_test(other_versions_are_named),
         cmocka_unit_test(made_up_bytes_are_refused_or_true),
         cmocka_unit_test(restoring_without_memory_leaves_nothing_behind),
     };

@@ -6,7 +6,6 @@
 #include "support/test.h"
 
 #include <inttypes.h>
-#include <stdbool.h>
 
 #include "support/bodies.h"
 #include "support/meshes.h"
@@ -70,8 +69,11 @@ static void track_of_two_hundred_frames_keeps_its_bits(void **state) {
     pir_polytope_release(p);
 }
 
-/* The work of `frames` small steps by `method`: a new axis every 40 frames, or to and fro about one. */
-static pir_sum_statistics work_of(test_body body, bool swings, pir_method method, uint32_t frames, uint64_t number) {
+enum motion { NEW_AXES, SWINGS, TREMBLES };
+
+/* The work of `frames` small steps by `method`: a new axis every 40 frames, to and fro about one, or a new one in each frame. */
+static pir_sum_statistics work_of(test_body body, enum motion motion, pir_method method, uint32_t frames,
+                                  uint64_t number) {
     test_random random = fixed_random(number);
     pir_polytope *p = test_random_polytope(&random, body, 60), *q = test_sphere(&random, 50);
     pir_quat r = {0.1, 0.2, -0.3, 0.9}, step = {0.004, -0.003, 0.002, 1};
@@ -79,10 +81,14 @@ static pir_sum_statistics work_of(test_body body, bool swings, pir_method method
     assert_int_equal(pir_sum_create(p, q, r, NULL, &sum), PIR_OK);
     pir_sum_reset_statistics(sum);
     for (uint32_t frame = 0; frame < frames; frame++) {
-        if (!swings && frame % 40 == 39)
+        if (motion == NEW_AXES && frame % 40 == 39)
             step = (pir_quat){step.y, -step.z, step.x, 1};
-        if (swings && frame % 7 == 6)
+        if (motion == SWINGS && frame % 7 == 6)
             step = (pir_quat){-step.x, -step.y, -step.z, 1};
+        if (motion == TREMBLES) {
+            pir_vec3 axis = test_random_direction(&random);
+            step = (pir_quat){1e-4 * axis.x, 1e-4 * axis.y, 1e-4 * axis.z, 1};
+        }
         r = test_compose(step, r, 1);
         assert_int_equal(pir_sum_rotate(sum, r, method), PIR_OK);
     }
@@ -108,15 +114,18 @@ static void expect_work(const char *what, pir_sum_statistics did, const uint64_t
 /* How much an update looks at is part of what it promises. These numbers may change when an update is meant to look at other things. */
 static void updates_look_at_no_more_than_they_did(void **state) {
     (void)state;
-    expect_work("new axes", work_of(TEST_SPHERE, false, PIR_METHOD_UPDATE, 400, 11),
+    expect_work("new axes", work_of(TEST_SPHERE, NEW_AXES, PIR_METHOD_UPDATE, 400, 11),
                 (uint64_t[7]){400, 0, 5979, 4422, 37211, 0, 0});
-    expect_work("to and fro", work_of(TEST_SPHERE, true, PIR_METHOD_UPDATE, 400, 12),
+    expect_work("to and fro", work_of(TEST_SPHERE, SWINGS, PIR_METHOD_UPDATE, 400, 12),
                 (uint64_t[7]){400, 0, 2267, 5005, 3917, 0, 0});
-    expect_work("a grid", work_of(TEST_GRID, false, PIR_METHOD_UPDATE, 400, 13),
+    expect_work("a grid", work_of(TEST_GRID, NEW_AXES, PIR_METHOD_UPDATE, 400, 13),
                 (uint64_t[7]){400, 0, 2463, 1414, 10523, 0, 0});
-    expect_work("a prism, to and fro", work_of(TEST_PRISM, true, PIR_METHOD_AUTO, 400, 14),
+    expect_work("a prism, to and fro", work_of(TEST_PRISM, SWINGS, PIR_METHOD_AUTO, 400, 14),
                 (uint64_t[7]){400, 0, 434, 598, 663, 0, 0});
-    expect_work("walks", work_of(TEST_GRID, false, PIR_METHOD_WALK, 40, 15), (uint64_t[7]){0, 40, 0, 0, 33742, 0, 0});
+    expect_work("trembling", work_of(TEST_SPHERE, TREMBLES, PIR_METHOD_UPDATE, 400, 16),
+                (uint64_t[7]){400, 0, 232, 10, 1406, 0, 0});
+    expect_work("walks", work_of(TEST_GRID, NEW_AXES, PIR_METHOD_WALK, 40, 15),
+                (uint64_t[7]){0, 40, 0, 0, 33742, 0, 0});
 }
 
 int main(void) {
