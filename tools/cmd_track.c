@@ -34,6 +34,10 @@ static bool read_outputs(const struct args *args, struct track_request *request)
         complain("track: %s needs --dump DIR beside it", request->dump_exact ? "--exact" : "--every");
         return false;
     }
+    if (request->dump && strcmp(request->dump, "-") == 0) {
+        complain("track: --dump: '-' is standard output, and frames go to a folder");
+        return false;
+    }
     return target_check(args, "--plot", ".svg") && args_count(args, "--every", 1, FRAMES_MOST, &request->dump_every);
 }
 

@@ -245,10 +245,10 @@ static bool run_frames(struct run *run) {
     run->progress = progress_new(run->request->frames);
     bool good = true;
     interrupt_put_off(true);
-    while (result->frames < run->request->frames && good && !interrupt_asked()) {
+    do {
         progress_show(&run->progress, result->frames);
         good = run_frame(run, result->frames++);
-    }
+    } while (result->frames < run->request->frames && good && !interrupt_asked());
     interrupt_put_off(false);
     result->interrupted = interrupt_asked() && result->frames < run->request->frames;
     progress_end(&run->progress);
@@ -281,8 +281,7 @@ bool track_run(const struct track_request *request, pir_polytope *p, pir_polytop
     result->seconds = (double)(clock_now() - start) / 1e9;
     if (request->dump && !dump_commit(&run.dump))
         goto done;
-    // of a run without frames there is nothing to draw
-    if (request->plot && result->frames > 0 && !(track_plot(request, result, plot.stream) && output_commit(&plot)))
+    if (request->plot && !(track_plot(request, result, plot.stream) && output_commit(&plot)))
         goto done;
     good = true;
 

@@ -139,8 +139,6 @@ static void print_work(const struct track_result *result) {
 
 void track_print_text(const struct track_request *request, const struct track_result *result) {
     print_motion(request, result);
-    if (result->frames == 0)
-        return;
     print_times(request, result);
     print_work(result);
     if (request->tolerance > 0)

@@ -6,12 +6,15 @@
  *     memory    the N-th of all allocations of the command and of its calls of the library that can run out of memory does
  *     update    the N-th rotation of a tracked sum goes astray
  *     walk, cgm the N-th rebuild of that kind goes astray
+ *     signal    SIGINT comes in the N-th rotation by PIR_METHOD_AUTO
+ *     signals   it comes twice there
  *     pairing   the N-th comparison of two pairings says that they differ
  *     mesh      the N-th comparison of two meshes says that they differ
  *
  * The linker gives __wrap_X the calls of X and calls the function itself __real_X.
  */
 #include <errno.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -146,6 +149,12 @@ pir_status __real_pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method met
 pir_status __wrap_pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method);
 pir_status __wrap_pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
     static const char *const kinds[] = {"update", "update", "walk", "cgm"};
+    if (method == PIR_METHOD_AUTO && is_due("signal"))
+        raise(SIGINT);
+    if (method == PIR_METHOD_AUTO && is_due("signals")) {
+        raise(SIGINT);
+        raise(SIGINT);
+    }
     if (is_due("memory"))
         return PIR_ERR_MEMORY;
     return __real_pir_sum_rotate(sum, is_due(kinds[method]) ? astray(rotation) : rotation, method);

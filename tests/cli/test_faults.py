@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import signal
 import subprocess
 
 from command_test import CommandTest, TETRAHEDRON, main
@@ -136,6 +137,33 @@ class Mismatch(CommandTest):
         self.assertEqual(self.track("update", 11, "--verify-every=5"), (1, 10, 8))
         self.assertEqual(self.track("update", 12, "--verify-every=5"), (0, None, 8))
         self.assertEqual(self.track("update", 11), (None, None, 0))
+
+
+class Interrupt(CommandTest):
+    ARGS = ["track", "shape:gs2", "shape:cube", "--frames=40", "--verify-every=3"]
+
+    def test_a_run_ends_after_the_frame_in_which_a_signal_came(self):
+        for number in (1, 2, 31, 39, 40):
+            done = self.fault("signal", number, *self.ARGS, "--json")
+            told = json.loads(done.stdout)
+            self.assertEqual((done.returncode, done.stderr), (-signal.SIGINT, ""))
+            self.assertEqual((told["frames"], told["interrupted"]), (number, number < 40))
+            self.assertEqual((told["updates"] + told["rebuilds"], told["verified"]), (number, (number + 2) // 3))
+            self.assertEqual(told["mismatches"], 0)
+            # what is told of these frames is what a run of so many tells
+            whole = self.data(*self.ARGS[:3], f"--frames={number}", "--verify-every=3")
+            for key in ("checked_per_frame", "repaired_per_frame", "signs"):
+                self.assertEqual(told[key], whole[key])
+            text = self.fault("signal", number, *self.ARGS)
+            self.assertIn(f" {number} frames, 500 steps to a turn", text.stdout)
+            self.assertEqual("\n  interrupted, 40 frames were asked for\n" in text.stdout, number < 40)
+            self.assertNotIn("nan", text.stdout)
+
+    def test_a_second_signal_does_not_wait(self):
+        chart = self.path / "chart.svg"
+        done = self.fault("signals", 9, *self.ARGS, "--plot", chart)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (-signal.SIGINT, "", ""))
+        self.assertEqual(sorted(p.name for p in self.path.iterdir()), ["pyramid.off", "tetrahedron.off"])
 
 
 if __name__ == "__main__":

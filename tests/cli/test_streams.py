@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Where results go: links, FIFOs, devices, standard output, full disks, signals."""
+import array
+import fcntl
 import json
 import os
 import resource
 import signal
 import stat
 import subprocess
+import termios
 import threading
 import time
 import unittest
+from pathlib import Path
 
 from command_test import CommandTest, TETRAHEDRON, main
 
@@ -20,6 +24,18 @@ def least_files():
     """Run in the child: a disk on which a file of 64 bytes is the largest."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
+
+
+def waits_for_more(running):
+    """Whether a run has read all that was written to it, and sleeps; where the system does not tell, after a while."""
+    unread = array.array("i", [0])
+    fcntl.ioctl(running.stdin, termios.FIONREAD, unread)
+    try:
+        state = Path(f"/proc/{running.pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        time.sleep(0.5)
+        state = "S"
+    return unread[0] == 0 and state == "S"
 
 
 class StreamTest(CommandTest):
@@ -265,8 +281,7 @@ class Signals(StreamTest):
                                  stdin=subprocess.PIPE)
             running.stdin.write("0,0,0\n9,0,0\n9,9,0\n")
             running.stdin.flush()
-            self.wait_for(running, lambda: self.left() != before)
-            time.sleep(0.1)
+            self.wait_for(running, lambda: self.left() != before and waits_for_more(running))
             running.send_signal(signal.SIGINT)
             out, err = running.communicate(timeout=60)
             self.assertEqual((running.returncode, err), (-signal.SIGINT, ""))

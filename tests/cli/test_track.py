@@ -222,6 +222,7 @@ class Frames(CommandTest):
         self.assertEqual(exact, both)
         self.assertEqual(sorted(p.name for p in (self.path / "b").iterdir()),
                          ["frame-000000.off", "frame-000004.off", "frame-000008.off", "frames.json"])
+        self.bad("track", self.tetrahedron, self.pyramid, "--dump", "-", says=["--dump", "'-'"])
         self.bad("track", self.tetrahedron, self.pyramid, "--exact", says=["--exact", "--dump"])
         self.bad("track", self.tetrahedron, self.pyramid, "--tolerance=1", "--dump", self.path / "c",
                  says=["--tolerance", "--dump"])
