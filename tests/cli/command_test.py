@@ -4,6 +4,7 @@ import json
 import os
 import re
 import select
+import signal
 import subprocess
 import sys
 import tempfile
@@ -59,6 +60,12 @@ def read_terminal(terminal, seconds):
         return b""  # how Linux tells that the other side is closed
 
 
+def with_own_signals():
+    """Run in a child that is to be sent signals: whoever runs the tests may have it ignore them, as nohup does."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
 class CommandTest(unittest.TestCase):
     command = ""  # the path of the built command
     answers_program = ""  # the one that asks the library itself
@@ -110,6 +117,7 @@ class CommandTest(unittest.TestCase):
         if not self.faulty:
             self.skipTest("the linker cannot put faults into this build")
         return subprocess.run([self.faulty, *map(str, args)], capture_output=True, text=True, timeout=60,
+                              preexec_fn=with_own_signals,
                               env={**os.environ, "PIROUETTE_FAULT": f"{kind}:{number}"})
 
     def bad(self, *args, says=()):

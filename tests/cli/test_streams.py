@@ -15,7 +15,7 @@ import time
 import unittest
 from pathlib import Path
 
-from command_test import CommandTest, TETRAHEDRON, main
+from command_test import CommandTest, TETRAHEDRON, main, with_own_signals
 
 SLOW_SUM = ["sum", "shape:geodesic?level=16", "shape:geodesic?level=17", "--method", "hull", "-o"]
 
@@ -38,6 +38,11 @@ def waits_for_more(running):
     return unread[0] == 0 and state == "S"
 
 
+def without_hangup():
+    with_own_signals()
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+
 class StreamTest(CommandTest):
     def setUp(self):
         super().setUp()
@@ -55,6 +60,7 @@ class StreamTest(CommandTest):
         return sorted(str(p.relative_to(self.path)) for p in self.path.rglob("*"))
 
     def start(self, *args, **how):
+        how.setdefault("preexec_fn", with_own_signals)
         running = subprocess.Popen([self.command, *map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    text=True, **how)
         self.addCleanup(running.kill)
@@ -233,7 +239,7 @@ class Signals(StreamTest):
     def test_a_signal_that_is_ignored_stays_ignored(self):
         target = self.path / "sum.off"
         before = self.left()
-        running = self.start(*SLOW_SUM, target, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        running = self.start(*SLOW_SUM, target, preexec_fn=without_hangup)
         self.wait_for(running, lambda: self.left() != before)
         running.send_signal(signal.SIGHUP)
         time.sleep(0.05)

@@ -12,7 +12,7 @@ import xml.etree.ElementTree as ElementTree
 from fractions import Fraction
 from pathlib import Path
 
-from command_test import CommandTest, TETRAHEDRON, main, numbers, read_terminal, rotation
+from command_test import CommandTest, TETRAHEDRON, main, numbers, read_terminal, rotation, with_own_signals
 from motion import motion
 
 
@@ -336,7 +336,7 @@ class Terminal(CommandTest):
         master, slave = self.open_terminal()
         started = time.monotonic()
         running = subprocess.Popen([self.command, "track", "shape:icosahedron", self.pyramid, "--frames", "5000000"],
-                                   stdout=subprocess.DEVNULL, stderr=slave)
+                                   stdout=subprocess.DEVNULL, stderr=slave, preexec_fn=with_own_signals)
         os.close(slave)
         shown = b""
         while shown.count(b"\r[") < 3 and time.monotonic() - started < 30 and running.poll() is None:
