@@ -80,7 +80,7 @@ typedef struct pir_feature {
 
 /**
  * The features of P and Q that attain an answer: the least faces that hold the two points. The points are exact ones, of which the
- * result holds the nearest doubles, and the faces are decided exactly. Where parallel features leave more than one pair of points, it is the vertex
+ * result holds doubles within 2^-50 of the largest coordinate of bodies and translation, and the faces are decided exactly. Where parallel features leave more than one pair of points, it is the vertex
  * of Q of lowest index that lies on P's face; else the vertex of P of lowest index that lies on Q's; else the first edges that cross, by rising edge of P,
  * then of Q.
  */

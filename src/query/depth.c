@@ -10,12 +10,6 @@
  */
 #include "query/facet.h"
 
-bool pir_piece_before(pir_piece a, pir_piece b) {
-    if (a.kind != b.kind)
-        return a.kind < b.kind;
-    return a.first != b.first ? a.first < b.first : a.second < b.second;
-}
-
 /*
  * The slots that a search is left with: those of part `k` of looked_count + 1, the groups that were looked at and then
  * the candidates.

@@ -213,7 +213,12 @@ bool pir_facet_same(const pir_facet *a, const pir_facet *b) {
 }
 
 bool pir_facet_before(const pir_facet *a, const pir_facet *b) {
-    return pir_piece_before(a->piece, b->piece);
+    if (a->piece.kind != b->piece.kind)
+        return a->piece.kind < b->piece.kind;
+    // features of facets, not of the pieces that stand for them: an edge's number, not its halfedge's
+    if (a->piece.kind != PIR_FACET_VF && a->faces.p.index != b->faces.p.index)
+        return a->faces.p.index < b->faces.p.index;
+    return a->piece.kind != PIR_FACET_FV && a->faces.q.index < b->faces.q.index;
 }
 
 /* --- slacks --- */

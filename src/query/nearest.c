@@ -7,9 +7,12 @@
  */
 #define CLOSE 0x1p-16
 
+/* Below this, squares lose digits. */
+#define LEAST_LENGTH 0x1p-400
+
 /* Whether doubles know a distance, and the direction that goes with it. */
 static bool is_far(const pir_placement *placement, double distance) {
-    return distance > CLOSE * placement->reach && distance > placement->error / CLOSE;
+    return distance > CLOSE * placement->reach && distance > placement->error / CLOSE && distance > LEAST_LENGTH;
 }
 
 /* A direction that is off by this much, in units of 64·2^-53 (facet.h), for an error in lengths and a distance. */

@@ -286,9 +286,6 @@ pir_state pir_state_find(pir_query *query, const pir_placement *placement, const
 
 /* --- depth.c --- */
 
-/* The order that settles ties: fv before vf before ee, then P's index, then Q's. */
-bool pir_piece_before(pir_piece a, pir_piece b);
-
 /* Keeps the true facet of least slack, and the first in order of those that tie, of all whose pieces were offered. */
 void pir_least_offer(pir_query *query, const pir_placement *placement, pir_least *least, pir_piece piece);
 
