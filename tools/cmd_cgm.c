@@ -93,7 +93,7 @@ static void print_text(const struct args *args, const struct outcome *outcome) {
 
 /* P, reflected when the difference is asked for, and Q when there is one; false after a complaint. */
 static bool load(const struct args *args, pir_polytope **p, pir_polytope **q) {
-    *p = model_load(args->positional[0]);
+    *p = model_load(args, args->positional[0]);
     if (*p && args_has(args, "--difference")) {
         pir_polytope *reflected = NULL;
         pir_status status = pir_polytope_reflect(*p, &reflected);
@@ -103,7 +103,7 @@ static bool load(const struct args *args, pir_polytope **p, pir_polytope **q) {
             complain_status("cgm", status, NULL);
     }
     if (*p && args->positional_count > 1)
-        *q = model_load(args->positional[1]);
+        *q = model_load(args, args->positional[1]);
     return *p && (*q || args->positional_count == 1);
 }
 

@@ -10,7 +10,8 @@
 #include "model.h"
 #include "text.h"
 
-static bool print_json(const char *model, const pir_polytope *polytope) {
+/* `merged`: whether merging was asked for. */
+static bool print_json(const char *model, const pir_polytope *polytope, bool merged) {
     pir_vec3 low, high;
     pir_polytope_bounds(polytope, &low, &high);
     struct json json = json_new();
@@ -23,6 +24,8 @@ static bool print_json(const char *model, const pir_polytope *polytope) {
     json_add_numbers(&json, bounds, "low", (const double[]){low.x, low.y, low.z}, 3);
     json_add_numbers(&json, bounds, "high", (const double[]){high.x, high.y, high.z}, 3);
     json_add_number(&json, json.root, "volume", pir_polytope_volume(polytope));
+    if (merged)
+        json_add_number(&json, json.root, "merge_bound", pir_polytope_merge_bound(polytope));
     return json_print(&json, stdout);
 }
 
@@ -33,7 +36,7 @@ static void print_range(const char *axis, double low, double high) {
     printf("  %-10s %s to %s\n", axis, from, to);
 }
 
-static void print_text(const char *model, const pir_polytope *polytope) {
+static void print_text(const char *model, const pir_polytope *polytope, bool merged) {
     pir_vec3 low, high;
     pir_polytope_bounds(polytope, &low, &high);
     char volume[TEXT_NUMBER];
@@ -47,17 +50,21 @@ static void print_text(const char *model, const pir_polytope *polytope) {
     print_range("y", low.y, high.y);
     print_range("z", low.z, high.z);
     printf("  %-10s %s\n", "volume", volume);
+    if (merged) {
+        text_double(pir_polytope_merge_bound(polytope), volume);
+        printf("  %-10s within %s of the hull\n", "merged", volume);
+    }
 }
 
 int cmd_info(const struct args *args) {
     const char *model = args->positional[0];
-    pir_polytope *polytope = model_load(model);
+    pir_polytope *polytope = model_load(args, model);
     if (!polytope)
         return EXIT_BAD_INPUT;
     int result = EXIT_DONE;
     if (!args_has(args, "--json"))
-        print_text(model, polytope);
-    else if (!print_json(model, polytope))
+        print_text(model, polytope, args_has(args, "--merge"));
+    else if (!print_json(model, polytope, args_has(args, "--merge")))
         result = EXIT_BAD_INPUT;
     pir_polytope_release(polytope);
     return result;

@@ -218,9 +218,9 @@ int cmd_query(const struct args *args) {
     int result = EXIT_BAD_INPUT;
     pir_sum *sum = NULL;
     pir_query *query = NULL;
-    pir_polytope *q = NULL, *p = model_load(args->positional[0]);
+    pir_polytope *q = NULL, *p = model_load(args, args->positional[0]);
     if (p)
-        q = model_load(args->positional[1]);
+        q = model_load(args, args->positional[1]);
     if (!p || !q)
         goto done;
     pir_sum_options options = pir_sum_options_default();

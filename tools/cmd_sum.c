@@ -123,9 +123,9 @@ int cmd_sum(const struct args *args) {
     struct output_file file = {0};
     const char *path = args_value(args, "-o");
     int result = EXIT_BAD_INPUT;
-    pir_polytope *q = NULL, *p = model_load(args->positional[0]);
+    pir_polytope *q = NULL, *p = model_load(args, args->positional[0]);
     if (p)
-        q = model_load(args->positional[1]);
+        q = model_load(args, args->positional[1]);
     if (!p || !q || (path && !output_open(&file, path)))
         goto done;
 

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """pirouette info and pirouette shape."""
+import json
+import subprocess
+
 from command_test import CommandTest, main
 
 
@@ -35,6 +38,32 @@ class Info(CommandTest):
             told = self.data("info", self.file(name, text))
             self.assertEqual([told[k] for k in ("dimension", "vertices", "edges", "facets")], counts)
             self.assertEqual(told["volume"], 0)
+
+    def test_facets_merge_within_a_length(self):
+        # a square whose corner is a thousandth off the plane of the others, under an apex
+        model = self.file("bent.off", "OFF\n5 0 0\n0 0 0\n3 0 0\n3 3 1/1000\n0 3 0\n1 1 2\n")
+        exact, merged, finer = (self.data("info", model, *merge)
+                                for merge in ((), ("--merge", "0.01"), ("--merge", "1e-5")))
+        self.assertEqual([exact["facets"], merged["facets"], finer["facets"]], [6, 5, 6])
+        self.assertNotIn("merge_bound", exact)
+        self.assertEqual(finer["merge_bound"], 0)
+        self.assertGreater(merged["merge_bound"], 0)
+        self.assertLessEqual(merged["merge_bound"], 0.001)
+        self.assertRegex(self.good("info", model, "--merge", "0.01"), r"merged +within .* of the hull\n")
+        with open(model) as file:
+            told = subprocess.run([self.command, "info", "-", "--merge=0.01", "--json"], stdin=file, capture_output=True)
+        self.assertEqual(json.loads(told.stdout)["facets"], 5)
+        self.assertEqual(self.data("info", "shape:cube", "--merge", "1e-9")["facets"], 6)
+        # a body's size: all of a fine sphere's facets are within it of each other
+        self.assertLess(self.data("info", "shape:geodesic?level=4", "--merge", "0.2")["facets"], 500)
+        for command in (("query", model, "shape:cube", "--translate", "0,0,9"), ("cgm", model),
+                        ("track", model, model, "--frames", "2")):
+            self.good(*command, "--merge", "0.01")
+        self.assertEqual(self.data("sum", model, model, "--merge", "0.01")["facets"], 5)
+
+    def test_a_merge_tolerance_that_is_no_length_is_refused(self):
+        for value, why in (("-1", "below 0"), ("nan", "nan"), ("x", "x")):
+            self.bad("info", "shape:cube", "--merge", value, says=["--merge", why])
 
     def test_text_holds_the_same(self):
         text = self.good("info", self.pyramid)
