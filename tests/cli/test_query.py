@@ -144,6 +144,11 @@ class Query(CommandTest):
             line = next(e for e in red if e.tag.endswith("line"))
             ends = [float(line.get(k)) for k in ("x1", "y1", "x2", "y2")]
             self.assertAlmostEqual(ends[1], ends[3], places=2)
+            # the bodies fill the picture but for its margin
+            lines = [e for e in root.iter() if e.tag.endswith("line")]
+            spans = [sorted(float(e.get(k + n)) for e in lines for n in "12") for k in "xy"]
+            self.assertTrue(all(39.9 < s[0] and s[-1] < 600.1 for s in spans), spans)
+            self.assertAlmostEqual(max(s[-1] - s[0] for s in spans), 560, places=1)
             self.assertIn("picture.svg", self.good("query", "shape:cube", "shape:cube", f"--translate={translate}",
                                                    "-o", file))
             for e in root.iter():

@@ -25,6 +25,13 @@ class Pose(CommandTest):
             self.assertEqual(self.quat("--quat", numbers(quat)), list(quat))
             self.assertEqual(self.quat(f"--quat={numbers(quat)}"), list(quat))
 
+    def test_the_length_of_an_axis_does_not_matter(self):
+        for x, y, z in ((3, 1, 2), (1, 3, 2), (1, 2, -3), (1e-3, 2, 1)):
+            for angle in (37, 120, 200.5, -1):
+                turned = self.turned(numbers((x, y, z)), angle)
+                for factor in (2.0**-1000, 2.0**-300, 2.0**300, 2.0**1000):
+                    self.assertEqual(self.turned(numbers((x * factor, y * factor, z * factor)), angle), turned)
+
     def test_right_angles_are_exact(self):
         quarter = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
         half = [[-1, 0, 0], [0, -1, 0], [0, 0, 1]]

@@ -306,6 +306,21 @@ class Plot(CommandTest):
             self.assertIn(word, words)
         self.assertNotIn("brute", self.plot(self.tetrahedron, self.pyramid, "--frames", "90")[1])
 
+    def test_lines_and_labels_stay_in_the_window(self):
+        text, _ = self.plot(self.tetrahedron, self.pyramid, "--frames", "90", "--brute")
+        levels = [float(y) for y in re.findall(r"<path d='M78 ([0-9.-]+)H936' stroke='#[ce]", text)]
+        self.assertGreaterEqual(len(levels), 5)
+        self.assertTrue(all(103.9 <= y <= 482.1 for y in levels), levels)
+        # strong lines, one to a power of ten, have labels; of the others at most those at 2 and 5 of each
+        strong = re.findall(r"<path d='M78 ([0-9.]+)H936' stroke='#c8c8c8'/>\n<text [^>]*>([0-9.e+-]+)<", text)
+        self.assertEqual(len(strong), text.count("stroke='#c8c8c8'"))
+        self.assertTrue(all(abs(math.log10(float(t)) - round(math.log10(float(t)))) < 1e-9 for _, t in strong), strong)
+        weak = re.findall(r"stroke='#ececec'/>\n<text x='70' [^>]*>([0-9.e+-]+)<", text)
+        self.assertTrue(all(f"{float(t):e}"[0] in "25" for t in weak), weak)
+        columns = [float(x) for x in re.findall(r"<path d='M([0-9.-]+) 104V482' stroke='#ececec'", text)]
+        self.assertGreaterEqual(len(columns), 5)
+        self.assertTrue(all(78 <= x <= 936 for x in columns), columns)
+
     def test_the_axis_is_told(self):
         self.assertIn("axis 0,1,0.5", self.plot(self.tetrahedron, self.pyramid, "--frames=5", "--axis=0,1,0.5")[1])
         self.assertIn("a new random axis every 50 frames", self.plot(self.tetrahedron, self.pyramid, "--frames=5")[1])
