@@ -115,7 +115,8 @@ static void check_points(exact_pair *pair, const exact_pose *pose, const pir_que
     exact_contact contact = {.t = pose->t, .direction = pose->direction, .there = pose->t};
     contact.way = pose->state == PIR_INSIDE ? EXACT_TO_PLANE : EXACT_NEAREST;
     contact.plane = plane;
-    exact_check_witness(pair, &contact, &r->witness, r->point_p, r->point_q, 0x1p-50 * coordinates);
+    exact_check_witness(pair, &contact, &r->witness, r->point_p, r->point_q,
+                        0x1p-50 * coordinates + 1e-14 * pair->size);
 }
 
 /* No number, no point: where a call has none to give. */
