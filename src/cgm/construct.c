@@ -6,8 +6,8 @@
  * its two sides; every other rim vertex has at most one piece in a map, since arcs meet only in normals. Faces learn their vertex from
  * the arcs beside them; those that no arc borders from the face beyond the cube edge, which is part of the same cell.
  */
+#include "base/sort.h"
 #include "cgm/arcs.h"
-#include "cgm/sort.h"
 
 #include <string.h>
 

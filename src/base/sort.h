@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Merge sort of numbers by an order that needs a context. */
-#ifndef PIR_CGM_SORT_H
-#define PIR_CGM_SORT_H
+#ifndef PIR_BASE_SORT_H
+#define PIR_BASE_SORT_H
 
 #include <stdbool.h>
 #include <stdint.h>

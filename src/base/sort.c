@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Merge sort, top down; short runs by insertion. */
-#include "cgm/sort.h"
+#include "base/sort.h"
 
 #include <string.h>
 
