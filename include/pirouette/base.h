@@ -32,7 +32,8 @@ typedef enum pir_status {
     PIR_ERR_EMPTY,           /**< no points, an empty file */
     PIR_ERR_FILE,            /**< a file cannot be opened, read or written */
     PIR_ERR_FORMAT, /**< a file's content breaks its format: truncated, counts that lie, a token that is no number */
-    PIR_ERR_NOT_CLOSED,  /**< facets that do not bound a solid */
+    PIR_ERR_NOT_CLOSED,  /**< facets that do not bound a solid, where a convex one is required */
+    PIR_ERR_NOT_CONVEX,  /**< a model that is not convex, where a convex one is required */
     PIR_ERR_LIMIT,       /**< too large for 32-bit indices or for a stated limit */
     PIR_ERR_UNSUPPORTED, /**< this build lacks the optional feature */
 } pir_status;

@@ -2,9 +2,9 @@
 /**
  * Models and meshes to and from files.
  *
- * OFF is read and written by Pirouette itself, with exact rationals: a token `a/b` is that rational, an integer is itself,
- * any other number the nearest double; `#` starts a comment. OBJ, STL and PLY go through assimp where the build has it
- * (PIR_ERR_UNSUPPORTED where it has not), in float as that library keeps them. SVG is written only.
+ * OFF is read and written with exact rationals: a token `a/b` is that rational, an integer is itself, any other number
+ * the nearest double; `#` starts a comment. OBJ, STL and PLY are read as the doubles nearest to their numbers, and
+ * written in float through assimp where the build has it (PIR_ERR_UNSUPPORTED where it has not). SVG is written only.
  *
  * Every call takes an optional report that, on failure, says in one line what was wrong, where (file and line) and why.
  */
@@ -21,19 +21,72 @@
 extern "C" {
 #endif
 
+/** What facets of a file are. An edge is two neighbouring corners of a facet; points at the same place are one corner. */
+typedef enum pir_surface_form {
+    PIR_SURFACE_POINTS = 0, /**< there are none: the file holds points alone */
+    PIR_SURFACE_OPEN,       /**< some edge is on an odd number of them: they bound nothing */
+    PIR_SURFACE_CLOSED,     /**< every edge is on an even number of them */
+} pir_surface_form;
+
 /**
- * Reads the model in `path`, by its ending (.off, .obj, .stl, .ply), and makes the exact convex hull of its points.
- * In OFF the facets, when there are any, must close: each edge on exactly two, either way round; the hull is of all points.
- * Their indices count from 0 or, throughout a file, from 1; colours after them are passed over. Limits: a file of 2 GiB, a number
- * of 4096 characters, a common denominator of 65536 bits. `options` as for pir_polytope_create, NULL for the defaults.
+ * A model as its file has it, before the hull of its points is taken. All of it is decided exactly.
  *
- * Errors: PIR_ERR_ARGUMENT (another ending), PIR_ERR_FILE, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE, PIR_ERR_NOT_CLOSED,
- * PIR_ERR_LIMIT, PIR_ERR_UNSUPPORTED, PIR_ERR_MEMORY.
+ * A closed surface is convex when it is the boundary of the hull, whichever way round its facets are listed, and
+ * however many facets share a plane. A facet whose corners are in no one plane counts by the parts that the hull cuts
+ * it into, when these make it up; in a body of dimension 2, facets count by their area on either side. Points alone are
+ * convex when each place is a vertex of the hull.
+ *
+ * The volume takes a facet of more than three corners as a fan from its first, and is rounded from the exact one; of a
+ * convex surface it is pir_polytope_volume of the hull. A closed surface whose neighbours are listed different ways
+ * round is turned to face one way, each piece of it outward. An open surface is closed by pyramids from the origin over
+ * its open edges: near the truth where it has cracks, and no more than a sum where it has holes; it is not turned.
  */
+typedef struct pir_surface {
+    pir_surface_form form;
+    int convex;      /**< 1 when the hull adds nothing; 0 for an open surface */
+    uint32_t points; /**< as many as the file has, duplicates and points that no facet has included */
+    uint32_t facets;
+    double volume; /**< what the facets enclose, rounded; negative when they are clockwise seen from outside. NaN where
+                          there is none: points alone, or neighbours that face different sides however they are turned */
+} pir_surface;
+
+/** How to read a model. */
+typedef struct pir_read_options {
+    pir_polytope_options polytope; /**< how the hull is made; the surface is held against the exact one */
+    int require_convex;            /**< refuse a model whose pir_surface is not convex, and say where it is not */
+} pir_read_options;
+
+/** pir_polytope_options_default, and models of every form. */
+PIR_API pir_read_options pir_read_options_default(void);
+
+/**
+ * Reads the model in `path`, by its ending (.off, .obj, .stl, .ply), and makes the exact convex hull of all its points.
+ *
+ * options      NULL for the default.
+ * ret_surface  NULL, or what the file holds beside its points.
+ *
+ * In OFF, indices count from 0 or, throughout a file, from 1; colours after them are passed over. In OBJ, other
+ * statements than points and facets are passed over, and curves, surfaces and references to other files but materials
+ * are refused; in PLY, all but x, y, z and vertex_indices is passed over. No other file is opened. Limits: a file of 2
+ * GiB, a number of 4096 characters, a common denominator of 65536 bits. Cost: the hull of n points; for the surface,
+ * O(n log n) where each facet has a corner that an earlier one has, and otherwise at most O(n) for each that has not.
+ *
+ * Errors: PIR_ERR_ARGUMENT (another ending), PIR_ERR_FILE, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE,
+ * PIR_ERR_LIMIT, PIR_ERR_MEMORY; with require_convex, PIR_ERR_NOT_CLOSED (an open surface) and PIR_ERR_NOT_CONVEX.
+ */
+PIR_API pir_status pir_polytope_read_surface(const char *path, const pir_read_options *options, pir_report *report,
+                                             pir_surface *ret_surface, pir_polytope **ret_polytope);
+
+/** The same for the bytes of a file; `name` stands for it in reports, `format` is "off", "obj", "stl" or "ply". */
+PIR_API pir_status pir_polytope_read_bytes(const void *bytes, size_t size, const char *name, const char *format,
+                                           const pir_read_options *options, pir_report *report,
+                                           pir_surface *ret_surface, pir_polytope **ret_polytope);
+
+/** pir_polytope_read_surface of any form, without a look at the surface. */
 PIR_API pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
                                      pir_polytope **ret_polytope);
 
-/** The same for OFF text in memory; `name` stands for the file in reports. The text need not end in a zero. */
+/** The same for OFF text in memory. The text need not end in a zero. */
 PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const char *name,
                                          const pir_polytope_options *options, pir_report *report,
                                          pir_polytope **ret_polytope);
@@ -41,13 +94,14 @@ PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const ch
 /**
  * Writes `mesh` to `path`, by its ending: .off, .obj, .stl, .ply, .svg.
  *
- * exact   for OFF only: write exact integers and a/b; the mesh must hold exact coordinates. Otherwise doubles that read back
+ * exact   for OFF only: write exact integers and a/b; the mesh must hold exact coordinates. Otherwise doubles that read
+ * back
  *         as themselves.
  *
- * A regular file is complete or absent: it is written under another name in its folder and then renamed, and keeps the permissions that a
- * file of its name had. Symbolic links are followed and stay. What is no regular file, such as a device or a FIFO, is opened and
- * written to, never replaced or removed.
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_UNSUPPORTED, PIR_ERR_MEMORY.
+ * A regular file is complete or absent: it is written under another name in its folder and then renamed, and keeps the
+ * permissions that a file of its name had. Symbolic links are followed and stay. What is no regular file, such as a
+ * device or a FIFO, is opened and written to, never replaced or removed. Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE,
+ * PIR_ERR_UNSUPPORTED, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int exact, pir_report *report);
 

@@ -27,6 +27,8 @@ const char *pir_status_text(pir_status status) {
         return "broken file format";
     case PIR_ERR_NOT_CLOSED:
         return "facets do not close";
+    case PIR_ERR_NOT_CONVEX:
+        return "not convex";
     case PIR_ERR_LIMIT:
         return "too large";
     case PIR_ERR_UNSUPPORTED:

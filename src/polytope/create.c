@@ -39,32 +39,69 @@ pir_polytope_options pir_polytope_options_default(void) {
     return (pir_polytope_options){NULL, 0};
 }
 
+pir_status pir_polytope_check_options(const pir_polytope_options *options) {
+    if (options && !isfinite(options->merge_tolerance))
+        return PIR_ERR_NOT_FINITE;
+    return options && options->merge_tolerance < 0 ? PIR_ERR_ARGUMENT : PIR_OK;
+}
+
 /* What both ways to make a polytope ask of their arguments. */
 static pir_status check_arguments(const void *points, size_t count, const pir_polytope_options *options,
                                   pir_polytope **ret_polytope) {
     if (!ret_polytope || (!points && count > 0))
         return PIR_ERR_ARGUMENT;
-    if (options && !isfinite(options->merge_tolerance))
-        return PIR_ERR_NOT_FINITE;
-    if (options && options->merge_tolerance < 0)
-        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_polytope_check_options(options);
+    if (status != PIR_OK)
+        return status;
     if (count == 0)
         return PIR_ERR_EMPTY;
     return count >= (size_t)1 << 30 ? PIR_ERR_LIMIT : PIR_OK;
 }
 
-/* The hull of exact points, its facets merged where `tolerance` is not 0. */
-static pir_status build(const pir_polytope_parts *parts, const pir_allocator *allocator, double tolerance,
-                        pir_polytope **ret_polytope) {
-    pir_polytope *hull = NULL, *merged = NULL;
-    pir_status status = pir_polytope_build_hull(parts, allocator, &hull);
-    if (status == PIR_OK && tolerance > 0 && hull->dimension == 3)
-        status = pir_polytope_merge(hull, tolerance, &merged);
+pir_status pir_polytope_merge_within(pir_polytope *hull, double tolerance, pir_polytope **ret_polytope) {
+    pir_polytope *merged = NULL;
+    pir_status status =
+        tolerance > 0 && hull->dimension == 3 ? pir_polytope_merge(hull, tolerance, &merged) : PIR_OK;
     if (status != PIR_OK || merged)
         pir_polytope_release(hull);
     if (status == PIR_OK)
         *ret_polytope = merged ? merged : hull;
     return status;
+}
+
+/* The hull of exact points, its facets merged where `tolerance` is not 0. */
+static pir_status build(const struct pir_exact_points *exact, const pir_vec3 *doubles, const pir_allocator *allocator,
+                        double tolerance, pir_polytope **ret_polytope) {
+    pir_polytope_parts parts = {.points = &exact->vectors, .scale = &exact->scale, .doubles = doubles};
+    pir_polytope *hull = NULL;
+    pir_status status = pir_polytope_build_hull(&parts, allocator, &hull);
+    return status == PIR_OK ? pir_polytope_merge_within(hull, tolerance, ret_polytope) : status;
+}
+
+pir_status pir_exact_points_of_doubles(struct pir_exact_points *exact, const pir_vec3 *points, size_t count,
+                                       const pir_allocator *allocator) {
+    int low = 0, top = 0;
+    exponent_range(points, count, &low, &top);
+    *exact = (struct pir_exact_points){0};
+    // the coordinates as integers in units of 2^low
+    if (!pir_scale_init_power(&exact->scale, allocator, low) ||
+        !pir_vectors_init(&exact->vectors, allocator, (uint32_t)count, pir_double_limbs(top, low))) {
+        pir_exact_points_finish(exact, allocator);
+        return PIR_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        pir_int3 v = pir_vectors_at(&exact->vectors, i);
+        pir_int_set_double(&v.c[0], points[i].x, low);
+        pir_int_set_double(&v.c[1], points[i].y, low);
+        pir_int_set_double(&v.c[2], points[i].z, low);
+        pir_vectors_put(&exact->vectors, i, &v);
+    }
+    return PIR_OK;
+}
+
+void pir_exact_points_finish(struct pir_exact_points *exact, const pir_allocator *allocator) {
+    pir_vectors_finish(&exact->vectors, allocator);
+    pir_scale_finish(&exact->scale, allocator);
 }
 
 pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_polytope_options *options,
@@ -76,26 +113,12 @@ pir_status pir_polytope_create(const pir_vec3 *points, size_t count, const pir_p
         if (!pir_vec_is_finite(points[i]))
             return PIR_ERR_NOT_FINITE;
     const pir_allocator used = pir_allocator_or_default(options ? options->allocator : NULL);
-    int low = 0, top = 0;
-    exponent_range(points, count, &low, &top);
-    // the coordinates as integers in units of 2^low
-    pir_vectors exact = {0};
-    pir_scale scale = {{NULL, 0, 0}, {NULL, 0, 0}};
-    status = PIR_ERR_MEMORY;
-    if (pir_scale_init_power(&scale, &used, low) &&
-        pir_vectors_init(&exact, &used, (uint32_t)count, pir_double_limbs(top, low))) {
-        for (uint32_t i = 0; i < count; i++) {
-            pir_int3 v = pir_vectors_at(&exact, i);
-            pir_int_set_double(&v.c[0], points[i].x, low);
-            pir_int_set_double(&v.c[1], points[i].y, low);
-            pir_int_set_double(&v.c[2], points[i].z, low);
-            pir_vectors_put(&exact, i, &v);
-        }
-        status = build(&(pir_polytope_parts){.points = &exact, .scale = &scale, .doubles = points}, &used,
-                       options ? options->merge_tolerance : 0, ret_polytope);
-    }
-    pir_vectors_finish(&exact, &used);
-    pir_scale_finish(&scale, &used);
+    struct pir_exact_points exact;
+    status = pir_exact_points_of_doubles(&exact, points, count, &used);
+    if (status != PIR_OK)
+        return status;
+    status = build(&exact, points, &used, options ? options->merge_tolerance : 0, ret_polytope);
+    pir_exact_points_finish(&exact, &used);
     return status;
 }
 
@@ -147,28 +170,35 @@ static bool scale_rationals(pir_vectors *exact, const pir_allocator *allocator, 
     return true;
 }
 
+pir_status pir_exact_points_of_rationals(struct pir_exact_points *exact, const mpq_t *coordinates, size_t count,
+                                         const pir_allocator *allocator) {
+    mpz_t common;
+    mpz_init(common);
+    *exact = (struct pir_exact_points){0};
+    pir_status status = find_common(common, coordinates, count);
+    mp_limb_t one_limb = 1;
+    const pir_scale scale = {{&one_limb, 1, 0}, view_of(common)};
+    if (status == PIR_OK && !(pir_scale_copy(&exact->scale, allocator, &scale) &&
+                              scale_rationals(&exact->vectors, allocator, coordinates, count, common))) {
+        pir_exact_points_finish(exact, allocator);
+        status = PIR_ERR_MEMORY;
+    }
+    mpz_clear(common);
+    return status;
+}
+
 pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count, const pir_polytope_options *options,
                                      pir_polytope **ret_polytope) {
     pir_status status = check_arguments(coordinates, count, options, ret_polytope);
     if (status != PIR_OK)
         return status;
     const pir_allocator used = pir_allocator_or_default(options ? options->allocator : NULL);
-    mpz_t common;
-    mpz_init(common);
-    status = find_common(common, coordinates, count);
-    if (status != PIR_OK) {
-        mpz_clear(common);
+    struct pir_exact_points exact;
+    status = pir_exact_points_of_rationals(&exact, coordinates, count, &used);
+    if (status != PIR_OK)
         return status;
-    }
-    mp_limb_t one_limb = 1;
-    pir_scale scale = {{&one_limb, 1, 0}, view_of(common)};
-    pir_vectors exact = {0};
-    status = PIR_ERR_MEMORY;
-    if (scale_rationals(&exact, &used, coordinates, count, common))
-        status = build(&(pir_polytope_parts){.points = &exact, .scale = &scale}, &used,
-                       options ? options->merge_tolerance : 0, ret_polytope);
-    pir_vectors_finish(&exact, &used);
-    mpz_clear(common);
+    status = build(&exact, NULL, &used, options ? options->merge_tolerance : 0, ret_polytope);
+    pir_exact_points_finish(&exact, &used);
     return status;
 }
 

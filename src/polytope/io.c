@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Files by their ending: which reader, which writer; reading whole files. Writing them is in write.c. */
+/* What reading and writing files share: names in reports, endings, the locale, bounds. Reading is in read.c, writing in
+ * write.c. */
 #include "polytope/io.h"
 
-#include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
-
-#include "base/memory.h"
-#include "base/report.h"
 
 /* The longest part of a path that a report repeats. */
 #define SHORT_NAME 96
@@ -63,84 +59,4 @@ enum pir_file_type pir_file_type_of(const char *path, char ret_ending[4]) {
     if (strcmp(ret_ending, "obj") == 0 || strcmp(ret_ending, "stl") == 0 || strcmp(ret_ending, "ply") == 0)
         return PIR_FILE_ASSIMP;
     return PIR_FILE_UNKNOWN;
-}
-
-/* --- reading --- */
-
-struct bytes {
-    char *data;
-    size_t size, capacity;
-};
-
-static pir_status fail_file(pir_report *report, const char *path, const char *doing, int error) {
-    return pir_fail(report, PIR_ERR_FILE, "%s: cannot %s: %s", pir_short_name(path), doing, strerror(error));
-}
-
-/* Reads an open stream to its end; `expected` is a guess at its size. */
-static pir_status read_stream(FILE *file, size_t expected, const char *path, const pir_allocator *allocator,
-                              pir_report *report, struct bytes *bytes) {
-    for (;;) {
-        // Room for at least one byte more, which a read at the end leaves empty.
-        if (bytes->size == bytes->capacity) {
-            size_t capacity = bytes->capacity ? 2 * bytes->capacity : expected + 1;
-            char *data = PIR_RESIZE(allocator, bytes->data, bytes->capacity, capacity);
-            if (!data)
-                return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", pir_short_name(path));
-            bytes->data = data;
-            bytes->capacity = capacity;
-        }
-        errno = 0;
-        bytes->size += fread(bytes->data + bytes->size, 1, bytes->capacity - bytes->size, file);
-        if (ferror(file))
-            return fail_file(report, path, "read", errno);
-        if (bytes->size > PIR_FILE_SIZE_MAX)
-            return pir_fail(report, PIR_ERR_LIMIT, "%s: larger than 2 GiB", pir_short_name(path));
-        if (feof(file))
-            return PIR_OK;
-    }
-}
-
-/* Reads a file into `bytes`, which the caller frees whatever the outcome. */
-static pir_status read_file(const char *path, const pir_allocator *allocator, pir_report *report, struct bytes *bytes) {
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return fail_file(report, path, "open", errno);
-    pir_status status;
-    struct stat about;
-    if (fstat(fileno(file), &about) != 0)
-        status = fail_file(report, path, "read", errno);
-    else if (S_ISDIR(about.st_mode))
-        status = fail_file(report, path, "read", EISDIR);
-    else if (S_ISREG(about.st_mode) && (uintmax_t)about.st_size > PIR_FILE_SIZE_MAX)
-        status = pir_fail(report, PIR_ERR_LIMIT, "%s: larger than 2 GiB", pir_short_name(path));
-    else
-        status =
-            read_stream(file, S_ISREG(about.st_mode) ? (size_t)about.st_size : 4096, path, allocator, report, bytes);
-    fclose(file);
-    return status;
-}
-
-pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
-                             pir_polytope **ret_polytope) {
-    if (!path || !ret_polytope)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the polytope");
-    const char *name = pir_short_name(path);
-    char ending[4];
-    enum pir_file_type type = pir_file_type_of(path, ending);
-    if (type == PIR_FILE_SVG)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: .svg files are written, not read", name);
-    if (type == PIR_FILE_UNKNOWN)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name does not end in .off, .obj, .stl or .ply", name);
-
-    pir_allocator memory = pir_allocator_or_default(options ? options->allocator : NULL);
-    struct bytes bytes = {0};
-    pir_status status = read_file(path, &memory, report, &bytes);
-    if (status == PIR_OK && bytes.size == 0)
-        status = pir_fail(report, PIR_ERR_EMPTY, "%s: the file is empty", name);
-    if (status == PIR_OK && type == PIR_FILE_OFF)
-        status = pir_polytope_read_off(bytes.data, bytes.size, name, options, report, ret_polytope);
-    if (status == PIR_OK && type == PIR_FILE_ASSIMP)
-        status = pir_polytope_read_assimp(bytes.data, bytes.size, ending, name, options, report, ret_polytope);
-    PIR_FREE(&memory, bytes.data, bytes.capacity);
-    return status;
 }

@@ -39,10 +39,8 @@ void pir_mesh_bounds(const pir_mesh *mesh, pir_vec3 *ret_low, pir_vec3 *ret_high
 /* OFF to a stream: exact rationals where `exact`, else the shortest decimal that reads back as the same double. */
 pir_status pir_mesh_write_off(const pir_mesh *mesh, FILE *file, bool exact);
 
-/* OBJ, STL and PLY through assimp; `ending` is "obj", "stl" or "ply". Where the build has no assimp: PIR_ERR_UNSUPPORTED. */
-pir_status pir_polytope_read_assimp(const char *data, size_t size, const char *ending, const char *name,
-                                    const pir_polytope_options *options, pir_report *report,
-                                    pir_polytope **ret_polytope);
+/* OBJ, STL and PLY through assimp; `ending` is "obj", "stl" or "ply". Where the build has no assimp:
+ * PIR_ERR_UNSUPPORTED. */
 pir_status pir_mesh_write_assimp(const pir_mesh *mesh, FILE *file, const char *ending, const char *name,
                                  pir_report *report);
 
@@ -50,8 +48,9 @@ pir_status pir_mesh_write_assimp(const pir_mesh *mesh, FILE *file, const char *e
 pir_status pir_mesh_write_svg(const pir_mesh *mesh, FILE *file);
 
 /*
- * One body as it lies in the view: what a picture needs to place it. A point v of the mesh is drawn, in units of `radius`, at the
- * projection of (v − centre)/radius, x to the right and y down, as SVG has it; low and high bound that projection.
+ * One body as it lies in the view: what a picture needs to place it. A point v of the mesh is drawn, in units of
+ * `radius`, at the projection of (v − centre)/radius, x to the right and y down, as SVG has it; low and high bound that
+ * projection.
  */
 struct pir_svg_body {
     const pir_mesh *mesh;
@@ -64,12 +63,13 @@ struct pir_svg_body {
 struct pir_svg_body pir_svg_measure(const pir_mesh *mesh);
 
 /*
- * Writes the body as one <g> element, its centre at (x, y) of the picture and `scale` picture units for one radius. Bodies
- * drawn to one scale have scale proportional to radius.
+ * Writes the body as one <g> element, its centre at (x, y) of the picture and `scale` picture units for one radius.
+ * Bodies drawn to one scale have scale proportional to radius.
  */
 void pir_svg_write_body(FILE *file, const struct pir_svg_body *body, double x, double y, double scale);
 
-/* The width of a legend of these kinds, and the legend itself, its upper left corner at (x, y), PIR_SVG_LEGEND_HEIGHT high. */
+/* The width of a legend of these kinds, and the legend itself, its upper left corner at (x, y), PIR_SVG_LEGEND_HEIGHT
+ * high. */
 #define PIR_SVG_LEGEND_HEIGHT 20.0
 double pir_svg_legend_width(unsigned kinds);
 void pir_svg_write_legend(FILE *file, unsigned kinds, double x, double y);

@@ -87,6 +87,25 @@ typedef struct pir_polytope_parts {
 pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocator *allocator,
                               pir_polytope **ret_polytope);
 
+/* Points as integers on one scale: what a hull is built from. */
+struct pir_exact_points {
+    pir_vectors vectors;
+    pir_scale scale;
+};
+
+/* The points are finite, `count` > 0 and below 2^30. PIR_ERR_MEMORY, PIR_ERR_LIMIT (numbers too long), with *exact empty. */
+pir_status pir_exact_points_of_doubles(struct pir_exact_points *exact, const pir_vec3 *points, size_t count,
+                                       const pir_allocator *allocator);
+pir_status pir_exact_points_of_rationals(struct pir_exact_points *exact, const mpq_t *coordinates, size_t count,
+                                         const pir_allocator *allocator);
+void pir_exact_points_finish(struct pir_exact_points *exact, const pir_allocator *allocator);
+
+/* PIR_ERR_ARGUMENT or PIR_ERR_NOT_FINITE when the merge tolerance is none. */
+pir_status pir_polytope_check_options(const pir_polytope_options *options);
+
+/* The hull with its facets merged within the tolerance, or itself where none are; takes the caller's reference of it. */
+pir_status pir_polytope_merge_within(pir_polytope *hull, double tolerance, pir_polytope **ret_polytope);
+
 /* Builds the hull of the points of `parts`, whose last four members are ignored. */
 pir_status pir_polytope_build_hull(const pir_polytope_parts *parts, const pir_allocator *allocator,
                                    pir_polytope **ret_polytope);

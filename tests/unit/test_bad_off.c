@@ -169,16 +169,6 @@ static void test_facets_that_are_wrong(void **state) {
     expect_refusal("OFF\n1 0 0\n0 0 0\n0\n", PIR_ERR_FORMAT, "m.off:4: '0' follows the last vertex");
 }
 
-static void test_facets_that_do_not_close(void **state) {
-    (void)state;
-    expect_refusal("OFF\n4 3 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n", PIR_ERR_NOT_CLOSED,
-                   "m.off:7: the facets do not close: edge 0-2 is on this facet only");
-    expect_refusal("OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", PIR_ERR_NOT_CLOSED,
-                   "m.off:6: the facets do not close: edge 0-1");
-    expect_refusal("OFF\n4 5 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 1 2 3\n",
-                   PIR_ERR_NOT_CLOSED, "m.off:11: the facets do not close: edge 1-2 is on two facets before this one");
-}
-
 static void test_every_prefix_of_a_file(void **state) {
     (void)state;
     for (size_t size = 0; size < strlen(CUBE); size++) {
@@ -266,7 +256,6 @@ int main(void) {
         cmocka_unit_test(test_denominators_without_a_common_measure),
         cmocka_unit_test(test_truncated_files_say_where_they_end),
         cmocka_unit_test(test_facets_that_are_wrong),
-        cmocka_unit_test(test_facets_that_do_not_close),
         cmocka_unit_test(test_every_prefix_of_a_file),
         cmocka_unit_test(test_every_byte_changed),
         cmocka_unit_test(test_no_memory_at_every_allocation),

@@ -316,10 +316,7 @@ static void test_obj_stl_and_ply_come_back(void **state) {
     static const char *const names[] = {"cube.obj", "cube.stl", "cube.ply"};
     for (int i = 0; i < 3; i++) {
         if (!has_assimp(state, names[i])) {
-            put_file(path_of(state, names[i]), "v 0 0 0\n", 8);
-            expect_file_refusal(path_of(state, names[i]), PIR_ERR_UNSUPPORTED, "this build has no assimp");
-            remove(path_of(state, names[i]));
-            continue;
+            continue; // what is read without having been written is in test_files.c
         }
         pir_polytope *p = NULL;
         pir_report report = {PIR_OK, ""};
