@@ -13,13 +13,15 @@
 #include "message.h"
 #include "model.h"
 #include "pose.h"
+#include "surface.h"
 #include "target.h"
 #include "text.h"
 
 struct outcome {
     pir_cgm *cgm;
     pir_mesh *mesh;
-    double seconds; /* from the polytopes to the mesh */
+    pir_surface surfaces[2]; /* of P and Q as given */
+    double seconds;          /* from the polytopes to the mesh */
 };
 
 static pir_status compute(pir_polytope *p, pir_polytope *q, pir_quat rotation, struct outcome *outcome) {
@@ -67,6 +69,7 @@ static bool print_json(const struct args *args, const struct outcome *outcome) {
     json_add_number(&json, mesh, "edges", pir_mesh_edge_count(outcome->mesh));
     json_add_number(&json, mesh, "facets", pir_mesh_facet_count(outcome->mesh));
     json_add_number(&json, json.root, "seconds", outcome->seconds);
+    surface_add_inputs(&json, outcome->surfaces, args->positional_count);
     return json_print(&json, stdout);
 }
 
@@ -79,6 +82,7 @@ static void print_text(const struct args *args, const struct outcome *outcome) {
     text_time(outcome->seconds * 1e9, time);
     printf("cubical Gaussian map of %s", args->positional[0]);
     printf(args->positional_count > 1 ? " and %s\n" : "\n", args->positional[1]);
+    surface_print_notes(outcome->surfaces, args->positional_count);
     printf("  %-10s %8s %10s %8s\n", "map", "vertices", "halfedges", "faces");
     for (uint32_t map = 0; map < 6; map++)
         print_counts(pir_cgm_map_name(map), pir_cgm_map_counts(outcome->cgm, map));
@@ -92,8 +96,8 @@ static void print_text(const struct args *args, const struct outcome *outcome) {
 }
 
 /* P, reflected when the difference is asked for, and Q when there is one; false after a complaint. */
-static bool load(const struct args *args, pir_polytope **p, pir_polytope **q) {
-    *p = model_load(args, args->positional[0]);
+static bool load(const struct args *args, struct outcome *outcome, pir_polytope **p, pir_polytope **q) {
+    *p = model_load(args, 0, &outcome->surfaces[0]);
     if (*p && args_has(args, "--difference")) {
         pir_polytope *reflected = NULL;
         pir_status status = pir_polytope_reflect(*p, &reflected);
@@ -103,7 +107,7 @@ static bool load(const struct args *args, pir_polytope **p, pir_polytope **q) {
             complain_status("cgm", status, NULL);
     }
     if (*p && args->positional_count > 1)
-        *q = model_load(args, args->positional[1]);
+        *q = model_load(args, 1, &outcome->surfaces[1]);
     return *p && (*q || args->positional_count == 1);
 }
 
@@ -114,7 +118,7 @@ int cmd_cgm(const struct args *args) {
     pir_polytope *p = NULL, *q = NULL;
     const char *path = args_value(args, "-o");
     int result = EXIT_BAD_INPUT;
-    if (!pose_read(args, &rotation) || !target_check(args, "-o", ".svg") || !load(args, &p, &q))
+    if (!pose_read(args, &rotation) || !target_check(args, "-o", ".svg") || !load(args, &outcome, &p, &q))
         goto done;
     if (path && !output_open(&file, path))
         goto done;

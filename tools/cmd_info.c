@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* pirouette info: what the exact convex hull of a model is. */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 
 #include "args.h"
@@ -8,10 +9,11 @@
 #include "json.h"
 #include "message.h"
 #include "model.h"
+#include "surface.h"
 #include "text.h"
 
 /* `merged`: whether merging was asked for. */
-static bool print_json(const char *model, const pir_polytope *polytope, bool merged) {
+static bool print_json(const char *model, const pir_polytope *polytope, const pir_surface *surface, bool merged) {
     pir_vec3 low, high;
     pir_polytope_bounds(polytope, &low, &high);
     struct json json = json_new();
@@ -26,6 +28,7 @@ static bool print_json(const char *model, const pir_polytope *polytope, bool mer
     json_add_number(&json, json.root, "volume", pir_polytope_volume(polytope));
     if (merged)
         json_add_number(&json, json.root, "merge_bound", pir_polytope_merge_bound(polytope));
+    surface_add_json(&json, json.root, "input", surface);
     return json_print(&json, stdout);
 }
 
@@ -36,7 +39,16 @@ static void print_range(const char *axis, double low, double high) {
     printf("  %-10s %s to %s\n", axis, from, to);
 }
 
-static void print_text(const char *model, const pir_polytope *polytope, bool merged) {
+static void print_input(const pir_surface *surface) {
+    char text[SURFACE_TEXT], volume[TEXT_NUMBER];
+    printf("  %-10s %s, %s\n", "as given", surface_text(surface, text), surface->convex ? "convex" : "not convex");
+    if (isnan(surface->volume))
+        return;
+    text_double(surface->volume, volume);
+    printf("  %-10s volume %s\n", "", volume);
+}
+
+static void print_text(const char *model, const pir_polytope *polytope, const pir_surface *surface, bool merged) {
     pir_vec3 low, high;
     pir_polytope_bounds(polytope, &low, &high);
     char volume[TEXT_NUMBER];
@@ -54,17 +66,19 @@ static void print_text(const char *model, const pir_polytope *polytope, bool mer
         text_double(pir_polytope_merge_bound(polytope), volume);
         printf("  %-10s within %s of the hull\n", "merged", volume);
     }
+    print_input(surface);
 }
 
 int cmd_info(const struct args *args) {
     const char *model = args->positional[0];
-    pir_polytope *polytope = model_load(args, model);
+    pir_surface surface;
+    pir_polytope *polytope = model_load(args, 0, &surface);
     if (!polytope)
         return EXIT_BAD_INPUT;
     int result = EXIT_DONE;
     if (!args_has(args, "--json"))
-        print_text(model, polytope, args_has(args, "--merge"));
-    else if (!print_json(model, polytope, args_has(args, "--merge")))
+        print_text(model, polytope, &surface, args_has(args, "--merge"));
+    else if (!print_json(model, polytope, &surface, args_has(args, "--merge")))
         result = EXIT_BAD_INPUT;
     pir_polytope_release(polytope);
     return result;

@@ -16,6 +16,7 @@
 #include "pose.h"
 #include "query_batch.h"
 #include "query_picture.h"
+#include "surface.h"
 #include "target.h"
 
 struct request {
@@ -23,6 +24,7 @@ struct request {
     pir_query_input input;
     bool has_direction, casts;
     pir_vec3 direction, motion;
+    pir_surface surfaces[2]; /* of P and Q as given */
 };
 
 struct answer {
@@ -161,6 +163,7 @@ static bool print_json(const struct args *args, const struct request *request, c
     add_witness(&json, json.root, &result->witness);
     json_add_number(&json, json.root, "steps", result->steps);
     json_add_number(&json, json.root, "seconds", answer->seconds);
+    surface_add_inputs(&json, request->surfaces, 2);
     return json_print(&json, stdout);
 }
 
@@ -173,6 +176,7 @@ static void print_text(const struct args *args, const struct request *request, c
     char kind[3];
     witness_kind(&result->witness, kind);
     printf("%s against %s: %s\n", args->positional[0], args->positional[1], state_names[result->state]);
+    surface_print_notes(request->surfaces, 2);
     if (result->state == PIR_INSIDE)
         printf("  %-12s %.17g\n", "depth", -result->distance);
     else
@@ -218,9 +222,9 @@ int cmd_query(const struct args *args) {
     int result = EXIT_BAD_INPUT;
     pir_sum *sum = NULL;
     pir_query *query = NULL;
-    pir_polytope *q = NULL, *p = model_load(args, args->positional[0]);
+    pir_polytope *q = NULL, *p = model_load(args, 0, &request.surfaces[0]);
     if (p)
-        q = model_load(args, args->positional[1]);
+        q = model_load(args, 1, &request.surfaces[1]);
     if (!p || !q)
         goto done;
     pir_sum_options options = pir_sum_options_default();

@@ -10,6 +10,7 @@
 #include "message.h"
 #include "model.h"
 #include "pose.h"
+#include "surface.h"
 #include "target.h"
 #include "text.h"
 
@@ -28,6 +29,7 @@ struct outcome {
     pir_sum *sum;
     pir_mesh *mesh;
     double seconds;
+    pir_surface surfaces[2]; /* of P and Q as given */
 };
 
 static bool read_request(const struct args *args, struct request *request) {
@@ -96,6 +98,7 @@ static bool print_json(const struct args *args, const struct request *request, c
     json_add_number(&json, json.root, "ee", pir_sum_ee_count(outcome->sum));
     json_add_text(&json, json.root, "method", method_names[request->method]);
     json_add_number(&json, json.root, "seconds", outcome->seconds);
+    surface_add_inputs(&json, outcome->surfaces, 2);
     return json_print(&json, stdout);
 }
 
@@ -104,6 +107,7 @@ static void print_text(const struct args *args, const struct request *request, c
     text_time(outcome->seconds * 1e9, time);
     printf("%s of %s and %s\n", request->options.difference ? "difference" : "sum", args->positional[0],
            args->positional[1]);
+    surface_print_notes(outcome->surfaces, 2);
     printf("  %-10s %" PRIu32 "\n", "vertices", pir_mesh_vertex_count(outcome->mesh));
     printf("  %-10s %" PRIu32 "\n", "edges", pir_mesh_edge_count(outcome->mesh));
     printf("  %-10s %" PRIu32 "\n", "facets", pir_mesh_facet_count(outcome->mesh));
@@ -123,9 +127,9 @@ int cmd_sum(const struct args *args) {
     struct output_file file = {0};
     const char *path = args_value(args, "-o");
     int result = EXIT_BAD_INPUT;
-    pir_polytope *q = NULL, *p = model_load(args, args->positional[0]);
+    pir_polytope *q = NULL, *p = model_load(args, 0, &outcome.surfaces[0]);
     if (p)
-        q = model_load(args, args->positional[1]);
+        q = model_load(args, 1, &outcome.surfaces[1]);
     if (!p || !q || (path && !output_open(&file, path)))
         goto done;
 

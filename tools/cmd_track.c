@@ -97,9 +97,9 @@ int cmd_track(const struct args *args) {
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
     int status = EXIT_BAD_INPUT;
-    pir_polytope *q = NULL, *p = model_load(args, request.p);
+    pir_polytope *q = NULL, *p = model_load(args, 0, &request.surfaces[0]);
     if (p)
-        q = model_load(args, request.q);
+        q = model_load(args, 1, &request.surfaces[1]);
     if (p && q && track_run(&request, p, q, &result)) {
         status = result.mismatches ? EXIT_CHECK_FAILED : EXIT_DONE;
         if (args_has(args, "--json"))

@@ -15,12 +15,11 @@
 /* Rows that the options of every subcommand but help end with. */
 #define COMMON_OPTIONS {"--json", NULL, "print one JSON object"}, HELP_OPTION
 
-/* How models are read; model.c reads it. */
-#define MODEL_OPTION                                                                                                   \
-    {                                                                                                                  \
-        "--merge", "T",                                                                                                \
-            "make facets of a model one that are coplanar within this length, as far as it moves no more (0)"          \
-    }
+/* The same of every subcommand that takes models; model.c reads how. */
+#define MODEL_OPTIONS                                                                                                  \
+    {"--merge", "T",                                                                                                   \
+     "make facets of a model one that are coplanar within this length, as far as it moves no more (0)"},               \
+        {"--require-convex", NULL, "refuse a model that is not convex, rather than take its hull"}, COMMON_OPTIONS
 
 /* One rotation; pose.c reads them. */
 #define POSE_OPTIONS                                                                                                   \
@@ -44,14 +43,13 @@ const struct option command_options[] = {
     {NULL, NULL, NULL},
 };
 
-static const struct option info_options[] = {MODEL_OPTION, COMMON_OPTIONS};
+static const struct option info_options[] = {MODEL_OPTIONS};
 
 static const struct option cgm_options[] = {
     POSE_OPTIONS,
     {"--difference", NULL, "reflect P through the origin before it is turned"},
     {"-o", "FILE", "draw the unfolded cube to FILE, .svg: arcs of P red, of Q blue, of both violet"},
-    MODEL_OPTION,
-    COMMON_OPTIONS,
+    MODEL_OPTIONS,
 };
 
 static const struct option shape_options[] = {
@@ -68,8 +66,7 @@ static const struct option sum_options[] = {
      "by walking the Gaussian maps (default), by overlaying the cubical ones, or as the hull of all sums"},
     {"--exact", NULL, "exact coordinates; in .off: integers and a/b instead of doubles"},
     {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg"},
-    MODEL_OPTION,
-    COMMON_OPTIONS,
+    MODEL_OPTIONS,
 };
 
 static const struct option track_options[] = {
@@ -89,8 +86,7 @@ static const struct option track_options[] = {
     {"--exact", NULL, "dump frames in rationals alone, into DIR"},
     {"--every", "K", "dump frames 0, K, 2K, ... (1)"},
     {"--plot", "FILE.svg", "draw update and rebuild time over frames"},
-    MODEL_OPTION,
-    COMMON_OPTIONS,
+    MODEL_OPTIONS,
 };
 
 static const struct option query_options[] = {
@@ -102,8 +98,7 @@ static const struct option query_options[] = {
     {"--radius-q", "R", "round Q"},
     {"--batch", "FILE.csv", "many placements: a translation x,y,z a line; answers go to -o; - is standard input"},
     {"-o", "FILE", "a picture of both bodies with the answer drawn, .svg; with --batch the answers, .csv"},
-    MODEL_OPTION,
-    COMMON_OPTIONS,
+    MODEL_OPTIONS,
 };
 
 static const struct option help_options[] = {HELP_OPTION};
@@ -114,7 +109,8 @@ const struct command command_table[COMMAND_COUNT] = {
             .name = "info",
             .positional = {"MODEL"},
             .required = 1,
-            .summary = "vertices, edges, facets of a model's exact convex hull, its bounds and volume",
+            .summary = "vertices, edges, facets of a model's exact convex hull, its bounds and volume, and what the "
+                       "model is before its hull is taken",
             .options = info_options,
             .examples = {{"info shape:icosahedron", "the counts, bounds and volume of a built-in model"}},
         },

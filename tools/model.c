@@ -7,6 +7,7 @@
 
 #include "input.h"
 #include "message.h"
+#include "surface.h"
 
 static const char *shape_of(const char *model) {
     size_t length = strlen(MODEL_SHAPE);
@@ -14,25 +15,27 @@ static const char *shape_of(const char *model) {
 }
 
 /* OFF from standard input. */
-static pir_polytope *load_stdin(const pir_polytope_options *options) {
-    pir_polytope *polytope = NULL;
-    pir_report report = {0};
+static pir_status read_stdin(const pir_read_options *options, pir_report *report, pir_surface *ret_surface,
+                             pir_polytope **ret_polytope) {
     size_t size;
     char *text = input_take() ? input_read(&size) : NULL;
     if (!text)
-        return NULL;
-    pir_status status = pir_polytope_read_off(text, size, INPUT_NAME, options, &report, &polytope);
+        return PIR_ERR_FILE; // complained of
+    pir_status status =
+        pir_polytope_read_bytes(text, size, INPUT_NAME, "off", options, report, ret_surface, ret_polytope);
     if (status != PIR_OK)
-        complain_status(INPUT_NAME, status, &report);
+        complain_status(INPUT_NAME, status, report);
     free(text);
-    return polytope;
+    return status;
 }
 
-/* A built-in model; its coordinates are doubles, so that its vertices say all of it. */
+/* A built-in model, which is convex; its coordinates are doubles, so that its vertices say all of it. */
 static pir_status make_shape(const char *name, const pir_polytope_options *options, pir_report *report,
-                             pir_polytope **ret_polytope) {
+                             pir_surface *ret_surface, pir_polytope **ret_polytope) {
     pir_polytope *shape = NULL;
     pir_status status = pir_shape_create(name, NULL, report, &shape);
+    if (status == PIR_OK)
+        *ret_surface = surface_of_hull(shape);
     if (status != PIR_OK || options->merge_tolerance == 0) {
         *ret_polytope = shape;
         return status;
@@ -47,21 +50,29 @@ static pir_status make_shape(const char *name, const pir_polytope_options *optio
     return status;
 }
 
-pir_polytope *model_load(const struct args *args, const char *model) {
-    pir_polytope_options options = pir_polytope_options_default();
-    if (!args_numbers(args, "--merge", 1, &options.merge_tolerance))
-        return NULL;
-    if (options.merge_tolerance < 0) {
-        complain("%s: --merge: %g is below 0", args->command->name, options.merge_tolerance);
-        return NULL;
-    }
-    if (input_is_stdin(model))
-        return load_stdin(&options);
+/* --merge and --require-convex; false after a complaint. */
+static bool read_options(const struct args *args, pir_read_options *options) {
+    *options = pir_read_options_default();
+    options->require_convex = args_has(args, "--require-convex");
+    if (!args_numbers(args, "--merge", 1, &options->polytope.merge_tolerance))
+        return false;
+    if (options->polytope.merge_tolerance >= 0)
+        return true;
+    complain("%s: --merge: %g is below 0", args->command->name, options->polytope.merge_tolerance);
+    return false;
+}
+
+pir_polytope *model_load(const struct args *args, size_t index, pir_surface *ret_surface) {
+    const char *model = args->positional[index], *shape = shape_of(model);
     pir_polytope *polytope = NULL;
     pir_report report = {0};
-    const char *shape = shape_of(model);
-    pir_status status = shape ? make_shape(shape, &options, &report, &polytope)
-                              : pir_polytope_read(model, &options, &report, &polytope);
+    pir_read_options options;
+    if (!read_options(args, &options))
+        return NULL;
+    if (input_is_stdin(model))
+        return read_stdin(&options, &report, ret_surface, &polytope) == PIR_OK ? polytope : NULL;
+    pir_status status = shape ? make_shape(shape, &options.polytope, &report, ret_surface, &polytope)
+                              : pir_polytope_read_surface(model, &options, &report, ret_surface, &polytope);
     if (status != PIR_OK)
         complain_status(model, status, &report);
     return status == PIR_OK ? polytope : NULL;

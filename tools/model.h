@@ -10,8 +10,12 @@
 /* The prefix of built-in models. */
 #define MODEL_SHAPE "shape:"
 
-/* The polytope, its facets merged within --merge where that is given, to be released; NULL after a complaint. */
-pir_polytope *model_load(const struct args *args, const char *model);
+/*
+ * The polytope of positional argument `index`, its facets merged within --merge where that is given, to be released; and
+ * what the model was before its hull was taken. NULL after a complaint, also about a model that is not convex where
+ * --require-convex was given.
+ */
+pir_polytope *model_load(const struct args *args, size_t index, pir_surface *ret_surface);
 
 /* The name for titles: the file's without its folders. Points into `model`. */
 const char *model_title(const char *model);

@@ -9,7 +9,8 @@
 #include "times.h"
 
 struct track_request {
-    const char *p, *q; /* the models as they were named */
+    const char *p, *q;       /* the models as they were named */
+    pir_surface surfaces[2]; /* and as they were given */
     uint64_t frames, steps, seed;
     bool random; /* random axes from seed, or else `axis` */
     pir_vec3 axis;

@@ -8,6 +8,7 @@
 #include "model.h"
 #include "motion.h"
 #include "plot.h"
+#include "surface.h"
 #include "text.h"
 #include "track.h"
 
@@ -25,6 +26,7 @@ static double asked(const pir_sum_statistics *did) {
 static void add_request(struct json *json, const struct track_request *request, const struct track_result *result) {
     json_add_text(json, json->root, "p", request->p);
     json_add_text(json, json->root, "q", request->q);
+    surface_add_inputs(json, request->surfaces, 2);
     json_add_count(json, json->root, "frames", result->frames);
     json_add_count(json, json->root, "steps", request->steps);
     if (request->random)
@@ -139,6 +141,7 @@ static void print_work(const struct track_result *result) {
 
 void track_print_text(const struct track_request *request, const struct track_result *result) {
     print_motion(request, result);
+    surface_print_notes(request->surfaces, 2);
     print_times(request, result);
     print_work(result);
     if (request->tolerance > 0)

@@ -60,8 +60,7 @@ static pir_status check_arguments(const void *points, size_t count, const pir_po
 
 pir_status pir_polytope_merge_within(pir_polytope *hull, double tolerance, pir_polytope **ret_polytope) {
     pir_polytope *merged = NULL;
-    pir_status status =
-        tolerance > 0 && hull->dimension == 3 ? pir_polytope_merge(hull, tolerance, &merged) : PIR_OK;
+    pir_status status = tolerance > 0 && hull->dimension == 3 ? pir_polytope_merge(hull, tolerance, &merged) : PIR_OK;
     if (status != PIR_OK || merged)
         pir_polytope_release(hull);
     if (status == PIR_OK)

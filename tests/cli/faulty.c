@@ -96,13 +96,14 @@ __attribute__((constructor)) static void start(void) {
 MAY_FAIL(pir_shape_create,
          (const char *name, const pir_allocator *allocator, pir_report *report, pir_polytope **ret_polytope),
          (name, allocator, report, ret_polytope))
-MAY_FAIL(pir_polytope_read,
-         (const char *path, const pir_allocator *allocator, pir_report *report, pir_polytope **ret_polytope),
-         (path, allocator, report, ret_polytope))
-MAY_FAIL(pir_polytope_read_off,
-         (const char *text, size_t size, const char *name, const pir_allocator *allocator, pir_report *report,
+MAY_FAIL(pir_polytope_read_surface,
+         (const char *path, const pir_read_options *options, pir_report *report, pir_surface *ret_surface,
           pir_polytope **ret_polytope),
-         (text, size, name, allocator, report, ret_polytope))
+         (path, options, report, ret_surface, ret_polytope))
+MAY_FAIL(pir_polytope_read_bytes,
+         (const void *bytes, size_t size, const char *name, const char *format, const pir_read_options *options,
+          pir_report *report, pir_surface *ret_surface, pir_polytope **ret_polytope),
+         (bytes, size, name, format, options, report, ret_surface, ret_polytope))
 MAY_FAIL(pir_polytope_reflect, (const pir_polytope *polytope, pir_polytope **ret_polytope), (polytope, ret_polytope))
 MAY_FAIL(pir_mesh_from_polytope, (const pir_polytope *polytope, pir_mesh **ret_mesh), (polytope, ret_mesh))
 MAY_FAIL(pir_mesh_write_stream,

@@ -12,6 +12,7 @@ class Info(CommandTest):
         self.assertEqual(self.data("info", "shape:box?x=1&y=2&z=0.5"), {
             "model": "shape:box?x=1&y=2&z=0.5", "dimension": 3, "vertices": 8, "edges": 12, "facets": 6,
             "bounds": {"low": [-0.5, -1, -0.25], "high": [0.5, 1, 0.25]}, "volume": 1,
+            "input": {"surface": "closed", "convex": True, "points": 8, "facets": 6, "volume": 1},
         })
         pyramid = self.data("info", self.pyramid)
         self.assertEqual([pyramid[k] for k in ("dimension", "vertices", "edges", "facets")], [3, 5, 8, 5])
