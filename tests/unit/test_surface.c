@@ -98,6 +98,15 @@ static void test_a_cube_in_every_way(void **state) {
                PIR_SURFACE_OPEN, 0, 1);
 }
 
+static void test_facets_of_one_place_or_two(void **state) {
+    (void)state;
+    // points 8 and 9 are where 0 is: a facet of one place, and one that goes to 1 and back
+    expect_off("OFF\n10 8 0\n" CUBE_POINTS "0 0 0\n0 0 0\n" CUBE_FACETS "4 3 0 4 7\n3 0 8 9\n3 0 1 8\n",
+               PIR_SURFACE_CLOSED, 1, 1);
+    // nothing else is there
+    expect_off("OFF\n3 1 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 2\n", PIR_SURFACE_CLOSED, 1, 0);
+}
+
 static void test_what_is_not_convex(void **state) {
     (void)state;
     // twice the same; a cavity; a prism over an L; two cubes that touch along an edge
@@ -354,6 +363,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_cube_in_every_way),
+        cmocka_unit_test(test_facets_of_one_place_or_two),
         cmocka_unit_test(test_what_is_not_convex),
         cmocka_unit_test(test_facets_that_rounding_bends),
         cmocka_unit_test(test_points_and_flat_bodies),
