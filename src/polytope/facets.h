@@ -21,7 +21,7 @@ struct pir_facets {
     uint32_t point_count, place_count; /* different places */
     uint32_t *place;                   /* per point: the first point at the same place */
     uint32_t count;
-    uint32_t *start, *corner; /* per facet: its corners as places, no two in a row equal; none when all are */
+    uint32_t *start, *corner; /* per facet: three or more corners as places, no two in a row equal; or none */
     uint32_t corner_room;
 
     enum pir_joining joining;

@@ -173,8 +173,7 @@ static bool is_on_one(struct pir_on_hull *on, const uint32_t *corner, uint32_t c
 
 enum pir_on_hull_answer pir_on_hull_add(struct pir_on_hull *on, const uint32_t *corner, uint32_t count, bool turned,
                                         struct pir_six_volumes *volumes) {
-    // a facet of one place or of two encloses nothing, and its edges cancel
-    if (count < 3)
+    if (count == 0)
         return PIR_IS_ON_HULL;
     if (!find_corners(on, corner, count))
         return PIR_IS_OFF_HULL;

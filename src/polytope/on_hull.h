@@ -54,7 +54,7 @@ uint32_t pir_on_hull_facet(const struct pir_on_hull *on, uint32_t point, uint32_
 
 enum pir_on_hull_answer { PIR_IS_ON_HULL, PIR_IS_OFF_HULL, PIR_ON_HULL_NO_MEMORY };
 
-/* Whether a polygon lies in the boundary, as one of less than three corners does; then its parts are added to `volumes`. */
+/* Whether a polygon lies in the boundary, as one without corners does; then its parts are added to `volumes`. */
 enum pir_on_hull_answer pir_on_hull_add(struct pir_on_hull *on, const uint32_t *corner, uint32_t count, bool turned,
                                         struct pir_six_volumes *volumes);
 

@@ -362,14 +362,10 @@ static void test_random_bodies(void **state) {
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_cube_in_every_way),
-        cmocka_unit_test(test_facets_of_one_place_or_two),
-        cmocka_unit_test(test_what_is_not_convex),
-        cmocka_unit_test(test_facets_that_rounding_bends),
-        cmocka_unit_test(test_points_and_flat_bodies),
-        cmocka_unit_test(test_facets_that_face_no_side),
-        cmocka_unit_test(test_every_format_tells_the_same),
-        cmocka_unit_test(test_random_bodies),
+        cmocka_unit_test(test_a_cube_in_every_way),         cmocka_unit_test(test_facets_of_one_place_or_two),
+        cmocka_unit_test(test_what_is_not_convex),          cmocka_unit_test(test_facets_that_rounding_bends),
+        cmocka_unit_test(test_points_and_flat_bodies),      cmocka_unit_test(test_facets_that_face_no_side),
+        cmocka_unit_test(test_every_format_tells_the_same), cmocka_unit_test(test_random_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
