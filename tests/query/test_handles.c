@@ -22,7 +22,7 @@
 #include "support/memory.h"
 #include "support/sum_bytes.h"
 
-#define PROGRAMS      150
+#define PROGRAMS      100
 #define PROGRAM_BYTES 1500
 
 static const pir_quat still = {0, 0, 0, 1};

@@ -65,8 +65,8 @@ static pir_query_result ask(struct scene *scene, double x, double y, double z) {
     double dx = r.point_p.x - r.point_q.x - r.distance * r.normal.x,
            dy = r.point_p.y - r.point_q.y - r.distance * r.normal.y;
     double dz = r.point_p.z - r.point_q.z - r.distance * r.normal.z;
-    double size = 1 + fabs(x) + fabs(y) + fabs(z) + fabs(r.distance) + fabs(r.point_q.x) + fabs(r.point_q.y) +
-                  fabs(r.point_q.z);
+    double size =
+        1 + fabs(x) + fabs(y) + fabs(z) + fabs(r.distance) + fabs(r.point_q.x) + fabs(r.point_q.y) + fabs(r.point_q.z);
     assert_true(sqrt(dx * dx + dy * dy + dz * dz) <= 1e-12 * size);
     assert_true(r.outcome != PIR_STEP_LIMIT);
     return r;
