@@ -135,6 +135,56 @@ static void casts_slide_along_a_face_at_any_gap(void **state) {
     clear(&pair);
 }
 
+/* A motion that ends on the face hits it, and one that is shorter by the last bit does not. */
+static void casts_end_where_they_end(void **state) {
+    (void)state;
+    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    for (int i = 0; i <= 40; i++) {
+        double gap = ldexp(1, -i);
+        pir_query_input input = at(0.125, 0.25, 1 + gap);
+        const double lengths[3] = {nextafter(gap, 0), gap, nextafter(gap, 2)};
+        for (int k = 0; k < 3; k++) {
+            pir_cast_result cast;
+            assert_int_equal(pir_query_cast(pair.query, &input, (pir_vec3){0, 0, -lengths[k]}, &cast), PIR_OK);
+            assert_int_equal(cast.outcome, k > 0 ? PIR_CAST_HIT : PIR_CAST_MISS);
+            assert_true(k == 2 ? cast.time > 1 - 1e-15 && cast.time <= 1 : cast.time == 1);
+        }
+    }
+    clear(&pair);
+}
+
+/* A motion of a box that is turned on the way, its rotation given by quaternions of all sizes. */
+static void advances_take_rotations_of_any_size(void **state) {
+    (void)state;
+    const double sizes[4] = {1, 3, 0x1p-1000, 0x1p1000}, half[3] = {0.5, 0.25, 1};
+    for (int axis = 0; axis < 3; axis++)
+        for (int i = 0; i < 4; i++) {
+            struct pair pair = make(box(half[0], half[1], half[2]), box(1, 1, 1), still);
+            double part[3] = {0, 0, 0}, s = sizes[i];
+            part[axis] = s;
+            pir_motion motion = {.rotation = {part[0], part[1], part[2], s}, .axis = {axis == 0, axis == 1, axis == 2}};
+            // a quarter turn about the axis brings the one after next to the next
+            int next = (axis + 1) % 3, other = (axis + 2) % 3;
+            double start[3] = {0, 0, 0};
+            start[next] = 5;
+            motion.start = (pir_vec3){start[0], start[1], start[2]};
+            motion.motion = (pir_vec3){-start[0], -start[1], -start[2]};
+            pir_cast_result cast;
+            assert_int_equal(pir_query_advance(pair.query, &motion, 1e-9, &cast), PIR_OK);
+            expect(cast.outcome == PIR_CAST_HIT && fabs(5 - 5 * cast.time - 1 - half[other]) < 1e-8,
+                   "axis %d, size %g: time %.17g", axis, s, cast.time);
+            // turning on, either way, the box reaches as far
+            motion.angle = -0.25;
+            assert_int_equal(pir_query_advance(pair.query, &motion, 1e-9, &cast), PIR_OK);
+            double angle = 0.25 * cast.time;
+            expect(cast.outcome == PIR_CAST_HIT &&
+                       fabs(5 - 5 * cast.time - 1 - half[other] * cos(angle) - half[next] * sin(angle)) < 1e-8,
+                   "axis %d, size %g, turning: time %.17g", axis, s, cast.time);
+            assert_true(cast.steps < 10000);
+            clear(&pair);
+        }
+}
+
 static void lines_leave_by_facets_that_they_are_nearly_along(void **state) {
     (void)state;
     struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
@@ -191,6 +241,8 @@ int main(void) {
         cmocka_unit_test(a_cube_on_its_edge_touches_where_both_are),
         cmocka_unit_test(the_least_faces_are_named),
         cmocka_unit_test(casts_slide_along_a_face_at_any_gap),
+        cmocka_unit_test(casts_end_where_they_end),
+        cmocka_unit_test(advances_take_rotations_of_any_size),
         cmocka_unit_test(lines_leave_by_facets_that_they_are_nearly_along),
         cmocka_unit_test(any_cache_gives_the_same_bits),
     };

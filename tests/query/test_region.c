@@ -54,6 +54,15 @@ static void scene_clear(struct scene *s) {
     pir_polytope_release(s->p);
 }
 
+/* A cache that names any piece, kept by the sum, dormant or none at all. */
+static pir_query_cache any_piece(test_random *random) {
+    uint32_t most = test_random_below(random, 4) ? 40 : UINT32_MAX;
+    return (pir_query_cache){.pieces = 1,
+                             .kind = test_random_below(random, 4),
+                             .first = test_random_below(random, most),
+                             .second = test_random_below(random, most)};
+}
+
 /* The least depth among the whole sum's facets in the cone about unit `axis`, from above and from below where the rim leaves it open. */
 static void least_in_cone(struct scene *s, const pir_query_input *input, double size, pir_vec3 axis, double half_angle,
                           double *ret_least, double *ret_most) {
@@ -176,6 +185,8 @@ static void depth_in_a_region_is_the_least_of_its_facets(void **state) {
             t = (pir_vec3){(low[1].x + high[1].x) / 2, (low[1].y + high[1].y) / 2, (low[1].z + high[1].z) / 2};
             double along = size * 0.3 * (double)(frame % 5 - 1) / 2;
             t = (pir_vec3){t.x + along * axis.x, t.y + along * axis.y, t.z + along * axis.z};
+            if (frame % 4 == 3)
+                cache = any_piece(&random);
             ask(&s, t, axis, half_angle, &cache, size, pose.situation);
         }
         scene_clear(&s);

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What queries refuse: every call with every input that it cannot take. A refusal names what is wrong by its status,
+ * and leaves all results as they were.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include <pirouette/query.h>
+
+#include "query/query_of.h"
+
+static const pir_quat still = {0, 0, 0, 1};
+static const pir_vec3 right = {1, 0, 0};
+
+struct scene {
+    pir_polytope *cube;
+    pir_sum *sum;
+    pir_query *query;
+};
+
+/* What a call is asked with. */
+struct question {
+    pir_query *query;
+    const pir_query_input *input;
+    pir_vec3 direction;
+    bool without_result;
+};
+
+/* All that calls put out. */
+struct results {
+    pir_query_result result;
+    pir_cast_result cast;
+    pir_escape escape;
+    size_t count;
+};
+
+static struct scene make(void) {
+    struct scene scene;
+    pir_vec3 points[8];
+    for (int i = 0; i < 8; i++)
+        points[i] = (pir_vec3){i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1};
+    assert_int_equal(pir_polytope_create(points, 8, NULL, &scene.cube), PIR_OK);
+    test_query_make(scene.cube, scene.cube, still, &scene.sum, &scene.query);
+    return scene;
+}
+
+static void clear(struct scene *scene) {
+    test_query_free(scene->query, scene->sum);
+    pir_polytope_release(scene->cube);
+}
+
+enum { OVERLAP, DISTANCE, SIGNED_DISTANCE, PENETRATION, LARGEST, ESCAPES, ALONG_DEPTH, ALONG_DISTANCE, CAST, CALLS };
+
+static pir_status call(int which, const struct question *q, struct results *ret) {
+    pir_query_result *result = q->without_result ? NULL : &ret->result;
+    switch (which) {
+    case OVERLAP:
+        return pir_query_overlap(q->query, q->input, NULL, result);
+    case DISTANCE:
+        return pir_query_distance(q->query, q->input, NULL, result);
+    case SIGNED_DISTANCE:
+        return pir_query_signed_distance(q->query, q->input, NULL, result);
+    case PENETRATION:
+        return pir_query_penetration(q->query, q->input, NULL, result);
+    case LARGEST:
+        return pir_query_largest_distance(q->query, q->input, result);
+    case ESCAPES:
+        return pir_query_escapes(q->query, q->input, 0, 1, q->without_result ? NULL : &ret->escape, &ret->count);
+    case ALONG_DEPTH:
+        return pir_query_directional_depth(q->query, q->input, q->direction, result);
+    case ALONG_DISTANCE:
+        return pir_query_directional_distance(q->query, q->input, q->direction, result);
+    default:
+        return pir_query_cast(q->query, q->input, q->direction, q->without_result ? NULL : &ret->cast);
+    }
+}
+
+static void expect_refusal(int which, const struct question *q, pir_status right_status, int number) {
+    struct results results, before;
+    memset(&results, 0x5a, sizeof results);
+    before = results;
+    pir_status status = call(which, q, &results);
+    expect(status == right_status, "call %d, input %d: status %d, not %d", which, number, (int)status,
+           (int)right_status);
+    assert_memory_equal(&results, &before, sizeof before);
+}
+
+static void every_call_refuses_what_is_no_placement(void **state) {
+    (void)state;
+    struct scene s = make();
+    const struct {
+        pir_query_input input;
+        pir_status status;
+    } cases[] = {
+        {{{NAN, 0, 0}, 0, 0, HUGE_VAL, 0}, PIR_ERR_NOT_FINITE},
+        {{{0, NAN, 0}, 0, 0, HUGE_VAL, 0}, PIR_ERR_NOT_FINITE},
+        {{{0, 0, -HUGE_VAL}, 0, 0, 1, 0}, PIR_ERR_NOT_FINITE},
+        {{{0, 0, 0}, NAN, 0, HUGE_VAL, 0}, PIR_ERR_NOT_FINITE},
+        {{{0, 0, 0}, 0, NAN, HUGE_VAL, 0}, PIR_ERR_NOT_FINITE},
+        {{{0, 0, 0}, 0, 0, NAN, 0}, PIR_ERR_NOT_FINITE},
+        {{{0, 0, 0}, -1e-300, 0, HUGE_VAL, 0}, PIR_ERR_ARGUMENT},
+        {{{0, 0, 0}, 0, -1, HUGE_VAL, 0}, PIR_ERR_ARGUMENT},
+        {{{0, 0, 0}, HUGE_VAL, 0, HUGE_VAL, 0}, PIR_ERR_ARGUMENT},
+        {{{0, 0, 0}, 0, HUGE_VAL, 1, 0}, PIR_ERR_ARGUMENT},
+        {{{1e200, 0, 0}, 0, 0, HUGE_VAL, 0}, PIR_ERR_LIMIT},
+        {{{0, 0, -1e200}, 0, 0, HUGE_VAL, 0}, PIR_ERR_LIMIT},
+    };
+    pir_query_input good = pir_query_input_default();
+    for (int which = 0; which < CALLS; which++) {
+        for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+            expect_refusal(which, &(struct question){s.query, &cases[i].input, right, false}, cases[i].status, (int)i);
+        expect_refusal(which, &(struct question){NULL, &good, right, false}, PIR_ERR_ARGUMENT, -1);
+        expect_refusal(which, &(struct question){s.query, NULL, right, false}, PIR_ERR_ARGUMENT, -2);
+        expect_refusal(which, &(struct question){s.query, &good, right, true}, PIR_ERR_ARGUMENT, -3);
+        struct results results;
+        assert_int_equal(call(which, &(struct question){s.query, &good, right, false}, &results), PIR_OK);
+    }
+    clear(&s);
+}
+
+static void directions_have_a_length_and_are_finite(void **state) {
+    (void)state;
+    struct scene s = make();
+    const pir_vec3 wrong[3] = {{NAN, 1, 0}, {1, -HUGE_VAL, 0}, {0, 0, HUGE_VAL}};
+    pir_query_input places[3] = {pir_query_input_default(), pir_query_input_default(), pir_query_input_default()};
+    places[1].translation = (pir_vec3){2, 0, 0};
+    places[2].translation = (pir_vec3){5, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        for (int which = ALONG_DEPTH; which <= CAST; which++)
+            for (int k = 0; k < 3; k++)
+                expect_refusal(which, &(struct question){s.query, &places[i], wrong[k], false}, PIR_ERR_NOT_FINITE, k);
+        struct question none = {s.query, &places[i], {0, -0.0, 0}, false};
+        expect_refusal(ALONG_DEPTH, &none, PIR_ERR_ARGUMENT, 3);
+        expect_refusal(ALONG_DISTANCE, &none, PIR_ERR_ARGUMENT, 3);
+        // a motion may be none
+        struct results results;
+        const pir_cast_outcome outcome[3] = {PIR_CAST_START_INSIDE, PIR_CAST_RECEDING, PIR_CAST_AT_REST};
+        assert_int_equal(call(CAST, &none, &results), PIR_OK);
+        assert_int_equal(results.cast.outcome, outcome[i]);
+    }
+    clear(&s);
+}
+
+static void escapes_have_room_and_a_slack(void **state) {
+    (void)state;
+    struct scene s = make();
+    pir_query_input input = pir_query_input_default();
+    pir_escape escape, before;
+    size_t count = 77;
+    memset(&escape, 0x5a, sizeof escape);
+    before = escape;
+    const double slacks[3] = {-1, -1e-300, NAN};
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(pir_query_escapes(s.query, &input, slacks[i], 1, &escape, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_escapes(s.query, &input, 0, 1, NULL, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_escapes(s.query, &input, 0, 1, &escape, NULL), PIR_ERR_ARGUMENT);
+    assert_true(count == 77);
+    assert_memory_equal(&escape, &before, sizeof before);
+    assert_int_equal(pir_query_escapes(s.query, &input, 0, 0, NULL, &count), PIR_OK);
+    assert_int_equal(count, 6);
+    clear(&s);
+}
+
+/* What came before the translation that is refused stands, and what comes after is as it was. */
+static void batches_end_at_what_they_refuse(void **state) {
+    (void)state;
+    struct scene s = make();
+    const pir_vec3 wrong[2] = {{0, NAN, 0}, {1e200, 0, 0}};
+    const pir_status status[2] = {PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT};
+    for (int i = 0; i < 2; i++) {
+        pir_vec3 t[3] = {{0, 0, 1.5}, wrong[i], {9, 0, 0}};
+        double numbers[3] = {7, 7, 7}, more[3] = {7, 7, 7};
+        const pir_state unset = (pir_state)9;
+        pir_state states[3][3] = {{unset, unset, unset}, {unset, unset, unset}, {unset, unset, unset}};
+        assert_int_equal(pir_query_batch_states(s.query, t, 3, states[0]), status[i]);
+        assert_int_equal(pir_query_batch_depths(s.query, t, 3, numbers, states[1]), status[i]);
+        assert_int_equal(pir_query_batch_distances(s.query, t, 3, more, states[2]), status[i]);
+        assert_true(numbers[0] == 0.5 && more[0] == -0.5);
+        for (int k = 0; k < 3; k++) {
+            assert_true(states[k][0] == PIR_INSIDE && states[k][1] == unset && states[k][2] == unset);
+            assert_true(k == 0 || (numbers[k] == 7 && more[k] == 7));
+        }
+    }
+    double number;
+    pir_state place;
+    assert_int_equal(pir_query_batch_states(NULL, &right, 1, &place), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_batch_states(s.query, NULL, 1, &place), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_batch_states(s.query, &right, 1, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_batch_depths(s.query, &right, 1, NULL, &place), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_batch_distances(s.query, NULL, 1, &number, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_batch_distances(s.query, NULL, 0, &number, NULL), PIR_OK);
+    clear(&s);
+}
+
+static void advances_refuse_what_is_no_motion(void **state) {
+    (void)state;
+    struct scene s = make();
+    const pir_motion good = {
+        .rotation = still, .start = {5, 0, 0}, .motion = {-4, 0, 0}, .axis = {0, 0, 1}, .angle = 1};
+    pir_motion wrong[6] = {good, good, good, good, good, good};
+    wrong[0].start.y = NAN;
+    wrong[1].motion.z = HUGE_VAL;
+    wrong[2].axis.x = -HUGE_VAL;
+    wrong[3].angle = NAN;
+    wrong[4].axis = (pir_vec3){0, 0, 0};
+    wrong[5].rotation = (pir_quat){0, 0, 0, 0};
+    pir_cast_result cast, before;
+    memset(&cast, 0x5a, sizeof cast);
+    before = cast;
+    for (int i = 0; i < 6; i++) {
+        pir_status status = pir_query_advance(s.query, &wrong[i], 0.1, &cast);
+        expect(i < 4 ? status == PIR_ERR_NOT_FINITE : status != PIR_OK && status != PIR_ERR_NOT_FINITE,
+               "motion %d: status %d", i, (int)status);
+    }
+    const double tolerances[4] = {0, -1, NAN, HUGE_VAL};
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(pir_query_advance(s.query, &good, tolerances[i], &cast),
+                         i < 2 ? PIR_ERR_ARGUMENT : PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_query_advance(NULL, &good, 0.1, &cast), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_advance(s.query, NULL, 0.1, &cast), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_advance(s.query, &good, 0.1, NULL), PIR_ERR_ARGUMENT);
+    assert_memory_equal(&cast, &before, sizeof before);
+    // no axis is needed where nothing turns
+    pir_motion plain = good;
+    plain.angle = 0;
+    plain.axis = (pir_vec3){0, 0, 0};
+    assert_int_equal(pir_query_advance(s.query, &plain, 1e-9, &cast), PIR_OK);
+    // 5 − 4t = 2
+    assert_true(cast.outcome == PIR_CAST_HIT && fabs(cast.time - 0.75) < 1e-9);
+    clear(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_call_refuses_what_is_no_placement),
+        cmocka_unit_test(directions_have_a_length_and_are_finite),
+        cmocka_unit_test(escapes_have_room_and_a_slack),
+        cmocka_unit_test(batches_end_at_what_they_refuse),
+        cmocka_unit_test(advances_refuse_what_is_no_motion),
+    };
+    return cmocka_run_group_tests_name("refusals", tests, NULL, NULL);
+}
