@@ -3,8 +3,7 @@
  * That the bodies are apart, proven by a facet of D: one that certainly separates.
  *
  * The slopes of D beside a vertex are known from the pairing, so this proves what a climb, which rounds, does not. The facet that did it last time
- * comes first, then the one of the features that are nearest, then all around the vertices of the simplex: where the nearest point is, one
- * of those does.
+ * comes first, then all around the vertices of the simplex: where the nearest point is, one of those does.
  */
 #include "query/query.h"
 
@@ -16,24 +15,6 @@ static bool try_piece(pir_query *query, const pir_placement *placement, pir_piec
         return false;
     pir_piece_keep(cache, piece);
     return true;
-}
-
-/* The piece of two features, where they make one. */
-static bool try_features(pir_query *query, const pir_placement *placement, const pir_witness *witness,
-                         pir_query_cache *cache) {
-    const pir_sum *sum = query->sum;
-    pir_feature p = witness->p, q = witness->q;
-    if (query->p->artificial || query->q->artificial)
-        return false;
-    if (p.kind == PIR_FEATURE_FACET && q.kind == PIR_FEATURE_VERTEX)
-        return sum->fv[p.index] == q.index && try_piece(query, placement, (pir_piece){PIR_FACET_FV, p.index, 0}, cache);
-    if (p.kind == PIR_FEATURE_VERTEX && q.kind == PIR_FEATURE_FACET)
-        return sum->vf[q.index] == p.index && try_piece(query, placement, (pir_piece){PIR_FACET_VF, 0, q.index}, cache);
-    if (p.kind == PIR_FEATURE_EDGE && q.kind == PIR_FEATURE_EDGE)
-        for (uint32_t at = sum->first[p.index]; at != PIR_NO_CROSSING; at = sum->crossings.next[at])
-            if (query->q->edge[sum->crossings.half[at]] == q.index)
-                return try_piece(query, placement, (pir_piece){PIR_FACET_EE, p.index, sum->crossings.half[at]}, cache);
-    return false;
 }
 
 /* The pieces that have vertex (a, b) of D for a corner. */
@@ -58,12 +39,10 @@ static bool try_around(pir_query *query, const pir_placement *placement, uint32_
 }
 
 bool pir_prove_outside(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
-                       const pir_witness *witness, pir_query_cache *cache) {
+                       pir_query_cache *cache) {
     uint32_t slot;
     if (pir_piece_recall(query, cache, &slot) &&
         pir_plane_slack(&query->planes, slot, placement->x) < -placement->error * query->planes.err[slot])
-        return true;
-    if (witness && try_features(query, placement, witness, cache))
         return true;
     for (uint32_t i = 0; i < simplex->count; i++)
         if (try_around(query, placement, simplex->a[i], simplex->b[i], cache))

@@ -153,7 +153,7 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
     bool far = simplex.lower > CLEARLY_APART * placement->reach && simplex.lower > 4 * placement->error;
     bool beyond = simplex.lower > limit + DISTANCE_ERROR * placement->reach;
     bool proven = far && !beyond && pir_nearest_prove(query, placement, &simplex, &nearest);
-    if (!proven && !(far && pir_prove_outside(query, placement, &simplex, NULL, cache))) {
+    if (!proven && !(far && pir_prove_outside(query, placement, &simplex, cache))) {
         uint32_t slot;
         pir_state state = pir_state_find(query, placement, cache, &slot, ret_touching, &result->steps);
         if (state != PIR_OUTSIDE)
@@ -191,8 +191,7 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
     pir_simplex simplex;
     recall_simplex(query, cache, &simplex);
     pir_descend_to_point(query, placement, CLEARLY_APART * placement->reach, &simplex, steps);
-    if (simplex.lower > CLEARLY_APART * placement->reach &&
-        pir_prove_outside(query, placement, &simplex, NULL, cache)) {
+    if (simplex.lower > CLEARLY_APART * placement->reach && pir_prove_outside(query, placement, &simplex, cache)) {
         keep_simplex(cache, &simplex);
         return PIR_OUTSIDE;
     }

@@ -339,11 +339,11 @@ void pir_simplex_start(const pir_query *query, const pir_placement *placement, p
 /* --- proof.c --- */
 
 /*
- * Whether a facet of D beside the simplex, whose features may be given, certainly separates. Then it is kept in the cache, if there is one, and its
+ * Whether a facet of D beside the simplex certainly separates. Then it is kept in the cache, if there is one, and its
  * plane stands in the last slot.
  */
 bool pir_prove_outside(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
-                       const pir_witness *witness, pir_query_cache *cache);
+                       pir_query_cache *cache);
 
 /* The vertex of a polytope farthest along unit n, from `from` uphill. */
 uint32_t pir_climb(const pir_polytope *polytope, pir_vec3 n, uint32_t from);
