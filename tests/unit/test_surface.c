@@ -20,6 +20,7 @@
 
 #include "fuzz/model_files.h"
 #include "support/bodies.h"
+#include "support/memory.h"
 
 struct expected {
     pir_surface_form form;
@@ -201,6 +202,51 @@ static void test_every_format_tells_the_same(void **state) {
         expect_surface(texts[i][1], strlen(texts[i][1]), texts[i][0], (struct expected){PIR_SURFACE_OPEN, 0, 0});
 }
 
+/* --- memory --- */
+
+/* Reads a text with the request for memory number `fail_at` failing; whether that was past the last. */
+static bool read_with_failure(const char *text, const char *format, uint64_t fail_at) {
+    test_memory memory = {.fail_at = fail_at};
+    const pir_allocator allocator = test_allocator(&memory);
+    const pir_read_options options = {.polytope = {.allocator = &allocator}};
+    pir_polytope *polytope = NULL;
+    pir_surface surface;
+    pir_report report = {PIR_OK, ""};
+    pir_status status =
+        pir_polytope_read_bytes(text, strlen(text), "m", format, &options, &report, &surface, &polytope);
+    if (status != PIR_OK) {
+        assert_int_equal(status, PIR_ERR_MEMORY);
+        assert_non_null(strstr(report.text, "out of memory"));
+        assert_null(polytope);
+    }
+    pir_polytope_release(polytope);
+    assert_int_equal(memory.blocks, 0);
+    assert_false(memory.wrong_size);
+    return status == PIR_OK;
+}
+
+static void test_no_memory_at_every_request(void **state) {
+    (void)state;
+    static const char *const texts[][2] = {
+        {"off", CUBE},
+        {"off", "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1.0000000000000002\n0 1 1\n" CUBE_FACETS
+                "4 3 0 4 7\n"},
+        {"off", "OFF\n3 2 0\n0 0 1/3\n1 0 1/3\n0 1 1/3\n3 0 1 2\n3 2 1 0\n"},
+        {"obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+        {"stl",
+         "solid\nfacet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0 endloop endfacet endsolid\n"},
+        {"ply",
+         "ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nproperty int y\nproperty int z\nelement face 1\n"
+         "property list int int vertex_index\nend_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"},
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        uint64_t request = 1;
+        while (!read_with_failure(texts[i][1], texts[i][0], request))
+            request++;
+        assert_true(request > 20 && request < 1000);
+    }
+}
+
 /* --- random bodies --- */
 
 /* A hull of points of a grid of even numbers as OFF, its facets changed; and what it then is. */
@@ -362,10 +408,15 @@ static void test_random_bodies(void **state) {
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_cube_in_every_way),         cmocka_unit_test(test_facets_of_one_place_or_two),
-        cmocka_unit_test(test_what_is_not_convex),          cmocka_unit_test(test_facets_that_rounding_bends),
-        cmocka_unit_test(test_points_and_flat_bodies),      cmocka_unit_test(test_facets_that_face_no_side),
-        cmocka_unit_test(test_every_format_tells_the_same), cmocka_unit_test(test_random_bodies),
+        cmocka_unit_test(test_a_cube_in_every_way),
+        cmocka_unit_test(test_facets_of_one_place_or_two),
+        cmocka_unit_test(test_what_is_not_convex),
+        cmocka_unit_test(test_facets_that_rounding_bends),
+        cmocka_unit_test(test_points_and_flat_bodies),
+        cmocka_unit_test(test_facets_that_face_no_side),
+        cmocka_unit_test(test_every_format_tells_the_same),
+        cmocka_unit_test(test_no_memory_at_every_request),
+        cmocka_unit_test(test_random_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
