@@ -167,12 +167,20 @@ static pir_polytope *fluted_prism(int upright_along_z) {
     return test_polytope(&points);
 }
 
+static void expect_region(const pir_sum *sum, pir_vec3 axis, double half_angle) {
+    pir_vec3 its_axis;
+    double its_half_angle;
+    assert_int_equal(pir_sum_region(sum, &its_axis, &its_half_angle), 1);
+    assert_memory_equal(&its_axis, &axis, sizeof axis);
+    assert_true(its_half_angle == half_angle);
+}
+
 static void list_of_crossings_that_cannot_grow_leaves_the_sum_whole(void **state) {
     (void)state;
     pir_polytope *p = fluted_prism(1), *q = fluted_prism(0);
     const pir_quat apart = {0, 0, 1, 0.001}, upright = {0.001, 0.002, 0, 1};
-    uint32_t grown[5] = {0};
-    for (int how = 0; how < 5; how++)
+    uint32_t grown[6] = {0};
+    for (int how = 0; how < 6; how++)
         for (uint64_t n = 1; n <= 4; n++) {
             test_memory memory = {0};
             pir_allocator allocator = test_allocator(&memory);
@@ -181,20 +189,26 @@ static void list_of_crossings_that_cannot_grow_leaves_the_sum_whole(void **state
             assert_int_equal(pir_sum_create(p, q, apart, &options, &sum), PIR_OK);
             assert_int_equal(pir_sum_create(p, q, apart, NULL, &fresh), PIR_OK);
             // a cone that holds nearly all the crossings, and one that is to hold them and cannot
-            if (how >= 3)
+            if (how == 3 || how == 4)
                 assert_int_equal(pir_sum_set_region(sum, (pir_vec3){1, 0, 0}, how == 3 ? 1.2 : 0.001), PIR_OK);
-            if (how == 4)
+            // one as wide about another axis
+            const pir_vec3 behind = {-1, 0, 0};
+            if (how == 5)
+                assert_int_equal(pir_sum_set_region(sum, behind, 1.2), PIR_OK);
+            if (how >= 4)
                 assert_int_equal(pir_sum_rotate(sum, upright, PIR_METHOD_UPDATE), PIR_OK);
             memory.fail_at = memory.requests + n;
-            pir_status status = how == 4 ? pir_sum_set_region(sum, (pir_vec3){1, 0, 0}, 4)
+            pir_status status = how >= 4 ? pir_sum_set_region(sum, (pir_vec3){1, 0, 0}, how == 4 ? 4 : 1.2)
                                 : how == 2
                                     ? pir_sum_rotate_brute_force(sum, upright)
                                     : pir_sum_rotate(sum, upright, how == 0 ? PIR_METHOD_UPDATE : PIR_METHOD_WALK);
-            if (how == 4)
+            if (how >= 4)
                 assert_int_equal(pir_sum_rotate(fresh, upright, PIR_METHOD_WALK), PIR_OK);
             if (status != PIR_OK) {
                 assert_int_equal(status, PIR_ERR_MEMORY);
                 assert_true(pir_sum_same_pairing(sum, fresh) && pir_sum_is_valid(sum));
+                if (how == 5)
+                    expect_region(sum, behind, 1.2);
                 grown[how]++;
             }
             // with memory it goes on, and its certificates are right
@@ -207,7 +221,7 @@ static void list_of_crossings_that_cannot_grow_leaves_the_sum_whole(void **state
             expect_balance(&memory, "crossings");
         }
     // otherwise nothing was tried
-    for (int how = 0; how < 5; how++)
+    for (int how = 0; how < 6; how++)
         expect(grown[how] > 0, "way %d", how);
     pir_polytope_release(q);
     pir_polytope_release(p);
