@@ -98,7 +98,8 @@ void pir_polytope_vertex_exact(const pir_polytope *p, uint32_t vertex, mpq_t ret
 
 /* --- the whole-structure check --- */
 
-static bool rings_are_valid(const pir_polytope *p) {
+/* Each halfedge by itself: what it names is there, and names it back. */
+static bool halves_are_valid(const pir_polytope *p) {
     for (uint32_t v = 0; v < p->vertex_count; v++)
         for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
             uint32_t t = p->twin[h];
@@ -106,10 +107,15 @@ static bool rings_are_valid(const pir_polytope *p) {
                 return false;
             if (p->edge[h] >= p->edge_count || p->edge[t] != p->edge[h])
                 return false;
-            // the next halfedge of the ring has on its right what this one has on its left
-            if (pir_right(p, pir_ring_next(p, h)) != p->left[h])
-                return false;
         }
+    return true;
+}
+
+static bool rings_are_valid(const pir_polytope *p) {
+    // the next halfedge of a ring has on its right what the one before has on its left
+    for (uint32_t h = 0; h < p->half_count; h++)
+        if (pir_right(p, pir_ring_next(p, h)) != p->left[h])
+            return false;
     for (uint32_t e = 0; e < p->edge_count; e++)
         if (p->edge[p->edge_half[e]] != e || p->origin[p->edge_half[e]] > p->target[p->edge_half[e]])
             return false;
@@ -146,7 +152,7 @@ static bool is_strictly_convex(const pir_polytope *p, pir_limbs *scratch) {
 }
 
 int pir_polytope_is_valid(const pir_polytope *p) {
-    if (!rings_are_valid(p) || !loops_are_valid(p))
+    if (!halves_are_valid(p) || !rings_are_valid(p) || !loops_are_valid(p))
         return 0;
     if (p->dimension == 0)
         return p->vertex_count == 1 && p->half_count == 0;

@@ -260,6 +260,39 @@ static void random_bodies_turned_in_doubles_are_merged_within_the_bound(void **s
     expect(merged_count > 80, "%u merged", merged_count);
 }
 
+/*
+ * Turned by so little that two components of a normal are next to nothing: the slopes of the planes are still those
+ * against the steepest axis.
+ */
+static void bodies_turned_a_little_come_back_with_their_facets(void **state) {
+    (void)state;
+    static const char *const names[] = {"cube", "box?x=1&y=7&z=0.25", "prism?sides=9", "truncated-cube",
+                                        "pyramid?sides=4"};
+    for (uint64_t i = 0; i < 100; i++) {
+        test_random random = test_random_case("merging after small turns", i);
+        char name[32];
+        snprintf(name, sizeof name, "case %llu", (unsigned long long)i);
+        test_points points;
+        shape_points(names[i % 5], &points);
+        pir_polytope *own = test_polytope(&points);
+        const pir_vec3 axes[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, test_random_direction(&random)};
+        pir_vec3 axis = axes[i / 5 % 4];
+        double half = ldexp(1, -test_random_between(&random, 3, 45));
+        test_bake(&points, (pir_quat){half * axis.x, half * axis.y, half * axis.z, 1});
+        // and from one axis to another
+        if (i % 3 == 0)
+            test_bake(&points, (pir_quat){0.5, 0.5, 0.5, 0.5});
+        double tolerance = 4e-15 * greatest_coordinate(&points);
+        pir_polytope *hull = test_polytope(&points), *merged = merged_hull(&points, tolerance);
+        expect_counts(merged, pir_polytope_vertex_count(own), pir_polytope_edge_count(own),
+                      pir_polytope_facet_count(own), name);
+        expect_proven(merged, hull, tolerance, name);
+        pir_polytope_release(merged);
+        pir_polytope_release(hull);
+        pir_polytope_release(own);
+    }
+}
+
 /* Tolerances that are no rounding: what merges is arbitrary, what is promised is not. */
 static void coarse_tolerance_keeps_the_bound(void **state) {
     (void)state;
@@ -342,6 +375,7 @@ int main(void) {
         cmocka_unit_test(tolerance_that_is_no_length_is_refused),
         cmocka_unit_test(hull_read_from_text_is_merged_as_well),
         cmocka_unit_test(random_bodies_turned_in_doubles_are_merged_within_the_bound),
+        cmocka_unit_test(bodies_turned_a_little_come_back_with_their_facets),
         cmocka_unit_test(coarse_tolerance_keeps_the_bound),
         cmocka_unit_test(sums_of_merged_bodies_are_the_hulls_of_all_sums),
         cmocka_unit_test(merging_survives_every_failing_request),

@@ -283,6 +283,10 @@ static void check_of_a_polytope_sees_every_kind_of_damage(void **state) {
     assert_true(pir_polytope_is_valid(p));
     for (uint32_t h = 0; h < p->half_count; h += 7) {
         assert_true(notices(p, &p->twin[h], h));
+        assert_true(notices(p, &p->twin[h], UINT32_MAX));
+        assert_true(notices(p, &p->origin[h], p->target[h]));
+        assert_true(notices(p, &p->edge_half[p->edge[h]], p->twin[p->edge_half[p->edge[h]]]));
+        assert_true(notices(p, &p->edge_half[p->edge[h]], p->edge_half[(p->edge[h] + 1) % p->edge_count]));
         assert_true(notices(p, &p->target[h], p->origin[h]));
         assert_true(notices(p, &p->left[h], (p->left[h] + 1) % p->facet_count));
         assert_true(notices(p, &p->edge[h], (p->edge[h] + 1) % p->edge_count));
