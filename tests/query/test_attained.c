@@ -12,6 +12,7 @@
 #include <pirouette/query.h>
 
 #include "query/query_of.h"
+#include "support/bodies.h"
 
 static const pir_quat still = {0, 0, 0, 1};
 static const pir_quat eighth = {0, 0.3826834323650898, 0, 0.9238795325112867}; /* of a turn, about y */
@@ -109,6 +110,36 @@ static void the_least_faces_are_named(void **state) {
     clear(&pair);
 }
 
+/* Far from the origin a gap may be too small for coordinates to tell: the two points are apart all the same. */
+static void points_over_any_gap_are_apart_along_the_normal(void **state) {
+    (void)state;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = -1; side <= 1; side += 2) {
+            pir_vec3 points[2][8];
+            pir_polytope *body[2];
+            for (int k = 0; k < 2; k++) {
+                for (int i = 0; i < 8; i++) {
+                    double c[3] = {i & 1, (i & 2) / 2, (i & 4) / 4};
+                    c[axis] += k == 0 ? 1024 + side : 1024;
+                    points[k][i] = (pir_vec3){c[0], c[1], c[2]};
+                }
+                assert_int_equal(pir_polytope_create(points[k], 8, NULL, &body[k]), PIR_OK);
+            }
+            struct pair pair = make(body[0], body[1], still);
+            for (int i = 20; i <= 200; i += 20) {
+                double gap = side * ldexp(1, -i);
+                pir_query_result r = ask(&pair, axis == 0 ? gap : 0, axis == 1 ? gap : 0, axis == 2 ? gap : 0);
+                double normal[3] = {r.normal.x, r.normal.y, r.normal.z};
+                double apart = (r.point_p.x - r.point_q.x) * normal[0] + (r.point_p.y - r.point_q.y) * normal[1] +
+                               (r.point_p.z - r.point_q.z) * normal[2];
+                assert_true(r.state == PIR_OUTSIDE && r.distance == fabs(gap) && normal[axis] == side);
+                expect(apart > 0 && apart <= fabs(gap) + 0x1p-42, "axis %d, side %d, gap 2^-%d: %g", axis, side, i,
+                       apart);
+            }
+            clear(&pair);
+        }
+}
+
 /* --- casts and directions --- */
 
 static void casts_slide_along_a_face_at_any_gap(void **state) {
@@ -156,7 +187,7 @@ static void casts_end_where_they_end(void **state) {
 /* A motion of a box that is turned on the way, its rotation given by quaternions of all sizes. */
 static void advances_take_rotations_of_any_size(void **state) {
     (void)state;
-    const double sizes[4] = {1, 3, 0x1p-1000, 0x1p1000}, half[3] = {0.5, 0.25, 1};
+    const double sizes[4] = {1, 3, 0x1p-1060, 0x1.8p1023}, half[3] = {0.5, 0.25, 1};
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < 4; i++) {
             struct pair pair = make(box(half[0], half[1], half[2]), box(1, 1, 1), still);
@@ -203,6 +234,70 @@ static void lines_leave_by_facets_that_they_are_nearly_along(void **state) {
     clear(&pair);
 }
 
+/* --- one query through many rotations --- */
+
+static double along(pir_vec3 n, pir_vec3 v) {
+    return n.x * v.x + n.y * v.y + n.z * v.z;
+}
+
+/* v turned by a quaternion of integers whose square is 1, 2 or 4: exact. */
+static pir_vec3 turn(pir_quat q, pir_vec3 v) {
+    double x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
+    pir_vec3 m[3] = {{(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n},
+                     {2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n},
+                     {2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n}};
+    return (pir_vec3){along(m[0], v), along(m[1], v), along(m[2], v)};
+}
+
+/* The point of a body, turned, that is farthest along n. */
+static pir_vec3 farthest(const test_points *points, pir_quat rotation, pir_vec3 n) {
+    pir_vec3 best = turn(rotation, points->at[0]);
+    for (size_t i = 1; i < points->count; i++) {
+        pir_vec3 v = turn(rotation, points->at[i]);
+        best = along(n, v) > along(n, best) ? v : best;
+    }
+    return best;
+}
+
+/* Where the farthest points of two bodies meet they touch, whatever rotations the query has seen before. */
+static void farthest_points_touch_at_every_rotation(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 12; number++) {
+        test_random random = test_random_case("farthest points", number);
+        test_points p, q;
+        test_body_points(&random, TEST_GRID, 60, &p);
+        test_body_points(&random, number % 2 ? TEST_GRID : TEST_BOX, 60, &q);
+        struct pair pair = make(test_polytope(&p), test_polytope(&q), still);
+        const pir_quat none = {0, 0, 0, 1};
+        for (int i = 0; i < 60; i++) {
+            // a quarter, third or half turn; those between leave other facets behind
+            pir_quat r = {(double)test_random_below(&random, 2), (double)test_random_below(&random, 2),
+                          (double)test_random_below(&random, 2), (double)test_random_below(&random, 2)};
+            double square = r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w;
+            if (square == 0 || square == 3)
+                continue;
+            pir_query_result result;
+            pir_query_input input = at(0, 0, 0);
+            assert_int_equal(pir_sum_rotate(pair.sum, test_general_rotation(&random), PIR_METHOD_AUTO), PIR_OK);
+            assert_int_equal(pir_query_penetration(pair.query, &input, NULL, &result), PIR_OK);
+            assert_int_equal(pir_sum_rotate(pair.sum, r, PIR_METHOD_AUTO), PIR_OK);
+            for (int k = 0; k < 12; k++) {
+                pir_vec3 n = test_random_direction(&random), back = {-n.x, -n.y, -n.z};
+                pir_vec3 a = farthest(&p, r, back), b = farthest(&q, none, n);
+                input = at(b.x - a.x, b.y - a.y, b.z - a.z);
+                assert_int_equal(pir_query_overlap(pair.query, &input, NULL, &result), PIR_OK);
+                expect(result.state == PIR_BOUNDARY, "bodies %llu, rotation %d: state %d", (unsigned long long)number,
+                       i, (int)result.state);
+                input = at(input.translation.x + n.x * 0x1p-20, input.translation.y + n.y * 0x1p-20,
+                           input.translation.z + n.z * 0x1p-20);
+                assert_int_equal(pir_query_overlap(pair.query, &input, NULL, &result), PIR_OK);
+                assert_int_equal(result.state, PIR_OUTSIDE);
+            }
+        }
+        clear(&pair);
+    }
+}
+
 /* --- the same bits --- */
 
 static int same(const pir_query_result *a, const pir_query_result *b) {
@@ -240,10 +335,12 @@ int main(void) {
         cmocka_unit_test(cubes_face_on_face_touch_where_both_are),
         cmocka_unit_test(a_cube_on_its_edge_touches_where_both_are),
         cmocka_unit_test(the_least_faces_are_named),
+        cmocka_unit_test(points_over_any_gap_are_apart_along_the_normal),
         cmocka_unit_test(casts_slide_along_a_face_at_any_gap),
         cmocka_unit_test(casts_end_where_they_end),
         cmocka_unit_test(advances_take_rotations_of_any_size),
         cmocka_unit_test(lines_leave_by_facets_that_they_are_nearly_along),
+        cmocka_unit_test(farthest_points_touch_at_every_rotation),
         cmocka_unit_test(any_cache_gives_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
