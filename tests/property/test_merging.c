@@ -14,6 +14,7 @@
 #include <pirouette/sum.h>
 
 #include "oracle/distance.h"
+#include "polytope/merge.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/meshes.h"
@@ -268,7 +269,7 @@ static void bodies_turned_a_little_come_back_with_their_facets(void **state) {
     (void)state;
     static const char *const names[] = {"cube", "box?x=1&y=7&z=0.25", "prism?sides=9", "truncated-cube",
                                         "pyramid?sides=4"};
-    for (uint64_t i = 0; i < 100; i++) {
+    for (uint64_t i = 0; i < 40; i++) {
         test_random random = test_random_case("merging after small turns", i);
         char name[32];
         snprintf(name, sizeof name, "case %llu", (unsigned long long)i);
@@ -288,9 +289,45 @@ static void bodies_turned_a_little_come_back_with_their_facets(void **state) {
                       pir_polytope_facet_count(own), name);
         expect_proven(merged, hull, tolerance, name);
         pir_polytope_release(merged);
+        // a tolerance of much more than the rounding is not used up: the bound tells what was
+        tolerance = 1e-9 * greatest_coordinate(&points);
+        merged = merged_hull(&points, tolerance);
+        expect_counts(merged, pir_polytope_vertex_count(own), pir_polytope_edge_count(own),
+                      pir_polytope_facet_count(own), name);
+        expect_proven(merged, hull, tolerance / 4, name);
+        pir_polytope_release(merged);
         pir_polytope_release(hull);
         pir_polytope_release(own);
     }
+}
+
+/* Roots of squares from denormal to huge: at least the true ones, and but a few units in the last place above. */
+static void roots_are_rounded_up_by_a_little(void **state) {
+    (void)state;
+    mpq_t square, root;
+    mpq_inits(square, root, NULL);
+    assert_true(pir_root_rounded_up(square) == 0);
+    for (uint64_t i = 0; i < 400; i++) {
+        test_random random = test_random_case("roots", i);
+        // a double, its square, and a square with a third more
+        double exact = fabs(test_random_scaled(&random, -1040, 1000));
+        mpq_set_d(square, exact);
+        mpq_mul(square, square, square);
+        if (i % 2) {
+            mpq_set_si(root, 4, 3);
+            mpq_mul(square, square, root);
+        }
+        double up = pir_root_rounded_up(square), below = up;
+        for (int k = 0; k < 4; k++)
+            below = nextafter(below, 0);
+        mpq_set_d(root, up);
+        mpq_mul(root, root, root);
+        expect(mpq_cmp(root, square) >= 0, "case %llu: %a is too little", (unsigned long long)i, up);
+        mpq_set_d(root, below);
+        mpq_mul(root, root, root);
+        expect(mpq_cmp(root, square) <= 0, "case %llu: %a is too much", (unsigned long long)i, up);
+    }
+    mpq_clears(square, root, NULL);
 }
 
 /* Tolerances that are no rounding: what merges is arbitrary, what is promised is not. */
@@ -376,6 +413,7 @@ int main(void) {
         cmocka_unit_test(hull_read_from_text_is_merged_as_well),
         cmocka_unit_test(random_bodies_turned_in_doubles_are_merged_within_the_bound),
         cmocka_unit_test(bodies_turned_a_little_come_back_with_their_facets),
+        cmocka_unit_test(roots_are_rounded_up_by_a_little),
         cmocka_unit_test(coarse_tolerance_keeps_the_bound),
         cmocka_unit_test(sums_of_merged_bodies_are_the_hulls_of_all_sums),
         cmocka_unit_test(merging_survives_every_failing_request),
