@@ -201,15 +201,20 @@ void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner 
 
 /* --- the surface --- */
 
-/* How far x is from the plane of facet f along `out`; HUGE_VAL where the facet is too steep to tell. */
+/*
+ * How far x is from the plane of facet f along `out`; HUGE_VAL where the facet is too steep to tell. A facet that turns
+ * away from the first by 60° and more bounds the patch: it counts from twice PIR_SNAP beyond its rim on, for rounding alone
+ * may put a corner of the rim beside it.
+ */
 static double height(const pir_patch *patch, uint32_t f, pir_vec3 x) {
     const pir_polytope *p = patch->polytope;
     pir_vec3 n = normal_of(patch, f);
     double along = pir_vec_dot(n, patch->out);
-    // facets that turn away from the first by 60° and more bound a patch, they are not of it
-    if (along < PIR_STEEP || 2 * pir_vec_dot(p->normal[f], p->normal[patch->facet]) < 1)
+    if (along < PIR_STEEP)
         return HUGE_VAL;
-    return pir_vec_dot(n, pir_vec_sub(pir_patch_vertex(patch, p->origin[p->loop[p->loop_start[f]]]), x)) / along;
+    bool bounds = 2 * pir_vec_dot(p->normal[f], p->normal[patch->facet]) < 1;
+    pir_vec3 from = pir_patch_vertex(patch, p->origin[p->loop[p->loop_start[f]]]);
+    return (pir_vec_dot(n, pir_vec_sub(from, x)) + (bounds ? 2 * patch->snap : 0)) / along;
 }
 
 pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
