@@ -7,7 +7,7 @@
 
 #include "base/report.h"
 
-size_t ply_type_size(enum ply_type type) {
+size_t pir_ply_type_size(enum ply_type type) {
     static const size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
     return sizes[type];
 }
@@ -213,7 +213,7 @@ static pir_status read_lines(struct pir_text *text, struct ply_header *header, b
     return status;
 }
 
-pir_status ply_read_header(struct pir_text *text, struct ply_header *ret_header) {
+pir_status pir_ply_read_header(struct pir_text *text, struct ply_header *ret_header) {
     bool has_format = false;
     *ret_header = (struct ply_header){0};
     if (text->size < 4 || memcmp(text->text, "ply", 3) != 0)

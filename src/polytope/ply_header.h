@@ -39,9 +39,9 @@ struct ply_header {
 };
 
 /* Bytes of a number of this type in a binary file. */
-size_t ply_type_size(enum ply_type type);
+size_t pir_ply_type_size(enum ply_type type);
 
 /* Reads up to and with the end of the header's last line, so that text->at is the first byte of the elements. */
-pir_status ply_read_header(struct pir_text *text, struct ply_header *ret_header);
+pir_status pir_ply_read_header(struct pir_text *text, struct ply_header *ret_header);
 
 #endif

@@ -55,7 +55,7 @@ static pir_status next_value(struct ply *ply, enum ply_type type, const char **r
         ply->line_open = true;
         return found ? PIR_OK : fail_here(ply, PIR_ERR_FORMAT, "the file ends before it");
     }
-    size_t size = ply_type_size(type);
+    size_t size = pir_ply_type_size(type);
     if (text->size - text->at < size)
         return fail_here(ply, PIR_ERR_FORMAT, "the file ends in it");
     *ret_bytes = text->text + text->at;
@@ -72,13 +72,13 @@ static double decode(const char *bytes, enum ply_type type, bool big) {
     case PLY_INT8:
     case PLY_INT16:
     case PLY_INT32:
-        return (double)pir_bytes_signed(bytes, ply_type_size(type), big);
+        return (double)pir_bytes_signed(bytes, pir_ply_type_size(type), big);
     case PLY_UINT8:
     case PLY_UINT16:
     case PLY_UINT32:
         break;
     }
-    return (double)pir_bytes_unsigned(bytes, ply_type_size(type), big);
+    return (double)pir_bytes_unsigned(bytes, pir_ply_type_size(type), big);
 }
 
 static pir_status read_coordinate(struct ply *ply, enum ply_type type, double *ret_value) {
@@ -128,7 +128,7 @@ static pir_status read_index(struct ply *ply, enum ply_type type, uint64_t *ret_
 /* The size of a list, which the bytes left can hold. */
 static pir_status read_list_size(struct ply *ply, const struct ply_property *property, uint64_t *ret_size) {
     pir_status status = read_index(ply, property->count_type, ret_size);
-    size_t each = ply->header.format == PLY_ASCII ? 2 : ply_type_size(property->type);
+    size_t each = ply->header.format == PLY_ASCII ? 2 : pir_ply_type_size(property->type);
     // in text the last number needs no blank after it
     size_t room = ply->text.size - ply->text.at + (ply->header.format == PLY_ASCII);
     if (status == PIR_OK && *ret_size > room / each)
@@ -199,7 +199,7 @@ static pir_status check_room(const struct ply *ply) {
     for (unsigned i = element->first; i < element->end; i++) {
         const struct ply_property *property = &ply->header.property[i];
         enum ply_type type = property->is_list ? property->count_type : property->type;
-        each += ply->header.format == PLY_ASCII ? 2 : ply_type_size(type);
+        each += ply->header.format == PLY_ASCII ? 2 : pir_ply_type_size(type);
     }
     if (element->count > 0 && element->count > room / each)
         return pir_fail(ply->text.report, PIR_ERR_FORMAT,
@@ -241,7 +241,7 @@ static pir_status check_end(struct ply *ply) {
 pir_status pir_read_ply(const char *data, size_t size, struct pir_model *model) {
     struct ply ply = {.model = model};
     pir_text_init(&ply.text, data, size, model->name, model->report);
-    pir_status status = ply_read_header(&ply.text, &ply.header);
+    pir_status status = pir_ply_read_header(&ply.text, &ply.header);
     model->binary = ply.header.format != PLY_ASCII;
     for (unsigned e = 0; e < ply.header.element_count && status == PIR_OK; e++) {
         ply.element = &ply.header.element[e];

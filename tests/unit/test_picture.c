@@ -304,7 +304,7 @@ static void thin_bodies_are_drawn_as_lines_and_dots(void **state) {
         assert_int_equal(pir_polytope_create(ends, 2, NULL, &p), PIR_OK);
         assert_int_equal(pir_mesh_from_polytope(p, &mesh), PIR_OK);
         char *svg = picture_of(mesh);
-        double width, read[4];
+        double width = 0, read[4];
         const char *at = strstr(svg, "viewBox=\"0 0 ");
         assert_true(at && sscanf(at, "viewBox=\"0 0 %lf", &width) == 1);
         at = strstr(svg, " d=\"M");
