@@ -8,6 +8,7 @@
 #include "query/query.h"
 
 #include <limits.h>
+#include <stdlib.h>
 
 #include "polytope/polytope.h"
 
@@ -123,6 +124,17 @@ bool pir_frame_init(pir_query *query) {
     return query->vp && query->vq && query->hp && query->hq;
 }
 
+/*
+ * Two points have no size. Where they are so near the origin, or so far from it, that squares would lose digits, their
+ * coordinates give the unit.
+ */
+static int exponent_of_points(pir_vec3 p, pir_vec3 q) {
+    double most = fmax(fmax(fmax(fabs(p.x), fabs(p.y)), fabs(p.z)), fmax(fmax(fabs(q.x), fabs(q.y)), fabs(q.z)));
+    int e;
+    frexp(most, &e);
+    return abs(e) > 300 ? e : 0;
+}
+
 pir_status pir_frame_fill(pir_query *query) {
     const pir_polytope *p = query->p, *q = query->q;
     // the scratch of exact signs is far more than a vertex and two limbs
@@ -130,7 +142,7 @@ pir_status pir_frame_fill(pir_query *query) {
     int top_p = top_exponent(p, room), top_q = top_exponent(q, room);
     query->exponent = top_p > top_q ? top_p : top_q;
     if (query->exponent == INT_MIN)
-        query->exponent = 0;
+        query->exponent = exponent_of_points(p->vertex[0], q->vertex[0]);
     bool normal = query->exponent > -1000 && query->exponent < 1000;
     query->up = normal ? ldexp(1, query->exponent) : 0;
     query->down = normal ? ldexp(1, -query->exponent) : 0;

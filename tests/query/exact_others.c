@@ -14,7 +14,7 @@ static int is_escape(const exact_pair *pair, const pir_escape *escape, uint32_t 
     const exact_body *p = &pair->body[PIR_OPERAND_P], *q = &pair->body[PIR_OPERAND_Q];
     return exact_same_feature(p, escape->witness.p, exact_feature_of(p, plane->p)) &&
            exact_same_feature(q, escape->witness.q, exact_feature_of(q, plane->q)) &&
-           exact_turn_from(plane, escape->normal) <= 4e-15 &&
+           exact_turn_from(plane, escape->normal) <= 4e-14 &&
            fabs(escape->depth - oracle_place_slack(pair->place, i)) <= 1e-12 * pair->size;
 }
 
