@@ -109,6 +109,23 @@ static void make_integers(pir_query *query, const pir_int3 *direction, const pir
     *ret_d = pir_exact_dot(query, &n, direction);
 }
 
+/* Where the line crosses one facet, in integers that lie in the scratch from `mark` on: put that back after. */
+struct exact_crossing {
+    uint32_t mark;
+    int exponent;
+    pir_int3 direction;
+    pir_int s, d;
+};
+
+static struct exact_crossing exact_crossing_of(pir_query *query, const pir_line *line, const pir_facet *facet) {
+    struct exact_crossing exact;
+    pir_exact_begin(query, line->placement->translation);
+    exact.mark = query->scratch.used;
+    exact.direction = pir_exact_vector(query, line->direction, &exact.exponent);
+    make_integers(query, &exact.direction, facet, &exact.s, &exact.d);
+    return exact;
+}
+
 static struct span span_of(const pir_line *line, const pir_facet *facet) {
     double s = facet->h - pir_vec_dot(facet->n, line->placement->x), r = pir_vec_dot(facet->n, line->u);
     return quotient(s, line->placement->error * facet->err, r, RATE_BOUND * facet->err);
@@ -146,14 +163,9 @@ double pir_line_at(pir_query *query, const pir_line *line, const pir_facet *face
         *ret_error = span.high - span.low;
         return (facet->h - pir_vec_dot(facet->n, line->placement->x)) / pir_vec_dot(facet->n, line->u);
     }
-    int exponent;
-    pir_int s, d;
-    pir_exact_begin(query, line->placement->translation);
-    uint32_t mark = query->scratch.used;
-    pir_int3 direction = pir_exact_vector(query, line->direction, &exponent);
-    make_integers(query, &direction, facet, &s, &d);
-    double at = pir_line_length(query, &direction, &s, &d);
-    query->scratch.used = mark;
+    struct exact_crossing exact = exact_crossing_of(query, line, facet);
+    double at = pir_line_length(query, &exact.direction, &exact.s, &exact.d);
+    query->scratch.used = exact.mark;
     *ret_error = 0x1p-48 * fabs(at);
     return at;
 }
@@ -178,14 +190,9 @@ static bool is_within(pir_query *query, const pir_line *line, const pir_facet *f
     double length = pir_frame_from(query, line->length);
     if (length > 0 && length < HUGE_VAL && fabs(at - length) > error + 0x1p-48 * length)
         return at < length;
-    int exponent;
-    pir_int s, d;
-    pir_exact_begin(query, line->placement->translation);
-    uint32_t mark = query->scratch.used;
-    pir_int3 direction = pir_exact_vector(query, line->direction, &exponent);
-    make_integers(query, &direction, facet, &s, &d);
-    bool within = pir_line_past_end(query, &s, &d, exponent) <= 0;
-    query->scratch.used = mark;
+    struct exact_crossing exact = exact_crossing_of(query, line, facet);
+    bool within = pir_line_past_end(query, &exact.s, &exact.d, exact.exponent) <= 0;
+    query->scratch.used = exact.mark;
     return within;
 }
 
