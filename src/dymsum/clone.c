@@ -3,7 +3,7 @@
  * A second sum with the pairing of a first. Pairs are copied edge by edge, so the copy's crossings stand in a row; its certificates
  * are not copied but all expired, as after a rebuild: its first update looks at every pair.
  */
-#include "dymsum/sum.h"
+#include "dymsum/pairing/pairing.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Beginning anew with the memory that is there: the motion so far forgotten, or the counters. */
-#include "dymsum/sum.h"
+#include "dymsum/pairing/pairing.h"
 
 pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
     pir_status status = pir_sum_rotate(sum, rotation, PIR_METHOD_WALK);

@@ -2,7 +2,7 @@
 /*
  * Are two pairings the same? Where regions are, so far as both cones reach: what a sum keeps beyond its own depends on how it came there.
  */
-#include "dymsum/sum.h"
+#include "dymsum/pairing/pairing.h"
 
 /* Whether both sums are to have what has this normal. */
 static bool both_have(const pir_sum *a, const pir_sum *b, pir_vec3 n) {

@@ -9,7 +9,7 @@
  */
 #include <pirouette/exact.h>
 
-#include "dymsum/sum.h"
+#include "dymsum/pairing/pairing.h"
 
 /* Puts `scaled` in the operand's place, and takes the reference. Errors as pir_sum_settle. */
 static pir_status replace(pir_sum *sum, pir_operand operand, pir_polytope *scaled) {

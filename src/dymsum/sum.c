@@ -2,12 +2,12 @@
 /*
  * The life of a sum: making it, rotating it by one method or another, reading its pairing. The invariants stand in sum.h.
  */
-#include "dymsum/sum.h"
+#include "dymsum/pairing/pairing.h"
 
 #include <string.h>
 
-#include "dymsum/choose.h"
-#include "dymsum/sweep.h"
+#include "dymsum/region/sweep.h"
+#include "dymsum/update/choose.h"
 
 pir_sum_options pir_sum_options_default(void) {
     return (pir_sum_options){.allocator = NULL, .difference = 0};

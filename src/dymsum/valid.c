@@ -3,7 +3,7 @@
  * The whole-structure check of a sum: its invariants (sum.h), every sign by exact arithmetic, no filter and no certificate trusted; and that
  * what a region needs is there (region.c).
  */
-#include "dymsum/sum.h"
+#include "dymsum/pairing/pairing.h"
 
 /* s of a vector of P and one of Q at the perturbed rotation. */
 static int sign_of(pir_sum *sum, pir_int3 a, pir_int3 b) {

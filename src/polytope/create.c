@@ -11,7 +11,7 @@
 #include <pirouette/exact.h>
 
 #include "base/vec.h"
-#include "polytope/merge.h"
+#include "polytope/merge/merge.h"
 #include "polytope/polytope.h"
 
 /* The exponents of the lowest and above the highest set bit among all coordinates; false when all are zero. */

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "polytope/hull.h"
+#include "polytope/hull/hull.h"
 
 /* --- memory --- */
 

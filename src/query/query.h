@@ -19,11 +19,11 @@
 
 #include <pirouette/query.h>
 
-#include "dymsum/sum.h"
-#include "query/dd.h"
-#include "query/exact.h"
-#include "query/lanes.h"
-#include "query/scan.h"
+#include "dymsum/pairing/pairing.h"
+#include "query/decide/placed.h"
+#include "query/frame/dd.h"
+#include "query/frame/lanes.h"
+#include "query/planes/scan.h"
 
 /*
  * With u = 2^-53 and sizes r_P, r_Q: a rotated unit normal is off by 42u (exact/sign.h), which moves n·(q − x) by 42u (r_Q + |x|);

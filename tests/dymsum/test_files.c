@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dymsum/sum_file.h"
+#include "dymsum/file/sum_file.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/meshes.h"

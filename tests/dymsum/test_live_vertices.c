@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "dymsum/live_mesh.h"
+#include "dymsum/live/live_mesh.h"
 #include "support/memory.h"
 #include "support/random.h"
 

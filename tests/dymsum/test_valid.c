@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "dymsum/sum.h"
+#include "dymsum/pairing/pairing.h"
 #include "support/bodies.h"
 
 enum { SEEN, HARMLESS };

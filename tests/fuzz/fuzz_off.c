@@ -13,7 +13,7 @@
 #include <pirouette/pirouette.h>
 
 #include "fuzz/input.h"
-#include "polytope/io.h"
+#include "polytope/write/io.h"
 
 #define SIZE_LIMIT   65536
 #define VERTEX_LIMIT 512

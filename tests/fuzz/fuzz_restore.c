@@ -14,7 +14,7 @@
 
 #include <pirouette/pirouette.h>
 
-#include "dymsum/sum_file.h"
+#include "dymsum/file/sum_file.h"
 #include "fuzz/input.h"
 #include "support/bodies.h"
 #include "support/memory.h"

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "query/outline.h"
+#include "query/contact/outline.h"
 #include "support/random.h"
 
 #define SNAP 1e-13

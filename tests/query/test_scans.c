@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "query/scan.h"
+#include "query/planes/scan.h"
 #include "support/random.h"
 
 #define COUNT 40

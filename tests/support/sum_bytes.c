@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "dymsum/sum_file.h"
+#include "dymsum/file/sum_file.h"
 
 test_bytes test_bytes_of(const pir_sum *sum) {
     test_bytes bytes = {NULL, pir_sum_serialised_size(sum)};

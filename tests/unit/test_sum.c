@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "dymsum/sum.h"
+#include "dymsum/pairing/pairing.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/meshes.h"

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The text that the kernels for AVX2 and AVX-512 share: a block of eight floats at a time. The file that includes this says for which
+ * processor by TARGET, compares by EQUAL(a, b), a mask of the lanes in which two are equal, and defines see_block().
+ */
+
+#include "polytope/polytope.h"
+
+/* (ux·x + uy·y) + uz·z, rounded as the scalar reference rounds. */
+TARGET static inline __m256 dot(__m256 ux, __m256 uy, __m256 uz, __m256 x, __m256 y, __m256 z) {
+    return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(ux, x), _mm256_mul_ps(uy, y)), _mm256_mul_ps(uz, z));
+}
+
+/* The least of the eight lanes of a, of b, and of c, in the first three lanes. */
+TARGET static inline __m128 least_of_each(__m256 a, __m256 b, __m256 c) {
+    __m128 a4 = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+    __m128 b4 = _mm_min_ps(_mm256_castps256_ps128(b), _mm256_extractf128_ps(b, 1));
+    __m128 c4 = _mm_min_ps(_mm256_castps256_ps128(c), _mm256_extractf128_ps(c, 1));
+    __m128 ab = _mm_min_ps(_mm_unpacklo_ps(a4, b4), _mm_unpackhi_ps(a4, b4));
+    __m128 cc = _mm_min_ps(_mm_unpacklo_ps(c4, c4), _mm_unpackhi_ps(c4, c4));
+    return _mm_min_ps(_mm_movelh_ps(ab, cc), _mm_movehl_ps(cc, ab));
+}
+
+TARGET static inline float greatest_of(__m256 v) {
+    __m128 half = _mm_max_ps(_mm256_castps256_ps128(v), _mm256_extractf128_ps(v, 1));
+    half = _mm_max_ps(half, _mm_movehl_ps(half, half));
+    return _mm_cvtss_f32(_mm_max_ss(half, _mm_shuffle_ps(half, half, 1)));
+}
+
+/* A facet's normal, turned, and how that moves, each component in all lanes. */
+struct turned {
+    __m256 x, y, z, dx, dy, dz;
+};
+
+TARGET static inline struct turned spread(const float turned[8]) {
+    return (struct turned){_mm256_broadcast_ss(turned),     _mm256_broadcast_ss(turned + 1),
+                           _mm256_broadcast_ss(turned + 2), _mm256_broadcast_ss(turned + 4),
+                           _mm256_broadcast_ss(turned + 5), _mm256_broadcast_ss(turned + 6)};
+}
+
+/* What blocks have shown so far, lane by lane. */
+struct seen {
+    __m256 highest, least, ahead, behind;
+};
+
+/* Looks at one block; gives the masks of its sides that were touched, and that the facet is above. */
+TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_moment *moment,
+                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above);
+
+/* The look at a facet in the cell whose ring fills `blocks` blocks, most often one; returns the greatest values of s, lane by lane. */
+TARGET static inline __m256 look(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8],
+                                 pir_look *ret_look) {
+    const struct turned t = spread(turned);
+    struct seen seen = {_mm256_set1_ps(-HUGE_VALF), _mm256_set1_ps(4), _mm256_set1_ps(PIR_FARTHEST),
+                        _mm256_set1_ps(PIR_FARTHEST)};
+    uint64_t touched = 0, above = 0;
+    for (uint32_t b = 0; b < blocks; b++) {
+        uint32_t touched_here, above_here;
+        see_block(ring + (size_t)b * 3 * PIR_LANES, &t, moment, &seen, &touched_here, &above_here);
+        touched = b == 0 ? touched_here : pir_side_mask_add(touched, b, touched_here);
+        above = b == 0 ? above_here : pir_side_mask_add(above, b, above_here);
+    }
+    __m128 spans = least_of_each(seen.least, seen.ahead, seen.behind);
+    _mm_storeu_ps((float *)ret_look, _mm_sub_ps(spans, _mm_setr_ps(PIR_FLOAT_BOUND, 0, 0, 0)));
+    ret_look->touched = touched;
+    ret_look->above = above;
+    return seen.highest;
+}
+
+TARGET static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
+                          pir_glance *ret_glance) {
+    uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
+    const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
+    const struct turned t = spread(turned);
+    float highest = greatest_of(look(ring, blocks, moment, turned, &ret_glance->look));
+    ret_glance->highest = highest + 0.0f;
+    ret_glance->which = 0;
+    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
+        __m256 s = dot(t.x, t.y, t.z, _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES),
+                       _mm256_loadu_ps(ring + 2 * PIR_LANES));
+        uint32_t is = EQUAL(s, _mm256_set1_ps(highest));
+        if (is) {
+            ret_glance->which = b * PIR_LANES + (uint32_t)__builtin_ctz(is);
+            break;
+        }
+    }
+}
+
+TARGET static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_turned[8]) {
+    const float *n = facets->normal + (size_t)4 * f;
+    __m256 t0 = _mm256_loadu_ps(facets->turn[0]), t1 = _mm256_loadu_ps(facets->turn[1]);
+    __m256 t2 = _mm256_loadu_ps(facets->turn[2]);
+    _mm256_storeu_ps(ret_turned, dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
+}
+
+TARGET static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell,
+                                  const float turned[8], pir_look *ret_look) {
+    uint32_t block = facets->ring_block[cell];
+    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned, ret_look);
+}
+
+#define REVIEW_TARGET TARGET
+#include "dymsum/kernels/review_body.h"

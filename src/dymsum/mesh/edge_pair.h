@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * An edge of P, rotated, beside an edge of Q: whether they are parallel, and to which side one turns from the other.
+ */
+#ifndef PIR_DYMSUM_MESH_EDGE_PAIR_H
+#define PIR_DYMSUM_MESH_EDGE_PAIR_H
+
+#include "dymsum/pairing/pairing.h"
+
+typedef struct pir_edge_pair {
+    uint32_t half, h; /* the halfedges of P and Q */
+    pir_vec3 e, d;    /* their unit vectors, P's rotated */
+} pir_edge_pair;
+
+/* A facet of P, or of Q. */
+typedef struct pir_facet_of {
+    bool of_p;
+    uint32_t facet;
+} pir_facet_of;
+
+bool pir_edges_are_parallel(pir_sum *sum, const pir_edge_pair *pair);
+
+/*
+ * Whether d × e, which is parallel to the facet's normal and not zero, points along that normal rather than against it.
+ */
+bool pir_edges_point_along(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of facet);
+
+/*
+ * The sign of the turn from e to d about the outward normal of a facet in whose plane both lie: 1 when d is left of e
+ * seen from outside, −1 when it is right of it, 0 when the two are parallel.
+ */
+int pir_edges_turn(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of facet);
+
+#endif

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Pieces of the sum, and which are coplanar.
+ *
+ * The pairing is that of a perturbed rotation. At the true one, a crossing of arcs e and d may lie on an end of one of
+ * them: exactly when one of its four signs is zero. Unless e and d are parallel, and the piece has no area, the
+ * crossing then is that end: both e's vector and d are perpendicular to the end's normal. So pieces are joined along
+ * such zeros alone, and that is all there is to join: whenever two pieces lie in one facet of the true sum, a facet of
+ * P or Q does too, and each crossing that coincides with it has a zero that names it.
+ *
+ * A crossing that coincides with a facet f of P and a facet g of Q says that their normals are equal; one that
+ * coincides with f alone says that the edge of Q lies along f, and all such crossings of f name that edge. So crossings
+ * leave no more than one note with each facet. Once f and g are known to coincide, nothing is asked about a crossing
+ * between an arc that ends in f and one that ends in g: it coincides with both, or its edges are parallel. That makes
+ * sums with many ties cheap: those of two prisms on one plane have as many such crossings as the product of their
+ * sides.
+ *
+ * Where an arc is half a circle, as in the map of a polygon, the end may also be the antipode of the crossing; one more
+ * exact sign tells. Of two half circles both pairs of ends must be known to coincide before nothing is asked.
+ */
+#include "dymsum/mesh/pieces.h"
+
+#include "dymsum/mesh/edge_pair.h"
+
+static size_t alone_words(const pir_sum *sum) {
+    return (size_t)sum->crossings.used / 64 + 1;
+}
+
+void pir_pieces_finish(pir_pieces *pieces, const pir_sum *sum) {
+    PIR_FREE(&sum->allocator, pieces->of_p, sum->p->facet_count);
+    PIR_FREE(&sum->allocator, pieces->of_q, sum->q->facet_count);
+    PIR_FREE(&sum->allocator, pieces->alone, alone_words(sum));
+    *pieces = (pir_pieces){0};
+}
+
+/* Whether s(a, b) is exactly zero, given its value by doubles. */
+static bool is_tie(pir_sum *sum, double value, const pir_int3 *a, const pir_int3 *b) {
+    return pir_filter_sign(value) == 0 && pir_sign_true(&sum->signs, a, b) == 0;
+}
+
+/* The facets at the ends of a crossing's arcs. */
+struct ends {
+    uint32_t p[2], q[2];
+};
+
+/* Whether the crossing is known to be part of a merged facet, or to have no area, from the notes left so far. */
+static bool is_known(const pir_pieces *pieces, const pir_sum *sum, const struct ends *ends) {
+    bool half_circles = sum->p->dimension < 3 && sum->q->dimension < 3;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            if (pieces->of_p[ends->p[i]].facet == ends->q[j])
+                return !half_circles || pieces->of_p[ends->p[1 - i]].facet == ends->q[1 - j];
+    return false;
+}
+
+/*
+ * The facet of P that the crossing coincides with, or PIR_NO_FACE. The hidden facets of a segment have no area and
+ * count for nothing.
+ */
+static uint32_t coinciding_p(pir_sum *sum, const pir_edge_pair *pair, const struct ends *ends, const bool tie[2]) {
+    for (int i = 0; i < 2 && !sum->p->artificial; i++)
+        if (tie[i] && (sum->p->dimension == 3 || pir_edges_point_along(sum, pair, (pir_facet_of){true, ends->p[i]})))
+            return ends->p[i];
+    return PIR_NO_FACE;
+}
+
+static uint32_t coinciding_q(pir_sum *sum, const pir_edge_pair *pair, const struct ends *ends, const bool tie[2]) {
+    for (int i = 0; i < 2 && !sum->q->artificial; i++)
+        if (tie[i] && (sum->q->dimension == 3 || pir_edges_point_along(sum, pair, (pir_facet_of){false, ends->q[i]})))
+            return ends->q[i];
+    return PIR_NO_FACE;
+}
+
+/* Looks at a crossing: whether it is a facet alone; where it is not, the facets that it coincides with are told. */
+static bool look_at_crossing(pir_pieces *pieces, pir_sum *sum, const pir_edge_pair *pair) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    const struct ends ends = {{p->left[pair->half], pir_right(p, pair->half)},
+                              {q->left[pair->h], pir_right(q, pair->h)}};
+    if (is_known(pieces, sum, &ends))
+        return false;
+    pir_int3 e = pir_half_exact(p, pair->half), d = pir_half_exact(q, pair->h);
+    bool tie_p[2], tie_q[2];
+    for (int i = 0; i < 2; i++) {
+        pir_int3 f = pir_normal_exact(p, ends.p[i]), g = pir_normal_exact(q, ends.q[i]);
+        tie_p[i] = is_tie(sum, pir_vec_dot(sum->rotated[ends.p[i]], pair->d), &f, &d);
+        tie_q[i] = is_tie(sum, pir_vec_dot(pair->e, q->normal[ends.q[i]]), &e, &g);
+    }
+    if (!tie_p[0] && !tie_p[1] && !tie_q[0] && !tie_q[1])
+        return true;
+    if (pir_edges_are_parallel(sum, pair))
+        return false;
+    uint32_t f = coinciding_p(sum, pair, &ends, tie_p), g = coinciding_q(sum, pair, &ends, tie_q);
+    if (f != PIR_NO_FACE)
+        pieces->of_p[f] = (pir_face){g, pair->h};
+    if (g != PIR_NO_FACE)
+        pieces->of_q[g] = (pir_face){f, pair->half};
+    return f == PIR_NO_FACE && g == PIR_NO_FACE;
+}
+
+pir_status pir_pieces_make(pir_pieces *pieces, pir_sum *sum) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_allocator *a = &sum->allocator;
+    *pieces = (pir_pieces){.of_p = PIR_NEW(a, pir_face, p->facet_count),
+                           .of_q = PIR_NEW(a, pir_face, q->facet_count),
+                           .alone = PIR_ZEROED(a, uint64_t, alone_words(sum))};
+    if (!pieces->of_p || !pieces->of_q || !pieces->alone) {
+        pir_pieces_finish(pieces, sum);
+        return PIR_ERR_MEMORY;
+    }
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        sum->rotated[f] = pir_rotated_normal(sum, f);
+        pieces->of_p[f] = (pir_face){PIR_NO_FACE, PIR_NO_FACE};
+    }
+    for (uint32_t g = 0; g < q->facet_count; g++)
+        pieces->of_q[g] = (pir_face){PIR_NO_FACE, PIR_NO_FACE};
+    for (uint32_t edge = 0; edge < p->edge_count; edge++) {
+        pir_edge_pair pair = {.half = p->edge_half[edge], .e = pir_rotated_direction(sum, p->edge_half[edge])};
+        for (uint32_t slot = sum->first[edge]; slot != PIR_NO_CROSSING; slot = sum->crossings.next[slot]) {
+            pair.h = sum->crossings.half[slot];
+            pair.d = q->direction[pair.h];
+            if (!look_at_crossing(pieces, sum, &pair))
+                continue;
+            pieces->alone[slot / 64] |= (uint64_t)1 << slot % 64;
+            pieces->alone_count++;
+        }
+    }
+    return PIR_OK;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Which pieces of a sum, one for each pair of the pairing, make one facet of the true sum.
+ *
+ * A facet of the true sum is the face of P, rotated, plus the face of Q in its normal's direction. It takes several
+ * pieces only where one of the two faces is a facet and the other is more than a vertex. So it is enough to know, for
+ * each facet of P and of Q, the face of the other operand in its direction; and which crossings stand alone.
+ */
+#ifndef PIR_DYMSUM_MESH_PIECES_H
+#define PIR_DYMSUM_MESH_PIECES_H
+
+#include "dymsum/pairing/pairing.h"
+
+#define PIR_NO_FACE UINT32_MAX
+
+/*
+ * The face of the other operand in the direction of a facet's normal: `facet` when that is one, else the edge of
+ * halfedge `half`, else, when both are PIR_NO_FACE, the vertex that the facet is paired with.
+ */
+typedef struct pir_face {
+    uint32_t facet, half;
+} pir_face;
+
+typedef struct pir_pieces {
+    pir_face *of_p, *of_q; /* per facet of P, of Q */
+    uint64_t *alone;       /* a bit for each slot of a crossing: its parallelogram is a facet */
+    uint32_t alone_count;
+} pir_pieces;
+
+/*
+ * The pieces of the sum at its rotation, told apart exactly. sum->rotated then holds the normals of P, rotated.
+ * PIR_ERR_MEMORY leaves nothing to release.
+ */
+pir_status pir_pieces_make(pir_pieces *pieces, pir_sum *sum);
+void pir_pieces_finish(pir_pieces *pieces, const pir_sum *sum);
+
+static inline bool pir_piece_is_alone(const pir_pieces *pieces, uint32_t slot) {
+    return pieces->alone[slot / 64] >> slot % 64 & 1;
+}
+
+#endif

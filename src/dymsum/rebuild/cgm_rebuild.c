@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The rebuild by CGM: the pairing read off the overlay of two cubical Gaussian maps.
+ *
+ * The overlay is exact but not perturbed. A facet whose normal is strictly inside one cell of the other map, and two arcs that cross at
+ * no other feature, are in general position: an infinitely small turn leaves them so, and what the overlay shows is the perturbed
+ * pairing. The rest are ties, and are settled by perturbed signs from where the overlay has located them: a facet by descent, an arc that
+ * touches a tie anywhere by walking it from the cell of its one end to that of the other.
+ *
+ * The crossings of an arc need no sorting: each leads from one cell to the next, and an arc is in no cell twice.
+ */
+#include "cgm/build.h"
+#include "dymsum/pairing/pairing.h"
+
+#include <string.h>
+
+struct reading {
+    pir_sum *sum;
+    const pir_cgm *overlay; /* source 0 is P, source 1 is Q */
+    uint8_t *tied[2];       /* per facet of P and of Q */
+    uint8_t *tied_edge;     /* per edge of P */
+    uint32_t *slot_at;      /* per vertex of Q: the slot that leaves its cell, of the edge being linked */
+};
+
+static uint32_t facet_at(const pir_cgm *cgm, uint32_t vertex, uint32_t source) {
+    return cgm->vertex_facet[(size_t)vertex * cgm->source_count + source];
+}
+
+/* Pairs the facets of `source` with the vertices of the other by the cells around their normals; where those differ it is a tie. */
+static void read_facets(struct reading *reading, uint32_t source, uint32_t *pairs, uint32_t count) {
+    const pir_cgm *cgm = reading->overlay;
+    uint8_t *tied = reading->tied[source];
+    for (uint32_t f = 0; f < count; f++)
+        pairs[f] = PIR_CGM_NONE;
+    for (uint32_t v = 0; v < pir_cgm_vertices(cgm); v++) {
+        uint32_t f = facet_at(cgm, v, source);
+        if (f == PIR_CGM_NONE)
+            continue;
+        struct pir_cgm_around around = pir_cgm_around_new(cgm, v);
+        do {
+            uint32_t other = pir_cgm_source_vertex(cgm, cgm->half[around.half].face, 1 - source);
+            tied[f] = tied[f] || (pairs[f] != PIR_CGM_NONE && pairs[f] != other);
+            pairs[f] = other;
+        } while (pir_cgm_around_next(cgm, &around));
+    }
+    // the hidden facets of a segment are in no map
+    for (uint32_t f = 0; f < count; f++)
+        if (pairs[f] == PIR_CGM_NONE) {
+            pairs[f] = 0;
+            tied[f] = 1;
+        }
+}
+
+static void settle_facets(struct reading *reading) {
+    pir_sum *sum = reading->sum;
+    pir_sleep unused;
+    for (uint32_t f = 0; f < sum->p->facet_count; f++)
+        if (reading->tied[0][f])
+            sum->fv[f] = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->fv[f], &unused);
+    for (uint32_t g = 0; g < sum->q->facet_count; g++)
+        if (reading->tied[1][g])
+            sum->vf[g] = pir_descend_vf(sum, g, sum->vf[g], &unused);
+}
+
+/* Marks the edges of P whose arcs start or end in a tie, overlap an arc of Q, or pass through a normal of Q. */
+static void mark_tied_edges(struct reading *reading) {
+    const pir_cgm *cgm = reading->overlay;
+    const pir_polytope *p = reading->sum->p;
+    bool all = p->artificial || reading->sum->q->artificial;
+    for (uint32_t e = 0; e < p->edge_count; e++) {
+        uint32_t h = p->edge_half[e];
+        reading->tied_edge[e] = all || reading->tied[0][p->left[h]] || reading->tied[0][pir_right(p, h)];
+    }
+    for (uint32_t h = 0; h < 2 * pir_cgm_edges(cgm); h++) {
+        uint32_t of_p = pir_cgm_source_half(cgm, h, 0);
+        if (of_p != PIR_CGM_NONE &&
+            (pir_cgm_source_half(cgm, h, 1) != PIR_CGM_NONE || facet_at(cgm, cgm->half[h].origin, 1) != PIR_CGM_NONE))
+            reading->tied_edge[p->edge[of_p]] = 1;
+    }
+}
+
+/* Takes in the crossing at vertex v of the overlay, if one is there. */
+static bool read_crossing(struct reading *reading, uint32_t v) {
+    pir_sum *sum = reading->sum;
+    const pir_cgm *cgm = reading->overlay;
+    const pir_polytope *p = sum->p, *q = sum->q;
+    uint32_t of_p = PIR_CGM_NONE, of_q = PIR_CGM_NONE, cell = 0;
+    struct pir_cgm_around around = pir_cgm_around_new(cgm, v);
+    do {
+        // of copies on cube edges and corners the first speaks for all
+        if (around.vertex < v)
+            return true;
+        uint32_t h = pir_cgm_source_half(cgm, around.half, 0), k = pir_cgm_source_half(cgm, around.half, 1);
+        if (h != PIR_CGM_NONE) {
+            of_p = h;
+            cell = pir_cgm_source_vertex(cgm, cgm->half[around.half].face, 1);
+        }
+        of_q = k != PIR_CGM_NONE ? k : of_q;
+    } while (pir_cgm_around_next(cgm, &around));
+    if (of_p == PIR_CGM_NONE || of_q == PIR_CGM_NONE || reading->tied_edge[p->edge[of_p]])
+        return true;
+    // the arc of P that leaves v is in the cell after the crossing, or before it when it leaves against its edge's direction
+    uint32_t e = p->edge[of_p], end = p->edge_half[e] == of_p ? q->target[of_q] : q->origin[of_q];
+    uint32_t slot = pir_crossing_new(sum, e, end == cell ? of_q : q->twin[of_q]);
+    if (slot == PIR_NO_CROSSING)
+        return false;
+    sum->crossings.next[slot] = sum->first[e];
+    sum->first[e] = slot;
+    return true;
+}
+
+/* Puts the crossings of edge e in order. */
+static void link_crossings(struct reading *reading, uint32_t e) {
+    pir_sum *sum = reading->sum;
+    pir_crossings *c = &sum->crossings;
+    uint32_t count = 0, v = sum->fv[sum->p->left[sum->p->edge_half[e]]], *link = &sum->first[e];
+    for (uint32_t slot = sum->first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot], count++)
+        reading->slot_at[sum->q->origin[c->half[slot]]] = slot;
+    for (; count > 0; count--) {
+        uint32_t slot = reading->slot_at[v];
+        *link = slot;
+        link = &c->next[slot];
+        v = sum->q->target[c->half[slot]];
+    }
+    *link = PIR_NO_CROSSING;
+}
+
+/* Walks the arc of edge e by perturbed signs, its ends being located. */
+static bool walk_edge(pir_sum *sum, uint32_t e) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    uint32_t h = p->edge_half[e], v = sum->fv[p->left[h]], end = sum->fv[pir_right(p, h)];
+    uint32_t entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
+    pir_vec3 direction = pir_rotated_direction(sum, h);
+    while (v != end) {
+        uint32_t side = pir_leave_cell(sum, h, direction, v, entered), slot = pir_crossing_new(sum, e, side);
+        if (slot == PIR_NO_CROSSING)
+            return false;
+        *(last == PIR_NO_CROSSING ? &sum->first[e] : &sum->crossings.next[last]) = slot;
+        last = slot;
+        entered = side;
+        v = q->target[side];
+    }
+    return true;
+}
+
+static bool read_pairing(struct reading *reading) {
+    pir_sum *sum = reading->sum;
+    pir_crossings_clear(sum);
+    pir_region_open(sum);
+    read_facets(reading, 0, sum->fv, sum->p->facet_count);
+    read_facets(reading, 1, sum->vf, sum->q->facet_count);
+    settle_facets(reading);
+    mark_tied_edges(reading);
+    for (uint32_t v = 0; v < pir_cgm_vertices(reading->overlay); v++)
+        if (!read_crossing(reading, v))
+            return false;
+    for (uint32_t e = 0; e < sum->p->edge_count; e++) {
+        if (!reading->tied_edge[e])
+            link_crossings(reading, e);
+        else if (!walk_edge(sum, e))
+            return false;
+    }
+    return true;
+}
+
+static bool read_overlay(pir_sum *sum, const pir_cgm *overlay) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_allocator *a = &sum->allocator;
+    size_t flags = (size_t)p->facet_count + q->facet_count + p->edge_count;
+    uint8_t *flag = PIR_ZEROED(a, uint8_t, flags);
+    struct reading reading = {.sum = sum, .overlay = overlay, .slot_at = PIR_NEW(a, uint32_t, q->vertex_count)};
+    bool done = flag && reading.slot_at;
+    if (done) {
+        reading.tied[0] = flag;
+        reading.tied[1] = flag + p->facet_count;
+        reading.tied_edge = flag + p->facet_count + q->facet_count;
+        done = read_pairing(&reading);
+    }
+    PIR_FREE(a, flag, flags);
+    PIR_FREE(a, reading.slot_at, q->vertex_count);
+    return done;
+}
+
+pir_status pir_cgm_rebuild(pir_sum *sum) {
+    pir_cgm *map = NULL, *overlay = NULL;
+    pir_status status = PIR_OK;
+    // Q stands and, whatever its scale, keeps its directions: its map is made once
+    if (!sum->cgm_q)
+        status = pir_cgm_create(sum->q, NULL, &sum->allocator, &sum->cgm_q);
+    if (status == PIR_OK)
+        status = pir_cgm_create(sum->p, &sum->signs.rotation.given, &sum->allocator, &map);
+    if (status == PIR_OK)
+        status = pir_cgm_overlay(map, sum->cgm_q, &overlay);
+    if (status == PIR_OK && !read_overlay(sum, overlay))
+        status = PIR_ERR_MEMORY;
+    if (status == PIR_OK) {
+        sum->signs.by_filter += overlay->by_filter + map->by_filter;
+        sum->signs.by_exact += overlay->by_exact + map->by_exact;
+        pir_expire_all(sum);
+        pir_region_close(sum);
+    }
+    pir_cgm_destroy(overlay);
+    pir_cgm_destroy(map);
+    return status;
+}

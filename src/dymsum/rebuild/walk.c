@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The rebuild by walk: one Gaussian map traversed through the other, in time proportional to the result.
+ *
+ * One facet of P is located by descent; from there every arc of P is walked once, breadth first, and the walk itself locates the
+ * facet at its other end. An arc leaves a convex cell of Q through the one side whose corners it separates, right of it behind, left of
+ * it ahead: seen counter-clockwise, the side at which s(e, ·) turns from negative to positive. Past the side it came in by, the corners'
+ * signs are first negative, then positive, so the side is found by bisection when the cell has many. Facets of Q are located last, by
+ * descent from an end of an edge whose arc crosses beside them. Where a region leaves features dormant, region.c does all this instead.
+ */
+#include "dymsum/pairing/pairing.h"
+
+/* Cells with more sides than this are bisected. */
+#define MANY_SIDES 12
+
+static int corner_sign(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t corner_half) {
+    double unused;
+    return pir_sign_half_facet(sum, h, direction, sum->q->left[corner_half], &unused);
+}
+
+uint32_t pir_leave_cell(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
+    const pir_polytope *q = sum->q;
+    uint32_t start = q->ring_start[v], n = q->ring_start[v + 1] - start;
+    if (entered == PIR_NO_CROSSING) {
+        // the corner before side i is that of side i − 1
+        int before = corner_sign(sum, h, direction, start + n - 1);
+        for (uint32_t i = 0; i < n; i++) {
+            int sign = corner_sign(sum, h, direction, start + i);
+            if (before < 0 && sign > 0)
+                return start + i;
+            before = sign;
+        }
+        PIR_ASSERT(false);
+    }
+    // sides in order from the one it came in by; corner low is negative, corner high positive
+    uint32_t first = q->twin[entered] - start, low = 0, high = n - 1;
+    while (high - low > MANY_SIDES) {
+        uint32_t middle = low + (high - low) / 2;
+        if (corner_sign(sum, h, direction, start + (first + middle) % n) < 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    for (uint32_t i = low + 1; i < high; i++) {
+        uint32_t side = first + i < n ? first + i : first + i - n;
+        if (corner_sign(sum, h, direction, start + side) > 0)
+            return start + side;
+    }
+    return start + (first + high) % n;
+}
+
+/* What has been located, in sum->mark. */
+enum { LOCATED = 1 };
+
+/*
+ * Walks the arc along halfedge h of P from the facet left of it, which is located, to the one right of it, which may not be yet. The
+ * crossings are listed for the edge in its own direction.
+ */
+static bool walk_arc(pir_sum *sum, uint32_t h) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    uint32_t e = p->edge[h], from = p->left[h], to = pir_right(p, h);
+    bool forward = p->edge_half[e] == h, located = sum->mark[to] & LOCATED;
+    pir_vec3 direction = pir_rotated_direction(sum, h), end = sum->rotated[to];
+    uint32_t v = sum->fv[from], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
+    while (q->half_count > 0 && !(located && v == sum->fv[to])) {
+        uint32_t side = pir_leave_cell(sum, h, direction, v, entered);
+        double unused;
+        if (!located && pir_sign_facet_half(sum, to, end, side, &unused) < 0)
+            break;
+        uint32_t slot = pir_crossing_new(sum, e, forward ? side : q->twin[side]);
+        if (slot == PIR_NO_CROSSING)
+            return false;
+        // append when walking forward, prepend when walking back
+        if (!forward) {
+            sum->crossings.next[slot] = sum->first[e];
+            sum->first[e] = slot;
+        } else if (last == PIR_NO_CROSSING) {
+            sum->first[e] = slot;
+        } else {
+            sum->crossings.next[last] = slot;
+        }
+        last = slot;
+        entered = side;
+        v = q->target[side];
+    }
+    sum->fv[to] = v;
+    sum->mark[to] |= LOCATED;
+    return true;
+}
+
+/* Locates every facet of P and walks every arc. */
+static bool walk_arcs(pir_sum *sum) {
+    const pir_polytope *p = sum->p;
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        sum->rotated[f] = pir_rotated_normal(sum, f);
+        sum->mark[f] = 0;
+    }
+    if (p->facet_count == 0)
+        return true;
+    pir_sleep unused;
+    sum->fv[0] = pir_descend_fv(sum, 0, sum->rotated[0], 0, &unused);
+    sum->mark[0] = LOCATED;
+    uint32_t head = 0, tail = 0;
+    sum->queue[tail++] = 0;
+    while (head < tail) {
+        uint32_t f = sum->queue[head++];
+        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
+            uint32_t h = p->loop[i], to = pir_right(p, h);
+            bool is_new = !(sum->mark[to] & LOCATED);
+            // an arc between two located facets is walked from the edge's own left one
+            if (!is_new && (p->edge_half[p->edge[h]] != h || sum->first[p->edge[h]] != PIR_NO_CROSSING))
+                continue;
+            if (!walk_arc(sum, h))
+                return false;
+            if (is_new)
+                sum->queue[tail++] = to;
+        }
+    }
+    return true;
+}
+
+/* Locates the facets of Q: those beside a crossing first, the rest from a neighbour. */
+static void locate_facets_of_q(pir_sum *sum) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    for (uint32_t g = 0; g < q->facet_count; g++)
+        sum->mark[g] = 0;
+    for (uint32_t i = 0; i < sum->crossings.used; i++) {
+        uint32_t half = p->edge_half[sum->crossings.edge[i]], h = sum->crossings.half[i];
+        sum->vf[pir_right(q, h)] = p->origin[half];
+        sum->vf[q->left[h]] = p->target[half];
+        sum->mark[pir_right(q, h)] = sum->mark[q->left[h]] = LOCATED;
+    }
+    uint32_t head = 0, tail = 0;
+    for (uint32_t g = 0; g < q->facet_count; g++)
+        if (sum->mark[g] & LOCATED)
+            sum->queue[tail++] = g;
+    if (tail == 0 && q->facet_count > 0) {
+        sum->vf[0] = 0;
+        sum->mark[0] = LOCATED;
+        sum->queue[tail++] = 0;
+    }
+    while (head < tail) {
+        uint32_t g = sum->queue[head++];
+        pir_sleep unused;
+        sum->vf[g] = pir_descend_vf(sum, g, sum->vf[g], &unused);
+        for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
+            uint32_t beside = pir_right(q, q->loop[i]);
+            if (sum->mark[beside] & LOCATED)
+                continue;
+            sum->mark[beside] = LOCATED;
+            sum->vf[beside] = sum->vf[g];
+            sum->queue[tail++] = beside;
+        }
+    }
+}
+
+pir_status pir_walk_rebuild(pir_sum *sum) {
+    uint64_t asked = pir_signs_asked(&sum->signs);
+    pir_crossings_clear(sum);
+    if (sum->region.cone.set && !sum->region.cover.whole) {
+        if (!pir_region_walk(sum))
+            return PIR_ERR_MEMORY;
+    } else {
+        pir_region_open(sum);
+        if (!walk_arcs(sum))
+            return PIR_ERR_MEMORY;
+        locate_facets_of_q(sum);
+        pir_expire_all(sum);
+    }
+    sum->cost.walk = (double)(pir_signs_asked(&sum->signs) - asked) / pir_region_share(sum);
+    return PIR_OK;
+}

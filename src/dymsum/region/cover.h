@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Cones of directions, and the covers around them that say what a region keeps: region.c has the idea.
+ *
+ * Angles are pairs of cosine and sine, made by sums and products alone, so that they are the same on every machine.
+ */
+#ifndef PIR_DYMSUM_REGION_COVER_H
+#define PIR_DYMSUM_REGION_COVER_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <pirouette/base.h>
+
+#include "base/vec.h"
+
+/* An angle from 0 to π by its cosine and sine. */
+typedef struct pir_arc {
+    double cosine, sine;
+} pir_arc;
+
+/* Of radians, 0 or more; π from there on. */
+pir_arc pir_arc_of(double angle);
+
+/* The sum of two, at most π. */
+pir_arc pir_arc_add(pir_arc a, pir_arc b);
+
+/* From the cosine, which is brought into its range. */
+pir_arc pir_arc_from_cosine(double cosine);
+
+/* A cone of directions in the frame of Q, or all of them. */
+typedef struct pir_cone {
+    bool set;                  /* else all */
+    pir_vec3 axis;             /* unit */
+    double half_angle, cosine; /* cosine: rounded down */
+} pir_cone;
+
+/* Whether a direction of any length is in the cone, rounding towards yes; what has no direction is. */
+static inline bool pir_cone_has(const pir_cone *cone, pir_vec3 n) {
+    return !cone->set || pir_vec_dot(n, cone->axis) >= cone->cosine * sqrt(pir_vec_dot(n, n));
+}
+
+/* The cone about an axis of any length. Errors as pir_sum_set_region. */
+pir_status pir_cone_make(pir_vec3 axis, double half_angle, pir_cone *ret_cone);
+
+/* Bounds of skins and of the stride, in radians. */
+#define PIR_LEAST_SKIN   0x1p-6
+#define PIR_MOST_SKIN    0x1p-3
+#define PIR_LEAST_STRIDE 0x1p-7
+
+/* Where the region was, and how far it and the bodies may go, when what is kept was chosen: that is a function of this alone. */
+typedef struct pir_cover {
+    bool whole;              /* all is kept */
+    pir_vec3 axis_p, axis_q; /* the region's axis, unit: as P saw it, and Q */
+    pir_arc half_angle;      /* the region's */
+    double skin_p, skin_q;   /* radians: how far either sight of the axis may go */
+    double cosine_p, cosine_q;
+    double stride; /* radians: how far a step that leads out of here may, or has led in here */
+
+    /* the motion since, which the next cover is made from; what is kept does not depend on it */
+    uint32_t steps; /* updates */
+    double step;    /* radians: the last step, at most */
+} pir_cover;
+
+/* The greatest that `step` can be. */
+#define PIR_MOST_STEP 4.0
+
+/* A cover of the cone, without a motion yet; skins and stride are brought within their bounds. */
+pir_cover pir_cover_make(const pir_cone *cone, bool whole, pir_vec3 axis_p, pir_vec3 axis_q, double skin_p,
+                         double skin_q, double stride);
+
+#endif

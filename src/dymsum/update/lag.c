@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Tolerance: a pairing that stays behind the rotation while that costs at most τ.
+ *
+ * Let the pairing be exact at R₀, let R be the rotation asked for, θ the angle between them, and A the hull of the points R·p + q over
+ * the pairing's vertices (p, q). A lies in the sum M, so its support function h_A is at most h_M. For a direction n take the vertex (p, q)
+ * that supports M at R₀ in the direction
+ *
+ *   - n: then q supports Q in n, and p supports P in R₀ᵀn, which is at most θ away from Rᵀn: h_M(n) − h_A(n) ≤ S_P(θ), where S_B(θ) is how far
+ *     a vertex that supports B in some direction may fall short of B's support in another, at most θ away;
+ *   - R₀Rᵀn: then p supports P in Rᵀn, and q supports Q in a direction at most θ away from n: the same with S_Q(θ).
+ *
+ * Hence |h_M − h_A| ≤ min(S_P(θ), S_Q(θ)) in every direction there is, those of the pairing among them. While that is at most τ nothing is
+ * looked at and nothing changes: a rotation costs a few operations whatever the size. Past it one update covers all the turning since.
+ *
+ * S_B is made of pairs of vertices v, w, a distance L apart along d. Of the directions that v supports, those in the cell of v, u·d is
+ * greatest at a corner, a facet's normal, for it is negative in the cell, where it is subharmonic, and convex along arcs. So they stay
+ * below w's horizon by δ at least, sin δ the least (h − n·w)/L of the facets around v, and
+ *
+ *     S_B(θ) = max over v, w of L·sin(θ − δ).
+ *
+ * So it reaches a length s at θ(s), the least δ + asin(s/L) of all pairs farther apart than s. And S_B(θ)/sin θ rises with θ, which bounds S_B
+ * between the few lengths for which θ is worked out. On a ball θ(s) is about √(2s), far beyond s divided by its size.
+ *
+ * Rounding errs upwards. The angle is an upper bound (rotation.h); asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x bound what would need
+ * functions that machines disagree on.
+ */
+#include "dymsum/pairing/pairing.h"
+
+/* Angles beyond this are not told apart: the sine in S_B rises up to here. */
+#define FARTHEST_LAG 1.5
+
+/* What a slack may be off by, per size of the body: normals are off by 8u, dot products and vertices by less again. */
+#define SLACK_ERROR 0x1p-47
+
+/* At most the angle whose sine is x, 0 ≤ x ≤ 1. */
+static double arc_sine_below(double x) {
+    return (x + x * x * x * (1.0 / 6)) * (1 - 0x1p-50);
+}
+
+/* Lowers angles[k], up to which S_B is at most lengths[k], for the facets around vertex v and its distance from w. */
+static void take_pair(double distance, double slack, const double *lengths, double *angles) {
+    double below = arc_sine_below(fmin(slack / distance, 1));
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        if (distance > lengths[k])
+            angles[k] = fmin(angles[k], (below + arc_sine_below(lengths[k] / distance)) * (1 - 0x1p-50));
+}
+
+/* A power of two that brings p's coordinates below 1, and near it where doubles reach: squares then neither vanish nor overflow. */
+static double scale_of(const pir_polytope *p) {
+    double most = 0;
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        pir_vec3 at = p->vertex[v];
+        most = fmax(most, fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z))));
+    }
+    int exponent;
+    frexp(most, &exponent);
+    return ldexp(1, exponent < -1000 ? 1000 : -exponent);
+}
+
+/* The angles up to which S_B is at most each of the lengths: a pass over facets and vertices. */
+static void measure(const pir_polytope *p, const double *given_lengths, double *ret_angles) {
+    double far = 0, by = scale_of(p), lengths[PIR_LAG_KNOTS];
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        lengths[k] = given_lengths[k] * by;
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        pir_vec3 at = pir_vec_scale(p->vertex[v], by);
+        far = fmax(far, pir_vec_dot(at, at));
+    }
+    // vertices below the normal doubles are off by more
+    double size = sqrt(far), error = size * SLACK_ERROR + by * 0x1p-1070;
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        ret_angles[k] = FARTHEST_LAG;
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        uint32_t start = p->loop_start[f], end = p->loop_start[f + 1];
+        double offset = pir_vec_dot(p->normal[f], pir_vec_scale(p->vertex[p->origin[p->loop[start]]], by));
+        for (uint32_t w = 0; w < p->vertex_count; w++) {
+            pir_vec3 at = pir_vec_scale(p->vertex[w], by);
+            double slack = fmax(0, offset - pir_vec_dot(p->normal[f], at) - error);
+            // no two vertices are farther apart than twice the size: past this, no angle is lowered
+            if (slack > 2 * size * ret_angles[PIR_LAG_KNOTS - 1])
+                continue;
+            for (uint32_t i = start; i < end; i++) {
+                pir_vec3 apart = pir_vec_sub(at, pir_vec_scale(p->vertex[p->origin[p->loop[i]]], by));
+                double distance = sqrt(pir_vec_dot(apart, apart)) * (1 + 0x1p-50) + error;
+                if (p->origin[p->loop[i]] != w)
+                    take_pair(distance, slack, lengths, ret_angles);
+            }
+        }
+    }
+}
+
+pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance) {
+    if (!sum || !(tolerance >= 0))
+        return PIR_ERR_ARGUMENT;
+    if (!isfinite(tolerance))
+        return PIR_ERR_NOT_FINITE;
+    pir_status status = pir_sum_settle(sum);
+    if (status != PIR_OK)
+        return status;
+    pir_sum_changes(sum);
+    sum->lag.tolerance = tolerance;
+    pir_lag_measure(sum);
+    return PIR_OK;
+}
+
+void pir_lag_measure(pir_sum *sum) {
+    pir_lag *lag = &sum->lag;
+    if (lag->tolerance == 0)
+        return;
+    double of_p[PIR_LAG_KNOTS], of_q[PIR_LAG_KNOTS];
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        lag->length[k] = ldexp(lag->tolerance, 2 * (k + 1 - PIR_LAG_KNOTS));
+    measure(sum->p, lag->length, of_p);
+    measure(sum->q, lag->length, of_q);
+    for (int k = 0; k < PIR_LAG_KNOTS; k++)
+        lag->angle[k] = fmax(of_p[k], of_q[k]);
+}
+
+/* What the support function falls short of at most after a turn by `angle`, which is below the last of lag->angle. */
+static double shortfall_at(const pir_lag *lag, double angle) {
+    int k = 0;
+    while (angle > lag->angle[k])
+        k++;
+    double most = lag->angle[k], sine = (most - most * most * most * (1.0 / 6)) * (1 - 0x1p-50);
+    return fmin(lag->length[k], lag->length[k] * (angle / sine) * (1 + 0x1p-50));
+}
+
+double pir_sum_tolerance(const pir_sum *sum) {
+    return sum->lag.tolerance;
+}
+
+double pir_sum_shortfall_bound(const pir_sum *sum) {
+    return sum->lag.lagging ? sum->lag.bound : 0;
+}
+
+pir_quat pir_sum_pairing_rotation(const pir_sum *sum) {
+    return sum->signs.rotation.given;
+}
+
+pir_status pir_sum_settle(pir_sum *sum) {
+    if (!sum)
+        return PIR_ERR_ARGUMENT;
+    if (!sum->lag.lagging)
+        return PIR_OK;
+    double tolerance = sum->lag.tolerance;
+    sum->lag.tolerance = 0;
+    pir_status status = pir_sum_rotate(sum, sum->lag.now.given, PIR_METHOD_AUTO);
+    sum->lag.tolerance = tolerance;
+    return status;
+}
+
+pir_status pir_lag_behind(pir_sum *sum, pir_quat rotation, bool *ret_done) {
+    pir_lag *lag = &sum->lag;
+    pir_rotation now;
+    pir_status status = pir_rotation_set(&now, rotation);
+    if (status != PIR_OK)
+        return status;
+    double angle = pir_rotation_angle_bound(sum->signs.rotation.unit, now.unit);
+    // where there is a region, the directions of it and those that the pairing has for them are kept
+    *ret_done = angle <= lag->angle[PIR_LAG_KNOTS - 1] && pir_region_holds(sum, &now);
+    if (!*ret_done)
+        return PIR_OK;
+    pir_sum_changes(sum);
+    pir_rotation_set(&lag->now, rotation);
+    lag->bound = shortfall_at(lag, angle);
+    lag->lagging = true;
+    sum->statistics.kept++;
+    return PIR_OK;
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Edges brought up to date.
+ *
+ * Along a continuous turn the crossings of an arc change only where one facet, a point, passes through an arc. When an end of edge e
+ * crosses the arc of h, from one cell to the next, the list of e loses the crossing of h at that end or, if it had none, gains the one back.
+ * When facet g of Q crosses the arc of e, e leads around g on the other side: the crossings of g's arcs that it had, a run of them,
+ * give way to those of all the others. So an edge that one event has touched is repaired without a sign.
+ *
+ * Moves of both ends may come in any order. As long as no facet of Q passes through it, an arc keeps, its ends moving, its homotopy
+ * class on the sphere less the facets of Q. That sphere shrinks to the graph of cells and sides, on which a class has one list without a
+ * crossing and its reverse side by side; an arc has such a list, for cells are convex; and the moves below keep it so. Where a facet of
+ * Q passes and other events meet it, the edge is led from its left cell to its right one again, and what it crossed before is tried first.
+ */
+#include "dymsum/pairing/pairing.h"
+
+bool pir_move_start(pir_sum *sum, uint32_t e, uint32_t h) {
+    pir_crossings *c = &sum->crossings;
+    uint32_t first = sum->first[e];
+    if (first != PIR_NO_CROSSING && c->half[first] == h) {
+        sum->first[e] = c->next[first];
+        pir_crossing_free(sum, first);
+        sum->statistics.repaired++;
+        return true;
+    }
+    uint32_t slot = pir_crossing_new(sum, e, sum->q->twin[h]);
+    if (slot == PIR_NO_CROSSING)
+        return false;
+    c->next[slot] = first;
+    sum->first[e] = slot;
+    return true;
+}
+
+bool pir_move_end(pir_sum *sum, uint32_t e, uint32_t h) {
+    pir_crossings *c = &sum->crossings;
+    uint32_t *link = &sum->first[e], back = sum->q->twin[h];
+    while (*link != PIR_NO_CROSSING && c->next[*link] != PIR_NO_CROSSING)
+        link = &c->next[*link];
+    if (*link != PIR_NO_CROSSING && c->half[*link] == back) {
+        pir_crossing_free(sum, *link);
+        *link = PIR_NO_CROSSING;
+        sum->statistics.repaired++;
+        return true;
+    }
+    // room may be made elsewhere: the link is found by its slot
+    uint32_t last = *link, slot = pir_crossing_new(sum, e, h);
+    if (slot == PIR_NO_CROSSING)
+        return false;
+    *(last == PIR_NO_CROSSING ? &sum->first[e] : &c->next[last]) = slot;
+    return true;
+}
+
+static uint32_t ring_before(const pir_polytope *p, uint32_t half) {
+    uint32_t v = p->origin[half];
+    return half == p->ring_start[v] ? p->ring_start[v + 1] - 1 : half - 1;
+}
+
+bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
+    const pir_polytope *q = sum->q;
+    pir_crossings *c = &sum->crossings;
+    // the first crossing of an arc of g, on the side where g was
+    uint32_t before = PIR_NO_CROSSING, at = sum->first[e];
+    while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) != g)
+        before = at, at = c->next[at];
+    PIR_ASSERT(at != PIR_NO_CROSSING);
+    uint32_t from = c->half[at], to = q->origin[from];
+    // out with the run of them
+    while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) == g) {
+        uint32_t next = c->next[at];
+        to = q->target[c->half[at]];
+        pir_crossing_free(sum, at);
+        sum->statistics.repaired++;
+        at = next;
+    }
+    // and in with those around the other side, from the cell where it began to the one where it ended
+    uint32_t half = to_left ? ring_before(q, from) : pir_ring_next(q, from);
+    for (;;) {
+        uint32_t slot = pir_crossing_new(sum, e, half);
+        if (slot == PIR_NO_CROSSING)
+            return false;
+        c->next[slot] = at;
+        *(before == PIR_NO_CROSSING ? &sum->first[e] : &c->next[before]) = slot;
+        before = slot;
+        if (q->target[half] == to)
+            return true;
+        half = to_left ? ring_before(q, q->twin[half]) : pir_ring_next(q, q->twin[half]);
+    }
+}
+
+/* Whether the arc along halfedge `half` of P, which leaves the cell of h's origin, leaves it through h: its corners tell. */
+static bool leaves_through(pir_sum *sum, uint32_t half, pir_vec3 direction, uint32_t h) {
+    double unused;
+    return pir_sign_half_facet(sum, half, direction, pir_right(sum->q, h), &unused) < 0 &&
+           pir_sign_half_facet(sum, half, direction, sum->q->left[h], &unused) > 0;
+}
+
+/* Takes from the list at *list the crossing out of cell v if it still holds, or gives PIR_NO_CROSSING. */
+static uint32_t take_crossing(pir_sum *sum, uint32_t *list, uint32_t half, pir_vec3 direction, uint32_t v) {
+    pir_crossings *c = &sum->crossings;
+    for (uint32_t *at = list; *at != PIR_NO_CROSSING; at = &c->next[*at]) {
+        uint32_t slot = *at;
+        if (sum->q->origin[c->half[slot]] != v)
+            continue;
+        if (!leaves_through(sum, half, direction, c->half[slot]))
+            break;
+        *at = c->next[slot];
+        return slot;
+    }
+    return PIR_NO_CROSSING;
+}
+
+bool pir_derive_edge(pir_sum *sum, uint32_t e) {
+    const pir_polytope *p = sum->p, *q = sum->q;
+    pir_crossings *c = &sum->crossings;
+    uint32_t half = p->edge_half[e], end = sum->fv[pir_right(p, half)], v = sum->fv[p->left[half]];
+    pir_vec3 direction = pir_rotated_direction(sum, half);
+    uint32_t old = sum->first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
+    sum->first[e] = PIR_NO_CROSSING;
+    while (v != end) {
+        uint32_t slot = take_crossing(sum, &old, half, direction, v);
+        if (slot == PIR_NO_CROSSING)
+            slot = pir_crossing_new(sum, e, pir_leave_cell(sum, half, direction, v, entered));
+        if (slot == PIR_NO_CROSSING)
+            return false;
+        c->next[slot] = PIR_NO_CROSSING;
+        *(last == PIR_NO_CROSSING ? &sum->first[e] : &c->next[last]) = slot;
+        last = slot;
+        entered = c->half[slot];
+        v = q->target[entered];
+    }
+    // what is left of the old list crosses no more
+    while (old != PIR_NO_CROSSING) {
+        uint32_t next = c->next[old];
+        pir_crossing_free(sum, old);
+        sum->statistics.repaired++;
+        old = next;
+    }
+    return true;
+}

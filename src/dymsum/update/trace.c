@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The way of a facet through one step, from the cell where it was to the one where it is, side by side.
+ *
+ * The step turns the facet's normal about a known axis by an angle T, and its value s against the circle of a side goes the way
+ * s(−a) = s − s'a ± a²/2, a from 0 to T, where s and s' are those of now and all is off by E, the sign's bound and twice the clock's drift.
+ * Where |s'| is at least 2T + E, s changes monotonically through the step, and the circle is crossed once at most. So in a cell that the
+ * facet has come into, or began in:
+ *
+ *   - it was on the inner side of every circle when it came. A circle that it is past now, it has crossed since, going outwards.
+ *   - a circle that it is not past it has not crossed since, for it would have crossed it twice.
+ *
+ * Hence it has left the cell if it is past some circle, through the side of the circle that it crossed first: the only one, or the one
+ * whose span of possible times lies before those of the others. From there the next cell is looked at in the same way. Where a value is
+ * within E of zero, where a circle within reach may have been crossed twice, or where the order is open, nothing is said.
+ */
+#include "dymsum/pairing/pairing.h"
+
+struct tracer {
+    const pir_facets *facets;
+    const pir_polytope *other;
+    pir_vec3 turned,
+        motion;    /* the facet's normal turned to the other operand, and how that moves along the clock's axis */
+    double stride; /* the angle of the step about that, rounded outwards */
+    double error;  /* E */
+};
+
+/* Where a cell was left. */
+struct exit {
+    uint32_t count, half; /* how many circles the facet is past, and the halfedge of the one that it crossed first */
+    double s, rising;     /* how far it is past that, and how fast that grew */
+    bool known;           /* false: too close to call */
+};
+
+/* The span of times ago at which s was zero, if it rose so fast: roots of s − s'a ± a²/2, the error taken to widen it. */
+static void time_of_exit(double s, double rising, double error, double *ret_least, double *ret_most) {
+    double square = rising * rising, rest = square - (s + s + 2 * error);
+    *ret_least = sqrt(square + (s + s - 2 * error)) - rising;
+    *ret_most = rest > 0 ? rising - sqrt(rest) : HUGE_VAL;
+}
+
+/* Takes in that the circle of `half` was crossed outwards too. */
+static void add_exit(struct exit *exit, uint32_t half, double s, double rising, double error) {
+    if (exit->count++ > 0) {
+        double least, most, least_before, most_before;
+        time_of_exit(s, rising, error, &least, &most);
+        time_of_exit(exit->s, exit->rising, error, &least_before, &most_before);
+        if (least_before > most)
+            return;
+        exit->known = least > most_before;
+    }
+    exit->half = half, exit->s = s, exit->rising = rising;
+}
+
+/* Looks for the side through which the facet has left the cell of v. */
+static struct exit look_for_exit(const struct tracer *tracer, uint32_t v) {
+    const pir_polytope *other = tracer->other;
+    const double stride = fabs(tracer->stride), error = tracer->error;
+    struct exit exit = {.known = true};
+    for (uint32_t h = other->ring_start[v]; h < other->ring_start[v + 1] && exit.known; h++) {
+        double s = pir_vec_dot(tracer->turned, other->direction[h]),
+               rate = pir_vec_dot(tracer->motion, other->direction[h]), size = fabs(s), speed = fabs(rate);
+        bool reached = size <= speed * stride + 0.5 * stride * stride + 2 * error;
+        if (!reached && s < 0)
+            continue;
+        double rising = tracer->stride < 0 ? -rate : rate;
+        exit.known = reached && size > 2 * error && speed > 2 * stride + 2 * error && (s < 0 || rising > 0);
+        if (exit.known && s > 0)
+            add_exit(&exit, h, s, rising, error);
+    }
+    return exit;
+}
+
+static bool follow(pir_sum *sum, const struct tracer *tracer, uint32_t from, pir_trace *ret_trace) {
+    if (!(fabs(tracer->stride) <= PIR_TRACE_FARTHEST))
+        return false;
+    ret_trace->count = 0;
+    ret_trace->cell = from;
+    for (;;) {
+        const uint32_t *ring = &tracer->other->ring_start[ret_trace->cell];
+        struct exit exit = look_for_exit(tracer, ret_trace->cell);
+        sum->signs.by_filter += ring[1] - ring[0];
+        if (!exit.known || (exit.count > 0 && ret_trace->count == PIR_TRACE_LONGEST))
+            return false;
+        if (exit.count == 0)
+            break;
+        ret_trace->crossed[ret_trace->count++] = exit.half;
+        ret_trace->cell = tracer->other->target[exit.half];
+    }
+    float turned[8];
+    pir_turned(tracer->turned, tracer->motion, turned);
+    pir_glance seen;
+    sum->kernels->glance(tracer->facets, &sum->moment, ret_trace->cell, turned, &seen);
+    ret_trace->sleep = (pir_sleep){seen.look.margin, seen.look.ahead, -seen.look.behind};
+    return true;
+}
+
+/* The facet of normal `turned` in the cells of `other`. */
+static struct tracer tracer_of(const pir_sum *sum, const pir_facets *facets, const pir_polytope *other, pir_vec3 turned,
+                               pir_vec3 motion) {
+    const pir_clock *clock = &sum->clock;
+    return (struct tracer){facets,
+                           other,
+                           turned,
+                           motion,
+                           clock->stride * (1 + 0x1p-20),
+                           (PIR_SIGN_BOUND + 2 * clock->drift) * (1 + 0x1p-20)};
+}
+
+bool pir_trace_fv(pir_sum *sum, uint32_t f, pir_trace *ret_trace) {
+    pir_vec3 turned = pir_rotated_normal(sum, f);
+    const struct tracer tracer = tracer_of(sum, &sum->p_facets, sum->q, turned, pir_motion_of(sum, turned));
+    return follow(sum, &tracer, sum->fv[f], ret_trace);
+}
+
+bool pir_trace_vf(pir_sum *sum, uint32_t g, pir_trace *ret_trace) {
+    pir_vec3 turned = pir_turned_back_normal(sum, g);
+    const struct tracer tracer = tracer_of(sum, &sum->q_facets, sum->p, turned, pir_motion_back(sum, turned));
+    return follow(sum, &tracer, sum->vf[g], ret_trace);
+}

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT */
+/* Reading models: the whole file into memory, then the reader of its format, then the hull of what that made of it. */
+#include "polytope/read/read.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/memory.h"
+#include "base/report.h"
+#include "polytope/polytope.h"
+#include "polytope/write/io.h"
+
+struct bytes {
+    char *data;
+    size_t size, capacity;
+};
+
+static pir_status fail_file(pir_report *report, const char *path, const char *doing, int error) {
+    return pir_fail(report, PIR_ERR_FILE, "%s: cannot %s: %s", pir_short_name(path), doing, strerror(error));
+}
+
+/* Reads an open stream to its end; `expected` is a guess at its size. */
+static pir_status read_stream(FILE *file, size_t expected, const char *path, const pir_allocator *allocator,
+                              pir_report *report, struct bytes *bytes) {
+    for (;;) {
+        // Room for at least one byte more, which a read at the end leaves empty.
+        if (bytes->size == bytes->capacity) {
+            size_t capacity = bytes->capacity ? 2 * bytes->capacity : expected + 1;
+            char *data = PIR_RESIZE(allocator, bytes->data, bytes->capacity, capacity);
+            if (!data)
+                return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", pir_short_name(path));
+            bytes->data = data;
+            bytes->capacity = capacity;
+        }
+        errno = 0;
+        bytes->size += fread(bytes->data + bytes->size, 1, bytes->capacity - bytes->size, file);
+        if (ferror(file))
+            return fail_file(report, path, "read", errno);
+        if (bytes->size > PIR_FILE_SIZE_MAX)
+            return pir_fail(report, PIR_ERR_LIMIT, "%s: larger than 2 GiB", pir_short_name(path));
+        if (feof(file))
+            return PIR_OK;
+    }
+}
+
+/* Reads a file into `bytes`, which the caller frees whatever the outcome. */
+static pir_status read_file(const char *path, const pir_allocator *allocator, pir_report *report, struct bytes *bytes) {
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return fail_file(report, path, "open", errno);
+    pir_status status;
+    struct stat about;
+    if (fstat(fileno(file), &about) != 0)
+        status = fail_file(report, path, "read", errno);
+    else if (S_ISDIR(about.st_mode))
+        status = fail_file(report, path, "read", EISDIR);
+    else if (S_ISREG(about.st_mode) && (uintmax_t)about.st_size > PIR_FILE_SIZE_MAX)
+        status = pir_fail(report, PIR_ERR_LIMIT, "%s: larger than 2 GiB", pir_short_name(path));
+    else
+        status =
+            read_stream(file, S_ISREG(about.st_mode) ? (size_t)about.st_size : 4096, path, allocator, report, bytes);
+    fclose(file);
+    return status;
+}
+
+static pir_status read_model(const char *data, size_t size, const char *ending, struct pir_model *model) {
+    static const struct {
+        const char *ending;
+        pir_status (*read)(const char *data, size_t size, struct pir_model *model);
+    } readers[] = {{"off", pir_read_off}, {"obj", pir_read_obj}, {"stl", pir_read_stl}, {"ply", pir_read_ply}};
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
+        if (strcmp(ending, readers[i].ending) == 0)
+            return readers[i].read(data, size, model);
+    return pir_fail(model->report, PIR_ERR_ARGUMENT, "%s: '%.8s' is none of off, obj, stl and ply", model->name,
+                    ending);
+}
+
+pir_read_options pir_read_options_default(void) {
+    return (pir_read_options){.polytope = pir_polytope_options_default(), .require_convex = 0};
+}
+
+pir_status pir_polytope_read_bytes(const void *bytes, size_t size, const char *name, const char *format,
+                                   const pir_read_options *options, pir_report *report, pir_surface *ret_surface,
+                                   pir_polytope **ret_polytope) {
+    const pir_read_options used = options ? *options : pir_read_options_default();
+    name = name ? pir_short_name(name) : "text";
+    if ((!bytes && size > 0) || !format || !ret_polytope)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: no bytes, no format, or no place for the polytope", name);
+    if (size == 0)
+        return pir_fail(report, PIR_ERR_EMPTY, "%s: the file is empty", name);
+    if (size > PIR_FILE_SIZE_MAX)
+        return pir_fail(report, PIR_ERR_LIMIT, "%s: larger than 2 GiB", name);
+    pir_status status = pir_polytope_check_options(&used.polytope);
+    if (status != PIR_OK)
+        return pir_fail(report, status, "%s: the merge tolerance is %g", name, used.polytope.merge_tolerance);
+    struct pir_c_locale locale;
+    if (!pir_c_locale_enter(&locale))
+        return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", name);
+    const pir_allocator allocator = pir_allocator_or_default(used.polytope.allocator);
+    struct pir_model model;
+    pir_model_init(&model, name, &allocator, report);
+    status = read_model(bytes, size, format, &model);
+    if (status == PIR_OK)
+        status = pir_model_make(&model, &used, ret_surface, ret_polytope);
+    pir_model_finish(&model);
+    pir_c_locale_leave(&locale);
+    return status;
+}
+
+pir_status pir_polytope_read_surface(const char *path, const pir_read_options *options, pir_report *report,
+                                     pir_surface *ret_surface, pir_polytope **ret_polytope) {
+    if (!path || !ret_polytope)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the polytope");
+    const char *name = pir_short_name(path);
+    char ending[4];
+    enum pir_file_type type = pir_file_type_of(path, ending);
+    if (type == PIR_FILE_SVG)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: .svg files are written, not read", name);
+    if (type == PIR_FILE_UNKNOWN)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name does not end in .off, .obj, .stl or .ply", name);
+
+    const pir_allocator memory = pir_allocator_or_default(options ? options->polytope.allocator : NULL);
+    struct bytes bytes = {0};
+    pir_status status = read_file(path, &memory, report, &bytes);
+    if (status == PIR_OK)
+        status =
+            pir_polytope_read_bytes(bytes.data, bytes.size, path, ending, options, report, ret_surface, ret_polytope);
+    PIR_FREE(&memory, bytes.data, bytes.capacity);
+    return status;
+}
+
+pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
+                             pir_polytope **ret_polytope) {
+    const pir_read_options used = {.polytope = options ? *options : pir_polytope_options_default()};
+    return pir_polytope_read_surface(path, &used, report, NULL, ret_polytope);
+}
+
+pir_status pir_polytope_read_off(const char *text, size_t size, const char *name, const pir_polytope_options *options,
+                                 pir_report *report, pir_polytope **ret_polytope) {
+    const pir_read_options used = {.polytope = options ? *options : pir_polytope_options_default()};
+    return pir_polytope_read_bytes(text, size, name, "off", &used, report, NULL, ret_polytope);
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT */
+/* Points and facets in arrays that grow; see model.h. */
+#include "polytope/surface/model.h"
+
+#include "base/memory.h"
+#include "base/report.h"
+#include "polytope/polytope.h"
+#include "polytope/surface/surface.h"
+
+/* Points, and facets, that a model may have. */
+#define COUNT_MAX ((uint32_t)1 << 30)
+
+void pir_model_init(struct pir_model *model, const char *name, const pir_allocator *allocator, pir_report *report) {
+    *model = (struct pir_model){.allocator = *allocator, .name = name, .report = report};
+}
+
+void pir_model_finish(struct pir_model *model) {
+    for (size_t i = 0; i < 3 * (size_t)model->exact_count; i++)
+        mpq_clear(model->exact[i]);
+    PIR_FREE(&model->allocator, model->exact, 3 * (size_t)model->exact_count);
+    PIR_FREE(&model->allocator, model->points, model->point_room);
+    PIR_FREE(&model->allocator, model->facet, model->facet_room);
+    PIR_FREE(&model->allocator, model->corner, model->corner_room);
+}
+
+pir_status pir_model_fail_memory(const struct pir_model *model) {
+    return pir_fail(model->report, PIR_ERR_MEMORY, "%s: out of memory", model->name);
+}
+
+/* Twice the room, or some to begin with. */
+static uint32_t more_room(uint32_t room) {
+    return room < 32 ? 64 : room < UINT32_MAX / 2 ? 2 * room : UINT32_MAX;
+}
+
+pir_status pir_model_reserve_points(struct pir_model *model, uint32_t count) {
+    if (count <= model->point_room)
+        return PIR_OK;
+    pir_vec3 *points = PIR_RESIZE(&model->allocator, model->points, model->point_room, count);
+    if (!points)
+        return pir_model_fail_memory(model);
+    model->points = points;
+    model->point_room = count;
+    return PIR_OK;
+}
+
+pir_status pir_model_add_point(struct pir_model *model, pir_vec3 point) {
+    if (model->point_count >= COUNT_MAX - 1)
+        return pir_fail(model->report, PIR_ERR_LIMIT, "%s: 2^30 points or more", model->name);
+    if (model->point_count == model->point_room) {
+        pir_status status = pir_model_reserve_points(model, more_room(model->point_room));
+        if (status != PIR_OK)
+            return status;
+    }
+    model->points[model->point_count++] = point;
+    return PIR_OK;
+}
+
+pir_status pir_model_begin_facet(struct pir_model *model, size_t line) {
+    if (model->facet_count >= COUNT_MAX - 1)
+        return pir_fail(model->report, PIR_ERR_LIMIT, "%s: 2^30 facets or more", model->name);
+    if (model->facet_count == model->facet_room) {
+        uint32_t room = more_room(model->facet_room);
+        struct pir_model_facet *facet = PIR_RESIZE(&model->allocator, model->facet, model->facet_room, room);
+        if (!facet)
+            return pir_model_fail_memory(model);
+        model->facet = facet;
+        model->facet_room = room;
+    }
+    model->facet[model->facet_count++] = (struct pir_model_facet){model->corner_count, (uint32_t)line};
+    return PIR_OK;
+}
+
+pir_status pir_model_add_corner(struct pir_model *model, uint32_t point) {
+    if (model->corner_count == UINT32_MAX)
+        return pir_fail(model->report, PIR_ERR_LIMIT, "%s: 2^32 corners or more", model->name);
+    if (model->corner_count == model->corner_room) {
+        uint32_t room = more_room(model->corner_room);
+        uint32_t *corner = PIR_RESIZE(&model->allocator, model->corner, model->corner_room, room);
+        if (!corner)
+            return pir_model_fail_memory(model);
+        model->corner = corner;
+        model->corner_room = room;
+    }
+    model->corner[model->corner_count++] = point;
+    return PIR_OK;
+}
+
+pir_status pir_model_make(const struct pir_model *model, const pir_read_options *options, pir_surface *ret_surface,
+                          pir_polytope **ret_polytope) {
+    if (model->point_count == 0)
+        return pir_fail(model->report, PIR_ERR_EMPTY, "%s: the file has no points", model->name);
+    struct pir_exact_points exact = {0};
+    pir_polytope *polytope = NULL;
+    pir_surface surface;
+    pir_status status =
+        model->exact
+            ? pir_exact_points_of_rationals(&exact, (const mpq_t *)model->exact, model->point_count, &model->allocator)
+            : pir_exact_points_of_doubles(&exact, model->points, model->point_count, &model->allocator);
+    if (status == PIR_OK)
+        status = pir_polytope_build_hull(&(pir_polytope_parts){.points = &exact.vectors,
+                                                               .scale = &exact.scale,
+                                                               .doubles = model->exact ? NULL : model->points},
+                                         &model->allocator, &polytope);
+    if (status != PIR_OK)
+        pir_fail(model->report, status, "%s: the convex hull of its points: %s", model->name, pir_status_text(status));
+    const bool require_convex = options->require_convex != 0;
+    if (status == PIR_OK && (ret_surface || require_convex))
+        status = pir_surface_examine(model, &exact, polytope, require_convex, &surface);
+    pir_exact_points_finish(&exact, &model->allocator);
+    if (status != PIR_OK) {
+        pir_polytope_release(polytope);
+        return status;
+    }
+    status = pir_polytope_merge_within(polytope, options->polytope.merge_tolerance, ret_polytope);
+    if (status != PIR_OK)
+        return pir_fail(model->report, status, "%s: merging its facets: %s", model->name, pir_status_text(status));
+    if (ret_surface)
+        *ret_surface = surface;
+    return PIR_OK;
+}

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Meshes into files: which writer, and a file that is whole or as it was before.
+ *
+ * A regular file is written under a name of its own in the same folder, opened so that it cannot already exist, and
+ * renamed to its target only when every byte is down; on any failure it is removed. The target is what the path leads
+ * to when all links are followed. A device or a FIFO cannot be replaced by a file, so it is opened and written to.
+ */
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/report.h"
+#include "polytope/write/io.h"
+
+/*
+ * Names tried for the file beside the target before giving up: one for each thread that writes into the folder at
+ * once.
+ */
+#define TEMPORARY_NAMES 100
+
+/* The longest path that POSIX systems take, its final zero included. */
+#define PATH_SIZE 4096
+
+/* Links that are followed before they count as a circle. */
+#define LINKS_MOST 40
+
+/* --- one mesh to an open stream --- */
+
+static pir_status fail_file(pir_report *report, const char *path, int error) {
+    return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", pir_short_name(path), strerror(error));
+}
+
+/* Whether the format can hold the mesh that exactly. */
+static pir_status check_exact(const pir_mesh *mesh, const char *name, enum pir_file_type type, int exact,
+                              pir_report *report) {
+    if (exact && type != PIR_FILE_OFF)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: only .off holds exact coordinates", name);
+    if (exact && !pir_mesh_is_exact(mesh))
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the mesh holds no exact coordinates", name);
+    return PIR_OK;
+}
+
+static pir_status write_as(const pir_mesh *mesh, FILE *file, const char *name, enum pir_file_type type,
+                           const char *ending, int exact, pir_report *report) {
+    if (type == PIR_FILE_ASSIMP)
+        return pir_mesh_write_assimp(mesh, file, ending, name, report);
+    pir_status status =
+        type == PIR_FILE_OFF ? pir_mesh_write_off(mesh, file, exact != 0) : pir_mesh_write_svg(mesh, file);
+    return status == PIR_OK ? PIR_OK : pir_fail(report, status, "%s: cannot write: %s", name, pir_status_text(status));
+}
+
+/* Writes and flushes; a full disk may show only at the end. */
+static pir_status write_stream(const pir_mesh *mesh, FILE *file, const char *path, enum pir_file_type type,
+                               const char *ending, int exact, pir_report *report) {
+    pir_status status = write_as(mesh, file, pir_short_name(path), type, ending, exact, report);
+    errno = 0;
+    if ((fflush(file) != 0 || ferror(file)) && status == PIR_OK)
+        status = fail_file(report, path, errno ? errno : EIO);
+    return status;
+}
+
+pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *name, const char *format, int exact,
+                                 pir_report *report) {
+    if (!mesh || !file || !name || !format)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "no mesh, no stream, no name or no format");
+    char dotted[8], ending[4];
+    snprintf(dotted, sizeof dotted, ".%s", format);
+    enum pir_file_type type = strlen(format) == 3 ? pir_file_type_of(dotted, ending) : PIR_FILE_UNKNOWN;
+    if (type == PIR_FILE_UNKNOWN)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: '%.32s' is none of off, obj, stl, ply and svg",
+                        pir_short_name(name), format);
+    pir_status status = check_exact(mesh, pir_short_name(name), type, exact, report);
+    return status == PIR_OK ? write_stream(mesh, file, name, type, ending, exact, report) : status;
+}
+
+/* --- files --- */
+
+/*
+ * What `path` leads to when links are followed, whether it is there or not. False, with errno set, for a circle or
+ * too long a name.
+ */
+static bool follow_links(const char *path, char ret_target[PATH_SIZE]) {
+    errno = ENAMETOOLONG;
+    size_t length = strlen(path);
+    if (length >= PATH_SIZE)
+        return false;
+    memcpy(ret_target, path, length + 1);
+    for (int links = 0; links < LINKS_MOST; links++) {
+        char next[PATH_SIZE];
+        ssize_t size = readlink(ret_target, next, sizeof next);
+        if (size < 0)
+            return true;
+        // A relative link starts from the folder that it stands in.
+        const char *slash = next[0] == '/' ? NULL : strrchr(ret_target, '/');
+        size_t folder = slash ? (size_t)(slash + 1 - ret_target) : 0;
+        errno = ENAMETOOLONG;
+        if (folder + (size_t)size >= PATH_SIZE)
+            return false;
+        memcpy(ret_target + folder, next, (size_t)size);
+        ret_target[folder + (size_t)size] = '\0';
+    }
+    errno = ELOOP;
+    return false;
+}
+
+/* A new file in the folder of `target`; its name to ret_name. NULL with errno set on failure. */
+static FILE *open_beside(const char *target, char ret_name[PATH_SIZE]) {
+    const char *slash = strrchr(target, '/');
+    int folder = slash ? (int)(slash + 1 - target) : 0;
+    for (int i = 0; i < TEMPORARY_NAMES; i++) {
+        int length = snprintf(ret_name, PATH_SIZE, "%.*s.pirouette-%ld-%d", folder, target, (long)getpid(), i);
+        if (length >= PATH_SIZE) {
+            errno = ENAMETOOLONG;
+            return NULL;
+        }
+        FILE *file = fopen(ret_name, "wbx");
+        if (file || errno != EEXIST)
+            return file;
+    }
+    return NULL;
+}
+
+/* What is written, and where. */
+struct job {
+    const pir_mesh *mesh;
+    const char *path;
+    int exact;
+    pir_report *report;
+};
+
+/* Writes to the open file and closes it. */
+static pir_status write_and_close(const struct job *job, FILE *file) {
+    char ending[4];
+    enum pir_file_type type = pir_file_type_of(job->path, ending);
+    pir_status status = write_stream(job->mesh, file, job->path, type, ending, job->exact, job->report);
+    if (fclose(file) != 0 && status == PIR_OK)
+        status = fail_file(job->report, job->path, errno);
+    return status;
+}
+
+/* To a name beside the target, which then takes its place; `old` is what is there now, or NULL. */
+static pir_status replace(const struct job *job, const char *target, const struct stat *old) {
+    char temporary[PATH_SIZE];
+    if (old && access(target, W_OK) != 0)
+        return fail_file(job->report, job->path, errno);
+    FILE *file = open_beside(target, temporary);
+    if (!file)
+        return fail_file(job->report, job->path, errno);
+    if (old)
+        fchmod(fileno(file), old->st_mode & 07777);
+    pir_status status = write_and_close(job, file);
+    if (status == PIR_OK && rename(temporary, target) != 0)
+        status = fail_file(job->report, job->path, errno);
+    if (status != PIR_OK)
+        remove(temporary);
+    return status;
+}
+
+static pir_status write_file(const struct job *job) {
+    struct stat there;
+    if (stat(job->path, &there) == 0 && !S_ISREG(there.st_mode)) {
+        FILE *file = fopen(job->path, "wb");
+        return file ? write_and_close(job, file) : fail_file(job->report, job->path, errno);
+    }
+    char target[PATH_SIZE];
+    if (!follow_links(job->path, target))
+        return fail_file(job->report, job->path, errno);
+    return replace(job, target, stat(target, &there) == 0 ? &there : NULL);
+}
+
+pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int exact, pir_report *report) {
+    if (!mesh || !path)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "no mesh, or no path to write it to");
+    const char *name = pir_short_name(path);
+    char ending[4];
+    enum pir_file_type type = pir_file_type_of(path, ending);
+    if (type == PIR_FILE_UNKNOWN)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name does not end in .off, .obj, .stl, .ply or .svg", name);
+    pir_status status = check_exact(mesh, name, type, exact, report);
+    return status == PIR_OK ? write_file(&(struct job){mesh, path, exact, report}) : status;
+}

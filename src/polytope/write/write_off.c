@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Writing OFF: counts, vertices, facets, one to a line, so that what is read back is the same numbers.
+ *
+ * A double is written with the fewest of 15, 16 or 17 digits that read back as itself; an exact coordinate as an integer or a/b
+ * in lowest terms.
+ */
+#include "polytope/write/io.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include <pirouette/exact.h>
+
+static void write_double(FILE *file, double value, char end) {
+    char text[32];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+    fprintf(file, "%s%c", text, end);
+}
+
+static void write_doubles(const pir_mesh *mesh, FILE *file) {
+    const pir_vec3 *vertices = pir_mesh_vertices(mesh);
+    for (uint32_t v = 0; v < pir_mesh_vertex_count(mesh); v++) {
+        write_double(file, vertices[v].x, ' ');
+        write_double(file, vertices[v].y, ' ');
+        write_double(file, vertices[v].z, '\n');
+    }
+}
+
+static pir_status write_rationals(const pir_mesh *mesh, FILE *file) {
+    mpq_t point[3];
+    for (int axis = 0; axis < 3; axis++)
+        mpq_init(point[axis]);
+    pir_status status = PIR_OK;
+    for (uint32_t v = 0; v < pir_mesh_vertex_count(mesh) && status == PIR_OK; v++) {
+        status = pir_mesh_vertex_exact(mesh, v, point);
+        for (int axis = 0; axis < 3 && status == PIR_OK; axis++) {
+            mpq_out_str(file, 10, point[axis]);
+            fputc(axis < 2 ? ' ' : '\n', file);
+        }
+    }
+    for (int axis = 0; axis < 3; axis++)
+        mpq_clear(point[axis]);
+    return status;
+}
+
+pir_status pir_mesh_write_off(const pir_mesh *mesh, FILE *file, bool exact) {
+    struct pir_c_locale locale;
+    if (!pir_c_locale_enter(&locale))
+        return PIR_ERR_MEMORY;
+    uint32_t facets = pir_mesh_facet_count(mesh);
+    fprintf(file, "OFF\n%" PRIu32 " %" PRIu32 " %" PRIu32 "\n", pir_mesh_vertex_count(mesh), facets,
+            pir_mesh_edge_count(mesh));
+    pir_status status = PIR_OK;
+    if (exact)
+        status = write_rationals(mesh, file);
+    else
+        write_doubles(mesh, file);
+    for (uint32_t f = 0; f < facets; f++) {
+        uint32_t count;
+        const uint32_t *corners = pir_mesh_facet(mesh, f, &count);
+        fprintf(file, "%" PRIu32, count);
+        for (uint32_t i = 0; i < count; i++)
+            fprintf(file, " %" PRIu32, corners[i]);
+        fputc('\n', file);
+    }
+    pir_c_locale_leave(&locale);
+    return status;
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Every way out of an overlap: the true facets of D whose slack is within a given one of the least, in the order of
+ * ties.
+ */
+#include "query/decide/facet.h"
+
+/*
+ * Facets that tie with the last one asked for are in, which their doubles tell this well, relative to the placement's
+ * reach.
+ */
+#define WITHIN 0x1p-44
+
+/* The facet that comes next in order after `after`, with a slack of at most `limit`. */
+static pir_least next_within(pir_query *query, const pir_placement *placement, double limit, const pir_facet *after) {
+    const pir_planes *planes = &query->planes;
+    pir_least next = {.some = false};
+    for (uint32_t g = 0; g < query->group_count; g++) {
+        const pir_group *group = &query->groups[g];
+        for (uint32_t i = group->start; i < group->start + group->count; i++) {
+            pir_facet facet;
+            if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit ||
+                !pir_facet_of(query, planes->piece[i], &facet) || (after && !pir_facet_before(after, &facet)) ||
+                (next.some && !pir_facet_before(&facet, &next.facet)) ||
+                pir_facet_slack(query, placement, &facet) > limit)
+                continue;
+            next = (pir_least){true, facet};
+        }
+    }
+    return next;
+}
+
+pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, double slack, size_t capacity,
+                             pir_escape *ret_escapes, size_t *ret_count) {
+    pir_placement placement;
+    if ((!ret_escapes && capacity > 0) || !ret_count || !(slack >= 0))
+        return PIR_ERR_ARGUMENT;
+    pir_query_result least;
+    pir_status status = pir_query_penetration(query, input, NULL, &least);
+    if (status == PIR_OK)
+        status = pir_query_begin(query, input, &placement);
+    if (status != PIR_OK)
+        return status;
+    size_t count = 0;
+    double radii = input->radius_p + input->radius_q;
+    if (least.outcome == PIR_OVERLAPPING && -least.distance >= radii) {
+        double limit = pir_frame_from(query, -least.distance - radii + slack) + WITHIN * placement.reach;
+        for (uint32_t g = 0; g < query->group_count; g++)
+            pir_group_make(query, g);
+        pir_facet last;
+        for (pir_least next = next_within(query, &placement, limit, NULL); next.some;
+             next = next_within(query, &placement, limit, &last), count++) {
+            last = next.facet;
+            if (count < capacity)
+                ret_escapes[count] = (pir_escape){
+                    pir_frame_length(query, pir_facet_slack(query, &placement, &last)) + radii, last.n, last.faces};
+        }
+    }
+    *ret_count = count;
+    return PIR_OK;
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The largest distance: that from x to the farthest vertex of D. Every vertex of D is a corner of a piece of the pairing, so the pieces' corners
+ * are looked at, not all pairs of vertices.
+ */
+#include "query/decide/facet.h"
+
+struct farthest {
+    uint32_t a, b;
+    double square;
+};
+
+static void look(const pir_query *query, pir_vec3 x, uint32_t a, uint32_t b, struct farthest *best) {
+    pir_vec3 w = pir_vec_sub(pir_frame_vertex(query, a, b), x);
+    double square = pir_vec_dot(w, w);
+    if (square > best->square)
+        *best = (struct farthest){a, b, square};
+}
+
+static struct farthest find_farthest(const pir_query *query, pir_vec3 x) {
+    const pir_polytope *p = query->p, *q = query->q;
+    const pir_sum *sum = query->sum;
+    struct farthest best = {0, 0, -1};
+    look(query, x, 0, 0, &best);
+    for (uint32_t i = 0; i < p->half_count; i++)
+        look(query, x, p->origin[i], sum->fv[p->left[i]], &best);
+    for (uint32_t i = 0; i < q->half_count; i++)
+        look(query, x, sum->vf[q->left[i]], q->origin[i], &best);
+    for (uint32_t e = 0; e < p->edge_count; e++)
+        for (uint32_t at = sum->first[e]; at != PIR_NO_CROSSING; at = sum->crossings.next[at]) {
+            uint32_t half = p->edge_half[e], h = sum->crossings.half[at];
+            look(query, x, p->origin[half], q->origin[h], &best);
+            look(query, x, p->origin[half], q->target[h], &best);
+            look(query, x, p->target[half], q->origin[h], &best);
+            look(query, x, p->target[half], q->target[h], &best);
+        }
+    return best;
+}
+
+pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *input, pir_query_result *ret_result) {
+    pir_placement placement;
+    if (!ret_result)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_query_begin(query, input, &placement);
+    if (status != PIR_OK)
+        return status;
+    struct farthest best = find_farthest(query, placement.x);
+    double length = sqrt(best.square);
+    pir_vec3 w = pir_vec_sub(placement.x, pir_frame_vertex(query, best.a, best.b));
+    pir_query_result result = {.outcome = PIR_SEPARATED, .distance = pir_frame_length(query, length), .steps = 1};
+    uint32_t slot;
+    pir_least touching;
+    result.state = pir_state_find(query, &placement, NULL, &slot, &touching, &result.steps);
+    result.normal = length > 0 ? pir_vec_scale(w, 1 / length) : (pir_vec3){1, 0, 0};
+    result.point_q = pir_frame_world(query, query->vq[best.b]);
+    result.witness = (pir_witness){{PIR_FEATURE_VERTEX, best.a}, {PIR_FEATURE_VERTEX, best.b}};
+    double radii = input->radius_p + input->radius_q;
+    result.distance += radii;
+    result.point_q = pir_vec_add(result.point_q, pir_vec_scale(result.normal, -input->radius_q));
+    result.point_p = pir_vec_add(result.point_q, pir_vec_scale(result.normal, result.distance));
+    *ret_result = result;
+    return PIR_OK;
+}

@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Queries on a sum with a region: D is taken to be the intersection of the half-spaces of those of its facets whose normals are in the
+ * cone. That holds D, so whoever is outside is outside of D, and the depth is the least among those facets; whether a translation inside is
+ * inside of D the facets that are left out would have to say.
+ *
+ * The sum keeps a superset that depends on how it came here. So every piece is asked whether it is in the cone, and the answer depends on the
+ * placement and the region alone. What is kept is little, and is looked at one by one, without groups. A piece that may hold the least slack
+ * by its doubles is made a plane, in the slots that groups have theirs in; those are forgotten.
+ *
+ * Bounds last as those of groups do (planes.c): s(n) in a direction that stands in P's frame changes, while R turns by θ and x moves by d, by
+ * at most θ·(swing_q + |x|) + d, and in one of Q's by θ·swing_p + d. The sums of these over all queries are the ways, way_p and way_q. For
+ * each facet, and each edge of P, `known` is a number that its slacks were not below when it was last looked at, plus the way then; less the way of
+ * now they are not below it. On an arc, which is shorter than half a turn unless P is flat, s is nowhere less than at its crossings and ends
+ * while those are positive. It is geometry alone: whether a feature has been active in between does not matter.
+ */
+#include "query/decide/line.h"
+
+struct search {
+    pir_query *query;
+    const pir_placement *placement;
+    const pir_cone *cone;
+    bool all;       /* keep every plane, not just those that may have the least slack */
+    double limit;   /* the least slack is not above limit */
+    double hair;    /* what slacks worked out one way or another may differ by */
+    double most;    /* slacks by doubles above this are not looked for */
+    uint32_t count; /* planes, from slot 0 */
+};
+
+/* Ways begin again when they pass this, in units of the frame: what adding to them rounds then stays below the error of a slack. */
+#define FARTHEST_WAY 16.0
+
+/* --- memory --- */
+
+void pir_region_forget(pir_query *query) {
+    query->way_p = query->way_q = 0;
+    for (uint32_t f = 0; f < query->p->facet_count; f++)
+        query->known_p[f] = -HUGE_VAL;
+    for (uint32_t g = 0; g < query->q->facet_count; g++)
+        query->known_q[g] = -HUGE_VAL;
+    for (uint32_t e = 0; e < query->p->edge_count; e++)
+        query->known_edge[e] = -HUGE_VAL;
+}
+
+bool pir_region_init(pir_query *query) {
+    const pir_allocator *a = &query->allocator;
+    query->known_p = PIR_NEW(a, double, query->p->facet_count);
+    query->known_q = PIR_NEW(a, double, query->q->facet_count);
+    query->known_edge = PIR_NEW(a, double, query->p->edge_count);
+    return query->known_p && query->known_q && query->known_edge;
+}
+
+void pir_region_free(pir_query *query) {
+    const pir_allocator *a = &query->allocator;
+    PIR_FREE(a, query->known_p, query->p->facet_count);
+    PIR_FREE(a, query->known_q, query->q->facet_count);
+    PIR_FREE(a, query->known_edge, query->p->edge_count);
+}
+
+/* --- the search --- */
+
+/* A number that the least slack is not above. */
+static void lower_limit(struct search *search, double limit) {
+    if (!(limit < search->limit) || search->all)
+        return;
+    search->limit = limit;
+    search->most = limit + search->hair;
+}
+
+/* Makes a piece a plane and keeps it where it is in the cone and may be the one that is looked for. */
+static void take(struct search *search, pir_piece piece) {
+    pir_query *query = search->query;
+    pir_planes *planes = &query->planes;
+    uint32_t slot = search->count;
+    if (!pir_plane_make(query, piece, slot) || !pir_plane_refine(query, slot) ||
+        !pir_cone_has(search->cone, pir_plane_normal(planes, slot)))
+        return;
+    double slack = pir_plane_slack(planes, slot, search->placement->x),
+           error = search->placement->error * planes->err[slot];
+    if (slack - error > search->limit)
+        return;
+    lower_limit(search, slack + error);
+    search->count++;
+}
+
+/*
+ * Whether a piece may be looked for, its slack, worked out another way than a plane's, being out / √square within error / √square. Most are
+ * told without the root.
+ */
+static inline bool may_win(const struct search *search, double out, double square) {
+    double over = out - search->hair;
+    return !(over > 0) || over * over <= search->most * search->most * square;
+}
+
+static inline double least_of(double a, double b) {
+    return a < b ? a : b;
+}
+
+static void take_facets(struct search *search) {
+    const pir_query *query = search->query;
+    const pir_sum *sum = query->sum;
+    const pir_members *of_p = &sum->region.p.members, *of_q = &sum->region.q.members;
+    const pir_cone *cone = search->cone;
+    pir_vec3 x = search->placement->x, back = pir_mat_apply_transposed(&query->r, x);
+    double hair = search->hair;
+    for (uint32_t i = 0; i < of_p->count; i++) {
+        uint32_t f = of_p->at[i];
+        if (query->known_p[f] > search->most + query->way_p)
+            continue;
+        pir_vec3 n = pir_mat_apply(&query->r, query->p->normal[f]);
+        double slack = query->hp[f] + pir_vec_dot(n, pir_vec_sub(query->vq[sum->fv[f]], x));
+        query->known_p[f] = slack - hair + query->way_p;
+        if (may_win(search, slack, 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
+            take(search, (pir_piece){PIR_FACET_FV, f, 0});
+    }
+    for (uint32_t i = 0; i < of_q->count; i++) {
+        uint32_t g = of_q->at[i];
+        if (query->known_q[g] > search->most + query->way_q)
+            continue;
+        pir_vec3 n = query->q->normal[g], from = pir_mat_apply(&query->r, pir_vec_sub(query->vp[sum->vf[g]], back));
+        double slack = query->hq[g] + pir_vec_dot(n, from);
+        query->known_q[g] = slack - hair + query->way_q;
+        if (may_win(search, slack, 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
+            take(search, (pir_piece){PIR_FACET_VF, 0, g});
+    }
+}
+
+/* Takes what crosses an edge of P; returns a number that no slack there is below, −HUGE_VAL where doubles do not tell. */
+static double take_crossings_of(struct search *search, uint32_t edge) {
+    const pir_query *query = search->query;
+    const pir_sum *sum = query->sum;
+    const pir_polytope *p = query->p, *q = query->q;
+    uint32_t half = p->edge_half[edge];
+    pir_vec3 e = pir_mat_apply(&query->r, p->direction[half]);
+    pir_vec3 from = pir_vec_sub(pir_mat_apply(&query->r, query->vp[p->origin[half]]), search->placement->x);
+    double least = HUGE_VAL, hair = search->hair;
+    for (uint32_t at = sum->first[edge]; at != PIR_NO_CROSSING; at = sum->crossings.next[at]) {
+        uint32_t h = sum->crossings.half[at];
+        pir_vec3 n = pir_vec_cross(q->direction[h], e);
+        double square = pir_vec_dot(n, n), out = pir_vec_dot(n, pir_vec_add(from, query->vq[q->origin[h]]));
+        bool tells = square >= PIR_SIN_EXACT * PIR_SIN_EXACT;
+        least = least_of(least, tells ? (out - hair) / sqrt(square) : -HUGE_VAL);
+        // small angles are told by their exact normals
+        if (tells && (!may_win(search, out, square) ||
+                      (square >= PIR_SIN_REFINED * PIR_SIN_REFINED && !pir_cone_has(search->cone, n))))
+            continue;
+        take(search, (pir_piece){PIR_FACET_EE, edge, h});
+    }
+    return least;
+}
+
+static void take_crossings(struct search *search) {
+    const pir_query *query = search->query;
+    const pir_polytope *p = query->p;
+    const pir_members *edges = &query->sum->region.edges;
+    for (uint32_t i = 0; i < edges->count; i++) {
+        uint32_t edge = edges->at[i];
+        if (query->known_edge[edge] > search->most + query->way_p)
+            continue;
+        uint32_t half = p->edge_half[edge];
+        double crossings = take_crossings_of(search, edge) + query->way_p;
+        double ends = least_of(query->known_p[p->left[half]], query->known_p[pir_right(p, half)]);
+        double least = least_of(crossings, ends);
+        query->known_edge[edge] = p->dimension == 3 && least > query->way_p ? least : -HUGE_VAL;
+    }
+}
+
+/* Adds how much slacks may have changed since the last search. */
+static void go_on(pir_query *query, const pir_placement *placement) {
+    pir_quat unit = query->sum->signs.rotation.unit;
+    pir_vec3 off = pir_vec_sub(placement->x, query->way_x);
+    double moved = sqrt(pir_vec_dot(off, off)), turned = pir_rotation_angle_bound(query->way_unit, unit);
+    double far = placement->reach - query->size_p - query->size_q + moved;
+    // reach is rounded, and so are these sums
+    far += 0x1p-40 * placement->reach;
+    query->way_p = (query->way_p + turned * (query->swing_q + far) + moved) * (1 + 0x1p-50);
+    query->way_q = (query->way_q + turned * query->swing_p + moved) * (1 + 0x1p-50);
+    query->way_x = placement->x;
+    query->way_unit = unit;
+    // what has gone far rounds badly: it begins again
+    if (query->way_p < FARTHEST_WAY && query->way_q < FARTHEST_WAY)
+        return;
+    pir_region_forget(query);
+}
+
+/* Whether a piece is one that the sum keeps. */
+static bool is_kept(const pir_query *query, pir_piece piece) {
+    const pir_sum *sum = query->sum;
+    switch (piece.kind) {
+    case PIR_FACET_FV:
+        return piece.first < query->p->facet_count && sum->fv[piece.first] != PIR_NO_PAIR;
+    case PIR_FACET_VF:
+        return piece.second < query->q->facet_count && sum->vf[piece.second] != PIR_NO_PAIR;
+    case PIR_FACET_EE:
+        if (piece.first >= query->p->edge_count)
+            return false;
+        for (uint32_t at = sum->first[piece.first]; at != PIR_NO_CROSSING; at = sum->crossings.next[at])
+            if (sum->crossings.half[at] == piece.second)
+                return true;
+        return false;
+    default:
+        return false;
+    }
+}
+
+/* Looks at all that is kept, first at the piece that won last time. */
+static struct search search_all(pir_query *query, const pir_placement *placement, bool all,
+                                const pir_query_cache *cache) {
+    struct search search = {.query = query,
+                            .placement = placement,
+                            .cone = &query->sum->region.cone,
+                            .all = all,
+                            .limit = HUGE_VAL,
+                            .hair = 4 * placement->error,
+                            .most = HUGE_VAL};
+    query->stamp++;
+    query->planes.used = 0;
+    go_on(query, placement);
+    if (cache && cache->pieces == 1) {
+        pir_piece last = {cache->kind, cache->first, cache->second};
+        if (is_kept(query, last))
+            take(&search, last);
+        // the limit stays, and the piece comes again
+        search.count = 0;
+    }
+    take_facets(&search);
+    take_crossings(&search);
+    return search;
+}
+
+pir_state pir_region_find(pir_query *query, const pir_placement *placement, const pir_query_cache *cache,
+                          pir_least *ret_least, uint32_t *steps) {
+    const pir_planes *planes = &query->planes;
+    struct search search = search_all(query, placement, false, cache);
+    ++*steps;
+    // none of the pieces that doubles leave open is above the limit: they are all there
+    *ret_least = (pir_least){.some = false};
+    for (uint32_t i = 0; i < search.count; i++)
+        if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] <= search.limit)
+            pir_least_offer(query, placement, ret_least, planes->piece[i]);
+    if (!ret_least->some)
+        return PIR_INSIDE;
+    int side = pir_facet_side(query, placement, &ret_least->facet);
+    return side < 0 ? PIR_OUTSIDE : side == 0 ? PIR_BOUNDARY : PIR_INSIDE;
+}
+
+bool pir_region_exit(pir_query *query, const pir_line *line, pir_arrival *ret_arrival, uint32_t *steps) {
+    struct search search = search_all(query, line->placement, true, NULL);
+    pir_clip clip = PIR_CLIP_NONE;
+    for (uint32_t i = 0; i < search.count; i++)
+        pir_clip_bound(query, line, &clip, i);
+    for (uint32_t i = 0; i < search.count; i++)
+        pir_clip_take(query, line, &clip, i);
+    ++*steps;
+    if (!clip.leave.some)
+        return false;
+    const pir_facet *facet = &clip.leave.facet;
+    if (!pir_line_arrive(query, line, facet, ret_arrival)) {
+        // beside the facet
+        pir_placement there = *line->placement;
+        there.x = pir_vec_add(there.x, pir_vec_scale(line->u, ret_arrival->at));
+        ret_arrival->touch = (pir_touch){facet->faces, pir_facet_point(query, &there, facet, 0)};
+    }
+    return true;
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT */
+/* Which features and which points attain an answer. */
+#include "query/decide/facet.h"
+
+static bool facet_has(const pir_polytope *p, uint32_t f, uint32_t v) {
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+        if (p->origin[p->loop[i]] == v)
+            return true;
+    return false;
+}
+
+/* A segment's second edge and its facets are hidden: they all are its one edge. */
+static pir_feature shown(const pir_polytope *p, pir_feature feature) {
+    if (p->artificial && feature.kind != PIR_FEATURE_VERTEX)
+        return (pir_feature){PIR_FEATURE_EDGE, 0};
+    return feature;
+}
+
+pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint32_t count) {
+    // distinct ones
+    uint32_t v[4] = {vertices[0]}, n = 1;
+    for (uint32_t i = 1; i < count; i++) {
+        bool is_new = true;
+        for (uint32_t k = 0; k < n; k++)
+            is_new &= v[k] != vertices[i];
+        if (is_new)
+            v[n++] = vertices[i];
+    }
+    if (n == 1)
+        return (pir_feature){PIR_FEATURE_VERTEX, v[0]};
+    if (n == 2)
+        for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++)
+            if (p->target[h] == v[1])
+                return shown(p, (pir_feature){PIR_FEATURE_EDGE, p->edge[h]});
+    // most often an edge leads to another of them
+    if (n == 3)
+        for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++)
+            if (p->target[h] == v[1] || p->target[h] == v[2]) {
+                uint32_t other = p->target[h] == v[1] ? v[2] : v[1], f = p->left[h], g = pir_right(p, h);
+                if (facet_has(p, f, other) || (f = g, facet_has(p, g, other)))
+                    return shown(p, (pir_feature){PIR_FEATURE_FACET, f});
+                break;
+            }
+    for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++) {
+        bool all = true;
+        for (uint32_t k = 1; k < n; k++)
+            all = all && facet_has(p, p->left[h], v[k]);
+        if (all)
+            return shown(p, (pir_feature){PIR_FEATURE_FACET, p->left[h]});
+    }
+    // no one facet: rounding chose among nearly coplanar ones
+    return (pir_feature){PIR_FEATURE_VERTEX, v[0]};
+}
+
+pir_vec3 pir_facet_point(const pir_query *query, const pir_placement *placement, const pir_facet *facet, double slack) {
+    const pir_polytope *p = query->p, *q = query->q;
+    if (facet->piece.kind == PIR_FACET_FV)
+        return query->vq[facet->b];
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
+    if (facet->piece.kind == PIR_FACET_VF)
+        return pir_vec_sub(y, pir_mat_apply(&query->r, query->vp[facet->a]));
+    // y = corner + λ e + μ d on the parallelogram
+    uint32_t half = p->edge_half[facet->piece.first], h = facet->piece.second;
+    pir_vec3 from = query->vq[q->origin[h]], d = pir_vec_sub(query->vq[q->target[h]], from);
+    pir_vec3 corner = pir_frame_vertex(query, p->origin[half], q->origin[h]);
+    pir_vec3 across = pir_vec_cross(pir_mat_apply(&query->r, p->direction[half]), facet->n);
+    double whole = pir_vec_dot(d, across);
+    double part = whole != 0 ? pir_vec_dot(pir_vec_sub(y, corner), across) / whole : 0;
+    return pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part))));
+}

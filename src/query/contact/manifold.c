@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Contact manifolds: where the contact patches of two bodies lie over each other along the normal of an answer.
+ *
+ * Each body's patch grows from its feature of the answer (patch.h). When only one of the two has an area, the other
+ * body is tilted, and its patch is extended by the facet that faces the first one most. The outlines are laid on a
+ * plane across the normal, and the corners of their overlap (outline.h) are looked for again on the surfaces of both
+ * bodies, along the normal. So every contact lies on both bodies, however the patches are made.
+ */
+#include "query/contact/patch.h"
+
+/* Ids hold a kind in the two bits on top and two indices; this kind is that of an answer that is no corner. */
+#define ID_OF_ANSWER 3
+
+struct manifold {
+    pir_query *query;
+    const pir_query_result *answer;
+    pir_patch *p, *q;
+    pir_vec3 n;
+    pir_vec3 axis[2];       /* of the contact plane, axis[0] × axis[1] = n */
+    pir_corner of_answer;   /* where it is there */
+    double radius_p, radii; /* radius_p + radius_q */
+    double limit, hair;     /* corners at up to `limit` are kept */
+};
+
+/* --- what is given --- */
+
+static bool is_feature(const pir_polytope *p, pir_feature feature) {
+    return (feature.kind == PIR_FEATURE_VERTEX && feature.index < p->vertex_count) ||
+           (feature.kind == PIR_FEATURE_EDGE && feature.index < p->edge_count) ||
+           (feature.kind == PIR_FEATURE_FACET && feature.index < p->facet_count);
+}
+
+/* Whether an answer can be one of these bodies. */
+static bool is_usable(const pir_query *query, const pir_query_result *answer) {
+    double square = pir_vec_dot(answer->normal, answer->normal);
+    return fabs(square - 1) < 0x1p-20 && is_feature(query->p, answer->witness.p) &&
+           is_feature(query->q, answer->witness.q) && isfinite(answer->distance) &&
+           pir_vec_is_finite(answer->point_p) && pir_vec_is_finite(answer->point_q);
+}
+
+/* --- setting up --- */
+
+static void set_patch(pir_patch *patch, const pir_polytope *polytope, const pir_vec3 *vertex, pir_vec3 out) {
+    patch->polytope = polytope;
+    patch->vertex = vertex;
+    patch->r = NULL;
+    patch->sign = 1;
+    patch->at = (pir_vec3){0, 0, 0};
+    patch->out = out;
+}
+
+/* Two unit vectors across n, from the axis that is least along it. */
+static void set_axes(struct manifold *m) {
+    double x = fabs(m->n.x), y = fabs(m->n.y), z = fabs(m->n.z);
+    pir_vec3 least = {x <= y && x <= z, y < x && y <= z, z < x && z < y};
+    pir_vec3 across = pir_vec_cross(m->n, least);
+    m->axis[0] = pir_vec_scale(across, 1 / sqrt(pir_vec_dot(across, across)));
+    m->axis[1] = pir_vec_cross(m->n, m->axis[0]);
+}
+
+/* The answer's point of Q's polytope in the frame. */
+static pir_vec3 point_of_answer(const struct manifold *m, double radius_q) {
+    const pir_query *query = m->query;
+    pir_vec3 w = pir_vec_sub(m->answer->point_q, pir_vec_scale(m->n, radius_q)), c = pir_dd3_round(query->centre_q);
+    pir_vec3 y = {pir_frame_from(query, w.x), pir_frame_from(query, w.y), pir_frame_from(query, w.z)};
+    return pir_vec_sub(y, c);
+}
+
+static void begin(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
+    const pir_query *query = m->query;
+    m->p = &query->patches->p;
+    m->q = &query->patches->q;
+    m->n = m->answer->normal;
+    m->radius_p = input->radius_p;
+    m->radii = input->radius_p + input->radius_q;
+    set_axes(m);
+    set_patch(m->q, query->q, query->vq, m->n);
+    set_patch(m->p, query->p, query->vp, pir_vec_scale(m->n, -1));
+    // P is kept reflected
+    m->p->r = &query->r;
+    m->p->sign = -1;
+    m->p->at = placement->x;
+    m->p->snap = m->q->snap = PIR_SNAP * placement->reach;
+    pir_vec3 y = point_of_answer(m, input->radius_q);
+    m->of_answer = (pir_corner){.u = pir_vec_dot(m->axis[0], y), .v = pir_vec_dot(m->axis[1], y)};
+    m->hair = pir_frame_length(query, 4 * placement->error);
+    m->limit = fmax(fmax(input->margin, m->answer->distance), 0) + m->hair;
+}
+
+/* Grows both patches until each has an outline; returns how many corners they share, in query->patches->shared. */
+static uint32_t overlap(struct manifold *m) {
+    pir_patch_room *room = m->query->patches;
+    pir_patch *both[2] = {m->p, m->q};
+    pir_patch_grow(m->p, m->answer->witness.p);
+    pir_patch_grow(m->q, m->answer->witness.q);
+    for (int k = 0; k < 2; k++)
+        pir_patch_set_outline(both[k], m->axis, room->hull);
+    // a body that meets the other's area with less is tilted
+    for (int k = 0; k < 2; k++)
+        if (both[1 - k]->outline.count > 2)
+            while (both[k]->outline.count < 3 && pir_patch_extend(both[k]))
+                pir_patch_set_outline(both[k], m->axis, room->hull);
+    uint32_t count = pir_outline_overlap(m->p->outline, m->q->outline, m->p->snap, PIR_FLUSH, room->shared);
+    pir_patch_clear(m->p);
+    pir_patch_clear(m->q);
+    return pir_outline_hull(room->shared, count, m->p->snap, room->hull);
+}
+
+/* --- contacts --- */
+
+/* Where side `side` of an outline is nearest to x, as a fraction of it. */
+static double along_side(const pir_outline *outline, uint32_t side, const pir_corner *x) {
+    const pir_corner *a = &outline->at[side], *b = &outline->at[side + 1 < outline->count ? side + 1 : 0];
+    double u = b->u - a->u, v = b->v - a->v, part = (u * (x->u - a->u) + v * (x->v - a->v)) / (u * u + v * v);
+    return fmin(1, fmax(0, part));
+}
+
+/* A side by the vertex that it leads from; that of a segment by its lower one. */
+static uint64_t side_id(const pir_outline *outline, uint32_t side) {
+    uint32_t v = outline->at[side].p;
+    return outline->count > 2 || v < outline->at[1 - side].p ? v : outline->at[1 - side].p;
+}
+
+static uint64_t make_id(uint64_t kind, uint64_t first, uint64_t second) {
+    return kind << 62 | first << 31 | second;
+}
+
+static uint64_t corner_id(const struct manifold *m, const pir_corner *corner) {
+    switch (corner->kind) {
+    case PIR_CORNER_P:
+        return make_id(PIR_CORNER_P, m->p->outline.at[corner->p].p, 0);
+    case PIR_CORNER_Q:
+        return make_id(PIR_CORNER_Q, m->q->outline.at[corner->q].p, 0);
+    default:
+        return make_id(PIR_CORNER_CROSSING, side_id(&m->p->outline, corner->p), side_id(&m->q->outline, corner->q));
+    }
+}
+
+/* The point of a patch over a corner, that of a segment over what is nearest to it there. */
+static pir_vec3 beside(const pir_patch *patch, const pir_corner *corner, pir_vec3 x) {
+    return patch->outline.count > 2 ? pir_patch_lift(patch, x)
+                                    : pir_patch_side(patch, 0, along_side(&patch->outline, 0, corner));
+}
+
+static pir_contact make_contact(const struct manifold *m, const pir_corner *corner) {
+    pir_vec3 p, q;
+    if (corner->kind == PIR_CORNER_P) {
+        p = pir_patch_vertex(m->p, m->p->outline.at[corner->p].p);
+        q = beside(m->q, corner, p);
+    } else if (corner->kind == PIR_CORNER_Q) {
+        q = pir_patch_vertex(m->q, m->q->outline.at[corner->q].p);
+        p = beside(m->p, corner, q);
+    } else {
+        p = pir_patch_side(m->p, corner->p, along_side(&m->p->outline, corner->p, corner));
+        q = pir_patch_side(m->q, corner->q, along_side(&m->q->outline, corner->q, corner));
+    }
+    pir_contact contact = {.id = corner_id(m, corner)};
+    contact.distance = pir_frame_length(m->query, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
+    contact.point_p = pir_vec_sub(pir_frame_world(m->query, p), pir_vec_scale(m->n, m->radius_p));
+    contact.point_q = pir_vec_add(pir_frame_world(m->query, q), pir_vec_scale(m->n, m->radii - m->radius_p));
+    return contact;
+}
+
+/*
+ * The id that the answer's own contact has as a corner: a vertex where one of its features is, else the two features.
+ */
+static uint64_t answer_id(const struct manifold *m, bool is_corner) {
+    pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
+    if (is_corner && p.kind == PIR_FEATURE_VERTEX)
+        return make_id(PIR_CORNER_P, p.index, 0);
+    if (is_corner && q.kind == PIR_FEATURE_VERTEX)
+        return make_id(PIR_CORNER_Q, q.index, 0);
+    uint64_t kinds = (uint64_t)(p.kind - PIR_FEATURE_VERTEX) * 3 + (uint64_t)(q.kind - PIR_FEATURE_VERTEX);
+    return make_id(ID_OF_ANSWER, kinds << 27 ^ p.index, q.index);
+}
+
+/* Which corner is the answer's own point; `count` where none is. */
+static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
+    const pir_corner *corner = m->query->patches->shared;
+    // points in world coordinates are as coarse as those are large
+    pir_vec3 w = m->answer->point_q;
+    double hair = 4 * m->p->snap + 0x1p-50 * pir_frame_from(m->query, fabs(w.x) + fabs(w.y) + fabs(w.z));
+    for (uint32_t i = 0; i < count; i++)
+        if (pir_outline_distance(&corner[i], &m->of_answer) <= hair)
+            return i;
+    return count;
+}
+
+/* Whether a corner is near enough to be a contact. */
+static bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
+    double way = pir_frame_length(m->query, pir_outline_distance(corner, &m->of_answer));
+    return distance <= m->limit || distance - m->answer->distance <= PIR_FLUSH * way;
+}
+
+pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
+                              size_t capacity, pir_contact *ret_contacts, size_t *ret_count) {
+    pir_placement placement;
+    if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_query_begin(query, input, &placement);
+    if (status != PIR_OK)
+        return status;
+    if (isnan(input->margin))
+        return PIR_ERR_NOT_FINITE;
+    bool has_points = answer->outcome != PIR_BEYOND_CUTOFF && answer->outcome != PIR_NO_HIT;
+    if (!(input->margin >= 0) || (has_points && !is_usable(query, answer)))
+        return PIR_ERR_ARGUMENT;
+    if (!has_points) {
+        *ret_count = 0;
+        return PIR_OK;
+    }
+    struct manifold m = {.query = query, .answer = answer};
+    begin(&m, input, &placement);
+    uint32_t corners = overlap(&m), own = corner_of_answer(&m, corners);
+    const pir_corner *corner = query->patches->shared;
+    size_t count = 0;
+    for (uint32_t i = 0; i < corners + (own == corners); i++) {
+        pir_contact contact = {answer->point_p, answer->point_q, answer->distance, 0};
+        uint32_t k = own == corners ? i - 1 : (own + i) % corners;
+        if (i == 0) {
+            contact.id = own == corners ? answer_id(&m, corners == 0) : corner_id(&m, &corner[own]);
+        } else {
+            contact = make_contact(&m, &corner[k]);
+            if (!is_near(&m, &corner[k], contact.distance))
+                continue;
+        }
+        if (count < capacity)
+            ret_contacts[count] = contact;
+        count++;
+    }
+    *ret_count = count;
+    return count <= capacity ? PIR_OK : PIR_ERR_LIMIT;
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Convex outlines in a plane, counter-clockwise: hulls of points, and where two outlines overlap. Every buffer is the
+ * caller's.
+ */
+#ifndef PIR_QUERY_CONTACT_OUTLINE_H
+#define PIR_QUERY_CONTACT_OUTLINE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What a corner of an overlap is. */
+typedef enum pir_corner_kind {
+    PIR_CORNER_P = 0,    /* corner p of the outline of P */
+    PIR_CORNER_Q,        /* corner q of the outline of Q */
+    PIR_CORNER_CROSSING, /* where side p of P's outline crosses side q of Q's; side i leads from corner i to the next */
+} pir_corner_kind;
+
+/* A point of the plane and what it stands for; in an outline, p is the vertex of the body and the rest is not used. */
+typedef struct pir_corner {
+    double u, v;
+    pir_corner_kind kind;
+    uint32_t p, q;
+} pir_corner;
+
+typedef struct pir_outline {
+    const pir_corner *at;
+    uint32_t count; /* 1: a point, 2: a segment */
+} pir_outline;
+
+/* The distance of two points. */
+double pir_outline_distance(const pir_corner *a, const pir_corner *b);
+
+/*
+ * Replaces the points by the corners of their hull, counter-clockwise, and returns how many those are. Corners that
+ * stand out by at most `snap` are left out; at least one stays. `room` holds count + 1 points. O(n log n).
+ */
+uint32_t pir_outline_hull(pir_corner *points, uint32_t count, double snap, pir_corner *room);
+
+/*
+ * A hull that is at most `part` as wide as it is long becomes the segment of its farthest corners. Returns the count.
+ */
+uint32_t pir_outline_slim(pir_corner *hull, uint32_t count, double part);
+
+/*
+ * The corners of what two outlines share, in no order, up to twice the corners of P and once those of Q; corners and
+ * sides closer than `snap` count as touching. Two segments share one when the sine of their angle is at most `part`,
+ * else nothing. Returns the count. O(p · q).
+ */
+uint32_t pir_outline_overlap(pir_outline p, pir_outline q, double snap, double part, pir_corner *ret_corners);
+
+#endif

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Growing patches, and finding their surface again.
+ *
+ * An edge is flat or not by its angle with one plane, not with its neighbour, so a patch does not creep around a
+ * finely faceted body. Along any line across a patch the surface is concave: it rises and falls by no more than
+ * PIR_FLAT of the way from one vertex to another.
+ */
+#include "query/contact/patch.h"
+
+/* --- room --- */
+
+static bool make_patch(const pir_allocator *a, pir_patch *patch, const pir_polytope *polytope) {
+    uint32_t n = polytope->vertex_count;
+    patch->member = PIR_NEW(a, uint32_t, n);
+    patch->is_member = PIR_ZEROED(a, bool, n);
+    patch->corner = PIR_NEW(a, pir_corner, n);
+    return patch->member && patch->is_member && patch->corner;
+}
+
+static void free_patch(const pir_allocator *a, pir_patch *patch, const pir_polytope *polytope) {
+    uint32_t n = polytope->vertex_count;
+    PIR_FREE(a, patch->member, n);
+    PIR_FREE(a, patch->is_member, n);
+    PIR_FREE(a, patch->corner, n);
+}
+
+/* What pir_outline_overlap may give. */
+static size_t most_shared(const pir_polytope *p, const pir_polytope *q) {
+    return 2 * (size_t)p->vertex_count + q->vertex_count + 4;
+}
+
+pir_patch_room *pir_patch_room_new(const pir_allocator *a, const pir_polytope *p, const pir_polytope *q) {
+    pir_patch_room *room = PIR_ZEROED(a, pir_patch_room, 1);
+    if (!room)
+        return NULL;
+    room->shared = PIR_NEW(a, pir_corner, most_shared(p, q));
+    room->hull = PIR_NEW(a, pir_corner, most_shared(p, q) + 1);
+    bool done = make_patch(a, &room->p, p);
+    done = make_patch(a, &room->q, q) && done;
+    if (done && room->shared && room->hull)
+        return room;
+    pir_patch_room_free(a, room, p, q);
+    return NULL;
+}
+
+void pir_patch_room_free(const pir_allocator *a, pir_patch_room *room, const pir_polytope *p, const pir_polytope *q) {
+    if (!room)
+        return;
+    free_patch(a, &room->p, p);
+    free_patch(a, &room->q, q);
+    PIR_FREE(a, room->shared, most_shared(p, q));
+    PIR_FREE(a, room->hull, most_shared(p, q) + 1);
+    PIR_FREE(a, room, 1);
+}
+
+/* --- the body as it stands --- */
+
+pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v) {
+    pir_vec3 x = patch->vertex[v];
+    if (patch->r)
+        x = pir_mat_apply(patch->r, x);
+    return pir_vec_add(pir_vec_scale(x, patch->sign), patch->at);
+}
+
+static pir_vec3 normal_of(const pir_patch *patch, uint32_t f) {
+    pir_vec3 n = patch->polytope->normal[f];
+    if (patch->r)
+        n = pir_mat_apply(patch->r, n);
+    return pir_vec_scale(n, patch->sign);
+}
+
+/* A direction of the frame in the body's own. */
+static pir_vec3 to_body(const pir_patch *patch, pir_vec3 d) {
+    if (patch->r)
+        d = pir_mat_apply_transposed(patch->r, d);
+    return pir_vec_scale(d, patch->sign);
+}
+
+/* --- growing --- */
+
+static void add(pir_patch *patch, uint32_t v) {
+    if (patch->is_member[v])
+        return;
+    patch->is_member[v] = true;
+    patch->member[patch->members++] = v;
+}
+
+static void add_facet(pir_patch *patch, uint32_t f) {
+    const pir_polytope *p = patch->polytope;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+        add(patch, p->origin[p->loop[i]]);
+}
+
+/* Adds all that members lead to along edges across m. */
+static void spread(pir_patch *patch, pir_vec3 m) {
+    const pir_polytope *p = patch->polytope;
+    m = to_body(patch, m);
+    for (uint32_t i = 0; i < patch->members; i++) {
+        uint32_t v = patch->member[i];
+        for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
+            if (fabs(pir_vec_dot(m, p->direction[h])) <= PIR_FLAT)
+                add(patch, p->target[h]);
+        }
+    }
+}
+
+static bool leads_away(const pir_patch *patch, uint32_t f) {
+    const pir_polytope *p = patch->polytope;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+        if (!patch->is_member[p->origin[p->loop[i]]])
+            return true;
+    return false;
+}
+
+/*
+ * The facet most along `out` of those at members, or, with `away`, of those that lead away; PIR_NO_FACET where all
+ * stand upright or face away.
+ */
+static uint32_t facet_out(const pir_patch *patch, bool away) {
+    const pir_polytope *p = patch->polytope;
+    pir_vec3 out = to_body(patch, patch->out);
+    uint32_t best = PIR_NO_FACET;
+    double most = PIR_STEEP;
+    if (p->artificial)
+        return best;
+    for (uint32_t i = 0; i < patch->members; i++) {
+        uint32_t v = patch->member[i];
+        for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
+            double along = pir_vec_dot(p->normal[p->left[h]], out);
+            if (along > most && (!away || leads_away(patch, p->left[h])))
+                most = along, best = p->left[h];
+        }
+    }
+    return best;
+}
+
+void pir_patch_grow(pir_patch *patch, pir_feature feature) {
+    const pir_polytope *p = patch->polytope;
+    patch->members = 0;
+    if (feature.kind == PIR_FEATURE_VERTEX) {
+        add(patch, feature.index);
+    } else if (feature.kind == PIR_FEATURE_EDGE) {
+        add(patch, p->origin[p->edge_half[feature.index]]);
+        add(patch, p->target[p->edge_half[feature.index]]);
+    } else {
+        add_facet(patch, feature.index);
+    }
+    spread(patch, patch->out);
+    patch->facet = facet_out(patch, false);
+}
+
+/* The vertex that the edge least along −out leads to, from a member; UINT32_MAX where there is no edge. */
+static uint32_t flattest(const pir_patch *patch) {
+    const pir_polytope *p = patch->polytope;
+    pir_vec3 out = to_body(patch, patch->out);
+    uint32_t best = UINT32_MAX;
+    double most = -HUGE_VAL;
+    for (uint32_t i = 0; i < patch->members; i++) {
+        uint32_t v = patch->member[i];
+        for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
+            double along = pir_vec_dot(p->direction[h], out);
+            if (!patch->is_member[p->target[h]] && along > most)
+                most = along, best = p->target[h];
+        }
+    }
+    return most > PIR_STEEP - 1 ? best : UINT32_MAX;
+}
+
+bool pir_patch_extend(pir_patch *patch) {
+    uint32_t f = facet_out(patch, true);
+    if (f != PIR_NO_FACET) {
+        patch->facet = f;
+        add_facet(patch, f);
+        spread(patch, normal_of(patch, f));
+        return true;
+    }
+    uint32_t v = patch->facet == PIR_NO_FACET && patch->members == 1 ? flattest(patch) : UINT32_MAX;
+    if (v != UINT32_MAX)
+        add(patch, v);
+    return v != UINT32_MAX;
+}
+
+void pir_patch_clear(pir_patch *patch) {
+    for (uint32_t i = 0; i < patch->members; i++)
+        patch->is_member[patch->member[i]] = false;
+    patch->members = 0;
+}
+
+/* --- the outline --- */
+
+void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner *room) {
+    for (uint32_t i = 0; i < patch->members; i++) {
+        pir_vec3 x = pir_patch_vertex(patch, patch->member[i]);
+        patch->corner[i] =
+            (pir_corner){.u = pir_vec_dot(axis[0], x), .v = pir_vec_dot(axis[1], x), .p = patch->member[i]};
+    }
+    uint32_t count = pir_outline_hull(patch->corner, patch->members, patch->snap, room);
+    patch->outline = (pir_outline){patch->corner, pir_outline_slim(patch->corner, count, PIR_FLUSH)};
+}
+
+/* --- the surface --- */
+
+/*
+ * How far x is from the plane of facet f along `out`; HUGE_VAL where the facet is too steep to tell. A facet that turns
+ * away from the first by 60° and more bounds the patch: it counts from twice PIR_SNAP beyond its rim on, for rounding alone
+ * may put a corner of the rim beside it.
+ */
+static double height(const pir_patch *patch, uint32_t f, pir_vec3 x) {
+    const pir_polytope *p = patch->polytope;
+    pir_vec3 n = normal_of(patch, f);
+    double along = pir_vec_dot(n, patch->out);
+    if (along < PIR_STEEP)
+        return HUGE_VAL;
+    bool bounds = 2 * pir_vec_dot(p->normal[f], p->normal[patch->facet]) < 1;
+    pir_vec3 from = pir_patch_vertex(patch, p->origin[p->loop[p->loop_start[f]]]);
+    return (pir_vec_dot(n, pir_vec_sub(from, x)) + (bounds ? 2 * patch->snap : 0)) / along;
+}
+
+pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
+    const pir_polytope *p = patch->polytope;
+    if (patch->facet == PIR_NO_FACET)
+        return x;
+    // the surface is the least of its planes: from facet to facet until none beside it is lower
+    uint32_t f = patch->facet;
+    double least = height(patch, f, x);
+    for (bool lower = true; lower;) {
+        lower = false;
+        uint32_t here = f;
+        for (uint32_t i = p->loop_start[here]; i < p->loop_start[here + 1]; i++) {
+            uint32_t g = pir_right(p, p->loop[i]);
+            double h = height(patch, g, x);
+            if (h < least)
+                least = h, f = g, lower = true;
+        }
+    }
+    return pir_vec_add(x, pir_vec_scale(patch->out, least));
+}
+
+pir_vec3 pir_patch_side(const pir_patch *patch, uint32_t side, double t) {
+    uint32_t end = side + 1 < patch->outline.count ? side + 1 : 0;
+    pir_vec3 a = pir_patch_vertex(patch, patch->outline.at[side].p),
+             b = pir_patch_vertex(patch, patch->outline.at[end].p);
+    // sides of the outline are edges, or nearly: the hull may have cut across
+    return pir_patch_lift(patch, pir_vec_add(a, pir_vec_scale(pir_vec_sub(b, a), t)));
+}

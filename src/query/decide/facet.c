@@ -1,0 +1,274 @@
+/* SPDX-License-Identifier: MIT */
+/* True facets of D: see facet.h. */
+#include "query/decide/facet.h"
+
+/*
+ * A unit normal is off by 64u·err at most (u = 2^-53), and by 37u more when it is turned into P's frame; a unit edge vector
+ * by 8u; their dot product rounds by 4u: below 128u·err.
+ */
+#define SLOPE_BOUND 0x1p-46
+
+/* Slacks below this, relative to the placement's reach, come from integers. */
+#define NEXT_TO_NOTHING 0x1p-30
+
+/* --- slopes and exposed faces --- */
+
+pir_int3 pir_normal_integers(pir_query *query, const pir_normal *normal) {
+    return normal->exact ? *normal->exact : pir_exact_normal(query, normal->piece);
+}
+
+static int exact_slope(pir_query *query, const pir_normal *normal, uint32_t half, bool of_q) {
+    uint32_t mark = query->scratch.used;
+    pir_rotation_make_exact(&query->sum->signs.rotation);
+    pir_int3 n = pir_normal_integers(query, normal);
+    pir_int3 e = of_q ? pir_exact_half_q(query, half) : pir_exact_half_p(query, half);
+    int sign = pir_exact_dot_sign(query, &n, &e);
+    query->scratch.used = mark;
+    return sign;
+}
+
+pir_view pir_view_of(const pir_query *query, const pir_normal *normal, bool of_q) {
+    if (of_q)
+        return (pir_view){query->q, true, normal->unit};
+    return (pir_view){query->p, false, pir_mat_apply_transposed(&query->r, normal->unit)};
+}
+
+int pir_slope(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t half) {
+    double slope = pir_vec_dot(view->unit, view->body->direction[half]);
+    if (fabs(slope) > SLOPE_BOUND * normal->err)
+        return (slope > 0) - (slope < 0);
+    return exact_slope(query, normal, half, view->of_q);
+}
+
+/*
+ * The facet that two edges of a vertex share; of a polygon's two the one whose normal is along `unit`, in the body's
+ * frame.
+ */
+static uint32_t shared_facet(const pir_polytope *p, uint32_t half, uint32_t other, pir_vec3 unit) {
+    uint32_t left = p->left[half], right = pir_right(p, half);
+    bool has_left = left == p->left[other] || left == pir_right(p, other);
+    bool has_right = right == p->left[other] || right == pir_right(p, other);
+    if (has_left && has_right)
+        return pir_vec_dot(p->normal[left], unit) > 0 ? left : right;
+    return has_left ? left : right;
+}
+
+/*
+ * Where to look from: a vertex that is exposed, and a halfedge that leaves it and is known to be across the normal, or
+ * none.
+ */
+struct from {
+    uint32_t vertex, across;
+};
+
+#define NO_HALF UINT32_MAX
+
+/* The exposed face that holds the vertex of `from`. */
+static pir_feature exposed(pir_query *query, const pir_normal *normal, const pir_view *view, struct from from) {
+    const pir_polytope *p = view->body;
+    uint32_t across[2] = {0, 0}, count = 0, vertex = from.vertex;
+    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1] && count < 2; h++)
+        if (h == from.across || pir_slope(query, normal, view, h) == 0)
+            across[count++] = h;
+    if (count == 0)
+        return (pir_feature){PIR_FEATURE_VERTEX, vertex};
+    if (p->artificial)
+        return (pir_feature){PIR_FEATURE_EDGE, 0};
+    if (count == 1)
+        return (pir_feature){PIR_FEATURE_EDGE, p->edge[across[0]]};
+    return (pir_feature){PIR_FEATURE_FACET, shared_facet(p, across[0], across[1], view->unit)};
+}
+
+pir_feature pir_exposed(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t vertex) {
+    return exposed(query, normal, view, (struct from){vertex, NO_HALF});
+}
+
+uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face) {
+    if (face.kind == PIR_FEATURE_VERTEX)
+        return face.index;
+    // an edge's halfedge leaves its lower vertex
+    if (face.kind == PIR_FEATURE_EDGE)
+        return p->origin[p->edge_half[face.index]];
+    uint32_t lowest = UINT32_MAX;
+    for (uint32_t i = p->loop_start[face.index]; i < p->loop_start[face.index + 1]; i++)
+        lowest = p->origin[p->loop[i]] < lowest ? p->origin[p->loop[i]] : lowest;
+    return lowest;
+}
+
+/* --- planes --- */
+
+/* Two edges: the halfedge of Q's for which d × e is along the normal. False when they are parallel. */
+static bool orient_edges(pir_query *query, const pir_normal *normal, uint32_t e, uint32_t d, uint32_t *ret_half) {
+    const pir_polytope *p = query->p, *q = query->q;
+    uint32_t half = q->edge_half[d];
+    pir_vec3 n = pir_vec_cross(q->direction[half], pir_mat_apply(&query->r, p->direction[p->edge_half[e]]));
+    double along = pir_vec_dot(n, normal->unit);
+    // both vectors of the product are off by 42u at most, and the normal by 64u·err
+    if (fabs(along) <= 2 * SLOPE_BOUND * normal->err) {
+        uint32_t mark = query->scratch.used;
+        pir_rotation_make_exact(&query->sum->signs.rotation);
+        pir_int3 exact = pir_exact_normal(query, (pir_piece){PIR_FACET_EE, e, half});
+        pir_int3 to = pir_normal_integers(query, normal);
+        along = pir_exact_dot_sign(query, &exact, &to);
+        query->scratch.used = mark;
+    }
+    *ret_half = along > 0 ? half : q->twin[half];
+    return along != 0;
+}
+
+/* The plane of the piece that stands for a facet, through its corner. */
+static void make_plane(pir_query *query, pir_facet *facet) {
+    const pir_polytope *p = query->p, *q = query->q;
+    pir_piece piece = facet->piece;
+    facet->err = 1;
+    if (piece.kind == PIR_FACET_FV) {
+        facet->n = pir_mat_apply(&query->r, p->normal[piece.first]);
+        facet->h = query->hp[piece.first] + pir_vec_dot(facet->n, query->vq[facet->b]);
+    } else if (piece.kind == PIR_FACET_VF) {
+        facet->n = q->normal[piece.second];
+        facet->h = query->hq[piece.second] + pir_vec_dot(facet->n, pir_mat_apply(&query->r, query->vp[facet->a]));
+    } else {
+        uint32_t half = p->edge_half[piece.first];
+        pir_vec3 n = pir_vec_cross(q->direction[piece.second], pir_mat_apply(&query->r, p->direction[half]));
+        facet->err = 1 / sqrt(pir_vec_dot(n, n));
+        facet->n = pir_vec_scale(n, facet->err);
+        if (facet->err * PIR_SIN_REFINED >= 1) {
+            pir_side_normal(query, piece, &facet->n);
+            facet->err = 1;
+        }
+        facet->h = pir_vec_dot(facet->n, pir_frame_vertex(query, p->origin[half], q->origin[piece.second]));
+    }
+}
+
+bool pir_facet_of_faces(pir_query *query, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet) {
+    uint32_t half = 0;
+    pir_feature p = faces.p, q = faces.q;
+    if (p.kind == PIR_FEATURE_FACET)
+        ret_facet->piece = (pir_piece){PIR_FACET_FV, p.index, 0};
+    else if (q.kind == PIR_FEATURE_FACET)
+        ret_facet->piece = (pir_piece){PIR_FACET_VF, 0, q.index};
+    else if (p.kind == PIR_FEATURE_EDGE && q.kind == PIR_FEATURE_EDGE &&
+             orient_edges(query, normal, p.index, q.index, &half))
+        ret_facet->piece = (pir_piece){PIR_FACET_EE, p.index, half};
+    else
+        return false;
+    ret_facet->faces = faces;
+    ret_facet->a = pir_face_lowest(query->p, p);
+    ret_facet->b = pir_face_lowest(query->q, q);
+    make_plane(query, ret_facet);
+    return true;
+}
+
+/* The normal of a piece as doubles; false when its edges are parallel. */
+static bool make_normal(pir_query *query, pir_piece piece, pir_normal *ret_normal) {
+    const pir_polytope *p = query->p, *q = query->q;
+    *ret_normal = (pir_normal){.err = 1, .piece = piece};
+    if (piece.kind == PIR_FACET_FV) {
+        ret_normal->unit = pir_mat_apply(&query->r, p->normal[piece.first]);
+        return true;
+    }
+    if (piece.kind == PIR_FACET_VF) {
+        ret_normal->unit = q->normal[piece.second];
+        return true;
+    }
+    uint32_t half = p->edge_half[piece.first];
+    pir_vec3 n = pir_vec_cross(q->direction[piece.second], pir_mat_apply(&query->r, p->direction[half]));
+    ret_normal->err = 1 / sqrt(pir_vec_dot(n, n));
+    ret_normal->unit = pir_vec_scale(n, ret_normal->err);
+    if (ret_normal->err * PIR_SIN_REFINED < 1)
+        return true;
+    ret_normal->err = 1;
+    return pir_side_normal(query, piece, &ret_normal->unit);
+}
+
+bool pir_facet_of(pir_query *query, pir_piece piece, pir_facet *ret_facet) {
+    const pir_polytope *p = query->p, *q = query->q;
+    pir_normal normal;
+    pir_witness faces;
+    struct from a = {0, NO_HALF}, b = {0, NO_HALF};
+    if (!make_normal(query, piece, &normal))
+        return false;
+    pir_piece_corner(query, piece, &a.vertex, &b.vertex);
+    if (piece.kind == PIR_FACET_EE) {
+        a.across = p->edge_half[piece.first];
+        b.across = piece.second;
+    }
+    pir_view of_p = pir_view_of(query, &normal, false), of_q = pir_view_of(query, &normal, true);
+    // a facet's own normal exposes it
+    faces.p = piece.kind == PIR_FACET_FV && !p->artificial ? (pir_feature){PIR_FEATURE_FACET, piece.first}
+                                                           : exposed(query, &normal, &of_p, a);
+    faces.q = piece.kind == PIR_FACET_VF && !q->artificial ? (pir_feature){PIR_FEATURE_FACET, piece.second}
+                                                           : exposed(query, &normal, &of_q, b);
+    return pir_facet_of_faces(query, &normal, faces, ret_facet);
+}
+
+/* --- order --- */
+
+static bool same_feature(pir_feature a, pir_feature b) {
+    return a.kind == b.kind && a.index == b.index;
+}
+
+bool pir_facet_same(const pir_facet *a, const pir_facet *b) {
+    return same_feature(a->faces.p, b->faces.p) && same_feature(a->faces.q, b->faces.q);
+}
+
+bool pir_facet_before(const pir_facet *a, const pir_facet *b) {
+    if (a->piece.kind != b->piece.kind)
+        return a->piece.kind < b->piece.kind;
+    // features of facets, not of the pieces that stand for them: an edge's number, not its halfedge's
+    if (a->piece.kind != PIR_FACET_VF && a->faces.p.index != b->faces.p.index)
+        return a->faces.p.index < b->faces.p.index;
+    return a->piece.kind != PIR_FACET_FV && a->faces.q.index < b->faces.q.index;
+}
+
+/* --- slacks --- */
+
+double pir_facet_slack(pir_query *query, const pir_placement *placement, const pir_facet *facet) {
+    pir_vec3 n = facet->n, x = placement->x;
+    double slack = facet->h - (n.x * x.x + n.y * x.y + n.z * x.z);
+    if (fabs(slack) > NEXT_TO_NOTHING * placement->reach)
+        return slack;
+    pir_exact_begin(query, placement->translation);
+    uint32_t mark = query->scratch.used;
+    pir_int3 normal = pir_exact_normal(query, facet->piece), corner = pir_exact_corner(query, facet->a, facet->b);
+    pir_int dot = pir_exact_dot(query, &normal, &corner);
+    pir_real length = pir_exact_length(query, &normal);
+    query->scratch.used = mark;
+    return pir_real_double(pir_real_times(pir_real_over(pir_real_of(&dot), length), pir_exact_unit(query)));
+}
+
+int pir_facet_side(pir_query *query, const pir_placement *placement, const pir_facet *facet) {
+    double slack = facet->h - pir_vec_dot(facet->n, placement->x);
+    if (fabs(slack) > placement->error * facet->err)
+        return (slack > 0) - (slack < 0);
+    pir_exact_begin(query, placement->translation);
+    uint32_t mark = query->scratch.used;
+    pir_int3 n = pir_exact_normal(query, facet->piece), corner = pir_exact_corner(query, facet->a, facet->b);
+    int sign = pir_exact_dot_sign(query, &n, &corner);
+    query->scratch.used = mark;
+    return sign;
+}
+
+int pir_facet_compare(pir_query *query, const pir_placement *placement, const pir_facet *a, const pir_facet *b) {
+    pir_vec3 x = placement->x;
+    double difference = (a->h - pir_vec_dot(a->n, x)) - (b->h - pir_vec_dot(b->n, x));
+    if (fabs(difference) > placement->error * (a->err + b->err))
+        return (difference > 0) - (difference < 0);
+    // s²·|m|² against r²·|n|², with the signs of s and r
+    pir_exact_begin(query, placement->translation);
+    uint32_t mark = query->scratch.used;
+    const pir_facet *facet[2] = {a, b};
+    pir_int dot[2], square[2];
+    for (int k = 0; k < 2; k++) {
+        pir_int3 normal = pir_exact_normal(query, facet[k]->piece);
+        pir_int3 corner = pir_exact_corner(query, facet[k]->a, facet[k]->b);
+        dot[k] = pir_exact_dot(query, &normal, &corner);
+        square[k] = pir_exact_square(query, &normal);
+    }
+    int sign = pir_int_sign(&dot[0]), other = pir_int_sign(&dot[1]);
+    pir_int of_a = pir_exact_product(query, &dot[0], &dot[0]), of_b = pir_exact_product(query, &dot[1], &dot[1]);
+    pir_int left = pir_exact_product(query, &of_a, &square[1]), right = pir_exact_product(query, &of_b, &square[0]);
+    int order = sign != other ? (sign > other) - (sign < other) : sign * pir_exact_compare(query, &left, &right);
+    query->scratch.used = mark;
+    return order;
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * True facets of D: faces of P and Q that one direction exposes.
+ *
+ * A direction n exposes a face of P (of the turned and reflected P that D is a sum with) and one of Q, and their sum is
+ * the face of D that n exposes. Pieces that are exactly coplanar belong to one true facet, and the faces that n exposes
+ * name it: a facet of P with any face of Q, a facet of Q with an edge or a vertex of P, or two edges that are not
+ * parallel. So an answer that names a true facet depends neither on the perturbation that cut it into pieces nor on
+ * which of them a search met.
+ *
+ * Which edges are across n is decided by exact signs: a filter on unit vectors, then integers.
+ */
+#ifndef PIR_QUERY_DECIDE_FACET_H
+#define PIR_QUERY_DECIDE_FACET_H
+
+#include "query/query.h"
+
+/* A direction: as doubles, and exactly as that of a piece or as integers. */
+typedef struct pir_normal {
+    pir_vec3 unit;
+    double err; /* unit is off by at most 64·2^-53 times this */
+    pir_piece piece;
+    const pir_int3 *exact; /* where it is not NULL the piece does not count; in the scratch */
+} pir_normal;
+
+struct pir_facet {
+    pir_witness faces; /* of the reflected P, and of Q */
+    pir_piece piece;   /* stands for it, in the order of ties: FV where P has a facet there, else VF, else EE */
+    uint32_t a, b;     /* a corner of it */
+    pir_vec3 n;        /* its plane: the unit normal and the offset */
+    double h, err;     /* as in pir_planes; err is at most 1 / PIR_SIN_REFINED */
+};
+
+/* The facet that a search has found, if any. */
+struct pir_least {
+    bool some;
+    pir_facet facet;
+};
+
+/* The exact normal, in the scratch. */
+pir_int3 pir_normal_integers(pir_query *query, const pir_normal *normal);
+
+/* A direction as one of the bodies sees it: the unit normal in the frame of the body's own vertices. */
+typedef struct pir_view {
+    const pir_polytope *body;
+    bool of_q;
+    pir_vec3 unit;
+} pir_view;
+
+pir_view pir_view_of(const pir_query *query, const pir_normal *normal, bool of_q);
+
+/* The exact sign of n·e for a halfedge of the body. */
+int pir_slope(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t half);
+
+/* The face of the body that n exposes, given a vertex of it. */
+pir_feature pir_exposed(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t vertex);
+
+/* The vertex of lowest number of a face. */
+uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face);
+
+/* The true facet of a piece; false when the piece's plane holds no more than an edge of D. */
+bool pir_facet_of(pir_query *query, pir_piece piece, pir_facet *ret_facet);
+
+/* The true facet of two faces that a direction exposes; false as above. */
+bool pir_facet_of_faces(pir_query *query, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet);
+
+bool pir_facet_same(const pir_facet *a, const pir_facet *b);
+
+/* The order that settles ties. */
+bool pir_facet_before(const pir_facet *a, const pir_facet *b);
+
+/*
+ * The slack, which is negative where the facet separates. It is the same number however it is come by; where it is next
+ * to nothing it comes from integers.
+ */
+double pir_facet_slack(pir_query *query, const pir_placement *placement, const pir_facet *facet);
+
+/*
+ * A point of Q's for a foot of x, `slack` along the normal from it, that may be beside the facet: relative to Q's
+ * middle. On the facet, it is one that touches where the faces are not parallel.
+ */
+pir_vec3 pir_facet_point(const pir_query *query, const pir_placement *placement, const pir_facet *facet, double slack);
+
+/* The exact sign of the slack. */
+int pir_facet_side(pir_query *query, const pir_placement *placement, const pir_facet *facet);
+
+/* The exact sign of a's slack less b's. */
+int pir_facet_compare(pir_query *query, const pir_placement *placement, const pir_facet *a, const pir_facet *b);
+
+static inline pir_normal pir_facet_normal(const pir_facet *facet) {
+    return (pir_normal){facet->n, facet->err, facet->piece, NULL};
+}
+
+#endif

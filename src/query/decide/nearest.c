@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: MIT */
+/* The nearest point of D from outside: see nearest.h. */
+#include "query/decide/nearest.h"
+
+/*
+ * Nearer than this, relative to the placement's reach, the direction to a corner or an edge of D comes from integers.
+ */
+#define CLOSE 0x1p-16
+
+/* Below this, squares lose digits. */
+#define LEAST_LENGTH 0x1p-400
+
+/* Whether doubles know a distance, and the direction that goes with it. */
+static bool is_far(const pir_placement *placement, double distance) {
+    return distance > CLOSE * placement->reach && distance > placement->error / CLOSE && distance > LEAST_LENGTH;
+}
+
+/* A direction that is off by this much, in units of 64·2^-53 (facet.h), for an error in lengths and a distance. */
+static double direction_error(double error, double distance) {
+    return 1 + error / distance * 0x1p47;
+}
+
+/* --- answers from faces --- */
+
+static bool answer_facet(pir_query *query, const pir_placement *placement, const pir_facet *facet,
+                         pir_nearest *ret_nearest) {
+    double slack = pir_facet_slack(query, placement, facet);
+    if (!pir_touch_facet(query, placement, facet, slack, NULL, &ret_nearest->touch))
+        return false;
+    ret_nearest->distance = fmax(0, -slack);
+    ret_nearest->normal = facet->n;
+    return true;
+}
+
+/* What is left of a corner or an edge of D: its corner, and the vector of the edge. */
+struct line {
+    uint32_t a, b;
+    bool of_p, of_q; /* along an edge of P's, else of Q's, else a corner */
+    uint32_t half;
+};
+
+static struct line line_of(const pir_query *query, pir_witness faces) {
+    struct line line = {pir_face_lowest(query->p, faces.p), pir_face_lowest(query->q, faces.q), false, false, 0};
+    if (faces.p.kind == PIR_FEATURE_EDGE)
+        line.of_p = true, line.half = query->p->edge_half[faces.p.index];
+    else if (faces.q.kind == PIR_FEATURE_EDGE)
+        line.of_q = true, line.half = query->q->edge_half[faces.q.index];
+    return line;
+}
+
+static pir_vec3 direction_of(const pir_query *query, const struct line *line) {
+    return line->of_p ? pir_mat_apply(&query->r, query->p->direction[line->half]) : query->q->direction[line->half];
+}
+
+/* From the corner or the edge to x, by doubles; *ret_along is how far along the edge from the corner. */
+static pir_vec3 away_from(const pir_query *query, const pir_placement *placement, const struct line *line,
+                          double *ret_along) {
+    pir_vec3 w = pir_vec_sub(placement->x, pir_frame_vertex(query, line->a, line->b));
+    *ret_along = 0;
+    if (!line->of_p && !line->of_q)
+        return w;
+    pir_vec3 e = direction_of(query, line);
+    *ret_along = pir_vec_dot(w, e);
+    return pir_vec_sub(w, pir_vec_scale(e, *ret_along));
+}
+
+/* The same by integers: the distance and the unit normal. */
+static double exactly_away(pir_query *query, const pir_placement *placement, const struct line *line,
+                           pir_vec3 *ret_normal) {
+    pir_exact_begin(query, placement->translation);
+    uint32_t mark = query->scratch.used;
+    pir_int3 w = pir_exact_corner(query, line->a, line->b), n = w;
+    for (int k = 0; k < 3; k++)
+        pir_int_negate(&n.c[k]);
+    pir_real length;
+    if (line->of_p || line->of_q) {
+        pir_int3 e = line->of_p ? pir_exact_half_p(query, line->half) : pir_exact_half_q(query, line->half);
+        pir_int dot = pir_exact_dot(query, &w, &e), square = pir_exact_square(query, &e);
+        pir_int3 along = pir_exact_scaled(query, &e, &dot), whole = pir_exact_scaled(query, &w, &square);
+        n = pir_exact_difference(query, &along, &whole);
+        length = pir_real_over(pir_exact_length(query, &n), pir_real_of(&square));
+    } else {
+        length = pir_exact_length(query, &n);
+    }
+    *ret_normal = pir_int3_is_zero(&n) ? (pir_vec3){1, 0, 0} : pir_int3_unit(&n);
+    query->scratch.used = mark;
+    return pir_real_double(pir_real_times(length, pir_exact_unit(query)));
+}
+
+static bool answer_line(pir_query *query, const pir_placement *placement, pir_witness faces, pir_nearest *ret_nearest) {
+    struct line line = line_of(query, faces);
+    double along;
+    pir_vec3 w = away_from(query, placement, &line, &along);
+    double distance = sqrt(pir_vec_dot(w, w)), error = 4 * placement->error;
+    pir_normal normal = {.err = direction_error(error, distance)};
+    if (is_far(placement, distance)) {
+        normal.unit = pir_vec_scale(w, 1 / distance);
+    } else {
+        distance = exactly_away(query, placement, &line, &normal.unit);
+        normal.err = 1;
+    }
+    ret_nearest->distance = distance;
+    ret_nearest->normal = normal.unit;
+    pir_meeting meeting = {&normal, faces, false, -distance, NULL};
+    return pir_touch_find(query, placement, &meeting, &ret_nearest->touch);
+}
+
+/* --- proofs in doubles --- */
+
+/* Whether n leads down from the vertex along all its edges but those to `except`, by more than n may be off. */
+static bool leads_down_p(const pir_query *query, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
+    const pir_polytope *p = query->p;
+    pir_vec3 back = pir_mat_apply_transposed(&query->r, n);
+    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++)
+        if (p->target[h] != except && !(pir_vec_dot(back, p->direction[h]) < -off))
+            return false;
+    return true;
+}
+
+static bool leads_down_q(const pir_query *query, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
+    const pir_polytope *q = query->q;
+    for (uint32_t h = q->ring_start[vertex]; h < q->ring_start[vertex + 1]; h++)
+        if (q->target[h] != except && !(pir_vec_dot(n, q->direction[h]) < -off))
+            return false;
+    return true;
+}
+
+/* Whether the corner or edge of D that the faces make holds the nearest point for certain. */
+static bool line_is_nearest(const pir_query *query, const pir_placement *placement, pir_witness faces) {
+    const pir_polytope *p = query->p, *q = query->q;
+    struct line line = line_of(query, faces);
+    double along, error = 4 * placement->error;
+    pir_vec3 w = away_from(query, placement, &line, &along);
+    double distance = sqrt(pir_vec_dot(w, w));
+    if (!is_far(placement, distance))
+        return false;
+    pir_vec3 n = pir_vec_scale(w, 1 / distance);
+    // slopes are off by what n is, in full, and by their own rounding
+    double off = error / distance + 0x1p-45;
+    if (!line.of_p && !line.of_q)
+        return leads_down_p(query, n, off, line.a, UINT32_MAX) && leads_down_q(query, n, off, line.b, UINT32_MAX);
+    const pir_polytope *of = line.of_p ? p : q;
+    const pir_vec3 *vertex = line.of_p ? query->vp : query->vq;
+    uint32_t from = of->origin[line.half], to = of->target[line.half];
+    pir_vec3 edge = pir_vec_sub(vertex[to], vertex[from]);
+    double length = sqrt(pir_vec_dot(edge, edge));
+    if (!(along > error && along < length - error))
+        return false;
+    if (line.of_p)
+        return leads_down_p(query, n, off, from, to) && leads_down_p(query, n, off, to, from) &&
+               leads_down_q(query, n, off, line.b, UINT32_MAX);
+    return leads_down_q(query, n, off, from, to) && leads_down_q(query, n, off, to, from) &&
+           leads_down_p(query, n, off, line.a, UINT32_MAX);
+}
+
+/* The piece that has the features, where the pairing has one. */
+static bool piece_of(const pir_query *query, pir_witness faces, pir_piece *ret_piece) {
+    const pir_sum *sum = query->sum;
+    if (faces.p.kind == PIR_FEATURE_FACET)
+        *ret_piece = (pir_piece){PIR_FACET_FV, faces.p.index, 0};
+    else if (faces.q.kind == PIR_FEATURE_FACET)
+        *ret_piece = (pir_piece){PIR_FACET_VF, 0, faces.q.index};
+    else if (faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE) {
+        uint32_t at = sum->first[faces.p.index];
+        while (at != PIR_NO_CROSSING && query->q->edge[sum->crossings.half[at]] != faces.q.index)
+            at = sum->crossings.next[at];
+        if (at == PIR_NO_CROSSING)
+            return false;
+        *ret_piece = (pir_piece){PIR_FACET_EE, faces.p.index, sum->crossings.half[at]};
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* Whether a facet of D certainly separates and the foot of x is on it. */
+static bool facet_is_nearest(pir_query *query, const pir_placement *placement, const pir_facet *facet,
+                             pir_nearest *ret_nearest) {
+    double slack = facet->h - pir_vec_dot(facet->n, placement->x);
+    return slack < -placement->error * facet->err && answer_facet(query, placement, facet, ret_nearest);
+}
+
+bool pir_nearest_prove(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
+                       pir_nearest *ret_nearest) {
+    pir_witness faces = {pir_feature_of(query->p, simplex->a, simplex->count),
+                         pir_feature_of(query->q, simplex->b, simplex->count)};
+    pir_piece piece;
+    pir_facet facet;
+    if (piece_of(query, faces, &piece))
+        return pir_facet_of(query, piece, &facet) && facet_is_nearest(query, placement, &facet, ret_nearest);
+    if (faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE)
+        return false;
+    return line_is_nearest(query, placement, faces) && answer_line(query, placement, faces, ret_nearest);
+}
+
+bool pir_nearest_find(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
+                      pir_nearest *ret_nearest, uint32_t *steps) {
+    if (pir_nearest_prove(query, placement, simplex, ret_nearest))
+        return true;
+    pir_witness faces;
+    pir_facet facet;
+    bool flat;
+    if (!pir_nearest_faces(query, placement, simplex, &faces, &facet, &flat, steps))
+        return false;
+    return flat ? answer_facet(query, placement, &facet, ret_nearest)
+                : answer_line(query, placement, faces, ret_nearest);
+}

@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: MIT */
+/* Where faces of P and Q meet: see touch.h. */
+#include "query/decide/touch.h"
+
+/*
+ * m·(y − corner) for a unit m = n × e or e is off by less than twice a slack, n's error counted:
+ * PIR_SLACK_BOUND·reach·err each for m and for what it is multiplied with.
+ */
+#define SIDE_ERRORS 2
+
+struct touch {
+    pir_query *query;
+    const pir_placement *placement;
+    const pir_normal *normal;
+    const pir_way *way;
+    pir_vec3 x; /* y, but for its distance along the normal */
+    double error;
+    bool flat; /* the sum of the faces has an area: sides are across the normal */
+};
+
+/* --- signs --- */
+
+/* A halfedge of P or Q. */
+struct side {
+    bool of_q;
+    uint32_t half;
+};
+
+static pir_vec3 direction_of(const pir_query *query, struct side side) {
+    return side.of_q ? query->q->direction[side.half] : pir_mat_apply(&query->r, query->p->direction[side.half]);
+}
+
+/*
+ * Corner (a, b) of D less y, times a positive number, in the scratch. Along a way, t moves by (S/D)·d, with d the
+ * direction, D = n·d and S = n·W of the plane's own corner; all is multiplied by |D|.
+ */
+static pir_int3 exact_corner(const struct touch *touch, uint32_t a, uint32_t b) {
+    pir_query *query = touch->query;
+    pir_int3 corner = pir_exact_corner(query, a, b);
+    const pir_way *way = touch->way;
+    if (!way)
+        return corner;
+    int exponent;
+    pir_int3 n = pir_normal_integers(query, way->normal), plane = pir_exact_corner(query, way->a, way->b);
+    pir_int3 d = pir_exact_vector(query, way->direction, &exponent);
+    pir_int rate = pir_exact_dot(query, &n, &d), slack = pir_exact_dot(query, &n, &plane);
+    if (pir_int_sign(&rate) < 0) {
+        pir_int_negate(&rate);
+        pir_int_negate(&slack);
+    }
+    pir_int3 moved = pir_exact_scaled(query, &corner, &rate), by = pir_exact_scaled(query, &d, &slack);
+    return pir_exact_difference(query, &moved, &by);
+}
+
+/* The exact sign of m·(y − corner (a, b)), m = n × e or, `along`, e. */
+static int exact_position(const struct touch *touch, struct side side, bool along, uint32_t a, uint32_t b) {
+    pir_query *query = touch->query;
+    pir_exact_begin(query, touch->placement->translation);
+    uint32_t mark = query->scratch.used;
+    pir_int3 m = side.of_q ? pir_exact_half_q(query, side.half) : pir_exact_half_p(query, side.half);
+    if (!along) {
+        pir_int3 n = pir_normal_integers(query, touch->normal);
+        m = pir_exact_cross(query, &n, &m);
+    }
+    pir_int3 corner = exact_corner(touch, a, b);
+    int sign = -pir_exact_dot_sign(query, &m, &corner);
+    query->scratch.used = mark;
+    return sign;
+}
+
+/* The sign of m·(y − corner (a, b)), m = n × e. */
+static int position(const struct touch *touch, struct side side, uint32_t a, uint32_t b) {
+    const pir_query *query = touch->query;
+    pir_vec3 m = pir_vec_cross(touch->normal->unit, direction_of(query, side));
+    double s = pir_vec_dot(m, pir_vec_sub(touch->x, pir_frame_vertex(query, a, b)));
+    if (fabs(s) > touch->error)
+        return (s > 0) - (s < 0);
+    return exact_position(touch, side, false, a, b);
+}
+
+/* --- whether a point is on a face --- */
+
+/* y less a vertex of the other body, as the face's body has its vertices. */
+struct point {
+    const struct touch *touch;
+    pir_view view;
+    const pir_vec3 *vertex; /* of the body */
+    pir_vec3 at;
+    uint32_t fixed; /* the other body's vertex */
+};
+
+static struct point point_less(const struct touch *touch, bool of_q, uint32_t fixed) {
+    const pir_query *query = touch->query;
+    struct point point = {.touch = touch, .view = pir_view_of(query, touch->normal, of_q), .fixed = fixed};
+    if (of_q) {
+        point.vertex = query->vq;
+        point.at = pir_vec_sub(touch->x, pir_mat_apply(&query->r, query->vp[fixed]));
+    } else {
+        point.vertex = query->vp;
+        point.at = pir_mat_apply_transposed(&query->r, pir_vec_sub(touch->x, query->vq[fixed]));
+    }
+    return point;
+}
+
+/* The sign of m·(y − corner), m = n × e or, `along`, e, for a halfedge and the body's own vertex at the corner. */
+static int position_of(const struct point *point, uint32_t half, bool along, uint32_t own) {
+    bool of_q = point->view.of_q;
+    pir_vec3 e = point->view.body->direction[half], m = along ? e : pir_vec_cross(point->view.unit, e);
+    double s = pir_vec_dot(m, pir_vec_sub(point->at, point->vertex[own]));
+    if (fabs(s) > point->touch->error)
+        return (s > 0) - (s < 0);
+    return exact_position(point->touch, (struct side){of_q, half}, along, of_q ? point->fixed : own,
+                          of_q ? own : point->fixed);
+}
+
+static bool on_edge(const struct point *point, uint32_t edge, pir_feature *ret_least) {
+    const pir_polytope *p = point->view.body;
+    uint32_t half = p->edge_half[edge], from = p->origin[half], to = p->target[half];
+    if (point->touch->flat && position_of(point, half, false, from) != 0)
+        return false;
+    int after = position_of(point, half, true, from), before = position_of(point, half, true, to);
+    if (after < 0 || before > 0)
+        return false;
+    *ret_least = after == 0    ? (pir_feature){PIR_FEATURE_VERTEX, from}
+                 : before == 0 ? (pir_feature){PIR_FEATURE_VERTEX, to}
+                               : (pir_feature){PIR_FEATURE_EDGE, edge};
+    return true;
+}
+
+static bool on_facet(const struct point *point, uint32_t facet, pir_feature *ret_least) {
+    const pir_polytope *p = point->view.body;
+    uint32_t start = p->loop_start[facet], end = p->loop_start[facet + 1], zeros = 0, on[2] = {0, 0};
+    for (uint32_t i = start; i < end; i++) {
+        int sign = position_of(point, p->loop[i], false, p->origin[p->loop[i]]);
+        if (sign < 0)
+            return false;
+        if (sign == 0 && zeros < 2)
+            on[zeros++] = i;
+    }
+    if (zeros == 0)
+        *ret_least = (pir_feature){PIR_FEATURE_FACET, facet};
+    else if (zeros == 1)
+        *ret_least = (pir_feature){PIR_FEATURE_EDGE, p->edge[p->loop[on[0]]]};
+    else // between the two sides: at the end of the first, but where they are the last and the first
+        *ret_least = (pir_feature){PIR_FEATURE_VERTEX,
+                                   on[1] == on[0] + 1 ? p->target[p->loop[on[0]]] : p->origin[p->loop[on[0]]]};
+    return true;
+}
+
+/* Whether y less the other body's vertex `fixed` is on the face, and the least face that holds it. */
+static bool on_face(const struct touch *touch, bool of_q, pir_feature face, uint32_t fixed, pir_feature *ret_least) {
+    *ret_least = face;
+    if (face.kind == PIR_FEATURE_VERTEX)
+        return true;
+    struct point point = point_less(touch, of_q, fixed);
+    return face.kind == PIR_FEATURE_FACET ? on_facet(&point, face.index, ret_least)
+                                          : on_edge(&point, face.index, ret_least);
+}
+
+/* --- the parts of a face in order --- */
+
+/*
+ * The vertex of a face that is next in number after `last`; UINT32_MAX when there is none. From UINT32_MAX on: the
+ * first.
+ */
+static uint32_t next_vertex(const pir_polytope *p, pir_feature face, uint32_t last) {
+    uint32_t next = UINT32_MAX, after = last + 1;
+    if (face.kind == PIR_FEATURE_VERTEX)
+        return face.index >= after ? face.index : next;
+    if (face.kind == PIR_FEATURE_EDGE) {
+        uint32_t h = p->edge_half[face.index], low = p->origin[h], high = p->target[h];
+        return low >= after ? low : high >= after ? high : next;
+    }
+    for (uint32_t i = p->loop_start[face.index]; i < p->loop_start[face.index + 1]; i++) {
+        uint32_t v = p->origin[p->loop[i]];
+        next = v >= after && v < next ? v : next;
+    }
+    return next;
+}
+
+/* The edge of a face that is next in number after `last`, as above. */
+static uint32_t next_edge(const pir_polytope *p, pir_feature face, uint32_t last) {
+    uint32_t next = UINT32_MAX, after = last + 1;
+    if (face.kind == PIR_FEATURE_EDGE)
+        return face.index >= after ? face.index : next;
+    for (uint32_t i = p->loop_start[face.index]; i < p->loop_start[face.index + 1]; i++) {
+        uint32_t e = p->edge[p->loop[i]];
+        next = e >= after && e < next ? e : next;
+    }
+    return next;
+}
+
+/* --- edges that cross --- */
+
+/* The sign of n·(d × e). */
+static int turn_of(const struct touch *touch, uint32_t half_p, uint32_t half_q) {
+    pir_query *query = touch->query;
+    pir_vec3 d = query->q->direction[half_q], e = pir_mat_apply(&query->r, query->p->direction[half_p]);
+    double s = pir_vec_dot(touch->normal->unit, pir_vec_cross(d, e));
+    if (fabs(s) > 2 * PIR_SLACK_BOUND * touch->normal->err)
+        return (s > 0) - (s < 0);
+    uint32_t mark = query->scratch.used;
+    pir_rotation_make_exact(&query->sum->signs.rotation);
+    pir_int3 n = pir_normal_integers(query, touch->normal), a = pir_exact_half_q(query, half_q),
+             b = pir_exact_half_p(query, half_p), c = pir_exact_cross(query, &a, &b);
+    int sign = pir_exact_dot_sign(query, &n, &c);
+    query->scratch.used = mark;
+    return sign;
+}
+
+/* How far along the edge of Q y lies, from 0 to 1, exactly rounded but for a few ulps. */
+static double exact_part(const struct touch *touch, uint32_t half_p, uint32_t half_q) {
+    pir_query *query = touch->query;
+    const pir_polytope *p = query->p, *q = query->q;
+    pir_exact_begin(query, touch->placement->translation);
+    uint32_t mark = query->scratch.used;
+    pir_int3 n = pir_normal_integers(query, touch->normal), e = pir_exact_half_p(query, half_p),
+             m = pir_exact_cross(query, &n, &e);
+    pir_int at[2];
+    for (int k = 0; k < 2; k++) {
+        pir_int3 corner = exact_corner(touch, p->origin[half_p], k == 0 ? q->origin[half_q] : q->target[half_q]);
+        at[k] = pir_exact_dot(query, &m, &corner);
+    }
+    pir_int whole = pir_limbs_take(
+        &query->scratch,
+        (pir_int_length(&at[0]) > pir_int_length(&at[1]) ? pir_int_length(&at[0]) : pir_int_length(&at[1])) + 1);
+    pir_int_sub(&whole, &at[0], &at[1]);
+    pir_real part = pir_real_over(pir_real_of(&at[0]), pir_real_of(&whole));
+    query->scratch.used = mark;
+    return pir_real_double(part);
+}
+
+/* The point of Q's edge where the edges cross. */
+static pir_vec3 crossing_point(const struct touch *touch, uint32_t half_p, uint32_t half_q, pir_vec3 y) {
+    const pir_query *query = touch->query;
+    const pir_polytope *p = query->p, *q = query->q;
+    pir_vec3 from = query->vq[q->origin[half_q]], d = pir_vec_sub(query->vq[q->target[half_q]], from);
+    pir_vec3 across = pir_vec_cross(pir_mat_apply(&query->r, p->direction[half_p]), touch->normal->unit);
+    pir_vec3 turn = pir_vec_cross(q->direction[half_q], pir_mat_apply(&query->r, p->direction[half_p]));
+    double part;
+    if (pir_vec_dot(turn, turn) < PIR_SIN_REFINED * PIR_SIN_REFINED)
+        part = exact_part(touch, half_p, half_q);
+    else
+        part = pir_vec_dot(pir_vec_sub(y, pir_frame_vertex(query, p->origin[half_p], q->origin[half_q])), across) /
+               pir_vec_dot(d, across);
+    return pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part))));
+}
+
+/* Whether the edges cross where y is, and the least faces that hold it. */
+static bool edges_cross(const struct touch *touch, uint32_t e, uint32_t d, pir_witness *ret_witness) {
+    const pir_polytope *p = touch->query->p, *q = touch->query->q;
+    struct side of_p = {false, p->edge_half[e]}, of_q = {true, q->edge_half[d]};
+    int turn = turn_of(touch, of_p.half, of_q.half);
+    if (turn == 0)
+        return false;
+    uint32_t a[2] = {p->origin[of_p.half], p->target[of_p.half]}, b[2] = {q->origin[of_q.half], q->target[of_q.half]};
+    int after_a = turn * position(touch, of_q, a[0], b[0]);
+    int before_a = turn * position(touch, of_q, a[1], b[0]);
+    int after_b = -turn * position(touch, of_p, a[0], b[0]);
+    int before_b = -turn * position(touch, of_p, a[0], b[1]);
+    if (after_a < 0 || before_a > 0 || after_b < 0 || before_b > 0)
+        return false;
+    ret_witness->p = after_a == 0    ? (pir_feature){PIR_FEATURE_VERTEX, a[0]}
+                     : before_a == 0 ? (pir_feature){PIR_FEATURE_VERTEX, a[1]}
+                                     : (pir_feature){PIR_FEATURE_EDGE, e};
+    ret_witness->q = after_b == 0    ? (pir_feature){PIR_FEATURE_VERTEX, b[0]}
+                     : before_b == 0 ? (pir_feature){PIR_FEATURE_VERTEX, b[1]}
+                                     : (pir_feature){PIR_FEATURE_EDGE, d};
+    return true;
+}
+
+/* --- the search --- */
+
+static bool find_witness(const struct touch *touch, pir_witness faces, pir_witness *ret_witness) {
+    const pir_polytope *p = touch->query->p, *q = touch->query->q;
+    bool two_edges = faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE;
+    // edges that are not parallel meet in one point
+    if (two_edges && touch->flat)
+        return edges_cross(touch, faces.p.index, faces.q.index, ret_witness);
+    if (faces.p.kind != PIR_FEATURE_VERTEX || faces.q.kind == PIR_FEATURE_VERTEX)
+        for (uint32_t b = next_vertex(q, faces.q, UINT32_MAX); b != UINT32_MAX; b = next_vertex(q, faces.q, b))
+            if (on_face(touch, false, faces.p, b, &ret_witness->p)) {
+                ret_witness->q = (pir_feature){PIR_FEATURE_VERTEX, b};
+                return true;
+            }
+    if (faces.q.kind != PIR_FEATURE_VERTEX)
+        for (uint32_t a = next_vertex(p, faces.p, UINT32_MAX); a != UINT32_MAX; a = next_vertex(p, faces.p, a))
+            if (on_face(touch, true, faces.q, a, &ret_witness->q)) {
+                ret_witness->p = (pir_feature){PIR_FEATURE_VERTEX, a};
+                return true;
+            }
+    if (faces.p.kind == PIR_FEATURE_VERTEX || faces.q.kind == PIR_FEATURE_VERTEX)
+        return false;
+    for (uint32_t e = next_edge(p, faces.p, UINT32_MAX); e != UINT32_MAX; e = next_edge(p, faces.p, e))
+        for (uint32_t d = next_edge(q, faces.q, UINT32_MAX); d != UINT32_MAX; d = next_edge(q, faces.q, d))
+            if (edges_cross(touch, e, d, ret_witness))
+                return true;
+    return false;
+}
+
+bool pir_touch_find(pir_query *query, const pir_placement *placement, const pir_meeting *meeting,
+                    pir_touch *ret_touch) {
+    const pir_normal *normal = meeting->normal;
+    const pir_way *way = meeting->way;
+    struct touch touch = {.query = query,
+                          .placement = placement,
+                          .normal = normal,
+                          .way = way,
+                          .x = placement->x,
+                          .error = SIDE_ERRORS * placement->error * normal->err,
+                          .flat = meeting->flat};
+    if (way) {
+        touch.x = pir_vec_add(placement->x, pir_vec_scale(way->u, way->at));
+        touch.error += SIDE_ERRORS * (way->error + PIR_SLACK_BOUND * way->at * normal->err);
+    }
+    if (!find_witness(&touch, meeting->faces, &ret_touch->witness))
+        return false;
+    const pir_polytope *p = query->p, *q = query->q;
+    pir_feature of_p = ret_touch->witness.p, of_q = ret_touch->witness.q;
+    pir_vec3 y = way ? touch.x : pir_vec_add(placement->x, pir_vec_scale(normal->unit, meeting->slack));
+    if (of_q.kind == PIR_FEATURE_VERTEX)
+        ret_touch->point_q = query->vq[of_q.index];
+    else if (of_p.kind == PIR_FEATURE_VERTEX)
+        ret_touch->point_q = pir_vec_sub(y, pir_mat_apply(&query->r, query->vp[of_p.index]));
+    else
+        ret_touch->point_q = crossing_point(&touch, p->edge_half[of_p.index], q->edge_half[of_q.index], y);
+    return true;
+}
+
+bool pir_touch_facet(pir_query *query, const pir_placement *placement, const pir_facet *facet, double slack,
+                     const pir_way *way, pir_touch *ret_touch) {
+    pir_normal normal = pir_facet_normal(facet);
+    pir_meeting meeting = {&normal, facet->faces, true, slack, way};
+    return pir_touch_find(query, placement, &meeting, ret_touch);
+}
