@@ -2,8 +2,8 @@
 /*
  * Prints the exact corners of a sum: a cube, turned by the quaternion (1, 2, 3, 4), added to a cube that stands.
  *
- * The length of the quaternion is no matter; its rotation matrix is rational, here in multiples of 1/15, and so is every
- * coordinate that comes out.
+ * The length of the quaternion is no matter. Its rotation matrix is rational, here in multiples of 1/15, and so is
+ * every coordinate that comes out.
  */
 #include <stdio.h>
 

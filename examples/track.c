@@ -13,7 +13,7 @@
 
 enum { STEPS = 3600, SHOW_EVERY = 600 };
 
-/* Turns P once around; every SHOW_EVERY frames prints the pairs of the sum, those looked at and those that had changed. */
+/* Turns P once around. Every SHOW_EVERY frames prints the pairs of the sum, those looked at, and those repaired. */
 static pir_status turn(pir_sum *sum) {
     const double pi = 3.14159265358979323846;
     pir_sum_statistics before = pir_sum_get_statistics(sum);

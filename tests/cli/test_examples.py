@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What the programs of examples/ print, held against what is worked out here from the bodies alone.
+
+Usage: test_examples.py NAME PROGRAM [ARGUMENT...], where NAME is the example and a method of Examples.
+"""
+import itertools
+import math
+import random
+import re
+import subprocess
+import sys
+from fractions import Fraction
+
+
+# ---- Bodies as points, rotations exactly ----------------------------------------------------------------------------
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def add(a, b, factor=1):
+    return tuple(x + factor * y for x, y in zip(a, b))
+
+
+def turned(quat, points):
+    """The points turned by a quaternion of any length; exact for rational arguments."""
+    x, y, z, w = quat
+    n = x * x + y * y + z * z + w * w
+    rows = ((w * w + x * x - y * y - z * z, 2 * (x * y - z * w), 2 * (x * z + y * w)),
+            (2 * (x * y + z * w), w * w - x * x + y * y - z * z, 2 * (y * z - x * w)),
+            (2 * (x * z - y * w), 2 * (y * z + x * w), w * w - x * x - y * y + z * z))
+    return [tuple(dot(row, p) / n for row in rows) for p in points]
+
+
+def box(*sizes):
+    return list(itertools.product(*((-s / 2, s / 2) for s in sizes)))
+
+
+def box_edges(*sizes):
+    return [tuple(s if i == k else 0 for i in range(3)) for k, s in enumerate(sizes)]
+
+
+def support(points, n):
+    return max(dot(p, n) for p in points)
+
+
+def normals(edges):
+    """Both normals of each two edge directions that are not parallel: all facet normals of a sum are among them."""
+    for a, b in itertools.combinations(edges, 2):
+        n = cross(a, b)
+        if any(n):
+            yield n
+            yield tuple(-c for c in n)
+
+
+def slacks(p, q, edges, t):
+    """For each normal n how far t is inside of D = Q + (-P) along it, times |n|; D is where none is negative."""
+    minus_p = [tuple(-c for c in point) for point in p]
+    return [(support(q, n) + support(minus_p, n) - dot(n, t), n) for n in normals(edges)]
+
+
+# ---- What the examples print ----------------------------------------------------------------------------------------
+
+
+class Examples:
+    def __init__(self, name, command):
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        assert (done.returncode, done.stderr) == (0, ""), done
+        self.arguments = command[1:]
+        self.lines = done.stdout.splitlines()
+        getattr(self, name)()
+
+    def rows(self, pattern, count):
+        """The numbers of each line, all of which must match; so many lines."""
+        found = [re.fullmatch(pattern, line) for line in self.lines]
+        assert all(found) and len(found) == count, self.lines
+        return [[float(number) for number in match.groups()] for match in found]
+
+    def contacts(self):
+        """A cube of edge 1 tilted about x is above the table, at z = 0.05, by its lowest edge."""
+        heads = [line for line in self.lines if line.startswith("frame")]
+        assert len(heads) == 8, self.lines
+        for frame, line in enumerate(heads):
+            told, distance, count = re.fullmatch(r"frame (\d): distance (\S+), (\d) contacts", line).groups()
+            angle = 2 * 0.02 * (1 - frame / 7)
+            true = 0.62 - 0.02 * frame - 0.05 - (math.cos(angle) + math.sin(angle)) / 2
+            beyond = true > 0.05  # the cutoff; the far edge is higher by sin(angle)
+            near = 0 if beyond else 2 if true + math.sin(angle) > 0.05 else 4
+            assert int(told) == frame and abs(float(distance) - min(true, 0.05)) < 6e-5 and int(count) == near, line
+
+    def exact(self):
+        """The corners of a zonotope: each is a sum of two corners, and together they reach as far as all sums."""
+        quat = [Fraction(c) for c in (1, 2, 3, 4)]
+        cube, edges = box(*[Fraction(2)] * 3), box_edges(*[Fraction(2)] * 3)
+        p = turned(quat, cube)
+        told = [tuple(Fraction(c) for c in line.split()) for line in self.lines]
+        sums = {add(a, b) for a in p for b in cube}
+        assert len(set(told)) == len(told) and set(told) <= sums, told
+        for n in normals(turned(quat, edges) + edges):
+            assert support(told, n) == support(sums, n), n
+        for corner in told:  # and none is between others: some direction has it alone for its farthest
+            lean = [n for n in normals(turned(quat, edges) + edges) if dot(n, corner) == support(told, n)]
+            n = tuple(map(sum, zip(*lean)))
+            assert [c for c in told if dot(c, n) == support(told, n)] == [corner], corner
+
+    def track(self):
+        """After a full turn the sum reaches as far as P and Q together, in every direction."""
+
+        def points_of(path):
+            tokens = re.sub(r"#[^\n]*", "", open(path, encoding="ascii").read()).split()[1:]
+            return [tuple(map(float, tokens[i:i + 3])) for i in range(3, 3 + 3 * int(tokens[0]), 3)]
+
+        p, q, told = map(points_of, self.arguments)
+        match = re.fullmatch(r".*: (\d+) vertices, (\d+) facets", self.lines[-1])
+        assert int(match[1]) == len(told) and len(self.lines) == 8, self.lines
+        # Every frame has ee pairs; of so small steps few pairs change, which the counters show.
+        for line in self.lines[1:-1]:
+            frame, pairs, looked, repaired = map(float, line.split())
+            assert pairs > 100 and 0 < repaired < pairs and 0 < looked < pairs, line
+        seed = 20101
+        numbers = random.Random(seed)
+        for _ in range(200):
+            n = [numbers.gauss(0, 1) for _ in range(3)]
+            far = support(p, n) + support(q, n)
+            assert abs(support(told, n) - far) < 1e-12 * (1 + abs(far)) * 100, (seed, n)
+
+    def fall_and_rest(self):
+        """A fall by Euler steps, in which the box never goes below the height that its lowest corner allows."""
+        rows = self.rows(r"frame +(\d+): height (\S+), distance (\S+), (\d+) contacts", 13)
+        height, speed = 2.0, 0.0
+        for frame in range(49):
+            half = 0.4 * (40 - frame) / 40 if frame < 40 else 0
+            corners = turned((math.sin(half), math.sin(half), 0, math.sqrt(2) * math.cos(half)), box(1, 0.6, 0.4))
+            lowest = 0.5 - min(corner[2] for corner in corners)
+            if height < lowest:
+                height, speed = lowest, 0.0
+            if frame % 4 == 0:
+                told = rows[frame // 4]
+                # The answer's own contact always counts, others up to the margin.
+                near = sum(height + c[2] - 0.5 <= max(0.01, height - lowest + 1e-9) for c in corners)
+                assert told[0] == frame and abs(told[1] - height) < 2e-6 and abs(told[2] - height + lowest) < 2e-6, told
+                assert told[3] == near, (told, near)
+            speed -= 9.81 / 60
+            height += speed / 60
+        assert rows[-1][1] == 0.7 and rows[-1][3] == 4, rows[-1]
+
+    def follow_normal(self):
+        """The depth is the least slack over all candidates for a facet of the difference."""
+        within = re.compile(r"frame +(\d+): depth (\S+), (\S+) from the axis, (\d+) of (\d+) edge pairs kept")
+        left = re.compile(r"frame +(\d+): depth (\S+), outside the cone; the cone has (\S+)")
+        golden = (1 + math.sqrt(5)) / 4
+        body = [c for a, b in itertools.product((-0.5, 0.5), (-golden, golden))
+                for c in ((0, a, b), (a, b, 0), (b, 0, a))]
+        edges = [add(a, b, -1) for a, b in itertools.combinations(body, 2)
+                 if abs(dot(add(a, b, -1), add(a, b, -1)) - 1) < 1e-9]
+        assert len(edges) == 30
+        edges = [e for i, e in enumerate(edges) if not any(max(map(abs, cross(e, f))) < 1e-9 for f in edges[:i])]
+        seen = {within: 0, left: 0}
+        for line in self.lines:
+            form = within if within.fullmatch(line) else left
+            frame, depth, *rest = map(float, form.fullmatch(line).groups())
+            half = 0.01 * frame
+            quat = (0.3 * math.sin(half), math.sin(half), 0.2 * math.sin(half), math.cos(half))
+            t = (0.5 - 0.002 * frame, 0.3, 0.01 * frame)
+            candidates = slacks(turned(quat, body), body, turned(quat, edges) + edges, t)
+            least = min(slack / math.hypot(*n) for slack, n in candidates if math.hypot(*n) > 1e-9)
+            assert abs(depth - least) < 2e-9, (line, least)
+            if form is within:
+                assert rest[0] < 0.5 and 0 < rest[1] < rest[2] / 2, line
+            else:
+                assert rest[0] > depth, line
+            seen[form] += 1
+        assert seen[within] >= 7 and seen[left] >= 1, self.lines
+
+    def redraw(self):
+        """A sum of boxes is a zonotope: its volume is the sum of the boxes that any three edges span."""
+        rows = self.rows(r"frame +(\d+): volume (\S+), (\d+) facet slots, (\d+) rewritten so far", 7)
+        for frame, volume, slots, rewritten in rows:
+            half = 0.02 * frame
+            axis = (0.6, 0.64, 0.48)
+            quat = [c * math.sin(half) for c in axis] + [math.cos(half)]
+            edges = turned(quat, box_edges(1, 2, 3)) + box_edges(2, 1, 1)
+            true = sum(abs(dot(a, cross(b, c))) for a, b, c in itertools.combinations(edges, 3))
+            assert abs(volume - true) < 1e-11, (frame, volume, true)
+            # Six facets of each box are always there, and two facets for every two edges that make one.
+            assert slots >= 30 and rewritten < 60 * slots / 4, (slots, rewritten)
+        assert 0 < rows[-1][3], "the motion is long enough for pairs to change"
+
+    def sum_of_three(self):
+        """A zonotope's facets are counted by the planes that its edges span; a point is inside by its slack in each."""
+        edges = []
+        boxes = (((30, 30, 30), (0, 0, 0, 1)), ((15, 30, 45), (1, 2, 3, 4)), ((78, 39, 39), (2, 1, -3, 5)))
+        for sizes, quat in boxes:
+            edges += turned([Fraction(c) for c in quat], box_edges(*map(Fraction, sizes)))
+        reduced = {}
+        for n in normals(edges):
+            scale = max(map(abs, n))
+            reduced[tuple(c / scale for c in n)] = sum(abs(dot(n, e)) for e in edges) / 2 / scale  # its offset
+        # A facet is a polygon of twice as many sides as it has edge directions; each side is on two facets.
+        def directions(n):
+            lie = [e for e in edges if dot(n, e) == 0]
+            return len([e for i, e in enumerate(lie) if not any(cross(e, f) == (0, 0, 0) for f in lie[:i])])
+        sides = sum(2 * directions(n) for n in reduced)
+        counts = (2 + sides // 2 - len(reduced), sides // 2, len(reduced))
+        assert self.lines[0] == "vertices %d, edges %d, facets %d" % counts, (self.lines[0], counts)
+        said = set()
+        for line in self.lines[1:]:
+            *point, place = re.fullmatch(r"\((\S+), (\S+), (\S+)\) (\w+)", line).groups()
+            point = [Fraction(float(c)) for c in point]
+            slack = min(offset - dot(n, point) for n, offset in reduced.items())
+            assert place == ("outside" if slack < 0 else "boundary" if slack == 0 else "inside"), (line, float(slack))
+            said.add(place)
+        assert len(self.lines) == 6 and said == {"outside", "boundary", "inside"}, self.lines
+
+    def grid_of_states(self):
+        """Every mark by the exact slack of its translation."""
+        quat = [Fraction(c) for c in (0, 0, 1, 2)]
+        p, q = (Fraction(5, 8), Fraction(5, 8), Fraction(1)), (Fraction(1), Fraction(1, 2), Fraction(1))
+        minus_p, edges = turned(quat, box(*p)), turned(quat, box_edges(*p)) + box_edges(*q)  # a box is its own reflection
+        planes = {n: support(box(*q), n) + support(minus_p, n) for n in normals(edges)}
+        assert len(self.lines) == 33, self.lines
+        marks = set()
+        for row, line in zip(range(32, -1, -1), self.lines):
+            assert len(line) == 33, line
+            for column, mark in enumerate(line):
+                t = (Fraction(column - 16, 16), Fraction(row - 16, 16), Fraction(1, 4))
+                slack = min(offset - dot(n, t) for n, offset in planes.items())
+                assert mark == (".", "o", "#")[1 + (slack > 0) - (slack < 0)], (row, column, mark, float(slack))
+                marks.add(mark)
+        assert marks == set(".o#"), marks
+
+
+if __name__ == "__main__":
+    Examples(sys.argv[1], sys.argv[2:])
