@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 #include "query/planes/scan.h"
 #include "results.h"
 #include "spin.h"

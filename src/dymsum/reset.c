@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Beginning anew with the memory that is there: the motion so far forgotten, or the counters. */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
     pir_status status = pir_sum_rotate(sum, rotation, PIR_METHOD_WALK);
@@ -15,5 +15,5 @@ pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
 
 void pir_sum_reset_statistics(pir_sum *sum) {
     sum->statistics = (pir_sum_statistics){0};
-    sum->signs.by_filter = sum->signs.by_exact = sum->signs.by_perturbation = 0;
+    sum->pairing.signs.by_filter = sum->pairing.signs.by_exact = sum->pairing.signs.by_perturbation = 0;
 }

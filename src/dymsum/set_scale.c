@@ -9,7 +9,7 @@
  */
 #include <pirouette/exact.h>
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 /* Puts `scaled` in the operand's place, and takes the reference. Errors as pir_sum_settle. */
 static pir_status replace(pir_sum *sum, pir_operand operand, pir_polytope *scaled) {
@@ -18,7 +18,7 @@ static pir_status replace(pir_sum *sum, pir_operand operand, pir_polytope *scale
         pir_polytope_release(scaled);
         return status;
     }
-    pir_polytope **place = operand == PIR_OPERAND_P ? &sum->p : &sum->q;
+    pir_polytope **place = operand == PIR_OPERAND_P ? &sum->pairing.p : &sum->pairing.q;
     PIR_ASSERT(scaled->half_count == (*place)->half_count && scaled->facet_count == (*place)->facet_count);
     pir_sum_changes(sum);
     pir_polytope_release(*place);

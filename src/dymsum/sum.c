@@ -2,7 +2,7 @@
 /*
  * The life of a sum: making it, rotating it by one method or another, reading its pairing. The invariants stand in sum.h.
  */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 #include <string.h>
 
@@ -18,7 +18,7 @@ static uint32_t most(uint32_t a, uint32_t b) {
 }
 
 static uint32_t queue_capacity(const pir_sum *sum) {
-    return most(most(sum->p->facet_count, sum->q->facet_count), sum->p->edge_count);
+    return most(most(sum->pairing.p->facet_count, sum->pairing.q->facet_count), sum->pairing.p->edge_count);
 }
 
 /* The facets of p, in the cells `cell` of q. */
@@ -34,43 +34,38 @@ static void link_facets(pir_facets *facets, const pir_polytope *p, const pir_pol
 }
 
 void pir_sum_link_facets(pir_sum *sum) {
-    link_facets(&sum->p_facets, sum->p, sum->q, sum->fv);
-    link_facets(&sum->q_facets, sum->q, sum->p, sum->vf);
-    sum->q_facets.first_alarm = sum->p->facet_count;
+    link_facets(&sum->p_facets, sum->pairing.p, sum->pairing.q, sum->pairing.fv);
+    link_facets(&sum->q_facets, sum->pairing.q, sum->pairing.p, sum->pairing.vf);
+    sum->q_facets.first_alarm = sum->pairing.p->facet_count;
 }
 
 static bool allocate(pir_sum *sum) {
-    const pir_allocator *a = &sum->allocator;
-    const pir_polytope *p = sum->p, *q = sum->q;
-    sum->fv = PIR_ZEROED(a, uint32_t, p->facet_count);
-    sum->vf = PIR_ZEROED(a, uint32_t, q->facet_count);
-    sum->first = PIR_NEW(a, uint32_t, p->edge_count);
+    const pir_allocator *a = &sum->pairing.allocator;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    sum->pairing.fv = PIR_ZEROED(a, uint32_t, p->facet_count);
+    sum->pairing.vf = PIR_ZEROED(a, uint32_t, q->facet_count);
+    sum->pairing.crossings.first = PIR_NEW(a, uint32_t, p->edge_count);
     sum->queue = PIR_NEW(a, uint32_t, queue_capacity(sum));
     sum->mark = PIR_ZEROED(a, uint8_t, queue_capacity(sum));
     sum->rotated = PIR_NEW(a, pir_vec3, p->facet_count);
     sum->touched = PIR_ZEROED(a, uint32_t, p->edge_count);
     sum->suspects = PIR_NEW(a, pir_suspect, pir_alarm_count(sum));
     sum->passes = PIR_NEW(a, pir_suspect, q->facet_count);
-    if (!sum->fv || !sum->vf || !sum->first || !sum->queue || !sum->mark || !sum->rotated || !sum->touched ||
-        !sum->suspects || !sum->passes || !pir_alarms_init(&sum->alarms, a, pir_alarm_count(sum)))
+    if (!sum->pairing.fv || !sum->pairing.vf || !sum->pairing.crossings.first || !sum->queue || !sum->mark ||
+        !sum->rotated || !sum->touched || !sum->suspects || !sum->passes ||
+        !pir_alarms_init(&sum->alarms, a, pir_alarm_count(sum)))
         return false;
     pir_sum_link_facets(sum);
     // room for what most rotations need, so that tracking seldom grows it
     return pir_crossings_reserve(sum, 3 * (p->edge_count + q->edge_count) + 64);
 }
 
-pir_sum *pir_sum_retain(const pir_sum *sum) {
-    pir_sum *held = (pir_sum *)sum;
-    atomic_fetch_add_explicit(&held->references, 1, memory_order_relaxed);
-    return held;
-}
-
 static void free_sum(pir_sum *sum) {
-    const pir_allocator allocator = sum->allocator, *a = &allocator;
-    const pir_polytope *p = sum->p, *q = sum->q;
-    PIR_FREE(a, sum->fv, p->facet_count);
-    PIR_FREE(a, sum->vf, q->facet_count);
-    PIR_FREE(a, sum->first, p->edge_count);
+    const pir_allocator allocator = sum->pairing.allocator, *a = &allocator;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    PIR_FREE(a, sum->pairing.fv, p->facet_count);
+    PIR_FREE(a, sum->pairing.vf, q->facet_count);
+    PIR_FREE(a, sum->pairing.crossings.first, p->edge_count);
     PIR_FREE(a, sum->queue, queue_capacity(sum));
     PIR_FREE(a, sum->mark, queue_capacity(sum));
     PIR_FREE(a, sum->rotated, p->facet_count);
@@ -80,10 +75,10 @@ static void free_sum(pir_sum *sum) {
     pir_alarms_finish(&sum->alarms, a);
     pir_crossings_finish(sum);
     pir_sweep_finish(sum);
-    pir_signs_finish(&sum->signs, a);
+    pir_signs_finish(&sum->pairing.signs, a);
     pir_cgm_destroy(sum->cgm_q);
-    pir_polytope_release(sum->p);
-    pir_polytope_release(sum->q);
+    pir_polytope_release(sum->pairing.p);
+    pir_polytope_release(sum->pairing.q);
     pir_polytope_release(sum->made_of[PIR_OPERAND_P]);
     pir_polytope_release(sum->made_of[PIR_OPERAND_Q]);
     PIR_FREE(a, sum, 1);
@@ -99,21 +94,22 @@ pir_status pir_sum_new(pir_polytope *p, pir_polytope *q, pir_quat rotation, cons
     pir_sum *sum = PIR_ZEROED(allocator, pir_sum, 1);
     if (!sum)
         return PIR_ERR_MEMORY;
-    sum->allocator = *allocator;
+    sum->pairing.allocator = *allocator;
     atomic_init(&sum->references, 1);
-    sum->generation = 1;
+    sum->pairing.generation = 1;
     sum->kernels = pir_kernels_choose();
     // from here on destroy can take it apart
-    sum->p = pir_polytope_retain(p);
-    sum->q = pir_polytope_retain(q);
+    sum->pairing.p = pir_polytope_retain(p);
+    sum->pairing.q = pir_polytope_retain(q);
     sum->made_of[PIR_OPERAND_P] = pir_polytope_retain(p);
     sum->made_of[PIR_OPERAND_Q] = pir_polytope_retain(q);
-    pir_status status = pir_signs_init(&sum->signs, allocator, most(p->exact_edge.stride, p->exact_normal.stride),
-                                       most(q->exact_edge.stride, q->exact_normal.stride));
+    pir_status status =
+        pir_signs_init(&sum->pairing.signs, allocator, most(p->exact_edge.stride, p->exact_normal.stride),
+                       most(q->exact_edge.stride, q->exact_normal.stride));
     if (status == PIR_OK && !allocate(sum))
         status = PIR_ERR_MEMORY;
     if (status == PIR_OK)
-        status = pir_rotation_set(&sum->signs.rotation, rotation);
+        status = pir_rotation_set(&sum->pairing.signs.rotation, rotation);
     if (status != PIR_OK) {
         pir_sum_destroy(sum);
         return status;
@@ -147,7 +143,7 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
         pir_sum_destroy(sum);
         return status;
     }
-    sum->difference = used.difference != 0;
+    sum->pairing.difference = used.difference != 0;
     sum->statistics.allocations = 0;
     *ret_sum = sum;
     return PIR_OK;
@@ -158,14 +154,14 @@ static void advance_clock(pir_sum *sum, pir_quat before) {
     double shift = 0;
     uint32_t used = pir_alarm_count(sum);
     bool weary = sum->woken > used;
-    switch (pir_clock_step(&sum->clock, before, sum->signs.rotation.unit, weary, &shift)) {
+    switch (pir_clock_step(&sum->clock, before, sum->pairing.signs.rotation.unit, weary, &shift)) {
     case PIR_CLOCK_RUNS:
         break;
     case PIR_CLOCK_REBASED:
         pir_alarms_shift(&sum->alarms, used, shift);
         break;
     case PIR_CLOCK_NEW_EPOCH:
-        pir_alarms_set_now(&sum->alarms, sum->signs.rotation.unit);
+        pir_alarms_set_now(&sum->alarms, sum->pairing.signs.rotation.unit);
         pir_alarms_new_epoch(&sum->alarms, used, sum->clock.axial, sum->clock.expected);
         sum->woken = 0;
         break;
@@ -174,7 +170,7 @@ static void advance_clock(pir_sum *sum, pir_quat before) {
 
 /* The pairing that was there at rotation `before`: it fitted the memory that is there. The clock begins an epoch at the next step. */
 static pir_status restore(pir_sum *sum, pir_quat before, const pir_cover *cover, pir_status status) {
-    pir_rotation_set(&sum->signs.rotation, before);
+    pir_rotation_set(&sum->pairing.signs.rotation, before);
     sum->region.cover = *cover;
     pir_status again = pir_walk_rebuild(sum);
     PIR_ASSERT(again == PIR_OK);
@@ -192,7 +188,7 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
         if (kept != PIR_OK || done)
             return kept;
     }
-    pir_rotation *now = &sum->signs.rotation;
+    pir_rotation *now = &sum->pairing.signs.rotation;
     pir_quat before = now->given, unit_before = now->unit;
     const pir_cover cover = sum->region.cover;
     pir_status status = pir_rotation_set(now, rotation);
@@ -214,13 +210,13 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
         status = pir_walk_rebuild(sum);
         pir_learn_walk(sum);
     } else {
-        uint64_t asked = pir_signs_asked(&sum->signs);
+        uint64_t asked = pir_signs_asked(&sum->pairing.signs);
         sum->statistics.updates++;
         pir_region_follow(sum);
         status = pir_update_repair(sum);
         if (status == PIR_OK && !pir_region_admit(sum))
             status = PIR_ERR_MEMORY;
-        pir_learn_update(sum, angle, pir_signs_asked(&sum->signs) - asked);
+        pir_learn_update(sum, angle, pir_signs_asked(&sum->pairing.signs) - asked);
     }
     if (status != PIR_OK)
         return restore(sum, before, &cover, status);
@@ -231,9 +227,9 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
 pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation) {
     if (!sum)
         return PIR_ERR_ARGUMENT;
-    pir_quat before = sum->signs.rotation.given;
+    pir_quat before = sum->pairing.signs.rotation.given;
     const pir_cover cover = sum->region.cover;
-    pir_status status = pir_rotation_set(&sum->signs.rotation, rotation);
+    pir_status status = pir_rotation_set(&sum->pairing.signs.rotation, rotation);
     if (status != PIR_OK)
         return status;
     pir_sum_changes(sum);
@@ -247,34 +243,34 @@ pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation) {
 /* --- reading --- */
 
 pir_quat pir_sum_rotation(const pir_sum *sum) {
-    return sum->lag.lagging ? sum->lag.now.given : sum->signs.rotation.given;
+    return sum->lag.lagging ? sum->lag.now.given : sum->pairing.signs.rotation.given;
 }
 
 const pir_polytope *pir_sum_p(const pir_sum *sum) {
-    return sum->p;
+    return sum->pairing.p;
 }
 
 const pir_polytope *pir_sum_q(const pir_sum *sum) {
-    return sum->q;
+    return sum->pairing.q;
 }
 
 const uint32_t *pir_sum_fv(const pir_sum *sum) {
-    return sum->fv;
+    return sum->pairing.fv;
 }
 
 const uint32_t *pir_sum_vf(const pir_sum *sum) {
-    return sum->vf;
+    return sum->pairing.vf;
 }
 
 uint32_t pir_sum_ee_count(const pir_sum *sum) {
-    return sum->ee_count;
+    return sum->pairing.crossings.count;
 }
 
 void pir_sum_ee(const pir_sum *sum, uint32_t (*ret_pairs)[2]) {
-    const pir_crossings *c = &sum->crossings;
-    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_crossings *c = &sum->pairing.crossings;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
     for (uint32_t e = 0; e < p->edge_count; e++)
-        for (uint32_t slot = sum->first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot]) {
+        for (uint32_t slot = sum->pairing.crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot]) {
             // a segment's two edges are one to callers
             (*ret_pairs)[0] = p->artificial ? 0 : e;
             (*ret_pairs)[1] = q->artificial ? 0 : q->edge[c->half[slot]];
@@ -284,8 +280,8 @@ void pir_sum_ee(const pir_sum *sum, uint32_t (*ret_pairs)[2]) {
 
 pir_sum_statistics pir_sum_get_statistics(const pir_sum *sum) {
     pir_sum_statistics statistics = sum->statistics;
-    statistics.by_filter = sum->signs.by_filter;
-    statistics.by_exact = sum->signs.by_exact;
-    statistics.by_perturbation = sum->signs.by_perturbation;
+    statistics.by_filter = sum->pairing.signs.by_filter;
+    statistics.by_exact = sum->pairing.signs.by_exact;
+    statistics.by_perturbation = sum->pairing.signs.by_perturbation;
     return statistics;
 }

@@ -19,7 +19,7 @@
 
 #include <pirouette/query.h>
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/view.h"
 #include "query/decide/placed.h"
 #include "query/frame/dd.h"
 #include "query/frame/lanes.h"

@@ -5,8 +5,8 @@
  */
 #include <math.h>
 
-#include "dymsum/pairing/pairing.h"
 #include "dymsum/region/cover.h"
+#include "dymsum/sum.h"
 #include "polytope/polytope.h"
 #include "support/bodies.h"
 #include "support/test.h"

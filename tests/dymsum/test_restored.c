@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/sum_bytes.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 #include "support/bodies.h"
 
 /* Between −1 and 1. */

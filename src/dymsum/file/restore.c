@@ -14,7 +14,8 @@
 #include "base/report.h"
 #include "dymsum/file/sum_file.h"
 #include "dymsum/file/sum_source.h"
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/fill.h"
+#include "dymsum/view.h"
 
 /* --- the sum --- */
 
@@ -29,12 +30,12 @@ static pir_status get_cells(pir_source *from, uint32_t *cell, uint32_t count, co
 }
 
 static pir_status get_pairing(pir_source *from, pir_sum *sum) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_polytope *p = pir_sum_p(sum), *q = pir_sum_q(sum);
     if (!pir_source_has(from, (uint64_t)p->facet_count + q->facet_count + p->edge_count, 4))
         return pir_source_broken(from, "truncated");
-    pir_status status = get_cells(from, sum->fv, p->facet_count, q);
+    pir_status status = get_cells(from, pir_fill_cells(sum, PIR_OPERAND_P), p->facet_count, q);
     if (status == PIR_OK)
-        status = get_cells(from, sum->vf, q->facet_count, p);
+        status = get_cells(from, pir_fill_cells(sum, PIR_OPERAND_Q), q->facet_count, p);
     if (status != PIR_OK)
         return status;
     size_t counts_at = from->at;
@@ -43,11 +44,10 @@ static pir_status get_pairing(pir_source *from, pir_sum *sum) {
         total += pir_source_u32(from);
     if (!pir_source_has(from, total, 4))
         return pir_source_broken(from, "truncated, or numbers of crossings that lie");
-    if (total > UINT32_MAX / 8 || !pir_crossings_reserve(sum, (uint32_t)total))
+    if (total > UINT32_MAX / 8 || !pir_fill_crossings(sum, (uint32_t)total))
         return pir_source_no_memory(from);
     pir_source counts = *from;
     counts.at = counts_at;
-    pir_crossings_clear(sum);
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t last = PIR_NO_CROSSING;
         for (uint32_t n = pir_source_u32(&counts); n > 0; n--) {
@@ -55,11 +55,11 @@ static pir_status get_pairing(pir_source *from, pir_sum *sum) {
             if (code / 2 >= q->edge_count)
                 return pir_source_broken(from, "a crossing with no edge of Q");
             uint32_t half = q->edge_half[code / 2];
-            if (!pir_crossing_append(sum, e, code % 2 ? q->twin[half] : half, &last))
+            if (!pir_fill_crossing(sum, e, code % 2 ? q->twin[half] : half, &last))
                 return pir_source_no_memory(from);
         }
     }
-    pir_expire_all(sum);
+    pir_fill_end(sum);
     return from->at == from->size ? PIR_OK : pir_source_broken(from, "bytes past the end");
 }
 
@@ -93,7 +93,7 @@ static pir_status get_region(pir_source *from, pir_cone *ret_cone, pir_cover *re
 /* Limits the pairing that was read to the region. */
 static pir_status set_region(const pir_source *from, pir_sum *sum, const pir_cone *cone, const pir_cover *cover) {
     bool fits;
-    if (!pir_region_adopt(sum, cone, cover, &fits))
+    if (!pir_fill_region(sum, cone, cover, &fits))
         return pir_source_no_memory(from);
     return fits ? PIR_OK : pir_source_broken(from, "not the pairs that the region asks for");
 }
@@ -103,13 +103,12 @@ static pir_status set_lag(const pir_source *from, pir_sum *sum, double tolerance
     if (pir_sum_set_tolerance(sum, tolerance) != PIR_OK)
         return pir_source_broken(from, "a tolerance that is no length");
     bool done = true;
-    if (lagging && (pir_lag_behind(sum, shown, &done) != PIR_OK || !done))
+    if (lagging && (pir_fill_shown(sum, shown, &done) != PIR_OK || !done))
         return pir_source_broken(from, "a rotation shown that is not within the tolerance");
     return PIR_OK;
 }
 
-static pir_status get_sum(pir_source *from, pir_polytope *const made[2], pir_polytope *const now[2],
-                          pir_sum **ret_sum) {
+static pir_status get_sum(pir_source *from, const pir_fill_operands *operands, pir_sum **ret_sum) {
     from->part = "motion";
     if (!pir_source_has(from, 1, 5 * 8 + 4))
         return pir_source_broken(from, "truncated");
@@ -121,15 +120,11 @@ static pir_status get_sum(pir_source *from, pir_polytope *const made[2], pir_pol
     if (lagging)
         shown = pir_source_quat(from);
     pir_sum *sum = NULL;
-    pir_status status = pir_sum_new(now[0], now[1], rotation, from->allocator, &sum);
+    pir_status status = pir_fill_begin(operands, rotation, from->allocator, &sum);
     if (status == PIR_ERR_MEMORY)
         return pir_source_no_memory(from);
     if (status != PIR_OK)
         return pir_source_broken(from, pir_status_text(status));
-    for (int i = 0; i < 2; i++) {
-        pir_polytope_release(sum->made_of[i]);
-        sum->made_of[i] = pir_polytope_retain(made[i]);
-    }
     pir_cone cone;
     pir_cover cover;
     from->part = "region";
@@ -148,7 +143,6 @@ static pir_status get_sum(pir_source *from, pir_polytope *const made[2], pir_pol
         pir_sum_destroy(sum);
         return status;
     }
-    sum->difference = from->is_difference;
     pir_sum_reset_statistics(sum);
     *ret_sum = sum;
     return PIR_OK;
@@ -192,16 +186,16 @@ pir_status pir_sum_restore(const void *data, size_t size, const pir_allocator *a
     if (checksum != pir_sum_file_checksum(data, size))
         return pir_source_broken(&from, "the checksum does not match: the bytes are corrupted");
     static const char *const parts[2] = {"operand P", "operand Q"};
-    pir_polytope *made[2] = {NULL, NULL}, *now[2] = {NULL, NULL};
+    pir_fill_operands operands = {.difference = from.is_difference};
     for (int i = 0; status == PIR_OK && i < 2; i++) {
         from.part = parts[i];
-        status = pir_source_operand(&from, &made[i], &now[i]);
+        status = pir_source_operand(&from, &operands.made_of[i], &operands.now[i]);
     }
     if (status == PIR_OK)
-        status = get_sum(&from, made, now, ret_sum);
+        status = get_sum(&from, &operands, ret_sum);
     for (int i = 0; i < 2; i++) {
-        pir_polytope_release(made[i]);
-        pir_polytope_release(now[i]);
+        pir_polytope_release(operands.made_of[i]);
+        pir_polytope_release(operands.now[i]);
     }
     return status;
 }

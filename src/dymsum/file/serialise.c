@@ -5,7 +5,7 @@
 
 #include "base/report.h"
 #include "dymsum/file/sum_file.h"
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/view.h"
 
 _Static_assert(GMP_NUMB_BITS % 8 == 0, "bytes do not straddle limbs");
 
@@ -125,23 +125,22 @@ static void put_operand(struct sink *sink, const pir_polytope *made_of, const pi
 
 /* --- the sum --- */
 
-static void put_pairing(struct sink *sink, const pir_sum *sum) {
-    const pir_polytope *p = sum->p, *q = sum->q;
-    const pir_crossings *c = &sum->crossings;
+static void put_pairing(struct sink *sink, const pir_pairing *pairing) {
+    const pir_polytope *p = pairing->p, *q = pairing->q;
     for (uint32_t f = 0; f < p->facet_count; f++)
-        put_u32(sink, sum->fv[f]);
+        put_u32(sink, pairing->fv[f]);
     for (uint32_t g = 0; g < q->facet_count; g++)
-        put_u32(sink, sum->vf[g]);
+        put_u32(sink, pairing->vf[g]);
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t count = 0;
-        for (uint32_t slot = sum->first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot])
+        for (uint32_t at = pir_crossing_first(pairing, e); at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at))
             count++;
         put_u32(sink, count);
     }
     for (uint32_t e = 0; e < p->edge_count; e++)
-        for (uint32_t slot = sum->first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot]) {
-            uint32_t edge = q->edge[c->half[slot]];
-            put_u32(sink, 2 * edge + (q->edge_half[edge] != c->half[slot]));
+        for (uint32_t at = pir_crossing_first(pairing, e); at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at)) {
+            uint32_t half = pir_crossing_half(pairing, at), edge = q->edge[half];
+            put_u32(sink, 2 * edge + (q->edge_half[edge] != half));
         }
 }
 
@@ -159,22 +158,25 @@ static void put_region(struct sink *sink, const pir_cone *cone, const pir_cover 
 
 /* Puts it all, with `length` and `checksum` in the header. */
 static void put_sum(struct sink *sink, const pir_sum *sum, uint64_t length, uint64_t checksum) {
+    const pir_pairing *pairing = pir_sum_pairing(sum);
+    const pir_rotation *shown = pir_sum_shown_rotation(sum);
+    bool behind = shown != &pairing->signs.rotation;
     for (int k = 0; k < 8; k++)
         put_byte(sink, (uint8_t)PIR_SUM_MAGIC[k]);
     put_u32(sink, PIR_SUM_VERSION);
-    put_u32(sink, (sum->region.cone.set ? PIR_SUM_REGION : 0) | (sum->difference ? PIR_SUM_DIFFERENCE : 0));
+    put_u32(sink, (pir_sum_cone(sum)->set ? PIR_SUM_REGION : 0) | (pairing->difference ? PIR_SUM_DIFFERENCE : 0));
     put_u64(sink, length);
     put_u64(sink, checksum);
-    put_operand(sink, sum->made_of[PIR_OPERAND_P], sum->p);
-    put_operand(sink, sum->made_of[PIR_OPERAND_Q], sum->q);
-    put_quat(sink, sum->signs.rotation.given);
-    put_double(sink, sum->lag.tolerance);
-    put_u32(sink, sum->lag.lagging);
-    if (sum->lag.lagging)
-        put_quat(sink, sum->lag.now.given);
-    if (sum->region.cone.set)
-        put_region(sink, &sum->region.cone, &sum->region.cover);
-    put_pairing(sink, sum);
+    put_operand(sink, pir_sum_made_of(sum, PIR_OPERAND_P), pairing->p);
+    put_operand(sink, pir_sum_made_of(sum, PIR_OPERAND_Q), pairing->q);
+    put_quat(sink, pairing->signs.rotation.given);
+    put_double(sink, pir_sum_tolerance(sum));
+    put_u32(sink, behind);
+    if (behind)
+        put_quat(sink, shown->given);
+    if (pir_sum_cone(sum)->set)
+        put_region(sink, pir_sum_cone(sum), pir_sum_cover(sum));
+    put_pairing(sink, pairing);
 }
 
 size_t pir_sum_serialised_size(const pir_sum *sum) {
@@ -199,13 +201,13 @@ pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *report) {
     if (!sum || !file)
         return pir_fail(report, PIR_ERR_ARGUMENT, "sum: no sum or no file to write");
     size_t size = pir_sum_serialised_size(sum);
-    uint8_t *data = PIR_NEW(&sum->allocator, uint8_t, size);
+    uint8_t *data = PIR_NEW(&pir_sum_pairing(sum)->allocator, uint8_t, size);
     if (!data)
         return pir_fail(report, PIR_ERR_MEMORY, "sum: out of memory for %zu bytes to write", size);
     pir_status status = pir_sum_serialise(sum, data, size);
     PIR_ASSERT(status == PIR_OK);
     if (fwrite(data, 1, size, file) != size || fflush(file) != 0)
         status = pir_fail(report, PIR_ERR_FILE, "sum: the file could not be written in full");
-    PIR_FREE(&sum->allocator, data, size);
+    PIR_FREE(&pir_sum_pairing(sum)->allocator, data, size);
     return status;
 }

@@ -28,7 +28,8 @@
 /* Spans are foretold no farther than this many radians. */
 #define PIR_FARTHEST 1.0f
 
-#define PIR_NO_CROSSING UINT32_MAX
+/* In place of a side of a cell: there is none, or none is known. */
+#define PIR_NO_SIDE UINT32_MAX
 
 /* A ring longer than this has all bits of a mask of sides set when any of its sides is in it. */
 #define PIR_SIDE_BITS 64
@@ -53,7 +54,7 @@ typedef struct pir_glance {
 /* A facet that may have left its cell, even if only for a moment within the last step. */
 typedef struct pir_suspect {
     uint32_t facet;
-    uint32_t crossed; /* the one side crossed, none else touched: its cell is the next one now; or PIR_NO_CROSSING */
+    uint32_t crossed; /* the one side crossed, none else touched: its cell is the next one now; or PIR_NO_SIDE */
 } pir_suspect;
 
 /* The facets of one operand over the cells of the other, which is laid out in rings (polytope.h). */

@@ -11,12 +11,12 @@
 
 #define REVIEW_CHUNK 64
 
-/* The one side of its cell that facet f has touched and is past, as a halfedge; or PIR_NO_CROSSING. */
+/* The one side of its cell that facet f has touched and is past, as a halfedge; or PIR_NO_SIDE. */
 REVIEW_TARGET static inline uint32_t side_crossed(const pir_facets *facets, uint32_t f, const pir_look *look) {
     uint32_t cell = facets->cell[f], start = facets->ring_start[cell], sides = facets->ring_start[cell + 1] - start;
     uint64_t mask = pir_side_mask(sides), touched = look->touched & mask;
     bool one = (sides <= PIR_SIDE_BITS) & ((touched & (touched - 1)) == 0) & ((look->above & touched) != 0);
-    return one ? start + (uint32_t)__builtin_ctzll(touched | (uint64_t)1 << 63) : PIR_NO_CROSSING;
+    return one ? start + (uint32_t)__builtin_ctzll(touched | (uint64_t)1 << 63) : PIR_NO_SIDE;
 }
 
 /* Whether a facet seen past side `half` is in the next cell, having touched no side of it but the same one; then it is filed there. */
@@ -59,13 +59,13 @@ REVIEW_TARGET static uint32_t review_chunk(const pir_facets *facets, const pir_m
         uint32_t half = side_crossed(facets, f, &look[k]);
         ret_suspects[stirred_count] = (pir_suspect){f, half};
         crossing[crossing_count] = (uint8_t)stirred_count;
-        crossing_count += half != PIR_NO_CROSSING;
+        crossing_count += half != PIR_NO_SIDE;
         stirred[stirred_count++] = (uint8_t)k;
     }
     for (uint32_t i = 0; i < crossing_count; i++) {
         pir_suspect *suspect = &ret_suspects[crossing[i]];
         if (!settle_across(facets, moment, alarms, suspect->facet, suspect->crossed, turned[stirred[crossing[i]]]))
-            suspect->crossed = PIR_NO_CROSSING;
+            suspect->crossed = PIR_NO_SIDE;
     }
     *sides += looked_at;
     return stirred_count;

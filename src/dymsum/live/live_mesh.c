@@ -60,7 +60,7 @@ static bool reserve_crossings(pir_live_mesh *live, uint32_t least) {
 /* Room for whatever the sum may hold now, so that the rest of a refresh cannot fail. */
 static bool reserve(pir_live_mesh *live) {
     // as much as the sum itself has room for: grows when the sum grows
-    uint32_t crossings = live->sum->crossings.capacity, slots = live->facets_p + live->facets_q + crossings;
+    uint32_t crossings = live->pairing->crossings.capacity, slots = live->facets_p + live->facets_q + crossings;
     uint32_t corners = live->corners_fixed + 4 * crossings;
     return reserve_crossings(live, crossings) && pir_live_pairs_reserve(&live->appeared, &live->allocator, slots) &&
            pir_live_pairs_reserve(&live->disappeared, &live->allocator, slots) &&
@@ -91,16 +91,18 @@ void pir_live_mesh_destroy(pir_live_mesh *live) {
 pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live) {
     if (!sum || !ret_live)
         return PIR_ERR_ARGUMENT;
-    const pir_allocator *a = &sum->allocator;
+    const pir_pairing *pairing = pir_sum_pairing(sum);
+    const pir_allocator *a = &pairing->allocator;
     pir_live_mesh *live = PIR_ZEROED(a, pir_live_mesh, 1);
     if (!live)
         return PIR_ERR_MEMORY;
     live->sum = pir_sum_retain(sum);
+    live->pairing = pairing;
     live->allocator = *a;
-    live->facets_p = sum->p->facet_count;
-    live->facets_q = sum->q->facet_count;
-    live->vertices_p = sum->p->vertex_count;
-    live->corners_fixed = sum->p->half_count + sum->q->half_count;
+    live->facets_p = pairing->p->facet_count;
+    live->facets_q = pairing->q->facet_count;
+    live->vertices_p = pairing->p->vertex_count;
+    live->corners_fixed = pairing->p->half_count + pairing->q->half_count;
     live->vertices.free = PIR_NO_SLOT;
     live->fv = PIR_NEW(a, uint32_t, live->facets_p);
     live->vf = PIR_NEW(a, uint32_t, live->facets_q);
@@ -133,22 +135,22 @@ pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double h
 /* --- the refresh --- */
 
 static void note_ee(pir_live_mesh *live, pir_live_pairs *pairs, uint32_t e, uint32_t h) {
-    const pir_polytope *p = live->sum->p, *q = live->sum->q;
+    const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
     // a segment's two edges are one to callers
     pir_live_pairs_note(pairs, PIR_FACET_EE, p->artificial ? 0 : e, q->artificial ? 0 : q->edge[h]);
 }
 
 /* Compares a facet with the vertex that it is paired with now. */
 static void refresh_facet(pir_live_mesh *live, bool of_p, uint32_t f) {
-    const pir_polytope *of = of_p ? live->sum->p : live->sum->q;
+    const pir_polytope *of = of_p ? live->pairing->p : live->pairing->q;
     uint32_t *held = of_p ? live->fv : live->vf;
-    uint32_t v = of_p ? live->sum->fv[f] : live->sum->vf[f], before = held[f];
+    uint32_t v = of_p ? live->pairing->fv[f] : live->pairing->vf[f], before = held[f];
     if (live->cone.set &&
         !pir_cone_has(&live->cone, of_p ? pir_mat_apply(pir_live_matrix(live), of->normal[f]) : of->normal[f]))
         v = PIR_NO_SLOT;
     if (v == before)
         return;
-    uint32_t first = of_p ? 0 : live->sum->p->half_count;
+    uint32_t first = of_p ? 0 : live->pairing->p->half_count;
     pir_facet_kind kind = of_p ? PIR_FACET_FV : PIR_FACET_VF;
     for (uint32_t i = of->loop_start[f]; i < of->loop_start[f + 1]; i++) {
         uint32_t own = of->origin[of->loop[i]];
@@ -168,7 +170,7 @@ static void refresh_facet(pir_live_mesh *live, bool of_p, uint32_t f) {
 
 /* The parallelogram of a crossing, counter-clockwise from outside. */
 static void write_crossing(pir_live_mesh *live, uint32_t slot) {
-    const pir_polytope *p = live->sum->p, *q = live->sum->q;
+    const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
     uint32_t half = p->edge_half[live->edge[slot]], h = live->half[slot];
     uint32_t *corner = live->corner + live->corners_fixed + 4 * (size_t)slot;
     corner[0] = pir_live_vertex_take(&live->vertices, p->origin[half], q->origin[h]);
@@ -179,20 +181,20 @@ static void write_crossing(pir_live_mesh *live, uint32_t slot) {
 
 /* The edge in a crossing's slot now, or PIR_NO_CROSSING where it is empty or not to be held. */
 static uint32_t edge_now(const pir_live_mesh *live, uint32_t slot) {
-    const pir_sum *sum = live->sum;
-    const pir_crossings *c = &sum->crossings;
+    const pir_pairing *pairing = live->pairing;
+    const pir_crossings *c = &pairing->crossings;
     if (slot >= c->used || c->edge[slot] == PIR_NO_CROSSING)
         return PIR_NO_CROSSING;
     if (live->cone.set) {
-        pir_vec3 e = pir_mat_apply(pir_live_matrix(live), sum->p->direction[sum->p->edge_half[c->edge[slot]]]);
-        if (!pir_cone_has(&live->cone, pir_vec_cross(sum->q->direction[c->half[slot]], e)))
+        pir_vec3 e = pir_mat_apply(pir_live_matrix(live), pairing->p->direction[pairing->p->edge_half[c->edge[slot]]]);
+        if (!pir_cone_has(&live->cone, pir_vec_cross(pairing->q->direction[c->half[slot]], e)))
             return PIR_NO_CROSSING;
     }
     return c->edge[slot];
 }
 
 static void refresh_crossing(pir_live_mesh *live, uint32_t slot) {
-    const pir_crossings *c = &live->sum->crossings;
+    const pir_crossings *c = &live->pairing->crossings;
     uint32_t edge = edge_now(live, slot), held = live->edge[slot];
     if (edge == held && (edge == PIR_NO_CROSSING || c->half[slot] == live->half[slot]))
         return;
@@ -211,7 +213,7 @@ static void refresh_crossing(pir_live_mesh *live, uint32_t slot) {
 }
 
 static void refresh_all(pir_live_mesh *live) {
-    uint32_t used = live->sum->crossings.used, slots = used > live->used ? used : live->used;
+    uint32_t used = live->pairing->crossings.used, slots = used > live->used ? used : live->used;
     for (uint32_t f = 0; f < live->facets_p; f++)
         refresh_facet(live, true, f);
     for (uint32_t g = 0; g < live->facets_q; g++)
@@ -222,9 +224,9 @@ static void refresh_all(pir_live_mesh *live) {
 
 /* Looks at the slots that the journal names since the last refresh, each once. */
 static void refresh_noted(pir_live_mesh *live) {
-    const pir_journal *journal = &live->sum->journal;
+    const pir_journal *journal = pir_sum_journal(live->sum);
     uint32_t facets = live->facets_p + live->facets_q;
-    size_t words = words_for(facets + live->sum->crossings.used);
+    size_t words = words_for(facets + live->pairing->crossings.used);
     for (uint64_t n = live->seen; n < journal->count; n++) {
         uint32_t slot = journal->slot[n % PIR_JOURNAL_ROOM];
         live->dirty[slot / 64] |= (uint64_t)1 << slot % 64;
@@ -249,14 +251,14 @@ pir_status pir_live_mesh_refresh(pir_live_mesh *live) {
     if (!reserve(live))
         return PIR_ERR_MEMORY;
     live->appeared.count = live->disappeared.count = live->rewritten_count = 0;
-    const pir_journal *journal = &live->sum->journal;
+    const pir_journal *journal = pir_sum_journal(live->sum);
     if (live->stale || live->cone.set || journal->count - live->seen > PIR_JOURNAL_ROOM)
         refresh_all(live);
     else
         refresh_noted(live);
     live->stale = false;
     live->seen = journal->count;
-    live->used = live->sum->crossings.used;
+    live->used = live->pairing->crossings.used;
     pir_live_vertices_sweep(&live->vertices);
     pir_live_pairs_settle(&live->appeared, &live->disappeared);
     return PIR_OK;

@@ -15,7 +15,7 @@
 
 #include <pirouette/live_mesh.h>
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/view.h"
 
 #define PIR_NO_SLOT UINT32_MAX
 
@@ -40,7 +40,8 @@ typedef struct pir_live_pairs {
 #define PIR_LIVE_NUMBER_BITS 31
 
 struct pir_live_mesh {
-    pir_sum *sum; /* a reference */
+    pir_sum *sum;               /* a reference */
+    const pir_pairing *pairing; /* of the sum */
     pir_allocator allocator;
     uint32_t facets_p, facets_q, vertices_p, corners_fixed; /* corners_fixed: before the first crossing's */
     uint32_t *fv, *vf;                                      /* what the corners were written from */
@@ -59,8 +60,7 @@ struct pir_live_mesh {
 
 /* The rotation that the sum is seen at. */
 static inline const pir_mat3 *pir_live_matrix(const pir_live_mesh *live) {
-    const pir_sum *sum = live->sum;
-    return sum->lag.lagging ? &sum->lag.now.r : &sum->signs.rotation.r;
+    return &pir_sum_shown_rotation(live->sum)->r;
 }
 
 /* --- live_pairs.c --- */

@@ -27,7 +27,7 @@ uint32_t pir_live_mesh_vertex_slots(const pir_live_mesh *live) {
 }
 
 int pir_live_mesh_pair(const pir_live_mesh *live, uint32_t slot, pir_sum_pair *ret_pair) {
-    const pir_polytope *p = live->sum->p, *q = live->sum->q;
+    const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
     uint32_t facets = live->facets_p + live->facets_q;
     if (slot < live->facets_p) {
         if (p->artificial || live->fv[slot] == PIR_NO_SLOT)
@@ -51,7 +51,7 @@ int pir_live_mesh_pair(const pir_live_mesh *live, uint32_t slot, pir_sum_pair *r
 }
 
 const uint32_t *pir_live_mesh_facet(const pir_live_mesh *live, uint32_t slot, uint32_t *ret_count) {
-    const pir_polytope *p = live->sum->p, *q = live->sum->q;
+    const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
     pir_sum_pair pair;
     *ret_count = 0;
     if (!pir_live_mesh_pair(live, slot, &pair))
@@ -83,18 +83,18 @@ int pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t
 static void turn_vertices(pir_live_mesh *live) {
     const pir_mat3 *r = pir_live_matrix(live);
     for (uint32_t v = 0; v < live->vertices_p; v++)
-        live->turned[v] = pir_mat_apply(r, live->sum->p->vertex[v]);
+        live->turned[v] = pir_mat_apply(r, live->pairing->p->vertex[v]);
 }
 
 void pir_live_mesh_vertices(pir_live_mesh *live, pir_vec3 *ret_vertices) {
-    const pir_vec3 *q = live->sum->q->vertex;
+    const pir_vec3 *q = live->pairing->q->vertex;
     turn_vertices(live);
     for (uint32_t i = 0; i < live->vertices.used; i++)
         ret_vertices[i] = pir_vec_add(live->turned[live->vertices.pair[i][0]], q[live->vertices.pair[i][1]]);
 }
 
 void pir_live_mesh_vertices_float(pir_live_mesh *live, float (*ret_vertices)[3]) {
-    const pir_vec3 *q = live->sum->q->vertex;
+    const pir_vec3 *q = live->pairing->q->vertex;
     turn_vertices(live);
     for (uint32_t i = 0; i < live->vertices.used; i++) {
         pir_vec3 x = pir_vec_add(live->turned[live->vertices.pair[i][0]], q[live->vertices.pair[i][1]]);
@@ -106,11 +106,11 @@ void pir_live_mesh_vertices_float(pir_live_mesh *live, float (*ret_vertices)[3])
 
 /* The plane through a point of the sum, given by the vertices that it is the sum of. */
 static pir_plane_equation plane_through(const pir_live_mesh *live, pir_vec3 normal, uint32_t p, uint32_t q) {
-    return (pir_plane_equation){normal, pir_vec_dot(normal, pir_vec_add(live->turned[p], live->sum->q->vertex[q]))};
+    return (pir_plane_equation){normal, pir_vec_dot(normal, pir_vec_add(live->turned[p], live->pairing->q->vertex[q]))};
 }
 
 static pir_plane_equation plane_of_crossing(const pir_live_mesh *live, const pir_mat3 *r, uint32_t slot) {
-    const pir_polytope *p = live->sum->p, *q = live->sum->q;
+    const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
     uint32_t half = p->edge_half[live->edge[slot]], h = live->half[slot];
     pir_vec3 n = pir_vec_cross(q->direction[h], pir_mat_apply(r, p->direction[half]));
     double length = sqrt(pir_vec_dot(n, n));
@@ -120,7 +120,7 @@ static pir_plane_equation plane_of_crossing(const pir_live_mesh *live, const pir
 }
 
 void pir_live_mesh_planes(pir_live_mesh *live, pir_plane_equation *ret_planes) {
-    const pir_polytope *p = live->sum->p, *q = live->sum->q;
+    const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
     const pir_mat3 *r = pir_live_matrix(live);
     const pir_plane_equation none = {{0, 0, 0}, 0};
     turn_vertices(live);

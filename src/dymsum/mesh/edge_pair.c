@@ -11,37 +11,38 @@
 #define PARALLEL_BOUND 0x1p-45
 
 /* d × M·e exactly, into scratch that the caller gives back. */
-static pir_int3 exact_normal(pir_sum *sum, const pir_edge_pair *pair) {
-    pir_limbs *scratch = &sum->signs.scratch;
-    pir_int3 e = pir_half_exact(sum->p, pair->half), d = pir_half_exact(sum->q, pair->h);
+static pir_int3 exact_normal(const pir_posed *posed, const pir_edge_pair *pair) {
+    pir_limbs *scratch = &posed->signs->scratch;
+    pir_int3 e = pir_half_exact(posed->pairing->p, pair->half), d = pir_half_exact(posed->pairing->q, pair->h);
     uint32_t le = pir_int3_length(&e) + PIR_MATRIX_LIMBS + 1, ld = pir_int3_length(&d);
-    pir_rotation_make_exact(&sum->signs.rotation);
+    pir_rotation_make_exact(&posed->signs->rotation);
     pir_int3 rotated = pir_int3_take(scratch, le), n = pir_int3_take(scratch, le + ld + 1);
-    pir_rotation_apply(&sum->signs.rotation, &rotated, &e, scratch);
+    pir_rotation_apply(&posed->signs->rotation, &rotated, &e, scratch);
     pir_int3_cross(&n, &d, &rotated, scratch);
     return n;
 }
 
-bool pir_edges_are_parallel(pir_sum *sum, const pir_edge_pair *pair) {
+bool pir_edges_are_parallel(const pir_posed *posed, const pir_edge_pair *pair) {
     pir_vec3 n = pir_vec_cross(pair->d, pair->e);
     if (fabs(n.x) > PARALLEL_BOUND || fabs(n.y) > PARALLEL_BOUND || fabs(n.z) > PARALLEL_BOUND)
         return false;
-    uint32_t mark = sum->signs.scratch.used;
-    pir_int3 exact = exact_normal(sum, pair);
-    sum->signs.scratch.used = mark;
+    uint32_t mark = posed->signs->scratch.used;
+    pir_int3 exact = exact_normal(posed, pair);
+    posed->signs->scratch.used = mark;
     return pir_int3_is_zero(&exact);
 }
 
 /* 1 where d × e points along the normal of the facet, −1 where against it, 0 where it is zero; exactly. */
-static int exact_side(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of facet) {
-    pir_limbs *scratch = &sum->signs.scratch;
+static int exact_side(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet) {
+    pir_limbs *scratch = &posed->signs->scratch;
     uint32_t mark = scratch->used;
-    pir_int3 n = exact_normal(sum, pair);
-    pir_int3 m = facet.of_p ? pir_normal_exact(sum->p, facet.facet) : pir_normal_exact(sum->q, facet.facet);
+    pir_int3 n = exact_normal(posed, pair);
+    pir_int3 m = facet.of_p ? pir_normal_exact(posed->pairing->p, facet.facet)
+                            : pir_normal_exact(posed->pairing->q, facet.facet);
     if (facet.of_p) {
         pir_int3 own = m;
         m = pir_int3_take(scratch, pir_int3_length(&own) + PIR_MATRIX_LIMBS + 1);
-        pir_rotation_apply(&sum->signs.rotation, &m, &own, scratch);
+        pir_rotation_apply(&posed->signs->rotation, &m, &own, scratch);
     }
     // parallel vectors agree in sign, or differ, in every component where neither is zero
     int side = 0;
@@ -52,16 +53,16 @@ static int exact_side(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of face
 }
 
 /* The same by doubles where they are certain, else exactly. */
-static int side_of(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of facet) {
-    pir_vec3 normal = facet.of_p ? sum->rotated[facet.facet] : sum->q->normal[facet.facet];
+static int side_of(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet) {
+    pir_vec3 normal = facet.of_p ? posed->normal[facet.facet] : posed->pairing->q->normal[facet.facet];
     double value = pir_vec_dot(pir_vec_cross(pair->d, pair->e), normal);
-    return value > PARALLEL_BOUND ? 1 : value < -PARALLEL_BOUND ? -1 : exact_side(sum, pair, facet);
+    return value > PARALLEL_BOUND ? 1 : value < -PARALLEL_BOUND ? -1 : exact_side(posed, pair, facet);
 }
 
-bool pir_edges_point_along(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of facet) {
-    return side_of(sum, pair, facet) > 0;
+bool pir_edges_point_along(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet) {
+    return side_of(posed, pair, facet) > 0;
 }
 
-int pir_edges_turn(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of facet) {
-    return -side_of(sum, pair, facet);
+int pir_edges_turn(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet) {
+    return -side_of(posed, pair, facet);
 }

@@ -5,7 +5,19 @@
 #ifndef PIR_DYMSUM_MESH_EDGE_PAIR_H
 #define PIR_DYMSUM_MESH_EDGE_PAIR_H
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/view.h"
+
+/* Both operands at the rotation that their pairing is exact at. */
+typedef struct pir_posed {
+    const pir_pairing *pairing;
+    pir_signs *signs; /* at that rotation */
+    pir_vec3 *normal; /* of the facets of P, rotated */
+} pir_posed;
+
+/* The unit vector of halfedge h of P, rotated. */
+static inline pir_vec3 pir_posed_direction(const pir_posed *posed, uint32_t h) {
+    return pir_mat_apply(&posed->signs->rotation.r, posed->pairing->p->direction[h]);
+}
 
 typedef struct pir_edge_pair {
     uint32_t half, h; /* the halfedges of P and Q */
@@ -18,17 +30,17 @@ typedef struct pir_facet_of {
     uint32_t facet;
 } pir_facet_of;
 
-bool pir_edges_are_parallel(pir_sum *sum, const pir_edge_pair *pair);
+bool pir_edges_are_parallel(const pir_posed *posed, const pir_edge_pair *pair);
 
 /*
  * Whether d × e, which is parallel to the facet's normal and not zero, points along that normal rather than against it.
  */
-bool pir_edges_point_along(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of facet);
+bool pir_edges_point_along(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet);
 
 /*
  * The sign of the turn from e to d about the outward normal of a facet in whose plane both lie: 1 when d is left of e
  * seen from outside, −1 when it is right of it, 0 when the two are parallel.
  */
-int pir_edges_turn(pir_sum *sum, const pir_edge_pair *pair, pir_facet_of facet);
+int pir_edges_turn(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet);
 
 #endif

@@ -11,23 +11,24 @@
  */
 #include "dymsum/mesh/face_sum.h"
 
-static int turn_between(pir_sum *sum, uint32_t half, uint32_t h, pir_facet_of facet) {
-    pir_edge_pair pair = {half, h, pir_rotated_direction(sum, half), sum->q->direction[h]};
-    return pir_edges_turn(sum, &pair, facet);
+static int turn_between(const pir_posed *posed, uint32_t half, uint32_t h, pir_facet_of facet) {
+    pir_edge_pair pair = {half, h, pir_posed_direction(posed, half), posed->pairing->q->direction[h]};
+    return pir_edges_turn(posed, &pair, facet);
 }
 
 /* Whether the direction of halfedge h of Q is less than half a turn ahead of that of `half`, or equal to it. */
-static bool is_ahead(pir_sum *sum, uint32_t half, uint32_t h, pir_facet_of facet) {
-    int turn = turn_between(sum, half, h, facet);
+static bool is_ahead(const pir_posed *posed, uint32_t half, uint32_t h, pir_facet_of facet) {
+    int turn = turn_between(posed, half, h, facet);
     // parallel: doubles tell equal from opposite
-    return turn > 0 || (turn == 0 && pir_vec_dot(pir_rotated_direction(sum, half), sum->q->direction[h]) > 0);
+    return turn > 0 ||
+           (turn == 0 && pir_vec_dot(pir_posed_direction(posed, half), posed->pairing->q->direction[h]) > 0);
 }
 
 /* The side of Q's face at which the merge begins: the first that is ahead of P's first. */
-static uint32_t first_side(pir_sum *sum, uint32_t half, pir_face_edges of_q, pir_facet_of facet) {
-    bool before = is_ahead(sum, half, of_q.half[of_q.count - 1], facet);
+static uint32_t first_side(const pir_posed *posed, uint32_t half, pir_face_edges of_q, pir_facet_of facet) {
+    bool before = is_ahead(posed, half, of_q.half[of_q.count - 1], facet);
     for (uint32_t j = 0; j < of_q.count; j++) {
-        bool ahead = is_ahead(sum, half, of_q.half[j], facet);
+        bool ahead = is_ahead(posed, half, of_q.half[j], facet);
         if (ahead && !before)
             return j;
         before = ahead;
@@ -36,12 +37,13 @@ static uint32_t first_side(pir_sum *sum, uint32_t half, pir_face_edges of_q, pir
     return 0;
 }
 
-uint32_t pir_face_sum(pir_sum *sum, pir_face_edges of_p, pir_face_edges of_q, pir_facet_of facet, pir_corner *corner) {
-    uint32_t count = 0, i = 0, j = 0, start = first_side(sum, of_p.half[0], of_q, facet);
+uint32_t pir_face_sum(const pir_posed *posed, pir_face_edges of_p, pir_face_edges of_q, pir_facet_of facet,
+                      pir_corner *corner) {
+    uint32_t count = 0, i = 0, j = 0, start = first_side(posed, of_p.half[0], of_q, facet);
     while (i < of_p.count || j < of_q.count) {
         uint32_t half = of_p.half[i % of_p.count], h = of_q.half[(start + j) % of_q.count];
-        corner[count++] = (pir_corner){sum->p->origin[half], sum->q->origin[h]};
-        int turn = i == of_p.count ? -1 : j == of_q.count ? 1 : turn_between(sum, half, h, facet);
+        corner[count++] = (pir_corner){posed->pairing->p->origin[half], posed->pairing->q->origin[h]};
+        int turn = i == of_p.count ? -1 : j == of_q.count ? 1 : turn_between(posed, half, h, facet);
         i += turn >= 0;
         j += turn <= 0;
     }

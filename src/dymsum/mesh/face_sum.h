@@ -23,9 +23,9 @@ static inline pir_face_edges pir_facet_edges(const pir_polytope *of, uint32_t fa
 /*
  * Writes the corners of the sum of a face of P, rotated, and a face of Q, counter-clockwise from outside and none of
  * them straight, to `corner`, which has room for one for each edge of the two; returns their number. Both faces have
- * the direction of `facet`, which is one of them or has the same normal; one of them is a facet. sum->rotated holds the
- * normals of P, rotated. O(edges).
+ * the direction of `facet`, which is one of them or has the same normal; one of them is a facet. O(edges).
  */
-uint32_t pir_face_sum(pir_sum *sum, pir_face_edges of_p, pir_face_edges of_q, pir_facet_of facet, pir_corner *corner);
+uint32_t pir_face_sum(const pir_posed *posed, pir_face_edges of_p, pir_face_edges of_q, pir_facet_of facet,
+                      pir_corner *corner);
 
 #endif

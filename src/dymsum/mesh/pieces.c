@@ -20,22 +20,20 @@
  */
 #include "dymsum/mesh/pieces.h"
 
-#include "dymsum/mesh/edge_pair.h"
-
-static size_t alone_words(const pir_sum *sum) {
-    return (size_t)sum->crossings.used / 64 + 1;
+static size_t alone_words(const pir_posed *posed) {
+    return (size_t)posed->pairing->crossings.used / 64 + 1;
 }
 
-void pir_pieces_finish(pir_pieces *pieces, const pir_sum *sum) {
-    PIR_FREE(&sum->allocator, pieces->of_p, sum->p->facet_count);
-    PIR_FREE(&sum->allocator, pieces->of_q, sum->q->facet_count);
-    PIR_FREE(&sum->allocator, pieces->alone, alone_words(sum));
+void pir_pieces_finish(pir_pieces *pieces, const pir_posed *posed) {
+    PIR_FREE(&posed->pairing->allocator, pieces->of_p, posed->pairing->p->facet_count);
+    PIR_FREE(&posed->pairing->allocator, pieces->of_q, posed->pairing->q->facet_count);
+    PIR_FREE(&posed->pairing->allocator, pieces->alone, alone_words(posed));
     *pieces = (pir_pieces){0};
 }
 
 /* Whether s(a, b) is exactly zero, given its value by doubles. */
-static bool is_tie(pir_sum *sum, double value, const pir_int3 *a, const pir_int3 *b) {
-    return pir_filter_sign(value) == 0 && pir_sign_true(&sum->signs, a, b) == 0;
+static bool is_tie(const pir_posed *posed, double value, const pir_int3 *a, const pir_int3 *b) {
+    return pir_filter_sign(value) == 0 && pir_sign_true(posed->signs, a, b) == 0;
 }
 
 /* The facets at the ends of a crossing's arcs. */
@@ -44,8 +42,8 @@ struct ends {
 };
 
 /* Whether the crossing is known to be part of a merged facet, or to have no area, from the notes left so far. */
-static bool is_known(const pir_pieces *pieces, const pir_sum *sum, const struct ends *ends) {
-    bool half_circles = sum->p->dimension < 3 && sum->q->dimension < 3;
+static bool is_known(const pir_pieces *pieces, const pir_posed *posed, const struct ends *ends) {
+    bool half_circles = posed->pairing->p->dimension < 3 && posed->pairing->q->dimension < 3;
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++)
             if (pieces->of_p[ends->p[i]].facet == ends->q[j])
@@ -57,39 +55,43 @@ static bool is_known(const pir_pieces *pieces, const pir_sum *sum, const struct 
  * The facet of P that the crossing coincides with, or PIR_NO_FACE. The hidden facets of a segment have no area and
  * count for nothing.
  */
-static uint32_t coinciding_p(pir_sum *sum, const pir_edge_pair *pair, const struct ends *ends, const bool tie[2]) {
-    for (int i = 0; i < 2 && !sum->p->artificial; i++)
-        if (tie[i] && (sum->p->dimension == 3 || pir_edges_point_along(sum, pair, (pir_facet_of){true, ends->p[i]})))
+static uint32_t coinciding_p(const pir_posed *posed, const pir_edge_pair *pair, const struct ends *ends,
+                             const bool tie[2]) {
+    for (int i = 0; i < 2 && !posed->pairing->p->artificial; i++)
+        if (tie[i] &&
+            (posed->pairing->p->dimension == 3 || pir_edges_point_along(posed, pair, (pir_facet_of){true, ends->p[i]})))
             return ends->p[i];
     return PIR_NO_FACE;
 }
 
-static uint32_t coinciding_q(pir_sum *sum, const pir_edge_pair *pair, const struct ends *ends, const bool tie[2]) {
-    for (int i = 0; i < 2 && !sum->q->artificial; i++)
-        if (tie[i] && (sum->q->dimension == 3 || pir_edges_point_along(sum, pair, (pir_facet_of){false, ends->q[i]})))
+static uint32_t coinciding_q(const pir_posed *posed, const pir_edge_pair *pair, const struct ends *ends,
+                             const bool tie[2]) {
+    for (int i = 0; i < 2 && !posed->pairing->q->artificial; i++)
+        if (tie[i] && (posed->pairing->q->dimension == 3 ||
+                       pir_edges_point_along(posed, pair, (pir_facet_of){false, ends->q[i]})))
             return ends->q[i];
     return PIR_NO_FACE;
 }
 
 /* Looks at a crossing: whether it is a facet alone; where it is not, the facets that it coincides with are told. */
-static bool look_at_crossing(pir_pieces *pieces, pir_sum *sum, const pir_edge_pair *pair) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+static bool look_at_crossing(pir_pieces *pieces, const pir_posed *posed, const pir_edge_pair *pair) {
+    const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     const struct ends ends = {{p->left[pair->half], pir_right(p, pair->half)},
                               {q->left[pair->h], pir_right(q, pair->h)}};
-    if (is_known(pieces, sum, &ends))
+    if (is_known(pieces, posed, &ends))
         return false;
     pir_int3 e = pir_half_exact(p, pair->half), d = pir_half_exact(q, pair->h);
     bool tie_p[2], tie_q[2];
     for (int i = 0; i < 2; i++) {
         pir_int3 f = pir_normal_exact(p, ends.p[i]), g = pir_normal_exact(q, ends.q[i]);
-        tie_p[i] = is_tie(sum, pir_vec_dot(sum->rotated[ends.p[i]], pair->d), &f, &d);
-        tie_q[i] = is_tie(sum, pir_vec_dot(pair->e, q->normal[ends.q[i]]), &e, &g);
+        tie_p[i] = is_tie(posed, pir_vec_dot(posed->normal[ends.p[i]], pair->d), &f, &d);
+        tie_q[i] = is_tie(posed, pir_vec_dot(pair->e, q->normal[ends.q[i]]), &e, &g);
     }
     if (!tie_p[0] && !tie_p[1] && !tie_q[0] && !tie_q[1])
         return true;
-    if (pir_edges_are_parallel(sum, pair))
+    if (pir_edges_are_parallel(posed, pair))
         return false;
-    uint32_t f = coinciding_p(sum, pair, &ends, tie_p), g = coinciding_q(sum, pair, &ends, tie_q);
+    uint32_t f = coinciding_p(posed, pair, &ends, tie_p), g = coinciding_q(posed, pair, &ends, tie_q);
     if (f != PIR_NO_FACE)
         pieces->of_p[f] = (pir_face){g, pair->h};
     if (g != PIR_NO_FACE)
@@ -97,28 +99,28 @@ static bool look_at_crossing(pir_pieces *pieces, pir_sum *sum, const pir_edge_pa
     return f == PIR_NO_FACE && g == PIR_NO_FACE;
 }
 
-pir_status pir_pieces_make(pir_pieces *pieces, pir_sum *sum) {
-    const pir_polytope *p = sum->p, *q = sum->q;
-    const pir_allocator *a = &sum->allocator;
+pir_status pir_pieces_make(pir_pieces *pieces, const pir_posed *posed) {
+    const pir_pairing *pairing = posed->pairing;
+    const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
+    const pir_allocator *a = &posed->pairing->allocator;
     *pieces = (pir_pieces){.of_p = PIR_NEW(a, pir_face, p->facet_count),
                            .of_q = PIR_NEW(a, pir_face, q->facet_count),
-                           .alone = PIR_ZEROED(a, uint64_t, alone_words(sum))};
+                           .alone = PIR_ZEROED(a, uint64_t, alone_words(posed))};
     if (!pieces->of_p || !pieces->of_q || !pieces->alone) {
-        pir_pieces_finish(pieces, sum);
+        pir_pieces_finish(pieces, posed);
         return PIR_ERR_MEMORY;
     }
-    for (uint32_t f = 0; f < p->facet_count; f++) {
-        sum->rotated[f] = pir_rotated_normal(sum, f);
+    for (uint32_t f = 0; f < p->facet_count; f++)
         pieces->of_p[f] = (pir_face){PIR_NO_FACE, PIR_NO_FACE};
-    }
     for (uint32_t g = 0; g < q->facet_count; g++)
         pieces->of_q[g] = (pir_face){PIR_NO_FACE, PIR_NO_FACE};
     for (uint32_t edge = 0; edge < p->edge_count; edge++) {
-        pir_edge_pair pair = {.half = p->edge_half[edge], .e = pir_rotated_direction(sum, p->edge_half[edge])};
-        for (uint32_t slot = sum->first[edge]; slot != PIR_NO_CROSSING; slot = sum->crossings.next[slot]) {
-            pair.h = sum->crossings.half[slot];
+        pir_edge_pair pair = {.half = p->edge_half[edge], .e = pir_posed_direction(posed, p->edge_half[edge])};
+        for (uint32_t slot = pir_crossing_first(pairing, edge); slot != PIR_NO_CROSSING;
+             slot = pir_crossing_next(pairing, slot)) {
+            pair.h = pir_crossing_half(pairing, slot);
             pair.d = q->direction[pair.h];
-            if (!look_at_crossing(pieces, sum, &pair))
+            if (!look_at_crossing(pieces, posed, &pair))
                 continue;
             pieces->alone[slot / 64] |= (uint64_t)1 << slot % 64;
             pieces->alone_count++;

@@ -9,7 +9,7 @@
 #ifndef PIR_DYMSUM_MESH_PIECES_H
 #define PIR_DYMSUM_MESH_PIECES_H
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/mesh/edge_pair.h"
 
 #define PIR_NO_FACE UINT32_MAX
 
@@ -28,11 +28,11 @@ typedef struct pir_pieces {
 } pir_pieces;
 
 /*
- * The pieces of the sum at its rotation, told apart exactly. sum->rotated then holds the normals of P, rotated.
+ * The pieces of the sum at the rotation that its pairing is exact at, told apart exactly.
  * PIR_ERR_MEMORY leaves nothing to release.
  */
-pir_status pir_pieces_make(pir_pieces *pieces, pir_sum *sum);
-void pir_pieces_finish(pir_pieces *pieces, const pir_sum *sum);
+pir_status pir_pieces_make(pir_pieces *pieces, const pir_posed *posed);
+void pir_pieces_finish(pir_pieces *pieces, const pir_posed *posed);
 
 static inline bool pir_piece_is_alone(const pir_pieces *pieces, uint32_t slot) {
     return pieces->alone[slot / 64] >> slot % 64 & 1;

@@ -37,8 +37,8 @@ static uint32_t corner_bound(const pir_polytope *of, uint32_t facet, const pir_p
  * Room for all facets; of two facets that make one the second is not counted. PIR_ERR_MEMORY, or PIR_ERR_LIMIT beyond
  * 2^32 corners.
  */
-static pir_status reserve_facets(struct facets *facets, const pir_sum *sum, const pir_pieces *pieces) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+static pir_status reserve_facets(struct facets *facets, const pir_posed *posed, const pir_pieces *pieces) {
+    const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     uint64_t count = pieces->alone_count, corners = 4 * (uint64_t)pieces->alone_count;
     for (uint32_t f = 0; f < p->facet_count && !p->artificial; f++, count++)
         corners += corner_bound(p, f, q, pieces->of_p[f]);
@@ -49,8 +49,8 @@ static pir_status reserve_facets(struct facets *facets, const pir_sum *sum, cons
         return PIR_ERR_LIMIT;
     facets->facet_room = (uint32_t)count;
     facets->corner_room = (uint32_t)corners;
-    facets->start = PIR_NEW(&sum->allocator, uint32_t, (size_t)facets->facet_room + 1);
-    facets->corner = PIR_NEW(&sum->allocator, pir_corner, facets->corner_room);
+    facets->start = PIR_NEW(&posed->pairing->allocator, uint32_t, (size_t)facets->facet_room + 1);
+    facets->corner = PIR_NEW(&posed->pairing->allocator, pir_corner, facets->corner_room);
     if (!facets->start || !facets->corner)
         return PIR_ERR_MEMORY;
     facets->start[0] = 0;
@@ -74,8 +74,8 @@ static void end_facet(struct facets *facets, uint32_t corners) {
 }
 
 /* Appends the facet that facet f of P is or is part of. */
-static void append_facet_of_p(struct facets *facets, pir_sum *sum, const pir_pieces *pieces, uint32_t f) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+static void append_facet_of_p(struct facets *facets, const pir_posed *posed, const pir_pieces *pieces, uint32_t f) {
+    const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     pir_face_edges own = pir_facet_edges(p, f);
     pir_corner *corner = next_facet(facets);
     pir_face face = pieces->of_p[f];
@@ -83,35 +83,37 @@ static void append_facet_of_p(struct facets *facets, pir_sum *sum, const pir_pie
     if (face.facet != PIR_NO_FACE || face.half != PIR_NO_FACE) {
         const uint32_t sides[2] = {face.half, q->twin[face.half]};
         pir_face_edges other = face.facet != PIR_NO_FACE ? pir_facet_edges(q, face.facet) : (pir_face_edges){sides, 2};
-        count = pir_face_sum(sum, own, other, (pir_facet_of){true, f}, corner);
+        count = pir_face_sum(posed, own, other, (pir_facet_of){true, f}, corner);
     } else {
         for (uint32_t i = 0; i < count; i++)
-            corner[i] = (pir_corner){p->origin[own.half[i]], sum->fv[f]};
+            corner[i] = (pir_corner){p->origin[own.half[i]], posed->pairing->fv[f]};
     }
     end_facet(facets, count);
 }
 
 /* Appends the facet that facet g of Q is or is part of, where that is no facet of P as well. */
-static void append_facet_of_q(struct facets *facets, pir_sum *sum, const pir_pieces *pieces, uint32_t g) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+static void append_facet_of_q(struct facets *facets, const pir_posed *posed, const pir_pieces *pieces, uint32_t g) {
+    const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     pir_face_edges own = pir_facet_edges(q, g);
     pir_corner *corner = next_facet(facets);
     pir_face face = pieces->of_q[g];
     uint32_t count = own.count;
     if (face.half != PIR_NO_FACE) {
         const uint32_t sides[2] = {face.half, p->twin[face.half]};
-        count = pir_face_sum(sum, (pir_face_edges){sides, 2}, own, (pir_facet_of){false, g}, corner);
+        count = pir_face_sum(posed, (pir_face_edges){sides, 2}, own, (pir_facet_of){false, g}, corner);
     } else {
         for (uint32_t i = 0; i < count; i++)
-            corner[i] = (pir_corner){sum->vf[g], q->origin[own.half[i]]};
+            corner[i] = (pir_corner){posed->pairing->vf[g], q->origin[own.half[i]]};
     }
     end_facet(facets, count);
 }
 
 /* Appends the parallelogram of a crossing: its outward normal is d × e. */
-static void append_crossing(struct facets *facets, const pir_sum *sum, uint32_t slot) {
-    uint32_t half = sum->p->edge_half[sum->crossings.edge[slot]], h = sum->crossings.half[slot];
-    uint32_t p0 = sum->p->origin[half], p1 = sum->p->target[half], q0 = sum->q->origin[h], q1 = sum->q->target[h];
+static void append_crossing(struct facets *facets, const pir_posed *posed, uint32_t slot) {
+    const pir_pairing *pairing = posed->pairing;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
+    uint32_t half = p->edge_half[pir_crossing_edge(pairing, slot)], h = pir_crossing_half(pairing, slot);
+    uint32_t p0 = p->origin[half], p1 = p->target[half], q0 = q->origin[h], q1 = q->target[h];
     pir_corner *corner = next_facet(facets);
     corner[0] = (pir_corner){p0, q0};
     corner[1] = (pir_corner){p0, q1};
@@ -121,22 +123,23 @@ static void append_crossing(struct facets *facets, const pir_sum *sum, uint32_t 
 }
 
 /* All facets of the true sum; errors as reserve_facets. */
-static pir_status collect_facets(struct facets *facets, pir_sum *sum) {
+static pir_status collect_facets(struct facets *facets, const pir_posed *posed) {
+    const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     pir_pieces pieces;
-    pir_status status = pir_pieces_make(&pieces, sum);
+    pir_status status = pir_pieces_make(&pieces, posed);
     if (status != PIR_OK)
         return status;
-    status = reserve_facets(facets, sum, &pieces);
+    status = reserve_facets(facets, posed, &pieces);
     bool done = status == PIR_OK;
-    for (uint32_t f = 0; done && f < sum->p->facet_count && !sum->p->artificial; f++)
-        append_facet_of_p(facets, sum, &pieces, f);
-    for (uint32_t g = 0; done && g < sum->q->facet_count && !sum->q->artificial; g++)
+    for (uint32_t f = 0; done && f < p->facet_count && !p->artificial; f++)
+        append_facet_of_p(facets, posed, &pieces, f);
+    for (uint32_t g = 0; done && g < q->facet_count && !q->artificial; g++)
         if (pieces.of_q[g].facet == PIR_NO_FACE)
-            append_facet_of_q(facets, sum, &pieces, g);
-    for (uint32_t slot = 0; done && slot < sum->crossings.used; slot++)
+            append_facet_of_q(facets, posed, &pieces, g);
+    for (uint32_t slot = 0; done && slot < posed->pairing->crossings.used; slot++)
         if (pir_piece_is_alone(&pieces, slot))
-            append_crossing(facets, sum, slot);
-    pir_pieces_finish(&pieces, sum);
+            append_crossing(facets, posed, slot);
+    pir_pieces_finish(&pieces, posed);
     return status;
 }
 
@@ -184,9 +187,11 @@ void pir_mesh_set_kinds(pir_mesh *mesh) {
 }
 
 /* The mesh of the facets: vertices numbered by rising pair. NULL when out of memory. */
-static pir_mesh *number_vertices(const struct facets *facets, pir_sum *sum) {
-    const pir_polytope *p = sum->p, *q = sum->q;
-    const pir_allocator *a = &sum->allocator;
+static pir_mesh *number_vertices(const struct facets *facets, const pir_sum *sum) {
+    const pir_pairing *pairing = pir_sum_pairing(sum);
+    const pir_polytope *p = pairing->p, *q = pairing->q;
+    const pir_allocator *a = &pairing->allocator;
+    const pir_mat3 *r = &pir_sum_shown_rotation(sum)->r;
     uint32_t n = facets->corner_count,
              buckets = (p->vertex_count > q->vertex_count ? p->vertex_count : q->vertex_count) + 1;
     uint32_t *bucket = PIR_NEW(a, uint32_t, buckets), *work = PIR_NEW(a, uint32_t, n), *order = PIR_NEW(a, uint32_t, n);
@@ -211,7 +216,7 @@ static pir_mesh *number_vertices(const struct facets *facets, pir_sum *sum) {
         }
         memcpy(mesh->facets.start, facets->start, ((size_t)facets->count + 1) * sizeof *facets->start);
         for (uint32_t v = 0; v < mesh->vertex_count; v++)
-            mesh->vertex[v] = pir_place(&pir_rotation_now(sum)->r, p, q, mesh->pair[v][0], mesh->pair[v][1]);
+            mesh->vertex[v] = pir_place(r, p, q, mesh->pair[v][0], mesh->pair[v][1]);
         mesh->edge_count = n / 2;
         pir_mesh_set_kinds(mesh);
         if (!pir_loops_canonicalise(&mesh->facets, mesh->kind, a)) {
@@ -230,7 +235,7 @@ static pir_status mesh_of_whole(const pir_sum *sum, pir_precision precision, pir
     pir_sum *whole = NULL;
     pir_status status = pir_sum_clone(sum, NULL, &whole);
     if (status == PIR_OK)
-        status = pir_sum_set_region(whole, sum->region.cone.axis, 4);
+        status = pir_sum_set_region(whole, pir_sum_cone(sum)->axis, 4);
     if (status == PIR_OK)
         status = pir_sum_mesh(whole, precision, ret_mesh);
     pir_sum_destroy(whole);
@@ -238,17 +243,19 @@ static pir_status mesh_of_whole(const pir_sum *sum, pir_precision precision, pir
 }
 
 /* The facets as a mesh, its vertices placed exactly as well where that is asked for. */
-static pir_status mesh_of_facets(const struct facets *facets, pir_sum *sum, pir_precision precision,
+static pir_status mesh_of_facets(const struct facets *facets, const pir_sum *sum, pir_precision precision,
                                  pir_mesh **ret_mesh) {
+    const pir_pairing *pairing = pir_sum_pairing(sum);
+    const pir_allocator *a = &pairing->allocator;
     pir_mesh *mesh = number_vertices(facets, sum);
     pir_status status = mesh ? PIR_OK : PIR_ERR_MEMORY;
     if (mesh && precision == PIR_EXACT) {
-        // facets are told apart where the pairing is exact, vertices placed where the sum is seen
+        // facets are told apart where the pairing is exact, vertices placed at the rotation that is shown
         pir_placing placing;
-        status = pir_placing_init(&placing, &sum->allocator, sum->p, sum->q, pir_rotation_now(sum));
+        status = pir_placing_init(&placing, a, pairing->p, pairing->q, pir_sum_shown_rotation(sum));
         if (status == PIR_OK) {
             status = pir_placing_fill(&placing, mesh) ? PIR_OK : PIR_ERR_MEMORY;
-            pir_placing_finish(&placing, &sum->allocator);
+            pir_placing_finish(&placing, a);
         }
     }
     if (status == PIR_OK)
@@ -258,18 +265,34 @@ static pir_status mesh_of_facets(const struct facets *facets, pir_sum *sum, pir_
     return status;
 }
 
+/* The facets of the true sum, from its pairing; errors as reserve_facets. */
+static pir_status find_facets(struct facets *facets, pir_sum *sum) {
+    const pir_pairing *pairing = pir_sum_pairing(sum);
+    const pir_polytope *p = pairing->p;
+    pir_posed posed = {pairing, pir_sum_signs(sum), PIR_NEW(&pairing->allocator, pir_vec3, p->facet_count)};
+    if (!posed.normal)
+        return PIR_ERR_MEMORY;
+    for (uint32_t f = 0; f < p->facet_count; f++)
+        posed.normal[f] = pir_mat_apply(&posed.signs->rotation.r, p->normal[f]);
+    pir_status status = collect_facets(facets, &posed);
+    PIR_FREE(&pairing->allocator, posed.normal, p->facet_count);
+    return status;
+}
+
 pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh **ret_mesh) {
     if (!sum || !ret_mesh || (precision != PIR_DOUBLE && precision != PIR_EXACT))
         return PIR_ERR_ARGUMENT;
-    if (sum->region.cone.set)
+    if (pir_sum_cone(sum)->set)
         return mesh_of_whole(sum, precision, ret_mesh);
+    const pir_pairing *pairing = pir_sum_pairing(sum);
+    const pir_allocator *a = &pairing->allocator;
     struct facets facets = {0};
-    pir_status status = collect_facets(&facets, sum);
+    pir_status status = find_facets(&facets, sum);
     // where nothing has area the sum is a point or a segment
     if (status == PIR_OK && facets.count == 0)
-        status = pir_hull_mesh(sum->p, sum->q, pir_rotation_now(sum), &sum->allocator, precision, ret_mesh);
+        status = pir_hull_mesh(pairing->p, pairing->q, pir_sum_shown_rotation(sum), a, precision, ret_mesh);
     else if (status == PIR_OK)
         status = mesh_of_facets(&facets, sum, precision, ret_mesh);
-    free_facets(&facets, &sum->allocator);
+    free_facets(&facets, a);
     return status;
 }

@@ -4,12 +4,12 @@
  * against every edge. It is the baseline that updates are measured against, so it is written with care: normals are rotated once, and a
  * pair is given up at the first sign that rules it out.
  */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 /* Whether v of Q is farthest along rotated facet f. */
 static bool fv_is_compatible(pir_sum *sum, uint32_t f, uint32_t v) {
     double unused;
-    for (uint32_t h = sum->q->ring_start[v]; h < sum->q->ring_start[v + 1]; h++)
+    for (uint32_t h = sum->pairing.q->ring_start[v]; h < sum->pairing.q->ring_start[v + 1]; h++)
         if (pir_sign_facet_half(sum, f, sum->rotated[f], h, &unused) > 0)
             return false;
     return true;
@@ -18,7 +18,7 @@ static bool fv_is_compatible(pir_sum *sum, uint32_t f, uint32_t v) {
 /* Whether v of P is farthest along facet g of Q. */
 static bool vf_is_compatible(pir_sum *sum, uint32_t g, pir_vec3 turned_back, uint32_t v) {
     double unused;
-    for (uint32_t h = sum->p->ring_start[v]; h < sum->p->ring_start[v + 1]; h++)
+    for (uint32_t h = sum->pairing.p->ring_start[v]; h < sum->pairing.p->ring_start[v + 1]; h++)
         if (pir_sign_facet_half_back(sum, g, turned_back, h, &unused) > 0)
             return false;
     return true;
@@ -26,7 +26,7 @@ static bool vf_is_compatible(pir_sum *sum, uint32_t g, pir_vec3 turned_back, uin
 
 /* The halfedge along edge e2 of Q that the arc of halfedge h of P crosses, or PIR_NO_CROSSING. */
 static uint32_t crossed_half(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t e2) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
     uint32_t side = q->edge_half[e2], from = p->left[h], to = pir_right(p, h);
     double unused;
     int behind = pir_sign_facet_half(sum, from, sum->rotated[from], side, &unused);
@@ -43,38 +43,39 @@ static uint32_t crossed_half(pir_sum *sum, uint32_t h, pir_vec3 direction, uint3
 
 /* Links the slots [from, used) of edge e into a chain of cells that starts in its left one. */
 static void chain_crossings(pir_sum *sum, uint32_t e, uint32_t from) {
-    pir_crossings *c = &sum->crossings;
-    uint32_t v = sum->fv[sum->p->left[sum->p->edge_half[e]]], *link = &sum->first[e];
+    pir_crossings *c = &sum->pairing.crossings;
+    uint32_t v = sum->pairing.fv[sum->pairing.p->left[sum->pairing.p->edge_half[e]]],
+             *link = &sum->pairing.crossings.first[e];
     for (uint32_t n = c->used - from; n > 0; n--) {
         uint32_t slot = from;
-        while (slot < c->used && sum->q->origin[c->half[slot]] != v)
+        while (slot < c->used && sum->pairing.q->origin[c->half[slot]] != v)
             slot++;
         PIR_ASSERT(slot < c->used);
         *link = slot;
         link = &c->next[slot];
-        v = sum->q->target[c->half[slot]];
+        v = sum->pairing.q->target[c->half[slot]];
     }
     *link = PIR_NO_CROSSING;
 }
 
 pir_status pir_brute_rebuild(pir_sum *sum) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
     pir_crossings_clear(sum);
     pir_region_open(sum);
     for (uint32_t f = 0; f < p->facet_count; f++) {
         sum->rotated[f] = pir_rotated_normal(sum, f);
         for (uint32_t v = 0; v < q->vertex_count; v++)
             if (fv_is_compatible(sum, f, v))
-                sum->fv[f] = v;
+                sum->pairing.fv[f] = v;
     }
     for (uint32_t g = 0; g < q->facet_count; g++) {
         pir_vec3 turned_back = pir_turned_back_normal(sum, g);
         for (uint32_t v = 0; v < p->vertex_count; v++)
             if (vf_is_compatible(sum, g, turned_back, v))
-                sum->vf[g] = v;
+                sum->pairing.vf[g] = v;
     }
     for (uint32_t e = 0; e < p->edge_count; e++) {
-        uint32_t h = p->edge_half[e], from = sum->crossings.used;
+        uint32_t h = p->edge_half[e], from = sum->pairing.crossings.used;
         pir_vec3 direction = pir_rotated_direction(sum, h);
         for (uint32_t e2 = 0; e2 < q->edge_count; e2++) {
             uint32_t side = crossed_half(sum, h, direction, e2);

@@ -10,7 +10,7 @@
  * The crossings of an arc need no sorting: each leads from one cell to the next, and an arc is in no cell twice.
  */
 #include "cgm/build.h"
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 #include <string.h>
 
@@ -54,19 +54,19 @@ static void read_facets(struct reading *reading, uint32_t source, uint32_t *pair
 static void settle_facets(struct reading *reading) {
     pir_sum *sum = reading->sum;
     pir_sleep unused;
-    for (uint32_t f = 0; f < sum->p->facet_count; f++)
+    for (uint32_t f = 0; f < sum->pairing.p->facet_count; f++)
         if (reading->tied[0][f])
-            sum->fv[f] = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->fv[f], &unused);
-    for (uint32_t g = 0; g < sum->q->facet_count; g++)
+            sum->pairing.fv[f] = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->pairing.fv[f], &unused);
+    for (uint32_t g = 0; g < sum->pairing.q->facet_count; g++)
         if (reading->tied[1][g])
-            sum->vf[g] = pir_descend_vf(sum, g, sum->vf[g], &unused);
+            sum->pairing.vf[g] = pir_descend_vf(sum, g, sum->pairing.vf[g], &unused);
 }
 
 /* Marks the edges of P whose arcs start or end in a tie, overlap an arc of Q, or pass through a normal of Q. */
 static void mark_tied_edges(struct reading *reading) {
     const pir_cgm *cgm = reading->overlay;
-    const pir_polytope *p = reading->sum->p;
-    bool all = p->artificial || reading->sum->q->artificial;
+    const pir_polytope *p = reading->sum->pairing.p;
+    bool all = p->artificial || reading->sum->pairing.q->artificial;
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t h = p->edge_half[e];
         reading->tied_edge[e] = all || reading->tied[0][p->left[h]] || reading->tied[0][pir_right(p, h)];
@@ -83,7 +83,7 @@ static void mark_tied_edges(struct reading *reading) {
 static bool read_crossing(struct reading *reading, uint32_t v) {
     pir_sum *sum = reading->sum;
     const pir_cgm *cgm = reading->overlay;
-    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
     uint32_t of_p = PIR_CGM_NONE, of_q = PIR_CGM_NONE, cell = 0;
     struct pir_cgm_around around = pir_cgm_around_new(cgm, v);
     do {
@@ -104,38 +104,39 @@ static bool read_crossing(struct reading *reading, uint32_t v) {
     uint32_t slot = pir_crossing_new(sum, e, end == cell ? of_q : q->twin[of_q]);
     if (slot == PIR_NO_CROSSING)
         return false;
-    sum->crossings.next[slot] = sum->first[e];
-    sum->first[e] = slot;
+    sum->pairing.crossings.next[slot] = sum->pairing.crossings.first[e];
+    sum->pairing.crossings.first[e] = slot;
     return true;
 }
 
 /* Puts the crossings of edge e in order. */
 static void link_crossings(struct reading *reading, uint32_t e) {
     pir_sum *sum = reading->sum;
-    pir_crossings *c = &sum->crossings;
-    uint32_t count = 0, v = sum->fv[sum->p->left[sum->p->edge_half[e]]], *link = &sum->first[e];
-    for (uint32_t slot = sum->first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot], count++)
-        reading->slot_at[sum->q->origin[c->half[slot]]] = slot;
+    pir_crossings *c = &sum->pairing.crossings;
+    uint32_t count = 0, v = sum->pairing.fv[sum->pairing.p->left[sum->pairing.p->edge_half[e]]],
+             *link = &sum->pairing.crossings.first[e];
+    for (uint32_t slot = sum->pairing.crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot], count++)
+        reading->slot_at[sum->pairing.q->origin[c->half[slot]]] = slot;
     for (; count > 0; count--) {
         uint32_t slot = reading->slot_at[v];
         *link = slot;
         link = &c->next[slot];
-        v = sum->q->target[c->half[slot]];
+        v = sum->pairing.q->target[c->half[slot]];
     }
     *link = PIR_NO_CROSSING;
 }
 
 /* Walks the arc of edge e by perturbed signs, its ends being located. */
 static bool walk_edge(pir_sum *sum, uint32_t e) {
-    const pir_polytope *p = sum->p, *q = sum->q;
-    uint32_t h = p->edge_half[e], v = sum->fv[p->left[h]], end = sum->fv[pir_right(p, h)];
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    uint32_t h = p->edge_half[e], v = sum->pairing.fv[p->left[h]], end = sum->pairing.fv[pir_right(p, h)];
     uint32_t entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
     pir_vec3 direction = pir_rotated_direction(sum, h);
     while (v != end) {
         uint32_t side = pir_leave_cell(sum, h, direction, v, entered), slot = pir_crossing_new(sum, e, side);
         if (slot == PIR_NO_CROSSING)
             return false;
-        *(last == PIR_NO_CROSSING ? &sum->first[e] : &sum->crossings.next[last]) = slot;
+        *(last == PIR_NO_CROSSING ? &sum->pairing.crossings.first[e] : &sum->pairing.crossings.next[last]) = slot;
         last = slot;
         entered = side;
         v = q->target[side];
@@ -147,14 +148,14 @@ static bool read_pairing(struct reading *reading) {
     pir_sum *sum = reading->sum;
     pir_crossings_clear(sum);
     pir_region_open(sum);
-    read_facets(reading, 0, sum->fv, sum->p->facet_count);
-    read_facets(reading, 1, sum->vf, sum->q->facet_count);
+    read_facets(reading, 0, sum->pairing.fv, sum->pairing.p->facet_count);
+    read_facets(reading, 1, sum->pairing.vf, sum->pairing.q->facet_count);
     settle_facets(reading);
     mark_tied_edges(reading);
     for (uint32_t v = 0; v < pir_cgm_vertices(reading->overlay); v++)
         if (!read_crossing(reading, v))
             return false;
-    for (uint32_t e = 0; e < sum->p->edge_count; e++) {
+    for (uint32_t e = 0; e < sum->pairing.p->edge_count; e++) {
         if (!reading->tied_edge[e])
             link_crossings(reading, e);
         else if (!walk_edge(sum, e))
@@ -164,8 +165,8 @@ static bool read_pairing(struct reading *reading) {
 }
 
 static bool read_overlay(pir_sum *sum, const pir_cgm *overlay) {
-    const pir_polytope *p = sum->p, *q = sum->q;
-    const pir_allocator *a = &sum->allocator;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    const pir_allocator *a = &sum->pairing.allocator;
     size_t flags = (size_t)p->facet_count + q->facet_count + p->edge_count;
     uint8_t *flag = PIR_ZEROED(a, uint8_t, flags);
     struct reading reading = {.sum = sum, .overlay = overlay, .slot_at = PIR_NEW(a, uint32_t, q->vertex_count)};
@@ -186,16 +187,16 @@ pir_status pir_cgm_rebuild(pir_sum *sum) {
     pir_status status = PIR_OK;
     // Q stands and, whatever its scale, keeps its directions: its map is made once
     if (!sum->cgm_q)
-        status = pir_cgm_create(sum->q, NULL, &sum->allocator, &sum->cgm_q);
+        status = pir_cgm_create(sum->pairing.q, NULL, &sum->pairing.allocator, &sum->cgm_q);
     if (status == PIR_OK)
-        status = pir_cgm_create(sum->p, &sum->signs.rotation.given, &sum->allocator, &map);
+        status = pir_cgm_create(sum->pairing.p, &sum->pairing.signs.rotation.given, &sum->pairing.allocator, &map);
     if (status == PIR_OK)
         status = pir_cgm_overlay(map, sum->cgm_q, &overlay);
     if (status == PIR_OK && !read_overlay(sum, overlay))
         status = PIR_ERR_MEMORY;
     if (status == PIR_OK) {
-        sum->signs.by_filter += overlay->by_filter + map->by_filter;
-        sum->signs.by_exact += overlay->by_exact + map->by_exact;
+        sum->pairing.signs.by_filter += overlay->by_filter + map->by_filter;
+        sum->pairing.signs.by_exact += overlay->by_exact + map->by_exact;
         pir_expire_all(sum);
         pir_region_close(sum);
     }

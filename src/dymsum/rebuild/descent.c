@@ -6,7 +6,7 @@
  * without a rising edge is the farthest. Among rising edges the steepest is taken, by floats: that choice affects only speed. Where
  * floats are not certain the ring is looked at by doubles, and exactly where those are not.
  */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 /* What floats leave open: a facet of P (of_p) or of Q, its normal turned to the other operand, and how that moves. */
 struct faller {
@@ -41,7 +41,7 @@ static uint32_t descend(pir_sum *sum, const struct faller *faller, uint32_t from
     for (;;) {
         pir_glance seen;
         sum->kernels->glance(faller->facets, &sum->moment, from, turned, &seen);
-        sum->signs.by_filter += other->ring_start[from + 1] - other->ring_start[from];
+        sum->pairing.signs.by_filter += other->ring_start[from + 1] - other->ring_start[from];
         uint32_t next = other->half_count == 0 ? from : other->target[other->ring_start[from] + seen.which];
         if (seen.highest < -PIR_FLOAT_BOUND) {
             *ret_sleep = (pir_sleep){seen.look.margin, seen.look.ahead, -seen.look.behind};
@@ -56,12 +56,13 @@ static uint32_t descend(pir_sum *sum, const struct faller *faller, uint32_t from
 }
 
 uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t from, pir_sleep *ret_sleep) {
-    const struct faller faller = {&sum->p_facets, sum->q, f, true, rotated, pir_motion_of(sum, rotated)};
+    const struct faller faller = {&sum->p_facets, sum->pairing.q, f, true, rotated, pir_motion_of(sum, rotated)};
     return descend(sum, &faller, from, ret_sleep);
 }
 
 uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_sleep *ret_sleep) {
     pir_vec3 turned_back = pir_turned_back_normal(sum, g);
-    const struct faller faller = {&sum->q_facets, sum->p, g, false, turned_back, pir_motion_back(sum, turned_back)};
+    const struct faller faller = {&sum->q_facets, sum->pairing.p, g,
+                                  false,          turned_back,    pir_motion_back(sum, turned_back)};
     return descend(sum, &faller, from, ret_sleep);
 }

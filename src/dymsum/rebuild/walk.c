@@ -8,18 +8,18 @@
  * signs are first negative, then positive, so the side is found by bisection when the cell has many. Facets of Q are located last, by
  * descent from an end of an edge whose arc crosses beside them. Where a region leaves features dormant, region.c does all this instead.
  */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 /* Cells with more sides than this are bisected. */
 #define MANY_SIDES 12
 
 static int corner_sign(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t corner_half) {
     double unused;
-    return pir_sign_half_facet(sum, h, direction, sum->q->left[corner_half], &unused);
+    return pir_sign_half_facet(sum, h, direction, sum->pairing.q->left[corner_half], &unused);
 }
 
 uint32_t pir_leave_cell(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
-    const pir_polytope *q = sum->q;
+    const pir_polytope *q = sum->pairing.q;
     uint32_t start = q->ring_start[v], n = q->ring_start[v + 1] - start;
     if (entered == PIR_NO_CROSSING) {
         // the corner before side i is that of side i − 1
@@ -57,12 +57,12 @@ enum { LOCATED = 1 };
  * crossings are listed for the edge in its own direction.
  */
 static bool walk_arc(pir_sum *sum, uint32_t h) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
     uint32_t e = p->edge[h], from = p->left[h], to = pir_right(p, h);
     bool forward = p->edge_half[e] == h, located = sum->mark[to] & LOCATED;
     pir_vec3 direction = pir_rotated_direction(sum, h), end = sum->rotated[to];
-    uint32_t v = sum->fv[from], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
-    while (q->half_count > 0 && !(located && v == sum->fv[to])) {
+    uint32_t v = sum->pairing.fv[from], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
+    while (q->half_count > 0 && !(located && v == sum->pairing.fv[to])) {
         uint32_t side = pir_leave_cell(sum, h, direction, v, entered);
         double unused;
         if (!located && pir_sign_facet_half(sum, to, end, side, &unused) < 0)
@@ -72,25 +72,25 @@ static bool walk_arc(pir_sum *sum, uint32_t h) {
             return false;
         // append when walking forward, prepend when walking back
         if (!forward) {
-            sum->crossings.next[slot] = sum->first[e];
-            sum->first[e] = slot;
+            sum->pairing.crossings.next[slot] = sum->pairing.crossings.first[e];
+            sum->pairing.crossings.first[e] = slot;
         } else if (last == PIR_NO_CROSSING) {
-            sum->first[e] = slot;
+            sum->pairing.crossings.first[e] = slot;
         } else {
-            sum->crossings.next[last] = slot;
+            sum->pairing.crossings.next[last] = slot;
         }
         last = slot;
         entered = side;
         v = q->target[side];
     }
-    sum->fv[to] = v;
+    sum->pairing.fv[to] = v;
     sum->mark[to] |= LOCATED;
     return true;
 }
 
 /* Locates every facet of P and walks every arc. */
 static bool walk_arcs(pir_sum *sum) {
-    const pir_polytope *p = sum->p;
+    const pir_polytope *p = sum->pairing.p;
     for (uint32_t f = 0; f < p->facet_count; f++) {
         sum->rotated[f] = pir_rotated_normal(sum, f);
         sum->mark[f] = 0;
@@ -98,7 +98,7 @@ static bool walk_arcs(pir_sum *sum) {
     if (p->facet_count == 0)
         return true;
     pir_sleep unused;
-    sum->fv[0] = pir_descend_fv(sum, 0, sum->rotated[0], 0, &unused);
+    sum->pairing.fv[0] = pir_descend_fv(sum, 0, sum->rotated[0], 0, &unused);
     sum->mark[0] = LOCATED;
     uint32_t head = 0, tail = 0;
     sum->queue[tail++] = 0;
@@ -108,7 +108,8 @@ static bool walk_arcs(pir_sum *sum) {
             uint32_t h = p->loop[i], to = pir_right(p, h);
             bool is_new = !(sum->mark[to] & LOCATED);
             // an arc between two located facets is walked from the edge's own left one
-            if (!is_new && (p->edge_half[p->edge[h]] != h || sum->first[p->edge[h]] != PIR_NO_CROSSING))
+            if (!is_new &&
+                (p->edge_half[p->edge[h]] != h || sum->pairing.crossings.first[p->edge[h]] != PIR_NO_CROSSING))
                 continue;
             if (!walk_arc(sum, h))
                 return false;
@@ -121,13 +122,13 @@ static bool walk_arcs(pir_sum *sum) {
 
 /* Locates the facets of Q: those beside a crossing first, the rest from a neighbour. */
 static void locate_facets_of_q(pir_sum *sum) {
-    const pir_polytope *p = sum->p, *q = sum->q;
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
     for (uint32_t g = 0; g < q->facet_count; g++)
         sum->mark[g] = 0;
-    for (uint32_t i = 0; i < sum->crossings.used; i++) {
-        uint32_t half = p->edge_half[sum->crossings.edge[i]], h = sum->crossings.half[i];
-        sum->vf[pir_right(q, h)] = p->origin[half];
-        sum->vf[q->left[h]] = p->target[half];
+    for (uint32_t i = 0; i < sum->pairing.crossings.used; i++) {
+        uint32_t half = p->edge_half[sum->pairing.crossings.edge[i]], h = sum->pairing.crossings.half[i];
+        sum->pairing.vf[pir_right(q, h)] = p->origin[half];
+        sum->pairing.vf[q->left[h]] = p->target[half];
         sum->mark[pir_right(q, h)] = sum->mark[q->left[h]] = LOCATED;
     }
     uint32_t head = 0, tail = 0;
@@ -135,27 +136,27 @@ static void locate_facets_of_q(pir_sum *sum) {
         if (sum->mark[g] & LOCATED)
             sum->queue[tail++] = g;
     if (tail == 0 && q->facet_count > 0) {
-        sum->vf[0] = 0;
+        sum->pairing.vf[0] = 0;
         sum->mark[0] = LOCATED;
         sum->queue[tail++] = 0;
     }
     while (head < tail) {
         uint32_t g = sum->queue[head++];
         pir_sleep unused;
-        sum->vf[g] = pir_descend_vf(sum, g, sum->vf[g], &unused);
+        sum->pairing.vf[g] = pir_descend_vf(sum, g, sum->pairing.vf[g], &unused);
         for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
             uint32_t beside = pir_right(q, q->loop[i]);
             if (sum->mark[beside] & LOCATED)
                 continue;
             sum->mark[beside] = LOCATED;
-            sum->vf[beside] = sum->vf[g];
+            sum->pairing.vf[beside] = sum->pairing.vf[g];
             sum->queue[tail++] = beside;
         }
     }
 }
 
 pir_status pir_walk_rebuild(pir_sum *sum) {
-    uint64_t asked = pir_signs_asked(&sum->signs);
+    uint64_t asked = pir_signs_asked(&sum->pairing.signs);
     pir_crossings_clear(sum);
     if (sum->region.cone.set && !sum->region.cover.whole) {
         if (!pir_region_walk(sum))
@@ -167,6 +168,6 @@ pir_status pir_walk_rebuild(pir_sum *sum) {
         locate_facets_of_q(sum);
         pir_expire_all(sum);
     }
-    sum->cost.walk = (double)(pir_signs_asked(&sum->signs) - asked) / pir_region_share(sum);
+    sum->cost.walk = (double)(pir_signs_asked(&sum->pairing.signs) - asked) / pir_region_share(sum);
     return PIR_OK;
 }

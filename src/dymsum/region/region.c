@@ -51,8 +51,8 @@
 
 #include <string.h>
 
-#include "dymsum/pairing/pairing.h"
 #include "dymsum/region/sweep.h"
+#include "dymsum/sum.h"
 
 /* Skins, by how far the axis goes in a step; the stride likewise, by the step's angle. */
 #define SKIN_STEPS   5.0
@@ -94,14 +94,14 @@ bool pir_region_holds(const pir_sum *sum, const pir_rotation *rotation) {
 
 /* Whether all is kept for a reason besides what the region needs. */
 static bool is_whole(const pir_sum *sum) {
-    return !sum->region.cone.set || sum->p->dimension < 3;
+    return !sum->region.cone.set || sum->pairing.p->dimension < 3;
 }
 
 /* Centres the cover on the region of now. Each sight of the axis is taken to go on as it went, or to rest where `afresh`. */
 static void centre(pir_sum *sum, bool afresh) {
     pir_region *region = &sum->region;
     const pir_cover before = region->cover;
-    pir_vec3 axis_q = region->cone.axis, axis_p = pir_mat_apply_transposed(&sum->signs.rotation.r, axis_q);
+    pir_vec3 axis_q = region->cone.axis, axis_p = pir_mat_apply_transposed(&sum->pairing.signs.rotation.r, axis_q);
     pir_vec3 off_p = pir_vec_sub(axis_p, before.axis_p), off_q = pir_vec_sub(axis_q, before.axis_q);
     double steps = afresh ? HUGE_VAL : fmax(1, before.steps) / SKIN_STEPS;
     // whatever P sees, the axis may go with Q once: when it is set before the rotation that it is set for
@@ -114,7 +114,7 @@ static void centre(pir_sum *sum, bool afresh) {
 
 void pir_region_step(pir_sum *sum, pir_quat before) {
     if (sum->region.cone.set)
-        sum->region.cover.step = pir_rotation_angle_bound(before, sum->signs.rotation.unit);
+        sum->region.cover.step = pir_rotation_angle_bound(before, sum->pairing.signs.rotation.unit);
 }
 
 /* --- falling dormant --- */
@@ -128,13 +128,13 @@ static void drop_facet(pir_sum *sum, pir_region_facets *facets, uint32_t *cell, 
 }
 
 static void drop_edge(pir_sum *sum, uint32_t e) {
-    uint32_t slot = sum->first[e];
+    uint32_t slot = sum->pairing.crossings.first[e];
     while (slot != PIR_NO_CROSSING) {
-        uint32_t next = sum->crossings.next[slot];
+        uint32_t next = sum->pairing.crossings.next[slot];
         pir_crossing_free(sum, slot);
         slot = next;
     }
-    sum->first[e] = PIR_NO_CROSSING;
+    sum->pairing.crossings.first[e] = PIR_NO_CROSSING;
     sum->touched[e] = PIR_DORMANT;
 }
 
@@ -157,10 +157,10 @@ static void choose(pir_sum *sum) {
             drop_edge(sum, edges->at[i]);
     for (uint32_t i = 0; i < of_p; i++)
         if (p->seen[p->at[i]] != region->sweep)
-            drop_facet(sum, &region->p, sum->fv, p->at[i], p->at[i]);
+            drop_facet(sum, &region->p, sum->pairing.fv, p->at[i], p->at[i]);
     for (uint32_t i = 0; i < of_q; i++)
         if (q->seen[q->at[i]] != region->sweep)
-            drop_facet(sum, &region->q, sum->vf, q->at[i], sum->q_facets.first_alarm + q->at[i]);
+            drop_facet(sum, &region->q, sum->pairing.vf, q->at[i], sum->q_facets.first_alarm + q->at[i]);
     take_next(p);
     take_next(q);
     take_next(edges);
@@ -171,7 +171,7 @@ void pir_region_follow(pir_sum *sum) {
     double angle = region->cover.step, allowed = region->cover.stride;
     region->cover.steps += region->cover.steps < UINT32_MAX;
     region->leapt = region->cone.set && !region->cover.whole && !(angle <= LONGEST_STEP);
-    if (pir_region_holds(sum, &sum->signs.rotation))
+    if (pir_region_holds(sum, &sum->pairing.signs.rotation))
         return;
     centre(sum, false);
     choose(sum);
@@ -239,8 +239,8 @@ bool pir_region_admit(pir_sum *sum) {
     pir_region *region = &sum->region;
     if (!region->admits)
         return true;
-    const struct place p = {sum, &region->p, sum->p, sum->fv, 0, true},
-                       q = {sum, &region->q, sum->q, sum->vf, sum->q_facets.first_alarm, false};
+    const struct place p = {sum, &region->p, sum->pairing.p, sum->pairing.fv, 0, true},
+                       q = {sum, &region->q, sum->pairing.q, sum->pairing.vf, sum->q_facets.first_alarm, false};
     pir_set_moment(sum);
     locate_members(&p);
     locate_members(&q);
@@ -276,7 +276,7 @@ void pir_region_open(pir_sum *sum) {
     list_all(&region->p.members);
     list_all(&region->q.members);
     list_all(&region->edges);
-    memset(sum->touched, 0, sum->p->edge_count * sizeof *sum->touched);
+    memset(sum->touched, 0, sum->pairing.p->edge_count * sizeof *sum->touched);
     sum->stamp = 0;
     region->admits = false;
 }
@@ -296,9 +296,9 @@ bool pir_region_walk(pir_sum *sum) {
     for (uint32_t i = 0; i < edges->count; i++)
         drop_edge(sum, edges->at[i]);
     for (uint32_t i = 0; i < p->count; i++)
-        drop_facet(sum, &region->p, sum->fv, p->at[i], p->at[i]);
+        drop_facet(sum, &region->p, sum->pairing.fv, p->at[i], p->at[i]);
     for (uint32_t i = 0; i < q->count; i++)
-        drop_facet(sum, &region->q, sum->vf, q->at[i], sum->q_facets.first_alarm + q->at[i]);
+        drop_facet(sum, &region->q, sum->pairing.vf, q->at[i], sum->q_facets.first_alarm + q->at[i]);
     p->count = q->count = edges->count = 0;
     choose(sum);
     return pir_region_admit(sum);
@@ -326,12 +326,13 @@ bool pir_region_adopt(pir_sum *sum, const pir_cone *cone, const pir_cover *cover
     region->cone = *cone;
     region->cover = *cover;
     region->cover.whole = is_whole(sum);
-    uint32_t of_p = count_with_cells(sum->fv, sum->p->facet_count),
-             of_q = count_with_cells(sum->vf, sum->q->facet_count), pairs = sum->ee_count;
+    uint32_t of_p = count_with_cells(sum->pairing.fv, sum->pairing.p->facet_count),
+             of_q = count_with_cells(sum->pairing.vf, sum->pairing.q->facet_count),
+             pairs = sum->pairing.crossings.count;
     choose(sum);
     region->admits = false;
-    *ret_fits = fit(&region->p.members, sum->fv, of_p) && fit(&region->q.members, sum->vf, of_q) &&
-                sum->ee_count == pairs && pir_region_holds(sum, &sum->signs.rotation);
+    *ret_fits = fit(&region->p.members, sum->pairing.fv, of_p) && fit(&region->q.members, sum->pairing.vf, of_q) &&
+                sum->pairing.crossings.count == pairs && pir_region_holds(sum, &sum->pairing.signs.rotation);
     return true;
 }
 
@@ -376,7 +377,7 @@ pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle) {
     pir_sum_changes(sum);
     if (before.set && cone.set && before.half_angle == cone.half_angle) {
         region->cone = cone;
-        if (pir_region_holds(sum, &sum->signs.rotation) && pir_region_holds(sum, pir_rotation_now(sum)))
+        if (pir_region_holds(sum, &sum->pairing.signs.rotation) && pir_region_holds(sum, pir_sum_shown_rotation(sum)))
             return PIR_OK;
         region->cone = before;
     }

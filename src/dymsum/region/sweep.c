@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 /*
  * What the sweep gives away: floats are off by less than 2^-20 in the cosine; where that is turned into an angle, by
@@ -54,7 +54,7 @@ static void facets_free(pir_region_facets *facets, const pir_allocator *a) {
 }
 
 void pir_sweep_finish(pir_sum *sum) {
-    const pir_allocator *a = &sum->allocator;
+    const pir_allocator *a = &sum->pairing.allocator;
     facets_free(&sum->region.p, a);
     facets_free(&sum->region.q, a);
     members_free(&sum->region.edges, a);
@@ -76,16 +76,16 @@ static void fill_facets(pir_region_facets *facets, const pir_polytope *p) {
 
 bool pir_sweep_allocate(pir_sum *sum) {
     pir_region *region = &sum->region;
-    const pir_allocator *a = &sum->allocator;
-    bool done = facets_new(&region->p, a, sum->p->facet_count);
-    done = facets_new(&region->q, a, sum->q->facet_count) && done;
-    done = members_new(&region->edges, a, sum->p->edge_count) && done;
+    const pir_allocator *a = &sum->pairing.allocator;
+    bool done = facets_new(&region->p, a, sum->pairing.p->facet_count);
+    done = facets_new(&region->q, a, sum->pairing.q->facet_count) && done;
+    done = members_new(&region->edges, a, sum->pairing.p->edge_count) && done;
     if (!done) {
         pir_sweep_finish(sum);
         return false;
     }
-    fill_facets(&region->p, sum->p);
-    fill_facets(&region->q, sum->q);
+    fill_facets(&region->p, sum->pairing.p);
+    fill_facets(&region->q, sum->pairing.q);
     return true;
 }
 
@@ -139,7 +139,7 @@ static bool passes(const pir_polytope *p, uint32_t h, pir_vec3 axis, pir_arc rea
 static pir_arc sweep_p(pir_sum *sum, pir_arc reach) {
     pir_region *region = &sum->region;
     pir_region_facets *facets = &region->p;
-    const pir_polytope *p = sum->p;
+    const pir_polytope *p = sum->pairing.p;
     pir_vec3 axis = region->cover.axis_p;
     uint32_t edges = 0, ends = 0;
     double inner = reach.cosine - (double)FLOAT_SLACK;

@@ -5,7 +5,7 @@
 #ifndef PIR_DYMSUM_UPDATE_CHOOSE_H
 #define PIR_DYMSUM_UPDATE_CHOOSE_H
 
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 /* The method to use for a turn of at most `angle`. */
 pir_method pir_choose_method(pir_sum *sum, double angle);

@@ -25,7 +25,7 @@
  * Rounding errs upwards. The angle is an upper bound (rotation.h); asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x bound what would need
  * functions that machines disagree on.
  */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 /* Angles beyond this are not told apart: the sine in S_B rises up to here. */
 #define FARTHEST_LAG 1.5
@@ -111,8 +111,8 @@ void pir_lag_measure(pir_sum *sum) {
     double of_p[PIR_LAG_KNOTS], of_q[PIR_LAG_KNOTS];
     for (int k = 0; k < PIR_LAG_KNOTS; k++)
         lag->length[k] = ldexp(lag->tolerance, 2 * (k + 1 - PIR_LAG_KNOTS));
-    measure(sum->p, lag->length, of_p);
-    measure(sum->q, lag->length, of_q);
+    measure(sum->pairing.p, lag->length, of_p);
+    measure(sum->pairing.q, lag->length, of_q);
     for (int k = 0; k < PIR_LAG_KNOTS; k++)
         lag->angle[k] = fmax(of_p[k], of_q[k]);
 }
@@ -135,7 +135,7 @@ double pir_sum_shortfall_bound(const pir_sum *sum) {
 }
 
 pir_quat pir_sum_pairing_rotation(const pir_sum *sum) {
-    return sum->signs.rotation.given;
+    return sum->pairing.signs.rotation.given;
 }
 
 pir_status pir_sum_settle(pir_sum *sum) {
@@ -156,7 +156,7 @@ pir_status pir_lag_behind(pir_sum *sum, pir_quat rotation, bool *ret_done) {
     pir_status status = pir_rotation_set(&now, rotation);
     if (status != PIR_OK)
         return status;
-    double angle = pir_rotation_angle_bound(sum->signs.rotation.unit, now.unit);
+    double angle = pir_rotation_angle_bound(sum->pairing.signs.rotation.unit, now.unit);
     // where there is a region, the directions of it and those that the pairing has for them are kept
     *ret_done = angle <= lag->angle[PIR_LAG_KNOTS - 1] && pir_region_holds(sum, &now);
     if (!*ret_done)

@@ -12,28 +12,28 @@
  * crossing and its reverse side by side; an arc has such a list, for cells are convex; and the moves below keep it so. Where a facet of
  * Q passes and other events meet it, the edge is led from its left cell to its right one again, and what it crossed before is tried first.
  */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 bool pir_move_start(pir_sum *sum, uint32_t e, uint32_t h) {
-    pir_crossings *c = &sum->crossings;
-    uint32_t first = sum->first[e];
+    pir_crossings *c = &sum->pairing.crossings;
+    uint32_t first = sum->pairing.crossings.first[e];
     if (first != PIR_NO_CROSSING && c->half[first] == h) {
-        sum->first[e] = c->next[first];
+        sum->pairing.crossings.first[e] = c->next[first];
         pir_crossing_free(sum, first);
         sum->statistics.repaired++;
         return true;
     }
-    uint32_t slot = pir_crossing_new(sum, e, sum->q->twin[h]);
+    uint32_t slot = pir_crossing_new(sum, e, sum->pairing.q->twin[h]);
     if (slot == PIR_NO_CROSSING)
         return false;
     c->next[slot] = first;
-    sum->first[e] = slot;
+    sum->pairing.crossings.first[e] = slot;
     return true;
 }
 
 bool pir_move_end(pir_sum *sum, uint32_t e, uint32_t h) {
-    pir_crossings *c = &sum->crossings;
-    uint32_t *link = &sum->first[e], back = sum->q->twin[h];
+    pir_crossings *c = &sum->pairing.crossings;
+    uint32_t *link = &sum->pairing.crossings.first[e], back = sum->pairing.q->twin[h];
     while (*link != PIR_NO_CROSSING && c->next[*link] != PIR_NO_CROSSING)
         link = &c->next[*link];
     if (*link != PIR_NO_CROSSING && c->half[*link] == back) {
@@ -46,7 +46,7 @@ bool pir_move_end(pir_sum *sum, uint32_t e, uint32_t h) {
     uint32_t last = *link, slot = pir_crossing_new(sum, e, h);
     if (slot == PIR_NO_CROSSING)
         return false;
-    *(last == PIR_NO_CROSSING ? &sum->first[e] : &c->next[last]) = slot;
+    *(last == PIR_NO_CROSSING ? &sum->pairing.crossings.first[e] : &c->next[last]) = slot;
     return true;
 }
 
@@ -56,10 +56,10 @@ static uint32_t ring_before(const pir_polytope *p, uint32_t half) {
 }
 
 bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
-    const pir_polytope *q = sum->q;
-    pir_crossings *c = &sum->crossings;
+    const pir_polytope *q = sum->pairing.q;
+    pir_crossings *c = &sum->pairing.crossings;
     // the first crossing of an arc of g, on the side where g was
-    uint32_t before = PIR_NO_CROSSING, at = sum->first[e];
+    uint32_t before = PIR_NO_CROSSING, at = sum->pairing.crossings.first[e];
     while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) != g)
         before = at, at = c->next[at];
     PIR_ASSERT(at != PIR_NO_CROSSING);
@@ -79,7 +79,7 @@ bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
         if (slot == PIR_NO_CROSSING)
             return false;
         c->next[slot] = at;
-        *(before == PIR_NO_CROSSING ? &sum->first[e] : &c->next[before]) = slot;
+        *(before == PIR_NO_CROSSING ? &sum->pairing.crossings.first[e] : &c->next[before]) = slot;
         before = slot;
         if (q->target[half] == to)
             return true;
@@ -90,16 +90,16 @@ bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
 /* Whether the arc along halfedge `half` of P, which leaves the cell of h's origin, leaves it through h: its corners tell. */
 static bool leaves_through(pir_sum *sum, uint32_t half, pir_vec3 direction, uint32_t h) {
     double unused;
-    return pir_sign_half_facet(sum, half, direction, pir_right(sum->q, h), &unused) < 0 &&
-           pir_sign_half_facet(sum, half, direction, sum->q->left[h], &unused) > 0;
+    return pir_sign_half_facet(sum, half, direction, pir_right(sum->pairing.q, h), &unused) < 0 &&
+           pir_sign_half_facet(sum, half, direction, sum->pairing.q->left[h], &unused) > 0;
 }
 
 /* Takes from the list at *list the crossing out of cell v if it still holds, or gives PIR_NO_CROSSING. */
 static uint32_t take_crossing(pir_sum *sum, uint32_t *list, uint32_t half, pir_vec3 direction, uint32_t v) {
-    pir_crossings *c = &sum->crossings;
+    pir_crossings *c = &sum->pairing.crossings;
     for (uint32_t *at = list; *at != PIR_NO_CROSSING; at = &c->next[*at]) {
         uint32_t slot = *at;
-        if (sum->q->origin[c->half[slot]] != v)
+        if (sum->pairing.q->origin[c->half[slot]] != v)
             continue;
         if (!leaves_through(sum, half, direction, c->half[slot]))
             break;
@@ -110,12 +110,12 @@ static uint32_t take_crossing(pir_sum *sum, uint32_t *list, uint32_t half, pir_v
 }
 
 bool pir_derive_edge(pir_sum *sum, uint32_t e) {
-    const pir_polytope *p = sum->p, *q = sum->q;
-    pir_crossings *c = &sum->crossings;
-    uint32_t half = p->edge_half[e], end = sum->fv[pir_right(p, half)], v = sum->fv[p->left[half]];
+    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    pir_crossings *c = &sum->pairing.crossings;
+    uint32_t half = p->edge_half[e], end = sum->pairing.fv[pir_right(p, half)], v = sum->pairing.fv[p->left[half]];
     pir_vec3 direction = pir_rotated_direction(sum, half);
-    uint32_t old = sum->first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
-    sum->first[e] = PIR_NO_CROSSING;
+    uint32_t old = sum->pairing.crossings.first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
+    sum->pairing.crossings.first[e] = PIR_NO_CROSSING;
     while (v != end) {
         uint32_t slot = take_crossing(sum, &old, half, direction, v);
         if (slot == PIR_NO_CROSSING)
@@ -123,7 +123,7 @@ bool pir_derive_edge(pir_sum *sum, uint32_t e) {
         if (slot == PIR_NO_CROSSING)
             return false;
         c->next[slot] = PIR_NO_CROSSING;
-        *(last == PIR_NO_CROSSING ? &sum->first[e] : &c->next[last]) = slot;
+        *(last == PIR_NO_CROSSING ? &sum->pairing.crossings.first[e] : &c->next[last]) = slot;
         last = slot;
         entered = c->half[slot];
         v = q->target[entered];

@@ -14,7 +14,7 @@
  * whose span of possible times lies before those of the others. From there the next cell is looked at in the same way. Where a value is
  * within E of zero, where a circle within reach may have been crossed twice, or where the order is open, nothing is said.
  */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 struct tracer {
     const pir_facets *facets;
@@ -79,7 +79,7 @@ static bool follow(pir_sum *sum, const struct tracer *tracer, uint32_t from, pir
     for (;;) {
         const uint32_t *ring = &tracer->other->ring_start[ret_trace->cell];
         struct exit exit = look_for_exit(tracer, ret_trace->cell);
-        sum->signs.by_filter += ring[1] - ring[0];
+        sum->pairing.signs.by_filter += ring[1] - ring[0];
         if (!exit.known || (exit.count > 0 && ret_trace->count == PIR_TRACE_LONGEST))
             return false;
         if (exit.count == 0)
@@ -109,12 +109,12 @@ static struct tracer tracer_of(const pir_sum *sum, const pir_facets *facets, con
 
 bool pir_trace_fv(pir_sum *sum, uint32_t f, pir_trace *ret_trace) {
     pir_vec3 turned = pir_rotated_normal(sum, f);
-    const struct tracer tracer = tracer_of(sum, &sum->p_facets, sum->q, turned, pir_motion_of(sum, turned));
-    return follow(sum, &tracer, sum->fv[f], ret_trace);
+    const struct tracer tracer = tracer_of(sum, &sum->p_facets, sum->pairing.q, turned, pir_motion_of(sum, turned));
+    return follow(sum, &tracer, sum->pairing.fv[f], ret_trace);
 }
 
 bool pir_trace_vf(pir_sum *sum, uint32_t g, pir_trace *ret_trace) {
     pir_vec3 turned = pir_turned_back_normal(sum, g);
-    const struct tracer tracer = tracer_of(sum, &sum->q_facets, sum->p, turned, pir_motion_back(sum, turned));
-    return follow(sum, &tracer, sum->vf[g], ret_trace);
+    const struct tracer tracer = tracer_of(sum, &sum->q_facets, sum->pairing.p, turned, pir_motion_back(sum, turned));
+    return follow(sum, &tracer, sum->pairing.vf[g], ret_trace);
 }

@@ -15,7 +15,7 @@
  * several sides within reach, ties, is settled with care: the facet by descent, each arc that it may have passed through by leading
  * it again.
  */
-#include "dymsum/pairing/pairing.h"
+#include "dymsum/sum.h"
 
 /* How many cells a facet is followed back through before every edge is taken to have changed. */
 #define FOLLOWED_CELLS 16
@@ -50,7 +50,7 @@ static inline void note_edge(struct update *update, uint32_t e) {
 /* Facet f of P has crossed the arc of halfedge h of Q: its edges start there, or end, and go along. */
 static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     pir_sum *sum = update->sum;
-    const pir_polytope *p = sum->p;
+    const pir_polytope *p = sum->pairing.p;
     bool done = true;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         uint32_t half = p->loop[i], e = p->edge[half];
@@ -66,8 +66,8 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
 /* Facet g of Q has crossed the arc of halfedge `half` of P: noted until it is known what else has happened to its edge. */
 static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half) {
     pir_sum *sum = update->sum;
-    uint32_t e = sum->p->edge[half];
-    if (sum->touched[e] >= update->stamp || update->passes == sum->q->facet_count) {
+    uint32_t e = sum->pairing.p->edge[half];
+    if (sum->touched[e] >= update->stamp || update->passes == sum->pairing.q->facet_count) {
         note_edge(update, e);
     } else {
         sum->touched[e] = update->stamp;
@@ -79,9 +79,9 @@ static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half)
 static void pass_facets(struct update *update) {
     pir_sum *sum = update->sum;
     for (uint32_t i = 0; i < update->passes && !update->all; i++) {
-        uint32_t g = sum->passes[i].facet, half = sum->passes[i].crossed, e = sum->p->edge[half];
+        uint32_t g = sum->passes[i].facet, half = sum->passes[i].crossed, e = sum->pairing.p->edge[half];
         if (sum->touched[e] == update->stamp)
-            update->failed |= !pir_pass_facet(sum, e, g, sum->p->edge_half[e] == half);
+            update->failed |= !pir_pass_facet(sum, e, g, sum->pairing.p->edge_half[e] == half);
     }
 }
 
@@ -96,28 +96,28 @@ void pir_fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
 /* Facet f of P may have touched one side or another. */
 static void settle_of_p(struct update *update, uint32_t f) {
     pir_sum *sum = update->sum;
-    const pir_polytope *p = sum->p;
+    const pir_polytope *p = sum->pairing.p;
     pir_trace trace;
     if (!update->all && pir_trace_fv(sum, f, &trace)) {
         pir_fall_asleep(sum, f, &trace.sleep);
         sum->statistics.repaired += trace.count;
-        sum->fv[f] = trace.cell;
+        sum->pairing.fv[f] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             cross_of_p(update, f, trace.crossed[i]);
         return;
     }
     pir_sleep sleep;
-    uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->fv[f], &sleep);
+    uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->pairing.fv[f], &sleep);
     pir_fall_asleep(sum, f, &sleep);
-    sum->statistics.repaired += v != sum->fv[f];
-    sum->fv[f] = v;
+    sum->statistics.repaired += v != sum->pairing.fv[f];
+    sum->pairing.fv[f] = v;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && !update->all; i++)
         note_edge(update, p->edge[p->loop[i]]);
 }
 
 /* Whether side `half` of a cell of P may have been touched by the normal of a facet of Q, turned back, within the step. */
 static bool touches(const pir_sum *sum, uint32_t half, pir_vec3 turned_back, pir_vec3 motion) {
-    pir_vec3 d = sum->p->direction[half];
+    pir_vec3 d = sum->pairing.p->direction[half];
     pir_sleep sleep = pir_sleep_long();
     pir_sleep_until_change(&sleep, pir_vec_dot(turned_back, d), pir_vec_dot(motion, d));
     return !(sleep.ahead > (double)sum->moment.reach_ahead && -sleep.behind > (double)sum->moment.reach_behind);
@@ -129,7 +129,7 @@ static bool touches(const pir_sum *sum, uint32_t half, pir_vec3 turned_back, pir
  */
 static void follow_back(struct update *update, uint32_t g, uint32_t v) {
     const pir_sum *sum = update->sum;
-    const pir_polytope *p = sum->p;
+    const pir_polytope *p = sum->pairing.p;
     pir_vec3 turned_back = pir_turned_back_normal(sum, g), motion = pir_motion_back(sum, turned_back);
     uint32_t cells[FOLLOWED_CELLS] = {v}, count = 1;
     for (uint32_t i = 0; i < count; i++)
@@ -156,16 +156,16 @@ static void settle_of_q(struct update *update, uint32_t g) {
     if (!update->all && pir_trace_vf(sum, g, &trace)) {
         pir_fall_asleep(sum, sum->q_facets.first_alarm + g, &trace.sleep);
         sum->statistics.repaired += trace.count;
-        sum->vf[g] = trace.cell;
+        sum->pairing.vf[g] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             note_crossing_of_q(update, g, trace.crossed[i]);
         return;
     }
     pir_sleep sleep;
-    uint32_t v = pir_descend_vf(sum, g, sum->vf[g], &sleep);
+    uint32_t v = pir_descend_vf(sum, g, sum->pairing.vf[g], &sleep);
     pir_fall_asleep(sum, sum->q_facets.first_alarm + g, &sleep);
-    sum->statistics.repaired += v != sum->vf[g];
-    sum->vf[g] = v;
+    sum->statistics.repaired += v != sum->pairing.vf[g];
+    sum->pairing.vf[g] = v;
     if (!update->all)
         follow_back(update, g, v);
 }
@@ -185,8 +185,8 @@ void pir_set_moment(pir_sum *sum) {
                                .ahead = pir_float_below(clock->axial ? clock->phase : clock->path),
                                .behind = pir_float_above(clock->axial ? clock->phase : clock->net),
                                .axial = clock->axial};
-    pir_alarms_set_now(&sum->alarms, sum->signs.rotation.unit);
-    const pir_mat3 *r = &sum->signs.rotation.r;
+    pir_alarms_set_now(&sum->alarms, sum->pairing.signs.rotation.unit);
+    const pir_mat3 *r = &sum->pairing.signs.rotation.r;
     pir_vec3 back = pir_mat_apply_transposed(r, clock->axis);
     for (int k = 0; k < 3; k++) {
         pir_vec3 column = {r->m[0][k], r->m[1][k], r->m[2][k]}, row = {r->m[k][0], r->m[k][1], r->m[k][2]};
@@ -199,7 +199,7 @@ void pir_set_moment(pir_sum *sum) {
 static bool are_many_open(const pir_sum *sum, const pir_suspect *suspects, uint32_t count) {
     uint32_t open = 0;
     for (uint32_t i = 0; i < count; i++)
-        open += suspects[i].crossed == PIR_NO_CROSSING;
+        open += suspects[i].crossed == PIR_NO_SIDE;
     return open > pir_alarm_count(sum) / MANY_OPEN;
 }
 
@@ -240,7 +240,7 @@ static uint32_t take_back(struct update *update, uint32_t woken, uint32_t *ret_o
 static void take_along_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         pir_journal_note(&update->sum->journal, update->sum->q_facets.first_alarm + suspects[i].facet);
-        if (suspects[i].crossed == PIR_NO_CROSSING) {
+        if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_q(update, suspects[i].facet);
         } else {
             note_crossing_of_q(update, suspects[i].facet, suspects[i].crossed);
@@ -252,7 +252,7 @@ static void take_along_of_q(struct update *update, const pir_suspect *suspects, 
 static void take_along_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         pir_journal_note(&update->sum->journal, suspects[i].facet);
-        if (suspects[i].crossed == PIR_NO_CROSSING) {
+        if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_p(update, suspects[i].facet);
         } else {
             cross_of_p(update, suspects[i].facet, suspects[i].crossed);
@@ -274,9 +274,9 @@ static void review(struct update *update, uint32_t woken) {
         pir_set_moment(sum);
         // all looks before anything that depends on what they see: processors look ahead
         of_p = sum->kernels->review(&sum->p_facets, &sum->moment, &sum->alarms, alarm, left_of_p, seen,
-                                    &sum->signs.by_filter);
+                                    &sum->pairing.signs.by_filter);
         of_q = sum->kernels->review(&sum->q_facets, &sum->moment, &sum->alarms, alarm + left_of_p, left - left_of_p,
-                                    seen + of_p, &sum->signs.by_filter);
+                                    seen + of_p, &sum->pairing.signs.by_filter);
         update->all |= are_many_open(sum, seen, of_p + of_q);
     }
     take_along_of_p(update, seen, of_p);
@@ -289,7 +289,7 @@ static void review(struct update *update, uint32_t woken) {
 static uint32_t next_stamp(pir_sum *sum) {
     if (sum->stamp >= UINT32_MAX - 3) {
         sum->stamp = 0;
-        for (uint32_t e = 0; e < sum->p->edge_count; e++)
+        for (uint32_t e = 0; e < sum->pairing.p->edge_count; e++)
             sum->touched[e] = sum->touched[e] == PIR_DORMANT ? PIR_DORMANT : 0;
     }
     return sum->stamp += 2;
@@ -307,7 +307,7 @@ pir_status pir_update_repair(pir_sum *sum) {
     struct update update = {.sum = sum, .stamp = next_stamp(sum)};
     update.all = leapt || !(step_reach(sum) < HUGE_VALF);
     review(&update, woken);
-    for (uint32_t e = 0; update.all && e < sum->p->edge_count; e++)
+    for (uint32_t e = 0; update.all && e < sum->pairing.p->edge_count; e++)
         note_edge(&update, e);
     for (uint32_t i = 0; i < update.derive && !update.failed; i++)
         update.failed = !pir_derive_edge(sum, sum->queue[i]);

@@ -67,7 +67,7 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
     pir_quat start = middling(motion->rotation);
     pir_vec3 axis = {0, 0, 0};
     pir_unit_of(motion->axis, &axis, &length);
-    double turning = fabs(motion->angle) * reach_of(query->sum->p), time = 0;
+    double turning = fabs(motion->angle) * reach_of(pir_sum_pairing(query->sum)->p), time = 0;
     pir_cast_result result = {.outcome = PIR_CAST_STEP_LIMIT};
     pir_query_cache cache = {0};
     for (int i = 0; i < MOST_QUERIES; i++) {

@@ -296,7 +296,7 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
     if (status != PIR_OK)
         return status;
     // separation, and bodies that are rounded, need the whole sum
-    bool in_region = query->sum->region.cone.set;
+    bool in_region = pir_sum_cone(query->sum)->set;
     if (in_region && (want != WANT_DEPTH || input->radius_p + input->radius_q > 0))
         return PIR_ERR_UNSUPPORTED;
     // nothing fails from here on

@@ -87,7 +87,7 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
     if (status != PIR_OK)
         return status;
     pir_query_result result = {0};
-    if (query->sum->region.cone.set) {
+    if (pir_sum_cone(query->sum)->set) {
         exit_region(query, &line, &result);
         *ret_result = result;
         return PIR_OK;

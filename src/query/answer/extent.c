@@ -19,16 +19,16 @@ static void look(const pir_query *query, pir_vec3 x, uint32_t a, uint32_t b, str
 
 static struct farthest find_farthest(const pir_query *query, pir_vec3 x) {
     const pir_polytope *p = query->p, *q = query->q;
-    const pir_sum *sum = query->sum;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     struct farthest best = {0, 0, -1};
     look(query, x, 0, 0, &best);
     for (uint32_t i = 0; i < p->half_count; i++)
-        look(query, x, p->origin[i], sum->fv[p->left[i]], &best);
+        look(query, x, p->origin[i], pairing->fv[p->left[i]], &best);
     for (uint32_t i = 0; i < q->half_count; i++)
-        look(query, x, sum->vf[q->left[i]], q->origin[i], &best);
+        look(query, x, pairing->vf[q->left[i]], q->origin[i], &best);
     for (uint32_t e = 0; e < p->edge_count; e++)
-        for (uint32_t at = sum->first[e]; at != PIR_NO_CROSSING; at = sum->crossings.next[at]) {
-            uint32_t half = p->edge_half[e], h = sum->crossings.half[at];
+        for (uint32_t at = pir_crossing_first(pairing, e); at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at)) {
+            uint32_t half = p->edge_half[e], h = pir_crossing_half(pairing, at);
             look(query, x, p->origin[half], q->origin[h], &best);
             look(query, x, p->origin[half], q->target[h], &best);
             look(query, x, p->target[half], q->origin[h], &best);

@@ -3,7 +3,7 @@
  * A query and the sum that it stands on: making and releasing it, and following what the sum does.
  *
  * The query holds references to the sum and to both operands, so whatever it was made from stays in memory as long as
- * it does, in whatever order callers destroy things. Each call compares the sum's generation (sum.h) with the one that
+ * it does, in whatever order callers destroy things. Each call compares the sum's generation (dymsum/view.h) with the one that
  * the query is for. Where they differ:
  *
  *   - Operands. A sum's operand is only ever replaced by the same polytope on another scale. Its features keep their
@@ -59,8 +59,8 @@ static void hold(pir_polytope **held, pir_polytope *polytope) {
 /* Fills what depends on the operands' coordinates for those that the sum has now. */
 static pir_status fit(pir_query *query) {
     query->fits = false;
-    hold(&query->p, query->sum->p);
-    hold(&query->q, query->sum->q);
+    hold(&query->p, pir_sum_pairing(query->sum)->p);
+    hold(&query->q, pir_sum_pairing(query->sum)->q);
     if (!reserve_scratch(query))
         return PIR_ERR_MEMORY;
     pir_status status = pir_frame_fill(query);
@@ -75,17 +75,18 @@ static pir_status fit(pir_query *query) {
 }
 
 pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
-    if (!difference || !ret_query || !difference->difference)
+    if (!difference || !ret_query || !pir_sum_pairing(difference)->difference)
         return PIR_ERR_ARGUMENT;
-    const pir_allocator *a = &difference->allocator;
+    const pir_pairing *pairing = pir_sum_pairing(difference);
+    const pir_allocator *a = &pairing->allocator;
     pir_query *query = PIR_ZEROED(a, pir_query, 1);
     if (!query)
         return PIR_ERR_MEMORY;
     query->allocator = *a;
     // from here on destroy can take it apart
     query->sum = pir_sum_retain(difference);
-    hold(&query->p, difference->p);
-    hold(&query->q, difference->q);
+    hold(&query->p, pairing->p);
+    hold(&query->q, pairing->q);
     query->patches = pir_patch_room_new(a, query->p, query->q);
     bool done = query->patches && pir_frame_init(query) && pir_planes_init(query) && pir_bounds_init(query) &&
                 pir_region_init(query);
@@ -105,7 +106,7 @@ static pir_status follow(pir_query *query) {
         return PIR_OK;
     pir_status status = PIR_OK;
     // the query's own references keep these addresses from being given to others
-    if (query->p != sum->p || query->q != sum->q || !query->fits)
+    if (query->p != pir_sum_p(sum) || query->q != pir_sum_q(sum) || !query->fits)
         status = fit(query);
     if (status == PIR_OK) {
         pir_frame_follow(query);
@@ -127,7 +128,7 @@ pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_p
 }
 
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {
-    if (query && query->sum->region.cone.set)
+    if (query && pir_sum_cone(query->sum)->set)
         return PIR_ERR_UNSUPPORTED;
     return pir_query_place(query, input, ret_placement);
 }

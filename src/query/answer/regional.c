@@ -98,26 +98,26 @@ static inline double least_of(double a, double b) {
 
 static void take_facets(struct search *search) {
     const pir_query *query = search->query;
-    const pir_sum *sum = query->sum;
-    const pir_members *of_p = &sum->region.p.members, *of_q = &sum->region.q.members;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
+    const pir_kept kept = pir_sum_kept(query->sum);
     const pir_cone *cone = search->cone;
     pir_vec3 x = search->placement->x, back = pir_mat_apply_transposed(&query->r, x);
     double hair = search->hair;
-    for (uint32_t i = 0; i < of_p->count; i++) {
-        uint32_t f = of_p->at[i];
+    for (uint32_t i = 0; i < kept.facets_p.count; i++) {
+        uint32_t f = kept.facets_p.at[i];
         if (query->known_p[f] > search->most + query->way_p)
             continue;
         pir_vec3 n = pir_mat_apply(&query->r, query->p->normal[f]);
-        double slack = query->hp[f] + pir_vec_dot(n, pir_vec_sub(query->vq[sum->fv[f]], x));
+        double slack = query->hp[f] + pir_vec_dot(n, pir_vec_sub(query->vq[pairing->fv[f]], x));
         query->known_p[f] = slack - hair + query->way_p;
         if (may_win(search, slack, 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
             take(search, (pir_piece){PIR_FACET_FV, f, 0});
     }
-    for (uint32_t i = 0; i < of_q->count; i++) {
-        uint32_t g = of_q->at[i];
+    for (uint32_t i = 0; i < kept.facets_q.count; i++) {
+        uint32_t g = kept.facets_q.at[i];
         if (query->known_q[g] > search->most + query->way_q)
             continue;
-        pir_vec3 n = query->q->normal[g], from = pir_mat_apply(&query->r, pir_vec_sub(query->vp[sum->vf[g]], back));
+        pir_vec3 n = query->q->normal[g], from = pir_mat_apply(&query->r, pir_vec_sub(query->vp[pairing->vf[g]], back));
         double slack = query->hq[g] + pir_vec_dot(n, from);
         query->known_q[g] = slack - hair + query->way_q;
         if (may_win(search, slack, 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
@@ -128,14 +128,14 @@ static void take_facets(struct search *search) {
 /* Takes what crosses an edge of P; returns a number that no slack there is below, −HUGE_VAL where doubles do not tell. */
 static double take_crossings_of(struct search *search, uint32_t edge) {
     const pir_query *query = search->query;
-    const pir_sum *sum = query->sum;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     const pir_polytope *p = query->p, *q = query->q;
     uint32_t half = p->edge_half[edge];
     pir_vec3 e = pir_mat_apply(&query->r, p->direction[half]);
     pir_vec3 from = pir_vec_sub(pir_mat_apply(&query->r, query->vp[p->origin[half]]), search->placement->x);
     double least = HUGE_VAL, hair = search->hair;
-    for (uint32_t at = sum->first[edge]; at != PIR_NO_CROSSING; at = sum->crossings.next[at]) {
-        uint32_t h = sum->crossings.half[at];
+    for (uint32_t at = pir_crossing_first(pairing, edge); at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at)) {
+        uint32_t h = pir_crossing_half(pairing, at);
         pir_vec3 n = pir_vec_cross(q->direction[h], e);
         double square = pir_vec_dot(n, n), out = pir_vec_dot(n, pir_vec_add(from, query->vq[q->origin[h]]));
         bool tells = square >= PIR_SIN_EXACT * PIR_SIN_EXACT;
@@ -152,9 +152,9 @@ static double take_crossings_of(struct search *search, uint32_t edge) {
 static void take_crossings(struct search *search) {
     const pir_query *query = search->query;
     const pir_polytope *p = query->p;
-    const pir_members *edges = &query->sum->region.edges;
-    for (uint32_t i = 0; i < edges->count; i++) {
-        uint32_t edge = edges->at[i];
+    const pir_features edges = pir_sum_kept(query->sum).edges_p;
+    for (uint32_t i = 0; i < edges.count; i++) {
+        uint32_t edge = edges.at[i];
         if (query->known_edge[edge] > search->most + query->way_p)
             continue;
         uint32_t half = p->edge_half[edge];
@@ -167,7 +167,7 @@ static void take_crossings(struct search *search) {
 
 /* Adds how much slacks may have changed since the last search. */
 static void go_on(pir_query *query, const pir_placement *placement) {
-    pir_quat unit = query->sum->signs.rotation.unit;
+    pir_quat unit = pir_sum_exact_rotation(query->sum)->unit;
     pir_vec3 off = pir_vec_sub(placement->x, query->way_x);
     double moved = sqrt(pir_vec_dot(off, off)), turned = pir_rotation_angle_bound(query->way_unit, unit);
     double far = placement->reach - query->size_p - query->size_q + moved;
@@ -185,19 +185,15 @@ static void go_on(pir_query *query, const pir_placement *placement) {
 
 /* Whether a piece is one that the sum keeps. */
 static bool is_kept(const pir_query *query, pir_piece piece) {
-    const pir_sum *sum = query->sum;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     switch (piece.kind) {
     case PIR_FACET_FV:
-        return piece.first < query->p->facet_count && sum->fv[piece.first] != PIR_NO_PAIR;
+        return piece.first < query->p->facet_count && pairing->fv[piece.first] != PIR_NO_PAIR;
     case PIR_FACET_VF:
-        return piece.second < query->q->facet_count && sum->vf[piece.second] != PIR_NO_PAIR;
+        return piece.second < query->q->facet_count && pairing->vf[piece.second] != PIR_NO_PAIR;
     case PIR_FACET_EE:
-        if (piece.first >= query->p->edge_count)
-            return false;
-        for (uint32_t at = sum->first[piece.first]; at != PIR_NO_CROSSING; at = sum->crossings.next[at])
-            if (sum->crossings.half[at] == piece.second)
-                return true;
-        return false;
+        return piece.first < query->p->edge_count &&
+               pir_crossing_find(pairing, piece.first, piece.second) != PIR_NO_CROSSING;
     default:
         return false;
     }
@@ -208,7 +204,7 @@ static struct search search_all(pir_query *query, const pir_placement *placement
                                 const pir_query_cache *cache) {
     struct search search = {.query = query,
                             .placement = placement,
-                            .cone = &query->sum->region.cone,
+                            .cone = pir_sum_cone(query->sum),
                             .all = all,
                             .limit = HUGE_VAL,
                             .hair = 4 * placement->error,

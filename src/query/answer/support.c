@@ -37,10 +37,12 @@ void pir_support_body_ccd(const void *object, const double *direction, double *r
 
 void pir_support_sum_ccd(const void *object, const double *direction, double *ret_point) {
     const pir_sum *sum = object;
-    const pir_mat3 *r = &sum->signs.rotation.r;
+    const pir_pairing *pairing = pir_sum_pairing(sum);
+    const pir_polytope *p = pairing->p, *q = pairing->q;
+    const pir_mat3 *r = &pairing->signs.rotation.r;
     pir_vec3 d = unit_direction(direction);
-    uint32_t a = pir_climb(sum->p, pir_mat_apply_transposed(r, d), 0), b = pir_climb(sum->q, d, 0);
-    put_point(pir_vec_add(pir_mat_apply(r, sum->p->vertex[a]), sum->q->vertex[b]), ret_point);
+    uint32_t a = pir_climb(p, pir_mat_apply_transposed(r, d), 0), b = pir_climb(q, d, 0);
+    put_point(pir_vec_add(pir_mat_apply(r, p->vertex[a]), q->vertex[b]), ret_point);
 }
 
 double pir_query_break_even(double cost_rotation, double cost_query, double cost_stateless) {

@@ -19,7 +19,7 @@ pir_int3 pir_normal_integers(pir_query *query, const pir_normal *normal) {
 
 static int exact_slope(pir_query *query, const pir_normal *normal, uint32_t half, bool of_q) {
     uint32_t mark = query->scratch.used;
-    pir_rotation_make_exact(&query->sum->signs.rotation);
+    pir_rotation_make_exact(pir_sum_exact_rotation(query->sum));
     pir_int3 n = pir_normal_integers(query, normal);
     pir_int3 e = of_q ? pir_exact_half_q(query, half) : pir_exact_half_p(query, half);
     int sign = pir_exact_dot_sign(query, &n, &e);
@@ -106,7 +106,7 @@ static bool orient_edges(pir_query *query, const pir_normal *normal, uint32_t e,
     // both vectors of the product are off by 42u at most, and the normal by 64u·err
     if (fabs(along) <= 2 * SLOPE_BOUND * normal->err) {
         uint32_t mark = query->scratch.used;
-        pir_rotation_make_exact(&query->sum->signs.rotation);
+        pir_rotation_make_exact(pir_sum_exact_rotation(query->sum));
         pir_int3 exact = pir_exact_normal(query, (pir_piece){PIR_FACET_EE, e, half});
         pir_int3 to = pir_normal_integers(query, normal);
         along = pir_exact_dot_sign(query, &exact, &to);

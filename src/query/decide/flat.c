@@ -122,7 +122,7 @@ bool pir_flat_is(pir_query *query) {
     uint32_t edges = query->p->edge_count + query->q->edge_count, mark = query->scratch.used;
     if (query->p->dimension == 3 || query->q->dimension == 3)
         return false;
-    pir_rotation_make_exact(&query->sum->signs.rotation);
+    pir_rotation_make_exact(pir_sum_exact_rotation(query->sum));
     pir_int3 n;
     bool flat = true;
     if (edges > 0 && plane_of(query, edges, &n)) {

@@ -155,18 +155,18 @@ static bool line_is_nearest(const pir_query *query, const pir_placement *placeme
 
 /* The piece that has the features, where the pairing has one. */
 static bool piece_of(const pir_query *query, pir_witness faces, pir_piece *ret_piece) {
-    const pir_sum *sum = query->sum;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     if (faces.p.kind == PIR_FEATURE_FACET)
         *ret_piece = (pir_piece){PIR_FACET_FV, faces.p.index, 0};
     else if (faces.q.kind == PIR_FEATURE_FACET)
         *ret_piece = (pir_piece){PIR_FACET_VF, 0, faces.q.index};
     else if (faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE) {
-        uint32_t at = sum->first[faces.p.index];
-        while (at != PIR_NO_CROSSING && query->q->edge[sum->crossings.half[at]] != faces.q.index)
-            at = sum->crossings.next[at];
+        uint32_t at = pir_crossing_first(pairing, faces.p.index);
+        while (at != PIR_NO_CROSSING && query->q->edge[pir_crossing_half(pairing, at)] != faces.q.index)
+            at = pir_crossing_next(pairing, at);
         if (at == PIR_NO_CROSSING)
             return false;
-        *ret_piece = (pir_piece){PIR_FACET_EE, faces.p.index, sum->crossings.half[at]};
+        *ret_piece = (pir_piece){PIR_FACET_EE, faces.p.index, pir_crossing_half(pairing, at)};
     } else {
         return false;
     }

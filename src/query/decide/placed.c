@@ -176,7 +176,7 @@ void pir_exact_begin(pir_query *query, pir_vec3 translation) {
         return;
     PIR_ASSERT(!exact->made || query->scratch.used == exact->mark);
     const pir_scale *sp = &query->p->scale, *sq = &query->q->scale;
-    pir_rotation *rotation = &query->sum->signs.rotation;
+    pir_rotation *rotation = pir_sum_exact_rotation(query->sum);
     pir_rotation_make_exact(rotation);
     mp_limb_t one_limb = 1;
     pir_int one = {&one_limb, 1, 0};
@@ -200,7 +200,7 @@ pir_real pir_exact_unit(const pir_query *query) {
 pir_int3 pir_exact_half_p(pir_query *query, uint32_t half) {
     pir_int3 e = pir_half_exact(query->p, half);
     pir_int3 to = pir_int3_take(&query->scratch, pir_int3_length(&e) + PIR_MATRIX_LIMBS + 1);
-    pir_rotation_apply(&query->sum->signs.rotation, &to, &e, &query->scratch);
+    pir_rotation_apply(pir_sum_exact_rotation(query->sum), &to, &e, &query->scratch);
     return to;
 }
 
@@ -219,7 +219,7 @@ pir_int3 pir_exact_corner(pir_query *query, uint32_t a, uint32_t b) {
     pir_int3 to = pir_int3_take(scratch, length);
     uint32_t mark = scratch->used;
     pir_int3 turned = pir_int3_take(scratch, turned_length);
-    pir_rotation_apply(&query->sum->signs.rotation, &turned, &va, scratch);
+    pir_rotation_apply(pir_sum_exact_rotation(query->sum), &turned, &va, scratch);
     for (int k = 0; k < 3; k++) {
         pir_int_add_mul(&to.c[k], &turned.c[k], &exact->p, scratch);
         pir_int_add_mul(&to.c[k], &vb.c[k], &exact->q, scratch);
@@ -235,7 +235,7 @@ pir_int3 pir_exact_normal(pir_query *query, pir_piece piece) {
     if (piece.kind == PIR_FACET_FV) {
         pir_int3 n = pir_normal_exact(query->p, piece.first);
         pir_int3 to = pir_int3_take(&query->scratch, pir_int3_length(&n) + PIR_MATRIX_LIMBS + 1);
-        pir_rotation_apply(&query->sum->signs.rotation, &to, &n, &query->scratch);
+        pir_rotation_apply(pir_sum_exact_rotation(query->sum), &to, &n, &query->scratch);
         return to;
     }
     pir_int3 e = pir_exact_half_p(query, query->p->edge_half[piece.first]), d = pir_half_exact(query->q, piece.second);

@@ -3,7 +3,7 @@
 #include "query/query.h"
 
 bool pir_side_normal(pir_query *query, pir_piece piece, pir_vec3 *ret_normal) {
-    pir_rotation_make_exact(&query->sum->signs.rotation);
+    pir_rotation_make_exact(pir_sum_exact_rotation(query->sum));
     uint32_t mark = query->scratch.used;
     pir_int3 n = pir_exact_normal(query, piece);
     bool is_normal = !pir_int3_is_zero(&n);
@@ -17,9 +17,9 @@ void pir_piece_corner(const pir_query *query, pir_piece piece, uint32_t *ret_a, 
     const pir_polytope *p = query->p, *q = query->q;
     if (piece.kind == PIR_FACET_FV) {
         *ret_a = p->origin[p->loop[p->loop_start[piece.first]]];
-        *ret_b = query->sum->fv[piece.first];
+        *ret_b = pir_sum_pairing(query->sum)->fv[piece.first];
     } else if (piece.kind == PIR_FACET_VF) {
-        *ret_a = query->sum->vf[piece.second];
+        *ret_a = pir_sum_pairing(query->sum)->vf[piece.second];
         *ret_b = q->origin[q->loop[q->loop_start[piece.second]]];
     } else {
         *ret_a = p->origin[p->edge_half[piece.first]];

@@ -200,7 +200,7 @@ static int turn_of(const struct touch *touch, uint32_t half_p, uint32_t half_q) 
     if (fabs(s) > 2 * PIR_SLACK_BOUND * touch->normal->err)
         return (s > 0) - (s < 0);
     uint32_t mark = query->scratch.used;
-    pir_rotation_make_exact(&query->sum->signs.rotation);
+    pir_rotation_make_exact(pir_sum_exact_rotation(query->sum));
     pir_int3 n = pir_normal_integers(query, touch->normal), a = pir_exact_half_q(query, half_q),
              b = pir_exact_half_p(query, half_p), c = pir_exact_cross(query, &a, &b);
     int sign = pir_exact_dot_sign(query, &n, &c);

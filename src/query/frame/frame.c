@@ -210,7 +210,7 @@ static void set_offset(pir_query *query) {
 }
 
 void pir_frame_follow(pir_query *query) {
-    const pir_rotation *now = &query->sum->signs.rotation;
+    const pir_rotation *now = pir_sum_exact_rotation(query->sum);
     if (query->followed && same(now->given, query->at))
         return;
     query->followed = true;

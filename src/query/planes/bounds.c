@@ -65,7 +65,7 @@ bool pir_bounds_init(pir_query *query) {
 static void note_turn(pir_query *query) {
     if (query->turned == query->stamp)
         return;
-    pir_quat now = query->sum->signs.rotation.unit;
+    pir_quat now = pir_sum_exact_rotation(query->sum)->unit;
     if (query->turned != 0)
         query->turn = (query->turn + pir_rotation_angle_bound(query->turned_to, now)) * (1 + 0x1p-51);
     query->turned_to = now;
@@ -136,12 +136,12 @@ void pir_bounds_fill(pir_query *query) {
 
 /* Brings the caps of groups [g, g + PIR_SCAN_LANES), of one body all, to the rotation. */
 static void make_caps(pir_query *query, uint32_t g) {
-    const pir_sum *sum = query->sum;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     bool of_q = query->groups[g].of_q;
     pir_vec3 other[PIR_SCAN_LANES];
     for (uint32_t i = 0; i < PIR_SCAN_LANES; i++) {
         uint32_t middle = query->groups[g + i].middle;
-        other[i] = of_q ? query->vp[sum->vf[middle]] : query->vq[sum->fv[middle]];
+        other[i] = of_q ? query->vp[pairing->vf[middle]] : query->vq[pairing->fv[middle]];
     }
     pir_lanes axis = pir_lanes_from(query->cap_axis, g), corner = pir_lanes_from(query->cap_corner, g);
     pir_lanes axis_body = pir_lanes_from(query->cap_axis_body, g),

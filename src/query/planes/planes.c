@@ -57,7 +57,7 @@ static bool work_resize(pir_query *query, uint32_t capacity) {
 
 pir_status pir_planes_reserve(pir_query *query) {
     // every list entry, every crossing, what pads the groups, and the spare slots; a group has at most all crossings
-    uint32_t crossings = query->sum->ee_count;
+    uint32_t crossings = pir_sum_ee_count(query->sum);
     uint32_t need = query->facet_list_count + crossings + PIR_SCAN_BLOCK * query->group_count + PIR_SPARE_SLOTS;
     if (need > query->planes.capacity) {
         if (!planes_resize(query, need + need / 4))
@@ -290,13 +290,13 @@ static void put_plane(pir_planes *planes, uint32_t slot, pir_vec3 n, double h, d
 
 static void make_fv(pir_query *query, uint32_t f, uint32_t slot) {
     pir_vec3 n = pir_mat_apply(&query->r, query->p->normal[f]);
-    double h = query->hp[f] + pir_vec_dot(n, query->vq[query->sum->fv[f]]);
+    double h = query->hp[f] + pir_vec_dot(n, query->vq[pir_sum_pairing(query->sum)->fv[f]]);
     put_plane(&query->planes, slot, n, h, 1, (pir_piece){PIR_FACET_FV, f, 0});
 }
 
 static void make_vf(pir_query *query, uint32_t g, uint32_t slot) {
     pir_vec3 n = query->q->normal[g];
-    double h = query->hq[g] + pir_vec_dot(n, pir_mat_apply(&query->r, query->vp[query->sum->vf[g]]));
+    double h = query->hq[g] + pir_vec_dot(n, pir_mat_apply(&query->r, query->vp[pir_sum_pairing(query->sum)->vf[g]]));
     put_plane(&query->planes, slot, n, h, 1, (pir_piece){PIR_FACET_VF, 0, g});
 }
 
@@ -358,11 +358,11 @@ static void make_facets(pir_query *query, const pir_group *group, uint32_t slot)
         planes->err[slot + i] = 1;
         if (group->of_q) {
             planes->piece[slot + i] = (pir_piece){PIR_FACET_VF, 0, list[i]};
-            pir_lane_put(query->work[0], i, query->vp[query->sum->vf[list[i]]]);
+            pir_lane_put(query->work[0], i, query->vp[pir_sum_pairing(query->sum)->vf[list[i]]]);
             pir_lane_put(n, i, query->q->normal[list[i]]);
         } else {
             planes->piece[slot + i] = (pir_piece){PIR_FACET_FV, list[i], 0};
-            pir_lane_put(query->work[1], i, query->vq[query->sum->fv[list[i]]]);
+            pir_lane_put(query->work[1], i, query->vq[pir_sum_pairing(query->sum)->fv[list[i]]]);
         }
     }
     if (group->of_q)
@@ -376,7 +376,7 @@ static void make_facets(pir_query *query, const pir_group *group, uint32_t slot)
 static uint32_t make_crossings(pir_query *query, const pir_group *group, uint32_t slot) {
     pir_planes *planes = &query->planes;
     const pir_polytope *q = query->q;
-    const pir_crossings *c = &query->sum->crossings;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     const pir_lanes *work = query->work;
     pir_lanes e = query->turned_direction, o = query->turned_origin;
     uint32_t edges = group->edges_end - group->edges, count = 0;
@@ -384,8 +384,9 @@ static uint32_t make_crossings(pir_query *query, const pir_group *group, uint32_
     query->scan->turn(edges, &query->r, pir_lanes_from(query->edge_origin, group->edges), o);
     for (uint32_t i = 0; i < edges; i++) {
         uint32_t edge = query->edge_list[group->edges + i];
-        for (uint32_t at = query->sum->first[edge]; at != PIR_NO_CROSSING; at = c->next[at], count++) {
-            uint32_t h = c->half[at];
+        for (uint32_t at = pir_crossing_first(pairing, edge); at != PIR_NO_CROSSING;
+             at = pir_crossing_next(pairing, at), count++) {
+            uint32_t h = pir_crossing_half(pairing, at);
             pir_vec3 v = query->vq[q->origin[h]];
             planes->piece[slot + count] = (pir_piece){PIR_FACET_EE, edge, h};
             pir_lane_put(work[0], count, q->direction[h]);
@@ -430,14 +431,6 @@ void pir_piece_keep(pir_query_cache *cache, pir_piece piece) {
     cache->second = piece.second;
 }
 
-/* Whether edge e and halfedge h still cross. */
-static bool crosses(const pir_sum *sum, uint32_t e, uint32_t h) {
-    for (uint32_t at = sum->first[e]; at != PIR_NO_CROSSING; at = sum->crossings.next[at])
-        if (sum->crossings.half[at] == h)
-            return true;
-    return false;
-}
-
 bool pir_piece_recall(pir_query *query, const pir_query_cache *cache, uint32_t *ret_slot) {
     const pir_polytope *p = query->p, *q = query->q;
     if (!cache || cache->pieces != 1)
@@ -456,7 +449,7 @@ bool pir_piece_recall(pir_query *query, const pir_query_cache *cache, uint32_t *
         if (piece.first >= p->edge_count || piece.second >= q->half_count)
             return false;
         // a crossing that is gone leaves its edge's facet
-        if (!crosses(query->sum, piece.first, piece.second))
+        if (pir_crossing_find(pir_sum_pairing(query->sum), piece.first, piece.second) == PIR_NO_CROSSING)
             piece = (pir_piece){PIR_FACET_FV, p->left[p->edge_half[piece.first]], 0};
         break;
     default:

@@ -42,7 +42,8 @@ static void try_piece(pir_query *query, pir_piece piece, struct search *search) 
 /* The slacks of the group's facets, in work[2].x, and Rᵀ(b − x), or its like, in work[1]; *ret_along is the least n·x. Returns the least slack. */
 static double facet_slacks(pir_query *query, const pir_group *group, const pir_placement *placement,
                            double *ret_along) {
-    const uint32_t *list = query->facet_list + group->facets, *other = group->of_q ? query->sum->vf : query->sum->fv;
+    const uint32_t *list = query->facet_list + group->facets,
+                   *other = group->of_q ? pir_sum_pairing(query->sum)->vf : pir_sum_pairing(query->sum)->fv;
     const pir_vec3 *vertex = group->of_q ? query->vp : query->vq;
     pir_lanes from = query->work[0];
     uint32_t count = group->facets_end - group->facets;
@@ -64,12 +65,12 @@ static double facet_slacks(pir_query *query, const pir_group *group, const pir_p
 /* What crosses edge `i` of the list: its slacks by doubles, and those pieces tried that may be the least. */
 static void sieve_crossings(pir_query *query, uint32_t i, uint32_t at, struct search *search) {
     const pir_polytope *q = query->q;
-    const pir_crossings *crossings = &query->sum->crossings;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     pir_vec3 e = pir_mat_apply(&query->r, pir_lane_get(query->edge_direction, i));
     pir_vec3 o = pir_vec_sub(pir_mat_apply(&query->r, pir_lane_get(query->edge_origin, i)), search->placement->x);
     const double off = 2 * search->placement->error;
-    for (; at != PIR_NO_CROSSING; at = crossings->next[at]) {
-        uint32_t h = crossings->half[at];
+    for (; at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at)) {
+        uint32_t h = pir_crossing_half(pairing, at);
         pir_vec3 n = pir_vec_cross(q->direction[h], e);
         double err = 1 / sqrt(pir_vec_dot(n, n)), s = pir_vec_dot(n, pir_vec_add(o, query->vq[q->origin[h]])) * err;
         double low = s - off * err;
@@ -86,10 +87,12 @@ static void sieve_edges(pir_query *query, const pir_group *group, struct search 
     const pir_lanes normal = pir_lanes_from(query->facet_normal, group->facets), to = query->work[1];
     const double *s = query->work[2].x, *offset = query->facet_offset + group->facets,
                  off = 2 * search->placement->error;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     // P flat has arcs of half a turn, which nothing bounds
     bool bounds = query->p->dimension == 3;
     for (uint32_t i = group->edges; i < group->edges_end; i++) {
-        uint32_t at = query->sum->first[query->edge_list[i]], a = query->edge_left[i], b = query->edge_right[i];
+        uint32_t at = pir_crossing_first(pairing, query->edge_list[i]), a = query->edge_left[i],
+                 b = query->edge_right[i];
         if (at == PIR_NO_CROSSING)
             continue;
         double of_a = offset[b] + pir_vec_dot(pir_lane_get(normal, b), pir_lane_get(to, a));

@@ -21,16 +21,19 @@ static bool try_piece(pir_query *query, const pir_placement *placement, pir_piec
 static bool try_around(pir_query *query, const pir_placement *placement, uint32_t a, uint32_t b,
                        pir_query_cache *cache) {
     const pir_polytope *p = query->p, *q = query->q;
-    const pir_sum *sum = query->sum;
+    const pir_pairing *pairing = pir_sum_pairing(query->sum);
     for (uint32_t h = p->ring_start[a]; h < p->ring_start[a + 1]; h++)
-        if (sum->fv[p->left[h]] == b && try_piece(query, placement, (pir_piece){PIR_FACET_FV, p->left[h], 0}, cache))
+        if (pairing->fv[p->left[h]] == b &&
+            try_piece(query, placement, (pir_piece){PIR_FACET_FV, p->left[h], 0}, cache))
             return true;
     for (uint32_t h = q->ring_start[b]; h < q->ring_start[b + 1]; h++)
-        if (sum->vf[q->left[h]] == a && try_piece(query, placement, (pir_piece){PIR_FACET_VF, 0, q->left[h]}, cache))
+        if (pairing->vf[q->left[h]] == a &&
+            try_piece(query, placement, (pir_piece){PIR_FACET_VF, 0, q->left[h]}, cache))
             return true;
     for (uint32_t h = p->ring_start[a]; h < p->ring_start[a + 1]; h++)
-        for (uint32_t at = sum->first[p->edge[h]]; at != PIR_NO_CROSSING; at = sum->crossings.next[at]) {
-            uint32_t half = sum->crossings.half[at];
+        for (uint32_t at = pir_crossing_first(pairing, p->edge[h]); at != PIR_NO_CROSSING;
+             at = pir_crossing_next(pairing, at)) {
+            uint32_t half = pir_crossing_half(pairing, at);
             if ((q->origin[half] == b || q->target[half] == b) &&
                 try_piece(query, placement, (pir_piece){PIR_FACET_EE, p->edge[h], half}, cache))
                 return true;

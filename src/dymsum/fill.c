@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* Making a sum from a pairing that is known. See fill.h. */
+#include "dymsum/fill.h"
+
+#include "dymsum/sum.h"
+
+pir_status pir_fill_begin(const pir_fill_operands *operands, pir_quat rotation, const pir_allocator *allocator,
+                          pir_sum **ret_sum) {
+    pir_sum *sum = NULL;
+    pir_status status =
+        pir_sum_new(operands->now[PIR_OPERAND_P], operands->now[PIR_OPERAND_Q], rotation, allocator, &sum);
+    if (status != PIR_OK)
+        return status;
+    for (int i = 0; i < 2; i++) {
+        pir_polytope_release(sum->made_of[i]);
+        sum->made_of[i] = pir_polytope_retain(operands->made_of[i]);
+    }
+    sum->pairing.difference = operands->difference;
+    *ret_sum = sum;
+    return PIR_OK;
+}
+
+uint32_t *pir_fill_cells(pir_sum *sum, pir_operand facets_of) {
+    return facets_of == PIR_OPERAND_P ? sum->pairing.fv : sum->pairing.vf;
+}
+
+bool pir_fill_crossings(pir_sum *sum, uint32_t count) {
+    if (!pir_crossings_reserve(sum, count))
+        return false;
+    pir_crossings_clear(sum);
+    return true;
+}
+
+bool pir_fill_crossing(pir_sum *sum, uint32_t e, uint32_t h, uint32_t *last) {
+    return pir_crossing_append(sum, e, h, last);
+}
+
+void pir_fill_end(pir_sum *sum) {
+    pir_expire_all(sum);
+}
+
+bool pir_fill_region(pir_sum *sum, const pir_cone *cone, const pir_cover *cover, bool *ret_fits) {
+    return pir_region_adopt(sum, cone, cover, ret_fits);
+}
+
+pir_status pir_fill_shown(pir_sum *sum, pir_quat shown, bool *ret_done) {
+    return pir_lag_behind(sum, shown, ret_done);
+}
