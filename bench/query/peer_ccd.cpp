@@ -2,6 +2,7 @@
 // libccd: MPR for overlap and penetration, on supports by hill climbing of ours. It has no distance.
 #include <ccd/ccd.h>
 
+#include <pirouette/ccd.h>
 #include <pirouette/query.h>
 
 #include "peers.hpp"

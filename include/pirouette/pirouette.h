@@ -4,6 +4,7 @@
 #define PIROUETTE_H
 
 #include <pirouette/base.h>
+#include <pirouette/ccd.h>
 #include <pirouette/cgm.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>

@@ -279,43 +279,6 @@ PIR_API pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *tran
 PIR_API pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *translations, size_t count,
                                              double *ret_distances, pir_state *ret_states);
 
-/* --- without a sum --- */
-
-/** A pair to ask by support functions alone. */
-typedef struct pir_pair {
-    const pir_polytope *p, *q;
-    pir_quat rotation;
-    pir_vec3 translation;
-} pir_pair;
-
-typedef enum pir_pair_outcome {
-    PIR_PAIR_SEPARATED = 0,
-    PIR_PAIR_OVERLAPPING, /**< overlap, or too close to tell: the arithmetic is not exact here */
-    PIR_PAIR_FAILED,      /**< the engine gave no usable answer */
-} pir_pair_outcome;
-
-/** Overlap by libccd's MPR on supports of ours, scale-normalised; not exact. PIR_ERR_UNSUPPORTED in a build without libccd. */
-PIR_API pir_status pir_pair_overlap(const pir_pair *pair, pir_pair_outcome *ret_outcome);
-
-/** Distance likewise, by descent on libccd's distances to segments and triangles. *ret_distance is 0 unless separated; within 1e-9 of the size. */
-PIR_API pir_status pir_pair_distance(const pir_pair *pair, pir_pair_outcome *ret_outcome, double *ret_distance);
-
-/** A polytope in a pose, for libccd and engines like it. Plain; the polytope is borrowed. */
-typedef struct pir_support_body {
-    const pir_polytope *polytope;
-    pir_quat rotation;
-    pir_vec3 translation;
-    uint32_t last; /**< where the last climb ended: where the next one starts */
-} pir_support_body;
-
-/**
- * Support functions of the form of ccd_support_fn of a double-precision libccd: `object` is a pir_support_body, or a
- * pir_sum, whether it keeps R·P ⊕ Q or the difference; `direction` and `ret_point` point to three doubles. O(√n) steps
- * where the last climb is no help.
- */
-PIR_API void pir_support_body_ccd(const void *object, const double *direction, double *ret_point);
-PIR_API void pir_support_sum_ccd(const void *object, const double *direction, double *ret_point);
-
 /**
  * From measured costs in one unit: per rotation of the tracked sum (its update and the preparation of queries), per query on it, and per
  * query of the stateless alternative. The least number of queries per rotation at which the sum pays; HUGE_VAL when it never does,

@@ -346,11 +346,11 @@ static void check_rest(struct scene *scene, const struct ask *ask, const pir_que
 
 /* Support functions alone: not exact, but what they say is so. */
 static void check_pair(const struct scene *scene, const struct ask *ask) {
-    pir_pair pair = {scene->p, scene->q, pir_sum_rotation(scene->sum), ask->input.translation};
-    pir_pair_outcome outcome, overlap;
+    pir_ccd_pair pair = {scene->p, scene->q, pir_sum_rotation(scene->sum), ask->input.translation};
+    pir_ccd_outcome outcome, overlap;
     double distance = 0;
-    pir_status status = pir_pair_distance(&pair, &outcome, &distance);
-    fuzz_require(status == pir_pair_overlap(&pair, &overlap), "supports alone");
+    pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
+    fuzz_require(status == pir_ccd_overlap(&pair, &overlap), "supports alone");
     if (status == PIR_ERR_UNSUPPORTED)
         return;
     fuzz_require(status == PIR_OK || (status == PIR_ERR_LIMIT && may_be_far(scene, pair.translation)),
@@ -359,9 +359,9 @@ static void check_pair(const struct scene *scene, const struct ask *ask) {
     if (status != PIR_OK || ask->bound == HUGE_VAL || place_oracle_size(ask->oracle) == 0)
         return;
     double bound = ask->bound / BOUND * 1e-8 + 0x1p-48 * ask->far;
-    if (outcome == PIR_PAIR_SEPARATED)
+    if (outcome == PIR_CCD_SEPARATED)
         require_near(distance, fmax(ask->should, 0), bound, "the distance by supports");
-    if (outcome == PIR_PAIR_OVERLAPPING)
+    if (outcome == PIR_CCD_OVERLAPPING)
         require_near(fmax(ask->should, 0), 0, bound, "an overlap by supports");
 }
 

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/ccd.h>
 #include <pirouette/query.h>
 
 #include "query/query_of.h"
@@ -248,14 +249,14 @@ static void check_pair(const struct scene *s, const int t[3]) {
     // two points have no size that a distance could be near to
     if (pir_polytope_vertex_count(s->body_p) + pir_polytope_vertex_count(s->body_q) == 2)
         return;
-    pir_pair pair = {s->body_p, s->body_q, s->rotation, vector(t, s->unit)};
-    pir_pair_outcome outcome;
+    pir_ccd_pair pair = {s->body_p, s->body_q, s->rotation, vector(t, s->unit)};
+    pir_ccd_outcome outcome;
     double distance;
-    pir_status status = pir_pair_distance(&pair, &outcome, &distance);
+    pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
     if (status == PIR_ERR_UNSUPPORTED)
         return;
     bool apart = state_at(&s->d, t) == PIR_OUTSIDE;
-    expect(status == PIR_OK && outcome == (apart ? PIR_PAIR_SEPARATED : PIR_PAIR_OVERLAPPING) &&
+    expect(status == PIR_OK && outcome == (apart ? PIR_CCD_SEPARATED : PIR_CCD_OVERLAPPING) &&
                fabs(distance - (apart ? distance_at(&s->d, t) * s->unit : 0)) <= 1e-8 * s->unit,
            "pair %llu: by supports, outcome %d, distance %g", (unsigned long long)s->number, (int)outcome,
            distance / s->unit);

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include <pirouette/ccd.h>
 #include <pirouette/query.h>
 
 #include "query/query_of.h"
@@ -496,14 +497,14 @@ static void batches_say_what_single_queries_say(void **state) {
         assert_int_equal(states[i], r.state);
         assert_true(depths[i] == (r.state == PIR_INSIDE ? -r.distance : 0));
         assert_true(fabs(distances[i] - r.distance) < 1e-12);
-        pir_pair pair = {p, q, {1, 2, 3, 4}, t[i]};
-        pir_pair_outcome outcome;
+        pir_ccd_pair pair = {p, q, {1, 2, 3, 4}, t[i]};
+        pir_ccd_outcome outcome;
         double distance;
-        pir_status status = pir_pair_distance(&pair, &outcome, &distance);
+        pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
         if (status == PIR_ERR_UNSUPPORTED || fabs(r.distance) < 1e-6)
             continue;
         assert_int_equal(status, PIR_OK);
-        expect(outcome == (r.state == PIR_OUTSIDE ? PIR_PAIR_SEPARATED : PIR_PAIR_OVERLAPPING) &&
+        expect(outcome == (r.state == PIR_OUTSIDE ? PIR_CCD_SEPARATED : PIR_CCD_OVERLAPPING) &&
                    fabs(distance - fmax(r.distance, 0)) < 1e-7,
                "supports alone: %d, %.17g not %.17g", (int)outcome, distance, r.distance);
     }

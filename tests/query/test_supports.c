@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include <pirouette/ccd.h>
 #include <pirouette/exact.h>
 #include <pirouette/query.h>
 

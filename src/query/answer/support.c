@@ -2,6 +2,8 @@
 /*
  * Supports by hill climbing in the form that libccd calls, and what a tracked sum must be asked to pay.
  */
+#include <pirouette/ccd.h>
+
 #include "query/query.h"
 
 /* The matrix of a quaternion of any size; the identity where it is no rotation. */

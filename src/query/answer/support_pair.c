@@ -6,6 +6,8 @@
  * distance, which libccd has not, is a descent from vertex to vertex of the difference on libccd's distances of the origin to a segment and a
  * triangle. The bounds that a descent keeps tell success from failure; a failure is an outcome, never a number.
  */
+#include <pirouette/ccd.h>
+
 #include "query/query.h"
 
 #if PIR_HAVE_CCD
@@ -54,7 +56,7 @@ static pir_vec3 middle_of(const pir_polytope *p, double *size) {
 }
 
 /* Both operands on one scale, P at its place; *ret_unit is the length of the scale's unit. */
-static pir_status make_sides(const pir_pair *pair, struct side sides[2], double *ret_unit) {
+static pir_status make_sides(const pir_ccd_pair *pair, struct side sides[2], double *ret_unit) {
     if (!pair || !pair->p || !pair->q)
         return PIR_ERR_ARGUMENT;
     if (!pir_vec_is_finite(pair->translation))
@@ -77,7 +79,7 @@ static pir_status make_sides(const pir_pair *pair, struct side sides[2], double 
     return pir_vec_is_finite(sides[0].at) ? PIR_OK : PIR_ERR_LIMIT;
 }
 
-pir_status pir_pair_overlap(const pir_pair *pair, pir_pair_outcome *ret_outcome) {
+pir_status pir_ccd_overlap(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome) {
     struct side sides[2];
     double unit;
     if (!ret_outcome)
@@ -90,7 +92,7 @@ pir_status pir_pair_overlap(const pir_pair *pair, pir_pair_outcome *ret_outcome)
     ccd.support1 = ccd.support2 = side_support;
     ccd.center1 = ccd.center2 = side_centre;
     ccd.max_iterations = PAIR_STEPS;
-    *ret_outcome = ccdMPRIntersect(&sides[0], &sides[1], &ccd) ? PIR_PAIR_OVERLAPPING : PIR_PAIR_SEPARATED;
+    *ret_outcome = ccdMPRIntersect(&sides[0], &sides[1], &ccd) ? PIR_CCD_OVERLAPPING : PIR_CCD_SEPARATED;
     return PIR_OK;
 }
 
@@ -137,7 +139,7 @@ static double nearest_of(struct pair_simplex *simplex, ccd_vec3_t *ret_v) {
     return best;
 }
 
-pir_status pir_pair_distance(const pir_pair *pair, pir_pair_outcome *ret_outcome, double *ret_distance) {
+pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome, double *ret_distance) {
     struct side sides[2];
     double unit;
     if (!ret_outcome || !ret_distance)
@@ -169,24 +171,24 @@ pir_status pir_pair_distance(const pir_pair *pair, pir_pair_outcome *ret_outcome
     }
     // a pair overlaps when no plane parts it; bounds that neither meet nor part it are no answer
     bool met = upper - lower <= PAIR_MEET * reach && lower > 0, close = upper <= PAIR_MEET * reach;
-    pir_pair_outcome outcome = met ? PIR_PAIR_SEPARATED : PIR_PAIR_FAILED;
+    pir_ccd_outcome outcome = met ? PIR_CCD_SEPARATED : PIR_CCD_FAILED;
     if (!met && (close || lower <= 0)) {
-        status = pir_pair_overlap(pair, &outcome);
-        if (status == PIR_OK && outcome == PIR_PAIR_SEPARATED)
-            outcome = close ? PIR_PAIR_OVERLAPPING : PIR_PAIR_FAILED;
+        status = pir_ccd_overlap(pair, &outcome);
+        if (status == PIR_OK && outcome == PIR_CCD_SEPARATED)
+            outcome = close ? PIR_CCD_OVERLAPPING : PIR_CCD_FAILED;
     }
     *ret_outcome = outcome;
-    *ret_distance = outcome == PIR_PAIR_SEPARATED ? upper * unit : 0;
+    *ret_distance = outcome == PIR_CCD_SEPARATED ? upper * unit : 0;
     return status;
 }
 
 #else
 
-pir_status pir_pair_overlap(const pir_pair *pair, pir_pair_outcome *ret_outcome) {
+pir_status pir_ccd_overlap(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome) {
     return pair && ret_outcome ? PIR_ERR_UNSUPPORTED : PIR_ERR_ARGUMENT;
 }
 
-pir_status pir_pair_distance(const pir_pair *pair, pir_pair_outcome *ret_outcome, double *ret_distance) {
+pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome, double *ret_distance) {
     return pair && ret_outcome && ret_distance ? PIR_ERR_UNSUPPORTED : PIR_ERR_ARGUMENT;
 }
 #endif
