@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Every benchmark writes the tables that bench/results keeps, of a few frames each, which say nothing about speed.
 
-Usage: smoke.py RESULTS [PROGRAM [ARGUMENT...] --]...   RESULTS is bench/results; an argument FOLDER stands for the folder to write to.
+Usage: smoke.py RESULTS [PROGRAM [ARGUMENT...] --]...   RESULTS is bench/results; an argument FOLDER stands for
+the folder to write to.
 """
 import csv
 import os

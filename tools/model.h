@@ -11,8 +11,8 @@
 #define MODEL_SHAPE "shape:"
 
 /*
- * The polytope of positional argument `index`, its facets merged within --merge where that is given, to be released; and
- * what the model was before its hull was taken. NULL after a complaint, also about a model that is not convex where
+ * The polytope of positional argument `index`, its facets merged within --merge where that is given, to be released;
+ * and what the model was before its hull was taken. NULL after a complaint, also about a model that is not convex where
  * --require-convex was given.
  */
 pir_polytope *model_load(const struct args *args, size_t index, pir_surface *ret_surface);

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Cubical Gaussian maps: what an exact sum by overlay costs beside other ways to one, and how the cost grows with the result.
+ * Cubical Gaussian maps: what an exact sum by overlay costs beside other ways to one, and how the cost grows with the
+ * result.
  *
  * Usage: bench_cgm FOLDER [MODEL...]
  *
- * cgm.csv: for pairs of models, the time of overlay and mesh from two finished maps, the share of signs that the filter settled, bytes per
- * halfedge, and the peers that the build found. cgm_growth.csv: for geodesic spheres of rising level, time against the size of the result.
- * Printed is the same, and the exponent of a least-squares fit on logarithms. With models, shapes or files, only those pairs are printed,
- * each with itself turned. All times are CPU time of the thread.
+ * cgm.csv: for pairs of models, the time of overlay and mesh from two finished maps, the share of signs that the filter
+ * settled, bytes per halfedge, and the peers that the build found. cgm_growth.csv: for geodesic spheres of rising
+ * level, time against the size of the result. Printed is the same, and the exponent of a least-squares fit on
+ * logarithms. With models, shapes or files, only those pairs are printed, each with itself turned. All times are CPU
+ * time of the thread.
  */
 #include <math.h>
 #include <stdio.h>
@@ -108,7 +110,8 @@ static double measure_rebuild(pir_polytope *p, pir_polytope *q, pir_quat rotatio
 }
 
 #if PIR_HAVE_CGAL || PIR_HAVE_QHULL
-/* What the rows of one pair share: the table, or NULL, the pair's name, the facets of the sum, the median of overlay and mesh. */
+/* What the rows of one pair share: the table, or NULL, the pair's name, the facets of the sum, the
+   median of overlay and mesh. */
 struct row {
     FILE *csv;
     const char *name;

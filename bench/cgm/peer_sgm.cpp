@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CGAL's spherical Gaussian map (Arr_polyhedral_sgm), with the exact kernel that filters and caches: the overlay is timed.
+// CGAL's spherical Gaussian map (Arr_polyhedral_sgm), with the exact kernel that filters and caches: the overlay is
+// timed.
 #include "peers.h"
 
 #include <list>

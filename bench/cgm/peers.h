@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Others' ways to a Minkowski sum of two convex polytopes, behind one interface: each is there when the build found its library. */
+/* Others' ways to a Minkowski sum of two convex polytopes, behind one interface: each is there when the
+   build found its library. */
 #ifndef PIR_BENCH_CGM_PEERS_H
 #define PIR_BENCH_CGM_PEERS_H
 

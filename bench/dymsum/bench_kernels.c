@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The inner loops, every version that this processor runs beside the scalar reference: those of an update (dymsum/kernels/kernels.h) and those over
- * planes of a query (query/planes/scan.h). Usage: bench_kernels FOLDER
+ * The inner loops, every version that this processor runs beside the scalar reference: those of an update
+ * (dymsum/kernels/kernels.h) and those over planes of a query (query/planes/scan.h). Usage: bench_kernels FOLDER
  *
- * kernels.csv holds the times, kernels.md the same as tables. A pass goes over all items of a real sum; versions take turns from pass to
- * pass, so that what else the machine does falls on all alike, and what a pass changes is put back before the next one.
+ * kernels.csv holds the times, kernels.md the same as tables. A pass goes over all items of a real sum; versions take
+ * turns from pass to pass, so that what else the machine does falls on all alike, and what a pass changes is put back
+ * before the next one.
  */
 #include <math.h>
 #include <stdio.h>

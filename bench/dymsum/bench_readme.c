@@ -2,9 +2,9 @@
 /*
  * The table of README.md, row by row. Usage: bench_readme FOLDER MODELS [BODIES STEPS]
  *
- * Each row turns P as `pirouette track --axis random` does, so that its counters are those of the command. MODELS is the folder of the
- * game controller and the mug. readme.csv holds the figures, readme.md the table as it stands in README.md. With
- * BODIES (controller or gs4) and STEPS (to a full turn) only that row is made, and printed.
+ * Each row turns P as `pirouette track --axis random` does, so that its counters are those of the command. MODELS is
+ * the folder of the game controller and the mug. readme.csv holds the figures, readme.md the table as it stands in
+ * README.md. With BODIES (controller or gs4) and STEPS (to a full turn) only that row is made, and printed.
  */
 #include <stdio.h>
 #include <stdlib.h>

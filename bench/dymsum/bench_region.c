@@ -2,8 +2,9 @@
 /*
  * What an update costs by the half-angle of the region that is kept. Usage: bench_region FOLDER
  *
- * A body and itself turn about random axes, as in bench_speed; the region's axis stands still, or goes with P, so that either what P has in
- * it changes or what Q has. All half-angles go through the same frames in the same run. region.csv, and region.md with the table.
+ * A body and itself turn about random axes, as in bench_speed; the region's axis stands still, or goes with P, so that
+ * either what P has in it changes or what Q has. All half-angles go through the same frames in the same run.
+ * region.csv, and region.md with the table.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * How fast the ways to bring a sum from frame to frame are, and what an update costs by its work. Usage: bench_speed FOLDER
+ * How fast the ways to bring a sum from frame to frame are, and what an update costs by its work. Usage: bench_speed
+ * FOLDER
  *
- * speed.csv: by steps to a turn; events.csv: time over certificates checked and pairs repaired, by size; rest.csv: a box
- * turning on a box, and a body that jitters; live.csv: live meshes and tolerances. speed.md says it all in tables.
+ * speed.csv: by steps to a turn; events.csv: time over certificates checked and pairs repaired, by size; rest.csv: a
+ * box turning on a box, and a body that jitters; live.csv: live meshes and tolerances. speed.md says it all in tables.
  */
 #include <math.h>
 #include <stdio.h>

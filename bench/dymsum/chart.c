@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The charts of chart.h. Colours are those of Okabe and Ito, which the colour-blind can tell apart; labels stand at the right. */
+/* The charts of chart.h. Colours are those of Okabe and Ito, which the colour-blind can tell apart;
+   labels stand at the right. */
 #include "chart.h"
 
 #include <assert.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Charts with logarithmic axes as SVG: lines for what depends on x, or points beside the diagonal for one figure against another. */
+/* Charts with logarithmic axes as SVG: lines for what depends on x, or points beside the diagonal for one
+   figure against another. */
 #ifndef BENCH_CHART_H
 #define BENCH_CHART_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The figures of the paper's Figure 3 and Table 1, by its order of columns: row i holds the cells beside columns 0 to i. */
+/* The figures of the paper's Figure 3 and Table 1, by its order of columns: row i holds the cells
+   beside columns 0 to i. */
 #include "paper.h"
 
 const struct paper_model paper_model[PAPER_MODELS] = {

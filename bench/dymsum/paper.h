@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What Behar and Lien report in Dynamic Minkowski Sum of Convex Shapes (GMU-CS-TR-2010-12): their models and their Table 1. */
+/* What Behar and Lien report in Dynamic Minkowski Sum of Convex Shapes (GMU-CS-TR-2010-12): their
+   models and their Table 1. */
 #ifndef BENCH_PAPER_H
 #define BENCH_PAPER_H
 

@@ -22,7 +22,8 @@ struct results results_new(const char *root);
 FILE *results_open(const struct results *results, const char *name);
 void results_close(FILE *file, const char *name);
 
-/* How often to do something: `usual`, or at most 3 times where the environment has PIR_BENCH_SMOKE: that shows only that tables are written. */
+/* How often to do something: `usual`, or at most 3 times where the environment has PIR_BENCH_SMOKE: that shows only
+   that tables are written. */
 uint32_t results_count(uint32_t usual);
 
 #ifdef __cplusplus

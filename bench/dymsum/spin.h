@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The motion that benchmarks turn P by: equal steps about a random axis, a new one every 50 frames. Repeats from its seed. */
+/* The motion that benchmarks turn P by: equal steps about a random axis, a new one every 50 frames.
+   Repeats from its seed. */
 #ifndef BENCH_SPIN_H
 #define BENCH_SPIN_H
 

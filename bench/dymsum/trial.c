@@ -113,7 +113,8 @@ static bool lap_rotate(struct lap *lap, pir_quat rotation, uint64_t frame, bool 
 
 /* --- the run --- */
 
-/* One pass of the motion: the tracked sum by update, with walk and brute force beside it in some frames; or by auto, alone. */
+/* One pass of the motion: the tracked sum by update, with walk and brute force beside it in some
+   frames; or by auto, alone. */
 static struct trial_times pass(const struct trial_request *request, pir_polytope *p, pir_polytope *q,
                                trial_motion *motion, void *context, bool alone, struct trial_result *result) {
     uint32_t frames = results_count(request->frames), warm_up = results_count(request->warm_up);

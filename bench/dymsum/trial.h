@@ -2,12 +2,13 @@
 /*
  * One measurement: two bodies, one motion, every way to bring the sum from frame to frame timed in the same run.
  *
- * Each way has a sum of its own. Update is timed in every frame; walk and brute force, which do not depend on the step, in
- * frames spread evenly over the same run, so that what else the machine does falls on all alike. Where brute force is timed its
- * pairing is held against the updated one's. Update and auto, which may take less than a look at the thread's own clock, are timed by the
- * monotonic one: the few frames in which the machine did something else do not move a median. Walk and brute force are in CPU time of the
- * thread, what looking at its clock takes taken off. Auto goes through the same motion afterwards, alone, so as not to find or leave a cache
- * that another tracked sum has warmed.
+ * Each way has a sum of its own. Update is timed in every frame; walk and brute force, which do not depend on the step,
+ * in frames spread evenly over the same run, so that what else the machine does falls on all alike. Where brute force
+ * is timed its pairing is held against the updated one's. Update and auto, which may take less than a look at the
+ * thread's own clock, are timed by the monotonic one: the few frames in which the machine did something else do not
+ * move a median. Walk and brute force are in CPU time of the thread, what looking at its clock takes taken off. Auto
+ * goes through the same motion afterwards, alone, so as not to find or leave a cache that another tracked sum has
+ * warmed.
  */
 #ifndef BENCH_TRIAL_H
 #define BENCH_TRIAL_H
@@ -42,7 +43,8 @@ struct trial_result {
     uint64_t allocations;
 };
 
-/* The rotation of frame `frame`; called for 0, 1, 2 and so on, and then perhaps once more from 0. `context` as given. */
+/* The rotation of frame `frame`; called for 0, 1, 2 and so on, and then perhaps once more from
+   0. `context` as given. */
 typedef pir_quat trial_motion(void *context, uint64_t frame);
 
 /* Runs it about random axes. Ends the program with a message when something fails. */

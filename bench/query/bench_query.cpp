@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Placement queries beside FCL, Bullet and libccd, over the same poses: P turns by 1/500 of a turn a frame about an axis that changes every 50
-// frames, and drifts; or the poses of a degenerate set. Each line gives the median and the fastest time of a query in microseconds; ours with the
-// sum at hand and the witness of the pose before, the same with an empty cache, and with the update of the sum. Then what was wrong: the largest
-// error of a number relative to the bodies' size, states, numbers off by more than 1e-6 of it, failures. Wrong is what differs from the
-// exact answer, ours being held to it as well; where bodies are too large for that at every pose, from ours, which the property tests hold to it.
+// Placement queries beside FCL, Bullet and libccd, over the same poses: P turns by 1/500 of a turn a frame about an
+// axis that changes every 50 frames, and drifts; or the poses of a degenerate set. Each line gives the median and the
+// fastest time of a query in microseconds; ours with the sum at hand and the witness of the pose before, the same with
+// an empty cache, and with the update of the sum. Then what was wrong: the largest error of a number relative to the
+// bodies' size, states, numbers off by more than 1e-6 of it, failures. Wrong is what differs from the exact answer,
+// ours being held to it as well; where bodies are too large for that at every pose, from ours, which the property tests
+// hold to it.
 //
 // Last, many translations at one rotation, per translation, in CPU time. All lines go to query.csv.
 //
@@ -187,7 +189,8 @@ std::vector<Pose> face_to_face(double h) {
     return poses;
 }
 
-// An edge of P across one of Q: P turned by a quarter about (1, 1, 0), so that its edges along z come to lie across Q's.
+// An edge of P across one of Q: P turned by a quarter about (1, 1, 0), so that its edges along z come to lie across
+// Q's.
 std::vector<Pose> edge_to_edge(double h) {
     Random random;
     std::vector<Pose> poses;

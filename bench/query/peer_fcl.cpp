@@ -9,8 +9,8 @@
 
 namespace {
 
-// FCL asserts what degenerate poses break. Distributions build it with assertions on, which abort; this leaves the call instead, and whatever it
-// held behind.
+// FCL asserts what degenerate poses break. Distributions build it with assertions on, which abort; this leaves the call
+// instead, and whatever it held behind.
 sigjmp_buf before_call;
 
 void leave_call(int) {

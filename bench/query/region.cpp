@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A frame of a controller that knows where the bodies last stood out of each other: the region is set about the last witness' normal, the sum
-// updated, the penetration asked for. By the half-angle of the region; beside FCL and Bullet, which keep nothing, over the same poses as in
-// bench_query, "deep". `agree` is the part of the frames whose depth is the whole sum's.
+// A frame of a controller that knows where the bodies last stood out of each other: the region is set about the last
+// witness' normal, the sum updated, the penetration asked for. By the half-angle of the region; beside FCL and Bullet,
+// which keep nothing, over the same poses as in bench_query, "deep". `agree` is the part of the frames whose depth is
+// the whole sum's.
 //
 // All lines go to query_region.csv.
 //

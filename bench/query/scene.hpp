@@ -33,8 +33,8 @@ double size_of(const pir_polytope *p);
 // How many poses a set has: 1,000, or few where results_count says so.
 int frames();
 
-// Rotations of 1/500 of a turn each, about an axis that changes every 50 poses, and translations at a wished signed distance: along a drifting
-// direction, as far as the exact directional query says.
+// Rotations of 1/500 of a turn each, about an axis that changes every 50 poses, and translations at a wished signed
+// distance: along a drifting direction, as far as the exact directional query says.
 std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish);
 
 struct Times {

@@ -66,15 +66,18 @@ def circle(n, radius, z, phase=0.0):
 def mug():
     body = Body()
     n = 26
-    # The profile, radius and height: foot, a slightly bellied wall, a rounded lip, the inner wall down to the inner floor.
-    outer = [(31.0, 0.0), (34.2, 1.1), (36.6, 6.5), (38.9, 20.0), (40.3, 36.0), (41.0, 52.0), (41.1, 66.0), (40.7, 80.0)]
+    # The profile, radius and height: foot, a slightly bellied wall, a rounded lip, the inner wall down to the inner
+    # floor.
+    outer = [(31.0, 0.0), (34.2, 1.1), (36.6, 6.5), (38.9, 20.0), (40.3, 36.0), (41.0, 52.0), (41.1, 66.0),
+             (40.7, 80.0)]
     lip = [(40.0, 91.5), (39.0, 93.6), (37.2, 94.0), (36.0, 92.6)]
     inner = [(36.4, 80.0), (36.8, 60.0), (36.0, 30.0), (33.5, 10.0), (28.0, 6.0)]
     rings = [circle(n, r, z, 0.5 * (i % 2)) for i, (r, z) in enumerate(outer + lip + inner)]
     body.shell((0, 0, 0), rings, (0, 0, 5.5))
 
     # The handle: an oval tube swept along a bent path in the plane y = 0, both ends inside the wall.
-    path = [(38.0, 78.0), (50.0, 80.5), (62.0, 78.0), (69.5, 69.5), (71.5, 58.0), (69.0, 45.0), (61.5, 33.5), (50.0, 26.5),
+    path = [(38.0, 78.0), (50.0, 80.5), (62.0, 78.0), (69.5, 69.5), (71.5, 58.0), (69.0, 45.0), (61.5, 33.5),
+            (50.0, 26.5),
             (38.0, 24.0)]
     tube = []
     for i, (x, z) in enumerate(path):
@@ -87,7 +90,8 @@ def mug():
             t = 2 * math.pi * (k + 0.5) / 10
             across, wide = 4.2 * math.cos(t), 6.8 * math.sin(t)
             ring.append((x + across * nx, wide, z + across * nz))
-        # (path direction) × (across) is -y, so rings that turn from across to +y turn clockwise seen from ahead: reverse.
+        # (path direction) × (across) is -y, so rings that turn from across to +y turn clockwise seen from ahead:
+        # reverse.
         tube.append(ring[::-1])
     body.shell((path[0][0], 0, path[0][1]), tube, (path[-1][0], 0, path[-1][1]))
     return body
@@ -106,7 +110,8 @@ def blob(body, centre, axes, radii, n, latitudes, power=1.0):
     for k, latitude in enumerate(latitudes):
         c, s = bend(math.cos(math.radians(latitude))), bend(math.sin(math.radians(latitude)))
         turn = [2 * math.pi * (i + 0.5 * (k % 2)) / n for i in range(n)]
-        rings.append([place(radii[0] * c * bend(math.cos(t)), radii[1] * c * bend(math.sin(t)), radii[2] * s) for t in turn])
+        rings.append([place(radii[0] * c * bend(math.cos(t)), radii[1] * c * bend(math.sin(t)), radii[2] * s)
+                      for t in turn])
     body.shell(place(0, 0, -radii[2]), rings, place(0, 0, radii[2]))
 
 
@@ -129,7 +134,8 @@ def gamepad():
         blob(body, (side * 56.0, -26.0, -6.0), tilted(side * 17.0, 22.0), (20.5, 18.0, 46.0), 14,
              (-60, -38, -16, 6, 28, 50, 70))
         # A trigger beyond the far edge.
-        blob(body, (side * 47.0, 31.0, -3.0), tilted(180.0 - side * 12.0, 14.0), (15.0, 9.0, 13.0), 10, (-50, -10, 25, 55), 0.9)
+        blob(body, (side * 47.0, 31.0, -3.0), tilted(180.0 - side * 12.0, 14.0), (15.0, 9.0, 13.0), 10,
+             (-50, -10, 25, 55), 0.9)
         # A thumb stick: stem, then a cap that is slightly domed.
         x, y = (-40.0, 9.0) if side < 0 else (22.0, -14.0)
         stick = [(5.5, 12.0), (5.5, 24.0), (8.8, 25.5), (9.0, 28.0), (6.0, 29.4)]
@@ -139,7 +145,8 @@ def gamepad():
 
 
 def main():
-    mug().write("mug.off", ["A coffee mug with its handle, standing on z = 0; millimetres.", "Written by make_models.py."])
+    mug().write("mug.off", ["A coffee mug with its handle, standing on z = 0; millimetres.",
+                            "Written by make_models.py."])
     gamepad().write("gamepad.off", ["A game controller: slab, two grips, triggers and thumb sticks; millimetres.",
                                     "Written by make_models.py."])
 

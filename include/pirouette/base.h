@@ -22,7 +22,8 @@
 extern "C" {
 #endif
 
-/** How a call ended. Every call that can fail returns one; on anything but PIR_OK its `ret_` parameters are untouched. */
+/** How a call ended. Every call that can fail returns one; on anything but PIR_OK its `ret_`
+    parameters are untouched. */
 typedef enum pir_status {
     PIR_OK = 0,
     PIR_ERR_ARGUMENT,   /**< an argument breaks the call's contract: NULL, an index out of range, an unknown name */
@@ -52,7 +53,8 @@ typedef struct pir_vec3 {
     double x, y, z;
 } pir_vec3;
 
-/** A quaternion x·i + y·j + z·k + w of any non-zero length: it stands for the exact rotation M(q)/|q|². Never normalised. */
+/** A quaternion x·i + y·j + z·k + w of any non-zero length: it stands for the exact rotation
+    M(q)/|q|². Never normalised. */
 typedef struct pir_quat {
     double x, y, z, w;
 } pir_quat;

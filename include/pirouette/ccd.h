@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
- * Pairs asked by support functions alone, through libccd: a second opinion. Stateless, not exact, in doubles; pair.h and query.h
- * hold the exact answers.
+ * Pairs asked by support functions alone, through libccd: a second opinion. Stateless, not exact, in doubles; pair.h
+ * and query.h hold the exact answers.
  *
- * Threads: a call reads its polytopes and writes nothing but its results; a pir_support_body belongs to one thread at a time.
+ * Threads: a call reads its polytopes and writes nothing but its results; a pir_support_body belongs to one thread at a
+ * time.
  */
 #ifndef PIROUETTE_CCD_H
 #define PIROUETTE_CCD_H
@@ -28,10 +29,12 @@ typedef enum pir_ccd_outcome {
     PIR_CCD_FAILED,      /**< the engine gave no usable answer */
 } pir_ccd_outcome;
 
-/** Overlap by libccd's MPR on supports of ours, scale-normalised; not exact. PIR_ERR_UNSUPPORTED in a build without libccd. */
+/** Overlap by libccd's MPR on supports of ours, scale-normalised; not exact. PIR_ERR_UNSUPPORTED in
+    a build without libccd. */
 PIR_API pir_status pir_ccd_overlap(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome);
 
-/** Distance likewise, by descent on libccd's distances to segments and triangles. *ret_distance is 0 unless separated; within 1e-9 of the size. */
+/** Distance likewise, by descent on libccd's distances to segments and triangles. *ret_distance is 0 unless separated;
+    within 1e-9 of the size. */
 PIR_API pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome, double *ret_distance);
 
 /** A polytope in a pose, for libccd and engines like it. Plain; the polytope is borrowed. */

@@ -2,18 +2,19 @@
 /**
  * Cubical Gaussian maps: exact dual representations of polytopes and of their Minkowski sums.
  *
- * The Gaussian map of a polytope divides the sphere of directions by which vertex is extreme: a facet is the point of its outward normal,
- * an edge an arc between two of them, a vertex a convex cell. The cubical map (Fogel and Halperin, Exact and Efficient
- * Construction of Minkowski Sums of Convex Polyhedra with Applications, 2006) projects it from the centre onto the six faces of a cube,
- * where arcs are straight segments: six planar maps, each bounded by a square. The Minkowski sum of polytopes is the
- * overlay of their maps: pir_cgm_overlay. An overlay is such a map again and may be overlaid again.
+ * The Gaussian map of a polytope divides the sphere of directions by which vertex is extreme: a facet is the point of
+ * its outward normal, an edge an arc between two of them, a vertex a convex cell. The cubical map (Fogel and Halperin,
+ * Exact and Efficient Construction of Minkowski Sums of Convex Polyhedra with Applications, 2006) projects it from the
+ * centre onto the six faces of a cube, where arcs are straight segments: six planar maps, each bounded by a square. The
+ * Minkowski sum of polytopes is the overlay of their maps: pir_cgm_overlay. An overlay is such a map again and may be
+ * overlaid again.
  *
- * Everything combinatorial is exact, at the exact rotations M(q)/|q|² and without perturbation: arcs that overlap, equal normals, normals on
- * arcs, on cube edges and cube corners are ordinary.
+ * Everything combinatorial is exact, at the exact rotations M(q)/|q|² and without perturbation: arcs that overlap,
+ * equal normals, normals on arcs, on cube edges and cube corners are ordinary.
  *
- * Maps are numbered 0 to 5 for the cube faces −x, −y, −z, +x, +y, +z. Vertices, halfedges and faces have numbers that count through
- * all six maps; those of one map are a range. Halfedges 2e and 2e + 1 are twins. Each map's first face is the outer one,
- * beyond its square. A direction on a cube edge is a vertex of two maps, one on a cube corner of three.
+ * Maps are numbered 0 to 5 for the cube faces −x, −y, −z, +x, +y, +z. Vertices, halfedges and faces have numbers that
+ * count through all six maps; those of one map are a range. Halfedges 2e and 2e + 1 are twins. Each map's first face is
+ * the outer one, beyond its square. A direction on a cube edge is a vertex of two maps, one on a cube corner of three.
  *
  * A map is immutable; threads may read one together.
  */
@@ -40,16 +41,17 @@ typedef struct pir_cgm pir_cgm;
  * rotation   NULL, or the rotation it is turned by, of any length but 0.
  * allocator  NULL for malloc; copied, its context must outlive the map.
  *
- * Release with pir_cgm_destroy. O(n log n) for n edges, O(n) but for sorting along cube edges. Errors: PIR_ERR_ARGUMENT,
- * PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_MEMORY.
+ * Release with pir_cgm_destroy. O(n log n) for n edges, O(n) but for sorting along cube edges. Errors:
+ * PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_create(pir_polytope *polytope, const pir_quat *rotation, const pir_allocator *allocator,
                                   pir_cgm **ret_cgm);
 
 /**
- * Makes the map of the sum: the overlay of `a` and `b`, which may be the same and are not kept. The sources of the result are those of a,
- * then those of b. Uses a's allocator. The time follows the size of the result as long as no cell has very many sides: an arc
- * that crosses a cell looks at its sides one by one. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ * Makes the map of the sum: the overlay of `a` and `b`, which may be the same and are not kept. The sources of the
+ * result are those of a, then those of b. Uses a's allocator. The time follows the size of the result as long as no
+ * cell has very many sides: an arc that crosses a cell looks at its sides one by one. Errors: PIR_ERR_ARGUMENT,
+ * PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_overlay(const pir_cgm *a, const pir_cgm *b, pir_cgm **ret_cgm);
 
@@ -57,9 +59,10 @@ PIR_API pir_status pir_cgm_overlay(const pir_cgm *a, const pir_cgm *b, pir_cgm *
 PIR_API void pir_cgm_destroy(pir_cgm *cgm);
 
 /**
- * The boundary of the polytope or sum that the map stands for: maximal facets, exact. Of one source it is equal to pir_mesh_from_polytope but
- * for the rotation; of two, P rotated and Q, to pir_sum_mesh. A vertex's pair holds the vertices of the first two sources, the second
- * being 0 where there is one; with more than two sources facet kinds speak of the first two, too.
+ * The boundary of the polytope or sum that the map stands for: maximal facets, exact. Of one source it is equal to
+ * pir_mesh_from_polytope but for the rotation; of two, P rotated and Q, to pir_sum_mesh. A vertex's pair holds the
+ * vertices of the first two sources, the second being 0 where there is one; with more than two sources facet kinds
+ * speak of the first two, too.
  */
 PIR_API pir_status pir_cgm_mesh(const pir_cgm *cgm, pir_precision precision, pir_mesh **ret_mesh);
 
@@ -98,7 +101,8 @@ typedef enum pir_cgm_place {
 typedef struct pir_cgm_vertex_info {
     uint32_t map;
     pir_cgm_place place;
-    int real; /**< 1: a facet of the polytope or sum has this normal; 0: an arc meets a cube edge here, or a bare corner */
+    /** 1: a facet of the polytope or sum has this normal; 0: an arc meets a cube edge here, or a bare corner. */
+    int real;
     pir_vec3 direction; /**< unit vector, rounded */
     double x, y;        /**< in the square [−1, 1]² of its map, rounded */
     uint32_t half;      /**< a halfedge that leaves it; on the square, the one along it counter-clockwise */
@@ -109,8 +113,8 @@ typedef struct pir_cgm_halfedge_info {
     uint32_t origin, target;
     uint32_t twin, next; /**< next along the face on its left */
     uint32_t face;       /**< on its left */
-    uint32_t
-        beyond; /**< for a halfedge along the square, inside it: its opposite in the map beyond the cube edge; else PIR_CGM_NONE */
+    /** For a halfedge along the square, inside it: its opposite in the map beyond the cube edge; else PIR_CGM_NONE. */
+    uint32_t beyond;
     int real; /**< 1: an edge of the polytope or sum maps here; 0: only the square */
 } pir_cgm_halfedge_info;
 
@@ -131,15 +135,15 @@ PIR_API uint32_t pir_cgm_corner(const pir_cgm *cgm, uint32_t map, uint32_t corne
 /** The halfedge after `halfedge` clockwise about its origin, within its map. */
 PIR_API uint32_t pir_cgm_clockwise_after(const pir_cgm *cgm, uint32_t halfedge);
 
-/** What source `source` has at a feature: the facet with this normal, the edge whose arc runs here, the vertex that is extreme here;
- * PIR_CGM_NONE where it has none, for an outer face, and for the hidden facets of a segment. */
+/** What source `source` has at a feature: the facet with this normal, the edge whose arc runs here, the vertex that is
+ * extreme here; PIR_CGM_NONE where it has none, for an outer face, and for the hidden facets of a segment. */
 PIR_API uint32_t pir_cgm_vertex_facet(const pir_cgm *cgm, uint32_t vertex, uint32_t source);
 PIR_API uint32_t pir_cgm_halfedge_edge(const pir_cgm *cgm, uint32_t halfedge, uint32_t source);
 PIR_API uint32_t pir_cgm_face_vertex(const pir_cgm *cgm, uint32_t face, uint32_t source);
 
 /**
- * The support plane n·x = offset of the polytope or sum in the direction of a vertex, rounded: *ret_normal is the unit vector, the offset is within
- * a few ulp relative to the size of the sources. exact.h has it exactly.
+ * The support plane n·x = offset of the polytope or sum in the direction of a vertex, rounded: *ret_normal is the unit
+ * vector, the offset is within a few ulp relative to the size of the sources. exact.h has it exactly.
  */
 PIR_API void pir_cgm_vertex_plane(const pir_cgm *cgm, uint32_t vertex, pir_vec3 *ret_normal, double *ret_offset);
 
@@ -170,13 +174,14 @@ PIR_API pir_status pir_cgm_locator_create(const pir_cgm *cgm, pir_cgm_locator **
 PIR_API void pir_cgm_locator_destroy(pir_cgm_locator *locator);
 
 /**
- * Whether `point`, exactly as given, is inside the polytope or sum, on its boundary or outside (section 4 of Fogel and Halperin). A local walk
- * over the maps, from vertex to neighbouring vertex, on to the facet that the ray from the inner point through `point` stabs.
+ * Whether `point`, exactly as given, is inside the polytope or sum, on its boundary or outside (section 4 of Fogel and
+ * Halperin). A local walk over the maps, from vertex to neighbouring vertex, on to the facet that the ray from the
+ * inner point through `point` stabs.
  *
  * witness   the witness of an earlier answer, where the walk starts, or PIR_CGM_NONE.
  *
- * Bodies without an inside, and those too thin to have a double inside, have all vertices looked at instead; a flat body's points are
- * all on its boundary. Allocates nothing. Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE.
+ * Bodies without an inside, and those too thin to have a double inside, have all vertices looked at instead; a flat
+ * body's points are all on its boundary. Allocates nothing. Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE.
  */
 PIR_API pir_status pir_cgm_locate(pir_cgm_locator *locator, pir_vec3 point, uint32_t witness,
                                   pir_cgm_location *ret_location);

@@ -21,7 +21,8 @@
 extern "C" {
 #endif
 
-/** What facets of a file are. An edge is two neighbouring corners of a facet; points at the same place are one corner. */
+/** What facets of a file are. An edge is two neighbouring corners of a facet; points at the
+    same place are one corner. */
 typedef enum pir_surface_form {
     PIR_SURFACE_POINTS = 0, /**< there are none: the file holds points alone */
     PIR_SURFACE_OPEN,       /**< some edge is on an odd number of them: they bound nothing */
@@ -46,8 +47,9 @@ typedef struct pir_surface {
     int convex;      /**< 1 when the hull adds nothing; 0 for an open surface */
     uint32_t points; /**< as many as the file has, duplicates and points that no facet has included */
     uint32_t facets;
-    double volume; /**< what the facets enclose, rounded; negative when they are clockwise seen from outside. NaN where
-                          there is none: points alone, or neighbours that face different sides however they are turned */
+    /** What the facets enclose, rounded; negative when they are clockwise seen from outside. NaN where there is none:
+        points alone, or neighbours that face different sides however they are turned. */
+    double volume;
 } pir_surface;
 
 /** How to read a model. */

@@ -2,10 +2,11 @@
 /**
  * The mesh of a sum that turns, kept up to date: what did not change stays where it is.
  *
- * A live mesh has a facet for every pair of the pairing: an fv pair is a facet of P, a vf pair a facet of Q, an ee pair a parallelogram.
- * Pieces that are coplanar are not merged, as pir_sum_mesh merges them; together they bound the same sum. Facets and vertices live in
- * slots. A pair keeps its slot while updates carry it along, so a refresh rewrites only what changed: slots come and go, and
- * empty ones stay in between. Facet slots: first those of P's facets by number, then those of Q's, then ee pairs.
+ * A live mesh has a facet for every pair of the pairing: an fv pair is a facet of P, a vf pair a facet of Q, an ee pair
+ * a parallelogram. Pieces that are coplanar are not merged, as pir_sum_mesh merges them; together they bound the same
+ * sum. Facets and vertices live in slots. A pair keeps its slot while updates carry it along, so a refresh rewrites
+ * only what changed: slots come and go, and empty ones stay in between. Facet slots: first those of P's facets by
+ * number, then those of Q's, then ee pairs.
  *
  * Coordinates and planes are worked out on demand, into memory of the caller's, all in one pass.
  *
@@ -37,27 +38,31 @@ typedef struct pir_plane_equation {
     double offset;
 } pir_plane_equation;
 
-/** Makes the live mesh of `sum` as it is now, with the sum's allocator. O(size of the sum). PIR_ERR_ARGUMENT, PIR_ERR_MEMORY. */
+/** Makes the live mesh of `sum` as it is now, with the sum's allocator. O(size of the sum).
+    PIR_ERR_ARGUMENT, PIR_ERR_MEMORY. */
 PIR_API pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live);
 
 /** Frees; NULL is accepted. */
 PIR_API void pir_live_mesh_destroy(pir_live_mesh *live);
 
 /**
- * Brings slots, pairs and corners to the sum's pairing of now: rewrites those that changed. O(changes), where updates led here since the last
- * refresh, few enough to be kept in mind (a thousand); after a rebuild, and with a region, O(size of the sum). Allocates only while the sum is larger than it has ever been. On PIR_ERR_MEMORY it stays as it was.
+ * Brings slots, pairs and corners to the sum's pairing of now: rewrites those that changed. O(changes), where updates
+ * led here since the last refresh, few enough to be kept in mind (a thousand); after a rebuild, and with a region,
+ * O(size of the sum). Allocates only while the sum is larger than it has ever been. On PIR_ERR_MEMORY it stays as it
+ * was.
  */
 PIR_API pir_status pir_live_mesh_refresh(pir_live_mesh *live);
 
 /**
- * Holds only the facets whose outward normals, in the frame of Q, are within `half_angle` radians of `axis`, of any length, from the next
- * refresh on. Rounding errs towards holding: by less than 2e-6 radians. Half-angles of 3.15 and more hold
- * all, as before any call. Facets that enter or leave the region count as appeared and disappeared. What the sum keeps does not change.
- * Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE.
+ * Holds only the facets whose outward normals, in the frame of Q, are within `half_angle` radians of `axis`, of any
+ * length, from the next refresh on. Rounding errs towards holding: by less than 2e-6 radians. Half-angles of 3.15 and
+ * more hold all, as before any call. Facets that enter or leave the region count as appeared and disappeared. What the
+ * sum keeps does not change. Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE.
  */
 PIR_API pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double half_angle);
 
-/** The pairs that came and those that went in the last refresh, none of them both; sorted by kind, p, q. Valid until the next one. */
+/** The pairs that came and those that went in the last refresh, none of them both; sorted by kind, p, q.
+    Valid until the next one. */
 PIR_API const pir_sum_pair *pir_live_mesh_appeared(const pir_live_mesh *live, uint32_t *ret_count);
 PIR_API const pir_sum_pair *pir_live_mesh_disappeared(const pir_live_mesh *live, uint32_t *ret_count);
 
@@ -78,8 +83,9 @@ PIR_API const uint32_t *pir_live_mesh_facet(const pir_live_mesh *live, uint32_t 
 PIR_API int pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t ret_pair[2]);
 
 /**
- * Writes the coordinates of all vertex slots, in the frame of Q, at the sum's rotation of now: pir_live_mesh_vertex_slots of them, the
- * same bits as in pir_sum_mesh. Empty slots get those of some point of the sum. The second rounds each to float.
+ * Writes the coordinates of all vertex slots, in the frame of Q, at the sum's rotation of now:
+ * pir_live_mesh_vertex_slots of them, the same bits as in pir_sum_mesh. Empty slots get those of some point of the sum.
+ * The second rounds each to float.
  */
 PIR_API void pir_live_mesh_vertices(pir_live_mesh *live, pir_vec3 *ret_vertices);
 PIR_API void pir_live_mesh_vertices_float(pir_live_mesh *live, float (*ret_vertices)[3]);

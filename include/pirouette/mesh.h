@@ -4,8 +4,8 @@
  *
  * A mesh is immutable and owned by whoever made it. Facets are counter-clockwise from outside, each starts at its
  * smallest vertex; vertices and facets stand in a canonical order that does not depend on how the sum was computed, so
- * two meshes of the same sum are equal array for array. Flat bodies: a polygon has two facets, a segment two vertices and no
- * facet, a point one vertex. Threads may read one mesh together.
+ * two meshes of the same sum are equal array for array. Flat bodies: a polygon has two facets, a segment two vertices
+ * and no facet, a point one vertex. Threads may read one mesh together.
  */
 #ifndef PIROUETTE_MESH_H
 #define PIROUETTE_MESH_H
@@ -33,7 +33,8 @@ typedef enum pir_precision {
     PIR_EXACT,      /**< the same doubles, and exact rationals beside them (exact.h) */
 } pir_precision;
 
-/** The boundary of `polytope`, exact coordinates included; every facet is of kind PIR_FACET_FV, every vertex's pair is (v, 0). */
+/** The boundary of `polytope`, exact coordinates included; every facet is of kind PIR_FACET_FV, every
+    vertex's pair is (v, 0). */
 PIR_API pir_status pir_mesh_from_polytope(const pir_polytope *polytope, pir_mesh **ret_mesh);
 
 /** Frees; NULL is accepted. */

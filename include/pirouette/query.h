@@ -2,28 +2,32 @@
 /**
  * Placement queries: P, rotated as a sum says and moved by a translation, against Q where it stands.
  *
- * A query object answers from a tracked difference Q ⊕ (−R·P) (pir_sum_options.difference): P moved by t overlaps Q exactly when t
- * lies in the difference. It follows the sum: rotate the sum, then ask again.
+ * A query object answers from a tracked difference Q ⊕ (−R·P) (pir_sum_options.difference): P moved by t overlaps Q
+ * exactly when t lies in the difference. It follows the sum: rotate the sum, then ask again.
  *
- * The touching rule, the same in every call: the state is PIR_BOUNDARY when t lies exactly on the boundary of the difference, that is,
- * when the bodies share a point and no interiors do; PIR_INSIDE when a ball of translations around t overlaps; PIR_OUTSIDE when the bodies
- * share no point. States are exact, for the very doubles given (rounding radii excepted: see pir_query_input). Numbers are doubles
- * within 1e-12 of the exact ones, relative to the size of the bodies and of the answer.
+ * The touching rule, the same in every call: the state is PIR_BOUNDARY when t lies exactly on the boundary of the
+ * difference, that is, when the bodies share a point and no interiors do; PIR_INSIDE when a ball of translations around
+ * t overlaps; PIR_OUTSIDE when the bodies share no point. States are exact, for the very doubles given (rounding radii
+ * excepted: see pir_query_input). Numbers are doubles within 1e-12 of the exact ones, relative to the size of the
+ * bodies and of the answer.
  *
- * Frame: every point and direction is in the frame of Q. `normal` is a unit vector and points from Q to P, the way to move P apart.
- * In every answer point_p = point_q + distance · normal, also at distance 0; distance is negative by the depth where the bodies overlap.
+ * Frame: every point and direction is in the frame of Q. `normal` is a unit vector and points from Q to P, the way to
+ * move P apart. In every answer point_p = point_q + distance · normal, also at distance 0; distance is negative by the
+ * depth where the bodies overlap.
  *
- * A sum with a region (pir_sum_set_region) answers pir_query_penetration and pir_query_directional_depth alone, by its facets whose normals
- * are in the cone, as though those were all. PIR_OUTSIDE with PIR_SEPARATED then is a proof. Else the outcome is PIR_NOT_SEPARATED: the state
- * is PIR_INSIDE, or PIR_BOUNDARY where a facet of the region passes through t, and depth, normal and points are those of the least depth
- * there, which is the whole sum's where that has its normal in the cone, and else more; that the bodies overlap is not known. PIR_NO_HIT where
- * the region has no facet, or none that the direction leads out through. All other calls, and rounding radii, are
- * PIR_ERR_UNSUPPORTED on such a sum. The answer depends on placement and region, not on what else the sum keeps.
+ * A sum with a region (pir_sum_set_region) answers pir_query_penetration and pir_query_directional_depth alone, by its
+ * facets whose normals are in the cone, as though those were all. PIR_OUTSIDE with PIR_SEPARATED then is a proof. Else
+ * the outcome is PIR_NOT_SEPARATED: the state is PIR_INSIDE, or PIR_BOUNDARY where a facet of the region passes through
+ * t, and depth, normal and points are those of the least depth there, which is the whole sum's where that has its
+ * normal in the cone, and else more; that the bodies overlap is not known. PIR_NO_HIT where the region has no facet, or
+ * none that the direction leads out through. All other calls, and rounding radii, are PIR_ERR_UNSUPPORTED on such a
+ * sum. The answer depends on placement and region, not on what else the sum keeps.
  *
- * One answer: an answer depends on the bodies, the rotation and the input alone. Every number and witness is the same, bit for bit, with any
- * cache or none, whatever was asked before, and in a batch; only `steps` tells of the way there.
+ * One answer: an answer depends on the bodies, the rotation and the input alone. Every number and witness is the same,
+ * bit for bit, with any cache or none, whatever was asked before, and in a batch; only `steps` tells of the way there.
  *
- * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast an answer is found.
+ * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast
+ * an answer is found.
  *
  * Threads: a query belongs to one thread at a time, that of its sum. No call allocates once the query has seen as many
  * ee pairs as it will, and a batch where there are to be batches; no loop is without a bound.
@@ -79,10 +83,11 @@ typedef struct pir_feature {
 } pir_feature;
 
 /**
- * The features of P and Q that attain an answer: the least faces that hold the two points. The points are exact ones, of which the
- * result holds doubles within 2^-50 of the largest coordinate of bodies and translation, and the faces are decided exactly. Where parallel features leave more than one pair of points, it is the vertex
- * of Q of lowest index that lies on P's face; else the vertex of P of lowest index that lies on Q's; else the first edges that cross, by rising edge of P,
- * then of Q.
+ * The features of P and Q that attain an answer: the least faces that hold the two points. The points are exact ones,
+ * of which the result holds doubles within 2^-50 of the largest coordinate of bodies and translation, and the faces are
+ * decided exactly. Where parallel features leave more than one pair of points, it is the vertex of Q of lowest index
+ * that lies on P's face; else the vertex of P of lowest index that lies on Q's; else the first edges that cross, by
+ * rising edge of P, then of Q.
  */
 typedef struct pir_witness {
     pir_feature p, q;
@@ -98,8 +103,8 @@ typedef struct pir_query_cache {
 
 typedef struct pir_query_input {
     pir_vec3 translation; /**< of P, after its rotation */
-    double radius_p,
-        radius_q; /**< rounding radii, ≥ 0: each body is grown by a ball. The state is then told from the rounded distance. */
+    /** Rounding radii, ≥ 0: each body is grown by a ball. The state is then told from the rounded distance. */
+    double radius_p, radius_q;
     double cutoff; /**< distances above this need not be worked out; HUGE_VAL for none */
     double margin; /**< of pir_query_manifold alone, ≥ 0: contacts up to this distance apart are given too */
 } pir_query_input;
@@ -128,23 +133,25 @@ PIR_API pir_status pir_query_create(pir_sum *difference, pir_query **ret_query);
 /** Frees, and gives its references back; NULL is accepted. */
 PIR_API void pir_query_destroy(pir_query *query);
 
-/** Overlap: state and outcome, exact. On the boundary normal, points and witness are those of the contact; else they are not set. No distance. */
+/** Overlap: state and outcome, exact. On the boundary normal, points and witness are those of the contact; else they
+    are not set. No distance. */
 PIR_API pir_status pir_query_overlap(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                      pir_query_result *ret_result);
 
 /**
- * The separation distance with closest points, by descent on the difference from the cached features (after Gilbert, Johnson and
- * Keerthi, IEEE J. Robotics and Automation 4(2), 1988; supports by hill climbing). Where the bodies touch or overlap the distance is 0
- * and the outcome says so; the points are then those of contact when they touch, and not set when they overlap.
+ * The separation distance with closest points, by descent on the difference from the cached features (after Gilbert,
+ * Johnson and Keerthi, IEEE J. Robotics and Automation 4(2), 1988; supports by hill climbing). Where the bodies touch
+ * or overlap the distance is 0 and the outcome says so; the points are then those of contact when they touch, and not
+ * set when they overlap.
  */
 PIR_API pir_status pir_query_distance(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                       pir_query_result *ret_result);
 
 /**
- * The penetration depth: the least translation of P that ends the overlap, the minimum over every facet of the difference. Which is least is
- * decided exactly. Of facets that tie exactly the first wins: those on which a facet of P lies, by its index; then those on which a facet of Q
- * lies, by its index; then those of two edges, by P's index, then by Q's.
- * Where the bodies do not overlap the distance is 0, and the outcome says why.
+ * The penetration depth: the least translation of P that ends the overlap, the minimum over every facet of the
+ * difference. Which is least is decided exactly. Of facets that tie exactly the first wins: those on which a facet of P
+ * lies, by its index; then those on which a facet of Q lies, by its index; then those of two edges, by P's index, then
+ * by Q's. Where the bodies do not overlap the distance is 0, and the outcome says why.
  */
 PIR_API pir_status pir_query_penetration(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                          pir_query_result *ret_result);
@@ -161,24 +168,25 @@ typedef struct pir_escape {
 } pir_escape;
 
 /**
- * Every facet of the difference through which P leaves by at most the depth plus `slack` (≥ 0), in the order of the tie rule: up to
- * `capacity` go to `ret_escapes`, *ret_count is how many there are. None unless the bodies overlap. A witness here names the faces of P and Q that
- * make the facet. Within 2^-44 of the size of the bodies a facet counts as within `slack`. O(size of the sum) for each.
+ * Every facet of the difference through which P leaves by at most the depth plus `slack` (≥ 0), in the order of the tie
+ * rule: up to `capacity` go to `ret_escapes`, *ret_count is how many there are. None unless the bodies overlap. A
+ * witness here names the faces of P and Q that make the facet. Within 2^-44 of the size of the bodies a facet counts as
+ * within `slack`. O(size of the sum) for each.
  */
 PIR_API pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, double slack, size_t capacity,
                                      pir_escape *ret_escapes, size_t *ret_count);
 
 /**
- * How far P moves along `direction` (any length but zero) until the overlap ends: the directional penetration depth, in units of length.
- * result.distance is minus that; result.normal is the facet's, and point_p = point_q there is P's contact at the exit.
- * PIR_NO_HIT when the bodies do not overlap.
+ * How far P moves along `direction` (any length but zero) until the overlap ends: the directional penetration depth, in
+ * units of length. result.distance is minus that; result.normal is the facet's, and point_p = point_q there is P's
+ * contact at the exit. PIR_NO_HIT when the bodies do not overlap.
  */
 PIR_API pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                                pir_query_result *ret_result);
 
 /**
- * How far P moves along `direction` until it touches Q; 0 where it touches or overlaps already, PIR_NO_HIT when it never does. Whether it does is exact: to
- * graze is to touch, to slide along a face with any gap at all is not.
+ * How far P moves along `direction` until it touches Q; 0 where it touches or overlaps already, PIR_NO_HIT when it
+ * never does. Whether it does is exact: to graze is to touch, to slide along a face with any gap at all is not.
  */
 PIR_API pir_status pir_query_directional_distance(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                                   pir_query_result *ret_result);
@@ -205,7 +213,8 @@ typedef struct pir_cast_result {
 PIR_API pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 motion,
                                   pir_cast_result *ret_result);
 
-/** A screw-free motion over time 0 to 1: translation from `start` by `motion`, while P turns about its origin by `angle` radians about `axis`. */
+/** A screw-free motion over time 0 to 1: translation from `start` by `motion`, while P turns about its origin by
+    `angle` radians about `axis`. */
 typedef struct pir_motion {
     pir_quat rotation; /**< at time 0 */
     pir_vec3 start, motion;
@@ -214,13 +223,15 @@ typedef struct pir_motion {
 } pir_motion;
 
 /**
- * Conservative advancement (Mirtich, 1996): the time of first contact, safe and within `tolerance` (> 0, a length): at `time` the bodies
- * are apart by at most it. Rotates the sum, which is left at the last rotation looked at. At most 256 distance queries.
+ * Conservative advancement (Mirtich, 1996): the time of first contact, safe and within `tolerance` (> 0, a length): at
+ * `time` the bodies are apart by at most it. Rotates the sum, which is left at the last rotation looked at. At most 256
+ * distance queries.
  */
 PIR_API pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double tolerance,
                                      pir_cast_result *ret_result);
 
-/** The largest distance between a point of P and a point of Q, attained by vertices: normal, points and witness as in a separation. O(size of the sum). */
+/** The largest distance between a point of P and a point of Q, attained by vertices: normal, points and witness as in a
+    separation. O(size of the sum). */
 PIR_API pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *input,
                                               pir_query_result *ret_result);
 
@@ -262,9 +273,9 @@ PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *i
 /*
  * --- many translations at one rotation ---
  *
- * The answers are those of single queries. A call first lays out all facets of the difference, O(size of the sum), unless the rotation is still
- * that of the batch before; the first one makes the memory for that. Errors as for single queries, and PIR_ERR_MEMORY; what was
- * answered before an error stands.
+ * The answers are those of single queries. A call first lays out all facets of the difference, O(size of the sum),
+ * unless the rotation is still that of the batch before; the first one makes the memory for that. Errors as for single
+ * queries, and PIR_ERR_MEMORY; what was answered before an error stands.
  */
 
 /** The exact state of each of `count` translations. */
@@ -280,9 +291,9 @@ PIR_API pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *t
                                              double *ret_distances, pir_state *ret_states);
 
 /**
- * From measured costs in one unit: per rotation of the tracked sum (its update and the preparation of queries), per query on it, and per
- * query of the stateless alternative. The least number of queries per rotation at which the sum pays; HUGE_VAL when it never does,
- * NaN when a cost is negative or not a number.
+ * From measured costs in one unit: per rotation of the tracked sum (its update and the preparation of queries), per
+ * query on it, and per query of the stateless alternative. The least number of queries per rotation at which the sum
+ * pays; HUGE_VAL when it never does, NaN when a cost is negative or not a number.
  */
 PIR_API double pir_query_break_even(double cost_rotation, double cost_query, double cost_stateless);
 

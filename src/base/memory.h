@@ -14,14 +14,15 @@
 /* The given allocator, or malloc's when NULL. */
 pir_allocator pir_allocator_or_default(const pir_allocator *allocator);
 
-/* `count` elements of `size` bytes, not initialised; NULL when out of memory or when the product overflows. A count of 0 gives a
- * block of one element, so that NULL always means failure. */
+/* `count` elements of `size` bytes, not initialised; NULL when out of memory or when the product overflows. A count of
+ * 0 gives a block of one element, so that NULL always means failure. */
 void *pir_memory_new(const pir_allocator *allocator, size_t count, size_t size);
 
 /* The same, zeroed. */
 void *pir_memory_zeroed(const pir_allocator *allocator, size_t count, size_t size);
 
-/* Grows or shrinks a block made above from `old_count` to `count` elements; NULL leaves it as it was. `block` may be NULL. */
+/* Grows or shrinks a block made above from `old_count` to `count` elements; NULL leaves it as it
+   was. `block` may be NULL. */
 void *pir_memory_resize(const pir_allocator *allocator, void *block, size_t old_count, size_t count, size_t size);
 
 /* Releases a block of `count` elements; NULL is accepted. */

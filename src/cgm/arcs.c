@@ -2,12 +2,14 @@
 /*
  * Walking the arcs of a polytope's Gaussian map through the faces of the cube, on the sphere.
  *
- * A cube face is a convex cell there. The great circle of an arc, with the line's positive side on its left, leaves a cell through the
- * side whose start is right of it and whose end is left of it, or through the corner before which that changes. The arc's end is inside when it
- * is left of that side; as an arc is no longer than 180°, no point of the circle beyond the antipode is mistaken for it. All questions are
- * signs of a normal with a cube plane or of an edge vector with a cube corner.
+ * A cube face is a convex cell there. The great circle of an arc, with the line's positive side on its left, leaves a
+ * cell through the side whose start is right of it and whose end is left of it, or through the corner before which that
+ * changes. The arc's end is inside when it is left of that side; as an arc is no longer than 180°, no point of the
+ * circle beyond the antipode is mistaken for it. All questions are signs of a normal with a cube plane or of an edge
+ * vector with a cube corner.
  *
- * A segment's map is a whole great circle without a normal on it: it is walked as two halves between opposite points on cube edges.
+ * A segment's map is a whole great circle without a normal on it: it is walked as two halves between opposite points on
+ * cube edges.
  */
 #include "cgm/arcs.h"
 
@@ -29,7 +31,8 @@ static int at_side(const int8_t planes[PIR_CUBE_PLANES], uint32_t map, uint32_t 
     return line & 1 ? -planes[line >> 1] : planes[line >> 1];
 }
 
-/* Finds where on the cube a point is from its signs at the planes: place, map, cube edge; the corner's site is returned, or PIR_CGM_NONE. */
+/* Finds where on the cube a point is from its signs at the planes: place, map, cube edge; the corner's site is
+   returned, or PIR_CGM_NONE. */
 static uint32_t locate(const struct pir_arcs *arcs, const int8_t planes[PIR_CUBE_PLANES], struct pir_site *site) {
     for (uint32_t map = 0; map < 6; map++) {
         uint32_t zeros = 0, last = 0;
@@ -117,7 +120,8 @@ static int corner_sign(const struct walk *walk, uint32_t map, uint32_t side) {
     return walk->corner[pir_cube_corner(map, pir_side_corner(side % 4))];
 }
 
-/* From inside map *map, or from its border inwards: to the end or out of it. *map is the next map to cross, or PIR_ALONG_EDGE. */
+/* From inside map *map, or from its border inwards: to the end or out of it. *map is the next map to
+   cross, or PIR_ALONG_EDGE. */
 static bool cross_map(struct walk *walk, uint32_t *map) {
     struct pir_arcs *arcs = walk->arcs;
     uint32_t side = 0;

@@ -2,9 +2,9 @@
 /*
  * The Gaussian map of a polytope cut by the cube: which points lie where, and the pieces that arcs fall into.
  *
- * A site is a direction that becomes a vertex: sites 0 to 7 are the corners of the cube, then come the facets' normals that are not at
- * corners, then the points where arcs cross cube edges. A piece is a part of an arc between two sites within one map, or along a cube
- * edge. The pieces of one arc follow each other.
+ * A site is a direction that becomes a vertex: sites 0 to 7 are the corners of the cube, then come the facets' normals
+ * that are not at corners, then the points where arcs cross cube edges. A piece is a part of an arc between two sites
+ * within one map, or along a cube edge. The pieces of one arc follow each other.
  */
 #ifndef PIR_CGM_ARCS_H
 #define PIR_CGM_ARCS_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The life of a map, and the parts of making one that do not depend on where it comes from. The invariants stand in cgm.h.
+ * The life of a map, and the parts of making one that do not depend on where it comes from. The invariants stand in
+ * cgm.h.
  */
 #include "cgm/build.h"
 

@@ -7,7 +7,8 @@
 
 #include "cgm/cgm.h"
 
-/* The sources of a map, each copied from `from` (one of them may be NULL), and the table of lines. NULL when out of memory. */
+/* The sources of a map, each copied from `from` (one of them may be NULL), and the table of lines.
+   NULL when out of memory. */
 pir_cgm *pir_cgm_new(const pir_allocator *allocator, const pir_cgm *first, const pir_cgm *second);
 
 /* The same for a polytope alone; `rotation` may be NULL and is copied. */
@@ -37,13 +38,15 @@ static inline void pir_ring_close(pir_cgm *cgm, const struct pir_cgm_ring *ring)
     cgm->half[ring->first ^ 1].next = ring->last;
 }
 
-/* Walks the faces of map `map`, whose edges are there and linked, and numbers them from face_start[map] on; false when out of memory. */
+/* Walks the faces of map `map`, whose edges are there and linked, and numbers them from face_start[map] on;
+   false when out of memory. */
 bool pir_cgm_trace_faces(pir_cgm *cgm, uint32_t map);
 
 /* When all maps are there: copies, and room for what sources contribute, all PIR_CGM_NONE. False when out of memory. */
 bool pir_cgm_connect(pir_cgm *cgm);
 
-/* Whether v is the normal of a facet of the sum of `count` sources from `first` on: at least three of its cells meet there. */
+/* Whether v is the normal of a facet of the sum of `count` sources from `first` on: at least three
+   of its cells meet there. */
 bool pir_cgm_is_facet_of(const pir_cgm *cgm, uint32_t v, uint32_t first, uint32_t count);
 
 /* When all is there but the vertices' flags: sets them. */

@@ -1,30 +1,34 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The inside of a cubical Gaussian map (Fogel and Halperin, "Exact and Efficient Construction of Minkowski Sums of Convex Polyhedra with
- * Applications", 2006): six planar maps, each a doubly connected edge list, in shared arrays.
+ * The inside of a cubical Gaussian map (Fogel and Halperin, "Exact and Efficient Construction of Minkowski Sums of
+ * Convex Polyhedra with Applications", 2006): six planar maps, each a doubly connected edge list, in shared arrays.
  *
- * Sources. A map is that of one polytope, rotated or not, or an overlay of maps, that is of a sum. The polytopes it comes from are its
- * sources; every feature carries what each source contributes: a vertex the facet, a halfedge the polytope's halfedge, a face the
- * vertex, or PIR_CGM_NONE.
+ * Sources. A map is that of one polytope, rotated or not, or an overlay of maps, that is of a sum. The polytopes it
+ * comes from are its sources; every feature carries what each source contributes: a vertex the facet, a halfedge the
+ * polytope's halfedge, a face the vertex, or PIR_CGM_NONE.
  *
- * Coordinates. A point of a map is a direction, a line in it a plane through the origin. Directions are held by what defines them and
- * worked out exactly only when the filter cannot tell: a facet's normal, or the ray in which two lines meet. A line is an edge
- * vector of a source or one of the cube's planes. So no number grows with the depth of overlays: a line has the length of an
- * edge vector, a direction at most that of the product of two.
+ * Coordinates. A point of a map is a direction, a line in it a plane through the origin. Directions are held by what
+ * defines them and worked out exactly only when the filter cannot tell: a facet's normal, or the ray in which two lines
+ * meet. A line is an edge vector of a source or one of the cube's planes. So no number grows with the depth of
+ * overlays: a line has the length of an edge vector, a direction at most that of the product of two.
  *
- * Lines are numbered: the cube's six planes first, then the edges of source 0, of source 1, and so on. A signed line is 2·line + reversed.
- * The signed line of a halfedge is positive to its left. Facets of all sources are numbered in the same way, from 0.
+ * Lines are numbered: the cube's six planes first, then the edges of source 0, of source 1, and so on. A signed line is
+ * 2·line + reversed. The signed line of a halfedge is positive to its left. Facets of all sources are numbered in the
+ * same way, from 0.
  *
  * Invariants
- *   - the vertices, edges and faces of map m are a slice each, [start[m], start[m + 1]); halfedges 2e and 2e + 1 are twins.
- *   - a map's vertices begin with the `rim[m]` ones on its square, counter-clockwise from corner 0, and its edges with as many sides:
- *     halfedge 2(edge_start[m] + i) leads from rim vertex i to the next, with the square on its left and the outer face,
- *     face_start[m], on its right.
- *   - next is a permutation; following it walks a face's boundary with the face on the left. Every face but the outer one is convex.
- *   - no vertex off the rim has an angle of 180° or more: all edges that meet there span the plane. No two neighbouring edges at a
- *     vertex are collinear, but for those of the rim.
- *   - `copy` leads from a rim vertex to the same direction in the map beyond the side that it starts, the next one clockwise about it:
- *     pairs on cube edges, cyclic triplets at corners; from any other vertex to itself. Two maps have the same points on their common side.
+ *   - the vertices, edges and faces of map m are a slice each, [start[m], start[m + 1]); halfedges 2e and 2e + 1 are
+ *     twins.
+ *   - a map's vertices begin with the `rim[m]` ones on its square, counter-clockwise from corner 0, and its edges with
+ *     as many sides: halfedge 2(edge_start[m] + i) leads from rim vertex i to the next, with the square on its left and
+ *     the outer face, face_start[m], on its right.
+ *   - next is a permutation; following it walks a face's boundary with the face on the left. Every face but the outer
+ *     one is convex.
+ *   - no vertex off the rim has an angle of 180° or more: all edges that meet there span the plane. No two neighbouring
+ *     edges at a vertex are collinear, but for those of the rim.
+ *   - `copy` leads from a rim vertex to the same direction in the map beyond the side that it starts, the next one
+ *     clockwise about it: pairs on cube edges, cyclic triplets at corners; from any other vertex to itself. Two maps
+ *     have the same points on their common side.
  *   - an edge is real when a source has an edge there; faces on both sides of one that is not have equal vertices.
  *   - a vertex is real when at least three cells meet there: it stands for a facet of the polytope.
  */
@@ -156,7 +160,8 @@ static inline bool pir_cgm_edge_is_real(const pir_cgm *cgm, uint32_t edge) {
     return false;
 }
 
-/* A way around a direction, clockwise, through the maps that share it: the halfedges that leave it, but for those with the outer face left. */
+/* A way around a direction, clockwise, through the maps that share it: the halfedges that leave it, but for those
+   with the outer face left. */
 struct pir_cgm_around {
     uint32_t vertex, start, half;
 };

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * From a map back to the polytope or sum: every cell is a vertex, every real vertex a facet, whose corners are the cells around it.
+ * From a map back to the polytope or sum: every cell is a vertex, every real vertex a facet, whose corners are the
+ * cells around it.
  *
- * A cell may be cut by cube edges; its faces carry the same vertices of the sources, and no other cell does, since an extreme point of a
- * sum is the sum of just one choice of vertices. So faces sorted by what they carry number the mesh's vertices, in rising order.
+ * A cell may be cut by cube edges; its faces carry the same vertices of the sources, and no other cell does, since an
+ * extreme point of a sum is the sum of just one choice of vertices. So faces sorted by what they carry number the
+ * mesh's vertices, in rising order.
  */
 #include "cgm/place.h"
 #include "polytope/mesh.h"
 
 #include <string.h>
 
-/* Faces of the six maps but for the outer ones, sorted by the vertices they carry: by counting, from the last source to the first. */
+/* Faces of the six maps but for the outer ones, sorted by the vertices they carry: by counting, from the
+   last source to the first. */
 static bool sort_faces(const pir_cgm *cgm, uint32_t *face, uint32_t *ret_count) {
     const pir_allocator *a = &cgm->allocator;
     uint32_t count = 0, buckets = 0;

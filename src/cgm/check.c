@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The whole-structure check of a map. What it proves: six planar maps whose inner faces are convex, joined along the cube's edges; and that
- * every corner of every face has the vertices that the face carries as extreme ones, so that each face lies in its cell, and the faces, which
- * fill the cube, are the overlay of the sources' Gaussian maps cut by the cube; and that each vertex names the facets whose normal it is.
+ * The whole-structure check of a map. What it proves: six planar maps whose inner faces are convex, joined along the
+ * cube's edges; and that every corner of every face has the vertices that the face carries as extreme ones, so that
+ * each face lies in its cell, and the faces, which fill the cube, are the overlay of the sources' Gaussian maps cut by
+ * the cube; and that each vertex names the facets whose normal it is.
  */
 #include "cgm/build.h"
 #include "cgm/sides.h"
@@ -204,7 +205,8 @@ static bool is_normal(struct check *check, uint32_t s, uint32_t f, uint32_t v) {
     return pir_vec_dot(n, check->cgm->vertex[v].point.unit) > 0;
 }
 
-/* When all maps and what joins them are valid: every vertex that is a facet's normal says so, of the sum and of each source. */
+/* When all maps and what joins them are valid: every vertex that is a facet's normal says so, of the
+   sum and of each source. */
 static bool facets_are_valid(struct check *check) {
     const pir_cgm *cgm = check->cgm;
     for (uint32_t v = 0; v < pir_cgm_vertices(cgm); v++) {

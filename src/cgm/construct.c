@@ -2,9 +2,10 @@
 /*
  * The cubical map of one polytope: the sites and pieces of arcs.h, put together as six planar maps.
  *
- * The order of edges around a facet's normal is that of the facet's sides. On the rim, a map has those of them that lead into it, between
- * its two sides; every other rim vertex has at most one piece in a map, since arcs meet only in normals. Faces learn their vertex from
- * the arcs beside them; those that no arc borders from the face beyond the cube edge, which is part of the same cell.
+ * The order of edges around a facet's normal is that of the facet's sides. On the rim, a map has those of them that
+ * lead into it, between its two sides; every other rim vertex has at most one piece in a map, since arcs meet only in
+ * normals. Faces learn their vertex from the arcs beside them; those that no arc borders from the face beyond the cube
+ * edge, which is part of the same cell.
  */
 #include "base/sort.h"
 #include "cgm/arcs.h"
@@ -96,14 +97,16 @@ static uint32_t add_edge(struct construct *c, uint32_t from, uint32_t to, uint32
     return 2 * e;
 }
 
-/* The vertices of one side but for its last corner, and what arc runs along from each: into `covers`, from the first rim vertex on. */
+/* The vertices of one side but for its last corner, and what arc runs along from each: into `covers`, from
+   the first rim vertex on. */
 static void add_side_vertices(struct construct *c, uint32_t map, uint32_t side, uint32_t *covers) {
     const struct pir_arcs *arcs = &c->arcs;
     uint32_t k = arcs->cube_edge[map][side], first = c->cgm->vertex_start[map];
     uint32_t low = c->edge_start[k], n = c->edge_start[k + 1] - low, corner = pir_side_corner(side);
     bool forward = arcs->edge_map[k] == map;
     for (uint32_t i = 0; i <= n; i++) {
-        // position i along the side: the corner, then the sites in the side's order; what is ahead of it starts at its end when reversed
+        // Position i along the side: the corner, then the sites in the side's order. Reversed, what is ahead of it
+        // starts at its end.
         uint32_t site = i == 0 ? pir_cube_corner(map, corner) : c->edge_sites[low + (forward ? i - 1 : n - i)];
         uint32_t v = add_vertex(c, site, map), cover;
         if (forward)
@@ -153,7 +156,8 @@ static void add_pieces(struct construct *c, uint32_t map) {
 
 /* --- rings --- */
 
-/* The halfedge in map `map` that starts the arc along polytope halfedge h from the normal of the facet left of it, or PIR_CGM_NONE. */
+/* The halfedge in map `map` that starts the arc along polytope halfedge h from the normal of the facet left
+   of it, or PIR_CGM_NONE. */
 static uint32_t first_half(const struct construct *c, uint32_t h, uint32_t map) {
     const struct pir_arcs *arcs = &c->arcs;
     uint32_t e = arcs->polytope->edge[h];

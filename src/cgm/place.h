@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Points of the polytope or sum that a map stands for: the vertices that a face carries, rotated and added up; as doubles and exactly.
+ * Points of the polytope or sum that a map stands for: the vertices that a face carries, rotated and added up; as
+ * doubles and exactly.
  */
 #ifndef PIR_CGM_PLACE_H
 #define PIR_CGM_PLACE_H

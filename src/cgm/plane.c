@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Support planes. In the direction n of a vertex the vertices that any face beside it carries are extreme, so their sum x is on the
- * plane n·y = n·x.
+ * Support planes. In the direction n of a vertex the vertices that any face beside it carries are extreme, so their sum
+ * x is on the plane n·y = n·x.
  */
 #include <pirouette/exact.h>
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The two questions that building and overlaying maps ask: on which side of a line a direction is, and which of two directions on a
- * line comes first. Both are signs of integers; a double filter on unit vectors, each with a bound on its error, answers nearly all.
+ * The two questions that building and overlaying maps ask: on which side of a line a direction is, and which of two
+ * directions on a line comes first. Both are signs of integers; a double filter on unit vectors, each with a bound on
+ * its error, answers nearly all.
  */
 #ifndef PIR_CGM_SIDES_H
 #define PIR_CGM_SIDES_H
@@ -23,7 +24,8 @@ void pir_cgm_sides_finish(struct pir_cgm_sides *sides, const pir_allocator *allo
 int pir_cgm_side(struct pir_cgm_sides *sides, const pir_cgm *a, uint32_t line, const pir_cgm *b,
                  const struct pir_cgm_point *point);
 
-/* For x of map b and y of map c, less than 180° apart on signed line `line` of a: 1 when y is ahead of x, −1 when behind, 0 when equal. */
+/* For x of map b and y of map c, less than 180° apart on signed line `line` of a: 1 when y is ahead of x, −1
+   when behind, 0 when equal. */
 int pir_cgm_ahead(struct pir_cgm_sides *sides, const pir_cgm *a, uint32_t line, const pir_cgm *b,
                   const struct pir_cgm_point *x, const pir_cgm *c, const struct pir_cgm_point *y);
 

@@ -2,10 +2,11 @@
 /*
  * Rotations from quaternions.
  *
- * The bound on r, with u = 2^-53. Unless |q|² is near one, q is first scaled by a power of two, exactly but for parts below 2^-1074, so
- * that its largest component is in [0.5, 1). An entry is a sum of at most four products over n = |q|², the magnitudes of which add up to
- * at most n. Products err by u, three sums by 3u more, n itself by 4u, its reciprocal by u and the last product by u: at most 10.01u,
- * and 9 entries make at most 30.1u in Frobenius norm, hence in what r does to a unit vector.
+ * The bound on r, with u = 2^-53. Unless |q|² is near one, q is first scaled by a power of two, exactly but for parts
+ * below 2^-1074, so that its largest component is in [0.5, 1). An entry is a sum of at most four products over n =
+ * |q|², the magnitudes of which add up to at most n. Products err by u, three sums by 3u more, n itself by 4u, its
+ * reciprocal by u and the last product by u: at most 10.01u, and 9 entries make at most 30.1u in Frobenius norm, hence
+ * in what r does to a unit vector.
  */
 #include "exact/rotation.h"
 
@@ -129,9 +130,9 @@ static double chord(pir_quat a, pir_quat b, double sign) {
 
 double pir_rotation_angle_bound(pir_quat a, pir_quat b) {
     /*
-     * Unit quaternions at distance c (up to sign) turn by θ = 4 asin(c/2), c ≤ √2. (asin(y) − y)/y³ rises with y and is below 0.2215 at
-     * y = √2/2, so θ ≤ 4 (y + 0.2215 y³). Rounding: each unit quaternion is off by at most 8u, the chord so by 16u and, relatively,
-     * by 5u; 2^-48 = 32u on c and 1 + 2^-48 on the result hold all of it.
+     * Unit quaternions at distance c (up to sign) turn by θ = 4 asin(c/2), c ≤ √2. (asin(y) − y)/y³ rises with y and is
+     * below 0.2215 at y = √2/2, so θ ≤ 4 (y + 0.2215 y³). Rounding: each unit quaternion is off by at most 8u, the
+     * chord so by 16u and, relatively, by 5u; 2^-48 = 32u on c and 1 + 2^-48 on the result hold all of it.
      */
     double y = 0.5 * (chord(a, b, a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1 : 1) + 0x1p-48);
     return 4 * (y + 0.2215 * (y * y * y)) * (1 + 0x1p-48);

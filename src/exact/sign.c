@@ -12,13 +12,15 @@
  *
  *     1, ε₁, ε₁², ε₂, ε₁ε₂, ε₂², ε₃, ε₁ε₃, ε₂ε₃, ε₃², ε₄, ε₁ε₄, ε₂ε₄, ε₃ε₄, ε₄²
  *
- * and the first coefficient that is not zero gives the sign. One without ε₄ is not: were A_kl = 0 for all k and l among x, y, z, then
- * a bᵀ + b aᵀ = d I, of rank 2 at most, so that d = 0; then a_k b_l = −a_l b_k, and a_k b_k = 0, whence a = 0 or b = 0.
+ * and the first coefficient that is not zero gives the sign. One without ε₄ is not: were A_kl = 0 for all k and l among
+ * x, y, z, then a bᵀ + b aᵀ = d I, of rank 2 at most, so that d = 0; then a_k b_l = −a_l b_k, and a_k b_k = 0, whence a
+ * = 0 or b = 0.
  *
- * Most ties of real scenes are of small integers, and s vanishes product by product: a body turning on a table has two components of
- * q zero, and normals and edges along axes. So doubles try first. Where s vanishes so, a_k b_k = 0 for every k: hence d = 0, A_kk = 0,
- * and A_kl is a single product, as c_k is. What is left are sums like b·v. One of which all products are 0 is 0; one that is not small
- * beside what the magnitudes of its products add up to has the sign that it seems to have. Where neither holds the integers decide.
+ * Most ties of real scenes are of small integers, and s vanishes product by product: a body turning on a table has two
+ * components of q zero, and normals and edges along axes. So doubles try first. Where s vanishes so, a_k b_k = 0 for
+ * every k: hence d = 0, A_kk = 0, and A_kl is a single product, as c_k is. What is left are sums like b·v. One of which
+ * all products are 0 is 0; one that is not small beside what the magnitudes of its products add up to has the sign that
+ * it seems to have. Where neither holds the integers decide.
  */
 #include "exact/sign.h"
 

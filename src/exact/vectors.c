@@ -2,9 +2,10 @@
 /*
  * Arrays of exact vectors.
  *
- * The bound of pir_int3_unit, with u = 2^-53: converting a component errs by 1.001u relative; the sum of squares by 2.01u + 3.01u,
- * its root by half that and another u; the quotient by one more u. Altogether below 1.01u + 3.52u + 1.01u < 6u relative in
- * each component, so below 6u in length. Components below 2^-1000 of the largest may lose more, less than 2^-900 in all. 8u holds both.
+ * The bound of pir_int3_unit, with u = 2^-53: converting a component errs by 1.001u relative; the sum of squares by
+ * 2.01u + 3.01u, its root by half that and another u; the quotient by one more u. Altogether below 1.01u + 3.52u +
+ * 1.01u < 6u relative in each component, so below 6u in length. Components below 2^-1000 of the largest may lose more,
+ * less than 2^-900 in all. 8u holds both.
  */
 #include "exact/vectors.h"
 
@@ -154,7 +155,8 @@ double pir_scaled_nearest_double(const pir_int *a, const pir_int *num, const pir
     mpz_inits(n, d, quotient, rest, NULL);
     mpz_mul(n, mpz_roinit_n(view, a->limb, pir_int_length(a)), mpz_roinit_n(factor, num->limb, num->size));
     mpz_set(d, mpz_roinit_n(view, den->limb, den->size));
-    // a quotient of at least 65 bits with its last bit sticky rounds as the exact number does, unless the result is subnormal
+    // A quotient of at least 65 bits with its last bit sticky rounds as the exact number does, unless the result is
+    // subnormal.
     long shift = (long)mpz_sizeinbase(d, 2) - (long)mpz_sizeinbase(n, 2) + 66;
     // below the normal range keep just the bits that a subnormal has, one guard bit and the sticky one
     if (shift > 1076)

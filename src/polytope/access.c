@@ -132,7 +132,8 @@ static bool loops_are_valid(const pir_polytope *p) {
     return true;
 }
 
-/* Every neighbour of a facet's corner is on the facet's plane when it is beside it in the loop, and strictly below otherwise. */
+/* Every neighbour of a facet's corner is on the facet's plane when it is beside it in the loop, and
+   strictly below otherwise. */
 static bool is_strictly_convex(const pir_polytope *p, pir_limbs *scratch) {
     pir_int s = pir_limbs_take(scratch, p->exact_normal.stride + p->exact_edge.stride + 2);
     for (uint32_t f = 0; f < p->facet_count; f++) {

@@ -2,8 +2,8 @@
 /*
  * Polytopes from what callers have: doubles, rationals, another polytope.
  *
- * Every input becomes integers on one scale. Doubles are integers times the power of two of their lowest set bit; rationals are
- * integers over the least common multiple of their denominators.
+ * Every input becomes integers on one scale. Doubles are integers times the power of two of their lowest set bit;
+ * rationals are integers over the least common multiple of their denominators.
  */
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Facets as loops of indices, counter-clockwise from outside, and their canonical order: each loop starts at its smallest
- * index, loops stand in lexicographic order. Loops of the same facets are then equal array for array, whoever made them.
+ * Facets as loops of indices, counter-clockwise from outside, and their canonical order: each loop starts at its
+ * smallest index, loops stand in lexicographic order. Loops of the same facets are then equal array for array, whoever
+ * made them.
  */
 #ifndef PIR_POLYTOPE_LOOPS_H
 #define PIR_POLYTOPE_LOOPS_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The inside of a mesh. Vertices stand by rising pair (vertex of P, vertex of Q); facets in the canonical order of loops.h.
+ * The inside of a mesh. Vertices stand by rising pair (vertex of P, vertex of Q); facets in the canonical order of
+ * loops.h.
  */
 #ifndef PIR_POLYTOPE_MESH_H
 #define PIR_POLYTOPE_MESH_H

@@ -8,11 +8,13 @@
  * (cyclically), and so on.
  *
  * Invariants
- *   - twin is an involution without fixed points; left[twin[h]] is the facet right of h; target[h] is the origin of twin[h].
+ *   - twin is an involution without fixed points; left[twin[h]] is the facet right of h; target[h] is the origin of
+ *     twin[h].
  *   - edges are numbered by (smaller vertex, larger vertex); edge_half[e] is the halfedge that leaves the smaller.
  *   - the arc of e in the Gaussian map leads from the facet left of edge_half[e] to the one right of it, and turns
  *     counter-clockwise about the edge's vector: n_left × n_right is a positive multiple of it.
- *   - exact vectors: vertices on the common scale `scale`; edge vectors and facet normals along the true direction, of any length.
+ *   - exact vectors: vertices on the common scale `scale`; edge vectors and facet normals along the true direction, of
+ *     any length.
  *
  * Lower dimensions keep the same form, so that nothing else needs to know: a polygon has its two sides as facets; a
  * segment has two facets with opposite normals across it and two edges, all its two corners at a time (`artificial`: no
@@ -93,7 +95,8 @@ struct pir_exact_points {
     pir_scale scale;
 };
 
-/* The points are finite, `count` > 0 and below 2^30. PIR_ERR_MEMORY, PIR_ERR_LIMIT (numbers too long), with *exact empty. */
+/* The points are finite, `count` > 0 and below 2^30. PIR_ERR_MEMORY, PIR_ERR_LIMIT (numbers too
+   long), with *exact empty. */
 pir_status pir_exact_points_of_doubles(struct pir_exact_points *exact, const pir_vec3 *points, size_t count,
                                        const pir_allocator *allocator);
 pir_status pir_exact_points_of_rationals(struct pir_exact_points *exact, const mpq_t *coordinates, size_t count,
@@ -103,7 +106,8 @@ void pir_exact_points_finish(struct pir_exact_points *exact, const pir_allocator
 /* PIR_ERR_ARGUMENT or PIR_ERR_NOT_FINITE when the merge tolerance is none. */
 pir_status pir_polytope_check_options(const pir_polytope_options *options);
 
-/* The hull with its facets merged within the tolerance, or itself where none are; takes the caller's reference of it. */
+/* The hull with its facets merged within the tolerance, or itself where none are; takes the
+   caller's reference of it. */
 pir_status pir_polytope_merge_within(pir_polytope *hull, double tolerance, pir_polytope **ret_polytope);
 
 /* Builds the hull of the points of `parts`, whose last four members are ignored. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A polytope of another size. The integers stay, and so do all features and their numbers; the scale that turns integers into coordinates
- * is multiplied, exactly and in lowest terms.
+ * A polytope of another size. The integers stay, and so do all features and their numbers; the scale that turns
+ * integers into coordinates is multiplied, exactly and in lowest terms.
  */
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Cubical Gaussian maps whose shape is known: counts, normals on cube edges and corners, flat bodies, the public traversal, bad calls. */
+/* Cubical Gaussian maps whose shape is known: counts, normals on cube edges and corners, flat bodies, the
+   public traversal, bad calls. */
 #include "support/test.h"
 
 #include <math.h>
@@ -50,7 +51,8 @@ static uint32_t count_real(const pir_cgm *cgm) {
     return count;
 }
 
-/* The octahedron's eight normals are the corners of the cube, its arcs the cube's edges: every map is a bare square, and all of it real. */
+/* The octahedron's eight normals are the corners of the cube, its arcs the cube's edges: every map is a bare
+   square, and all of it real. */
 static void octahedron_is_the_cube_itself(void **state) {
     (void)state;
     pir_polytope *p = octahedron();
@@ -106,7 +108,8 @@ static void normals_on_cube_edges_are_in_two_maps(void **state) {
     pir_polytope_release(p);
 }
 
-/* A body and itself, which is its own reflection, and two bodies whose maps share nothing but the cube: the sum is 26-sided. */
+/* A body and itself, which is its own reflection, and two bodies whose maps share nothing but the
+   cube: the sum is 26-sided. */
 static void equal_bodies_and_dual_bodies_sum(void **state) {
     (void)state;
     pir_polytope *p = octahedron(), *c = cube();

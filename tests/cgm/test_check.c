@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The check of a map sees damage: any part of it replaced by that of another place is seen, or changes nothing that callers see. So it is
- * for maps of bodies and of sums, of every dimension, tied with the cube's planes or not.
+ * The check of a map sees damage: any part of it replaced by that of another place is seen, or changes nothing that
+ * callers see. So it is for maps of bodies and of sums, of every dimension, tied with the cube's planes or not.
  */
 #include "support/test.h"
 
@@ -87,8 +87,8 @@ static bool stands_for(const pir_cgm *cgm, const pir_mesh *mesh) {
 }
 
 /*
- * What might stand in place of entry `i`: what stands elsewhere, before or after it, its own value with the lowest bit turned round, another
- * halfedge of its vertex, or an index of nothing.
+ * What might stand in place of entry `i`: what stands elsewhere, before or after it, its own value with the lowest bit
+ * turned round, another halfedge of its vertex, or an index of nothing.
  */
 static uint32_t other_value(test_random *random, pir_cgm *cgm, int which, uint32_t i) {
     size_t size;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Points asked about on maps of sums, against oracles that know nothing of maps. A point is outside when it is a vertex of the hull of the
- * sum and itself, and on the boundary when it lies in the plane of a facet, by rationals. Or, for solid sums: a point is outside when it is
- * beyond the plane of a facet, and on the boundary when it is in one and beyond none.
+ * Points asked about on maps of sums, against oracles that know nothing of maps. A point is outside when it is a vertex
+ * of the hull of the sum and itself, and on the boundary when it lies in the plane of a facet, by rationals. Or, for
+ * solid sums: a point is outside when it is beyond the plane of a facet, and on the boundary when it is in one and
+ * beyond none.
  */
 #include "support/test.h"
 
@@ -76,7 +77,8 @@ static pir_cgm_position oracle(const pir_mesh *mesh, mpq_t *points, pir_vec3 poi
     return position;
 }
 
-/* A point near the mesh: a vertex, a middle of two or three corners, a grid point, one a hair away from any of these, or far off. */
+/* A point near the mesh: a vertex, a middle of two or three corners, a grid point, one a hair away from
+   any of these, or far off. */
 static pir_vec3 some_point(test_random *random, const pir_mesh *mesh) {
     const pir_vec3 *vertex = pir_mesh_vertices(mesh);
     uint32_t n = pir_mesh_vertex_count(mesh), kind = test_random_below(random, 6);
@@ -210,7 +212,8 @@ static pir_cgm_position by_planes(const struct planes *planes, pir_vec3 point) {
     return position;
 }
 
-/* As near a point of facet f as doubles come: of its inside, of an edge or a vertex; each coordinate perhaps an ulp or two off. */
+/* As near a point of facet f as doubles come: of its inside, of an edge or a vertex; each coordinate
+   perhaps an ulp or two off. */
 static pir_vec3 point_beside(test_random *random, const pir_mesh *mesh, uint32_t f) {
     uint32_t n, kind = test_random_below(random, 3);
     const uint32_t *corner = pir_mesh_facet(mesh, f, &n);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Memory that runs out at every n-th request, once or from then on, in every call of cubical maps that asks for some, on bodies of every
- * kind and dimension: the call says so, its result is untouched, nothing leaks, and what was there before is as it was.
+ * Memory that runs out at every n-th request, once or from then on, in every call of cubical maps that asks for some,
+ * on bodies of every kind and dimension: the call says so, its result is untouched, nothing leaks, and what was there
+ * before is as it was.
  */
 #include "support/test.h"
 
@@ -105,7 +106,8 @@ static void every_failing_request_is_survived(void **state) {
     assert_true(failures > 5000);
 }
 
-/* Long thin bodies across each other: far more crossings than an overlay makes room for, so that everything grows, in every step of it. */
+/* Long thin bodies across each other: far more crossings than an overlay makes room for, so that everything
+   grows, in every step of it. */
 static pir_polytope *fan(test_random *random, int upright) {
     pir_vec3 points[80];
     uint32_t count = 20 + 2 * test_random_below(random, 30);
@@ -185,7 +187,8 @@ static void statistics_tell_the_bytes_that_a_map_holds(void **state) {
     }
 }
 
-/* Blocks grow to twice their size or to what is asked, and to no more elements than 32-bit numbers with a bit to spare count. */
+/* Blocks grow to twice their size or to what is asked, and to no more elements than 32-bit numbers
+   with a bit to spare count. */
 static void blocks_grow_within_their_limit(void **state) {
     (void)state;
     test_memory memory = {0};

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Sums made three ways, over random pairs and poses of which more than half are degenerate: by walking the Gaussian maps, by overlaying the
- * cubical ones, as the hull of all pairwise sums. Pairings and meshes must be equal bit for bit, and every map valid.
+ * Sums made three ways, over random pairs and poses of which more than half are degenerate: by walking the Gaussian
+ * maps, by overlaying the cubical ones, as the hull of all pairwise sums. Pairings and meshes must be equal bit for
+ * bit, and every map valid.
  */
 #include "support/test.h"
 
@@ -218,7 +219,8 @@ static void there_and_back_is_the_same_polytope(void **state) {
     }
 }
 
-/* Every vertex's plane, real or artificial, has the whole sum on one side and touches it; facets have three corners on theirs at least. */
+/* Every vertex's plane, real or artificial, has the whole sum on one side and touches it; facets have three
+   corners on theirs at least. */
 static void planes_support_the_sum(void **state) {
     (void)state;
     mpq_t plane[4], x[3], height, part;

@@ -3,13 +3,10 @@
  * Faults for the command: linked with its objects and the linker's --wrap into a program of its own, which nobody
  * installs. The environment variable PIROUETTE_FAULT says which fault, and at which call: KIND:N, N from 1.
  *
- *     memory    the N-th of all allocations of the command and of its calls of the library that can run out of memory does
- *     update    the N-th rotation of a tracked sum goes astray
- *     walk, cgm the N-th rebuild of that kind goes astray
- *     signal    SIGINT comes in the N-th rotation by PIR_METHOD_AUTO
- *     signals   it comes twice there
- *     pairing   the N-th comparison of two pairings says that they differ
- *     mesh      the N-th comparison of two meshes says that they differ
+ *     memory the N-th of all allocations of the command and of its calls of the library that can run out of memory does
+ *     update the N-th rotation of a tracked sum goes astray walk, cgm the N-th rebuild of that kind goes astray signal
+ *     SIGINT comes in the N-th rotation by PIR_METHOD_AUTO signals it comes twice there pairing the N-th comparison of
+ *     two pairings says that they differ mesh the N-th comparison of two meshes says that they differ
  *
  * The linker gives __wrap_X the calls of X and calls the function itself __real_X.
  */

@@ -222,7 +222,8 @@ class Examples:
         """Every mark by the exact slack of its translation."""
         quat = [Fraction(c) for c in (0, 0, 1, 2)]
         p, q = (Fraction(5, 8), Fraction(5, 8), Fraction(1)), (Fraction(1), Fraction(1, 2), Fraction(1))
-        minus_p, edges = turned(quat, box(*p)), turned(quat, box_edges(*p)) + box_edges(*q)  # a box is its own reflection
+        # a box is its own reflection
+        minus_p, edges = turned(quat, box(*p)), turned(quat, box_edges(*p)) + box_edges(*q)
         planes = {n: support(box(*q), n) + support(minus_p, n) for n in normals(edges)}
         assert len(self.lines) == 33, self.lines
         marks = set()

@@ -52,7 +52,8 @@ class Info(CommandTest):
         self.assertLessEqual(merged["merge_bound"], 0.001)
         self.assertRegex(self.good("info", model, "--merge", "0.01"), r"merged +within .* of the hull\n")
         with open(model) as file:
-            told = subprocess.run([self.command, "info", "-", "--merge=0.01", "--json"], stdin=file, capture_output=True)
+            told = subprocess.run([self.command, "info", "-", "--merge=0.01", "--json"], stdin=file,
+                                  capture_output=True)
         self.assertEqual(json.loads(told.stdout)["facets"], 5)
         self.assertEqual(self.data("info", "shape:cube", "--merge", "1e-9")["facets"], 6)
         # a body's size: all of a fine sphere's facets are within it of each other

@@ -244,8 +244,8 @@ static void mutate(test_random *random, uint8_t *data, size_t size) {
 }
 
 /*
- * Bytes changed at random under a checksum that fits: refused, or read as a sum that proves valid. Memory stays in proportion, whatever the
- * counts say.
+ * Bytes changed at random under a checksum that fits: refused, or read as a sum that proves valid. Memory stays in
+ * proportion, whatever the counts say.
  */
 static void made_up_bytes_are_refused_or_true(void **state) {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Live meshes: after every refresh what they hold is the sum's pairing and its mesh, and their lists of changes are the difference. */
+/* Live meshes: after every refresh what they hold is the sum's pairing and its mesh, and their lists of
+   changes are the difference. */
 #include "support/test.h"
 
 #include <math.h>
@@ -95,7 +96,8 @@ static void expect_changes(const pir_live_mesh *live, const struct pairs *before
     }
 }
 
-/* That vertices have the coordinates that their pairs give in the mesh of the sum; returns how many of the mesh's were found. */
+/* That vertices have the coordinates that their pairs give in the mesh of the sum; returns how many of
+   the mesh's were found. */
 static uint32_t count_vertices_of(pir_live_mesh *live, const pir_mesh *mesh) {
     static pir_vec3 vertices[4 * PAIRS_MAX];
     static float floats[4 * PAIRS_MAX][3];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The vertices of a live mesh, counted pair by pair: held against a plain list while they come, go and make the table grow, with memory and without. */
+/* The vertices of a live mesh, counted pair by pair: held against a plain list while they come, go and make the table
+   grow, with memory and without. */
 #include "support/test.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Regions: what a sum with a cone keeps is the whole sum's part in it, however the bodies turn and the cone moves; a sum whose memory
- * runs out stays whole at the region it had; and nothing allocates after the warm-up.
+ * Regions: what a sum with a cone keeps is the whole sum's part in it, however the bodies turn and the cone moves; a
+ * sum whose memory runs out stays whole at the region it had; and nothing allocates after the warm-up.
  *
  * PIR_TEST_ROUNDS in the environment makes the random tests so many times as long.
  */
@@ -225,8 +225,8 @@ static void jumps_out_of_a_thin_skin_are_right(void **state) {
 }
 
 /*
- * A jump out of the cover can carry the edges at its rim over facets that were dormant before and are active after, whose events nobody
- * hears: only a proof of what is kept beyond the cone shows it, for a frame.
+ * A jump out of the cover can carry the edges at its rim over facets that were dormant before and are active after,
+ * whose events nobody hears: only a proof of what is kept beyond the cone shows it, for a frame.
  */
 static void jumps_over_dormant_facets_are_right(void **state) {
     (void)state;
@@ -250,7 +250,8 @@ static void jumps_over_dormant_facets_are_right(void **state) {
     }
 }
 
-/* About the region's own axis, where the cover holds for good, and about axes near it; more than a radian a step too. */
+/* About the region's own axis, where the cover holds for good, and about axes near it; more
+   than a radian a step too. */
 static void spins_within_the_skin_are_right(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 12; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tolerance: the hull of the vertices that a lagging sum keeps, held against the true sum by their support functions in exact
- * arithmetic, in random directions and along the facets' normals; and that what settles is exact.
+ * Tolerance: the hull of the vertices that a lagging sum keeps, held against the true sum by their support functions in
+ * exact arithmetic, in random directions and along the facets' normals; and that what settles is exact.
  */
 #include "support/test.h"
 

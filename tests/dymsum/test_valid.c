@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The check of a sum sees damage: a cell that is another, a crossing that is another, and, with a region, whatever of it is taken out. */
+/* The check of a sum sees damage: a cell that is another, a crossing that is another, and, with a region,
+   whatever of it is taken out. */
 #include "support/test.h"
 
 #include <math.h>

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Any bytes as OFF text: they are refused with a report of one line, or make a valid polytope that survives being written, exactly
- * and as doubles, and read again.
+ * Any bytes as OFF text: they are refused with a report of one line, or make a valid polytope that survives being
+ * written, exactly and as doubles, and read again.
  *
- * An engine finds LLVMFuzzerTestOneInput; standalone.c runs it over kept files. Work is bounded by refusing large inputs.
+ * An engine finds LLVMFuzzerTestOneInput; standalone.c runs it over kept files. Work is bounded by refusing large
+ * inputs.
  */
 #include <stdint.h>
 #include <stdio.h>

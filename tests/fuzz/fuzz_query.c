@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Any bytes as two small bodies, three rotations, and at each a few translations: zero, on vertices, edges and facets of the difference, a hair
- * off them, tiny, huge, any double. Every query is asked. States are held against exact arithmetic (place_oracle.h), numbers as well
- * where doubles can hold them; each answer's own invariants, the answers of one call against those of another, and the pose reflected
- * and swapped against the pose.
+ * Any bytes as two small bodies, three rotations, and at each a few translations: zero, on vertices, edges and facets
+ * of the difference, a hair off them, tiny, huge, any double. Every query is asked. States are held against exact
+ * arithmetic (place_oracle.h), numbers as well where doubles can hold them; each answer's own invariants, the answers
+ * of one call against those of another, and the pose reflected and swapped against the pose.
  *
  * See fuzz_sum.c for how to run an engine.
  */

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Any bytes as a serialised sum, as they are and with the length and checksum made to fit, so that what lies behind those is reached: they
- * are refused with a report of one line and leave nothing behind, or make a sum that is valid, equal to a walk, the same when it
- * is written and read again, and that updates.
+ * Any bytes as a serialised sum, as they are and with the length and checksum made to fit, so that what lies behind
+ * those is reached: they are refused with a report of one line and leave nothing behind, or make a sum that is valid,
+ * equal to a walk, the same when it is written and read again, and that updates.
  *
- * Restored bodies may have coordinates no double holds, so that the rest of the library sees them here as well. Work is bounded by refusing
- * large inputs. write_sums.c makes the inputs to start from; see fuzz_sum.c for how to run an engine.
+ * Restored bodies may have coordinates no double holds, so that the rest of the library sees them here as well. Work is
+ * bounded by refusing large inputs. write_sums.c makes the inputs to start from; see fuzz_sum.c for how to run an
+ * engine.
  */
 #include <math.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Any bytes as two small bodies, a rotation and twenty more, to and fro at times: hulls, a sum, updates, each held against a walk, the check
- * of the whole pairing and, every few, the mesh against the hull of all sums of vertices.
+ * Any bytes as two small bodies, a rotation and twenty more, to and fro at times: hulls, a sum, updates, each held
+ * against a walk, the check of the whole pairing and, every few, the mesh against the hull of all sums of vertices.
  *
  * With an engine (clang's libFuzzer), from the root of the project:
  *

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Writes serialised sums of the tests' own small poses, to start fuzzing pir_sum_restore from: turned, scaled, behind within a tolerance, of
- * a region, differences. Usage: write_sums FOLDER
+ * Writes serialised sums of the tests' own small poses, to start fuzzing pir_sum_restore from: turned, scaled, behind
+ * within a tolerance, of a region, differences. Usage: write_sums FOLDER
  */
 #include <stdio.h>
 #include <stdlib.h>

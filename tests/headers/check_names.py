@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Every function that a header declares has a user: a public one in tests, examples or tools, an internal one in src itself.
+"""Every function that a header declares has a user: a public one in tests, examples or tools, an internal one in src
+itself.
 
 Usage: check_names.py ROOT. Names each function without a user, one a line, and exits with 1 when there is one.
 """
@@ -19,7 +20,8 @@ def text_of(path):
 
 
 def files_in(root, *folders):
-    return [path for folder in folders for path in sorted((root / folder).rglob("*")) if path.suffix in (".c", ".h", ".cpp")]
+    return [path for folder in folders for path in sorted((root / folder).rglob("*"))
+            if path.suffix in (".c", ".h", ".cpp")]
 
 
 def count_names(paths):

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A program outside the build: it sees only what an installation gives, through pkg-config. It adds a box to itself, turned
- * by nothing and then by a quarter turn, where the sum is again a box, and reads a corner of the result exactly.
+ * A program outside the build: it sees only what an installation gives, through pkg-config. It adds a box to itself,
+ * turned by nothing and then by a quarter turn, where the sum is again a box, and reads a corner of the result exactly.
  */
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * The C++20 program outside the build: it sees only what an installation gives. It follows the sum of a box and a segment
- * through a quarter turn and asks how far the two are apart.
+ * The C++20 program outside the build: it sees only what an installation gives. It follows the sum of a box and a
+ * segment through a quarter turn and asks how far the two are apart.
  */
 #include <array>
 #include <cmath>
@@ -75,7 +75,8 @@ int main() {
         return fail("no query");
     const query places(asked);
 
-    // The segment turns about z, its centre at (4, 0, 0): it reaches the farther towards the cube the less it has turned.
+    // The segment turns about z, its centre at (4, 0, 0): it reaches the farther towards the cube the less it has
+    // turned.
     for (int degrees = 0; degrees <= 90; degrees += 15) {
         const double half = degrees * std::numbers::pi / 360;
         const pir_quat turn{.x = 0, .y = 0, .z = std::sin(half), .w = std::cos(half)};

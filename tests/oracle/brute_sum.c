@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See check_sum.h: the sum by brute force. A facet with outward normal n is F_P(n) ⊕ F_Q(n), the sum of the operands' extreme sets along
- * n. For it to be a polygon, one of the sets must hold three points not on a line, or both must hold two whose lines cross: so n
- * is, up to sign and length, one of finitely many cross products. All are tried.
+ * See check_sum.h: the sum by brute force. A facet with outward normal n is F_P(n) ⊕ F_Q(n), the sum of the operands'
+ * extreme sets along n. For it to be a polygon, one of the sets must hold three points not on a line, or both must hold
+ * two whose lines cross: so n is, up to sign and length, one of finitely many cross products. All are tried.
  */
 #include "oracle/check_sum.h"
 
@@ -84,7 +84,8 @@ static int before(oracle_vec a, oracle_vec b, int i, int j) {
     return order ? order < 0 : mpz_cmp(a[j], b[j]) < 0;
 }
 
-/* The corners of the points' hull in their plane, counter-clockwise about n (monotone chain: Andrew, 1979); sorts `at`. */
+/* The corners of the points' hull in their plane, counter-clockwise about n (monotone chain:
+   Andrew, 1979); sorts `at`. */
 static uint32_t corners_of(oracle_vec *at, uint32_t count, oracle_vec n, uint32_t *corner) {
     int k = mpz_sgn(n[0]) ? 0 : mpz_sgn(n[1]) ? 1 : 2, i = (k + 1) % 3, j = (k + 2) % 3;
     for (uint32_t a = 1; a < count; a++)

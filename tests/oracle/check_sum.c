@@ -139,7 +139,8 @@ static void negate(oracle_vec n) {
         mpz_neg(n[k], n[k]);
 }
 
-/* A sum that is a polygon: two facets, one the other backwards; its plane and those upright on its sides support the sum. */
+/* A sum that is a polygon: two facets, one the other backwards; its plane and those upright on its
+   sides support the sum. */
 static const char *check_polygon(struct proof *proof) {
     uint32_t count, other;
     const uint32_t *corner = pir_mesh_facet(proof->mesh, 0, &count);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The oracle's arithmetic: points as GMP integers over one positive denominator, rotated exactly. Slow, short and plain: nothing here
- * knows how the library works, and nothing of the library is used but its public calls for exact coordinates.
+ * The oracle's arithmetic: points as GMP integers over one positive denominator, rotated exactly. Slow, short and
+ * plain: nothing here knows how the library works, and nothing of the library is used but its public calls for exact
+ * coordinates.
  */
 #ifndef PIR_ORACLE_POINTS_H
 #define PIR_ORACLE_POINTS_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Memory that runs out at every n-th request, for n = 1, 2, … until nothing fails: each failing call says so, leaves its result untouched
- * and its sum whole at the rotation before, and nothing leaks.
+ * Memory that runs out at every n-th request, for n = 1, 2, … until nothing fails: each failing call says so, leaves
+ * its result untouched and its sum whole at the rotation before, and nothing leaks.
  */
 #include "support/test.h"
 
@@ -156,7 +156,8 @@ static void every_failing_request_is_survived(void **state) {
     assert_true(failed > 500);
 }
 
-/* A prism with many narrow sides towards +x, upright along z or y: two of them cross most of their edges' arcs, or hardly any. */
+/* A prism with many narrow sides towards +x, upright along z or y: two of them cross most of their
+   edges' arcs, or hardly any. */
 static pir_polytope *fluted_prism(int upright_along_z) {
     test_points points = {.count = 82};
     for (int i = 0; i < 41; i++) {
@@ -227,7 +228,8 @@ static void list_of_crossings_that_cannot_grow_leaves_the_sum_whole(void **state
     pir_polytope_release(p);
 }
 
-/* Small steps, so that arcs gain and lose crossings at their ends: whenever the list has to grow, it cannot at first. */
+/* Small steps, so that arcs gain and lose crossings at their ends: whenever the list has to
+   grow, it cannot at first. */
 static void step_that_finds_no_memory_can_be_taken_again(void **state) {
     (void)state;
     uint32_t failures = 0;

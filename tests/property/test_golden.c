@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The same inputs give the same bits on every machine and with every compiler: hashes of pairings and meshes against kept ones. They may
- * change only when what a sum looks like is meant to change. So with the work that was done, which decides between update and walk. Inputs are made with +, −, ·, / and sqrt alone.
+ * The same inputs give the same bits on every machine and with every compiler: hashes of pairings and meshes against
+ * kept ones. They may change only when what a sum looks like is meant to change. So with the work that was done, which
+ * decides between update and walk. Inputs are made with +, −, ·, / and sqrt alone.
  */
 #include "support/test.h"
 
@@ -71,7 +72,8 @@ static void track_of_two_hundred_frames_keeps_its_bits(void **state) {
 
 enum motion { NEW_AXES, SWINGS, TREMBLES };
 
-/* The work of `frames` small steps by `method`: a new axis every 40 frames, to and fro about one, or a new one in each frame. */
+/* The work of `frames` small steps by `method`: a new axis every 40 frames, to and fro about one, or a
+   new one in each frame. */
 static pir_sum_statistics work_of(test_body body, enum motion motion, pir_method method, uint32_t frames,
                                   uint64_t number) {
     test_random random = fixed_random(number);
@@ -111,7 +113,8 @@ static void expect_work(const char *what, pir_sum_statistics did, const uint64_t
     expect(same, "%s", what);
 }
 
-/* How much an update looks at is part of what it promises. These numbers may change when an update is meant to look at other things. */
+/* How much an update looks at is part of what it promises. These numbers may change when an update is meant
+   to look at other things. */
 static void updates_look_at_no_more_than_they_did(void **state) {
     (void)state;
     expect_work("new axes", work_of(TEST_SPHERE, NEW_AXES, PIR_METHOD_UPDATE, 400, 11),

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Random histories of one sum: bodies of all kinds turn by steps of 1e-9 to half a turn, about steady, alternating, ever new and aligned axes
- * or to and fro about one, by any method, and in between the sum is cloned, reset, scaled, written and read again, let stay behind, limited to
- * a region, refused nonsense, and left without memory. After every step its pairing is that of a second sum, which has no history
- * because it walks each time; now and then that one goes by brute force, the whole pairing is proven, and meshes are held against
- * the hull of all sums of vertices.
+ * Random histories of one sum: bodies of all kinds turn by steps of 1e-9 to half a turn, about steady, alternating,
+ * ever new and aligned axes or to and fro about one, by any method, and in between the sum is cloned, reset, scaled,
+ * written and read again, let stay behind, limited to a region, refused nonsense, and left without memory. After every
+ * step its pairing is that of a second sum, which has no history because it walks each time; now and then that one goes
+ * by brute force, the whole pairing is proven, and meshes are held against the hull of all sums of vertices.
  *
  * PIR_TEST_HISTORIES in the environment sets the number of histories; a failure names the one and its step.
  */

@@ -6,7 +6,8 @@
 #include "support/bodies.h"
 #include "support/meshes.h"
 
-/* Tracks p against q over `frames` frames and compares each with a walk, some with brute force, some with the oracle. */
+/* Tracks p against q over `frames` frames and compares each with a walk, some with brute
+   force, some with the oracle. */
 static void track(test_random *random, pir_polytope *p, pir_polytope *q, int frames, double size, int prove_every) {
     pir_quat r = test_general_rotation(random), step = {0, 0, 0, 1};
     pir_sum *tracked = NULL, *walked = NULL;

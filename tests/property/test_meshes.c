@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The mesh of a sum, in four ways: from a tracked pairing, from a walk, as the hull of all sums of vertices, and proven or found again by
- * the oracle in exact arithmetic. Poses are mostly degenerate.
+ * The mesh of a sum, in four ways: from a tracked pairing, from a walk, as the hull of all sums of vertices, and proven
+ * or found again by the oracle in exact arithmetic. Poses are mostly degenerate.
  */
 #include "support/test.h"
 

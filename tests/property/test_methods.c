@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Methods beside each other: the automatic choice gives the same pairing at hardly more work than the better of the two. */
+/* Methods beside each other: the automatic choice gives the same pairing at hardly more work than
+   the better of the two. */
 #include "support/test.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * One pairing, found in four ways: tracked, walked, by brute force in the library, and by the oracle at a real, tiny perturbation of
- * the rotation. Poses are mostly degenerate.
+ * One pairing, found in four ways: tracked, walked, by brute force in the library, and by the oracle at a real, tiny
+ * perturbation of the rotation. Poses are mostly degenerate.
  */
 #include "support/test.h"
 

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The same inputs give the same bits on every machine, with every compiler and instruction set, over thousands of frames: hashes, against
- * kept ones, of pairings, meshes, live meshes, serialised sums and answers of queries. test_golden.c tells of single sums.
+ * The same inputs give the same bits on every machine, with every compiler and instruction set, over thousands of
+ * frames: hashes, against kept ones, of pairings, meshes, live meshes, serialised sums and answers of queries.
+ * test_golden.c tells of single sums.
  *
- * The hashes of sums may change only when what a sum looks like is meant to change; those of answers also when the last bits of a number
- * are meant to, and that within a tolerance when a pairing is meant to stay behind for longer or shorter. Inputs are made with +, −, ·, / and sqrt alone, and are the same whatever PIR_TEST_SEED says.
+ * The hashes of sums may change only when what a sum looks like is meant to change; those of answers also when the last
+ * bits of a number are meant to, and that within a tolerance when a pairing is meant to stay behind for longer or
+ * shorter. Inputs are made with +, −, ·, / and sqrt alone, and are the same whatever PIR_TEST_SEED says.
  */
 #include "support/test.h"
 

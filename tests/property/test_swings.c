@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bodies that swing to and fro about one axis, among a few places or ever new ones, with leaps and pushes about other axes in between. After
- * every step the pairing is that of a walk. Where facets come back to the cells that they came from, no sign is asked for.
+ * Bodies that swing to and fro about one axis, among a few places or ever new ones, with leaps and pushes about other
+ * axes in between. After every step the pairing is that of a walk. Where facets come back to the cells that they came
+ * from, no sign is asked for.
  *
  * PIR_TEST_SWINGS in the environment sets the number of cases.
  */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What threads may do at once: take and give references to polytopes; track sums of the same polytopes, a sum a thread, with its meshes, queries and
- * live mesh; read one mesh and one cubical map; make shapes, and read OFF. Every thread finds what one thread alone
- * finds, bit for bit. Under ThreadSanitizer, as .ci/run builds this program, it also shows that none of it races.
+ * What threads may do at once: take and give references to polytopes; track sums of the same polytopes, a sum a thread,
+ * with its meshes, queries and live mesh; read one mesh and one cubical map; make shapes, and read OFF. Every thread
+ * finds what one thread alone finds, bit for bit. Under ThreadSanitizer, as .ci/run builds this program, it also shows
+ * that none of it races.
  */
 #include "support/test.h"
 

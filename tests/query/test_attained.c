@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Where answers are attained: points on the bodies where features are parallel, casts that slide or recede next to a face, lines nearly along the
- * facet that decides, and the same bits whatever was asked before. Small cases, with the answers that plain geometry gives; the same at
- * random, and against exact arithmetic, is in test_exact_answers.c.
+ * Where answers are attained: points on the bodies where features are parallel, casts that slide or recede next to a
+ * face, lines nearly along the facet that decides, and the same bits whatever was asked before. Small cases, with the
+ * answers that plain geometry gives; the same at random, and against exact arithmetic, is in test_exact_answers.c.
  */
 #include "support/test.h"
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Situations that are known to defeat iterative engines, each with the answer that plain geometry gives: touching, depth exactly 0,
- * thin and tiny boxes, axes that only two edges make, far origins, casts that recede. And what holds of every query: nothing allocates after
- * the first, swapping the bodies mirrors the answer, scaling and moving change no state.
+ * Situations that are known to defeat iterative engines, each with the answer that plain geometry gives: touching,
+ * depth exactly 0, thin and tiny boxes, axes that only two edges make, far origins, casts that recede. And what holds
+ * of every query: nothing allocates after the first, swapping the bodies mirrors the answer, scaling and moving change
+ * no state.
  */
 #include "support/test.h"
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries whose planes have to grow and cannot: between two rotations the crossings of the sum become far more than a query made room for. A
- * call that finds no memory says so and leaves its results as they were; with memory again the same query answers as a fresh one does, bit for bit.
+ * Queries whose planes have to grow and cannot: between two rotations the crossings of the sum become far more than a
+ * query made room for. A call that finds no memory says so and leaves its results as they were; with memory again the
+ * same query answers as a fresh one does, bit for bit.
  */
 #include "support/test.h"
 
@@ -12,7 +13,8 @@
 #include "support/bodies.h"
 #include "support/memory.h"
 
-/* A prism with many narrow sides towards +x, upright along z or y: two of them cross most of their edges' arcs, or hardly any. */
+/* A prism with many narrow sides towards +x, upright along z or y: two of them cross most of their
+   edges' arcs, or hardly any. */
 static pir_polytope *fluted_prism(int upright_along_z) {
     test_points points = {.count = 82};
     for (int i = 0; i < 41; i++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries against exact arithmetic, over random and degenerate bodies, rotations and translations: far, near, deep, and on vertices,
- * edges and facets of the difference. States must agree always, numbers to 1e-12 of the size of things. One cache goes through all
- * poses of a pair, and every answer must be the same without it.
+ * Queries against exact arithmetic, over random and degenerate bodies, rotations and translations: far, near, deep, and
+ * on vertices, edges and facets of the difference. States must agree always, numbers to 1e-12 of the size of things.
+ * One cache goes through all poses of a pair, and every answer must be the same without it.
  *
  * PIR_TEST_PAIRS in the environment sets the number of pairs.
  */
@@ -130,7 +130,8 @@ static void check_pair(uint64_t number) {
     pir_polytope_release(q);
 }
 
-/* Pairs that once failed, with the first seed: slivers in which x lies next to faces that are equally near but for rounding. */
+/* Pairs that once failed, with the first seed: slivers in which x lies next to faces that are equally
+   near but for rounding. */
 static const uint64_t kept[] = {11790};
 
 static void answers_agree_with_exact_arithmetic(void **state) {

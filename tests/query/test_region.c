@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries on a sum with a region, held against the list of all facets that a whole sum gives, and against another sum that has come to the
- * same place another way.
+ * Queries on a sum with a region, held against the list of all facets that a whole sum gives, and against another sum
+ * that has come to the same place another way.
  */
 #include "support/test.h"
 
@@ -63,7 +63,8 @@ static pir_query_cache any_piece(test_random *random) {
                              .second = test_random_below(random, most)};
 }
 
-/* The least depth among the whole sum's facets in the cone about unit `axis`, from above and from below where the rim leaves it open. */
+/* The least depth among the whole sum's facets in the cone about unit `axis`, from above and from below where
+   the rim leaves it open. */
 static void least_in_cone(struct scene *s, const pir_query_input *input, double size, pir_vec3 axis, double half_angle,
                           double *ret_least, double *ret_most) {
     size_t count;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The loops over planes say what their formulas say; with the argument `versions`: every version gives the bits of the plain one, whatever
- * comes in, which is skipped where the plain one alone runs.
+ * The loops over planes say what their formulas say; with the argument `versions`: every version gives the bits of the
+ * plain one, whatever comes in, which is skipped where the plain one alone runs.
  */
 #include "support/test.h"
 

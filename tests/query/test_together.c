@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Placements that tie or lie in planes together, against exact arithmetic: bodies of many facets about one middle, cubes face to face and
- * edge to edge. Every way to ask gives the same answer: warm, cold, one by one and in a batch.
+ * Placements that tie or lie in planes together, against exact arithmetic: bodies of many facets about one middle,
+ * cubes face to face and edge to edge. Every way to ask gives the same answer: warm, cold, one by one and in a batch.
  */
 #include "support/test.h"
 

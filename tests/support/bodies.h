@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bodies and poses to test with: point sets of many kinds, quaternions of many kinds, and situations that put two bodies and a rotation
- * together. More than half of the situations are degenerate: what real scenes are made of.
+ * Bodies and poses to test with: point sets of many kinds, quaternions of many kinds, and situations that put two
+ * bodies and a rotation together. More than half of the situations are degenerate: what real scenes are made of.
  */
 #ifndef PIR_TEST_BODIES_H
 #define PIR_TEST_BODIES_H

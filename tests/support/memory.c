@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* See memory.h. Each block is preceded by its size, in a header as large as malloc's alignment, and followed by a guard that nobody may write to. */
+/* See memory.h. Each block is preceded by its size, in a header as large as malloc's alignment, and followed by a guard
+   that nobody may write to. */
 #include "support/memory.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * An allocator that counts, checks every size it is told against what it gave and that nothing was written behind a block, and fails when asked to. Its balance is zero when
- * nothing leaked.
+ * An allocator that counts, checks every size it is told against what it gave and that nothing was written behind a
+ * block, and fails when asked to. Its balance is zero when nothing leaked.
  */
 #ifndef PIR_TEST_MEMORY_H
 #define PIR_TEST_MEMORY_H

@@ -5,7 +5,8 @@
 
 #include <pirouette/sum.h>
 
-/* FNV-1a over what a mesh holds: vertices bit by bit, pairs, facets, kinds; `hash` is the one so far, or TEST_HASH_START. */
+/* FNV-1a over what a mesh holds: vertices bit by bit, pairs, facets, kinds; `hash` is the one so
+   far, or TEST_HASH_START. */
 #define TEST_HASH_START 0xcbf29ce484222325u
 uint64_t test_hash_mesh(uint64_t hash, const pir_mesh *mesh);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Random numbers that repeat: xoshiro256** (Blackman and Vigna), seeded through splitmix64 from the run's seed and a case number, so
- * that any one case can be made again alone. The seed is 1 or what the environment variable PIR_TEST_SEED says.
+ * Random numbers that repeat: xoshiro256** (Blackman and Vigna), seeded through splitmix64 from the run's seed and a
+ * case number, so that any one case can be made again alone. The seed is 1 or what the environment variable
+ * PIR_TEST_SEED says.
  */
 #ifndef PIR_TEST_RANDOM_H
 #define PIR_TEST_RANDOM_H

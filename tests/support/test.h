@@ -14,7 +14,8 @@
 /* What a program of tests ends with that has nothing to do on this machine: meson shows it as SKIP. */
 #define TEST_SKIPPED 77
 
-/* Fails the test with the printf-formatted text, which should say how to find the case again, unless the condition holds. */
+/* Fails the test with the printf-formatted text, which should say how to find the case again,
+   unless the condition holds. */
 #define expect(condition, ...)                                                                                         \
     do {                                                                                                               \
         if (!(condition)) {                                                                                            \

@@ -76,7 +76,8 @@ static void equal_points_make_a_point(void **state) {
 
 static void corner_a_last_bit_off_its_plane_is_kept(void **state) {
     (void)state;
-    // the eight corners of a cube, one of them a last bit too high: its three quadrilaterals fall apart in exact arithmetic
+    // The eight corners of a cube, one of them a last bit too high: its three quadrilaterals fall apart in exact
+    // arithmetic.
     pir_vec3 points[8];
     for (int i = 0; i < 8; i++)
         points[i] = (pir_vec3){i & 1, i >> 1 & 1, i >> 2 & 1};

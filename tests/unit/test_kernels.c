@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Every version of the kernels that this processor runs gives the bits of the scalar reference, on general and on tied data. */
+/* Every version of the kernels that this processor runs gives the bits of the scalar reference, on
+   general and on tied data. */
 #include "support/test.h"
 
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Meshes of sums whose shape is known: merged facets, flat and thin bodies, what each facet came from, exact coordinates. */
+/* Meshes of sums whose shape is known: merged facets, flat and thin bodies, what each facet came
+   from, exact coordinates. */
 #include "support/test.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The double nearest to a·num/den, ties to even, held against its two neighbours by rationals: over all of the range, and beyond both ends of it. */
+/* The double nearest to a·num/den, ties to even, held against its two neighbours by rationals: over all of the range,
+   and beyond both ends of it. */
 #include "support/test.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Quaternions of any length as exact rotations: the integers, the matrix of doubles and its bound, the bound on a turn. */
+/* Quaternions of any length as exact rotations: the integers, the matrix of doubles and its
+   bound, the bound on a turn. */
 #include "support/test.h"
 
 #include <math.h>
@@ -102,7 +103,8 @@ static void double_matrix_is_within_its_bound(void **state) {
     print_message("# largest error of a matrix: %.2f of 28 units of 2^-53\n", worst);
 }
 
-/* The exact turn between two quaternions: cos²(θ/2) = (a·b)² / (|a|²|b|²), worked out from the sine for small angles. */
+/* The exact turn between two quaternions: cos²(θ/2) = (a·b)² / (|a|²|b|²), worked out from the
+   sine for small angles. */
 static double turn_between(pir_quat a, pir_quat b) {
     oracle_quat x, y;
     mpz_t dot, xx, yy, sine;

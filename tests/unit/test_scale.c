@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Polytopes of another size: every vertex is the factor times what it was, exactly, and all features keep their numbers. */
+/* Polytopes of another size: every vertex is the factor times what it was, exactly, and all
+   features keep their numbers. */
 #include "support/test.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The model maker: every name gives the polytope that books describe, families follow their formulas, bad names are refused. */
+/* The model maker: every name gives the polytope that books describe, families follow their formulas,
+   bad names are refused. */
 #include "support/test.h"
 
 #include <math.h>
@@ -9,7 +10,8 @@
 
 #include "support/memory.h"
 
-/* What a shape must be. `triangles` is the sum over facets of corners − 2; `uniform` means one edge length and one circumradius. */
+/* What a shape must be. `triangles` is the sum over facets of corners − 2; `uniform` means one edge
+   length and one circumradius. */
 struct expected {
     const char *name;
     uint32_t vertices, edges, facets, triangles;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The sign of s(n, e), three stages: the double filter within its proven bound, exact integers, ties settled as a real, really tiny
- * perturbation settles them.
+ * The sign of s(n, e), three stages: the double filter within its proven bound, exact integers, ties settled as a real,
+ * really tiny perturbation settles them.
  */
 #include "support/test.h"
 
@@ -182,7 +182,8 @@ static void exact_sign_is_that_of_rational_arithmetic(void **state) {
     question_clear(&question, &allocator);
 }
 
-/* Vectors and rotations for which s is often zero, and often its derivatives as well: parallel, orthogonal, along the axis. */
+/* Vectors and rotations for which s is often zero, and often its derivatives as well: parallel,
+   orthogonal, along the axis. */
 static void draw_tie(struct question *question, test_random *random) {
     double a[3], b[3];
     for (int k = 0; k < 3; k++) {
@@ -219,8 +220,8 @@ static void draw_tie(struct question *question, test_random *random) {
 }
 
 /*
- * About an axis of coordinates: a vector along it and one across it, which make s vanish whatever the angle is, and an angle for which its
- * derivative vanishes, too, or is within a few ulps of that.
+ * About an axis of coordinates: a vector along it and one across it, which make s vanish whatever the angle is, and an
+ * angle for which its derivative vanishes, too, or is within a few ulps of that.
  */
 static void draw_close_call(struct question *question, test_random *random) {
     int k = (int)test_random_below(random, 3), l = (k + 1) % 3, m = (k + 2) % 3;
@@ -284,7 +285,8 @@ static void tie_is_settled_as_a_real_tiny_perturbation_settles_it(void **state) 
     question_clear(&question, &allocator);
 }
 
-/* Doubles settle the ties of small integers where they can; long vectors of the same directions are settled by integers alone. */
+/* Doubles settle the ties of small integers where they can; long vectors of the same directions are
+   settled by integers alone. */
 static void sign_is_that_of_the_directions(void **state) {
     (void)state;
     pir_allocator allocator = from_malloc();

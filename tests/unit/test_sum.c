@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What callers see of a sum: bad input, the difference, rotations brought in by any method, memory after warm-up, counters. */
+/* What callers see of a sum: bad input, the difference, rotations brought in by any method, memory
+   after warm-up, counters. */
 #include "support/test.h"
 
 #include <math.h>

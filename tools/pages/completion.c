@@ -76,7 +76,8 @@ static void print_takes(FILE *file) {
     fputs("    esac\n}\n\n", file);
 }
 
-/* _pirouette_value sets `value` to the kind of value of the option $2 of subcommand $1, to nothing where it has none. */
+/* _pirouette_value sets `value` to the kind of value of the option $2 of subcommand $1, to
+   nothing where it has none. */
 static void print_values(FILE *file) {
     fputs("_pirouette_value() {\n    value=\n    case \"$1 $2\" in\n", file);
     for (size_t i = 0; i < COMMAND_COUNT; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The overlay of two maps: the map of the Minkowski sum. Six times, for each face of the cube: merge the two rims, walk a's edges
- * through b's faces, put the pieces together.
+ * The overlay of two maps: the map of the Minkowski sum. Six times, for each face of the cube: merge the two rims, walk
+ * a's edges through b's faces, put the pieces together.
  */
 #include "cgm/overlay/overlay.h"
 
@@ -191,7 +191,8 @@ static void release(struct pir_overlay *o) {
     pir_cgm_sides_finish(&o->sides, allocator);
 }
 
-/* Room for what overlays usually take, so that it seldom grows: two spheres in general position add half as many crossings as both have arcs. */
+/* Room for what overlays usually take, so that it seldom grows: two spheres in general position add half as many
+   crossings as both have arcs. */
 static bool reserve(struct pir_overlay *o) {
     uint32_t vertices = pir_cgm_vertices(o->a) + pir_cgm_vertices(o->b),
              edges = pir_cgm_edges(o->a) + pir_cgm_edges(o->b);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The state of one overlay of maps a and b, shared by its three stages: rims (overlay.c), walking the edges of a through the faces of b
- * (overlay_walk.c), and putting the result together (overlay_join.c).
+ * The state of one overlay of maps a and b, shared by its three stages: rims (overlay.c), walking the edges of a
+ * through the faces of b (overlay_walk.c), and putting the result together (overlay_join.c).
  *
- * Every vertex of the result is a vertex of a, a point within an edge of a, or in no such place; and the same for b. Paper's ten
- * cases: vertex and vertex (1), vertex on edge (2, 3), vertex in face (4, 5), edge and edge crossing (6) or overlapping (7), edge in face
- * (8, 9), face and face (10).
+ * Every vertex of the result is a vertex of a, a point within an edge of a, or in no such place; and the same for b.
+ * Paper's ten cases: vertex and vertex (1), vertex on edge (2, 3), vertex in face (4, 5), edge and edge crossing (6) or
+ * overlapping (7), edge in face (8, 9), face and face (10).
  */
 #ifndef PIR_CGM_OVERLAY_OVERLAY_H
 #define PIR_CGM_OVERLAY_OVERLAY_H
@@ -24,13 +24,15 @@ struct pir_location {
 /* What a vertex of the result is in a and in b; PIR_CGM_NONE where a member does not apply. */
 struct pir_joint {
     uint32_t a, b; /* the vertices that are here */
-    uint32_t
-        a_mid; /* within an edge of a: the result's halfedge onwards in the direction that edge was walked; minus one is the one back */
+    /* Within an edge of a: the result's halfedge onwards in the direction in which that edge was walked. The halfedge
+       back has the number before it. */
+    uint32_t a_mid;
     uint32_t b_mid;  /* within an edge of b: the number of its piece onwards among `piece` */
     uint32_t record; /* within an edge of b: its record */
 };
 
-/* What an edge of the result lies on: halfedges of a and b along its halfedge 2e; the face of b where it is on no edge of b. */
+/* What an edge of the result lies on: halfedges of a and b along its halfedge 2e; the face of b where
+   it is on no edge of b. */
 struct pir_seam {
     uint32_t a, b, cell;
 };
@@ -78,7 +80,8 @@ static inline uint32_t pir_overlay_line(const struct pir_overlay *overlay, uint3
     return line < 2 * PIR_CUBE_PLANES ? line : line + 2 * (overlay->a->line_count - PIR_CUBE_PLANES);
 }
 
-/* Adds a vertex of the result: what it is in a or b is set by the caller in its joint. PIR_CGM_NONE when out of memory. */
+/* Adds a vertex of the result: what it is in a or b is set by the caller in its joint.
+   PIR_CGM_NONE when out of memory. */
 uint32_t pir_overlay_add_vertex(struct pir_overlay *overlay, uint32_t map, const struct pir_cgm_point *point,
                                 uint8_t place);
 

@@ -2,14 +2,15 @@
 /*
  * Putting an overlay together, once the edges of a are cut and placed.
  *
- * Edges of b. The points within an edge, crossings and vertices of a, are sorted along it; what lies between two of them is an edge of
- * the result, one that is there already where a runs along.
+ * Edges of b. The points within an edge, crossings and vertices of a, are sorted along it; what lies between two of
+ * them is an edge of the result, one that is there already where a runs along.
  *
- * Rings. The halfedges of a around a point come clockwise, and so do those of b; one of a's lies on one of b's or, known from its walk, in a
- * face of b, that is right of one of b's. So the two orders merge without asking for another sign.
+ * Rings. The halfedges of a around a point come clockwise, and so do those of b; one of a's lies on one of b's or,
+ * known from its walk, in a face of b, that is right of one of b's. So the two orders merge without asking for another
+ * sign.
  *
- * Faces. A face of the result lies in one face of a and one of b. Its edges tell which, but for a face of b that no edge of a meets:
- * that learns its face of a from beyond any edge that is not a's.
+ * Faces. A face of the result lies in one face of a and one of b. Its edges tell which, but for a face of b that no
+ * edge of a meets: that learns its face of a from beyond any edge that is not a's.
  */
 #include "base/sort.h"
 #include "cgm/overlay/overlay.h"
@@ -225,7 +226,8 @@ static void copy_attributes(const struct pir_overlay *o, uint32_t *to, uint32_t 
         memcpy(to + ka, of_b + (size_t)j * kb, kb * sizeof *to);
 }
 
-/* Turns what an edge holds about when the result's edge goes against it: halfedges of the polytopes become their twins. */
+/* Turns what an edge holds about when the result's edge goes against it: halfedges of the
+   polytopes become their twins. */
 static void turn_edge(const pir_cgm *r, uint32_t edge, uint32_t from, uint32_t count) {
     uint32_t *half = &r->edge_half[(size_t)edge * r->source_count];
     for (uint32_t s = from; s < from + count; s++)

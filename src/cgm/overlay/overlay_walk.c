@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Walking the edges of map a through the convex faces of map b (the idea of Finke and Hinrichs, "Overlaying simply connected planar
- * subdivisions in linear time", 1995, made simple by convexity and by exact signs).
+ * Walking the edges of map a through the convex faces of map b (the idea of Finke and Hinrichs, "Overlaying simply
+ * connected planar subdivisions in linear time", 1995, made simple by convexity and by exact signs).
  *
- * A walk is always within a face of b, at a vertex of b, or along an edge of b, and goes on by two kinds of question only: on which side
- * of the walked line is a vertex of b, and on which side of an edge of b is the walk's end.
- *   - It leaves a convex face where, counter-clockwise, vertices right of the line are followed by one that is not: through that
- *     side, or through that vertex when it is on the line. The end comes first exactly when it is left of that side, and is there when on it.
- *   - At a vertex it goes on between two neighbouring edges, one on its right and, counter-clockwise after it, one on its left, or along an
- *     edge between such two. Angles off the rim are below 180°, so there is one such place.
+ * A walk is always within a face of b, at a vertex of b, or along an edge of b, and goes on by two kinds of question
+ * only: on which side of the walked line is a vertex of b, and on which side of an edge of b is the walk's end.
+ *   - It leaves a convex face where, counter-clockwise, vertices right of the line are followed by one that is not:
+ *     through that side, or through that vertex when it is on the line. The end comes first exactly when it is left of
+ *     that side, and is there when on it.
+ *   - At a vertex it goes on between two neighbouring edges, one on its right and, counter-clockwise after it, one on
+ *     its left, or along an edge between such two. Angles off the rim are below 180°, so there is one such place.
  *   - Along an edge, the end comes before the edge's end when it is left of the next side of the face on the left.
  *
- * Walks start at located vertices, first those of the rim, and locate the vertex where they end. Every vertex is reached: a face that is
- * convex has one boundary.
+ * Walks start at located vertices, first those of the rim, and locate the vertex where they end. Every vertex is
+ * reached: a face that is convex has one boundary.
  */
 #include "cgm/overlay/overlay.h"
 
@@ -93,7 +94,8 @@ static uint32_t cross(struct walk *walk, uint32_t h) {
 
 /* --- steps --- */
 
-/* What comes next: a side to look at from within a face, its start right of the line; a vertex; an edge to follow; or the end. */
+/* What comes next: a side to look at from within a face, its start right of the line; a vertex; an edge
+   to follow; or the end. */
 enum step { FACE, VERTEX, ALONG, DONE, FAILED };
 
 struct next {

@@ -2,9 +2,9 @@
 /*
  * The exact convex hull of points of any dimension.
  *
- * Points that span a line, a plane or nothing are found exactly while looking for a first tetrahedron. In space, quickhull gives
- * triangles; those whose planes are exactly equal are joined to one facet, and corners at which only two facets meet, being straight,
- * are dropped. So the facets are maximal and all their corners extreme.
+ * Points that span a line, a plane or nothing are found exactly while looking for a first tetrahedron. In space,
+ * quickhull gives triangles; those whose planes are exactly equal are joined to one facet, and corners at which only
+ * two facets meet, being straight, are dropped. So the facets are maximal and all their corners extreme.
  */
 #include "polytope/hull/hull.h"
 

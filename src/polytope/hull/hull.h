@@ -22,9 +22,9 @@ pir_status pir_hull_make(const pir_vectors *points, const pir_allocator *allocat
 void pir_hull_finish(pir_hull *hull, const pir_allocator *allocator);
 
 /*
- * The corners of the convex polygon that `count` coplanar points span, seen with coordinate `axis` dropped, counter-clockwise when
- * `direction` > 0, else clockwise. Works in place: `index` holds the points, and on return the corners. Returns their number, or 0
- * when out of memory. Of equal points the first in `index` stays.
+ * The corners of the convex polygon that `count` coplanar points span, seen with coordinate `axis` dropped,
+ * counter-clockwise when `direction` > 0, else clockwise. Works in place: `index` holds the points, and on return the
+ * corners. Returns their number, or 0 when out of memory. Of equal points the first in `index` stays.
  */
 uint32_t pir_polygon_corners(pir_points *points, const pir_allocator *allocator, int axis, int direction,
                              uint32_t *index, uint32_t count);

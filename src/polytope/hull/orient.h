@@ -2,9 +2,9 @@
 /*
  * Exact points and the sides they lie on: the predicates of the convex hull.
  *
- * Each point is held exactly, as integers, and as doubles relative to the first point, each axis scaled by a power of two of
- * its own so that coordinates lie in [−1, 1]. Translation and positive scaling of the axes change no orientation, and
- * they keep the filter sharp for bodies that are flat, thin, tiny, huge or far from the origin.
+ * Each point is held exactly, as integers, and as doubles relative to the first point, each axis scaled by a power of
+ * two of its own so that coordinates lie in [−1, 1]. Translation and positive scaling of the axes change no
+ * orientation, and they keep the filter sharp for bodies that are flat, thin, tiny, huge or far from the origin.
  */
 #ifndef PIR_POLYTOPE_HULL_ORIENT_H
 #define PIR_POLYTOPE_HULL_ORIENT_H
@@ -24,7 +24,8 @@ void pir_points_finish(pir_points *points, const pir_allocator *allocator);
 /*
  * The plane through a, b, c of `near` points, with the error of pir_plane_height below 2^-43. With u = 2^-53: a
  * difference of coordinates is at most 2 and off by 4.1u; a normal component, two products of those, by
- * 2·(2·2·4.1u + 4u) + 8u < 49u, and at most 8; a height, three products of 8 with 2, by 3·(49u·2 + 8·4.1u + 16u) + 96u < 540u < 2^10·u.
+ * 2·(2·2·4.1u + 4u) + 8u < 49u, and at most 8; a height, three products of 8 with 2, by 3·(49u·2 + 8·4.1u + 16u) + 96u
+ * < 540u < 2^10·u.
  */
 #define PIR_ORIENT_BOUND 0x1p-43
 
@@ -48,12 +49,13 @@ int pir_orient(pir_points *points, uint32_t a, uint32_t b, uint32_t c, uint32_t 
 bool pir_collinear(pir_points *points, uint32_t a, uint32_t b, uint32_t c);
 
 /*
- * Exactly: the turn of a, b, c seen with coordinate `axis` dropped, the other two in cyclic order: 1 counter-clockwise, −1 clockwise,
- * 0 straight on.
+ * Exactly: the turn of a, b, c seen with coordinate `axis` dropped, the other two in cyclic order: 1 counter-clockwise,
+ * −1 clockwise, 0 straight on.
  */
 int pir_turn(pir_points *points, int axis, uint32_t a, uint32_t b, uint32_t c);
 
-/* The sign of component `axis` of (b − a) × (c − a) is pir_turn; this is an axis where it is not zero, or −1 on a line. */
+/* The sign of component `axis` of (b − a) × (c − a) is pir_turn; this is an axis where it is not
+   zero, or −1 on a line. */
 int pir_steepest_axis(pir_points *points, uint32_t a, uint32_t b, uint32_t c);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The convex hull of coplanar points: Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979) on the two coordinates that are kept, with
- * exact order and exact turns, so that straight corners and interior points drop out.
+ * The convex hull of coplanar points: Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979) on the two coordinates
+ * that are kept, with exact order and exact turns, so that straight corners and interior points drop out.
  */
 #include "polytope/hull/hull.h"
 
@@ -49,7 +49,8 @@ static int compare_places(const void *left, const void *right) {
     return order != 0 ? order : (a->rank > b->rank) - (a->rank < b->rank);
 }
 
-/* Appends point p to a chain whose lowest entry is chain[low], dropping what no longer turns left; returns the new length. */
+/* Appends point p to a chain whose lowest entry is chain[low], dropping what no longer turns left;
+   returns the new length. */
 static uint32_t extend_chain(pir_points *points, int axis, uint32_t *chain, uint32_t low, uint32_t length, uint32_t p) {
     while (length >= low + 2 && pir_turn(points, axis, chain[length - 2], chain[length - 1], p) <= 0)
         length--;

@@ -2,19 +2,21 @@
 /*
  * Quickhull (Barber, Dobkin, Huhdanpaa, ACM TOMS 22(4), 1996) with exact signs.
  *
- * A point sees a triangle when it is strictly beyond its plane, decided exactly; a coplanar point does not. Then the visible triangles
- * are whole facets and form a disc, no new triangle is degenerate (a point on the line of a horizon edge would be on the plane of the
- * visible triangle beside it), and a point that saw a deleted triangle and is still outside sees a new one.
+ * A point sees a triangle when it is strictly beyond its plane, decided exactly; a coplanar point does not. Then the
+ * visible triangles are whole facets and form a disc, no new triangle is degenerate (a point on the line of a horizon
+ * edge would be on the plane of the visible triangle beside it), and a point that saw a deleted triangle and is still
+ * outside sees a new one.
  *
- * Invariants between rounds: the living triangles bound a convex polytope, coplanar neighbours allowed; every point strictly outside
- * it waits in the list of one living triangle that it sees; neighbours name each other.
+ * Invariants between rounds: the living triangles bound a convex polytope, coplanar neighbours allowed; every point
+ * strictly outside it waits in the list of one living triangle that it sees; neighbours name each other.
  */
 #include "polytope/hull/quickhull.h"
 
 #include <math.h>
 #include <string.h>
 
-/* How far point p is beyond triangle t, decided exactly: positive only when it is; the number serves to find the farthest. */
+/* How far point p is beyond triangle t, decided exactly: positive only when it is; the number
+   serves to find the farthest. */
 static double height_above(pir_quickhull *hull, uint32_t t, uint32_t p) {
     const pir_triangle *triangle = &hull->triangle[t];
     double height = pir_plane_height(&triangle->plane, hull->points, p);

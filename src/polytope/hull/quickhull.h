@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A triangulated convex hull by quickhull, every visibility decided exactly. Coplanar triangles are left as they are: hull.c merges.
+ * A triangulated convex hull by quickhull, every visibility decided exactly. Coplanar triangles are left as they are:
+ * hull.c merges.
  */
 #ifndef PIR_POLYTOPE_HULL_QUICKHULL_H
 #define PIR_POLYTOPE_HULL_QUICKHULL_H

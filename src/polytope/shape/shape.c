@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Polytopes by name: "name?key=value&key=value" read against the table of shapes, then the exact hull of the shape's points.
+ * Polytopes by name: "name?key=value&key=value" read against the table of shapes, then the exact hull of the shape's
+ * points.
  *
  * Reading allocates nothing and knows no locale. A value of up to 15 significant digits and 22 decimals is the nearest
  * double; a longer one is a few ulp off at most, the same on every machine.
@@ -37,7 +38,8 @@ static bool piece_is(struct piece piece, const char *word) {
     return strlen(word) == piece.length && memcmp(piece.text, word, piece.length) == 0;
 }
 
-/* The number of letters to insert, drop or change to get from the piece to `word` (Wagner and Fischer 1974), both cut. */
+/* The number of letters to insert, drop or change to get from the piece to `word` (Wagner and
+   Fischer 1974), both cut. */
 static size_t distance(struct piece piece, const char *word) {
     const size_t rows = piece.length < SHOWN_MAX ? piece.length : SHOWN_MAX;
     size_t columns = strlen(word);
@@ -93,7 +95,8 @@ static bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/* Reads [+-]digits[.digits] from the front of the piece: mantissa · 10^exponent. Digits past the nineteenth only count. */
+/* Reads [+-]digits[.digits] from the front of the piece: mantissa · 10^exponent. Digits past the
+   nineteenth only count. */
 static bool read_mantissa(struct piece *piece, uint64_t *ret_mantissa, int *ret_exponent) {
     uint64_t mantissa = 0;
     int exponent = 0, significant = 0;

@@ -2,9 +2,9 @@
 /*
  * Shapes that come in sizes, as points whose exact convex hull is the shape.
  *
- * Facets with more than three corners must lie exactly in a plane although their corners are rounded: caps share one z, and the
- * sides of a prism are parallelograms because the top ring repeats the x and y of the bottom ring. Round shapes stagger
- * neighbouring rings by half a step, which leaves triangles only, and triangles are flat whatever the rounding.
+ * Facets with more than three corners must lie exactly in a plane although their corners are rounded: caps share one z,
+ * and the sides of a prism are parallelograms because the top ring repeats the x and y of the bottom ring. Round shapes
+ * stagger neighbouring rings by half a step, which leaves triangles only, and triangles are flat whatever the rounding.
  */
 #include "polytope/shape/shape_families.h"
 
@@ -59,7 +59,8 @@ void pir_points_dipyramid(const double *value, struct pir_point_list *points) {
     pir_point_list_add(points, 0, 0, value[2] / 2);
 }
 
-/* The dioctagon has sixteen corners on two circles in turn; it is convex while the radii's ratio is above cos(π/8) = 0.924. */
+/* The dioctagon has sixteen corners on two circles in turn; it is convex while the radii's ratio is
+   above cos(π/8) = 0.924. */
 void pir_points_dioctagonal(const double *value, struct pir_point_list *points) {
     const double inner = value[0] * 0.953125;
     ring(points, 8, 0, value[0], value[0], 0);
@@ -83,9 +84,9 @@ void pir_points_rod(const double *value, struct pir_point_list *points) {
 }
 
 /*
- * level − 1 rings of 2·level points between two poles: 4·level·(level − 1) triangles. Points are no further apart along a ring
- * than across, so the staggered triangles are the Delaunay triangles of the points on the sphere, which are the facets of their
- * hull; stretching the sphere keeps them.
+ * level − 1 rings of 2·level points between two poles: 4·level·(level − 1) triangles. Points are no further apart along
+ * a ring than across, so the staggered triangles are the Delaunay triangles of the points on the sphere, which are the
+ * facets of their hull; stretching the sphere keeps them.
  */
 void pir_points_ellipsoid(const double *value, struct pir_point_list *points) {
     const uint64_t level = (uint64_t)value[0];
@@ -122,7 +123,8 @@ static bool are_neighbours(pir_vec3 a, pir_vec3 b) {
     return x * x + y * y + z * z < 5;
 }
 
-/* The icosahedron's corners, then the points between them on each edge and inside each facet: class I of frequency level + 1. */
+/* The icosahedron's corners, then the points between them on each edge and inside each facet: class I
+   of frequency level + 1. */
 void pir_points_geodesic(const double *value, struct pir_point_list *points) {
     const int frequency = (int)value[0] + 1;
     const double radius = value[1];
@@ -160,8 +162,8 @@ static double random_coordinate(uint64_t *state) {
 }
 
 /*
- * Points of a ball, by drawing from its cube and dropping what lies outside or too near the centre; pushed out to its sphere when
- * `push` is set.
+ * Points of a ball, by drawing from its cube and dropping what lies outside or too near the centre; pushed out to its
+ * sphere when `push` is set.
  */
 static void random_points(const double *value, bool push, struct pir_point_list *points) {
     const size_t count = (size_t)value[0];

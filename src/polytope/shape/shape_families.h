@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Points of the shapes that come in sizes. Each maker reads its parameters from `value`, in the order named beside it. */
+/* Points of the shapes that come in sizes. Each maker reads its parameters from `value`, in the
+   order named beside it. */
 #ifndef PIR_POLYTOPE_SHAPE_SHAPE_FAMILIES_H
 #define PIR_POLYTOPE_SHAPE_SHAPE_FAMILIES_H
 

@@ -2,8 +2,8 @@
 /*
  * Point lists, and sines that do not depend on a machine's libm.
  *
- * The angle is reduced to one eighth of a turn in integers, so a ring of n points has the symmetries of the axes bit for bit; what
- * remains is a fixed Taylor sum of +, − , · and /, which IEEE arithmetic rounds the same everywhere.
+ * The angle is reduced to one eighth of a turn in integers, so a ring of n points has the symmetries of the axes bit
+ * for bit; what remains is a fixed Taylor sum of +, − , · and /, which IEEE arithmetic rounds the same everywhere.
  */
 #include "polytope/shape/shape_points.h"
 

@@ -9,7 +9,8 @@
 
 #include <pirouette/base.h>
 
-/* A growing list. Once memory has run out `failed` stays set and further points are dropped, so that a maker checks once. */
+/* A growing list. Once memory has run out `failed` stays set and further points are dropped, so
+   that a maker checks once. */
 struct pir_point_list {
     const pir_allocator *allocator;
     pir_vec3 *at;

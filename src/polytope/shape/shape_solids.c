@@ -2,19 +2,20 @@
 /*
  * The platonic and archimedean solids, as orbits of a few points under a group of signed permutations of the axes.
  *
- * A signed permutation is exact in doubles, so every orbit has its group's symmetry bit for bit, and that alone flattens all
- * facets of the octahedral solids. The icosahedral group is not one of signed permutations: a true dodecahedron has no rational
- * coordinates, and rounded pentagons would break into slivers. The points of those solids are instead integers that satisfy the
- * plane equations of all facets with more than three corners exactly: with the golden ratio in the facets' normals replaced by a
- * ratio of Fibonacci numbers the equations are linear and have integer solutions, and one next to the true solid, found by
- * lattice reduction, was taken. It is within 1e-6 of the true solid, has its combinatorics, and keeps the pyritohedral (the
- * snub dodecahedron: the tetrahedral) symmetry.
+ * A signed permutation is exact in doubles, so every orbit has its group's symmetry bit for bit, and that alone
+ * flattens all facets of the octahedral solids. The icosahedral group is not one of signed permutations: a true
+ * dodecahedron has no rational coordinates, and rounded pentagons would break into slivers. The points of those solids
+ * are instead integers that satisfy the plane equations of all facets with more than three corners exactly: with the
+ * golden ratio in the facets' normals replaced by a ratio of Fibonacci numbers the equations are linear and have
+ * integer solutions, and one next to the true solid, found by lattice reduction, was taken. It is within 1e-6 of the
+ * true solid, has its combinatorics, and keeps the pyritohedral (the snub dodecahedron: the tetrahedral) symmetry.
  */
 #include "polytope/shape/shape_solids.h"
 
 #include <math.h>
 
-/* Groups of signed permutations. An element is even when its permutation is even; it is a rotation when parity and signs agree. */
+/* Groups of signed permutations. An element is even when its permutation is even; it is a rotation when
+   parity and signs agree. */
 enum group {
     TETRAHEDRAL,          /* T, 12: even, rotations */
     PYRITOHEDRAL,         /* Th, 24: even */
@@ -97,7 +98,8 @@ static bool in_group(enum group group, bool even, bool even_signs) {
     return true;
 }
 
-/* Adds c when it is none of the points from `first` on: what a generator on a mirror gives more than once is added once. */
+/* Adds c when it is none of the points from `first` on: what a generator on a mirror gives more
+   than once is added once. */
 static void add_new(struct pir_point_list *points, size_t first, const double c[3]) {
     for (size_t i = first; i < points->count; i++)
         if (points->at[i].x == c[0] && points->at[i].y == c[1] && points->at[i].z == c[2])

@@ -2,8 +2,8 @@
 /*
  * The table of shapes. Ranges keep every shape below two million points.
  *
- * The models of Behar and Lien (GMU-CS-TR-2010-12, Figure 3) come first. The paper counts triangles: a facet of k corners is
- * k − 2 of them, and the parameters below give its numbers.
+ * The models of Behar and Lien (GMU-CS-TR-2010-12, Figure 3) come first. The paper counts triangles: a facet of k
+ * corners is k − 2 of them, and the parameters below give its numbers.
  */
 #include "polytope/shape/shape_table.h"
 
@@ -50,9 +50,12 @@ const struct pir_shape pir_shapes[] = {
     SOLID("truncated-cuboctahedron", PIR_TRUNCATED_CUBOCTAHEDRON, "archimedean; 26 facets"),
     SOLID("snub-cube", PIR_SNUB_CUBE, "archimedean; 38 facets"),
     SOLID("icosidodecahedron", PIR_ICOSIDODECAHEDRON, "archimedean; 32 facets; rational, within 1e-6 of uniform"),
-    SOLID("truncated-dodecahedron", PIR_TRUNCATED_DODECAHEDRON, "archimedean; 32 facets; rational, within 1e-6 of uniform"),
-    SOLID("truncated-icosahedron", PIR_TRUNCATED_ICOSAHEDRON, "archimedean; 32 facets; rational, within 1e-6 of uniform"),
-    SOLID("rhombicosidodecahedron", PIR_RHOMBICOSIDODECAHEDRON, "archimedean; 62 facets; rational, within 1e-6 of uniform"),
+    SOLID("truncated-dodecahedron", PIR_TRUNCATED_DODECAHEDRON,
+          "archimedean; 32 facets; rational, within 1e-6 of uniform"),
+    SOLID("truncated-icosahedron", PIR_TRUNCATED_ICOSAHEDRON,
+          "archimedean; 32 facets; rational, within 1e-6 of uniform"),
+    SOLID("rhombicosidodecahedron", PIR_RHOMBICOSIDODECAHEDRON,
+          "archimedean; 62 facets; rational, within 1e-6 of uniform"),
     SOLID("truncated-icosidodecahedron", PIR_TRUNCATED_ICOSIDODECAHEDRON,
           "archimedean; 62 facets; rational, within 1e-6 of uniform; the same as ti"),
     SOLID("snub-dodecahedron", PIR_SNUB_DODECAHEDRON, "archimedean; 92 facets; rational, within 1e-6 of uniform"),
@@ -72,8 +75,10 @@ const struct pir_shape pir_shapes[] = {
      pir_points_dipyramid, {SIDES(6), LENGTH("radius", 1), LENGTH("height", 2)}},
     {"needle", "thin dipyramid; sides=8 radius=0.01 height=2",
      pir_points_dipyramid, {SIDES(8), LENGTH("radius", 0.01), LENGTH("height", 2)}},
-    {"rod", "cylinder of that height with a half sphere of so many rings on each end; sides=12 rings=3 radius=0.25 height=2",
-     pir_points_rod, {COUNT("sides", 12, 3, 1000), COUNT("rings", 3, 1, 500), LENGTH("radius", 0.25), LENGTH("height", 2)}},
+    {"rod", "cylinder of that height with a half sphere of so many rings on each end; "
+            "sides=12 rings=3 radius=0.25 height=2",
+     pir_points_rod, {COUNT("sides", 12, 3, 1000), COUNT("rings", 3, 1, 500),
+                      LENGTH("radius", 0.25), LENGTH("height", 2)}},
     {"random", "random points in a ball; points=100 seed=1 radius=1",
      pir_points_random, {COUNT("points", 100, 1, 1999999), COUNT("seed", 1, 0, 0x1p53), LENGTH("radius", 1)}},
     {"random-sphere", "random points on a sphere; points=100 seed=1 radius=1",

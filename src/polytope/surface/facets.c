@@ -49,7 +49,8 @@ static void find_places(struct pir_facets *facets, const pir_vectors *exact, uin
     }
 }
 
-/* The corners of each facet as places, without those that equal the one before. Of one or two places it has no sides left. */
+/* The corners of each facet as places, without those that equal the one before. Of one or two
+   places it has no sides left. */
 static void copy_corners(struct pir_facets *facets, const struct pir_model *model) {
     uint32_t end = 0;
     for (uint32_t f = 0; f < facets->count; f++) {

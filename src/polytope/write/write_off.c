@@ -2,8 +2,8 @@
 /*
  * Writing OFF: counts, vertices, facets, one to a line, so that what is read back is the same numbers.
  *
- * A double is written with the fewest of 15, 16 or 17 digits that read back as itself; an exact coordinate as an integer or a/b
- * in lowest terms.
+ * A double is written with the fewest of 15, 16 or 17 digits that read back as itself; an exact coordinate as an
+ * integer or a/b in lowest terms.
  */
 #include "polytope/write/io.h"
 

@@ -2,13 +2,13 @@
 /*
  * Pictures of convex bodies as SVG.
  *
- * A convex body hides nothing of its own front: the facets that face the viewer, in any order, are the picture. The view is
- * orthographic from a fixed direction, z up, a little to the right of the x axis and above the horizon; a facet's colour says
- * its kind, its shade the angle of its normal to a light over the viewer's left shoulder. Floats decide what faces the
- * viewer: a facet seen from its edge may be drawn or not, and nobody can tell.
+ * A convex body hides nothing of its own front: the facets that face the viewer, in any order, are the picture. The
+ * view is orthographic from a fixed direction, z up, a little to the right of the x axis and above the horizon; a
+ * facet's colour says its kind, its shade the angle of its normal to a light over the viewer's left shoulder. Floats
+ * decide what faces the viewer: a facet seen from its edge may be drawn or not, and nobody can tell.
  *
- * Bodies of any size and place are drawn alike: coordinates are taken relative to the centre of their bounds and to the largest
- * of them, which overflows nowhere.
+ * Bodies of any size and place are drawn alike: coordinates are taken relative to the centre of their bounds and to the
+ * largest of them, which overflows nowhere.
  */
 #include "polytope/write/io.h"
 
@@ -23,7 +23,8 @@
 #define PICTURE_MARGIN 24.0
 #define LEGEND_GAP     20.0
 
-/* The view by columns: what x, y and z show to the right, up, and towards the viewer, at azimuth 35° from x to y and elevation 25°. */
+/* The view by columns: what x, y and z show to the right, up, and towards the viewer, at azimuth 35° from x
+   to y and elevation 25°. */
 #define VIEW                                                                                                           \
     {                                                                                                                  \
         {-0.57357644f, -0.34618861f, 0.74240388f}, {0.81915204f, -0.24240388f, 0.51983679f}, {                         \
@@ -71,7 +72,8 @@ static void project(const struct pir_svg_body *body, uint32_t vertex, double ret
     ret_xy[1] = -seen[1];
 }
 
-/* The unit normal of a facet in the frame of the view (Newell's sum, about the first corner); zero for one too thin to have any. */
+/* The unit normal of a facet in the frame of the view (Newell's sum, about the first corner); zero for
+   one too thin to have any. */
 static void facet_normal(const struct pir_svg_body *body, const uint32_t *corners, uint32_t count, vec3 ret_normal) {
     vec3 origin, last, next, part;
     glm_vec3_zero(ret_normal);
@@ -118,7 +120,8 @@ struct pir_svg_body pir_svg_measure(const pir_mesh *mesh) {
     return body;
 }
 
-/* One channel of a colour in the shade of a facet: darkened away from the light, whitened a little straight towards it. */
+/* One channel of a colour in the shade of a facet: darkened away from the light, whitened a
+   little straight towards it. */
 static int shade(double channel, double lit) {
     double dark = channel * (0.58 + 0.42 * lit), white = 0.22 * lit * lit * lit;
     return (int)lround(dark + (255 - dark) * white);

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: MIT
+"""The rules of the house: the rooms that ARCHITECTURE.md lists and the arrows between them, and the sizes of things.
+
+Usage: house.py ROOT [KNOWN]. Names each breach as FILE:LINE: RULE: REASON, one a line, and exits with 1 when there
+is one.
+KNOWN names breaches that are not mended yet, `RULE FILE THING` a line; one that is mended must leave it.
+"""
+import ast
+import pathlib
+import re
+import sys
+from typing import NamedTuple
+
+import c_text
+
+MAX_LINES = 500
+MAX_COLUMNS = 120
+MAX_PARAMETERS = 7
+MAX_DECLARED = 2  # .c files whose functions one header declares
+
+C_FILES = (".c", ".h", ".cc", ".cpp", ".hpp")
+WRITTEN = C_FILES + (".py", ".md", ".build", ".bash", ".in", ".txt", ".css", ".js", ".sh")
+FOLDERS = ("include", "src", "tools", "tests", "bench", "examples", "docs", "packaging", "fuzz")
+ROOT_FILES = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "meson.build",
+              "meson_options.txt", "dev", ".ci/run")
+# What machines wrote: inputs of fuzzing, models, results of benchmarks.
+MACHINE_MADE = ("tests/fuzz/corpus/", "bench/results/", "examples/models/")
+# A benchmark of internals, which links the static library.
+INTERNAL_BENCHMARKS = ("bench/dymsum/bench_kernels.c",)
+
+
+class Breach(NamedTuple):
+    rule: str
+    file: str
+    line: int
+    thing: str
+    reason: str
+
+    def key(self):
+        return f"{self.rule} {self.file} {self.thing}"
+
+    def __str__(self):
+        return f"{self.file}:{self.line}: {self.rule}: {self.reason}"
+
+
+class Tree:
+    """The written files of a source tree, by their paths within it."""
+
+    def __init__(self, root):
+        self.texts = {}
+        paths = [root / name for name in ROOT_FILES]
+        for folder in FOLDERS:
+            paths += sorted((root / folder).rglob("*"))
+        for path in paths:
+            name = path.relative_to(root).as_posix()
+            made = name.startswith(MACHINE_MADE) and path.suffix not in (".py", ".build")
+            if path.is_file() and not made and (path.suffix in WRITTEN or name in ROOT_FILES):
+                self.texts[name] = path.read_text()
+
+    def code(self, *folders):
+        return {name: text for name, text in self.texts.items()
+                if name.endswith(C_FILES) and (not folders or name.startswith(folders))}
+
+
+def folder_of(name):
+    return name.rpartition("/")[0]
+
+
+def listed_rooms(tree):
+    """The rooms of src in their order, each with its line: the block that ARCHITECTURE.md opens with ```rooms."""
+    rooms, inside = {}, False
+    for number, line in enumerate(tree.texts["ARCHITECTURE.md"].split("\n"), 1):
+        if line.startswith("```"):
+            inside = line.strip() == "```rooms"
+        elif inside and line.strip():
+            rooms[line.split()[0].rstrip("/")] = number
+    return rooms
+
+
+def check_rooms(tree):
+    """Each folder of src with C files is a listed room, and each listed room is such a folder."""
+    rooms = listed_rooms(tree)
+    present = {folder_of(name): name for name in tree.code("src/")}
+    for room, name in sorted(present.items()):
+        if room not in rooms:
+            yield Breach("rooms", name, 1, room, f"{room} is not in the list of rooms of ARCHITECTURE.md")
+    for room, line in rooms.items():
+        if room not in present:
+            yield Breach("rooms", "ARCHITECTURE.md", line, room, f"{room} has no C file")
+
+
+def check_arrows(tree):
+    """A room includes itself and the rooms listed before it; what is outside of src includes public headers only."""
+    order = list(listed_rooms(tree))
+    for name, text in tree.code().items():
+        for line, quoted, path in c_text.includes(text):
+            reason = arrow_reason(tree, order, name, quoted, path)
+            if reason:
+                yield Breach("arrows", name, line, path, reason)
+
+
+def arrow_reason(tree, order, name, quoted, path):
+    """Why a file may not include a path, or None."""
+    inside = f"src/{path}"
+    is_internal = quoted and inside in tree.texts and f"{folder_of(name)}/{path}" not in tree.texts
+    part = name.split("/")[0]
+    if part == "src":
+        if not quoted:
+            return None
+        if not is_internal:
+            return f"{path} is no header of src, named from there"
+        room, other = folder_of(name), folder_of(inside)
+        if room in order and other in order and order.index(other) > order.index(room):
+            return f"{other} comes after {room} in the list of rooms"
+        return None
+    if part == "include":
+        return f"a public header includes public headers alone, not {path}" if quoted else None
+    if is_internal:
+        if name.startswith("tests/oracle/"):
+            return f"the oracle knows nothing of the library's insides, not {path}"
+        if part == "tests" or name in INTERNAL_BENCHMARKS:
+            return None
+        return f"{part} includes public headers alone, not src/{path}"
+    return None
+
+
+def check_declares(tree):
+    """A header of src declares functions of at most two .c files, which are of its own room."""
+    sources = tree.code("src/")
+    defined = {}
+    for name, text in sources.items():
+        if name.endswith(".c"):
+            for function in c_text.functions(text):
+                if function.defined and not function.static:
+                    defined.setdefault(function.name, name)
+    for name, text in sources.items():
+        if name.endswith(".h"):
+            files = sorted({defined[function.name] for function in c_text.functions(text)
+                            if not function.defined and function.name in defined})
+            elsewhere = [file for file in files if folder_of(file) != folder_of(name)]
+            if len(files) > MAX_DECLARED:
+                yield Breach("declares", name, 1, "functions",
+                             f"declares functions of {len(files)} files: " + ", ".join(files))
+            elif elsewhere:
+                yield Breach("declares", name, 1, "functions",
+                             "declares functions of another room: " + ", ".join(elsewhere))
+
+
+def check_lines(tree):
+    """No file is too long, and no line too wide; the rows of tables in Markdown are exempt."""
+    for name, text in tree.texts.items():
+        lines = text.split("\n")
+        count = len(lines) - (lines[-1] == "")
+        if count > MAX_LINES:
+            yield Breach("length", name, MAX_LINES + 1, "lines", f"{count} lines, more than {MAX_LINES}")
+        for number, line in enumerate(lines, 1):
+            if len(line) > MAX_COLUMNS and not (name.endswith(".md") and line.startswith("|")):
+                yield Breach("columns", name, number, "lines", f"{len(line)} columns, more than {MAX_COLUMNS}")
+
+
+def check_parameters(tree):
+    """No function has too many parameters."""
+    for name, text in tree.texts.items():
+        if name.endswith(C_FILES):
+            found = [(function.name, function.line, function.parameters) for function in c_text.functions(text)]
+        elif name.endswith(".py"):
+            found = [(node.name, node.lineno, len(node.args.posonlyargs + node.args.args + node.args.kwonlyargs))
+                     for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
+        else:
+            continue
+        for function, line, count in found:
+            if count > MAX_PARAMETERS:
+                yield Breach("parameters", name, line, function,
+                             f"{function} has {count} parameters, more than {MAX_PARAMETERS}")
+
+
+def check_names(tree):
+    """No two modules, a .c file with its header, have one name within src, nor within tools."""
+    for part in ("src/", "tools/"):
+        seen = {}
+        for name in sorted(tree.code(part)):
+            stem = name.rpartition("/")[2].rpartition(".")[0]
+            folder = seen.setdefault(stem, folder_of(name))
+            if folder != folder_of(name):
+                yield Breach("names", name, 1, stem, f"{folder} has a file of the name {stem} as well")
+
+
+CHECKS = (check_rooms, check_arrows, check_declares, check_lines, check_parameters, check_names)
+
+
+def breaches(root):
+    tree = Tree(root)
+    return [breach for check in CHECKS for breach in check(tree)]
+
+
+def read_known(path):
+    lines = [line.strip() for line in path.read_text().split("\n")]
+    return {line for line in lines if line and not line.startswith("#")}
+
+
+def main(root, known_file=None):
+    found = breaches(root)
+    known = read_known(known_file) if known_file else set()
+    new = [breach for breach in found if breach.key() not in known]
+    mended = sorted(known - {breach.key() for breach in found})
+    for breach in new:
+        print(breach)
+    for key in mended:
+        print(f"{known_file}: mended, so take it off the list: {key}")
+    print(f"{len(found)} breaches, {len(found) - len(new)} of them known; {len(mended)} known ones are mended")
+    return 1 if new or mended else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*(pathlib.Path(argument) for argument in sys.argv[1:3])))

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""The test of the house finds what it is for: a small tree without a breach, and that tree with each kind of breach
+planted.
+
+Usage: test_house.py
+"""
+import contextlib
+import io
+import pathlib
+import tempfile
+import unittest
+
+import c_text
+import house
+
+CLEAN = {
+    "ARCHITECTURE.md": "# Architecture\n\n```rooms\nsrc/low   numbers\nsrc/high  bodies\n```\n",
+    "include/pirouette/body.h": "PIR_API void pir_body_move(pir_body *body, double x);\n",
+    "src/low/number.h": "int pir_number_add(int a, int b);\n",
+    "src/low/number.c": '#include "low/number.h"\n\nint pir_number_add(int a, int b) {\n    return a + b;\n}\n',
+    "src/high/body.h": '#include "low/number.h"\n\nvoid pir_body_turn(void);\n',
+    "src/high/body.c": '#include "high/body.h"\n\nvoid pir_body_turn(void) {\n}\n',
+    "tools/main.c": '#include "args.h"\n#include <pirouette/body.h>\n\nint main(void) {\n    return 0;\n}\n',
+    "tools/args.h": "int read_args(int count, char **words);\n",
+    "tests/unit/test_body.c": '#include "high/body.h"\n',
+    "tests/oracle/points.c": '#include "oracle/points.h"\n',
+    "docs/a.md": "| " + "x" * 150 + " |\n",
+}
+
+
+def lines(*texts):
+    return "\n".join(texts) + "\n"
+
+
+class Planted(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        for name, text in CLEAN.items():
+            self.write(name, text)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def assert_found(self, *expected):
+        """Exactly these breaches, each as FILE:LINE: RULE."""
+        found = [f"{breach.file}:{breach.line}: {breach.rule}" for breach in house.breaches(self.root)]
+        self.assertEqual(sorted(found), sorted(expected))
+
+    def planted(self, name, text, *expected):
+        self.write(name, text)
+        self.assert_found(*expected)
+
+    def test_clean(self):
+        self.assert_found()
+
+    def test_room_that_is_not_listed(self):
+        self.planted("src/high/new/a.c", "", "src/high/new/a.c:1: rooms")
+
+    def test_listed_room_that_is_not_there(self):
+        text = CLEAN["ARCHITECTURE.md"].replace("src/high", "src/none\nsrc/high")
+        self.planted("ARCHITECTURE.md", text, "ARCHITECTURE.md:5: rooms")
+
+    def test_arrow_upwards(self):
+        self.planted("src/low/number.c", lines("", '#include "low/number.h"', '#include "high/body.h"'),
+                     "src/low/number.c:3: arrows")
+
+    def test_include_from_no_room(self):
+        self.planted("src/high/body.c", lines('#include "body.h"'), "src/high/body.c:1: arrows")
+
+    def test_public_header_shows_an_internal_one(self):
+        self.planted("include/pirouette/body.h", lines('#include "low/number.h"'), "include/pirouette/body.h:1: arrows")
+
+    def test_outside_includes_an_internal_header(self):
+        for name in ("tools/main.c", "bench/a.cpp", "examples/a.c", "tests/oracle/points.c"):
+            with self.subTest(name):
+                before = CLEAN.get(name, "")
+                self.planted(name, lines('#include "low/number.h"'), f"{name}:1: arrows")
+                self.write(name, before)
+
+    def test_kernels_benchmark_may_include_an_internal_header(self):
+        self.planted(house.INTERNAL_BENCHMARKS[0], lines('#include "low/number.h"'))
+
+    def test_header_of_three_files(self):
+        for name in ("one", "two", "three"):
+            self.write(f"src/low/{name}.c", lines(f"int pir_{name}(void) {{", "    return 1;", "}"))
+        self.planted("src/low/all.h", lines("int pir_one(void);", "int pir_two(void);"))
+        self.planted("src/low/all.h",
+                     lines("int pir_one(void);", "enum kind pir_two(int a,", "  int b);", "int *pir_three(void);"),
+                     "src/low/all.h:1: declares")
+
+    def test_header_of_another_room(self):
+        self.planted("src/high/other.h", lines("int pir_number_add(int a, int b);"), "src/high/other.h:1: declares")
+
+    def test_long_file(self):
+        for name in ("docs/long.md", "src/low/long.c", "tests/long.py"):
+            with self.subTest(name):
+                self.planted(name, "\n" * 500)
+                self.planted(name, "\n" * 501, f"{name}:501: length")
+                self.write(name, "")
+
+    def test_long_files_of_machines(self):
+        self.planted("tests/fuzz/corpus/a.txt", "\n" * 501)
+
+    def test_wide_line(self):
+        for name in ("docs/wide.md", "src/low/wide.c", "tools/meson.build", "ARCHITECTURE.md", "bench/smoke.py"):
+            with self.subTest(name):
+                before = CLEAN.get(name, "")
+                comment = "# " if name.endswith((".py", ".build")) else "//"
+                widest = before + comment + "é" * (house.MAX_COLUMNS - 2)
+                self.planted(name, widest + "\n")
+                self.planted(name, widest + "x\n", f"{name}:{before.count(chr(10)) + 1}: columns")
+                self.write(name, before)
+
+    def test_function_of_eight_parameters(self):
+        seven = "int a, int b, int c, int (*d)(int, int), int e, int f,\n       int g"
+        head = "static inline enum kind\npir_many("
+        self.planted("src/low/many.h", lines("", head + seven + ") {", "}"))
+        self.planted("src/low/many.h", lines("", head + seven + ", int h) {", "}"), "src/low/many.h:2: parameters")
+        self.write("src/low/many.h", "")
+        for name, text in (
+                ("bench/many.cpp", "namespace {\nint many(" + seven + ", int h) {\n}\n}\n"),
+                ("src/low/macro.c", "\n#define MANY(a, b, c, d, \\\n             e, f, g, h) (a)\n"),
+                ("src/low/made.c", "\nstatic int NAME(many)(" + seven + ", int h) {\n}\n"),
+                ("tests/many.py", "\ndef many(a, b, c, d, e, *, f, g, h):\n    pass\n")):
+            with self.subTest(name):
+                self.planted(name, text, f"{name}:2: parameters")
+                self.write(name, "")
+
+    def test_two_files_of_one_name(self):
+        self.planted("src/high/number.h", "", "src/low/number.c:1: names", "src/low/number.h:1: names")
+
+    def test_two_files_of_one_name_in_tools(self):
+        self.planted("tools/pages/main.c", "", "tools/pages/main.c:1: names")
+
+    def test_known_breaches(self):
+        """A known breach passes, and a known one that is mended fails."""
+        known = self.root / "known.txt"
+        self.write("docs/wide.md", "x" * 121)
+        for text, status, said in (
+                ("", 1, "docs/wide.md:1: columns: 121 columns"),
+                ("columns docs/wide.md lines", 0, "1 of them known"),
+                ("# all\ncolumns docs/wide.md lines\nnames a b\n", 1, "take it off the list: names a b")):
+            known.write_text(text)
+            output = io.StringIO()
+            with contextlib.redirect_stdout(output):
+                self.assertEqual(house.main(self.root, known), status)
+            self.assertIn(said, output.getvalue())
+
+
+class Declarations(unittest.TestCase):
+    def test_functions(self):
+        found = c_text.functions(lines(
+            "/* int no(void); */", '#define TEXT "int none(int a);"', "struct body {", "    int (*call)(int a);", "};",
+            "typedef int (*callback)(int a);", "static const struct body empty = {make(1)};", "int first(void);",
+            "static double second(struct pair a[2], double (*b)(int)) {", "    return third(a);", "}", 'extern "C" {',
+            "struct body *fourth(int a, int b);", "}", "__attribute__((cold)) void fifth(int a) {", "}"))
+        self.assertEqual([(function.name, function.line, function.parameters, function.defined) for function in found],
+                         [("first", 8, 0, False), ("second", 9, 2, True), ("fourth", 13, 2, False),
+                          ("fifth", 15, 1, True)])
+
+
+
+if __name__ == "__main__":
+    unittest.main()
