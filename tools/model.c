@@ -21,8 +21,8 @@ static pir_status read_stdin(const pir_read_options *options, pir_report *report
     char *text = input_take() ? input_read(&size) : NULL;
     if (!text)
         return PIR_ERR_FILE; // complained of
-    pir_status status =
-        pir_polytope_read_bytes(text, size, INPUT_NAME, "off", options, report, ret_surface, ret_polytope);
+    pir_status status = pir_polytope_read_bytes(&(pir_file_bytes){text, size, INPUT_NAME, "off"}, options, report,
+                                                ret_surface, ret_polytope);
     if (status != PIR_OK)
         complain_status(INPUT_NAME, status, report);
     free(text);

@@ -79,10 +79,17 @@ PIR_API pir_read_options pir_read_options_default(void);
 PIR_API pir_status pir_polytope_read_surface(const char *path, const pir_read_options *options, pir_report *report,
                                              pir_surface *ret_surface, pir_polytope **ret_polytope);
 
-/** The same for the bytes of a file; `name` stands for it in reports, `format` is "off", "obj", "stl" or "ply". */
-PIR_API pir_status pir_polytope_read_bytes(const void *bytes, size_t size, const char *name, const char *format,
-                                           const pir_read_options *options, pir_report *report,
-                                           pir_surface *ret_surface, pir_polytope **ret_polytope);
+/** A file in memory. */
+typedef struct pir_file_bytes {
+    const void *bytes; /**< borrowed; may be NULL when size is 0 */
+    size_t size;
+    const char *name;   /**< stands for the file in reports; NULL for "text" */
+    const char *format; /**< "off", "obj", "stl" or "ply" */
+} pir_file_bytes;
+
+/** The same for a file in memory. */
+PIR_API pir_status pir_polytope_read_bytes(const pir_file_bytes *file, const pir_read_options *options,
+                                           pir_report *report, pir_surface *ret_surface, pir_polytope **ret_polytope);
 
 /** pir_polytope_read_surface of any form, without a look at the surface. */
 PIR_API pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
@@ -97,8 +104,7 @@ PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const ch
  * Writes `mesh` to `path`, by its ending: .off, .obj, .stl, .ply, .svg.
  *
  * exact   for OFF only: write exact integers and a/b; the mesh must hold exact coordinates. Otherwise doubles that read
- * back
- *         as themselves.
+ *         back as themselves.
  *
  * A regular file is complete or absent: it is written under another name in its folder and then renamed, and keeps the
  * permissions that a file of its name had. Symbolic links are followed and stay. What is no regular file, such as a

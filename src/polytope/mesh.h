@@ -9,7 +9,7 @@
 #include <pirouette/mesh.h>
 
 #include "exact/vectors.h"
-#include "polytope/loops.h"
+#include "polytope/hull/loops.h"
 
 struct pir_mesh {
     pir_allocator allocator;

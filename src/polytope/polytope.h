@@ -28,15 +28,7 @@
 #include <pirouette/polytope.h>
 
 #include "exact/vectors.h"
-#include "polytope/loops.h"
-
-/*
- * The most bits of a coordinate as an integer, and of either number of the scale; what is longer is refused with
- * PIR_ERR_LIMIT. Doubles take 2098 bits at most. So no sum of lengths that a reservation is derived from comes near
- * 2^32 limbs.
- */
-#define PIR_COORDINATE_BITS_MAX 131072u
-#define PIR_SCALE_BITS_MAX      65536u
+#include "polytope/hull/loops.h"
 
 /* How many directions of a ring stand together. */
 #define PIR_LANES 8
@@ -89,36 +81,9 @@ typedef struct pir_polytope_parts {
 pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocator *allocator,
                               pir_polytope **ret_polytope);
 
-/* Points as integers on one scale: what a hull is built from. */
-struct pir_exact_points {
-    pir_vectors vectors;
-    pir_scale scale;
-};
-
-/* The points are finite, `count` > 0 and below 2^30. PIR_ERR_MEMORY, PIR_ERR_LIMIT (numbers too
-   long), with *exact empty. */
-pir_status pir_exact_points_of_doubles(struct pir_exact_points *exact, const pir_vec3 *points, size_t count,
-                                       const pir_allocator *allocator);
-pir_status pir_exact_points_of_rationals(struct pir_exact_points *exact, const mpq_t *coordinates, size_t count,
-                                         const pir_allocator *allocator);
-void pir_exact_points_finish(struct pir_exact_points *exact, const pir_allocator *allocator);
-
-/* PIR_ERR_ARGUMENT or PIR_ERR_NOT_FINITE when the merge tolerance is none. */
-pir_status pir_polytope_check_options(const pir_polytope_options *options);
-
-/* The hull with its facets merged within the tolerance, or itself where none are; takes the
-   caller's reference of it. */
-pir_status pir_polytope_merge_within(pir_polytope *hull, double tolerance, pir_polytope **ret_polytope);
-
 /* Builds the hull of the points of `parts`, whose last four members are ignored. */
 pir_status pir_polytope_build_hull(const pir_polytope_parts *parts, const pir_allocator *allocator,
                                    pir_polytope **ret_polytope);
-
-/*
- * The same polytope with its integers on another scale. PIR_ERR_LIMIT when a coordinate is beyond the doubles,
- * PIR_ERR_MEMORY.
- */
-pir_status pir_polytope_rescale(const pir_polytope *polytope, const pir_scale *scale, pir_polytope **ret_polytope);
 
 static inline uint32_t pir_right(const pir_polytope *p, uint32_t half) {
     return p->left[p->twin[half]];

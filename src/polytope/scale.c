@@ -3,13 +3,15 @@
  * A polytope of another size. The integers stay, and so do all features and their numbers; the scale that turns
  * integers into coordinates is multiplied, exactly and in lowest terms.
  */
+#include "polytope/scale.h"
+
 #include <math.h>
 #include <string.h>
 
 #include <pirouette/exact.h>
 
 #include "base/vec.h"
-#include "polytope/polytope.h"
+#include "polytope/exact_points.h"
 
 static pir_int view_of(mpz_srcptr z) {
     return (pir_int){(mp_limb_t *)mpz_limbs_read(z), (int32_t)mpz_size(z), 0};

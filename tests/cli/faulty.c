@@ -98,9 +98,9 @@ MAY_FAIL(pir_polytope_read_surface,
           pir_polytope **ret_polytope),
          (path, options, report, ret_surface, ret_polytope))
 MAY_FAIL(pir_polytope_read_bytes,
-         (const void *bytes, size_t size, const char *name, const char *format, const pir_read_options *options,
-          pir_report *report, pir_surface *ret_surface, pir_polytope **ret_polytope),
-         (bytes, size, name, format, options, report, ret_surface, ret_polytope))
+         (const pir_file_bytes *file, const pir_read_options *options, pir_report *report, pir_surface *ret_surface,
+          pir_polytope **ret_polytope),
+         (file, options, report, ret_surface, ret_polytope))
 MAY_FAIL(pir_polytope_reflect, (const pir_polytope *polytope, pir_polytope **ret_polytope), (polytope, ret_polytope))
 MAY_FAIL(pir_mesh_from_polytope, (const pir_polytope *polytope, pir_mesh **ret_mesh), (polytope, ret_mesh))
 MAY_FAIL(pir_mesh_write_stream,

@@ -31,7 +31,8 @@ static void check_hull(const pir_polytope *polytope) {
     options.require_convex = 1;
     pir_surface surface;
     pir_polytope *again = NULL;
-    pir_status status = pir_polytope_read_bytes(text, size, "hull", "off", &options, &report, &surface, &again);
+    pir_status status =
+        pir_polytope_read_bytes(&(pir_file_bytes){text, size, "hull", "off"}, &options, &report, &surface, &again);
     // a reduced fraction may be longer than the text that it came from
     if (status != PIR_ERR_LIMIT) {
         fuzz_require(status == PIR_OK, report.text);
@@ -59,7 +60,8 @@ static void run_format(const uint8_t *data, size_t size, const char *format) {
     pir_report report = {PIR_OK, ""};
     pir_surface surface;
     pir_read_options options = pir_read_options_default();
-    pir_status status = pir_polytope_read_bytes(data, size, "fuzz", format, &options, &report, &surface, &polytope);
+    pir_status status =
+        pir_polytope_read_bytes(&(pir_file_bytes){data, size, "fuzz", format}, &options, &report, &surface, &polytope);
     if (status != PIR_OK) {
         fuzz_require(polytope == NULL && report.status == status, "a refusal makes nothing and is reported");
         fuzz_require(strncmp(report.text, "fuzz:", 5) == 0 && !strpbrk(report.text, "\n\r"),
@@ -69,7 +71,7 @@ static void run_format(const uint8_t *data, size_t size, const char *format) {
     fuzz_require(pir_polytope_is_valid(polytope) == 1, "the polytope is valid");
     check_surface(&surface, polytope);
     options.require_convex = 1;
-    status = pir_polytope_read_bytes(data, size, "fuzz", format, &options, &report, NULL, &convex);
+    status = pir_polytope_read_bytes(&(pir_file_bytes){data, size, "fuzz", format}, &options, &report, NULL, &convex);
     fuzz_require((status == PIR_OK) == (surface.convex != 0), "require_convex refuses what is not convex");
     fuzz_require(status == PIR_OK || (status == PIR_ERR_NOT_CLOSED) == (surface.form == PIR_SURFACE_OPEN),
                  "what is open is refused for that");

@@ -14,7 +14,7 @@
 #include <pirouette/pirouette.h>
 
 #include "fuzz/input.h"
-#include "polytope/write/io.h"
+#include "polytope/write/write_off.h"
 
 #define SIZE_LIMIT   65536
 #define VERTEX_LIMIT 512

@@ -14,7 +14,7 @@
 #include <pirouette/sum.h>
 
 #include "oracle/distance.h"
-#include "polytope/merge/merge.h"
+#include "polytope/create/merge.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/meshes.h"

@@ -25,7 +25,8 @@ static pir_status read_bytes(const void *bytes, size_t size, const char *format,
     void *copy = malloc(size ? size : 1);
     assert_non_null(copy);
     memcpy(copy, bytes, size);
-    pir_status status = pir_polytope_read_bytes(copy, size, "m", format, NULL, report, NULL, ret_polytope);
+    pir_status status =
+        pir_polytope_read_bytes(&(pir_file_bytes){copy, size, "m", format}, NULL, report, NULL, ret_polytope);
     free(copy);
     return status;
 }
@@ -289,9 +290,13 @@ static void test_formats_that_do_not_exist(void **state) {
     expect_refusal("x", 1, "gltf", PIR_ERR_ARGUMENT, "m: 'gltf' is none of off, obj, stl and ply");
     expect_refusal("x", 1, "OFF", PIR_ERR_ARGUMENT, "m: 'OFF' is none of off, obj, stl and ply");
     pir_polytope *polytope = NULL;
-    assert_int_equal(pir_polytope_read_bytes("x", 1, "m", NULL, NULL, NULL, NULL, &polytope), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_polytope_read_bytes(NULL, 1, "m", "off", NULL, NULL, NULL, &polytope), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_polytope_read_bytes("x", 1, "m", "off", NULL, NULL, NULL, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_read_bytes(NULL, NULL, NULL, NULL, &polytope), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_read_bytes(&(pir_file_bytes){"x", 1, "m", NULL}, NULL, NULL, NULL, &polytope),
+                     PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_read_bytes(&(pir_file_bytes){NULL, 1, "m", "off"}, NULL, NULL, NULL, &polytope),
+                     PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_read_bytes(&(pir_file_bytes){"x", 1, "m", "off"}, NULL, NULL, NULL, NULL),
+                     PIR_ERR_ARGUMENT);
 }
 
 int main(void) {

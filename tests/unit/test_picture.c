@@ -10,7 +10,7 @@
 
 #include <pirouette/pirouette.h>
 
-#include "polytope/write/io.h"
+#include "polytope/write/write_svg.h"
 #include "support/bodies.h"
 #include "support/test.h"
 #include "support/vectors.h"

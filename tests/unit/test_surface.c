@@ -32,7 +32,8 @@ static pir_surface read_surface(const void *bytes, size_t size, const char *form
     pir_surface surface;
     pir_polytope *polytope = NULL;
     pir_report report = {PIR_OK, ""};
-    if (pir_polytope_read_bytes(bytes, size, "m", format, NULL, &report, &surface, &polytope) != PIR_OK)
+    if (pir_polytope_read_bytes(&(pir_file_bytes){bytes, size, "m", format}, NULL, &report, &surface, &polytope) !=
+        PIR_OK)
         fail_msg("%s", report.text);
     pir_polytope_release(polytope);
     return surface;
@@ -44,7 +45,8 @@ static pir_status require_convex(const void *bytes, size_t size, const char *for
     pir_report report = {PIR_OK, ""};
     pir_read_options options = pir_read_options_default();
     options.require_convex = 1;
-    pir_status status = pir_polytope_read_bytes(bytes, size, "m", format, &options, &report, NULL, &polytope);
+    pir_status status =
+        pir_polytope_read_bytes(&(pir_file_bytes){bytes, size, "m", format}, &options, &report, NULL, &polytope);
     assert_true((status == PIR_OK) == (polytope != NULL));
     pir_polytope_release(polytope);
     strcpy(text, report.text);
@@ -212,8 +214,8 @@ static bool read_with_failure(const char *text, const char *format, uint64_t fai
     pir_polytope *polytope = NULL;
     pir_surface surface;
     pir_report report = {PIR_OK, ""};
-    pir_status status =
-        pir_polytope_read_bytes(text, strlen(text), "m", format, &options, &report, &surface, &polytope);
+    pir_status status = pir_polytope_read_bytes(&(pir_file_bytes){text, strlen(text), "m", format}, &options, &report,
+                                                &surface, &polytope);
     if (status != PIR_OK) {
         assert_int_equal(status, PIR_ERR_MEMORY);
         assert_non_null(strstr(report.text, "out of memory"));

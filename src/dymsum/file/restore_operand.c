@@ -10,6 +10,7 @@
 #include "base/report.h"
 #include "dymsum/file/sum_source.h"
 #include "polytope/hull/hull.h"
+#include "polytope/scale.h"
 
 /* What the file says of one operand. */
 struct operand {

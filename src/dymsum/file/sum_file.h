@@ -34,7 +34,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "polytope/polytope.h"
+#include "polytope/exact_points.h"
 
 #define PIR_SUM_MAGIC       "PIRSUM\r\n"
 #define PIR_SUM_VERSION     2u

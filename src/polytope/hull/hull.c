@@ -10,6 +10,7 @@
 
 #include <string.h>
 
+#include "polytope/hull/polygon.h"
 #include "polytope/hull/quickhull.h"
 
 /* The point farthest from point 0, or 0 when all are equal. */

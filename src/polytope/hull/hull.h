@@ -6,8 +6,8 @@
 #define PIR_POLYTOPE_HULL_HULL_H
 
 #include "exact/vectors.h"
+#include "polytope/hull/loops.h"
 #include "polytope/hull/orient.h"
-#include "polytope/loops.h"
 
 typedef struct pir_hull {
     int dimension;
@@ -20,13 +20,5 @@ typedef struct pir_hull {
 /* `points` is not empty. PIR_ERR_MEMORY, PIR_ERR_LIMIT (2^30 points or more). */
 pir_status pir_hull_make(const pir_vectors *points, const pir_allocator *allocator, pir_hull *ret_hull);
 void pir_hull_finish(pir_hull *hull, const pir_allocator *allocator);
-
-/*
- * The corners of the convex polygon that `count` coplanar points span, seen with coordinate `axis` dropped,
- * counter-clockwise when `direction` > 0, else clockwise. Works in place: `index` holds the points, and on return the
- * corners. Returns their number, or 0 when out of memory. Of equal points the first in `index` stays.
- */
-uint32_t pir_polygon_corners(pir_points *points, const pir_allocator *allocator, int axis, int direction,
-                             uint32_t *index, uint32_t count);
 
 #endif

@@ -3,7 +3,7 @@
  * The convex hull of coplanar points: Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979) on the two coordinates
  * that are kept, with exact order and exact turns, so that straight corners and interior points drop out.
  */
-#include "polytope/hull/hull.h"
+#include "polytope/hull/polygon.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,15 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* Reading models: the whole file into memory, then the reader of its format, then the hull of what that made of it. */
-#include "polytope/read/read.h"
-
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include <pirouette/io.h>
+
 #include "base/memory.h"
 #include "base/report.h"
-#include "polytope/polytope.h"
-#include "polytope/write/io.h"
+#include "polytope/create/create.h"
+#include "polytope/file/c_locale.h"
+#include "polytope/file/file_name.h"
+#include "polytope/read/model_make.h"
+#include "polytope/read/read_obj.h"
+#include "polytope/read/read_off.h"
+#include "polytope/read/read_ply.h"
+#include "polytope/read/read_stl.h"
 
 struct bytes {
     char *data;
@@ -80,16 +86,15 @@ pir_read_options pir_read_options_default(void) {
     return (pir_read_options){.polytope = pir_polytope_options_default(), .require_convex = 0};
 }
 
-pir_status pir_polytope_read_bytes(const void *bytes, size_t size, const char *name, const char *format,
-                                   const pir_read_options *options, pir_report *report, pir_surface *ret_surface,
-                                   pir_polytope **ret_polytope) {
+pir_status pir_polytope_read_bytes(const pir_file_bytes *file, const pir_read_options *options, pir_report *report,
+                                   pir_surface *ret_surface, pir_polytope **ret_polytope) {
     const pir_read_options used = options ? *options : pir_read_options_default();
-    name = name ? pir_short_name(name) : "text";
-    if ((!bytes && size > 0) || !format || !ret_polytope)
+    const char *name = file && file->name ? pir_short_name(file->name) : "text";
+    if (!file || (!file->bytes && file->size > 0) || !file->format || !ret_polytope)
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: no bytes, no format, or no place for the polytope", name);
-    if (size == 0)
+    if (file->size == 0)
         return pir_fail(report, PIR_ERR_EMPTY, "%s: the file is empty", name);
-    if (size > PIR_FILE_SIZE_MAX)
+    if (file->size > PIR_FILE_SIZE_MAX)
         return pir_fail(report, PIR_ERR_LIMIT, "%s: larger than 2 GiB", name);
     pir_status status = pir_polytope_check_options(&used.polytope);
     if (status != PIR_OK)
@@ -100,7 +105,7 @@ pir_status pir_polytope_read_bytes(const void *bytes, size_t size, const char *n
     const pir_allocator allocator = pir_allocator_or_default(used.polytope.allocator);
     struct pir_model model;
     pir_model_init(&model, name, &allocator, report);
-    status = read_model(bytes, size, format, &model);
+    status = read_model(file->bytes, file->size, file->format, &model);
     if (status == PIR_OK)
         status = pir_model_make(&model, &used, ret_surface, ret_polytope);
     pir_model_finish(&model);
@@ -124,8 +129,8 @@ pir_status pir_polytope_read_surface(const char *path, const pir_read_options *o
     struct bytes bytes = {0};
     pir_status status = read_file(path, &memory, report, &bytes);
     if (status == PIR_OK)
-        status =
-            pir_polytope_read_bytes(bytes.data, bytes.size, path, ending, options, report, ret_surface, ret_polytope);
+        status = pir_polytope_read_bytes(&(pir_file_bytes){bytes.data, bytes.size, path, ending}, options, report,
+                                         ret_surface, ret_polytope);
     PIR_FREE(&memory, bytes.data, bytes.capacity);
     return status;
 }
@@ -139,5 +144,5 @@ pir_status pir_polytope_read(const char *path, const pir_polytope_options *optio
 pir_status pir_polytope_read_off(const char *text, size_t size, const char *name, const pir_polytope_options *options,
                                  pir_report *report, pir_polytope **ret_polytope) {
     const pir_read_options used = {.polytope = options ? *options : pir_polytope_options_default()};
-    return pir_polytope_read_bytes(text, size, name, "off", &used, report, NULL, ret_polytope);
+    return pir_polytope_read_bytes(&(pir_file_bytes){text, size, name, "off"}, &used, report, NULL, ret_polytope);
 }

@@ -98,12 +98,15 @@ void pir_points_ellipsoid(const double *value, struct pir_point_list *points) {
     pir_point_list_add(points, 0, 0, -value[3]);
 }
 
-/* Adds a·i + b·j + c·k, pushed out to the sphere. */
-static void add_on_sphere(struct pir_point_list *points, double radius, pir_vec3 a, double i, pir_vec3 b, double j,
-                          pir_vec3 c, double k) {
-    const double x = a.x * i + b.x * j + c.x * k, y = a.y * i + b.y * j + c.y * k, z = a.z * i + b.z * j + c.z * k;
-    const double length = sqrt(x * x + y * y + z * z);
-    pir_point_list_add(points, radius * (x / length), radius * (y / length), radius * (z / length));
+/* a·i + b·j + c·k */
+static pir_vec3 between(pir_vec3 a, double i, pir_vec3 b, double j, pir_vec3 c, double k) {
+    return (pir_vec3){a.x * i + b.x * j + c.x * k, a.y * i + b.y * j + c.y * k, a.z * i + b.z * j + c.z * k};
+}
+
+/* Adds the point of the sphere in the direction of `v`. */
+static void add_on_sphere(struct pir_point_list *points, double radius, pir_vec3 v) {
+    const double length = sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    pir_point_list_add(points, radius * (v.x / length), radius * (v.y / length), radius * (v.z / length));
 }
 
 /* The corners of an icosahedron of edge 2. */
@@ -131,18 +134,18 @@ void pir_points_geodesic(const double *value, struct pir_point_list *points) {
     pir_vec3 v[12];
     icosahedron_corners(v);
     for (int a = 0; a < 12; a++) {
-        add_on_sphere(points, radius, v[a], 1, v[a], 0, v[a], 0);
+        add_on_sphere(points, radius, v[a]);
         for (int b = a + 1; b < 12; b++) {
             if (!are_neighbours(v[a], v[b]))
                 continue;
             for (int j = 1; j < frequency; j++)
-                add_on_sphere(points, radius, v[a], frequency - j, v[b], j, v[b], 0);
+                add_on_sphere(points, radius, between(v[a], frequency - j, v[b], j, v[b], 0));
             for (int c = b + 1; c < 12; c++) {
                 if (!are_neighbours(v[a], v[c]) || !are_neighbours(v[b], v[c]))
                     continue;
                 for (int j = 1; j < frequency; j++)
                     for (int k = 1; j + k < frequency; k++)
-                        add_on_sphere(points, radius, v[a], frequency - j - k, v[b], j, v[c], k);
+                        add_on_sphere(points, radius, between(v[a], frequency - j - k, v[b], j, v[c], k));
             }
         }
     }

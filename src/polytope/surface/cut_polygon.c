@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A polygon whose corners are on the hull but on no one facet of it, cut into parts that are.
- *
- * A part is the corners on one facet, in the order of the polygon, where these are not all on a line. The parts make up
- * the polygon when each of its sides is a side of one part, and every other side of a part is that of another, walked
- * the other way.
+ * See cut_polygon.h. A part of the polygon is the corners on one facet of the hull, in the order of the polygon, where
+ * these are not all on a line. The parts make up the polygon when each side of the polygon is a side of one part, and
+ * every other side of a part is also a side of another part, walked the other way.
  */
+#include "polytope/surface/cut_polygon.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/sort.h"
-#include "polytope/surface/on_hull.h"
 
 /* A facet and the position of a corner on it; or a side of a part, from a lower position to twice a higher one, plus 1
  * when walked back. */
@@ -119,8 +118,9 @@ static bool add_parts(struct pir_on_hull *on, struct cut *cut, bool turned, stru
     return memchr(cut->seen, 0, cut->count) == NULL && sides_cancel(cut);
 }
 
-enum pir_on_hull_answer pir_on_hull_cut(struct pir_on_hull *on, const uint32_t *corner, uint32_t count, bool turned,
-                                        struct pir_six_volumes *volumes) {
+/* Cuts a polygon whose corners are all found, and not all on one facet. */
+static enum pir_on_hull_answer cut_polygon(struct pir_on_hull *on, const uint32_t *corner, uint32_t count, bool turned,
+                                           struct pir_six_volumes *volumes) {
     struct cut cut;
     enum pir_on_hull_answer answer = PIR_ON_HULL_NO_MEMORY;
     if (init_cut(&cut, on, corner, count)) {
@@ -136,4 +136,16 @@ enum pir_on_hull_answer pir_on_hull_cut(struct pir_on_hull *on, const uint32_t *
     }
     finish_cut(&cut);
     return answer;
+}
+
+enum pir_on_hull_answer pir_cut_polygon(struct pir_on_hull *on, const uint32_t *corner, uint32_t count, bool turned,
+                                        struct pir_six_volumes *volumes) {
+    if (count == 0)
+        return PIR_IS_ON_HULL;
+    if (!pir_on_hull_find(on, corner, count))
+        return PIR_IS_OFF_HULL;
+    if (!pir_on_hull_is_on_one(on, corner, count))
+        return count > 3 ? cut_polygon(on, corner, count, turned, volumes) : PIR_IS_OFF_HULL;
+    pir_six_volumes_add(volumes, corner, count, turned);
+    return PIR_IS_ON_HULL;
 }

@@ -4,8 +4,6 @@
 
 #include "base/memory.h"
 #include "base/report.h"
-#include "polytope/polytope.h"
-#include "polytope/surface/surface.h"
 
 /* Points, and facets, that a model may have. */
 #define COUNT_MAX ((uint32_t)1 << 30)
@@ -82,39 +80,5 @@ pir_status pir_model_add_corner(struct pir_model *model, uint32_t point) {
         model->corner_room = room;
     }
     model->corner[model->corner_count++] = point;
-    return PIR_OK;
-}
-
-pir_status pir_model_make(const struct pir_model *model, const pir_read_options *options, pir_surface *ret_surface,
-                          pir_polytope **ret_polytope) {
-    if (model->point_count == 0)
-        return pir_fail(model->report, PIR_ERR_EMPTY, "%s: the file has no points", model->name);
-    struct pir_exact_points exact = {0};
-    pir_polytope *polytope = NULL;
-    pir_surface surface;
-    pir_status status =
-        model->exact
-            ? pir_exact_points_of_rationals(&exact, (const mpq_t *)model->exact, model->point_count, &model->allocator)
-            : pir_exact_points_of_doubles(&exact, model->points, model->point_count, &model->allocator);
-    if (status == PIR_OK)
-        status = pir_polytope_build_hull(&(pir_polytope_parts){.points = &exact.vectors,
-                                                               .scale = &exact.scale,
-                                                               .doubles = model->exact ? NULL : model->points},
-                                         &model->allocator, &polytope);
-    if (status != PIR_OK)
-        pir_fail(model->report, status, "%s: the convex hull of its points: %s", model->name, pir_status_text(status));
-    const bool require_convex = options->require_convex != 0;
-    if (status == PIR_OK && (ret_surface || require_convex))
-        status = pir_surface_examine(model, &exact, polytope, require_convex, &surface);
-    pir_exact_points_finish(&exact, &model->allocator);
-    if (status != PIR_OK) {
-        pir_polytope_release(polytope);
-        return status;
-    }
-    status = pir_polytope_merge_within(polytope, options->polytope.merge_tolerance, ret_polytope);
-    if (status != PIR_OK)
-        return pir_fail(model->report, status, "%s: merging its facets: %s", model->name, pir_status_text(status));
-    if (ret_surface)
-        *ret_surface = surface;
     return PIR_OK;
 }

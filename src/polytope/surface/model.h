@@ -57,12 +57,4 @@ pir_status pir_model_add_point(struct pir_model *model, pir_vec3 point);
 pir_status pir_model_begin_facet(struct pir_model *model, size_t line);
 pir_status pir_model_add_corner(struct pir_model *model, uint32_t point);
 
-/*
- * The hull of the points, made as `options` say, and what the facets are before it is taken. Where they require a
- * convex model, PIR_ERR_NOT_CLOSED or PIR_ERR_NOT_CONVEX when the facets bound no convex solid. `ret_surface` may be
- * NULL.
- */
-pir_status pir_model_make(const struct pir_model *model, const pir_read_options *options, pir_surface *ret_surface,
-                          pir_polytope **ret_polytope);
-
 #endif

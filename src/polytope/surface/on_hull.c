@@ -1,68 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See on_hull.h. A point of the hull's boundary that is no vertex is on one facet, or, on an edge, on two. It is looked
- * for first on the facets of a corner that is found already, then on all; neighbours in a model are neighbours on the
- * hull.
+ * See on_hull.h. A point of the hull's boundary that is no vertex is on one facet, or, on an edge, on two. The search
+ * begins with the facets of a corner that is already found, since neighbours in a model are neighbours on the hull, and
+ * goes on to all facets.
  */
 #include "polytope/surface/on_hull.h"
 
 #include "polytope/hull/quickhull.h"
-
-/* --- volumes --- */
-
-bool pir_six_volumes_init(struct pir_six_volumes *volumes, const pir_allocator *allocator, const pir_vectors *points) {
-    // the apex, three corners from there, a cross product, a determinant, a product on the way, and two sums, which
-    // 2^34 determinants lengthen by a limb
-    uint32_t corner = points->stride + 2, limbs = 12 * corner + 3 * 2 * corner + 4 * (3 * corner + 4);
-    *volumes = (struct pir_six_volumes){.points = points};
-    volumes->scratch = (pir_limbs){PIR_NEW(allocator, mp_limb_t, limbs), 0, limbs};
-    if (!volumes->scratch.base)
-        return false;
-    volumes->apex = pir_int3_take(&volumes->scratch, corner);
-    volumes->sum = pir_limbs_take(&volumes->scratch, 3 * corner + 4);
-    return true;
-}
-
-void pir_six_volumes_lift(struct pir_six_volumes *volumes, uint32_t point, int axis) {
-    mp_limb_t one_limb = 1;
-    const pir_int one = {&one_limb, 1, 0};
-    pir_int3 p = pir_vectors_at(volumes->points, point);
-    for (int k = 0; k < 3; k++)
-        pir_int_copy(&volumes->apex.c[k], &p.c[k]);
-    pir_int_add(&volumes->apex.c[axis], &volumes->apex.c[axis], &one);
-}
-
-void pir_six_volumes_finish(struct pir_six_volumes *volumes, const pir_allocator *allocator) {
-    PIR_FREE(allocator, volumes->scratch.base, volumes->scratch.capacity);
-}
-
-/* A point from the apex, in scratch. */
-static pir_int3 from_apex(struct pir_six_volumes *volumes, uint32_t point) {
-    pir_int3 v = pir_int3_take(&volumes->scratch, volumes->points->stride + 2);
-    pir_int3 p = pir_vectors_at(volumes->points, point);
-    for (int k = 0; k < 3; k++)
-        pir_int_sub(&v.c[k], &p.c[k], &volumes->apex.c[k]);
-    return v;
-}
-
-void pir_six_volumes_add(struct pir_six_volumes *volumes, const uint32_t *corner, uint32_t count, bool turned) {
-    pir_limbs *scratch = &volumes->scratch;
-    uint32_t stride = volumes->points->stride + 2;
-    for (uint32_t i = 1; i + 1 < count; i++) {
-        uint32_t mark = scratch->used;
-        pir_int3 a = from_apex(volumes, corner[0]);
-        pir_int3 b = from_apex(volumes, corner[turned ? i + 1 : i]);
-        pir_int3 c = from_apex(volumes, corner[turned ? i : i + 1]);
-        pir_int3 across = pir_int3_take(scratch, 2 * stride);
-        pir_int determinant = pir_limbs_take(scratch, 3 * stride + 4);
-        pir_int3_cross(&across, &a, &b, scratch);
-        pir_int3_dot(&determinant, &across, &c, scratch);
-        pir_int_add(&volumes->sum, &volumes->sum, &determinant);
-        scratch->used = mark;
-    }
-}
-
-/* --- where points are --- */
 
 bool pir_on_hull_init(struct pir_on_hull *on, const pir_polytope *hull, const struct pir_facets *facets,
                       const pir_vectors *exact, const pir_allocator *allocator) {
@@ -151,15 +95,14 @@ static uint32_t simplest_corner(const struct pir_on_hull *on, const uint32_t *co
     return best;
 }
 
-static bool find_corners(struct pir_on_hull *on, const uint32_t *corner, uint32_t count) {
+bool pir_on_hull_find(struct pir_on_hull *on, const uint32_t *corner, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         if (pir_on_hull_degree(on, corner[i]) == 0 && !find_point(on, corner[i], simplest_corner(on, corner, count)))
             return false;
     return true;
 }
 
-/* Whether one facet of the hull holds all corners. */
-static bool is_on_one(struct pir_on_hull *on, const uint32_t *corner, uint32_t count) {
+bool pir_on_hull_is_on_one(struct pir_on_hull *on, const uint32_t *corner, uint32_t count) {
     uint32_t simplest = simplest_corner(on, corner, count);
     for (uint32_t i = 0; i < pir_on_hull_degree(on, simplest); i++) {
         uint32_t k = 0, facet = pir_on_hull_facet(on, simplest, i);
@@ -169,16 +112,4 @@ static bool is_on_one(struct pir_on_hull *on, const uint32_t *corner, uint32_t c
             return true;
     }
     return false;
-}
-
-enum pir_on_hull_answer pir_on_hull_add(struct pir_on_hull *on, const uint32_t *corner, uint32_t count, bool turned,
-                                        struct pir_six_volumes *volumes) {
-    if (count == 0)
-        return PIR_IS_ON_HULL;
-    if (!find_corners(on, corner, count))
-        return PIR_IS_OFF_HULL;
-    if (!is_on_one(on, corner, count))
-        return count > 3 ? pir_on_hull_cut(on, corner, count, turned, volumes) : PIR_IS_OFF_HULL;
-    pir_six_volumes_add(volumes, corner, count, turned);
-    return PIR_IS_ON_HULL;
 }

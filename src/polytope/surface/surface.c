@@ -13,8 +13,8 @@
 #include "base/report.h"
 #include "base/sort.h"
 #include "polytope/hull/quickhull.h"
+#include "polytope/surface/cut_polygon.h"
 #include "polytope/surface/facets.h"
-#include "polytope/surface/on_hull.h"
 
 /* What is found out about a surface, and where it first fails to be that of a convex solid. */
 struct examination {
@@ -78,7 +78,7 @@ static enum pir_on_hull_answer add_facet(const struct examination *x, uint32_t f
     uint32_t count = x->facets.start[facet + 1] - x->facets.start[facet];
     bool turned = x->facets.turned[facet] && x->facets.joining == PIR_JOINED_TURNED;
     if (on)
-        return pir_on_hull_add(on, corner, count, turned, volumes);
+        return pir_cut_polygon(on, corner, count, turned, volumes);
     pir_six_volumes_add(volumes, corner, count, turned);
     return PIR_IS_ON_HULL;
 }

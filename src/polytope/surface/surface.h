@@ -7,6 +7,7 @@
 #ifndef PIR_POLYTOPE_SURFACE_SURFACE_H
 #define PIR_POLYTOPE_SURFACE_SURFACE_H
 
+#include "polytope/exact_points.h"
 #include "polytope/polytope.h"
 #include "polytope/surface/model.h"
 

@@ -11,8 +11,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <pirouette/io.h>
+
 #include "base/report.h"
-#include "polytope/write/io.h"
+#include "polytope/file/file_name.h"
+#include "polytope/write/write_assimp.h"
+#include "polytope/write/write_off.h"
+#include "polytope/write/write_svg.h"
 
 /*
  * Names tried for the file beside the target before giving up: one for each thread that writes into the folder at

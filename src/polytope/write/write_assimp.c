@@ -6,7 +6,7 @@
  * is freed here by whoever made it, never by assimp. assimp reads nothing: its PLY reader trusts what files say, and
  * does not end, takes all memory or ends the process on files that do not keep to the format.
  */
-#include "polytope/write/io.h"
+#include "polytope/write/write_assimp.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,12 +5,14 @@
  * A double is written with the fewest of 15, 16 or 17 digits that read back as itself; an exact coordinate as an
  * integer or a/b in lowest terms.
  */
-#include "polytope/write/io.h"
+#include "polytope/write/write_off.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 
 #include <pirouette/exact.h>
+
+#include "polytope/file/c_locale.h"
 
 static void write_double(FILE *file, double value, char end) {
     char text[32];

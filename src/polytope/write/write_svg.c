@@ -10,13 +10,14 @@
  * Bodies of any size and place are drawn alike: coordinates are taken relative to the centre of their bounds and to the
  * largest of them, which overflows nowhere.
  */
-#include "polytope/write/io.h"
+#include "polytope/write/write_svg.h"
 
 #include <math.h>
 
 #include <cglm/cglm.h>
 
 #include "base/vec.h"
+#include "polytope/file/c_locale.h"
 
 /* The picture: the longer side of the body, the space around it, the space between it and the legend. */
 #define PICTURE_SIZE   560.0
@@ -95,10 +96,26 @@ static bool is_drawn(const struct pir_svg_body *body, uint32_t facet, vec3 norma
     return pir_mesh_facet_count(body->mesh) == 2 && facet == 0 ? normal[2] >= 0 : normal[2] > 0;
 }
 
+/* The bounds of a mesh's vertices. */
+static void mesh_bounds(const pir_mesh *mesh, pir_vec3 *ret_low, pir_vec3 *ret_high) {
+    const pir_vec3 *vertices = pir_mesh_vertices(mesh);
+    pir_vec3 low = vertices[0], high = vertices[0];
+    for (uint32_t v = 1; v < pir_mesh_vertex_count(mesh); v++) {
+        low.x = vertices[v].x < low.x ? vertices[v].x : low.x;
+        low.y = vertices[v].y < low.y ? vertices[v].y : low.y;
+        low.z = vertices[v].z < low.z ? vertices[v].z : low.z;
+        high.x = vertices[v].x > high.x ? vertices[v].x : high.x;
+        high.y = vertices[v].y > high.y ? vertices[v].y : high.y;
+        high.z = vertices[v].z > high.z ? vertices[v].z : high.z;
+    }
+    *ret_low = low;
+    *ret_high = high;
+}
+
 struct pir_svg_body pir_svg_measure(const pir_mesh *mesh) {
     struct pir_svg_body body = {.mesh = mesh};
     pir_vec3 low, high;
-    pir_mesh_bounds(mesh, &low, &high);
+    mesh_bounds(mesh, &low, &high);
     body.centre = (pir_vec3){low.x / 2 + high.x / 2, low.y / 2 + high.y / 2, low.z / 2 + high.z / 2};
     body.radius = fmax(fmax(high.x - body.centre.x, high.y - body.centre.y), high.z - body.centre.z);
     for (uint32_t v = 0; v < pir_mesh_vertex_count(mesh); v++) {

@@ -4,8 +4,8 @@
  * smallest index, loops stand in lexicographic order. Loops of the same facets are then equal array for array, whoever
  * made them.
  */
-#ifndef PIR_POLYTOPE_LOOPS_H
-#define PIR_POLYTOPE_LOOPS_H
+#ifndef PIR_POLYTOPE_HULL_LOOPS_H
+#define PIR_POLYTOPE_HULL_LOOPS_H
 
 #include "base/memory.h"
 

@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Merging nearly coplanar facets of an exact hull. merge_groups.c says by doubles which facets might become one and
- * near which plane; merge.c makes the planes exact, moves the vertices onto them, and proves how far they went.
- */
-#ifndef PIR_POLYTOPE_MERGE_MERGE_H
-#define PIR_POLYTOPE_MERGE_MERGE_H
+/* Which facets of a hull might become one, and near which plane: decided by doubles, and proven by merge.c. */
+#ifndef PIR_POLYTOPE_CREATE_MERGE_GROUPS_H
+#define PIR_POLYTOPE_CREATE_MERGE_GROUPS_H
 
 #include "base/vec.h"
 #include "polytope/polytope.h"
@@ -40,14 +37,5 @@ typedef struct pir_merge_groups {
  */
 pir_status pir_merge_groups_make(pir_merge_groups *groups, const pir_polytope *hull, double tolerance);
 void pir_merge_groups_finish(pir_merge_groups *groups, const pir_polytope *hull);
-
-/*
- * The hull of dimension 3 with what facets can be merged within `tolerance` merged: a new polytope with the hull's
- * allocator, its bound set. NULL where nothing can. PIR_ERR_MEMORY.
- */
-pir_status pir_polytope_merge(const pir_polytope *hull, double tolerance, pir_polytope **ret_merged);
-
-/* The least double found that is not below the square root of a rational that is not negative. */
-double pir_root_rounded_up(const mpq_t square);
 
 #endif

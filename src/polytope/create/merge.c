@@ -14,13 +14,14 @@
  *
  * This file and merge_groups.c compute with GMP's rationals, in GMP's own memory.
  */
-#include "polytope/merge/merge.h"
+#include "polytope/create/merge.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <pirouette/exact.h>
+#include "polytope/create/merge_groups.h"
+#include "polytope/exact_points.h"
 
 /* The longest common denominator of the moved vertices, in bits. */
 #define DENOMINATOR_BITS_MAX 32768
@@ -371,11 +372,17 @@ static void finish_merging(struct merging *m) {
 /* The hull of the vertices where they are now; NULL where it has no fewer facets than before. */
 static pir_status build_merged(struct merging *m, double tolerance, pir_polytope **ret_merged) {
     const pir_polytope *hull = m->hull;
-    const pir_polytope_options options = {&hull->allocator, 0};
     for (size_t i = 0; i < 3 * (size_t)hull->vertex_count; i++)
         mpq_mul(m->at[i], m->at[i], m->unit);
     pir_polytope *merged = NULL;
-    pir_status status = pir_polytope_create_exact((const mpq_t *)m->at, hull->vertex_count, &options, &merged);
+    struct pir_exact_points exact;
+    pir_status status =
+        pir_exact_points_of_rationals(&exact, (const mpq_t *)m->at, hull->vertex_count, &hull->allocator);
+    if (status == PIR_OK) {
+        status = pir_polytope_build_hull(&(pir_polytope_parts){.points = &exact.vectors, .scale = &exact.scale},
+                                         &hull->allocator, &merged);
+        pir_exact_points_finish(&exact, &hull->allocator);
+    }
     if (status != PIR_OK && status != PIR_ERR_LIMIT)
         return status;
     // coordinates that were as long as is allowed before stay as they were
@@ -394,7 +401,8 @@ static pir_status build_merged(struct merging *m, double tolerance, pir_polytope
     return PIR_OK;
 }
 
-pir_status pir_polytope_merge(const pir_polytope *hull, double tolerance, pir_polytope **ret_merged) {
+/* The hull with what facets can be merged within `tolerance` merged: a new polytope, its bound set. NULL where none can. */
+static pir_status merge_facets(const pir_polytope *hull, double tolerance, pir_polytope **ret_merged) {
     struct merging m = {0};
     pir_status status = pir_merge_groups_make(&m.groups, hull, tolerance);
     if (status != PIR_OK)
@@ -410,5 +418,15 @@ pir_status pir_polytope_merge(const pir_polytope *hull, double tolerance, pir_po
         finish_merging(&m);
     }
     pir_merge_groups_finish(&m.groups, hull);
+    return status;
+}
+
+pir_status pir_polytope_merge_within(pir_polytope *hull, double tolerance, pir_polytope **ret_polytope) {
+    pir_polytope *merged = NULL;
+    pir_status status = tolerance > 0 && hull->dimension == 3 ? merge_facets(hull, tolerance, &merged) : PIR_OK;
+    if (status != PIR_OK || merged)
+        pir_polytope_release(hull);
+    if (status == PIR_OK)
+        *ret_polytope = merged ? merged : hull;
     return status;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Facets as loops of indices in canonical order. */
-#include "polytope/loops.h"
+#include "polytope/hull/loops.h"
 
 #include <stdlib.h>
 #include <string.h>

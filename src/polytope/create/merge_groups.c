@@ -7,7 +7,7 @@
  * which small slivers with wild normals do not turn. Where the normal of a group before fits its corners nearly as
  * well, it takes that one: opposite sides of a body then have one normal, and the vertices fewer denominators.
  */
-#include "polytope/merge/merge.h"
+#include "polytope/create/merge_groups.h"
 
 #include <math.h>
 #include <stdlib.h>
