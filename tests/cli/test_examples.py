@@ -101,11 +101,12 @@ class Examples:
         p = turned(quat, cube)
         told = [tuple(Fraction(c) for c in line.split()) for line in self.lines]
         sums = {add(a, b) for a in p for b in cube}
+        every = list(normals(turned(quat, edges) + edges))
         assert len(set(told)) == len(told) and set(told) <= sums, told
-        for n in normals(turned(quat, edges) + edges):
+        for n in every:
             assert support(told, n) == support(sums, n), n
         for corner in told:  # and none is between others: some direction has it alone for its farthest
-            lean = [n for n in normals(turned(quat, edges) + edges) if dot(n, corner) == support(told, n)]
+            lean = [n for n in every if dot(n, corner) == support(told, n)]
             n = tuple(map(sum, zip(*lean)))
             assert [c for c in told if dot(c, n) == support(told, n)] == [corner], corner
 
@@ -202,10 +203,12 @@ class Examples:
         for n in normals(edges):
             scale = max(map(abs, n))
             reduced[tuple(c / scale for c in n)] = sum(abs(dot(n, e)) for e in edges) / 2 / scale  # its offset
+
         # A facet is a polygon of twice as many sides as it has edge directions; each side is on two facets.
         def directions(n):
             lie = [e for e in edges if dot(n, e) == 0]
             return len([e for i, e in enumerate(lie) if not any(cross(e, f) == (0, 0, 0) for f in lie[:i])])
+
         sides = sum(2 * directions(n) for n in reduced)
         counts = (2 + sides // 2 - len(reduced), sides // 2, len(reduced))
         assert self.lines[0] == "vertices %d, edges %d, facets %d" % counts, (self.lines[0], counts)
@@ -222,8 +225,8 @@ class Examples:
         """Every mark by the exact slack of its translation."""
         quat = [Fraction(c) for c in (0, 0, 1, 2)]
         p, q = (Fraction(5, 8), Fraction(5, 8), Fraction(1)), (Fraction(1), Fraction(1, 2), Fraction(1))
-        # a box is its own reflection
-        minus_p, edges = turned(quat, box(*p)), turned(quat, box_edges(*p)) + box_edges(*q)
+        minus_p = turned(quat, box(*p))  # a box is its own reflection
+        edges = turned(quat, box_edges(*p)) + box_edges(*q)
         planes = {n: support(box(*q), n) + support(minus_p, n) for n in normals(edges)}
         assert len(self.lines) == 33, self.lines
         marks = set()
