@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996): from a separation d with normal n,
- * no contact can come before the time that P, at its greatest speed against n, takes to cover d. Moving on by that time again and again
- * comes as near to contact as asked, from the safe side.
+ * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996): from a
+ * separation d with normal n, no contact can come before the time that P, at its greatest speed against n, takes to
+ * cover d. Moving on by that time again and again comes as near to contact as asked, from the safe side.
  */
-#include "query/query.h"
+#include "query/answer/follow.h"
 
 #define MOST_QUERIES 256
 
@@ -15,7 +15,10 @@ static pir_quat middling(pir_quat r) {
     return (pir_quat){ldexp(r.x, -e), ldexp(r.y, -e), ldexp(r.z, -e), ldexp(r.w, -e)};
 }
 
-/* The rotation at a time, r being that at time 0, middling: where nothing has turned, to the bit the one that was given. */
+/*
+ * The rotation at a time, r being that at time 0, middling: where nothing has turned, to the bit the one that was
+ * given.
+ */
 static pir_quat rotation_at(const pir_motion *motion, pir_quat r, pir_vec3 unit_axis, double time) {
     double half = 0.5 * motion->angle * time, s = sin(half), w = cos(half);
     if (half == 0)
@@ -98,7 +101,8 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
             set_outcome(&result, &at, 1, PIR_CAST_AT_REST);
             break;
         }
-        // as far as half the tolerance, so that it gets there in a few steps; past the end there is no contact within the motion
+        // as far as half the tolerance, so that it gets there in a few steps; past the end there is no contact within
+        // the motion
         double next = speed > 0 ? time + (at.distance - 0.5 * tolerance) / speed : HUGE_VAL;
         if (next > 1) {
             set_outcome(&result, &at, 1, PIR_CAST_MISS);

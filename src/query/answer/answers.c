@@ -3,8 +3,13 @@
  * Queries on one placement: overlap, separation, penetration. What they share is the exact state; the rest is told in
  * descent.c and depth.c.
  */
+#include "query/answer/follow.h"
 #include "query/decide/flat.h"
-#include "query/decide/nearest.h"
+#include "query/decide/witness.h"
+#include "query/search/closest.h"
+#include "query/search/depth.h"
+#include "query/search/proof.h"
+#include "query/search/state.h"
 
 /*
  * Distances above this, relative to the placement's reach, are tried for a quick proof; nearer ones go to the exact
@@ -55,17 +60,17 @@ static void answer_touching(pir_query *query, const pir_placement *placement, co
     result->distance = 0;
     if (touching->some) {
         result->normal = touching->facet.n;
-        pir_touch_facet(query, placement, &touching->facet, 0, NULL, &touch);
+        pir_touch_facet(&query->exact, placement, &touching->facet, 0, NULL, &touch);
         pir_piece_keep(cache, touching->facet.piece);
     } else {
         // D has no area, and any direction across it is a normal
-        pir_normal normal = {.unit = pir_flat_across(query), .err = 1};
+        pir_normal normal = {.unit = pir_flat_across(&query->frame), .err = 1};
         pir_meeting meeting = {.normal = &normal, .faces = {whole_of(query->p), whole_of(query->q)}};
         result->normal = normal.unit;
-        pir_touch_find(query, placement, &meeting, &touch);
+        pir_touch_find(&query->exact, placement, &meeting, &touch);
     }
     result->witness = touch.witness;
-    set_points(result, pir_frame_world(query, touch.point_q));
+    set_points(result, pir_frame_world(&query->frame, touch.point_q));
 }
 
 /* --- separation --- */
@@ -98,7 +103,8 @@ static void keep_simplex(pir_query_cache *cache, const pir_simplex *simplex) {
 
 /* Whether the facet of slot `slot` certainly separates. */
 static bool separates(const pir_query *query, uint32_t slot, const pir_placement *placement) {
-    return pir_plane_slack(&query->planes, slot, placement->x) < -placement->error * query->planes.err[slot];
+    return pir_plane_slack(&query->search.groups.planes, slot, placement->x) <
+           -placement->error * query->search.groups.planes.err[slot];
 }
 
 /*
@@ -119,10 +125,10 @@ static void separate_points(pir_query_result *result) {
 
 static void answer_separation(const pir_query *query, const pir_nearest *nearest, pir_query_result *result) {
     set_state(result, PIR_OUTSIDE);
-    result->distance = pir_frame_length(query, nearest->distance);
+    result->distance = pir_frame_length(&query->frame, nearest->distance);
     result->normal = nearest->normal;
     result->witness = nearest->touch.witness;
-    set_points(result, pir_frame_world(query, nearest->touch.point_q));
+    set_points(result, pir_frame_world(&query->frame, nearest->touch.point_q));
     separate_points(result);
 }
 
@@ -137,7 +143,7 @@ static void answer_beyond(pir_query_result *result) {
 static void answer_unfinished(const pir_query *query, const pir_simplex *simplex, pir_query_result *result) {
     set_state(result, PIR_OUTSIDE);
     result->outcome = PIR_STEP_LIMIT;
-    result->distance = pir_frame_length(query, fmax(0, simplex->upper));
+    result->distance = pir_frame_length(&query->frame, fmax(0, simplex->upper));
 }
 
 /*
@@ -149,29 +155,29 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
     pir_simplex simplex;
     pir_nearest nearest;
     recall_simplex(query, cache, &simplex);
-    pir_descend_to_point(query, placement, limit + DISTANCE_ERROR * placement->reach, &simplex, &result->steps);
+    pir_descend_to_point(&query->frame, placement, limit + DISTANCE_ERROR * placement->reach, &simplex, &result->steps);
     bool far = simplex.lower > CLEARLY_APART * placement->reach && simplex.lower > 4 * placement->error;
     bool beyond = simplex.lower > limit + DISTANCE_ERROR * placement->reach;
-    bool proven = far && !beyond && pir_nearest_prove(query, placement, &simplex, &nearest);
-    if (!proven && !(far && pir_prove_outside(query, placement, &simplex, cache))) {
+    bool proven = far && !beyond && pir_closest_prove(&query->search.groups, placement, &simplex, &nearest);
+    if (!proven && !(far && pir_prove_outside(&query->search.groups, placement, &simplex, cache))) {
         uint32_t slot;
-        pir_state state = pir_state_find(query, placement, cache, &slot, ret_touching, &result->steps);
+        pir_state state = pir_state_find(&query->search, placement, cache, &slot, ret_touching, &result->steps);
         if (state != PIR_OUTSIDE)
             return state;
         if (slot != PIR_NO_PLANE)
-            pir_piece_keep(cache, query->planes.piece[slot]);
+            pir_piece_keep(cache, query->search.groups.planes.piece[slot]);
     }
     keep_simplex(cache, &simplex);
     if (beyond) {
         answer_beyond(result);
         return PIR_OUTSIDE;
     }
-    if (!proven && !pir_nearest_find(query, placement, &simplex, &nearest, &result->steps)) {
+    if (!proven && !pir_closest_find(&query->search.groups, placement, &simplex, &nearest, &result->steps)) {
         answer_unfinished(query, &simplex, result);
         return PIR_OUTSIDE;
     }
     answer_separation(query, &nearest, result);
-    if (result->distance > pir_frame_length(query, limit))
+    if (result->distance > pir_frame_length(&query->frame, limit))
         answer_beyond(result);
     return PIR_OUTSIDE;
 }
@@ -180,24 +186,25 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
 static pir_state overlap(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                          pir_least *ret_touching, uint32_t *steps) {
     uint32_t slot;
-    if (pir_piece_recall(query, cache, &slot) && separates(query, slot, placement))
+    if (pir_piece_recall(&query->search.groups, cache, &slot) && separates(query, slot, placement))
         return PIR_OUTSIDE;
-    bool inside = query->group_count > 0;
-    pir_groups_bound(query, placement, 0);
-    for (uint32_t g = 0; g < query->group_count && inside; g++)
-        inside = query->low[g] > 0;
+    bool inside = query->search.groups.count > 0;
+    pir_bounds_find(&query->search.bounds, &query->search.groups, placement, 0);
+    for (uint32_t g = 0; g < query->search.groups.count && inside; g++)
+        inside = query->search.bounds.low[g] > 0;
     if (inside)
         return PIR_INSIDE;
     pir_simplex simplex;
     recall_simplex(query, cache, &simplex);
-    pir_descend_to_point(query, placement, CLEARLY_APART * placement->reach, &simplex, steps);
-    if (simplex.lower > CLEARLY_APART * placement->reach && pir_prove_outside(query, placement, &simplex, cache)) {
+    pir_descend_to_point(&query->frame, placement, CLEARLY_APART * placement->reach, &simplex, steps);
+    if (simplex.lower > CLEARLY_APART * placement->reach &&
+        pir_prove_outside(&query->search.groups, placement, &simplex, cache)) {
         keep_simplex(cache, &simplex);
         return PIR_OUTSIDE;
     }
-    pir_state state = pir_state_find(query, placement, cache, &slot, ret_touching, steps);
+    pir_state state = pir_state_find(&query->search, placement, cache, &slot, ret_touching, steps);
     if (state == PIR_OUTSIDE && slot != PIR_NO_PLANE)
-        pir_piece_keep(cache, query->planes.piece[slot]);
+        pir_piece_keep(cache, query->search.groups.planes.piece[slot]);
     return state;
 }
 
@@ -208,9 +215,9 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
 static pir_state depth_and_state(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                                  pir_least *ret_least, uint32_t *steps) {
     uint32_t slot;
-    if (pir_piece_recall(query, cache, &slot) && separates(query, slot, placement))
+    if (pir_piece_recall(&query->search.groups, cache, &slot) && separates(query, slot, placement))
         return PIR_OUTSIDE;
-    ret_least->some = pir_depth_find(query, placement, cache, &ret_least->facet, steps);
+    ret_least->some = pir_depth_find(&query->search, placement, cache, &ret_least->facet, steps);
     if (ret_least->some) {
         const pir_facet *facet = &ret_least->facet;
         double slack = facet->h - pir_vec_dot(facet->n, placement->x), error = placement->error * facet->err;
@@ -222,36 +229,37 @@ static pir_state depth_and_state(pir_query *query, const pir_placement *placemen
         }
     }
     pir_least touching;
-    pir_state state = pir_state_find(query, placement, cache, &slot, &touching, steps);
+    pir_state state = pir_state_find(&query->search, placement, cache, &slot, &touching, steps);
     if (state == PIR_BOUNDARY)
         *ret_least = touching;
     else if (state == PIR_OUTSIDE && slot != PIR_NO_PLANE)
-        pir_piece_keep(cache, query->planes.piece[slot]);
+        pir_piece_keep(cache, query->search.groups.planes.piece[slot]);
     return state;
 }
 
 static void answer_depth(pir_query *query, const pir_placement *placement, const pir_facet *facet,
                          pir_query_cache *cache, pir_query_result *result) {
     // exactly inside: a slack that rounds below zero is one of next to nothing
-    double slack = fmax(pir_facet_slack(query, placement, facet), 0);
+    double slack = fmax(pir_facet_slack(&query->exact, placement, facet), 0);
     pir_touch touch;
     // in a region the foot may be beside the facet
-    if (!pir_touch_facet(query, placement, facet, slack, NULL, &touch))
-        touch = (pir_touch){facet->faces, pir_facet_point(query, placement, facet, slack)};
+    if (!pir_touch_facet(&query->exact, placement, facet, slack, NULL, &touch))
+        touch = (pir_touch){facet->faces, pir_facet_point(&query->frame, placement, facet, slack)};
     pir_piece_keep(cache, facet->piece);
     if (cache)
         cache->points = 0;
     result->normal = facet->n;
-    result->distance = -pir_frame_length(query, slack);
+    result->distance = -pir_frame_length(&query->frame, slack);
     result->witness = touch.witness;
-    set_points(result, pir_frame_world(query, touch.point_q));
+    set_points(result, pir_frame_world(&query->frame, touch.point_q));
 }
 
 /* What the facets in the region of the sum tell. */
 static void answer_in_region(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                              pir_query_result *result) {
     pir_least least;
-    set_state(result, pir_region_find(query, placement, cache, &least, &result->steps));
+    set_state(result,
+              pir_regional_find(&query->regional, &query->search.groups, placement, cache, &least, &result->steps));
     if (!least.some) {
         result->outcome = PIR_NO_HIT;
         return;
@@ -306,7 +314,8 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
         answer_in_region(query, &placement, cache, result);
         return PIR_OK;
     }
-    double radii = input->radius_p + input->radius_q, limit = pir_frame_from(query, fmax(input->cutoff, 0) + radii);
+    double radii = input->radius_p + input->radius_q,
+           limit = pir_frame_from(&query->frame, fmax(input->cutoff, 0) + radii);
     // rounded bodies overlap where the polytopes are apart
     if (radii > 0)
         want |= WANT_SEPARATION;
@@ -323,7 +332,7 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
         answer_touching(query, &placement, &least, cache, result);
     } else if (state == PIR_INSIDE && ((want & WANT_DEPTH) || radii > 0)) {
         if (!depth_first)
-            least.some = pir_depth_find(query, &placement, cache, &least.facet, &result->steps);
+            least.some = pir_depth_find(&query->search, &placement, cache, &least.facet, &result->steps);
         answer_depth(query, &placement, &least.facet, cache, result);
     }
     add_radii(input, result);

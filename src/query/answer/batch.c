@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Many translations at one rotation. All planes are made at once and stand in leaves (leaves.c). Two balls about D's middle settle most states
- * at once: within the depth of the middle everything is inside, beyond the sizes of the bodies everything is outside. What the
- * leaves leave open is asked for by itself.
+ * Many translations at one rotation. All planes are made at once and stand in leaves (leaves.c). Two balls about D's
+ * middle settle most states at once: within the depth of the middle everything is inside, beyond the sizes of the
+ * bodies everything is outside. What the leaves leave open is asked for by itself.
  */
-#include "query/decide/facet.h"
+#include "query/answer/follow.h"
 
 struct batch {
     pir_query *query;
@@ -20,25 +20,25 @@ static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *t
     *batch = (struct batch){.query = query, .input = pir_query_input_default()};
     pir_status status = pir_query_begin(query, &batch->input, &middle);
     if (status == PIR_OK)
-        status = pir_leaves_make(query);
+        status = pir_leaves_make(&query->leaves, &query->search.groups, &query->allocator);
     if (status != PIR_OK)
         return status;
     middle.x = (pir_vec3){0, 0, 0};
-    middle.reach = query->size_p + query->size_q;
+    middle.reach = query->frame.p.size + query->frame.q.size;
     middle.error = PIR_SLACK_BOUND * middle.reach;
     // what is taken off holds the errors of a slack and of x
-    batch->inner = pir_leaves_least(query, &middle) - 64 * middle.error;
+    batch->inner = pir_leaves_least(&query->leaves, &query->search.groups, &middle) - 64 * middle.error;
     return PIR_OK;
 }
 
 /* The state where a ball settles it. */
 static bool settle(const struct batch *batch, const pir_placement *placement, pir_state *ret_state) {
-    double away = placement->reach - batch->query->size_p - batch->query->size_q;
+    double away = placement->reach - batch->query->frame.p.size - batch->query->frame.q.size;
     if (away + placement->error < batch->inner) {
         *ret_state = PIR_INSIDE;
         return true;
     }
-    if (away > (batch->query->size_p + batch->query->size_q) * (1 + 0x1p-40) + 2 * placement->error) {
+    if (away > (batch->query->frame.p.size + batch->query->frame.q.size) * (1 + 0x1p-40) + 2 * placement->error) {
         *ret_state = PIR_OUTSIDE;
         return true;
     }
@@ -51,9 +51,9 @@ pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations
     for (size_t i = 0; i < count && status == PIR_OK; i++) {
         pir_placement placement;
         pir_query_result result;
-        status = pir_frame_place(query, translations[i], &placement);
+        status = pir_frame_place(&query->frame, translations[i], &placement);
         if (status != PIR_OK || settle(&batch, &placement, &ret_states[i]) ||
-            pir_leaves_state(query, &placement, &ret_states[i]))
+            pir_leaves_state(&query->leaves, &query->search.groups, &placement, &ret_states[i]))
             continue;
         batch.input.translation = translations[i];
         status = pir_query_overlap(query, &batch.input, NULL, &result);
@@ -66,16 +66,18 @@ pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations
 /* The state, and the depth where that is inside, where a ball or the leaves tell it. */
 static bool find_depth(const struct batch *batch, const pir_placement *placement, double *ret_depth,
                        pir_state *ret_state) {
+    pir_query *query = batch->query;
     pir_facet facet;
     *ret_depth = 0;
-    if (!settle(batch, placement, ret_state) && !pir_leaves_state(batch->query, placement, ret_state))
+    if (!settle(batch, placement, ret_state) &&
+        !pir_leaves_state(&query->leaves, &query->search.groups, placement, ret_state))
         return false;
     if (*ret_state != PIR_INSIDE)
         return true;
-    if (!pir_leaves_depth(batch->query, placement, &facet))
+    if (!pir_leaves_depth(&query->leaves, &query->search.groups, placement, &facet))
         return false;
-    double slack = pir_facet_slack(batch->query, placement, &facet);
-    *ret_depth = pir_frame_length(batch->query, slack > 0 ? slack : 0);
+    double slack = pir_facet_slack(&query->exact, placement, &facet);
+    *ret_depth = pir_frame_length(&query->frame, slack > 0 ? slack : 0);
     return true;
 }
 
@@ -86,7 +88,7 @@ pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *translations
     for (size_t i = 0; i < count && status == PIR_OK; i++) {
         pir_placement placement;
         pir_query_result result;
-        status = pir_frame_place(query, translations[i], &placement);
+        status = pir_frame_place(&query->frame, translations[i], &placement);
         if (status == PIR_OK && !find_depth(&batch, &placement, &ret_depths[i], &result.state)) {
             batch.input.translation = translations[i];
             status = pir_query_penetration(query, &batch.input, NULL, &result);
@@ -105,7 +107,7 @@ pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *translati
     for (size_t i = 0; i < count && status == PIR_OK; i++) {
         pir_placement placement;
         pir_query_result result;
-        status = pir_frame_place(query, translations[i], &placement);
+        status = pir_frame_place(&query->frame, translations[i], &placement);
         if (status != PIR_OK)
             break;
         if (find_depth(&batch, &placement, &ret_distances[i], &result.state) && result.state == PIR_INSIDE) {

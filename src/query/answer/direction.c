@@ -3,73 +3,58 @@
  * Along a line: the directional depth and distance, and the linear cast. Where lines and facets cross is told in
  * line.h.
  */
+#include "query/answer/follow.h"
 #include "query/decide/flat.h"
+#include "query/decide/side.h"
+#include "query/search/state.h"
 
 /* Clips the line by every facet of D. */
 static pir_clip clip_line(pir_query *query, const pir_line *line, uint32_t *steps) {
     pir_clip clip = PIR_CLIP_NONE;
-    for (uint32_t g = 0; g < query->group_count; g++) {
-        pir_group_make(query, g);
-        const pir_group *group = &query->groups[g];
+    for (uint32_t g = 0; g < query->search.groups.count; g++) {
+        pir_group_make(&query->search.groups, g);
+        const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count; i++)
-            pir_clip_bound(query, line, &clip, i);
+            pir_clip_bound(&query->search.groups.planes, line, &clip, i);
     }
-    for (uint32_t g = 0; g < query->group_count; g++) {
-        const pir_group *group = &query->groups[g];
+    for (uint32_t g = 0; g < query->search.groups.count; g++) {
+        const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count && !clip.misses; i++)
-            pir_clip_take(query, line, &clip, i);
+            pir_clip_take(&query->exact, &query->search.groups.planes, line, &clip, i);
     }
     ++*steps;
     return clip;
 }
 
-bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length) {
-    double most = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
-    if (most == 0)
-        return false;
-    int e;
-    frexp(most, &e);
-    pir_vec3 scaled = {ldexp(v.x, -e), ldexp(v.y, -e), ldexp(v.z, -e)};
-    double length = sqrt(pir_vec_dot(scaled, scaled));
-    *ret_unit = (pir_vec3){scaled.x / length, scaled.y / length, scaled.z / length};
-    *ret_length = ldexp(length, e);
-    return true;
-}
-
 /* Where P first touches Q along the line from outside: false when it never does. */
 static bool first_touch(pir_query *query, const pir_line *line, pir_arrival *ret_arrival, uint32_t *steps) {
-    if (pir_flat_is(query))
-        return pir_flat_enter(query, line, ret_arrival);
+    if (pir_flat_is(&query->exact))
+        return pir_flat_enter(&query->exact, line, ret_arrival);
     pir_clip clip = clip_line(query, line, steps);
-    if (clip.misses || !clip.enter.some || pir_facet_side(query, line->placement, &clip.enter.facet) >= 0)
+    if (clip.misses || !clip.enter.some || pir_facet_side(&query->exact, line->placement, &clip.enter.facet) >= 0)
         return false;
-    if (clip.leave.some && pir_line_compare(query, line, &clip.enter.facet, &clip.leave.facet) > 0)
+    if (clip.leave.some && pir_line_compare(&query->exact, line, &clip.enter.facet, &clip.leave.facet) > 0)
         return false;
-    return pir_line_arrive(query, line, &clip.enter.facet, ret_arrival);
-}
-
-static pir_status make_line(const pir_placement *placement, pir_vec3 direction, pir_line *ret_line) {
-    *ret_line = (pir_line){.placement = placement, .direction = direction};
-    if (!pir_vec_is_finite(direction))
-        return PIR_ERR_NOT_FINITE;
-    return pir_unit_of(direction, &ret_line->u, &ret_line->length) ? PIR_OK : PIR_ERR_ARGUMENT;
+    return pir_line_arrive(&query->exact, line, &clip.enter.facet, ret_arrival);
 }
 
 /* An answer along a line: the length `at`, of the given sign. */
 static void set_arrival(const pir_query *query, const pir_arrival *arrival, double sign, pir_query_result *result) {
     result->normal = arrival->normal;
-    result->point_p = result->point_q = pir_frame_world(query, arrival->touch.point_q);
+    result->point_p = result->point_q = pir_frame_world(&query->frame, arrival->touch.point_q);
     result->witness = arrival->touch.witness;
-    result->distance = sign * pir_frame_length(query, arrival->at);
+    result->distance = sign * pir_frame_length(&query->frame, arrival->at);
 }
 
 /* The exit from what the facets in the region of the sum bound. */
 static void exit_region(pir_query *query, const pir_line *line, pir_query_result *result) {
     pir_least least;
     pir_arrival arrival;
-    result->state = pir_region_find(query, line->placement, NULL, &least, &result->steps);
+    result->state =
+        pir_regional_find(&query->regional, &query->search.groups, line->placement, NULL, &least, &result->steps);
     result->outcome = PIR_NO_HIT;
-    if (result->state != PIR_INSIDE || !pir_region_exit(query, line, &arrival, &result->steps))
+    if (result->state != PIR_INSIDE ||
+        !pir_regional_exit(&query->regional, &query->search.groups, line, &arrival, &result->steps))
         return;
     result->outcome = PIR_NOT_SEPARATED;
     set_arrival(query, &arrival, -1, result);
@@ -83,7 +68,7 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
         return PIR_ERR_ARGUMENT;
     pir_status status = pir_query_place(query, input, &placement);
     if (status == PIR_OK)
-        status = make_line(&placement, direction, &line);
+        status = pir_line_make(&placement, direction, &line);
     if (status != PIR_OK)
         return status;
     pir_query_result result = {0};
@@ -94,13 +79,13 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
     }
     uint32_t slot;
     pir_least touching;
-    result.state = pir_state_find(query, &placement, NULL, &slot, &touching, &result.steps);
+    result.state = pir_state_find(&query->search, &placement, NULL, &slot, &touching, &result.steps);
     result.outcome = PIR_NO_HIT;
     if (result.state == PIR_INSIDE) {
         pir_clip clip = clip_line(query, &line, &result.steps);
         pir_arrival arrival;
         // D is bounded and x inside, so there is a facet that the line leaves by, and it leaves on it
-        bool leaves = clip.leave.some && pir_line_arrive(query, &line, &clip.leave.facet, &arrival);
+        bool leaves = clip.leave.some && pir_line_arrive(&query->exact, &line, &clip.leave.facet, &arrival);
         result.outcome = leaves ? PIR_OVERLAPPING : PIR_STEP_LIMIT;
         if (leaves)
             set_arrival(query, &arrival, -1, &result);
@@ -117,13 +102,13 @@ pir_status pir_query_directional_distance(pir_query *query, const pir_query_inpu
         return PIR_ERR_ARGUMENT;
     pir_status status = pir_query_begin(query, input, &placement);
     if (status == PIR_OK)
-        status = make_line(&placement, direction, &line);
+        status = pir_line_make(&placement, direction, &line);
     if (status != PIR_OK)
         return status;
     pir_query_result result = {0};
     uint32_t slot;
     pir_least touching;
-    result.state = pir_state_find(query, &placement, NULL, &slot, &touching, &result.steps);
+    result.state = pir_state_find(&query->search, &placement, NULL, &slot, &touching, &result.steps);
     result.outcome = result.state == PIR_INSIDE ? PIR_OVERLAPPING : PIR_TOUCHING;
     if (result.state == PIR_OUTSIDE) {
         pir_arrival arrival;
@@ -144,21 +129,21 @@ pir_status pir_query_directional_distance(pir_query *query, const pir_query_inpu
  * meets most squarely.
  */
 static bool moves_in(pir_query *query, const pir_line *line, pir_facet *ret_facet) {
-    const pir_planes *planes = &query->planes;
+    const pir_planes *planes = &query->search.groups.planes;
     const pir_placement *placement = line->placement;
     double most = HUGE_VAL;
     bool some = false;
-    for (uint32_t g = 0; g < query->group_count; g++) {
-        pir_group_make(query, g);
-        const pir_group *group = &query->groups[g];
+    for (uint32_t g = 0; g < query->search.groups.count; g++) {
+        pir_group_make(&query->search.groups, g);
+        const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count; i++) {
             pir_facet facet;
             if (fabs(pir_plane_slack(planes, i, placement->x)) > placement->error * planes->err[i] ||
-                pir_side_exact(query, planes->piece[i], placement->translation) != 0)
+                pir_side_exact(&query->exact, planes->piece[i], placement->translation) != 0)
                 continue;
-            if (pir_line_rate(query, line, planes->piece[i]) >= 0)
+            if (pir_line_rate(&query->exact, line, planes->piece[i]) >= 0)
                 return false;
-            if (!pir_facet_of(query, planes->piece[i], &facet))
+            if (!pir_facet_of(&query->exact, planes->piece[i], &facet))
                 continue;
             double rate = pir_vec_dot(facet.n, line->u);
             if (!some || rate < most || (rate == most && pir_facet_before(&facet, ret_facet))) {
@@ -178,9 +163,9 @@ static void cast_from_outside(pir_query *query, const pir_line *line, pir_cast_r
     if (!first_touch(query, line, &arrival, &result->steps) || !arrival.within)
         return;
     result->outcome = PIR_CAST_HIT;
-    result->time = fmin(1, pir_frame_length(query, arrival.at) / line->length);
+    result->time = fmin(1, pir_frame_length(&query->frame, arrival.at) / line->length);
     result->normal = arrival.normal;
-    result->point = pir_frame_world(query, arrival.touch.point_q);
+    result->point = pir_frame_world(&query->frame, arrival.touch.point_q);
     result->witness = arrival.touch.witness;
 }
 
@@ -190,7 +175,7 @@ pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_ve
     pir_line line;
     if (!ret_result)
         return PIR_ERR_ARGUMENT;
-    pir_status status = pir_query_begin(query, input, &placement), moving = make_line(&placement, motion, &line);
+    pir_status status = pir_query_begin(query, input, &placement), moving = pir_line_make(&placement, motion, &line);
     if (status == PIR_OK && moving == PIR_ERR_NOT_FINITE)
         status = moving;
     pir_query_result start;

@@ -3,7 +3,7 @@
  * Every way out of an overlap: the true facets of D whose slack is within a given one of the least, in the order of
  * ties.
  */
-#include "query/decide/facet.h"
+#include "query/answer/follow.h"
 
 /*
  * Facets that tie with the last one asked for are in, which their doubles tell this well, relative to the placement's
@@ -13,16 +13,16 @@
 
 /* The facet that comes next in order after `after`, with a slack of at most `limit`. */
 static pir_least next_within(pir_query *query, const pir_placement *placement, double limit, const pir_facet *after) {
-    const pir_planes *planes = &query->planes;
+    const pir_planes *planes = &query->search.groups.planes;
     pir_least next = {.some = false};
-    for (uint32_t g = 0; g < query->group_count; g++) {
-        const pir_group *group = &query->groups[g];
+    for (uint32_t g = 0; g < query->search.groups.count; g++) {
+        const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count; i++) {
             pir_facet facet;
             if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit ||
-                !pir_facet_of(query, planes->piece[i], &facet) || (after && !pir_facet_before(after, &facet)) ||
+                !pir_facet_of(&query->exact, planes->piece[i], &facet) || (after && !pir_facet_before(after, &facet)) ||
                 (next.some && !pir_facet_before(&facet, &next.facet)) ||
-                pir_facet_slack(query, placement, &facet) > limit)
+                pir_facet_slack(&query->exact, placement, &facet) > limit)
                 continue;
             next = (pir_least){true, facet};
         }
@@ -44,16 +44,17 @@ pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, dou
     size_t count = 0;
     double radii = input->radius_p + input->radius_q;
     if (least.outcome == PIR_OVERLAPPING && -least.distance >= radii) {
-        double limit = pir_frame_from(query, -least.distance - radii + slack) + WITHIN * placement.reach;
-        for (uint32_t g = 0; g < query->group_count; g++)
-            pir_group_make(query, g);
+        double limit = pir_frame_from(&query->frame, -least.distance - radii + slack) + WITHIN * placement.reach;
+        for (uint32_t g = 0; g < query->search.groups.count; g++)
+            pir_group_make(&query->search.groups, g);
         pir_facet last;
         for (pir_least next = next_within(query, &placement, limit, NULL); next.some;
              next = next_within(query, &placement, limit, &last), count++) {
             last = next.facet;
             if (count < capacity)
                 ret_escapes[count] = (pir_escape){
-                    pir_frame_length(query, pir_facet_slack(query, &placement, &last)) + radii, last.n, last.faces};
+                    pir_frame_length(&query->frame, pir_facet_slack(&query->exact, &placement, &last)) + radii, last.n,
+                    last.faces};
         }
     }
     *ret_count = count;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The largest distance: that from x to the farthest vertex of D. Every vertex of D is a corner of a piece of the pairing, so the pieces' corners
- * are looked at, not all pairs of vertices.
+ * The largest distance: that from x to the farthest vertex of D. Every vertex of D is a corner of a piece of the
+ * pairing, so the pieces' corners are looked at, not all pairs of vertices.
  */
-#include "query/decide/facet.h"
+#include "query/answer/follow.h"
+#include "query/search/state.h"
 
 struct farthest {
     uint32_t a, b;
@@ -11,7 +12,7 @@ struct farthest {
 };
 
 static void look(const pir_query *query, pir_vec3 x, uint32_t a, uint32_t b, struct farthest *best) {
-    pir_vec3 w = pir_vec_sub(pir_frame_vertex(query, a, b), x);
+    pir_vec3 w = pir_vec_sub(pir_frame_vertex(&query->frame, a, b), x);
     double square = pir_vec_dot(w, w);
     if (square > best->square)
         *best = (struct farthest){a, b, square};
@@ -46,13 +47,14 @@ pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *i
         return status;
     struct farthest best = find_farthest(query, placement.x);
     double length = sqrt(best.square);
-    pir_vec3 w = pir_vec_sub(placement.x, pir_frame_vertex(query, best.a, best.b));
-    pir_query_result result = {.outcome = PIR_SEPARATED, .distance = pir_frame_length(query, length), .steps = 1};
+    pir_vec3 w = pir_vec_sub(placement.x, pir_frame_vertex(&query->frame, best.a, best.b));
+    pir_query_result result = {
+        .outcome = PIR_SEPARATED, .distance = pir_frame_length(&query->frame, length), .steps = 1};
     uint32_t slot;
     pir_least touching;
-    result.state = pir_state_find(query, &placement, NULL, &slot, &touching, &result.steps);
+    result.state = pir_state_find(&query->search, &placement, NULL, &slot, &touching, &result.steps);
     result.normal = length > 0 ? pir_vec_scale(w, 1 / length) : (pir_vec3){1, 0, 0};
-    result.point_q = pir_frame_world(query, query->vq[best.b]);
+    result.point_q = pir_frame_world(&query->frame, query->frame.q.vertex[best.b]);
     result.witness = (pir_witness){{PIR_FEATURE_VERTEX, best.a}, {PIR_FEATURE_VERTEX, best.b}};
     double radii = input->radius_p + input->radius_q;
     result.distance += radii;

@@ -3,8 +3,8 @@
  * A query and the sum that it stands on: making and releasing it, and following what the sum does.
  *
  * The query holds references to the sum and to both operands, so whatever it was made from stays in memory as long as
- * it does, in whatever order callers destroy things. Each call compares the sum's generation (dymsum/view.h) with the one that
- * the query is for. Where they differ:
+ * it does, in whatever order callers destroy things. Each call compares the sum's generation (dymsum/view.h) with the
+ * one that the query is for. Where they differ:
  *
  *   - Operands. A sum's operand is only ever replaced by the same polytope on another scale. Its features keep their
  *     numbers and their normals to the bit, so all sizes and the groups stay. What depends on coordinates is filled
@@ -16,37 +16,22 @@
  *
  * A call that fails on the way leaves the generation behind: the next one goes the same way again.
  */
-#include "query/contact/patch.h"
+#include "query/answer/follow.h"
 
 void pir_query_destroy(pir_query *query) {
     if (!query)
         return;
     const pir_allocator allocator = query->allocator, *a = &allocator;
-    PIR_FREE(a, query->scratch.base, query->scratch.capacity);
-    pir_patch_room_free(a, query->patches, query->p, query->q);
-    pir_leaves_finish(query);
-    pir_bounds_finish(query);
-    pir_planes_finish(query);
-    pir_region_free(query);
-    pir_frame_finish(query);
+    pir_patch_room_finish(&query->patches, a, query->p, query->q);
+    pir_regional_finish(&query->regional, a, &query->frame);
+    pir_leaves_finish(&query->leaves, a);
+    pir_search_finish(&query->search, a);
+    pir_exact_finish(&query->exact, a);
+    pir_frame_finish(&query->frame, a);
     pir_polytope_release(query->p);
     pir_polytope_release(query->q);
     pir_sum_destroy(query->sum);
     PIR_FREE(a, query, 1);
-}
-
-/* Room for exact signs at the operands' scales; what was in it is lost. */
-static bool reserve_scratch(pir_query *query) {
-    uint32_t need = pir_exact_limbs(query->p, query->q);
-    if (query->scratch.base && need <= query->scratch.capacity)
-        return true;
-    const pir_allocator *a = &query->allocator;
-    mp_limb_t *limbs = PIR_NEW(a, mp_limb_t, need);
-    if (!limbs)
-        return false;
-    PIR_FREE(a, query->scratch.base, query->scratch.capacity);
-    query->scratch = (pir_limbs){limbs, 0, need};
-    return true;
 }
 
 /* Takes a reference to `polytope` in place of the one in *held. */
@@ -56,22 +41,32 @@ static void hold(pir_polytope **held, pir_polytope *polytope) {
     pir_polytope_release(before);
 }
 
-/* Fills what depends on the operands' coordinates for those that the sum has now. */
+/* Fills in what depends on the operands' coordinates for those that the sum has now. */
 static pir_status fit(pir_query *query) {
     query->fits = false;
     hold(&query->p, pir_sum_pairing(query->sum)->p);
     hold(&query->q, pir_sum_pairing(query->sum)->q);
-    if (!reserve_scratch(query))
+    if (!pir_exact_reserve(&query->exact, &query->allocator, query->p, query->q))
         return PIR_ERR_MEMORY;
-    pir_status status = pir_frame_fill(query);
+    // the scratch of exact signs is far more than a vertex and a limb
+    pir_status status = pir_frame_fill(&query->frame, query->p, query->q, query->exact.scratch.base);
     if (status != PIR_OK)
         return status;
-    pir_planes_fill(query);
-    pir_bounds_fill(query);
-    pir_region_forget(query);
-    query->followed = false;
+    pir_search_fill(&query->search);
+    pir_regional_forget(&query->regional, &query->frame);
     query->fits = true;
     return PIR_OK;
+}
+
+/* Memory for everything whose size the operands tell. False when out of memory: destroy frees what is there. */
+static bool reserve(pir_query *query) {
+    const pir_allocator *a = &query->allocator;
+    bool done = pir_frame_init(&query->frame, a, query->p, query->q);
+    query->exact.frame = &query->frame;
+    query->exact.rotation = pir_sum_exact_rotation(query->sum);
+    done = pir_search_init(&query->search, a, &query->exact, pir_sum_pairing(query->sum)) && done;
+    done = pir_regional_init(&query->regional, a, &query->frame, query->sum) && done;
+    return pir_patch_room_init(&query->patches, a, query->p, query->q) && done;
 }
 
 pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
@@ -83,14 +78,10 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
     if (!query)
         return PIR_ERR_MEMORY;
     query->allocator = *a;
-    // from here on destroy can take it apart
     query->sum = pir_sum_retain(difference);
     hold(&query->p, pairing->p);
     hold(&query->q, pairing->q);
-    query->patches = pir_patch_room_new(a, query->p, query->q);
-    bool done = query->patches && pir_frame_init(query) && pir_planes_init(query) && pir_bounds_init(query) &&
-                pir_region_init(query);
-    pir_status status = done ? fit(query) : PIR_ERR_MEMORY;
+    pir_status status = reserve(query) ? fit(query) : PIR_ERR_MEMORY;
     if (status != PIR_OK) {
         pir_query_destroy(query);
         return status;
@@ -101,7 +92,7 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
 
 /* Brings the query to what the sum is now. */
 static pir_status follow(pir_query *query) {
-    const pir_sum *sum = query->sum;
+    pir_sum *sum = query->sum;
     if (query->generation == pir_sum_generation(sum))
         return PIR_OK;
     pir_status status = PIR_OK;
@@ -109,8 +100,11 @@ static pir_status follow(pir_query *query) {
     if (query->p != pir_sum_p(sum) || query->q != pir_sum_q(sum) || !query->fits)
         status = fit(query);
     if (status == PIR_OK) {
-        pir_frame_follow(query);
-        status = pir_planes_reserve(query);
+        if (pir_frame_turn(&query->frame, pir_sum_exact_rotation(sum))) {
+            query->exact.made = false;
+            pir_groups_forget(&query->search.groups);
+        }
+        status = pir_groups_reserve(&query->search.groups, &query->allocator);
     }
     query->generation = status == PIR_OK ? pir_sum_generation(sum) : 0;
     return status;
@@ -124,7 +118,7 @@ pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_p
     if (!(input->radius_p >= 0 && input->radius_p < HUGE_VAL && input->radius_q >= 0 && input->radius_q < HUGE_VAL))
         return PIR_ERR_ARGUMENT;
     pir_status status = follow(query);
-    return status == PIR_OK ? pir_frame_place(query, input->translation, ret_placement) : status;
+    return status == PIR_OK ? pir_frame_place(&query->frame, input->translation, ret_placement) : status;
 }
 
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {

@@ -3,8 +3,10 @@
  * Supports by hill climbing in the form that libccd calls, and what a tracked sum must be asked to pay.
  */
 #include <pirouette/ccd.h>
+#include <pirouette/query.h>
 
-#include "query/query.h"
+#include "dymsum/view.h"
+#include "query/frame/climb.h"
 
 /* The matrix of a quaternion of any size; the identity where it is no rotation. */
 static pir_mat3 matrix_of(pir_quat q) {

@@ -2,13 +2,15 @@
 /*
  * Overlap and distance of a pair that has no sum, from support functions through libccd.
  *
- * The pair is first brought to size one, Q's middle to the origin, because libccd compares with absolute tolerances. Overlap is its MPR;
- * distance, which libccd has not, is a descent from vertex to vertex of the difference on libccd's distances of the origin to a segment and a
- * triangle. The bounds that a descent keeps tell success from failure; a failure is an outcome, never a number.
+ * The pair is first brought to size one, Q's middle to the origin, because libccd compares with absolute tolerances.
+ * Overlap is its MPR; distance, which libccd has not, is a descent from vertex to vertex of the difference on
+ * libccd's distances of the origin to a segment and a triangle. The bounds that a descent keeps tell success from
+ * failure; a failure is an outcome, never a number.
  */
 #include <pirouette/ccd.h>
 
-#include "query/query.h"
+#include "exact/rotation.h"
+#include "query/frame/climb.h"
 
 #if PIR_HAVE_CCD
 #include <ccd/ccd.h>
@@ -112,7 +114,10 @@ static void support_of_difference(struct side sides[2], const ccd_vec3_t *direct
     ccdVec3Sub2(w, &a, &b);
 }
 
-/* The nearest point to the origin of the simplex' faces with the last vertex; drops a vertex of four that it does not need. */
+/*
+ * The nearest point to the origin of the simplex' faces with the last vertex; drops a vertex of four that it does not
+ * need.
+ */
 static double nearest_of(struct pair_simplex *simplex, ccd_vec3_t *ret_v) {
     ccd_vec3_t *w = simplex->w;
     if (simplex->count == 1) {

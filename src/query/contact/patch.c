@@ -10,48 +10,28 @@
 
 /* --- room --- */
 
-static bool make_patch(const pir_allocator *a, pir_patch *patch, const pir_polytope *polytope) {
-    uint32_t n = polytope->vertex_count;
-    patch->member = PIR_NEW(a, uint32_t, n);
-    patch->is_member = PIR_ZEROED(a, bool, n);
-    patch->corner = PIR_NEW(a, pir_corner, n);
-    return patch->member && patch->is_member && patch->corner;
-}
-
-static void free_patch(const pir_allocator *a, pir_patch *patch, const pir_polytope *polytope) {
-    uint32_t n = polytope->vertex_count;
-    PIR_FREE(a, patch->member, n);
-    PIR_FREE(a, patch->is_member, n);
-    PIR_FREE(a, patch->corner, n);
-}
-
-/* What pir_outline_overlap may give. */
+/* The corners that pir_outline_overlap may give. */
 static size_t most_shared(const pir_polytope *p, const pir_polytope *q) {
     return 2 * (size_t)p->vertex_count + q->vertex_count + 4;
 }
 
-pir_patch_room *pir_patch_room_new(const pir_allocator *a, const pir_polytope *p, const pir_polytope *q) {
-    pir_patch_room *room = PIR_ZEROED(a, pir_patch_room, 1);
-    if (!room)
-        return NULL;
-    room->shared = PIR_NEW(a, pir_corner, most_shared(p, q));
-    room->hull = PIR_NEW(a, pir_corner, most_shared(p, q) + 1);
-    bool done = make_patch(a, &room->p, p);
-    done = make_patch(a, &room->q, q) && done;
-    if (done && room->shared && room->hull)
-        return room;
-    pir_patch_room_free(a, room, p, q);
-    return NULL;
+static pir_layout layout_of(pir_patch_room *room, const pir_polytope *p, const pir_polytope *q) {
+    size_t of_p = p->vertex_count, of_q = q->vertex_count, shared = most_shared(p, q);
+    return (pir_layout){{PIR_ROW(room->p.member, of_p), PIR_ROW(room->p.is_member, of_p), PIR_ROW(room->p.corner, of_p),
+                         PIR_ROW(room->q.member, of_q), PIR_ROW(room->q.is_member, of_q), PIR_ROW(room->q.corner, of_q),
+                         PIR_ROW(room->shared, shared), PIR_ROW(room->hull, shared + 1)}};
 }
 
-void pir_patch_room_free(const pir_allocator *a, pir_patch_room *room, const pir_polytope *p, const pir_polytope *q) {
-    if (!room)
-        return;
-    free_patch(a, &room->p, p);
-    free_patch(a, &room->q, q);
-    PIR_FREE(a, room->shared, most_shared(p, q));
-    PIR_FREE(a, room->hull, most_shared(p, q) + 1);
-    PIR_FREE(a, room, 1);
+bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, const pir_polytope *p,
+                         const pir_polytope *q) {
+    pir_layout layout = layout_of(room, p, q);
+    return pir_layout_new(allocator, &layout);
+}
+
+void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, const pir_polytope *p,
+                           const pir_polytope *q) {
+    pir_layout layout = layout_of(room, p, q);
+    pir_layout_free(allocator, &layout);
 }
 
 /* --- the body as it stands --- */
@@ -203,8 +183,8 @@ void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner 
 
 /*
  * How far x is from the plane of facet f along `out`; HUGE_VAL where the facet is too steep to tell. A facet that turns
- * away from the first by 60° and more bounds the patch: it counts from twice PIR_SNAP beyond its rim on, for rounding alone
- * may put a corner of the rim beside it.
+ * away from the first by 60° and more bounds the patch: it counts from twice PIR_SNAP beyond its rim on, for rounding
+ * alone may put a corner of the rim beside it.
  */
 static double height(const pir_patch *patch, uint32_t f, pir_vec3 x) {
     const pir_polytope *p = patch->polytope;

@@ -9,8 +9,12 @@
 #ifndef PIR_QUERY_CONTACT_PATCH_H
 #define PIR_QUERY_CONTACT_PATCH_H
 
+#include <pirouette/query.h>
+
+#include "base/layout.h"
+#include "base/vec.h"
+#include "polytope/polytope.h"
 #include "query/contact/outline.h"
-#include "query/query.h"
 
 /*
  * Tolerances. Contact manifolds are floating answers, and which corners belong together is a question of scale.
@@ -55,16 +59,16 @@ typedef struct pir_patch {
 } pir_patch;
 
 /* Room for the patches of a query and what they share. */
-struct pir_patch_room {
+typedef struct pir_patch_room {
     pir_patch p, q;
     pir_corner *shared, *hull;
-    uint32_t shared_capacity;
-};
+} pir_patch_room;
 
-/* NULL when out of memory. */
-pir_patch_room *pir_patch_room_new(const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q);
-void pir_patch_room_free(const pir_allocator *allocator, pir_patch_room *room, const pir_polytope *p,
+/* False when out of memory: pir_patch_room_finish frees what is there. Begins with a room of zeros. */
+bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, const pir_polytope *p,
                          const pir_polytope *q);
+void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, const pir_polytope *p,
+                           const pir_polytope *q);
 
 /* Vertex v where it stands, in the frame of queries. */
 pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v);

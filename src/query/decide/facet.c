@@ -2,9 +2,11 @@
 /* True facets of D: see facet.h. */
 #include "query/decide/facet.h"
 
+#include "query/decide/side.h"
+
 /*
- * A unit normal is off by 64u·err at most (u = 2^-53), and by 37u more when it is turned into P's frame; a unit edge vector
- * by 8u; their dot product rounds by 4u: below 128u·err.
+ * A unit normal is off by 64u·err at most (u = 2^-53), and by 37u more when it is turned into P's frame; a unit edge
+ * vector by 8u; their dot product rounds by 4u: below 128u·err.
  */
 #define SLOPE_BOUND 0x1p-46
 
@@ -13,31 +15,31 @@
 
 /* --- slopes and exposed faces --- */
 
-pir_int3 pir_normal_integers(pir_query *query, const pir_normal *normal) {
-    return normal->exact ? *normal->exact : pir_exact_normal(query, normal->piece);
+pir_int3 pir_normal_integers(pir_exact *exact, const pir_normal *normal) {
+    return normal->exact ? *normal->exact : pir_exact_normal(exact, normal->piece);
 }
 
-static int exact_slope(pir_query *query, const pir_normal *normal, uint32_t half, bool of_q) {
-    uint32_t mark = query->scratch.used;
-    pir_rotation_make_exact(pir_sum_exact_rotation(query->sum));
-    pir_int3 n = pir_normal_integers(query, normal);
-    pir_int3 e = of_q ? pir_exact_half_q(query, half) : pir_exact_half_p(query, half);
-    int sign = pir_exact_dot_sign(query, &n, &e);
-    query->scratch.used = mark;
+static int exact_slope(pir_exact *exact, const pir_normal *normal, uint32_t half, bool of_q) {
+    uint32_t mark = exact->scratch.used;
+    pir_rotation_make_exact(exact->rotation);
+    pir_int3 n = pir_normal_integers(exact, normal);
+    pir_int3 e = of_q ? pir_exact_half_q(exact, half) : pir_exact_half_p(exact, half);
+    int sign = pir_exact_dot_sign(exact, &n, &e);
+    exact->scratch.used = mark;
     return sign;
 }
 
-pir_view pir_view_of(const pir_query *query, const pir_normal *normal, bool of_q) {
+pir_view pir_view_of(const pir_frame *frame, const pir_normal *normal, bool of_q) {
     if (of_q)
-        return (pir_view){query->q, true, normal->unit};
-    return (pir_view){query->p, false, pir_mat_apply_transposed(&query->r, normal->unit)};
+        return (pir_view){frame->q.polytope, true, normal->unit};
+    return (pir_view){frame->p.polytope, false, pir_mat_apply_transposed(&frame->r, normal->unit)};
 }
 
-int pir_slope(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t half) {
+int pir_slope(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t half) {
     double slope = pir_vec_dot(view->unit, view->body->direction[half]);
     if (fabs(slope) > SLOPE_BOUND * normal->err)
         return (slope > 0) - (slope < 0);
-    return exact_slope(query, normal, half, view->of_q);
+    return exact_slope(exact, normal, half, view->of_q);
 }
 
 /*
@@ -64,11 +66,11 @@ struct from {
 #define NO_HALF UINT32_MAX
 
 /* The exposed face that holds the vertex of `from`. */
-static pir_feature exposed(pir_query *query, const pir_normal *normal, const pir_view *view, struct from from) {
+static pir_feature exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, struct from from) {
     const pir_polytope *p = view->body;
     uint32_t across[2] = {0, 0}, count = 0, vertex = from.vertex;
     for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1] && count < 2; h++)
-        if (h == from.across || pir_slope(query, normal, view, h) == 0)
+        if (h == from.across || pir_slope(exact, normal, view, h) == 0)
             across[count++] = h;
     if (count == 0)
         return (pir_feature){PIR_FEATURE_VERTEX, vertex};
@@ -79,8 +81,8 @@ static pir_feature exposed(pir_query *query, const pir_normal *normal, const pir
     return (pir_feature){PIR_FEATURE_FACET, shared_facet(p, across[0], across[1], view->unit)};
 }
 
-pir_feature pir_exposed(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t vertex) {
-    return exposed(query, normal, view, (struct from){vertex, NO_HALF});
+pir_feature pir_exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t vertex) {
+    return exposed(exact, normal, view, (struct from){vertex, NO_HALF});
 }
 
 uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face) {
@@ -98,73 +100,78 @@ uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face) {
 /* --- planes --- */
 
 /* Two edges: the halfedge of Q's for which d × e is along the normal. False when they are parallel. */
-static bool orient_edges(pir_query *query, const pir_normal *normal, uint32_t e, uint32_t d, uint32_t *ret_half) {
-    const pir_polytope *p = query->p, *q = query->q;
+static bool orient_edges(pir_exact *exact, const pir_normal *normal, uint32_t e, uint32_t d, uint32_t *ret_half) {
+    const pir_frame *frame = exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t half = q->edge_half[d];
-    pir_vec3 n = pir_vec_cross(q->direction[half], pir_mat_apply(&query->r, p->direction[p->edge_half[e]]));
+    pir_vec3 n = pir_vec_cross(q->direction[half], pir_mat_apply(&frame->r, p->direction[p->edge_half[e]]));
     double along = pir_vec_dot(n, normal->unit);
     // both vectors of the product are off by 42u at most, and the normal by 64u·err
     if (fabs(along) <= 2 * SLOPE_BOUND * normal->err) {
-        uint32_t mark = query->scratch.used;
-        pir_rotation_make_exact(pir_sum_exact_rotation(query->sum));
-        pir_int3 exact = pir_exact_normal(query, (pir_piece){PIR_FACET_EE, e, half});
-        pir_int3 to = pir_normal_integers(query, normal);
-        along = pir_exact_dot_sign(query, &exact, &to);
-        query->scratch.used = mark;
+        uint32_t mark = exact->scratch.used;
+        pir_rotation_make_exact(exact->rotation);
+        pir_int3 across = pir_exact_normal(exact, (pir_piece){PIR_FACET_EE, e, half});
+        pir_int3 to = pir_normal_integers(exact, normal);
+        along = pir_exact_dot_sign(exact, &across, &to);
+        exact->scratch.used = mark;
     }
     *ret_half = along > 0 ? half : q->twin[half];
     return along != 0;
 }
 
 /* The plane of the piece that stands for a facet, through its corner. */
-static void make_plane(pir_query *query, pir_facet *facet) {
-    const pir_polytope *p = query->p, *q = query->q;
+static void make_plane(pir_exact *exact, pir_facet *facet) {
+    const pir_frame *frame = exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     pir_piece piece = facet->piece;
     facet->err = 1;
     if (piece.kind == PIR_FACET_FV) {
-        facet->n = pir_mat_apply(&query->r, p->normal[piece.first]);
-        facet->h = query->hp[piece.first] + pir_vec_dot(facet->n, query->vq[facet->b]);
+        facet->n = pir_mat_apply(&frame->r, p->normal[piece.first]);
+        facet->h = frame->p.offset[piece.first] + pir_vec_dot(facet->n, frame->q.vertex[facet->b]);
     } else if (piece.kind == PIR_FACET_VF) {
         facet->n = q->normal[piece.second];
-        facet->h = query->hq[piece.second] + pir_vec_dot(facet->n, pir_mat_apply(&query->r, query->vp[facet->a]));
+        facet->h =
+            frame->q.offset[piece.second] + pir_vec_dot(facet->n, pir_mat_apply(&frame->r, frame->p.vertex[facet->a]));
     } else {
         uint32_t half = p->edge_half[piece.first];
-        pir_vec3 n = pir_vec_cross(q->direction[piece.second], pir_mat_apply(&query->r, p->direction[half]));
+        pir_vec3 n = pir_vec_cross(q->direction[piece.second], pir_mat_apply(&frame->r, p->direction[half]));
         facet->err = 1 / sqrt(pir_vec_dot(n, n));
         facet->n = pir_vec_scale(n, facet->err);
         if (facet->err * PIR_SIN_REFINED >= 1) {
-            pir_side_normal(query, piece, &facet->n);
+            pir_side_normal(exact, piece, &facet->n);
             facet->err = 1;
         }
-        facet->h = pir_vec_dot(facet->n, pir_frame_vertex(query, p->origin[half], q->origin[piece.second]));
+        facet->h = pir_vec_dot(facet->n, pir_frame_vertex(frame, p->origin[half], q->origin[piece.second]));
     }
 }
 
-bool pir_facet_of_faces(pir_query *query, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet) {
-    uint32_t half = 0;
+bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet) {
+    const pir_frame *frame = exact->frame;
     pir_feature p = faces.p, q = faces.q;
+    uint32_t half = 0, a = pir_face_lowest(frame->p.polytope, p), b = pir_face_lowest(frame->q.polytope, q);
     if (p.kind == PIR_FEATURE_FACET)
-        ret_facet->piece = (pir_piece){PIR_FACET_FV, p.index, 0};
+        ret_facet->piece = (pir_piece){PIR_FACET_FV, p.index, b};
     else if (q.kind == PIR_FEATURE_FACET)
-        ret_facet->piece = (pir_piece){PIR_FACET_VF, 0, q.index};
+        ret_facet->piece = (pir_piece){PIR_FACET_VF, a, q.index};
     else if (p.kind == PIR_FEATURE_EDGE && q.kind == PIR_FEATURE_EDGE &&
-             orient_edges(query, normal, p.index, q.index, &half))
+             orient_edges(exact, normal, p.index, q.index, &half))
         ret_facet->piece = (pir_piece){PIR_FACET_EE, p.index, half};
     else
         return false;
     ret_facet->faces = faces;
-    ret_facet->a = pir_face_lowest(query->p, p);
-    ret_facet->b = pir_face_lowest(query->q, q);
-    make_plane(query, ret_facet);
+    ret_facet->a = a;
+    ret_facet->b = b;
+    make_plane(exact, ret_facet);
     return true;
 }
 
 /* The normal of a piece as doubles; false when its edges are parallel. */
-static bool make_normal(pir_query *query, pir_piece piece, pir_normal *ret_normal) {
-    const pir_polytope *p = query->p, *q = query->q;
+static bool make_normal(pir_exact *exact, pir_piece piece, pir_normal *ret_normal) {
+    const pir_frame *frame = exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     *ret_normal = (pir_normal){.err = 1, .piece = piece};
     if (piece.kind == PIR_FACET_FV) {
-        ret_normal->unit = pir_mat_apply(&query->r, p->normal[piece.first]);
+        ret_normal->unit = pir_mat_apply(&frame->r, p->normal[piece.first]);
         return true;
     }
     if (piece.kind == PIR_FACET_VF) {
@@ -172,34 +179,35 @@ static bool make_normal(pir_query *query, pir_piece piece, pir_normal *ret_norma
         return true;
     }
     uint32_t half = p->edge_half[piece.first];
-    pir_vec3 n = pir_vec_cross(q->direction[piece.second], pir_mat_apply(&query->r, p->direction[half]));
+    pir_vec3 n = pir_vec_cross(q->direction[piece.second], pir_mat_apply(&frame->r, p->direction[half]));
     ret_normal->err = 1 / sqrt(pir_vec_dot(n, n));
     ret_normal->unit = pir_vec_scale(n, ret_normal->err);
     if (ret_normal->err * PIR_SIN_REFINED < 1)
         return true;
     ret_normal->err = 1;
-    return pir_side_normal(query, piece, &ret_normal->unit);
+    return pir_side_normal(exact, piece, &ret_normal->unit);
 }
 
-bool pir_facet_of(pir_query *query, pir_piece piece, pir_facet *ret_facet) {
-    const pir_polytope *p = query->p, *q = query->q;
+bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
+    const pir_frame *frame = exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     pir_normal normal;
     pir_witness faces;
     struct from a = {0, NO_HALF}, b = {0, NO_HALF};
-    if (!make_normal(query, piece, &normal))
+    if (!make_normal(exact, piece, &normal))
         return false;
-    pir_piece_corner(query, piece, &a.vertex, &b.vertex);
+    pir_piece_corner(frame, piece, &a.vertex, &b.vertex);
     if (piece.kind == PIR_FACET_EE) {
         a.across = p->edge_half[piece.first];
         b.across = piece.second;
     }
-    pir_view of_p = pir_view_of(query, &normal, false), of_q = pir_view_of(query, &normal, true);
+    pir_view of_p = pir_view_of(frame, &normal, false), of_q = pir_view_of(frame, &normal, true);
     // a facet's own normal exposes it
     faces.p = piece.kind == PIR_FACET_FV && !p->artificial ? (pir_feature){PIR_FEATURE_FACET, piece.first}
-                                                           : exposed(query, &normal, &of_p, a);
+                                                           : exposed(exact, &normal, &of_p, a);
     faces.q = piece.kind == PIR_FACET_VF && !q->artificial ? (pir_feature){PIR_FEATURE_FACET, piece.second}
-                                                           : exposed(query, &normal, &of_q, b);
-    return pir_facet_of_faces(query, &normal, faces, ret_facet);
+                                                           : exposed(exact, &normal, &of_q, b);
+    return pir_facet_of_faces(exact, &normal, faces, ret_facet);
 }
 
 /* --- order --- */
@@ -223,52 +231,69 @@ bool pir_facet_before(const pir_facet *a, const pir_facet *b) {
 
 /* --- slacks --- */
 
-double pir_facet_slack(pir_query *query, const pir_placement *placement, const pir_facet *facet) {
+double pir_facet_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet) {
     pir_vec3 n = facet->n, x = placement->x;
     double slack = facet->h - (n.x * x.x + n.y * x.y + n.z * x.z);
     if (fabs(slack) > NEXT_TO_NOTHING * placement->reach)
         return slack;
-    pir_exact_begin(query, placement->translation);
-    uint32_t mark = query->scratch.used;
-    pir_int3 normal = pir_exact_normal(query, facet->piece), corner = pir_exact_corner(query, facet->a, facet->b);
-    pir_int dot = pir_exact_dot(query, &normal, &corner);
-    pir_real length = pir_exact_length(query, &normal);
-    query->scratch.used = mark;
-    return pir_real_double(pir_real_times(pir_real_over(pir_real_of(&dot), length), pir_exact_unit(query)));
+    pir_exact_begin(exact, placement->translation);
+    uint32_t mark = exact->scratch.used;
+    pir_int3 normal = pir_exact_normal(exact, facet->piece), corner = pir_exact_corner(exact, facet->a, facet->b);
+    pir_int dot = pir_exact_dot(exact, &normal, &corner);
+    pir_real length = pir_exact_length(exact, &normal);
+    exact->scratch.used = mark;
+    return pir_real_double(pir_real_times(pir_real_over(pir_real_of(&dot), length), pir_exact_unit(exact)));
 }
 
-int pir_facet_side(pir_query *query, const pir_placement *placement, const pir_facet *facet) {
+int pir_facet_side(pir_exact *exact, const pir_placement *placement, const pir_facet *facet) {
     double slack = facet->h - pir_vec_dot(facet->n, placement->x);
     if (fabs(slack) > placement->error * facet->err)
         return (slack > 0) - (slack < 0);
-    pir_exact_begin(query, placement->translation);
-    uint32_t mark = query->scratch.used;
-    pir_int3 n = pir_exact_normal(query, facet->piece), corner = pir_exact_corner(query, facet->a, facet->b);
-    int sign = pir_exact_dot_sign(query, &n, &corner);
-    query->scratch.used = mark;
+    pir_exact_begin(exact, placement->translation);
+    uint32_t mark = exact->scratch.used;
+    pir_int3 n = pir_exact_normal(exact, facet->piece), corner = pir_exact_corner(exact, facet->a, facet->b);
+    int sign = pir_exact_dot_sign(exact, &n, &corner);
+    exact->scratch.used = mark;
     return sign;
 }
 
-int pir_facet_compare(pir_query *query, const pir_placement *placement, const pir_facet *a, const pir_facet *b) {
+int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pir_facet *a, const pir_facet *b) {
     pir_vec3 x = placement->x;
     double difference = (a->h - pir_vec_dot(a->n, x)) - (b->h - pir_vec_dot(b->n, x));
     if (fabs(difference) > placement->error * (a->err + b->err))
         return (difference > 0) - (difference < 0);
     // s²·|m|² against r²·|n|², with the signs of s and r
-    pir_exact_begin(query, placement->translation);
-    uint32_t mark = query->scratch.used;
+    pir_exact_begin(exact, placement->translation);
+    uint32_t mark = exact->scratch.used;
     const pir_facet *facet[2] = {a, b};
     pir_int dot[2], square[2];
     for (int k = 0; k < 2; k++) {
-        pir_int3 normal = pir_exact_normal(query, facet[k]->piece);
-        pir_int3 corner = pir_exact_corner(query, facet[k]->a, facet[k]->b);
-        dot[k] = pir_exact_dot(query, &normal, &corner);
-        square[k] = pir_exact_square(query, &normal);
+        pir_int3 normal = pir_exact_normal(exact, facet[k]->piece);
+        pir_int3 corner = pir_exact_corner(exact, facet[k]->a, facet[k]->b);
+        dot[k] = pir_exact_dot(exact, &normal, &corner);
+        square[k] = pir_exact_square(exact, &normal);
     }
     int sign = pir_int_sign(&dot[0]), other = pir_int_sign(&dot[1]);
-    pir_int of_a = pir_exact_product(query, &dot[0], &dot[0]), of_b = pir_exact_product(query, &dot[1], &dot[1]);
-    pir_int left = pir_exact_product(query, &of_a, &square[1]), right = pir_exact_product(query, &of_b, &square[0]);
-    int order = sign != other ? (sign > other) - (sign < other) : sign * pir_exact_compare(query, &left, &right);
-    query->scratch.used = mark;
+    pir_int of_a = pir_exact_product(exact, &dot[0], &dot[0]), of_b = pir_exact_product(exact, &dot[1], &dot[1]);
+    pir_int left = pir_exact_product(exact, &of_a, &square[1]), right = pir_exact_product(exact, &of_b, &square[0]);
+    int order = sign != other ? (sign > other) - (sign < other) : sign * pir_exact_compare(exact, &left, &right);
+    exact->scratch.used = mark;
     return order;
+}
+
+void pir_least_offer(pir_exact *exact, const pir_placement *placement, pir_least *least, pir_piece piece) {
+    pir_facet facet;
+    if (!pir_facet_of(exact, piece, &facet))
+        return;
+    int order = -1;
+    if (least->some) {
+        if (pir_facet_same(&facet, &least->facet))
+            return;
+        order = pir_facet_compare(exact, placement, &facet, &least->facet);
+        if (order == 0)
+            order = pir_facet_before(&facet, &least->facet) ? -1 : 1;
+    }
+    if (order < 0)
+        least->facet = facet;
+    least->some = true;
 }

@@ -13,7 +13,9 @@
 #ifndef PIR_QUERY_DECIDE_FACET_H
 #define PIR_QUERY_DECIDE_FACET_H
 
-#include "query/query.h"
+#include <pirouette/query.h>
+
+#include "query/decide/piece_plane.h"
 
 /* A direction: as doubles, and exactly as that of a piece or as integers. */
 typedef struct pir_normal {
@@ -23,22 +25,22 @@ typedef struct pir_normal {
     const pir_int3 *exact; /* where it is not NULL the piece does not count; in the scratch */
 } pir_normal;
 
-struct pir_facet {
+typedef struct pir_facet {
     pir_witness faces; /* of the reflected P, and of Q */
     pir_piece piece;   /* stands for it, in the order of ties: FV where P has a facet there, else VF, else EE */
     uint32_t a, b;     /* a corner of it */
     pir_vec3 n;        /* its plane: the unit normal and the offset */
     double h, err;     /* as in pir_planes; err is at most 1 / PIR_SIN_REFINED */
-};
+} pir_facet;
 
 /* The facet that a search has found, if any. */
-struct pir_least {
+typedef struct pir_least {
     bool some;
     pir_facet facet;
-};
+} pir_least;
 
 /* The exact normal, in the scratch. */
-pir_int3 pir_normal_integers(pir_query *query, const pir_normal *normal);
+pir_int3 pir_normal_integers(pir_exact *exact, const pir_normal *normal);
 
 /* A direction as one of the bodies sees it: the unit normal in the frame of the body's own vertices. */
 typedef struct pir_view {
@@ -47,22 +49,22 @@ typedef struct pir_view {
     pir_vec3 unit;
 } pir_view;
 
-pir_view pir_view_of(const pir_query *query, const pir_normal *normal, bool of_q);
+pir_view pir_view_of(const pir_frame *frame, const pir_normal *normal, bool of_q);
 
 /* The exact sign of n·e for a halfedge of the body. */
-int pir_slope(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t half);
+int pir_slope(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t half);
 
 /* The face of the body that n exposes, given a vertex of it. */
-pir_feature pir_exposed(pir_query *query, const pir_normal *normal, const pir_view *view, uint32_t vertex);
+pir_feature pir_exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t vertex);
 
 /* The vertex of lowest number of a face. */
 uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face);
 
 /* The true facet of a piece; false when the piece's plane holds no more than an edge of D. */
-bool pir_facet_of(pir_query *query, pir_piece piece, pir_facet *ret_facet);
+bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet);
 
 /* The true facet of two faces that a direction exposes; false as above. */
-bool pir_facet_of_faces(pir_query *query, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet);
+bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet);
 
 bool pir_facet_same(const pir_facet *a, const pir_facet *b);
 
@@ -73,19 +75,16 @@ bool pir_facet_before(const pir_facet *a, const pir_facet *b);
  * The slack, which is negative where the facet separates. It is the same number however it is come by; where it is next
  * to nothing it comes from integers.
  */
-double pir_facet_slack(pir_query *query, const pir_placement *placement, const pir_facet *facet);
-
-/*
- * A point of Q's for a foot of x, `slack` along the normal from it, that may be beside the facet: relative to Q's
- * middle. On the facet, it is one that touches where the faces are not parallel.
- */
-pir_vec3 pir_facet_point(const pir_query *query, const pir_placement *placement, const pir_facet *facet, double slack);
+double pir_facet_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet);
 
 /* The exact sign of the slack. */
-int pir_facet_side(pir_query *query, const pir_placement *placement, const pir_facet *facet);
+int pir_facet_side(pir_exact *exact, const pir_placement *placement, const pir_facet *facet);
 
 /* The exact sign of a's slack less b's. */
-int pir_facet_compare(pir_query *query, const pir_placement *placement, const pir_facet *a, const pir_facet *b);
+int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pir_facet *a, const pir_facet *b);
+
+/* Keeps the true facet of least slack, and the first in order of those that tie, of all whose pieces were offered. */
+void pir_least_offer(pir_exact *exact, const pir_placement *placement, pir_least *least, pir_piece piece);
 
 static inline pir_normal pir_facet_normal(const pir_facet *facet) {
     return (pir_normal){facet->n, facet->err, facet->piece, NULL};

@@ -6,15 +6,15 @@
 #include "query/decide/line.h"
 
 /* Whether D lies in a plane. */
-bool pir_flat_is(pir_query *query);
+bool pir_flat_is(pir_exact *exact);
 
 /* Whether t is in D, given that D is flat or that t is on or within the planes of all pieces. */
-bool pir_flat_holds(pir_query *query, pir_vec3 translation);
+bool pir_flat_holds(pir_exact *exact, pir_vec3 translation);
 
 /* Where a line from outside enters a flat D; false when it never does. */
-bool pir_flat_enter(pir_query *query, const pir_line *line, pir_arrival *ret_arrival);
+bool pir_flat_enter(pir_exact *exact, const pir_line *line, pir_arrival *ret_arrival);
 
 /* A unit vector across the line that D lies in, or any where D is a point. */
-pir_vec3 pir_flat_across(const pir_query *query);
+pir_vec3 pir_flat_across(const pir_frame *frame);
 
 #endif

@@ -36,35 +36,35 @@ typedef struct pir_clip {
 
 #define PIR_CLIP_NONE ((pir_clip){.enter_low = -HUGE_VAL, .leave_high = HUGE_VAL})
 
+/* A vector of any length as a unit vector and its length; false when it is zero. */
+bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length);
+
+/* The line along a direction: PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT for a direction of length 0. */
+pir_status pir_line_make(const pir_placement *placement, pir_vec3 direction, pir_line *ret_line);
+
 /* Clips by the plane in a slot: first all of them by bounds, then all again by what the bounds leave. */
-void pir_clip_bound(const pir_query *query, const pir_line *line, pir_clip *clip, uint32_t slot);
-void pir_clip_take(pir_query *query, const pir_line *line, pir_clip *clip, uint32_t slot);
+void pir_clip_bound(const pir_planes *planes, const pir_line *line, pir_clip *clip, uint32_t slot);
+void pir_clip_take(pir_exact *exact, const pir_planes *planes, const pir_line *line, pir_clip *clip, uint32_t slot);
 
 /* The exact sign of n·u for a piece. */
-int pir_line_rate(pir_query *query, const pir_line *line, pir_piece piece);
+int pir_line_rate(pir_exact *exact, const pir_line *line, pir_piece piece);
 
 /* The exact sign of where a is crossed less where b is; neither is along the line. */
-int pir_line_compare(pir_query *query, const pir_line *line, const pir_facet *a, const pir_facet *b);
+int pir_line_compare(pir_exact *exact, const pir_line *line, const pir_facet *a, const pir_facet *b);
 
 /* How far along the line a facet is crossed, in the frame, and what that may be off by. */
-double pir_line_at(pir_query *query, const pir_line *line, const pir_facet *facet, double *ret_error);
+double pir_line_at(pir_exact *exact, const pir_line *line, const pir_facet *facet, double *ret_error);
 
 /* What touches where the line crosses a facet; false when the crossing is not on the facet. */
-bool pir_line_arrive(pir_query *query, const pir_line *line, const pir_facet *facet, pir_arrival *ret_arrival);
-
-/*
- * From inside: where the line leaves what the facets in the region of the sum bound (region.c); false where none of
- * them is passed.
- */
-bool pir_region_exit(pir_query *query, const pir_line *line, pir_arrival *ret_arrival, uint32_t *steps);
+bool pir_line_arrive(pir_exact *exact, const pir_line *line, const pir_facet *facet, pir_arrival *ret_arrival);
 
 /*
  * S/D as a length along the line, S the dot product of a normal with a corner W and D with the integers of the
  * direction.
  */
-double pir_line_length(pir_query *query, const pir_int3 *direction, const pir_int *s, const pir_int *d);
+double pir_line_length(pir_exact *exact, const pir_int3 *direction, const pir_int *s, const pir_int *d);
 
 /* The sign of S/D − 1 on that scale, `exponent` being the direction's. */
-int pir_line_past_end(pir_query *query, const pir_int *s, const pir_int *d, int exponent);
+int pir_line_past_end(pir_exact *exact, const pir_int *s, const pir_int *d, int exponent);
 
 #endif

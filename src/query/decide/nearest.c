@@ -22,10 +22,10 @@ static double direction_error(double error, double distance) {
 
 /* --- answers from faces --- */
 
-static bool answer_facet(pir_query *query, const pir_placement *placement, const pir_facet *facet,
+static bool answer_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                          pir_nearest *ret_nearest) {
-    double slack = pir_facet_slack(query, placement, facet);
-    if (!pir_touch_facet(query, placement, facet, slack, NULL, &ret_nearest->touch))
+    double slack = pir_facet_slack(exact, placement, facet);
+    if (!pir_touch_facet(exact, placement, facet, slack, NULL, &ret_nearest->touch))
         return false;
     ret_nearest->distance = fmax(0, -slack);
     ret_nearest->normal = facet->n;
@@ -39,86 +39,89 @@ struct line {
     uint32_t half;
 };
 
-static struct line line_of(const pir_query *query, pir_witness faces) {
-    struct line line = {pir_face_lowest(query->p, faces.p), pir_face_lowest(query->q, faces.q), false, false, 0};
+static struct line line_of(const pir_frame *frame, pir_witness faces) {
+    struct line line = {pir_face_lowest(frame->p.polytope, faces.p), pir_face_lowest(frame->q.polytope, faces.q), false,
+                        false, 0};
     if (faces.p.kind == PIR_FEATURE_EDGE)
-        line.of_p = true, line.half = query->p->edge_half[faces.p.index];
+        line.of_p = true, line.half = frame->p.polytope->edge_half[faces.p.index];
     else if (faces.q.kind == PIR_FEATURE_EDGE)
-        line.of_q = true, line.half = query->q->edge_half[faces.q.index];
+        line.of_q = true, line.half = frame->q.polytope->edge_half[faces.q.index];
     return line;
 }
 
-static pir_vec3 direction_of(const pir_query *query, const struct line *line) {
-    return line->of_p ? pir_mat_apply(&query->r, query->p->direction[line->half]) : query->q->direction[line->half];
+static pir_vec3 direction_of(const pir_frame *frame, const struct line *line) {
+    return line->of_p ? pir_mat_apply(&frame->r, frame->p.polytope->direction[line->half])
+                      : frame->q.polytope->direction[line->half];
 }
 
 /* From the corner or the edge to x, by doubles; *ret_along is how far along the edge from the corner. */
-static pir_vec3 away_from(const pir_query *query, const pir_placement *placement, const struct line *line,
+static pir_vec3 away_from(const pir_frame *frame, const pir_placement *placement, const struct line *line,
                           double *ret_along) {
-    pir_vec3 w = pir_vec_sub(placement->x, pir_frame_vertex(query, line->a, line->b));
+    pir_vec3 w = pir_vec_sub(placement->x, pir_frame_vertex(frame, line->a, line->b));
     *ret_along = 0;
     if (!line->of_p && !line->of_q)
         return w;
-    pir_vec3 e = direction_of(query, line);
+    pir_vec3 e = direction_of(frame, line);
     *ret_along = pir_vec_dot(w, e);
     return pir_vec_sub(w, pir_vec_scale(e, *ret_along));
 }
 
 /* The same by integers: the distance and the unit normal. */
-static double exactly_away(pir_query *query, const pir_placement *placement, const struct line *line,
+static double exactly_away(pir_exact *exact, const pir_placement *placement, const struct line *line,
                            pir_vec3 *ret_normal) {
-    pir_exact_begin(query, placement->translation);
-    uint32_t mark = query->scratch.used;
-    pir_int3 w = pir_exact_corner(query, line->a, line->b), n = w;
+    pir_exact_begin(exact, placement->translation);
+    uint32_t mark = exact->scratch.used;
+    pir_int3 w = pir_exact_corner(exact, line->a, line->b), n = w;
     for (int k = 0; k < 3; k++)
         pir_int_negate(&n.c[k]);
     pir_real length;
     if (line->of_p || line->of_q) {
-        pir_int3 e = line->of_p ? pir_exact_half_p(query, line->half) : pir_exact_half_q(query, line->half);
-        pir_int dot = pir_exact_dot(query, &w, &e), square = pir_exact_square(query, &e);
-        pir_int3 along = pir_exact_scaled(query, &e, &dot), whole = pir_exact_scaled(query, &w, &square);
-        n = pir_exact_difference(query, &along, &whole);
-        length = pir_real_over(pir_exact_length(query, &n), pir_real_of(&square));
+        pir_int3 e = line->of_p ? pir_exact_half_p(exact, line->half) : pir_exact_half_q(exact, line->half);
+        pir_int dot = pir_exact_dot(exact, &w, &e), square = pir_exact_square(exact, &e);
+        pir_int3 along = pir_exact_scaled(exact, &e, &dot), whole = pir_exact_scaled(exact, &w, &square);
+        n = pir_exact_difference(exact, &along, &whole);
+        length = pir_real_over(pir_exact_length(exact, &n), pir_real_of(&square));
     } else {
-        length = pir_exact_length(query, &n);
+        length = pir_exact_length(exact, &n);
     }
     *ret_normal = pir_int3_is_zero(&n) ? (pir_vec3){1, 0, 0} : pir_int3_unit(&n);
-    query->scratch.used = mark;
-    return pir_real_double(pir_real_times(length, pir_exact_unit(query)));
+    exact->scratch.used = mark;
+    return pir_real_double(pir_real_times(length, pir_exact_unit(exact)));
 }
 
-static bool answer_line(pir_query *query, const pir_placement *placement, pir_witness faces, pir_nearest *ret_nearest) {
-    struct line line = line_of(query, faces);
+static bool answer_line(pir_exact *exact, const pir_placement *placement, pir_witness faces, pir_nearest *ret_nearest) {
+    const pir_frame *frame = exact->frame;
+    struct line line = line_of(frame, faces);
     double along;
-    pir_vec3 w = away_from(query, placement, &line, &along);
+    pir_vec3 w = away_from(frame, placement, &line, &along);
     double distance = sqrt(pir_vec_dot(w, w)), error = 4 * placement->error;
     pir_normal normal = {.err = direction_error(error, distance)};
     if (is_far(placement, distance)) {
         normal.unit = pir_vec_scale(w, 1 / distance);
     } else {
-        distance = exactly_away(query, placement, &line, &normal.unit);
+        distance = exactly_away(exact, placement, &line, &normal.unit);
         normal.err = 1;
     }
     ret_nearest->distance = distance;
     ret_nearest->normal = normal.unit;
     pir_meeting meeting = {&normal, faces, false, -distance, NULL};
-    return pir_touch_find(query, placement, &meeting, &ret_nearest->touch);
+    return pir_touch_find(exact, placement, &meeting, &ret_nearest->touch);
 }
 
 /* --- proofs in doubles --- */
 
 /* Whether n leads down from the vertex along all its edges but those to `except`, by more than n may be off. */
-static bool leads_down_p(const pir_query *query, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
-    const pir_polytope *p = query->p;
-    pir_vec3 back = pir_mat_apply_transposed(&query->r, n);
+static bool leads_down_p(const pir_frame *frame, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
+    const pir_polytope *p = frame->p.polytope;
+    pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
     for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++)
         if (p->target[h] != except && !(pir_vec_dot(back, p->direction[h]) < -off))
             return false;
     return true;
 }
 
-static bool leads_down_q(const pir_query *query, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
-    const pir_polytope *q = query->q;
+static bool leads_down_q(const pir_frame *frame, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
+    const pir_polytope *q = frame->q.polytope;
     for (uint32_t h = q->ring_start[vertex]; h < q->ring_start[vertex + 1]; h++)
         if (q->target[h] != except && !(pir_vec_dot(n, q->direction[h]) < -off))
             return false;
@@ -126,11 +129,11 @@ static bool leads_down_q(const pir_query *query, pir_vec3 n, double off, uint32_
 }
 
 /* Whether the corner or edge of D that the faces make holds the nearest point for certain. */
-static bool line_is_nearest(const pir_query *query, const pir_placement *placement, pir_witness faces) {
-    const pir_polytope *p = query->p, *q = query->q;
-    struct line line = line_of(query, faces);
+static bool line_is_nearest(const pir_frame *frame, const pir_placement *placement, pir_witness faces) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    struct line line = line_of(frame, faces);
     double along, error = 4 * placement->error;
-    pir_vec3 w = away_from(query, placement, &line, &along);
+    pir_vec3 w = away_from(frame, placement, &line, &along);
     double distance = sqrt(pir_vec_dot(w, w));
     if (!is_far(placement, distance))
         return false;
@@ -138,70 +141,45 @@ static bool line_is_nearest(const pir_query *query, const pir_placement *placeme
     // slopes are off by what n is, in full, and by their own rounding
     double off = error / distance + 0x1p-45;
     if (!line.of_p && !line.of_q)
-        return leads_down_p(query, n, off, line.a, UINT32_MAX) && leads_down_q(query, n, off, line.b, UINT32_MAX);
+        return leads_down_p(frame, n, off, line.a, UINT32_MAX) && leads_down_q(frame, n, off, line.b, UINT32_MAX);
     const pir_polytope *of = line.of_p ? p : q;
-    const pir_vec3 *vertex = line.of_p ? query->vp : query->vq;
+    const pir_vec3 *vertex = line.of_p ? frame->p.vertex : frame->q.vertex;
     uint32_t from = of->origin[line.half], to = of->target[line.half];
     pir_vec3 edge = pir_vec_sub(vertex[to], vertex[from]);
     double length = sqrt(pir_vec_dot(edge, edge));
     if (!(along > error && along < length - error))
         return false;
     if (line.of_p)
-        return leads_down_p(query, n, off, from, to) && leads_down_p(query, n, off, to, from) &&
-               leads_down_q(query, n, off, line.b, UINT32_MAX);
-    return leads_down_q(query, n, off, from, to) && leads_down_q(query, n, off, to, from) &&
-           leads_down_p(query, n, off, line.a, UINT32_MAX);
-}
-
-/* The piece that has the features, where the pairing has one. */
-static bool piece_of(const pir_query *query, pir_witness faces, pir_piece *ret_piece) {
-    const pir_pairing *pairing = pir_sum_pairing(query->sum);
-    if (faces.p.kind == PIR_FEATURE_FACET)
-        *ret_piece = (pir_piece){PIR_FACET_FV, faces.p.index, 0};
-    else if (faces.q.kind == PIR_FEATURE_FACET)
-        *ret_piece = (pir_piece){PIR_FACET_VF, 0, faces.q.index};
-    else if (faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE) {
-        uint32_t at = pir_crossing_first(pairing, faces.p.index);
-        while (at != PIR_NO_CROSSING && query->q->edge[pir_crossing_half(pairing, at)] != faces.q.index)
-            at = pir_crossing_next(pairing, at);
-        if (at == PIR_NO_CROSSING)
-            return false;
-        *ret_piece = (pir_piece){PIR_FACET_EE, faces.p.index, pir_crossing_half(pairing, at)};
-    } else {
-        return false;
-    }
-    return true;
+        return leads_down_p(frame, n, off, from, to) && leads_down_p(frame, n, off, to, from) &&
+               leads_down_q(frame, n, off, line.b, UINT32_MAX);
+    return leads_down_q(frame, n, off, from, to) && leads_down_q(frame, n, off, to, from) &&
+           leads_down_p(frame, n, off, line.a, UINT32_MAX);
 }
 
 /* Whether a facet of D certainly separates and the foot of x is on it. */
-static bool facet_is_nearest(pir_query *query, const pir_placement *placement, const pir_facet *facet,
+static bool facet_is_nearest(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                              pir_nearest *ret_nearest) {
     double slack = facet->h - pir_vec_dot(facet->n, placement->x);
-    return slack < -placement->error * facet->err && answer_facet(query, placement, facet, ret_nearest);
+    return slack < -placement->error * facet->err && answer_facet(exact, placement, facet, ret_nearest);
 }
 
-bool pir_nearest_prove(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
+bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_witness faces, const pir_piece *piece,
                        pir_nearest *ret_nearest) {
-    pir_witness faces = {pir_feature_of(query->p, simplex->a, simplex->count),
-                         pir_feature_of(query->q, simplex->b, simplex->count)};
-    pir_piece piece;
     pir_facet facet;
-    if (piece_of(query, faces, &piece))
-        return pir_facet_of(query, piece, &facet) && facet_is_nearest(query, placement, &facet, ret_nearest);
+    if (piece)
+        return pir_facet_of(exact, *piece, &facet) && facet_is_nearest(exact, placement, &facet, ret_nearest);
     if (faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE)
         return false;
-    return line_is_nearest(query, placement, faces) && answer_line(query, placement, faces, ret_nearest);
+    return line_is_nearest(exact->frame, placement, faces) && answer_line(exact, placement, faces, ret_nearest);
 }
 
-bool pir_nearest_find(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
+bool pir_nearest_find(pir_exact *exact, const pir_placement *placement, const pir_simplex *simplex,
                       pir_nearest *ret_nearest, uint32_t *steps) {
-    if (pir_nearest_prove(query, placement, simplex, ret_nearest))
-        return true;
     pir_witness faces;
     pir_facet facet;
     bool flat;
-    if (!pir_nearest_faces(query, placement, simplex, &faces, &facet, &flat, steps))
+    if (!pir_nearest_faces(exact, placement, simplex, &faces, &facet, &flat, steps))
         return false;
-    return flat ? answer_facet(query, placement, &facet, ret_nearest)
-                : answer_line(query, placement, faces, ret_nearest);
+    return flat ? answer_facet(exact, placement, &facet, ret_nearest)
+                : answer_line(exact, placement, faces, ret_nearest);
 }

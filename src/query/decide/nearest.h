@@ -12,6 +12,7 @@
 #define PIR_QUERY_DECIDE_NEAREST_H
 
 #include "query/decide/touch.h"
+#include "query/frame/nearest_vertex.h"
 
 typedef struct pir_nearest {
     double distance; /* in the frame */
@@ -20,14 +21,18 @@ typedef struct pir_nearest {
 } pir_nearest;
 
 /*
- * The nearest point where the features at which a descent ended, in doubles and filtered signs, prove to hold it: that
- * also proves that x is outside of D. False where they do not.
+ * The nearest point, where doubles and filtered signs prove that the sum of two features holds it. That also proves
+ * that x is outside of D. `piece` is the piece of D that is the sum of the features, or NULL where D has none. False
+ * where there is no such proof.
  */
-bool pir_nearest_prove(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
+bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_witness faces, const pir_piece *piece,
                        pir_nearest *ret_nearest);
 
-/* The same from any simplex of at least one vertex, given that x is outside of D; false after a bound on steps. */
-bool pir_nearest_find(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
+/*
+ * The nearest point by integers, from any simplex of at least one vertex, given that x is outside of D. False after a
+ * bound on steps.
+ */
+bool pir_nearest_find(pir_exact *exact, const pir_placement *placement, const pir_simplex *simplex,
                       pir_nearest *ret_nearest, uint32_t *steps);
 
 /* --- nearest_exact.c --- */
@@ -36,7 +41,7 @@ bool pir_nearest_find(pir_query *query, const pir_placement *placement, const pi
  * The faces that the direction from the nearest point to x exposes, given that x is outside; false after a bound on
  * steps.
  */
-bool pir_nearest_faces(pir_query *query, const pir_placement *placement, const pir_simplex *simplex,
+bool pir_nearest_faces(pir_exact *exact, const pir_placement *placement, const pir_simplex *simplex,
                        pir_witness *ret_faces, pir_facet *ret_facet, bool *ret_flat, uint32_t *steps);
 
 #endif

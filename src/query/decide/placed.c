@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The integers of a placement: see exact.h. */
+/* The integers of a placement: see placed.h. */
 #include "query/decide/placed.h"
-
-#include "query/query.h"
 
 /* --- reals --- */
 
@@ -37,62 +35,62 @@ double pir_real_double(pir_real a) {
 
 /* --- integers on the scratch --- */
 
-pir_int3 pir_exact_cross(pir_query *query, const pir_int3 *a, const pir_int3 *b) {
-    pir_int3 to = pir_int3_take(&query->scratch, pir_int3_length(a) + pir_int3_length(b) + 1);
-    pir_int3_cross(&to, a, b, &query->scratch);
+pir_int3 pir_exact_cross(pir_exact *exact, const pir_int3 *a, const pir_int3 *b) {
+    pir_int3 to = pir_int3_take(&exact->scratch, pir_int3_length(a) + pir_int3_length(b) + 1);
+    pir_int3_cross(&to, a, b, &exact->scratch);
     return to;
 }
 
-pir_int3 pir_exact_difference(pir_query *query, const pir_int3 *a, const pir_int3 *b) {
+pir_int3 pir_exact_difference(pir_exact *exact, const pir_int3 *a, const pir_int3 *b) {
     uint32_t la = pir_int3_length(a), lb = pir_int3_length(b);
-    pir_int3 to = pir_int3_take(&query->scratch, (la > lb ? la : lb) + 1);
+    pir_int3 to = pir_int3_take(&exact->scratch, (la > lb ? la : lb) + 1);
     for (int k = 0; k < 3; k++)
         pir_int_sub(&to.c[k], &a->c[k], &b->c[k]);
     return to;
 }
 
-pir_int pir_exact_dot(pir_query *query, const pir_int3 *a, const pir_int3 *b) {
-    pir_int to = pir_limbs_take(&query->scratch, pir_int3_length(a) + pir_int3_length(b) + 1);
-    pir_int3_dot(&to, a, b, &query->scratch);
+pir_int pir_exact_dot(pir_exact *exact, const pir_int3 *a, const pir_int3 *b) {
+    pir_int to = pir_limbs_take(&exact->scratch, pir_int3_length(a) + pir_int3_length(b) + 1);
+    pir_int3_dot(&to, a, b, &exact->scratch);
     return to;
 }
 
-int pir_exact_dot_sign(pir_query *query, const pir_int3 *a, const pir_int3 *b) {
-    uint32_t mark = query->scratch.used;
-    pir_int dot = pir_exact_dot(query, a, b);
-    query->scratch.used = mark;
+int pir_exact_dot_sign(pir_exact *exact, const pir_int3 *a, const pir_int3 *b) {
+    uint32_t mark = exact->scratch.used;
+    pir_int dot = pir_exact_dot(exact, a, b);
+    exact->scratch.used = mark;
     return pir_int_sign(&dot);
 }
 
-int pir_exact_compare(pir_query *query, const pir_int *a, const pir_int *b) {
-    uint32_t mark = query->scratch.used, la = pir_int_length(a), lb = pir_int_length(b);
-    pir_int rest = pir_limbs_take(&query->scratch, (la > lb ? la : lb) + 1);
+int pir_exact_compare(pir_exact *exact, const pir_int *a, const pir_int *b) {
+    uint32_t mark = exact->scratch.used, la = pir_int_length(a), lb = pir_int_length(b);
+    pir_int rest = pir_limbs_take(&exact->scratch, (la > lb ? la : lb) + 1);
     pir_int_sub(&rest, a, b);
-    query->scratch.used = mark;
+    exact->scratch.used = mark;
     return pir_int_sign(&rest);
 }
 
-pir_int pir_exact_product(pir_query *query, const pir_int *a, const pir_int *b) {
-    pir_int to = pir_limbs_take(&query->scratch, pir_int_length(a) + pir_int_length(b));
+pir_int pir_exact_product(pir_exact *exact, const pir_int *a, const pir_int *b) {
+    pir_int to = pir_limbs_take(&exact->scratch, pir_int_length(a) + pir_int_length(b));
     pir_int_mul(&to, a, b);
     return to;
 }
 
-pir_int3 pir_exact_scaled(pir_query *query, const pir_int3 *v, const pir_int *s) {
+pir_int3 pir_exact_scaled(pir_exact *exact, const pir_int3 *v, const pir_int *s) {
     pir_int3 to;
     for (int k = 0; k < 3; k++)
-        to.c[k] = pir_exact_product(query, &v->c[k], s);
+        to.c[k] = pir_exact_product(exact, &v->c[k], s);
     return to;
 }
 
-pir_int pir_exact_square(pir_query *query, const pir_int3 *v) {
-    return pir_exact_dot(query, v, v);
+pir_int pir_exact_square(pir_exact *exact, const pir_int3 *v) {
+    return pir_exact_dot(exact, v, v);
 }
 
-pir_real pir_exact_length(pir_query *query, const pir_int3 *v) {
-    uint32_t mark = query->scratch.used;
-    pir_int square = pir_exact_square(query, v);
-    query->scratch.used = mark;
+pir_real pir_exact_length(pir_exact *exact, const pir_int3 *v) {
+    uint32_t mark = exact->scratch.used;
+    pir_int square = pir_exact_square(exact, v);
+    exact->scratch.used = mark;
     return pir_real_root(pir_real_of(&square));
 }
 
@@ -116,9 +114,9 @@ static int low_bit_of(pir_vec3 v) {
     return e;
 }
 
-pir_int3 pir_exact_vector(pir_query *query, pir_vec3 v, int *ret_exponent) {
+pir_int3 pir_exact_vector(pir_exact *exact, pir_vec3 v, int *ret_exponent) {
     const double c[3] = {v.x, v.y, v.z};
-    pir_int3 to = pir_int3_take(&query->scratch, PIR_QUAT_LIMBS);
+    pir_int3 to = pir_int3_take(&exact->scratch, PIR_QUAT_LIMBS);
     *ret_exponent = low_bit_of(v);
     for (int k = 0; k < 3; k++)
         pir_int_set_double(&to.c[k], c[k], *ret_exponent);
@@ -138,7 +136,7 @@ static uint32_t longer(uint32_t a, uint32_t b) {
  * normals, each pair multiplied (12 (n + w)); and, along a way, a corner that is moved (3 (n + w + PIR_QUAT_LIMBS))
  * with a side's normal (3 (n + e)) and their product. All of it together is below what is returned.
  */
-uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q) {
+static uint32_t limbs_needed(const pir_polytope *p, const pir_polytope *q) {
     const uint32_t a = pir_int_length(&p->scale.num), b = pir_int_length(&p->scale.den),
                    c = pir_int_length(&q->scale.num), d = pir_int_length(&q->scale.den),
                    shift = 1074 / GMP_NUMB_BITS + 2;
@@ -152,9 +150,26 @@ uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q) {
     return 64 * w + 24 * (n + e + PIR_QUAT_LIMBS) + 256;
 }
 
+bool pir_exact_reserve(pir_exact *exact, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q) {
+    uint32_t need = limbs_needed(p, q);
+    exact->made = false;
+    if (exact->scratch.base && need <= exact->scratch.capacity)
+        return true;
+    mp_limb_t *limbs = PIR_NEW(allocator, mp_limb_t, need);
+    if (!limbs)
+        return false;
+    pir_exact_finish(exact, allocator);
+    exact->scratch = (pir_limbs){limbs, 0, need};
+    return true;
+}
+
+void pir_exact_finish(pir_exact *exact, const pir_allocator *allocator) {
+    PIR_FREE(allocator, exact->scratch.base, exact->scratch.capacity);
+}
+
 /* a·b·c·2^bits. */
-static pir_int product(pir_query *query, const pir_int *a, const pir_int *b, const pir_int *c, uint32_t bits) {
-    pir_limbs *scratch = &query->scratch;
+static pir_int product(pir_exact *exact, const pir_int *a, const pir_int *b, const pir_int *c, uint32_t bits) {
+    pir_limbs *scratch = &exact->scratch;
     uint32_t length = pir_int_length(a) + pir_int_length(b) + pir_int_length(c) + bits / GMP_NUMB_BITS + 2;
     pir_int to = pir_limbs_take(scratch, length);
     uint32_t mark = scratch->used;
@@ -170,48 +185,46 @@ static bool same(pir_vec3 a, pir_vec3 b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-void pir_exact_begin(pir_query *query, pir_vec3 translation) {
-    pir_exact *exact = &query->exact;
+void pir_exact_begin(pir_exact *exact, pir_vec3 translation) {
     if (exact->made && same(exact->translation, translation))
         return;
-    PIR_ASSERT(!exact->made || query->scratch.used == exact->mark);
-    const pir_scale *sp = &query->p->scale, *sq = &query->q->scale;
-    pir_rotation *rotation = pir_sum_exact_rotation(query->sum);
+    PIR_ASSERT(!exact->made || exact->scratch.used == exact->mark);
+    const pir_scale *sp = &exact->frame->p.polytope->scale, *sq = &exact->frame->q.polytope->scale;
+    pir_rotation *rotation = exact->rotation;
     pir_rotation_make_exact(rotation);
     mp_limb_t one_limb = 1;
     pir_int one = {&one_limb, 1, 0};
-    query->scratch.used = 0;
+    exact->scratch.used = 0;
     exact->translation = translation;
     int exponent;
-    exact->t = pir_exact_vector(query, translation, &exponent);
+    exact->t = pir_exact_vector(exact, translation, &exponent);
     exact->i = (uint32_t)-exponent;
-    exact->p = product(query, &sp->num, &sq->den, &one, exact->i);
-    exact->q = product(query, &rotation->norm, &sq->num, &sp->den, exact->i);
-    exact->k = product(query, &rotation->norm, &sp->den, &sq->den, 0);
-    exact->mark = query->scratch.used;
+    exact->p = product(exact, &sp->num, &sq->den, &one, exact->i);
+    exact->q = product(exact, &rotation->norm, &sq->num, &sp->den, exact->i);
+    exact->k = product(exact, &rotation->norm, &sp->den, &sq->den, 0);
+    exact->mark = exact->scratch.used;
     exact->made = true;
 }
 
-pir_real pir_exact_unit(const pir_query *query) {
-    pir_real k = pir_real_of(&query->exact.k);
-    return pir_real_over((pir_real){0.5, 1 - (int)query->exact.i - query->exponent}, k);
+pir_real pir_exact_unit(const pir_exact *exact) {
+    pir_real k = pir_real_of(&exact->k);
+    return pir_real_over((pir_real){0.5, 1 - (int)exact->i - exact->frame->exponent}, k);
 }
 
-pir_int3 pir_exact_half_p(pir_query *query, uint32_t half) {
-    pir_int3 e = pir_half_exact(query->p, half);
-    pir_int3 to = pir_int3_take(&query->scratch, pir_int3_length(&e) + PIR_MATRIX_LIMBS + 1);
-    pir_rotation_apply(pir_sum_exact_rotation(query->sum), &to, &e, &query->scratch);
+pir_int3 pir_exact_half_p(pir_exact *exact, uint32_t half) {
+    pir_int3 e = pir_half_exact(exact->frame->p.polytope, half);
+    pir_int3 to = pir_int3_take(&exact->scratch, pir_int3_length(&e) + PIR_MATRIX_LIMBS + 1);
+    pir_rotation_apply(exact->rotation, &to, &e, &exact->scratch);
     return to;
 }
 
-pir_int3 pir_exact_half_q(const pir_query *query, uint32_t half) {
-    return pir_half_exact(query->q, half);
+pir_int3 pir_exact_half_q(const pir_exact *exact, uint32_t half) {
+    return pir_half_exact(exact->frame->q.polytope, half);
 }
 
-pir_int3 pir_exact_corner(pir_query *query, uint32_t a, uint32_t b) {
-    const pir_exact *exact = &query->exact;
-    pir_limbs *scratch = &query->scratch;
-    pir_int3 va = pir_vertex_exact(query->p, a), vb = pir_vertex_exact(query->q, b);
+pir_int3 pir_exact_corner(pir_exact *exact, uint32_t a, uint32_t b) {
+    pir_limbs *scratch = &exact->scratch;
+    pir_int3 va = pir_vertex_exact(exact->frame->p.polytope, a), vb = pir_vertex_exact(exact->frame->q.polytope, b);
     uint32_t turned_length = pir_int3_length(&va) + PIR_MATRIX_LIMBS + 1;
     uint32_t length = turned_length + pir_int_length(&exact->p);
     length = longer(length, pir_int3_length(&vb) + pir_int_length(&exact->q));
@@ -219,7 +232,7 @@ pir_int3 pir_exact_corner(pir_query *query, uint32_t a, uint32_t b) {
     pir_int3 to = pir_int3_take(scratch, length);
     uint32_t mark = scratch->used;
     pir_int3 turned = pir_int3_take(scratch, turned_length);
-    pir_rotation_apply(pir_sum_exact_rotation(query->sum), &turned, &va, scratch);
+    pir_rotation_apply(exact->rotation, &turned, &va, scratch);
     for (int k = 0; k < 3; k++) {
         pir_int_add_mul(&to.c[k], &turned.c[k], &exact->p, scratch);
         pir_int_add_mul(&to.c[k], &vb.c[k], &exact->q, scratch);
@@ -229,15 +242,16 @@ pir_int3 pir_exact_corner(pir_query *query, uint32_t a, uint32_t b) {
     return to;
 }
 
-pir_int3 pir_exact_normal(pir_query *query, pir_piece piece) {
+pir_int3 pir_exact_normal(pir_exact *exact, pir_piece piece) {
     if (piece.kind == PIR_FACET_VF)
-        return pir_normal_exact(query->q, piece.second);
+        return pir_normal_exact(exact->frame->q.polytope, piece.second);
     if (piece.kind == PIR_FACET_FV) {
-        pir_int3 n = pir_normal_exact(query->p, piece.first);
-        pir_int3 to = pir_int3_take(&query->scratch, pir_int3_length(&n) + PIR_MATRIX_LIMBS + 1);
-        pir_rotation_apply(pir_sum_exact_rotation(query->sum), &to, &n, &query->scratch);
+        pir_int3 n = pir_normal_exact(exact->frame->p.polytope, piece.first);
+        pir_int3 to = pir_int3_take(&exact->scratch, pir_int3_length(&n) + PIR_MATRIX_LIMBS + 1);
+        pir_rotation_apply(exact->rotation, &to, &n, &exact->scratch);
         return to;
     }
-    pir_int3 e = pir_exact_half_p(query, query->p->edge_half[piece.first]), d = pir_half_exact(query->q, piece.second);
-    return pir_exact_cross(query, &d, &e);
+    pir_int3 e = pir_exact_half_p(exact, exact->frame->p.polytope->edge_half[piece.first]),
+             d = pir_half_exact(exact->frame->q.polytope, piece.second);
+    return pir_exact_cross(exact, &d, &e);
 }

@@ -8,18 +8,19 @@
  *     W(p, q) = a·d·2^i · M p  +  N·c·b·2^i · q  −  N·b·d · T,
  *
  * three integers. Every sign that a query needs is one of a polynomial in these, in edge vectors and in normals.
- * Nothing allocates: `scratch` of the query is a stack that pir_exact_limbs sizes for the longest of them.
+ * Nothing allocates: `scratch` is a stack that pir_exact_reserve sizes for the longest of them.
  */
 #ifndef PIR_QUERY_DECIDE_PLACED_H
 #define PIR_QUERY_DECIDE_PLACED_H
 
-#include "polytope/polytope.h"
-
-typedef struct pir_query pir_query;
-struct pir_piece;
+#include "query/decide/piece.h"
 
 /* What turns vertices into W, for one rotation and translation; its integers lie at the bottom of the scratch. */
 typedef struct pir_exact {
+    const pir_frame *frame;
+    pir_rotation *rotation; /* that the frame is at; its integers are made on demand */
+    pir_limbs scratch;
+
     bool made;
     pir_vec3 translation;
     pir_int p, q, k; /* a·d·2^i, N·c·b·2^i, N·b·d */
@@ -42,47 +43,51 @@ pir_real pir_real_root(pir_real a);
 double pir_real_double(pir_real a);
 
 /* |v|² as an integer in scratch, and |v|. */
-pir_int pir_exact_square(pir_query *query, const pir_int3 *v);
-pir_real pir_exact_length(pir_query *query, const pir_int3 *v);
+pir_int pir_exact_square(pir_exact *exact, const pir_int3 *v);
+pir_real pir_exact_length(pir_exact *exact, const pir_int3 *v);
 
-/* Limbs of scratch that a query needs. */
-uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q);
+/*
+ * Sees to scratch for two operands at their scales; what was in it is lost. False when out of memory. Begins with an
+ * exact of zeros.
+ */
+bool pir_exact_reserve(pir_exact *exact, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q);
+void pir_exact_finish(pir_exact *exact, const pir_allocator *allocator);
 
 /*
  * Makes the integers of a translation, unless they are those that are there. Nothing may be taken from the scratch at
  * the time.
  */
-void pir_exact_begin(pir_query *query, pir_vec3 translation);
+void pir_exact_begin(pir_exact *exact, pir_vec3 translation);
 
 /* One unit of W in lengths of the frame. */
-pir_real pir_exact_unit(const pir_query *query);
+pir_real pir_exact_unit(const pir_exact *exact);
 
 /*
  * All of the following come from the scratch, and need pir_exact_begin.
  */
 
 /* W(a, b). */
-pir_int3 pir_exact_corner(pir_query *query, uint32_t a, uint32_t b);
+pir_int3 pir_exact_corner(pir_exact *exact, uint32_t a, uint32_t b);
 
 /* The vector of a halfedge of P, turned, or of Q, up to a positive factor. */
-pir_int3 pir_exact_half_p(pir_query *query, uint32_t half);
-pir_int3 pir_exact_half_q(const pir_query *query, uint32_t half);
+pir_int3 pir_exact_half_p(pir_exact *exact, uint32_t half);
+pir_int3 pir_exact_half_q(const pir_exact *exact, uint32_t half);
 
 /* A piece's normal, of any length; zero for parallel edges. */
-pir_int3 pir_exact_normal(pir_query *query, struct pir_piece piece);
+pir_int3 pir_exact_normal(pir_exact *exact, pir_piece piece);
 
-pir_int3 pir_exact_cross(pir_query *query, const pir_int3 *a, const pir_int3 *b);
-pir_int3 pir_exact_difference(pir_query *query, const pir_int3 *a, const pir_int3 *b);
-pir_int pir_exact_dot(pir_query *query, const pir_int3 *a, const pir_int3 *b);
-int pir_exact_dot_sign(pir_query *query, const pir_int3 *a, const pir_int3 *b);
+pir_int3 pir_exact_cross(pir_exact *exact, const pir_int3 *a, const pir_int3 *b);
+pir_int3 pir_exact_difference(pir_exact *exact, const pir_int3 *a, const pir_int3 *b);
+pir_int pir_exact_dot(pir_exact *exact, const pir_int3 *a, const pir_int3 *b);
+int pir_exact_dot_sign(pir_exact *exact, const pir_int3 *a, const pir_int3 *b);
 /* The sign of a − b. */
-int pir_exact_compare(pir_query *query, const pir_int *a, const pir_int *b);
+int pir_exact_compare(pir_exact *exact, const pir_int *a, const pir_int *b);
 /* a·b as a product of two integers, from the scratch. */
-pir_int pir_exact_product(pir_query *query, const pir_int *a, const pir_int *b);
+pir_int pir_exact_product(pir_exact *exact, const pir_int *a, const pir_int *b);
 /* v·s. */
-pir_int3 pir_exact_scaled(pir_query *query, const pir_int3 *v, const pir_int *s);
+pir_int3 pir_exact_scaled(pir_exact *exact, const pir_int3 *v, const pir_int *s);
 
 /* A vector of doubles as integers on a scale of its own: v = d·2^*ret_exponent. */
-pir_int3 pir_exact_vector(pir_query *query, pir_vec3 v, int *ret_exponent);
+pir_int3 pir_exact_vector(pir_exact *exact, pir_vec3 v, int *ret_exponent);
 
 #endif

@@ -9,7 +9,7 @@
 #define SIDE_ERRORS 2
 
 struct touch {
-    pir_query *query;
+    pir_exact *exact;
     const pir_placement *placement;
     const pir_normal *normal;
     const pir_way *way;
@@ -26,8 +26,9 @@ struct side {
     uint32_t half;
 };
 
-static pir_vec3 direction_of(const pir_query *query, struct side side) {
-    return side.of_q ? query->q->direction[side.half] : pir_mat_apply(&query->r, query->p->direction[side.half]);
+static pir_vec3 direction_of(const pir_frame *frame, struct side side) {
+    return side.of_q ? frame->q.polytope->direction[side.half]
+                     : pir_mat_apply(&frame->r, frame->p.polytope->direction[side.half]);
 }
 
 /*
@@ -35,44 +36,44 @@ static pir_vec3 direction_of(const pir_query *query, struct side side) {
  * direction, D = n·d and S = n·W of the plane's own corner; all is multiplied by |D|.
  */
 static pir_int3 exact_corner(const struct touch *touch, uint32_t a, uint32_t b) {
-    pir_query *query = touch->query;
-    pir_int3 corner = pir_exact_corner(query, a, b);
+    pir_exact *exact = touch->exact;
+    pir_int3 corner = pir_exact_corner(exact, a, b);
     const pir_way *way = touch->way;
     if (!way)
         return corner;
     int exponent;
-    pir_int3 n = pir_normal_integers(query, way->normal), plane = pir_exact_corner(query, way->a, way->b);
-    pir_int3 d = pir_exact_vector(query, way->direction, &exponent);
-    pir_int rate = pir_exact_dot(query, &n, &d), slack = pir_exact_dot(query, &n, &plane);
+    pir_int3 n = pir_normal_integers(exact, way->normal), plane = pir_exact_corner(exact, way->a, way->b);
+    pir_int3 d = pir_exact_vector(exact, way->direction, &exponent);
+    pir_int rate = pir_exact_dot(exact, &n, &d), slack = pir_exact_dot(exact, &n, &plane);
     if (pir_int_sign(&rate) < 0) {
         pir_int_negate(&rate);
         pir_int_negate(&slack);
     }
-    pir_int3 moved = pir_exact_scaled(query, &corner, &rate), by = pir_exact_scaled(query, &d, &slack);
-    return pir_exact_difference(query, &moved, &by);
+    pir_int3 moved = pir_exact_scaled(exact, &corner, &rate), by = pir_exact_scaled(exact, &d, &slack);
+    return pir_exact_difference(exact, &moved, &by);
 }
 
 /* The exact sign of m·(y − corner (a, b)), m = n × e or, `along`, e. */
 static int exact_position(const struct touch *touch, struct side side, bool along, uint32_t a, uint32_t b) {
-    pir_query *query = touch->query;
-    pir_exact_begin(query, touch->placement->translation);
-    uint32_t mark = query->scratch.used;
-    pir_int3 m = side.of_q ? pir_exact_half_q(query, side.half) : pir_exact_half_p(query, side.half);
+    pir_exact *exact = touch->exact;
+    pir_exact_begin(exact, touch->placement->translation);
+    uint32_t mark = exact->scratch.used;
+    pir_int3 m = side.of_q ? pir_exact_half_q(exact, side.half) : pir_exact_half_p(exact, side.half);
     if (!along) {
-        pir_int3 n = pir_normal_integers(query, touch->normal);
-        m = pir_exact_cross(query, &n, &m);
+        pir_int3 n = pir_normal_integers(exact, touch->normal);
+        m = pir_exact_cross(exact, &n, &m);
     }
     pir_int3 corner = exact_corner(touch, a, b);
-    int sign = -pir_exact_dot_sign(query, &m, &corner);
-    query->scratch.used = mark;
+    int sign = -pir_exact_dot_sign(exact, &m, &corner);
+    exact->scratch.used = mark;
     return sign;
 }
 
 /* The sign of m·(y − corner (a, b)), m = n × e. */
 static int position(const struct touch *touch, struct side side, uint32_t a, uint32_t b) {
-    const pir_query *query = touch->query;
-    pir_vec3 m = pir_vec_cross(touch->normal->unit, direction_of(query, side));
-    double s = pir_vec_dot(m, pir_vec_sub(touch->x, pir_frame_vertex(query, a, b)));
+    const pir_frame *frame = touch->exact->frame;
+    pir_vec3 m = pir_vec_cross(touch->normal->unit, direction_of(frame, side));
+    double s = pir_vec_dot(m, pir_vec_sub(touch->x, pir_frame_vertex(frame, a, b)));
     if (fabs(s) > touch->error)
         return (s > 0) - (s < 0);
     return exact_position(touch, side, false, a, b);
@@ -90,14 +91,14 @@ struct point {
 };
 
 static struct point point_less(const struct touch *touch, bool of_q, uint32_t fixed) {
-    const pir_query *query = touch->query;
-    struct point point = {.touch = touch, .view = pir_view_of(query, touch->normal, of_q), .fixed = fixed};
+    const pir_frame *frame = touch->exact->frame;
+    struct point point = {.touch = touch, .view = pir_view_of(frame, touch->normal, of_q), .fixed = fixed};
     if (of_q) {
-        point.vertex = query->vq;
-        point.at = pir_vec_sub(touch->x, pir_mat_apply(&query->r, query->vp[fixed]));
+        point.vertex = frame->q.vertex;
+        point.at = pir_vec_sub(touch->x, pir_mat_apply(&frame->r, frame->p.vertex[fixed]));
     } else {
-        point.vertex = query->vp;
-        point.at = pir_mat_apply_transposed(&query->r, pir_vec_sub(touch->x, query->vq[fixed]));
+        point.vertex = frame->p.vertex;
+        point.at = pir_mat_apply_transposed(&frame->r, pir_vec_sub(touch->x, frame->q.vertex[fixed]));
     }
     return point;
 }
@@ -194,61 +195,64 @@ static uint32_t next_edge(const pir_polytope *p, pir_feature face, uint32_t last
 
 /* The sign of n·(d × e). */
 static int turn_of(const struct touch *touch, uint32_t half_p, uint32_t half_q) {
-    pir_query *query = touch->query;
-    pir_vec3 d = query->q->direction[half_q], e = pir_mat_apply(&query->r, query->p->direction[half_p]);
+    pir_exact *exact = touch->exact;
+    const pir_frame *frame = exact->frame;
+    pir_vec3 d = frame->q.polytope->direction[half_q],
+             e = pir_mat_apply(&frame->r, frame->p.polytope->direction[half_p]);
     double s = pir_vec_dot(touch->normal->unit, pir_vec_cross(d, e));
     if (fabs(s) > 2 * PIR_SLACK_BOUND * touch->normal->err)
         return (s > 0) - (s < 0);
-    uint32_t mark = query->scratch.used;
-    pir_rotation_make_exact(pir_sum_exact_rotation(query->sum));
-    pir_int3 n = pir_normal_integers(query, touch->normal), a = pir_exact_half_q(query, half_q),
-             b = pir_exact_half_p(query, half_p), c = pir_exact_cross(query, &a, &b);
-    int sign = pir_exact_dot_sign(query, &n, &c);
-    query->scratch.used = mark;
+    uint32_t mark = exact->scratch.used;
+    pir_rotation_make_exact(exact->rotation);
+    pir_int3 n = pir_normal_integers(exact, touch->normal), a = pir_exact_half_q(exact, half_q),
+             b = pir_exact_half_p(exact, half_p), c = pir_exact_cross(exact, &a, &b);
+    int sign = pir_exact_dot_sign(exact, &n, &c);
+    exact->scratch.used = mark;
     return sign;
 }
 
 /* How far along the edge of Q y lies, from 0 to 1, exactly rounded but for a few ulps. */
 static double exact_part(const struct touch *touch, uint32_t half_p, uint32_t half_q) {
-    pir_query *query = touch->query;
-    const pir_polytope *p = query->p, *q = query->q;
-    pir_exact_begin(query, touch->placement->translation);
-    uint32_t mark = query->scratch.used;
-    pir_int3 n = pir_normal_integers(query, touch->normal), e = pir_exact_half_p(query, half_p),
-             m = pir_exact_cross(query, &n, &e);
+    pir_exact *exact = touch->exact;
+    const pir_frame *frame = exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    pir_exact_begin(exact, touch->placement->translation);
+    uint32_t mark = exact->scratch.used;
+    pir_int3 n = pir_normal_integers(exact, touch->normal), e = pir_exact_half_p(exact, half_p),
+             m = pir_exact_cross(exact, &n, &e);
     pir_int at[2];
     for (int k = 0; k < 2; k++) {
         pir_int3 corner = exact_corner(touch, p->origin[half_p], k == 0 ? q->origin[half_q] : q->target[half_q]);
-        at[k] = pir_exact_dot(query, &m, &corner);
+        at[k] = pir_exact_dot(exact, &m, &corner);
     }
     pir_int whole = pir_limbs_take(
-        &query->scratch,
+        &exact->scratch,
         (pir_int_length(&at[0]) > pir_int_length(&at[1]) ? pir_int_length(&at[0]) : pir_int_length(&at[1])) + 1);
     pir_int_sub(&whole, &at[0], &at[1]);
     pir_real part = pir_real_over(pir_real_of(&at[0]), pir_real_of(&whole));
-    query->scratch.used = mark;
+    exact->scratch.used = mark;
     return pir_real_double(part);
 }
 
 /* The point of Q's edge where the edges cross. */
 static pir_vec3 crossing_point(const struct touch *touch, uint32_t half_p, uint32_t half_q, pir_vec3 y) {
-    const pir_query *query = touch->query;
-    const pir_polytope *p = query->p, *q = query->q;
-    pir_vec3 from = query->vq[q->origin[half_q]], d = pir_vec_sub(query->vq[q->target[half_q]], from);
-    pir_vec3 across = pir_vec_cross(pir_mat_apply(&query->r, p->direction[half_p]), touch->normal->unit);
-    pir_vec3 turn = pir_vec_cross(q->direction[half_q], pir_mat_apply(&query->r, p->direction[half_p]));
+    const pir_frame *frame = touch->exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    pir_vec3 from = frame->q.vertex[q->origin[half_q]], d = pir_vec_sub(frame->q.vertex[q->target[half_q]], from);
+    pir_vec3 across = pir_vec_cross(pir_mat_apply(&frame->r, p->direction[half_p]), touch->normal->unit);
+    pir_vec3 turn = pir_vec_cross(q->direction[half_q], pir_mat_apply(&frame->r, p->direction[half_p]));
     double part;
     if (pir_vec_dot(turn, turn) < PIR_SIN_REFINED * PIR_SIN_REFINED)
         part = exact_part(touch, half_p, half_q);
     else
-        part = pir_vec_dot(pir_vec_sub(y, pir_frame_vertex(query, p->origin[half_p], q->origin[half_q])), across) /
+        part = pir_vec_dot(pir_vec_sub(y, pir_frame_vertex(frame, p->origin[half_p], q->origin[half_q])), across) /
                pir_vec_dot(d, across);
     return pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part))));
 }
 
 /* Whether the edges cross where y is, and the least faces that hold it. */
 static bool edges_cross(const struct touch *touch, uint32_t e, uint32_t d, pir_witness *ret_witness) {
-    const pir_polytope *p = touch->query->p, *q = touch->query->q;
+    const pir_polytope *p = touch->exact->frame->p.polytope, *q = touch->exact->frame->q.polytope;
     struct side of_p = {false, p->edge_half[e]}, of_q = {true, q->edge_half[d]};
     int turn = turn_of(touch, of_p.half, of_q.half);
     if (turn == 0)
@@ -272,7 +276,7 @@ static bool edges_cross(const struct touch *touch, uint32_t e, uint32_t d, pir_w
 /* --- the search --- */
 
 static bool find_witness(const struct touch *touch, pir_witness faces, pir_witness *ret_witness) {
-    const pir_polytope *p = touch->query->p, *q = touch->query->q;
+    const pir_polytope *p = touch->exact->frame->p.polytope, *q = touch->exact->frame->q.polytope;
     bool two_edges = faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE;
     // edges that are not parallel meet in one point
     if (two_edges && touch->flat)
@@ -298,11 +302,12 @@ static bool find_witness(const struct touch *touch, pir_witness faces, pir_witne
     return false;
 }
 
-bool pir_touch_find(pir_query *query, const pir_placement *placement, const pir_meeting *meeting,
+bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting,
                     pir_touch *ret_touch) {
+    const pir_frame *frame = exact->frame;
     const pir_normal *normal = meeting->normal;
     const pir_way *way = meeting->way;
-    struct touch touch = {.query = query,
+    struct touch touch = {.exact = exact,
                           .placement = placement,
                           .normal = normal,
                           .way = way,
@@ -315,21 +320,21 @@ bool pir_touch_find(pir_query *query, const pir_placement *placement, const pir_
     }
     if (!find_witness(&touch, meeting->faces, &ret_touch->witness))
         return false;
-    const pir_polytope *p = query->p, *q = query->q;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     pir_feature of_p = ret_touch->witness.p, of_q = ret_touch->witness.q;
     pir_vec3 y = way ? touch.x : pir_vec_add(placement->x, pir_vec_scale(normal->unit, meeting->slack));
     if (of_q.kind == PIR_FEATURE_VERTEX)
-        ret_touch->point_q = query->vq[of_q.index];
+        ret_touch->point_q = frame->q.vertex[of_q.index];
     else if (of_p.kind == PIR_FEATURE_VERTEX)
-        ret_touch->point_q = pir_vec_sub(y, pir_mat_apply(&query->r, query->vp[of_p.index]));
+        ret_touch->point_q = pir_vec_sub(y, pir_mat_apply(&frame->r, frame->p.vertex[of_p.index]));
     else
         ret_touch->point_q = crossing_point(&touch, p->edge_half[of_p.index], q->edge_half[of_q.index], y);
     return true;
 }
 
-bool pir_touch_facet(pir_query *query, const pir_placement *placement, const pir_facet *facet, double slack,
+bool pir_touch_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
                      const pir_way *way, pir_touch *ret_touch) {
     pir_normal normal = pir_facet_normal(facet);
     pir_meeting meeting = {&normal, facet->faces, true, slack, way};
-    return pir_touch_find(query, placement, &meeting, ret_touch);
+    return pir_touch_find(exact, placement, &meeting, ret_touch);
 }

@@ -47,10 +47,10 @@ typedef struct pir_meeting {
 } pir_meeting;
 
 /* Where they meet; false when y is not on the sum of the faces. */
-bool pir_touch_find(pir_query *query, const pir_placement *placement, const pir_meeting *meeting, pir_touch *ret_touch);
+bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting, pir_touch *ret_touch);
 
 /* The same for a facet of D. */
-bool pir_touch_facet(pir_query *query, const pir_placement *placement, const pir_facet *facet, double slack,
+bool pir_touch_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
                      const pir_way *way, pir_touch *ret_touch);
 
 #endif

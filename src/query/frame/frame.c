@@ -2,20 +2,27 @@
 /*
  * The frame that queries compute in: bodies about their middles, scaled by a power of two.
  *
- * Differences of vertices are taken in exact integers and rounded once, so a body 1e7 away from its origin is known as well as one at it;
- * the distance of the two middles is kept in double-double, and so is the translation's.
+ * Differences of vertices are taken in exact integers and rounded once, so a body 1e7 away from its origin is known
+ * as well as one at it; the distance of the two middles is kept in double-double, and so is the translation's.
  */
-#include "query/query.h"
+#include "query/frame/frame.h"
 
 #include <limits.h>
 #include <stdlib.h>
 
-#include "polytope/polytope.h"
+#include "base/layout.h"
+#include "query/frame/dd_rotation.h"
 
-/* Bodies and translations farther from their origins than this, in units of the frame, are refused: the arithmetic would overflow. */
+/*
+ * Bodies and translations farther from their origins than this, in units of the frame, are refused: the arithmetic
+ * would overflow.
+ */
 #define FARTHEST 0x1p400
 
-/* What double-double may be off by in a placement, relative to how far from their origins the bodies and the translation are: sixteen times over. */
+/*
+ * What double-double may be off by in a placement, relative to how far from their origins the bodies and the
+ * translation are: sixteen times over.
+ */
 #define FAR_ERROR 0x1p-96
 
 /* a · num/den as m · 2^*ret_exponent. */
@@ -63,16 +70,20 @@ static double component(pir_vec3 v, int k) {
     return k == 0 ? v.x : k == 1 ? v.y : v.z;
 }
 
-/* The vertices of one operand about the middle of its bounds, its size and its middle; false when that is too far away. */
-static bool place_body(const pir_query *query, const pir_polytope *p, mp_limb_t *room, pir_vec3 *vertices,
-                       double *ret_size, pir_dd3 *ret_centre) {
+/*
+ * The vertices of one operand about the middle of its bounds, its size and its middle; false when that is too far
+ * away.
+ */
+static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
+    const pir_polytope *p = body->polytope;
+    pir_vec3 *vertices = body->vertex;
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         double c[3];
         for (int k = 0; k < 3; k++) {
             int e;
             c[k] = from_first(p, v, k, room, &e);
-            c[k] = c[k] != 0 ? ldexp(c[k], e - query->exponent) : 0;
+            c[k] = c[k] != 0 ? ldexp(c[k], e - exponent) : 0;
             low[k] = fmin(low[k], c[k]);
             high[k] = fmax(high[k], c[k]);
         }
@@ -84,44 +95,45 @@ static bool place_body(const pir_query *query, const pir_polytope *p, mp_limb_t 
         vertices[v] = pir_vec_sub(vertices[v], middle);
         square = fmax(square, pir_vec_dot(vertices[v], vertices[v]));
     }
-    *ret_size = sqrt(square) * (1 + 0x1p-48);
+    body->size = sqrt(square) * (1 + 0x1p-48);
     pir_int3 first = pir_vertex_exact(p, 0);
     for (int k = 0; k < 3; k++) {
-        double nearest = component(p->vertex[0], k), away = ldexp(nearest, -query->exponent);
+        double nearest = component(p->vertex[0], k), away = ldexp(nearest, -exponent);
         if (!(fabs(away) < FARTHEST))
             return false;
-        double rest = ldexp(remainder_of(p, &first.c[k], nearest), -query->exponent);
-        ret_centre->c[k] = pir_dd_add((pir_dd){away, rest}, (pir_dd){component(middle, k), 0});
+        double rest = ldexp(remainder_of(p, &first.c[k], nearest), -exponent);
+        body->centre.c[k] = pir_dd_add((pir_dd){away, rest}, (pir_dd){component(middle, k), 0});
     }
     return true;
 }
 
-/* The facets' offsets; returns the body's swing: see planes.c. */
-static double set_offsets(const pir_polytope *p, const pir_vec3 *vertices, double size, double *h) {
-    double inner = p->dimension == 3 ? size : 0;
+/* The facets' offsets, and the body's swing: see planes/bounds.c. */
+static void set_offsets(pir_body *body) {
+    const pir_polytope *p = body->polytope;
+    double size = body->size, inner = p->dimension == 3 ? size : 0;
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        h[f] = pir_vec_dot(p->normal[f], vertices[p->origin[p->loop[p->loop_start[f]]]]);
-        inner = fmin(inner, fmax(0, h[f] - 0x1p-46 * size));
+        body->offset[f] = pir_vec_dot(p->normal[f], body->vertex[p->origin[p->loop[p->loop_start[f]]]]);
+        inner = fmin(inner, fmax(0, body->offset[f] - 0x1p-46 * size));
     }
-    return sqrt(size * size - inner * inner) * (1 + 0x1p-40) + 0x1p-40 * size;
+    body->swing = sqrt(size * size - inner * inner) * (1 + 0x1p-40) + 0x1p-40 * size;
 }
 
-void pir_frame_finish(pir_query *query) {
-    const pir_allocator *a = &query->allocator;
-    PIR_FREE(a, query->vp, query->p->vertex_count);
-    PIR_FREE(a, query->vq, query->q->vertex_count);
-    PIR_FREE(a, query->hp, query->p->facet_count);
-    PIR_FREE(a, query->hq, query->q->facet_count);
+static pir_layout layout_of(pir_frame *frame) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    return (pir_layout){{PIR_ROW(frame->p.vertex, p->vertex_count), PIR_ROW(frame->p.offset, p->facet_count),
+                         PIR_ROW(frame->q.vertex, q->vertex_count), PIR_ROW(frame->q.offset, q->facet_count)}};
 }
 
-bool pir_frame_init(pir_query *query) {
-    const pir_polytope *p = query->p, *q = query->q;
-    const pir_allocator *a = &query->allocator;
-    query->vp = PIR_NEW(a, pir_vec3, p->vertex_count);
-    query->vq = PIR_NEW(a, pir_vec3, q->vertex_count);
-    query->hp = PIR_NEW(a, double, p->facet_count);
-    query->hq = PIR_NEW(a, double, q->facet_count);
-    return query->vp && query->vq && query->hp && query->hq;
+bool pir_frame_init(pir_frame *frame, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q) {
+    frame->p.polytope = p;
+    frame->q.polytope = q;
+    pir_layout layout = layout_of(frame);
+    return pir_layout_new(allocator, &layout);
+}
+
+void pir_frame_finish(pir_frame *frame, const pir_allocator *allocator) {
+    pir_layout layout = layout_of(frame);
+    pir_layout_free(allocator, &layout);
 }
 
 /*
@@ -135,117 +147,88 @@ static int exponent_of_points(pir_vec3 p, pir_vec3 q) {
     return abs(e) > 300 ? e : 0;
 }
 
-pir_status pir_frame_fill(pir_query *query) {
-    const pir_polytope *p = query->p, *q = query->q;
-    // the scratch of exact signs is far more than a vertex and two limbs
-    mp_limb_t *room = query->scratch.base;
+pir_status pir_frame_fill(pir_frame *frame, const pir_polytope *p, const pir_polytope *q, mp_limb_t *room) {
+    frame->is_set = false;
+    frame->p.polytope = p;
+    frame->q.polytope = q;
     int top_p = top_exponent(p, room), top_q = top_exponent(q, room);
-    query->exponent = top_p > top_q ? top_p : top_q;
-    if (query->exponent == INT_MIN)
-        query->exponent = exponent_of_points(p->vertex[0], q->vertex[0]);
-    bool normal = query->exponent > -1000 && query->exponent < 1000;
-    query->up = normal ? ldexp(1, query->exponent) : 0;
-    query->down = normal ? ldexp(1, -query->exponent) : 0;
-    bool fits = place_body(query, p, room, query->vp, &query->size_p, &query->centre_p) &&
-                place_body(query, q, room, query->vq, &query->size_q, &query->centre_q);
-    if (!fits)
+    frame->exponent = top_p > top_q ? top_p : top_q;
+    if (frame->exponent == INT_MIN)
+        frame->exponent = exponent_of_points(p->vertex[0], q->vertex[0]);
+    bool normal = frame->exponent > -1000 && frame->exponent < 1000;
+    frame->up = normal ? ldexp(1, frame->exponent) : 0;
+    frame->down = normal ? ldexp(1, -frame->exponent) : 0;
+    if (!place_body(&frame->p, frame->exponent, room) || !place_body(&frame->q, frame->exponent, room))
         return PIR_ERR_LIMIT;
-    pir_landmarks_set(p, query->landmarks_p);
-    pir_landmarks_set(q, query->landmarks_q);
-    query->swing_p = set_offsets(p, query->vp, query->size_p, query->hp);
-    query->swing_q = set_offsets(q, query->vq, query->size_q, query->hq);
+    pir_landmarks_set(p, frame->p.landmarks);
+    pir_landmarks_set(q, frame->q.landmarks);
+    set_offsets(&frame->p);
+    set_offsets(&frame->q);
     return PIR_OK;
 }
 
 /* --- the rotation --- */
-
-/* R = M(q)/|q|² in double-double, off by a few 2^-104. */
-void pir_frame_make_fine(pir_query *query) {
-    if (query->has_fine)
-        return;
-    int top;
-    double largest = fmax(fmax(fabs(query->at.x), fabs(query->at.y)), fmax(fabs(query->at.z), fabs(query->at.w)));
-    frexp(largest, &top);
-    const double c[4] = {ldexp(query->at.x, -top), ldexp(query->at.y, -top), ldexp(query->at.z, -top),
-                         ldexp(query->at.w, -top)};
-    pir_dd square[4], norm = {0, 0};
-    for (int k = 0; k < 4; k++) {
-        square[k] = pir_dd_two_product(c[k], c[k]);
-        norm = pir_dd_add(norm, square[k]);
-    }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        pir_dd diagonal = pir_dd_sub(pir_dd_add(square[3], square[i]), pir_dd_add(square[j], square[k]));
-        query->r_fine[i].c[i] = pir_dd_divide(diagonal, norm);
-        pir_dd both = pir_dd_two_product(2 * c[i], c[j]), turn = pir_dd_two_product(2 * c[3], c[k]);
-        query->r_fine[i].c[j] = pir_dd_divide(pir_dd_sub(both, turn), norm);
-        query->r_fine[j].c[i] = pir_dd_divide(pir_dd_add(both, turn), norm);
-    }
-    query->has_fine = true;
-}
 
 static bool same(pir_quat a, pir_quat b) {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
 }
 
 /* The offset of the frame: Q's middle plus P's, rotated. Near middles need no more than doubles. */
-static void set_offset(pir_query *query) {
-    pir_vec3 near = pir_dd3_round(query->centre_p);
+static void set_offset(pir_frame *frame) {
+    const pir_dd3 *centre = &frame->p.centre;
+    pir_vec3 near = pir_dd3_round(*centre);
     double far = fabs(near.x) + fabs(near.y) + fabs(near.z);
     if (far == 0) {
-        query->offset = query->centre_q;
+        frame->offset = frame->q.centre;
         return;
     }
-    if (far <= 4 * (query->size_p + query->size_q)) {
-        query->offset = pir_dd3_add_vec(query->centre_q, pir_mat_apply(&query->r, near));
+    if (far <= 4 * (frame->p.size + frame->q.size)) {
+        frame->offset = pir_dd3_add_vec(frame->q.centre, pir_mat_apply(&frame->r, near));
         return;
     }
-    pir_frame_make_fine(query);
+    pir_dd3 row[3];
+    pir_dd_rotation(frame->given, row);
     for (int i = 0; i < 3; i++) {
-        pir_dd sum = query->centre_q.c[i];
+        pir_dd sum = frame->q.centre.c[i];
         for (int j = 0; j < 3; j++)
-            sum = pir_dd_add(sum, pir_dd_mul(query->r_fine[i].c[j], query->centre_p.c[j]));
-        query->offset.c[i] = sum;
+            sum = pir_dd_add(sum, pir_dd_mul(row[i].c[j], centre->c[j]));
+        frame->offset.c[i] = sum;
     }
 }
 
-void pir_frame_follow(pir_query *query) {
-    const pir_rotation *now = pir_sum_exact_rotation(query->sum);
-    if (query->followed && same(now->given, query->at))
-        return;
-    query->followed = true;
-    query->at = now->given;
-    query->r = now->r;
-    query->has_fine = false;
-    set_offset(query);
-    query->exact.made = false;
-    query->stamp++;
-    query->planes.used = 0;
+bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation) {
+    if (frame->is_set && same(rotation->given, frame->given))
+        return false;
+    frame->is_set = true;
+    frame->given = rotation->given;
+    frame->unit = rotation->unit;
+    frame->r = rotation->r;
+    set_offset(frame);
+    return true;
 }
 
 static double taxicab(pir_vec3 v) {
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-pir_status pir_frame_place(pir_query *query, pir_vec3 translation, pir_placement *ret_placement) {
+pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_placement *ret_placement) {
     if (!pir_vec_is_finite(translation))
         return PIR_ERR_NOT_FINITE;
-    pir_vec3 t = pir_vec_scale(translation, query->down);
-    if (query->down == 0)
-        t = (pir_vec3){ldexp(translation.x, -query->exponent), ldexp(translation.y, -query->exponent),
-                       ldexp(translation.z, -query->exponent)};
+    pir_vec3 t = pir_vec_scale(translation, frame->down);
+    if (frame->down == 0)
+        t = (pir_vec3){ldexp(translation.x, -frame->exponent), ldexp(translation.y, -frame->exponent),
+                       ldexp(translation.z, -frame->exponent)};
     if (!(fabs(t.x) < FARTHEST && fabs(t.y) < FARTHEST && fabs(t.z) < FARTHEST))
         return PIR_ERR_LIMIT;
     ret_placement->translation = translation;
-    ret_placement->fine = pir_dd3_add_vec(pir_dd3_negate(query->offset), t);
-    ret_placement->x = pir_dd3_round(ret_placement->fine);
-    ret_placement->reach = query->size_p + query->size_q + sqrt(pir_vec_dot(ret_placement->x, ret_placement->x));
-    double far = taxicab(t) + taxicab(pir_dd3_round(query->centre_p)) + taxicab(pir_dd3_round(query->centre_q));
+    ret_placement->x = pir_dd3_round(pir_dd3_add_vec(pir_dd3_negate(frame->offset), t));
+    ret_placement->reach = frame->p.size + frame->q.size + sqrt(pir_vec_dot(ret_placement->x, ret_placement->x));
+    double far = taxicab(t) + taxicab(pir_dd3_round(frame->p.centre)) + taxicab(pir_dd3_round(frame->q.centre));
     ret_placement->error = PIR_SLACK_BOUND * ret_placement->reach + FAR_ERROR * far;
     return PIR_OK;
 }
 
-pir_vec3 pir_frame_world(const pir_query *query, pir_vec3 y) {
-    pir_vec3 w = pir_dd3_round(pir_dd3_add_vec(query->centre_q, y));
-    return (pir_vec3){pir_frame_length(query, w.x), pir_frame_length(query, w.y), pir_frame_length(query, w.z)};
+pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y) {
+    pir_vec3 w = pir_dd3_round(pir_dd3_add_vec(frame->q.centre, y));
+    return (pir_vec3){pir_frame_length(frame, w.x), pir_frame_length(frame, w.y), pir_frame_length(frame, w.z)};
 }

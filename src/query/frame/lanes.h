@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: MIT */
-/* Arrays for the loops of scan.h. They have room for whole lanes; what is past the end is zero until something is written there. */
+/*
+ * Vectors and planes in parallel arrays, as the loops of planes/scan.h read and write them.
+ *
+ * A loop takes whole lanes: it reads and writes up to PIR_SCAN_LANES − 1 elements past the count that it is given.
+ * Every array has room for them, and they are zero until a loop writes there.
+ */
 #ifndef PIR_QUERY_FRAME_LANES_H
 #define PIR_QUERY_FRAME_LANES_H
 
-#include "base/memory.h"
-#include "query/planes/scan.h"
+#include "base/layout.h"
+#include "base/vec.h"
 
-static inline double *pir_lane_new(const pir_allocator *a, size_t count) {
-    return PIR_ZEROED(a, double, count + PIR_SCAN_LANES);
-}
+/* Elements in a lane. */
+#define PIR_SCAN_LANES 4
 
-static inline void pir_lane_free(const pir_allocator *a, double *lane, size_t count) {
-    PIR_FREE(a, lane, count + PIR_SCAN_LANES);
-}
+/* Planes in a block: the loops that look for a least slack take whole blocks, and groups are padded to them. */
+#define PIR_SCAN_BLOCK 8
 
-static inline bool pir_lanes_new(const pir_allocator *a, pir_lanes *lanes, size_t count) {
-    lanes->x = pir_lane_new(a, count);
-    lanes->y = pir_lane_new(a, count);
-    lanes->z = pir_lane_new(a, count);
-    return lanes->x && lanes->y && lanes->z;
-}
+/* Vectors in parallel arrays. */
+typedef struct pir_lanes {
+    double *x, *y, *z;
+} pir_lanes;
 
-static inline void pir_lanes_free(const pir_allocator *a, pir_lanes *lanes, size_t count) {
-    pir_lane_free(a, lanes->x, count);
-    pir_lane_free(a, lanes->y, count);
-    pir_lane_free(a, lanes->z, count);
-}
+/* Rows of a layout: an array of doubles, and the three of a pir_lanes. */
+#define PIR_ROW_LANE(member, elements) PIR_ROW(member, (size_t)(elements) + PIR_SCAN_LANES)
+#define PIR_ROWS_LANES(lanes, elements)                                                                                \
+    PIR_ROW_LANE((lanes).x, elements), PIR_ROW_LANE((lanes).y, elements), PIR_ROW_LANE((lanes).z, elements)
 
 static inline void pir_lane_put(pir_lanes lanes, uint32_t i, pir_vec3 v) {
     lanes.x[i] = v.x;

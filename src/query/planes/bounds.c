@@ -4,208 +4,206 @@
  *
  * For a unit normal n, s(n) = h_D(n) − n·x is the slack of D's plane in that direction.
  *
- * Bounds that last. As n turns by a small angle, the support h_P(n) of a body changes by that angle times the part of its support vertex p
- * across n, √(|p|² − h_P(n)²), which is at most its swing √(size² − inner²), inner the least offset of its facets. Q's facets stand still: a
- * turn by θ changes the support of R·P in a fixed direction by at most θ·swing_p, a move of x by d changes n·x by at most d. P's facets turn
- * with R: seen from P the same holds with Q's support, and with x, turned back: n·x changes by at most θ·|x across n| + θ²/2·|x|, and over an
- * arc n·x is least at an end while positive. Between the facets of P the crossings come and go, but all of them lie on the arcs between facets,
- * where s runs through pieces of a·cos(φ − φ₀): while positive these are concave, so on an arc shorter than half a turn s is nowhere less than
- * at the crossings and at the two facets. P flat has arcs of half a turn: its groups have no bound that lasts.
+ * Bounds that last. As n turns by a small angle, the support h_P(n) of a body changes by that angle times the part of
+ * its support vertex p across n, √(|p|² − h_P(n)²), which is at most its swing √(size² − inner²), inner the least
+ * offset of its facets. Q's facets stand still: a turn by θ changes the support of R·P in a fixed direction by at
+ * most θ·swing_p, a move of x by d changes n·x by at most d. P's facets turn with R: seen from P the same holds with
+ * Q's support, and with x, turned back: n·x changes by at most θ·|x across n| + θ²/2·|x|, and over an arc n·x is
+ * least at an end while positive. Between the facets of P the crossings come and go, but all of them lie on the arcs
+ * between facets, where s runs through pieces of a·cos(φ − φ₀): while positive these are concave, so on an arc
+ * shorter than half a turn s is nowhere less than at the crossings and at the two facets. P flat has arcs of half a
+ * turn: its groups have no bound that lasts.
  *
- * Caps. For any vertex w of D − x and any n, s(n) ≥ n·w. All normals of a group, those of the crossings on its arcs too, lie within an angle ρ
- * of the normal c of one of its facets, and there n·w ≥ |w|·cos(∠(c, w) + ρ) = (c·w) cos ρ − |w across c| sin ρ. With w the vertex that the
- * pairing has for that facet, c·w is the facet's own slack, which the least slack of all is not above, and the bound falls short by
- * the square of ρ only. It needs no plane and no memory. Where it is not above zero it is no bound, the angle then being more than half a turn perhaps;
- * neither is it where ρ is a right angle or more.
+ * Caps. For any vertex w of D − x and any n, s(n) ≥ n·w. All normals of a group, those of the crossings on its arcs
+ * too, lie within an angle ρ of the normal c of one of its facets, and there n·w ≥ |w|·cos(∠(c, w) + ρ) = (c·w) cos ρ
+ * − |w across c| sin ρ. With w the vertex that the pairing has for that facet, c·w is the facet's own slack, which
+ * the least slack of all is not above, and the bound falls short by the square of ρ only. It needs no plane and no
+ * memory. Where it is not above zero it is no bound, the angle then being more than half a turn perhaps; neither is
+ * it where ρ is a right angle or more.
  *
- * Rounding. w, worked out as R a + b − x, is off by less than 60u of the reach (see query.h), a normal by 8u, 42u once turned; what the
- * bound itself adds is below 16u of |w|. One error, 128u of the reach, holds all that, and a second the slack that it is compared to.
+ * Rounding. w, worked out as R a + b − x, is off by less than 60u of the reach (see query.h), a normal by 8u, 42u
+ * once turned; what the bound itself adds is below 16u of |w|. One error, 128u of the reach, holds all that, and a
+ * second the slack that it is compared to.
  */
-#include "query/query.h"
+#include "query/planes/bounds.h"
 
 /* --- memory --- */
 
-static uint32_t blocks_of(const pir_query *query) {
-    return query->group_count / PIR_SCAN_LANES;
+static pir_layout layout_of(pir_bounds *bounds, const pir_groups *groups) {
+    uint32_t count = groups->count;
+    return (pir_layout){{PIR_ROW_LANE(bounds->bound, count), PIR_ROW_LANE(bounds->when, count),
+                         PIR_ROW_LANE(bounds->lever, count), PIR_ROW_LANE(bounds->bend, count),
+                         PIR_ROWS_LANES(bounds->where, count), PIR_ROW_LANE(bounds->low, count),
+                         PIR_ROWS_LANES(bounds->cap_axis, count), PIR_ROWS_LANES(bounds->cap_corner, count),
+                         PIR_ROWS_LANES(bounds->cap_axis_body, count), PIR_ROWS_LANES(bounds->cap_corner_body, count),
+                         PIR_ROW_LANE(bounds->cap_cos, count), PIR_ROW_LANE(bounds->cap_sin, count),
+                         PIR_ROW(bounds->cap_stamp, count / PIR_SCAN_LANES)}};
 }
 
-void pir_bounds_finish(pir_query *query) {
-    const pir_allocator *a = &query->allocator;
-    uint32_t groups = query->group_count;
-    double *const lanes[] = {query->bound, query->when,    query->lever,  query->bend,
-                             query->low,   query->cap_cos, query->cap_sin};
-    for (size_t i = 0; i < sizeof lanes / sizeof *lanes; i++)
-        pir_lane_free(a, lanes[i], groups);
-    pir_lanes *const vectors[] = {&query->where, &query->cap_axis, &query->cap_corner, &query->cap_axis_body,
-                                  &query->cap_corner_body};
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-        pir_lanes_free(a, vectors[i], groups);
-    PIR_FREE(a, query->cap_stamp, blocks_of(query));
+bool pir_bounds_init(pir_bounds *bounds, const pir_allocator *allocator, const pir_groups *groups) {
+    pir_layout layout = layout_of(bounds, groups);
+    return pir_layout_new(allocator, &layout);
 }
 
-bool pir_bounds_init(pir_query *query) {
-    const pir_allocator *a = &query->allocator;
-    uint32_t groups = query->group_count;
-    double **const lanes[] = {&query->bound, &query->when,    &query->lever,  &query->bend,
-                              &query->low,   &query->cap_cos, &query->cap_sin};
-    bool done = true;
-    for (size_t i = 0; i < sizeof lanes / sizeof *lanes; i++)
-        done = (*lanes[i] = pir_lane_new(a, groups)) && done;
-    pir_lanes *const vectors[] = {&query->where, &query->cap_axis, &query->cap_corner, &query->cap_axis_body,
-                                  &query->cap_corner_body};
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-        done = pir_lanes_new(a, vectors[i], groups) && done;
-    query->cap_stamp = PIR_ZEROED(a, uint64_t, blocks_of(query));
-    return query->cap_stamp && done;
+void pir_bounds_finish(pir_bounds *bounds, const pir_allocator *allocator, const pir_groups *groups) {
+    pir_layout layout = layout_of(bounds, groups);
+    pir_layout_free(allocator, &layout);
 }
 
 /* --- bounds that last --- */
 
 /* Adds what R has turned by since bounds were last asked for. What it did between does not matter. */
-static void note_turn(pir_query *query) {
-    if (query->turned == query->stamp)
+static void note_turn(pir_bounds *bounds, const pir_groups *groups) {
+    if (bounds->turned == groups->stamp)
         return;
-    pir_quat now = pir_sum_exact_rotation(query->sum)->unit;
-    if (query->turned != 0)
-        query->turn = (query->turn + pir_rotation_angle_bound(query->turned_to, now)) * (1 + 0x1p-51);
-    query->turned_to = now;
-    query->turned = query->stamp;
+    pir_quat now = groups->frame->unit;
+    if (bounds->turned != 0)
+        bounds->turn = (bounds->turn + pir_rotation_angle_bound(bounds->turned_to, now)) * (1 + 0x1p-51);
+    bounds->turned_to = now;
+    bounds->turned = groups->stamp;
 }
-/* How far x reaches across the normals of a group that reach `along` it at least; all of |x| where some are at right angles or more. */
+/*
+ * How far x reaches across the normals of a group that reach `along` it at least; all of |x| where some are at right
+ * angles or more.
+ */
 static double across(double length, double along) {
     return along > 0 && along < length ? sqrt((length - along) * (length + along)) : length;
 }
 
-void pir_bound_keep(pir_query *query, uint32_t g, const pir_placement *placement, double low, double along) {
-    const pir_group *group = &query->groups[g];
-    note_turn(query);
-    double length = placement->reach - query->size_p - query->size_q;
+void pir_bounds_keep(pir_bounds *bounds, const pir_groups *groups, uint32_t g, const pir_placement *placement,
+                     double low, double along) {
+    const pir_group *group = &groups->at[g];
+    note_turn(bounds, groups);
+    double length = placement->reach - groups->frame->p.size - groups->frame->q.size;
     // a bound that is not above zero does not last: the arcs between are concave only while s is positive
-    bool lasts = low > 0 && (group->of_q || query->p->dimension == 3);
-    query->bound[g] = lasts ? low : -HUGE_VAL;
-    query->when[g] = query->turn;
+    bool lasts = low > 0 && (group->of_q || groups->frame->p.polytope->dimension == 3);
+    bounds->bound[g] = lasts ? low : -HUGE_VAL;
+    bounds->when[g] = bounds->turn;
     // what rounding may hide of x is below 2^-40 of the reach
     double hair = 0x1p-40 * placement->reach;
-    query->lever[g] = group->of_q ? query->swing_p : query->swing_q + across(length, along - hair) + hair;
-    query->bend[g] = group->of_q ? 0 : 0.5 * length;
-    pir_lane_put(query->where, g, placement->x);
+    bounds->lever[g] =
+        group->of_q ? groups->frame->p.swing : groups->frame->q.swing + across(length, along - hair) + hair;
+    bounds->bend[g] = group->of_q ? 0 : 0.5 * length;
+    pir_lane_put(bounds->where, g, placement->x);
 }
 
 /* --- caps --- */
 
 /* The least cosine between facet f and any that the group needs, itself included. */
-static double least_cosine(const pir_query *query, const pir_group *group, const pir_polytope *of, uint32_t f) {
+static double least_cosine(const pir_groups *groups, const pir_group *group, const pir_polytope *of, uint32_t f) {
     double least = 1;
     for (uint32_t i = group->facets; i < group->facets_end; i++)
-        least = fmin(least, pir_vec_dot(of->normal[f], of->normal[query->facet_list[i]]));
+        least = fmin(least, pir_vec_dot(of->normal[f], of->normal[groups->list.facet[i]]));
     return least;
 }
 
 /* The cap of group `g`; that of the group before where it is empty, so that whole lanes are caps. */
-static void choose_cap(pir_query *query, uint32_t g) {
-    pir_group *group = &query->groups[g];
+static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
+    pir_group *group = &groups->at[g];
     if (group->facets == group->own_end) {
         *group = (pir_group){.of_q = group[-1].of_q, .middle = group[-1].middle};
-        query->cap_cos[g] = query->cap_cos[g - 1];
-        query->cap_sin[g] = query->cap_sin[g - 1];
+        bounds->cap_cos[g] = bounds->cap_cos[g - 1];
+        bounds->cap_sin[g] = bounds->cap_sin[g - 1];
     } else {
-        const pir_polytope *of = group->of_q ? query->q : query->p;
+        const pir_polytope *of = group->of_q ? groups->frame->q.polytope : groups->frame->p.polytope;
         double cosine = -HUGE_VAL;
         for (uint32_t i = group->facets; i < group->own_end; i++) {
-            double least = least_cosine(query, group, of, query->facet_list[i]);
+            double least = least_cosine(groups, group, of, groups->list.facet[i]);
             if (least > cosine)
-                cosine = least, group->middle = query->facet_list[i];
+                cosine = least, group->middle = groups->list.facet[i];
         }
         // normals are off by 8u each
         cosine -= 0x1p-47;
-        query->cap_cos[g] = cosine > 0 ? cosine : 0;
-        query->cap_sin[g] = cosine > 0 ? sqrt((1 - cosine) * (1 + cosine)) * (1 + 0x1p-50) : 0x1p1000;
+        bounds->cap_cos[g] = cosine > 0 ? cosine : 0;
+        bounds->cap_sin[g] = cosine > 0 ? sqrt((1 - cosine) * (1 + cosine)) * (1 + 0x1p-50) : 0x1p1000;
     }
-    const pir_polytope *of = group->of_q ? query->q : query->p;
-    pir_lane_put(query->cap_axis_body, g, of->normal[group->middle]);
-    pir_lane_put(query->cap_corner_body, g,
-                 (group->of_q ? query->vq : query->vp)[of->origin[of->loop[of->loop_start[group->middle]]]]);
+    const pir_polytope *of = group->of_q ? groups->frame->q.polytope : groups->frame->p.polytope;
+    pir_lane_put(bounds->cap_axis_body, g, of->normal[group->middle]);
+    pir_lane_put(bounds->cap_corner_body, g,
+                 (group->of_q ? groups->frame->q.vertex
+                              : groups->frame->p.vertex)[of->origin[of->loop[of->loop_start[group->middle]]]]);
 }
 
-void pir_bounds_fill(pir_query *query) {
-    for (uint32_t g = 0; g < query->group_count; g++) {
-        query->bound[g] = query->groups[g].facets == query->groups[g].own_end ? HUGE_VAL : -HUGE_VAL;
-        choose_cap(query, g);
+void pir_bounds_fill(pir_bounds *bounds, pir_groups *groups) {
+    for (uint32_t g = 0; g < groups->count; g++) {
+        bounds->bound[g] = groups->at[g].facets == groups->at[g].own_end ? HUGE_VAL : -HUGE_VAL;
+        choose_cap(bounds, groups, g);
     }
 }
 
 /* Brings the caps of groups [g, g + PIR_SCAN_LANES), of one body all, to the rotation. */
-static void make_caps(pir_query *query, uint32_t g) {
-    const pir_pairing *pairing = pir_sum_pairing(query->sum);
-    bool of_q = query->groups[g].of_q;
+static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) {
+    const pir_pairing *pairing = groups->pairing;
+    bool of_q = groups->at[g].of_q;
     pir_vec3 other[PIR_SCAN_LANES];
     for (uint32_t i = 0; i < PIR_SCAN_LANES; i++) {
-        uint32_t middle = query->groups[g + i].middle;
-        other[i] = of_q ? query->vp[pairing->vf[middle]] : query->vq[pairing->fv[middle]];
+        uint32_t middle = groups->at[g + i].middle;
+        other[i] = of_q ? groups->frame->p.vertex[pairing->vf[middle]] : groups->frame->q.vertex[pairing->fv[middle]];
     }
-    pir_lanes axis = pir_lanes_from(query->cap_axis, g), corner = pir_lanes_from(query->cap_corner, g);
-    pir_lanes axis_body = pir_lanes_from(query->cap_axis_body, g),
-              corner_body = pir_lanes_from(query->cap_corner_body, g);
+    pir_lanes axis = pir_lanes_from(bounds->cap_axis, g), corner = pir_lanes_from(bounds->cap_corner, g);
+    pir_lanes axis_body = pir_lanes_from(bounds->cap_axis_body, g),
+              corner_body = pir_lanes_from(bounds->cap_corner_body, g);
     if (of_q) {
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++) {
             pir_lane_put(axis, i, pir_lane_get(axis_body, i));
             pir_lane_put(corner, i, other[i]);
             other[i] = pir_lane_get(corner_body, i);
         }
-        query->scan->turn(PIR_SCAN_LANES, &query->r, corner, corner);
+        groups->scan->turn(PIR_SCAN_LANES, &groups->frame->r, corner, corner);
     } else {
-        query->scan->turn(PIR_SCAN_LANES, &query->r, axis_body, axis);
-        query->scan->turn(PIR_SCAN_LANES, &query->r, corner_body, corner);
+        groups->scan->turn(PIR_SCAN_LANES, &groups->frame->r, axis_body, axis);
+        groups->scan->turn(PIR_SCAN_LANES, &groups->frame->r, corner_body, corner);
     }
     for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
         pir_lane_put(corner, i, pir_vec_add(pir_lane_get(corner, i), other[i]));
-    query->cap_stamp[g / PIR_SCAN_LANES] = query->stamp;
+    bounds->cap_stamp[g / PIR_SCAN_LANES] = groups->stamp;
 }
 
 /* Whether a cap may rule out a group of the block from `g` that is not ruled out yet. */
-static bool is_open(const pir_query *query, uint32_t g, double limit) {
+static bool is_open(const pir_bounds *bounds, uint32_t g, double limit) {
     bool any = false;
     for (uint32_t i = g; i < g + PIR_SCAN_LANES; i++)
-        any |= query->low[i] <= limit && query->cap_cos[i] > 0;
+        any |= bounds->low[i] <= limit && bounds->cap_cos[i] > 0;
     return any;
 }
 
-double pir_groups_bound(pir_query *query, const pir_placement *placement, double limit) {
+double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_placement *placement, double limit) {
     double high = HUGE_VAL;
-    note_turn(query);
-    query->scan->bounds(query->group_count, query->bound, query->when, query->lever, query->bend, query->where,
-                        query->turn, placement->x, placement->error, query->low);
-    for (uint32_t g = 0; g < query->group_count; g += PIR_SCAN_LANES) {
-        if (!is_open(query, g, limit))
+    note_turn(bounds, groups);
+    groups->scan->bounds(groups->count, bounds->bound, bounds->when, bounds->lever, bounds->bend, bounds->where,
+                         bounds->turn, placement->x, placement->error, bounds->low);
+    for (uint32_t g = 0; g < groups->count; g += PIR_SCAN_LANES) {
+        if (!is_open(bounds, g, limit))
             continue;
-        if (query->cap_stamp[g / PIR_SCAN_LANES] != query->stamp)
-            make_caps(query, g);
+        if (bounds->cap_stamp[g / PIR_SCAN_LANES] != groups->stamp)
+            make_caps(bounds, groups, g);
         bool was_open[PIR_SCAN_LANES];
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
-            was_open[i] = query->low[g + i] <= limit;
-        double least =
-            query->scan->caps(PIR_SCAN_LANES, pir_lanes_from(query->cap_axis, g), pir_lanes_from(query->cap_corner, g),
-                              query->cap_cos + g, query->cap_sin + g, placement->x, placement->error, query->low + g);
+            was_open[i] = bounds->low[g + i] <= limit;
+        double least = groups->scan->caps(PIR_SCAN_LANES, pir_lanes_from(bounds->cap_axis, g),
+                                          pir_lanes_from(bounds->cap_corner, g), bounds->cap_cos + g,
+                                          bounds->cap_sin + g, placement->x, placement->error, bounds->low + g);
         high = least < high ? least : high;
         // what a cap rules out now it need not for some while
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
-            if (was_open[i] && query->low[g + i] > limit)
-                pir_bound_keep(query, g + i, placement, query->low[g + i], -HUGE_VAL);
+            if (was_open[i] && bounds->low[g + i] > limit)
+                pir_bounds_keep(bounds, groups, g + i, placement, bounds->low[g + i], -HUGE_VAL);
     }
     return high;
 }
 
 /* --- looking --- */
 
-void pir_group_look(pir_query *query, uint32_t g, const pir_placement *placement, double *ret_low, double *ret_high) {
-    pir_group_make(query, g);
-    const pir_group *group = &query->groups[g];
-    const pir_planes *planes = &query->planes;
+void pir_bounds_look(pir_bounds *bounds, pir_groups *groups, uint32_t g, const pir_placement *placement,
+                     double *ret_low, double *ret_high) {
+    pir_group_make(groups, g);
+    const pir_group *group = &groups->at[g];
+    const pir_planes *planes = &groups->planes;
     uint32_t blocks = (group->count + PIR_SCAN_BLOCK - 1) / PIR_SCAN_BLOCK * PIR_SCAN_BLOCK;
     double least[3];
-    query->scan->look(blocks, pir_lanes_from(planes->n, group->start), planes->h + group->start,
-                      planes->err + group->start, placement->x, placement->error, least);
+    groups->scan->look(blocks, pir_lanes_from(planes->n, group->start), planes->h + group->start,
+                       planes->err + group->start, placement->x, placement->error, least);
     *ret_low = least[0];
     *ret_high = least[1];
-    pir_bound_keep(query, g, placement, least[0], least[2]);
+    pir_bounds_keep(bounds, groups, g, placement, least[0], least[2]);
 }

@@ -2,15 +2,17 @@
 /*
  * All planes of D at one rotation, in leaves, for many translations.
  *
- * The planes are sorted by the cell of a grid on the cube that their normals fall in, cells along a Z-order curve, and every LEAF of
- * them, one after the other, have a box: of their normals, their least offset and their greatest err. n·x − h is at most what the box allows, so most leaves
- * are ruled out by four numbers. The first to be looked at is the one that holds the direction of x, which in a round D is the nearest.
+ * The planes are sorted by the cell of a grid on the cube that their normals fall in, cells along a Z-order curve,
+ * and every LEAF of them, one after the other, have a box: of their normals, their least offset and their greatest
+ * err. n·x − h is at most what the box allows, so most leaves are ruled out by four numbers. The first to be looked
+ * at is the one that holds the direction of x, which in a round D is the nearest.
  *
- * As long as no decision is open, all is told by the values of planes and their errors (query.h); what is open is left to the caller.
+ * As long as no decision is open, all is told by the values of planes and their errors (query.h); what is open is
+ * left to the caller.
  */
 #include <string.h>
 
-#include "query/decide/facet.h"
+#include "query/planes/leaves.h"
 
 #define LEAF 32
 
@@ -24,50 +26,31 @@ static uint32_t leaves_for(uint32_t capacity) {
     return (leaves + PIR_SCAN_LANES - 1) / PIR_SCAN_LANES * PIR_SCAN_LANES;
 }
 
-void pir_leaves_finish(pir_query *query) {
-    const pir_allocator *a = &query->allocator;
-    pir_leaves *leaves = &query->leaves;
+static pir_layout layout_of(pir_leaves *leaves) {
     uint32_t capacity = leaves->capacity, count = leaves_for(capacity);
-    pir_lanes_free(a, &leaves->n, capacity);
-    pir_lane_free(a, leaves->h, capacity);
-    pir_lane_free(a, leaves->err, capacity);
-    PIR_FREE(a, leaves->slot, capacity);
-    PIR_FREE(a, leaves->cell, capacity);
-    PIR_FREE(a, leaves->cell_start, CELL_COUNT + 1);
-    pir_lanes_free(a, &leaves->box_least, count);
-    pir_lanes_free(a, &leaves->box_most, count);
-    pir_lane_free(a, leaves->box_h, count);
-    pir_lane_free(a, leaves->box_err, count);
-    pir_lane_free(a, leaves->low, count);
-    PIR_FREE(a, leaves->looked, count);
+    return (pir_layout){{PIR_ROWS_LANES(leaves->n, capacity), PIR_ROW_LANE(leaves->h, capacity),
+                         PIR_ROW_LANE(leaves->err, capacity), PIR_ROW(leaves->slot, capacity),
+                         PIR_ROW(leaves->cell, capacity), PIR_ROW(leaves->cell_start, CELL_COUNT + 1),
+                         PIR_ROWS_LANES(leaves->box_least, count), PIR_ROWS_LANES(leaves->box_most, count),
+                         PIR_ROW_LANE(leaves->box_h, count), PIR_ROW_LANE(leaves->box_err, count),
+                         PIR_ROW_LANE(leaves->low, count), PIR_ROW(leaves->looked, count)}};
+}
+
+void pir_leaves_finish(pir_leaves *leaves, const pir_allocator *allocator) {
+    pir_layout layout = layout_of(leaves);
+    pir_layout_free(allocator, &layout);
     *leaves = (pir_leaves){0};
 }
 
-static pir_status reserve(pir_query *query, uint32_t capacity) {
-    const pir_allocator *a = &query->allocator;
-    pir_leaves *leaves = &query->leaves;
+static pir_status reserve(pir_leaves *leaves, const pir_allocator *allocator, uint32_t capacity) {
     if (capacity <= leaves->capacity)
         return PIR_OK;
-    pir_leaves_finish(query);
-    capacity = (capacity + LEAF - 1) / LEAF * LEAF;
-    uint32_t count = leaves_for(capacity);
-    leaves->capacity = capacity;
-    leaves->h = pir_lane_new(a, capacity);
-    leaves->err = pir_lane_new(a, capacity);
-    leaves->slot = PIR_NEW(a, uint32_t, capacity);
-    leaves->cell = PIR_NEW(a, uint32_t, capacity);
-    leaves->cell_start = PIR_NEW(a, uint32_t, CELL_COUNT + 1);
-    leaves->box_h = pir_lane_new(a, count);
-    leaves->box_err = pir_lane_new(a, count);
-    leaves->low = pir_lane_new(a, count);
-    leaves->looked = PIR_NEW(a, uint32_t, count);
-    bool lanes = pir_lanes_new(a, &leaves->n, capacity);
-    lanes = pir_lanes_new(a, &leaves->box_least, count) && lanes;
-    lanes = pir_lanes_new(a, &leaves->box_most, count) && lanes;
-    if (leaves->h && leaves->err && leaves->slot && leaves->cell && leaves->cell_start && leaves->box_h &&
-        leaves->box_err && leaves->low && leaves->looked && lanes)
+    pir_leaves_finish(leaves, allocator);
+    leaves->capacity = (capacity + LEAF - 1) / LEAF * LEAF;
+    pir_layout layout = layout_of(leaves);
+    if (pir_layout_new(allocator, &layout))
         return PIR_OK;
-    pir_leaves_finish(query);
+    pir_leaves_finish(leaves, allocator);
     return PIR_ERR_MEMORY;
 }
 
@@ -94,13 +77,12 @@ static uint32_t next_own(const pir_group *group, uint32_t k) {
 }
 
 /* Counts the planes of each cell, which are to begin at cell_start, and lays them out by cells. */
-static void sort_planes(pir_query *query) {
-    pir_leaves *leaves = &query->leaves;
-    const pir_planes *planes = &query->planes;
+static void sort_planes(pir_leaves *leaves, const pir_groups *groups) {
+    const pir_planes *planes = &groups->planes;
     uint32_t *start = leaves->cell_start, count = 0;
     memset(start, 0, (CELL_COUNT + 1) * sizeof *start);
-    for (uint32_t g = 0; g < query->group_count; g++) {
-        const pir_group *group = &query->groups[g];
+    for (uint32_t g = 0; g < groups->count; g++) {
+        const pir_group *group = &groups->at[g];
         for (uint32_t k = 0; k < group->count; k = next_own(group, k), count++) {
             leaves->cell[count] = cell_of(pir_plane_normal(planes, group->start + k));
             start[leaves->cell[count] + 1]++;
@@ -109,8 +91,8 @@ static void sort_planes(pir_query *query) {
     for (uint32_t c = 0; c < CELL_COUNT; c++)
         start[c + 1] += start[c];
     uint32_t from = 0;
-    for (uint32_t g = 0; g < query->group_count; g++) {
-        const pir_group *group = &query->groups[g];
+    for (uint32_t g = 0; g < groups->count; g++) {
+        const pir_group *group = &groups->at[g];
         for (uint32_t k = 0; k < group->count; k = next_own(group, k), from++) {
             uint32_t to = start[leaves->cell[from]]++, slot = group->start + k;
             pir_lane_put(leaves->n, to, pir_plane_normal(planes, slot));
@@ -147,32 +129,29 @@ static void make_box(pir_leaves *leaves, uint32_t leaf) {
     leaves->box_err[leaf] = err;
 }
 
-pir_status pir_leaves_make(pir_query *query) {
-    pir_leaves *leaves = &query->leaves;
-    if (leaves->stamp == query->stamp)
+pir_status pir_leaves_make(pir_leaves *leaves, pir_groups *groups, const pir_allocator *allocator) {
+    if (leaves->stamp == groups->stamp)
         return PIR_OK;
-    for (uint32_t g = 0; g < query->group_count; g++)
-        pir_group_make(query, g);
-    pir_status status = reserve(query, query->planes.capacity);
+    for (uint32_t g = 0; g < groups->count; g++)
+        pir_group_make(groups, g);
+    pir_status status = reserve(leaves, allocator, groups->planes.capacity);
     if (status != PIR_OK)
         return status;
-    sort_planes(query);
+    sort_planes(leaves, groups);
     for (uint32_t leaf = 0; leaf < leaves->leaf_count; leaf++)
         make_box(leaves, leaf);
-    leaves->stamp = query->stamp;
+    leaves->stamp = groups->stamp;
     return PIR_OK;
 }
 
 /* The least slack in a leaf; its error is box_err times the placement's at most. */
-static double least_of(const pir_query *query, uint32_t leaf, pir_vec3 x) {
-    const pir_leaves *leaves = &query->leaves;
-    return query->scan->least(LEAF, pir_lanes_from(leaves->n, LEAF * leaf), leaves->h + LEAF * leaf, x);
+static double least_of(const pir_leaves *leaves, const pir_scan *scan, uint32_t leaf, pir_vec3 x) {
+    return scan->least(LEAF, pir_lanes_from(leaves->n, LEAF * leaf), leaves->h + LEAF * leaf, x);
 }
 
-static void bound_leaves(pir_query *query, const pir_placement *placement) {
-    const pir_leaves *leaves = &query->leaves;
-    query->scan->boxes(leaves->leaf_count, leaves->box_least, leaves->box_most, leaves->box_h, leaves->box_err,
-                       placement->x, placement->error, leaves->low);
+static void bound_leaves(const pir_leaves *leaves, const pir_scan *scan, const pir_placement *placement) {
+    scan->boxes(leaves->leaf_count, leaves->box_least, leaves->box_most, leaves->box_h, leaves->box_err, placement->x,
+                placement->error, leaves->low);
 }
 
 /* The leaf of the direction of x, or near it. */
@@ -182,21 +161,21 @@ static uint32_t leaf_along(const pir_leaves *leaves, pir_vec3 x) {
     return leaf < leaves->leaf_count ? leaf : leaves->leaf_count - 1;
 }
 
-bool pir_leaves_state(pir_query *query, const pir_placement *placement, pir_state *ret_state) {
-    const pir_leaves *leaves = &query->leaves;
+bool pir_leaves_state(pir_leaves *leaves, const pir_groups *groups, const pir_placement *placement,
+                      pir_state *ret_state) {
     if (leaves->leaf_count == 0)
         return false;
     uint32_t first = leaf_along(leaves, placement->x);
-    if (least_of(query, first, placement->x) < -placement->error * leaves->box_err[first]) {
+    if (least_of(leaves, groups->scan, first, placement->x) < -placement->error * leaves->box_err[first]) {
         *ret_state = PIR_OUTSIDE;
         return true;
     }
-    bound_leaves(query, placement);
+    bound_leaves(leaves, groups->scan, placement);
     bool open = false;
     for (uint32_t leaf = 0; leaf < leaves->leaf_count; leaf++) {
         if (leaves->low[leaf] > 0)
             continue;
-        double s = least_of(query, leaf, placement->x), error = placement->error * leaves->box_err[leaf];
+        double s = least_of(leaves, groups->scan, leaf, placement->x), error = placement->error * leaves->box_err[leaf];
         if (s < -error) {
             *ret_state = PIR_OUTSIDE;
             return true;
@@ -208,11 +187,11 @@ bool pir_leaves_state(pir_query *query, const pir_placement *placement, pir_stat
 }
 
 /*
- * Of the planes in the leaves that were looked at, those that may have a slack of `limit` at most: their slots, in work space, edge pairs at small
- * angles made exact. Returns how many.
+ * Of the planes in the leaves that were looked at, those that may have a slack of `limit` at most: their slots, in
+ * work space, edge pairs at small angles made exact. Returns how many.
  */
-static uint32_t collect(pir_query *query, const pir_placement *placement, uint32_t looked, double limit) {
-    pir_leaves *leaves = &query->leaves;
+static uint32_t collect(pir_leaves *leaves, pir_groups *groups, const pir_placement *placement, uint32_t looked,
+                        double limit) {
     uint32_t count = 0;
     for (uint32_t k = 0; k < looked; k++) {
         uint32_t leaf = leaves->looked[k], from = LEAF * leaf;
@@ -221,10 +200,10 @@ static uint32_t collect(pir_query *query, const pir_placement *placement, uint32
             continue;
         // planes are boxes of no width
         pir_lanes n = pir_lanes_from(leaves->n, from);
-        query->scan->boxes(LEAF, n, n, leaves->h + from, leaves->err + from, placement->x, placement->error, low);
+        groups->scan->boxes(LEAF, n, n, leaves->h + from, leaves->err + from, placement->x, placement->error, low);
         for (uint32_t i = 0; i < LEAF; i++)
             if (low[i] <= limit) {
-                pir_plane_refine(query, leaves->slot[from + i]);
+                pir_plane_refine(groups->exact, &groups->planes, leaves->slot[from + i]);
                 leaves->cell[count++] = leaves->slot[from + i];
             }
     }
@@ -232,17 +211,18 @@ static uint32_t collect(pir_query *query, const pir_placement *placement, uint32
 }
 
 /*
- * Looks at the leaves that may hold the least slack: their numbers in `looked`, what it is not above in *ret_limit. Returns how many there are.
+ * Looks at the leaves that may hold the least slack: their numbers in `looked`, what it is not above in *ret_limit.
+ * Returns how many there are.
  */
-static uint32_t look_at_leaves(pir_query *query, const pir_placement *placement, double *ret_limit) {
-    pir_leaves *leaves = &query->leaves;
+static uint32_t look_at_leaves(pir_leaves *leaves, const pir_groups *groups, const pir_placement *placement,
+                               double *ret_limit) {
     uint32_t first = leaf_along(leaves, placement->x), looked = 0;
-    double limit = least_of(query, first, placement->x) + placement->error * leaves->box_err[first];
-    bound_leaves(query, placement);
+    double limit = least_of(leaves, groups->scan, first, placement->x) + placement->error * leaves->box_err[first];
+    bound_leaves(leaves, groups->scan, placement);
     for (uint32_t leaf = 0; leaf < leaves->leaf_count; leaf++) {
         if (leaves->low[leaf] > limit)
             continue;
-        double s = least_of(query, leaf, placement->x), error = placement->error * leaves->box_err[leaf];
+        double s = least_of(leaves, groups->scan, leaf, placement->x), error = placement->error * leaves->box_err[leaf];
         leaves->low[leaf] = s - error;
         leaves->looked[looked++] = leaf;
         limit = s + error < limit ? s + error : limit;
@@ -251,30 +231,30 @@ static uint32_t look_at_leaves(pir_query *query, const pir_placement *placement,
     return looked;
 }
 
-double pir_leaves_least(pir_query *query, const pir_placement *placement) {
-    const pir_leaves *leaves = &query->leaves;
+double pir_leaves_least(pir_leaves *leaves, const pir_groups *groups, const pir_placement *placement) {
     double limit, least = HUGE_VAL;
     if (leaves->leaf_count == 0)
         return -HUGE_VAL;
-    uint32_t looked = look_at_leaves(query, placement, &limit);
+    uint32_t looked = look_at_leaves(leaves, groups, placement, &limit);
     for (uint32_t k = 0; k < looked; k++)
         least = leaves->low[leaves->looked[k]] < least ? leaves->low[leaves->looked[k]] : least;
     return least;
 }
 
-bool pir_leaves_depth(pir_query *query, const pir_placement *placement, pir_facet *ret_facet) {
-    if (query->leaves.leaf_count == 0)
+bool pir_leaves_depth(pir_leaves *leaves, pir_groups *groups, const pir_placement *placement, pir_facet *ret_facet) {
+    if (leaves->leaf_count == 0)
         return false;
     double limit;
-    uint32_t looked = look_at_leaves(query, placement, &limit), count = collect(query, placement, looked, limit);
-    const uint32_t *slot = query->leaves.cell;
-    const pir_planes *planes = &query->planes;
+    uint32_t looked = look_at_leaves(leaves, groups, placement, &limit),
+             count = collect(leaves, groups, placement, looked, limit);
+    const uint32_t *slot = leaves->cell;
+    const pir_planes *planes = &groups->planes;
     for (uint32_t i = 0; i < count; i++)
         limit = fmin(limit, pir_plane_slack(planes, slot[i], placement->x) + placement->error * planes->err[slot[i]]);
     pir_least least = {.some = false};
     for (uint32_t i = 0; i < count; i++)
         if (pir_plane_slack(planes, slot[i], placement->x) - placement->error * planes->err[slot[i]] <= limit)
-            pir_least_offer(query, placement, &least, planes->piece[slot[i]]);
+            pir_least_offer(groups->exact, placement, &least, planes->piece[slot[i]]);
     if (least.some)
         *ret_facet = least.facet;
     return least.some;

@@ -1,28 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The loops over planes, behind one dispatch struct: a plain version and one for AVX2, chosen when a query is made. Both are the same text,
- * compiled twice, without fused operations: they give the same bits.
+ * The loops over planes, behind one dispatch struct: a plain version and one for AVX2, chosen when a query is made.
+ * Both are the same text, compiled twice, without fused operations: they give the same bits.
+ *
+ * `slacks` and `caps` are given whole lanes and nothing else, `look` and `least` whole blocks; the rest read and
+ * write up to PIR_SCAN_LANES − 1 elements past `count`.
  */
 #ifndef PIR_QUERY_PLANES_SCAN_H
 #define PIR_QUERY_PLANES_SCAN_H
 
 #include <stdint.h>
 
-#include "base/vec.h"
-
-/* Planes are looked at this many at a time: groups are padded to whole blocks. */
-#define PIR_SCAN_BLOCK 8
-
-/*
- * The other loops take whole lanes. `slacks` and `caps` are given nothing else; the rest read and write up to PIR_SCAN_LANES − 1 elements past
- * `count`, which arrays must have room for.
- */
-#define PIR_SCAN_LANES 4
-
-/* Vectors in parallel arrays. */
-typedef struct pir_lanes {
-    double *x, *y, *z;
-} pir_lanes;
+#include "query/frame/lanes.h"
 
 typedef struct pir_scan {
     const char *name;
@@ -56,8 +45,8 @@ typedef struct pir_scan {
                    pir_lanes at, double turned, pir_vec3 x, double error, double *low);
 
     /*
-     * With w = corner[i] − x and along = axis[i]·w: low[i] becomes along · cosine[i] − |w across axis[i]| · sine[i] − 2 error where that is above 0 and
-     * above what it is. Returns the least along + error.
+     * With w = corner[i] − x and along = axis[i]·w: low[i] becomes along · cosine[i] − |w across axis[i]| · sine[i] −
+     * 2 error where that is above 0 and above what it is. Returns the least along + error.
      */
     double (*caps)(uint32_t count, pir_lanes axis, pir_lanes corner, const double *cosine, const double *sine,
                    pir_vec3 x, double error, double *low);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The text of scan.h's loops; SCAN_TARGET says for which processor, SCAN_WIDTH how many doubles it takes at once, SCAN_NAME what the result is called. */
+/*
+ * The text of scan.h's loops; SCAN_TARGET says for which processor, SCAN_WIDTH how many doubles it takes at once,
+ * SCAN_NAME what the result is called.
+ */
 
 /* A few doubles at once: the compiler's own vectors, loaded from and stored to any address. */
 typedef double lane __attribute__((vector_size(8 * SCAN_WIDTH), aligned(8), may_alias));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Which features and which points attain an answer. */
-#include "query/decide/facet.h"
+#include "query/decide/witness.h"
 
 static bool facet_has(const pir_polytope *p, uint32_t f, uint32_t v) {
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
@@ -52,18 +52,18 @@ pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint
     return (pir_feature){PIR_FEATURE_VERTEX, v[0]};
 }
 
-pir_vec3 pir_facet_point(const pir_query *query, const pir_placement *placement, const pir_facet *facet, double slack) {
-    const pir_polytope *p = query->p, *q = query->q;
+pir_vec3 pir_facet_point(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet, double slack) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     if (facet->piece.kind == PIR_FACET_FV)
-        return query->vq[facet->b];
+        return frame->q.vertex[facet->b];
     pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
     if (facet->piece.kind == PIR_FACET_VF)
-        return pir_vec_sub(y, pir_mat_apply(&query->r, query->vp[facet->a]));
+        return pir_vec_sub(y, pir_mat_apply(&frame->r, frame->p.vertex[facet->a]));
     // y = corner + λ e + μ d on the parallelogram
     uint32_t half = p->edge_half[facet->piece.first], h = facet->piece.second;
-    pir_vec3 from = query->vq[q->origin[h]], d = pir_vec_sub(query->vq[q->target[h]], from);
-    pir_vec3 corner = pir_frame_vertex(query, p->origin[half], q->origin[h]);
-    pir_vec3 across = pir_vec_cross(pir_mat_apply(&query->r, p->direction[half]), facet->n);
+    pir_vec3 from = frame->q.vertex[q->origin[h]], d = pir_vec_sub(frame->q.vertex[q->target[h]], from);
+    pir_vec3 corner = pir_frame_vertex(frame, p->origin[half], q->origin[h]);
+    pir_vec3 across = pir_vec_cross(pir_mat_apply(&frame->r, p->direction[half]), facet->n);
     double whole = pir_vec_dot(d, across);
     double part = whole != 0 ? pir_vec_dot(pir_vec_sub(y, corner), across) / whole : 0;
     return pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part))));

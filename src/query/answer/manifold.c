@@ -7,7 +7,7 @@
  * plane across the normal, and the corners of their overlap (outline.h) are looked for again on the surfaces of both
  * bodies, along the normal. So every contact lies on both bodies, however the patches are made.
  */
-#include "query/contact/patch.h"
+#include "query/answer/follow.h"
 
 /* Ids hold a kind in the two bits on top and two indices; this kind is that of an answer that is no corner. */
 #define ID_OF_ANSWER 3
@@ -62,35 +62,37 @@ static void set_axes(struct manifold *m) {
 /* The answer's point of Q's polytope in the frame. */
 static pir_vec3 point_of_answer(const struct manifold *m, double radius_q) {
     const pir_query *query = m->query;
-    pir_vec3 w = pir_vec_sub(m->answer->point_q, pir_vec_scale(m->n, radius_q)), c = pir_dd3_round(query->centre_q);
-    pir_vec3 y = {pir_frame_from(query, w.x), pir_frame_from(query, w.y), pir_frame_from(query, w.z)};
+    pir_vec3 w = pir_vec_sub(m->answer->point_q, pir_vec_scale(m->n, radius_q)),
+             c = pir_dd3_round(query->frame.q.centre);
+    pir_vec3 y = {pir_frame_from(&query->frame, w.x), pir_frame_from(&query->frame, w.y),
+                  pir_frame_from(&query->frame, w.z)};
     return pir_vec_sub(y, c);
 }
 
 static void begin(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
-    const pir_query *query = m->query;
-    m->p = &query->patches->p;
-    m->q = &query->patches->q;
+    pir_query *query = m->query;
+    m->p = &query->patches.p;
+    m->q = &query->patches.q;
     m->n = m->answer->normal;
     m->radius_p = input->radius_p;
     m->radii = input->radius_p + input->radius_q;
     set_axes(m);
-    set_patch(m->q, query->q, query->vq, m->n);
-    set_patch(m->p, query->p, query->vp, pir_vec_scale(m->n, -1));
+    set_patch(m->q, query->q, query->frame.q.vertex, m->n);
+    set_patch(m->p, query->p, query->frame.p.vertex, pir_vec_scale(m->n, -1));
     // P is kept reflected
-    m->p->r = &query->r;
+    m->p->r = &query->frame.r;
     m->p->sign = -1;
     m->p->at = placement->x;
     m->p->snap = m->q->snap = PIR_SNAP * placement->reach;
     pir_vec3 y = point_of_answer(m, input->radius_q);
     m->of_answer = (pir_corner){.u = pir_vec_dot(m->axis[0], y), .v = pir_vec_dot(m->axis[1], y)};
-    m->hair = pir_frame_length(query, 4 * placement->error);
+    m->hair = pir_frame_length(&query->frame, 4 * placement->error);
     m->limit = fmax(fmax(input->margin, m->answer->distance), 0) + m->hair;
 }
 
-/* Grows both patches until each has an outline; returns how many corners they share, in query->patches->shared. */
+/* Grows both patches until each has an outline; returns how many corners they share, in query->patches.shared. */
 static uint32_t overlap(struct manifold *m) {
-    pir_patch_room *room = m->query->patches;
+    pir_patch_room *room = &m->query->patches;
     pir_patch *both[2] = {m->p, m->q};
     pir_patch_grow(m->p, m->answer->witness.p);
     pir_patch_grow(m->q, m->answer->witness.q);
@@ -156,9 +158,9 @@ static pir_contact make_contact(const struct manifold *m, const pir_corner *corn
         q = pir_patch_side(m->q, corner->q, along_side(&m->q->outline, corner->q, corner));
     }
     pir_contact contact = {.id = corner_id(m, corner)};
-    contact.distance = pir_frame_length(m->query, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
-    contact.point_p = pir_vec_sub(pir_frame_world(m->query, p), pir_vec_scale(m->n, m->radius_p));
-    contact.point_q = pir_vec_add(pir_frame_world(m->query, q), pir_vec_scale(m->n, m->radii - m->radius_p));
+    contact.distance = pir_frame_length(&m->query->frame, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
+    contact.point_p = pir_vec_sub(pir_frame_world(&m->query->frame, p), pir_vec_scale(m->n, m->radius_p));
+    contact.point_q = pir_vec_add(pir_frame_world(&m->query->frame, q), pir_vec_scale(m->n, m->radii - m->radius_p));
     return contact;
 }
 
@@ -177,10 +179,10 @@ static uint64_t answer_id(const struct manifold *m, bool is_corner) {
 
 /* Which corner is the answer's own point; `count` where none is. */
 static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
-    const pir_corner *corner = m->query->patches->shared;
+    const pir_corner *corner = m->query->patches.shared;
     // points in world coordinates are as coarse as those are large
     pir_vec3 w = m->answer->point_q;
-    double hair = 4 * m->p->snap + 0x1p-50 * pir_frame_from(m->query, fabs(w.x) + fabs(w.y) + fabs(w.z));
+    double hair = 4 * m->p->snap + 0x1p-50 * pir_frame_from(&m->query->frame, fabs(w.x) + fabs(w.y) + fabs(w.z));
     for (uint32_t i = 0; i < count; i++)
         if (pir_outline_distance(&corner[i], &m->of_answer) <= hair)
             return i;
@@ -189,7 +191,7 @@ static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
 
 /* Whether a corner is near enough to be a contact. */
 static bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
-    double way = pir_frame_length(m->query, pir_outline_distance(corner, &m->of_answer));
+    double way = pir_frame_length(&m->query->frame, pir_outline_distance(corner, &m->of_answer));
     return distance <= m->limit || distance - m->answer->distance <= PIR_FLUSH * way;
 }
 
@@ -213,7 +215,7 @@ pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, co
     struct manifold m = {.query = query, .answer = answer};
     begin(&m, input, &placement);
     uint32_t corners = overlap(&m), own = corner_of_answer(&m, corners);
-    const pir_corner *corner = query->patches->shared;
+    const pir_corner *corner = query->patches.shared;
     size_t count = 0;
     for (uint32_t i = 0; i < corners + (own == corners); i++) {
         pir_contact contact = {answer->point_p, answer->point_q, answer->distance, 0};

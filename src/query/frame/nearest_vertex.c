@@ -1,39 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The point of D nearest to x, by descent from vertex to vertex (Gilbert, Johnson and Keerthi, 1988) with supports by hill climbing.
+ * The point of D nearest to x, by descent from vertex to vertex (Gilbert, Johnson and Keerthi, 1988) with supports by
+ * hill climbing.
  *
- * A step takes the nearest point v of the hull of at most three vertices of D (all relative to x), then the vertex w of D farthest
- * towards x; |v| is an upper bound on the distance, w·v/|v| a lower one. It ends when they meet, or when no step brings v nearer: v then is
- * as near as these numbers tell.
+ * A step takes the nearest point v of the hull of at most three vertices of D (all relative to x), then the vertex w
+ * of D farthest towards x; |v| is an upper bound on the distance, w·v/|v| a lower one. It ends when they meet, or
+ * when no step brings v nearer: v then is as near as these numbers tell.
  *
  * Near D doubles lose the direction of v: |v| is known to an ulp of the bodies' size, no better. fine.c is for that.
  */
-#include "query/query.h"
-
-/* A slope this small is no slope: unit vectors are off by a few 2^-53. */
-#define LEAST_SLOPE 0x1p-49
-
-/* The vertex farthest along n, of any length, from `from` uphill by slopes above `least`. */
-static inline uint32_t climb(const pir_polytope *polytope, pir_vec3 n, double least, uint32_t from) {
-    // every step rises, so no vertex comes twice; the count bounds it even if rounding should err
-    for (uint32_t left = polytope->vertex_count; left > 0; left--) {
-        uint32_t best = UINT32_MAX, end = polytope->ring_start[from + 1];
-        double steepest = least;
-        for (uint32_t h = polytope->ring_start[from]; h < end; h++) {
-            double slope = pir_vec_dot(n, polytope->direction[h]);
-            best = slope > steepest ? h : best;
-            steepest = slope > steepest ? slope : steepest;
-        }
-        if (best == UINT32_MAX)
-            break;
-        from = polytope->target[best];
-    }
-    return from;
-}
-
-uint32_t pir_climb(const pir_polytope *polytope, pir_vec3 n, uint32_t from) {
-    return climb(polytope, n, LEAST_SLOPE, from);
-}
+#include "query/frame/nearest_vertex.h"
 
 /* --- the nearest point of a simplex to the origin --- */
 
@@ -65,7 +41,10 @@ static void take_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct neare
         *best = (struct nearest){2, {a, b, 0}, {1 - t, t, 0}, v, square};
 }
 
-/* The foot of the origin on the plane across n, |n|² = whole, through the three points: inside their triangle, with weights in proportion to `share`. */
+/*
+ * The foot of the origin on the plane across n, |n|² = whole, through the three points: inside their triangle, with
+ * weights in proportion to `share`.
+ */
 static inline void take_inside(const pir_vec3 *w, const uint32_t index[3], const double share[3], pir_vec3 n,
                                double whole, struct nearest *best) {
     // the plane's distance from the corner that is nearest to it in length
@@ -80,8 +59,9 @@ static inline void take_inside(const pir_vec3 *w, const uint32_t index[3], const
 }
 
 /*
- * The inside of the triangle; its sides are segments. Where the foot is inside, the triangle is nearer than its sides, by less than
- * rounding tells when it is nearly flat towards x: it goes first, or the descent would stay on the side.
+ * The inside of the triangle; its sides are segments. Where the foot is inside, the triangle is nearer than its
+ * sides, by less than rounding tells when it is nearly flat towards x: it goes first, or the descent would stay on
+ * the side.
  */
 static void take_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c, struct nearest *best) {
     pir_vec3 n = pir_vec_cross(pir_vec_sub(w[b], w[a]), pir_vec_sub(w[c], w[a]));
@@ -92,7 +72,10 @@ static void take_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c,
         take_inside(w, (const uint32_t[3]){a, b, c}, (const double[3]){wa, wb, wc}, n, whole, best);
 }
 
-/* Of `count` ≤ 4 points, the last new: the nearest point of the faces that hold it, and of the others' vertices for safety. */
+/*
+ * Of `count` ≤ 4 points, the last new: the nearest point of the faces that hold it, and of the others' vertices for
+ * safety.
+ */
 static void find_nearest(const pir_vec3 *w, uint32_t count, struct nearest *best) {
     best->square = HUGE_VAL;
     uint32_t last = count - 1;
@@ -127,8 +110,9 @@ static void reach_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct near
 }
 
 /*
- * That of the closed triangle, a < b < c. A foot beyond one side only is nearest to that side, for the way from it to any other point of the
- * triangle passes there; one beyond two is nearest to either. False where the triangle has no plane.
+ * That of the closed triangle, a < b < c. A foot beyond one side only is nearest to that side, for the way from it to
+ * any other point of the triangle passes there; one beyond two is nearest to either. False where the triangle has no
+ * plane.
  */
 static bool reach_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c, struct nearest *best) {
     pir_vec3 n = pir_vec_cross(pir_vec_sub(w[b], w[a]), pir_vec_sub(w[c], w[a]));
@@ -151,8 +135,8 @@ static bool reach_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c
 }
 
 /*
- * Of four points: the nearest of the faces at the last that the origin sees. It sees a face where its weight of the corner across is negative;
- * the weights are these determinants over their sum. False where it sees none.
+ * Of four points: the nearest of the faces at the last that the origin sees. It sees a face where its weight of the
+ * corner across is negative; the weights are these determinants over their sum. False where it sees none.
  */
 static bool reach_tetrahedron(const pir_vec3 *w, struct nearest *best) {
     pir_vec3 c0 = pir_vec_cross(w[3], w[0]), c1 = pir_vec_cross(w[3], w[1]), c2 = pir_vec_cross(w[3], w[2]);
@@ -182,7 +166,10 @@ static bool reach_nearest(const pir_vec3 *w, uint32_t count, struct nearest *bes
     return true;
 }
 
-/* The simplex becomes the face that holds the nearest point. Indices rise, so nothing is overwritten before it is read. */
+/*
+ * The simplex becomes the face that holds the nearest point. Indices rise, so nothing is overwritten before it is
+ * read.
+ */
 static void keep_nearest(pir_simplex *simplex, pir_vec3 *w, const struct nearest *best) {
     simplex->count = best->count;
     for (uint32_t i = 0; i < best->count; i++) {
@@ -195,8 +182,8 @@ static void keep_nearest(pir_simplex *simplex, pir_vec3 *w, const struct nearest
 }
 
 /*
- * Whether the point that the weights make is within `length`: a point of D whatever they are, hence an upper bound even where a triangle is so
- * narrow that its normal is rounding alone.
+ * Whether the point that the weights make is within `length`: a point of D whatever they are, hence an upper bound
+ * even where a triangle is so narrow that its normal is rounding alone.
  */
 static bool held_within(const pir_simplex *simplex, const pir_vec3 *w, double length) {
     pir_vec3 v = pir_vec_scale(w[0], simplex->weight[0]);
@@ -213,50 +200,34 @@ static inline uint32_t place_of(const pir_simplex *simplex, uint32_t a, uint32_t
     return i;
 }
 
-/* The landmark of a vector: by the signs of its components and by the greatest. */
-static uint32_t landmark_of(pir_vec3 n) {
-    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
-    uint32_t axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-    return 8 * axis + 4 * (n.x < 0) + 2 * (n.y < 0) + (n.z < 0);
-}
-
-void pir_landmarks_set(const pir_polytope *polytope, uint32_t landmarks[PIR_LANDMARKS]) {
-    // the middle of what falls to it, about
-    const double most = 0.82, less = 0.4;
-    for (uint32_t i = 0, from = 0; i < PIR_LANDMARKS; i++) {
-        pir_vec3 n = {i / 8 == 0 ? most : less, i / 8 == 1 ? most : less, i / 8 == 2 ? most : less};
-        n = (pir_vec3){i & 4 ? -n.x : n.x, i & 2 ? -n.y : n.y, i & 1 ? -n.z : n.z};
-        landmarks[i] = from = pir_climb(polytope, n, from);
-    }
-}
-
 /* That of two vertices which is farther along n. */
 static uint32_t farther(const pir_vec3 *vertices, pir_vec3 n, uint32_t a, uint32_t b) {
     return pir_vec_dot(n, vertices[b]) > pir_vec_dot(n, vertices[a]) ? b : a;
 }
 
 /* A first vertex when there is none: that towards x. */
-void pir_simplex_start(const pir_query *query, const pir_placement *placement, pir_simplex *simplex) {
+void pir_simplex_start(const pir_frame *frame, const pir_placement *placement, pir_simplex *simplex) {
     if (simplex->count > 0)
         return;
     double length = sqrt(pir_vec_dot(placement->x, placement->x));
     pir_vec3 n = length > 0 ? pir_vec_scale(placement->x, 1 / length) : (pir_vec3){1, 0, 0};
-    pir_vec3 back = pir_mat_apply_transposed(&query->r, n);
+    pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
     simplex->count = 1;
-    simplex->a[0] = pir_climb(query->p, back, query->landmarks_p[landmark_of(back)]);
-    simplex->b[0] = pir_climb(query->q, n, query->landmarks_q[landmark_of(n)]);
+    simplex->a[0] =
+        pir_climb_above(frame->p.polytope, back, PIR_LEAST_SLOPE, frame->p.landmarks[pir_landmark_of(back)]);
+    simplex->b[0] = pir_climb_above(frame->q.polytope, n, PIR_LEAST_SLOPE, frame->q.landmarks[pir_landmark_of(n)]);
 }
 
-void pir_descend_to_point(pir_query *query, const pir_placement *placement, double cutoff, pir_simplex *simplex,
+void pir_descend_to_point(const pir_frame *frame, const pir_placement *placement, double cutoff, pir_simplex *simplex,
                           uint32_t *steps) {
     pir_vec3 w[4];
     struct nearest best;
     const double meet = PIR_MEET * placement->reach;
     // what is at hand may be far from where it leads
     const bool far = simplex->count == 0;
-    pir_simplex_start(query, placement, simplex);
+    pir_simplex_start(frame, placement, simplex);
     for (uint32_t i = 0; i < simplex->count; i++)
-        w[i] = pir_vec_sub(pir_frame_vertex(query, simplex->a[i], simplex->b[i]), placement->x);
+        w[i] = pir_vec_sub(pir_frame_vertex(frame, simplex->a[i], simplex->b[i]), placement->x);
     simplex->certain = false;
     simplex->lower = -HUGE_VAL;
     simplex->upper = HUGE_VAL;
@@ -275,18 +246,18 @@ void pir_descend_to_point(pir_query *query, const pir_placement *placement, doub
         simplex->direction = pir_vec_scale(best.v, -1 / length);
         ++*steps;
         // from the vertex that came last, along −v, which is known before its length
-        pir_vec3 minus = pir_vec_scale(best.v, -1), back = pir_mat_apply_transposed(&query->r, minus);
-        double least = LEAST_SLOPE * length;
+        pir_vec3 minus = pir_vec_scale(best.v, -1), back = pir_mat_apply_transposed(&frame->r, minus);
+        double least = PIR_LEAST_SLOPE * length;
         uint32_t a = simplex->a[n - 1], b = simplex->b[n - 1];
         if (far) {
-            a = farther(query->vp, back, a, query->landmarks_p[landmark_of(back)]);
-            b = farther(query->vq, minus, b, query->landmarks_q[landmark_of(minus)]);
+            a = farther(frame->p.vertex, back, a, frame->p.landmarks[pir_landmark_of(back)]);
+            b = farther(frame->q.vertex, minus, b, frame->q.landmarks[pir_landmark_of(minus)]);
         }
-        a = climb(query->p, back, least, a);
-        b = climb(query->q, minus, least, b);
+        a = pir_climb_above(frame->p.polytope, back, least, a);
+        b = pir_climb_above(frame->q.polytope, minus, least, b);
         uint32_t at = place_of(simplex, a, b);
         if (at == n)
-            w[n] = pir_vec_sub(pir_frame_vertex(query, a, b), placement->x);
+            w[n] = pir_vec_sub(pir_frame_vertex(frame, a, b), placement->x);
         simplex->lower = -pir_vec_dot(w[at], simplex->direction);
         simplex->certain = length - simplex->lower <= meet && held_within(simplex, w, simplex->lower + meet);
         if (simplex->certain || simplex->lower > cutoff || at < n)

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+/* Planes of pieces: see piece_plane.h. */
+#include "query/decide/piece_plane.h"
+
+#include "query/decide/side.h"
+
+/* --- memory --- */
+
+static pir_layout layout_of(pir_planes *planes) {
+    return (pir_layout){{PIR_ROWS_LANES(planes->n, planes->capacity), PIR_ROW_LANE(planes->h, planes->capacity),
+                         PIR_ROW_LANE(planes->err, planes->capacity), PIR_ROW(planes->piece, planes->capacity)}};
+}
+
+void pir_planes_finish(pir_planes *planes, const pir_allocator *allocator) {
+    pir_layout layout = layout_of(planes);
+    pir_layout_free(allocator, &layout);
+}
+
+bool pir_planes_resize(pir_planes *planes, const pir_allocator *allocator, uint32_t capacity) {
+    pir_planes fresh = {.capacity = capacity};
+    pir_layout layout = layout_of(&fresh);
+    bool done = pir_layout_new(allocator, &layout);
+    pir_planes_finish(done ? planes : &fresh, allocator);
+    if (done)
+        *planes = fresh;
+    return done;
+}
+
+/* --- planes --- */
+
+static void make_fv(const pir_frame *frame, pir_planes *planes, pir_piece piece, uint32_t slot) {
+    pir_vec3 n = pir_mat_apply(&frame->r, frame->p.polytope->normal[piece.first]);
+    double h = frame->p.offset[piece.first] + pir_vec_dot(n, frame->q.vertex[piece.second]);
+    pir_plane_put(planes, slot, n, h, 1, piece);
+}
+
+static void make_vf(const pir_frame *frame, pir_planes *planes, pir_piece piece, uint32_t slot) {
+    pir_vec3 n = frame->q.polytope->normal[piece.second];
+    double h = frame->q.offset[piece.second] + pir_vec_dot(n, pir_mat_apply(&frame->r, frame->p.vertex[piece.first]));
+    pir_plane_put(planes, slot, n, h, 1, piece);
+}
+
+static bool make_ee(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot) {
+    const pir_frame *frame = exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    uint32_t half = p->edge_half[piece.first], h = piece.second;
+    pir_vec3 n = pir_vec_cross(q->direction[h], pir_mat_apply(&frame->r, p->direction[half]));
+    pir_vec3 y = pir_vec_add(pir_mat_apply(&frame->r, frame->p.vertex[p->origin[half]]), frame->q.vertex[q->origin[h]]);
+    double square = pir_vec_dot(n, n), err = 1;
+    if (square < PIR_SIN_EXACT * PIR_SIN_EXACT) {
+        if (!pir_side_normal(exact, piece, &n))
+            return false;
+    } else {
+        err = 1 / sqrt(square);
+        n = pir_vec_scale(n, err);
+    }
+    pir_plane_put(planes, slot, n, pir_vec_dot(n, y), err, piece);
+    return true;
+}
+
+bool pir_plane_make(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot) {
+    if (piece.kind == PIR_FACET_EE)
+        return make_ee(exact, planes, piece, slot);
+    if (piece.kind == PIR_FACET_FV)
+        make_fv(exact->frame, planes, piece, slot);
+    else
+        make_vf(exact->frame, planes, piece, slot);
+    return true;
+}
+
+bool pir_plane_refine(pir_exact *exact, pir_planes *planes, uint32_t slot) {
+    pir_piece piece = planes->piece[slot];
+    if (planes->err[slot] * PIR_SIN_REFINED < 1)
+        return true;
+    pir_vec3 n;
+    if (!pir_side_normal(exact, piece, &n))
+        return false;
+    uint32_t a, b;
+    pir_piece_corner(exact->frame, piece, &a, &b);
+    pir_plane_put(planes, slot, n, pir_vec_dot(n, pir_frame_vertex(exact->frame, a, b)), 1, piece);
+    return true;
+}

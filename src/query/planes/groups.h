@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The pieces of the sum's pairing in groups of neighbours, and their planes.
+ *
+ * A group of P's holds some facets of P, the edges whose left facet is one of them, and the pieces of what crosses
+ * those edges. It lists, beside the facets of its own, the facets at the far ends of its edges: its bounds need them.
+ * A group of Q's holds some facets of Q. Groups of Q begin at a whole block of lanes, behind empty groups, so that a
+ * block of groups is of one body.
+ *
+ * Planes of a group are made when they are asked for, and stand until the groups forget them: pir_groups_forget.
+ */
+#ifndef PIR_QUERY_PLANES_GROUPS_H
+#define PIR_QUERY_PLANES_GROUPS_H
+
+#include "dymsum/pairing/pairing.h"
+#include "query/decide/piece_plane.h"
+#include "query/planes/scan.h"
+
+/* The last slot of the planes is spare: for a piece by itself. */
+#define PIR_SPARE_SLOTS 1
+
+typedef struct pir_group {
+    /* what it is made of: parts of the lists; facets past own_end are neighbours, there for its bound only */
+    bool of_q;
+    uint32_t middle; /* the facet of its own that its others are nearest to */
+    uint32_t facets, own_end, facets_end, edges, edges_end;
+    /* its planes, where stamp is that of the groups, padded to whole blocks by planes that never matter */
+    uint64_t stamp;
+    uint32_t start, count;
+    uint64_t sieved; /* the stamp at which it was last sieved */
+} pir_group;
+
+/* What groups are made of, in the order of the groups, and what their planes are made from, as the bodies have it. */
+typedef struct pir_group_lists {
+    uint32_t *facet, facet_count;
+    pir_lanes facet_normal;
+    double *facet_offset;
+    uint32_t *edge, edge_count;
+    uint32_t *edge_left, *edge_right; /* where an edge's facets stand in the list of its group */
+    pir_lanes edge_direction, edge_origin;
+} pir_group_lists;
+
+/* Work space: the edges of a group turned; the vectors of its planes. */
+typedef struct pir_group_work {
+    pir_lanes direction, origin;
+    pir_lanes vector[3];
+    uint32_t edges, capacity;
+} pir_group_work;
+
+typedef struct pir_groups {
+    const pir_frame *frame;
+    pir_exact *exact;
+    const pir_pairing *pairing;
+    const pir_scan *scan;
+    uint64_t stamp; /* another for every rotation, and whenever planes are forgotten */
+    pir_group *at;
+    /* those of P from 0, those of Q from first_of_q; up to the next whole lane they are followed by empty ones */
+    uint32_t count, of_p, of_q, first_of_q;
+    pir_group_lists list;
+    pir_group_work work;
+    pir_planes planes;
+} pir_groups;
+
+/*
+ * Memory, and the groups, which depend on normals alone; false when out of memory: pir_groups_finish frees what is
+ * there. frame, exact and pairing must be set.
+ */
+bool pir_groups_init(pir_groups *groups, const pir_allocator *allocator);
+void pir_groups_finish(pir_groups *groups, const pir_allocator *allocator);
+
+/* Fills in what depends on the frame's coordinates. */
+void pir_groups_fill(pir_groups *groups);
+
+/* Room for the planes of the sum's present pairing; PIR_ERR_MEMORY. */
+pir_status pir_groups_reserve(pir_groups *groups, const pir_allocator *allocator);
+
+/* Forgets all planes, and whatever else is known for the present stamp. */
+static inline void pir_groups_forget(pir_groups *groups) {
+    groups->stamp++;
+    groups->planes.used = 0;
+}
+
+/* The pieces that a facet has in the pairing. */
+static inline pir_piece pir_piece_fv(const pir_groups *groups, uint32_t f) {
+    return (pir_piece){PIR_FACET_FV, f, groups->pairing->fv[f]};
+}
+
+static inline pir_piece pir_piece_vf(const pir_groups *groups, uint32_t g) {
+    return (pir_piece){PIR_FACET_VF, groups->pairing->vf[g], g};
+}
+
+#endif

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* The least slack, which is the global penetration depth: see depth.c. */
+#ifndef PIR_QUERY_SEARCH_DEPTH_H
+#define PIR_QUERY_SEARCH_DEPTH_H
+
+#include "query/search/search.h"
+
+/*
+ * The true facet of least slack; false where D has none. Which it is means nothing when x is outside, but for the
+ * sign of its slack.
+ */
+bool pir_depth_find(pir_search *search, const pir_placement *placement, const pir_query_cache *cache,
+                    pir_facet *ret_facet, uint32_t *steps);
+
+#endif

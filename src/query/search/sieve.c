@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Which pieces of a group may hold the least slack, told without making its planes.
+ *
+ * The slacks of its facets come first: those of P's in P's own frame, where their normals and offsets stand, n·(p +
+ * Rᵀ(b − x)) with b the vertex that fv names; those of Q's likewise. An edge of P lies on both its facets 1 and 2, so
+ * with a vertex p of it and b₁ of facet 1, w = p + Rᵀ(b₁ − x) is a vertex of D − x, and the slacks of all crossings
+ * on the arc from n₁ to n₂ are at least n·w there. Along the arc n·w runs as a·cos(φ − φ₀), and is nowhere less than
+ * at the ends while it is positive at both: there it is the slack of facet 1, and the offset of facet 2 plus n₂·Rᵀ(b₁
+ * − x). The same holds of b₂, and the better of the two is the bound. Only what crosses the few edges that it does
+ * not rule out is worked out.
+ *
+ * Rounding: each of these is within one error (query.h) of the exact one, and so is the slack that it is compared to.
+ */
+#include "query/search/sieve.h"
+
+/* A search at work: what it compares with, and the least that the group in hand can have. */
+struct sieve {
+    const pir_placement *placement;
+    double limit, low;
+};
+
+static inline double lesser(double a, double b) {
+    return a < b ? a : b;
+}
+
+/* Makes the plane of a piece, and keeps it where it may be the least. */
+static void try_piece(pir_search *search, pir_piece piece, struct sieve *sieve) {
+    pir_groups *groups = &search->groups;
+    pir_planes *planes = &groups->planes;
+    uint32_t slot = search->candidates - 1;
+    PIR_ASSERT(slot >= planes->used);
+    if (!pir_plane_make(groups->exact, planes, piece, slot))
+        return;
+    double s = pir_plane_slack(planes, slot, sieve->placement->x), error = sieve->placement->error * planes->err[slot];
+    sieve->low = lesser(sieve->low, s - error);
+    if (s - error <= sieve->limit) {
+        search->candidates = slot;
+        sieve->limit = lesser(sieve->limit, s + error);
+    }
+}
+
+/*
+ * The slacks of the group's facets, in work[2].x, and Rᵀ(b − x), or its like, in work[1]; *ret_along is the least
+ * n·x. Returns the least slack.
+ */
+static double facet_slacks(const pir_groups *groups, const pir_group *group, const pir_placement *placement,
+                           double *ret_along) {
+    const pir_frame *frame = groups->frame;
+    const uint32_t *list = groups->list.facet + group->facets,
+                   *other = group->of_q ? groups->pairing->vf : groups->pairing->fv;
+    const pir_vec3 *vertex = group->of_q ? frame->p.vertex : frame->q.vertex;
+    pir_lanes from = groups->work.vector[0];
+    uint32_t count = group->facets_end - group->facets;
+    for (uint32_t i = 0; i < count; i++)
+        pir_lane_put(from, i, vertex[other[list[i]]]);
+    pir_mat3 back;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            back.m[i][j] = frame->r.m[j][i];
+    pir_vec3 x = group->of_q ? placement->x : pir_mat_apply(&back, placement->x);
+    double least[2];
+    groups->scan->slacks(
+        count, group->of_q ? &frame->r : &back, from, x, pir_lanes_from(groups->list.facet_normal, group->facets),
+        groups->list.facet_offset + group->facets, groups->work.vector[1], groups->work.vector[2].x, least);
+    *ret_along = least[1];
+    return least[0];
+}
+
+/* What crosses edge `i` of the list: its slacks by doubles, and those pieces tried that may be the least. */
+static void sieve_crossings(pir_search *search, uint32_t i, uint32_t at, struct sieve *sieve) {
+    const pir_groups *groups = &search->groups;
+    const pir_frame *frame = groups->frame;
+    const pir_polytope *q = frame->q.polytope;
+    const pir_pairing *pairing = groups->pairing;
+    pir_vec3 e = pir_mat_apply(&frame->r, pir_lane_get(groups->list.edge_direction, i));
+    pir_vec3 o = pir_vec_sub(pir_mat_apply(&frame->r, pir_lane_get(groups->list.edge_origin, i)), sieve->placement->x);
+    const double off = 2 * sieve->placement->error;
+    for (; at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at)) {
+        uint32_t h = pir_crossing_half(pairing, at);
+        pir_vec3 n = pir_vec_cross(q->direction[h], e);
+        double err = 1 / sqrt(pir_vec_dot(n, n)),
+               s = pir_vec_dot(n, pir_vec_add(o, frame->q.vertex[q->origin[h]])) * err;
+        double low = s - off * err;
+        // a normal that is nothing but rounding is not above the limit either
+        if (low > sieve->limit)
+            sieve->low = lesser(sieve->low, low);
+        else
+            try_piece(search, (pir_piece){PIR_FACET_EE, groups->list.edge[i], h}, sieve);
+    }
+}
+
+/* The edges of a group of P's whose arcs may hold the least slack. */
+static void sieve_edges(pir_search *search, const pir_group *group, struct sieve *sieve) {
+    const pir_groups *groups = &search->groups;
+    const pir_lanes normal = pir_lanes_from(groups->list.facet_normal, group->facets), to = groups->work.vector[1];
+    const double *s = groups->work.vector[2].x, *offset = groups->list.facet_offset + group->facets,
+                 off = 2 * sieve->placement->error;
+    // P flat has arcs of half a turn, which nothing bounds
+    bool bounds = groups->frame->p.polytope->dimension == 3;
+    for (uint32_t i = group->edges; i < group->edges_end; i++) {
+        uint32_t at = pir_crossing_first(groups->pairing, groups->list.edge[i]), a = groups->list.edge_left[i],
+                 b = groups->list.edge_right[i];
+        if (at == PIR_NO_CROSSING)
+            continue;
+        double of_a = offset[b] + pir_vec_dot(pir_lane_get(normal, b), pir_lane_get(to, a));
+        double of_b = offset[a] + pir_vec_dot(pir_lane_get(normal, a), pir_lane_get(to, b));
+        double first = lesser(s[a], of_a), second = lesser(s[b], of_b);
+        double bound = (first > second ? first : second) - off;
+        if (bounds && bound > 0 && bound > sieve->limit)
+            sieve->low = lesser(sieve->low, bound);
+        else
+            sieve_crossings(search, i, at, sieve);
+    }
+}
+
+double pir_group_sieve(pir_search *search, uint32_t g, const pir_placement *placement, double limit) {
+    pir_groups *groups = &search->groups;
+    pir_group *group = &groups->at[g];
+    const double off = 2 * placement->error;
+    double along, least = facet_slacks(groups, group, placement, &along);
+    struct sieve sieve = {placement, lesser(limit, least + off), least - off};
+    group->sieved = groups->stamp;
+    for (uint32_t i = group->facets; least - off <= sieve.limit && i < group->own_end; i++)
+        if (groups->work.vector[2].x[i - group->facets] - off <= sieve.limit) {
+            uint32_t f = groups->list.facet[i];
+            try_piece(search, group->of_q ? pir_piece_vf(groups, f) : pir_piece_fv(groups, f), &sieve);
+        }
+    sieve_edges(search, group, &sieve);
+    pir_bounds_keep(&search->bounds, groups, g, placement, sieve.low, along);
+    return sieve.limit;
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Inside, boundary or outside, exactly: by the facet that decided last time, then by groups that could hold a slack of
+ * zero or less, and where doubles leave it open by integers.
+ */
+#include "query/search/state.h"
+
+#include "query/decide/flat.h"
+#include "query/decide/side.h"
+
+/* A slot of group `group` whose slack is certainly negative. */
+static uint32_t separating_slot(const pir_groups *groups, const pir_group *group, const pir_placement *placement) {
+    uint32_t best = group->start;
+    double least = HUGE_VAL;
+    for (uint32_t i = group->start; i < group->start + group->count; i++) {
+        double s = pir_plane_slack(&groups->planes, i, placement->x) + placement->error * groups->planes.err[i];
+        if (s < least)
+            least = s, best = i;
+    }
+    return best;
+}
+
+/* Takes note of the true facet of a piece that t lies on; the first in order stays. */
+static void offer_touching(pir_exact *exact, pir_piece piece, pir_least *touching) {
+    pir_facet facet;
+    if (!pir_facet_of(exact, piece, &facet))
+        return;
+    if (!touching->some || pir_facet_before(&facet, &touching->facet))
+        touching->facet = facet;
+    touching->some = true;
+}
+
+/* What is open after doubles: the exact signs of slacks near zero. */
+static pir_state settle(pir_search *search, const pir_placement *placement, uint32_t *ret_slot,
+                        pir_least *ret_touching) {
+    const pir_groups *groups = &search->groups;
+    const pir_frame *frame = groups->frame;
+    const pir_planes *planes = &groups->planes;
+    bool touches = false, any = false;
+    ret_touching->some = false;
+    for (uint32_t g = 0; g < groups->count; g++) {
+        const pir_group *group = &groups->at[g];
+        any |= search->slack[g] == HUGE_VAL || group->count > 0;
+        if (search->slack[g] > 0)
+            continue;
+        for (uint32_t i = group->start; i < group->start + group->count; i++) {
+            if (pir_plane_slack(planes, i, placement->x) > placement->error * planes->err[i])
+                continue;
+            int sign = pir_side_exact(groups->exact, planes->piece[i], placement->translation);
+            if (sign < 0) {
+                *ret_slot = i;
+                return PIR_OUTSIDE;
+            }
+            if (sign == 0) {
+                touches = true;
+                offer_touching(groups->exact, planes->piece[i], ret_touching);
+            }
+        }
+    }
+    if (any && !touches)
+        return PIR_INSIDE;
+    bool flat = frame->p.polytope->dimension < 3 && frame->q.polytope->dimension < 3;
+    *ret_slot = PIR_NO_PLANE;
+    return flat && !pir_flat_holds(groups->exact, placement->translation) ? PIR_OUTSIDE : PIR_BOUNDARY;
+}
+
+pir_state pir_state_find(pir_search *search, const pir_placement *placement, const pir_query_cache *cache,
+                         uint32_t *ret_slot, pir_least *ret_touching, uint32_t *steps) {
+    pir_groups *groups = &search->groups;
+    uint32_t slot;
+    if (pir_piece_recall(groups, cache, &slot)) {
+        ++*steps;
+        double off = placement->error * groups->planes.err[slot];
+        if (pir_plane_slack(&groups->planes, slot, placement->x) < -off) {
+            *ret_slot = slot;
+            return PIR_OUTSIDE;
+        }
+    }
+    pir_bounds_find(&search->bounds, groups, placement, 0);
+    bool open = groups->count == 0;
+    for (uint32_t g = 0; g < groups->count; g++) {
+        search->slack[g] = HUGE_VAL;
+        if (search->bounds.low[g] > 0)
+            continue;
+        double high;
+        pir_bounds_look(&search->bounds, groups, g, placement, &search->slack[g], &high);
+        ++*steps;
+        if (high < 0) {
+            *ret_slot = separating_slot(groups, &groups->at[g], placement);
+            return PIR_OUTSIDE;
+        }
+        open |= search->slack[g] <= 0 || groups->at[g].count == 0;
+    }
+    return open ? settle(search, placement, ret_slot, ret_touching) : PIR_INSIDE;
+}
