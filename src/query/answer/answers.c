@@ -101,12 +101,6 @@ static void keep_simplex(pir_query_cache *cache, const pir_simplex *simplex) {
     }
 }
 
-/* Whether the facet of slot `slot` certainly separates. */
-static bool separates(const pir_query *query, uint32_t slot, const pir_placement *placement) {
-    return pir_plane_slack(&query->search.groups.planes, slot, placement->x) <
-           -placement->error * query->search.groups.planes.err[slot];
-}
-
 /*
  * Bodies that are apart by less than their coordinates can tell still have two points, apart by one rounding along the
  * normal.
@@ -186,7 +180,8 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
 static pir_state overlap(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                          pir_least *ret_touching, uint32_t *steps) {
     uint32_t slot;
-    if (pir_piece_recall(&query->search.groups, cache, &slot) && separates(query, slot, placement))
+    if (pir_piece_recall(&query->search.groups, cache, &slot) &&
+        pir_plane_separates(&query->search.groups.planes, slot, placement))
         return PIR_OUTSIDE;
     bool inside = query->search.groups.count > 0;
     pir_bounds_find(&query->search.bounds, &query->search.groups, placement, 0);
@@ -215,7 +210,8 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
 static pir_state depth_and_state(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                                  pir_least *ret_least, uint32_t *steps) {
     uint32_t slot;
-    if (pir_piece_recall(&query->search.groups, cache, &slot) && separates(query, slot, placement))
+    if (pir_piece_recall(&query->search.groups, cache, &slot) &&
+        pir_plane_separates(&query->search.groups.planes, slot, placement))
         return PIR_OUTSIDE;
     ret_least->some = pir_depth_find(&query->search, placement, cache, &ret_least->facet, steps);
     if (ret_least->some) {

@@ -93,11 +93,12 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
 /* Brings the query to what the sum is now. */
 static pir_status follow(pir_query *query) {
     pir_sum *sum = query->sum;
+    const pir_pairing *pairing = pir_sum_pairing(sum);
     if (query->generation == pir_sum_generation(sum))
         return PIR_OK;
     pir_status status = PIR_OK;
     // the query's own references keep these addresses from being given to others
-    if (query->p != pir_sum_p(sum) || query->q != pir_sum_q(sum) || !query->fits)
+    if (query->p != pairing->p || query->q != pairing->q || !query->fits)
         status = fit(query);
     if (status == PIR_OK) {
         if (pir_frame_turn(&query->frame, pir_sum_exact_rotation(sum))) {

@@ -40,7 +40,7 @@ static void make_vf(const pir_frame *frame, pir_planes *planes, pir_piece piece,
     pir_plane_put(planes, slot, n, h, 1, piece);
 }
 
-static bool make_ee(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot) {
+bool pir_plane_make_ee(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot) {
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t half = p->edge_half[piece.first], h = piece.second;
@@ -60,7 +60,7 @@ static bool make_ee(pir_exact *exact, pir_planes *planes, pir_piece piece, uint3
 
 bool pir_plane_make(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot) {
     if (piece.kind == PIR_FACET_EE)
-        return make_ee(exact, planes, piece, slot);
+        return pir_plane_make_ee(exact, planes, piece, slot);
     if (piece.kind == PIR_FACET_FV)
         make_fv(exact->frame, planes, piece, slot);
     else

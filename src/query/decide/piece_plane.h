@@ -28,6 +28,9 @@ void pir_planes_finish(pir_planes *planes, const pir_allocator *allocator);
 /* The plane of one piece into slot `slot`; false when its edges are parallel and it is none. */
 bool pir_plane_make(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot);
 
+/* The same for a piece of two edges. */
+bool pir_plane_make_ee(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot);
+
 /* The plane of slot `slot` from exact integers where its angle is small; false when its edges are parallel. */
 bool pir_plane_refine(pir_exact *exact, pir_planes *planes, uint32_t slot);
 

@@ -70,6 +70,11 @@ static double component(pir_vec3 v, int k) {
     return k == 0 ? v.x : k == 1 ? v.y : v.z;
 }
 
+/* A length that |v| is not above. */
+static double taxicab(pir_vec3 v) {
+    return fabs(v.x) + fabs(v.y) + fabs(v.z);
+}
+
 /*
  * The vertices of one operand about the middle of its bounds, its size and its middle; false when that is too far
  * away.
@@ -104,6 +109,7 @@ static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
         double rest = ldexp(remainder_of(p, &first.c[k], nearest), -exponent);
         body->centre.c[k] = pir_dd_add((pir_dd){away, rest}, (pir_dd){component(middle, k), 0});
     }
+    body->far = taxicab(pir_dd3_round(body->centre));
     return true;
 }
 
@@ -207,10 +213,6 @@ bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation) {
     return true;
 }
 
-static double taxicab(pir_vec3 v) {
-    return fabs(v.x) + fabs(v.y) + fabs(v.z);
-}
-
 pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_placement *ret_placement) {
     if (!pir_vec_is_finite(translation))
         return PIR_ERR_NOT_FINITE;
@@ -223,7 +225,7 @@ pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_pla
     ret_placement->translation = translation;
     ret_placement->x = pir_dd3_round(pir_dd3_add_vec(pir_dd3_negate(frame->offset), t));
     ret_placement->reach = frame->p.size + frame->q.size + sqrt(pir_vec_dot(ret_placement->x, ret_placement->x));
-    double far = taxicab(t) + taxicab(pir_dd3_round(frame->p.centre)) + taxicab(pir_dd3_round(frame->q.centre));
+    double far = taxicab(t) + frame->p.far + frame->q.far;
     ret_placement->error = PIR_SLACK_BOUND * ret_placement->reach + FAR_ERROR * far;
     return PIR_OK;
 }

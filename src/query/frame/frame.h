@@ -40,6 +40,7 @@ typedef struct pir_body {
     double size;      /* the length of the farthest vertex, rounded up */
     double swing;     /* how fast its support changes as directions turn: see planes/bounds.c */
     pir_dd3 centre;   /* the middle of its bounds, in units of the frame */
+    double far;       /* how far that is from the origin, at most */
     uint32_t landmarks[PIR_LANDMARKS];
 } pir_body;
 

@@ -58,7 +58,7 @@ static uint32_t make_crossings(pir_groups *groups, const pir_group *group, uint3
     // edges that are nearly parallel, one by one
     for (uint32_t i = 0; err * PIR_SIN_EXACT > 1 && i < count; i++)
         if (planes->err[slot + i] * PIR_SIN_EXACT > 1 &&
-            !pir_plane_make(groups->exact, planes, planes->piece[slot + i], slot + i))
+            !pir_plane_make_ee(groups->exact, planes, planes->piece[slot + i], slot + i))
             put_nothing(planes, slot + i, planes->piece[slot + i], slot - 1);
     return count;
 }

@@ -12,7 +12,7 @@
 static bool try_piece(pir_groups *groups, const pir_placement *placement, pir_piece piece, pir_query_cache *cache) {
     uint32_t slot = groups->planes.capacity - 1;
     if (!pir_plane_make(groups->exact, &groups->planes, piece, slot) ||
-        !(pir_plane_slack(&groups->planes, slot, placement->x) < -placement->error * groups->planes.err[slot]))
+        !pir_plane_separates(&groups->planes, slot, placement))
         return false;
     pir_piece_keep(cache, piece);
     return true;
@@ -43,8 +43,7 @@ static bool try_around(pir_groups *groups, const pir_placement *placement, uint3
 bool pir_prove_outside(pir_groups *groups, const pir_placement *placement, const pir_simplex *simplex,
                        pir_query_cache *cache) {
     uint32_t slot;
-    if (pir_piece_recall(groups, cache, &slot) &&
-        pir_plane_slack(&groups->planes, slot, placement->x) < -placement->error * groups->planes.err[slot])
+    if (pir_piece_recall(groups, cache, &slot) && pir_plane_separates(&groups->planes, slot, placement))
         return true;
     for (uint32_t i = 0; i < simplex->count; i++)
         if (try_around(groups, placement, simplex->a[i], simplex->b[i], cache))

@@ -70,8 +70,7 @@ pir_state pir_state_find(pir_search *search, const pir_placement *placement, con
     uint32_t slot;
     if (pir_piece_recall(groups, cache, &slot)) {
         ++*steps;
-        double off = placement->error * groups->planes.err[slot];
-        if (pir_plane_slack(&groups->planes, slot, placement->x) < -off) {
+        if (pir_plane_separates(&groups->planes, slot, placement)) {
             *ret_slot = slot;
             return PIR_OUTSIDE;
         }
