@@ -199,6 +199,46 @@ static void hull_read_from_text_is_merged_as_well(void **state) {
     pir_polytope_release(exact);
 }
 
+/* A cube of four by four squares a side, turned: the points inside its edges and sides are no vertices of it. */
+static void points_inside_edges_and_facets_are_dropped(void **state) {
+    (void)state;
+    test_points points = {0};
+    for (int i = 0; i < 125; i++) {
+        int c[3] = {i % 5, i / 5 % 5, i / 25};
+        if (c[0] % 4 == 0 || c[1] % 4 == 0 || c[2] % 4 == 0)
+            points.at[points.count++] = (pir_vec3){c[0] - 2, c[1] - 2, c[2] - 2};
+    }
+    test_bake(&points, (pir_quat){0.1, 0.2, 0.3, 0.9});
+    pir_polytope *hull = test_polytope(&points), *merged = merged_hull(&points, 4e-14);
+    assert_true(pir_polytope_vertex_count(hull) > 20);
+    expect_counts(merged, 8, 12, 6, "cube");
+    expect_proven(merged, hull, 4e-14, "cube");
+    for (uint32_t v = 0; v < 8; v++) {
+        pir_vec3 corner = pir_polytope_vertex(merged, v), given = points.at[pir_polytope_source(merged, v)];
+        double away = fmax(fabs(corner.x - given.x), fmax(fabs(corner.y - given.y), fabs(corner.z - given.z)));
+        expect(away <= pir_polytope_merge_bound(merged), "vertex %u is %g off its source", v, away);
+    }
+    pir_polytope_release(merged);
+    pir_polytope_release(hull);
+}
+
+/* An edge of a triangle broken by a thousandth, and a facet of one raised by as much: the bound is what was lost. */
+static void vertices_that_stand_out_by_little_go_with_their_distance(void **state) {
+    (void)state;
+    const test_points cases[] = {{5, {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2, -0.0009765625, 0}}},
+                                 {5, {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {1, 1, -0.0009765625}}}};
+    for (int i = 0; i < 2; i++) {
+        pir_polytope *hull = test_polytope(&cases[i]), *merged = merged_hull(&cases[i], 0.00195);
+        assert_int_equal(pir_polytope_vertex_count(merged), 5);
+        pir_polytope_release(merged);
+        merged = merged_hull(&cases[i], 0.00196);
+        expect_counts(merged, 4, 6, 4, "twice the distance");
+        expect_proven(merged, hull, 0.0009765625 * (1 + 0x1p-50), "tetrahedron");
+        pir_polytope_release(merged);
+        pir_polytope_release(hull);
+    }
+}
+
 /* --- properties --- */
 
 /* A shape, or the exact hull of a random body: its points before it is turned. */
@@ -248,7 +288,8 @@ static void random_bodies_turned_in_doubles_are_merged_within_the_bound(void **s
         pir_polytope *hull = test_polytope(&points), *merged = merged_hull(&points, tolerance);
         if (pir_polytope_dimension(hull) == 3) {
             expect_proven(merged, hull, tolerance, name);
-            bool fewer = pir_polytope_facet_count(merged) < pir_polytope_facet_count(hull);
+            bool fewer = pir_polytope_facet_count(merged) < pir_polytope_facet_count(hull) ||
+                         pir_polytope_vertex_count(merged) < pir_polytope_vertex_count(hull);
             expect(fewer == (pir_polytope_merge_bound(merged) > 0), "%s", name);
             merged_count += fewer;
             // a body that was flat before is hardly one after; where four polygons meet some may stay in pieces
@@ -299,6 +340,57 @@ static void bodies_turned_a_little_come_back_with_their_facets(void **state) {
         expect_proven(merged, hull, tolerance / 4, name);
         pir_polytope_release(merged);
         pir_polytope_release(hull);
+        pir_polytope_release(own);
+    }
+}
+
+/* Points inside edges and facets of a body, before it is turned; the coordinates of the body are small integers. */
+static void add_inner_points(test_random *random, const pir_polytope *body, test_points *points) {
+    for (uint32_t e = 0; e < pir_polytope_edge_count(body); e++) {
+        uint32_t end[2];
+        pir_polytope_edge(body, e, end);
+        pir_vec3 a = pir_polytope_vertex(body, end[0]), b = pir_polytope_vertex(body, end[1]);
+        for (int n = test_random_between(random, 0, 3); n > 0; n--) {
+            double s = ldexp(test_random_between(random, 1, 15), -4);
+            points->at[points->count++] =
+                (pir_vec3){a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.z + s * (b.z - a.z)};
+        }
+    }
+    for (uint32_t f = 0; f < pir_polytope_facet_count(body); f++) {
+        uint32_t corner[TEST_POINTS_MAX];
+        pir_polytope_facet(body, f, corner);
+        pir_vec3 a = pir_polytope_vertex(body, corner[0]), b = pir_polytope_vertex(body, corner[1]),
+                 c = pir_polytope_vertex(body, corner[2]);
+        for (int n = test_random_between(random, 0, 2); n > 0; n--) {
+            double s = ldexp(test_random_between(random, 1, 7), -4), r = ldexp(test_random_between(random, 1, 7), -4);
+            points->at[points->count++] =
+                (pir_vec3){a.x + s * (b.x - a.x) + r * (c.x - a.x), a.y + s * (b.y - a.y) + r * (c.y - a.y),
+                           a.z + s * (b.z - a.z) + r * (c.z - a.z)};
+        }
+    }
+}
+
+static void points_inside_edges_and_facets_change_nothing(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 36; i++) {
+        test_random random = test_random_case("merging with inner points", i);
+        char name[32];
+        snprintf(name, sizeof name, "case %llu", (unsigned long long)i);
+        test_points points;
+        test_body_points(&random, i % 3 ? TEST_PRISM : i % 2 ? TEST_GRID : TEST_OCTAHEDRON, 10, &points);
+        pir_polytope *own = test_polytope(&points);
+        if (pir_polytope_dimension(own) == 3 && most_polygons_at_a_vertex(own) <= 3) {
+            add_inner_points(&random, own, &points);
+            test_shuffle(&random, &points);
+            test_bake(&points, test_general_rotation(&random));
+            double tolerance = ldexp(greatest_coordinate(&points), test_random_between(&random, -44, -34));
+            pir_polytope *hull = test_polytope(&points), *merged = merged_hull(&points, tolerance);
+            expect_counts(merged, pir_polytope_vertex_count(own), pir_polytope_edge_count(own),
+                          pir_polytope_facet_count(own), name);
+            expect_proven(merged, hull, tolerance, name);
+            pir_polytope_release(merged);
+            pir_polytope_release(hull);
+        }
         pir_polytope_release(own);
     }
 }
@@ -413,8 +505,11 @@ int main(void) {
         cmocka_unit_test(bound_follows_reflection_and_scale),
         cmocka_unit_test(tolerance_that_is_no_length_is_refused),
         cmocka_unit_test(hull_read_from_text_is_merged_as_well),
+        cmocka_unit_test(points_inside_edges_and_facets_are_dropped),
+        cmocka_unit_test(vertices_that_stand_out_by_little_go_with_their_distance),
         cmocka_unit_test(random_bodies_turned_in_doubles_are_merged_within_the_bound),
         cmocka_unit_test(bodies_turned_a_little_come_back_with_their_facets),
+        cmocka_unit_test(points_inside_edges_and_facets_change_nothing),
         cmocka_unit_test(roots_are_rounded_up_by_a_little),
         cmocka_unit_test(coarse_tolerance_keeps_the_bound),
         cmocka_unit_test(sums_of_merged_bodies_are_the_hulls_of_all_sums),

@@ -2,6 +2,8 @@
 /*
  * Merging facets exactly.
  *
+ * Vertices that are vertices only by rounding go first (merge_thin.c), within half of the tolerance.
+ *
  * Each group of nearly coplanar facets gets one plane with a normal of few bits, midway between its corners. A vertex
  * of such a group moves to where the planes of its merged facets meet; other facets of four corners and more keep their
  * planes, triangles have none to keep. One plane or two leave a vertex free to keep one or two of its coordinates. The
@@ -12,7 +14,7 @@
  * hulls: that is the bound. A move that is too long gives up the least of the vertex's groups, and so does a vertex
  * with more than three planes. All coordinates go on one denominator, which is why their length is limited.
  *
- * This file and merge_groups.c compute with GMP's rationals, in GMP's own memory.
+ * This file, merge_groups.c and merge_thin.c compute with GMP's rationals, in GMP's own memory.
  */
 #include "polytope/create/merge.h"
 
@@ -21,6 +23,7 @@
 #include <string.h>
 
 #include "polytope/create/merge_groups.h"
+#include "polytope/create/merge_thin.h"
 #include "polytope/exact_points.h"
 
 /* The longest common denominator of the moved vertices, in bits. */
@@ -421,9 +424,27 @@ static pir_status merge_facets(const pir_polytope *hull, double tolerance, pir_p
     return status;
 }
 
+/* What can be dropped dropped, then what can be merged merged; NULL where nothing can. */
+static pir_status drop_and_merge(const pir_polytope *hull, double tolerance, pir_polytope **ret_merged) {
+    pir_polytope *thinned = NULL, *merged = NULL;
+    pir_status status = pir_merge_thin(hull, tolerance, &thinned);
+    if (status != PIR_OK)
+        return status;
+    // the distances of both steps add up to no more than the tolerance
+    double spent = thinned ? thinned->merge_bound : 0, left = thinned ? nextafter(tolerance - spent, 0) : tolerance;
+    status = merge_facets(thinned ? thinned : hull, left, &merged);
+    if (merged && thinned)
+        merged->merge_bound = fmin(nextafter(spent + merged->merge_bound, INFINITY), tolerance);
+    if (status != PIR_OK || merged)
+        pir_polytope_release(thinned);
+    if (status == PIR_OK)
+        *ret_merged = merged ? merged : thinned;
+    return status;
+}
+
 pir_status pir_polytope_merge_within(pir_polytope *hull, double tolerance, pir_polytope **ret_polytope) {
     pir_polytope *merged = NULL;
-    pir_status status = tolerance > 0 && hull->dimension == 3 ? merge_facets(hull, tolerance, &merged) : PIR_OK;
+    pir_status status = tolerance > 0 && hull->dimension == 3 ? drop_and_merge(hull, tolerance, &merged) : PIR_OK;
     if (status != PIR_OK || merged)
         pir_polytope_release(hull);
     if (status == PIR_OK)

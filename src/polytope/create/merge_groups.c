@@ -13,6 +13,7 @@
 #include <stdlib.h>
 
 #include "exact/vectors.h"
+#include "polytope/create/merge_thin.h"
 
 /*
  * Bits of a slope beyond those that the tolerance asks for: its rounding moves no corner by more than a 32nd of the
@@ -32,28 +33,6 @@ struct measured {
 };
 
 /* --- measuring --- */
-
-/* The vertices as doubles relative to the first, in units of 2^*ret_bits, the least that leaves them below 1. */
-static void place_vertices(struct measured *measured, int *ret_bits, mpz_t *work) {
-    const pir_polytope *hull = measured->hull;
-    int bits = 0;
-    for (int pass = 0; pass < 2; pass++)
-        for (uint32_t v = 0; v < hull->vertex_count; v++) {
-            double near[3];
-            for (int k = 0; k < 3; k++) {
-                pir_int x = pir_vertex_exact(hull, v).c[k], origin = pir_vertex_exact(hull, 0).c[k];
-                mpz_t view, view_origin;
-                mpz_sub(*work, mpz_roinit_n(view, x.limb, x.size), mpz_roinit_n(view_origin, origin.limb, origin.size));
-                long exponent;
-                double mantissa = mpz_get_d_2exp(&exponent, *work);
-                if (pass == 0 && mantissa != 0 && exponent > bits)
-                    bits = (int)exponent;
-                near[k] = ldexp(mantissa, (int)exponent - bits);
-            }
-            measured->at[v] = (pir_vec3){near[0], near[1], near[2]};
-        }
-    *ret_bits = bits;
-}
 
 /* Twice the area of a facet, as a vector along its normal. */
 static pir_vec3 area_vector(const struct measured *measured, uint32_t facet) {
@@ -111,21 +90,7 @@ static bool measure(struct measured *measured, const pir_polytope *hull, double 
                                   .order = PIR_NEW(a, uint32_t, hull->facet_count)};
     bool done = measured->at && measured->area && measured->order;
     if (done) {
-        int bits;
-        mpz_t work, view;
-        mpq_t length;
-        mpz_init(work);
-        place_vertices(measured, &bits, &work);
-        // the tolerance in integer units, then in units of the size
-        mpq_init(length);
-        mpq_set_d(length, tolerance);
-        mpz_mul(mpq_numref(length), mpq_numref(length), mpz_roinit_n(view, hull->scale.den.limb, hull->scale.den.size));
-        mpz_mul(mpq_denref(length), mpq_denref(length), mpz_roinit_n(view, hull->scale.num.limb, hull->scale.num.size));
-        mpq_canonicalize(length);
-        mpq_div_2exp(length, length, (mp_bitcnt_t)bits);
-        measured->tolerance = mpq_get_d(length);
-        mpq_clear(length);
-        mpz_clear(work);
+        measured->tolerance = pir_merge_place(hull, tolerance, measured->at);
         done = rank_facets(measured);
     }
     if (!done)
