@@ -44,8 +44,9 @@ PIR_API pir_polytope_options pir_polytope_options_default(void);
  * points   `count` finite points, in any order; copied.
  * options  NULL for the defaults.
  *
- * With a merge tolerance the hull's nearly coplanar facets are merged, and vertices within half of the tolerance of the
- * hull of their neighbours are dropped, as points inside an edge or a facet are. The result is a convex polytope, exactly: its facets are planar, its vertices, where merged facets meet, are rational. How far it is from the hull
+ * With a merge tolerance the hull's nearly coplanar facets are merged. Vertices within half the tolerance of the hull
+ * of their neighbours are dropped, as points inside an edge or a facet are. The result is a convex polytope, exactly:
+ * its facets are planar, its vertices, where merged facets meet, are rational. How far it is from the hull
  * pir_polytope_merge_bound tells. A facet stays as it was where merging it would take a vertex farther than the
  * tolerance, where four or more merged facets meet at a vertex, or where the exact coordinates would take more than
  * 32768 bits: the greater facets are merged first. Polytopes below dimension 3 are not merged.
@@ -61,8 +62,8 @@ PIR_API pir_status pir_polytope_create(const pir_vec3 *points, size_t count, con
 
 /**
  * A bound on the Hausdorff distance between the polytope and the exact hull of the points it was made from, rounded up
- * and at most the merge tolerance; 0 where nothing was merged or dropped. It follows a polytope that is reflected or scaled. A
- * polytope read from the bytes of a sum is made from its own vertices: 0.
+ * and at most the merge tolerance; 0 where nothing was merged or dropped. It follows a polytope that is reflected or
+ * scaled. A polytope read from the bytes of a sum is made from its own vertices: 0.
  */
 PIR_API double pir_polytope_merge_bound(const pir_polytope *polytope);
 

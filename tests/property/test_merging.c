@@ -14,7 +14,6 @@
 #include <pirouette/sum.h>
 
 #include "oracle/distance.h"
-#include "polytope/create/merge.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/meshes.h"
@@ -395,35 +394,6 @@ static void points_inside_edges_and_facets_change_nothing(void **state) {
     }
 }
 
-/* Roots of squares from denormal to huge: at least the true ones, and but a few units in the last place above. */
-static void roots_are_rounded_up_by_a_little(void **state) {
-    (void)state;
-    mpq_t square, root;
-    mpq_inits(square, root, NULL);
-    assert_true(pir_root_rounded_up(square) == 0);
-    for (uint64_t i = 0; i < 400; i++) {
-        test_random random = test_random_case("roots", i);
-        // a double, its square, and a square with a third more
-        double exact = fabs(test_random_scaled(&random, -1040, 1000));
-        mpq_set_d(square, exact);
-        mpq_mul(square, square, square);
-        if (i % 2) {
-            mpq_set_si(root, 4, 3);
-            mpq_mul(square, square, root);
-        }
-        double up = pir_root_rounded_up(square), below = up;
-        for (int k = 0; k < 4; k++)
-            below = nextafter(below, 0);
-        mpq_set_d(root, up);
-        mpq_mul(root, root, root);
-        expect(mpq_cmp(root, square) >= 0, "case %llu: %a is too little", (unsigned long long)i, up);
-        mpq_set_d(root, below);
-        mpq_mul(root, root, root);
-        expect(mpq_cmp(root, square) <= 0, "case %llu: %a is too much", (unsigned long long)i, up);
-    }
-    mpq_clears(square, root, NULL);
-}
-
 /* Tolerances that are no rounding: what merges is arbitrary, what is promised is not. */
 static void coarse_tolerance_keeps_the_bound(void **state) {
     (void)state;
@@ -510,7 +480,6 @@ int main(void) {
         cmocka_unit_test(random_bodies_turned_in_doubles_are_merged_within_the_bound),
         cmocka_unit_test(bodies_turned_a_little_come_back_with_their_facets),
         cmocka_unit_test(points_inside_edges_and_facets_change_nothing),
-        cmocka_unit_test(roots_are_rounded_up_by_a_little),
         cmocka_unit_test(coarse_tolerance_keeps_the_bound),
         cmocka_unit_test(sums_of_merged_bodies_are_the_hulls_of_all_sums),
         cmocka_unit_test(merging_survives_every_failing_request),

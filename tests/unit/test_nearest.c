@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* The double nearest to a·num/den, ties to even, held against its two neighbours by rationals: over all of the range,
-   and beyond both ends of it. */
+   and beyond both ends of it. And square roots, rounded up. */
 #include "support/test.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "exact/vectors.h"
+#include "polytope/create/merge.h"
 #include "support/integers.h"
 #include "support/random.h"
 
@@ -155,11 +156,41 @@ static void zero_is_zero(void **state) {
     mpq_clear(value);
 }
 
+/* Roots of squares from denormal to huge: at least the true ones, and but a few units in the last place above. */
+static void roots_are_rounded_up_by_a_little(void **state) {
+    (void)state;
+    mpq_t square, root;
+    mpq_inits(square, root, NULL);
+    assert_true(pir_root_rounded_up(square) == 0);
+    for (uint64_t i = 0; i < 400; i++) {
+        test_random random = test_random_case("roots", i);
+        // a double, its square, and a square with a third more
+        double exact = fabs(test_random_scaled(&random, -1040, 1000));
+        mpq_set_d(square, exact);
+        mpq_mul(square, square, square);
+        if (i % 2) {
+            mpq_set_si(root, 4, 3);
+            mpq_mul(square, square, root);
+        }
+        double up = pir_root_rounded_up(square), below = up;
+        for (int k = 0; k < 4; k++)
+            below = nextafter(below, 0);
+        mpq_set_d(root, up);
+        mpq_mul(root, root, root);
+        expect(mpq_cmp(root, square) >= 0, "case %llu: %a is too little", (unsigned long long)i, up);
+        mpq_set_d(root, below);
+        mpq_mul(root, root, root);
+        expect(mpq_cmp(root, square) <= 0, "case %llu: %a is too much", (unsigned long long)i, up);
+    }
+    mpq_clears(square, root, NULL);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(doubles_are_the_nearest_ones),
         cmocka_unit_test(zero_is_zero),
+        cmocka_unit_test(roots_are_rounded_up_by_a_little),
     };
     return cmocka_run_group_tests_name("nearest", tests, NULL, NULL);
 }
