@@ -146,12 +146,16 @@ void pir_int_shift_right(pir_int *a, uint32_t bits) {
 }
 
 uint32_t pir_int_trailing_zeros(const pir_int *a) {
-    return a->size ? (uint32_t)mpn_scan1(a->limb, 0) : UINT32_MAX;
+    if (a->size == 0)
+        return UINT32_MAX;
+    // most are odd, or end within a limb; the top limb is not zero, so the scan ends
+    return a->limb[0] != 0 ? (uint32_t)__builtin_ctzll(a->limb[0]) : (uint32_t)mpn_scan1(a->limb, GMP_NUMB_BITS);
 }
 
 uint32_t pir_int_bits(const pir_int *a) {
     uint32_t n = pir_int_length(a);
-    return n ? (uint32_t)mpn_sizeinbase(a->limb, n, 2) : 0;
+    // limbs are of GMP_NUMB_BITS, counted as 64
+    return n ? n * GMP_NUMB_BITS - (uint32_t)(__builtin_clzll(a->limb[n - 1]) - (64 - GMP_NUMB_BITS)) : 0;
 }
 
 uint32_t pir_double_limbs(int top, int exponent) {
@@ -163,10 +167,9 @@ void pir_int_set_double(pir_int *dst, double x, int exponent) {
         dst->size = 0;
         return;
     }
-    // x = mantissa · 2^(e − 53) with a 53-bit integer mantissa
-    int e;
-    uint64_t mantissa = (uint64_t)ldexp(frexp(fabs(x), &e), 53);
-    int shift = e - 53 - exponent;
+    int shift;
+    uint64_t mantissa = pir_double_split(x, &shift);
+    shift -= exponent;
     if (shift < 0) {
         PIR_ASSERT(shift > -64 && (mantissa & (((uint64_t)1 << -shift) - 1)) == 0);
         mantissa >>= -shift;
@@ -188,9 +191,11 @@ double pir_int_to_double(const pir_int *a, int *ret_exponent) {
     uint64_t head = (uint64_t)a->limb[n - 1] << (64 - top);
     if (n > 1 && top < 64)
         head |= (uint64_t)a->limb[n - 2] >> top;
-    int e;
-    double m = frexp((double)head, &e);
-    *ret_exponent = (int)bits + e - 64;
+    // head has its top bit, so m is in [0.5, 1]
+    double m = (double)head * 0x1p-64;
+    bool rounded_up = m == 1;
+    m = rounded_up ? 0.5 : m;
+    *ret_exponent = (int)bits + rounded_up;
     return a->size < 0 ? -m : m;
 }
 

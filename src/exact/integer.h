@@ -19,6 +19,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <gmp.h>
 
@@ -93,6 +94,16 @@ uint32_t pir_int_trailing_zeros(const pir_int *a);
 
 /* The number of bits of |a|. */
 uint32_t pir_int_bits(const pir_int *a);
+
+/* x as ±mantissa · 2^*ret_exponent, the mantissa below 2^53; x is finite. */
+static inline uint64_t pir_double_split(double x, int *ret_exponent) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    int field = (int)(bits >> 52 & 0x7ff);
+    uint64_t fraction = bits & (((uint64_t)1 << 52) - 1);
+    *ret_exponent = field > 0 ? field - 1075 : -1074;
+    return field > 0 ? fraction | (uint64_t)1 << 52 : fraction;
+}
 
 /* dst = x / 2^exponent, which must be an integer; room: pir_double_limbs of the same. */
 void pir_int_set_double(pir_int *dst, double x, int exponent);

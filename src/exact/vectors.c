@@ -41,18 +41,28 @@ void pir_vectors_set(pir_vectors *vectors, uint32_t index, const pir_int3 *v) {
     pir_vectors_put(vectors, index, &to);
 }
 
-void pir_vectors_strip(pir_vectors *vectors, uint32_t index) {
-    pir_int3 v = pir_vectors_at(vectors, index);
+uint32_t pir_vectors_bits(const pir_vectors *vectors) {
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < vectors->count; i++) {
+        pir_int3 v = pir_vectors_at(vectors, i);
+        for (int k = 0; k < 3; k++) {
+            uint32_t bits = pir_int_bits(&v.c[k]);
+            most = bits > most ? bits : most;
+        }
+    }
+    return most;
+}
+
+void pir_int3_strip(pir_int3 *v) {
     uint32_t zeros = UINT32_MAX;
     for (int k = 0; k < 3; k++) {
-        uint32_t z = pir_int_trailing_zeros(&v.c[k]);
+        uint32_t z = pir_int_trailing_zeros(&v->c[k]);
         zeros = z < zeros ? z : zeros;
     }
     if (zeros == UINT32_MAX || zeros == 0)
         return;
     for (int k = 0; k < 3; k++)
-        pir_int_shift_right(&v.c[k], zeros);
-    pir_vectors_put(vectors, index, &v);
+        pir_int_shift_right(&v->c[k], zeros);
 }
 
 /* The longest component of all, in limbs, at least 1. */
@@ -99,6 +109,16 @@ bool pir_vectors_reduce(pir_vectors *vectors, const pir_allocator *allocator) {
     return true;
 }
 
+/* x · 2^exponent as ldexp gives it, without a call where the power is a normal number. */
+static inline double pir_times_power(double x, int exponent) {
+    if (exponent < -1022 || exponent > 1023)
+        return ldexp(x, exponent);
+    uint64_t bits = (uint64_t)(exponent + 1023) << 52;
+    double power;
+    memcpy(&power, &bits, sizeof power);
+    return x * power;
+}
+
 pir_vec3 pir_int3_unit(const pir_int3 *v) {
     // mantissas and exponents, then all on the scale of the largest
     double m[3];
@@ -110,7 +130,7 @@ pir_vec3 pir_int3_unit(const pir_int3 *v) {
             top = e[k], any = true;
     }
     for (int k = 0; k < 3; k++)
-        m[k] = m[k] != 0 ? ldexp(m[k], e[k] - top) : 0;
+        m[k] = m[k] != 0 ? pir_times_power(m[k], e[k] - top) : 0;
     double length = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
     return (pir_vec3){m[0] / length, m[1] / length, m[2] / length};
 }

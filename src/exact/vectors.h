@@ -35,8 +35,11 @@ static inline void pir_vectors_put(pir_vectors *vectors, uint32_t index, const p
 /* Copies `v` into place `index`; it must fit the stride. */
 void pir_vectors_set(pir_vectors *vectors, uint32_t index, const pir_int3 *v);
 
-/* Divides all three components of vector `index` by their common power of two. */
-void pir_vectors_strip(pir_vectors *vectors, uint32_t index);
+/* The most bits of a component. */
+uint32_t pir_vectors_bits(const pir_vectors *vectors);
+
+/* Divides all three components by their common power of two. */
+void pir_int3_strip(pir_int3 *v);
 
 /*
  * Divides each vector by the greatest common divisor of its components, and gives the block the stride that the longest

@@ -5,32 +5,30 @@
  */
 #include "polytope/exact_points.h"
 
-#include <math.h>
+#include <limits.h>
 
-/* The exponents of the lowest and above the highest set bit among all coordinates; false when all are zero. */
-static bool exponent_range(const pir_vec3 *points, size_t count, int *ret_low, int *ret_top) {
-    bool any = false;
+/* The exponents of the lowest and above the highest set bit among all coordinates; 0 and 0 when all are zero. */
+static void exponent_range(const pir_vec3 *points, size_t count, int *ret_low, int *ret_top) {
+    int low = INT_MAX, top = INT_MIN;
     for (size_t i = 0; i < count; i++) {
         const double c[3] = {points[i].x, points[i].y, points[i].z};
         for (int k = 0; k < 3; k++) {
-            if (c[k] == 0)
+            int exponent;
+            uint64_t mantissa = pir_double_split(c[k], &exponent);
+            if (mantissa == 0)
                 continue;
-            int top;
-            uint64_t mantissa = (uint64_t)ldexp(frexp(fabs(c[k]), &top), 53);
-            int low = top - 53;
-            while ((mantissa & 1) == 0)
-                mantissa >>= 1, low++;
-            *ret_low = any && *ret_low < low ? *ret_low : low;
-            *ret_top = any && *ret_top > top ? *ret_top : top;
-            any = true;
+            int lowest = exponent + __builtin_ctzll(mantissa), highest = exponent + 64 - __builtin_clzll(mantissa);
+            low = lowest < low ? lowest : low;
+            top = highest > top ? highest : top;
         }
     }
-    return any;
+    *ret_low = low <= top ? low : 0;
+    *ret_top = low <= top ? top : 0;
 }
 
 pir_status pir_exact_points_of_doubles(struct pir_exact_points *exact, const pir_vec3 *points, size_t count,
                                        const pir_allocator *allocator) {
-    int low = 0, top = 0;
+    int low, top;
     exponent_range(points, count, &low, &top);
     *exact = (struct pir_exact_points){0};
     // the coordinates as integers in units of 2^low

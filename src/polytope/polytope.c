@@ -243,49 +243,65 @@ static bool is_long(const pir_polytope *p) {
     return p->exact_vertex.stride >= 4;
 }
 
-static bool set_directions(pir_polytope *p) {
+/* Limbs that hold so many bits. */
+static uint32_t limbs_of(uint32_t bits) {
+    return (bits + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS;
+}
+
+/*
+ * The differences of vertices, which take one bit more than those: worked out in scratch, where a subtraction wants a
+ * limb more, and kept in as many limbs as they can fill.
+ */
+static bool set_directions(pir_polytope *p, pir_limbs *scratch) {
     const pir_allocator *a = &p->allocator;
-    if (!pir_vectors_init(&p->exact_edge, a, p->edge_count, p->exact_vertex.stride + 1))
+    if (!pir_vectors_init(&p->exact_edge, a, p->edge_count, limbs_of(pir_vectors_bits(&p->exact_vertex) + 1)))
         return false;
     for (uint32_t e = 0; e < p->edge_count; e++) {
-        uint32_t h = p->edge_half[e];
+        uint32_t h = p->edge_half[e], mark = scratch->used;
         pir_int3 from = pir_vertex_exact(p, p->origin[h]), to = pir_vertex_exact(p, p->target[h]);
-        pir_int3 d = pir_vectors_at(&p->exact_edge, e);
+        pir_int3 d = pir_int3_take(scratch, p->exact_vertex.stride + 1);
         for (int k = 0; k < 3; k++)
             pir_int_sub(&d.c[k], &to.c[k], &from.c[k]);
-        pir_vectors_put(&p->exact_edge, e, &d);
-        pir_vectors_strip(&p->exact_edge, e);
-        d = pir_vectors_at(&p->exact_edge, e);
+        pir_int3_strip(&d);
+        pir_vectors_set(&p->exact_edge, e, &d);
         p->direction[h] = pir_int3_unit(&d);
         p->direction[p->twin[h]] = pir_vec_scale(p->direction[h], -1);
+        scratch->used = mark;
     }
     return !is_long(p) || pir_vectors_reduce(&p->exact_edge, a);
 }
 
-static bool set_normals(pir_polytope *p) {
+/* Cross products of edges: a component is the difference of two products. */
+static bool set_normals(pir_polytope *p, pir_limbs *scratch) {
     const pir_allocator *a = &p->allocator;
-    uint32_t stride = 2 * p->exact_edge.stride + 1, capacity = 2 * stride;
-    if (!pir_vectors_init(&p->exact_normal, a, p->facet_count, stride))
-        return false;
-    pir_limbs scratch = {PIR_NEW(a, mp_limb_t, capacity), 0, capacity};
-    if (!scratch.base)
+    if (!pir_vectors_init(&p->exact_normal, a, p->facet_count, limbs_of(2 * pir_vectors_bits(&p->exact_edge) + 1)))
         return false;
     for (uint32_t f = 0; f < p->facet_count; f++) {
         // the first two sides of a facet turn left at an extreme corner: their cross product points outwards
         pir_int3 d = pir_half_exact(p, p->loop[p->loop_start[f]]), e = pir_half_exact(p, p->loop[p->loop_start[f] + 1]);
+        uint32_t mark = scratch->used;
         if (p->artificial) {
             set_across(&p->exact_normal, &d, f == 0 ? 1 : -1);
         } else {
-            pir_int3 n = pir_vectors_at(&p->exact_normal, f);
-            pir_int3_cross(&n, &d, &e, &scratch);
-            pir_vectors_put(&p->exact_normal, f, &n);
-            pir_vectors_strip(&p->exact_normal, f);
+            pir_int3 n = pir_int3_take(scratch, 2 * p->exact_edge.stride + 1);
+            pir_int3_cross(&n, &d, &e, scratch);
+            pir_int3_strip(&n);
+            pir_vectors_set(&p->exact_normal, f, &n);
         }
         pir_int3 n = pir_normal_exact(p, f);
         p->normal[f] = pir_int3_unit(&n);
+        scratch->used = mark;
     }
-    PIR_FREE(a, scratch.base, capacity);
     return !is_long(p) || pir_vectors_reduce(&p->exact_normal, a);
+}
+
+/* Edges and normals, in scratch that holds a cross product of edges and a product of two components. */
+static bool set_vectors(pir_polytope *p) {
+    uint32_t edge = p->exact_vertex.stride + 1, limbs = 3 * (2 * edge + 1) + 2 * edge;
+    pir_limbs scratch = {PIR_NEW(&p->allocator, mp_limb_t, limbs), 0, limbs};
+    bool done = scratch.base && set_directions(p, &scratch) && set_normals(p, &scratch);
+    PIR_FREE(&p->allocator, scratch.base, limbs);
+    return done;
 }
 
 /* Lays the directions of each ring and the normals out for vector loops, as floats. */
@@ -341,7 +357,7 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
         connect_segment(p);
     else if (done && !point)
         done = connect(p, parts);
-    if (!done || !set_vertices(p, parts) || !set_directions(p) || !set_normals(p) || !set_rings(p)) {
+    if (!done || !set_vertices(p, parts) || !set_vectors(p) || !set_rings(p)) {
         destroy(p);
         return PIR_ERR_MEMORY;
     }
@@ -352,7 +368,7 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
 pir_status pir_polytope_build_hull(const pir_polytope_parts *parts, const pir_allocator *allocator,
                                    pir_polytope **ret_polytope) {
     pir_hull hull;
-    pir_status status = pir_hull_make(parts->points, allocator, &hull);
+    pir_status status = pir_hull_make(parts->points, parts->doubles, allocator, &hull);
     if (status != PIR_OK)
         return status;
     pir_polytope_parts whole = *parts;

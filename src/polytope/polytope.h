@@ -71,7 +71,7 @@ struct pir_polytope {
 typedef struct pir_polytope_parts {
     const pir_vectors *points; /* exact, on `scale` */
     const pir_scale *scale;
-    const pir_vec3 *doubles; /* nearest doubles of the points, or NULL: worked out */
+    const pir_vec3 *doubles; /* the points themselves where they are doubles; NULL: the nearest are worked out */
     int dimension;
     const uint32_t *vertices; /* which points, rising */
     uint32_t vertex_count;

@@ -108,7 +108,7 @@ static pir_status compare_facets(const pir_source *from, const struct operand *o
 
 static pir_status build_polytope(const pir_source *from, const struct operand *operand, pir_polytope **ret) {
     pir_hull hull;
-    pir_status status = pir_hull_make(&operand->points, from->allocator, &hull);
+    pir_status status = pir_hull_make(&operand->points, NULL, from->allocator, &hull);
     if (status != PIR_OK)
         return pir_fail(from->report, status, "sum: %s: %s", from->part, pir_status_text(status));
     if (hull.dimension >= 2)

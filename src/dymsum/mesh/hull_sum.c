@@ -53,7 +53,7 @@ pir_status pir_hull_mesh(const pir_polytope *p, const pir_polytope *q, pir_rotat
         for (uint32_t i = 0; i < p->vertex_count; i++)
             for (uint32_t j = 0; j < q->vertex_count; j++)
                 pir_placing_set(&placing, i, j, &points, i * q->vertex_count + j);
-        status = pir_hull_make(&points, a, &hull);
+        status = pir_hull_make(&points, NULL, a, &hull);
     }
     if (status == PIR_OK) {
         mesh = mesh_of_hull(&hull, p, q, rotation, a);

@@ -161,7 +161,7 @@ static void join_coplanar(struct merge *merge) {
     const pir_quickhull *quick = merge->quick;
     for (uint32_t t = 0; t < quick->count; t++) {
         const pir_triangle *triangle = &quick->triangle[t];
-        for (int k = 0; triangle->alive && k < 3; k++) {
+        for (int k = 0; pir_triangle_lives(triangle) && k < 3; k++) {
             uint32_t other = triangle->neighbor[k];
             const uint32_t *v = triangle->vertex;
             if (other < t)
@@ -181,7 +181,7 @@ static bool is_boundary(struct merge *merge, uint32_t t, int side) {
 static uint32_t count_degrees(struct merge *merge) {
     uint32_t sides = 0;
     for (uint32_t t = 0; t < merge->quick->count; t++)
-        for (int k = 0; merge->quick->triangle[t].alive && k < 3; k++)
+        for (int k = 0; pir_triangle_lives(&merge->quick->triangle[t]) && k < 3; k++)
             if (is_boundary(merge, t, k)) {
                 merge->degree[merge->quick->triangle[t].vertex[k]]++;
                 sides++;
@@ -197,7 +197,7 @@ static uint32_t walk_facet(struct merge *merge, uint32_t t, int k, uint32_t *cor
         merge->seen[(size_t)t * 3 + (size_t)k] = 1;
         uint32_t v = triangle[t].vertex[k];
         if (merge->degree[v] > 2)
-            corner[count++] = v;
+            corner[count++] = pir_points_source(merge->quick->points, v);
         // on to the next boundary side of the same facet, turning about the side's end
         k = (k + 1) % 3;
         while (!is_boundary(merge, t, k)) {
@@ -228,7 +228,7 @@ static bool collect_facets(pir_hull *hull, const pir_allocator *allocator, struc
     if (done) {
         uint32_t at = 0, facets = 0;
         for (uint32_t t = 0; t < quick->count; t++)
-            for (int k = 0; quick->triangle[t].alive && k < 3; k++)
+            for (int k = 0; pir_triangle_lives(&quick->triangle[t]) && k < 3; k++)
                 if (!merge->seen[(size_t)t * 3 + (size_t)k] && is_boundary(merge, t, k)) {
                     at += walk_facet(merge, t, k, hull->facets.corner + at);
                     hull->facets.start[++facets] = at;
@@ -249,10 +249,27 @@ static bool collect_facets(pir_hull *hull, const pir_allocator *allocator, struc
     return done;
 }
 
-static bool hull_in_space(pir_hull *hull, const pir_allocator *allocator, pir_points *points,
-                          const uint32_t simplex[4]) {
+/* So many points take more than the caches near a processor hold: they are sorted. */
+#define MANY 8192
+
+/* Sorts the points, and finds those of the simplex again. */
+static bool sort_many(pir_points *points, const pir_allocator *allocator, uint32_t simplex[4]) {
+    if (points->exact->count < MANY)
+        return true;
+    if (!pir_points_sort(points, allocator))
+        return false;
+    uint32_t sorted[4] = {0};
+    for (uint32_t i = 0; i < points->exact->count; i++)
+        for (int k = 0; k < 4; k++)
+            if (points->source[i] == simplex[k])
+                sorted[k] = i;
+    memcpy(simplex, sorted, sizeof sorted);
+    return true;
+}
+
+static bool hull_in_space(pir_hull *hull, const pir_allocator *allocator, pir_points *points, uint32_t simplex[4]) {
     pir_quickhull quick;
-    if (pir_quickhull_run(&quick, points, allocator, simplex) != PIR_OK)
+    if (!sort_many(points, allocator, simplex) || pir_quickhull_run(&quick, points, allocator, simplex) != PIR_OK)
         return false;
     hull->dimension = 3;
     struct merge merge = {.quick = &quick};
@@ -261,11 +278,12 @@ static bool hull_in_space(pir_hull *hull, const pir_allocator *allocator, pir_po
     return done;
 }
 
-pir_status pir_hull_make(const pir_vectors *exact, const pir_allocator *allocator, pir_hull *ret_hull) {
+pir_status pir_hull_make(const pir_vectors *exact, const pir_vec3 *doubles, const pir_allocator *allocator,
+                         pir_hull *ret_hull) {
     if (exact->count >= (uint32_t)1 << 30)
         return PIR_ERR_LIMIT;
     pir_points points;
-    if (!pir_points_init(&points, allocator, exact))
+    if (!pir_points_init(&points, allocator, exact, doubles))
         return PIR_ERR_MEMORY;
     pir_hull hull = {0};
     uint32_t a = 0, b = farthest_point(&points), c = 0, d = 0;

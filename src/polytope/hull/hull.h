@@ -17,8 +17,12 @@ typedef struct pir_hull {
     uint32_t corners;   /* room in facets.corner */
 } pir_hull;
 
-/* `points` is not empty. PIR_ERR_MEMORY, PIR_ERR_LIMIT (2^30 points or more). */
-pir_status pir_hull_make(const pir_vectors *points, const pir_allocator *allocator, pir_hull *ret_hull);
+/*
+ * `points` is not empty; doubles: the same points, where they are doubles up to a common factor, or NULL, which is
+ * slower. PIR_ERR_MEMORY, PIR_ERR_LIMIT (2^30 points or more).
+ */
+pir_status pir_hull_make(const pir_vectors *points, const pir_vec3 *doubles, const pir_allocator *allocator,
+                         pir_hull *ret_hull);
 void pir_hull_finish(pir_hull *hull, const pir_allocator *allocator);
 
 #endif

@@ -6,7 +6,8 @@
 
 /* dst = point p − point a. */
 static void difference(const pir_points *points, pir_int3 *dst, uint32_t p, uint32_t a) {
-    pir_int3 vp = pir_vectors_at(points->exact, p), va = pir_vectors_at(points->exact, a);
+    pir_int3 vp = pir_vectors_at(points->exact, pir_points_source(points, p)),
+             va = pir_vectors_at(points->exact, pir_points_source(points, a));
     for (int k = 0; k < 3; k++)
         pir_int_sub(&dst->c[k], &vp.c[k], &va.c[k]);
 }
@@ -33,7 +34,59 @@ static void approximate_axis(pir_points *points, int axis, double *mantissa, int
     }
 }
 
-bool pir_points_init(pir_points *points, const pir_allocator *allocator, const pir_vectors *exact) {
+/* The same for all axes; false when out of memory. */
+static bool approximate(pir_points *points, const pir_allocator *allocator) {
+    uint32_t count = points->exact->count;
+    double *mantissa = PIR_NEW(allocator, double, count);
+    int *exponent = PIR_NEW(allocator, int, count);
+    bool done = mantissa && exponent;
+    for (int axis = 0; done && axis < 3; axis++)
+        approximate_axis(points, axis, mantissa, exponent);
+    PIR_FREE(allocator, mantissa, count);
+    PIR_FREE(allocator, exponent, count);
+    return done;
+}
+
+/* A power of two as a product, so that each factor is a normal number. */
+struct power {
+    double one, other;
+};
+
+/* What brings a magnitude below 1, and near it. */
+static struct power power_below(double most) {
+    int top;
+    frexp(most, &top);
+    return (struct power){ldexp(1, -(top / 2)), ldexp(1, -(top - top / 2))};
+}
+
+static double times(double x, struct power power) {
+    return x * power.one * power.other;
+}
+
+/*
+ * Fills `near` from doubles: a difference rounds once, by 2^-53 of itself, and scaling rounds only what is below
+ * 2^-1022 of the greatest. False where a difference may overflow.
+ */
+static bool approximate_doubles(pir_points *points, const pir_vec3 *doubles) {
+    uint32_t count = points->exact->count;
+    pir_vec3 most = {0, 0, 0};
+    for (uint32_t p = 0; p < count; p++) {
+        pir_vec3 d = pir_vec_sub(doubles[p], doubles[0]);
+        most = (pir_vec3){fmax(most.x, fabs(d.x)), fmax(most.y, fabs(d.y)), fmax(most.z, fabs(d.z))};
+        points->near[p] = d;
+    }
+    if (!pir_vec_is_finite(most))
+        return false;
+    struct power x = power_below(most.x), y = power_below(most.y), z = power_below(most.z);
+    for (uint32_t p = 0; p < count; p++) {
+        pir_vec3 d = points->near[p];
+        points->near[p] = (pir_vec3){times(d.x, x), times(d.y, y), times(d.z, z)};
+    }
+    return true;
+}
+
+bool pir_points_init(pir_points *points, const pir_allocator *allocator, const pir_vectors *exact,
+                     const pir_vec3 *doubles) {
     /*
      * With d = stride + 1 limbs for a difference, pir_orient_exact, which takes most, holds three differences (9 d),
      * their cross product (3 (2 d + 1)), a dot product (3 d + 2), and on the way to it one product of a component of
@@ -43,13 +96,9 @@ bool pir_points_init(pir_points *points, const pir_allocator *allocator, const p
     *points = (pir_points){.exact = exact};
     points->near = PIR_NEW(allocator, pir_vec3, exact->count);
     points->scratch = (pir_limbs){PIR_NEW(allocator, mp_limb_t, limbs), 0, limbs};
-    double *mantissa = PIR_NEW(allocator, double, exact->count);
-    int *exponent = PIR_NEW(allocator, int, exact->count);
-    bool done = points->near && points->scratch.base && mantissa && exponent;
-    for (int axis = 0; done && axis < 3; axis++)
-        approximate_axis(points, axis, mantissa, exponent);
-    PIR_FREE(allocator, mantissa, exact->count);
-    PIR_FREE(allocator, exponent, exact->count);
+    bool done = points->near && points->scratch.base;
+    if (done && !(doubles && approximate_doubles(points, doubles)))
+        done = approximate(points, allocator);
     if (!done)
         pir_points_finish(points, allocator);
     return done;
@@ -59,6 +108,7 @@ void pir_points_finish(pir_points *points, const pir_allocator *allocator) {
     if (!points->exact)
         return;
     PIR_FREE(allocator, points->near, points->exact->count);
+    PIR_FREE(allocator, points->source, points->exact->count);
     PIR_FREE(allocator, points->scratch.base, points->scratch.capacity);
     *points = (pir_points){0};
 }

@@ -15,11 +15,25 @@
 typedef struct pir_points {
     const pir_vectors *exact; /* borrowed */
     pir_vec3 *near;           /* exact->count doubles, each coordinate within 1.01·2^-53 */
+    uint32_t *source;         /* per point: which of `exact` it is; NULL: they have the same numbers */
     pir_limbs scratch;
 } pir_points;
 
-bool pir_points_init(pir_points *points, const pir_allocator *allocator, const pir_vectors *exact);
+/* doubles: the same points, where they are doubles up to a common factor; or NULL. False when out of memory. */
+bool pir_points_init(pir_points *points, const pir_allocator *allocator, const pir_vectors *exact,
+                     const pir_vec3 *doubles);
 void pir_points_finish(pir_points *points, const pir_allocator *allocator);
+
+/*
+ * Renumbers the points so that those near in space are near in number; of equal points the first stays the first.
+ * False when out of memory.
+ */
+bool pir_points_sort(pir_points *points, const pir_allocator *allocator);
+
+/* Which of `exact` point p is. */
+static inline uint32_t pir_points_source(const pir_points *points, uint32_t p) {
+    return points->source ? points->source[p] : p;
+}
 
 /*
  * The plane through a, b, c of `near` points, with the error of pir_plane_height below 2^-43. With u = 2^-53: a

@@ -8,32 +8,49 @@
 
 #include "polytope/hull/orient.h"
 
+/* One cache line, so the origin of the plane is not kept: it is the place of vertex[0]. */
 typedef struct pir_triangle {
+    pir_vec3 normal;      /* of its plane, outwards, not of unit length */
+    double farthest;      /* the height of the first point of `outside` */
     uint32_t vertex[3];   /* counter-clockwise from outside */
     uint32_t neighbor[3]; /* neighbor[i] is across the edge from vertex[i] to the next */
-    pir_plane plane;
-    uint32_t outside; /* first point of the list of those that see it and wait here, or PIR_NONE */
-    uint32_t mark;    /* the round in which it was last found visible or not */
-    bool alive, visible;
+    uint32_t outside;     /* first point of the list of those that see it and wait here, or PIR_NONE */
+    uint32_t mark; /* twice the round in which it was last looked at, one more if it was visible; or PIR_DELETED */
 } pir_triangle;
 
-#define PIR_NONE UINT32_MAX
+#define PIR_NONE    UINT32_MAX
+#define PIR_DELETED UINT32_MAX
+
+/* Slots of triangles, growing. */
+typedef struct pir_slots {
+    uint32_t *slot;
+    uint32_t count, capacity;
+} pir_slots;
 
 typedef struct pir_quickhull {
     pir_points *points; /* borrowed */
     pir_allocator allocator;
-    pir_triangle *triangle;
+    pir_triangle *triangle; /* slots [0, count) have been used; those deleted are in `free` */
     uint32_t count, capacity;
     uint32_t *next;    /* per point: the next in its triangle's list */
     uint32_t *horizon; /* per point: the new triangle whose horizon edge starts there */
-    uint32_t *stack;   /* triangles to visit */
-    uint32_t stack_capacity;
+    pir_slots visible; /* the triangles that the point in hand sees */
+    pir_slots fresh;   /* those made in their place */
+    pir_slots open;    /* a stack that holds every triangle with a list, and others */
+    pir_slots free;
     uint32_t round;
 } pir_quickhull;
 
-/* The hull of all points, starting from four that are not coplanar. PIR_ERR_MEMORY leaves nothing to release. */
+/*
+ * The hull of all points, starting from four that are not coplanar. Fastest where points near in space are near in
+ * number. PIR_ERR_MEMORY leaves nothing to release.
+ */
 pir_status pir_quickhull_run(pir_quickhull *hull, pir_points *points, const pir_allocator *allocator,
                              const uint32_t simplex[4]);
 void pir_quickhull_finish(pir_quickhull *hull);
+
+static inline bool pir_triangle_lives(const pir_triangle *triangle) {
+    return triangle->mark != PIR_DELETED;
+}
 
 #endif

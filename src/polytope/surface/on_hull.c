@@ -11,7 +11,7 @@
 bool pir_on_hull_init(struct pir_on_hull *on, const pir_polytope *hull, const struct pir_facets *facets,
                       const pir_vectors *exact, const pir_allocator *allocator) {
     *on = (struct pir_on_hull){.allocator = allocator, .hull = hull};
-    if (!pir_points_init(&on->points, allocator, exact))
+    if (!pir_points_init(&on->points, allocator, exact, NULL))
         return false;
     on->vertex = PIR_NEW(allocator, uint32_t, exact->count);
     on->on = PIR_NEW(allocator, struct pir_two_facets, exact->count);

@@ -152,7 +152,7 @@ static bool examine_flat(struct examination *x, struct pir_six_volumes volumes[3
     uint32_t a = hull->source[hull->origin[loop[0]]], b = hull->source[hull->origin[loop[1]]],
              c = hull->source[hull->origin[loop[2]]];
     pir_points points;
-    if (!pir_points_init(&points, &x->model->allocator, &x->exact->vectors))
+    if (!pir_points_init(&points, &x->model->allocator, &x->exact->vectors, NULL))
         return false;
     int axis = pir_steepest_axis(&points, a, b, c);
     pir_points_finish(&points, &x->model->allocator);
