@@ -38,11 +38,11 @@ struct pass {
 /* One row of both tables. */
 static void measure(const struct pass *pass, FILE *csv, FILE *page) {
     static double times[VERSIONS_MAX][PASSES];
-    double clock = trial_clock_cost(), reference = 0;
+    double epoch = trial_clock_cost(), reference = 0;
     uint32_t passes = results_count(PASSES);
     for (uint32_t i = 0; i < passes; i++)
         for (unsigned k = 0; k < pass->versions; k++)
-            times[k][i] = pass->run(pass->context, k) - clock;
+            times[k][i] = pass->run(pass->context, k) - epoch;
     fprintf(page, "| %s | %s | %u |", pass->loop, pass->model, (unsigned)pass->items);
     for (unsigned k = 0; k < pass->versions; k++) {
         // the fastest is the first once they are sorted
@@ -75,11 +75,11 @@ static void *room_for(size_t count, size_t size) {
 
 struct scene {
     pir_sum *sum;
-    uint32_t *cells, *woken; /* P's cells as they are; all its facets as alarms */
+    uint32_t *cells, *expired; /* P's cells as they are; all its facets as alarms */
     pir_suspect *suspects;
     float *bounds[2]; /* of the alarms' blocks */
     uint32_t blocks;
-    pir_alarm_time time; /* for collecting */
+    pir_turned_angle time; /* for collecting */
 };
 
 /* A body and itself, 50 frames on from a random pose at 5,000 steps to a turn. */
@@ -93,24 +93,24 @@ static struct scene scene_make(const char *model) {
         trial_need(pir_sum_rotate(scene.sum, spin_next(&spin), PIR_METHOD_UPDATE), "rotation");
     const pir_facets *facets = &scene.sum->p_facets;
     scene.cells = room_for(facets->count, sizeof *scene.cells);
-    scene.woken = room_for(facets->count, sizeof *scene.woken);
+    scene.expired = room_for(facets->count, sizeof *scene.expired);
     scene.suspects = room_for(facets->count, sizeof *scene.suspects);
     memcpy(scene.cells, facets->cell, facets->count * sizeof *scene.cells);
     for (uint32_t f = 0; f < facets->count; f++)
-        scene.woken[f] = facets->first_alarm + f;
-    scene.blocks = scene.sum->alarms.capacity / PIR_ALARM_BLOCK;
+        scene.expired[f] = facets->first_certificate + f;
+    scene.blocks = scene.sum->certificates.capacity / PIR_CERTIFICATE_BLOCK;
     for (int k = 0; k < 2; k++)
         scene.bounds[k] = room_for(scene.blocks, sizeof *scene.bounds[k]);
-    memcpy(scene.bounds[0], scene.sum->alarms.block_ahead, scene.blocks * sizeof *scene.bounds[0]);
-    memcpy(scene.bounds[1], scene.sum->alarms.block_behind, scene.blocks * sizeof *scene.bounds[1]);
-    scene.time = pir_alarm_time_of(&scene.sum->clock);
+    memcpy(scene.bounds[0], scene.sum->certificates.block_ahead, scene.blocks * sizeof *scene.bounds[0]);
+    memcpy(scene.bounds[1], scene.sum->certificates.block_behind, scene.blocks * sizeof *scene.bounds[1]);
+    scene.time = pir_turned_angle_of(&scene.sum->epoch);
     return scene;
 }
 
 static void scene_free(struct scene *scene) {
     pir_sum_destroy(scene->sum);
     free(scene->cells);
-    free(scene->woken);
+    free(scene->expired);
     free(scene->suspects);
     free(scene->bounds[0]);
     free(scene->bounds[1]);
@@ -121,38 +121,38 @@ static double run_review(void *context, unsigned index) {
     const pir_facets *facets = &scene->sum->p_facets;
     uint64_t sides = 0;
     double start = trial_now();
-    pir_kernels_version(index)->review(facets, &scene->sum->moment, &scene->sum->alarms, scene->woken, facets->count,
+    pir_kernels_version(index)->review(facets, &scene->sum->step, &scene->sum->certificates, scene->expired, facets->count,
                                        scene->suspects, &sides);
     double taken = trial_now() - start;
     memcpy(facets->cell, scene->cells, facets->count * sizeof *scene->cells);
     return taken;
 }
 
-static double run_glance(void *context, unsigned index) {
+static double run_probe(void *context, unsigned index) {
     struct scene *scene = context;
     const pir_facets *facets = &scene->sum->p_facets;
     const pir_kernels *kernels = pir_kernels_version(index);
-    pir_glance seen;
+    pir_probe seen;
     double start = trial_now();
     for (uint32_t f = 0; f < facets->count; f++)
-        kernels->glance(facets, &scene->sum->moment, facets->cell[f], facets->turn[f % 3], &seen);
+        kernels->probe(facets, &scene->sum->step, facets->cell[f], facets->turn[f % 3], &seen);
     return trial_now() - start;
 }
 
 static double run_collect(void *context, unsigned index) {
     struct scene *scene = context;
-    pir_alarms *alarms = &scene->sum->alarms;
-    memcpy(alarms->block_ahead, scene->bounds[0], scene->blocks * sizeof *scene->bounds[0]);
-    memcpy(alarms->block_behind, scene->bounds[1], scene->blocks * sizeof *scene->bounds[1]);
+    pir_certificates *certificates = &scene->sum->certificates;
+    memcpy(certificates->block_ahead, scene->bounds[0], scene->blocks * sizeof *scene->bounds[0]);
+    memcpy(certificates->block_behind, scene->bounds[1], scene->blocks * sizeof *scene->bounds[1]);
     double start = trial_now();
-    pir_kernels_version(index)->collect(alarms, scene->blocks, scene->time);
+    pir_kernels_version(index)->collect(certificates, scene->blocks, scene->time);
     return trial_now() - start;
 }
 
 static void write_update_loops(const char *model, FILE *csv, FILE *page, bool first) {
     struct scene scene = scene_make(model);
-    uint32_t facets = scene.sum->p_facets.count, alarms = scene.blocks * PIR_ALARM_BLOCK;
-    struct pass pass = {"collect (none wakes)", model, run_collect, &scene, alarms, 0, {NULL}};
+    uint32_t facets = scene.sum->p_facets.count, certificates = scene.blocks * PIR_CERTIFICATE_BLOCK;
+    struct pass pass = {"collect (none wakes)", model, run_collect, &scene, certificates, 0, {NULL}};
     for (; pass.versions < VERSIONS_MAX && pir_kernels_version(pass.versions); pass.versions++)
         pass.names[pass.versions] = pir_kernels_version(pass.versions)->name;
     if (first)
@@ -163,7 +163,7 @@ static void write_update_loops(const char *model, FILE *csv, FILE *page, bool fi
     scene.time.behind += 0.01;
     pass.loop = "collect (8 steps on)";
     measure(&pass, csv, page);
-    pass.loop = "glance", pass.run = run_glance, pass.items = facets;
+    pass.loop = "glance", pass.run = run_probe, pass.items = facets;
     measure(&pass, csv, page);
     pass.loop = "review", pass.run = run_review;
     measure(&pass, csv, page);

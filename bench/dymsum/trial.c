@@ -34,7 +34,7 @@ double trial_now(void) {
 }
 
 /* What two looks at a clock take. */
-static double look_cost(clockid_t clock) {
+static double check_cost(clockid_t clock) {
     enum { LOOKS = 2001 };
     double times[LOOKS];
     for (int i = 0; i < LOOKS; i++) {
@@ -45,7 +45,7 @@ static double look_cost(clockid_t clock) {
 }
 
 double trial_clock_cost(void) {
-    return look_cost(CLOCK_MONOTONIC);
+    return check_cost(CLOCK_MONOTONIC);
 }
 
 static int compare(const void *a, const void *b) {
@@ -77,7 +77,7 @@ static struct lap lap_new(pir_polytope *p, pir_polytope *q, pir_quat start, uint
     // of fewer frames than samples, one is timed
     lap.stride = samples <= frames ? frames / samples : frames;
     lap.clock = is_short ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID;
-    lap.look = is_short ? 0 : look_cost(lap.clock);
+    lap.look = is_short ? 0 : check_cost(lap.clock);
     lap.times = malloc(frames * sizeof *lap.times);
     trial_need(lap.times ? PIR_OK : PIR_ERR_MEMORY, "times");
     trial_need(pir_sum_create(p, q, start, NULL, &lap.sum), "sum");

@@ -8,7 +8,7 @@ pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
         return status;
     pir_sum_changes(sum);
     // the walk has made every certificate anew or let it expire, and a clock that knows no rotation begins an epoch
-    sum->clock = (pir_clock){0};
+    sum->epoch = (pir_epoch){0};
     sum->cost = (pir_cost_model){.walk = sum->cost.walk};
     return PIR_OK;
 }

@@ -36,7 +36,7 @@ static void link_facets(pir_facets *facets, const pir_polytope *p, const pir_pol
 void pir_sum_link_facets(pir_sum *sum) {
     link_facets(&sum->p_facets, sum->pairing.p, sum->pairing.q, sum->pairing.fv);
     link_facets(&sum->q_facets, sum->pairing.q, sum->pairing.p, sum->pairing.vf);
-    sum->q_facets.first_alarm = sum->pairing.p->facet_count;
+    sum->q_facets.first_certificate = sum->pairing.p->facet_count;
 }
 
 static bool allocate(pir_sum *sum) {
@@ -49,11 +49,11 @@ static bool allocate(pir_sum *sum) {
     sum->mark = PIR_ZEROED(a, uint8_t, queue_capacity(sum));
     sum->rotated = PIR_NEW(a, pir_vec3, p->facet_count);
     sum->touched = PIR_ZEROED(a, uint32_t, p->edge_count);
-    sum->suspects = PIR_NEW(a, pir_suspect, pir_alarm_count(sum));
+    sum->suspects = PIR_NEW(a, pir_suspect, pir_certificate_count(sum));
     sum->passes = PIR_NEW(a, pir_suspect, q->facet_count);
     if (!sum->pairing.fv || !sum->pairing.vf || !sum->pairing.crossings.first || !sum->queue || !sum->mark ||
         !sum->rotated || !sum->touched || !sum->suspects || !sum->passes ||
-        !pir_alarms_init(&sum->alarms, a, pir_alarm_count(sum)))
+        !pir_certificates_init(&sum->certificates, a, pir_certificate_count(sum)))
         return false;
     pir_sum_link_facets(sum);
     // room for what most rotations need, so that tracking seldom grows it
@@ -70,9 +70,9 @@ static void free_sum(pir_sum *sum) {
     PIR_FREE(a, sum->mark, queue_capacity(sum));
     PIR_FREE(a, sum->rotated, p->facet_count);
     PIR_FREE(a, sum->touched, p->edge_count);
-    PIR_FREE(a, sum->suspects, pir_alarm_count(sum));
+    PIR_FREE(a, sum->suspects, pir_certificate_count(sum));
     PIR_FREE(a, sum->passes, q->facet_count);
-    pir_alarms_finish(&sum->alarms, a);
+    pir_certificates_finish(&sum->certificates, a);
     pir_crossings_finish(sum);
     pir_sweep_finish(sum);
     pir_signs_finish(&sum->pairing.signs, a);
@@ -150,20 +150,20 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
 }
 
 /* Moves the clock on to the rotation, and the alarms with it. */
-static void advance_clock(pir_sum *sum, pir_quat before) {
+static void advance_epoch(pir_sum *sum, pir_quat before) {
     double shift = 0;
-    uint32_t used = pir_alarm_count(sum);
-    bool weary = sum->woken > used;
-    switch (pir_clock_step(&sum->clock, before, sum->pairing.signs.rotation.unit, weary, &shift)) {
-    case PIR_CLOCK_RUNS:
+    uint32_t used = pir_certificate_count(sum);
+    bool many_expired = sum->expired > used;
+    switch (pir_epoch_take_step(&sum->epoch, before, sum->pairing.signs.rotation.unit, many_expired, &shift)) {
+    case PIR_EPOCH_CONTINUES:
         break;
-    case PIR_CLOCK_REBASED:
-        pir_alarms_shift(&sum->alarms, used, shift);
+    case PIR_EPOCH_REBASED:
+        pir_certificates_shift(&sum->certificates, used, shift);
         break;
-    case PIR_CLOCK_NEW_EPOCH:
-        pir_alarms_set_now(&sum->alarms, sum->pairing.signs.rotation.unit);
-        pir_alarms_new_epoch(&sum->alarms, used, sum->clock.axial, sum->clock.expected);
-        sum->woken = 0;
+    case PIR_EPOCH_BEGINS:
+        pir_certificates_set_now(&sum->certificates, sum->pairing.signs.rotation.unit);
+        pir_certificates_new_epoch(&sum->certificates, used, sum->epoch.axial, sum->epoch.expected);
+        sum->expired = 0;
         break;
     }
 }
@@ -196,8 +196,8 @@ pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
         return status;
     pir_sum_changes(sum);
     pir_region_step(sum, unit_before);
-    advance_clock(sum, unit_before);
-    double angle = fabs(sum->clock.stride);
+    advance_epoch(sum, unit_before);
+    double angle = fabs(sum->epoch.stride);
     if (method == PIR_METHOD_AUTO)
         method = pir_choose_method(sum, angle);
     if (method == PIR_METHOD_CGM) {

@@ -65,17 +65,17 @@ typedef struct pir_lag {
 } pir_lag;
 
 /* In place of a stamp: nothing that happens to the edge is of interest, see region.c. Greater than every stamp. */
-#define PIR_DORMANT UINT32_MAX
+#define PIR_INACTIVE UINT32_MAX
 
 struct pir_sum {
     pir_pairing pairing;      /* first, see pir_sum_pairing */
     atomic_uint references;   /* the caller's, and those of the queries and live meshes that stand on it */
     pir_polytope *made_of[2]; /* at scale 1, by pir_operand: the same objects until the scale is set */
     const pir_kernels *kernels;
-    pir_clock clock;
-    pir_moment moment; /* what the kernels need of it */
-    pir_alarms alarms;
-    uint64_t woken;                /* certificates, in this epoch */
+    pir_epoch epoch;
+    pir_step step; /* what the kernels need of it */
+    pir_certificates certificates;
+    uint64_t expired;                /* certificates, in this epoch */
     pir_facets p_facets, q_facets; /* each over the cells of the other */
     pir_journal journal;
     pir_suspect *suspects; /* facets of Q taken back, then what a review has listed */
@@ -88,7 +88,7 @@ struct pir_sum {
     uint32_t *queue;
     uint8_t *mark;
     uint32_t *touched,
-        stamp; /* per edge of P: the stamp of the last update that changed it, or PIR_DORMANT; the last given */
+        stamp; /* per edge of P: the stamp of the last update that changed it, or PIR_INACTIVE; the last given */
     pir_vec3 *rotated;
     pir_sum_statistics statistics;
 };
@@ -152,15 +152,15 @@ static inline pir_vec3 pir_turned_back_normal(const pir_sum *sum, uint32_t g) {
 
 /* How fast a vector of P, rotated, moves along the axis of the last step, and one of Q seen from P. */
 static inline pir_vec3 pir_motion_of(const pir_sum *sum, pir_vec3 rotated) {
-    return pir_vec_cross(sum->clock.axis, rotated);
+    return pir_vec_cross(sum->epoch.axis, rotated);
 }
 
 static inline pir_vec3 pir_motion_back(const pir_sum *sum, pir_vec3 turned_back) {
-    return pir_vec_cross(turned_back, pir_mat_apply_transposed(&sum->pairing.signs.rotation.r, sum->clock.axis));
+    return pir_vec_cross(turned_back, pir_mat_apply_transposed(&sum->pairing.signs.rotation.r, sum->epoch.axis));
 }
 
 /* The number of alarms. */
-static inline uint32_t pir_alarm_count(const pir_sum *sum) {
+static inline uint32_t pir_certificate_count(const pir_sum *sum) {
     return sum->pairing.p->facet_count + sum->pairing.q->facet_count;
 }
 
@@ -191,10 +191,10 @@ void pir_lag_measure(pir_sum *sum);
 /*
  * The vertex of Q farthest along rotated facet f, from vertex `from` uphill: at each vertex the steepest edge that rises.
  */
-uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t from, pir_sleep *ret_sleep);
+uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t from, pir_expiry *ret_expiry);
 
 /* The vertex of P farthest along facet g of Q. */
-uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_sleep *ret_sleep);
+uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_expiry *ret_expiry);
 
 /* --- trace.c --- */
 
@@ -206,7 +206,7 @@ uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_sleep *ret_
 /* The way of a facet through the last step: the sides that it has crossed, in order, the cell where it is, and how long it stays there. */
 typedef struct pir_trace {
     uint32_t count, crossed[PIR_TRACE_LONGEST], cell;
-    pir_sleep sleep;
+    pir_expiry expiry;
 } pir_trace;
 
 /* Follows facet f of P, or of Q, from the cell that is noted, where it was before the last step; false where that is too close to call. */
@@ -271,10 +271,10 @@ pir_status pir_update_repair(pir_sum *sum);
 void pir_expire_all(pir_sum *sum);
 
 /* Tells the kernels of the rotation and of the last step: before anything is looked at, or falls asleep. */
-void pir_set_moment(pir_sum *sum);
+void pir_begin_step(pir_sum *sum);
 
 /* Files alarm i, checked now, to sleep so long. */
-void pir_fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep);
+void pir_certify(pir_sum *sum, uint32_t i, const pir_expiry *expiry);
 
 /* --- brute.c --- */
 

@@ -76,7 +76,7 @@ static bool crossings_are_valid(pir_sum *sum) {
     uint32_t count = 0;
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t half = p->edge_half[e], v = sum->pairing.fv[p->left[half]];
-        if (sum->touched[e] == PIR_DORMANT) {
+        if (sum->touched[e] == PIR_INACTIVE) {
             if (sum->pairing.crossings.first[e] != PIR_NO_CROSSING || is_arc_needed(sum, half))
                 return false;
             continue;

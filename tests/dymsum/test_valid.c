@@ -35,10 +35,10 @@ static void damage_edges(pir_sum *sum, uint32_t told[2]) {
     for (uint32_t e = 0; e < sum->pairing.p->edge_count; e++) {
         uint32_t half = sum->pairing.p->edge_half[e], first = sum->pairing.crossings.first[e], stamp = sum->touched[e],
                  left = sum->pairing.p->left[half], right = pir_right(sum->pairing.p, half);
-        if (stamp == PIR_DORMANT || first != PIR_NO_CROSSING)
+        if (stamp == PIR_INACTIVE || first != PIR_NO_CROSSING)
             continue;
         // an arc that crosses nothing: dormant or not is all the difference
-        sum->touched[e] = PIR_DORMANT;
+        sum->touched[e] = PIR_INACTIVE;
         bool valid = pir_sum_is_valid(sum) != 0;
         sum->touched[e] = stamp;
         told[valid ? HARMLESS : SEEN]++;

@@ -23,7 +23,7 @@ static uint64_t mix(uint64_t hash, const void *data, size_t size) {
 }
 
 /* Stirs the facets' cells, so that all that can happen does, and the moment. */
-static void stir(test_random *random, pir_facets *facets, uint32_t vertices, pir_moment *moment) {
+static void move(test_random *random, pir_facets *facets, uint32_t vertices, pir_step *step) {
     for (uint32_t f = 0; f < facets->count; f++)
         if (test_random_below(random, 4) == 0)
             facets->cell[f] = test_random_below(random, vertices);
@@ -31,7 +31,7 @@ static void stir(test_random *random, pir_facets *facets, uint32_t vertices, pir
         for (int i = 0; i < 8; i++)
             if (i % 4 != 3 && test_random_below(random, 3) == 0)
                 facets->turn[k][i] = test_random_below(random, 4) == 0 ? 0 : (float)uniform(random);
-    *moment = (pir_moment){.reach_ahead = (float)(uniform(random) * 0.2 + 0.2),
+    *step = (pir_step){.reach_ahead = (float)(uniform(random) * 0.2 + 0.2),
                            .reach_behind = test_random_below(random, 2) ? 0 : 0x1p-10f,
                            .ahead = (float)uniform(random) / 4,
                            .behind = (float)uniform(random) / 4,
@@ -39,37 +39,37 @@ static void stir(test_random *random, pir_facets *facets, uint32_t vertices, pir
 }
 
 /* A hash of all that a review by `kernels` leaves; the alarms and cells are as before the review afterwards. */
-static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_facets *facets, pir_moment moment) {
-    uint32_t count = facets->count, alarms = pir_alarm_count(sum);
-    uint32_t *cells = malloc((count + 1) * sizeof *cells), *woken = malloc((count + 1) * sizeof *woken);
+static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_facets *facets, pir_step step) {
+    uint32_t count = facets->count, certificates = pir_certificate_count(sum);
+    uint32_t *cells = malloc((count + 1) * sizeof *cells), *expired = malloc((count + 1) * sizeof *expired);
     pir_suspect *suspects = malloc((count + 1) * sizeof *suspects);
     memcpy(cells, facets->cell, count * sizeof *cells);
     for (uint32_t f = 0; f < count; f++)
-        woken[f] = facets->first_alarm + f;
-    pir_alarms_wake(&sum->alarms, 0, alarms);
+        expired[f] = facets->first_certificate + f;
+    pir_certificates_expire(&sum->certificates, 0, certificates);
     uint64_t sides = 0, hash = 0xcbf29ce484222325u;
-    uint32_t found = kernels->review(facets, &moment, &sum->alarms, woken, count, suspects, &sides);
+    uint32_t found = kernels->review(facets, &step, &sum->certificates, expired, count, suspects, &sides);
     for (uint32_t i = 0; i < found; i++) {
         hash = mix(hash, &suspects[i].facet, sizeof suspects[i].facet);
         hash = mix(hash, &suspects[i].crossed, sizeof suspects[i].crossed);
     }
     hash = mix(hash, facets->cell, count * sizeof *cells);
-    hash = mix(hash, sum->alarms.margin, alarms * sizeof *sum->alarms.margin);
-    hash = mix(hash, sum->alarms.ahead, alarms * sizeof *sum->alarms.ahead);
-    hash = mix(hash, sum->alarms.behind, alarms * sizeof *sum->alarms.behind);
+    hash = mix(hash, sum->certificates.margin, certificates * sizeof *sum->certificates.margin);
+    hash = mix(hash, sum->certificates.ahead, certificates * sizeof *sum->certificates.ahead);
+    hash = mix(hash, sum->certificates.behind, certificates * sizeof *sum->certificates.behind);
     hash = mix(hash, &sides, sizeof sides);
     for (uint32_t f = 0; f < count; f++) {
-        pir_glance seen;
-        kernels->glance(facets, &moment, cells[f], facets->turn[f % 3], &seen);
-        const float spans[4] = {seen.highest, seen.look.margin, seen.look.ahead, seen.look.behind};
-        hash = mix(hash, &seen.look.touched, sizeof seen.look.touched);
-        hash = mix(hash, &seen.look.above, sizeof seen.look.above);
+        pir_probe seen;
+        kernels->probe(facets, &step, cells[f], facets->turn[f % 3], &seen);
+        const float spans[4] = {seen.highest, seen.check.margin, seen.check.ahead, seen.check.behind};
+        hash = mix(hash, &seen.check.touched, sizeof seen.check.touched);
+        hash = mix(hash, &seen.check.above, sizeof seen.check.above);
         hash = mix(hash, &seen.which, sizeof seen.which);
         hash = mix(hash, spans, sizeof spans);
     }
     memcpy(facets->cell, cells, count * sizeof *cells);
     free(suspects);
-    free(woken);
+    free(expired);
     free(cells);
     return hash;
 }
@@ -86,13 +86,13 @@ static void reviews_have_the_bits_of_the_reference(void **state) {
         assert_int_equal(pir_sum_rotate(sum, test_rotation(&random), PIR_METHOD_UPDATE), PIR_OK);
         for (int operand = 0; operand < 2; operand++) {
             pir_facets *facets = operand ? &sum->q_facets : &sum->p_facets;
-            pir_moment moment = sum->moment;
+            pir_step step = sum->step;
             for (int round = 0; round < 4; round++) {
-                uint64_t expected = review_hash(sum, pir_kernels_version(0), facets, moment);
+                uint64_t expected = review_hash(sum, pir_kernels_version(0), facets, step);
                 for (unsigned k = 1; pir_kernels_version(k); k++)
-                    expect(review_hash(sum, pir_kernels_version(k), facets, moment) == expected,
+                    expect(review_hash(sum, pir_kernels_version(k), facets, step) == expected,
                            "%s, case %llu, round %d", pir_kernels_version(k)->name, (unsigned long long)i, round);
-                stir(&random, facets, operand ? p->vertex_count : q->vertex_count, &moment);
+                move(&random, facets, operand ? p->vertex_count : q->vertex_count, &step);
             }
         }
         pir_sum_destroy(sum);
@@ -102,18 +102,18 @@ static void reviews_have_the_bits_of_the_reference(void **state) {
 }
 
 /* Sets alarms about phase 0, some on it. */
-static void set_alarms(test_random *random, pir_alarms *alarms, uint32_t count) {
+static void set_certificates(test_random *random, pir_certificates *certificates, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         float ahead = (float)uniform(random) + 0.9f, behind = (float)uniform(random) - 0.9f;
         if (test_random_below(random, 16) == 0)
             ahead = 0;
         if (test_random_below(random, 16) == 0)
-            behind = -PIR_FOR_GOOD;
-        pir_alarm_set(alarms, i, 1, ahead, behind);
+            behind = -PIR_NEVER;
+        pir_certificate_set(certificates, i, 1, ahead, behind);
     }
 }
 
-static void collections_list_the_same_alarms(void **state) {
+static void collections_list_the_same_certificates(void **state) {
     (void)state;
     const pir_allocator allocator = pir_allocator_or_default(NULL);
     uint64_t total = 0;
@@ -123,24 +123,24 @@ static void collections_list_the_same_alarms(void **state) {
         for (unsigned k = 0; pir_kernels_version(k); k++) {
             test_random random = test_random_case("kernels collect", i);
             uint32_t count = 1 + test_random_below(&random, 700);
-            pir_alarms alarms = {0};
-            assert_true(pir_alarms_init(&alarms, &allocator, count));
-            uint32_t blocks = alarms.capacity / PIR_ALARM_BLOCK;
-            set_alarms(&random, &alarms, count);
+            pir_certificates certificates = {0};
+            assert_true(pir_certificates_init(&certificates, &allocator, count));
+            uint32_t blocks = certificates.capacity / PIR_CERTIFICATE_BLOCK;
+            set_certificates(&random, &certificates, count);
             uint64_t hash = 0xcbf29ce484222325u;
             for (int round = 0; round < 3; round++) {
-                const pir_alarm_time time = {uniform(&random) / 50, uniform(&random) / 50,
+                const pir_turned_angle time = {uniform(&random) / 50, uniform(&random) / 50,
                                              test_random_below(&random, 2) == 0};
-                uint32_t found = pir_alarms_collect(&alarms, pir_kernels_version(k), count, time);
-                hash = mix(hash, alarms.woken, found * sizeof *alarms.woken);
-                hash = mix(hash, alarms.block_ahead, blocks * sizeof *alarms.block_ahead);
-                hash = mix(hash, alarms.block_behind, blocks * sizeof *alarms.block_behind);
+                uint32_t found = pir_certificates_collect(&certificates, pir_kernels_version(k), count, time);
+                hash = mix(hash, certificates.expired, found * sizeof *certificates.expired);
+                hash = mix(hash, certificates.block_ahead, blocks * sizeof *certificates.block_ahead);
+                hash = mix(hash, certificates.block_behind, blocks * sizeof *certificates.block_behind);
                 listed += k == 0 ? found : 0;
             }
             if (k == 0)
                 expected = hash;
             expect(hash == expected, "%s, case %llu", pir_kernels_version(k)->name, (unsigned long long)i);
-            pir_alarms_finish(&alarms, &allocator);
+            pir_certificates_finish(&certificates, &allocator);
         }
         total += listed;
     }
@@ -157,7 +157,7 @@ int main(void) {
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reviews_have_the_bits_of_the_reference),
-        cmocka_unit_test(collections_list_the_same_alarms),
+        cmocka_unit_test(collections_list_the_same_certificates),
     };
     return cmocka_run_group_tests_name("kernels", tests, NULL, NULL);
 }

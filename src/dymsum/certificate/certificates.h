@@ -17,7 +17,7 @@
  * When it wakes at a phase which that certificate is good for, it is in that cell again, and all that it has passed through is that side:
  * at every phase from where it crossed to the last rotation's it was seen or certified in its new cell, the step in which it
  * crossed touched no other side, and what lies beyond is the kept certificate's, whose phases are an interval. No look is needed. See
- * pir_alarm_go_back.
+ * pir_certificate_reuse.
  *
  * Invariant: a block's bounds are at most, and at least, those of its certificates.
  */
@@ -29,16 +29,16 @@
 #include "base/memory.h"
 #include "dymsum/certificate/epoch.h"
 
-#define PIR_ALARM_BLOCK 16
+#define PIR_CERTIFICATE_BLOCK 16
 
 typedef struct pir_kernels pir_kernels;
 
 /* The certificate of the cell that a facet was in before, and the way there. */
-typedef struct pir_way_back {
+typedef struct pir_previous_cell {
     float ahead, behind;
     uint32_t half;    /* the halfedge of the other operand that leads there from the facet's cell */
     uint32_t stretch; /* in which the keys are phases, or PIR_NO_STRETCH */
-} pir_way_back;
+} pir_previous_cell;
 
 #define PIR_NO_STRETCH UINT32_MAX
 
@@ -46,28 +46,28 @@ typedef struct pir_float4 {
     float c[4];
 } pir_float4;
 
-typedef struct pir_alarms {
+typedef struct pir_certificates {
     float *ahead, *behind; /* per certificate */
     float *margin;
     pir_float4 *at; /* the unit quaternion it was made at */
     pir_float4 now; /* that of R */
     float *block_ahead, *block_behind;
-    pir_way_back *back; /* per certificate */
+    pir_previous_cell *back; /* per certificate */
     uint32_t stretch;   /* counts how often keys have been made anew or shifted */
-    uint32_t *woken;    /* what the last collecting found, rising */
+    uint32_t *expired;    /* what the last collecting found, rising */
     uint32_t capacity;  /* a multiple of eight blocks */
-} pir_alarms;
+} pir_certificates;
 
 /* Room for `count` certificates at least, which never wake; false when out of memory. */
-bool pir_alarms_init(pir_alarms *alarms, const pir_allocator *allocator, uint32_t count);
-void pir_alarms_finish(pir_alarms *alarms, const pir_allocator *allocator);
+bool pir_certificates_init(pir_certificates *certificates, const pir_allocator *allocator, uint32_t count);
+void pir_certificates_finish(pir_certificates *certificates, const pir_allocator *allocator);
 
 /* Far beyond any turn, and finite, so that subtracting from it stays a number. */
-#define PIR_FOR_GOOD 1e30f
+#define PIR_NEVER 1e30f
 
 /* A float at most x, by little; or at least x. */
 static inline float pir_float_below(double x) {
-    return x < (double)PIR_FOR_GOOD ? (float)(x - fabs(x) * 0x1p-23) : PIR_FOR_GOOD;
+    return x < (double)PIR_NEVER ? (float)(x - fabs(x) * 0x1p-23) : PIR_NEVER;
 }
 
 static inline float pir_float_above(double x) {
@@ -75,30 +75,30 @@ static inline float pir_float_above(double x) {
 }
 
 /* Sets the keys of certificate i. */
-static inline void pir_alarm_set_keys(pir_alarms *alarms, uint32_t i, float ahead, float behind) {
-    uint32_t block = i / PIR_ALARM_BLOCK;
-    float least = alarms->block_ahead[block], greatest = alarms->block_behind[block];
-    alarms->ahead[i] = ahead;
-    alarms->behind[i] = behind;
-    alarms->block_ahead[block] = ahead < least ? ahead : least;
-    alarms->block_behind[block] = behind > greatest ? behind : greatest;
+static inline void pir_certificate_set_keys(pir_certificates *certificates, uint32_t i, float ahead, float behind) {
+    uint32_t block = i / PIR_CERTIFICATE_BLOCK;
+    float least = certificates->block_ahead[block], greatest = certificates->block_behind[block];
+    certificates->ahead[i] = ahead;
+    certificates->behind[i] = behind;
+    certificates->block_ahead[block] = ahead < least ? ahead : least;
+    certificates->block_behind[block] = behind > greatest ? behind : greatest;
 }
 
 /* Files certificate i, made at alarms->now. */
-static inline void pir_alarm_set(pir_alarms *alarms, uint32_t i, float margin, float ahead, float behind) {
-    pir_alarm_set_keys(alarms, i, ahead, behind);
-    alarms->margin[i] = margin;
-    alarms->at[i] = alarms->now;
+static inline void pir_certificate_set(pir_certificates *certificates, uint32_t i, float margin, float ahead, float behind) {
+    pir_certificate_set_keys(certificates, i, ahead, behind);
+    certificates->margin[i] = margin;
+    certificates->at[i] = certificates->now;
 }
 
 /* Forgets where the facet of certificate i came from: it is not known that it has stayed in its cell since, or came by one side. */
-static inline void pir_alarm_forget(pir_alarms *alarms, uint32_t i) {
-    alarms->back[i].stretch = PIR_NO_STRETCH;
+static inline void pir_certificate_forget_previous(pir_certificates *certificates, uint32_t i) {
+    certificates->back[i].stretch = PIR_NO_STRETCH;
 }
 
 /* Keeps certificate i, of a cell just left, before it is filed for the next cell; `half` leads back. The step touched no other side. */
-static inline void pir_alarm_keep(pir_alarms *alarms, uint32_t i, uint32_t half) {
-    alarms->back[i] = (pir_way_back){alarms->ahead[i], alarms->behind[i], half, alarms->stretch};
+static inline void pir_certificate_keep_previous(pir_certificates *certificates, uint32_t i, uint32_t half) {
+    certificates->back[i] = (pir_previous_cell){certificates->ahead[i], certificates->behind[i], half, certificates->stretch};
 }
 
 /*
@@ -106,54 +106,54 @@ static inline void pir_alarm_keep(pir_alarms *alarms, uint32_t i, uint32_t half)
  * filed and the other kept. twin: of the other operand's halfedges. *ret_half: the side crossed. What is filed ends with the epoch,
  * its margin being none: the margin and rotation that are there are the other cell's.
  */
-static inline bool pir_alarm_go_back(pir_alarms *alarms, uint32_t i, double phase, const uint32_t *twin,
+static inline bool pir_certificate_reuse(pir_certificates *certificates, uint32_t i, double phase, const uint32_t *twin,
                                      uint32_t *ret_half) {
-    const pir_way_back back = alarms->back[i];
-    if (back.stretch != alarms->stretch || !((double)back.ahead > phase && (double)back.behind < phase))
+    const pir_previous_cell back = certificates->back[i];
+    if (back.stretch != certificates->stretch || !((double)back.ahead > phase && (double)back.behind < phase))
         return false;
-    pir_alarm_keep(alarms, i, twin[back.half]);
-    pir_alarm_set_keys(alarms, i, back.ahead, back.behind);
-    alarms->margin[i] = -1;
+    pir_certificate_keep_previous(certificates, i, twin[back.half]);
+    pir_certificate_set_keys(certificates, i, back.ahead, back.behind);
+    certificates->margin[i] = -1;
     *ret_half = back.half;
     return true;
 }
 
 /* Lets certificate i sleep for good: its pair is gone. */
-static inline void pir_alarm_clear(pir_alarms *alarms, uint32_t i) {
-    alarms->ahead[i] = PIR_FOR_GOOD;
-    alarms->behind[i] = -PIR_FOR_GOOD;
-    alarms->margin[i] = PIR_FOR_GOOD;
-    alarms->at[i] = (pir_float4){{0}};
-    pir_alarm_forget(alarms, i);
+static inline void pir_certificate_clear(pir_certificates *certificates, uint32_t i) {
+    certificates->ahead[i] = PIR_NEVER;
+    certificates->behind[i] = -PIR_NEVER;
+    certificates->margin[i] = PIR_NEVER;
+    certificates->at[i] = (pir_float4){{0}};
+    pir_certificate_forget_previous(certificates, i);
 }
 
 /* What certificates' keys are compared with. */
-typedef struct pir_alarm_time {
+typedef struct pir_turned_angle {
     double ahead, behind; /* holds: its `ahead` above, its `behind` below */
     bool either;          /* one of the two is enough */
-} pir_alarm_time;
+} pir_turned_angle;
 
-static inline pir_alarm_time pir_alarm_time_of(const pir_clock *clock) {
-    return clock->axial ? (pir_alarm_time){clock->phase, clock->phase, false}
-                        : (pir_alarm_time){clock->path, -clock->net, true};
+static inline pir_turned_angle pir_turned_angle_of(const pir_epoch *epoch) {
+    return epoch->axial ? (pir_turned_angle){epoch->phase, epoch->phase, false}
+                        : (pir_turned_angle){epoch->path, -epoch->net, true};
 }
 
 /* Lists in alarms->woken those of the first `used` certificates that do not hold for certain; returns their number. */
-uint32_t pir_alarms_collect(pir_alarms *alarms, const pir_kernels *kernels, uint32_t used, pir_alarm_time time);
+uint32_t pir_certificates_collect(pir_certificates *certificates, const pir_kernels *kernels, uint32_t used, pir_turned_angle time);
 
 /* Subtracts `shift` from the phases of the first `used` certificates. This and the next two forget all ways back. */
-void pir_alarms_shift(pir_alarms *alarms, uint32_t used, double shift);
+void pir_certificates_shift(pir_certificates *certificates, uint32_t used, double shift);
 
 /*
  * Files the first `used` certificates anew for an epoch that begins at alarms->now, from what is left of their margins. Those of an axial
  * epoch with less left than `expected` wake at once.
  */
-void pir_alarms_new_epoch(pir_alarms *alarms, uint32_t used, bool axial, double expected);
+void pir_certificates_new_epoch(pir_certificates *certificates, uint32_t used, bool axial, double expected);
 
 /* Sets alarms->now. */
-void pir_alarms_set_now(pir_alarms *alarms, pir_quat unit);
+void pir_certificates_set_now(pir_certificates *certificates, pir_quat unit);
 
 /* Lets the `count` certificates from `first` on wake at once. */
-void pir_alarms_wake(pir_alarms *alarms, uint32_t first, uint32_t count);
+void pir_certificates_expire(pir_certificates *certificates, uint32_t first, uint32_t count);
 
 #endif

@@ -44,13 +44,13 @@ static double twice_arc_sine(double x) {
  * the swing's half sine is |off| and the twist's along / √(along² + w²); that root is √(1 − |off|²), within 2^-44 of 1 while the swing is
  * within the slack.
  */
-static bool measure_stretch(const pir_clock *clock, pir_quat now, double *ret_phase, double *ret_drift) {
-    pir_quat r = between(clock->start, now);
+static bool measure_stretch(const pir_epoch *epoch, pir_quat now, double *ret_phase, double *ret_drift) {
+    pir_quat r = between(epoch->start, now);
     pir_vec3 v = {r.x, r.y, r.z};
-    double along = pir_vec_dot(v, clock->axis);
-    pir_vec3 off = pir_vec_sub(v, pir_vec_scale(clock->axis, along));
+    double along = pir_vec_dot(v, epoch->axis);
+    pir_vec3 off = pir_vec_sub(v, pir_vec_scale(epoch->axis, along));
     double swing = sqrt(pir_vec_dot(off, off));
-    *ret_drift = clock->carried + 3.1416 * swing + STRETCH_ERROR;
+    *ret_drift = epoch->carried + 3.1416 * swing + STRETCH_ERROR;
     *ret_phase = twice_arc_sine(along);
     return fabs(along) <= 0.25 && *ret_drift < PIR_DRIFT_SLACK / 2;
 }
@@ -63,64 +63,64 @@ static bool keeps_axis(pir_vec3 step, pir_vec3 last) {
 }
 
 /* Takes note of the way of the step r. */
-static void set_way(pir_clock *clock, pir_quat r, double angle) {
+static void set_way(pir_epoch *epoch, pir_quat r, double angle) {
     pir_vec3 step = {r.x, r.y, r.z};
     double length = sqrt(pir_vec_dot(step, step));
-    clock->axis = length > 0 ? pir_vec_scale(step, 1 / length) : (pir_vec3){0, 0, 0};
-    clock->stride = angle;
+    epoch->axis = length > 0 ? pir_vec_scale(step, 1 / length) : (pir_vec3){0, 0, 0};
+    epoch->stride = angle;
 }
 
 /* Begins an epoch with the step that has led to clock->at. */
-static void begin_epoch(pir_clock *clock, bool axial, double expected) {
-    clock->axial = axial;
-    clock->start = clock->at;
-    clock->carried = 0;
-    clock->drift = STRETCH_ERROR;
-    clock->phase = clock->path = clock->net = clock->extent = 0;
-    clock->swings = false;
-    clock->expected = expected;
-    clock->steps = 0;
+static void begin_epoch(pir_epoch *epoch, bool axial, double expected) {
+    epoch->axial = axial;
+    epoch->start = epoch->at;
+    epoch->carried = 0;
+    epoch->drift = STRETCH_ERROR;
+    epoch->phase = epoch->path = epoch->net = epoch->extent = 0;
+    epoch->reverses = false;
+    epoch->expected = expected;
+    epoch->steps = 0;
 }
 
 /* The step about the epoch's axis to `phase`. */
-static pir_clock_event turn_on(pir_clock *clock, double phase, double drift, double *ret_shift) {
-    double stride = phase - clock->phase;
-    clock->swings |= stride * clock->stride < 0;
-    clock->stride = stride;
-    clock->phase = phase;
-    clock->extent = fmax(clock->extent, fabs(phase));
-    clock->drift = fmax(clock->drift, drift);
+static pir_epoch_event turn_on(pir_epoch *epoch, double phase, double drift, double *ret_shift) {
+    double stride = phase - epoch->phase;
+    epoch->reverses |= stride * epoch->stride < 0;
+    epoch->stride = stride;
+    epoch->phase = phase;
+    epoch->extent = fmax(epoch->extent, fabs(phase));
+    epoch->drift = fmax(epoch->drift, drift);
     if (fabs(phase) <= LONGEST_STRETCH)
-        return PIR_CLOCK_RUNS;
+        return PIR_EPOCH_CONTINUES;
     // the next stretch of the same epoch begins here
     *ret_shift = phase;
-    clock->phase = 0;
-    clock->swings = false;
-    clock->start = clock->at;
-    clock->carried = drift;
-    return PIR_CLOCK_REBASED;
+    epoch->phase = 0;
+    epoch->reverses = false;
+    epoch->start = epoch->at;
+    epoch->carried = drift;
+    return PIR_EPOCH_REBASED;
 }
 
-pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, bool weary, double *ret_shift) {
+pir_epoch_event pir_epoch_take_step(pir_epoch *epoch, pir_quat before, pir_quat now, bool many_expired, double *ret_shift) {
     // a rotation that this clock has not seen ends the epoch
     bool followed =
-        before.x == clock->at.x && before.y == clock->at.y && before.z == clock->at.z && before.w == clock->at.w;
-    clock->at = now;
-    clock->steps += clock->steps < UINT32_MAX;
+        before.x == epoch->at.x && before.y == epoch->at.y && before.z == epoch->at.z && before.w == epoch->at.w;
+    epoch->at = now;
+    epoch->steps += epoch->steps < UINT32_MAX;
     double phase, drift;
-    if (clock->axial && followed && measure_stretch(clock, now, &phase, &drift))
-        return turn_on(clock, phase, drift, ret_shift);
+    if (epoch->axial && followed && measure_stretch(epoch, now, &phase, &drift))
+        return turn_on(epoch, phase, drift, ret_shift);
     pir_quat r = between(before, now);
     double angle = pir_rotation_angle_bound(before, now);
     pir_vec3 step = {r.x, r.y, r.z};
-    bool lasted = clock->axial && clock->steps >= LASTING, keeps = keeps_axis(step, clock->step);
-    clock->step = step;
-    clock->path = (clock->path + angle) * (1 + 0x1p-51);
-    set_way(clock, r, angle);
-    if (!clock->axial && !keeps && followed && !weary && clock->path < LONGEST_PATH) {
-        clock->net = pir_rotation_angle_bound(clock->start, now);
-        return PIR_CLOCK_RUNS;
+    bool lasted = epoch->axial && epoch->steps >= LASTING, keeps = keeps_axis(step, epoch->step);
+    epoch->step = step;
+    epoch->path = (epoch->path + angle) * (1 + 0x1p-51);
+    set_way(epoch, r, angle);
+    if (!epoch->axial && !keeps && followed && !many_expired && epoch->path < LONGEST_PATH) {
+        epoch->net = pir_rotation_angle_bound(epoch->start, now);
+        return PIR_EPOCH_CONTINUES;
     }
-    begin_epoch(clock, (keeps || lasted) && r.w >= 0.9 && pir_vec_dot(step, step) > 0, lasted ? clock->extent : 0);
-    return PIR_CLOCK_NEW_EPOCH;
+    begin_epoch(epoch, (keeps || lasted) && r.w >= 0.9 && pir_vec_dot(step, step) > 0, lasted ? epoch->extent : 0);
+    return PIR_EPOCH_BEGINS;
 }

@@ -31,14 +31,14 @@
 
 #define PIR_DRIFT_SLACK 0x1p-20
 
-typedef struct pir_clock {
+typedef struct pir_epoch {
     pir_quat at;    /* the unit quaternion that the last step led to */
     uint32_t steps; /* in this epoch */
     bool axial;
     pir_vec3 axis;   /* of the last step, unit; axial: of the epoch */
     double stride;   /* the angle about it that the last step went through, at most */
     double phase;    /* axial: since the epoch began */
-    bool swings;     /* axial: since phases were last counted from here, some step went back where another came from */
+    bool reverses;     /* axial: since phases were last counted from here, some step went back where another came from */
     double path;     /* since the epoch began */
     double net;      /* not axial: since the epoch began */
     double extent;   /* axial: how far the phase has been from 0, as far as one stretch goes */
@@ -47,19 +47,19 @@ typedef struct pir_clock {
     double carried;  /* drift of the stretches of this epoch that are over */
     double drift;    /* the greatest so far in this epoch; of the step itself where it is not axial */
     pir_vec3 step;   /* the vector part of the last step that was looked at: half its sine, along its axis */
-} pir_clock;
+} pir_epoch;
 
 /* What a step means for the keys that certificates are filed under. */
-typedef enum pir_clock_event {
-    PIR_CLOCK_RUNS,     /* keys stay */
-    PIR_CLOCK_REBASED,  /* subtract *ret_shift from every key: the phase is counted from here */
-    PIR_CLOCK_NEW_EPOCH /* every key is to be made anew from what is left of the margin */
-} pir_clock_event;
+typedef enum pir_epoch_event {
+    PIR_EPOCH_CONTINUES,     /* keys stay */
+    PIR_EPOCH_REBASED,  /* subtract *ret_shift from every key: the phase is counted from here */
+    PIR_EPOCH_BEGINS /* every key is to be made anew from what is left of the margin */
+} pir_epoch_event;
 
 /*
- * Takes the step from unit quaternion `before` to `now`. weary: so many certificates have woken that beginning an epoch anew costs little
+ * Takes the step from unit quaternion `before` to `now`. many_expired: so many certificates have woken that beginning an epoch anew costs little
  * beside.
  */
-pir_clock_event pir_clock_step(pir_clock *clock, pir_quat before, pir_quat now, bool weary, double *ret_shift);
+pir_epoch_event pir_epoch_take_step(pir_epoch *epoch, pir_quat before, pir_quat now, bool many_expired, double *ret_shift);
 
 #endif

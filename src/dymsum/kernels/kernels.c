@@ -6,8 +6,8 @@
 #include "polytope/polytope.h"
 
 /* What is seen of a facet in the cell whose ring fills `blocks` blocks. */
-static pir_glance see(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8]) {
-    float highest = -HUGE_VALF, least = 4, ahead = PIR_FARTHEST, behind = PIR_FARTHEST;
+static pir_probe see(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8]) {
+    float highest = -HUGE_VALF, least = 4, ahead = PIR_FARTHEST_PREDICTION, behind = PIR_FARTHEST_PREDICTION;
     uint64_t touched = 0, above = 0;
     uint32_t which = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
@@ -24,18 +24,18 @@ static pir_glance see(const float *ring, uint32_t blocks, const pir_moment *mome
         least = size < least ? size : least;
         ahead = to < ahead ? to : ahead;
         behind = since < behind ? since : behind;
-        bool clear = to > moment->reach_ahead && since > moment->reach_behind;
+        bool clear = to > step->reach_ahead && since > step->reach_behind;
         touched = pir_side_mask_add(touched, i / PIR_LANES, (uint32_t)!clear << i % PIR_LANES);
         above = pir_side_mask_add(above, i / PIR_LANES, (uint32_t)(s > PIR_FLOAT_BOUND) << i % PIR_LANES);
     }
-    return (pir_glance){highest + 0.0f, which, {least - PIR_FLOAT_BOUND, ahead, behind, 0, touched, above}};
+    return (pir_probe){highest + 0.0f, which, {least - PIR_FLOAT_BOUND, ahead, behind, 0, touched, above}};
 }
 
-static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
-                   pir_glance *ret_glance) {
+static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+                   pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell];
-    *ret_glance =
-        see(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned);
+    *ret_probe =
+        see(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned);
 }
 
 static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_turned[8]) {
@@ -44,55 +44,55 @@ static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_tu
         ret_turned[i] = facets->turn[0][i] * n[0] + facets->turn[1][i] * n[1] + facets->turn[2][i] * n[2];
 }
 
-static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
-                           pir_look *ret_look) {
-    pir_glance seen;
-    glance(facets, moment, cell, turned, &seen);
-    *ret_look = seen.look;
+static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+                           pir_check *ret_check) {
+    pir_probe seen;
+    probe(facets, step, cell, turned, &seen);
+    *ret_check = seen.check;
 }
 
 #define REVIEW_TARGET
 #include "dymsum/kernels/review_body.h"
 
 /* The time that certificates are compared with, by floats. */
-struct instant {
+struct turned_now {
     float ahead, behind;
     bool either;
 };
 
-static inline bool holds(float ahead, float behind, struct instant now) {
+static inline bool holds(float ahead, float behind, struct turned_now now) {
     bool forwards = ahead > now.ahead, backwards = behind < now.behind;
     return now.either ? forwards || backwards : forwards && backwards;
 }
 
 /* The certificates of block b. */
-static uint32_t collect_block(pir_alarms *alarms, uint32_t b, struct instant now, uint32_t *woken) {
+static uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
     uint32_t count = 0;
     float least = HUGE_VALF, greatest = -HUGE_VALF;
-    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i++) {
-        float ahead = alarms->ahead[i], behind = alarms->behind[i];
+    for (uint32_t i = b * PIR_CERTIFICATE_BLOCK; i < (b + 1) * PIR_CERTIFICATE_BLOCK; i++) {
+        float ahead = certificates->ahead[i], behind = certificates->behind[i];
         if (holds(ahead, behind, now)) {
             least = ahead < least ? ahead : least;
             greatest = behind > greatest ? behind : greatest;
         } else {
-            woken[count++] = i;
+            expired[count++] = i;
         }
     }
-    alarms->block_ahead[b] = least;
-    alarms->block_behind[b] = greatest;
+    certificates->block_ahead[b] = least;
+    certificates->block_behind[b] = greatest;
     return count;
 }
 
-static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
-    const struct instant now = {pir_float_above(time.ahead), pir_float_below(time.behind), time.either};
+static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
+    const struct turned_now now = {pir_float_above(time.ahead), pir_float_below(time.behind), time.either};
     uint32_t count = 0;
     for (uint32_t b = 0; b < blocks; b++)
-        if (!holds(alarms->block_ahead[b], alarms->block_behind[b], now))
-            count += collect_block(alarms, b, now, alarms->woken + count);
+        if (!holds(certificates->block_ahead[b], certificates->block_behind[b], now))
+            count += collect_block(certificates, b, now, certificates->expired + count);
     return count;
 }
 
-static const pir_kernels scalar = {"scalar", review, glance, collect};
+static const pir_kernels scalar = {"scalar", review, probe, collect};
 
 const pir_kernels *pir_kernels_version(unsigned index) {
     const pir_kernels *versions[4] = {&scalar};

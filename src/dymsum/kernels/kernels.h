@@ -26,7 +26,7 @@
 #define PIR_FLOAT_SLACK 0x1p-18f
 
 /* Spans are foretold no farther than this many radians. */
-#define PIR_FARTHEST 1.0f
+#define PIR_FARTHEST_PREDICTION 1.0f
 
 /* In place of a side of a cell: there is none, or none is known. */
 #define PIR_NO_SIDE UINT32_MAX
@@ -35,21 +35,21 @@
 #define PIR_SIDE_BITS 64
 
 /* What a look at a facet in a cell finds. */
-typedef struct pir_look {
+typedef struct pir_check {
     float margin;        /* by the path, until some s changes its sign; negative when one is too close to call */
     float ahead, behind; /* by the phase, both ≥ 0 */
     float unused;        /* so that the four are a vector */
     uint64_t
         touched;    /* the sides that the facet may have touched in the last step, those too close to call among them */
     uint64_t above; /* those that it is past for certain: s > PIR_FLOAT_BOUND */
-} pir_look;
+} pir_check;
 
 /* What is seen at a glance of a facet in a cell. */
-typedef struct pir_glance {
+typedef struct pir_probe {
     float highest;  /* the greatest value s: the facet is in the cell for certain when below −PIR_FLOAT_BOUND */
     uint32_t which; /* the first side that has it */
-    pir_look look;
-} pir_glance;
+    pir_check check;
+} pir_probe;
 
 /* A facet that may have left its cell, even if only for a moment within the last step. */
 typedef struct pir_suspect {
@@ -59,7 +59,7 @@ typedef struct pir_suspect {
 
 /* The facets of one operand over the cells of the other, which is laid out in rings (polytope.h). */
 typedef struct pir_facets {
-    uint32_t count, first_alarm;
+    uint32_t count, first_certificate;
     const float *normal;                     /* four floats a facet, the last 0 */
     const uint32_t *ring_start, *ring_block; /* of the other operand, as all that follows */
     const uint32_t *target, *twin;
@@ -71,12 +71,12 @@ typedef struct pir_facets {
 } pir_facets;
 
 /* The last step, and the moment it has led to. */
-typedef struct pir_moment {
+typedef struct pir_step {
     float reach_ahead,
         reach_behind;    /* where the step lies by the phase, from now: one of them is 0, or both are the same */
     float ahead, behind; /* what keys are counted from: axial: the phase; otherwise the path, and the net turn */
     bool axial;
-} pir_moment;
+} pir_step;
 
 struct pir_kernels {
     const char *name;
@@ -86,18 +86,18 @@ struct pir_kernels {
      * step, are filed to sleep; so are those that have crossed one side and touched no other, their last certificates kept (alarms.h), and
      * these and the rest are listed. Returns their number; adds to *sides how many directions were looked at.
      */
-    uint32_t (*review)(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, const uint32_t *woken,
+    uint32_t (*review)(const pir_facets *facets, const pir_step *step, pir_certificates *certificates, const uint32_t *expired,
                        uint32_t count, pir_suspect *ret_suspects, uint64_t *sides);
 
     /* Looks at a facet in the cell of vertex `cell`; turned: its normal turned, 0, the motion of that, 0. */
-    void (*glance)(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
-                   pir_glance *ret_glance);
+    void (*probe)(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+                   pir_probe *ret_probe);
 
     /*
      * Lists in alarms->woken which of the certificates in the first `blocks` blocks do not hold, and makes the bounds of their blocks
      * those of the others, since who wakes is filed again. Returns how many it listed.
      */
-    uint32_t (*collect)(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time);
+    uint32_t (*collect)(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time);
 };
 
 /* The mask of the sides of a ring of so many, without the bits that only fill its last block up. */
@@ -111,21 +111,21 @@ static inline uint64_t pir_side_mask_add(uint64_t mask, uint32_t b, uint32_t eig
 }
 
 /* Files alarm i anew, from now: in an axial epoch by its spans, otherwise by its margin. Keys are rounded towards waking early. */
-static inline void pir_sleep_file(const pir_moment *moment, pir_alarms *alarms, uint32_t i, float margin, float ahead,
+static inline void pir_certificate_file(const pir_step *step, pir_certificates *certificates, uint32_t i, float margin, float ahead,
                                   float behind) {
-    float until = moment->ahead + (moment->axial ? ahead : margin),
-          since = moment->behind - (moment->axial ? behind : margin);
-    pir_alarm_set(alarms, i, margin, until - fabsf(until) * 0x1p-22f, since + fabsf(since) * 0x1p-22f);
+    float until = step->ahead + (step->axial ? ahead : margin),
+          since = step->behind - (step->axial ? behind : margin);
+    pir_certificate_set(certificates, i, margin, until - fabsf(until) * 0x1p-22f, since + fabsf(since) * 0x1p-22f);
 }
 
 /* Files facet f, looked at just now, to sleep as long as the look allows. */
-static inline void pir_sleep_look(const pir_facets *facets, const pir_moment *moment, pir_alarms *alarms, uint32_t f,
-                                  const pir_look *look) {
-    pir_sleep_file(moment, alarms, facets->first_alarm + f, look->margin, look->ahead, look->behind);
+static inline void pir_certificate_file_check(const pir_facets *facets, const pir_step *step, pir_certificates *certificates, uint32_t f,
+                                  const pir_check *check) {
+    pir_certificate_file(step, certificates, facets->first_certificate + f, check->margin, check->ahead, check->behind);
 }
 
 /* Packs a vector and its motion as the kernels take them. */
-static inline void pir_turned(pir_vec3 u, pir_vec3 w, float ret_turned[8]) {
+static inline void pir_pack_turned(pir_vec3 u, pir_vec3 w, float ret_turned[8]) {
     ret_turned[0] = (float)u.x, ret_turned[1] = (float)u.y, ret_turned[2] = (float)u.z, ret_turned[3] = 0;
     ret_turned[4] = (float)w.x, ret_turned[5] = (float)w.y, ret_turned[6] = (float)w.z, ret_turned[7] = 0;
 }

@@ -13,7 +13,7 @@
 
 #include "dymsum/kernels/kernels_eight_body.h"
 
-TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_moment *moment,
+TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step,
                                     struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above) {
     const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
     __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES), z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
@@ -23,8 +23,8 @@ TARGET static inline void see_block(const float *ring, const struct turned *t, c
     __m256 root = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(rising, rising), _mm256_add_ps(sure, sure)));
     __m256 to = _mm256_and_ps(is_sure, _mm256_sub_ps(root, rising)),
            since = _mm256_and_ps(is_sure, _mm256_add_ps(root, rising));
-    __m256 clear = _mm256_and_ps(_mm256_cmp_ps(to, _mm256_set1_ps(moment->reach_ahead), _CMP_GT_OQ),
-                                 _mm256_cmp_ps(since, _mm256_set1_ps(moment->reach_behind), _CMP_GT_OQ));
+    __m256 clear = _mm256_and_ps(_mm256_cmp_ps(to, _mm256_set1_ps(step->reach_ahead), _CMP_GT_OQ),
+                                 _mm256_cmp_ps(since, _mm256_set1_ps(step->reach_behind), _CMP_GT_OQ));
     *ret_touched = (uint32_t)_mm256_movemask_ps(clear) ^ 0xFF;
     *ret_above = (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(s, _mm256_set1_ps(PIR_FLOAT_BOUND), _CMP_GT_OQ));
     seen->highest = _mm256_max_ps(seen->highest, s);
@@ -34,56 +34,56 @@ TARGET static inline void see_block(const float *ring, const struct turned *t, c
 }
 
 /* The time that certificates are compared with. */
-struct instant {
+struct turned_now {
     __m256 ahead, behind;
     bool either;
 };
 
 /* Which of eight certificates or blocks hold. */
-TARGET static inline __m256 holding(__m256 ahead, __m256 behind, struct instant now) {
+TARGET static inline __m256 holding(__m256 ahead, __m256 behind, struct turned_now now) {
     __m256 forwards = _mm256_cmp_ps(ahead, now.ahead, _CMP_GT_OQ);
     __m256 backwards = _mm256_cmp_ps(behind, now.behind, _CMP_LT_OQ);
     return now.either ? _mm256_or_ps(forwards, backwards) : _mm256_and_ps(forwards, backwards);
 }
 
 /* The certificates of block b. */
-TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, struct instant now, uint32_t *woken) {
+TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
     const __m256 most = _mm256_set1_ps(HUGE_VALF), fewest = _mm256_set1_ps(-HUGE_VALF);
     __m256 least = most, greatest = fewest;
     uint32_t count = 0;
-    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i += 8) {
-        __m256 ahead = _mm256_loadu_ps(alarms->ahead + i), behind = _mm256_loadu_ps(alarms->behind + i);
+    for (uint32_t i = b * PIR_CERTIFICATE_BLOCK; i < (b + 1) * PIR_CERTIFICATE_BLOCK; i += 8) {
+        __m256 ahead = _mm256_loadu_ps(certificates->ahead + i), behind = _mm256_loadu_ps(certificates->behind + i);
         __m256 holds = holding(ahead, behind, now);
         least = _mm256_min_ps(least, _mm256_blendv_ps(most, ahead, holds));
         greatest = _mm256_max_ps(greatest, _mm256_blendv_ps(fewest, behind, holds));
-        for (uint32_t wakes = (uint32_t)_mm256_movemask_ps(holds) ^ 0xFF; wakes; wakes &= wakes - 1)
-            woken[count++] = i + (uint32_t)__builtin_ctz(wakes);
+        for (uint32_t expires = (uint32_t)_mm256_movemask_ps(holds) ^ 0xFF; expires; expires &= expires - 1)
+            expired[count++] = i + (uint32_t)__builtin_ctz(expires);
     }
-    alarms->block_ahead[b] = _mm_cvtss_f32(least_of_each(least, least, least));
-    alarms->block_behind[b] = greatest_of(greatest);
+    certificates->block_ahead[b] = _mm_cvtss_f32(least_of_each(least, least, least));
+    certificates->block_behind[b] = greatest_of(greatest);
     return count;
 }
 
-TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_alarms *alarms, uint32_t blocks,
-                                                                        struct instant now) {
+TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_certificates *certificates, uint32_t blocks,
+                                                                        struct turned_now now) {
     uint32_t count = 0;
     // eight blocks at a time; those past the last in use hold for ever
     for (uint32_t b = 0; b < blocks; b += 8) {
-        __m256 ahead = _mm256_loadu_ps(alarms->block_ahead + b), behind = _mm256_loadu_ps(alarms->block_behind + b);
-        uint32_t rings = (uint32_t)_mm256_movemask_ps(holding(ahead, behind, now)) ^ 0xFF;
-        for (; rings; rings &= rings - 1)
-            count += collect_block(alarms, b + (uint32_t)__builtin_ctz(rings), now, alarms->woken + count);
+        __m256 ahead = _mm256_loadu_ps(certificates->block_ahead + b), behind = _mm256_loadu_ps(certificates->block_behind + b);
+        uint32_t expired_blocks = (uint32_t)_mm256_movemask_ps(holding(ahead, behind, now)) ^ 0xFF;
+        for (; expired_blocks; expired_blocks &= expired_blocks - 1)
+            count += collect_block(certificates, b + (uint32_t)__builtin_ctz(expired_blocks), now, certificates->expired + count);
     }
     return count;
 }
 
 /* A loop for each of the two kinds of time. */
-TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
+TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
     __m256 ahead = _mm256_set1_ps(pir_float_above(time.ahead)), behind = _mm256_set1_ps(pir_float_below(time.behind));
-    return time.either ? collect_at(alarms, blocks, (struct instant){ahead, behind, true})
-                       : collect_at(alarms, blocks, (struct instant){ahead, behind, false});
+    return time.either ? collect_at(certificates, blocks, (struct turned_now){ahead, behind, true})
+                       : collect_at(certificates, blocks, (struct turned_now){ahead, behind, false});
 }
 
-const pir_kernels pir_kernels_avx2 = {"avx2", review, glance, collect};
+const pir_kernels pir_kernels_avx2 = {"avx2", review, probe, collect};
 
 #endif

@@ -13,7 +13,7 @@
 
 #include "dymsum/kernels/kernels_eight_body.h"
 
-TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_moment *moment,
+TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step,
                                     struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above) {
     const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
     __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES), z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
@@ -23,8 +23,8 @@ TARGET static inline void see_block(const float *ring, const struct turned *t, c
     __mmask8 is_sure = _mm256_cmp_ps_mask(sure, zero, _CMP_GT_OQ);
     __m256 root = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(rising, rising), _mm256_add_ps(sure, sure)));
     __m256 to = _mm256_maskz_sub_ps(is_sure, root, rising), since = _mm256_maskz_add_ps(is_sure, root, rising);
-    __mmask8 clear = _mm256_mask_cmp_ps_mask(_mm256_cmp_ps_mask(to, _mm256_set1_ps(moment->reach_ahead), _CMP_GT_OQ),
-                                             since, _mm256_set1_ps(moment->reach_behind), _CMP_GT_OQ);
+    __mmask8 clear = _mm256_mask_cmp_ps_mask(_mm256_cmp_ps_mask(to, _mm256_set1_ps(step->reach_ahead), _CMP_GT_OQ),
+                                             since, _mm256_set1_ps(step->reach_behind), _CMP_GT_OQ);
     *ret_touched = (uint8_t)~clear;
     *ret_above = _mm256_cmp_ps_mask(s, _mm256_set1_ps(PIR_FLOAT_BOUND), _CMP_GT_OQ);
     seen->highest = _mm256_max_ps(seen->highest, s);
@@ -34,13 +34,13 @@ TARGET static inline void see_block(const float *ring, const struct turned *t, c
 }
 
 /* The time that certificates are compared with. */
-struct instant {
+struct turned_now {
     __m256 ahead, behind;
     bool either;
 };
 
 /* Which of eight certificates or blocks hold. */
-TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct instant now) {
+TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct turned_now now) {
     __mmask8 forwards = _mm256_cmp_ps_mask(ahead, now.ahead, _CMP_GT_OQ);
     if (now.either)
         return forwards | _mm256_cmp_ps_mask(behind, now.behind, _CMP_LT_OQ);
@@ -48,47 +48,47 @@ TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct instan
 }
 
 /* The certificates of block b. */
-TARGET static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, struct instant now, uint32_t *woken) {
+TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
     const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     __m256 least = _mm256_set1_ps(HUGE_VALF), greatest = _mm256_set1_ps(-HUGE_VALF);
     uint32_t count = 0;
-    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i += 8) {
-        __m256 ahead = _mm256_loadu_ps(alarms->ahead + i), behind = _mm256_loadu_ps(alarms->behind + i);
+    for (uint32_t i = b * PIR_CERTIFICATE_BLOCK; i < (b + 1) * PIR_CERTIFICATE_BLOCK; i += 8) {
+        __m256 ahead = _mm256_loadu_ps(certificates->ahead + i), behind = _mm256_loadu_ps(certificates->behind + i);
         __mmask8 holds = holding(ahead, behind, now);
         least = _mm256_mask_min_ps(least, holds, least, ahead);
         greatest = _mm256_mask_max_ps(greatest, holds, greatest, behind);
         // all eight lanes are written: there is room, for no more were listed than looked at
         __m256i number = _mm256_add_epi32(lanes, _mm256_set1_epi32((int)i));
-        _mm256_storeu_si256((__m256i *)(void *)(woken + count), _mm256_maskz_compress_epi32((__mmask8)~holds, number));
+        _mm256_storeu_si256((__m256i *)(void *)(expired + count), _mm256_maskz_compress_epi32((__mmask8)~holds, number));
         count += (uint32_t)__builtin_popcount((uint8_t)~holds);
     }
     __m256 minus = _mm256_xor_ps(greatest, _mm256_set1_ps(-0.0f));
     float bounds[4];
     _mm_storeu_ps(bounds, least_of_each(least, minus, minus));
-    alarms->block_ahead[b] = bounds[0];
-    alarms->block_behind[b] = -bounds[1];
+    certificates->block_ahead[b] = bounds[0];
+    certificates->block_behind[b] = -bounds[1];
     return count;
 }
 
-TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_alarms *alarms, uint32_t blocks,
-                                                                        struct instant now) {
+TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_certificates *certificates, uint32_t blocks,
+                                                                        struct turned_now now) {
     uint32_t count = 0;
     // eight blocks at a time; those past the last in use hold for ever
     for (uint32_t b = 0; b < blocks; b += 8) {
-        __m256 ahead = _mm256_loadu_ps(alarms->block_ahead + b), behind = _mm256_loadu_ps(alarms->block_behind + b);
-        for (uint32_t rings = (uint8_t)~holding(ahead, behind, now); rings; rings &= rings - 1)
-            count += collect_block(alarms, b + (uint32_t)__builtin_ctz(rings), now, alarms->woken + count);
+        __m256 ahead = _mm256_loadu_ps(certificates->block_ahead + b), behind = _mm256_loadu_ps(certificates->block_behind + b);
+        for (uint32_t expired_blocks = (uint8_t)~holding(ahead, behind, now); expired_blocks; expired_blocks &= expired_blocks - 1)
+            count += collect_block(certificates, b + (uint32_t)__builtin_ctz(expired_blocks), now, certificates->expired + count);
     }
     return count;
 }
 
 /* A loop for each of the two kinds of time. */
-TARGET static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
+TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
     __m256 ahead = _mm256_set1_ps(pir_float_above(time.ahead)), behind = _mm256_set1_ps(pir_float_below(time.behind));
-    return time.either ? collect_at(alarms, blocks, (struct instant){ahead, behind, true})
-                       : collect_at(alarms, blocks, (struct instant){ahead, behind, false});
+    return time.either ? collect_at(certificates, blocks, (struct turned_now){ahead, behind, true})
+                       : collect_at(certificates, blocks, (struct turned_now){ahead, behind, false});
 }
 
-const pir_kernels pir_kernels_avx512 = {"avx512", review, glance, collect};
+const pir_kernels pir_kernels_avx512 = {"avx512", review, probe, collect};
 
 #endif

@@ -44,43 +44,43 @@ struct seen {
 };
 
 /* Looks at one block; gives the masks of its sides that were touched, and that the facet is above. */
-TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_moment *moment,
+TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step,
                                     struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above);
 
 /* The look at a facet in the cell whose ring fills `blocks` blocks, most often one; returns the greatest values of s, lane by lane. */
-TARGET static inline __m256 look(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8],
-                                 pir_look *ret_look) {
+TARGET static inline __m256 check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
+                                 pir_check *ret_check) {
     const struct turned t = spread(turned);
-    struct seen seen = {_mm256_set1_ps(-HUGE_VALF), _mm256_set1_ps(4), _mm256_set1_ps(PIR_FARTHEST),
-                        _mm256_set1_ps(PIR_FARTHEST)};
+    struct seen seen = {_mm256_set1_ps(-HUGE_VALF), _mm256_set1_ps(4), _mm256_set1_ps(PIR_FARTHEST_PREDICTION),
+                        _mm256_set1_ps(PIR_FARTHEST_PREDICTION)};
     uint64_t touched = 0, above = 0;
     for (uint32_t b = 0; b < blocks; b++) {
         uint32_t touched_here, above_here;
-        see_block(ring + (size_t)b * 3 * PIR_LANES, &t, moment, &seen, &touched_here, &above_here);
+        see_block(ring + (size_t)b * 3 * PIR_LANES, &t, step, &seen, &touched_here, &above_here);
         touched = b == 0 ? touched_here : pir_side_mask_add(touched, b, touched_here);
         above = b == 0 ? above_here : pir_side_mask_add(above, b, above_here);
     }
     __m128 spans = least_of_each(seen.least, seen.ahead, seen.behind);
-    _mm_storeu_ps((float *)ret_look, _mm_sub_ps(spans, _mm_setr_ps(PIR_FLOAT_BOUND, 0, 0, 0)));
-    ret_look->touched = touched;
-    ret_look->above = above;
+    _mm_storeu_ps((float *)ret_check, _mm_sub_ps(spans, _mm_setr_ps(PIR_FLOAT_BOUND, 0, 0, 0)));
+    ret_check->touched = touched;
+    ret_check->above = above;
     return seen.highest;
 }
 
-TARGET static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
-                          pir_glance *ret_glance) {
+TARGET static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+                          pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
     const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
     const struct turned t = spread(turned);
-    float highest = greatest_of(look(ring, blocks, moment, turned, &ret_glance->look));
-    ret_glance->highest = highest + 0.0f;
-    ret_glance->which = 0;
+    float highest = greatest_of(check(ring, blocks, step, turned, &ret_probe->check));
+    ret_probe->highest = highest + 0.0f;
+    ret_probe->which = 0;
     for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
         __m256 s = dot(t.x, t.y, t.z, _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES),
                        _mm256_loadu_ps(ring + 2 * PIR_LANES));
         uint32_t is = EQUAL(s, _mm256_set1_ps(highest));
         if (is) {
-            ret_glance->which = b * PIR_LANES + (uint32_t)__builtin_ctz(is);
+            ret_probe->which = b * PIR_LANES + (uint32_t)__builtin_ctz(is);
             break;
         }
     }
@@ -93,10 +93,10 @@ TARGET static inline void turn_facet(const pir_facets *facets, uint32_t f, float
     _mm256_storeu_ps(ret_turned, dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
 }
 
-TARGET static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell,
-                                  const float turned[8], pir_look *ret_look) {
+TARGET static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell,
+                                  const float turned[8], pir_check *ret_check) {
     uint32_t block = facets->ring_block[cell];
-    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned, ret_look);
+    check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
 
 #define REVIEW_TARGET TARGET

@@ -19,13 +19,13 @@ static inline float32x4_t masked(uint32x4_t mask, float32x4_t v) {
 }
 
 /* The look at a facet in a cell; returns the greatest value of s. */
-static inline float look(const float *ring, uint32_t blocks, const pir_moment *moment, const float turned[8],
-                         pir_look *ret_look) {
+static inline float check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
+                         pir_check *ret_check) {
     const uint32_t bits[4] = {1, 2, 4, 8};
     const uint32x4_t bit = vld1q_u32(bits), sign = vdupq_n_u32(0x80000000);
     const float32x4_t zero = vdupq_n_f32(0), bound = vdupq_n_f32(PIR_FLOAT_BOUND);
     const float32x4_t u = vld1q_f32(turned), w = vld1q_f32(turned + 4);
-    float32x4_t high = vdupq_n_f32(-HUGE_VALF), least = vdupq_n_f32(4), ahead = vdupq_n_f32(PIR_FARTHEST),
+    float32x4_t high = vdupq_n_f32(-HUGE_VALF), least = vdupq_n_f32(4), ahead = vdupq_n_f32(PIR_FARTHEST_PREDICTION),
                 behind = ahead;
     uint64_t touched = 0, above = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
@@ -44,31 +44,31 @@ static inline float look(const float *ring, uint32_t blocks, const pir_moment *m
         least = vminq_f32(least, size);
         ahead = vminq_f32(ahead, to);
         behind = vminq_f32(behind, since);
-        uint32x4_t clear = vandq_u32(vcgtq_f32(to, vdupq_n_f32(moment->reach_ahead)),
-                                     vcgtq_f32(since, vdupq_n_f32(moment->reach_behind)));
+        uint32x4_t clear = vandq_u32(vcgtq_f32(to, vdupq_n_f32(step->reach_ahead)),
+                                     vcgtq_f32(since, vdupq_n_f32(step->reach_behind)));
         touched = pir_side_mask_add(touched, i / PIR_LANES, vaddvq_u32(vbicq_u32(bit, clear)) << i % PIR_LANES);
         above =
             pir_side_mask_add(above, i / PIR_LANES, vaddvq_u32(vandq_u32(bit, vcgtq_f32(s, bound))) << i % PIR_LANES);
     }
-    *ret_look =
-        (pir_look){vminvq_f32(least) - PIR_FLOAT_BOUND, vminvq_f32(ahead), vminvq_f32(behind), 0, touched, above};
+    *ret_check =
+        (pir_check){vminvq_f32(least) - PIR_FLOAT_BOUND, vminvq_f32(ahead), vminvq_f32(behind), 0, touched, above};
     return vmaxvq_f32(high);
 }
 
-static void glance(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
-                   pir_glance *ret_glance) {
+static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+                   pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
     const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
-    const float highest = look(ring, blocks, moment, turned, &ret_glance->look);
-    ret_glance->highest = highest + 0.0f;
-    ret_glance->which = 0;
+    const float highest = check(ring, blocks, step, turned, &ret_probe->check);
+    ret_probe->highest = highest + 0.0f;
+    ret_probe->which = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
         const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
         float s[4];
         vst1q_f32(s, dot(vld1q_f32(turned), vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES)));
         for (uint32_t k = 0; k < 4; k++)
             if (s[k] == highest) {
-                ret_glance->which = i + k;
+                ret_probe->which = i + k;
                 return;
             }
     }
@@ -81,65 +81,65 @@ static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_tu
     vst1q_f32(ret_turned + 4, dot(n, vld1q_f32(t[0] + 4), vld1q_f32(t[1] + 4), vld1q_f32(t[2] + 4)));
 }
 
-static inline void look_in(const pir_facets *facets, const pir_moment *moment, uint32_t cell, const float turned[8],
-                           pir_look *ret_look) {
+static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+                           pir_check *ret_check) {
     uint32_t block = facets->ring_block[cell];
-    look(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, moment, turned, ret_look);
+    check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
 
 #define REVIEW_TARGET
 #include "dymsum/kernels/review_body.h"
 
 /* The time that certificates are compared with; either: all bits or none. */
-struct instant {
+struct turned_now {
     float32x4_t ahead, behind;
     uint32x4_t either;
 };
 
 /* Which of four certificates or blocks hold. */
-static inline uint32x4_t holding(float32x4_t ahead, float32x4_t behind, struct instant now) {
+static inline uint32x4_t holding(float32x4_t ahead, float32x4_t behind, struct turned_now now) {
     uint32x4_t forwards = vcgtq_f32(ahead, now.ahead), backwards = vcltq_f32(behind, now.behind);
     return vorrq_u32(vandq_u32(forwards, backwards), vandq_u32(vorrq_u32(forwards, backwards), now.either));
 }
 
 /* The certificates of block b. */
-static inline uint32_t collect_block(pir_alarms *alarms, uint32_t b, struct instant now, uint32_t *woken) {
+static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
     const float32x4_t most = vdupq_n_f32(HUGE_VALF), fewest = vdupq_n_f32(-HUGE_VALF);
     float32x4_t least = most, greatest = fewest;
     uint32_t count = 0;
-    for (uint32_t i = b * PIR_ALARM_BLOCK; i < (b + 1) * PIR_ALARM_BLOCK; i += 4) {
-        float32x4_t ahead = vld1q_f32(alarms->ahead + i), behind = vld1q_f32(alarms->behind + i);
+    for (uint32_t i = b * PIR_CERTIFICATE_BLOCK; i < (b + 1) * PIR_CERTIFICATE_BLOCK; i += 4) {
+        float32x4_t ahead = vld1q_f32(certificates->ahead + i), behind = vld1q_f32(certificates->behind + i);
         uint32x4_t holds = holding(ahead, behind, now);
         least = vminq_f32(least, vbslq_f32(holds, ahead, most));
         greatest = vmaxq_f32(greatest, vbslq_f32(holds, behind, fewest));
         uint32_t held[4];
         vst1q_u32(held, holds);
         for (uint32_t k = 0; k < 4; k++) {
-            woken[count] = i + k;
+            expired[count] = i + k;
             count += !held[k];
         }
     }
-    alarms->block_ahead[b] = vminvq_f32(least);
-    alarms->block_behind[b] = vmaxvq_f32(greatest);
+    certificates->block_ahead[b] = vminvq_f32(least);
+    certificates->block_behind[b] = vmaxvq_f32(greatest);
     return count;
 }
 
-static uint32_t collect(pir_alarms *alarms, uint32_t blocks, pir_alarm_time time) {
-    const struct instant now = {vdupq_n_f32(pir_float_above(time.ahead)), vdupq_n_f32(pir_float_below(time.behind)),
+static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
+    const struct turned_now now = {vdupq_n_f32(pir_float_above(time.ahead)), vdupq_n_f32(pir_float_below(time.behind)),
                                 vdupq_n_u32(time.either ? UINT32_MAX : 0)};
     uint32_t count = 0;
     // four blocks at a time; those past the last in use hold for ever
     for (uint32_t b = 0; b < blocks; b += 4) {
-        float32x4_t ahead = vld1q_f32(alarms->block_ahead + b), behind = vld1q_f32(alarms->block_behind + b);
+        float32x4_t ahead = vld1q_f32(certificates->block_ahead + b), behind = vld1q_f32(certificates->block_behind + b);
         uint32_t held[4];
         vst1q_u32(held, holding(ahead, behind, now));
         for (uint32_t k = 0; k < 4; k++)
             if (!held[k])
-                count += collect_block(alarms, b + k, now, alarms->woken + count);
+                count += collect_block(certificates, b + k, now, certificates->expired + count);
     }
     return count;
 }
 
-const pir_kernels pir_kernels_neon = {"neon", review, glance, collect};
+const pir_kernels pir_kernels_neon = {"neon", review, probe, collect};
 
 #endif

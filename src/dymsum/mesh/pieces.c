@@ -74,7 +74,7 @@ static uint32_t coinciding_q(const pir_posed *posed, const pir_edge_pair *pair, 
 }
 
 /* Looks at a crossing: whether it is a facet alone; where it is not, the facets that it coincides with are told. */
-static bool look_at_crossing(pir_pieces *pieces, const pir_posed *posed, const pir_edge_pair *pair) {
+static bool check_crossing(pir_pieces *pieces, const pir_posed *posed, const pir_edge_pair *pair) {
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     const struct ends ends = {{p->left[pair->half], pir_right(p, pair->half)},
                               {q->left[pair->h], pir_right(q, pair->h)}};
@@ -120,7 +120,7 @@ pir_status pir_pieces_make(pir_pieces *pieces, const pir_posed *posed) {
              slot = pir_crossing_next(pairing, slot)) {
             pair.h = pir_crossing_half(pairing, slot);
             pair.d = q->direction[pair.h];
-            if (!look_at_crossing(pieces, posed, &pair))
+            if (!check_crossing(pieces, posed, &pair))
                 continue;
             pieces->alone[slot / 64] |= (uint64_t)1 << slot % 64;
             pieces->alone_count++;

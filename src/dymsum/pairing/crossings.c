@@ -69,7 +69,7 @@ uint32_t pir_crossing_new(pir_sum *sum, uint32_t e, uint32_t h) {
     c->half[slot] = h;
     c->edge[slot] = e;
     c->next[slot] = PIR_NO_CROSSING;
-    pir_journal_note(&sum->journal, pir_alarm_count(sum) + slot);
+    pir_journal_note(&sum->journal, pir_certificate_count(sum) + slot);
     sum->pairing.crossings.count++;
     return slot;
 }
@@ -79,6 +79,6 @@ void pir_crossing_free(pir_sum *sum, uint32_t slot) {
     c->edge[slot] = PIR_NO_CROSSING;
     c->next[slot] = c->free;
     c->free = slot;
-    pir_journal_note(&sum->journal, pir_alarm_count(sum) + slot);
+    pir_journal_note(&sum->journal, pir_certificate_count(sum) + slot);
     sum->pairing.crossings.count--;
 }

@@ -53,7 +53,7 @@ static void read_facets(struct reading *reading, uint32_t source, uint32_t *pair
 
 static void settle_facets(struct reading *reading) {
     pir_sum *sum = reading->sum;
-    pir_sleep unused;
+    pir_expiry unused;
     for (uint32_t f = 0; f < sum->pairing.p->facet_count; f++)
         if (reading->tied[0][f])
             sum->pairing.fv[f] = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->pairing.fv[f], &unused);

@@ -18,51 +18,51 @@ struct faller {
 };
 
 /* The neighbour of v up the steepest edge that rises, or v when none does, and then how long that lasts. */
-static uint32_t step_finely(pir_sum *sum, const struct faller *faller, uint32_t v, pir_sleep *ret_sleep) {
+static uint32_t step_finely(pir_sum *sum, const struct faller *faller, uint32_t v, pir_expiry *ret_expiry) {
     const pir_polytope *other = faller->other;
     uint32_t best = v;
     double most = 0;
-    *ret_sleep = pir_sleep_long();
+    *ret_expiry = pir_expiry_never();
     for (uint32_t h = other->ring_start[v]; h < other->ring_start[v + 1]; h++) {
         double s;
         int sign = faller->of_p ? pir_sign_facet_half(sum, faller->facet, faller->turned, h, &s)
                                 : pir_sign_facet_half_back(sum, faller->facet, faller->turned, h, &s);
-        pir_sleep_until_change(ret_sleep, s, pir_vec_dot(faller->motion, other->direction[h]));
+        pir_expiry_take_sign(ret_expiry, s, pir_vec_dot(faller->motion, other->direction[h]));
         if (sign > 0 && (best == v || s > most))
             best = other->target[h], most = s;
     }
     return best;
 }
 
-static uint32_t descend(pir_sum *sum, const struct faller *faller, uint32_t from, pir_sleep *ret_sleep) {
+static uint32_t descend(pir_sum *sum, const struct faller *faller, uint32_t from, pir_expiry *ret_expiry) {
     const pir_polytope *other = faller->other;
     float turned[8];
-    pir_turned(faller->turned, faller->motion, turned);
+    pir_pack_turned(faller->turned, faller->motion, turned);
     for (;;) {
-        pir_glance seen;
-        sum->kernels->glance(faller->facets, &sum->moment, from, turned, &seen);
+        pir_probe seen;
+        sum->kernels->probe(faller->facets, &sum->step, from, turned, &seen);
         sum->pairing.signs.by_filter += other->ring_start[from + 1] - other->ring_start[from];
         uint32_t next = other->half_count == 0 ? from : other->target[other->ring_start[from] + seen.which];
         if (seen.highest < -PIR_FLOAT_BOUND) {
-            *ret_sleep = (pir_sleep){seen.look.margin, seen.look.ahead, -seen.look.behind};
+            *ret_expiry = (pir_expiry){seen.check.margin, seen.check.ahead, -seen.check.behind};
             return from;
         }
         if (seen.highest <= PIR_FLOAT_BOUND)
-            next = step_finely(sum, faller, from, ret_sleep);
+            next = step_finely(sum, faller, from, ret_expiry);
         if (next == from)
             return from;
         from = next;
     }
 }
 
-uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t from, pir_sleep *ret_sleep) {
+uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t from, pir_expiry *ret_expiry) {
     const struct faller faller = {&sum->p_facets, sum->pairing.q, f, true, rotated, pir_motion_of(sum, rotated)};
-    return descend(sum, &faller, from, ret_sleep);
+    return descend(sum, &faller, from, ret_expiry);
 }
 
-uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_sleep *ret_sleep) {
+uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_expiry *ret_expiry) {
     pir_vec3 turned_back = pir_turned_back_normal(sum, g);
     const struct faller faller = {&sum->q_facets, sum->pairing.p, g,
                                   false,          turned_back,    pir_motion_back(sum, turned_back)};
-    return descend(sum, &faller, from, ret_sleep);
+    return descend(sum, &faller, from, ret_expiry);
 }

@@ -97,7 +97,7 @@ static bool walk_arcs(pir_sum *sum) {
     }
     if (p->facet_count == 0)
         return true;
-    pir_sleep unused;
+    pir_expiry unused;
     sum->pairing.fv[0] = pir_descend_fv(sum, 0, sum->rotated[0], 0, &unused);
     sum->mark[0] = LOCATED;
     uint32_t head = 0, tail = 0;
@@ -142,7 +142,7 @@ static void locate_facets_of_q(pir_sum *sum) {
     }
     while (head < tail) {
         uint32_t g = sum->queue[head++];
-        pir_sleep unused;
+        pir_expiry unused;
         sum->pairing.vf[g] = pir_descend_vf(sum, g, sum->pairing.vf[g], &unused);
         for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
             uint32_t beside = pir_right(q, q->loop[i]);

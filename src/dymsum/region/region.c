@@ -119,12 +119,12 @@ void pir_region_step(pir_sum *sum, pir_quat before) {
 
 /* --- falling dormant --- */
 
-static void drop_facet(pir_sum *sum, pir_region_facets *facets, uint32_t *cell, uint32_t f, uint32_t alarm) {
+static void drop_facet(pir_sum *sum, pir_region_facets *facets, uint32_t *cell, uint32_t f, uint32_t certificate) {
     if (cell[f] != PIR_NO_PAIR)
         facets->hint[f] = cell[f];
     cell[f] = PIR_NO_PAIR;
-    pir_alarm_clear(&sum->alarms, alarm);
-    pir_journal_note(&sum->journal, alarm);
+    pir_certificate_clear(&sum->certificates, certificate);
+    pir_journal_note(&sum->journal, certificate);
 }
 
 static void drop_edge(pir_sum *sum, uint32_t e) {
@@ -135,7 +135,7 @@ static void drop_edge(pir_sum *sum, uint32_t e) {
         slot = next;
     }
     sum->pairing.crossings.first[e] = PIR_NO_CROSSING;
-    sum->touched[e] = PIR_DORMANT;
+    sum->touched[e] = PIR_INACTIVE;
 }
 
 /* Takes what the last sweep found for the members. */
@@ -160,7 +160,7 @@ static void choose(pir_sum *sum) {
             drop_facet(sum, &region->p, sum->pairing.fv, p->at[i], p->at[i]);
     for (uint32_t i = 0; i < of_q; i++)
         if (q->seen[q->at[i]] != region->sweep)
-            drop_facet(sum, &region->q, sum->pairing.vf, q->at[i], sum->q_facets.first_alarm + q->at[i]);
+            drop_facet(sum, &region->q, sum->pairing.vf, q->at[i], sum->q_facets.first_certificate + q->at[i]);
     take_next(p);
     take_next(q);
     take_next(edges);
@@ -170,12 +170,12 @@ void pir_region_follow(pir_sum *sum) {
     pir_region *region = &sum->region;
     double angle = region->cover.step, allowed = region->cover.stride;
     region->cover.steps += region->cover.steps < UINT32_MAX;
-    region->leapt = region->cone.set && !region->cover.whole && !(angle <= LONGEST_STEP);
+    region->jumped = region->cone.set && !region->cover.whole && !(angle <= LONGEST_STEP);
     if (pir_region_holds(sum, &sum->pairing.signs.rotation))
         return;
     centre(sum, false);
     choose(sum);
-    region->leapt = region->leapt || !(angle <= fmin(allowed, region->cover.stride));
+    region->jumped = region->jumped || !(angle <= fmin(allowed, region->cover.stride));
 }
 
 /* --- waking up --- */
@@ -185,7 +185,7 @@ struct place {
     pir_sum *sum;
     pir_region_facets *facets;
     const pir_polytope *own;
-    uint32_t *cell, first_alarm;
+    uint32_t *cell, first_certificate;
     bool of_p;
 };
 
@@ -202,11 +202,11 @@ static uint32_t cell_beside(const struct place *place, uint32_t f) {
 
 static void locate(const struct place *place, uint32_t f, uint32_t from) {
     pir_sum *sum = place->sum;
-    pir_sleep sleep;
-    place->cell[f] = place->of_p ? pir_descend_fv(sum, f, pir_rotated_normal(sum, f), from, &sleep)
-                                 : pir_descend_vf(sum, f, from, &sleep);
-    pir_fall_asleep(sum, place->first_alarm + f, &sleep);
-    pir_journal_note(&sum->journal, place->first_alarm + f);
+    pir_expiry expiry;
+    place->cell[f] = place->of_p ? pir_descend_fv(sum, f, pir_rotated_normal(sum, f), from, &expiry)
+                                 : pir_descend_vf(sum, f, from, &expiry);
+    pir_certify(sum, place->first_certificate + f, &expiry);
+    pir_journal_note(&sum->journal, place->first_certificate + f);
 }
 
 /* Locates the members without a cell: from a neighbour that has one, where there is one, and then outwards, breadth first. */
@@ -240,13 +240,13 @@ bool pir_region_admit(pir_sum *sum) {
     if (!region->admits)
         return true;
     const struct place p = {sum, &region->p, sum->pairing.p, sum->pairing.fv, 0, true},
-                       q = {sum, &region->q, sum->pairing.q, sum->pairing.vf, sum->q_facets.first_alarm, false};
-    pir_set_moment(sum);
+                       q = {sum, &region->q, sum->pairing.q, sum->pairing.vf, sum->q_facets.first_certificate, false};
+    pir_begin_step(sum);
     locate_members(&p);
     locate_members(&q);
     for (uint32_t i = 0; i < region->edges.count; i++) {
         uint32_t e = region->edges.at[i];
-        if (sum->touched[e] != PIR_DORMANT)
+        if (sum->touched[e] != PIR_INACTIVE)
             continue;
         sum->touched[e] = 0;
         if (!pir_derive_edge(sum, e))
@@ -298,7 +298,7 @@ bool pir_region_walk(pir_sum *sum) {
     for (uint32_t i = 0; i < p->count; i++)
         drop_facet(sum, &region->p, sum->pairing.fv, p->at[i], p->at[i]);
     for (uint32_t i = 0; i < q->count; i++)
-        drop_facet(sum, &region->q, sum->pairing.vf, q->at[i], sum->q_facets.first_alarm + q->at[i]);
+        drop_facet(sum, &region->q, sum->pairing.vf, q->at[i], sum->q_facets.first_certificate + q->at[i]);
     p->count = q->count = edges->count = 0;
     choose(sum);
     return pir_region_admit(sum);
@@ -338,7 +338,7 @@ bool pir_region_adopt(pir_sum *sum, const pir_cone *cone, const pir_cover *cover
 
 double pir_region_share(const pir_sum *sum) {
     const pir_region *region = &sum->region;
-    uint32_t all = pir_alarm_count(sum);
+    uint32_t all = pir_certificate_count(sum);
     return region->cone.set && all > 0 ? (double)(region->p.members.count + region->q.members.count + 1) / (all + 1.0)
                                        : 1;
 }

@@ -33,7 +33,7 @@ typedef struct pir_region {
     pir_cone cone;
     pir_cover cover;
     bool admits;            /* a sweep has counted in features that are still dormant */
-    bool leapt;             /* the last step may have carried what was or is dormant through what is active */
+    bool jumped;             /* the last step may have carried what was or is dormant through what is active */
     uint32_t sweep;         /* the number of the last sweep */
     pir_region_facets p, q; /* memory from the first cone on, as for the edges */
     pir_members edges;      /* of P */

@@ -53,7 +53,7 @@ static void add_exit(struct exit *exit, uint32_t half, double s, double rising, 
 }
 
 /* Looks for the side through which the facet has left the cell of v. */
-static struct exit look_for_exit(const struct tracer *tracer, uint32_t v) {
+static struct exit find_exit(const struct tracer *tracer, uint32_t v) {
     const pir_polytope *other = tracer->other;
     const double stride = fabs(tracer->stride), error = tracer->error;
     struct exit exit = {.known = true};
@@ -78,7 +78,7 @@ static bool follow(pir_sum *sum, const struct tracer *tracer, uint32_t from, pir
     ret_trace->cell = from;
     for (;;) {
         const uint32_t *ring = &tracer->other->ring_start[ret_trace->cell];
-        struct exit exit = look_for_exit(tracer, ret_trace->cell);
+        struct exit exit = find_exit(tracer, ret_trace->cell);
         sum->pairing.signs.by_filter += ring[1] - ring[0];
         if (!exit.known || (exit.count > 0 && ret_trace->count == PIR_TRACE_LONGEST))
             return false;
@@ -88,23 +88,23 @@ static bool follow(pir_sum *sum, const struct tracer *tracer, uint32_t from, pir
         ret_trace->cell = tracer->other->target[exit.half];
     }
     float turned[8];
-    pir_turned(tracer->turned, tracer->motion, turned);
-    pir_glance seen;
-    sum->kernels->glance(tracer->facets, &sum->moment, ret_trace->cell, turned, &seen);
-    ret_trace->sleep = (pir_sleep){seen.look.margin, seen.look.ahead, -seen.look.behind};
+    pir_pack_turned(tracer->turned, tracer->motion, turned);
+    pir_probe seen;
+    sum->kernels->probe(tracer->facets, &sum->step, ret_trace->cell, turned, &seen);
+    ret_trace->expiry = (pir_expiry){seen.check.margin, seen.check.ahead, -seen.check.behind};
     return true;
 }
 
 /* The facet of normal `turned` in the cells of `other`. */
 static struct tracer tracer_of(const pir_sum *sum, const pir_facets *facets, const pir_polytope *other, pir_vec3 turned,
                                pir_vec3 motion) {
-    const pir_clock *clock = &sum->clock;
+    const pir_epoch *epoch = &sum->epoch;
     return (struct tracer){facets,
                            other,
                            turned,
                            motion,
-                           clock->stride * (1 + 0x1p-20),
-                           (PIR_SIGN_BOUND + 2 * clock->drift) * (1 + 0x1p-20)};
+                           epoch->stride * (1 + 0x1p-20),
+                           (PIR_SIGN_BOUND + 2 * epoch->drift) * (1 + 0x1p-20)};
 }
 
 bool pir_trace_fv(pir_sum *sum, uint32_t f, pir_trace *ret_trace) {

@@ -34,13 +34,13 @@ struct update {
 };
 
 void pir_expire_all(pir_sum *sum) {
-    pir_alarms_wake(&sum->alarms, 0, pir_alarm_count(sum));
+    pir_certificates_expire(&sum->certificates, 0, pir_certificate_count(sum));
 }
 
 /* Edge e is to be led anew. */
 static inline void note_edge(struct update *update, uint32_t e) {
     pir_sum *sum = update->sum;
-    if (sum->touched[e] == PIR_DORMANT)
+    if (sum->touched[e] == PIR_INACTIVE)
         return;
     if (sum->touched[e] != update->stamp + 1)
         sum->queue[update->derive++] = e;
@@ -54,7 +54,7 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     bool done = true;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         uint32_t half = p->loop[i], e = p->edge[half];
-        if (sum->touched[e] == PIR_DORMANT)
+        if (sum->touched[e] == PIR_INACTIVE)
             continue;
         done &= p->edge_half[e] == half ? pir_move_start(sum, e, h) : pir_move_end(sum, e, h);
         if (sum->touched[e] < update->stamp)
@@ -86,11 +86,11 @@ static void pass_facets(struct update *update) {
 }
 
 /* Spans beyond the farthest that is foretold are cut, and all are rounded down. The way here is not known. */
-void pir_fall_asleep(pir_sum *sum, uint32_t i, const pir_sleep *sleep) {
-    pir_sleep_file(&sum->moment, &sum->alarms, i, pir_float_below(fmin(sleep->margin, 4)),
-                   pir_float_below(fmin(sleep->ahead, (double)PIR_FARTHEST)),
-                   pir_float_below(fmin(-sleep->behind, (double)PIR_FARTHEST)));
-    pir_alarm_forget(&sum->alarms, i);
+void pir_certify(pir_sum *sum, uint32_t i, const pir_expiry *expiry) {
+    pir_certificate_file(&sum->step, &sum->certificates, i, pir_float_below(fmin(expiry->margin, 4)),
+                   pir_float_below(fmin(expiry->ahead, (double)PIR_FARTHEST_PREDICTION)),
+                   pir_float_below(fmin(-expiry->behind, (double)PIR_FARTHEST_PREDICTION)));
+    pir_certificate_forget_previous(&sum->certificates, i);
 }
 
 /* Facet f of P may have touched one side or another. */
@@ -99,16 +99,16 @@ static void settle_of_p(struct update *update, uint32_t f) {
     const pir_polytope *p = sum->pairing.p;
     pir_trace trace;
     if (!update->all && pir_trace_fv(sum, f, &trace)) {
-        pir_fall_asleep(sum, f, &trace.sleep);
+        pir_certify(sum, f, &trace.expiry);
         sum->statistics.repaired += trace.count;
         sum->pairing.fv[f] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             cross_of_p(update, f, trace.crossed[i]);
         return;
     }
-    pir_sleep sleep;
-    uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->pairing.fv[f], &sleep);
-    pir_fall_asleep(sum, f, &sleep);
+    pir_expiry expiry;
+    uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->pairing.fv[f], &expiry);
+    pir_certify(sum, f, &expiry);
     sum->statistics.repaired += v != sum->pairing.fv[f];
     sum->pairing.fv[f] = v;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && !update->all; i++)
@@ -118,9 +118,9 @@ static void settle_of_p(struct update *update, uint32_t f) {
 /* Whether side `half` of a cell of P may have been touched by the normal of a facet of Q, turned back, within the step. */
 static bool touches(const pir_sum *sum, uint32_t half, pir_vec3 turned_back, pir_vec3 motion) {
     pir_vec3 d = sum->pairing.p->direction[half];
-    pir_sleep sleep = pir_sleep_long();
-    pir_sleep_until_change(&sleep, pir_vec_dot(turned_back, d), pir_vec_dot(motion, d));
-    return !(sleep.ahead > (double)sum->moment.reach_ahead && -sleep.behind > (double)sum->moment.reach_behind);
+    pir_expiry expiry = pir_expiry_never();
+    pir_expiry_take_sign(&expiry, pir_vec_dot(turned_back, d), pir_vec_dot(motion, d));
+    return !(expiry.ahead > (double)sum->step.reach_ahead && -expiry.behind > (double)sum->step.reach_behind);
 }
 
 /*
@@ -154,16 +154,16 @@ static void settle_of_q(struct update *update, uint32_t g) {
     pir_sum *sum = update->sum;
     pir_trace trace;
     if (!update->all && pir_trace_vf(sum, g, &trace)) {
-        pir_fall_asleep(sum, sum->q_facets.first_alarm + g, &trace.sleep);
+        pir_certify(sum, sum->q_facets.first_certificate + g, &trace.expiry);
         sum->statistics.repaired += trace.count;
         sum->pairing.vf[g] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             note_crossing_of_q(update, g, trace.crossed[i]);
         return;
     }
-    pir_sleep sleep;
-    uint32_t v = pir_descend_vf(sum, g, sum->pairing.vf[g], &sleep);
-    pir_fall_asleep(sum, sum->q_facets.first_alarm + g, &sleep);
+    pir_expiry expiry;
+    uint32_t v = pir_descend_vf(sum, g, sum->pairing.vf[g], &expiry);
+    pir_certify(sum, sum->q_facets.first_certificate + g, &expiry);
     sum->statistics.repaired += v != sum->pairing.vf[g];
     sum->pairing.vf[g] = v;
     if (!update->all)
@@ -172,26 +172,26 @@ static void settle_of_q(struct update *update, uint32_t g) {
 
 /* How far back the last step lies, as looks take it: any distance for one that is too long to follow. */
 static float step_reach(const pir_sum *sum) {
-    double reach = fabs(sum->clock.stride) * (1 + 0x1p-20);
+    double reach = fabs(sum->epoch.stride) * (1 + 0x1p-20);
     return reach <= PIR_TRACE_FARTHEST ? (float)reach : HUGE_VALF;
 }
 
-void pir_set_moment(pir_sum *sum) {
-    const pir_clock *clock = &sum->clock;
+void pir_begin_step(pir_sum *sum) {
+    const pir_epoch *epoch = &sum->epoch;
     float most = step_reach(sum);
-    bool forwards = clock->stride >= 0;
-    sum->moment = (pir_moment){.reach_ahead = forwards ? 0 : most,
+    bool forwards = epoch->stride >= 0;
+    sum->step = (pir_step){.reach_ahead = forwards ? 0 : most,
                                .reach_behind = forwards ? most : 0,
-                               .ahead = pir_float_below(clock->axial ? clock->phase : clock->path),
-                               .behind = pir_float_above(clock->axial ? clock->phase : clock->net),
-                               .axial = clock->axial};
-    pir_alarms_set_now(&sum->alarms, sum->pairing.signs.rotation.unit);
+                               .ahead = pir_float_below(epoch->axial ? epoch->phase : epoch->path),
+                               .behind = pir_float_above(epoch->axial ? epoch->phase : epoch->net),
+                               .axial = epoch->axial};
+    pir_certificates_set_now(&sum->certificates, sum->pairing.signs.rotation.unit);
     const pir_mat3 *r = &sum->pairing.signs.rotation.r;
-    pir_vec3 back = pir_mat_apply_transposed(r, clock->axis);
+    pir_vec3 back = pir_mat_apply_transposed(r, epoch->axis);
     for (int k = 0; k < 3; k++) {
         pir_vec3 column = {r->m[0][k], r->m[1][k], r->m[2][k]}, row = {r->m[k][0], r->m[k][1], r->m[k][2]};
-        pir_turned(column, pir_vec_cross(clock->axis, column), sum->p_facets.turn[k]);
-        pir_turned(row, pir_vec_cross(row, back), sum->q_facets.turn[k]);
+        pir_pack_turned(column, pir_vec_cross(epoch->axis, column), sum->p_facets.turn[k]);
+        pir_pack_turned(row, pir_vec_cross(row, back), sum->q_facets.turn[k]);
     }
 }
 
@@ -200,27 +200,27 @@ static bool are_many_open(const pir_sum *sum, const pir_suspect *suspects, uint3
     uint32_t open = 0;
     for (uint32_t i = 0; i < count; i++)
         open += suspects[i].crossed == PIR_NO_SIDE;
-    return open > pir_alarm_count(sum) / MANY_OPEN;
+    return open > pir_certificate_count(sum) / MANY_OPEN;
 }
 
 /*
  * Takes those back that are where they came from: facets of P with their edges; those of Q are listed in sum->suspects, *ret_of_q of them.
  * What is left of alarms->woken is the others; returns their number.
  */
-static uint32_t take_back(struct update *update, uint32_t woken, uint32_t *ret_of_q) {
+static uint32_t take_back(struct update *update, uint32_t expired, uint32_t *ret_of_q) {
     pir_sum *sum = update->sum;
-    uint32_t *alarm = sum->alarms.woken, left = 0, of_q = 0;
+    uint32_t *certificate = sum->certificates.expired, left = 0, of_q = 0;
     *ret_of_q = 0;
     // who never turned round never comes back
-    if (!sum->clock.swings)
-        return woken;
-    for (uint32_t k = 0; k < woken; k++) {
-        uint32_t i = alarm[k], half;
-        bool of_p = i < sum->q_facets.first_alarm;
+    if (!sum->epoch.reverses)
+        return expired;
+    for (uint32_t k = 0; k < expired; k++) {
+        uint32_t i = certificate[k], half;
+        bool of_p = i < sum->q_facets.first_certificate;
         const pir_facets *facets = of_p ? &sum->p_facets : &sum->q_facets;
-        uint32_t f = i - facets->first_alarm;
-        if (!pir_alarm_go_back(&sum->alarms, i, sum->clock.phase, facets->twin, &half)) {
-            alarm[left++] = i;
+        uint32_t f = i - facets->first_certificate;
+        if (!pir_certificate_reuse(&sum->certificates, i, sum->epoch.phase, facets->twin, &half)) {
+            certificate[left++] = i;
             continue;
         }
         facets->cell[f] = facets->target[half];
@@ -239,7 +239,7 @@ static uint32_t take_back(struct update *update, uint32_t woken, uint32_t *ret_o
 /* What is seen of facets of Q, after all of P: their edges tell then whether another event has touched them. */
 static void take_along_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        pir_journal_note(&update->sum->journal, update->sum->q_facets.first_alarm + suspects[i].facet);
+        pir_journal_note(&update->sum->journal, update->sum->q_facets.first_certificate + suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_q(update, suspects[i].facet);
         } else {
@@ -262,20 +262,20 @@ static void take_along_of_p(struct update *update, const pir_suspect *suspects, 
 }
 
 /* Finds where the facets that wake are, and brings along what they have touched or notes it. */
-static void review(struct update *update, uint32_t woken) {
+static void review(struct update *update, uint32_t expired) {
     pir_sum *sum = update->sum;
-    uint32_t back, left = take_back(update, woken, &back), of_p = 0, of_q = 0;
+    uint32_t back, left = take_back(update, expired, &back), of_p = 0, of_q = 0;
     pir_suspect *seen = sum->suspects + back;
     if (left > 0) {
-        const uint32_t *alarm = sum->alarms.woken;
+        const uint32_t *certificate = sum->certificates.expired;
         uint32_t left_of_p = 0;
-        while (left_of_p < left && alarm[left_of_p] < sum->q_facets.first_alarm)
+        while (left_of_p < left && certificate[left_of_p] < sum->q_facets.first_certificate)
             left_of_p++;
-        pir_set_moment(sum);
+        pir_begin_step(sum);
         // all looks before anything that depends on what they see: processors look ahead
-        of_p = sum->kernels->review(&sum->p_facets, &sum->moment, &sum->alarms, alarm, left_of_p, seen,
+        of_p = sum->kernels->review(&sum->p_facets, &sum->step, &sum->certificates, certificate, left_of_p, seen,
                                     &sum->pairing.signs.by_filter);
-        of_q = sum->kernels->review(&sum->q_facets, &sum->moment, &sum->alarms, alarm + left_of_p, left - left_of_p,
+        of_q = sum->kernels->review(&sum->q_facets, &sum->step, &sum->certificates, certificate + left_of_p, left - left_of_p,
                                     seen + of_p, &sum->pairing.signs.by_filter);
         update->all |= are_many_open(sum, seen, of_p + of_q);
     }
@@ -290,23 +290,23 @@ static uint32_t next_stamp(pir_sum *sum) {
     if (sum->stamp >= UINT32_MAX - 3) {
         sum->stamp = 0;
         for (uint32_t e = 0; e < sum->pairing.p->edge_count; e++)
-            sum->touched[e] = sum->touched[e] == PIR_DORMANT ? PIR_DORMANT : 0;
+            sum->touched[e] = sum->touched[e] == PIR_INACTIVE ? PIR_INACTIVE : 0;
     }
     return sum->stamp += 2;
 }
 
 pir_status pir_update_repair(pir_sum *sum) {
-    uint32_t woken =
-        pir_alarms_collect(&sum->alarms, sum->kernels, pir_alarm_count(sum), pir_alarm_time_of(&sum->clock));
-    sum->woken += woken;
+    uint32_t expired =
+        pir_certificates_collect(&sum->certificates, sum->kernels, pir_certificate_count(sum), pir_turned_angle_of(&sum->epoch));
+    sum->expired += expired;
     // what sleeps tells nothing of a step that dormant facets may have come in by
-    bool leapt = sum->region.leapt;
-    if (woken == 0 && !leapt)
+    bool jumped = sum->region.jumped;
+    if (expired == 0 && !jumped)
         return PIR_OK;
-    sum->statistics.checked += woken;
+    sum->statistics.checked += expired;
     struct update update = {.sum = sum, .stamp = next_stamp(sum)};
-    update.all = leapt || !(step_reach(sum) < HUGE_VALF);
-    review(&update, woken);
+    update.all = jumped || !(step_reach(sum) < HUGE_VALF);
+    review(&update, expired);
     for (uint32_t e = 0; update.all && e < sum->pairing.p->edge_count; e++)
         note_edge(&update, e);
     for (uint32_t i = 0; i < update.derive && !update.failed; i++)
