@@ -91,19 +91,19 @@ static struct scene scene_make(const char *model) {
     pir_polytope_release(p);
     for (int i = 0; i < SPIN_AXIS_FRAMES; i++)
         trial_need(pir_sum_rotate(scene.sum, spin_next(&spin), PIR_METHOD_UPDATE), "rotation");
-    const pir_facets *facets = &scene.sum->p_facets;
+    const pir_facets *facets = &scene.sum->tracked.p_facets;
     scene.cells = room_for(facets->count, sizeof *scene.cells);
     scene.expired = room_for(facets->count, sizeof *scene.expired);
     scene.suspects = room_for(facets->count, sizeof *scene.suspects);
     memcpy(scene.cells, facets->cell, facets->count * sizeof *scene.cells);
     for (uint32_t f = 0; f < facets->count; f++)
         scene.expired[f] = facets->first_certificate + f;
-    scene.blocks = scene.sum->certificates.capacity / PIR_CERTIFICATE_BLOCK;
+    scene.blocks = scene.sum->tracked.certificates.capacity / PIR_CERTIFICATE_BLOCK;
     for (int k = 0; k < 2; k++)
         scene.bounds[k] = room_for(scene.blocks, sizeof *scene.bounds[k]);
-    memcpy(scene.bounds[0], scene.sum->certificates.block_ahead, scene.blocks * sizeof *scene.bounds[0]);
-    memcpy(scene.bounds[1], scene.sum->certificates.block_behind, scene.blocks * sizeof *scene.bounds[1]);
-    scene.time = pir_turned_angle_of(&scene.sum->epoch);
+    memcpy(scene.bounds[0], scene.sum->tracked.certificates.block_ahead, scene.blocks * sizeof *scene.bounds[0]);
+    memcpy(scene.bounds[1], scene.sum->tracked.certificates.block_behind, scene.blocks * sizeof *scene.bounds[1]);
+    scene.time = pir_turned_angle_of(&scene.sum->tracked.epoch);
     return scene;
 }
 
@@ -118,11 +118,11 @@ static void scene_free(struct scene *scene) {
 
 static double run_review(void *context, unsigned index) {
     struct scene *scene = context;
-    const pir_facets *facets = &scene->sum->p_facets;
+    const pir_facets *facets = &scene->sum->tracked.p_facets;
     uint64_t sides = 0;
     double start = trial_now();
-    pir_kernels_version(index)->review(facets, &scene->sum->step, &scene->sum->certificates, scene->expired, facets->count,
-                                       scene->suspects, &sides);
+    pir_kernels_version(index)->review(facets, &scene->sum->tracked.step, &scene->sum->tracked.certificates,
+                                       scene->expired, facets->count, scene->suspects, &sides);
     double taken = trial_now() - start;
     memcpy(facets->cell, scene->cells, facets->count * sizeof *scene->cells);
     return taken;
@@ -130,18 +130,18 @@ static double run_review(void *context, unsigned index) {
 
 static double run_probe(void *context, unsigned index) {
     struct scene *scene = context;
-    const pir_facets *facets = &scene->sum->p_facets;
+    const pir_facets *facets = &scene->sum->tracked.p_facets;
     const pir_kernels *kernels = pir_kernels_version(index);
     pir_probe seen;
     double start = trial_now();
     for (uint32_t f = 0; f < facets->count; f++)
-        kernels->probe(facets, &scene->sum->step, facets->cell[f], facets->turn[f % 3], &seen);
+        kernels->probe(facets, &scene->sum->tracked.step, facets->cell[f], facets->turn[f % 3], &seen);
     return trial_now() - start;
 }
 
 static double run_collect(void *context, unsigned index) {
     struct scene *scene = context;
-    pir_certificates *certificates = &scene->sum->certificates;
+    pir_certificates *certificates = &scene->sum->tracked.certificates;
     memcpy(certificates->block_ahead, scene->bounds[0], scene->blocks * sizeof *scene->bounds[0]);
     memcpy(certificates->block_behind, scene->bounds[1], scene->blocks * sizeof *scene->bounds[1]);
     double start = trial_now();
@@ -151,7 +151,7 @@ static double run_collect(void *context, unsigned index) {
 
 static void write_update_loops(const char *model, FILE *csv, FILE *page, bool first) {
     struct scene scene = scene_make(model);
-    uint32_t facets = scene.sum->p_facets.count, certificates = scene.blocks * PIR_CERTIFICATE_BLOCK;
+    uint32_t facets = scene.sum->tracked.p_facets.count, certificates = scene.blocks * PIR_CERTIFICATE_BLOCK;
     struct pass pass = {"collect (none wakes)", model, run_collect, &scene, certificates, 0, {NULL}};
     for (; pass.versions < VERSIONS_MAX && pir_kernels_version(pass.versions); pass.versions++)
         pass.names[pass.versions] = pir_kernels_version(pass.versions)->name;

@@ -8,12 +8,13 @@ pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
         return status;
     pir_sum_changes(sum);
     // the walk has made every certificate anew or let it expire, and a clock that knows no rotation begins an epoch
-    sum->epoch = (pir_epoch){0};
+    sum->tracked.epoch = (pir_epoch){0};
     sum->cost = (pir_cost_model){.walk = sum->cost.walk};
     return PIR_OK;
 }
 
 void pir_sum_reset_statistics(pir_sum *sum) {
-    sum->statistics = (pir_sum_statistics){0};
-    sum->pairing.signs.by_filter = sum->pairing.signs.by_exact = sum->pairing.signs.by_perturbation = 0;
+    sum->tracked.statistics = (pir_sum_statistics){0};
+    sum->tracked.pairing.signs.by_filter = sum->tracked.pairing.signs.by_exact =
+        sum->tracked.pairing.signs.by_perturbation = 0;
 }

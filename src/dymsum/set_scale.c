@@ -18,13 +18,13 @@ static pir_status replace(pir_sum *sum, pir_operand operand, pir_polytope *scale
         pir_polytope_release(scaled);
         return status;
     }
-    pir_polytope **place = operand == PIR_OPERAND_P ? &sum->pairing.p : &sum->pairing.q;
+    pir_polytope **place = operand == PIR_OPERAND_P ? &sum->tracked.pairing.p : &sum->tracked.pairing.q;
     PIR_ASSERT(scaled->half_count == (*place)->half_count && scaled->facet_count == (*place)->facet_count);
     pir_sum_changes(sum);
     pir_polytope_release(*place);
     *place = scaled;
-    pir_sum_link_facets(sum);
-    pir_lag_measure(sum);
+    pir_tracked_link_facets(&sum->tracked);
+    pir_lag_measure(&sum->lag, sum->tracked.pairing.p, sum->tracked.pairing.q);
     return PIR_OK;
 }
 

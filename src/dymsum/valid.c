@@ -3,11 +3,12 @@
  * The whole-structure check of a sum: its invariants (sum.h), every sign by exact arithmetic, no filter and no certificate trusted; and that
  * what a region needs is there (region.c).
  */
+#include "dymsum/pairing/predicates.h"
 #include "dymsum/sum.h"
 
 /* s of a vector of P and one of Q at the perturbed rotation. */
 static int sign_of(pir_sum *sum, pir_int3 a, pir_int3 b) {
-    return pir_sign_perturbed(&sum->pairing.signs, &a, &b);
+    return pir_sign_perturbed(&sum->tracked.pairing.signs, &a, &b);
 }
 
 /* Whether the region has a direction, and not just by rounding: then its pair must be there. */
@@ -18,12 +19,12 @@ static bool is_needed(const pir_sum *sum, pir_vec3 n) {
 
 /* Whether the arc along halfedge `half` of P comes into the region. */
 static bool is_arc_needed(const pir_sum *sum, uint32_t half) {
-    pir_vec3 from = pir_rotated_normal(sum, sum->pairing.p->left[half]),
-             to = pir_rotated_normal(sum, pir_right(sum->pairing.p, half));
+    pir_vec3 from = pir_rotated_normal(&sum->tracked.pairing, sum->tracked.pairing.p->left[half]),
+             to = pir_rotated_normal(&sum->tracked.pairing, pir_right(sum->tracked.pairing.p, half));
     if (is_needed(sum, from) || is_needed(sum, to))
         return true;
     // else the point of its circle that is nearest to the axis, if it is on the arc
-    pir_vec3 e = pir_rotated_direction(sum, half), axis = sum->region.cone.axis;
+    pir_vec3 e = pir_rotated_direction(&sum->tracked.pairing, half), axis = sum->region.cone.axis;
     pir_vec3 nearest = pir_vec_sub(axis, pir_vec_scale(e, pir_vec_dot(e, axis)));
     double length = sqrt(pir_vec_dot(nearest, nearest));
     return length > 0x1p-20 && pir_vec_dot(pir_vec_cross(from, nearest), e) > 0 &&
@@ -31,10 +32,10 @@ static bool is_arc_needed(const pir_sum *sum, uint32_t half) {
 }
 
 static bool fv_is_valid(pir_sum *sum) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    const pir_polytope *p = sum->tracked.pairing.p, *q = sum->tracked.pairing.q;
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        uint32_t v = sum->pairing.fv[f];
-        if (v == PIR_NO_PAIR && !is_needed(sum, pir_rotated_normal(sum, f)))
+        uint32_t v = sum->tracked.pairing.fv[f];
+        if (v == PIR_NO_PAIR && !is_needed(sum, pir_rotated_normal(&sum->tracked.pairing, f)))
             continue;
         if (v >= q->vertex_count)
             return false;
@@ -46,9 +47,9 @@ static bool fv_is_valid(pir_sum *sum) {
 }
 
 static bool vf_is_valid(pir_sum *sum) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    const pir_polytope *p = sum->tracked.pairing.p, *q = sum->tracked.pairing.q;
     for (uint32_t g = 0; g < q->facet_count; g++) {
-        uint32_t v = sum->pairing.vf[g];
+        uint32_t v = sum->tracked.pairing.vf[g];
         if (v == PIR_NO_PAIR && !is_needed(sum, q->normal[g]))
             continue;
         if (v >= p->vertex_count)
@@ -62,7 +63,7 @@ static bool vf_is_valid(pir_sum *sum) {
 
 /* Whether halfedge h of Q, from one cell to the next, is crossed by the arc of halfedge `half` of P. */
 static bool crosses(pir_sum *sum, uint32_t half, uint32_t h) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    const pir_polytope *p = sum->tracked.pairing.p, *q = sum->tracked.pairing.q;
     pir_int3 e = pir_half_exact(p, half), d = pir_half_exact(q, h);
     return sign_of(sum, e, pir_normal_exact(q, pir_right(q, h))) < 0 &&
            sign_of(sum, e, pir_normal_exact(q, q->left[h])) > 0 &&
@@ -71,27 +72,27 @@ static bool crosses(pir_sum *sum, uint32_t half, uint32_t h) {
 }
 
 static bool crossings_are_valid(pir_sum *sum) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
-    const pir_crossings *c = &sum->pairing.crossings;
+    const pir_polytope *p = sum->tracked.pairing.p, *q = sum->tracked.pairing.q;
+    const pir_crossings *c = &sum->tracked.pairing.crossings;
     uint32_t count = 0;
     for (uint32_t e = 0; e < p->edge_count; e++) {
-        uint32_t half = p->edge_half[e], v = sum->pairing.fv[p->left[half]];
-        if (sum->touched[e] == PIR_INACTIVE) {
-            if (sum->pairing.crossings.first[e] != PIR_NO_CROSSING || is_arc_needed(sum, half))
+        uint32_t half = p->edge_half[e], v = sum->tracked.pairing.fv[p->left[half]];
+        if (sum->tracked.touched[e] == PIR_INACTIVE) {
+            if (sum->tracked.pairing.crossings.first[e] != PIR_NO_CROSSING || is_arc_needed(sum, half))
                 return false;
             continue;
         }
         if (v == PIR_NO_PAIR)
             return false;
-        for (uint32_t slot = sum->pairing.crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot]) {
-            if (slot >= c->used || c->edge[slot] != e || ++count > sum->pairing.crossings.count)
+        for (uint32_t slot = sum->tracked.pairing.crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot]) {
+            if (slot >= c->used || c->edge[slot] != e || ++count > sum->tracked.pairing.crossings.count)
                 return false;
             uint32_t h = c->half[slot];
             if (q->origin[h] != v || !crosses(sum, half, h))
                 return false;
             v = q->target[h];
         }
-        if (v != sum->pairing.fv[pir_right(p, half)])
+        if (v != sum->tracked.pairing.fv[pir_right(p, half)])
             return false;
     }
     // the rest of the slots is free

@@ -2,9 +2,12 @@
 /* What is read of a sum from outside, where it is more than the pairing. */
 #include "dymsum/view.h"
 
+#include <stddef.h>
+
 #include "dymsum/sum.h"
 
-_Static_assert(offsetof(struct pir_sum, pairing) == 0, "pir_sum_pairing takes a sum's address for its pairing's");
+_Static_assert(offsetof(struct pir_sum, tracked) == 0 && offsetof(pir_tracked, pairing) == 0,
+               "pir_sum_pairing takes a sum's address for its pairing's");
 
 pir_sum *pir_sum_retain(const pir_sum *sum) {
     pir_sum *held = (pir_sum *)sum;
@@ -14,7 +17,7 @@ pir_sum *pir_sum_retain(const pir_sum *sum) {
 
 pir_rotation *pir_sum_shown_rotation(const pir_sum *sum) {
     pir_sum *at = (pir_sum *)sum;
-    return sum->lag.lagging ? &at->lag.now : &at->pairing.signs.rotation;
+    return sum->lag.lagging ? &at->lag.now : &at->tracked.pairing.signs.rotation;
 }
 
 const pir_polytope *pir_sum_made_of(const pir_sum *sum, pir_operand operand) {
@@ -35,9 +38,10 @@ static pir_features features_of(const pir_members *members) {
 
 pir_kept pir_sum_kept(const pir_sum *sum) {
     const pir_region *region = &sum->region;
-    return (pir_kept){features_of(&region->p.members), features_of(&region->q.members), features_of(&region->edges)};
+    return (pir_kept){features_of(&region->sweep.p.members), features_of(&region->sweep.q.members),
+                      features_of(&region->sweep.edges)};
 }
 
 const pir_journal *pir_sum_journal(const pir_sum *sum) {
-    return &sum->journal;
+    return &sum->tracked.journal;
 }

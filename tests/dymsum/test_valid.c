@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "dymsum/pairing/predicates.h"
 #include "dymsum/sum.h"
 #include "support/bodies.h"
 
@@ -27,20 +28,22 @@ static void damage_cells(test_random *random, pir_sum *sum, uint32_t *cell, uint
 
 /* Whether a normal of P is inside the region beyond doubt. */
 static bool is_inside(const pir_sum *sum, uint32_t f) {
-    return pir_vec_dot(sum->region.cone.axis, pir_rotated_normal(sum, f)) > sum->region.cone.cosine + 1e-6;
+    return pir_vec_dot(sum->region.cone.axis, pir_rotated_normal(&sum->tracked.pairing, f)) >
+           sum->region.cone.cosine + 1e-6;
 }
 
 /* Takes the crossings of an edge of P out, as if it were dormant: harmless where its arc keeps out of the region. */
 static void damage_edges(pir_sum *sum, uint32_t told[2]) {
-    for (uint32_t e = 0; e < sum->pairing.p->edge_count; e++) {
-        uint32_t half = sum->pairing.p->edge_half[e], first = sum->pairing.crossings.first[e], stamp = sum->touched[e],
-                 left = sum->pairing.p->left[half], right = pir_right(sum->pairing.p, half);
+    for (uint32_t e = 0; e < sum->tracked.pairing.p->edge_count; e++) {
+        uint32_t half = sum->tracked.pairing.p->edge_half[e], first = sum->tracked.pairing.crossings.first[e],
+                 stamp = sum->tracked.touched[e], left = sum->tracked.pairing.p->left[half],
+                 right = pir_right(sum->tracked.pairing.p, half);
         if (stamp == PIR_INACTIVE || first != PIR_NO_CROSSING)
             continue;
         // an arc that crosses nothing: dormant or not is all the difference
-        sum->touched[e] = PIR_INACTIVE;
+        sum->tracked.touched[e] = PIR_INACTIVE;
         bool valid = pir_sum_is_valid(sum) != 0;
-        sum->touched[e] = stamp;
+        sum->tracked.touched[e] = stamp;
         told[valid ? HARMLESS : SEEN]++;
         if (is_inside(sum, left) || is_inside(sum, right))
             expect(!valid, "edge %u", e);
@@ -49,9 +52,9 @@ static void damage_edges(pir_sum *sum, uint32_t told[2]) {
 
 /* Puts the half of a crossing in place of another's. */
 static void damage_crossings(test_random *random, pir_sum *sum, uint32_t told[2]) {
-    pir_crossings *c = &sum->pairing.crossings;
+    pir_crossings *c = &sum->tracked.pairing.crossings;
     for (uint32_t slot = 0; slot < c->used; slot++) {
-        uint32_t before = c->half[slot], other = test_random_below(random, sum->pairing.q->half_count);
+        uint32_t before = c->half[slot], other = test_random_below(random, sum->tracked.pairing.q->half_count);
         if (c->edge[slot] == PIR_NO_CROSSING || other == before)
             continue;
         c->half[slot] = other;
@@ -76,8 +79,8 @@ static void damage_is_seen(void **state) {
                 if (region)
                     assert_int_equal(pir_sum_set_region(sum, test_random_direction(&random), 1.2), PIR_OK);
                 assert_true(pir_sum_is_valid(sum));
-                damage_cells(&random, sum, sum->pairing.fv, p->facet_count, q->vertex_count, told[0]);
-                damage_cells(&random, sum, sum->pairing.vf, q->facet_count, p->vertex_count, told[0]);
+                damage_cells(&random, sum, sum->tracked.pairing.fv, p->facet_count, q->vertex_count, told[0]);
+                damage_cells(&random, sum, sum->tracked.pairing.vf, q->facet_count, p->vertex_count, told[0]);
                 damage_crossings(&random, sum, told[1]);
                 if (region)
                     damage_edges(sum, told[2]);

@@ -15,7 +15,7 @@
 #include <pirouette/live_mesh.h>
 #include <pirouette/query.h>
 
-#include "dymsum/sum.h"
+#include "dymsum/view.h"
 #include "query/handle_program.h"
 #include "query/query_of.h"
 #include "support/bodies.h"

@@ -32,31 +32,31 @@ static void move(test_random *random, pir_facets *facets, uint32_t vertices, pir
             if (i % 4 != 3 && test_random_below(random, 3) == 0)
                 facets->turn[k][i] = test_random_below(random, 4) == 0 ? 0 : (float)uniform(random);
     *step = (pir_step){.reach_ahead = (float)(uniform(random) * 0.2 + 0.2),
-                           .reach_behind = test_random_below(random, 2) ? 0 : 0x1p-10f,
-                           .ahead = (float)uniform(random) / 4,
-                           .behind = (float)uniform(random) / 4,
-                           .axial = test_random_below(random, 4) != 0};
+                       .reach_behind = test_random_below(random, 2) ? 0 : 0x1p-10f,
+                       .ahead = (float)uniform(random) / 4,
+                       .behind = (float)uniform(random) / 4,
+                       .axial = test_random_below(random, 4) != 0};
 }
 
 /* A hash of all that a review by `kernels` leaves; the alarms and cells are as before the review afterwards. */
 static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_facets *facets, pir_step step) {
-    uint32_t count = facets->count, certificates = pir_certificate_count(sum);
+    uint32_t count = facets->count, certificates = pir_certificate_count(&sum->tracked);
     uint32_t *cells = malloc((count + 1) * sizeof *cells), *expired = malloc((count + 1) * sizeof *expired);
     pir_suspect *suspects = malloc((count + 1) * sizeof *suspects);
     memcpy(cells, facets->cell, count * sizeof *cells);
     for (uint32_t f = 0; f < count; f++)
         expired[f] = facets->first_certificate + f;
-    pir_certificates_expire(&sum->certificates, 0, certificates);
+    pir_certificates_expire(&sum->tracked.certificates, 0, certificates);
     uint64_t sides = 0, hash = 0xcbf29ce484222325u;
-    uint32_t found = kernels->review(facets, &step, &sum->certificates, expired, count, suspects, &sides);
+    uint32_t found = kernels->review(facets, &step, &sum->tracked.certificates, expired, count, suspects, &sides);
     for (uint32_t i = 0; i < found; i++) {
         hash = mix(hash, &suspects[i].facet, sizeof suspects[i].facet);
         hash = mix(hash, &suspects[i].crossed, sizeof suspects[i].crossed);
     }
     hash = mix(hash, facets->cell, count * sizeof *cells);
-    hash = mix(hash, sum->certificates.margin, certificates * sizeof *sum->certificates.margin);
-    hash = mix(hash, sum->certificates.ahead, certificates * sizeof *sum->certificates.ahead);
-    hash = mix(hash, sum->certificates.behind, certificates * sizeof *sum->certificates.behind);
+    hash = mix(hash, sum->tracked.certificates.margin, certificates * sizeof *sum->tracked.certificates.margin);
+    hash = mix(hash, sum->tracked.certificates.ahead, certificates * sizeof *sum->tracked.certificates.ahead);
+    hash = mix(hash, sum->tracked.certificates.behind, certificates * sizeof *sum->tracked.certificates.behind);
     hash = mix(hash, &sides, sizeof sides);
     for (uint32_t f = 0; f < count; f++) {
         pir_probe seen;
@@ -85,8 +85,8 @@ static void reviews_have_the_bits_of_the_reference(void **state) {
         assert_int_equal(pir_sum_create(p, q, pose.rotation, NULL, &sum), PIR_OK);
         assert_int_equal(pir_sum_rotate(sum, test_rotation(&random), PIR_METHOD_UPDATE), PIR_OK);
         for (int operand = 0; operand < 2; operand++) {
-            pir_facets *facets = operand ? &sum->q_facets : &sum->p_facets;
-            pir_step step = sum->step;
+            pir_facets *facets = operand ? &sum->tracked.q_facets : &sum->tracked.p_facets;
+            pir_step step = sum->tracked.step;
             for (int round = 0; round < 4; round++) {
                 uint64_t expected = review_hash(sum, pir_kernels_version(0), facets, step);
                 for (unsigned k = 1; pir_kernels_version(k); k++)
@@ -129,9 +129,9 @@ static void collections_list_the_same_certificates(void **state) {
             set_certificates(&random, &certificates, count);
             uint64_t hash = 0xcbf29ce484222325u;
             for (int round = 0; round < 3; round++) {
-                const pir_turned_angle time = {uniform(&random) / 50, uniform(&random) / 50,
-                                             test_random_below(&random, 2) == 0};
-                uint32_t found = pir_certificates_collect(&certificates, pir_kernels_version(k), count, time);
+                const pir_turned_angle turned = {uniform(&random) / 50, uniform(&random) / 50,
+                                                 test_random_below(&random, 2) == 0};
+                uint32_t found = pir_kernels_collect(pir_kernels_version(k), &certificates, count, turned);
                 hash = mix(hash, certificates.expired, found * sizeof *certificates.expired);
                 hash = mix(hash, certificates.block_ahead, blocks * sizeof *certificates.block_ahead);
                 hash = mix(hash, certificates.block_behind, blocks * sizeof *certificates.block_behind);

@@ -258,35 +258,35 @@ static void check_of_a_sum_sees_every_kind_of_damage(void **state) {
     pir_sum *sum = make_sum(p, q, test_general_rotation(&random), NULL);
     assert_true(pir_sum_is_valid(sum));
     // another vertex in a pair
-    for (uint32_t f = 0; f < sum->pairing.p->facet_count; f++) {
-        uint32_t kept = sum->pairing.fv[f];
-        sum->pairing.fv[f] = sum->pairing.q->target[sum->pairing.q->ring_start[kept]];
+    for (uint32_t f = 0; f < sum->tracked.pairing.p->facet_count; f++) {
+        uint32_t kept = sum->tracked.pairing.fv[f];
+        sum->tracked.pairing.fv[f] = sum->tracked.pairing.q->target[sum->tracked.pairing.q->ring_start[kept]];
         assert_false(pir_sum_is_valid(sum));
-        sum->pairing.fv[f] = kept;
+        sum->tracked.pairing.fv[f] = kept;
     }
-    for (uint32_t g = 0; g < sum->pairing.q->facet_count; g++) {
-        uint32_t kept = sum->pairing.vf[g];
-        sum->pairing.vf[g] = (kept + 1) % sum->pairing.p->vertex_count;
+    for (uint32_t g = 0; g < sum->tracked.pairing.q->facet_count; g++) {
+        uint32_t kept = sum->tracked.pairing.vf[g];
+        sum->tracked.pairing.vf[g] = (kept + 1) % sum->tracked.pairing.p->vertex_count;
         assert_false(pir_sum_is_valid(sum));
-        sum->pairing.vf[g] = kept;
+        sum->tracked.pairing.vf[g] = kept;
     }
     // a crossing turned round, one left out, one lost
     uint32_t slot = 0;
-    while (sum->pairing.crossings.edge[slot] == PIR_NO_CROSSING)
+    while (sum->tracked.pairing.crossings.edge[slot] == PIR_NO_CROSSING)
         slot++;
-    uint32_t half = sum->pairing.crossings.half[slot], edge = sum->pairing.crossings.edge[slot],
-             first = sum->pairing.crossings.first[edge];
-    sum->pairing.crossings.half[slot] = sum->pairing.q->twin[half];
+    uint32_t half = sum->tracked.pairing.crossings.half[slot], edge = sum->tracked.pairing.crossings.edge[slot],
+             first = sum->tracked.pairing.crossings.first[edge];
+    sum->tracked.pairing.crossings.half[slot] = sum->tracked.pairing.q->twin[half];
     assert_false(pir_sum_is_valid(sum));
-    sum->pairing.crossings.half[slot] = half;
-    sum->pairing.crossings.first[edge] = sum->pairing.crossings.next[first];
+    sum->tracked.pairing.crossings.half[slot] = half;
+    sum->tracked.pairing.crossings.first[edge] = sum->tracked.pairing.crossings.next[first];
     assert_false(pir_sum_is_valid(sum));
-    sum->pairing.crossings.first[edge] = first;
-    sum->pairing.crossings.used++;
+    sum->tracked.pairing.crossings.first[edge] = first;
+    sum->tracked.pairing.crossings.used++;
     assert_false(pir_sum_is_valid(sum));
-    sum->pairing.crossings.used--;
+    sum->tracked.pairing.crossings.used--;
     // a pairing that is right elsewhere
-    assert_int_equal(pir_rotation_set(&sum->pairing.signs.rotation, (pir_quat){1, 2, 3, 4}), PIR_OK);
+    assert_int_equal(pir_rotation_set(&sum->tracked.pairing.signs.rotation, (pir_quat){1, 2, 3, 4}), PIR_OK);
     assert_false(pir_sum_is_valid(sum));
     assert_int_equal(pir_sum_rotate(sum, (pir_quat){1, 2, 3, 4}, PIR_METHOD_WALK), PIR_OK);
     assert_true(pir_sum_is_valid(sum));
@@ -302,16 +302,16 @@ static void comparison_of_pairings_sees_each_part(void **state) {
     pir_quat there = test_general_rotation(&random);
     pir_sum *a = make_sum(p, q, there, NULL), *b = make_sum(p, q, there, NULL), *c = make_sum(q, p, there, NULL);
     assert_true(pir_sum_same_pairing(a, b));
-    b->pairing.fv[3]++;
+    b->tracked.pairing.fv[3]++;
     assert_false(pir_sum_same_pairing(a, b));
-    b->pairing.fv[3]--;
-    b->pairing.vf[3]++;
+    b->tracked.pairing.fv[3]--;
+    b->tracked.pairing.vf[3]++;
     assert_false(pir_sum_same_pairing(a, b));
-    b->pairing.vf[3]--;
-    uint32_t last = b->pairing.crossings.used - 1;
-    b->pairing.crossings.half[last] = q->twin[b->pairing.crossings.half[last]];
+    b->tracked.pairing.vf[3]--;
+    uint32_t last = b->tracked.pairing.crossings.used - 1;
+    b->tracked.pairing.crossings.half[last] = q->twin[b->tracked.pairing.crossings.half[last]];
     assert_false(pir_sum_same_pairing(a, b));
-    b->pairing.crossings.half[last] = q->twin[b->pairing.crossings.half[last]];
+    b->tracked.pairing.crossings.half[last] = q->twin[b->tracked.pairing.crossings.half[last]];
     assert_true(pir_sum_same_pairing(a, b));
     assert_false(pir_sum_same_pairing(a, c));
     assert_int_equal(pir_sum_rotate(b, (pir_quat){1, -1, 0.5, 0}, PIR_METHOD_WALK), PIR_OK);

@@ -2,29 +2,30 @@
 /* The store of alarms. Its design and its invariant stand in alarms.h. */
 #include "dymsum/certificate/certificates.h"
 
-#include "dymsum/kernels/kernels.h"
+#include "base/layout.h"
+
+/* Blocks are read eight at a time. */
+#define BLOCKS_AT_A_TIME 8
+
+static pir_layout layout_of(pir_certificates *certificates) {
+    uint32_t capacity = certificates->capacity, blocks = capacity / PIR_CERTIFICATE_BLOCK;
+    return (pir_layout){{PIR_ROW(certificates->margin, capacity), PIR_ROW(certificates->at, capacity),
+                         PIR_ROW(certificates->ahead, capacity), PIR_ROW(certificates->behind, capacity),
+                         PIR_ROW(certificates->block_ahead, blocks), PIR_ROW(certificates->block_behind, blocks),
+                         PIR_ROW(certificates->previous, capacity), PIR_ROW(certificates->expired, capacity)}};
+}
 
 bool pir_certificates_init(pir_certificates *certificates, const pir_allocator *allocator, uint32_t count) {
-    uint32_t blocks = (count + 8 * PIR_CERTIFICATE_BLOCK - 1) / (8 * PIR_CERTIFICATE_BLOCK) * 8;
-    uint32_t capacity = blocks * PIR_CERTIFICATE_BLOCK;
-    *certificates = (pir_certificates){.margin = PIR_NEW(allocator, float, capacity),
-                           .at = PIR_NEW(allocator, pir_float4, capacity),
-                           .ahead = PIR_NEW(allocator, float, capacity),
-                           .behind = PIR_NEW(allocator, float, capacity),
-                           .block_ahead = PIR_NEW(allocator, float, blocks),
-                           .block_behind = PIR_NEW(allocator, float, blocks),
-                           .back = PIR_NEW(allocator, pir_previous_cell, capacity),
-                           .expired = PIR_NEW(allocator, uint32_t, capacity),
-                           .capacity = capacity};
-    bool all = certificates->margin && certificates->at && certificates->ahead && certificates->behind && certificates->block_ahead &&
-               certificates->block_behind && certificates->back && certificates->expired;
-    if (!all) {
+    const uint32_t unit = BLOCKS_AT_A_TIME * PIR_CERTIFICATE_BLOCK;
+    *certificates = (pir_certificates){.capacity = (count + unit - 1) / unit * unit};
+    pir_layout layout = layout_of(certificates);
+    if (!pir_layout_new(allocator, &layout)) {
         pir_certificates_finish(certificates, allocator);
         return false;
     }
-    for (uint32_t i = 0; i < capacity; i++)
+    for (uint32_t i = 0; i < certificates->capacity; i++)
         pir_certificate_clear(certificates, i);
-    for (uint32_t b = 0; b < blocks; b++) {
+    for (uint32_t b = 0; b < certificates->capacity / PIR_CERTIFICATE_BLOCK; b++) {
         certificates->block_ahead[b] = PIR_NEVER;
         certificates->block_behind[b] = -PIR_NEVER;
     }
@@ -32,15 +33,8 @@ bool pir_certificates_init(pir_certificates *certificates, const pir_allocator *
 }
 
 void pir_certificates_finish(pir_certificates *certificates, const pir_allocator *allocator) {
-    uint32_t blocks = certificates->capacity / PIR_CERTIFICATE_BLOCK;
-    PIR_FREE(allocator, certificates->margin, certificates->capacity);
-    PIR_FREE(allocator, certificates->at, certificates->capacity);
-    PIR_FREE(allocator, certificates->ahead, certificates->capacity);
-    PIR_FREE(allocator, certificates->behind, certificates->capacity);
-    PIR_FREE(allocator, certificates->block_ahead, blocks);
-    PIR_FREE(allocator, certificates->block_behind, blocks);
-    PIR_FREE(allocator, certificates->back, certificates->capacity);
-    PIR_FREE(allocator, certificates->expired, certificates->capacity);
+    pir_layout layout = layout_of(certificates);
+    pir_layout_free(allocator, &layout);
     *certificates = (pir_certificates){0};
 }
 
@@ -53,10 +47,6 @@ static void bound_block(pir_certificates *certificates, uint32_t b) {
     }
     certificates->block_ahead[b] = ahead;
     certificates->block_behind[b] = behind;
-}
-
-uint32_t pir_certificates_collect(pir_certificates *certificates, const pir_kernels *kernels, uint32_t used, pir_turned_angle time) {
-    return kernels->collect(certificates, (used + PIR_CERTIFICATE_BLOCK - 1) / PIR_CERTIFICATE_BLOCK, time);
 }
 
 /* From here on keys mean other phases: what is kept is of no use. */

@@ -31,8 +31,6 @@
 
 #define PIR_CERTIFICATE_BLOCK 16
 
-typedef struct pir_kernels pir_kernels;
-
 /* The certificate of the cell that a facet was in before, and the way there. */
 typedef struct pir_previous_cell {
     float ahead, behind;
@@ -52,10 +50,10 @@ typedef struct pir_certificates {
     pir_float4 *at; /* the unit quaternion it was made at */
     pir_float4 now; /* that of R */
     float *block_ahead, *block_behind;
-    pir_previous_cell *back; /* per certificate */
-    uint32_t stretch;   /* counts how often keys have been made anew or shifted */
-    uint32_t *expired;    /* what the last collecting found, rising */
-    uint32_t capacity;  /* a multiple of eight blocks */
+    pir_previous_cell *previous; /* per certificate */
+    uint32_t stretch;            /* counts how often keys have been made anew or shifted */
+    uint32_t *expired;           /* what the last collecting found, rising */
+    uint32_t capacity;           /* a multiple of eight blocks */
 } pir_certificates;
 
 /* Room for `count` certificates at least, which never wake; false when out of memory. */
@@ -85,7 +83,8 @@ static inline void pir_certificate_set_keys(pir_certificates *certificates, uint
 }
 
 /* Files certificate i, made at alarms->now. */
-static inline void pir_certificate_set(pir_certificates *certificates, uint32_t i, float margin, float ahead, float behind) {
+static inline void pir_certificate_set(pir_certificates *certificates, uint32_t i, float margin, float ahead,
+                                       float behind) {
     pir_certificate_set_keys(certificates, i, ahead, behind);
     certificates->margin[i] = margin;
     certificates->at[i] = certificates->now;
@@ -93,12 +92,13 @@ static inline void pir_certificate_set(pir_certificates *certificates, uint32_t 
 
 /* Forgets where the facet of certificate i came from: it is not known that it has stayed in its cell since, or came by one side. */
 static inline void pir_certificate_forget_previous(pir_certificates *certificates, uint32_t i) {
-    certificates->back[i].stretch = PIR_NO_STRETCH;
+    certificates->previous[i].stretch = PIR_NO_STRETCH;
 }
 
 /* Keeps certificate i, of a cell just left, before it is filed for the next cell; `half` leads back. The step touched no other side. */
 static inline void pir_certificate_keep_previous(pir_certificates *certificates, uint32_t i, uint32_t half) {
-    certificates->back[i] = (pir_previous_cell){certificates->ahead[i], certificates->behind[i], half, certificates->stretch};
+    certificates->previous[i] =
+        (pir_previous_cell){certificates->ahead[i], certificates->behind[i], half, certificates->stretch};
 }
 
 /*
@@ -107,14 +107,15 @@ static inline void pir_certificate_keep_previous(pir_certificates *certificates,
  * its margin being none: the margin and rotation that are there are the other cell's.
  */
 static inline bool pir_certificate_reuse(pir_certificates *certificates, uint32_t i, double phase, const uint32_t *twin,
-                                     uint32_t *ret_half) {
-    const pir_previous_cell back = certificates->back[i];
-    if (back.stretch != certificates->stretch || !((double)back.ahead > phase && (double)back.behind < phase))
+                                         uint32_t *ret_half) {
+    const pir_previous_cell previous = certificates->previous[i];
+    if (previous.stretch != certificates->stretch ||
+        !((double)previous.ahead > phase && (double)previous.behind < phase))
         return false;
-    pir_certificate_keep_previous(certificates, i, twin[back.half]);
-    pir_certificate_set_keys(certificates, i, back.ahead, back.behind);
+    pir_certificate_keep_previous(certificates, i, twin[previous.half]);
+    pir_certificate_set_keys(certificates, i, previous.ahead, previous.behind);
     certificates->margin[i] = -1;
-    *ret_half = back.half;
+    *ret_half = previous.half;
     return true;
 }
 
@@ -137,9 +138,6 @@ static inline pir_turned_angle pir_turned_angle_of(const pir_epoch *epoch) {
     return epoch->axial ? (pir_turned_angle){epoch->phase, epoch->phase, false}
                         : (pir_turned_angle){epoch->path, -epoch->net, true};
 }
-
-/* Lists in alarms->woken those of the first `used` certificates that do not hold for certain; returns their number. */
-uint32_t pir_certificates_collect(pir_certificates *certificates, const pir_kernels *kernels, uint32_t used, pir_turned_angle time);
 
 /* Subtracts `shift` from the phases of the first `used` certificates. This and the next two forget all ways back. */
 void pir_certificates_shift(pir_certificates *certificates, uint32_t used, double shift);

@@ -101,7 +101,8 @@ static pir_epoch_event turn_on(pir_epoch *epoch, double phase, double drift, dou
     return PIR_EPOCH_REBASED;
 }
 
-pir_epoch_event pir_epoch_take_step(pir_epoch *epoch, pir_quat before, pir_quat now, bool many_expired, double *ret_shift) {
+pir_epoch_event pir_epoch_take_step(pir_epoch *epoch, pir_quat before, pir_quat now, bool many_expired,
+                                    double *ret_shift) {
     // a rotation that this clock has not seen ends the epoch
     bool followed =
         before.x == epoch->at.x && before.y == epoch->at.y && before.z == epoch->at.z && before.w == epoch->at.w;

@@ -24,6 +24,7 @@
 #ifndef PIR_DYMSUM_CERTIFICATE_EPOCH_H
 #define PIR_DYMSUM_CERTIFICATE_EPOCH_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -38,7 +39,7 @@ typedef struct pir_epoch {
     pir_vec3 axis;   /* of the last step, unit; axial: of the epoch */
     double stride;   /* the angle about it that the last step went through, at most */
     double phase;    /* axial: since the epoch began */
-    bool reverses;     /* axial: since phases were last counted from here, some step went back where another came from */
+    bool reverses;   /* axial: since phases were last counted from here, some step went back where another came from */
     double path;     /* since the epoch began */
     double net;      /* not axial: since the epoch began */
     double extent;   /* axial: how far the phase has been from 0, as far as one stretch goes */
@@ -49,17 +50,27 @@ typedef struct pir_epoch {
     pir_vec3 step;   /* the vector part of the last step that was looked at: half its sine, along its axis */
 } pir_epoch;
 
+/* A step through a greater angle is not followed: it may have changed nearly everything. */
+#define PIR_FOLLOWED_FARTHEST 0.25
+
+/* The angle of the last step, rounded up, or HUGE_VALF where the step is not followed. */
+static inline float pir_epoch_reach(const pir_epoch *epoch) {
+    double reach = fabs(epoch->stride) * (1 + 0x1p-20);
+    return reach <= PIR_FOLLOWED_FARTHEST ? (float)reach : HUGE_VALF;
+}
+
 /* What a step means for the keys that certificates are filed under. */
 typedef enum pir_epoch_event {
-    PIR_EPOCH_CONTINUES,     /* keys stay */
-    PIR_EPOCH_REBASED,  /* subtract *ret_shift from every key: the phase is counted from here */
-    PIR_EPOCH_BEGINS /* every key is to be made anew from what is left of the margin */
+    PIR_EPOCH_CONTINUES, /* keys stay */
+    PIR_EPOCH_REBASED,   /* subtract *ret_shift from every key: the phase is counted from here */
+    PIR_EPOCH_BEGINS     /* every key is to be made anew from what is left of the margin */
 } pir_epoch_event;
 
 /*
  * Takes the step from unit quaternion `before` to `now`. many_expired: so many certificates have woken that beginning an epoch anew costs little
  * beside.
  */
-pir_epoch_event pir_epoch_take_step(pir_epoch *epoch, pir_quat before, pir_quat now, bool many_expired, double *ret_shift);
+pir_epoch_event pir_epoch_take_step(pir_epoch *epoch, pir_quat before, pir_quat now, bool many_expired,
+                                    double *ret_shift);
 
 #endif

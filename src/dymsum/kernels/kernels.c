@@ -32,10 +32,9 @@ static pir_probe see(const float *ring, uint32_t blocks, const pir_step *step, c
 }
 
 static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                   pir_probe *ret_probe) {
+                  pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell];
-    *ret_probe =
-        see(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned);
+    *ret_probe = see(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned);
 }
 
 static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_turned[8]) {
@@ -45,7 +44,7 @@ static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_tu
 }
 
 static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                           pir_check *ret_check) {
+                            pir_check *ret_check) {
     pir_probe seen;
     probe(facets, step, cell, turned, &seen);
     *ret_check = seen.check;

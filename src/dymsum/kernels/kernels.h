@@ -78,7 +78,7 @@ typedef struct pir_step {
     bool axial;
 } pir_step;
 
-struct pir_kernels {
+typedef struct pir_kernels {
     const char *name;
 
     /*
@@ -86,19 +86,25 @@ struct pir_kernels {
      * step, are filed to sleep; so are those that have crossed one side and touched no other, their last certificates kept (alarms.h), and
      * these and the rest are listed. Returns their number; adds to *sides how many directions were looked at.
      */
-    uint32_t (*review)(const pir_facets *facets, const pir_step *step, pir_certificates *certificates, const uint32_t *expired,
-                       uint32_t count, pir_suspect *ret_suspects, uint64_t *sides);
+    uint32_t (*review)(const pir_facets *facets, const pir_step *step, pir_certificates *certificates,
+                       const uint32_t *expired, uint32_t count, pir_suspect *ret_suspects, uint64_t *sides);
 
     /* Looks at a facet in the cell of vertex `cell`; turned: its normal turned, 0, the motion of that, 0. */
     void (*probe)(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                   pir_probe *ret_probe);
+                  pir_probe *ret_probe);
 
     /*
      * Lists in alarms->woken which of the certificates in the first `blocks` blocks do not hold, and makes the bounds of their blocks
      * those of the others, since who wakes is filed again. Returns how many it listed.
      */
-    uint32_t (*collect)(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time);
-};
+    uint32_t (*collect)(pir_certificates *certificates, uint32_t blocks, pir_turned_angle turned);
+} pir_kernels;
+
+/* Lists those of the first `used` certificates that have expired, for certain or not. Returns their number. */
+static inline uint32_t pir_kernels_collect(const pir_kernels *kernels, pir_certificates *certificates, uint32_t used,
+                                           pir_turned_angle turned) {
+    return kernels->collect(certificates, (used + PIR_CERTIFICATE_BLOCK - 1) / PIR_CERTIFICATE_BLOCK, turned);
+}
 
 /* The mask of the sides of a ring of so many, without the bits that only fill its last block up. */
 static inline uint64_t pir_side_mask(uint32_t sides) {
@@ -111,16 +117,15 @@ static inline uint64_t pir_side_mask_add(uint64_t mask, uint32_t b, uint32_t eig
 }
 
 /* Files alarm i anew, from now: in an axial epoch by its spans, otherwise by its margin. Keys are rounded towards waking early. */
-static inline void pir_certificate_file(const pir_step *step, pir_certificates *certificates, uint32_t i, float margin, float ahead,
-                                  float behind) {
-    float until = step->ahead + (step->axial ? ahead : margin),
-          since = step->behind - (step->axial ? behind : margin);
+static inline void pir_certificate_file(const pir_step *step, pir_certificates *certificates, uint32_t i, float margin,
+                                        float ahead, float behind) {
+    float until = step->ahead + (step->axial ? ahead : margin), since = step->behind - (step->axial ? behind : margin);
     pir_certificate_set(certificates, i, margin, until - fabsf(until) * 0x1p-22f, since + fabsf(since) * 0x1p-22f);
 }
 
 /* Files facet f, looked at just now, to sleep as long as the look allows. */
-static inline void pir_certificate_file_check(const pir_facets *facets, const pir_step *step, pir_certificates *certificates, uint32_t f,
-                                  const pir_check *check) {
+static inline void pir_certificate_file_check(const pir_facets *facets, const pir_step *step,
+                                              pir_certificates *certificates, uint32_t f, const pir_check *check) {
     pir_certificate_file(step, certificates, facets->first_certificate + f, check->margin, check->ahead, check->behind);
 }
 

@@ -13,8 +13,8 @@
 
 #include "dymsum/kernels/kernels_eight_body.h"
 
-TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step,
-                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above) {
+TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
+                                    uint32_t *ret_touched, uint32_t *ret_above) {
     const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
     __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES), z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
     __m256 s = dot(t->x, t->y, t->z, x, y, z), rate = dot(t->dx, t->dy, t->dz, x, y, z);
@@ -47,7 +47,8 @@ TARGET static inline __m256 holding(__m256 ahead, __m256 behind, struct turned_n
 }
 
 /* The certificates of block b. */
-TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
+TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
+                                            uint32_t *expired) {
     const __m256 most = _mm256_set1_ps(HUGE_VALF), fewest = _mm256_set1_ps(-HUGE_VALF);
     __m256 least = most, greatest = fewest;
     uint32_t count = 0;
@@ -69,10 +70,12 @@ TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_cert
     uint32_t count = 0;
     // eight blocks at a time; those past the last in use hold for ever
     for (uint32_t b = 0; b < blocks; b += 8) {
-        __m256 ahead = _mm256_loadu_ps(certificates->block_ahead + b), behind = _mm256_loadu_ps(certificates->block_behind + b);
+        __m256 ahead = _mm256_loadu_ps(certificates->block_ahead + b),
+               behind = _mm256_loadu_ps(certificates->block_behind + b);
         uint32_t expired_blocks = (uint32_t)_mm256_movemask_ps(holding(ahead, behind, now)) ^ 0xFF;
         for (; expired_blocks; expired_blocks &= expired_blocks - 1)
-            count += collect_block(certificates, b + (uint32_t)__builtin_ctz(expired_blocks), now, certificates->expired + count);
+            count += collect_block(certificates, b + (uint32_t)__builtin_ctz(expired_blocks), now,
+                                   certificates->expired + count);
     }
     return count;
 }

@@ -13,8 +13,8 @@
 
 #include "dymsum/kernels/kernels_eight_body.h"
 
-TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step,
-                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above) {
+TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
+                                    uint32_t *ret_touched, uint32_t *ret_above) {
     const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
     __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES), z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
     __m256 s = dot(t->x, t->y, t->z, x, y, z), rate = dot(t->dx, t->dy, t->dz, x, y, z);
@@ -48,7 +48,8 @@ TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct turned
 }
 
 /* The certificates of block b. */
-TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
+TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
+                                            uint32_t *expired) {
     const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     __m256 least = _mm256_set1_ps(HUGE_VALF), greatest = _mm256_set1_ps(-HUGE_VALF);
     uint32_t count = 0;
@@ -59,7 +60,8 @@ TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint
         greatest = _mm256_mask_max_ps(greatest, holds, greatest, behind);
         // all eight lanes are written: there is room, for no more were listed than looked at
         __m256i number = _mm256_add_epi32(lanes, _mm256_set1_epi32((int)i));
-        _mm256_storeu_si256((__m256i *)(void *)(expired + count), _mm256_maskz_compress_epi32((__mmask8)~holds, number));
+        _mm256_storeu_si256((__m256i *)(void *)(expired + count),
+                            _mm256_maskz_compress_epi32((__mmask8)~holds, number));
         count += (uint32_t)__builtin_popcount((uint8_t)~holds);
     }
     __m256 minus = _mm256_xor_ps(greatest, _mm256_set1_ps(-0.0f));
@@ -75,9 +77,12 @@ TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_cert
     uint32_t count = 0;
     // eight blocks at a time; those past the last in use hold for ever
     for (uint32_t b = 0; b < blocks; b += 8) {
-        __m256 ahead = _mm256_loadu_ps(certificates->block_ahead + b), behind = _mm256_loadu_ps(certificates->block_behind + b);
-        for (uint32_t expired_blocks = (uint8_t)~holding(ahead, behind, now); expired_blocks; expired_blocks &= expired_blocks - 1)
-            count += collect_block(certificates, b + (uint32_t)__builtin_ctz(expired_blocks), now, certificates->expired + count);
+        __m256 ahead = _mm256_loadu_ps(certificates->block_ahead + b),
+               behind = _mm256_loadu_ps(certificates->block_behind + b);
+        for (uint32_t expired_blocks = (uint8_t)~holding(ahead, behind, now); expired_blocks;
+             expired_blocks &= expired_blocks - 1)
+            count += collect_block(certificates, b + (uint32_t)__builtin_ctz(expired_blocks), now,
+                                   certificates->expired + count);
     }
     return count;
 }

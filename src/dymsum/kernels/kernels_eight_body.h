@@ -44,12 +44,12 @@ struct seen {
 };
 
 /* Looks at one block; gives the masks of its sides that were touched, and that the facet is above. */
-TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step,
-                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above);
+TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
+                                    uint32_t *ret_touched, uint32_t *ret_above);
 
 /* The look at a facet in the cell whose ring fills `blocks` blocks, most often one; returns the greatest values of s, lane by lane. */
 TARGET static inline __m256 check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
-                                 pir_check *ret_check) {
+                                  pir_check *ret_check) {
     const struct turned t = spread(turned);
     struct seen seen = {_mm256_set1_ps(-HUGE_VALF), _mm256_set1_ps(4), _mm256_set1_ps(PIR_FARTHEST_PREDICTION),
                         _mm256_set1_ps(PIR_FARTHEST_PREDICTION)};
@@ -68,7 +68,7 @@ TARGET static inline __m256 check(const float *ring, uint32_t blocks, const pir_
 }
 
 TARGET static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                          pir_probe *ret_probe) {
+                         pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
     const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
     const struct turned t = spread(turned);
@@ -93,8 +93,8 @@ TARGET static inline void turn_facet(const pir_facets *facets, uint32_t f, float
     _mm256_storeu_ps(ret_turned, dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
 }
 
-TARGET static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell,
-                                  const float turned[8], pir_check *ret_check) {
+TARGET static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+                                   pir_check *ret_check) {
     uint32_t block = facets->ring_block[cell];
     check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }

@@ -20,7 +20,7 @@ static inline float32x4_t masked(uint32x4_t mask, float32x4_t v) {
 
 /* The look at a facet in a cell; returns the greatest value of s. */
 static inline float check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
-                         pir_check *ret_check) {
+                          pir_check *ret_check) {
     const uint32_t bits[4] = {1, 2, 4, 8};
     const uint32x4_t bit = vld1q_u32(bits), sign = vdupq_n_u32(0x80000000);
     const float32x4_t zero = vdupq_n_f32(0), bound = vdupq_n_f32(PIR_FLOAT_BOUND);
@@ -44,8 +44,8 @@ static inline float check(const float *ring, uint32_t blocks, const pir_step *st
         least = vminq_f32(least, size);
         ahead = vminq_f32(ahead, to);
         behind = vminq_f32(behind, since);
-        uint32x4_t clear = vandq_u32(vcgtq_f32(to, vdupq_n_f32(step->reach_ahead)),
-                                     vcgtq_f32(since, vdupq_n_f32(step->reach_behind)));
+        uint32x4_t clear =
+            vandq_u32(vcgtq_f32(to, vdupq_n_f32(step->reach_ahead)), vcgtq_f32(since, vdupq_n_f32(step->reach_behind)));
         touched = pir_side_mask_add(touched, i / PIR_LANES, vaddvq_u32(vbicq_u32(bit, clear)) << i % PIR_LANES);
         above =
             pir_side_mask_add(above, i / PIR_LANES, vaddvq_u32(vandq_u32(bit, vcgtq_f32(s, bound))) << i % PIR_LANES);
@@ -56,7 +56,7 @@ static inline float check(const float *ring, uint32_t blocks, const pir_step *st
 }
 
 static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                   pir_probe *ret_probe) {
+                  pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
     const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
     const float highest = check(ring, blocks, step, turned, &ret_probe->check);
@@ -82,7 +82,7 @@ static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_tu
 }
 
 static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                           pir_check *ret_check) {
+                            pir_check *ret_check) {
     uint32_t block = facets->ring_block[cell];
     check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
@@ -103,7 +103,8 @@ static inline uint32x4_t holding(float32x4_t ahead, float32x4_t behind, struct t
 }
 
 /* The certificates of block b. */
-static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
+static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
+                                     uint32_t *expired) {
     const float32x4_t most = vdupq_n_f32(HUGE_VALF), fewest = vdupq_n_f32(-HUGE_VALF);
     float32x4_t least = most, greatest = fewest;
     uint32_t count = 0;
@@ -126,11 +127,12 @@ static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b,
 
 static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
     const struct turned_now now = {vdupq_n_f32(pir_float_above(time.ahead)), vdupq_n_f32(pir_float_below(time.behind)),
-                                vdupq_n_u32(time.either ? UINT32_MAX : 0)};
+                                   vdupq_n_u32(time.either ? UINT32_MAX : 0)};
     uint32_t count = 0;
     // four blocks at a time; those past the last in use hold for ever
     for (uint32_t b = 0; b < blocks; b += 4) {
-        float32x4_t ahead = vld1q_f32(certificates->block_ahead + b), behind = vld1q_f32(certificates->block_behind + b);
+        float32x4_t ahead = vld1q_f32(certificates->block_ahead + b),
+                    behind = vld1q_f32(certificates->block_behind + b);
         uint32_t held[4];
         vst1q_u32(held, holding(ahead, behind, now));
         for (uint32_t k = 0; k < 4; k++)

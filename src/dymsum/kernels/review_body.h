@@ -20,8 +20,9 @@ REVIEW_TARGET static inline uint32_t side_crossed(const pir_facets *facets, uint
 }
 
 /* Whether a facet seen past side `half` is in the next cell, having touched no side of it but the same one; then it is filed there. */
-REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const pir_step *step, pir_certificates *certificates,
-                                               uint32_t f, uint32_t half, const float turned[8]) {
+REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const pir_step *step,
+                                               pir_certificates *certificates, uint32_t f, uint32_t half,
+                                               const float turned[8]) {
     uint32_t next = facets->target[half], start = facets->ring_start[next],
              sides = facets->ring_start[next + 1] - start;
     pir_check there;
@@ -35,9 +36,9 @@ REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const p
     return true;
 }
 
-REVIEW_TARGET static uint32_t review_chunk(const pir_facets *facets, const pir_step *step, pir_certificates *certificates,
-                                           const uint32_t *expired, uint32_t count, pir_suspect *ret_suspects,
-                                           uint64_t *sides) {
+REVIEW_TARGET static uint32_t review_chunk(const pir_facets *facets, const pir_step *step,
+                                           pir_certificates *certificates, const uint32_t *expired, uint32_t count,
+                                           pir_suspect *ret_suspects, uint64_t *sides) {
     pir_check check[REVIEW_CHUNK];
     float turned[REVIEW_CHUNK][8];
     uint8_t moved[REVIEW_CHUNK], crossing[REVIEW_CHUNK];

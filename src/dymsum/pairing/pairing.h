@@ -47,6 +47,14 @@ typedef struct pir_pairing {
 } pir_pairing;
 
 /*
+ * How many crossings most rotations of two operands stay below: memory made for so many seldom grows. Two round bodies have fewer than
+ * their edges together; the rest is room for aligned and flat ones, and for small bodies, whose counts vary most.
+ */
+static inline uint32_t pir_crossings_expected(const pir_polytope *p, const pir_polytope *q) {
+    return 3 * (p->edge_count + q->edge_count) + 64;
+}
+
+/*
  * The crossings of edge e of P in order:
  *
  *     for (uint32_t at = pir_crossing_first(pairing, e); at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at))

@@ -9,13 +9,18 @@
  *
  * The crossings of an arc need no sorting: each leads from one cell to the next, and an arc is in no cell twice.
  */
+#include "dymsum/rebuild/cgm_rebuild.h"
 #include "cgm/build.h"
-#include "dymsum/sum.h"
+
+#include "dymsum/pairing/crossings.h"
+#include "dymsum/pairing/predicates.h"
+#include "dymsum/rebuild/descent.h"
+#include "dymsum/rebuild/walk.h"
 
 #include <string.h>
 
 struct reading {
-    pir_sum *sum;
+    pir_tracked *tracked;
     const pir_cgm *overlay; /* source 0 is P, source 1 is Q */
     uint8_t *tied[2];       /* per facet of P and of Q */
     uint8_t *tied_edge;     /* per edge of P */
@@ -52,21 +57,22 @@ static void read_facets(struct reading *reading, uint32_t source, uint32_t *pair
 }
 
 static void settle_facets(struct reading *reading) {
-    pir_sum *sum = reading->sum;
+    pir_tracked *tracked = reading->tracked;
     pir_expiry unused;
-    for (uint32_t f = 0; f < sum->pairing.p->facet_count; f++)
+    for (uint32_t f = 0; f < tracked->pairing.p->facet_count; f++)
         if (reading->tied[0][f])
-            sum->pairing.fv[f] = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->pairing.fv[f], &unused);
-    for (uint32_t g = 0; g < sum->pairing.q->facet_count; g++)
+            tracked->pairing.fv[f] =
+                pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), tracked->pairing.fv[f], &unused);
+    for (uint32_t g = 0; g < tracked->pairing.q->facet_count; g++)
         if (reading->tied[1][g])
-            sum->pairing.vf[g] = pir_descend_vf(sum, g, sum->pairing.vf[g], &unused);
+            tracked->pairing.vf[g] = pir_descend_vf(tracked, g, tracked->pairing.vf[g], &unused);
 }
 
 /* Marks the edges of P whose arcs start or end in a tie, overlap an arc of Q, or pass through a normal of Q. */
 static void mark_tied_edges(struct reading *reading) {
     const pir_cgm *cgm = reading->overlay;
-    const pir_polytope *p = reading->sum->pairing.p;
-    bool all = p->artificial || reading->sum->pairing.q->artificial;
+    const pir_polytope *p = reading->tracked->pairing.p;
+    bool all = p->artificial || reading->tracked->pairing.q->artificial;
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t h = p->edge_half[e];
         reading->tied_edge[e] = all || reading->tied[0][p->left[h]] || reading->tied[0][pir_right(p, h)];
@@ -81,9 +87,9 @@ static void mark_tied_edges(struct reading *reading) {
 
 /* Takes in the crossing at vertex v of the overlay, if one is there. */
 static bool read_crossing(struct reading *reading, uint32_t v) {
-    pir_sum *sum = reading->sum;
+    pir_tracked *tracked = reading->tracked;
     const pir_cgm *cgm = reading->overlay;
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     uint32_t of_p = PIR_CGM_NONE, of_q = PIR_CGM_NONE, cell = 0;
     struct pir_cgm_around around = pir_cgm_around_new(cgm, v);
     do {
@@ -101,42 +107,43 @@ static bool read_crossing(struct reading *reading, uint32_t v) {
         return true;
     // the arc of P that leaves v is in the cell after the crossing, or before it when it leaves against its edge's direction
     uint32_t e = p->edge[of_p], end = p->edge_half[e] == of_p ? q->target[of_q] : q->origin[of_q];
-    uint32_t slot = pir_crossing_new(sum, e, end == cell ? of_q : q->twin[of_q]);
+    uint32_t slot = pir_crossing_new(tracked, e, end == cell ? of_q : q->twin[of_q]);
     if (slot == PIR_NO_CROSSING)
         return false;
-    sum->pairing.crossings.next[slot] = sum->pairing.crossings.first[e];
-    sum->pairing.crossings.first[e] = slot;
+    tracked->pairing.crossings.next[slot] = tracked->pairing.crossings.first[e];
+    tracked->pairing.crossings.first[e] = slot;
     return true;
 }
 
 /* Puts the crossings of edge e in order. */
 static void link_crossings(struct reading *reading, uint32_t e) {
-    pir_sum *sum = reading->sum;
-    pir_crossings *c = &sum->pairing.crossings;
-    uint32_t count = 0, v = sum->pairing.fv[sum->pairing.p->left[sum->pairing.p->edge_half[e]]],
-             *link = &sum->pairing.crossings.first[e];
-    for (uint32_t slot = sum->pairing.crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot], count++)
-        reading->slot_at[sum->pairing.q->origin[c->half[slot]]] = slot;
+    pir_tracked *tracked = reading->tracked;
+    pir_crossings *c = &tracked->pairing.crossings;
+    uint32_t count = 0, v = tracked->pairing.fv[tracked->pairing.p->left[tracked->pairing.p->edge_half[e]]],
+             *link = &tracked->pairing.crossings.first[e];
+    for (uint32_t slot = tracked->pairing.crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot], count++)
+        reading->slot_at[tracked->pairing.q->origin[c->half[slot]]] = slot;
     for (; count > 0; count--) {
         uint32_t slot = reading->slot_at[v];
         *link = slot;
         link = &c->next[slot];
-        v = sum->pairing.q->target[c->half[slot]];
+        v = tracked->pairing.q->target[c->half[slot]];
     }
     *link = PIR_NO_CROSSING;
 }
 
 /* Walks the arc of edge e by perturbed signs, its ends being located. */
-static bool walk_edge(pir_sum *sum, uint32_t e) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
-    uint32_t h = p->edge_half[e], v = sum->pairing.fv[p->left[h]], end = sum->pairing.fv[pir_right(p, h)];
+static bool walk_edge(pir_tracked *tracked, uint32_t e) {
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    uint32_t h = p->edge_half[e], v = tracked->pairing.fv[p->left[h]], end = tracked->pairing.fv[pir_right(p, h)];
     uint32_t entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
-    pir_vec3 direction = pir_rotated_direction(sum, h);
+    pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
     while (v != end) {
-        uint32_t side = pir_leave_cell(sum, h, direction, v, entered), slot = pir_crossing_new(sum, e, side);
+        uint32_t side = pir_leave_cell(tracked, h, direction, v, entered), slot = pir_crossing_new(tracked, e, side);
         if (slot == PIR_NO_CROSSING)
             return false;
-        *(last == PIR_NO_CROSSING ? &sum->pairing.crossings.first[e] : &sum->pairing.crossings.next[last]) = slot;
+        *(last == PIR_NO_CROSSING ? &tracked->pairing.crossings.first[e] : &tracked->pairing.crossings.next[last]) =
+            slot;
         last = slot;
         entered = side;
         v = q->target[side];
@@ -145,31 +152,29 @@ static bool walk_edge(pir_sum *sum, uint32_t e) {
 }
 
 static bool read_pairing(struct reading *reading) {
-    pir_sum *sum = reading->sum;
-    pir_crossings_clear(sum);
-    pir_region_open(sum);
-    read_facets(reading, 0, sum->pairing.fv, sum->pairing.p->facet_count);
-    read_facets(reading, 1, sum->pairing.vf, sum->pairing.q->facet_count);
+    pir_tracked *tracked = reading->tracked;
+    read_facets(reading, 0, tracked->pairing.fv, tracked->pairing.p->facet_count);
+    read_facets(reading, 1, tracked->pairing.vf, tracked->pairing.q->facet_count);
     settle_facets(reading);
     mark_tied_edges(reading);
     for (uint32_t v = 0; v < pir_cgm_vertices(reading->overlay); v++)
         if (!read_crossing(reading, v))
             return false;
-    for (uint32_t e = 0; e < sum->pairing.p->edge_count; e++) {
+    for (uint32_t e = 0; e < tracked->pairing.p->edge_count; e++) {
         if (!reading->tied_edge[e])
             link_crossings(reading, e);
-        else if (!walk_edge(sum, e))
+        else if (!walk_edge(tracked, e))
             return false;
     }
     return true;
 }
 
-static bool read_overlay(pir_sum *sum, const pir_cgm *overlay) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
-    const pir_allocator *a = &sum->pairing.allocator;
+static bool read_overlay(pir_tracked *tracked, const pir_cgm *overlay) {
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    const pir_allocator *a = &tracked->pairing.allocator;
     size_t flags = (size_t)p->facet_count + q->facet_count + p->edge_count;
     uint8_t *flag = PIR_ZEROED(a, uint8_t, flags);
-    struct reading reading = {.sum = sum, .overlay = overlay, .slot_at = PIR_NEW(a, uint32_t, q->vertex_count)};
+    struct reading reading = {.tracked = tracked, .overlay = overlay, .slot_at = PIR_NEW(a, uint32_t, q->vertex_count)};
     bool done = flag && reading.slot_at;
     if (done) {
         reading.tied[0] = flag;
@@ -182,23 +187,23 @@ static bool read_overlay(pir_sum *sum, const pir_cgm *overlay) {
     return done;
 }
 
-pir_status pir_cgm_rebuild(pir_sum *sum) {
+pir_status pir_cgm_rebuild(pir_tracked *tracked, pir_cgm **map_q) {
     pir_cgm *map = NULL, *overlay = NULL;
     pir_status status = PIR_OK;
     // Q stands and, whatever its scale, keeps its directions: its map is made once
-    if (!sum->cgm_q)
-        status = pir_cgm_create(sum->pairing.q, NULL, &sum->pairing.allocator, &sum->cgm_q);
+    if (!*map_q)
+        status = pir_cgm_create(tracked->pairing.q, NULL, &tracked->pairing.allocator, map_q);
     if (status == PIR_OK)
-        status = pir_cgm_create(sum->pairing.p, &sum->pairing.signs.rotation.given, &sum->pairing.allocator, &map);
+        status = pir_cgm_create(tracked->pairing.p, &tracked->pairing.signs.rotation.given, &tracked->pairing.allocator,
+                                &map);
     if (status == PIR_OK)
-        status = pir_cgm_overlay(map, sum->cgm_q, &overlay);
-    if (status == PIR_OK && !read_overlay(sum, overlay))
+        status = pir_cgm_overlay(map, *map_q, &overlay);
+    if (status == PIR_OK && !read_overlay(tracked, overlay))
         status = PIR_ERR_MEMORY;
     if (status == PIR_OK) {
-        sum->pairing.signs.by_filter += overlay->by_filter + map->by_filter;
-        sum->pairing.signs.by_exact += overlay->by_exact + map->by_exact;
-        pir_expire_all(sum);
-        pir_region_close(sum);
+        tracked->pairing.signs.by_filter += overlay->by_filter + map->by_filter;
+        tracked->pairing.signs.by_exact += overlay->by_exact + map->by_exact;
+        pir_tracked_expire_all(tracked);
     }
     pir_cgm_destroy(overlay);
     pir_cgm_destroy(map);

@@ -6,7 +6,9 @@
  * without a rising edge is the farthest. Among rising edges the steepest is taken, by floats: that choice affects only speed. Where
  * floats are not certain the ring is looked at by doubles, and exactly where those are not.
  */
-#include "dymsum/sum.h"
+#include "dymsum/rebuild/descent.h"
+
+#include "dymsum/pairing/predicates.h"
 
 /* What floats leave open: a facet of P (of_p) or of Q, its normal turned to the other operand, and how that moves. */
 struct faller {
@@ -18,15 +20,15 @@ struct faller {
 };
 
 /* The neighbour of v up the steepest edge that rises, or v when none does, and then how long that lasts. */
-static uint32_t step_finely(pir_sum *sum, const struct faller *faller, uint32_t v, pir_expiry *ret_expiry) {
+static uint32_t step_finely(pir_tracked *tracked, const struct faller *faller, uint32_t v, pir_expiry *ret_expiry) {
     const pir_polytope *other = faller->other;
     uint32_t best = v;
     double most = 0;
     *ret_expiry = pir_expiry_never();
     for (uint32_t h = other->ring_start[v]; h < other->ring_start[v + 1]; h++) {
         double s;
-        int sign = faller->of_p ? pir_sign_facet_half(sum, faller->facet, faller->turned, h, &s)
-                                : pir_sign_facet_half_back(sum, faller->facet, faller->turned, h, &s);
+        int sign = faller->of_p ? pir_sign_facet_half(&tracked->pairing, faller->facet, faller->turned, h, &s)
+                                : pir_sign_facet_half_back(&tracked->pairing, faller->facet, faller->turned, h, &s);
         pir_expiry_take_sign(ret_expiry, s, pir_vec_dot(faller->motion, other->direction[h]));
         if (sign > 0 && (best == v || s > most))
             best = other->target[h], most = s;
@@ -34,35 +36,36 @@ static uint32_t step_finely(pir_sum *sum, const struct faller *faller, uint32_t 
     return best;
 }
 
-static uint32_t descend(pir_sum *sum, const struct faller *faller, uint32_t from, pir_expiry *ret_expiry) {
+static uint32_t descend(pir_tracked *tracked, const struct faller *faller, uint32_t from, pir_expiry *ret_expiry) {
     const pir_polytope *other = faller->other;
     float turned[8];
     pir_pack_turned(faller->turned, faller->motion, turned);
     for (;;) {
         pir_probe seen;
-        sum->kernels->probe(faller->facets, &sum->step, from, turned, &seen);
-        sum->pairing.signs.by_filter += other->ring_start[from + 1] - other->ring_start[from];
+        tracked->kernels->probe(faller->facets, &tracked->step, from, turned, &seen);
+        tracked->pairing.signs.by_filter += other->ring_start[from + 1] - other->ring_start[from];
         uint32_t next = other->half_count == 0 ? from : other->target[other->ring_start[from] + seen.which];
         if (seen.highest < -PIR_FLOAT_BOUND) {
             *ret_expiry = (pir_expiry){seen.check.margin, seen.check.ahead, -seen.check.behind};
             return from;
         }
         if (seen.highest <= PIR_FLOAT_BOUND)
-            next = step_finely(sum, faller, from, ret_expiry);
+            next = step_finely(tracked, faller, from, ret_expiry);
         if (next == from)
             return from;
         from = next;
     }
 }
 
-uint32_t pir_descend_fv(pir_sum *sum, uint32_t f, pir_vec3 rotated, uint32_t from, pir_expiry *ret_expiry) {
-    const struct faller faller = {&sum->p_facets, sum->pairing.q, f, true, rotated, pir_motion_of(sum, rotated)};
-    return descend(sum, &faller, from, ret_expiry);
+uint32_t pir_descend_fv(pir_tracked *tracked, uint32_t f, pir_vec3 rotated, uint32_t from, pir_expiry *ret_expiry) {
+    const struct faller faller = {
+        &tracked->p_facets, tracked->pairing.q, f, true, rotated, pir_motion_of(tracked, rotated)};
+    return descend(tracked, &faller, from, ret_expiry);
 }
 
-uint32_t pir_descend_vf(pir_sum *sum, uint32_t g, uint32_t from, pir_expiry *ret_expiry) {
-    pir_vec3 turned_back = pir_turned_back_normal(sum, g);
-    const struct faller faller = {&sum->q_facets, sum->pairing.p, g,
-                                  false,          turned_back,    pir_motion_back(sum, turned_back)};
-    return descend(sum, &faller, from, ret_expiry);
+uint32_t pir_descend_vf(pir_tracked *tracked, uint32_t g, uint32_t from, pir_expiry *ret_expiry) {
+    pir_vec3 turned_back = pir_turned_back_normal(&tracked->pairing, g);
+    const struct faller faller = {
+        &tracked->q_facets, tracked->pairing.p, g, false, turned_back, pir_motion_back(tracked, turned_back)};
+    return descend(tracked, &faller, from, ret_expiry);
 }

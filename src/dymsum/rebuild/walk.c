@@ -8,24 +8,28 @@
  * signs are first negative, then positive, so the side is found by bisection when the cell has many. Facets of Q are located last, by
  * descent from an end of an edge whose arc crosses beside them. Where a region leaves features dormant, region.c does all this instead.
  */
-#include "dymsum/sum.h"
+#include "dymsum/rebuild/walk.h"
+
+#include "dymsum/pairing/crossings.h"
+#include "dymsum/pairing/predicates.h"
+#include "dymsum/rebuild/descent.h"
 
 /* Cells with more sides than this are bisected. */
 #define MANY_SIDES 12
 
-static int corner_sign(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t corner_half) {
+static int corner_sign(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t corner_half) {
     double unused;
-    return pir_sign_half_facet(sum, h, direction, sum->pairing.q->left[corner_half], &unused);
+    return pir_sign_half_facet(&tracked->pairing, h, direction, tracked->pairing.q->left[corner_half], &unused);
 }
 
-uint32_t pir_leave_cell(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
-    const pir_polytope *q = sum->pairing.q;
+uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
+    const pir_polytope *q = tracked->pairing.q;
     uint32_t start = q->ring_start[v], n = q->ring_start[v + 1] - start;
     if (entered == PIR_NO_CROSSING) {
         // the corner before side i is that of side i − 1
-        int before = corner_sign(sum, h, direction, start + n - 1);
+        int before = corner_sign(tracked, h, direction, start + n - 1);
         for (uint32_t i = 0; i < n; i++) {
-            int sign = corner_sign(sum, h, direction, start + i);
+            int sign = corner_sign(tracked, h, direction, start + i);
             if (before < 0 && sign > 0)
                 return start + i;
             before = sign;
@@ -36,138 +40,129 @@ uint32_t pir_leave_cell(pir_sum *sum, uint32_t h, pir_vec3 direction, uint32_t v
     uint32_t first = q->twin[entered] - start, low = 0, high = n - 1;
     while (high - low > MANY_SIDES) {
         uint32_t middle = low + (high - low) / 2;
-        if (corner_sign(sum, h, direction, start + (first + middle) % n) < 0)
+        if (corner_sign(tracked, h, direction, start + (first + middle) % n) < 0)
             low = middle;
         else
             high = middle;
     }
     for (uint32_t i = low + 1; i < high; i++) {
         uint32_t side = first + i < n ? first + i : first + i - n;
-        if (corner_sign(sum, h, direction, start + side) > 0)
+        if (corner_sign(tracked, h, direction, start + side) > 0)
             return start + side;
     }
     return start + (first + high) % n;
 }
 
-/* What has been located, in sum->mark. */
+/* What has been located, in tracked->work.mark. */
 enum { LOCATED = 1 };
 
 /*
  * Walks the arc along halfedge h of P from the facet left of it, which is located, to the one right of it, which may not be yet. The
  * crossings are listed for the edge in its own direction.
  */
-static bool walk_arc(pir_sum *sum, uint32_t h) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+static bool walk_arc(pir_tracked *tracked, uint32_t h) {
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     uint32_t e = p->edge[h], from = p->left[h], to = pir_right(p, h);
-    bool forward = p->edge_half[e] == h, located = sum->mark[to] & LOCATED;
-    pir_vec3 direction = pir_rotated_direction(sum, h), end = sum->rotated[to];
-    uint32_t v = sum->pairing.fv[from], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
-    while (q->half_count > 0 && !(located && v == sum->pairing.fv[to])) {
-        uint32_t side = pir_leave_cell(sum, h, direction, v, entered);
+    bool forward = p->edge_half[e] == h, located = tracked->work.mark[to] & LOCATED;
+    pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h), end = tracked->work.rotated[to];
+    uint32_t v = tracked->pairing.fv[from], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
+    while (q->half_count > 0 && !(located && v == tracked->pairing.fv[to])) {
+        uint32_t side = pir_leave_cell(tracked, h, direction, v, entered);
         double unused;
-        if (!located && pir_sign_facet_half(sum, to, end, side, &unused) < 0)
+        if (!located && pir_sign_facet_half(&tracked->pairing, to, end, side, &unused) < 0)
             break;
-        uint32_t slot = pir_crossing_new(sum, e, forward ? side : q->twin[side]);
+        uint32_t slot = pir_crossing_new(tracked, e, forward ? side : q->twin[side]);
         if (slot == PIR_NO_CROSSING)
             return false;
         // append when walking forward, prepend when walking back
         if (!forward) {
-            sum->pairing.crossings.next[slot] = sum->pairing.crossings.first[e];
-            sum->pairing.crossings.first[e] = slot;
+            tracked->pairing.crossings.next[slot] = tracked->pairing.crossings.first[e];
+            tracked->pairing.crossings.first[e] = slot;
         } else if (last == PIR_NO_CROSSING) {
-            sum->pairing.crossings.first[e] = slot;
+            tracked->pairing.crossings.first[e] = slot;
         } else {
-            sum->pairing.crossings.next[last] = slot;
+            tracked->pairing.crossings.next[last] = slot;
         }
         last = slot;
         entered = side;
         v = q->target[side];
     }
-    sum->pairing.fv[to] = v;
-    sum->mark[to] |= LOCATED;
+    tracked->pairing.fv[to] = v;
+    tracked->work.mark[to] |= LOCATED;
     return true;
 }
 
 /* Locates every facet of P and walks every arc. */
-static bool walk_arcs(pir_sum *sum) {
-    const pir_polytope *p = sum->pairing.p;
+static bool walk_arcs(pir_tracked *tracked) {
+    const pir_polytope *p = tracked->pairing.p;
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        sum->rotated[f] = pir_rotated_normal(sum, f);
-        sum->mark[f] = 0;
+        tracked->work.rotated[f] = pir_rotated_normal(&tracked->pairing, f);
+        tracked->work.mark[f] = 0;
     }
     if (p->facet_count == 0)
         return true;
     pir_expiry unused;
-    sum->pairing.fv[0] = pir_descend_fv(sum, 0, sum->rotated[0], 0, &unused);
-    sum->mark[0] = LOCATED;
+    tracked->pairing.fv[0] = pir_descend_fv(tracked, 0, tracked->work.rotated[0], 0, &unused);
+    tracked->work.mark[0] = LOCATED;
     uint32_t head = 0, tail = 0;
-    sum->queue[tail++] = 0;
+    tracked->work.queue[tail++] = 0;
     while (head < tail) {
-        uint32_t f = sum->queue[head++];
+        uint32_t f = tracked->work.queue[head++];
         for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
             uint32_t h = p->loop[i], to = pir_right(p, h);
-            bool is_new = !(sum->mark[to] & LOCATED);
+            bool is_new = !(tracked->work.mark[to] & LOCATED);
             // an arc between two located facets is walked from the edge's own left one
             if (!is_new &&
-                (p->edge_half[p->edge[h]] != h || sum->pairing.crossings.first[p->edge[h]] != PIR_NO_CROSSING))
+                (p->edge_half[p->edge[h]] != h || tracked->pairing.crossings.first[p->edge[h]] != PIR_NO_CROSSING))
                 continue;
-            if (!walk_arc(sum, h))
+            if (!walk_arc(tracked, h))
                 return false;
             if (is_new)
-                sum->queue[tail++] = to;
+                tracked->work.queue[tail++] = to;
         }
     }
     return true;
 }
 
 /* Locates the facets of Q: those beside a crossing first, the rest from a neighbour. */
-static void locate_facets_of_q(pir_sum *sum) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
+static void locate_facets_of_q(pir_tracked *tracked) {
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     for (uint32_t g = 0; g < q->facet_count; g++)
-        sum->mark[g] = 0;
-    for (uint32_t i = 0; i < sum->pairing.crossings.used; i++) {
-        uint32_t half = p->edge_half[sum->pairing.crossings.edge[i]], h = sum->pairing.crossings.half[i];
-        sum->pairing.vf[pir_right(q, h)] = p->origin[half];
-        sum->pairing.vf[q->left[h]] = p->target[half];
-        sum->mark[pir_right(q, h)] = sum->mark[q->left[h]] = LOCATED;
+        tracked->work.mark[g] = 0;
+    for (uint32_t i = 0; i < tracked->pairing.crossings.used; i++) {
+        uint32_t half = p->edge_half[tracked->pairing.crossings.edge[i]], h = tracked->pairing.crossings.half[i];
+        tracked->pairing.vf[pir_right(q, h)] = p->origin[half];
+        tracked->pairing.vf[q->left[h]] = p->target[half];
+        tracked->work.mark[pir_right(q, h)] = tracked->work.mark[q->left[h]] = LOCATED;
     }
     uint32_t head = 0, tail = 0;
     for (uint32_t g = 0; g < q->facet_count; g++)
-        if (sum->mark[g] & LOCATED)
-            sum->queue[tail++] = g;
+        if (tracked->work.mark[g] & LOCATED)
+            tracked->work.queue[tail++] = g;
     if (tail == 0 && q->facet_count > 0) {
-        sum->pairing.vf[0] = 0;
-        sum->mark[0] = LOCATED;
-        sum->queue[tail++] = 0;
+        tracked->pairing.vf[0] = 0;
+        tracked->work.mark[0] = LOCATED;
+        tracked->work.queue[tail++] = 0;
     }
     while (head < tail) {
-        uint32_t g = sum->queue[head++];
+        uint32_t g = tracked->work.queue[head++];
         pir_expiry unused;
-        sum->pairing.vf[g] = pir_descend_vf(sum, g, sum->pairing.vf[g], &unused);
+        tracked->pairing.vf[g] = pir_descend_vf(tracked, g, tracked->pairing.vf[g], &unused);
         for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
             uint32_t beside = pir_right(q, q->loop[i]);
-            if (sum->mark[beside] & LOCATED)
+            if (tracked->work.mark[beside] & LOCATED)
                 continue;
-            sum->mark[beside] = LOCATED;
-            sum->pairing.vf[beside] = sum->pairing.vf[g];
-            sum->queue[tail++] = beside;
+            tracked->work.mark[beside] = LOCATED;
+            tracked->pairing.vf[beside] = tracked->pairing.vf[g];
+            tracked->work.queue[tail++] = beside;
         }
     }
 }
 
-pir_status pir_walk_rebuild(pir_sum *sum) {
-    uint64_t asked = pir_signs_asked(&sum->pairing.signs);
-    pir_crossings_clear(sum);
-    if (sum->region.cone.set && !sum->region.cover.whole) {
-        if (!pir_region_walk(sum))
-            return PIR_ERR_MEMORY;
-    } else {
-        pir_region_open(sum);
-        if (!walk_arcs(sum))
-            return PIR_ERR_MEMORY;
-        locate_facets_of_q(sum);
-        pir_expire_all(sum);
-    }
-    sum->cost.walk = (double)(pir_signs_asked(&sum->pairing.signs) - asked) / pir_region_share(sum);
+pir_status pir_walk_rebuild(pir_tracked *tracked) {
+    if (!walk_arcs(tracked))
+        return PIR_ERR_MEMORY;
+    locate_facets_of_q(tracked);
+    pir_tracked_expire_all(tracked);
     return PIR_OK;
 }

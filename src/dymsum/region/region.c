@@ -51,8 +51,10 @@
 
 #include <string.h>
 
-#include "dymsum/region/sweep.h"
-#include "dymsum/sum.h"
+#include "dymsum/pairing/crossings.h"
+#include "dymsum/pairing/predicates.h"
+#include "dymsum/rebuild/descent.h"
+#include "dymsum/update/repair.h"
 
 /* Skins, by how far the axis goes in a step; the stride likewise, by the step's angle. */
 #define SKIN_STEPS   5.0
@@ -70,22 +72,23 @@ static void list_all(pir_members *members) {
 }
 
 /* Memory for regions, unless it is there, all features being active; false when out of memory. */
-static bool allocate(pir_sum *sum) {
-    pir_region *region = &sum->region;
-    if (region->edges.at)
+bool pir_region_reserve(pir_region *region, pir_tracked *tracked) {
+    const pir_pairing *pairing = &tracked->pairing;
+    if (region->sweep.edges.at)
         return true;
-    if (!pir_sweep_allocate(sum)) {
-        *region = (pir_region){0};
+    if (!pir_sweep_init(&region->sweep, pairing->p, pairing->q, &pairing->allocator))
         return false;
-    }
-    pir_region_open(sum);
+    pir_region_open(region, tracked);
     return true;
+}
+
+void pir_region_finish(pir_region *region, const pir_allocator *allocator) {
+    pir_sweep_finish(&region->sweep, allocator);
 }
 
 /* --- the cover --- */
 
-bool pir_region_holds(const pir_sum *sum, const pir_rotation *rotation) {
-    const pir_region *region = &sum->region;
+bool pir_region_holds(const pir_region *region, const pir_rotation *rotation) {
     const pir_cover *cover = &region->cover;
     return !region->cone.set || cover->whole ||
            (pir_vec_dot(region->cone.axis, cover->axis_q) >= cover->cosine_q &&
@@ -93,49 +96,85 @@ bool pir_region_holds(const pir_sum *sum, const pir_rotation *rotation) {
 }
 
 /* Whether all is kept for a reason besides what the region needs. */
-static bool is_whole(const pir_sum *sum) {
-    return !sum->region.cone.set || sum->pairing.p->dimension < 3;
+static bool is_whole(const pir_region *region, const pir_tracked *tracked) {
+    return !region->cone.set || tracked->pairing.p->dimension < 3;
 }
 
 /* Centres the cover on the region of now. Each sight of the axis is taken to go on as it went, or to rest where `afresh`. */
-static void centre(pir_sum *sum, bool afresh) {
-    pir_region *region = &sum->region;
+void pir_region_centre(pir_region *region, const pir_tracked *tracked, bool afresh) {
     const pir_cover before = region->cover;
-    pir_vec3 axis_q = region->cone.axis, axis_p = pir_mat_apply_transposed(&sum->pairing.signs.rotation.r, axis_q);
+    pir_vec3 axis_q = region->cone.axis, axis_p = pir_mat_apply_transposed(&tracked->pairing.signs.rotation.r, axis_q);
     pir_vec3 off_p = pir_vec_sub(axis_p, before.axis_p), off_q = pir_vec_sub(axis_q, before.axis_q);
     double steps = afresh ? HUGE_VAL : fmax(1, before.steps) / SKIN_STEPS;
     // whatever P sees, the axis may go with Q once: when it is set before the rotation that it is set for
     double stride = afresh ? 0 : STRIDE_STEPS * before.step;
     double skin_p = fmax(sqrt(pir_vec_dot(off_p, off_p)) / steps, stride);
     double skin_q = sqrt(pir_vec_dot(off_q, off_q)) / steps;
-    region->cover = pir_cover_make(&region->cone, is_whole(sum), axis_p, axis_q, skin_p, skin_q, stride);
+    region->cover = pir_cover_make(&region->cone, is_whole(region, tracked), axis_p, axis_q, skin_p, skin_q, stride);
     region->cover.step = afresh ? 0 : before.step;
 }
 
-void pir_region_step(pir_sum *sum, pir_quat before) {
-    if (sum->region.cone.set)
-        sum->region.cover.step = pir_rotation_angle_bound(before, sum->pairing.signs.rotation.unit);
+void pir_region_step(pir_region *region, const pir_tracked *tracked, pir_quat before) {
+    if (region->cone.set)
+        region->cover.step = pir_rotation_angle_bound(before, tracked->pairing.signs.rotation.unit);
 }
 
 /* --- falling dormant --- */
 
-static void drop_facet(pir_sum *sum, pir_region_facets *facets, uint32_t *cell, uint32_t f, uint32_t certificate) {
-    if (cell[f] != PIR_NO_PAIR)
-        facets->hint[f] = cell[f];
-    cell[f] = PIR_NO_PAIR;
-    pir_certificate_clear(&sum->certificates, certificate);
-    pir_journal_note(&sum->journal, certificate);
+/* The facets of one operand over the cells of the other. */
+struct place {
+    pir_tracked *tracked;
+    pir_region_facets *facets;
+    const pir_polytope *own;
+    uint32_t *cell, first_certificate;
+    uint32_t sweep; /* the number of the last one */
+    bool of_p;
+};
+
+static struct place place_of_p(pir_region *region, pir_tracked *tracked) {
+    pir_pairing *pairing = &tracked->pairing;
+    return (struct place){tracked, &region->sweep.p, pairing->p, pairing->fv, 0, region->sweep.number, true};
 }
 
-static void drop_edge(pir_sum *sum, uint32_t e) {
-    uint32_t slot = sum->pairing.crossings.first[e];
+static struct place place_of_q(pir_region *region, pir_tracked *tracked) {
+    pir_pairing *pairing = &tracked->pairing;
+    uint32_t first = tracked->q_facets.first_certificate;
+    return (struct place){tracked, &region->sweep.q, pairing->q, pairing->vf, first, region->sweep.number, false};
+}
+
+static void drop_facet(const struct place *place, uint32_t f) {
+    uint32_t certificate = place->first_certificate + f;
+    if (place->cell[f] != PIR_NO_PAIR)
+        place->facets->hint[f] = place->cell[f];
+    place->cell[f] = PIR_NO_PAIR;
+    pir_certificate_clear(&place->tracked->certificates, certificate);
+    pir_journal_note(&place->tracked->journal, certificate);
+}
+
+/* Drops those of the first `count` members that the last sweep has not seen. */
+static void drop_unseen_facets(const struct place *place, uint32_t count) {
+    const pir_members *members = &place->facets->members;
+    for (uint32_t i = 0; i < count; i++)
+        if (members->seen[members->at[i]] != place->sweep)
+            drop_facet(place, members->at[i]);
+}
+
+static void drop_members(const struct place *place) {
+    pir_members *members = &place->facets->members;
+    for (uint32_t i = 0; i < members->count; i++)
+        drop_facet(place, members->at[i]);
+    members->count = 0;
+}
+
+static void drop_edge(pir_tracked *tracked, uint32_t e) {
+    uint32_t slot = tracked->pairing.crossings.first[e];
     while (slot != PIR_NO_CROSSING) {
-        uint32_t next = sum->pairing.crossings.next[slot];
-        pir_crossing_free(sum, slot);
+        uint32_t next = tracked->pairing.crossings.next[slot];
+        pir_crossing_free(tracked, slot);
         slot = next;
     }
-    sum->pairing.crossings.first[e] = PIR_NO_CROSSING;
-    sum->touched[e] = PIR_INACTIVE;
+    tracked->pairing.crossings.first[e] = PIR_NO_CROSSING;
+    tracked->touched[e] = PIR_INACTIVE;
 }
 
 /* Takes what the last sweep found for the members. */
@@ -146,48 +185,34 @@ static void take_next(pir_members *members) {
 }
 
 /* Chooses what the cover asks for, and lets go of what it leaves out. */
-static void choose(pir_sum *sum) {
-    pir_region *region = &sum->region;
-    pir_members *p = &region->p.members, *q = &region->q.members, *edges = &region->edges;
+void pir_region_choose(pir_region *region, pir_tracked *tracked) {
+    pir_members *p = &region->sweep.p.members, *q = &region->sweep.q.members, *edges = &region->sweep.edges;
     uint32_t of_p = p->count, of_q = q->count, of_edges = edges->count;
     region->admits = true;
-    pir_sweep(sum);
+    pir_sweep_run(&region->sweep, &region->cover, tracked->pairing.p);
     for (uint32_t i = 0; i < of_edges; i++)
-        if (edges->seen[edges->at[i]] != region->sweep)
-            drop_edge(sum, edges->at[i]);
-    for (uint32_t i = 0; i < of_p; i++)
-        if (p->seen[p->at[i]] != region->sweep)
-            drop_facet(sum, &region->p, sum->pairing.fv, p->at[i], p->at[i]);
-    for (uint32_t i = 0; i < of_q; i++)
-        if (q->seen[q->at[i]] != region->sweep)
-            drop_facet(sum, &region->q, sum->pairing.vf, q->at[i], sum->q_facets.first_certificate + q->at[i]);
+        if (edges->seen[edges->at[i]] != region->sweep.number)
+            drop_edge(tracked, edges->at[i]);
+    const struct place place_p = place_of_p(region, tracked), place_q = place_of_q(region, tracked);
+    drop_unseen_facets(&place_p, of_p);
+    drop_unseen_facets(&place_q, of_q);
     take_next(p);
     take_next(q);
     take_next(edges);
 }
 
-void pir_region_follow(pir_sum *sum) {
-    pir_region *region = &sum->region;
+void pir_region_follow(pir_region *region, pir_tracked *tracked) {
     double angle = region->cover.step, allowed = region->cover.stride;
     region->cover.steps += region->cover.steps < UINT32_MAX;
     region->jumped = region->cone.set && !region->cover.whole && !(angle <= LONGEST_STEP);
-    if (pir_region_holds(sum, &sum->pairing.signs.rotation))
+    if (pir_region_holds(region, &tracked->pairing.signs.rotation))
         return;
-    centre(sum, false);
-    choose(sum);
+    pir_region_centre(region, tracked, false);
+    pir_region_choose(region, tracked);
     region->jumped = region->jumped || !(angle <= fmin(allowed, region->cover.stride));
 }
 
 /* --- waking up --- */
-
-/* One of the operands' facets over the other's cells. */
-struct place {
-    pir_sum *sum;
-    pir_region_facets *facets;
-    const pir_polytope *own;
-    uint32_t *cell, first_certificate;
-    bool of_p;
-};
 
 /* An active facet's neighbour that has a cell, or PIR_NO_PAIR. */
 static uint32_t cell_beside(const struct place *place, uint32_t f) {
@@ -201,19 +226,19 @@ static uint32_t cell_beside(const struct place *place, uint32_t f) {
 }
 
 static void locate(const struct place *place, uint32_t f, uint32_t from) {
-    pir_sum *sum = place->sum;
+    pir_tracked *tracked = place->tracked;
     pir_expiry expiry;
-    place->cell[f] = place->of_p ? pir_descend_fv(sum, f, pir_rotated_normal(sum, f), from, &expiry)
-                                 : pir_descend_vf(sum, f, from, &expiry);
-    pir_certify(sum, place->first_certificate + f, &expiry);
-    pir_journal_note(&sum->journal, place->first_certificate + f);
+    place->cell[f] = place->of_p ? pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), from, &expiry)
+                                 : pir_descend_vf(tracked, f, from, &expiry);
+    pir_tracked_certify(tracked, place->first_certificate + f, &expiry);
+    pir_journal_note(&tracked->journal, place->first_certificate + f);
 }
 
 /* Locates the members without a cell: from a neighbour that has one, where there is one, and then outwards, breadth first. */
 static void locate_members(const struct place *place) {
     const pir_polytope *own = place->own;
     const pir_members *members = &place->facets->members;
-    uint32_t *queue = place->sum->queue;
+    uint32_t *queue = place->tracked->work.queue;
     for (uint32_t i = 0; i < members->count; i++) {
         uint32_t head = 0, tail = 0;
         if (place->cell[members->at[i]] == PIR_NO_PAIR)
@@ -227,29 +252,26 @@ static void locate_members(const struct place *place) {
             for (uint32_t k = own->loop_start[f]; k < own->loop_start[f + 1]; k++) {
                 uint32_t to = pir_right(own, own->loop[k]);
                 // in the queue once: the rest of the members comes to those that find no room
-                if (members->seen[to] == place->sum->region.sweep && place->cell[to] == PIR_NO_PAIR &&
-                    tail < members->capacity)
+                if (members->seen[to] == place->sweep && place->cell[to] == PIR_NO_PAIR && tail < members->capacity)
                     queue[tail++] = to;
             }
         }
     }
 }
 
-bool pir_region_admit(pir_sum *sum) {
-    pir_region *region = &sum->region;
+bool pir_region_admit(pir_region *region, pir_tracked *tracked) {
     if (!region->admits)
         return true;
-    const struct place p = {sum, &region->p, sum->pairing.p, sum->pairing.fv, 0, true},
-                       q = {sum, &region->q, sum->pairing.q, sum->pairing.vf, sum->q_facets.first_certificate, false};
-    pir_begin_step(sum);
+    const struct place p = place_of_p(region, tracked), q = place_of_q(region, tracked);
+    pir_tracked_begin_step(tracked);
     locate_members(&p);
     locate_members(&q);
-    for (uint32_t i = 0; i < region->edges.count; i++) {
-        uint32_t e = region->edges.at[i];
-        if (sum->touched[e] != PIR_INACTIVE)
+    for (uint32_t i = 0; i < region->sweep.edges.count; i++) {
+        uint32_t e = region->sweep.edges.at[i];
+        if (tracked->touched[e] != PIR_INACTIVE)
             continue;
-        sum->touched[e] = 0;
-        if (!pir_derive_edge(sum, e))
+        tracked->touched[e] = 0;
+        if (!pir_derive_edge(tracked, e))
             return false;
     }
     region->admits = false;
@@ -258,50 +280,42 @@ bool pir_region_admit(pir_sum *sum) {
 
 /* --- rebuilds --- */
 
-void pir_region_renew(pir_sum *sum) {
-    if (sum->region.cone.set)
-        centre(sum, true);
-}
-
 static bool is_full(const pir_members *members) {
     return members->count == members->capacity;
 }
 
-void pir_region_open(pir_sum *sum) {
-    pir_region *region = &sum->region;
+void pir_region_open(pir_region *region, pir_tracked *tracked) {
     // each kind by itself: facets of Q may be dormant where all arcs of P are active
-    bool all = is_full(&region->p.members) && is_full(&region->q.members) && is_full(&region->edges);
-    if (!region->edges.at || (all && !region->admits))
+    bool all = is_full(&region->sweep.p.members) && is_full(&region->sweep.q.members) && is_full(&region->sweep.edges);
+    if (!region->sweep.edges.at || (all && !region->admits))
         return;
-    list_all(&region->p.members);
-    list_all(&region->q.members);
-    list_all(&region->edges);
-    memset(sum->touched, 0, sum->pairing.p->edge_count * sizeof *sum->touched);
-    sum->stamp = 0;
+    list_all(&region->sweep.p.members);
+    list_all(&region->sweep.q.members);
+    list_all(&region->sweep.edges);
+    memset(tracked->touched, 0, tracked->pairing.p->edge_count * sizeof *tracked->touched);
+    tracked->stamp = 0;
     region->admits = false;
 }
 
-void pir_region_close(pir_sum *sum) {
-    if (!sum->region.cone.set)
+void pir_region_close(pir_region *region, pir_tracked *tracked) {
+    if (!region->cone.set)
         return;
-    centre(sum, true);
-    choose(sum);
-    sum->region.admits = false;
+    pir_region_centre(region, tracked, true);
+    pir_region_choose(region, tracked);
+    region->admits = false;
 }
 
-bool pir_region_walk(pir_sum *sum) {
-    pir_region *region = &sum->region;
-    pir_members *p = &region->p.members, *q = &region->q.members, *edges = &region->edges;
-    // all falls dormant, in whatever state a call that failed has left it
+bool pir_region_walk(pir_region *region, pir_tracked *tracked) {
+    pir_members *edges = &region->sweep.edges;
+    const struct place p = place_of_p(region, tracked), q = place_of_q(region, tracked);
+    // all become inactive, in whatever state a call that failed has left them
     for (uint32_t i = 0; i < edges->count; i++)
-        drop_edge(sum, edges->at[i]);
-    for (uint32_t i = 0; i < p->count; i++)
-        drop_facet(sum, &region->p, sum->pairing.fv, p->at[i], p->at[i]);
-    for (uint32_t i = 0; i < q->count; i++)
-        drop_facet(sum, &region->q, sum->pairing.vf, q->at[i], sum->q_facets.first_certificate + q->at[i]);
-    p->count = q->count = edges->count = 0;
-    choose(sum);
-    return pir_region_admit(sum);
+        drop_edge(tracked, edges->at[i]);
+    edges->count = 0;
+    drop_members(&p);
+    drop_members(&q);
+    pir_region_choose(region, tracked);
+    return pir_region_admit(region, tracked);
 }
 
 /* Whether the members have cells and no other facet has. */
@@ -319,77 +333,27 @@ static uint32_t count_with_cells(const uint32_t *cell, uint32_t count) {
     return found;
 }
 
-bool pir_region_adopt(pir_sum *sum, const pir_cone *cone, const pir_cover *cover, bool *ret_fits) {
-    pir_region *region = &sum->region;
-    if (!allocate(sum))
+bool pir_region_adopt(pir_region *region, pir_tracked *tracked, const pir_cone *cone, const pir_cover *cover,
+                      bool *ret_fits) {
+    if (!pir_region_reserve(region, tracked))
         return false;
     region->cone = *cone;
     region->cover = *cover;
-    region->cover.whole = is_whole(sum);
-    uint32_t of_p = count_with_cells(sum->pairing.fv, sum->pairing.p->facet_count),
-             of_q = count_with_cells(sum->pairing.vf, sum->pairing.q->facet_count),
-             pairs = sum->pairing.crossings.count;
-    choose(sum);
+    region->cover.whole = is_whole(region, tracked);
+    uint32_t of_p = count_with_cells(tracked->pairing.fv, tracked->pairing.p->facet_count),
+             of_q = count_with_cells(tracked->pairing.vf, tracked->pairing.q->facet_count),
+             pairs = tracked->pairing.crossings.count;
+    pir_region_choose(region, tracked);
     region->admits = false;
-    *ret_fits = fit(&region->p.members, sum->pairing.fv, of_p) && fit(&region->q.members, sum->pairing.vf, of_q) &&
-                sum->pairing.crossings.count == pairs && pir_region_holds(sum, &sum->pairing.signs.rotation);
+    *ret_fits = fit(&region->sweep.p.members, tracked->pairing.fv, of_p) &&
+                fit(&region->sweep.q.members, tracked->pairing.vf, of_q) && tracked->pairing.crossings.count == pairs &&
+                pir_region_holds(region, &tracked->pairing.signs.rotation);
     return true;
 }
 
-double pir_region_share(const pir_sum *sum) {
-    const pir_region *region = &sum->region;
-    uint32_t all = pir_certificate_count(sum);
-    return region->cone.set && all > 0 ? (double)(region->p.members.count + region->q.members.count + 1) / (all + 1.0)
-                                       : 1;
-}
-
-/* --- the calls --- */
-
-/* Brings what is kept to a cone that the cover does not hold. */
-static pir_status change_cone(pir_sum *sum, const pir_cone *cone) {
-    pir_region *region = &sum->region;
-    const pir_cone cone_before = region->cone;
-    const pir_cover cover_before = region->cover;
-    region->cone = *cone;
-    centre(sum, !cone_before.set || !cone->set);
-    choose(sum);
-    if (pir_region_admit(sum))
-        return PIR_OK;
-    // back to what there was memory for
-    region->cone = cone_before;
-    region->cover = cover_before;
-    pir_status again = pir_walk_rebuild(sum);
-    PIR_ASSERT(again == PIR_OK);
-    (void)again;
-    return PIR_ERR_MEMORY;
-}
-
-pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle) {
-    if (!sum)
-        return PIR_ERR_ARGUMENT;
-    pir_region *region = &sum->region;
-    pir_cone cone, before = region->cone;
-    pir_status status = pir_cone_make(axis, half_angle, &cone);
-    if (status != PIR_OK || (!cone.set && !before.set))
-        return status;
-    if (!allocate(sum))
-        return PIR_ERR_MEMORY;
-    pir_sum_changes(sum);
-    if (before.set && cone.set && before.half_angle == cone.half_angle) {
-        region->cone = cone;
-        if (pir_region_holds(sum, &sum->pairing.signs.rotation) && pir_region_holds(sum, pir_sum_shown_rotation(sum)))
-            return PIR_OK;
-        region->cone = before;
-    }
-    // a pairing that has stayed behind comes along first
-    status = pir_sum_settle(sum);
-    return status == PIR_OK ? change_cone(sum, &cone) : status;
-}
-
-int pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle) {
-    if (!sum->region.cone.set)
-        return 0;
-    *ret_axis = sum->region.cone.axis;
-    *ret_half_angle = sum->region.cone.half_angle;
-    return 1;
+double pir_region_share(const pir_region *region, const pir_tracked *tracked) {
+    uint32_t all = pir_certificate_count(tracked);
+    return region->cone.set && all > 0
+               ? (double)(region->sweep.p.members.count + region->sweep.q.members.count + 1) / (all + 1.0)
+               : 1;
 }

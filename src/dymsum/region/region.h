@@ -5,76 +5,61 @@
 #ifndef PIR_DYMSUM_REGION_REGION_H
 #define PIR_DYMSUM_REGION_REGION_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
-#include "base/memory.h"
-#include "base/vec.h"
+#include "dymsum/pairing/tracked.h"
 #include "dymsum/region/cover.h"
-
-/* Features of one kind. */
-typedef struct pir_members {
-    uint32_t *at, count; /* the active ones */
-    uint32_t *next;      /* room for those of the next sweep */
-    uint32_t *seen;      /* per feature: the last sweep that counted it in */
-    uint32_t capacity;   /* how many features there are */
-} pir_members;
-
-/* Facets as the sweep reads them. */
-typedef struct pir_region_facets {
-    float *x, *y, *z;     /* normals */
-    float *cosine, *sine; /* of half the longest arc at each */
-    float *apart;         /* what a pass over them found */
-    uint32_t *hint;       /* per dormant facet: the cell it was in last */
-    pir_members members;
-} pir_region_facets;
+#include "dymsum/region/sweep.h"
 
 typedef struct pir_region {
     pir_cone cone;
     pir_cover cover;
-    bool admits;            /* a sweep has counted in features that are still dormant */
-    bool jumped;             /* the last step may have carried what was or is dormant through what is active */
-    uint32_t sweep;         /* the number of the last sweep */
-    pir_region_facets p, q; /* memory from the first cone on, as for the edges */
-    pir_members edges;      /* of P */
+    bool admits;     /* a sweep has counted in features that are still inactive */
+    bool jumped;     /* the last step may have carried what was or is inactive through what is active */
+    pir_sweep sweep; /* memory from the first cone on */
 } pir_region;
 
-struct pir_sum;
-struct pir_rotation;
+void pir_region_finish(pir_region *region, const pir_allocator *allocator);
+
+/* Makes memory for regions, unless it is there, all features being active; false when out of memory. */
+bool pir_region_reserve(pir_region *region, pir_tracked *tracked);
 
 /*
- * Gives a sum that has no region, but the pairing of one, that region; *ret_fits: whether the pairing has a cell for every facet that the
- * cover asks for, none for any other, no crossings else, and the cover holds. Cells are in range or PIR_NO_PAIR. False when out of memory.
+ * Gives a pairing that has no region, but is the pairing of one, that region; *ret_fits: whether the pairing has a cell for every facet
+ * that the cover asks for, none for any other, no crossings else, and the cover holds. Cells are in range or PIR_NO_PAIR. False when out
+ * of memory.
  */
-bool pir_region_adopt(struct pir_sum *sum, const pir_cone *cone, const pir_cover *cover, bool *ret_fits);
+bool pir_region_adopt(pir_region *region, pir_tracked *tracked, const pir_cone *cone, const pir_cover *cover,
+                      bool *ret_fits);
 
 /* Whether what is kept holds all that the region needs at `rotation`. */
-bool pir_region_holds(const struct pir_sum *sum, const struct pir_rotation *rotation);
+bool pir_region_holds(const pir_region *region, const pir_rotation *rotation);
 
-/* Takes note of a step from the rotation of unit quaternion `before`, which the sum was at, to that of now. */
-void pir_region_step(struct pir_sum *sum, pir_quat before);
+/* The part of all features that is active, from 0 to 1. */
+double pir_region_share(const pir_region *region, const pir_tracked *tracked);
+
+/* Notes a step from the rotation of unit quaternion `before` to that of the pairing. */
+void pir_region_step(pir_region *region, const pir_tracked *tracked, pir_quat before);
 
 /* --- around an update --- */
 
-/* Before: where the region needs it chooses anew what is kept, and lets the rest go. */
-void pir_region_follow(struct pir_sum *sum);
+/* Before: where the region needs it chooses anew what is kept, and drops the rest. */
+void pir_region_follow(pir_region *region, pir_tracked *tracked);
 
 /* After: brings in what has been chosen and is not there yet. False when out of memory. */
-bool pir_region_admit(struct pir_sum *sum);
+bool pir_region_admit(pir_region *region, pir_tracked *tracked);
 
 /* --- around a rebuild --- */
 
-/* Chooses anew what is kept, at the rotation of now, whatever was before. */
-void pir_region_renew(struct pir_sum *sum);
+/* Centres the cover on the rotation of now. `afresh`: whatever was before. */
+void pir_region_centre(pir_region *region, const pir_tracked *tracked, bool afresh);
 
-/* The pairing of what is kept, from nothing; false when out of memory. */
-bool pir_region_walk(struct pir_sum *sum);
+/* Chooses what the cover asks for, and drops what it leaves out. */
+void pir_region_choose(pir_region *region, pir_tracked *tracked);
 
-/* All is kept, for a rebuild that knows no regions; and then again only what the region needs. */
-void pir_region_open(struct pir_sum *sum);
-void pir_region_close(struct pir_sum *sum);
+/* Makes the pairing of what is kept from nothing; there are no crossings before. False when out of memory. */
+bool pir_region_walk(pir_region *region, pir_tracked *tracked);
 
-/* The part of all features that is active, from 0 to 1. */
-double pir_region_share(const struct pir_sum *sum);
+/* Keeps all features, for a rebuild that knows no regions; and then again only what the region needs. */
+void pir_region_open(pir_region *region, pir_tracked *tracked);
+void pir_region_close(pir_region *region, pir_tracked *tracked);
 
 #endif

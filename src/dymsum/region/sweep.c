@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "dymsum/sum.h"
+#include "base/layout.h"
 
 /*
  * What the sweep gives away: floats are off by less than 2^-20 in the cosine; where that is turned into an angle, by
@@ -21,43 +21,26 @@
 
 /* --- memory --- */
 
-static bool members_new(pir_members *members, const pir_allocator *a, uint32_t capacity) {
-    members->capacity = capacity;
-    members->at = PIR_NEW(a, uint32_t, capacity);
-    members->next = PIR_NEW(a, uint32_t, capacity);
-    members->seen = PIR_ZEROED(a, uint32_t, capacity);
-    return members->at && members->next && members->seen;
+static pir_layout layout_of(pir_region_facets *facets) {
+    pir_members *members = &facets->members;
+    uint32_t count = members->capacity;
+    return (pir_layout){{PIR_ROW(facets->x, count), PIR_ROW(facets->y, count), PIR_ROW(facets->z, count),
+                         PIR_ROW(facets->cosine, count), PIR_ROW(facets->sine, count), PIR_ROW(facets->apart, count),
+                         PIR_ROW(facets->hint, count), PIR_ROW(members->at, count), PIR_ROW(members->next, count),
+                         PIR_ROW(members->seen, count)}};
 }
 
-static void members_free(pir_members *members, const pir_allocator *a) {
-    PIR_FREE(a, members->at, members->capacity);
-    PIR_FREE(a, members->next, members->capacity);
-    PIR_FREE(a, members->seen, members->capacity);
+static pir_layout layout_of_edges(pir_members *edges) {
+    uint32_t count = edges->capacity;
+    return (pir_layout){{PIR_ROW(edges->at, count), PIR_ROW(edges->next, count), PIR_ROW(edges->seen, count)}};
 }
 
-static bool facets_new(pir_region_facets *facets, const pir_allocator *a, uint32_t count) {
-    float **lane[6] = {&facets->x, &facets->y, &facets->z, &facets->cosine, &facets->sine, &facets->apart};
-    bool done = members_new(&facets->members, a, count);
-    for (int k = 0; k < 6; k++)
-        done = (*lane[k] = PIR_NEW(a, float, count)) != NULL && done;
-    facets->hint = PIR_ZEROED(a, uint32_t, count);
-    return done && facets->hint;
-}
-
-static void facets_free(pir_region_facets *facets, const pir_allocator *a) {
-    uint32_t count = facets->members.capacity;
-    float *const lane[6] = {facets->x, facets->y, facets->z, facets->cosine, facets->sine, facets->apart};
-    for (int k = 0; k < 6; k++)
-        PIR_FREE(a, lane[k], count);
-    PIR_FREE(a, facets->hint, count);
-    members_free(&facets->members, a);
-}
-
-void pir_sweep_finish(pir_sum *sum) {
-    const pir_allocator *a = &sum->pairing.allocator;
-    facets_free(&sum->region.p, a);
-    facets_free(&sum->region.q, a);
-    members_free(&sum->region.edges, a);
+void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *a) {
+    pir_layout p = layout_of(&sweep->p), q = layout_of(&sweep->q), edges = layout_of_edges(&sweep->edges);
+    pir_layout_free(a, &p);
+    pir_layout_free(a, &q);
+    pir_layout_free(a, &edges);
+    *sweep = (pir_sweep){0};
 }
 
 /* What the sweep reads of p's facets: that holds at every scale. */
@@ -68,33 +51,38 @@ static void fill_facets(pir_region_facets *facets, const pir_polytope *p) {
         for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
             least = fmin(least, pir_vec_dot(n, p->normal[pir_right(p, p->loop[i])]));
         least = fmax(-1, least);
-        facets->x[f] = (float)n.x, facets->y[f] = (float)n.y, facets->z[f] = (float)n.z;
+        facets->x[f] = (float)n.x;
+        facets->y[f] = (float)n.y;
+        facets->z[f] = (float)n.z;
         facets->cosine[f] = (float)sqrt((1 + least) / 2);
         facets->sine[f] = (float)sqrt((1 - least) / 2);
     }
 }
 
-bool pir_sweep_allocate(pir_sum *sum) {
-    pir_region *region = &sum->region;
-    const pir_allocator *a = &sum->pairing.allocator;
-    bool done = facets_new(&region->p, a, sum->pairing.p->facet_count);
-    done = facets_new(&region->q, a, sum->pairing.q->facet_count) && done;
-    done = members_new(&region->edges, a, sum->pairing.p->edge_count) && done;
+bool pir_sweep_init(pir_sweep *sweep, const pir_polytope *p, const pir_polytope *q, const pir_allocator *a) {
+    *sweep = (pir_sweep){0};
+    sweep->p.members.capacity = p->facet_count;
+    sweep->q.members.capacity = q->facet_count;
+    sweep->edges.capacity = p->edge_count;
+    pir_layout of_p = layout_of(&sweep->p), of_q = layout_of(&sweep->q), edges = layout_of_edges(&sweep->edges);
+    bool done = pir_layout_new(a, &of_p);
+    done = pir_layout_new(a, &of_q) && done;
+    done = pir_layout_new(a, &edges) && done;
     if (!done) {
-        pir_sweep_finish(sum);
+        pir_sweep_finish(sweep, a);
         return false;
     }
-    fill_facets(&region->p, sum->pairing.p);
-    fill_facets(&region->q, sum->pairing.q);
+    fill_facets(&sweep->p, p);
+    fill_facets(&sweep->q, q);
     return true;
 }
 
 /* --- the sweep --- */
 
-static void count_in(pir_members *members, uint32_t i, uint32_t sweep, uint32_t *count) {
-    if (members->seen[i] == sweep)
+static void count_in(pir_members *members, uint32_t i, uint32_t number, uint32_t *count) {
+    if (members->seen[i] == number)
         return;
-    members->seen[i] = sweep;
+    members->seen[i] = number;
     members->next[(*count)++] = i;
 }
 
@@ -136,11 +124,8 @@ static bool passes(const pir_polytope *p, uint32_t h, pir_vec3 axis, pir_arc rea
 /*
  * Counts in the edges of P within `reach` and the facets at their ends; returns how far their arcs lead from the axis.
  */
-static pir_arc sweep_p(pir_sum *sum, pir_arc reach) {
-    pir_region *region = &sum->region;
-    pir_region_facets *facets = &region->p;
-    const pir_polytope *p = sum->pairing.p;
-    pir_vec3 axis = region->cover.axis_p;
+static pir_arc sweep_p(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
+    pir_region_facets *facets = &sweep->p;
     uint32_t edges = 0, ends = 0;
     double inner = reach.cosine - (double)FLOAT_SLACK;
     find_apart(facets, axis, reach, true);
@@ -150,11 +135,11 @@ static pir_arc sweep_p(pir_sum *sum, pir_arc reach) {
         bool inside = pir_vec_dot(axis, p->normal[f]) >= inner;
         for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
             uint32_t h = p->loop[i], e = p->edge[h];
-            if (region->edges.seen[e] == region->sweep || (!inside && !passes(p, h, axis, reach)))
+            if (sweep->edges.seen[e] == sweep->number || (!inside && !passes(p, h, axis, reach)))
                 continue;
-            count_in(&region->edges, e, region->sweep, &edges);
-            count_in(&facets->members, f, region->sweep, &ends);
-            count_in(&facets->members, pir_right(p, h), region->sweep, &ends);
+            count_in(&sweep->edges, e, sweep->number, &edges);
+            count_in(&facets->members, f, sweep->number, &ends);
+            count_in(&facets->members, pir_right(p, h), sweep->number, &ends);
         }
     }
     // an arc whose ends are within a quarter turn goes no farther than they do
@@ -167,47 +152,46 @@ static pir_arc sweep_p(pir_sum *sum, pir_arc reach) {
                     .cosine;
         least = fmin(least, x);
     }
-    region->edges.count = edges;
+    sweep->edges.count = edges;
     facets->members.count = ends;
     return pir_arc_from_cosine(least);
 }
 
-static void sweep_q(pir_sum *sum, pir_arc reach) {
-    pir_region *region = &sum->region;
+static void sweep_q(pir_sweep *sweep, pir_vec3 axis, pir_arc reach) {
     uint32_t count = 0;
-    find_apart(&region->q, region->cover.axis_q, reach, false);
-    for (uint32_t g = 0; g < region->q.members.capacity; g++)
-        if (region->q.apart[g] >= 0)
-            count_in(&region->q.members, g, region->sweep, &count);
-    region->q.members.count = count;
+    find_apart(&sweep->q, axis, reach, false);
+    for (uint32_t g = 0; g < sweep->q.members.capacity; g++)
+        if (sweep->q.apart[g] >= 0)
+            count_in(&sweep->q.members, g, sweep->number, &count);
+    sweep->q.members.count = count;
 }
 
-static void sweep_all(pir_members *members, uint32_t sweep) {
+static void sweep_all(pir_members *members, uint32_t number) {
     members->count = 0;
     for (uint32_t i = 0; i < members->capacity; i++)
-        count_in(members, i, sweep, &members->count);
+        count_in(members, i, number, &members->count);
 }
 
-static void next_sweep(pir_region *region) {
-    pir_members *const all[3] = {&region->p.members, &region->q.members, &region->edges};
-    if (++region->sweep != 0)
+static void next_number(pir_sweep *sweep) {
+    pir_members *const all[3] = {&sweep->p.members, &sweep->q.members, &sweep->edges};
+    if (++sweep->number != 0)
         return;
     // numbers have run out: begin again
     for (int k = 0; k < 3; k++)
         memset(all[k]->seen, 0, all[k]->capacity * sizeof *all[k]->seen);
-    region->sweep = 1;
+    sweep->number = 1;
 }
 
-void pir_sweep(pir_sum *sum) {
-    pir_region *region = &sum->region;
-    const pir_cover *cover = &region->cover;
-    next_sweep(region);
+void pir_sweep_run(pir_sweep *sweep, const pir_cover *cover, const pir_polytope *p) {
+    next_number(sweep);
     if (cover->whole) {
-        sweep_all(&region->p.members, region->sweep);
-        sweep_all(&region->q.members, region->sweep);
-        sweep_all(&region->edges, region->sweep);
+        sweep_all(&sweep->p.members, sweep->number);
+        sweep_all(&sweep->q.members, sweep->number);
+        sweep_all(&sweep->edges, sweep->number);
         return;
     }
-    pir_arc farthest = sweep_p(sum, pir_arc_add(cover->half_angle, pir_arc_of(cover->skin_p)));
-    sweep_q(sum, pir_arc_add(farthest, pir_arc_of(cover->skin_p + cover->skin_q + cover->stride + ANGLE_SLACK)));
+    pir_arc reach = pir_arc_add(cover->half_angle, pir_arc_of(cover->skin_p));
+    pir_arc farthest = sweep_p(sweep, p, cover->axis_p, reach);
+    double around = cover->skin_p + cover->skin_q + cover->stride + ANGLE_SLACK;
+    sweep_q(sweep, cover->axis_q, pir_arc_add(farthest, pir_arc_of(around)));
 }

@@ -3,22 +3,43 @@
 #ifndef PIR_DYMSUM_REGION_SWEEP_H
 #define PIR_DYMSUM_REGION_SWEEP_H
 
-#include <stdbool.h>
+#include "dymsum/region/cover.h"
+#include "polytope/polytope.h"
 
-struct pir_sum;
+/* Features of one kind. */
+typedef struct pir_members {
+    uint32_t *at, count; /* the active ones */
+    uint32_t *next;      /* room for those of the next sweep */
+    uint32_t *seen;      /* per feature: the last sweep that counted it in */
+    uint32_t capacity;   /* how many features there are */
+} pir_members;
+
+/* Facets as the sweep reads them. */
+typedef struct pir_region_facets {
+    float *x, *y, *z;     /* normals */
+    float *cosine, *sine; /* of half the longest arc at each */
+    float *apart;         /* what a pass over them found */
+    uint32_t *hint;       /* per inactive facet: the cell it was in last */
+    pir_members members;
+} pir_region_facets;
+
+typedef struct pir_sweep {
+    uint32_t number;        /* of the last sweep */
+    pir_region_facets p, q; /* of either operand */
+    pir_members edges;      /* of P */
+} pir_sweep;
 
 /*
  * Memory for sweeps, filled with what they read of the operands; no feature is a member. False when out of memory:
  * there is none then.
  */
-bool pir_sweep_allocate(struct pir_sum *sum);
-void pir_sweep_finish(struct pir_sum *sum);
+bool pir_sweep_init(pir_sweep *sweep, const pir_polytope *p, const pir_polytope *q, const pir_allocator *allocator);
+void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *allocator);
 
 /*
- * Finds the features that the cover of the sum's region asks for: they stand in members->next, as many as
- * members->count says, and the `seen` of each is the number of the sweep. The members are those of before still, in
- * members->at.
+ * Finds the features that the cover asks for: they stand in members->next, as many as members->count says, and the `seen` of each is the
+ * number of the sweep. members->at still holds the members of before.
  */
-void pir_sweep(struct pir_sum *sum);
+void pir_sweep_run(pir_sweep *sweep, const pir_cover *cover, const pir_polytope *p);
 
 #endif

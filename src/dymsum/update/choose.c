@@ -15,6 +15,9 @@
  */
 #include "dymsum/update/choose.h"
 
+#include <math.h>
+#include <stdbool.h>
+
 #define WORK_OF_SIGN 1.05
 #define CLEAR_GAIN   0.8
 #define TRIAL        3
@@ -27,8 +30,7 @@
  */
 #define NO_WORK 1e-6
 
-pir_method pir_choose_method(pir_sum *sum, double angle) {
-    const pir_cost_model *cost = &sum->cost;
+pir_method pir_choose_method(const pir_cost_model *cost, double angle) {
     bool on_trial = cost->updates_in_a_row > 0 && cost->updates_in_a_row < TRIAL;
     if (cost->per_radian == 0 || on_trial || cost->walks_in_a_row >= cost->probe_after)
         return PIR_METHOD_UPDATE;
@@ -37,10 +39,9 @@ pir_method pir_choose_method(pir_sum *sum, double angle) {
     return expected <= allowed ? PIR_METHOD_UPDATE : PIR_METHOD_WALK;
 }
 
-void pir_learn_update(pir_sum *sum, double angle, uint64_t signs) {
-    pir_cost_model *cost = &sum->cost;
+void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double share) {
     if (cost->updates_in_a_row > 0 && angle > 0) {
-        double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle / pir_region_share(sum) : 0;
+        double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle / share : 0;
         bool afresh = cost->per_radian == 0 || cost->updates_in_a_row < TRIAL;
         cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), NO_WORK);
     }
@@ -53,9 +54,9 @@ void pir_learn_update(pir_sum *sum, double angle, uint64_t signs) {
     cost->walks_in_a_row = 0;
 }
 
-void pir_learn_walk(pir_sum *sum) {
-    if (sum->cost.probe_after == 0)
-        sum->cost.probe_after = FIRST_PROBE;
-    sum->cost.walks_in_a_row++;
-    sum->cost.updates_in_a_row = 0;
+void pir_learn_walk(pir_cost_model *cost) {
+    if (cost->probe_after == 0)
+        cost->probe_after = FIRST_PROBE;
+    cost->walks_in_a_row++;
+    cost->updates_in_a_row = 0;
 }

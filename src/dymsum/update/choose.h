@@ -5,15 +5,25 @@
 #ifndef PIR_DYMSUM_UPDATE_CHOOSE_H
 #define PIR_DYMSUM_UPDATE_CHOOSE_H
 
-#include "dymsum/sum.h"
+#include <stdint.h>
+
+#include <pirouette/sum.h>
+
+/* What the choice is made from. Work is counted in signs. */
+typedef struct pir_cost_model {
+    double walk;       /* work of the last walk */
+    double per_radian; /* work of recent updates per radian turned, 0 while none is known */
+    uint32_t walks_in_a_row, updates_in_a_row;
+    uint32_t probe_after; /* how many walks in a row before an update is tried */
+} pir_cost_model;
 
 /* The method to use for a turn of at most `angle`. */
-pir_method pir_choose_method(pir_sum *sum, double angle);
+pir_method pir_choose_method(const pir_cost_model *cost, double angle);
 
-/* Takes in that an update over `angle` has asked for so many signs. */
-void pir_learn_update(pir_sum *sum, double angle, uint64_t signs);
+/* Takes in that an update over `angle`, of a `share` of all features, has asked for so many signs. */
+void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double share);
 
 /* Takes in that a walk was made. */
-void pir_learn_walk(pir_sum *sum);
+void pir_learn_walk(pir_cost_model *cost);
 
 #endif

@@ -25,7 +25,7 @@
  * Rounding errs upwards. The angle is an upper bound (rotation.h); asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x bound what would need
  * functions that machines disagree on.
  */
-#include "dymsum/sum.h"
+#include "dymsum/update/lag.h"
 
 /* Angles beyond this are not told apart: the sine in S_B rises up to here. */
 #define FARTHEST_LAG 1.5
@@ -90,29 +90,14 @@ static void measure(const pir_polytope *p, const double *given_lengths, double *
     }
 }
 
-pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance) {
-    if (!sum || !(tolerance >= 0))
-        return PIR_ERR_ARGUMENT;
-    if (!isfinite(tolerance))
-        return PIR_ERR_NOT_FINITE;
-    pir_status status = pir_sum_settle(sum);
-    if (status != PIR_OK)
-        return status;
-    pir_sum_changes(sum);
-    sum->lag.tolerance = tolerance;
-    pir_lag_measure(sum);
-    return PIR_OK;
-}
-
-void pir_lag_measure(pir_sum *sum) {
-    pir_lag *lag = &sum->lag;
+void pir_lag_measure(pir_lag *lag, const pir_polytope *p, const pir_polytope *q) {
     if (lag->tolerance == 0)
         return;
     double of_p[PIR_LAG_KNOTS], of_q[PIR_LAG_KNOTS];
     for (int k = 0; k < PIR_LAG_KNOTS; k++)
         lag->length[k] = ldexp(lag->tolerance, 2 * (k + 1 - PIR_LAG_KNOTS));
-    measure(sum->pairing.p, lag->length, of_p);
-    measure(sum->pairing.q, lag->length, of_q);
+    measure(p, lag->length, of_p);
+    measure(q, lag->length, of_q);
     for (int k = 0; k < PIR_LAG_KNOTS; k++)
         lag->angle[k] = fmax(of_p[k], of_q[k]);
 }
@@ -126,45 +111,8 @@ static double shortfall_at(const pir_lag *lag, double angle) {
     return fmin(lag->length[k], lag->length[k] * (angle / sine) * (1 + 0x1p-50));
 }
 
-double pir_sum_tolerance(const pir_sum *sum) {
-    return sum->lag.tolerance;
-}
-
-double pir_sum_shortfall_bound(const pir_sum *sum) {
-    return sum->lag.lagging ? sum->lag.bound : 0;
-}
-
-pir_quat pir_sum_pairing_rotation(const pir_sum *sum) {
-    return sum->pairing.signs.rotation.given;
-}
-
-pir_status pir_sum_settle(pir_sum *sum) {
-    if (!sum)
-        return PIR_ERR_ARGUMENT;
-    if (!sum->lag.lagging)
-        return PIR_OK;
-    double tolerance = sum->lag.tolerance;
-    sum->lag.tolerance = 0;
-    pir_status status = pir_sum_rotate(sum, sum->lag.now.given, PIR_METHOD_AUTO);
-    sum->lag.tolerance = tolerance;
-    return status;
-}
-
-pir_status pir_lag_behind(pir_sum *sum, pir_quat rotation, bool *ret_done) {
-    pir_lag *lag = &sum->lag;
-    pir_rotation now;
-    pir_status status = pir_rotation_set(&now, rotation);
-    if (status != PIR_OK)
-        return status;
-    double angle = pir_rotation_angle_bound(sum->pairing.signs.rotation.unit, now.unit);
-    // where there is a region, the directions of it and those that the pairing has for them are kept
-    *ret_done = angle <= lag->angle[PIR_LAG_KNOTS - 1] && pir_region_holds(sum, &now);
-    if (!*ret_done)
-        return PIR_OK;
-    pir_sum_changes(sum);
+void pir_lag_show(pir_lag *lag, pir_quat rotation, double angle) {
     pir_rotation_set(&lag->now, rotation);
     lag->bound = shortfall_at(lag, angle);
     lag->lagging = true;
-    sum->statistics.kept++;
-    return PIR_OK;
 }

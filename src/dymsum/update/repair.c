@@ -12,41 +12,45 @@
  * crossing and its reverse side by side; an arc has such a list, for cells are convex; and the moves below keep it so. Where a facet of
  * Q passes and other events meet it, the edge is led from its left cell to its right one again, and what it crossed before is tried first.
  */
-#include "dymsum/sum.h"
+#include "dymsum/update/repair.h"
 
-bool pir_move_start(pir_sum *sum, uint32_t e, uint32_t h) {
-    pir_crossings *c = &sum->pairing.crossings;
-    uint32_t first = sum->pairing.crossings.first[e];
+#include "dymsum/pairing/crossings.h"
+#include "dymsum/pairing/predicates.h"
+#include "dymsum/rebuild/walk.h"
+
+bool pir_move_start(pir_tracked *tracked, uint32_t e, uint32_t h) {
+    pir_crossings *c = &tracked->pairing.crossings;
+    uint32_t first = tracked->pairing.crossings.first[e];
     if (first != PIR_NO_CROSSING && c->half[first] == h) {
-        sum->pairing.crossings.first[e] = c->next[first];
-        pir_crossing_free(sum, first);
-        sum->statistics.repaired++;
+        tracked->pairing.crossings.first[e] = c->next[first];
+        pir_crossing_free(tracked, first);
+        tracked->statistics.repaired++;
         return true;
     }
-    uint32_t slot = pir_crossing_new(sum, e, sum->pairing.q->twin[h]);
+    uint32_t slot = pir_crossing_new(tracked, e, tracked->pairing.q->twin[h]);
     if (slot == PIR_NO_CROSSING)
         return false;
     c->next[slot] = first;
-    sum->pairing.crossings.first[e] = slot;
+    tracked->pairing.crossings.first[e] = slot;
     return true;
 }
 
-bool pir_move_end(pir_sum *sum, uint32_t e, uint32_t h) {
-    pir_crossings *c = &sum->pairing.crossings;
-    uint32_t *link = &sum->pairing.crossings.first[e], back = sum->pairing.q->twin[h];
+bool pir_move_end(pir_tracked *tracked, uint32_t e, uint32_t h) {
+    pir_crossings *c = &tracked->pairing.crossings;
+    uint32_t *link = &tracked->pairing.crossings.first[e], back = tracked->pairing.q->twin[h];
     while (*link != PIR_NO_CROSSING && c->next[*link] != PIR_NO_CROSSING)
         link = &c->next[*link];
     if (*link != PIR_NO_CROSSING && c->half[*link] == back) {
-        pir_crossing_free(sum, *link);
+        pir_crossing_free(tracked, *link);
         *link = PIR_NO_CROSSING;
-        sum->statistics.repaired++;
+        tracked->statistics.repaired++;
         return true;
     }
     // room may be made elsewhere: the link is found by its slot
-    uint32_t last = *link, slot = pir_crossing_new(sum, e, h);
+    uint32_t last = *link, slot = pir_crossing_new(tracked, e, h);
     if (slot == PIR_NO_CROSSING)
         return false;
-    *(last == PIR_NO_CROSSING ? &sum->pairing.crossings.first[e] : &c->next[last]) = slot;
+    *(last == PIR_NO_CROSSING ? &tracked->pairing.crossings.first[e] : &c->next[last]) = slot;
     return true;
 }
 
@@ -55,11 +59,11 @@ static uint32_t ring_before(const pir_polytope *p, uint32_t half) {
     return half == p->ring_start[v] ? p->ring_start[v + 1] - 1 : half - 1;
 }
 
-bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
-    const pir_polytope *q = sum->pairing.q;
-    pir_crossings *c = &sum->pairing.crossings;
+bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) {
+    const pir_polytope *q = tracked->pairing.q;
+    pir_crossings *c = &tracked->pairing.crossings;
     // the first crossing of an arc of g, on the side where g was
-    uint32_t before = PIR_NO_CROSSING, at = sum->pairing.crossings.first[e];
+    uint32_t before = PIR_NO_CROSSING, at = tracked->pairing.crossings.first[e];
     while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) != g)
         before = at, at = c->next[at];
     PIR_ASSERT(at != PIR_NO_CROSSING);
@@ -68,18 +72,18 @@ bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
     while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) == g) {
         uint32_t next = c->next[at];
         to = q->target[c->half[at]];
-        pir_crossing_free(sum, at);
-        sum->statistics.repaired++;
+        pir_crossing_free(tracked, at);
+        tracked->statistics.repaired++;
         at = next;
     }
     // and in with those around the other side, from the cell where it began to the one where it ended
     uint32_t half = to_left ? ring_before(q, from) : pir_ring_next(q, from);
     for (;;) {
-        uint32_t slot = pir_crossing_new(sum, e, half);
+        uint32_t slot = pir_crossing_new(tracked, e, half);
         if (slot == PIR_NO_CROSSING)
             return false;
         c->next[slot] = at;
-        *(before == PIR_NO_CROSSING ? &sum->pairing.crossings.first[e] : &c->next[before]) = slot;
+        *(before == PIR_NO_CROSSING ? &tracked->pairing.crossings.first[e] : &c->next[before]) = slot;
         before = slot;
         if (q->target[half] == to)
             return true;
@@ -88,20 +92,20 @@ bool pir_pass_facet(pir_sum *sum, uint32_t e, uint32_t g, bool to_left) {
 }
 
 /* Whether the arc along halfedge `half` of P, which leaves the cell of h's origin, leaves it through h: its corners tell. */
-static bool leaves_through(pir_sum *sum, uint32_t half, pir_vec3 direction, uint32_t h) {
+static bool leaves_through(pir_tracked *tracked, uint32_t half, pir_vec3 direction, uint32_t h) {
     double unused;
-    return pir_sign_half_facet(sum, half, direction, pir_right(sum->pairing.q, h), &unused) < 0 &&
-           pir_sign_half_facet(sum, half, direction, sum->pairing.q->left[h], &unused) > 0;
+    return pir_sign_half_facet(&tracked->pairing, half, direction, pir_right(tracked->pairing.q, h), &unused) < 0 &&
+           pir_sign_half_facet(&tracked->pairing, half, direction, tracked->pairing.q->left[h], &unused) > 0;
 }
 
 /* Takes from the list at *list the crossing out of cell v if it still holds, or gives PIR_NO_CROSSING. */
-static uint32_t take_crossing(pir_sum *sum, uint32_t *list, uint32_t half, pir_vec3 direction, uint32_t v) {
-    pir_crossings *c = &sum->pairing.crossings;
+static uint32_t take_crossing(pir_tracked *tracked, uint32_t *list, uint32_t half, pir_vec3 direction, uint32_t v) {
+    pir_crossings *c = &tracked->pairing.crossings;
     for (uint32_t *at = list; *at != PIR_NO_CROSSING; at = &c->next[*at]) {
         uint32_t slot = *at;
-        if (sum->pairing.q->origin[c->half[slot]] != v)
+        if (tracked->pairing.q->origin[c->half[slot]] != v)
             continue;
-        if (!leaves_through(sum, half, direction, c->half[slot]))
+        if (!leaves_through(tracked, half, direction, c->half[slot]))
             break;
         *at = c->next[slot];
         return slot;
@@ -109,21 +113,22 @@ static uint32_t take_crossing(pir_sum *sum, uint32_t *list, uint32_t half, pir_v
     return PIR_NO_CROSSING;
 }
 
-bool pir_derive_edge(pir_sum *sum, uint32_t e) {
-    const pir_polytope *p = sum->pairing.p, *q = sum->pairing.q;
-    pir_crossings *c = &sum->pairing.crossings;
-    uint32_t half = p->edge_half[e], end = sum->pairing.fv[pir_right(p, half)], v = sum->pairing.fv[p->left[half]];
-    pir_vec3 direction = pir_rotated_direction(sum, half);
-    uint32_t old = sum->pairing.crossings.first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
-    sum->pairing.crossings.first[e] = PIR_NO_CROSSING;
+bool pir_derive_edge(pir_tracked *tracked, uint32_t e) {
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    pir_crossings *c = &tracked->pairing.crossings;
+    uint32_t half = p->edge_half[e], end = tracked->pairing.fv[pir_right(p, half)],
+             v = tracked->pairing.fv[p->left[half]];
+    pir_vec3 direction = pir_rotated_direction(&tracked->pairing, half);
+    uint32_t old = tracked->pairing.crossings.first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
+    tracked->pairing.crossings.first[e] = PIR_NO_CROSSING;
     while (v != end) {
-        uint32_t slot = take_crossing(sum, &old, half, direction, v);
+        uint32_t slot = take_crossing(tracked, &old, half, direction, v);
         if (slot == PIR_NO_CROSSING)
-            slot = pir_crossing_new(sum, e, pir_leave_cell(sum, half, direction, v, entered));
+            slot = pir_crossing_new(tracked, e, pir_leave_cell(tracked, half, direction, v, entered));
         if (slot == PIR_NO_CROSSING)
             return false;
         c->next[slot] = PIR_NO_CROSSING;
-        *(last == PIR_NO_CROSSING ? &sum->pairing.crossings.first[e] : &c->next[last]) = slot;
+        *(last == PIR_NO_CROSSING ? &tracked->pairing.crossings.first[e] : &c->next[last]) = slot;
         last = slot;
         entered = c->half[slot];
         v = q->target[entered];
@@ -131,8 +136,8 @@ bool pir_derive_edge(pir_sum *sum, uint32_t e) {
     // what is left of the old list crosses no more
     while (old != PIR_NO_CROSSING) {
         uint32_t next = c->next[old];
-        pir_crossing_free(sum, old);
-        sum->statistics.repaired++;
+        pir_crossing_free(tracked, old);
+        tracked->statistics.repaired++;
         old = next;
     }
     return true;

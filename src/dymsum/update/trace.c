@@ -14,7 +14,9 @@
  * whose span of possible times lies before those of the others. From there the next cell is looked at in the same way. Where a value is
  * within E of zero, where a circle within reach may have been crossed twice, or where the order is open, nothing is said.
  */
-#include "dymsum/sum.h"
+#include "dymsum/update/trace.h"
+
+#include "dymsum/pairing/predicates.h"
 
 struct tracer {
     const pir_facets *facets;
@@ -71,15 +73,15 @@ static struct exit find_exit(const struct tracer *tracer, uint32_t v) {
     return exit;
 }
 
-static bool follow(pir_sum *sum, const struct tracer *tracer, uint32_t from, pir_trace *ret_trace) {
-    if (!(fabs(tracer->stride) <= PIR_TRACE_FARTHEST))
+static bool follow(pir_tracked *tracked, const struct tracer *tracer, uint32_t from, pir_trace *ret_trace) {
+    if (!(fabs(tracer->stride) <= PIR_FOLLOWED_FARTHEST))
         return false;
     ret_trace->count = 0;
     ret_trace->cell = from;
     for (;;) {
         const uint32_t *ring = &tracer->other->ring_start[ret_trace->cell];
         struct exit exit = find_exit(tracer, ret_trace->cell);
-        sum->pairing.signs.by_filter += ring[1] - ring[0];
+        tracked->pairing.signs.by_filter += ring[1] - ring[0];
         if (!exit.known || (exit.count > 0 && ret_trace->count == PIR_TRACE_LONGEST))
             return false;
         if (exit.count == 0)
@@ -90,15 +92,15 @@ static bool follow(pir_sum *sum, const struct tracer *tracer, uint32_t from, pir
     float turned[8];
     pir_pack_turned(tracer->turned, tracer->motion, turned);
     pir_probe seen;
-    sum->kernels->probe(tracer->facets, &sum->step, ret_trace->cell, turned, &seen);
+    tracked->kernels->probe(tracer->facets, &tracked->step, ret_trace->cell, turned, &seen);
     ret_trace->expiry = (pir_expiry){seen.check.margin, seen.check.ahead, -seen.check.behind};
     return true;
 }
 
 /* The facet of normal `turned` in the cells of `other`. */
-static struct tracer tracer_of(const pir_sum *sum, const pir_facets *facets, const pir_polytope *other, pir_vec3 turned,
-                               pir_vec3 motion) {
-    const pir_epoch *epoch = &sum->epoch;
+static struct tracer tracer_of(const pir_tracked *tracked, const pir_facets *facets, const pir_polytope *other,
+                               pir_vec3 turned, pir_vec3 motion) {
+    const pir_epoch *epoch = &tracked->epoch;
     return (struct tracer){facets,
                            other,
                            turned,
@@ -107,14 +109,16 @@ static struct tracer tracer_of(const pir_sum *sum, const pir_facets *facets, con
                            (PIR_SIGN_BOUND + 2 * epoch->drift) * (1 + 0x1p-20)};
 }
 
-bool pir_trace_fv(pir_sum *sum, uint32_t f, pir_trace *ret_trace) {
-    pir_vec3 turned = pir_rotated_normal(sum, f);
-    const struct tracer tracer = tracer_of(sum, &sum->p_facets, sum->pairing.q, turned, pir_motion_of(sum, turned));
-    return follow(sum, &tracer, sum->pairing.fv[f], ret_trace);
+bool pir_trace_fv(pir_tracked *tracked, uint32_t f, pir_trace *ret_trace) {
+    pir_vec3 turned = pir_rotated_normal(&tracked->pairing, f);
+    const struct tracer tracer =
+        tracer_of(tracked, &tracked->p_facets, tracked->pairing.q, turned, pir_motion_of(tracked, turned));
+    return follow(tracked, &tracer, tracked->pairing.fv[f], ret_trace);
 }
 
-bool pir_trace_vf(pir_sum *sum, uint32_t g, pir_trace *ret_trace) {
-    pir_vec3 turned = pir_turned_back_normal(sum, g);
-    const struct tracer tracer = tracer_of(sum, &sum->q_facets, sum->pairing.p, turned, pir_motion_back(sum, turned));
-    return follow(sum, &tracer, sum->pairing.vf[g], ret_trace);
+bool pir_trace_vf(pir_tracked *tracked, uint32_t g, pir_trace *ret_trace) {
+    pir_vec3 turned = pir_turned_back_normal(&tracked->pairing, g);
+    const struct tracer tracer =
+        tracer_of(tracked, &tracked->q_facets, tracked->pairing.p, turned, pir_motion_back(tracked, turned));
+    return follow(tracked, &tracer, tracked->pairing.vf[g], ret_trace);
 }

@@ -15,7 +15,12 @@
  * several sides within reach, ties, is settled with care: the facet by descent, each arc that it may have passed through by leading
  * it again.
  */
-#include "dymsum/sum.h"
+#include "dymsum/update/update.h"
+
+#include "dymsum/pairing/predicates.h"
+#include "dymsum/rebuild/descent.h"
+#include "dymsum/update/repair.h"
+#include "dymsum/update/trace.h"
 
 /* How many cells a facet is followed back through before every edge is taken to have changed. */
 #define FOLLOWED_CELLS 16
@@ -24,103 +29,92 @@
 #define MANY_OPEN 8
 
 struct update {
-    pir_sum *sum;
+    pir_tracked *tracked;
     uint32_t
-        stamp; /* marks edges in sum->touched: this for one that an event has changed, one more for one to be led anew */
-    uint32_t derive; /* edges in sum->queue, to be led anew */
-    uint32_t passes; /* in sum->passes */
+        stamp; /* marks edges in tracked->touched: this for one that an event has changed, one more for one to be led anew */
+    uint32_t derive; /* edges in tracked->work.queue, to be led anew */
+    uint32_t passes; /* in tracked->work.passes */
     bool all;        /* every edge is */
     bool failed;     /* out of memory */
 };
 
-void pir_expire_all(pir_sum *sum) {
-    pir_certificates_expire(&sum->certificates, 0, pir_certificate_count(sum));
-}
-
 /* Edge e is to be led anew. */
 static inline void note_edge(struct update *update, uint32_t e) {
-    pir_sum *sum = update->sum;
-    if (sum->touched[e] == PIR_INACTIVE)
+    pir_tracked *tracked = update->tracked;
+    if (tracked->touched[e] == PIR_INACTIVE)
         return;
-    if (sum->touched[e] != update->stamp + 1)
-        sum->queue[update->derive++] = e;
-    sum->touched[e] = update->stamp + 1;
+    if (tracked->touched[e] != update->stamp + 1)
+        tracked->work.queue[update->derive++] = e;
+    tracked->touched[e] = update->stamp + 1;
 }
 
 /* Facet f of P has crossed the arc of halfedge h of Q: its edges start there, or end, and go along. */
 static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
-    pir_sum *sum = update->sum;
-    const pir_polytope *p = sum->pairing.p;
+    pir_tracked *tracked = update->tracked;
+    const pir_polytope *p = tracked->pairing.p;
     bool done = true;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         uint32_t half = p->loop[i], e = p->edge[half];
-        if (sum->touched[e] == PIR_INACTIVE)
+        if (tracked->touched[e] == PIR_INACTIVE)
             continue;
-        done &= p->edge_half[e] == half ? pir_move_start(sum, e, h) : pir_move_end(sum, e, h);
-        if (sum->touched[e] < update->stamp)
-            sum->touched[e] = update->stamp;
+        done &= p->edge_half[e] == half ? pir_move_start(tracked, e, h) : pir_move_end(tracked, e, h);
+        if (tracked->touched[e] < update->stamp)
+            tracked->touched[e] = update->stamp;
     }
     update->failed |= !done;
 }
 
 /* Facet g of Q has crossed the arc of halfedge `half` of P: noted until it is known what else has happened to its edge. */
 static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half) {
-    pir_sum *sum = update->sum;
-    uint32_t e = sum->pairing.p->edge[half];
-    if (sum->touched[e] >= update->stamp || update->passes == sum->pairing.q->facet_count) {
+    pir_tracked *tracked = update->tracked;
+    uint32_t e = tracked->pairing.p->edge[half];
+    if (tracked->touched[e] >= update->stamp || update->passes == tracked->pairing.q->facet_count) {
         note_edge(update, e);
     } else {
-        sum->touched[e] = update->stamp;
-        sum->passes[update->passes++] = (pir_suspect){g, half};
+        tracked->touched[e] = update->stamp;
+        tracked->work.passes[update->passes++] = (pir_suspect){g, half};
     }
 }
 
 /* The edges that a facet of Q has crossed, and nothing else has happened to, lead around it now. */
 static void pass_facets(struct update *update) {
-    pir_sum *sum = update->sum;
+    pir_tracked *tracked = update->tracked;
     for (uint32_t i = 0; i < update->passes && !update->all; i++) {
-        uint32_t g = sum->passes[i].facet, half = sum->passes[i].crossed, e = sum->pairing.p->edge[half];
-        if (sum->touched[e] == update->stamp)
-            update->failed |= !pir_pass_facet(sum, e, g, sum->pairing.p->edge_half[e] == half);
+        uint32_t g = tracked->work.passes[i].facet, half = tracked->work.passes[i].crossed,
+                 e = tracked->pairing.p->edge[half];
+        if (tracked->touched[e] == update->stamp)
+            update->failed |= !pir_pass_facet(tracked, e, g, tracked->pairing.p->edge_half[e] == half);
     }
-}
-
-/* Spans beyond the farthest that is foretold are cut, and all are rounded down. The way here is not known. */
-void pir_certify(pir_sum *sum, uint32_t i, const pir_expiry *expiry) {
-    pir_certificate_file(&sum->step, &sum->certificates, i, pir_float_below(fmin(expiry->margin, 4)),
-                   pir_float_below(fmin(expiry->ahead, (double)PIR_FARTHEST_PREDICTION)),
-                   pir_float_below(fmin(-expiry->behind, (double)PIR_FARTHEST_PREDICTION)));
-    pir_certificate_forget_previous(&sum->certificates, i);
 }
 
 /* Facet f of P may have touched one side or another. */
 static void settle_of_p(struct update *update, uint32_t f) {
-    pir_sum *sum = update->sum;
-    const pir_polytope *p = sum->pairing.p;
+    pir_tracked *tracked = update->tracked;
+    const pir_polytope *p = tracked->pairing.p;
     pir_trace trace;
-    if (!update->all && pir_trace_fv(sum, f, &trace)) {
-        pir_certify(sum, f, &trace.expiry);
-        sum->statistics.repaired += trace.count;
-        sum->pairing.fv[f] = trace.cell;
+    if (!update->all && pir_trace_fv(tracked, f, &trace)) {
+        pir_tracked_certify(tracked, f, &trace.expiry);
+        tracked->statistics.repaired += trace.count;
+        tracked->pairing.fv[f] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             cross_of_p(update, f, trace.crossed[i]);
         return;
     }
     pir_expiry expiry;
-    uint32_t v = pir_descend_fv(sum, f, pir_rotated_normal(sum, f), sum->pairing.fv[f], &expiry);
-    pir_certify(sum, f, &expiry);
-    sum->statistics.repaired += v != sum->pairing.fv[f];
-    sum->pairing.fv[f] = v;
+    uint32_t v = pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), tracked->pairing.fv[f], &expiry);
+    pir_tracked_certify(tracked, f, &expiry);
+    tracked->statistics.repaired += v != tracked->pairing.fv[f];
+    tracked->pairing.fv[f] = v;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && !update->all; i++)
         note_edge(update, p->edge[p->loop[i]]);
 }
 
 /* Whether side `half` of a cell of P may have been touched by the normal of a facet of Q, turned back, within the step. */
-static bool touches(const pir_sum *sum, uint32_t half, pir_vec3 turned_back, pir_vec3 motion) {
-    pir_vec3 d = sum->pairing.p->direction[half];
+static bool touches(const pir_tracked *tracked, uint32_t half, pir_vec3 turned_back, pir_vec3 motion) {
+    pir_vec3 d = tracked->pairing.p->direction[half];
     pir_expiry expiry = pir_expiry_never();
     pir_expiry_take_sign(&expiry, pir_vec_dot(turned_back, d), pir_vec_dot(motion, d));
-    return !(expiry.ahead > (double)sum->step.reach_ahead && -expiry.behind > (double)sum->step.reach_behind);
+    return !(expiry.ahead > (double)tracked->step.reach_ahead && -expiry.behind > (double)tracked->step.reach_behind);
 }
 
 /*
@@ -128,13 +122,13 @@ static bool touches(const pir_sum *sum, uint32_t half, pir_vec3 turned_back, pir
  * touched side, and so on.
  */
 static void follow_back(struct update *update, uint32_t g, uint32_t v) {
-    const pir_sum *sum = update->sum;
-    const pir_polytope *p = sum->pairing.p;
-    pir_vec3 turned_back = pir_turned_back_normal(sum, g), motion = pir_motion_back(sum, turned_back);
+    const pir_tracked *tracked = update->tracked;
+    const pir_polytope *p = tracked->pairing.p;
+    pir_vec3 turned_back = pir_turned_back_normal(&tracked->pairing, g), motion = pir_motion_back(tracked, turned_back);
     uint32_t cells[FOLLOWED_CELLS] = {v}, count = 1;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t half = p->ring_start[cells[i]]; half < p->ring_start[cells[i] + 1]; half++) {
-            if (!touches(sum, half, turned_back, motion))
+            if (!touches(tracked, half, turned_back, motion))
                 continue;
             note_edge(update, p->edge[half]);
             uint32_t known = 0;
@@ -151,85 +145,60 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
 
 /* Facet g of Q may have touched one side or another. */
 static void settle_of_q(struct update *update, uint32_t g) {
-    pir_sum *sum = update->sum;
+    pir_tracked *tracked = update->tracked;
     pir_trace trace;
-    if (!update->all && pir_trace_vf(sum, g, &trace)) {
-        pir_certify(sum, sum->q_facets.first_certificate + g, &trace.expiry);
-        sum->statistics.repaired += trace.count;
-        sum->pairing.vf[g] = trace.cell;
+    if (!update->all && pir_trace_vf(tracked, g, &trace)) {
+        pir_tracked_certify(tracked, tracked->q_facets.first_certificate + g, &trace.expiry);
+        tracked->statistics.repaired += trace.count;
+        tracked->pairing.vf[g] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             note_crossing_of_q(update, g, trace.crossed[i]);
         return;
     }
     pir_expiry expiry;
-    uint32_t v = pir_descend_vf(sum, g, sum->pairing.vf[g], &expiry);
-    pir_certify(sum, sum->q_facets.first_certificate + g, &expiry);
-    sum->statistics.repaired += v != sum->pairing.vf[g];
-    sum->pairing.vf[g] = v;
+    uint32_t v = pir_descend_vf(tracked, g, tracked->pairing.vf[g], &expiry);
+    pir_tracked_certify(tracked, tracked->q_facets.first_certificate + g, &expiry);
+    tracked->statistics.repaired += v != tracked->pairing.vf[g];
+    tracked->pairing.vf[g] = v;
     if (!update->all)
         follow_back(update, g, v);
 }
 
-/* How far back the last step lies, as looks take it: any distance for one that is too long to follow. */
-static float step_reach(const pir_sum *sum) {
-    double reach = fabs(sum->epoch.stride) * (1 + 0x1p-20);
-    return reach <= PIR_TRACE_FARTHEST ? (float)reach : HUGE_VALF;
-}
-
-void pir_begin_step(pir_sum *sum) {
-    const pir_epoch *epoch = &sum->epoch;
-    float most = step_reach(sum);
-    bool forwards = epoch->stride >= 0;
-    sum->step = (pir_step){.reach_ahead = forwards ? 0 : most,
-                               .reach_behind = forwards ? most : 0,
-                               .ahead = pir_float_below(epoch->axial ? epoch->phase : epoch->path),
-                               .behind = pir_float_above(epoch->axial ? epoch->phase : epoch->net),
-                               .axial = epoch->axial};
-    pir_certificates_set_now(&sum->certificates, sum->pairing.signs.rotation.unit);
-    const pir_mat3 *r = &sum->pairing.signs.rotation.r;
-    pir_vec3 back = pir_mat_apply_transposed(r, epoch->axis);
-    for (int k = 0; k < 3; k++) {
-        pir_vec3 column = {r->m[0][k], r->m[1][k], r->m[2][k]}, row = {r->m[k][0], r->m[k][1], r->m[k][2]};
-        pir_pack_turned(column, pir_vec_cross(epoch->axis, column), sum->p_facets.turn[k]);
-        pir_pack_turned(row, pir_vec_cross(row, back), sum->q_facets.turn[k]);
-    }
-}
-
 /* Whether so many of the suspects are to be settled that leading every edge anew is less work than finding out which. */
-static bool are_many_open(const pir_sum *sum, const pir_suspect *suspects, uint32_t count) {
+static bool are_many_open(const pir_tracked *tracked, const pir_suspect *suspects, uint32_t count) {
     uint32_t open = 0;
     for (uint32_t i = 0; i < count; i++)
         open += suspects[i].crossed == PIR_NO_SIDE;
-    return open > pir_certificate_count(sum) / MANY_OPEN;
+    return open > pir_certificate_count(tracked) / MANY_OPEN;
 }
 
 /*
- * Takes those back that are where they came from: facets of P with their edges; those of Q are listed in sum->suspects, *ret_of_q of them.
+ * Takes those back that are where they came from: facets of P with their edges; those of Q are listed in tracked->work.suspects, *ret_of_q of them.
  * What is left of alarms->woken is the others; returns their number.
  */
 static uint32_t take_back(struct update *update, uint32_t expired, uint32_t *ret_of_q) {
-    pir_sum *sum = update->sum;
-    uint32_t *certificate = sum->certificates.expired, left = 0, of_q = 0;
+    pir_tracked *tracked = update->tracked;
+    uint32_t *certificate = tracked->certificates.expired, left = 0, of_q = 0;
     *ret_of_q = 0;
     // who never turned round never comes back
-    if (!sum->epoch.reverses)
+    if (!tracked->epoch.reverses)
         return expired;
     for (uint32_t k = 0; k < expired; k++) {
         uint32_t i = certificate[k], half;
-        bool of_p = i < sum->q_facets.first_certificate;
-        const pir_facets *facets = of_p ? &sum->p_facets : &sum->q_facets;
+        bool of_p = i < tracked->q_facets.first_certificate;
+        const pir_facets *facets = of_p ? &tracked->p_facets : &tracked->q_facets;
         uint32_t f = i - facets->first_certificate;
-        if (!pir_certificate_reuse(&sum->certificates, i, sum->epoch.phase, facets->twin, &half)) {
+        if (!pir_certificate_reuse(&tracked->certificates, i, tracked->epoch.phase, facets->twin, &half)) {
             certificate[left++] = i;
             continue;
         }
         facets->cell[f] = facets->target[half];
         if (of_p) {
-            pir_journal_note(&sum->journal, f);
+            pir_journal_note(&tracked->journal, f);
             cross_of_p(update, f, half);
-            sum->statistics.repaired++;
+            tracked->statistics.repaired++;
         } else {
-            sum->suspects[of_q++] = (pir_suspect){f, half};
+            tracked->work.suspects[of_q++] = (pir_suspect){f, half};
         }
     }
     *ret_of_q = of_q;
@@ -239,77 +208,76 @@ static uint32_t take_back(struct update *update, uint32_t expired, uint32_t *ret
 /* What is seen of facets of Q, after all of P: their edges tell then whether another event has touched them. */
 static void take_along_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        pir_journal_note(&update->sum->journal, update->sum->q_facets.first_certificate + suspects[i].facet);
+        pir_journal_note(&update->tracked->journal, update->tracked->q_facets.first_certificate + suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_q(update, suspects[i].facet);
         } else {
             note_crossing_of_q(update, suspects[i].facet, suspects[i].crossed);
-            update->sum->statistics.repaired++;
+            update->tracked->statistics.repaired++;
         }
     }
 }
 
 static void take_along_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        pir_journal_note(&update->sum->journal, suspects[i].facet);
+        pir_journal_note(&update->tracked->journal, suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_p(update, suspects[i].facet);
         } else {
             cross_of_p(update, suspects[i].facet, suspects[i].crossed);
-            update->sum->statistics.repaired++;
+            update->tracked->statistics.repaired++;
         }
     }
 }
 
 /* Finds where the facets that wake are, and brings along what they have touched or notes it. */
 static void review(struct update *update, uint32_t expired) {
-    pir_sum *sum = update->sum;
+    pir_tracked *tracked = update->tracked;
     uint32_t back, left = take_back(update, expired, &back), of_p = 0, of_q = 0;
-    pir_suspect *seen = sum->suspects + back;
+    pir_suspect *seen = tracked->work.suspects + back;
     if (left > 0) {
-        const uint32_t *certificate = sum->certificates.expired;
+        const uint32_t *certificate = tracked->certificates.expired;
         uint32_t left_of_p = 0;
-        while (left_of_p < left && certificate[left_of_p] < sum->q_facets.first_certificate)
+        while (left_of_p < left && certificate[left_of_p] < tracked->q_facets.first_certificate)
             left_of_p++;
-        pir_begin_step(sum);
+        pir_tracked_begin_step(tracked);
         // all looks before anything that depends on what they see: processors look ahead
-        of_p = sum->kernels->review(&sum->p_facets, &sum->step, &sum->certificates, certificate, left_of_p, seen,
-                                    &sum->pairing.signs.by_filter);
-        of_q = sum->kernels->review(&sum->q_facets, &sum->step, &sum->certificates, certificate + left_of_p, left - left_of_p,
-                                    seen + of_p, &sum->pairing.signs.by_filter);
-        update->all |= are_many_open(sum, seen, of_p + of_q);
+        of_p = tracked->kernels->review(&tracked->p_facets, &tracked->step, &tracked->certificates, certificate,
+                                        left_of_p, seen, &tracked->pairing.signs.by_filter);
+        of_q = tracked->kernels->review(&tracked->q_facets, &tracked->step, &tracked->certificates,
+                                        certificate + left_of_p, left - left_of_p, seen + of_p,
+                                        &tracked->pairing.signs.by_filter);
+        update->all |= are_many_open(tracked, seen, of_p + of_q);
     }
     take_along_of_p(update, seen, of_p);
-    take_along_of_q(update, sum->suspects, back);
+    take_along_of_q(update, tracked->work.suspects, back);
     take_along_of_q(update, seen + of_p, of_q);
     pass_facets(update);
 }
 
-/* Above all that is in sum->touched. */
-static uint32_t next_stamp(pir_sum *sum) {
-    if (sum->stamp >= UINT32_MAX - 3) {
-        sum->stamp = 0;
-        for (uint32_t e = 0; e < sum->pairing.p->edge_count; e++)
-            sum->touched[e] = sum->touched[e] == PIR_INACTIVE ? PIR_INACTIVE : 0;
+/* Above all that is in tracked->touched. */
+static uint32_t next_stamp(pir_tracked *tracked) {
+    if (tracked->stamp >= UINT32_MAX - 3) {
+        tracked->stamp = 0;
+        for (uint32_t e = 0; e < tracked->pairing.p->edge_count; e++)
+            tracked->touched[e] = tracked->touched[e] == PIR_INACTIVE ? PIR_INACTIVE : 0;
     }
-    return sum->stamp += 2;
+    return tracked->stamp += 2;
 }
 
-pir_status pir_update_repair(pir_sum *sum) {
-    uint32_t expired =
-        pir_certificates_collect(&sum->certificates, sum->kernels, pir_certificate_count(sum), pir_turned_angle_of(&sum->epoch));
-    sum->expired += expired;
-    // what sleeps tells nothing of a step that dormant facets may have come in by
-    bool jumped = sum->region.jumped;
+pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
+    uint32_t expired = pir_kernels_collect(tracked->kernels, &tracked->certificates, pir_certificate_count(tracked),
+                                           pir_turned_angle_of(&tracked->epoch));
+    tracked->expired_in_epoch += expired;
     if (expired == 0 && !jumped)
         return PIR_OK;
-    sum->statistics.checked += expired;
-    struct update update = {.sum = sum, .stamp = next_stamp(sum)};
-    update.all = jumped || !(step_reach(sum) < HUGE_VALF);
+    tracked->statistics.checked += expired;
+    struct update update = {.tracked = tracked, .stamp = next_stamp(tracked)};
+    update.all = jumped || !(pir_epoch_reach(&tracked->epoch) < HUGE_VALF);
     review(&update, expired);
-    for (uint32_t e = 0; update.all && e < sum->pairing.p->edge_count; e++)
+    for (uint32_t e = 0; update.all && e < tracked->pairing.p->edge_count; e++)
         note_edge(&update, e);
     for (uint32_t i = 0; i < update.derive && !update.failed; i++)
-        update.failed = !pir_derive_edge(sum, sum->queue[i]);
+        update.failed = !pir_derive_edge(tracked, tracked->work.queue[i]);
     return update.failed ? PIR_ERR_MEMORY : PIR_OK;
 }

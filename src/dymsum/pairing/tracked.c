@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/* Memory of a tracked pairing, and its certificates. See tracked.h. */
+#include "dymsum/pairing/tracked.h"
+
+#include "dymsum/pairing/crossings.h"
+
+static uint32_t most(uint32_t a, uint32_t b) {
+    return a > b ? a : b;
+}
+
+/* The arrays, but those of the certificates and of the crossings' slots. */
+static pir_layout layout_of(pir_tracked *tracked) {
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    pir_pairing_work *work = &tracked->work;
+    uint32_t queue = most(most(p->facet_count, q->facet_count), p->edge_count);
+    return (pir_layout){
+        {PIR_ROW(tracked->pairing.fv, p->facet_count), PIR_ROW(tracked->pairing.vf, q->facet_count),
+         PIR_ROW(tracked->pairing.crossings.first, p->edge_count), PIR_ROW(tracked->touched, p->edge_count),
+         PIR_ROW(work->queue, queue), PIR_ROW(work->mark, queue), PIR_ROW(work->rotated, p->facet_count),
+         PIR_ROW(work->suspects, pir_certificate_count(tracked)), PIR_ROW(work->passes, q->facet_count)}};
+}
+
+/* The facets of p, in the cells `cell` of q. */
+static void link_facets(pir_facets *facets, const pir_polytope *p, const pir_polytope *q, uint32_t *cell) {
+    facets->count = p->facet_count;
+    facets->normal = p->normal4;
+    facets->ring_start = q->ring_start;
+    facets->ring_block = q->ring_block;
+    facets->target = q->target;
+    facets->twin = q->twin;
+    facets->ring = q->ring;
+    facets->cell = cell;
+}
+
+void pir_tracked_link_facets(pir_tracked *tracked) {
+    const pir_pairing *pairing = &tracked->pairing;
+    link_facets(&tracked->p_facets, pairing->p, pairing->q, pairing->fv);
+    link_facets(&tracked->q_facets, pairing->q, pairing->p, pairing->vf);
+    tracked->q_facets.first_certificate = pairing->p->facet_count;
+}
+
+static bool allocate(pir_tracked *tracked) {
+    const pir_allocator *a = &tracked->pairing.allocator;
+    pir_layout layout = layout_of(tracked);
+    if (!pir_layout_new(a, &layout) ||
+        !pir_certificates_init(&tracked->certificates, a, pir_certificate_count(tracked)))
+        return false;
+    pir_tracked_link_facets(tracked);
+    return pir_crossings_reserve(tracked, pir_crossings_expected(tracked->pairing.p, tracked->pairing.q));
+}
+
+pir_status pir_tracked_init(pir_tracked *tracked, pir_polytope *p, pir_polytope *q, pir_quat rotation,
+                            const pir_allocator *allocator) {
+    pir_pairing *pairing = &tracked->pairing;
+    *pairing = (pir_pairing){
+        .allocator = *allocator, .p = pir_polytope_retain(p), .q = pir_polytope_retain(q), .generation = 1};
+    tracked->kernels = pir_kernels_choose();
+    pir_status status = pir_signs_init(&pairing->signs, allocator, most(p->exact_edge.stride, p->exact_normal.stride),
+                                       most(q->exact_edge.stride, q->exact_normal.stride));
+    if (status == PIR_OK && !allocate(tracked))
+        status = PIR_ERR_MEMORY;
+    if (status == PIR_OK)
+        status = pir_rotation_set(&pairing->signs.rotation, rotation);
+    return status;
+}
+
+void pir_tracked_finish(pir_tracked *tracked) {
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_allocator *a = &pairing->allocator;
+    pir_layout layout = layout_of(tracked);
+    pir_crossings_finish(tracked);
+    pir_layout_free(a, &layout);
+    pir_certificates_finish(&tracked->certificates, a);
+    pir_signs_finish(&pairing->signs, a);
+    pir_polytope_release(pairing->p);
+    pir_polytope_release(pairing->q);
+}
+
+void pir_tracked_begin_step(pir_tracked *tracked) {
+    const pir_epoch *epoch = &tracked->epoch;
+    float most = pir_epoch_reach(&tracked->epoch);
+    bool forwards = epoch->stride >= 0;
+    tracked->step = (pir_step){.reach_ahead = forwards ? 0 : most,
+                               .reach_behind = forwards ? most : 0,
+                               .ahead = pir_float_below(epoch->axial ? epoch->phase : epoch->path),
+                               .behind = pir_float_above(epoch->axial ? epoch->phase : epoch->net),
+                               .axial = epoch->axial};
+    pir_certificates_set_now(&tracked->certificates, tracked->pairing.signs.rotation.unit);
+    const pir_mat3 *r = &tracked->pairing.signs.rotation.r;
+    pir_vec3 back = pir_mat_apply_transposed(r, epoch->axis);
+    for (int k = 0; k < 3; k++) {
+        pir_vec3 column = {r->m[0][k], r->m[1][k], r->m[2][k]}, row = {r->m[k][0], r->m[k][1], r->m[k][2]};
+        pir_pack_turned(column, pir_vec_cross(epoch->axis, column), tracked->p_facets.turn[k]);
+        pir_pack_turned(row, pir_vec_cross(row, back), tracked->q_facets.turn[k]);
+    }
+}
+
+/* Spans beyond the farthest that is foretold are cut, and all are rounded down. The way here is not known. */
+void pir_tracked_certify(pir_tracked *tracked, uint32_t i, const pir_expiry *expiry) {
+    pir_certificate_file(&tracked->step, &tracked->certificates, i, pir_float_below(fmin(expiry->margin, 4)),
+                         pir_float_below(fmin(expiry->ahead, (double)PIR_FARTHEST_PREDICTION)),
+                         pir_float_below(fmin(-expiry->behind, (double)PIR_FARTHEST_PREDICTION)));
+    pir_certificate_forget_previous(&tracked->certificates, i);
+}
+
+void pir_tracked_expire_all(pir_tracked *tracked) {
+    pir_certificates_expire(&tracked->certificates, 0, pir_certificate_count(tracked));
+}
