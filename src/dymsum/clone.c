@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A second sum with the pairing of a first. Pairs are copied edge by edge, so the copy's crossings stand in a row. Its certificates
- * are not copied but expired, as after a rebuild: its first update checks every facet.
+ * A second sum with the pairing of a first. Pairs are copied edge by edge, so the copy's crossings stand in a row. Its
+ * certificates are not copied but expired, as after a rebuild: its first update checks every facet.
  */
 #include "dymsum/fill.h"
 #include "dymsum/sum.h"

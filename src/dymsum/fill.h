@@ -2,8 +2,8 @@
 /*
  * Making a sum from a pairing that is known: for those who restore one.
  *
- * A sum is begun, filled, and read only after pir_fill_end. Nothing checks that the pairing is right: pir_sum_is_valid does.
- * One that cannot be filled is released by pir_sum_destroy.
+ * A sum is begun, filled, and read only after pir_fill_end. Nothing checks that the pairing is right: pir_sum_is_valid
+ * does. One that cannot be filled is released by pir_sum_destroy.
  */
 #ifndef PIR_DYMSUM_FILL_H
 #define PIR_DYMSUM_FILL_H
@@ -28,8 +28,8 @@ uint32_t *pir_fill_cells(pir_sum *sum, pir_operand facets_of);
 bool pir_fill_crossings(pir_sum *sum, uint32_t count);
 
 /*
- * One more crossing of edge e with halfedge h, behind *last, which is PIR_NO_CROSSING before the first of an edge and is the
- * new crossing then. There must be room.
+ * One more crossing of edge e with halfedge h, behind *last, which is PIR_NO_CROSSING before the first of an edge and
+ * is the new crossing then. There must be room.
  */
 bool pir_fill_crossing(pir_sum *sum, uint32_t e, uint32_t h, uint32_t *last);
 
@@ -37,14 +37,14 @@ bool pir_fill_crossing(pir_sum *sum, uint32_t e, uint32_t h, uint32_t *last);
 void pir_fill_end(pir_sum *sum);
 
 /*
- * Limits the pairing to a region. *ret_fits: whether it has pairs for exactly the features that the cover asks for, and the cover
- * holds at the rotation. False when out of memory.
+ * Limits the pairing to a region. *ret_fits: whether it has pairs for exactly the features that the cover asks for, and
+ * the cover holds at the rotation. False when out of memory.
  */
 bool pir_fill_region(pir_sum *sum, const pir_cone *cone, const pir_cover *cover, bool *ret_fits);
 
 /*
- * Lets the pairing stay behind the rotation `shown`, where the tolerance, which is set, allows that: *ret_done. Errors as
- * pir_sum_rotate.
+ * Lets the pairing stay behind the rotation `shown`, where the tolerance, which is set, allows that: *ret_done. Errors
+ * as pir_sum_rotate.
  */
 pir_status pir_fill_shown(pir_sum *sum, pir_quat shown, bool *ret_done);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bringing a sum to a rotation: the epoch and the region take note of the step, and one of the methods brings the pairing. Here, and
- * nowhere below, rebuilds and updates meet the region.
+ * Bringing a sum to a rotation: the epoch and the region take note of the step, and one of the methods brings the
+ * pairing. Here, and nowhere below, rebuilds and updates meet the region.
  *
  * A call that fails walks back to the rotation before, in the memory that is there.
  */
@@ -78,8 +78,8 @@ static void advance_epoch(pir_tracked *tracked, pir_quat before) {
 }
 
 /*
- * Makes the pairing that there was at rotation `before`: it fits the memory that is there. The epoch ends with the next step. Returns
- * `status`, of what has failed.
+ * Makes the pairing that there was at rotation `before`: it fits the memory that is there. The epoch ends with the next
+ * step. Returns `status`, of what has failed.
  */
 static pir_status roll_back(pir_sum *sum, pir_quat before, const pir_cover *cover, pir_status status) {
     pir_rotation_set(&sum->tracked.pairing.signs.rotation, before);

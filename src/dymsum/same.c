@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Are two pairings the same? Where regions are, so far as both cones reach: what a sum keeps beyond its own depends on how it came there.
+ * Are two pairings the same? Where regions are, so far as both cones reach: what a sum keeps beyond its own depends on
+ * how it came there.
  */
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/view.h"

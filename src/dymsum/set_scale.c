@@ -2,10 +2,11 @@
 /*
  * Another size for an operand, the pairing kept.
  *
- * Every certificate is the sign of s(n, e) for a facet normal n and an edge vector e, and scaling a body by a positive number turns neither
- * (the invariance that Diktas and Sahiner, Parametric Minkowski Sums in Object Space, 2006, draw on). So the operand is replaced by
- * the same polytope on another scale, its features under the same numbers, and all else stays: the pairing, the alarms, the clock. Only what
- * it costs to stay behind a rotation grows with the body: a pairing that has comes along first.
+ * Every certificate is the sign of s(n, e) for a facet normal n and an edge vector e, and scaling a body by a positive
+ * number turns neither (the invariance that Diktas and Sahiner, Parametric Minkowski Sums in Object Space, 2006, draw
+ * on). So the operand is replaced by the same polytope on another scale, its features under the same numbers, and all
+ * else stays: the pairing, the alarms, the clock. Only what it costs to stay behind a rotation grows with the body: a
+ * pairing that has comes along first.
  */
 #include <pirouette/exact.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The whole-structure check of a sum: its invariants (sum.h), every sign by exact arithmetic, no filter and no certificate trusted; and that
- * what a region needs is there (region.c).
+ * The whole-structure check of a sum: its invariants (sum.h), every sign by exact arithmetic, no filter and no
+ * certificate trusted; and that what a region needs is there (region.c).
  */
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/sum.h"

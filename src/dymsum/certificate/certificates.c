@@ -70,8 +70,9 @@ void pir_certificates_shift(pir_certificates *certificates, uint32_t used, doubl
 }
 
 /*
- * Unit quaternions at distance 2y (up to sign) turn by at most 4 (y + 0.2215 y³): see pir_rotation_angle_bound. Two of them in floats are
- * off by less than 2^-23 together, 2^-22 of angle for small ones and in proportion for large; what floats round of the rest is less.
+ * Unit quaternions at distance 2y (up to sign) turn by at most 4 (y + 0.2215 y³): see pir_rotation_angle_bound. Two of
+ * them in floats are off by less than 2^-23 together, 2^-22 of angle for small ones and in proportion for large; what
+ * floats round of the rest is less.
  */
 #define NET_ERROR    0x1p-20f
 #define NET_RELATIVE (1 + 0x1p-19f)

@@ -2,22 +2,23 @@
 /*
  * When certificates wake: a store of two levels, read in order.
  *
- * Each certificate has two keys, `ahead` and `behind`. In an axial epoch it holds at the phases between them, ahead > phase > behind.
- * In any other it holds while ahead > path, and also while behind < −net: the clock tells what these are. For when an epoch ends it also has
- * the rotation at which it was made and a `margin`, the angle between that and R up to which it holds whatever the way: what a body
- * has turned there and back, or about changing axes, costs it only the net turn. Blocks of 16 carry the least `ahead` and the greatest
- * `behind` of theirs. Finding what wakes reads the blocks' bounds, a few cache lines in all, and then the blocks in question; filing one is
- * two comparisons. Against a timing wheel or a heap this reads more and moves nothing: certificates stay where their pair is, a new
- * epoch is one sweep, and an alarm may be set backwards as well as forwards.
+ * Each certificate has two keys, `ahead` and `behind`. In an axial epoch it holds at the phases between them, ahead >
+ * phase > behind. In any other it holds while ahead > path, and also while behind < −net: the clock tells what these
+ * are. For when an epoch ends it also has the rotation at which it was made and a `margin`, the angle between that and
+ * R up to which it holds whatever the way: what a body has turned there and back, or about changing axes, costs it only
+ * the net turn. Blocks of 16 carry the least `ahead` and the greatest `behind` of theirs. Finding what wakes reads the
+ * blocks' bounds, a few cache lines in all, and then the blocks in question; filing one is two comparisons. Against a
+ * timing wheel or a heap this reads more and moves nothing: certificates stay where their pair is, a new epoch is one
+ * sweep, and an alarm may be set backwards as well as forwards.
  *
  * Keys are kept as floats, rounded so that certificates wake early; a clock counts them from nearby (clock.h).
  *
- * A body that swings brings facets back to where they came from. In an axial epoch a certificate speaks of phases, and goes on to hold at
- * those after its facet has left them; so one that has crossed a single side keeps the certificate of the cell it left, with the way back.
- * When it wakes at a phase which that certificate is good for, it is in that cell again, and all that it has passed through is that side:
- * at every phase from where it crossed to the last rotation's it was seen or certified in its new cell, the step in which it
- * crossed touched no other side, and what lies beyond is the kept certificate's, whose phases are an interval. No look is needed. See
- * pir_certificate_reuse.
+ * A body that swings brings facets back to where they came from. In an axial epoch a certificate speaks of phases, and
+ * goes on to hold at those after its facet has left them; so one that has crossed a single side keeps the certificate
+ * of the cell it left, with the way back. When it wakes at a phase which that certificate is good for, it is in that
+ * cell again, and all that it has passed through is that side: at every phase from where it crossed to the last
+ * rotation's it was seen or certified in its new cell, the step in which it crossed touched no other side, and what
+ * lies beyond is the kept certificate's, whose phases are an interval. No look is needed. See pir_certificate_reuse.
  *
  * Invariant: a block's bounds are at most, and at least, those of its certificates.
  */
@@ -90,21 +91,28 @@ static inline void pir_certificate_set(pir_certificates *certificates, uint32_t 
     certificates->at[i] = certificates->now;
 }
 
-/* Forgets where the facet of certificate i came from: it is not known that it has stayed in its cell since, or came by one side. */
+/*
+ * Forgets where the facet of certificate i came from: it is not known that it has stayed in its cell since, or came by
+ * one side.
+ */
 static inline void pir_certificate_forget_previous(pir_certificates *certificates, uint32_t i) {
     certificates->previous[i].stretch = PIR_NO_STRETCH;
 }
 
-/* Keeps certificate i, of a cell just left, before it is filed for the next cell; `half` leads back. The step touched no other side. */
+/*
+ * Keeps certificate i, of a cell just left, before it is filed for the next cell; `half` leads back. The step touched
+ * no other side.
+ */
 static inline void pir_certificate_keep_previous(pir_certificates *certificates, uint32_t i, uint32_t half) {
     certificates->previous[i] =
         (pir_previous_cell){certificates->ahead[i], certificates->behind[i], half, certificates->stretch};
 }
 
 /*
- * Whether the facet of certificate i, awake at phase `phase` of an axial epoch, is for certain where it came from; then that certificate is
- * filed and the other kept. twin: of the other operand's halfedges. *ret_half: the side crossed. What is filed ends with the epoch,
- * its margin being none: the margin and rotation that are there are the other cell's.
+ * Whether the facet of certificate i, awake at phase `phase` of an axial epoch, is for certain where it came from; then
+ * that certificate is filed and the other kept. twin: of the other operand's halfedges. *ret_half: the side crossed.
+ * What is filed ends with the epoch, its margin being none: the margin and rotation that are there are the other
+ * cell's.
  */
 static inline bool pir_certificate_reuse(pir_certificates *certificates, uint32_t i, double phase, const uint32_t *twin,
                                          uint32_t *ret_half) {
@@ -143,8 +151,8 @@ static inline pir_turned_angle pir_turned_angle_of(const pir_epoch *epoch) {
 void pir_certificates_shift(pir_certificates *certificates, uint32_t used, double shift);
 
 /*
- * Files the first `used` certificates anew for an epoch that begins at alarms->now, from what is left of their margins. Those of an axial
- * epoch with less left than `expected` wake at once.
+ * Files the first `used` certificates anew for an epoch that begins at alarms->now, from what is left of their margins.
+ * Those of an axial epoch with less left than `expected` wake at once.
  */
 void pir_certificates_new_epoch(pir_certificates *certificates, uint32_t used, bool axial, double expected);
 

@@ -2,8 +2,9 @@
 /*
  * Turning, measured along the path and about an axis. See clock.h for what the measures mean.
  *
- * Rounding: unit quaternions are within 2^-50 of what they stand for, so the phase and the drift of a stretch are off by less than 2^-43
- * beside the truncation of the arc sine below, under 2^-30 up to a quarter. All of it is charged to the drift.
+ * Rounding: unit quaternions are within 2^-50 of what they stand for, so the phase and the drift of a stretch are off
+ * by less than 2^-43 beside the truncation of the arc sine below, under 2^-30 up to a quarter. All of it is charged to
+ * the drift.
  */
 #include "dymsum/certificate/epoch.h"
 
@@ -40,9 +41,9 @@ static double twice_arc_sine(double x) {
 }
 
 /*
- * The phase and drift of the stretch that led from clock->start to `now`; false when it has left the axis or gone too far. Of swing and twist
- * the swing's half sine is |off| and the twist's along / √(along² + w²); that root is √(1 − |off|²), within 2^-44 of 1 while the swing is
- * within the slack.
+ * The phase and drift of the stretch that led from clock->start to `now`; false when it has left the axis or gone too
+ * far. Of swing and twist the swing's half sine is |off| and the twist's along / √(along² + w²); that root is √(1 −
+ * |off|²), within 2^-44 of 1 while the swing is within the slack.
  */
 static bool measure_stretch(const pir_epoch *epoch, pir_quat now, double *ret_phase, double *ret_drift) {
     pir_quat r = between(epoch->start, now);

@@ -2,8 +2,9 @@
 /*
  * How long a certificate may sleep, from the signs that prove it.
  *
- * A sign's value s, by unit vectors, is the sine of an angle at least |s| away from where it would change; less the filter's bound
- * that is the margin by the path. In an axial epoch s′ is known too, and s + s′t ± t²/2 bounds what comes (clock.h).
+ * A sign's value s, by unit vectors, is the sine of an angle at least |s| away from where it would change; less the
+ * filter's bound that is the margin by the path. In an axial epoch s′ is known too, and s + s′t ± t²/2 bounds what
+ * comes (clock.h).
  */
 #ifndef PIR_DYMSUM_CERTIFICATE_EXPIRY_H
 #define PIR_DYMSUM_CERTIFICATE_EXPIRY_H
@@ -27,8 +28,8 @@ static inline pir_expiry pir_expiry_never(void) {
 #define PIR_EXPIRY_SLACK (PIR_DRIFT_SLACK * (1 + 0x1p-10))
 
 /*
- * Takes in a sign of value s that changes at `rate`. Where less than the slack is left, the certificate wakes at once by the phase. The
- * root of a negative number, which that case would take, is not looked at.
+ * Takes in a sign of value s that changes at `rate`. Where less than the slack is left, the certificate wakes at once
+ * by the phase. The root of a negative number, which that case would take, is not looked at.
  */
 static inline void pir_expiry_take_sign(pir_expiry *expiry, double s, double rate) {
     double margin = fabs(s) - PIR_SIGN_BOUND, sure = margin - PIR_EXPIRY_SLACK, rising = s < 0 ? rate : -rate;

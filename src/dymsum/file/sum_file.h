@@ -10,19 +10,21 @@
  *                u64       checksum: FNV-1a of all other bytes
  *     operands   P, then Q, each:
  *                u32       dimension; vertices; facets, 0 below dimension 2; w, the bytes of a coordinate
- *                number    the scale's numerator, then its denominator: u32 bytes, then that many, least significant first
+ *                number    the scale's numerator, then its denominator: u32 bytes, then that many, least significant
+ *                          first
  *                vertices  three coordinates each: a byte, 1 for a negative one, then w bytes; times the scale
  *                sources   u32 each, as pir_polytope_source gives them
  *                facets    u32 corners of each; then u32 each corner, a vertex
  *                u32       1 when the operand's scale was set, and then it follows as two numbers; else 0
  *     motion     4 u64     the quaternion that the pairing is exact at, as IEEE-754 doubles
  *                u64       the tolerance, a double
- *                u32       1 when another rotation is shown within the tolerance, and then 4 u64, its quaternion; else 0
- *     region     where there is one, doubles as above: the axis, three; the half-angle; the axis as P saw it and as Q did when what is
- *                kept was chosen, three each; the skins of P and of Q; the stride; then u32 the updates since, and the
- *                last step: see cover.h
- *     pairing    u32 each  fv; vf; the number of crossings of each edge of P; then, edge by edge, 2·(edge of Q), plus 1 when it is
- *                          crossed against its direction from the smaller vertex to the larger
+ *                u32       1 when another rotation is shown within the tolerance, and then 4 u64, its quaternion;
+ *                          else 0
+ *     region     where there is one, doubles as above: the axis, three; the half-angle; the axis as P saw it and as Q
+ *                did when what is kept was chosen, three each; the skins of P and of Q; the stride; then u32 the
+ *                updates since, and the last step: see cover.h
+ *     pairing    u32 each  fv; vf; the number of crossings of each edge of P; then, edge by edge, 2·(edge of Q), plus
+ *                          1 when it is crossed against its direction from the smaller vertex to the larger
  *
  * What a region leaves out has 2^32 - 1 for its vertex, and no crossings.
  *

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The inner loops of an update, behind one dispatch struct: a scalar reference, and AVX2, AVX-512 and NEON versions chosen when a sum
- * is made. Every version performs the same roundings, lane by lane, and minima and maxima do not round: all give the same bits.
+ * The inner loops of an update, behind one dispatch struct: a scalar reference, and AVX2, AVX-512 and NEON versions
+ * chosen when a sum is made. Every version performs the same roundings, lane by lane, and minima and maxima do not
+ * round: all give the same bits.
  *
- * They look at facets, points of one Gaussian map, in cells of the other, by floats: a facet of unit normal n in the cell of vertex v is
- * compared with every direction d of v's ring. Doubles stand behind where floats are not certain, and exact signs behind those.
+ * They look at facets, points of one Gaussian map, in cells of the other, by floats: a facet of unit normal n in the
+ * cell of vertex v is compared with every direction d of v's ring. Doubles stand behind where floats are not certain,
+ * and exact signs behind those.
  *
- * The bound on floats, u = 2^-24: the matrix entries are off by u each, √3·u in norm; n and d by u; the turn rounds by 5.3u, the last dot
- * product by 3.01u: below 12.1u in all, for the value s as for its rate of change, and PIR_FLOAT_BOUND is 16u. A span t ≤ 1 then is
- * foretold with an error of 12.1u + 12.1u·t in the value; what its own arithmetic rounds is, in the value, below 4u·(s′² + 2|s|) ≤ 12u;
- * drift takes 16u. PIR_FLOAT_SLACK, 64u, holds all four.
+ * The bound on floats, u = 2^-24: the matrix entries are off by u each, √3·u in norm; n and d by u; the turn rounds by
+ * 5.3u, the last dot product by 3.01u: below 12.1u in all, for the value s as for its rate of change, and
+ * PIR_FLOAT_BOUND is 16u. A span t ≤ 1 then is foretold with an error of 12.1u + 12.1u·t in the value; what its own
+ * arithmetic rounds is, in the value, below 4u·(s′² + 2|s|) ≤ 12u; drift takes 16u. PIR_FLOAT_SLACK, 64u, holds all
+ * four.
  */
 #ifndef PIR_DYMSUM_KERNELS_KERNELS_H
 #define PIR_DYMSUM_KERNELS_KERNELS_H
@@ -82,9 +85,10 @@ typedef struct pir_kernels {
     const char *name;
 
     /*
-     * Looks at `count` facets, numbered as alarms in `woken`. Those that are in their cells, and certainly have been all through the last
-     * step, are filed to sleep; so are those that have crossed one side and touched no other, their last certificates kept (alarms.h), and
-     * these and the rest are listed. Returns their number; adds to *sides how many directions were looked at.
+     * Looks at `count` facets, numbered as alarms in `woken`. Those that are in their cells, and certainly have been
+     * all through the last step, are filed to sleep; so are those that have crossed one side and touched no other,
+     * their last certificates kept (alarms.h), and these and the rest are listed. Returns their number; adds to *sides
+     * how many directions were looked at.
      */
     uint32_t (*review)(const pir_facets *facets, const pir_step *step, pir_certificates *certificates,
                        const uint32_t *expired, uint32_t count, pir_suspect *ret_suspects, uint64_t *sides);
@@ -94,8 +98,8 @@ typedef struct pir_kernels {
                   pir_probe *ret_probe);
 
     /*
-     * Lists in alarms->woken which of the certificates in the first `blocks` blocks do not hold, and makes the bounds of their blocks
-     * those of the others, since who wakes is filed again. Returns how many it listed.
+     * Lists in alarms->woken which of the certificates in the first `blocks` blocks do not hold, and makes the bounds
+     * of their blocks those of the others, since who wakes is filed again. Returns how many it listed.
      */
     uint32_t (*collect)(pir_certificates *certificates, uint32_t blocks, pir_turned_angle turned);
 } pir_kernels;
@@ -116,7 +120,10 @@ static inline uint64_t pir_side_mask_add(uint64_t mask, uint32_t b, uint32_t eig
     return mask | (b < PIR_SIDE_BITS / 8 ? (uint64_t)eight << 8 * b : eight ? UINT64_MAX : 0);
 }
 
-/* Files alarm i anew, from now: in an axial epoch by its spans, otherwise by its margin. Keys are rounded towards waking early. */
+/*
+ * Files alarm i anew, from now: in an axial epoch by its spans, otherwise by its margin. Keys are rounded towards
+ * waking early.
+ */
 static inline void pir_certificate_file(const pir_step *step, pir_certificates *certificates, uint32_t i, float margin,
                                         float ahead, float behind) {
     float until = step->ahead + (step->axial ? ahead : margin), since = step->behind - (step->axial ? behind : margin);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels for AVX-512 (F, DQ and VL): a block of eight floats at a time, with masks. Vectors of sixteen cost more to wake up than they save. */
+/*
+ * The kernels for AVX-512 (F, DQ and VL): a block of eight floats at a time, with masks. Vectors of sixteen cost more
+ * to wake up than they save.
+ */
 #include "dymsum/kernels/kernels_versions.h"
 
 #if PIR_HAVE_X86_KERNELS

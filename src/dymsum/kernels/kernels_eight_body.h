@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The text that the kernels for AVX2 and AVX-512 share: a block of eight floats at a time. The file that includes this says for which
- * processor by TARGET, compares by EQUAL(a, b), a mask of the lanes in which two are equal, and defines see_block().
+ * The text that the kernels for AVX2 and AVX-512 share: a block of eight floats at a time. The file that includes this
+ * says for which processor by TARGET, compares by EQUAL(a, b), a mask of the lanes in which two are equal, and defines
+ * see_block().
  */
 
 #include "polytope/polytope.h"
@@ -47,7 +48,10 @@ struct seen {
 TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
                                     uint32_t *ret_touched, uint32_t *ret_above);
 
-/* The look at a facet in the cell whose ring fills `blocks` blocks, most often one; returns the greatest values of s, lane by lane. */
+/*
+ * The look at a facet in the cell whose ring fills `blocks` blocks, most often one; returns the greatest values of s,
+ * lane by lane.
+ */
 TARGET static inline __m256 check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                                   pir_check *ret_check) {
     const struct turned t = spread(turned);

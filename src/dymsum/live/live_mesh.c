@@ -2,15 +2,17 @@
 /*
  * The live mesh. Its slots and invariants stand in live_mesh.h.
  *
- * A refresh looks at the slots that the sum's journal names, in rising order, and compares its copy of the pairing with the sum's there: so it
- * costs what changed. Where the journal does not reach back, and with a region, into which facets turn, all slots are compared: two loads
- * a pair, against the hash and the four writes that a changed one takes. Either way the mesh comes out the same, slot for slot.
+ * A refresh looks at the slots that the sum's journal names, in rising order, and compares its copy of the pairing with
+ * the sum's there: so it costs what changed. Where the journal does not reach back, and with a region, into which
+ * facets turn, all slots are compared: two loads a pair, against the hash and the four writes that a changed one takes.
+ * Either way the mesh comes out the same, slot for slot.
  *
- * A vertex that loses its last corner and then is given another, all in one refresh, stays in its slot: slots are emptied last. Each
- * vertex has two corners at least, so half of all corners is room for the old vertices, and as much for the new.
+ * A vertex that loses its last corner and then is given another, all in one refresh, stays in its slot: slots are
+ * emptied last. Each vertex has two corners at least, so half of all corners is room for the old vertices, and as much
+ * for the new.
  *
- * A rebuild gives crossings other slots; then slots are rewritten though their pairs are still there, and a pair that both went
- * and came is in neither list.
+ * A rebuild gives crossings other slots; then slots are rewritten though their pairs are still there, and a pair that
+ * both went and came is in neither list.
  */
 #include "dymsum/live/live_mesh.h"
 

@@ -2,13 +2,14 @@
 /*
  * The inside of a live mesh.
  *
- * Facet slots are the numbers of the sum's certificates: facets of P, facets of Q, crossings by slot. Each has a fixed place for its
- * corners: as many as its facet has, four for a crossing.
+ * Facet slots are the numbers of the sum's certificates: facets of P, facets of Q, crossings by slot. Each has a fixed
+ * place for its corners: as many as its facet has, four for a crossing.
  *
  * Invariants after a refresh:
  *   - fv, vf, edge and half are the sum's; fv and vf are PIR_NO_SLOT, edge is PIR_NO_CROSSING, in an empty slot;
  *   - a vertex slot's `uses` is the number of corners that name it; the free ones are chained through `next_free`;
- *   - the table finds the slot of every pair (vertex of P, vertex of Q) in use, by open addressing; it is at most half full.
+ *   - the table finds the slot of every pair (vertex of P, vertex of Q) in use, by open addressing; it is at most half
+ *     full.
  */
 #ifndef PIR_DYMSUM_LIVE_LIVE_MESH_H
 #define PIR_DYMSUM_LIVE_LIVE_MESH_H
@@ -36,7 +37,10 @@ typedef struct pir_live_pairs {
     uint32_t count, capacity;
 } pir_live_pairs;
 
-/* The bits of a feature's number in a key. Polytopes have fewer than 2^32 halfedges, and fewer features than half of that. */
+/*
+ * The bits of a feature's number in a key. Polytopes have fewer than 2^32 halfedges, and fewer features than half of
+ * that.
+ */
 #define PIR_LIVE_NUMBER_BITS 31
 
 struct pir_live_mesh {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The lists of pairs that came and went in a refresh. They are gathered as keys, numbers that order them by kind, p, q; sorted by merging, in
- * room that was made before; and then written out for callers.
+ * The lists of pairs that came and went in a refresh. They are gathered as keys, numbers that order them by kind, p, q;
+ * sorted by merging, in room that was made before; and then written out for callers.
  */
 #include <string.h>
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The vertices of a live mesh: slots counted by use, and a hash table with linear probing whose gaps are closed as entries go. */
+/*
+ * The vertices of a live mesh: slots counted by use, and a hash table with linear probing whose gaps are closed as
+ * entries go.
+ */
 #include "dymsum/live/live_mesh.h"
 
 static uint32_t home_of(const pir_live_vertices *v, uint32_t p, uint32_t q) {

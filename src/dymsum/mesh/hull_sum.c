@@ -2,7 +2,8 @@
 /*
  * The sum by another way: the exact hull of all pairwise sums of vertices.
  *
- * Points are numbered p·(vertices of Q) + q, so rising points are rising pairs and the hull's canonical facets are the mesh's.
+ * Points are numbered p·(vertices of Q) + q, so rising points are rising pairs and the hull's canonical facets are the
+ * mesh's.
  */
 #include "dymsum/mesh/placing.h"
 #include "dymsum/mesh/sum_mesh.h"

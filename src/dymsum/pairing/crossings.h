@@ -9,7 +9,10 @@
 
 #include "dymsum/pairing/tracked.h"
 
-/* Room for at least `capacity` slots; false when out of memory, and nothing changes. Counts as an allocation when it grows. */
+/*
+ * Room for at least `capacity` slots; false when out of memory, and nothing changes. Counts as an allocation when it
+ * grows.
+ */
 bool pir_crossings_reserve(pir_tracked *tracked, uint32_t capacity);
 void pir_crossings_finish(pir_tracked *tracked);
 
@@ -21,8 +24,8 @@ uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32_t h);
 void pir_crossing_free(pir_tracked *tracked, uint32_t slot);
 
 /*
- * Links one more crossing, of edge e with halfedge h, behind *last, the end of the edge's list or PIR_NO_CROSSING, and makes it the
- * last. False when out of memory.
+ * Links one more crossing, of edge e with halfedge h, behind *last, the end of the edge's list or PIR_NO_CROSSING, and
+ * makes it the last. False when out of memory.
  */
 bool pir_crossing_append(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last);
 

@@ -2,15 +2,15 @@
 /*
  * The pairing of two operands at one rotation, as those who read a sum see it.
  *
- * The Gaussian map of P, rotated, lies over that of Q. A facet of P is a point in the cell of a vertex of Q (fv). A facet of Q is a
- * point in the cell of a vertex of P (vf). The arc of an edge of P leads from the facet left of its halfedge to the facet right of it
- * and leaves cell after cell of Q through the arcs of Q's edges (ee).
+ * The Gaussian map of P, rotated, lies over that of Q. A facet of P is a point in the cell of a vertex of Q (fv). A
+ * facet of Q is a point in the cell of a vertex of P (vf). The arc of an edge of P leads from the facet left of its
+ * halfedge to the facet right of it and leaves cell after cell of Q through the arcs of Q's edges (ee).
  *
- * Invariants, at the rotation perturbed as in exact/sign.h, after every call that succeeds. They hold for all features, or for those
- * that a region keeps. The others have PIR_NO_PAIR for a cell and no crossings.
+ * Invariants, at the rotation perturbed as in exact/sign.h, after every call that succeeds. They hold for all features,
+ * or for those that a region keeps. The others have PIR_NO_PAIR for a cell and no crossings.
  *   - fv[f] is the vertex of Q farthest along the normal of f; vf[g] is the vertex of P farthest along the normal of g.
- *   - The crossings of an edge name halfedges of Q in the order in which the arc meets them. The first leaves fv[left], each later one
- *     leaves the vertex that the one before leads to, the last leads to fv[right].
+ *   - The crossings of an edge name halfedges of Q in the order in which the arc meets them. The first leaves fv[left],
+ *     each later one leaves the vertex that the one before leads to, the last leads to fv[right].
  */
 #ifndef PIR_DYMSUM_PAIRING_PAIRING_H
 #define PIR_DYMSUM_PAIRING_PAIRING_H
@@ -47,8 +47,9 @@ typedef struct pir_pairing {
 } pir_pairing;
 
 /*
- * How many crossings most rotations of two operands stay below: memory made for so many seldom grows. Two round bodies have fewer than
- * their edges together; the rest is room for aligned and flat ones, and for small bodies, whose counts vary most.
+ * How many crossings most rotations of two operands stay below: memory made for so many seldom grows. Two round bodies
+ * have fewer than their edges together; the rest is room for aligned and flat ones, and for small bodies, whose counts
+ * vary most.
  */
 static inline uint32_t pir_crossings_expected(const pir_polytope *p, const pir_polytope *q) {
     return 3 * (p->edge_count + q->edge_count) + 64;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The predicate s(n, e) of one feature of P and one of Q at the rotation of a pairing: doubles first, exact integers where those are not
- * certain, the symbolic perturbation where they tie.
+ * The predicate s(n, e) of one feature of P and one of Q at the rotation of a pairing: doubles first, exact integers
+ * where those are not certain, the symbolic perturbation where they tie.
  */
 #ifndef PIR_DYMSUM_PAIRING_PREDICATES_H
 #define PIR_DYMSUM_PAIRING_PREDICATES_H

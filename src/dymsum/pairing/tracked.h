@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A pairing that is carried from one rotation to the next: the pairing, its certificates, and the work space of those who change it.
+ * A pairing that is carried from one rotation to the next: the pairing, its certificates, and the work space of those
+ * who change it.
  *
- * Each facet of P and of Q has a certificate: as long as that has not expired, the facet is in the cell that fv or vf names, and has
- * been there ever since the certificate was made. Certificates are numbered facets of P first, then facets of Q. A facet that a region
- * leaves out has one that never expires.
+ * Each facet of P and of Q has a certificate: as long as that has not expired, the facet is in the cell that fv or vf
+ * names, and has been there ever since the certificate was made. Certificates are numbered facets of P first, then
+ * facets of Q. A facet that a region leaves out has one that never expires.
  *
- * A crossing of edge e of P (facets f⁻ left, f⁺ right) with halfedge h of Q (vector d, facets R right, L left) is proven by four signs:
- * s(f⁻, d) < 0 < s(f⁺, d) and s(e, R) < 0 < s(e, L). They place the ends of each arc on opposite sides of the other's circle, and the
- * orientation excludes the antipodal point. A crossing has no certificate of its own: it has those of the four facets. Between two
- * rotations R is taken to turn continuously, and two arcs that cross cannot part before an end of one passes through the other, which is
- * a facet that leaves its cell.
+ * A crossing of edge e of P (facets f⁻ left, f⁺ right) with halfedge h of Q (vector d, facets R right, L left) is
+ * proven by four signs: s(f⁻, d) < 0 < s(f⁺, d) and s(e, R) < 0 < s(e, L). They place the ends of each arc on opposite
+ * sides of the other's circle, and the orientation excludes the antipodal point. A crossing has no certificate of its
+ * own: it has those of the four facets. Between two rotations R is taken to turn continuously, and two arcs that cross
+ * cannot part before an end of one passes through the other, which is a facet that leaves its cell.
  */
 #ifndef PIR_DYMSUM_PAIRING_TRACKED_H
 #define PIR_DYMSUM_PAIRING_TRACKED_H
@@ -23,7 +24,9 @@
 #include "dymsum/pairing/journal.h"
 #include "dymsum/pairing/pairing.h"
 
-/* In place of a stamp: the edge is left out, and nothing that happens to it is of interest. Greater than every stamp. */
+/*
+ * In place of a stamp: the edge is left out, and nothing that happens to it is of interest. Greater than every stamp.
+ */
 #define PIR_INACTIVE UINT32_MAX
 
 /* What rebuilds and updates work in. */
@@ -51,8 +54,8 @@ typedef struct pir_tracked {
 } pir_tracked;
 
 /*
- * Takes references to the operands and makes all memory. There is no pairing yet. pir_tracked_finish releases whatever is there, also
- * after a failure. Errors: PIR_ERR_MEMORY and those of pir_rotation_set.
+ * Takes references to the operands and makes all memory. There is no pairing yet. pir_tracked_finish releases whatever
+ * is there, also after a failure. Errors: PIR_ERR_MEMORY and those of pir_rotation_set.
  */
 pir_status pir_tracked_init(pir_tracked *tracked, pir_polytope *p, pir_polytope *q, pir_quat rotation,
                             const pir_allocator *allocator);

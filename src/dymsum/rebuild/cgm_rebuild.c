@@ -2,10 +2,11 @@
 /*
  * The rebuild by CGM: the pairing read off the overlay of two cubical Gaussian maps.
  *
- * The overlay is exact but not perturbed. A facet whose normal is strictly inside one cell of the other map, and two arcs that cross at
- * no other feature, are in general position: an infinitely small turn leaves them so, and what the overlay shows is the perturbed
- * pairing. The rest are ties, and are settled by perturbed signs from where the overlay has located them: a facet by descent, an arc that
- * touches a tie anywhere by walking it from the cell of its one end to that of the other.
+ * The overlay is exact but not perturbed. A facet whose normal is strictly inside one cell of the other map, and two
+ * arcs that cross at no other feature, are in general position: an infinitely small turn leaves them so, and what the
+ * overlay shows is the perturbed pairing. The rest are ties, and are settled by perturbed signs from where the overlay
+ * has located them: a facet by descent, an arc that touches a tie anywhere by walking it from the cell of its one end
+ * to that of the other.
  *
  * The crossings of an arc need no sorting: each leads from one cell to the next, and an arc is in no cell twice.
  */
@@ -31,7 +32,10 @@ static uint32_t facet_at(const pir_cgm *cgm, uint32_t vertex, uint32_t source) {
     return cgm->vertex_facet[(size_t)vertex * cgm->source_count + source];
 }
 
-/* Pairs the facets of `source` with the vertices of the other by the cells around their normals; where those differ it is a tie. */
+/*
+ * Pairs the facets of `source` with the vertices of the other by the cells around their normals; where those differ it
+ * is a tie.
+ */
 static void read_facets(struct reading *reading, uint32_t source, uint32_t *pairs, uint32_t count) {
     const pir_cgm *cgm = reading->overlay;
     uint8_t *tied = reading->tied[source];
@@ -105,7 +109,7 @@ static bool read_crossing(struct reading *reading, uint32_t v) {
     } while (pir_cgm_around_next(cgm, &around));
     if (of_p == PIR_CGM_NONE || of_q == PIR_CGM_NONE || reading->tied_edge[p->edge[of_p]])
         return true;
-    // the arc of P that leaves v is in the cell after the crossing, or before it when it leaves against its edge's direction
+    // the arc of P that leaves v is in the cell after the crossing, or before it when it leaves against the edge
     uint32_t e = p->edge[of_p], end = p->edge_half[e] == of_p ? q->target[of_q] : q->origin[of_q];
     uint32_t slot = pir_crossing_new(tracked, e, end == cell ? of_q : q->twin[of_q]);
     if (slot == PIR_NO_CROSSING)

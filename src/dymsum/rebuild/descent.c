@@ -2,9 +2,10 @@
 /*
  * Gradient descent on the Gaussian map (Behar and Lien, section 4.2): from a vertex to the one farthest along a normal.
  *
- * Each step takes an edge whose sign is positive, so the perturbed support rises strictly and the walk ends; on a convex polytope a vertex
- * without a rising edge is the farthest. Among rising edges the steepest is taken, by floats: that choice affects only speed. Where
- * floats are not certain the ring is looked at by doubles, and exactly where those are not.
+ * Each step takes an edge whose sign is positive, so the perturbed support rises strictly and the walk ends; on a
+ * convex polytope a vertex without a rising edge is the farthest. Among rising edges the steepest is taken, by floats:
+ * that choice affects only speed. Where floats are not certain the ring is looked at by doubles, and exactly where
+ * those are not.
  */
 #include "dymsum/rebuild/descent.h"
 

@@ -6,8 +6,8 @@
 #include "dymsum/pairing/tracked.h"
 
 /*
- * The vertex of Q farthest along facet f of P, whose normal is rotated to `rotated`. The descent starts at vertex `from`. *ret_expiry:
- * how long f stays in that cell.
+ * The vertex of Q farthest along facet f of P, whose normal is rotated to `rotated`. The descent starts at vertex
+ * `from`. *ret_expiry: how long f stays in that cell.
  */
 uint32_t pir_descend_fv(pir_tracked *tracked, uint32_t f, pir_vec3 rotated, uint32_t from, pir_expiry *ret_expiry);
 

@@ -2,11 +2,12 @@
 /*
  * The rebuild by walk: one Gaussian map traversed through the other, in time proportional to the result.
  *
- * One facet of P is located by descent; from there every arc of P is walked once, breadth first, and the walk itself locates the
- * facet at its other end. An arc leaves a convex cell of Q through the one side whose corners it separates, right of it behind, left of
- * it ahead: seen counter-clockwise, the side at which s(e, ·) turns from negative to positive. Past the side it came in by, the corners'
- * signs are first negative, then positive, so the side is found by bisection when the cell has many. Facets of Q are located last, by
- * descent from an end of an edge whose arc crosses beside them. Where a region leaves features dormant, region.c does all this instead.
+ * One facet of P is located by descent; from there every arc of P is walked once, breadth first, and the walk itself
+ * locates the facet at its other end. An arc leaves a convex cell of Q through the one side whose corners it separates,
+ * right of it behind, left of it ahead: seen counter-clockwise, the side at which s(e, ·) turns from negative to
+ * positive. Past the side it came in by, the corners' signs are first negative, then positive, so the side is found by
+ * bisection when the cell has many. Facets of Q are located last, by descent from an end of an edge whose arc crosses
+ * beside them. Where a region leaves features dormant, region.c does all this instead.
  */
 #include "dymsum/rebuild/walk.h"
 
@@ -57,8 +58,8 @@ uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, ui
 enum { LOCATED = 1 };
 
 /*
- * Walks the arc along halfedge h of P from the facet left of it, which is located, to the one right of it, which may not be yet. The
- * crossings are listed for the edge in its own direction.
+ * Walks the arc along halfedge h of P from the facet left of it, which is located, to the one right of it, which may
+ * not be yet. The crossings are listed for the edge in its own direction.
  */
 static bool walk_arc(pir_tracked *tracked, uint32_t h) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;

@@ -6,14 +6,14 @@
 #include "dymsum/pairing/tracked.h"
 
 /*
- * The halfedge of Q through which the arc along halfedge h of P, rotated to `direction`, leaves the cell of vertex v. `entered` is
- * the halfedge that led into v, or PIR_NO_CROSSING when the arc starts there.
+ * The halfedge of Q through which the arc along halfedge h of P, rotated to `direction`, leaves the cell of vertex v.
+ * `entered` is the halfedge that led into v, or PIR_NO_CROSSING when the arc starts there.
  */
 uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered);
 
 /*
- * Makes the whole pairing from nothing and leaves its certificates expired. There are no crossings before. On PIR_ERR_MEMORY the pairing
- * is not usable.
+ * Makes the whole pairing from nothing and leaves its certificates expired. There are no crossings before. On
+ * PIR_ERR_MEMORY the pairing is not usable.
  */
 pir_status pir_walk_rebuild(pir_tracked *tracked);
 

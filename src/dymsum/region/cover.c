@@ -6,7 +6,8 @@
 #define WHOLE_HALF_ANGLE 3.15
 
 /*
- * What a cone gives away, so that rounding never keeps out a facet that is in it. Which facets are listed is no question of the pairing's.
+ * What a cone gives away, so that rounding never keeps out a facet that is in it. Which facets are listed is no
+ * question of the pairing's.
  */
 #define CONE_SLACK 0x1p-40
 

@@ -49,7 +49,10 @@ pir_status pir_cone_make(pir_vec3 axis, double half_angle, pir_cone *ret_cone);
 #define PIR_MOST_SKIN    0x1p-3
 #define PIR_LEAST_STRIDE 0x1p-7
 
-/* Where the region was, and how far it and the bodies may go, when what is kept was chosen: that is a function of this alone. */
+/*
+ * Where the region was, and how far it and the bodies may go, when what is kept was chosen: that is a function of this
+ * alone.
+ */
 typedef struct pir_cover {
     bool whole;              /* all is kept */
     pir_vec3 axis_p, axis_q; /* the region's axis, unit: as P saw it, and Q */

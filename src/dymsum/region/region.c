@@ -1,31 +1,34 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Region: only the pairs are kept whose normals lie in a cone about an axis, and a skin around it, as neighbour lists of molecular
- * dynamics have one (Verlet, Physical Review 159, 1967).
+ * Region: only the pairs are kept whose normals lie in a cone about an axis, and a skin around it, as neighbour lists
+ * of molecular dynamics have one (Verlet, Physical Review 159, 1967).
  *
- * Features are active or dormant. A dormant facet has no cell and its alarm never rings; a dormant edge has no crossings and is not touched
- * by events. Which are active is chosen by a sweep over all facets, as a function of the cover alone: the axis as P and Q saw it then (a_P,
- * turned back, and a_Q), the half-angle α, a skin for each, σ_P and σ_Q, and a stride τ. With [n, m] the angle between n and m:
+ * Features are active or dormant. A dormant facet has no cell and its alarm never rings; a dormant edge has no
+ * crossings and is not touched by events. Which are active is chosen by a sweep over all facets, as a function of the
+ * cover alone: the axis as P and Q saw it then (a_P, turned back, and a_Q), the half-angle α, a skin for each, σ_P and
+ * σ_Q, and a stride τ. With [n, m] the angle between n and m:
  *
  *   - an edge of P is active when its arc comes within α + σ_P of a_P, and so are the facets at its ends;
- *   - a facet g of Q is active when [g, a_Q] ≤ ρ + σ_P + σ_Q + τ, ρ the farthest from a_P that a point of an active arc is, and at
- *     least α + σ_P.
+ *   - a facet g of Q is active when [g, a_Q] ≤ ρ + σ_P + σ_Q + τ, ρ the farthest from a_P that a point of an active arc
+ *     is, and at least α + σ_P.
  *
- * Rounding errs towards active. The cover holds while [Rᵀ·axis, a_P] ≤ σ_P and [axis, a_Q] ≤ σ_Q. Invariants while it holds, which is after
- * every call that succeeds:
+ * Rounding errs towards active. The cover holds while [Rᵀ·axis, a_P] ≤ σ_P and [axis, a_Q] ≤ σ_Q. Invariants while it
+ * holds, which is after every call that succeeds:
  *
- *   - all of the sum in the cone is kept: a facet or arc of P that meets the cone comes within α + σ_P of a_P, a facet of Q in it
- *     within α + σ_Q of a_Q, and a crossing in it is on such an arc;
- *   - what is kept is right: an active facet is in its cell, an active edge has its whole list of crossings. In a step of at most τ
- *     from where the cover holds, or to there, no dormant facet of Q comes to an active arc: a point of that is within ρ of a_P, within ρ + σ_P
- *     of where the axis was, within ρ + σ_P + τ on the way, and within ρ + σ_P + σ_Q + τ of a_Q. Nor does one in any step, of one radian at most,
- *     from where it holds to where it holds still: the axis goes along an arc of a circle whose ends are within σ_P of a_P, and leaves that by
- *     less than σ_P·(√(1 + tan² ¼) − 1) < σ_P/30, less than any τ. So the events of active facets are all that active edges have to hear of.
+ *   - all of the sum in the cone is kept: a facet or arc of P that meets the cone comes within α + σ_P of a_P, a facet
+ *     of Q in it within α + σ_Q of a_Q, and a crossing in it is on such an arc;
+ *   - what is kept is right: an active facet is in its cell, an active edge has its whole list of crossings. In a step
+ *     of at most τ from where the cover holds, or to there, no dormant facet of Q comes to an active arc: a point of
+ *     that is within ρ of a_P, within ρ + σ_P of where the axis was, within ρ + σ_P + τ on the way, and within ρ + σ_P
+ *     + σ_Q + τ of a_Q. Nor does one in any step, of one radian at most, from where it holds to where it holds still:
+ *     the axis goes along an arc of a circle whose ends are within σ_P of a_P, and leaves that by less than σ_P·(√(1 +
+ *     tan² ¼) − 1) < σ_P/30, less than any τ. So the events of active facets are all that active edges have to hear of.
  *
- * An update in which the cover stops to hold first lets go of what a new one leaves out, then repairs what stays, and last brings in what is
- * new: a facet by descent from a neighbour's cell, an edge from cell to cell. What stays is in both covers. A facet of Q that the old one left
- * dormant is beyond the reach of the edges that stay when the step is within the old stride, one that the new one leaves out when it is
- * within the new. After a longer step, a leap, every edge that stays is led anew.
+ * An update in which the cover stops to hold first lets go of what a new one leaves out, then repairs what stays, and
+ * last brings in what is new: a facet by descent from a neighbour's cell, an edge from cell to cell. What stays is in
+ * both covers. A facet of Q that the old one left dormant is beyond the reach of the edges that stay when the step is
+ * within the old stride, one that the new one leaves out when it is within the new. After a longer step, a leap, every
+ * edge that stays is led anew.
  *
  * What is kept is a function of the cover alone, whatever the history. The members (region.h) are the active features,
  * and whatever is no member has no cell and no crossings, at every moment, in the midst of a call too:
@@ -45,7 +48,8 @@
  * as they are brought along by the same methods. Which method PIR_METHOD_AUTO takes is told from counted work, and that
  * depends on the history.
  *
- * The skins grow with how fast the axis goes in the sight of P and of Q, so a sweep lasts for some frames. Flat operands P have arcs of half a turn: they are kept whole.
+ * The skins grow with how fast the axis goes in the sight of P and of Q, so a sweep lasts for some frames. Flat
+ * operands P have arcs of half a turn: they are kept whole.
  */
 #include "dymsum/region/region.h"
 
@@ -100,7 +104,10 @@ static bool is_whole(const pir_region *region, const pir_tracked *tracked) {
     return !region->cone.set || tracked->pairing.p->dimension < 3;
 }
 
-/* Centres the cover on the region of now. Each sight of the axis is taken to go on as it went, or to rest where `afresh`. */
+/*
+ * Centres the cover on the region of now. Each sight of the axis is taken to go on as it went, or to rest where
+ * `afresh`.
+ */
 void pir_region_centre(pir_region *region, const pir_tracked *tracked, bool afresh) {
     const pir_cover before = region->cover;
     pir_vec3 axis_q = region->cone.axis, axis_p = pir_mat_apply_transposed(&tracked->pairing.signs.rotation.r, axis_q);
@@ -234,7 +241,10 @@ static void locate(const struct place *place, uint32_t f, uint32_t from) {
     pir_journal_note(&tracked->journal, place->first_certificate + f);
 }
 
-/* Locates the members without a cell: from a neighbour that has one, where there is one, and then outwards, breadth first. */
+/*
+ * Locates the members without a cell: from a neighbour that has one, where there is one, and then outwards, breadth
+ * first.
+ */
 static void locate_members(const struct place *place) {
     const pir_polytope *own = place->own;
     const pir_members *members = &place->facets->members;

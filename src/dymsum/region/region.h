@@ -23,9 +23,9 @@ void pir_region_finish(pir_region *region, const pir_allocator *allocator);
 bool pir_region_reserve(pir_region *region, pir_tracked *tracked);
 
 /*
- * Gives a pairing that has no region, but is the pairing of one, that region; *ret_fits: whether the pairing has a cell for every facet
- * that the cover asks for, none for any other, no crossings else, and the cover holds. Cells are in range or PIR_NO_PAIR. False when out
- * of memory.
+ * Gives a pairing that has no region, but is the pairing of one, that region; *ret_fits: whether the pairing has a cell
+ * for every facet that the cover asks for, none for any other, no crossings else, and the cover holds. Cells are in
+ * range or PIR_NO_PAIR. False when out of memory.
  */
 bool pir_region_adopt(pir_region *region, pir_tracked *tracked, const pir_cone *cone, const pir_cover *cover,
                       bool *ret_fits);

@@ -37,8 +37,8 @@ bool pir_sweep_init(pir_sweep *sweep, const pir_polytope *p, const pir_polytope 
 void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *allocator);
 
 /*
- * Finds the features that the cover asks for: they stand in members->next, as many as members->count says, and the `seen` of each is the
- * number of the sweep. members->at still holds the members of before.
+ * Finds the features that the cover asks for: they stand in members->next, as many as members->count says, and the
+ * `seen` of each is the number of the sweep. members->at still holds the members of before.
  */
 void pir_sweep_run(pir_sweep *sweep, const pir_cover *cover, const pir_polytope *p);
 

@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The cost model. Work is counted in signs: a walk asks for them one by one, an update by rings of sides and by corners. Per sign asked
- * for, an update takes 1.1 to 1.2 times as long as a walk wherever the two are close, on bodies of 6 to 2,400 facets, and 0.87 where one
- * swings between two places, which processors learn to foresee; far from there it hardly matters. An update's work is taken to be in
- * proportion to the angle, which holds while few certificates expire and overstates large angles, where a walk is right anyway. Facets
- * that swing back ask for no signs, and count as no work: they are so little that a walk is never right for them.
+ * The cost model. Work is counted in signs: a walk asks for them one by one, an update by rings of sides and by
+ * corners. Per sign asked for, an update takes 1.1 to 1.2 times as long as a walk wherever the two are close, on bodies
+ * of 6 to 2,400 facets, and 0.87 where one swings between two places, which processors learn to foresee; far from there
+ * it hardly matters. An update's work is taken to be in proportion to the angle, which holds while few certificates
+ * expire and overstates large angles, where a walk is right anyway. Facets that swing back ask for no signs, and count
+ * as no work: they are so little that a walk is never right for them.
  *
- * Where a region keeps a part of the features, both are reckoned for all of them, so that another region changes neither.
+ * Where a region keeps a part of the features, both are reckoned for all of them, so that another region changes
+ * neither.
  *
- * After a walk the first update has to look at every pair, and only the third can find facets swung back. So the first teaches nothing, each of
- * the next two makes the slope anew, and a switch to updating lasts for three at least. A sum that walks must expect a clear gain before it
- * switches, and tries it once in a while all the same, for its slope may be out of date: the first time soon, since a pose full of ties
- * costs more to leave than any other, then less and less often.
+ * After a walk the first update has to look at every pair, and only the third can find facets swung back. So the first
+ * teaches nothing, each of the next two makes the slope anew, and a switch to updating lasts for three at least. A sum
+ * that walks must expect a clear gain before it switches, and tries it once in a while all the same, for its slope may
+ * be out of date: the first time soon, since a pose full of ties costs more to leave than any other, then less and less
+ * often.
  */
 #include "dymsum/update/choose.h"
 
@@ -25,8 +28,9 @@
 #define LATEST_PROBE 64
 #define MEMORY       0.125
 /*
- * Signs per radian that stand for none, 0 meaning that nothing is known. No bound of any error: a walk asks for more within any angle, and what
- * is chosen here is a way to the pairing, which every way finds alike. A number much smaller would be one that processors are slow with.
+ * Signs per radian that stand for none, 0 meaning that nothing is known. No bound of any error: a walk asks for more
+ * within any angle, and what is chosen here is a way to the pairing, which every way finds alike. A number much smaller
+ * would be one that processors are slow with.
  */
 #define NO_WORK 1e-6
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The choice between update and walk, from work that the sum has counted itself. No clock is read, so a run repeats exactly.
+ * The choice between update and walk, from work that the sum has counted itself. No clock is read, so a run repeats
+ * exactly.
  */
 #ifndef PIR_DYMSUM_UPDATE_CHOOSE_H
 #define PIR_DYMSUM_UPDATE_CHOOSE_H

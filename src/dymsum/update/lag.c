@@ -2,28 +2,32 @@
 /*
  * Tolerance: a pairing that stays behind the rotation while that costs at most τ.
  *
- * Let the pairing be exact at R₀, let R be the rotation asked for, θ the angle between them, and A the hull of the points R·p + q over
- * the pairing's vertices (p, q). A lies in the sum M, so its support function h_A is at most h_M. For a direction n take the vertex (p, q)
- * that supports M at R₀ in the direction
+ * Let the pairing be exact at R₀, let R be the rotation asked for, θ the angle between them, and A the hull of the
+ * points R·p + q over the pairing's vertices (p, q). A lies in the sum M, so its support function h_A is at most h_M.
+ * For a direction n take the vertex (p, q) that supports M at R₀ in the direction
  *
- *   - n: then q supports Q in n, and p supports P in R₀ᵀn, which is at most θ away from Rᵀn: h_M(n) − h_A(n) ≤ S_P(θ), where S_B(θ) is how far
- *     a vertex that supports B in some direction may fall short of B's support in another, at most θ away;
+ *   - n: then q supports Q in n, and p supports P in R₀ᵀn, which is at most θ away from Rᵀn: h_M(n) − h_A(n) ≤ S_P(θ),
+ *     where S_B(θ) is how far a vertex that supports B in some direction may fall short of B's support in another, at
+ *     most θ away;
  *   - R₀Rᵀn: then p supports P in Rᵀn, and q supports Q in a direction at most θ away from n: the same with S_Q(θ).
  *
- * Hence |h_M − h_A| ≤ min(S_P(θ), S_Q(θ)) in every direction there is, those of the pairing among them. While that is at most τ nothing is
- * looked at and nothing changes: a rotation costs a few operations whatever the size. Past it one update covers all the turning since.
+ * Hence |h_M − h_A| ≤ min(S_P(θ), S_Q(θ)) in every direction there is, those of the pairing among them. While that is
+ * at most τ nothing is looked at and nothing changes: a rotation costs a few operations whatever the size. Past it one
+ * update covers all the turning since.
  *
- * S_B is made of pairs of vertices v, w, a distance L apart along d. Of the directions that v supports, those in the cell of v, u·d is
- * greatest at a corner, a facet's normal, for it is negative in the cell, where it is subharmonic, and convex along arcs. So they stay
- * below w's horizon by δ at least, sin δ the least (h − n·w)/L of the facets around v, and
+ * S_B is made of pairs of vertices v, w, a distance L apart along d. Of the directions that v supports, those in the
+ * cell of v, u·d is greatest at a corner, a facet's normal, for it is negative in the cell, where it is subharmonic,
+ * and convex along arcs. So they stay below w's horizon by δ at least, sin δ the least (h − n·w)/L of the facets around
+ * v, and
  *
  *     S_B(θ) = max over v, w of L·sin(θ − δ).
  *
- * So it reaches a length s at θ(s), the least δ + asin(s/L) of all pairs farther apart than s. And S_B(θ)/sin θ rises with θ, which bounds S_B
- * between the few lengths for which θ is worked out. On a ball θ(s) is about √(2s), far beyond s divided by its size.
+ * So it reaches a length s at θ(s), the least δ + asin(s/L) of all pairs farther apart than s. And S_B(θ)/sin θ rises
+ * with θ, which bounds S_B between the few lengths for which θ is worked out. On a ball θ(s) is about √(2s), far beyond
+ * s divided by its size.
  *
- * Rounding errs upwards. The angle is an upper bound (rotation.h); asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x bound what would need
- * functions that machines disagree on.
+ * Rounding errs upwards. The angle is an upper bound (rotation.h); asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x
+ * bound what would need functions that machines disagree on.
  */
 #include "dymsum/update/lag.h"
 
@@ -46,7 +50,10 @@ static void take_pair(double distance, double slack, const double *lengths, doub
             angles[k] = fmin(angles[k], (below + arc_sine_below(lengths[k] / distance)) * (1 - 0x1p-50));
 }
 
-/* A power of two that brings p's coordinates below 1, and near it where doubles reach: squares then neither vanish nor overflow. */
+/*
+ * A power of two that brings p's coordinates below 1, and near it where doubles reach: squares then neither vanish nor
+ * overflow.
+ */
 static double scale_of(const pir_polytope *p) {
     double most = 0;
     for (uint32_t v = 0; v < p->vertex_count; v++) {

@@ -13,7 +13,10 @@
  */
 typedef struct pir_lag {
     double tolerance; /* a length; 0: never behind */
-    /* where there is a tolerance: up to an angle the support function falls short by a length at most; rising, the last length it */
+    /*
+     * where there is a tolerance: up to an angle the support function falls short by a length at most; rising, the last
+     * length it
+     */
     double angle[PIR_LAG_KNOTS], length[PIR_LAG_KNOTS];
     bool lagging;
     double bound;     /* while lagging: what the support function falls short of at most */

@@ -2,15 +2,17 @@
 /*
  * Edges brought up to date.
  *
- * Along a continuous turn the crossings of an arc change only where one facet, a point, passes through an arc. When an end of edge e
- * crosses the arc of h, from one cell to the next, the list of e loses the crossing of h at that end or, if it had none, gains the one back.
- * When facet g of Q crosses the arc of e, e leads around g on the other side: the crossings of g's arcs that it had, a run of them,
- * give way to those of all the others. So an edge that one event has touched is repaired without a sign.
+ * Along a continuous turn the crossings of an arc change only where one facet, a point, passes through an arc. When an
+ * end of edge e crosses the arc of h, from one cell to the next, the list of e loses the crossing of h at that end or,
+ * if it had none, gains the one back. When facet g of Q crosses the arc of e, e leads around g on the other side: the
+ * crossings of g's arcs that it had, a run of them, give way to those of all the others. So an edge that one event has
+ * touched is repaired without a sign.
  *
- * Moves of both ends may come in any order. As long as no facet of Q passes through it, an arc keeps, its ends moving, its homotopy
- * class on the sphere less the facets of Q. That sphere shrinks to the graph of cells and sides, on which a class has one list without a
- * crossing and its reverse side by side; an arc has such a list, for cells are convex; and the moves below keep it so. Where a facet of
- * Q passes and other events meet it, the edge is led from its left cell to its right one again, and what it crossed before is tried first.
+ * Moves of both ends may come in any order. As long as no facet of Q passes through it, an arc keeps, its ends moving,
+ * its homotopy class on the sphere less the facets of Q. That sphere shrinks to the graph of cells and sides, on which
+ * a class has one list without a crossing and its reverse side by side; an arc has such a list, for cells are convex;
+ * and the moves below keep it so. Where a facet of Q passes and other events meet it, the edge is led from its left
+ * cell to its right one again, and what it crossed before is tried first.
  */
 #include "dymsum/update/repair.h"
 
@@ -91,7 +93,10 @@ bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) 
     }
 }
 
-/* Whether the arc along halfedge `half` of P, which leaves the cell of h's origin, leaves it through h: its corners tell. */
+/*
+ * Whether the arc along halfedge `half` of P, which leaves the cell of h's origin, leaves it through h: its corners
+ * tell.
+ */
 static bool leaves_through(pir_tracked *tracked, uint32_t half, pir_vec3 direction, uint32_t h) {
     double unused;
     return pir_sign_half_facet(&tracked->pairing, half, direction, pir_right(tracked->pairing.q, h), &unused) < 0 &&

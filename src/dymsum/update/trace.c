@@ -2,17 +2,19 @@
 /*
  * The way of a facet through one step, from the cell where it was to the one where it is, side by side.
  *
- * The step turns the facet's normal about a known axis by an angle T, and its value s against the circle of a side goes the way
- * s(−a) = s − s'a ± a²/2, a from 0 to T, where s and s' are those of now and all is off by E, the sign's bound and twice the clock's drift.
- * Where |s'| is at least 2T + E, s changes monotonically through the step, and the circle is crossed once at most. So in a cell that the
- * facet has come into, or began in:
+ * The step turns the facet's normal about a known axis by an angle T, and its value s against the circle of a side goes
+ * the way s(−a) = s − s'a ± a²/2, a from 0 to T, where s and s' are those of now and all is off by E, the sign's bound
+ * and twice the clock's drift. Where |s'| is at least 2T + E, s changes monotonically through the step, and the circle
+ * is crossed once at most. So in a cell that the facet has come into, or began in:
  *
- *   - it was on the inner side of every circle when it came. A circle that it is past now, it has crossed since, going outwards.
+ *   - it was on the inner side of every circle when it came. A circle that it is past now, it has crossed since, going
+ *     outwards.
  *   - a circle that it is not past it has not crossed since, for it would have crossed it twice.
  *
- * Hence it has left the cell if it is past some circle, through the side of the circle that it crossed first: the only one, or the one
- * whose span of possible times lies before those of the others. From there the next cell is looked at in the same way. Where a value is
- * within E of zero, where a circle within reach may have been crossed twice, or where the order is open, nothing is said.
+ * Hence it has left the cell if it is past some circle, through the side of the circle that it crossed first: the only
+ * one, or the one whose span of possible times lies before those of the others. From there the next cell is looked at
+ * in the same way. Where a value is within E of zero, where a circle within reach may have been crossed twice, or where
+ * the order is open, nothing is said.
  */
 #include "dymsum/update/trace.h"
 
@@ -34,7 +36,9 @@ struct exit {
     bool known;           /* false: too close to call */
 };
 
-/* The span of times ago at which s was zero, if it rose so fast: roots of s − s'a ± a²/2, the error taken to widen it. */
+/*
+ * The span of times ago at which s was zero, if it rose so fast: roots of s − s'a ± a²/2, the error taken to widen it.
+ */
 static void time_of_exit(double s, double rising, double error, double *ret_least, double *ret_most) {
     double square = rising * rising, rest = square - (s + s + 2 * error);
     *ret_least = sqrt(square + (s + s - 2 * error)) - rising;

@@ -13,7 +13,10 @@ typedef struct pir_trace {
     pir_expiry expiry;
 } pir_trace;
 
-/* Follows facet f of P, or g of Q, from the cell in fv or vf, where it was before the last step. False where doubles do not tell. */
+/*
+ * Follows facet f of P, or g of Q, from the cell in fv or vf, where it was before the last step. False where doubles do
+ * not tell.
+ */
 bool pir_trace_fv(pir_tracked *tracked, uint32_t f, pir_trace *ret_trace);
 bool pir_trace_vf(pir_tracked *tracked, uint32_t g, pir_trace *ret_trace);
 

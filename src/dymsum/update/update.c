@@ -2,18 +2,18 @@
 /*
  * The update: find the facets that may have left their cells, and repair what they touched.
  *
- * Why a jump is safe. Between two frames let R turn continuously, along the way that the clock measures (clock.h). The pairing changes
- * only where a facet, a point of one Gaussian map, passes through an arc of the other, and so leaves its cell. A facet whose
- * alarm has not rung has stayed in its cell all the way. So crossings need no certificates of their own: an arc that no awake facet has
- * passed through, and whose ends stayed, has the crossings it had.
+ * Why a jump is safe. Between two frames let R turn continuously, along the way that the clock measures (clock.h). The
+ * pairing changes only where a facet, a point of one Gaussian map, passes through an arc of the other, and so leaves
+ * its cell. A facet whose alarm has not rung has stayed in its cell all the way. So crossings need no certificates of
+ * their own: an arc that no awake facet has passed through, and whose ends stayed, has the crossings it had.
  *
- * A facet that wakes may for certain be back where it came from (alarms.h). Else it is looked at where it is now. Mostly it is in its cell,
- * too far from each side to have touched one within the step, and sleeps on. Or it has crossed one side, into a cell of which it
- * can have touched no other side than the one it came in by. Both ways of crossing are one event,
- * which changes the arcs concerned in a way known beforehand (repair.c), and at once. Of a facet of Q that has passed through an arc to
- * which something else has happened too the order is not known: that arc is led from cell to cell again at the end. Anything else,
- * several sides within reach, ties, is settled with care: the facet by descent, each arc that it may have passed through by leading
- * it again.
+ * A facet that wakes may for certain be back where it came from (alarms.h). Else it is looked at where it is now.
+ * Mostly it is in its cell, too far from each side to have touched one within the step, and sleeps on. Or it has
+ * crossed one side, into a cell of which it can have touched no other side than the one it came in by. Both ways of
+ * crossing are one event, which changes the arcs concerned in a way known beforehand (repair.c), and at once. Of a
+ * facet of Q that has passed through an arc to which something else has happened too the order is not known: that arc
+ * is led from cell to cell again at the end. Anything else, several sides within reach, ties, is settled with care: the
+ * facet by descent, each arc that it may have passed through by leading it again.
  */
 #include "dymsum/update/update.h"
 
@@ -30,11 +30,10 @@
 
 struct update {
     pir_tracked *tracked;
-    uint32_t
-        stamp; /* marks edges in tracked->touched: this for one that an event has changed, one more for one to be led anew */
-    uint32_t derive; /* edges in tracked->work.queue, to be led anew */
-    uint32_t passes; /* in tracked->work.passes */
-    bool all;        /* every edge is */
+    uint32_t stamp; /* in tracked->touched: of an edge that an event has changed; one more: of one to be derived anew */
+    uint32_t derive; /* edges in work.queue, to be derived anew */
+    uint32_t passes; /* in work.passes */
+    bool all;        /* every edge is to be derived anew */
     bool failed;     /* out of memory */
 };
 
@@ -64,7 +63,9 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     update->failed |= !done;
 }
 
-/* Facet g of Q has crossed the arc of halfedge `half` of P: noted until it is known what else has happened to its edge. */
+/*
+ * Facet g of Q has crossed the arc of halfedge `half` of P: noted until it is known what else has happened to its edge.
+ */
 static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half) {
     pir_tracked *tracked = update->tracked;
     uint32_t e = tracked->pairing.p->edge[half];
@@ -109,7 +110,9 @@ static void settle_of_p(struct update *update, uint32_t f) {
         note_edge(update, p->edge[p->loop[i]]);
 }
 
-/* Whether side `half` of a cell of P may have been touched by the normal of a facet of Q, turned back, within the step. */
+/*
+ * Whether side `half` of a cell of P may have been touched by the normal of a facet of Q, turned back, within the step.
+ */
 static bool touches(const pir_tracked *tracked, uint32_t half, pir_vec3 turned_back, pir_vec3 motion) {
     pir_vec3 d = tracked->pairing.p->direction[half];
     pir_expiry expiry = pir_expiry_never();
@@ -118,8 +121,8 @@ static bool touches(const pir_tracked *tracked, uint32_t half, pir_vec3 turned_b
 }
 
 /*
- * Follows facet g back from the cell of v through every side that it may have touched, and notes the edges of those: it came in through a
- * touched side, and so on.
+ * Follows facet g back from the cell of v through every side that it may have touched, and notes the edges of those: it
+ * came in through a touched side, and so on.
  */
 static void follow_back(struct update *update, uint32_t g, uint32_t v) {
     const pir_tracked *tracked = update->tracked;
@@ -164,7 +167,9 @@ static void settle_of_q(struct update *update, uint32_t g) {
         follow_back(update, g, v);
 }
 
-/* Whether so many of the suspects are to be settled that leading every edge anew is less work than finding out which. */
+/*
+ * Whether so many of the suspects are to be settled that leading every edge anew is less work than finding out which.
+ */
 static bool are_many_open(const pir_tracked *tracked, const pir_suspect *suspects, uint32_t count) {
     uint32_t open = 0;
     for (uint32_t i = 0; i < count; i++)
@@ -173,8 +178,8 @@ static bool are_many_open(const pir_tracked *tracked, const pir_suspect *suspect
 }
 
 /*
- * Takes those back that are where they came from: facets of P with their edges; those of Q are listed in tracked->work.suspects, *ret_of_q of them.
- * What is left of alarms->woken is the others; returns their number.
+ * Takes those back that are where they came from: facets of P with their edges; those of Q are listed in
+ * tracked->work.suspects, *ret_of_q of them. What is left of alarms->woken is the others; returns their number.
  */
 static uint32_t take_back(struct update *update, uint32_t expired, uint32_t *ret_of_q) {
     pir_tracked *tracked = update->tracked;
