@@ -38,11 +38,11 @@ struct pass {
 /* One row of both tables. */
 static void measure(const struct pass *pass, FILE *csv, FILE *page) {
     static double times[VERSIONS_MAX][PASSES];
-    double epoch = trial_clock_cost(), reference = 0;
+    double clock = trial_clock_cost(), reference = 0;
     uint32_t passes = results_count(PASSES);
     for (uint32_t i = 0; i < passes; i++)
         for (unsigned k = 0; k < pass->versions; k++)
-            times[k][i] = pass->run(pass->context, k) - epoch;
+            times[k][i] = pass->run(pass->context, k) - clock;
     fprintf(page, "| %s | %s | %u |", pass->loop, pass->model, (unsigned)pass->items);
     for (unsigned k = 0; k < pass->versions; k++) {
         // the fastest is the first once they are sorted
@@ -163,9 +163,12 @@ static void write_update_loops(const char *model, FILE *csv, FILE *page, bool fi
     scene.time.behind += 0.01;
     pass.loop = "collect (8 steps on)";
     measure(&pass, csv, page);
-    pass.loop = "glance", pass.run = run_probe, pass.items = facets;
+    pass.loop = "probe";
+    pass.run = run_probe;
+    pass.items = facets;
     measure(&pass, csv, page);
-    pass.loop = "review", pass.run = run_review;
+    pass.loop = "review";
+    pass.run = run_review;
     measure(&pass, csv, page);
     scene_free(&scene);
 }

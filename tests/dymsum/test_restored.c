@@ -198,7 +198,8 @@ static void check_strayed(struct history *h) {
     hold(h, h->counted && pir_sum_region(h->sum, &axis, &half_angle));
     pir_quat one = pir_sum_rotation(h->sum), other = pir_sum_rotation(h->companion);
     hold(h, memcmp(&one, &other, sizeof one) == 0);
-    one = pir_sum_pairing_rotation(h->sum), other = pir_sum_pairing_rotation(h->companion);
+    one = pir_sum_pairing_rotation(h->sum);
+    other = pir_sum_pairing_rotation(h->companion);
     hold(h, memcmp(&one, &other, sizeof one) != 0 || pir_sum_same_pairing(h->sum, h->companion));
 }
 

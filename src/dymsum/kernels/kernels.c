@@ -15,8 +15,10 @@ static pir_probe see(const float *ring, uint32_t blocks, const pir_step *step, c
         float x = at[0], y = at[PIR_LANES], z = at[2 * PIR_LANES];
         float s = turned[0] * x + turned[1] * y + turned[2] * z;
         float rate = turned[4] * x + turned[5] * y + turned[6] * z;
-        if (s > highest)
-            highest = s, which = i;
+        if (s > highest) {
+            highest = s;
+            which = i;
+        }
         // seen as a negative value that rises so fast, how long it takes to come to zero, forwards and backwards
         float size = fabsf(s), rising = signbit(s) ? rate : -rate, sure = size - PIR_FLOAT_SLACK;
         float root = sure > 0 ? sqrtf(rising * rising + (sure + sure)) : 0;

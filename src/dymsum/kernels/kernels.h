@@ -138,8 +138,9 @@ static inline void pir_certificate_file_check(const pir_facets *facets, const pi
 
 /* Packs a vector and its motion as the kernels take them. */
 static inline void pir_pack_turned(pir_vec3 u, pir_vec3 w, float ret_turned[8]) {
-    ret_turned[0] = (float)u.x, ret_turned[1] = (float)u.y, ret_turned[2] = (float)u.z, ret_turned[3] = 0;
-    ret_turned[4] = (float)w.x, ret_turned[5] = (float)w.y, ret_turned[6] = (float)w.z, ret_turned[7] = 0;
+    const double from[8] = {u.x, u.y, u.z, 0, w.x, w.y, w.z, 0};
+    for (int k = 0; k < 8; k++)
+        ret_turned[k] = (float)from[k];
 }
 
 /* The versions that this build has and this processor runs, the scalar reference first; NULL past the last. */

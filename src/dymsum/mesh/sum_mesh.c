@@ -43,8 +43,10 @@ static pir_status reserve_facets(struct facets *facets, const pir_posed *posed, 
     for (uint32_t f = 0; f < p->facet_count && !p->artificial; f++, count++)
         corners += corner_bound(p, f, q, pieces->of_p[f]);
     for (uint32_t g = 0; g < q->facet_count && !q->artificial; g++)
-        if (pieces->of_q[g].facet == PIR_NO_FACE)
-            count++, corners += corner_bound(q, g, p, pieces->of_q[g]);
+        if (pieces->of_q[g].facet == PIR_NO_FACE) {
+            count++;
+            corners += corner_bound(q, g, p, pieces->of_q[g]);
+        }
     if (corners > UINT32_MAX)
         return PIR_ERR_LIMIT;
     facets->facet_room = (uint32_t)count;

@@ -38,11 +38,12 @@ void pir_crossings_finish(pir_tracked *tracked) {
 }
 
 void pir_crossings_clear(pir_tracked *tracked) {
-    for (uint32_t e = 0; e < tracked->pairing.p->edge_count; e++)
-        tracked->pairing.crossings.first[e] = PIR_NO_CROSSING;
-    tracked->pairing.crossings.used = 0;
-    tracked->pairing.crossings.free = PIR_NO_CROSSING;
-    tracked->pairing.crossings.count = 0;
+    pir_pairing *pairing = &tracked->pairing;
+    for (uint32_t e = 0; e < pairing->p->edge_count; e++)
+        pairing->crossings.first[e] = PIR_NO_CROSSING;
+    pairing->crossings.used = 0;
+    pairing->crossings.free = PIR_NO_CROSSING;
+    pairing->crossings.count = 0;
     pir_journal_note_all(&tracked->journal);
 }
 

@@ -10,12 +10,13 @@ static uint32_t most(uint32_t a, uint32_t b) {
 
 /* The arrays, but those of the certificates and of the crossings' slots. */
 static pir_layout layout_of(pir_tracked *tracked) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
     pir_pairing_work *work = &tracked->work;
     uint32_t queue = most(most(p->facet_count, q->facet_count), p->edge_count);
     return (pir_layout){
-        {PIR_ROW(tracked->pairing.fv, p->facet_count), PIR_ROW(tracked->pairing.vf, q->facet_count),
-         PIR_ROW(tracked->pairing.crossings.first, p->edge_count), PIR_ROW(tracked->touched, p->edge_count),
+        {PIR_ROW(pairing->fv, p->facet_count), PIR_ROW(pairing->vf, q->facet_count),
+         PIR_ROW(pairing->crossings.first, p->edge_count), PIR_ROW(tracked->touched, p->edge_count),
          PIR_ROW(work->queue, queue), PIR_ROW(work->mark, queue), PIR_ROW(work->rotated, p->facet_count),
          PIR_ROW(work->suspects, pir_certificate_count(tracked)), PIR_ROW(work->passes, q->facet_count)}};
 }
@@ -40,13 +41,14 @@ void pir_tracked_link_facets(pir_tracked *tracked) {
 }
 
 static bool allocate(pir_tracked *tracked) {
-    const pir_allocator *a = &tracked->pairing.allocator;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_allocator *a = &pairing->allocator;
     pir_layout layout = layout_of(tracked);
     if (!pir_layout_new(a, &layout) ||
         !pir_certificates_init(&tracked->certificates, a, pir_certificate_count(tracked)))
         return false;
     pir_tracked_link_facets(tracked);
-    return pir_crossings_reserve(tracked, pir_crossings_expected(tracked->pairing.p, tracked->pairing.q));
+    return pir_crossings_reserve(tracked, pir_crossings_expected(pairing->p, pairing->q));
 }
 
 pir_status pir_tracked_init(pir_tracked *tracked, pir_polytope *p, pir_polytope *q, pir_quat rotation,

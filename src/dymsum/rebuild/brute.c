@@ -46,38 +46,39 @@ static uint32_t crossed_half(pir_tracked *tracked, uint32_t h, pir_vec3 directio
 
 /* Links the slots [from, used) of edge e into a chain of cells that starts in its left one. */
 static void chain_crossings(pir_tracked *tracked, uint32_t e, uint32_t from) {
-    pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t v = tracked->pairing.fv[tracked->pairing.p->left[tracked->pairing.p->edge_half[e]]],
-             *link = &tracked->pairing.crossings.first[e];
+    pir_pairing *pairing = &tracked->pairing;
+    pir_crossings *c = &pairing->crossings;
+    uint32_t v = pairing->fv[pairing->p->left[pairing->p->edge_half[e]]], *link = &pairing->crossings.first[e];
     for (uint32_t n = c->used - from; n > 0; n--) {
         uint32_t slot = from;
-        while (slot < c->used && tracked->pairing.q->origin[c->half[slot]] != v)
+        while (slot < c->used && pairing->q->origin[c->half[slot]] != v)
             slot++;
         PIR_ASSERT(slot < c->used);
         *link = slot;
         link = &c->next[slot];
-        v = tracked->pairing.q->target[c->half[slot]];
+        v = pairing->q->target[c->half[slot]];
     }
     *link = PIR_NO_CROSSING;
 }
 
 pir_status pir_brute_rebuild(pir_tracked *tracked) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        tracked->work.rotated[f] = pir_rotated_normal(&tracked->pairing, f);
+        tracked->work.rotated[f] = pir_rotated_normal(pairing, f);
         for (uint32_t v = 0; v < q->vertex_count; v++)
             if (fv_is_compatible(tracked, f, v))
-                tracked->pairing.fv[f] = v;
+                pairing->fv[f] = v;
     }
     for (uint32_t g = 0; g < q->facet_count; g++) {
-        pir_vec3 turned_back = pir_turned_back_normal(&tracked->pairing, g);
+        pir_vec3 turned_back = pir_turned_back_normal(pairing, g);
         for (uint32_t v = 0; v < p->vertex_count; v++)
             if (vf_is_compatible(tracked, g, turned_back, v))
-                tracked->pairing.vf[g] = v;
+                pairing->vf[g] = v;
     }
     for (uint32_t e = 0; e < p->edge_count; e++) {
-        uint32_t h = p->edge_half[e], from = tracked->pairing.crossings.used;
-        pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
+        uint32_t h = p->edge_half[e], from = pairing->crossings.used;
+        pir_vec3 direction = pir_rotated_direction(pairing, h);
         for (uint32_t e2 = 0; e2 < q->edge_count; e2++) {
             uint32_t side = crossed_half(tracked, h, direction, e2);
             if (side != PIR_NO_CROSSING && pir_crossing_new(tracked, e, side) == PIR_NO_CROSSING)

@@ -62,14 +62,14 @@ static void read_facets(struct reading *reading, uint32_t source, uint32_t *pair
 
 static void settle_facets(struct reading *reading) {
     pir_tracked *tracked = reading->tracked;
+    pir_pairing *pairing = &tracked->pairing;
     pir_expiry unused;
-    for (uint32_t f = 0; f < tracked->pairing.p->facet_count; f++)
+    for (uint32_t f = 0; f < pairing->p->facet_count; f++)
         if (reading->tied[0][f])
-            tracked->pairing.fv[f] =
-                pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), tracked->pairing.fv[f], &unused);
-    for (uint32_t g = 0; g < tracked->pairing.q->facet_count; g++)
+            pairing->fv[f] = pir_descend_fv(tracked, f, pir_rotated_normal(pairing, f), pairing->fv[f], &unused);
+    for (uint32_t g = 0; g < pairing->q->facet_count; g++)
         if (reading->tied[1][g])
-            tracked->pairing.vf[g] = pir_descend_vf(tracked, g, tracked->pairing.vf[g], &unused);
+            pairing->vf[g] = pir_descend_vf(tracked, g, pairing->vf[g], &unused);
 }
 
 /* Marks the edges of P whose arcs start or end in a tie, overlap an arc of Q, or pass through a normal of Q. */
@@ -92,8 +92,9 @@ static void mark_tied_edges(struct reading *reading) {
 /* Takes in the crossing at vertex v of the overlay, if one is there. */
 static bool read_crossing(struct reading *reading, uint32_t v) {
     pir_tracked *tracked = reading->tracked;
+    pir_pairing *pairing = &tracked->pairing;
     const pir_cgm *cgm = reading->overlay;
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
     uint32_t of_p = PIR_CGM_NONE, of_q = PIR_CGM_NONE, cell = 0;
     struct pir_cgm_around around = pir_cgm_around_new(cgm, v);
     do {
@@ -114,40 +115,41 @@ static bool read_crossing(struct reading *reading, uint32_t v) {
     uint32_t slot = pir_crossing_new(tracked, e, end == cell ? of_q : q->twin[of_q]);
     if (slot == PIR_NO_CROSSING)
         return false;
-    tracked->pairing.crossings.next[slot] = tracked->pairing.crossings.first[e];
-    tracked->pairing.crossings.first[e] = slot;
+    pairing->crossings.next[slot] = pairing->crossings.first[e];
+    pairing->crossings.first[e] = slot;
     return true;
 }
 
 /* Puts the crossings of edge e in order. */
 static void link_crossings(struct reading *reading, uint32_t e) {
     pir_tracked *tracked = reading->tracked;
-    pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t count = 0, v = tracked->pairing.fv[tracked->pairing.p->left[tracked->pairing.p->edge_half[e]]],
-             *link = &tracked->pairing.crossings.first[e];
-    for (uint32_t slot = tracked->pairing.crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot], count++)
-        reading->slot_at[tracked->pairing.q->origin[c->half[slot]]] = slot;
+    pir_pairing *pairing = &tracked->pairing;
+    pir_crossings *c = &pairing->crossings;
+    uint32_t count = 0, v = pairing->fv[pairing->p->left[pairing->p->edge_half[e]]],
+             *link = &pairing->crossings.first[e];
+    for (uint32_t slot = pairing->crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot], count++)
+        reading->slot_at[pairing->q->origin[c->half[slot]]] = slot;
     for (; count > 0; count--) {
         uint32_t slot = reading->slot_at[v];
         *link = slot;
         link = &c->next[slot];
-        v = tracked->pairing.q->target[c->half[slot]];
+        v = pairing->q->target[c->half[slot]];
     }
     *link = PIR_NO_CROSSING;
 }
 
 /* Walks the arc of edge e by perturbed signs, its ends being located. */
 static bool walk_edge(pir_tracked *tracked, uint32_t e) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    uint32_t h = p->edge_half[e], v = tracked->pairing.fv[p->left[h]], end = tracked->pairing.fv[pir_right(p, h)];
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
+    uint32_t h = p->edge_half[e], v = pairing->fv[p->left[h]], end = pairing->fv[pir_right(p, h)];
     uint32_t entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
-    pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
+    pir_vec3 direction = pir_rotated_direction(pairing, h);
     while (v != end) {
         uint32_t side = pir_leave_cell(tracked, h, direction, v, entered), slot = pir_crossing_new(tracked, e, side);
         if (slot == PIR_NO_CROSSING)
             return false;
-        *(last == PIR_NO_CROSSING ? &tracked->pairing.crossings.first[e] : &tracked->pairing.crossings.next[last]) =
-            slot;
+        *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &pairing->crossings.next[last]) = slot;
         last = slot;
         entered = side;
         v = q->target[side];
@@ -157,14 +159,15 @@ static bool walk_edge(pir_tracked *tracked, uint32_t e) {
 
 static bool read_pairing(struct reading *reading) {
     pir_tracked *tracked = reading->tracked;
-    read_facets(reading, 0, tracked->pairing.fv, tracked->pairing.p->facet_count);
-    read_facets(reading, 1, tracked->pairing.vf, tracked->pairing.q->facet_count);
+    pir_pairing *pairing = &tracked->pairing;
+    read_facets(reading, 0, pairing->fv, pairing->p->facet_count);
+    read_facets(reading, 1, pairing->vf, pairing->q->facet_count);
     settle_facets(reading);
     mark_tied_edges(reading);
     for (uint32_t v = 0; v < pir_cgm_vertices(reading->overlay); v++)
         if (!read_crossing(reading, v))
             return false;
-    for (uint32_t e = 0; e < tracked->pairing.p->edge_count; e++) {
+    for (uint32_t e = 0; e < pairing->p->edge_count; e++) {
         if (!reading->tied_edge[e])
             link_crossings(reading, e);
         else if (!walk_edge(tracked, e))
@@ -174,8 +177,9 @@ static bool read_pairing(struct reading *reading) {
 }
 
 static bool read_overlay(pir_tracked *tracked, const pir_cgm *overlay) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    const pir_allocator *a = &tracked->pairing.allocator;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
+    const pir_allocator *a = &pairing->allocator;
     size_t flags = (size_t)p->facet_count + q->facet_count + p->edge_count;
     uint8_t *flag = PIR_ZEROED(a, uint8_t, flags);
     struct reading reading = {.tracked = tracked, .overlay = overlay, .slot_at = PIR_NEW(a, uint32_t, q->vertex_count)};
@@ -192,21 +196,21 @@ static bool read_overlay(pir_tracked *tracked, const pir_cgm *overlay) {
 }
 
 pir_status pir_cgm_rebuild(pir_tracked *tracked, pir_cgm **map_q) {
+    pir_pairing *pairing = &tracked->pairing;
     pir_cgm *map = NULL, *overlay = NULL;
     pir_status status = PIR_OK;
     // Q stands and, whatever its scale, keeps its directions: its map is made once
     if (!*map_q)
-        status = pir_cgm_create(tracked->pairing.q, NULL, &tracked->pairing.allocator, map_q);
+        status = pir_cgm_create(pairing->q, NULL, &pairing->allocator, map_q);
     if (status == PIR_OK)
-        status = pir_cgm_create(tracked->pairing.p, &tracked->pairing.signs.rotation.given, &tracked->pairing.allocator,
-                                &map);
+        status = pir_cgm_create(pairing->p, &pairing->signs.rotation.given, &pairing->allocator, &map);
     if (status == PIR_OK)
         status = pir_cgm_overlay(map, *map_q, &overlay);
     if (status == PIR_OK && !read_overlay(tracked, overlay))
         status = PIR_ERR_MEMORY;
     if (status == PIR_OK) {
-        tracked->pairing.signs.by_filter += overlay->by_filter + map->by_filter;
-        tracked->pairing.signs.by_exact += overlay->by_exact + map->by_exact;
+        pairing->signs.by_filter += overlay->by_filter + map->by_filter;
+        pairing->signs.by_exact += overlay->by_exact + map->by_exact;
         pir_tracked_expire_all(tracked);
     }
     pir_cgm_destroy(overlay);

@@ -31,8 +31,10 @@ static uint32_t step_finely(pir_tracked *tracked, const struct faller *faller, u
         int sign = faller->of_p ? pir_sign_facet_half(&tracked->pairing, faller->facet, faller->turned, h, &s)
                                 : pir_sign_facet_half_back(&tracked->pairing, faller->facet, faller->turned, h, &s);
         pir_expiry_take_sign(ret_expiry, s, pir_vec_dot(faller->motion, other->direction[h]));
-        if (sign > 0 && (best == v || s > most))
-            best = other->target[h], most = s;
+        if (sign > 0 && (best == v || s > most)) {
+            best = other->target[h];
+            most = s;
+        }
     }
     return best;
 }

@@ -62,64 +62,67 @@ enum { LOCATED = 1 };
  * not be yet. The crossings are listed for the edge in its own direction.
  */
 static bool walk_arc(pir_tracked *tracked, uint32_t h) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    pir_pairing_work *work = &tracked->work;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
     uint32_t e = p->edge[h], from = p->left[h], to = pir_right(p, h);
-    bool forward = p->edge_half[e] == h, located = tracked->work.mark[to] & LOCATED;
-    pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h), end = tracked->work.rotated[to];
-    uint32_t v = tracked->pairing.fv[from], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
-    while (q->half_count > 0 && !(located && v == tracked->pairing.fv[to])) {
+    bool forward = p->edge_half[e] == h, located = work->mark[to] & LOCATED;
+    pir_vec3 direction = pir_rotated_direction(pairing, h), end = work->rotated[to];
+    uint32_t v = pairing->fv[from], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
+    while (q->half_count > 0 && !(located && v == pairing->fv[to])) {
         uint32_t side = pir_leave_cell(tracked, h, direction, v, entered);
         double unused;
-        if (!located && pir_sign_facet_half(&tracked->pairing, to, end, side, &unused) < 0)
+        if (!located && pir_sign_facet_half(pairing, to, end, side, &unused) < 0)
             break;
         uint32_t slot = pir_crossing_new(tracked, e, forward ? side : q->twin[side]);
         if (slot == PIR_NO_CROSSING)
             return false;
         // append when walking forward, prepend when walking back
         if (!forward) {
-            tracked->pairing.crossings.next[slot] = tracked->pairing.crossings.first[e];
-            tracked->pairing.crossings.first[e] = slot;
+            pairing->crossings.next[slot] = pairing->crossings.first[e];
+            pairing->crossings.first[e] = slot;
         } else if (last == PIR_NO_CROSSING) {
-            tracked->pairing.crossings.first[e] = slot;
+            pairing->crossings.first[e] = slot;
         } else {
-            tracked->pairing.crossings.next[last] = slot;
+            pairing->crossings.next[last] = slot;
         }
         last = slot;
         entered = side;
         v = q->target[side];
     }
-    tracked->pairing.fv[to] = v;
-    tracked->work.mark[to] |= LOCATED;
+    pairing->fv[to] = v;
+    work->mark[to] |= LOCATED;
     return true;
 }
 
 /* Locates every facet of P and walks every arc. */
 static bool walk_arcs(pir_tracked *tracked) {
-    const pir_polytope *p = tracked->pairing.p;
+    pir_pairing_work *work = &tracked->work;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p;
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        tracked->work.rotated[f] = pir_rotated_normal(&tracked->pairing, f);
-        tracked->work.mark[f] = 0;
+        work->rotated[f] = pir_rotated_normal(pairing, f);
+        work->mark[f] = 0;
     }
     if (p->facet_count == 0)
         return true;
     pir_expiry unused;
-    tracked->pairing.fv[0] = pir_descend_fv(tracked, 0, tracked->work.rotated[0], 0, &unused);
-    tracked->work.mark[0] = LOCATED;
+    pairing->fv[0] = pir_descend_fv(tracked, 0, work->rotated[0], 0, &unused);
+    work->mark[0] = LOCATED;
     uint32_t head = 0, tail = 0;
-    tracked->work.queue[tail++] = 0;
+    work->queue[tail++] = 0;
     while (head < tail) {
-        uint32_t f = tracked->work.queue[head++];
+        uint32_t f = work->queue[head++];
         for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
             uint32_t h = p->loop[i], to = pir_right(p, h);
-            bool is_new = !(tracked->work.mark[to] & LOCATED);
+            bool is_new = !(work->mark[to] & LOCATED);
             // an arc between two located facets is walked from the edge's own left one
-            if (!is_new &&
-                (p->edge_half[p->edge[h]] != h || tracked->pairing.crossings.first[p->edge[h]] != PIR_NO_CROSSING))
+            if (!is_new && (p->edge_half[p->edge[h]] != h || pairing->crossings.first[p->edge[h]] != PIR_NO_CROSSING))
                 continue;
             if (!walk_arc(tracked, h))
                 return false;
             if (is_new)
-                tracked->work.queue[tail++] = to;
+                work->queue[tail++] = to;
         }
     }
     return true;
@@ -127,35 +130,37 @@ static bool walk_arcs(pir_tracked *tracked) {
 
 /* Locates the facets of Q: those beside a crossing first, the rest from a neighbour. */
 static void locate_facets_of_q(pir_tracked *tracked) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    pir_pairing_work *work = &tracked->work;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
     for (uint32_t g = 0; g < q->facet_count; g++)
-        tracked->work.mark[g] = 0;
-    for (uint32_t i = 0; i < tracked->pairing.crossings.used; i++) {
-        uint32_t half = p->edge_half[tracked->pairing.crossings.edge[i]], h = tracked->pairing.crossings.half[i];
-        tracked->pairing.vf[pir_right(q, h)] = p->origin[half];
-        tracked->pairing.vf[q->left[h]] = p->target[half];
-        tracked->work.mark[pir_right(q, h)] = tracked->work.mark[q->left[h]] = LOCATED;
+        work->mark[g] = 0;
+    for (uint32_t i = 0; i < pairing->crossings.used; i++) {
+        uint32_t half = p->edge_half[pairing->crossings.edge[i]], h = pairing->crossings.half[i];
+        pairing->vf[pir_right(q, h)] = p->origin[half];
+        pairing->vf[q->left[h]] = p->target[half];
+        work->mark[pir_right(q, h)] = work->mark[q->left[h]] = LOCATED;
     }
     uint32_t head = 0, tail = 0;
     for (uint32_t g = 0; g < q->facet_count; g++)
-        if (tracked->work.mark[g] & LOCATED)
-            tracked->work.queue[tail++] = g;
+        if (work->mark[g] & LOCATED)
+            work->queue[tail++] = g;
     if (tail == 0 && q->facet_count > 0) {
-        tracked->pairing.vf[0] = 0;
-        tracked->work.mark[0] = LOCATED;
-        tracked->work.queue[tail++] = 0;
+        pairing->vf[0] = 0;
+        work->mark[0] = LOCATED;
+        work->queue[tail++] = 0;
     }
     while (head < tail) {
-        uint32_t g = tracked->work.queue[head++];
+        uint32_t g = work->queue[head++];
         pir_expiry unused;
-        tracked->pairing.vf[g] = pir_descend_vf(tracked, g, tracked->pairing.vf[g], &unused);
+        pairing->vf[g] = pir_descend_vf(tracked, g, pairing->vf[g], &unused);
         for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
             uint32_t beside = pir_right(q, q->loop[i]);
-            if (tracked->work.mark[beside] & LOCATED)
+            if (work->mark[beside] & LOCATED)
                 continue;
-            tracked->work.mark[beside] = LOCATED;
-            tracked->pairing.vf[beside] = tracked->pairing.vf[g];
-            tracked->work.queue[tail++] = beside;
+            work->mark[beside] = LOCATED;
+            pairing->vf[beside] = pairing->vf[g];
+            work->queue[tail++] = beside;
         }
     }
 }

@@ -174,13 +174,14 @@ static void drop_members(const struct place *place) {
 }
 
 static void drop_edge(pir_tracked *tracked, uint32_t e) {
-    uint32_t slot = tracked->pairing.crossings.first[e];
+    pir_pairing *pairing = &tracked->pairing;
+    uint32_t slot = pairing->crossings.first[e];
     while (slot != PIR_NO_CROSSING) {
-        uint32_t next = tracked->pairing.crossings.next[slot];
+        uint32_t next = pairing->crossings.next[slot];
         pir_crossing_free(tracked, slot);
         slot = next;
     }
-    tracked->pairing.crossings.first[e] = PIR_NO_CROSSING;
+    pairing->crossings.first[e] = PIR_NO_CROSSING;
     tracked->touched[e] = PIR_INACTIVE;
 }
 
@@ -345,19 +346,18 @@ static uint32_t count_with_cells(const uint32_t *cell, uint32_t count) {
 
 bool pir_region_adopt(pir_region *region, pir_tracked *tracked, const pir_cone *cone, const pir_cover *cover,
                       bool *ret_fits) {
+    pir_pairing *pairing = &tracked->pairing;
     if (!pir_region_reserve(region, tracked))
         return false;
     region->cone = *cone;
     region->cover = *cover;
     region->cover.whole = is_whole(region, tracked);
-    uint32_t of_p = count_with_cells(tracked->pairing.fv, tracked->pairing.p->facet_count),
-             of_q = count_with_cells(tracked->pairing.vf, tracked->pairing.q->facet_count),
-             pairs = tracked->pairing.crossings.count;
+    uint32_t of_p = count_with_cells(pairing->fv, pairing->p->facet_count),
+             of_q = count_with_cells(pairing->vf, pairing->q->facet_count), pairs = pairing->crossings.count;
     pir_region_choose(region, tracked);
     region->admits = false;
-    *ret_fits = fit(&region->sweep.p.members, tracked->pairing.fv, of_p) &&
-                fit(&region->sweep.q.members, tracked->pairing.vf, of_q) && tracked->pairing.crossings.count == pairs &&
-                pir_region_holds(region, &tracked->pairing.signs.rotation);
+    *ret_fits = fit(&region->sweep.p.members, pairing->fv, of_p) && fit(&region->sweep.q.members, pairing->vf, of_q) &&
+                pairing->crossings.count == pairs && pir_region_holds(region, &pairing->signs.rotation);
     return true;
 }
 

@@ -21,25 +21,27 @@
 #include "dymsum/rebuild/walk.h"
 
 bool pir_move_start(pir_tracked *tracked, uint32_t e, uint32_t h) {
-    pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t first = tracked->pairing.crossings.first[e];
+    pir_pairing *pairing = &tracked->pairing;
+    pir_crossings *c = &pairing->crossings;
+    uint32_t first = pairing->crossings.first[e];
     if (first != PIR_NO_CROSSING && c->half[first] == h) {
-        tracked->pairing.crossings.first[e] = c->next[first];
+        pairing->crossings.first[e] = c->next[first];
         pir_crossing_free(tracked, first);
         tracked->statistics.repaired++;
         return true;
     }
-    uint32_t slot = pir_crossing_new(tracked, e, tracked->pairing.q->twin[h]);
+    uint32_t slot = pir_crossing_new(tracked, e, pairing->q->twin[h]);
     if (slot == PIR_NO_CROSSING)
         return false;
     c->next[slot] = first;
-    tracked->pairing.crossings.first[e] = slot;
+    pairing->crossings.first[e] = slot;
     return true;
 }
 
 bool pir_move_end(pir_tracked *tracked, uint32_t e, uint32_t h) {
-    pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t *link = &tracked->pairing.crossings.first[e], back = tracked->pairing.q->twin[h];
+    pir_pairing *pairing = &tracked->pairing;
+    pir_crossings *c = &pairing->crossings;
+    uint32_t *link = &pairing->crossings.first[e], back = pairing->q->twin[h];
     while (*link != PIR_NO_CROSSING && c->next[*link] != PIR_NO_CROSSING)
         link = &c->next[*link];
     if (*link != PIR_NO_CROSSING && c->half[*link] == back) {
@@ -52,7 +54,7 @@ bool pir_move_end(pir_tracked *tracked, uint32_t e, uint32_t h) {
     uint32_t last = *link, slot = pir_crossing_new(tracked, e, h);
     if (slot == PIR_NO_CROSSING)
         return false;
-    *(last == PIR_NO_CROSSING ? &tracked->pairing.crossings.first[e] : &c->next[last]) = slot;
+    *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->next[last]) = slot;
     return true;
 }
 
@@ -62,12 +64,15 @@ static uint32_t ring_before(const pir_polytope *p, uint32_t half) {
 }
 
 bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) {
-    const pir_polytope *q = tracked->pairing.q;
-    pir_crossings *c = &tracked->pairing.crossings;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *q = pairing->q;
+    pir_crossings *c = &pairing->crossings;
     // the first crossing of an arc of g, on the side where g was
-    uint32_t before = PIR_NO_CROSSING, at = tracked->pairing.crossings.first[e];
-    while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) != g)
-        before = at, at = c->next[at];
+    uint32_t before = PIR_NO_CROSSING, at = pairing->crossings.first[e];
+    while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) != g) {
+        before = at;
+        at = c->next[at];
+    }
     PIR_ASSERT(at != PIR_NO_CROSSING);
     uint32_t from = c->half[at], to = q->origin[from];
     // out with the run of them
@@ -85,7 +90,7 @@ bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) 
         if (slot == PIR_NO_CROSSING)
             return false;
         c->next[slot] = at;
-        *(before == PIR_NO_CROSSING ? &tracked->pairing.crossings.first[e] : &c->next[before]) = slot;
+        *(before == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->next[before]) = slot;
         before = slot;
         if (q->target[half] == to)
             return true;
@@ -119,13 +124,13 @@ static uint32_t take_crossing(pir_tracked *tracked, uint32_t *list, uint32_t hal
 }
 
 bool pir_derive_edge(pir_tracked *tracked, uint32_t e) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t half = p->edge_half[e], end = tracked->pairing.fv[pir_right(p, half)],
-             v = tracked->pairing.fv[p->left[half]];
-    pir_vec3 direction = pir_rotated_direction(&tracked->pairing, half);
-    uint32_t old = tracked->pairing.crossings.first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
-    tracked->pairing.crossings.first[e] = PIR_NO_CROSSING;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p, *q = pairing->q;
+    pir_crossings *c = &pairing->crossings;
+    uint32_t half = p->edge_half[e], end = pairing->fv[pir_right(p, half)], v = pairing->fv[p->left[half]];
+    pir_vec3 direction = pir_rotated_direction(pairing, half);
+    uint32_t old = pairing->crossings.first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
+    pairing->crossings.first[e] = PIR_NO_CROSSING;
     while (v != end) {
         uint32_t slot = take_crossing(tracked, &old, half, direction, v);
         if (slot == PIR_NO_CROSSING)
@@ -133,7 +138,7 @@ bool pir_derive_edge(pir_tracked *tracked, uint32_t e) {
         if (slot == PIR_NO_CROSSING)
             return false;
         c->next[slot] = PIR_NO_CROSSING;
-        *(last == PIR_NO_CROSSING ? &tracked->pairing.crossings.first[e] : &c->next[last]) = slot;
+        *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->next[last]) = slot;
         last = slot;
         entered = c->half[slot];
         v = q->target[entered];

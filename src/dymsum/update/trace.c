@@ -55,7 +55,9 @@ static void add_exit(struct exit *exit, uint32_t half, double s, double rising, 
             return;
         exit->known = least > most_before;
     }
-    exit->half = half, exit->s = s, exit->rising = rising;
+    exit->half = half;
+    exit->s = s;
+    exit->rising = rising;
 }
 
 /* Looks for the side through which the facet has left the cell of v. */

@@ -91,21 +91,22 @@ static void pass_facets(struct update *update) {
 /* Facet f of P may have touched one side or another. */
 static void settle_of_p(struct update *update, uint32_t f) {
     pir_tracked *tracked = update->tracked;
-    const pir_polytope *p = tracked->pairing.p;
+    pir_pairing *pairing = &tracked->pairing;
+    const pir_polytope *p = pairing->p;
     pir_trace trace;
     if (!update->all && pir_trace_fv(tracked, f, &trace)) {
         pir_tracked_certify(tracked, f, &trace.expiry);
         tracked->statistics.repaired += trace.count;
-        tracked->pairing.fv[f] = trace.cell;
+        pairing->fv[f] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             cross_of_p(update, f, trace.crossed[i]);
         return;
     }
     pir_expiry expiry;
-    uint32_t v = pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), tracked->pairing.fv[f], &expiry);
+    uint32_t v = pir_descend_fv(tracked, f, pir_rotated_normal(pairing, f), pairing->fv[f], &expiry);
     pir_tracked_certify(tracked, f, &expiry);
-    tracked->statistics.repaired += v != tracked->pairing.fv[f];
-    tracked->pairing.fv[f] = v;
+    tracked->statistics.repaired += v != pairing->fv[f];
+    pairing->fv[f] = v;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && !update->all; i++)
         note_edge(update, p->edge[p->loop[i]]);
 }
@@ -149,20 +150,21 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
 /* Facet g of Q may have touched one side or another. */
 static void settle_of_q(struct update *update, uint32_t g) {
     pir_tracked *tracked = update->tracked;
+    pir_pairing *pairing = &tracked->pairing;
     pir_trace trace;
     if (!update->all && pir_trace_vf(tracked, g, &trace)) {
         pir_tracked_certify(tracked, tracked->q_facets.first_certificate + g, &trace.expiry);
         tracked->statistics.repaired += trace.count;
-        tracked->pairing.vf[g] = trace.cell;
+        pairing->vf[g] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             note_crossing_of_q(update, g, trace.crossed[i]);
         return;
     }
     pir_expiry expiry;
-    uint32_t v = pir_descend_vf(tracked, g, tracked->pairing.vf[g], &expiry);
+    uint32_t v = pir_descend_vf(tracked, g, pairing->vf[g], &expiry);
     pir_tracked_certify(tracked, tracked->q_facets.first_certificate + g, &expiry);
-    tracked->statistics.repaired += v != tracked->pairing.vf[g];
-    tracked->pairing.vf[g] = v;
+    tracked->statistics.repaired += v != pairing->vf[g];
+    pairing->vf[g] = v;
     if (!update->all)
         follow_back(update, g, v);
 }
