@@ -194,7 +194,13 @@ static double run_scan(void *context, unsigned index) {
     const pir_scan *scan = pir_scan_version(index);
     const pir_mat3 r = {{{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}}};
     const pir_vec3 x = {0.3, -0.2, 0.5};
-    double(*a)[PLANES + PIR_SCAN_LANES] = planes->room, least[3], start = trial_now();
+    double(*a)[PLANES + PIR_SCAN_LANES] = planes->room, least[3];
+    const pir_facet_lanes facets = {lanes(planes, 3), a[9]};
+    pir_slack_lanes slacks = {.to = lanes(planes, 12), .s = a[15]};
+    const pir_lasting_lanes lasting = {a[9], a[10], a[11], a[3], lanes(planes, 6)};
+    const pir_box_lanes boxes = {lanes(planes, 0), lanes(planes, 3), a[9], a[10]};
+    const pir_cap_lanes caps = {lanes(planes, 0), lanes(planes, 3), a[9], a[10]};
+    double start = trial_now();
     switch (planes->loop) {
     case 0:
         scan->turn(PLANES, &r, lanes(planes, 0), lanes(planes, 12));
@@ -209,19 +215,19 @@ static double run_scan(void *context, unsigned index) {
         scan->look(PLANES, lanes(planes, 0), a[9], a[10], x, 0x1p-46, least);
         break;
     case 4:
-        scan->slacks(PLANES, &r, lanes(planes, 0), x, lanes(planes, 3), a[9], lanes(planes, 12), a[15], least);
+        scan->slacks(PLANES, &r, lanes(planes, 0), x, &facets, &slacks);
         break;
     case 5:
         scan->least(PLANES, lanes(planes, 0), a[9], x);
         break;
     case 6:
-        scan->bounds(PLANES, a[9], a[10], a[11], a[3], lanes(planes, 6), 0.5, x, 0x1p-46, a[15]);
+        scan->bounds(PLANES, &lasting, 0.5, x, 0x1p-46, a[15]);
         break;
     case 7:
-        scan->boxes(PLANES, lanes(planes, 0), lanes(planes, 3), a[9], a[10], x, 0x1p-46, a[15]);
+        scan->boxes(PLANES, &boxes, x, 0x1p-46, a[15]);
         break;
     default:
-        scan->caps(PLANES, lanes(planes, 0), lanes(planes, 3), a[9], a[10], x, 0x1p-46, a[15]);
+        scan->caps(PLANES, &caps, x, 0x1p-46, a[15]);
     }
     return trial_now() - start;
 }

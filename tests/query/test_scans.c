@@ -45,12 +45,19 @@ static void run(const pir_scan *scan, struct data in[4], struct outcome *out) {
     out->most = scan->cross(COUNT, lanes(&in[0]), lanes(&in[1]), lanes(&in[2]), lanes(&out->normals), out->h, out->err);
     scan->look(COUNT, lanes(&out->normals), out->h, out->err, x, 0x1p-40, out->least);
     out->lowest_slack = scan->least(COUNT, lanes(&out->normals), out->h, x);
-    scan->boxes(COUNT, lanes(&in[0]), lanes(&in[1]), in[3].x, in[3].y, x, 0x1p-44, out->boxes);
-    scan->slacks(COUNT, &r, lanes(&in[1]), x, lanes(&in[2]), in[3].z, lanes(&out->moved), out->slacks, out->lowest);
-    scan->bounds(COUNT, in[3].x, in[3].y, in[3].z, in[1].y, lanes(&in[2]), 3.5, x, 0x1p-44, out->bounds);
+    pir_box_lanes boxes = {lanes(&in[0]), lanes(&in[1]), in[3].x, in[3].y};
+    scan->boxes(COUNT, &boxes, x, 0x1p-44, out->boxes);
+    pir_facet_lanes facets = {lanes(&in[2]), in[3].z};
+    pir_slack_lanes slacks = {.to = lanes(&out->moved), .s = out->slacks};
+    scan->slacks(COUNT, &r, lanes(&in[1]), x, &facets, &slacks);
+    out->lowest[0] = slacks.least;
+    out->lowest[1] = slacks.along;
+    pir_lasting_lanes lasting = {in[3].x, in[3].y, in[3].z, in[1].y, lanes(&in[2])};
+    scan->bounds(COUNT, &lasting, 3.5, x, 0x1p-44, out->bounds);
     for (int i = 0; i < COUNT; i++)
         out->caps[i] = i % 3 ? -HUGE_VAL : in[3].x[i];
-    out->high = scan->caps(COUNT, lanes(&out->normals), lanes(&in[1]), in[3].y, in[3].z, x, 0x1p-44, out->caps);
+    pir_cap_lanes caps = {lanes(&out->normals), lanes(&in[1]), in[3].y, in[3].z};
+    out->high = scan->caps(COUNT, &caps, x, 0x1p-44, out->caps);
 }
 
 static void every_version_gives_the_same_bits(void **state) {
@@ -108,13 +115,15 @@ static void caps_bound_by_their_widest_angle(void **state) {
             n[i] = test_random_direction(&random);
             w[i] = pir_vec_scale(test_random_direction(&random), 0.1 + 2 * fabs(test_random_unit(&random)));
             angle[i] = fabs(test_random_unit(&random)) * acos(0);
-            axis.x[i] = n[i].x, axis.y[i] = n[i].y, axis.z[i] = n[i].z;
-            corner.x[i] = w[i].x + x.x, corner.y[i] = w[i].y + x.y, corner.z[i] = w[i].z + x.z;
-            cosine[i] = cos(angle[i]), sine[i] = sin(angle[i]), low[i] = -HUGE_VAL;
+            pir_lane_put(lanes(&axis), (uint32_t)i, n[i]);
+            pir_lane_put(lanes(&corner), (uint32_t)i, pir_vec_add(w[i], x));
+            cosine[i] = cos(angle[i]);
+            sine[i] = sin(angle[i]);
+            low[i] = -HUGE_VAL;
         }
         const double error = 0x1p-30;
-        double high =
-            pir_scan_version(0)->caps(PIR_SCAN_LANES, lanes(&axis), lanes(&corner), cosine, sine, x, error, low);
+        pir_cap_lanes caps = {lanes(&axis), lanes(&corner), cosine, sine};
+        double high = pir_scan_version(0)->caps(PIR_SCAN_LANES, &caps, x, error, low);
         double least = HUGE_VAL;
         for (int i = 0; i < PIR_SCAN_LANES; i++) {
             double length = sqrt(pir_vec_dot(w[i], w[i])), along = pir_vec_dot(n[i], w[i]);
@@ -134,15 +143,17 @@ static void slacks_are_those_of_turned_points(void **state) {
     test_random random = test_random_case("scans", 1002);
     const pir_mat3 r = {{{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}}};
     struct data from, n, to;
-    double base[COUNT], s[COUNT], least[2], slack = HUGE_VAL, along = HUGE_VAL;
+    double base[COUNT], s[COUNT], slack = HUGE_VAL, along = HUGE_VAL;
     for (int i = 0; i < COUNT; i++) {
         pir_vec3 a = test_random_direction(&random), b = test_random_direction(&random);
-        from.x[i] = a.x, from.y[i] = a.y, from.z[i] = a.z;
-        n.x[i] = b.x, n.y[i] = b.y, n.z[i] = b.z;
+        pir_lane_put(lanes(&from), (uint32_t)i, a);
+        pir_lane_put(lanes(&n), (uint32_t)i, b);
         base[i] = test_random_unit(&random);
     }
     pir_vec3 x = test_random_direction(&random);
-    pir_scan_version(0)->slacks(COUNT, &r, lanes(&from), x, lanes(&n), base, lanes(&to), s, least);
+    pir_facet_lanes facets = {lanes(&n), base};
+    pir_slack_lanes slacks = {.to = lanes(&to), .s = s};
+    pir_scan_version(0)->slacks(COUNT, &r, lanes(&from), x, &facets, &slacks);
     for (int i = 0; i < COUNT; i++) {
         pir_vec3 u = pir_vec_sub(pir_mat_apply(&r, (pir_vec3){from.x[i], from.y[i], from.z[i]}), x);
         pir_vec3 normal = {n.x[i], n.y[i], n.z[i]};
@@ -151,7 +162,7 @@ static void slacks_are_those_of_turned_points(void **state) {
         slack = fmin(slack, s[i]);
         along = fmin(along, pir_vec_dot(normal, x));
     }
-    assert_true(least[0] == slack && fabs(least[1] - along) < 1e-14);
+    assert_true(slacks.least == slack && fabs(slacks.along - along) < 1e-14);
 }
 
 static int compare_versions(void) {

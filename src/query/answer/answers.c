@@ -154,12 +154,11 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
     bool beyond = simplex.lower > limit + DISTANCE_ERROR * placement->reach;
     bool proven = far && !beyond && pir_closest_prove(&query->search.groups, placement, &simplex, &nearest);
     if (!proven && !(far && pir_prove_outside(&query->search.groups, placement, &simplex, cache))) {
-        uint32_t slot;
-        pir_state state = pir_state_find(&query->search, placement, cache, &slot, ret_touching, &result->steps);
+        pir_piece separating;
+        pir_state state = pir_state_find(&query->search, placement, cache, &separating, ret_touching, &result->steps);
         if (state != PIR_OUTSIDE)
             return state;
-        if (slot != PIR_NO_PLANE)
-            pir_piece_keep(cache, query->search.groups.planes.piece[slot]);
+        pir_piece_keep(cache, separating);
     }
     keep_simplex(cache, &simplex);
     if (beyond) {
@@ -179,9 +178,8 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
 /* The state alone: cheap certain answers first, then the search. */
 static pir_state overlap(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                          pir_least *ret_touching, uint32_t *steps) {
-    uint32_t slot;
-    if (pir_piece_recall(&query->search.groups, cache, &slot) &&
-        pir_plane_separates(&query->search.groups.planes, slot, placement))
+    pir_plane last;
+    if (pir_piece_recall(&query->search.groups, cache, &last) && pir_plane_separates(&last, placement))
         return PIR_OUTSIDE;
     bool inside = query->search.groups.count > 0;
     pir_bounds_find(&query->search.bounds, &query->search.groups, placement, 0);
@@ -197,9 +195,10 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
         keep_simplex(cache, &simplex);
         return PIR_OUTSIDE;
     }
-    pir_state state = pir_state_find(&query->search, placement, cache, &slot, ret_touching, steps);
-    if (state == PIR_OUTSIDE && slot != PIR_NO_PLANE)
-        pir_piece_keep(cache, query->search.groups.planes.piece[slot]);
+    pir_piece separating;
+    pir_state state = pir_state_find(&query->search, placement, cache, &separating, ret_touching, steps);
+    if (state == PIR_OUTSIDE)
+        pir_piece_keep(cache, separating);
     return state;
 }
 
@@ -209,9 +208,8 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
  */
 static pir_state depth_and_state(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                                  pir_least *ret_least, uint32_t *steps) {
-    uint32_t slot;
-    if (pir_piece_recall(&query->search.groups, cache, &slot) &&
-        pir_plane_separates(&query->search.groups.planes, slot, placement))
+    pir_plane last;
+    if (pir_piece_recall(&query->search.groups, cache, &last) && pir_plane_separates(&last, placement))
         return PIR_OUTSIDE;
     ret_least->some = pir_depth_find(&query->search, placement, cache, &ret_least->facet, steps);
     if (ret_least->some) {
@@ -225,11 +223,12 @@ static pir_state depth_and_state(pir_query *query, const pir_placement *placemen
         }
     }
     pir_least touching;
-    pir_state state = pir_state_find(&query->search, placement, cache, &slot, &touching, steps);
+    pir_piece separating;
+    pir_state state = pir_state_find(&query->search, placement, cache, &separating, &touching, steps);
     if (state == PIR_BOUNDARY)
         *ret_least = touching;
-    else if (state == PIR_OUTSIDE && slot != PIR_NO_PLANE)
-        pir_piece_keep(cache, query->search.groups.planes.piece[slot]);
+    else if (state == PIR_OUTSIDE)
+        pir_piece_keep(cache, separating);
     return state;
 }
 

@@ -77,9 +77,9 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
         *ret_result = result;
         return PIR_OK;
     }
-    uint32_t slot;
+    pir_piece separating;
     pir_least touching;
-    result.state = pir_state_find(&query->search, &placement, NULL, &slot, &touching, &result.steps);
+    result.state = pir_state_find(&query->search, &placement, NULL, &separating, &touching, &result.steps);
     result.outcome = PIR_NO_HIT;
     if (result.state == PIR_INSIDE) {
         pir_clip clip = clip_line(query, &line, &result.steps);
@@ -106,9 +106,9 @@ pir_status pir_query_directional_distance(pir_query *query, const pir_query_inpu
     if (status != PIR_OK)
         return status;
     pir_query_result result = {0};
-    uint32_t slot;
+    pir_piece separating;
     pir_least touching;
-    result.state = pir_state_find(&query->search, &placement, NULL, &slot, &touching, &result.steps);
+    result.state = pir_state_find(&query->search, &placement, NULL, &separating, &touching, &result.steps);
     result.outcome = result.state == PIR_INSIDE ? PIR_OVERLAPPING : PIR_TOUCHING;
     if (result.state == PIR_OUTSIDE) {
         pir_arrival arrival;
@@ -138,7 +138,7 @@ static bool moves_in(pir_query *query, const pir_line *line, pir_facet *ret_face
         const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count; i++) {
             pir_facet facet;
-            if (fabs(pir_plane_slack(planes, i, placement->x)) > placement->error * planes->err[i] ||
+            if (fabs(pir_planes_slack(planes, i, placement->x)) > placement->error * planes->err[i] ||
                 pir_side_exact(&query->exact, planes->piece[i], placement->translation) != 0)
                 continue;
             if (pir_line_rate(&query->exact, line, planes->piece[i]) >= 0)

@@ -19,7 +19,7 @@ static pir_least next_within(pir_query *query, const pir_placement *placement, d
         const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count; i++) {
             pir_facet facet;
-            if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit ||
+            if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit ||
                 !pir_facet_of(&query->exact, planes->piece[i], &facet) || (after && !pir_facet_before(after, &facet)) ||
                 (next.some && !pir_facet_before(&facet, &next.facet)) ||
                 pir_facet_slack(&query->exact, placement, &facet) > limit)

@@ -50,9 +50,9 @@ pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *i
     pir_vec3 w = pir_vec_sub(placement.x, pir_frame_vertex(&query->frame, best.a, best.b));
     pir_query_result result = {
         .outcome = PIR_SEPARATED, .distance = pir_frame_length(&query->frame, length), .steps = 1};
-    uint32_t slot;
+    pir_piece separating;
     pir_least touching;
-    result.state = pir_state_find(&query->search, &placement, NULL, &slot, &touching, &result.steps);
+    result.state = pir_state_find(&query->search, &placement, NULL, &separating, &touching, &result.steps);
     result.normal = length > 0 ? pir_vec_scale(w, 1 / length) : (pir_vec3){1, 0, 0};
     result.point_q = pir_frame_world(&query->frame, query->frame.q.vertex[best.b]);
     result.witness = (pir_witness){{PIR_FEATURE_VERTEX, best.a}, {PIR_FEATURE_VERTEX, best.b}};

@@ -114,10 +114,9 @@ static pir_status follow(pir_query *query) {
 pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {
     if (!query || !input)
         return PIR_ERR_ARGUMENT;
-    if (isnan(input->radius_p) || isnan(input->radius_q) || isnan(input->cutoff))
-        return PIR_ERR_NOT_FINITE;
-    if (!(input->radius_p >= 0 && input->radius_p < HUGE_VAL && input->radius_q >= 0 && input->radius_q < HUGE_VAL))
-        return PIR_ERR_ARGUMENT;
+    double p = input->radius_p, q = input->radius_q;
+    if (!(p >= 0 && p < HUGE_VAL && q >= 0 && q < HUGE_VAL) || isnan(input->cutoff))
+        return isnan(p) || isnan(q) || isnan(input->cutoff) ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
     pir_status status = follow(query);
     return status == PIR_OK ? pir_frame_place(&query->frame, input->translation, ret_placement) : status;
 }

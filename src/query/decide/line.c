@@ -56,9 +56,9 @@ struct crossing {
 };
 
 static struct crossing crossing_of(const pir_planes *planes, const pir_line *line, uint32_t slot) {
-    pir_vec3 n = pir_plane_normal(planes, slot);
+    pir_vec3 n = pir_planes_normal(planes, slot);
     double err = planes->err[slot];
-    return (struct crossing){pir_plane_slack(planes, slot, line->placement->x), line->placement->error * err,
+    return (struct crossing){pir_planes_slack(planes, slot, line->placement->x), line->placement->error * err,
                              pir_vec_dot(n, line->u), RATE_BOUND * err};
 }
 

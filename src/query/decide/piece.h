@@ -19,6 +19,9 @@ typedef struct pir_piece {
     uint32_t kind, first, second;
 } pir_piece;
 
+/* In place of a kind: no piece. */
+#define PIR_NO_PIECE UINT32_MAX
+
 /* A corner of a piece: a vertex of P and one of Q. */
 static inline void pir_piece_corner(const pir_frame *frame, pir_piece piece, uint32_t *ret_a, uint32_t *ret_b) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;

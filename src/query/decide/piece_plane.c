@@ -4,7 +4,54 @@
 
 #include "query/decide/side.h"
 
-/* --- memory --- */
+bool pir_plane_of_edges(pir_exact *exact, pir_piece piece, pir_plane *ret_plane) {
+    const pir_frame *frame = exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    uint32_t half = p->edge_half[piece.first], h = piece.second;
+    pir_vec3 n = pir_vec_cross(q->direction[h], pir_mat_apply(&frame->r, p->direction[half]));
+    pir_vec3 y = pir_vec_add(pir_mat_apply(&frame->r, frame->p.vertex[p->origin[half]]), frame->q.vertex[q->origin[h]]);
+    double square = pir_vec_dot(n, n), err = 1;
+    if (square < PIR_SIN_EXACT * PIR_SIN_EXACT) {
+        if (!pir_side_normal(exact, piece, &n))
+            return false;
+    } else {
+        err = 1 / sqrt(square);
+        n = pir_vec_scale(n, err);
+    }
+    *ret_plane = (pir_plane){n, pir_vec_dot(n, y), err, piece};
+    return true;
+}
+
+bool pir_plane_of(pir_exact *exact, pir_piece piece, pir_plane *ret_plane) {
+    const pir_frame *frame = exact->frame;
+    if (piece.kind == PIR_FACET_EE)
+        return pir_plane_of_edges(exact, piece, ret_plane);
+    pir_vec3 n;
+    double h;
+    if (piece.kind == PIR_FACET_FV) {
+        n = pir_mat_apply(&frame->r, frame->p.polytope->normal[piece.first]);
+        h = frame->p.offset[piece.first] + pir_vec_dot(n, frame->q.vertex[piece.second]);
+    } else {
+        n = frame->q.polytope->normal[piece.second];
+        h = frame->q.offset[piece.second] + pir_vec_dot(n, pir_mat_apply(&frame->r, frame->p.vertex[piece.first]));
+    }
+    *ret_plane = (pir_plane){n, h, 1, piece};
+    return true;
+}
+
+bool pir_plane_refine(pir_exact *exact, pir_plane *plane) {
+    if (plane->err * PIR_SIN_REFINED < 1)
+        return true;
+    if (!pir_side_normal(exact, plane->piece, &plane->n))
+        return false;
+    uint32_t a, b;
+    pir_piece_corner(exact->frame, plane->piece, &a, &b);
+    plane->h = pir_vec_dot(plane->n, pir_frame_vertex(exact->frame, a, b));
+    plane->err = 1;
+    return true;
+}
+
+/* --- in parallel arrays --- */
 
 static pir_layout layout_of(pir_planes *planes) {
     return (pir_layout){{PIR_ROWS_LANES(planes->n, planes->capacity), PIR_ROW_LANE(planes->h, planes->capacity),
@@ -24,59 +71,4 @@ bool pir_planes_resize(pir_planes *planes, const pir_allocator *allocator, uint3
     if (done)
         *planes = fresh;
     return done;
-}
-
-/* --- planes --- */
-
-static void make_fv(const pir_frame *frame, pir_planes *planes, pir_piece piece, uint32_t slot) {
-    pir_vec3 n = pir_mat_apply(&frame->r, frame->p.polytope->normal[piece.first]);
-    double h = frame->p.offset[piece.first] + pir_vec_dot(n, frame->q.vertex[piece.second]);
-    pir_plane_put(planes, slot, n, h, 1, piece);
-}
-
-static void make_vf(const pir_frame *frame, pir_planes *planes, pir_piece piece, uint32_t slot) {
-    pir_vec3 n = frame->q.polytope->normal[piece.second];
-    double h = frame->q.offset[piece.second] + pir_vec_dot(n, pir_mat_apply(&frame->r, frame->p.vertex[piece.first]));
-    pir_plane_put(planes, slot, n, h, 1, piece);
-}
-
-bool pir_plane_make_ee(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot) {
-    const pir_frame *frame = exact->frame;
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    uint32_t half = p->edge_half[piece.first], h = piece.second;
-    pir_vec3 n = pir_vec_cross(q->direction[h], pir_mat_apply(&frame->r, p->direction[half]));
-    pir_vec3 y = pir_vec_add(pir_mat_apply(&frame->r, frame->p.vertex[p->origin[half]]), frame->q.vertex[q->origin[h]]);
-    double square = pir_vec_dot(n, n), err = 1;
-    if (square < PIR_SIN_EXACT * PIR_SIN_EXACT) {
-        if (!pir_side_normal(exact, piece, &n))
-            return false;
-    } else {
-        err = 1 / sqrt(square);
-        n = pir_vec_scale(n, err);
-    }
-    pir_plane_put(planes, slot, n, pir_vec_dot(n, y), err, piece);
-    return true;
-}
-
-bool pir_plane_make(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot) {
-    if (piece.kind == PIR_FACET_EE)
-        return pir_plane_make_ee(exact, planes, piece, slot);
-    if (piece.kind == PIR_FACET_FV)
-        make_fv(exact->frame, planes, piece, slot);
-    else
-        make_vf(exact->frame, planes, piece, slot);
-    return true;
-}
-
-bool pir_plane_refine(pir_exact *exact, pir_planes *planes, uint32_t slot) {
-    pir_piece piece = planes->piece[slot];
-    if (planes->err[slot] * PIR_SIN_REFINED < 1)
-        return true;
-    pir_vec3 n;
-    if (!pir_side_normal(exact, piece, &n))
-        return false;
-    uint32_t a, b;
-    pir_piece_corner(exact->frame, piece, &a, &b);
-    pir_plane_put(planes, slot, n, pir_vec_dot(n, pir_frame_vertex(exact->frame, a, b)), 1, piece);
-    return true;
 }

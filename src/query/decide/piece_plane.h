@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Planes of pieces in parallel arrays. */
+/* Planes of pieces, one by one and in parallel arrays. */
 #ifndef PIR_QUERY_DECIDE_PIECE_PLANE_H
 #define PIR_QUERY_DECIDE_PIECE_PLANE_H
 
@@ -13,6 +13,33 @@
 #define PIR_SIN_REFINED 0x1p-5
 #define PIR_SIN_EXACT   0x1p-40
 
+/* A piece's plane: unit normal, offset h. Its slack h − n·x is known within err · the placement's error. */
+typedef struct pir_plane {
+    pir_vec3 n;
+    double h, err;
+    pir_piece piece;
+} pir_plane;
+
+/* The plane of a piece. False when its edges are parallel, so that it is none. */
+bool pir_plane_of(pir_exact *exact, pir_piece piece, pir_plane *ret_plane);
+
+/* The same of a piece of two edges. */
+bool pir_plane_of_edges(pir_exact *exact, pir_piece piece, pir_plane *ret_plane);
+
+/* Makes a plane anew from exact integers where the angle of its edges is small; false when they are parallel. */
+bool pir_plane_refine(pir_exact *exact, pir_plane *plane);
+
+static inline double pir_plane_slack(const pir_plane *plane, pir_vec3 x) {
+    return plane->h - pir_vec_dot(plane->n, x);
+}
+
+/* Whether the slack of a plane is negative for certain. */
+static inline bool pir_plane_separates(const pir_plane *plane, const pir_placement *placement) {
+    return pir_plane_slack(plane, placement->x) < -placement->error * plane->err;
+}
+
+/* --- in parallel arrays --- */
+
 /* The slack of plane i at x is known within err[i] · the placement's error. */
 typedef struct pir_planes {
     pir_lanes n; /* unit normals */
@@ -25,33 +52,28 @@ typedef struct pir_planes {
 bool pir_planes_resize(pir_planes *planes, const pir_allocator *allocator, uint32_t capacity);
 void pir_planes_finish(pir_planes *planes, const pir_allocator *allocator);
 
-/* The plane of one piece into slot `slot`; false when its edges are parallel and it is none. */
-bool pir_plane_make(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot);
-
-/* The same for a piece of two edges. */
-bool pir_plane_make_ee(pir_exact *exact, pir_planes *planes, pir_piece piece, uint32_t slot);
-
-/* The plane of slot `slot` from exact integers where its angle is small; false when its edges are parallel. */
-bool pir_plane_refine(pir_exact *exact, pir_planes *planes, uint32_t slot);
-
-static inline void pir_plane_put(pir_planes *planes, uint32_t slot, pir_vec3 n, double h, double err, pir_piece piece) {
-    pir_lane_put(planes->n, slot, n);
-    planes->h[slot] = h;
-    planes->err[slot] = err;
-    planes->piece[slot] = piece;
+static inline void pir_planes_put(pir_planes *planes, uint32_t slot, const pir_plane *plane) {
+    pir_lane_put(planes->n, slot, plane->n);
+    planes->h[slot] = plane->h;
+    planes->err[slot] = plane->err;
+    planes->piece[slot] = plane->piece;
 }
 
-static inline double pir_plane_slack(const pir_planes *planes, uint32_t i, pir_vec3 x) {
+static inline double pir_planes_slack(const pir_planes *planes, uint32_t i, pir_vec3 x) {
     return planes->h[i] - (planes->n.x[i] * x.x + planes->n.y[i] * x.y + planes->n.z[i] * x.z);
 }
 
-static inline pir_vec3 pir_plane_normal(const pir_planes *planes, uint32_t i) {
+static inline pir_vec3 pir_planes_normal(const pir_planes *planes, uint32_t i) {
     return (pir_vec3){planes->n.x[i], planes->n.y[i], planes->n.z[i]};
 }
 
-/* Whether the slack of plane i is negative for certain. */
-static inline bool pir_plane_separates(const pir_planes *planes, uint32_t i, const pir_placement *placement) {
-    return pir_plane_slack(planes, i, placement->x) < -placement->error * planes->err[i];
+/* Refines the plane of slot i; where its edges are parallel it stays as it is. */
+static inline void pir_planes_refine(pir_exact *exact, pir_planes *planes, uint32_t i) {
+    if (planes->err[i] * PIR_SIN_REFINED < 1)
+        return;
+    pir_plane plane = {.err = planes->err[i], .piece = planes->piece[i]};
+    if (pir_plane_refine(exact, &plane))
+        pir_planes_put(planes, i, &plane);
 }
 
 #endif

@@ -31,12 +31,12 @@
 
 static pir_layout layout_of(pir_bounds *bounds, const pir_groups *groups) {
     uint32_t count = groups->count;
-    return (pir_layout){{PIR_ROW_LANE(bounds->bound, count), PIR_ROW_LANE(bounds->when, count),
-                         PIR_ROW_LANE(bounds->lever, count), PIR_ROW_LANE(bounds->bend, count),
-                         PIR_ROWS_LANES(bounds->where, count), PIR_ROW_LANE(bounds->low, count),
-                         PIR_ROWS_LANES(bounds->cap_axis, count), PIR_ROWS_LANES(bounds->cap_corner, count),
+    return (pir_layout){{PIR_ROW_LANE(bounds->lasting.bound, count), PIR_ROW_LANE(bounds->lasting.when, count),
+                         PIR_ROW_LANE(bounds->lasting.lever, count), PIR_ROW_LANE(bounds->lasting.bend, count),
+                         PIR_ROWS_LANES(bounds->lasting.where, count), PIR_ROW_LANE(bounds->low, count),
+                         PIR_ROWS_LANES(bounds->caps.axis, count), PIR_ROWS_LANES(bounds->caps.corner, count),
                          PIR_ROWS_LANES(bounds->cap_axis_body, count), PIR_ROWS_LANES(bounds->cap_corner_body, count),
-                         PIR_ROW_LANE(bounds->cap_cos, count), PIR_ROW_LANE(bounds->cap_sin, count),
+                         PIR_ROW_LANE(bounds->caps.cosine, count), PIR_ROW_LANE(bounds->caps.sine, count),
                          PIR_ROW(bounds->cap_stamp, count / PIR_SCAN_LANES)}};
 }
 
@@ -77,14 +77,14 @@ void pir_bounds_keep(pir_bounds *bounds, const pir_groups *groups, uint32_t g, c
     double length = placement->reach - groups->frame->p.size - groups->frame->q.size;
     // a bound that is not above zero does not last: the arcs between are concave only while s is positive
     bool lasts = low > 0 && (group->of_q || groups->frame->p.polytope->dimension == 3);
-    bounds->bound[g] = lasts ? low : -HUGE_VAL;
-    bounds->when[g] = bounds->turn;
+    bounds->lasting.bound[g] = lasts ? low : -HUGE_VAL;
+    bounds->lasting.when[g] = bounds->turn;
     // what rounding may hide of x is below 2^-40 of the reach
     double hair = 0x1p-40 * placement->reach;
-    bounds->lever[g] =
+    bounds->lasting.lever[g] =
         group->of_q ? groups->frame->p.swing : groups->frame->q.swing + across(length, along - hair) + hair;
-    bounds->bend[g] = group->of_q ? 0 : 0.5 * length;
-    pir_lane_put(bounds->where, g, placement->x);
+    bounds->lasting.bend[g] = group->of_q ? 0 : 0.5 * length;
+    pir_lane_put(bounds->lasting.where, g, placement->x);
 }
 
 /* --- caps --- */
@@ -102,8 +102,8 @@ static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
     pir_group *group = &groups->at[g];
     if (group->facets == group->own_end) {
         *group = (pir_group){.of_q = group[-1].of_q, .middle = group[-1].middle};
-        bounds->cap_cos[g] = bounds->cap_cos[g - 1];
-        bounds->cap_sin[g] = bounds->cap_sin[g - 1];
+        bounds->caps.cosine[g] = bounds->caps.cosine[g - 1];
+        bounds->caps.sine[g] = bounds->caps.sine[g - 1];
     } else {
         const pir_polytope *of = group->of_q ? groups->frame->q.polytope : groups->frame->p.polytope;
         double cosine = -HUGE_VAL;
@@ -114,8 +114,8 @@ static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
         }
         // normals are off by 8u each
         cosine -= 0x1p-47;
-        bounds->cap_cos[g] = cosine > 0 ? cosine : 0;
-        bounds->cap_sin[g] = cosine > 0 ? sqrt((1 - cosine) * (1 + cosine)) * (1 + 0x1p-50) : 0x1p1000;
+        bounds->caps.cosine[g] = cosine > 0 ? cosine : 0;
+        bounds->caps.sine[g] = cosine > 0 ? sqrt((1 - cosine) * (1 + cosine)) * (1 + 0x1p-50) : 0x1p1000;
     }
     const pir_polytope *of = group->of_q ? groups->frame->q.polytope : groups->frame->p.polytope;
     pir_lane_put(bounds->cap_axis_body, g, of->normal[group->middle]);
@@ -126,7 +126,7 @@ static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
 
 void pir_bounds_fill(pir_bounds *bounds, pir_groups *groups) {
     for (uint32_t g = 0; g < groups->count; g++) {
-        bounds->bound[g] = groups->at[g].facets == groups->at[g].own_end ? HUGE_VAL : -HUGE_VAL;
+        bounds->lasting.bound[g] = groups->at[g].facets == groups->at[g].own_end ? HUGE_VAL : -HUGE_VAL;
         choose_cap(bounds, groups, g);
     }
 }
@@ -140,7 +140,7 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
         uint32_t middle = groups->at[g + i].middle;
         other[i] = of_q ? groups->frame->p.vertex[pairing->vf[middle]] : groups->frame->q.vertex[pairing->fv[middle]];
     }
-    pir_lanes axis = pir_lanes_from(bounds->cap_axis, g), corner = pir_lanes_from(bounds->cap_corner, g);
+    pir_lanes axis = pir_lanes_from(bounds->caps.axis, g), corner = pir_lanes_from(bounds->caps.corner, g);
     pir_lanes axis_body = pir_lanes_from(bounds->cap_axis_body, g),
               corner_body = pir_lanes_from(bounds->cap_corner_body, g);
     if (of_q) {
@@ -159,19 +159,24 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
     bounds->cap_stamp[g / PIR_SCAN_LANES] = groups->stamp;
 }
 
+/* The caps from group `g` on. */
+static pir_cap_lanes caps_from(const pir_cap_lanes *caps, uint32_t g) {
+    return (pir_cap_lanes){pir_lanes_from(caps->axis, g), pir_lanes_from(caps->corner, g), caps->cosine + g,
+                           caps->sine + g};
+}
+
 /* Whether a cap may rule out a group of the block from `g` that is not ruled out yet. */
 static bool is_open(const pir_bounds *bounds, uint32_t g, double limit) {
     bool any = false;
     for (uint32_t i = g; i < g + PIR_SCAN_LANES; i++)
-        any |= bounds->low[i] <= limit && bounds->cap_cos[i] > 0;
+        any |= bounds->low[i] <= limit && bounds->caps.cosine[i] > 0;
     return any;
 }
 
 double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_placement *placement, double limit) {
     double high = HUGE_VAL;
     note_turn(bounds, groups);
-    groups->scan->bounds(groups->count, bounds->bound, bounds->when, bounds->lever, bounds->bend, bounds->where,
-                         bounds->turn, placement->x, placement->error, bounds->low);
+    groups->scan->bounds(groups->count, &bounds->lasting, bounds->turn, placement->x, placement->error, bounds->low);
     for (uint32_t g = 0; g < groups->count; g += PIR_SCAN_LANES) {
         if (!is_open(bounds, g, limit))
             continue;
@@ -180,9 +185,8 @@ double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_p
         bool was_open[PIR_SCAN_LANES];
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
             was_open[i] = bounds->low[g + i] <= limit;
-        double least = groups->scan->caps(PIR_SCAN_LANES, pir_lanes_from(bounds->cap_axis, g),
-                                          pir_lanes_from(bounds->cap_corner, g), bounds->cap_cos + g,
-                                          bounds->cap_sin + g, placement->x, placement->error, bounds->low + g);
+        pir_cap_lanes caps = caps_from(&bounds->caps, g);
+        double least = groups->scan->caps(PIR_SCAN_LANES, &caps, placement->x, placement->error, bounds->low + g);
         high = least < high ? least : high;
         // what a cap rules out now it need not for some while
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)

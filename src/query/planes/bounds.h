@@ -7,29 +7,18 @@
 
 /* All arrays have an element per group, padded to whole lanes. */
 typedef struct pir_bounds {
-    /*
-     * Bounds that last: slacks were at least bound[g], at point where[g] and turn when[g]; an angle a may lower them by
-     * a · (lever[g] + a · bend[g]).
-     */
-    double *bound, *when, *lever, *bend;
-    pir_lanes where;
+    pir_lasting_lanes lasting;
     double *low; /* the bounds for the placement in hand */
 
-    /*
-     * Caps: axis and corner of D in the frame, at the rotation of the stamp of their block of lanes; both as the body
-     * has them; the angle.
-     */
-    pir_lanes cap_axis, cap_corner, cap_axis_body, cap_corner_body;
-    double *cap_cos, *cap_sin;
+    /* caps, at the rotation of the stamp of their block of lanes; their axes and corners as the body has them */
+    pir_cap_lanes caps;
+    pir_lanes cap_axis_body, cap_corner_body;
     uint64_t *cap_stamp; /* per block of lanes */
 
-    /*
-     * an upper bound on all turning from one rotation that bounds were asked at to the next: the last, which `turned`
-     * is the stamp of
-     */
+    /* an upper bound on the sum of all turns from one rotation that bounds were asked at to the next */
     double turn;
-    pir_quat turned_to;
-    uint64_t turned;
+    pir_quat turned_to; /* the last of these rotations */
+    uint64_t turned;    /* its stamp */
 } pir_bounds;
 
 /* Memory; false when out of it: pir_bounds_finish frees what is there. Filled in: caps, and no bound known. */

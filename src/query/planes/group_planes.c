@@ -4,7 +4,10 @@
 
 /* A plane that never matters: infinitely far, its normal that of slot `like`. */
 static void put_nothing(pir_planes *planes, uint32_t slot, pir_piece piece, uint32_t like) {
-    pir_plane_put(planes, slot, pir_plane_normal(planes, like), HUGE_VAL, 0, piece);
+    pir_lane_put(planes->n, slot, pir_planes_normal(planes, like));
+    planes->h[slot] = HUGE_VAL;
+    planes->err[slot] = 0;
+    planes->piece[slot] = piece;
 }
 
 /* The planes of the group's facets, from slot `slot`. */
@@ -57,9 +60,13 @@ static uint32_t make_crossings(pir_groups *groups, const pir_group *group, uint3
                                      planes->h + slot, planes->err + slot);
     // edges that are nearly parallel, one by one
     for (uint32_t i = 0; err * PIR_SIN_EXACT > 1 && i < count; i++)
-        if (planes->err[slot + i] * PIR_SIN_EXACT > 1 &&
-            !pir_plane_make_ee(groups->exact, planes, planes->piece[slot + i], slot + i))
-            put_nothing(planes, slot + i, planes->piece[slot + i], slot - 1);
+        if (planes->err[slot + i] * PIR_SIN_EXACT > 1) {
+            pir_plane plane;
+            if (pir_plane_of_edges(groups->exact, planes->piece[slot + i], &plane))
+                pir_planes_put(planes, slot + i, &plane);
+            else
+                put_nothing(planes, slot + i, planes->piece[slot + i], slot - 1);
+        }
     return count;
 }
 
@@ -77,22 +84,21 @@ void pir_group_make(pir_groups *groups, uint32_t g) {
     planes->used = group->start + group->count;
     while (planes->used % PIR_SCAN_BLOCK != 0)
         put_nothing(planes, planes->used++, (pir_piece){PIR_FACET_FV, 0, 0}, group->start);
-    PIR_ASSERT(planes->used < planes->capacity);
+    PIR_ASSERT(planes->used <= planes->capacity);
 }
 
 /* --- the cached piece --- */
 
 void pir_piece_keep(pir_query_cache *cache, pir_piece piece) {
-    if (!cache)
+    if (!cache || piece.kind == PIR_NO_PIECE)
         return;
-    // a facet's vertex is that of the pairing when the piece is recalled
     cache->pieces = 1;
     cache->kind = piece.kind;
-    cache->first = piece.kind != PIR_FACET_VF ? piece.first : 0;
-    cache->second = piece.kind != PIR_FACET_FV ? piece.second : 0;
+    cache->first = piece.first;
+    cache->second = piece.second;
 }
 
-bool pir_piece_recall(pir_groups *groups, const pir_query_cache *cache, uint32_t *ret_slot) {
+bool pir_piece_recall(const pir_groups *groups, const pir_query_cache *cache, pir_plane *ret_plane) {
     const pir_polytope *p = groups->frame->p.polytope, *q = groups->frame->q.polytope;
     if (!cache || cache->pieces != 1)
         return false;
@@ -118,6 +124,5 @@ bool pir_piece_recall(pir_groups *groups, const pir_query_cache *cache, uint32_t
     default:
         return false;
     }
-    *ret_slot = groups->planes.capacity - 1;
-    return pir_plane_make(groups->exact, &groups->planes, piece, *ret_slot);
+    return pir_plane_of(groups->exact, piece, ret_plane);
 }

@@ -10,8 +10,10 @@
 /* Makes the planes of group `g` unless they are there. */
 void pir_group_make(pir_groups *groups, uint32_t g);
 
-/* The piece kept in a cache, if it still is one: made into the spare slot, the last. */
-bool pir_piece_recall(pir_groups *groups, const pir_query_cache *cache, uint32_t *ret_slot);
+/* Keeps a piece in a cache. Nothing changes where there is no cache, NULL, or no piece. */
 void pir_piece_keep(pir_query_cache *cache, pir_piece piece);
+
+/* The plane of the piece that a cache keeps, or of one beside it. False where the cache keeps none. */
+bool pir_piece_recall(const pir_groups *groups, const pir_query_cache *cache, pir_plane *ret_plane);
 
 #endif

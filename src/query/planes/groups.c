@@ -48,9 +48,9 @@ static bool work_resize(pir_group_work *work, const pir_allocator *allocator, ui
     return done;
 }
 
-/* Slots for every entry of the lists, so many crossings, what pads the groups, and the spare ones. */
+/* Slots for every entry of the lists, so many crossings, and what pads the groups. */
 static uint32_t slots_for(const pir_groups *groups, uint32_t crossings) {
-    return groups->list.facet_count + crossings + PIR_SCAN_BLOCK * groups->count + PIR_SPARE_SLOTS;
+    return groups->list.facet_count + crossings + PIR_SCAN_BLOCK * groups->count;
 }
 
 /* A group has all crossings at most, or lists all facets. */

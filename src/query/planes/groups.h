@@ -16,9 +16,6 @@
 #include "query/decide/piece_plane.h"
 #include "query/planes/scan.h"
 
-/* The last slot of the planes is spare: for a piece by itself. */
-#define PIR_SPARE_SLOTS 1
-
 typedef struct pir_group {
     /* what it is made of: parts of the lists; facets past own_end are neighbours, there for its bound only */
     bool of_q;

@@ -31,8 +31,8 @@ static pir_layout layout_of(pir_leaves *leaves) {
     return (pir_layout){{PIR_ROWS_LANES(leaves->n, capacity), PIR_ROW_LANE(leaves->h, capacity),
                          PIR_ROW_LANE(leaves->err, capacity), PIR_ROW(leaves->slot, capacity),
                          PIR_ROW(leaves->cell, capacity), PIR_ROW(leaves->cell_start, CELL_COUNT + 1),
-                         PIR_ROWS_LANES(leaves->box_least, count), PIR_ROWS_LANES(leaves->box_most, count),
-                         PIR_ROW_LANE(leaves->box_h, count), PIR_ROW_LANE(leaves->box_err, count),
+                         PIR_ROWS_LANES(leaves->box.least, count), PIR_ROWS_LANES(leaves->box.most, count),
+                         PIR_ROW_LANE(leaves->box.h, count), PIR_ROW_LANE(leaves->box.err, count),
                          PIR_ROW_LANE(leaves->low, count), PIR_ROW(leaves->looked, count)}};
 }
 
@@ -84,7 +84,7 @@ static void sort_planes(pir_leaves *leaves, const pir_groups *groups) {
     for (uint32_t g = 0; g < groups->count; g++) {
         const pir_group *group = &groups->at[g];
         for (uint32_t k = 0; k < group->count; k = next_own(group, k), count++) {
-            leaves->cell[count] = cell_of(pir_plane_normal(planes, group->start + k));
+            leaves->cell[count] = cell_of(pir_planes_normal(planes, group->start + k));
             start[leaves->cell[count] + 1]++;
         }
     }
@@ -95,7 +95,7 @@ static void sort_planes(pir_leaves *leaves, const pir_groups *groups) {
         const pir_group *group = &groups->at[g];
         for (uint32_t k = 0; k < group->count; k = next_own(group, k), from++) {
             uint32_t to = start[leaves->cell[from]]++, slot = group->start + k;
-            pir_lane_put(leaves->n, to, pir_plane_normal(planes, slot));
+            pir_lane_put(leaves->n, to, pir_planes_normal(planes, slot));
             leaves->h[to] = planes->h[slot];
             leaves->err[to] = planes->err[slot];
             leaves->slot[to] = slot;
@@ -123,10 +123,10 @@ static void make_box(pir_leaves *leaves, uint32_t leaf) {
         h = leaves->h[i] < h ? leaves->h[i] : h;
         err = leaves->err[i] > err ? leaves->err[i] : err;
     }
-    pir_lane_put(leaves->box_least, leaf, least);
-    pir_lane_put(leaves->box_most, leaf, most);
-    leaves->box_h[leaf] = h;
-    leaves->box_err[leaf] = err;
+    pir_lane_put(leaves->box.least, leaf, least);
+    pir_lane_put(leaves->box.most, leaf, most);
+    leaves->box.h[leaf] = h;
+    leaves->box.err[leaf] = err;
 }
 
 pir_status pir_leaves_make(pir_leaves *leaves, pir_groups *groups, const pir_allocator *allocator) {
@@ -150,8 +150,7 @@ static double least_of(const pir_leaves *leaves, const pir_scan *scan, uint32_t 
 }
 
 static void bound_leaves(const pir_leaves *leaves, const pir_scan *scan, const pir_placement *placement) {
-    scan->boxes(leaves->leaf_count, leaves->box_least, leaves->box_most, leaves->box_h, leaves->box_err, placement->x,
-                placement->error, leaves->low);
+    scan->boxes(leaves->leaf_count, &leaves->box, placement->x, placement->error, leaves->low);
 }
 
 /* The leaf of the direction of x, or near it. */
@@ -166,7 +165,7 @@ bool pir_leaves_state(pir_leaves *leaves, const pir_groups *groups, const pir_pl
     if (leaves->leaf_count == 0)
         return false;
     uint32_t first = leaf_along(leaves, placement->x);
-    if (least_of(leaves, groups->scan, first, placement->x) < -placement->error * leaves->box_err[first]) {
+    if (least_of(leaves, groups->scan, first, placement->x) < -placement->error * leaves->box.err[first]) {
         *ret_state = PIR_OUTSIDE;
         return true;
     }
@@ -175,7 +174,7 @@ bool pir_leaves_state(pir_leaves *leaves, const pir_groups *groups, const pir_pl
     for (uint32_t leaf = 0; leaf < leaves->leaf_count; leaf++) {
         if (leaves->low[leaf] > 0)
             continue;
-        double s = least_of(leaves, groups->scan, leaf, placement->x), error = placement->error * leaves->box_err[leaf];
+        double s = least_of(leaves, groups->scan, leaf, placement->x), error = placement->error * leaves->box.err[leaf];
         if (s < -error) {
             *ret_state = PIR_OUTSIDE;
             return true;
@@ -200,10 +199,11 @@ static uint32_t collect(pir_leaves *leaves, pir_groups *groups, const pir_placem
             continue;
         // planes are boxes of no width
         pir_lanes n = pir_lanes_from(leaves->n, from);
-        groups->scan->boxes(LEAF, n, n, leaves->h + from, leaves->err + from, placement->x, placement->error, low);
+        pir_box_lanes planes = {n, n, leaves->h + from, leaves->err + from};
+        groups->scan->boxes(LEAF, &planes, placement->x, placement->error, low);
         for (uint32_t i = 0; i < LEAF; i++)
             if (low[i] <= limit) {
-                pir_plane_refine(groups->exact, &groups->planes, leaves->slot[from + i]);
+                pir_planes_refine(groups->exact, &groups->planes, leaves->slot[from + i]);
                 leaves->cell[count++] = leaves->slot[from + i];
             }
     }
@@ -217,12 +217,12 @@ static uint32_t collect(pir_leaves *leaves, pir_groups *groups, const pir_placem
 static uint32_t look_at_leaves(pir_leaves *leaves, const pir_groups *groups, const pir_placement *placement,
                                double *ret_limit) {
     uint32_t first = leaf_along(leaves, placement->x), looked = 0;
-    double limit = least_of(leaves, groups->scan, first, placement->x) + placement->error * leaves->box_err[first];
+    double limit = least_of(leaves, groups->scan, first, placement->x) + placement->error * leaves->box.err[first];
     bound_leaves(leaves, groups->scan, placement);
     for (uint32_t leaf = 0; leaf < leaves->leaf_count; leaf++) {
         if (leaves->low[leaf] > limit)
             continue;
-        double s = least_of(leaves, groups->scan, leaf, placement->x), error = placement->error * leaves->box_err[leaf];
+        double s = least_of(leaves, groups->scan, leaf, placement->x), error = placement->error * leaves->box.err[leaf];
         leaves->low[leaf] = s - error;
         leaves->looked[looked++] = leaf;
         limit = s + error < limit ? s + error : limit;
@@ -250,10 +250,10 @@ bool pir_leaves_depth(pir_leaves *leaves, pir_groups *groups, const pir_placemen
     const uint32_t *slot = leaves->cell;
     const pir_planes *planes = &groups->planes;
     for (uint32_t i = 0; i < count; i++)
-        limit = fmin(limit, pir_plane_slack(planes, slot[i], placement->x) + placement->error * planes->err[slot[i]]);
+        limit = fmin(limit, pir_planes_slack(planes, slot[i], placement->x) + placement->error * planes->err[slot[i]]);
     pir_least least = {.some = false};
     for (uint32_t i = 0; i < count; i++)
-        if (pir_plane_slack(planes, slot[i], placement->x) - placement->error * planes->err[slot[i]] <= limit)
+        if (pir_planes_slack(planes, slot[i], placement->x) - placement->error * planes->err[slot[i]] <= limit)
             pir_least_offer(groups->exact, placement, &least, planes->piece[slot[i]]);
     if (least.some)
         *ret_facet = least.facet;

@@ -11,10 +11,10 @@ typedef struct pir_leaves {
     uint32_t plane_count, leaf_count, capacity;
     pir_lanes n;
     double *h, *err;
-    uint32_t *slot;                /* where each stands in the planes of the groups */
-    uint32_t *cell, *cell_start;   /* cells while planes are sorted, work space after */
-    pir_lanes box_least, box_most; /* per leaf: of the normals; the least h, the greatest err */
-    double *box_h, *box_err, *low;
+    uint32_t *slot;              /* where each stands in the planes of the groups */
+    uint32_t *cell, *cell_start; /* cells while planes are sorted, work space after */
+    pir_box_lanes box;           /* per leaf */
+    double *low;
     uint32_t *looked;
 } pir_leaves;
 

@@ -7,8 +7,14 @@
 /* A few doubles at once: the compiler's own vectors, loaded from and stored to any address. */
 typedef double lane __attribute__((vector_size(8 * SCAN_WIDTH), aligned(8), may_alias));
 typedef int64_t mask __attribute__((vector_size(8 * SCAN_WIDTH)));
-#define AT(pointer)       (*(lane *)((pointer) + i))
-#define CONST_AT(pointer) (*(const lane *)((pointer) + i))
+
+SCAN_TARGET static inline lane load(const double *from) {
+    return *(const lane *)from;
+}
+
+SCAN_TARGET static inline void store(double *to, lane v) {
+    *(lane *)to = v;
+}
 
 SCAN_TARGET static inline lane roots(lane v) {
     lane r;
@@ -20,32 +26,34 @@ SCAN_TARGET static inline lane roots(lane v) {
 SCAN_TARGET static void turn(uint32_t count, const pir_mat3 *r, pir_lanes from, pir_lanes to) {
     const pir_mat3 m = *r;
     for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
-        lane x = CONST_AT(from.x), y = CONST_AT(from.y), z = CONST_AT(from.z);
-        AT(to.x) = m.m[0][0] * x + m.m[0][1] * y + m.m[0][2] * z;
-        AT(to.y) = m.m[1][0] * x + m.m[1][1] * y + m.m[1][2] * z;
-        AT(to.z) = m.m[2][0] * x + m.m[2][1] * y + m.m[2][2] * z;
+        lane x = load(from.x + i), y = load(from.y + i), z = load(from.z + i);
+        store(to.x + i, m.m[0][0] * x + m.m[0][1] * y + m.m[0][2] * z);
+        store(to.y + i, m.m[1][0] * x + m.m[1][1] * y + m.m[1][2] * z);
+        store(to.z + i, m.m[2][0] * x + m.m[2][1] * y + m.m[2][2] * z);
     }
 }
 
 SCAN_TARGET static void offset(uint32_t count, pir_lanes n, const double *base, pir_lanes p, double *h) {
     for (uint32_t i = 0; i < count; i += SCAN_WIDTH)
-        AT(h) = CONST_AT(base) +
-                (CONST_AT(n.x) * CONST_AT(p.x) + CONST_AT(n.y) * CONST_AT(p.y) + CONST_AT(n.z) * CONST_AT(p.z));
+        store(h + i, load(base + i) + (load(n.x + i) * load(p.x + i) + load(n.y + i) * load(p.y + i) +
+                                       load(n.z + i) * load(p.z + i)));
 }
 
 SCAN_TARGET static double cross(uint32_t count, pir_lanes d, pir_lanes e, pir_lanes y, pir_lanes n, double *h,
                                 double *err) {
     for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
-        lane dx = CONST_AT(d.x), dy = CONST_AT(d.y), dz = CONST_AT(d.z);
-        lane ex = CONST_AT(e.x), ey = CONST_AT(e.y), ez = CONST_AT(e.z);
+        lane dx = load(d.x + i), dy = load(d.y + i), dz = load(d.z + i);
+        lane ex = load(e.x + i), ey = load(e.y + i), ez = load(e.z + i);
         lane cx = dy * ez - dz * ey, cy = dz * ex - dx * ez, cz = dx * ey - dy * ex;
         lane by = 1.0 / roots(cx * cx + cy * cy + cz * cz);
-        cx *= by, cy *= by, cz *= by;
-        AT(n.x) = cx;
-        AT(n.y) = cy;
-        AT(n.z) = cz;
-        AT(err) = by;
-        AT(h) = cx * CONST_AT(y.x) + cy * CONST_AT(y.y) + cz * CONST_AT(y.z);
+        cx *= by;
+        cy *= by;
+        cz *= by;
+        store(n.x + i, cx);
+        store(n.y + i, cy);
+        store(n.z + i, cz);
+        store(err + i, by);
+        store(h + i, cx * load(y.x + i) + cy * load(y.y + i) + cz * load(y.z + i));
     }
     double most = 0;
     for (uint32_t i = 0; i < count; i++)
@@ -73,8 +81,8 @@ SCAN_TARGET static void look(uint32_t count, pir_lanes n, const double *h, const
         low[k] = high[k] = along[k] = (lane){0} + HUGE_VAL;
     for (uint32_t i = 0; i < count;)
         for (int k = 0; k < 2; k++, i += SCAN_WIDTH) {
-            lane to = CONST_AT(n.x) * x.x + CONST_AT(n.y) * x.y + CONST_AT(n.z) * x.z;
-            lane s = CONST_AT(h) - to, off = error * CONST_AT(err);
+            lane to = load(n.x + i) * x.x + load(n.y + i) * x.y + load(n.z + i) * x.z;
+            lane s = load(h + i) - to, off = error * load(err + i);
             low[k] = lesser(s - off, low[k]);
             high[k] = lesser(s + off, high[k]);
             along[k] = lesser(to, along[k]);
@@ -84,66 +92,75 @@ SCAN_TARGET static void look(uint32_t count, pir_lanes n, const double *h, const
     ret_least[2] = least_lane(lesser(along[0], along[1]));
 }
 
-SCAN_TARGET static void slacks(uint32_t count, const pir_mat3 *r, pir_lanes from, pir_vec3 x, pir_lanes n,
-                               const double *base, pir_lanes to, double *s, double ret_least[2]) {
+SCAN_TARGET static void slacks(uint32_t count, const pir_mat3 *r, pir_lanes from, pir_vec3 x,
+                               const pir_facet_lanes *facets, pir_slack_lanes *slacks) {
     const pir_mat3 m = *r;
+    const pir_lanes n = facets->normal, to = slacks->to;
+    const double *offset_of = facets->offset;
+    double *s = slacks->s;
     lane low = (lane){0} + HUGE_VAL, along = low;
     for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
-        lane fx = CONST_AT(from.x), fy = CONST_AT(from.y), fz = CONST_AT(from.z);
+        lane fx = load(from.x + i), fy = load(from.y + i), fz = load(from.z + i);
         lane ux = m.m[0][0] * fx + m.m[0][1] * fy + m.m[0][2] * fz - x.x;
         lane uy = m.m[1][0] * fx + m.m[1][1] * fy + m.m[1][2] * fz - x.y;
         lane uz = m.m[2][0] * fx + m.m[2][1] * fy + m.m[2][2] * fz - x.z;
-        lane nx = CONST_AT(n.x), ny = CONST_AT(n.y), nz = CONST_AT(n.z);
-        lane slack = CONST_AT(base) + (nx * ux + ny * uy + nz * uz);
-        AT(to.x) = ux;
-        AT(to.y) = uy;
-        AT(to.z) = uz;
-        AT(s) = slack;
+        lane nx = load(n.x + i), ny = load(n.y + i), nz = load(n.z + i);
+        lane slack = load(offset_of + i) + (nx * ux + ny * uy + nz * uz);
+        store(to.x + i, ux);
+        store(to.y + i, uy);
+        store(to.z + i, uz);
+        store(s + i, slack);
         low = lesser(slack, low);
         along = lesser(nx * x.x + ny * x.y + nz * x.z, along);
     }
-    ret_least[0] = least_lane(low);
-    ret_least[1] = least_lane(along);
+    slacks->least = least_lane(low);
+    slacks->along = least_lane(along);
 }
 
 SCAN_TARGET static double least(uint32_t count, pir_lanes n, const double *h, pir_vec3 x) {
     lane low[2] = {(lane){0} + HUGE_VAL, (lane){0} + HUGE_VAL};
     for (uint32_t i = 0; i < count;)
         for (int k = 0; k < 2; k++, i += SCAN_WIDTH)
-            low[k] = lesser(CONST_AT(h) - (CONST_AT(n.x) * x.x + CONST_AT(n.y) * x.y + CONST_AT(n.z) * x.z), low[k]);
+            low[k] = lesser(load(h + i) - (load(n.x + i) * x.x + load(n.y + i) * x.y + load(n.z + i) * x.z), low[k]);
     return least_lane(lesser(low[0], low[1]));
 }
 
-SCAN_TARGET static void boxes(uint32_t count, pir_lanes from, pir_lanes to, const double *h, const double *err,
-                              pir_vec3 x, double error, double *low) {
+SCAN_TARGET static void boxes(uint32_t count, const pir_box_lanes *boxes, pir_vec3 x, double error, double *low) {
+    const double *h = boxes->h, *err = boxes->err;
     // the corner of the box that is farthest along x
-    const double *cx = x.x > 0 ? to.x : from.x, *cy = x.y > 0 ? to.y : from.y, *cz = x.z > 0 ? to.z : from.z;
-    for (uint32_t i = 0; i < count; i += SCAN_WIDTH)
-        AT(low) = CONST_AT(h) - (CONST_AT(cx) * x.x + CONST_AT(cy) * x.y + CONST_AT(cz) * x.z) - error * CONST_AT(err);
-}
-
-SCAN_TARGET static void bounds(uint32_t count, const double *bound, const double *when, const double *lever,
-                               const double *bend, pir_lanes at, double turned, pir_vec3 x, double error, double *low) {
+    const double *cx = x.x > 0 ? boxes->most.x : boxes->least.x, *cy = x.y > 0 ? boxes->most.y : boxes->least.y,
+                 *cz = x.z > 0 ? boxes->most.z : boxes->least.z;
     for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
-        lane mx = x.x - CONST_AT(at.x), my = x.y - CONST_AT(at.y), mz = x.z - CONST_AT(at.z),
-             angle = turned - CONST_AT(when);
-        lane loss = angle * (CONST_AT(lever) + angle * CONST_AT(bend)) + roots(mx * mx + my * my + mz * mz);
-        AT(low) = CONST_AT(bound) - loss * (1 + 0x1p-40) - error;
+        lane along = load(cx + i) * x.x + load(cy + i) * x.y + load(cz + i) * x.z;
+        store(low + i, load(h + i) - along - error * load(err + i));
     }
 }
 
-SCAN_TARGET static double caps(uint32_t count, pir_lanes axis, pir_lanes corner, const double *cosine,
-                               const double *sine, pir_vec3 x, double error, double *low) {
+SCAN_TARGET static void bounds(uint32_t count, const pir_lasting_lanes *lasting, double turn, pir_vec3 x, double error,
+                               double *low) {
+    const double *bound = lasting->bound, *when = lasting->when, *lever = lasting->lever, *bend = lasting->bend;
+    const pir_lanes at = lasting->where;
+    for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
+        lane mx = x.x - load(at.x + i), my = x.y - load(at.y + i), mz = x.z - load(at.z + i);
+        lane angle = turn - load(when + i);
+        lane loss = angle * (load(lever + i) + angle * load(bend + i)) + roots(mx * mx + my * my + mz * mz);
+        store(low + i, load(bound + i) - loss * (1 + 0x1p-40) - error);
+    }
+}
+
+SCAN_TARGET static double caps(uint32_t count, const pir_cap_lanes *caps, pir_vec3 x, double error, double *low) {
+    const pir_lanes axis = caps->axis, corner = caps->corner;
+    const double *cosine = caps->cosine, *sine = caps->sine;
     lane high = (lane){0} + HUGE_VAL;
     for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
-        lane wx = CONST_AT(corner.x) - x.x, wy = CONST_AT(corner.y) - x.y, wz = CONST_AT(corner.z) - x.z;
-        lane along = CONST_AT(axis.x) * wx + CONST_AT(axis.y) * wy + CONST_AT(axis.z) * wz;
+        lane wx = load(corner.x + i) - x.x, wy = load(corner.y + i) - x.y, wz = load(corner.z + i) - x.z;
+        lane along = load(axis.x + i) * wx + load(axis.y + i) * wy + load(axis.z + i) * wz;
         lane square = wx * wx + wy * wy + wz * wz;
         // rounded up by more than either square is off by, so it is never below zero
         lane across = roots(square * (1 + 0x1p-47) - along * along);
-        lane bound = along * CONST_AT(cosine) - across * CONST_AT(sine) - 2 * error, old = CONST_AT(low);
+        lane bound = along * load(cosine + i) - across * load(sine + i) - 2 * error, old = load(low + i);
         mask better = (bound > (lane){0}) & (bound > old);
-        AT(low) = (lane)(((mask)bound & better) | ((mask)old & ~better));
+        store(low + i, (lane)(((mask)bound & better) | ((mask)old & ~better)));
         high = lesser(along + error, high);
     }
     return least_lane(high);

@@ -19,7 +19,7 @@
 static uint32_t part_of(const pir_search *search, uint32_t k, uint32_t *ret_end) {
     const pir_groups *groups = &search->groups;
     if (k == search->looked_count) {
-        *ret_end = groups->planes.capacity - PIR_SPARE_SLOTS;
+        *ret_end = groups->planes.capacity;
         return search->candidates;
     }
     const pir_group *group = &groups->at[search->looked[k]];
@@ -29,7 +29,7 @@ static uint32_t part_of(const pir_search *search, uint32_t k, uint32_t *ret_end)
 
 static void forget(pir_search *search) {
     search->looked_count = 0;
-    search->candidates = search->groups.planes.capacity - PIR_SPARE_SLOTS;
+    search->candidates = search->groups.planes.capacity;
 }
 
 /* What the least slack of what is left is not above, edge pairs at small angles made exact on the way. */
@@ -38,10 +38,10 @@ static double least_refined(pir_search *search, const pir_placement *placement, 
     pir_planes *planes = &groups->planes;
     for (uint32_t k = 0, end; k <= search->looked_count; k++)
         for (uint32_t i = part_of(search, k, &end); i < end; i++) {
-            if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit)
+            if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit)
                 continue;
-            pir_plane_refine(groups->exact, planes, i);
-            double high = pir_plane_slack(planes, i, placement->x) + placement->error * planes->err[i];
+            pir_planes_refine(groups->exact, planes, i);
+            double high = pir_planes_slack(planes, i, placement->x) + placement->error * planes->err[i];
             limit = high < limit ? high : limit;
         }
     return limit;
@@ -63,10 +63,10 @@ bool pir_depth_find(pir_search *search, const pir_placement *placement, const pi
                     pir_facet *ret_facet, uint32_t *steps) {
     pir_groups *groups = &search->groups;
     double limit = HUGE_VAL;
-    uint32_t slot;
+    pir_plane last;
     forget(search);
-    if (groups->count > 0 && pir_piece_recall(groups, cache, &slot)) {
-        limit = pir_plane_slack(&groups->planes, slot, placement->x) + placement->error * groups->planes.err[slot];
+    if (groups->count > 0 && pir_piece_recall(groups, cache, &last)) {
+        limit = pir_plane_slack(&last, placement->x) + placement->error * last.err;
         ++*steps;
     }
     double high = pir_bounds_find(&search->bounds, groups, placement, limit);
@@ -93,7 +93,7 @@ bool pir_depth_find(pir_search *search, const pir_placement *placement, const pi
     pir_least least = {.some = false};
     for (uint32_t k = 0, end; k <= search->looked_count; k++)
         for (uint32_t i = part_of(search, k, &end); i < end; i++)
-            if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] <= limit)
+            if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] <= limit)
                 pir_least_offer(groups->exact, placement, &least, planes->piece[i]);
     if (least.some)
         *ret_facet = least.facet;

@@ -8,18 +8,18 @@
  */
 #include "query/search/proof.h"
 
-/* Whether a piece certainly separates; then it is kept, and its plane is in the spare slot. */
-static bool try_piece(pir_groups *groups, const pir_placement *placement, pir_piece piece, pir_query_cache *cache) {
-    uint32_t slot = groups->planes.capacity - 1;
-    if (!pir_plane_make(groups->exact, &groups->planes, piece, slot) ||
-        !pir_plane_separates(&groups->planes, slot, placement))
+/* Whether a piece certainly separates; then it is kept. */
+static bool try_piece(const pir_groups *groups, const pir_placement *placement, pir_piece piece,
+                      pir_query_cache *cache) {
+    pir_plane plane;
+    if (!pir_plane_of(groups->exact, piece, &plane) || !pir_plane_separates(&plane, placement))
         return false;
     pir_piece_keep(cache, piece);
     return true;
 }
 
 /* The pieces that have vertex (a, b) of D for a corner. */
-static bool try_around(pir_groups *groups, const pir_placement *placement, uint32_t a, uint32_t b,
+static bool try_around(const pir_groups *groups, const pir_placement *placement, uint32_t a, uint32_t b,
                        pir_query_cache *cache) {
     const pir_polytope *p = groups->frame->p.polytope, *q = groups->frame->q.polytope;
     const pir_pairing *pairing = groups->pairing;
@@ -40,10 +40,10 @@ static bool try_around(pir_groups *groups, const pir_placement *placement, uint3
     return false;
 }
 
-bool pir_prove_outside(pir_groups *groups, const pir_placement *placement, const pir_simplex *simplex,
+bool pir_prove_outside(const pir_groups *groups, const pir_placement *placement, const pir_simplex *simplex,
                        pir_query_cache *cache) {
-    uint32_t slot;
-    if (pir_piece_recall(groups, cache, &slot) && pir_plane_separates(&groups->planes, slot, placement))
+    pir_plane last;
+    if (pir_piece_recall(groups, cache, &last) && pir_plane_separates(&last, placement))
         return true;
     for (uint32_t i = 0; i < simplex->count; i++)
         if (try_around(groups, placement, simplex->a[i], simplex->b[i], cache))

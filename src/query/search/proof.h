@@ -6,11 +6,8 @@
 #include "query/frame/nearest_vertex.h"
 #include "query/planes/group_planes.h"
 
-/*
- * Whether a facet of D beside the simplex certainly separates. Then it is kept in the cache, if there is one, and its
- * plane stands in the last slot.
- */
-bool pir_prove_outside(pir_groups *groups, const pir_placement *placement, const pir_simplex *simplex,
+/* Whether a facet of D beside the simplex certainly separates. Then it is kept in the cache, if there is one. */
+bool pir_prove_outside(const pir_groups *groups, const pir_placement *placement, const pir_simplex *simplex,
                        pir_query_cache *cache);
 
 #endif

@@ -82,17 +82,15 @@ static void lower_limit(struct search *search, double limit) {
 /* Makes a piece a plane and keeps it where it is in the cone and may be the one that is looked for. */
 static void take(struct search *search, pir_piece piece) {
     pir_groups *groups = search->groups;
-    pir_planes *planes = &groups->planes;
-    uint32_t slot = search->count;
-    if (!pir_plane_make(groups->exact, planes, piece, slot) || !pir_plane_refine(groups->exact, planes, slot) ||
-        !pir_cone_has(search->cone, pir_plane_normal(planes, slot)))
+    pir_plane plane;
+    if (!pir_plane_of(groups->exact, piece, &plane) || !pir_plane_refine(groups->exact, &plane) ||
+        !pir_cone_has(search->cone, plane.n))
         return;
-    double slack = pir_plane_slack(planes, slot, search->placement->x),
-           error = search->placement->error * planes->err[slot];
+    double slack = pir_plane_slack(&plane, search->placement->x), error = search->placement->error * plane.err;
     if (slack - error > search->limit)
         return;
     lower_limit(search, slack + error);
-    search->count++;
+    pir_planes_put(&groups->planes, search->count++, &plane);
 }
 
 /*
@@ -260,7 +258,7 @@ pir_state pir_regional_find(pir_regional *regional, pir_groups *groups, const pi
     // none of the pieces that doubles leave open is above the limit: they are all there
     *ret_least = (pir_least){.some = false};
     for (uint32_t i = 0; i < search.count; i++)
-        if (pir_plane_slack(planes, i, placement->x) - placement->error * planes->err[i] <= search.limit)
+        if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] <= search.limit)
             pir_least_offer(groups->exact, placement, ret_least, planes->piece[i]);
     if (!ret_least->some)
         return PIR_INSIDE;

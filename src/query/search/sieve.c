@@ -27,15 +27,14 @@ static inline double lesser(double a, double b) {
 /* Makes the plane of a piece, and keeps it where it may be the least. */
 static void try_piece(pir_search *search, pir_piece piece, struct sieve *sieve) {
     pir_groups *groups = &search->groups;
-    pir_planes *planes = &groups->planes;
-    uint32_t slot = search->candidates - 1;
-    PIR_ASSERT(slot >= planes->used);
-    if (!pir_plane_make(groups->exact, planes, piece, slot))
+    pir_plane plane;
+    if (!pir_plane_of(groups->exact, piece, &plane))
         return;
-    double s = pir_plane_slack(planes, slot, sieve->placement->x), error = sieve->placement->error * planes->err[slot];
+    double s = pir_plane_slack(&plane, sieve->placement->x), error = sieve->placement->error * plane.err;
     sieve->low = lesser(sieve->low, s - error);
     if (s - error <= sieve->limit) {
-        search->candidates = slot;
+        PIR_ASSERT(search->candidates > groups->planes.used);
+        pir_planes_put(&groups->planes, --search->candidates, &plane);
         sieve->limit = lesser(sieve->limit, s + error);
     }
 }
@@ -59,12 +58,12 @@ static double facet_slacks(const pir_groups *groups, const pir_group *group, con
         for (int j = 0; j < 3; j++)
             back.m[i][j] = frame->r.m[j][i];
     pir_vec3 x = group->of_q ? placement->x : pir_mat_apply(&back, placement->x);
-    double least[2];
-    groups->scan->slacks(
-        count, group->of_q ? &frame->r : &back, from, x, pir_lanes_from(groups->list.facet_normal, group->facets),
-        groups->list.facet_offset + group->facets, groups->work.vector[1], groups->work.vector[2].x, least);
-    *ret_along = least[1];
-    return least[0];
+    pir_facet_lanes facets = {pir_lanes_from(groups->list.facet_normal, group->facets),
+                              groups->list.facet_offset + group->facets};
+    pir_slack_lanes slacks = {.to = groups->work.vector[1], .s = groups->work.vector[2].x};
+    groups->scan->slacks(count, group->of_q ? &frame->r : &back, from, x, &facets, &slacks);
+    *ret_along = slacks.along;
+    return slacks.least;
 }
 
 /* What crosses edge `i` of the list: its slacks by doubles, and those pieces tried that may be the least. */

@@ -8,16 +8,16 @@
 #include "query/decide/flat.h"
 #include "query/decide/side.h"
 
-/* A slot of group `group` whose slack is certainly negative. */
-static uint32_t separating_slot(const pir_groups *groups, const pir_group *group, const pir_placement *placement) {
+/* The piece of least slack in a group, where one is certainly negative. */
+static pir_piece separating(const pir_groups *groups, const pir_group *group, const pir_placement *placement) {
     uint32_t best = group->start;
     double least = HUGE_VAL;
     for (uint32_t i = group->start; i < group->start + group->count; i++) {
-        double s = pir_plane_slack(&groups->planes, i, placement->x) + placement->error * groups->planes.err[i];
+        double s = pir_planes_slack(&groups->planes, i, placement->x) + placement->error * groups->planes.err[i];
         if (s < least)
             least = s, best = i;
     }
-    return best;
+    return groups->planes.piece[best];
 }
 
 /* Takes note of the true facet of a piece that t lies on; the first in order stays. */
@@ -31,7 +31,7 @@ static void offer_touching(pir_exact *exact, pir_piece piece, pir_least *touchin
 }
 
 /* What is open after doubles: the exact signs of slacks near zero. */
-static pir_state settle(pir_search *search, const pir_placement *placement, uint32_t *ret_slot,
+static pir_state settle(pir_search *search, const pir_placement *placement, pir_piece *ret_separating,
                         pir_least *ret_touching) {
     const pir_groups *groups = &search->groups;
     const pir_frame *frame = groups->frame;
@@ -44,11 +44,11 @@ static pir_state settle(pir_search *search, const pir_placement *placement, uint
         if (search->slack[g] > 0)
             continue;
         for (uint32_t i = group->start; i < group->start + group->count; i++) {
-            if (pir_plane_slack(planes, i, placement->x) > placement->error * planes->err[i])
+            if (pir_planes_slack(planes, i, placement->x) > placement->error * planes->err[i])
                 continue;
             int sign = pir_side_exact(groups->exact, planes->piece[i], placement->translation);
             if (sign < 0) {
-                *ret_slot = i;
+                *ret_separating = planes->piece[i];
                 return PIR_OUTSIDE;
             }
             if (sign == 0) {
@@ -60,18 +60,18 @@ static pir_state settle(pir_search *search, const pir_placement *placement, uint
     if (any && !touches)
         return PIR_INSIDE;
     bool flat = frame->p.polytope->dimension < 3 && frame->q.polytope->dimension < 3;
-    *ret_slot = PIR_NO_PLANE;
+    ret_separating->kind = PIR_NO_PIECE;
     return flat && !pir_flat_holds(groups->exact, placement->translation) ? PIR_OUTSIDE : PIR_BOUNDARY;
 }
 
 pir_state pir_state_find(pir_search *search, const pir_placement *placement, const pir_query_cache *cache,
-                         uint32_t *ret_slot, pir_least *ret_touching, uint32_t *steps) {
+                         pir_piece *ret_separating, pir_least *ret_touching, uint32_t *steps) {
     pir_groups *groups = &search->groups;
-    uint32_t slot;
-    if (pir_piece_recall(groups, cache, &slot)) {
+    pir_plane last;
+    if (pir_piece_recall(groups, cache, &last)) {
         ++*steps;
-        if (pir_plane_separates(&groups->planes, slot, placement)) {
-            *ret_slot = slot;
+        if (pir_plane_separates(&last, placement)) {
+            *ret_separating = last.piece;
             return PIR_OUTSIDE;
         }
     }
@@ -85,10 +85,10 @@ pir_state pir_state_find(pir_search *search, const pir_placement *placement, con
         pir_bounds_look(&search->bounds, groups, g, placement, &search->slack[g], &high);
         ++*steps;
         if (high < 0) {
-            *ret_slot = separating_slot(groups, &groups->at[g], placement);
+            *ret_separating = separating(groups, &groups->at[g], placement);
             return PIR_OUTSIDE;
         }
         open |= search->slack[g] <= 0 || groups->at[g].count == 0;
     }
-    return open ? settle(search, placement, ret_slot, ret_touching) : PIR_INSIDE;
+    return open ? settle(search, placement, ret_separating, ret_touching) : PIR_INSIDE;
 }
