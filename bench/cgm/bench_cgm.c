@@ -190,7 +190,11 @@ struct fit {
 
 static void fit_add(struct fit *fit, double size, double time) {
     double x = log(size), y = log(time);
-    fit->x += x, fit->y += y, fit->xx += x * x, fit->xy += x * y, fit->count++;
+    fit->x += x;
+    fit->y += y;
+    fit->xx += x * x;
+    fit->xy += x * y;
+    fit->count++;
 }
 
 static double fit_exponent(const struct fit *fit) {

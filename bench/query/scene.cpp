@@ -50,7 +50,9 @@ double size_of(const pir_polytope *p) {
 }
 
 double Random::unit() {
-    state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+    state ^= state << 13;
+    state ^= state >> 7;
+    state ^= state << 17;
     return std::ldexp((double)(state >> 11), -52) - 1;
 }
 
@@ -123,7 +125,8 @@ std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish) {
         // inside: a fraction of the way out from the middle; outside: the gap beyond it
         double at = 0;
         pir_vec3 low_p, high_p, low_q, high_q;
-        pir_polytope_bounds(p, &low_p, &high_p), pir_polytope_bounds(q, &low_q, &high_q);
+        pir_polytope_bounds(p, &low_p, &high_p);
+        pir_polytope_bounds(q, &low_q, &high_q);
         pir_vec3 c{(low_q.x + high_q.x) / 2, (low_q.y + high_q.y) / 2, (low_q.z + high_q.z) / 2};
         if (pir_query_directional_depth(query, (input.translation = c, &input), out, &result) == PIR_OK &&
             result.outcome == PIR_OVERLAPPING)

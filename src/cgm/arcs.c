@@ -42,7 +42,8 @@ static uint32_t locate(const struct pir_arcs *arcs, const int8_t planes[PIR_CUBE
             inside = inside && sign >= 0;
             if (sign == 0) {
                 first_and_last = zeros == 1 && last == 0 && side == 3;
-                zeros++, last = side;
+                zeros++;
+                last = side;
             }
         }
         if (!inside)

@@ -103,9 +103,6 @@ struct pir_cgm_line {
     double error;
 };
 
-/* Takes a reference, which pir_cgm_destroy gives back; the last one frees. Returns the map. */
-pir_cgm *pir_cgm_retain(const pir_cgm *cgm);
-
 static inline uint32_t pir_cgm_vertices(const pir_cgm *cgm) {
     return cgm->vertex_start[6];
 }

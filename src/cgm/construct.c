@@ -281,7 +281,8 @@ static bool allocate(struct construct *c) {
     for (uint32_t i = 0; i < arcs->piece_count; i++)
         pieces += arcs->piece[i].map != PIR_ALONG_EDGE;
     uint32_t vertices = 24 + 2 * on_edges + interior, edges = 24 + 2 * on_edges + pieces;
-    c->vertices = vertices, c->edges = edges;
+    c->vertices = vertices;
+    c->edges = edges;
     c->vertex_of = PIR_NEW(a, uint32_t, arcs->site_count);
     c->cover = PIR_NEW(a, uint32_t, arcs->site_count);
     c->edge_sites = PIR_NEW(a, uint32_t, arcs->site_count);

@@ -54,11 +54,14 @@ static void add_signed(pir_int *dst, const pir_int *a, const pir_int *b, int32_t
     // let a be the longer
     if (na < nb) {
         const mp_limb_t *l = la;
-        la = lb, lb = l;
+        la = lb;
+        lb = l;
         uint32_t n = na;
-        na = nb, nb = n;
+        na = nb;
+        nb = n;
         int32_t s = size_a;
-        size_a = size_b, size_b = s;
+        size_a = size_b;
+        size_b = s;
     }
     pir_int_check_room(dst->room, na);
     if (nb == 0) {

@@ -39,7 +39,10 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
     double x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
     if (!(n >= NEAR_ONE && n <= 1 / NEAR_ONE)) {
         int top = top_exponent(c);
-        x = ldexp(x, -top), y = ldexp(y, -top), z = ldexp(z, -top), w = ldexp(w, -top);
+        x = ldexp(x, -top);
+        y = ldexp(y, -top);
+        z = ldexp(z, -top);
+        w = ldexp(w, -top);
     }
     double xx = x * x, yy = y * y, zz = z * z, ww = w * w;
     n = xx + yy + zz + ww;
@@ -62,8 +65,10 @@ static int low_exponent(const double c[4]) {
         int e;
         uint64_t mantissa = (uint64_t)ldexp(frexp(fabs(c[k]), &e), 53);
         e -= 53;
-        while ((mantissa & 1) == 0)
-            mantissa >>= 1, e++;
+        while ((mantissa & 1) == 0) {
+            mantissa >>= 1;
+            e++;
+        }
         low = e < low ? e : low;
     }
     return low;

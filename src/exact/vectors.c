@@ -126,8 +126,10 @@ pir_vec3 pir_int3_unit(const pir_int3 *v) {
     bool any = false;
     for (int k = 0; k < 3; k++) {
         m[k] = pir_int_to_double(&v->c[k], &e[k]);
-        if (m[k] != 0 && (!any || e[k] > top))
-            top = e[k], any = true;
+        if (m[k] != 0 && (!any || e[k] > top)) {
+            top = e[k];
+            any = true;
+        }
     }
     for (int k = 0; k < 3; k++)
         m[k] = m[k] != 0 ? pir_times_power(m[k], e[k] - top) : 0;

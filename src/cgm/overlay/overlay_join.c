@@ -12,10 +12,11 @@
  * Faces. A face of the result lies in one face of a and one of b. Its edges tell which, but for a face of b that no
  * edge of a meets: that learns its face of a from beyond any edge that is not a's.
  */
-#include "base/sort.h"
-#include "cgm/overlay/overlay.h"
+#include "cgm/overlay/overlay_join.h"
 
 #include <string.h>
+
+#include "base/sort.h"
 
 /* --- edges of b --- */
 

@@ -15,7 +15,7 @@
  * Walks start at located vertices, first those of the rim, and locate the vertex where they end. Every vertex is
  * reached: a face that is convex has one boundary.
  */
-#include "cgm/overlay/overlay.h"
+#include "cgm/overlay/overlay_walk.h"
 
 struct walk {
     struct pir_overlay *overlay;

@@ -286,8 +286,10 @@ static bool give_up_least(struct merging *m) {
             area[active++] = m->groups.group[g].area;
     qsort(area, active, sizeof *area, compare_areas);
     for (uint32_t g = m->groups.count; g-- > 0 && active > 0 && given_up < active / 4 + 1;)
-        if (m->groups.group[g].active && m->groups.group[g].area <= area[active / 4])
-            m->groups.group[g].active = false, given_up++;
+        if (m->groups.group[g].active && m->groups.group[g].area <= area[active / 4]) {
+            m->groups.group[g].active = false;
+            given_up++;
+        }
     PIR_FREE(&m->hull->allocator, area, m->groups.count);
     return true;
 }
@@ -404,7 +406,8 @@ static pir_status build_merged(struct merging *m, double tolerance, pir_polytope
     return PIR_OK;
 }
 
-/* The hull with what facets can be merged within `tolerance` merged: a new polytope, its bound set. NULL where none can. */
+/* The hull with what facets can be merged within `tolerance` merged: a new polytope, its bound
+   set. NULL where none can. */
 static pir_status merge_facets(const pir_polytope *hull, double tolerance, pir_polytope **ret_merged) {
     struct merging m = {0};
     pir_status status = pir_merge_groups_make(&m.groups, hull, tolerance);

@@ -19,8 +19,10 @@ static uint32_t farthest_point(const pir_points *points) {
     double most = 0;
     for (uint32_t p = 1; p < points->exact->count; p++) {
         double d = pir_vec_dot(points->near[p], points->near[p]);
-        if (d > most)
-            most = d, best = p;
+        if (d > most) {
+            most = d;
+            best = p;
+        }
     }
     return best;
 }
@@ -31,8 +33,10 @@ static uint32_t point_off_line(pir_points *points, uint32_t a, uint32_t b) {
     double most = 0;
     for (uint32_t p = 0; p < points->exact->count; p++) {
         pir_vec3 n = pir_plane_through(points, a, b, p).normal;
-        if (pir_vec_dot(n, n) > most)
-            most = pir_vec_dot(n, n), best = p;
+        if (pir_vec_dot(n, n) > most) {
+            most = pir_vec_dot(n, n);
+            best = p;
+        }
     }
     if (!pir_collinear(points, a, b, best))
         return best;
@@ -49,8 +53,10 @@ static uint32_t point_off_plane(pir_points *points, uint32_t a, uint32_t b, uint
     double most = 0;
     for (uint32_t p = 0; p < points->exact->count; p++) {
         double height = fabs(pir_plane_height(&plane, points, p));
-        if (height > most)
-            most = height, best = p;
+        if (height > most) {
+            most = height;
+            best = p;
+        }
     }
     if (pir_orient(points, a, b, c, best) != 0)
         return best;
@@ -68,8 +74,10 @@ static bool list_vertices(pir_hull *hull, const pir_allocator *allocator, uint32
         return false;
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++)
-        if (!is_vertex[index[i]])
-            is_vertex[index[i]] = 1, n++;
+        if (!is_vertex[index[i]]) {
+            is_vertex[index[i]] = 1;
+            n++;
+        }
     hull->vertices = PIR_NEW(allocator, uint32_t, n);
     if (hull->vertices)
         for (uint32_t p = 0; p < points; p++)

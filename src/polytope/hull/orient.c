@@ -24,8 +24,10 @@ static void approximate_axis(pir_points *points, int axis, double *mantissa, int
     for (uint32_t p = 0; p < count; p++) {
         difference(points, &d, p, 0);
         mantissa[p] = pir_int_to_double(&d.c[axis], &exponent[p]);
-        if (mantissa[p] != 0 && (!any || exponent[p] > top))
-            top = exponent[p], any = true;
+        if (mantissa[p] != 0 && (!any || exponent[p] > top)) {
+            top = exponent[p];
+            any = true;
+        }
     }
     points->scratch.used = mark;
     for (uint32_t p = 0; p < count; p++) {

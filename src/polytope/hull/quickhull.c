@@ -182,7 +182,8 @@ static bool build_simplex(pir_quickhull *hull, const uint32_t simplex[4]) {
     uint32_t a = simplex[0], b = simplex[1], c = simplex[2], d = simplex[3];
     if (pir_orient(hull->points, a, b, c, d) > 0) {
         uint32_t swap = b;
-        b = c, c = swap;
+        b = c;
+        c = swap;
     }
     // d is below abc; each neighbour is across the edge from a vertex to the next
     const uint32_t vertex[4][3] = {{a, b, c}, {b, a, d}, {c, b, d}, {a, c, d}};

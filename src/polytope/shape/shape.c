@@ -126,17 +126,22 @@ static bool read_number(struct piece piece, double *ret_value) {
     if (piece.length == 0 || piece.length > 200)
         return false;
     const bool minus = *piece.text == '-';
-    if (minus || *piece.text == '+')
-        piece.text++, piece.length--;
+    if (minus || *piece.text == '+') {
+        piece.text++;
+        piece.length--;
+    }
     uint64_t mantissa;
     int exponent;
     if (!read_mantissa(&piece, &mantissa, &exponent))
         return false;
     if (piece.length > 0 && (*piece.text == 'e' || *piece.text == 'E')) {
-        piece.text++, piece.length--;
+        piece.text++;
+        piece.length--;
         const bool down = piece.length > 0 && *piece.text == '-';
-        if (piece.length > 0 && (down || *piece.text == '+'))
-            piece.text++, piece.length--;
+        if (piece.length > 0 && (down || *piece.text == '+')) {
+            piece.text++;
+            piece.length--;
+        }
         if (piece.length == 0 || piece.length > 3)
             return false;
         int written = 0;
@@ -157,8 +162,10 @@ static const char *parameter_list(const struct pir_shape *shape, char list[64]) 
         const char *name = shape->parameter[k].name;
         if (!name || used + strlen(name) + 3 > 64)
             continue;
-        if (used > 0)
-            list[used++] = ',', list[used++] = ' ';
+        if (used > 0) {
+            list[used++] = ',';
+            list[used++] = ' ';
+        }
         memcpy(list + used, name, strlen(name));
         used += strlen(name);
     }

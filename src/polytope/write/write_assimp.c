@@ -132,7 +132,8 @@ pir_status pir_mesh_write_assimp(const pir_mesh *mesh, FILE *file, const char *e
 
 pir_status pir_mesh_write_assimp(const pir_mesh *mesh, FILE *file, const char *ending, const char *name,
                                  pir_report *report) {
-    (void)mesh, (void)file;
+    (void)mesh;
+    (void)file;
     return pir_fail(report, PIR_ERR_UNSUPPORTED,
                     "%s: this build has no assimp, which writes .%s; it writes .off and .svg", name, ending);
 }

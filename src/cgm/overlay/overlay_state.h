@@ -7,8 +7,8 @@
  * Paper's ten cases: vertex and vertex (1), vertex on edge (2, 3), vertex in face (4, 5), edge and edge crossing (6) or
  * overlapping (7), edge in face (8, 9), face and face (10).
  */
-#ifndef PIR_CGM_OVERLAY_OVERLAY_H
-#define PIR_CGM_OVERLAY_OVERLAY_H
+#ifndef PIR_CGM_OVERLAY_OVERLAY_STATE_H
+#define PIR_CGM_OVERLAY_OVERLAY_STATE_H
 
 #include "cgm/build.h"
 #include "cgm/sides.h"
@@ -75,6 +75,13 @@ struct pir_overlay {
     uint32_t *list;          /* work: rings, records */
 };
 
+/* Sets up the overlay of `a` and `b`, with the sources of both in its result; false when out of memory. Release what
+   was made with pir_overlay_finish, whatever the outcome. */
+bool pir_overlay_init(struct pir_overlay *overlay, const pir_cgm *a, const pir_cgm *b);
+
+/* Releases all but the result. */
+void pir_overlay_finish(struct pir_overlay *overlay);
+
 /* A line of b among the result's, a direction of b in them. */
 static inline uint32_t pir_overlay_line(const struct pir_overlay *overlay, uint32_t line) {
     return line < 2 * PIR_CUBE_PLANES ? line : line + 2 * (overlay->a->line_count - PIR_CUBE_PLANES);
@@ -94,14 +101,5 @@ uint32_t pir_overlay_add_edge(struct pir_overlay *overlay, uint32_t from, uint32
 
 /* Notes that vertex v of the result is within edge e of b; false when out of memory. */
 bool pir_overlay_add_record(struct pir_overlay *overlay, uint32_t v, uint32_t e);
-
-/* Walks all edges of a off the rim in one map, its rim vertices being located; false when out of memory. */
-bool pir_overlay_walk(struct pir_overlay *overlay, uint32_t map);
-
-/* Makes the edges on b alone and links the rings of one map, a's part being there; false when out of memory. */
-bool pir_overlay_join(struct pir_overlay *overlay, uint32_t map);
-
-/* Gives the features of the finished maps what their sources contribute; false when out of memory. */
-bool pir_overlay_attribute(struct pir_overlay *overlay);
 
 #endif
