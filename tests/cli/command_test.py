@@ -116,9 +116,14 @@ class CommandTest(unittest.TestCase):
         """A run of the command in which a call goes wrong; see faulty.c."""
         if not self.faulty:
             self.skipTest("the linker cannot put faults into this build")
-        return subprocess.run([self.faulty, *map(str, args)], capture_output=True, text=True, timeout=60,
+        came = self.path / "fault"
+        done = subprocess.run([self.faulty, *map(str, args)], capture_output=True, text=True, timeout=60,
                               preexec_fn=with_own_signals,
-                              env={**os.environ, "PIROUETTE_FAULT": f"{kind}:{number}"})
+                              env={**os.environ, "PIROUETTE_FAULT": f"{kind}:{number}",
+                                   "PIROUETTE_FAULT_CAME": str(came)})
+        self.fault_came = came.exists()
+        came.unlink(missing_ok=True)
+        return done
 
     def bad(self, *args, says=()):
         """A run that must end with status 2 and one line on stderr, which holds every word of `says`."""

@@ -23,8 +23,15 @@
 /* The command has ended: what runs now, such as the writing of coverage, is not its own. */
 static bool has_ended;
 
+/* Whether the fault came; the file that PIROUETTE_FAULT_CAME names is made then, for the tests to see it. */
+static bool has_come;
+
 static void end(void) {
     has_ended = true;
+    const char *name = getenv("PIROUETTE_FAULT_CAME");
+    FILE *file = has_come && name ? fopen(name, "w") : NULL;
+    if (file)
+        fclose(file);
 }
 
 /* Whether this call, one of those that `kind` counts, is the one that fails. */
@@ -41,7 +48,9 @@ static bool is_due(const char *kind) {
     size_t length = strlen(kind);
     if (strncmp(chosen, kind, length) != 0 || chosen[length] != ':')
         return false;
-    return ++calls == due;
+    bool comes = ++calls == due;
+    has_come = has_come || comes;
+    return comes;
 }
 
 /* --- memory --- */

@@ -28,7 +28,7 @@ class MemoryTest(CommandTest):
             number += step
             done = self.fault("memory", number, *args)
             step = 7 if "JSON text" in done.stderr else 1
-            if done.returncode == 0:
+            if not self.fault_came:
                 break
             self.assertEqual((done.returncode, done.stdout), (2, ""), (number, args, done.stderr))
             self.assertRegex(done.stderr, r"^pirouette: [^\n]*(out of memory|Cannot allocate memory)[^\n]*\n$",
@@ -38,7 +38,8 @@ class MemoryTest(CommandTest):
                 same = (self.path / name).read_bytes() == whole.get(name)
                 self.assertTrue(same or (name == "chart.svg" and (self.path / name).read_text().endswith("</svg>\n")),
                                 (name, number))
-        self.assertEqual((done.stderr, sorted(set(self.left()) - set(before))), ("", sorted(whole)))
+        self.assertEqual((done.returncode, done.stderr, sorted(set(self.left()) - set(before))),
+                         (0, "", sorted(whole)))
         return number - step
 
 

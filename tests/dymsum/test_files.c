@@ -182,6 +182,8 @@ static void refuse_cut_or_changed(double half_angle) {
     assert_ptr_equal(back, before);
     assert_int_equal(pir_sum_serialise(sum, copy, bytes.size - 1), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_sum_restore(NULL, 9, NULL, &report, &back), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_sum_write(sum, NULL, &report), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_sum_write(NULL, stderr, &report), PIR_ERR_ARGUMENT);
     free(copy);
     free(bytes.data);
     pir_sum_destroy(sum);

@@ -41,6 +41,16 @@ static void expect_same(const pir_live_vertices *v, const struct list *list) {
     assert_int_equal(in_use, used);
 }
 
+/* After a sweep each slot is in use or free: none is lost. */
+static void expect_none_lost(const pir_live_vertices *v) {
+    uint32_t in_use = 0, free_count = 0;
+    for (uint32_t slot = 0; slot < v->used; slot++)
+        in_use += v->uses[slot] > 0;
+    for (uint32_t slot = v->free; slot != PIR_NO_SLOT && free_count <= v->used; slot = v->next_free[slot])
+        free_count++;
+    expect(in_use + free_count == v->used, "%u in use, %u free of %u", in_use, free_count, v->used);
+}
+
 static void vertices_stay_where_they_are_while_others_come_and_go(void **state) {
     (void)state;
     uint64_t failures = 0;
@@ -73,8 +83,10 @@ static void vertices_stay_where_they_are_while_others_come_and_go(void **state) 
                     take(&v, &list, pair);
                 }
                 // what nothing uses keeps its slot until it is swept
-                if (step % 25 == 24)
+                if (step % 25 == 24) {
                     pir_live_vertices_sweep(&v);
+                    expect_none_lost(&v);
+                }
                 expect_same(&v, &list);
             }
         }

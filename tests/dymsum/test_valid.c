@@ -64,6 +64,24 @@ static void damage_crossings(test_random *random, pir_sum *sum, uint32_t told[2]
     }
 }
 
+/* Leads the chain of free slots to a slot in use or beyond the last, and cuts it off. */
+static void damage_free_slots(pir_sum *sum, uint32_t *told) {
+    pir_crossings *c = &sum->pairing.crossings;
+    uint32_t before = c->free;
+    for (uint32_t slot = 0; slot <= c->used; slot++) {
+        if (slot < c->used && c->edge[slot] == PIR_NO_CROSSING)
+            continue;
+        c->free = slot;
+        expect(!pir_sum_is_valid(sum), "slot %u of %u is free and in use", slot, c->used);
+        (*told)++;
+    }
+    if (before != PIR_NO_CROSSING) {
+        c->free = PIR_NO_CROSSING;
+        expect(!pir_sum_is_valid(sum), "free slots are lost");
+    }
+    c->free = before;
+}
+
 static void damage_is_seen(void **state) {
     (void)state;
     uint32_t told[3][2] = {{0}};
@@ -82,6 +100,7 @@ static void damage_is_seen(void **state) {
                 damage_cells(&random, sum, sum->tracked.pairing.fv, p->facet_count, q->vertex_count, told[0]);
                 damage_cells(&random, sum, sum->tracked.pairing.vf, q->facet_count, p->vertex_count, told[0]);
                 damage_crossings(&random, sum, told[1]);
+                damage_free_slots(sum, &told[1][SEEN]);
                 if (region)
                     damage_edges(sum, told[2]);
                 assert_true(pir_sum_is_valid(sum));

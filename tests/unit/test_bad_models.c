@@ -68,6 +68,7 @@ static void test_obj_statements(void **state) {
               "vt 0 0\nvn 0 0 1\nusemtl \xC3\xA9\ng a b\ns off\nf 1/1/1 2//1 3/1\nf -1 -2 -3",
               "obj", 4, 4);
     must_read("f 1 2 3 # before its points\nv 0 0 \\\n0 1\r\nv 1 0 0 .1 .2 .3\nv 0 1 0 .1 .2 .3 .4\n", "obj", 3, 2);
+    must_read("\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj", 3, 2);
     static const struct refusal refusals[] = {
         {"", PIR_ERR_EMPTY, "m: the file is empty"},
         {"# nothing\n", PIR_ERR_EMPTY, "m: the file has no points"},

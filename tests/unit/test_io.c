@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -257,6 +258,32 @@ static void test_files_that_cannot_be_read(void **state) {
     rmdir(path);
 }
 
+/* A pipe has no size: what comes is read piece by piece until its end. */
+static void test_pipes_are_read_to_their_end(void **state) {
+    const char *path = path_of(state, "pipe.off");
+    assert_int_equal(mkfifo(path, 0600), 0);
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        FILE *file = fopen(path, "w");
+        fputs("OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n", file);
+        for (int line = 0; line < 20000; line++)
+            fprintf(file, "# line %d\n", line);
+        fputs("0 0 7\n", file);
+        _exit(fclose(file) ? 1 : 0);
+    }
+    pir_polytope *p = NULL;
+    pir_report report = {PIR_OK, ""};
+    pir_status status = pir_polytope_read(path, NULL, &report, &p);
+    int how;
+    assert_int_equal(waitpid(child, &how, 0), child);
+    remove(path);
+    assert_true(status == PIR_OK && WIFEXITED(how) && WEXITSTATUS(how) == 0);
+    assert_int_equal(pir_polytope_vertex_count(p), 4);
+    assert_true(pir_polytope_vertex(p, 3).z == 7);
+    pir_polytope_release(p);
+}
+
 static void test_long_path_leaves_room_for_the_reason(void **state) {
     (void)state;
     char path[600];
@@ -392,6 +419,7 @@ int main(void) {
         cmocka_unit_test(test_doubles_read_back_as_themselves),
         cmocka_unit_test(test_decimal_comma_of_a_locale_stays_out),
         cmocka_unit_test(test_files_that_cannot_be_read),
+        cmocka_unit_test(test_pipes_are_read_to_their_end),
         cmocka_unit_test(test_long_path_leaves_room_for_the_reason),
         cmocka_unit_test(test_pictures_show_the_facets_that_face_the_viewer),
         cmocka_unit_test(test_obj_stl_and_ply_come_back),
