@@ -50,6 +50,21 @@ static void damage_edges(pir_sum *sum, uint32_t told[2]) {
     }
 }
 
+/* Makes a dormant edge of P active whose two facets are in no cell. */
+static void damage_dormant_edges(pir_sum *sum, uint32_t told[2]) {
+    const pir_polytope *p = sum->pairing.p;
+    for (uint32_t e = 0; e < p->edge_count; e++) {
+        uint32_t half = p->edge_half[e], stamp = sum->touched[e];
+        if (stamp != PIR_DORMANT || sum->pairing.fv[p->left[half]] != PIR_NO_PAIR ||
+            sum->pairing.fv[pir_right(p, half)] != PIR_NO_PAIR)
+            continue;
+        sum->touched[e] = 0;
+        expect(!pir_sum_is_valid(sum), "edge %u is active without cells", e);
+        sum->touched[e] = stamp;
+        told[SEEN]++;
+    }
+}
+
 /* Puts the half of a crossing in place of another's. */
 static void damage_crossings(test_random *random, pir_sum *sum, uint32_t told[2]) {
     pir_crossings *c = &sum->tracked.pairing.crossings;
@@ -84,7 +99,7 @@ static void damage_free_slots(pir_sum *sum, uint32_t *told) {
 
 static void damage_is_seen(void **state) {
     (void)state;
-    uint32_t told[3][2] = {{0}};
+    uint32_t told[4][2] = {{0}};
     for (uint64_t i = 0; i < 120; i++) {
         test_random random = test_random_case("sum damage", i);
         test_pose pose;
@@ -102,7 +117,7 @@ static void damage_is_seen(void **state) {
                 damage_crossings(&random, sum, told[1]);
                 damage_free_slots(sum, &told[1][SEEN]);
                 if (region)
-                    damage_edges(sum, told[2]);
+                    damage_edges(sum, told[2]), damage_dormant_edges(sum, told[3]);
                 assert_true(pir_sum_is_valid(sum));
             }
         pir_sum_destroy(sum);
@@ -111,7 +126,7 @@ static void damage_is_seen(void **state) {
     }
     print_message("# cells %u seen, crossings %u, edges %u and %u harmless\n", told[0][SEEN], told[1][SEEN],
                   told[2][SEEN], told[2][HARMLESS]);
-    assert_true(told[0][SEEN] > 1000 && told[1][SEEN] > 500 && told[2][SEEN] > 30);
+    assert_true(told[0][SEEN] > 1000 && told[1][SEEN] > 500 && told[2][SEEN] > 30 && told[3][SEEN] > 30);
 }
 
 int main(void) {

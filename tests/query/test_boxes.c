@@ -246,9 +246,6 @@ static void check_pose(const struct scene *s, test_random *random, const int t[3
 
 /* What supports alone tell. */
 static void check_pair(const struct scene *s, const int t[3]) {
-    // two points have no size that a distance could be near to
-    if (pir_polytope_vertex_count(s->body_p) + pir_polytope_vertex_count(s->body_q) == 2)
-        return;
     pir_ccd_pair pair = {s->body_p, s->body_q, s->rotation, vector(t, s->unit)};
     pir_ccd_outcome outcome;
     double distance;

@@ -100,11 +100,86 @@ static void supports_of_bodies_are_farthest(void **state) {
     }
 }
 
+static pir_polytope *point_at(double x, double y, double z) {
+    pir_polytope *point = NULL;
+    assert_int_equal(pir_polytope_create(&(pir_vec3){x, y, z}, 1, NULL, &point), PIR_OK);
+    return point;
+}
+
+/* Two points have no size: the distance gives the unit, whichever body or coordinate it is in, and the translation. */
+static void two_points_are_apart_at_every_scale(void **state) {
+    (void)state;
+    // a body may not be farther off than 2^400 of the unit, which is 1 for points at the origin
+    for (int n = 0; n < 9; n++)
+        for (int exponent = -1060; exponent <= (n < 6 ? 1000 : 380); exponent += 20) {
+            double far = ldexp(1, exponent), v[3] = {n % 3 == 0 ? far : 0, n % 3 == 1 ? far : 0, n % 3 == 2 ? far : 0};
+            pir_polytope *origin = point_at(0, 0, 0), *away = point_at(v[0], v[1], v[2]);
+            pir_polytope *p = n / 3 == 0 ? away : origin, *q = n / 3 == 1 ? away : origin;
+            const pir_sum_options options = {NULL, 1};
+            pir_query_input input = {.cutoff = HUGE_VAL};
+            if (n / 3 == 2)
+                input.translation = (pir_vec3){v[0], v[1], v[2]};
+            pir_sum *sum = NULL;
+            pir_query *query = NULL;
+            pir_query_result told;
+            assert_int_equal(pir_sum_create(p, q, (pir_quat){0, 0, 0, 1}, &options, &sum), PIR_OK);
+            assert_int_equal(pir_query_create(sum, &query), PIR_OK);
+            assert_int_equal(pir_query_signed_distance(query, &input, NULL, &told), PIR_OK);
+            double length =
+                sqrt(told.normal.x * told.normal.x + told.normal.y * told.normal.y + told.normal.z * told.normal.z);
+            expect(told.state == PIR_OUTSIDE && told.distance == far && fabs(length - 1) < 1e-14,
+                   "case %d, 2^%d: state %d, distance %g, normal of length %g", n, exponent, (int)told.state,
+                   told.distance, length);
+            pir_ccd_pair pair = {p, q, {0, 0, 0, 1}, input.translation};
+            pir_ccd_outcome outcome;
+            double distance;
+            pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
+            // the least unit is 2^-1020
+            expect(status == PIR_ERR_UNSUPPORTED || exponent < -1000 ||
+                       (status == PIR_OK && outcome == PIR_CCD_SEPARATED && fabs(distance - far) <= 1e-9 * far),
+                   "case %d, 2^%d: by supports alone outcome %d, distance %g", n, exponent, (int)outcome, distance);
+            pir_query_destroy(query);
+            pir_sum_destroy(sum);
+            pir_polytope_release(away);
+            pir_polytope_release(origin);
+        }
+}
+
+/* Bodies that touch are too close to tell by supports alone: never apart, and no distance. */
+static void bodies_that_touch_are_not_apart_by_supports(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 200; i++) {
+        test_random random = test_random_case("touching supports", i);
+        pir_polytope *p = test_random_polytope(&random, i % 2 ? TEST_BOX : TEST_OCTAHEDRON, 8),
+                     *q = test_random_polytope(&random, i % 3 ? TEST_BOX : TEST_OCTAHEDRON, 8);
+        pir_vec3 low[2], high[2], middle[2];
+        pir_polytope_bounds(p, &low[0], &high[0]);
+        pir_polytope_bounds(q, &low[1], &high[1]);
+        // the corners of an octahedron are on the axes
+        for (int k = 0; k < 2; k++)
+            middle[k] = (k ? i % 3 : i % 2) ? (pir_vec3){0, (low[k].y + high[k].y) / 2, (low[k].z + high[k].z) / 2}
+                                            : (pir_vec3){0, 0, 0};
+        // the middle of P's left side, or its corner there, on that of Q's right
+        pir_vec3 t = {high[1].x - low[0].x, middle[1].y - middle[0].y, middle[1].z - middle[0].z};
+        pir_ccd_pair pair = {p, q, {0, 0, 0, 1}, t};
+        pir_ccd_outcome outcome = PIR_CCD_OVERLAPPING;
+        double distance = 0;
+        pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
+        assert_true(status == PIR_OK || status == PIR_ERR_UNSUPPORTED);
+        expect(outcome != PIR_CCD_SEPARATED && distance == 0, "case %llu: outcome %d, distance %g",
+               (unsigned long long)i, (int)outcome, distance);
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(supports_of_sums_are_farthest),
         cmocka_unit_test(supports_of_bodies_are_farthest),
+        cmocka_unit_test(two_points_are_apart_at_every_scale),
+        cmocka_unit_test(bodies_that_touch_are_not_apart_by_supports),
     };
     return cmocka_run_group_tests_name("supports", tests, NULL, NULL);
 }

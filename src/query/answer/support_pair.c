@@ -23,6 +23,8 @@ _Static_assert(sizeof(ccd_real_t) == sizeof(double), "libccd must be built for d
 
 #define PAIR_STEPS 128
 
+#define EXPONENT_LEAST (-1020)
+
 /* One operand, scaled. */
 struct side {
     const pir_polytope *polytope;
@@ -71,13 +73,18 @@ static pir_status make_sides(const pir_ccd_pair *pair, struct side sides[2], dou
     sides[0] = (struct side){.polytope = pair->p, .r = rotation.r, .middle = middle_of(pair->p, &size)};
     sides[1] = (struct side){
         .polytope = pair->q, .r = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .middle = middle_of(pair->q, &size)};
+    pir_vec3 at = pir_vec_add(pir_mat_apply(&rotation.r, sides[0].middle), pair->translation);
+    pir_vec3 apart = pir_vec_sub(at, sides[1].middle);
+    // two points have no size: how far they are apart gives the unit
+    if (size == 0)
+        size = fmax(fabs(apart.x), fmax(fabs(apart.y), fabs(apart.z)));
     int exponent = 0;
     if (size > 0)
         frexp(size, &exponent);
-    *ret_unit = ldexp(1, exponent);
-    pir_vec3 at = pir_vec_add(pir_mat_apply(&rotation.r, sides[0].middle), pair->translation);
+    // the unit's inverse is a double
+    *ret_unit = ldexp(1, exponent > EXPONENT_LEAST ? exponent : EXPONENT_LEAST);
     sides[0].scale = sides[1].scale = 1 / *ret_unit;
-    sides[0].at = pir_vec_scale(pir_vec_sub(at, sides[1].middle), sides[0].scale);
+    sides[0].at = pir_vec_scale(apart, sides[0].scale);
     return pir_vec_is_finite(sides[0].at) ? PIR_OK : PIR_ERR_LIMIT;
 }
 
