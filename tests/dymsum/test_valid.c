@@ -52,15 +52,15 @@ static void damage_edges(pir_sum *sum, uint32_t told[2]) {
 
 /* Makes a dormant edge of P active whose two facets are in no cell. */
 static void damage_dormant_edges(pir_sum *sum, uint32_t told[2]) {
-    const pir_polytope *p = sum->pairing.p;
+    const pir_polytope *p = sum->tracked.pairing.p;
     for (uint32_t e = 0; e < p->edge_count; e++) {
-        uint32_t half = p->edge_half[e], stamp = sum->touched[e];
-        if (stamp != PIR_DORMANT || sum->pairing.fv[p->left[half]] != PIR_NO_PAIR ||
-            sum->pairing.fv[pir_right(p, half)] != PIR_NO_PAIR)
+        uint32_t half = p->edge_half[e], stamp = sum->tracked.touched[e];
+        if (stamp != PIR_INACTIVE || sum->tracked.pairing.fv[p->left[half]] != PIR_NO_PAIR ||
+            sum->tracked.pairing.fv[pir_right(p, half)] != PIR_NO_PAIR)
             continue;
-        sum->touched[e] = 0;
+        sum->tracked.touched[e] = 0;
         expect(!pir_sum_is_valid(sum), "edge %u is active without cells", e);
-        sum->touched[e] = stamp;
+        sum->tracked.touched[e] = stamp;
         told[SEEN]++;
     }
 }
@@ -81,7 +81,7 @@ static void damage_crossings(test_random *random, pir_sum *sum, uint32_t told[2]
 
 /* Leads the chain of free slots to a slot in use or beyond the last, and cuts it off. */
 static void damage_free_slots(pir_sum *sum, uint32_t *told) {
-    pir_crossings *c = &sum->pairing.crossings;
+    pir_crossings *c = &sum->tracked.pairing.crossings;
     uint32_t before = c->free;
     for (uint32_t slot = 0; slot <= c->used; slot++) {
         if (slot < c->used && c->edge[slot] == PIR_NO_CROSSING)
