@@ -3,6 +3,8 @@
  * Words that every part of Pirouette shares: status codes, error reports, vectors, quaternions, the allocator.
  *
  * Everything here is a plain value; nothing allocates, nothing is global.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_BASE_H
 #define PIROUETTE_BASE_H

@@ -5,6 +5,8 @@
  *
  * Threads: a call reads its polytopes and writes nothing but its results; a pir_support_body belongs to one thread at a
  * time.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_CCD_H
 #define PIROUETTE_CCD_H
@@ -29,12 +31,30 @@ typedef enum pir_ccd_outcome {
     PIR_CCD_FAILED,      /**< the engine gave no usable answer */
 } pir_ccd_outcome;
 
-/** Overlap by libccd's MPR on supports of ours, scale-normalised; not exact. PIR_ERR_UNSUPPORTED in
-    a build without libccd. */
+/**
+ * Overlap by libccd's MPR on supports of ours, scale-normalised; not exact. PIR_ERR_UNSUPPORTED in
+ * a build without libccd.
+ *
+ * pair  the bodies, borrowed for the call, and the pose of P relative to Q.
+ *
+ * Cost: a bounded number of supports, O(√n) steps each for n vertices.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a translation beyond the
+ * doubles at the size of the bodies), PIR_ERR_UNSUPPORTED.
+ */
 PIR_API pir_status pir_ccd_overlap(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome);
 
-/** Distance likewise, by descent on libccd's distances to segments and triangles. *ret_distance is 0 unless separated;
-    within 1e-9 of the size. */
+/**
+ * Distance likewise, by descent on libccd's distances to segments and triangles. *ret_distance is 0 unless separated;
+ * within 1e-9 of the size.
+ *
+ * pair         as of pir_ccd_overlap.
+ * ret_outcome  says whether there is a distance.
+ *
+ * Cost: a bounded number of supports, O(√n) steps each for n vertices.
+ *
+ * Errors as of pir_ccd_overlap.
+ */
 PIR_API pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome, double *ret_distance);
 
 /** A polytope in a pose, for libccd and engines like it. Plain; the polytope is borrowed. */

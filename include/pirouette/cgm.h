@@ -17,6 +17,8 @@
  * the outer one, beyond its square. A direction on a cube edge is a vertex of two maps, one on a cube corner of three.
  *
  * A map is immutable; threads may read one together.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_CGM_H
 #define PIROUETTE_CGM_H
@@ -49,9 +51,10 @@ PIR_API pir_status pir_cgm_create(pir_polytope *polytope, const pir_quat *rotati
 
 /**
  * Makes the map of the sum: the overlay of `a` and `b`, which may be the same and are not kept. The sources of the
- * result are those of a, then those of b. Uses a's allocator. The time follows the size of the result as long as no
- * cell has very many sides: an arc that crosses a cell looks at its sides one by one. Errors: PIR_ERR_ARGUMENT,
- * PIR_ERR_MEMORY.
+ * result are those of a, then those of b. Uses a's allocator.
+ *
+ * Cost: O(size of the result) as long as no cell has very many sides: an arc that crosses a cell looks at its sides
+ * one by one. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_overlay(const pir_cgm *a, const pir_cgm *b, pir_cgm **ret_cgm);
 
@@ -63,6 +66,12 @@ PIR_API void pir_cgm_destroy(pir_cgm *cgm);
  * pir_mesh_from_polytope but for the rotation; of two, P rotated and Q, to pir_sum_mesh. A vertex's pair holds the
  * vertices of the first two sources, the second being 0 where there is one; with more than two sources facet kinds
  * speak of the first two, too.
+ *
+ * precision  PIR_DOUBLE, or PIR_EXACT for rationals beside the doubles.
+ *
+ * Cost: O(size of the map).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_mesh(const pir_cgm *cgm, pir_precision precision, pir_mesh **ret_mesh);
 
@@ -82,6 +91,9 @@ typedef struct pir_cgm_counts {
     uint32_t vertices, halfedges, faces;
 } pir_cgm_counts;
 
+/**
+ * The counts of map `map`, 0 to 5, and those of all six maps.
+ */
 PIR_API pir_cgm_counts pir_cgm_map_counts(const pir_cgm *cgm, uint32_t map);
 PIR_API pir_cgm_counts pir_cgm_total_counts(const pir_cgm *cgm);
 
@@ -135,8 +147,12 @@ PIR_API uint32_t pir_cgm_corner(const pir_cgm *cgm, uint32_t map, uint32_t corne
 /** The halfedge after `halfedge` clockwise about its origin, within its map. */
 PIR_API uint32_t pir_cgm_clockwise_after(const pir_cgm *cgm, uint32_t halfedge);
 
-/** What source `source` has at a feature: the facet with this normal, the edge whose arc runs here, the vertex that is
- * extreme here; PIR_CGM_NONE where it has none, for an outer face, and for the hidden facets of a segment. */
+/**
+ * What source `source` has at a feature: the facet with this normal, the edge whose arc runs here, the vertex that is
+ * extreme here; PIR_CGM_NONE where it has none, for an outer face, and for the hidden facets of a segment.
+ *
+ * The feature is given by its number `vertex`, `halfedge` or `face`.
+ */
 PIR_API uint32_t pir_cgm_vertex_facet(const pir_cgm *cgm, uint32_t vertex, uint32_t source);
 PIR_API uint32_t pir_cgm_halfedge_edge(const pir_cgm *cgm, uint32_t halfedge, uint32_t source);
 PIR_API uint32_t pir_cgm_face_vertex(const pir_cgm *cgm, uint32_t face, uint32_t source);
@@ -144,6 +160,8 @@ PIR_API uint32_t pir_cgm_face_vertex(const pir_cgm *cgm, uint32_t face, uint32_t
 /**
  * The support plane n·x = offset of the polytope or sum in the direction of a vertex, rounded: *ret_normal is the unit
  * vector, the offset is within a few ulp relative to the size of the sources. exact.h has it exactly.
+ *
+ * ret_normal, ret_offset  the plane's unit normal and offset.
  */
 PIR_API void pir_cgm_vertex_plane(const pir_cgm *cgm, uint32_t vertex, pir_vec3 *ret_normal, double *ret_offset);
 
@@ -182,6 +200,10 @@ PIR_API void pir_cgm_locator_destroy(pir_cgm_locator *locator);
  *
  * Bodies without an inside, and those too thin to have a double inside, have all vertices looked at instead; a flat
  * body's points are all on its boundary. Allocates nothing. Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE.
+ *
+ * locator  that of the map; its owner's thread alone may use it.
+ *
+ * Cost: O(steps of the walk); O(vertices) for the bodies without an inside.
  */
 PIR_API pir_status pir_cgm_locate(pir_cgm_locator *locator, pir_vec3 point, uint32_t witness,
                                   pir_cgm_location *ret_location);
@@ -194,9 +216,16 @@ typedef struct pir_cgm_statistics {
     size_t bytes; /**< of its own arrays, without the polytopes */
 } pir_cgm_statistics;
 
+/**
+ * The counters of `cgm`.
+ */
 PIR_API pir_cgm_statistics pir_cgm_get_statistics(const pir_cgm *cgm);
 
-/** A whole-structure check for tests: 1 when every invariant of the six maps holds, geometry in exact arithmetic. */
+/**
+ * A whole-structure check for tests: 1 when every invariant of the six maps holds, geometry in exact arithmetic.
+ *
+ * Cost: O(n) for n features, with an exact test each.
+ */
 PIR_API int pir_cgm_is_valid(const pir_cgm *cgm);
 
 #ifdef __cplusplus

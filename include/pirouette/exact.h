@@ -4,6 +4,8 @@
  * it.
  *
  * GMP's own allocation functions serve the mpq_t arguments; GMP ends the process when they run out of memory.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_EXACT_H
 #define PIROUETTE_EXACT_H
@@ -24,26 +26,60 @@ extern "C" {
  * The exact convex hull of `count` rational points: x, y, z of point i in coordinates[3i..3i+2], canonical; copied.
  * Otherwise as pir_polytope_create. PIR_ERR_LIMIT also when the least common denominator takes more than 65536 bits, or
  * a coordinate over it more than 131072.
+ *
+ * options  NULL for the defaults, as of pir_polytope_create.
+ *
+ * Cost: as of pir_polytope_create, with arithmetic on numbers as long as the rationals.
+ *
+ * Errors as of pir_polytope_create, and PIR_ERR_LIMIT as above.
  */
 PIR_API pir_status pir_polytope_create_exact(const mpq_t *coordinates, size_t count,
                                              const pir_polytope_options *options, pir_polytope **ret_polytope);
 
-/** As pir_polytope_scale, by a rational; PIR_ERR_LIMIT also when the scale then takes more than 65536 bits. */
+/**
+ * As pir_polytope_scale, by a rational; PIR_ERR_LIMIT also when the scale then takes more than 65536 bits.
+ *
+ * factor  above 0, canonical; copied.
+ *
+ * Cost: O(n) for n vertices.
+ *
+ * Errors as of pir_polytope_scale, and PIR_ERR_LIMIT as above.
+ */
 PIR_API pir_status pir_polytope_scale_exact(const pir_polytope *polytope, const mpq_t factor,
                                             pir_polytope **ret_polytope);
 
-/** As pir_sum_set_scale, to a rational. */
+/**
+ * As pir_sum_set_scale, to a rational.
+ *
+ * operand, scale  which operand, and how large, as of pir_sum_set_scale; the rational is canonical and copied.
+ *
+ * Cost: O(n) for the operand's n vertices.
+ *
+ * Errors as of pir_sum_set_scale.
+ */
 PIR_API pir_status pir_sum_set_scale_exact(pir_sum *sum, pir_operand operand, const mpq_t scale);
 
 /** The exact coordinates of a vertex, into three initialised rationals. */
 PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t vertex, mpq_t ret_coordinates[3]);
 
-/** The same for a mesh that holds exact coordinates; PIR_ERR_ARGUMENT when it does not. */
+/**
+ * The same for a mesh that holds exact coordinates; PIR_ERR_ARGUMENT when it does not.
+ *
+ * vertex  a number below pir_mesh_vertex_count.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
 PIR_API pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t ret_coordinates[3]);
 
 /**
  * The support plane of a map's polytope or sum in the direction of a vertex: a normal (a, b, c) of integers and the
  * offset d of a·x + b·y + c·z = d, into four initialised rationals. PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ *
+ * Cost: O(1), in exact arithmetic.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_vertex_plane_exact(const pir_cgm *cgm, uint32_t vertex, mpq_t ret_plane[4]);
 

@@ -7,6 +7,8 @@
  * written in float through assimp where the build has it (PIR_ERR_UNSUPPORTED where it has not). SVG is written only.
  *
  * Every call takes an optional report that, on failure, says in one line what was wrong, where (file and line) and why.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_IO_H
 #define PIROUETTE_IO_H
@@ -75,6 +77,9 @@ PIR_API pir_read_options pir_read_options_default(void);
  *
  * Errors: PIR_ERR_ARGUMENT (another ending), PIR_ERR_FILE, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE,
  * PIR_ERR_LIMIT, PIR_ERR_MEMORY; with require_convex, PIR_ERR_NOT_CLOSED (an open surface) and PIR_ERR_NOT_CONVEX.
+ *
+ * report        NULL, or filled when the call fails.
+ * ret_polytope  the hull; the caller owns one reference.
  */
 PIR_API pir_status pir_polytope_read_surface(const char *path, const pir_read_options *options, pir_report *report,
                                              pir_surface *ret_surface, pir_polytope **ret_polytope);
@@ -87,15 +92,42 @@ typedef struct pir_file_bytes {
     const char *format; /**< "off", "obj", "stl" or "ply" */
 } pir_file_bytes;
 
-/** The same for a file in memory. */
+/**
+ * The same for a file in memory.
+ *
+ * options, report, ret_surface, ret_polytope  as of pir_polytope_read_surface.
+ *
+ * Limits as of pir_polytope_read_surface. Cost: the hull of n points, and as there for the surface.
+ *
+ * Errors as of pir_polytope_read_surface, without PIR_ERR_FILE.
+ */
 PIR_API pir_status pir_polytope_read_bytes(const pir_file_bytes *file, const pir_read_options *options,
                                            pir_report *report, pir_surface *ret_surface, pir_polytope **ret_polytope);
 
-/** pir_polytope_read_surface of any form, without a look at the surface. */
+/**
+ * pir_polytope_read_surface of any form, without a look at the surface.
+ *
+ * path, report  as of pir_polytope_read_surface.
+ * options       how the hull is made; NULL for the defaults.
+ *
+ * Cost: the hull of n points.
+ *
+ * Errors as of pir_polytope_read_surface, without those of `require_convex`.
+ */
 PIR_API pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
                                      pir_polytope **ret_polytope);
 
-/** The same for OFF text in memory. The text need not end in a zero. */
+/**
+ * The same for OFF text in memory. The text need not end in a zero.
+ *
+ * text, size       the bytes, and how many.
+ * name             stands for the file in reports.
+ * options, report  as of pir_polytope_read.
+ *
+ * Cost: the hull of n points.
+ *
+ * Errors as of pir_polytope_read, without PIR_ERR_FILE.
+ */
 PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const char *name,
                                          const pir_polytope_options *options, pir_report *report,
                                          pir_polytope **ret_polytope);
@@ -110,6 +142,10 @@ PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const ch
  * permissions that a file of its name had. Symbolic links are followed and stay. What is no regular file, such as a
  * device or a FIFO, is opened and written to, never replaced or removed. Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE,
  * PIR_ERR_UNSUPPORTED, PIR_ERR_MEMORY.
+ *
+ * report  NULL, or filled when the call fails.
+ *
+ * Cost: O(size of the mesh).
  */
 PIR_API pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int exact, pir_report *report);
 
@@ -118,6 +154,12 @@ PIR_API pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int ex
  *
  * name    stands for the file in reports.
  * format  "off", "obj", "stl", "ply" or "svg".
+ *
+ * exact, report  as of pir_mesh_write.
+ *
+ * Cost: O(size of the mesh).
+ *
+ * Errors as of pir_mesh_write.
  */
 PIR_API pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *name, const char *format,
                                          int exact, pir_report *report);

@@ -12,6 +12,8 @@
  *
  * A live mesh follows one sum and holds a reference to it, so the sum may be destroyed first; both belong to one thread
  * at a time.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_LIVE_MESH_H
 #define PIROUETTE_LIVE_MESH_H
@@ -38,8 +40,12 @@ typedef struct pir_plane_equation {
     double offset;
 } pir_plane_equation;
 
-/** Makes the live mesh of `sum` as it is now, with the sum's allocator. O(size of the sum).
-    PIR_ERR_ARGUMENT, PIR_ERR_MEMORY. */
+/**
+ * Makes the live mesh of `sum` as it is now, with the sum's allocator. O(size of the sum).
+ * PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ */
 PIR_API pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live);
 
 /** Frees; NULL is accepted. */
@@ -50,6 +56,8 @@ PIR_API void pir_live_mesh_destroy(pir_live_mesh *live);
  * led here since the last refresh, few enough to be kept in mind (a thousand); after a rebuild, and with a region,
  * O(size of the sum). Allocates only while the sum is larger than it has ever been. On PIR_ERR_MEMORY it stays as it
  * was.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_live_mesh_refresh(pir_live_mesh *live);
 
@@ -58,6 +66,8 @@ PIR_API pir_status pir_live_mesh_refresh(pir_live_mesh *live);
  * length, from the next refresh on. Rounding errs towards holding: by less than 2e-6 radians. Half-angles of 3.15 and
  * more hold all, as before any call. Facets that enter or leave the region count as appeared and disappeared. What the
  * sum keeps does not change. Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE.
+ *
+ * Cost: O(1); the next refresh takes O(size of the sum).
  */
 PIR_API pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double half_angle);
 
@@ -86,12 +96,18 @@ PIR_API int pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, 
  * Writes the coordinates of all vertex slots, in the frame of Q, at the sum's rotation of now:
  * pir_live_mesh_vertex_slots of them, the same bits as in pir_sum_mesh. Empty slots get those of some point of the sum.
  * The second rounds each to float.
+ *
+ * Cost: O(size of the sum).
  */
 PIR_API void pir_live_mesh_vertices(pir_live_mesh *live, pir_vec3 *ret_vertices);
 PIR_API void pir_live_mesh_vertices_float(pir_live_mesh *live, float (*ret_vertices)[3]);
 
-/** Writes the planes of all facet slots; an empty slot gets zeros. An ee pair of
- * nearly parallel edges has next to no area, and a normal as good as the rounding of its edges' product allows. */
+/**
+ * Writes the planes of all facet slots; an empty slot gets zeros. An ee pair of
+ * nearly parallel edges has next to no area, and a normal as good as the rounding of its edges' product allows.
+ *
+ * Cost: O(size of the sum).
+ */
 PIR_API void pir_live_mesh_planes(pir_live_mesh *live, pir_plane_equation *ret_planes);
 
 #ifdef __cplusplus

@@ -6,6 +6,8 @@
  * smallest vertex; vertices and facets stand in a canonical order that does not depend on how the sum was computed, so
  * two meshes of the same sum are equal array for array. Flat bodies: a polygon has two facets, a segment two vertices
  * and no facet, a point one vertex. Threads may read one mesh together.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_MESH_H
 #define PIROUETTE_MESH_H
@@ -33,8 +35,14 @@ typedef enum pir_precision {
     PIR_EXACT,      /**< the same doubles, and exact rationals beside them (exact.h) */
 } pir_precision;
 
-/** The boundary of `polytope`, exact coordinates included; every facet is of kind PIR_FACET_FV, every
-    vertex's pair is (v, 0). */
+/**
+ * The boundary of `polytope`, exact coordinates included; every facet is of kind PIR_FACET_FV, every
+ * vertex's pair is (v, 0).
+ *
+ * Cost: O(n) for n vertices.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ */
 PIR_API pir_status pir_mesh_from_polytope(const pir_polytope *polytope, pir_mesh **ret_mesh);
 
 /** Frees; NULL is accepted. */
@@ -53,12 +61,19 @@ PIR_API void pir_mesh_pair(const pir_mesh *mesh, uint32_t vertex, uint32_t ret_p
 /** The corners of facet `facet`: *ret_count of them, valid as long as the mesh. */
 PIR_API const uint32_t *pir_mesh_facet(const pir_mesh *mesh, uint32_t facet, uint32_t *ret_count);
 
+/**
+ * What facet `facet` of `mesh` is made of.
+ */
 PIR_API pir_facet_kind pir_mesh_facet_kind(const pir_mesh *mesh, uint32_t facet);
 
 /** 1 when the mesh holds exact coordinates beside the doubles. */
 PIR_API int pir_mesh_is_exact(const pir_mesh *mesh);
 
-/** 1 when both have the same vertices (pairs and doubles, bit for bit) and the same facets. O(n). */
+/**
+ * 1 when both have the same vertices (pairs and doubles, bit for bit) and the same facets. O(n).
+ *
+ * a, b  two meshes, which may be one.
+ */
 PIR_API int pir_mesh_equal(const pir_mesh *a, const pir_mesh *b);
 
 #ifdef __cplusplus

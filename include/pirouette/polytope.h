@@ -9,6 +9,8 @@
  *
  * Frame: body coordinates, right-handed. Facets are listed counter-clockwise seen from outside. Vertices keep the order
  * in which their points were given. Threads may share a polytope; the reference count is atomic.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_POLYTOPE_H
 #define PIROUETTE_POLYTOPE_H
@@ -69,6 +71,8 @@ PIR_API double pir_polytope_merge_bound(const pir_polytope *polytope);
 
 /**
  * Makes −P, the reflection of `polytope` through the origin, with the same allocator. Vertex i is minus vertex i. O(n).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_polytope_reflect(const pir_polytope *polytope, pir_polytope **ret_polytope);
 
@@ -113,13 +117,19 @@ PIR_API uint32_t pir_polytope_facet_size(const pir_polytope *polytope, uint32_t 
 /**
  * Writes the corners of facet `facet`, counter-clockwise from outside, to `ret_vertices`, room for
  * pir_polytope_facet_size.
+ *
+ * Cost: O(size of the facet).
  */
 PIR_API void pir_polytope_facet(const pir_polytope *polytope, uint32_t facet, uint32_t *ret_vertices);
 
 /** The outward unit normal of facet `facet`, within 8·2^-53 of the exact direction. */
 PIR_API pir_vec3 pir_polytope_normal(const pir_polytope *polytope, uint32_t facet);
 
-/** Least and greatest coordinates. */
+/**
+ * Least and greatest coordinates.
+ *
+ * ret_low, ret_high  the corners of the box with edges along the axes.
+ */
 PIR_API void pir_polytope_bounds(const pir_polytope *polytope, pir_vec3 *ret_low, pir_vec3 *ret_high);
 
 /** The volume, rounded; 0 when flat. O(n). */

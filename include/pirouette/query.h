@@ -16,12 +16,12 @@
  * depth where the bodies overlap.
  *
  * A sum with a region (pir_sum_set_region) answers pir_query_penetration and pir_query_directional_depth alone, by its
- * facets whose normals are in the cone, as though those were all. PIR_OUTSIDE with PIR_SEPARATED then is a proof. Else
- * the outcome is PIR_NOT_SEPARATED: the state is PIR_INSIDE, or PIR_BOUNDARY where a facet of the region passes through
- * t, and depth, normal and points are those of the least depth there, which is the whole sum's where that has its
- * normal in the cone, and else more; that the bodies overlap is not known. PIR_NO_HIT where the region has no facet, or
- * none that the direction leads out through. All other calls, and rounding radii, are PIR_ERR_UNSUPPORTED on such a
- * sum. The answer depends on placement and region, not on what else the sum keeps.
+ * facets whose normals are in the cone. PIR_OUTSIDE with PIR_SEPARATED is a proof that the bodies are apart. Else the
+ * outcome is PIR_NOT_SEPARATED, and overlap is not proven: the state is PIR_INSIDE, or PIR_BOUNDARY where a facet in
+ * the cone passes through t. The depth is the least over facets in the cone: the true depth if its normal lies there,
+ * otherwise an upper bound. The outcome is PIR_NO_HIT where the cone has no facet, or none that the direction leads out
+ * through. All other calls, and rounding radii, are PIR_ERR_UNSUPPORTED on such a sum. The answer depends on placement
+ * and region, not on what else the sum keeps.
  *
  * One answer: an answer depends on the bodies, the rotation and the input alone. Every number and witness is the same,
  * bit for bit, with any cache or none, whatever was asked before, and in a batch; only `steps` tells of the way there.
@@ -37,6 +37,15 @@
  * first call after pir_sum_set_scale makes anew what depends on coordinates, O(size of both operands), and allocates
  * only where the scale has more digits than any before. When that fails (PIR_ERR_MEMORY, or PIR_ERR_LIMIT where a body
  * is now too far away for its size) so does the call, and the next one tries again.
+ *
+ * Cost of a query: O(size of the sum) at most. With the cache of a near pose, a distance takes some steps of a descent,
+ * and a depth looks at a few groups of facets. Its number `steps` tells.
+ *
+ * Errors of a query: PIR_ERR_ARGUMENT (NULL, a radius below 0 or infinite), PIR_ERR_NOT_FINITE (a translation, radius
+ * or cutoff), PIR_ERR_LIMIT (a translation farther than 2^400 times the size of the bodies), PIR_ERR_UNSUPPORTED (on a
+ * sum with a region, as said above), PIR_ERR_MEMORY (room for a sum that has grown). `cache` may be NULL.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_QUERY_H
 #define PIROUETTE_QUERY_H
@@ -133,8 +142,17 @@ PIR_API pir_status pir_query_create(pir_sum *difference, pir_query **ret_query);
 /** Frees, and gives its references back; NULL is accepted. */
 PIR_API void pir_query_destroy(pir_query *query);
 
-/** Overlap: state and outcome, exact. On the boundary normal, points and witness are those of the contact; else they
-    are not set. No distance. */
+/**
+ * Overlap: state and outcome, exact. On the boundary normal, points and witness are those of the contact; else they
+ * are not set. No distance.
+ *
+ * input  where P is.
+ * cache  NULL, or the caller's memory of an earlier answer.
+ *
+ * Cost: that of a query.
+ *
+ * Errors: those of a query.
+ */
 PIR_API pir_status pir_query_overlap(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                      pir_query_result *ret_result);
 
@@ -143,6 +161,12 @@ PIR_API pir_status pir_query_overlap(pir_query *query, const pir_query_input *in
  * Johnson and Keerthi, IEEE J. Robotics and Automation 4(2), 1988; supports by hill climbing). Where the bodies touch
  * or overlap the distance is 0 and the outcome says so; the points are then those of contact when they touch, and not
  * set when they overlap.
+ *
+ * input, cache  as of pir_query_overlap.
+ *
+ * Cost: that of a query.
+ *
+ * Errors: those of a query.
  */
 PIR_API pir_status pir_query_distance(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                       pir_query_result *ret_result);
@@ -152,11 +176,25 @@ PIR_API pir_status pir_query_distance(pir_query *query, const pir_query_input *i
  * difference. Which is least is decided exactly. Of facets that tie exactly the first wins: those on which a facet of P
  * lies, by its index; then those on which a facet of Q lies, by its index; then those of two edges, by P's index, then
  * by Q's. Where the bodies do not overlap the distance is 0, and the outcome says why.
+ *
+ * input, cache  as of pir_query_overlap.
+ *
+ * Cost: that of a query.
+ *
+ * Errors: those of a query.
  */
 PIR_API pir_status pir_query_penetration(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                          pir_query_result *ret_result);
 
-/** Separation where separated, penetration where overlapping. */
+/**
+ * Separation where separated, penetration where overlapping.
+ *
+ * input, cache  as of pir_query_overlap.
+ *
+ * Cost: that of a query.
+ *
+ * Errors: those of a query.
+ */
 PIR_API pir_status pir_query_signed_distance(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                              pir_query_result *ret_result);
 
@@ -172,6 +210,10 @@ typedef struct pir_escape {
  * rule: up to `capacity` go to `ret_escapes`, *ret_count is how many there are. None unless the bodies overlap. A
  * witness here names the faces of P and Q that make the facet. Within 2^-44 of the size of the bodies a facet counts as
  * within `slack`. O(size of the sum) for each.
+ *
+ * input  where P is.
+ *
+ * Errors: those of a query, and PIR_ERR_ARGUMENT for a slack below 0 or NaN.
  */
 PIR_API pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, double slack, size_t capacity,
                                      pir_escape *ret_escapes, size_t *ret_count);
@@ -180,6 +222,12 @@ PIR_API pir_status pir_query_escapes(pir_query *query, const pir_query_input *in
  * How far P moves along `direction` (any length but zero) until the overlap ends: the directional penetration depth, in
  * units of length. result.distance is minus that; result.normal is the facet's, and point_p = point_q there is P's
  * contact at the exit. PIR_NO_HIT when the bodies do not overlap.
+ *
+ * input  where P is.
+ *
+ * Cost: O(size of the sum).
+ *
+ * Errors: those of a query, for `direction` as well: PIR_ERR_NOT_FINITE, and PIR_ERR_ARGUMENT when it is zero.
  */
 PIR_API pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                                pir_query_result *ret_result);
@@ -187,6 +235,12 @@ PIR_API pir_status pir_query_directional_depth(pir_query *query, const pir_query
 /**
  * How far P moves along `direction` until it touches Q; 0 where it touches or overlaps already, PIR_NO_HIT when it
  * never does. Whether it does is exact: to graze is to touch, to slide along a face with any gap at all is not.
+ *
+ * input  where P is.
+ *
+ * Cost: O(size of the sum).
+ *
+ * Errors as of pir_query_directional_depth.
  */
 PIR_API pir_status pir_query_directional_distance(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                                   pir_query_result *ret_result);
@@ -209,7 +263,13 @@ typedef struct pir_cast_result {
     uint32_t steps;
 } pir_cast_result;
 
-/** Linear cast: P moves from input->translation by `motion`. The outcome is exact. */
+/**
+ * Linear cast: P moves from input->translation by `motion`. The outcome is exact.
+ *
+ * Cost: O(size of the sum).
+ *
+ * Errors: those of a query, and PIR_ERR_NOT_FINITE for `motion`.
+ */
 PIR_API pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 motion,
                                   pir_cast_result *ret_result);
 
@@ -226,12 +286,25 @@ typedef struct pir_motion {
  * Conservative advancement (Mirtich, 1996): the time of first contact, safe and within `tolerance` (> 0, a length): at
  * `time` the bodies are apart by at most it. Rotates the sum, which is left at the last rotation looked at. At most 256
  * distance queries.
+ *
+ * motion  over which P moves, at any speed.
+ *
+ * Cost: at most 256 rotations of the sum, each with a distance query.
+ *
+ * Errors: those of a query and of pir_sum_rotate, and PIR_ERR_ARGUMENT for a tolerance not above 0 or a zero axis with
+ * an angle.
  */
 PIR_API pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double tolerance,
                                      pir_cast_result *ret_result);
 
-/** The largest distance between a point of P and a point of Q, attained by vertices: normal, points and witness as in a
-    separation. O(size of the sum). */
+/**
+ * The largest distance between a point of P and a point of Q, attained by vertices: normal, points and witness as in a
+ * separation. O(size of the sum).
+ *
+ * input  where P is.
+ *
+ * Errors: those of a query.
+ */
 PIR_API pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *input,
                                               pir_query_result *ret_result);
 
@@ -278,15 +351,42 @@ PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *i
  * queries, and PIR_ERR_MEMORY; what was answered before an error stands.
  */
 
-/** The exact state of each of `count` translations. */
+/**
+ * The exact state of each of `count` translations.
+ *
+ * translations, count  of P, in the frame of Q.
+ * ret_states           room for `count` of them.
+ *
+ * Cost: O(count) queries, after O(size of the sum) once a rotation.
+ *
+ * Errors: those of a query; what was answered before an error stands.
+ */
 PIR_API pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations, size_t count,
                                           pir_state *ret_states);
 
-/** The penetration depth of each, 0 unless PIR_INSIDE; ret_states may be NULL. */
+/**
+ * The penetration depth of each, 0 unless PIR_INSIDE; ret_states may be NULL.
+ *
+ * translations, count  as of pir_query_batch_states.
+ * ret_depths           room for `count` of them, at least 0.
+ *
+ * Cost: O(count) queries, after O(size of the sum) once a rotation.
+ *
+ * Errors: those of a query; what was answered before an error stands.
+ */
 PIR_API pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *translations, size_t count,
                                           double *ret_depths, pir_state *ret_states);
 
-/** The signed distance of each. */
+/**
+ * The signed distance of each.
+ *
+ * translations, count        as of pir_query_batch_states.
+ * ret_distances, ret_states  room for `count` of them; ret_states may be NULL.
+ *
+ * Cost: O(count) queries, after O(size of the sum) once a rotation.
+ *
+ * Errors: those of a query; what was answered before an error stands.
+ */
 PIR_API pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *translations, size_t count,
                                              double *ret_distances, pir_state *ret_states);
 
@@ -294,6 +394,8 @@ PIR_API pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *t
  * From measured costs in one unit: per rotation of the tracked sum (its update and the preparation of queries), per
  * query on it, and per query of the stateless alternative. The least number of queries per rotation at which the sum
  * pays; HUGE_VAL when it never does, NaN when a cost is negative or not a number.
+ *
+ * cost_rotation, cost_query, cost_stateless  the three costs.
  */
 PIR_API double pir_query_break_even(double cost_rotation, double cost_query, double cost_stateless);
 

@@ -2,6 +2,8 @@
 /**
  * The model maker: polytopes by name. The thirteen models of Behar and Lien's paper, the platonic and the archimedean
  * solids, and families of any level: geodesic spheres, ellipsoids, boxes, cones, cylinders.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SHAPE_H
 #define PIROUETTE_SHAPE_H
@@ -21,6 +23,8 @@ extern "C" {
  * report     NULL, or filled with what, where and why when the name or a parameter is wrong.
  *
  * Errors: PIR_ERR_ARGUMENT (unknown name or parameter, value out of range), PIR_ERR_MEMORY.
+ *
+ * Cost: the hull of the shape's points.
  */
 PIR_API pir_status pir_shape_create(const char *name, const pir_allocator *allocator, pir_report *report,
                                     pir_polytope **ret_polytope);

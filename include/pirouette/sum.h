@@ -14,6 +14,8 @@
  * pieces merged.
  *
  * Threads: a sum belongs to one thread at a time; different sums are independent, even of the same polytopes.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SUM_H
 #define PIROUETTE_SUM_H
@@ -71,12 +73,16 @@ PIR_API void pir_sum_destroy(pir_sum *sum);
  * previous rotation, whole and usable. Cost: PIR_METHOD_UPDATE follows the number of certificates that expire,
  * PIR_METHOD_WALK the size of the sum. Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION,
  * PIR_ERR_MEMORY.
+ *
+ * method  how; every method gives the same pairing.
  */
 PIR_API pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method);
 
 /**
  * Brings the sum to `rotation` by walk and forgets the motion so far: what follows depends on nothing before. The
  * memory is kept, so this does not allocate unless a larger list of crossings is needed. Errors as pir_sum_rotate.
+ *
+ * Cost: a walk, O(size of the sum).
  */
 PIR_API pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation);
 
@@ -126,7 +132,11 @@ PIR_API double pir_sum_shortfall_bound(const pir_sum *sum);
 /** The rotation that the pairing is exact at: pir_sum_rotation, unless a tolerance lets it stay behind. */
 PIR_API pir_quat pir_sum_pairing_rotation(const pir_sum *sum);
 
-/** Brings the pairing to pir_sum_rotation when it has stayed behind. Errors as pir_sum_rotate. */
+/**
+ * Brings the pairing to pir_sum_rotation when it has stayed behind. Errors as pir_sum_rotate.
+ *
+ * Cost: as of pir_sum_rotate with PIR_METHOD_AUTO.
+ */
 PIR_API pir_status pir_sum_settle(pir_sum *sum);
 
 /** In pir_sum_fv and pir_sum_vf: a pair that a region leaves out. */
@@ -152,8 +162,12 @@ PIR_API pir_status pir_sum_settle(pir_sum *sum);
  */
 PIR_API pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle);
 
-/** 1 and the cone, its axis of unit length, where a region has been set; 0, and nothing written,
-    where the sum is whole. */
+/**
+ * 1 and the cone, its axis of unit length, where a region has been set; 0, and nothing written,
+ * where the sum is whole.
+ *
+ * ret_axis, ret_half_angle  the cone; the angle is in radians.
+ */
 PIR_API int pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle);
 
 /** The rotation that the sum is at, as it was given. */
@@ -181,11 +195,19 @@ PIR_API void pir_sum_ee(const pir_sum *sum, uint32_t (*ret_pairs)[2]);
 /**
  * 1 when both sums, of the same polytopes, hold the same fv, vf and ee pairs in the same order: where regions are set,
  * those in both cones, but for ee pairs whose edges are parallel within 2^-30.
+ *
+ * a, b  two sums.
+ *
+ * Cost: O(size of the sums).
  */
 PIR_API int pir_sum_same_pairing(const pir_sum *a, const pir_sum *b);
 
-/** A check for tests, every pair that is kept in exact arithmetic and every crossing list from cell to
-    cell: 1 when all hold. */
+/**
+ * A check for tests, every pair that is kept in exact arithmetic and every crossing list from cell to
+ * cell: 1 when all hold.
+ *
+ * Cost: O(size of the sum), with exact tests.
+ */
 PIR_API int pir_sum_is_valid(pir_sum *sum);
 
 /**
@@ -193,12 +215,20 @@ PIR_API int pir_sum_is_valid(pir_sum *sum);
  * caller's and uses the sum's allocator. O(size of the sum). Beside the mesh it takes memory for the facets of the true
  * sum and a bit for each crossing, so that a sum with more pairs than facets, as of two aligned prisms, stays small.
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY, PIR_ERR_LIMIT (2^32 corners of facets or more).
+ *
+ * precision  PIR_DOUBLE, or PIR_EXACT for rationals beside the doubles.
  */
 PIR_API pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh **ret_mesh);
 
 /**
  * The same mesh by another way: the exact hull of all pairwise sums of vertices. Needs no pairing and shares no code
  * with one: a second opinion. O(nm log nm) for n and m vertices.
+ *
+ * p, q, rotation  as of pir_sum_create.
+ * options         NULL for the defaults.
+ * precision       PIR_DOUBLE, or PIR_EXACT for rationals beside the doubles.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pir_quat rotation,
                                 const pir_sum_options *options, pir_precision precision, pir_mesh **ret_mesh);
@@ -207,6 +237,10 @@ PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pi
  * The brute-force re-check of all pairs (Algorithm 3.1 of Behar and Lien): every facet against every vertex, every edge
  * against every edge. The pairing of `sum` is replaced by what it finds, which is the same. The baseline that updates
  * are measured against. O(nm).
+ *
+ * rotation  of any length but 0.
+ *
+ * Errors as of pir_sum_rotate.
  */
 PIR_API pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation);
 
@@ -220,8 +254,14 @@ PIR_API pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation);
 PIR_API size_t pir_sum_serialised_size(const pir_sum *sum);
 PIR_API pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size);
 
-/** The same to a stream, from its position on; the stream stays open. Errors: as above,
-    PIR_ERR_FILE, PIR_ERR_MEMORY. */
+/**
+ * The same to a stream, from its position on; the stream stays open. Errors: as above,
+ * PIR_ERR_FILE, PIR_ERR_MEMORY.
+ *
+ * file, report  a stream open for writing; NULL, or filled when the call fails.
+ *
+ * Cost: O(size of the sum).
+ */
 PIR_API pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *report);
 
 /**
@@ -231,11 +271,24 @@ PIR_API pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *rep
  * allocator  NULL for malloc. report  NULL, or filled with what, where and why.
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_UNSUPPORTED (another version), PIR_ERR_LIMIT,
  * PIR_ERR_MEMORY.
+ *
+ * data, size  the bytes, which may come from anyone.
+ *
+ * Cost: two exact hulls, and O(size of the sum) with exact tests.
  */
 PIR_API pir_status pir_sum_restore(const void *data, size_t size, const pir_allocator *allocator, pir_report *report,
                                    pir_sum **ret_sum);
 
-/** The same from a stream, which is left just past the sum; PIR_ERR_FILE when it cannot be read. */
+/**
+ * The same from a stream, which is left just past the sum; PIR_ERR_FILE when it cannot be read.
+ *
+ * file               a stream open for reading.
+ * allocator, report  as of pir_sum_restore.
+ *
+ * Cost: as of pir_sum_restore.
+ *
+ * Errors as of pir_sum_restore, and PIR_ERR_FILE.
+ */
 PIR_API pir_status pir_sum_read(FILE *file, const pir_allocator *allocator, pir_report *report, pir_sum **ret_sum);
 
 /** What the sum did since it was made. Plain counters. */

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/** The version: of these headers as macros, of the library that runs as a call. */
+/**
+ * The version: of these headers as macros, of the library that runs as a call.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
+ */
 #ifndef PIROUETTE_VERSION_H
 #define PIROUETTE_VERSION_H
 

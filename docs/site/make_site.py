@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Makes the site: every page of the project, the reference of its public functions, the examples, and a search.
+
+Usage: make_site.py OUTPUT. The site is static and works from a folder as from a server; OUTPUT/index.html is its door.
+Exits with 1, and says why, when a link of a page leads nowhere or Doxygen warns.
+"""
+import html
+import json
+import os
+import pathlib
+import re
+import shutil
+import sys
+
+import markdown
+import reference
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+# The pages in the order of the navigation.
+PAGES = {
+    "README.md": "Pirouette", "docs/coming-from.md": "Coming from others", "docs/queries.md": "Placement queries",
+    "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps", "docs/command.md": "The command",
+    "docs/bad-input.md": "Bad input", "docs/building.md": "Building", "ARCHITECTURE.md": "Architecture",
+    "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security", "CHANGELOG.md": "Changelog",
+}
+WORD = re.compile(r"\b(?:pir|PIR)_\w+\b")
+
+
+class Site:
+    def __init__(self, out):
+        self.out = out
+        self.errors = []
+        self.symbols = {}  # name -> address from the top of the site
+        self.files = {}  # path in the repository -> address
+        self.entries = []  # of the search
+        self.wanted = []  # files that pages link to
+        for page in PAGES:
+            self.files[page] = "index.html" if page == "README.md" else pathlib.Path(page).stem.lower() + ".html"
+
+    # ---- addresses
+
+    def relative(self, address, here):
+        return os.path.relpath(address.partition("#")[0] or here, os.path.dirname(here) or ".") + (
+            "#" + address.partition("#")[2] if "#" in address else "")
+
+    def link_of(self, page, here):
+        """The function that turns a link of a page of the repository into one of the site."""
+        folder = pathlib.PurePosixPath(page).parent
+
+        def link(target):
+            if re.match(r"https?:", target):
+                return target
+            path, _, anchor = target.partition("#")
+            name = os.path.normpath(folder / path) if path else page
+            if not (ROOT / name).exists():
+                self.errors.append(f"{page}: the link to {target} leads nowhere")
+                return target
+            if name not in self.files:
+                self.files[name] = self.address_of_file(name)
+                self.wanted.append(name)
+            return self.relative(self.files[name] + ("#" + anchor if anchor else ""), here)
+
+        return link
+
+    def address_of_file(self, name):
+        return "files/" + name if name.endswith((".svg", ".png")) else "files/" + name.replace("/", "_") + ".html"
+
+    def linked(self, text, here):
+        """HTML in which each name of the reference leads there, but within links and headings."""
+        parts = re.split(r"(<a .*?</a>|<h\d.*?</h\d>|<[^>]+>)", text, flags=re.S)
+        for i in range(0, len(parts), 2):
+            parts[i] = WORD.sub(lambda m: self.name_link(m[0], here), parts[i])
+        return "".join(parts)
+
+    def name_link(self, name, here):
+        if name not in self.symbols:
+            return name
+        return f'<a href="{self.relative(self.symbols[name], here)}">{name}</a>'
+
+    # ---- writing
+
+    def navigation(self, here, headers):
+        def entry(address, title):
+            mark = ' aria-current="page"' if address == here else ""
+            return f'<li><a href="{self.relative(address, here)}"{mark}>{html.escape(title)}</a></li>'
+
+        pages = "".join(entry(self.files[page], title) for page, title in PAGES.items())
+        api = "".join(entry(f"api/{header.name[:-2]}.html", header.name) for header in headers)
+        return (f'<h2>Pages</h2><ul>{pages}</ul><h2>Reference</h2><ul>{entry("api/index.html", "All names")}{api}</ul>'
+                f'<h2>Examples</h2><ul>{"".join(entry(f"examples/{e.stem}.html", e.name) for e in EXAMPLES)}</ul>')
+
+    def write(self, here, title, body, headings=()):
+        top = self.relative("index.html", here)[:-len("index.html")]
+        toc = "".join(f'<li class="l{level}"><a href="#{anchor}">{html.escape(words)}</a></li>'
+                      for level, words, anchor in headings if level in (2, 3))
+        page = TEMPLATE
+        values = {"title": html.escape(title), "top": top, "navigation": self.navigation(here, self.headers),
+                  "toc": f"<h2>On this page</h2><ul>{toc}</ul>" if toc else "", "body": body}
+        for name, value in values.items():
+            page = page.replace("{{" + name + "}}", value)
+        path = self.out / here
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(page, encoding="utf-8")
+
+    def note(self, title, address, kind, text):
+        words = html.unescape(re.sub(r"<[^>]+>", " ", text)).split()
+        self.entries.append([title, address, kind, " ".join(words)[:300]])
+
+    # ---- kinds of pages
+
+    def write_page(self, page, title):
+        here = self.files[page]
+        body, headings = markdown.render((ROOT / page).read_text(encoding="utf-8"), self.link_of(page, here))
+        body = self.linked(body, here)
+        self.write(here, title, body, headings)
+        parts = re.split(r'<h[123] id="([^"]*)">(.*?)</h[123]>', body)
+        for anchor, words, text in zip(parts[1::3], parts[2::3], parts[3::3]):
+            self.note(html.unescape(re.sub("<[^>]+>", "", words)), f"{here}#{anchor}", title, text)
+
+    def write_example(self, path):
+        here = f"examples/{path.stem}.html"
+        text = path.read_text(encoding="utf-8")
+        told = re.search(r"/\*\n(.*?)\*/", text, re.S)[1].replace(" *", "").strip()
+        body = self.linked(f"<pre><code class=\"c\">{html.escape(text, quote=False)}</code></pre>", here)
+        self.write(here, path.name, f"<h1>{path.name}</h1>\n{body}")
+        self.note(path.name, here, "Example", told)
+
+    def write_file(self, name):
+        path, here = ROOT / name, self.files[name]
+        if not here.endswith(".html"):
+            (self.out / here).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, self.out / here)
+            return
+        if path.is_dir():
+            shown = [entry for entry in path.iterdir() if not entry.name.startswith((".", "__"))]
+            inside = sorted(entry.name + ("/" if entry.is_dir() else "") for entry in shown)
+            body = "<ul>" + "".join(f"<li>{self.in_folder(name, entry, here)}</li>" for entry in inside) + "</ul>"
+        else:
+            body = f"<pre><code>{html.escape(path.read_text(encoding='utf-8'), quote=False)}</code></pre>"
+        self.write(here, name, f"<h1>{html.escape(name)}</h1>\n{body}")
+
+    def in_folder(self, folder, entry, here):
+        address = self.files.get(f"{folder}/{entry.rstrip('/')}")
+        return f'<a href="{self.relative(address, here)}">{entry}</a>' if address else entry
+
+    # ---- the reference
+
+    def uses(self, name, here):
+        links = [f'<a href="{self.relative(f"examples/{path.stem}.html", here)}">{path.name}</a>' for path in EXAMPLES
+                 if re.search(rf"\b{name}\b", path.read_text(encoding="utf-8"))]
+        return f'<p class="uses">Used in {", ".join(links)}.</p>' if links else ""
+
+    def write_header(self, header):
+        here = f"api/{header.name[:-2]}.html"
+        out = [f"<h1>&lt;pirouette/{header.name}&gt;</h1>", header.description]
+        headings, blocks = [], []
+        for item in header.items:  # functions under one comment stand together
+            if blocks and item.kind == "function" and item.text and blocks[-1][0].text == item.text:
+                blocks[-1].append(item)
+            else:
+                blocks.append([item])
+        for block in blocks:
+            first = block[0]
+            out.append('<section class="item">')
+            for item in block:
+                headings.append((2, item.name, item.name))
+                out.append(f'<h2 id="{item.name}">{item.name}</h2>')
+                self.note(item.name, f"{here}#{item.name}", header.name, item.text)
+            signature = "\n".join(html.escape(item.signature, quote=False) + ("" if item.kind == "define" else ";")
+                                  for item in block)
+            out += [f'<pre><code class="c">{signature}</code></pre>', first.description]
+            if any(told for _, told in first.parameters) or first.kind == "enum":
+                rows = "".join(f'<dt id="{name}"><code>{name}</code></dt><dd>{told or ""}</dd>'
+                               if first.kind == "enum" else f"<dt><code>{name}</code></dt><dd>{told}</dd>"
+                               for name, told in first.parameters if told or first.kind == "enum")
+                out.append(f"<dl>{rows}</dl>")
+            out += [f'<p class="section">{title}</p>{body}' for title, body in first.sections.items()]
+            out += [self.uses(item.name, here) for item in block if item.kind == "function"][:1]
+            out.append("</section>")
+        self.write(here, header.name, self.linked("\n".join(out), here), headings)
+
+    def write_names(self):
+        here, out = "api/index.html", ["<h1>All names</h1>"]
+        for header in self.headers:
+            names = "".join(f'<li><a href="{header.name[:-2]}.html#{item.name}">{item.name}</a></li>'
+                            for item in header.items)
+            out.append(f'<h2 id="{header.name}"><a href="{header.name[:-2]}.html">{header.name}</a></h2>'
+                       f'{header.description.partition("</p>")[0] + "</p>"}<ul class="names">{names}</ul>')
+        self.write(here, "All names", self.linked("\n".join(out), here), [(2, h.name, h.name) for h in self.headers])
+
+    def make(self):
+        warnings = reference.run_doxygen(ROOT, self.out / "doxygen")
+        self.errors += [line for line in warnings.split("\n") if line]
+        self.headers = reference.read_headers(self.out / "doxygen")
+        for header in self.headers:
+            for item in header.items:
+                for name in [item.name] + ([name for name, _ in item.parameters] if item.kind == "enum" else []):
+                    self.symbols[name] = f"api/{header.name[:-2]}.html#{name}"
+        for path in EXAMPLES:
+            self.files[f"examples/{path.name}"] = f"examples/{path.stem}.html"
+        for page, title in PAGES.items():
+            self.write_page(page, title)
+        for path in EXAMPLES:
+            self.write_example(path)
+        for header in self.headers:
+            self.write_header(header)
+        self.write_names()
+        for name in self.wanted:
+            self.write_file(name)
+        for name in ("site.css", "site.js"):
+            shutil.copyfile(HERE / name, self.out / name)
+        index = json.dumps(self.entries, ensure_ascii=False, separators=(",", ":"))
+        (self.out / "search.js").write_text(f"const ENTRIES = {index};\n", encoding="utf-8")
+        shutil.rmtree(self.out / "doxygen")
+
+
+EXAMPLES = sorted((ROOT / "examples").glob("*.c"))
+TEMPLATE = (HERE / "page.html").read_text(encoding="utf-8")
+
+
+def main(out):
+    out = pathlib.Path(out).resolve()
+    shutil.rmtree(out, ignore_errors=True)
+    site = Site(out)
+    site.make()
+    print(*site.errors, sep="\n", file=sys.stderr, end="\n" if site.errors else "")
+    print(f"{out}/index.html: {sum(1 for _ in out.rglob('*.html'))} pages, {len(site.symbols)} names")
+    return 1 if site.errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
