@@ -227,7 +227,7 @@ static double run_scan(void *context, unsigned index) {
         scan->boxes(PLANES, &boxes, x, 0x1p-46, a[15]);
         break;
     default:
-        scan->caps(PLANES, &caps, x, 0x1p-46, a[15]);
+        scan->caps(0, PLANES, &caps, x, 0x1p-46, a[15]);
     }
     return trial_now() - start;
 }

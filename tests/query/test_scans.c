@@ -57,7 +57,7 @@ static void run(const pir_scan *scan, struct data in[4], struct outcome *out) {
     for (int i = 0; i < COUNT; i++)
         out->caps[i] = i % 3 ? -HUGE_VAL : in[3].x[i];
     pir_cap_lanes caps = {lanes(&out->normals), lanes(&in[1]), in[3].y, in[3].z};
-    out->high = scan->caps(COUNT, &caps, x, 0x1p-44, out->caps);
+    out->high = scan->caps(0, COUNT, &caps, x, 0x1p-44, out->caps);
 }
 
 static void every_version_gives_the_same_bits(void **state) {
@@ -123,7 +123,7 @@ static void caps_bound_by_their_widest_angle(void **state) {
         }
         const double error = 0x1p-30;
         pir_cap_lanes caps = {lanes(&axis), lanes(&corner), cosine, sine};
-        double high = pir_scan_version(0)->caps(PIR_SCAN_LANES, &caps, x, error, low);
+        double high = pir_scan_version(0)->caps(0, PIR_SCAN_LANES, &caps, x, error, low);
         double least = HUGE_VAL;
         for (int i = 0; i < PIR_SCAN_LANES; i++) {
             double length = sqrt(pir_vec_dot(w[i], w[i])), along = pir_vec_dot(n[i], w[i]);

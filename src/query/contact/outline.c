@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Hulls by two monotone chains (Andrew, Information Processing Letters 9(5), 1979). The overlap of two convex polygons
- * from the corners of each that lie in the other and from the sides that leave it (after Cyrus and Beck, Computers and
- * Graphics 3(1), 1978).
+ * Hulls come from two monotone chains (Andrew, Information Processing Letters 9(5), 1979). The overlap of two convex
+ * polygons comes from the corners of each that lie in the other and from the sides that cross (after Cyrus and Beck,
+ * Computers and Graphics 3(1), 1978).
  *
- * A floating answer needs a tolerance here: corners that would be one point, or on one line, but for rounding, must not
- * come and go from frame to frame. Every test therefore leaves `snap` to the side that merges.
+ * Contacts are floating answers and need a tolerance. Corners that would be one point, or on one line, but for
+ * rounding must not come and go from frame to frame. So every test leaves `snap` to the side that merges.
  */
 #include "query/contact/outline.h"
 
@@ -35,7 +35,7 @@ static void sift(pir_corner *points, uint32_t from, uint32_t count) {
     points[from] = moved;
 }
 
-/* Heapsort: in place and without recursion. */
+/* Heapsort: in place, without recursion. */
 static void sort(pir_corner *points, uint32_t count) {
     for (uint32_t i = count / 2; i-- > 0;)
         sift(points, i, count);
@@ -52,7 +52,10 @@ static bool is_right(const pir_corner *a, const pir_corner *b, const pir_corner 
     return (b->u - a->u) * (c->v - a->v) - (b->v - a->v) * (c->u - a->u) > 0;
 }
 
-/* Whether b is farther than `snap` from the segment from a to c. Beside the line is not enough: b may be its end. */
+/*
+ * Whether b is farther than `snap` from the segment from a to c. The distance to the line would not do: b may lie
+ * beyond an end.
+ */
 static bool stands_out(const pir_corner *a, const pir_corner *b, const pir_corner *c, double snap) {
     double u = c->u - a->u, v = c->v - a->v, square = u * u + v * v;
     double along = square > 0 ? (u * (b->u - a->u) + v * (b->v - a->v)) / square : 0;
@@ -60,7 +63,7 @@ static bool stands_out(const pir_corner *a, const pir_corner *b, const pir_corne
     return x * x + y * y > snap * snap;
 }
 
-/* Drops the first corners and the last as long as they stand out by at most `snap`. */
+/* Drops corners at both ends of the list as long as they stand out by at most `snap`. */
 static uint32_t drop_ends(pir_corner *hull, uint32_t count, double snap) {
     uint32_t first = 0, end = count;
     for (bool dropped = true; dropped && end - first > 2;) {
@@ -87,13 +90,13 @@ uint32_t pir_outline_hull(pir_corner *points, uint32_t count, double snap, pir_c
             n--;
         room[n++] = points[i];
     }
-    // back along the other side; the last point is the first again
+    // the other chain, backwards; its last point is the first of all
     for (uint32_t i = count - 1, lower = n; i-- > 0;) {
         while (n > lower && !is_right(&room[n - 2], &room[n - 1], &points[i]))
             n--;
         room[n++] = points[i];
     }
-    // now that they are in order, those that only rounding made corners go
+    // the corners are in order now: those that only rounding made go
     uint32_t kept = 0;
     for (uint32_t i = 0; i + 1 < n; i++) {
         while (kept > 1 && !stands_out(&points[kept - 2], &points[kept - 1], &room[i], snap))
@@ -130,7 +133,7 @@ uint32_t pir_outline_slim(pir_corner *hull, uint32_t count, double part) {
 
 /* --- overlaps --- */
 
-/* How far a point is inside of side `side` of an outline, which is longer than `snap`. */
+/* The signed distance of a point from side `side` of an outline, positive inside. The side is longer than `snap`. */
 static double inside_of(pir_outline outline, uint32_t side, const pir_corner *x) {
     const pir_corner *a = &outline.at[side], *b = &outline.at[side + 1 < outline.count ? side + 1 : 0];
     double u = b->u - a->u, v = b->v - a->v;
@@ -140,8 +143,8 @@ static double inside_of(pir_outline outline, uint32_t side, const pir_corner *x)
 #define NO_SIDE UINT32_MAX
 
 /*
- * The part of a segment that is in an outline, as fractions of it, and the sides that end it, NO_SIDE where nothing
- * does.
+ * The part of a segment that lies in an outline, as fractions of the segment, and the sides that it ends at: NO_SIDE
+ * where it ends at an end of the segment.
  */
 struct part {
     double from, to;
@@ -165,7 +168,7 @@ static bool part_inside(pir_outline outline, const pir_corner *a, const pir_corn
     return part.from <= part.to;
 }
 
-/* One outline being cut by another: what corners are called depends on which is P's. */
+/* A cut of one outline by another. How a corner is named depends on which outline is P's. */
 struct cut {
     pir_outline of, by;
     bool of_p;
@@ -186,12 +189,12 @@ static void put_other(struct cut *cut, uint32_t j) {
     put(cut, &cut->by.at[j], cut->of_p ? PIR_CORNER_Q : PIR_CORNER_P, j, j);
 }
 
-/* Whether two corners are one: each may be off by `snap` along two sides. */
+/* Whether two corners are one point. Each may be off by `snap` along two sides. */
 static bool is_one(const struct cut *cut, const pir_corner *a, const pir_corner *b) {
     return pir_outline_distance(a, b) <= 4 * cut->snap;
 }
 
-/* Part t of the way from a to b. */
+/* The point at fraction t of the segment from a to b. */
 static pir_corner between(const pir_corner *a, const pir_corner *b, double t) {
     return (pir_corner){a->u + t * (b->u - a->u), a->v + t * (b->v - a->v), PIR_CORNER_CROSSING, 0, 0};
 }
@@ -210,8 +213,8 @@ static bool cross_at(const pir_corner *a, const pir_corner *b, const pir_corner 
 }
 
 /*
- * Where side i of the one crosses side j of the other, or, where it only comes within `snap` of it, `part` along i: a
- * corner of either where one is there.
+ * Puts the crossing of side i of `of` and side j of `by`. Where side i only comes within `snap` of side j, it is the
+ * point at fraction `part` of side i. Where a corner of either outline is there, that corner takes its place.
  */
 static void put_crossing(struct cut *cut, uint32_t i, uint32_t j, double part) {
     uint32_t i_end = i + 1 < cut->of.count ? i + 1 : 0, j_end = j + 1 < cut->by.count ? j + 1 : 0;
@@ -231,7 +234,7 @@ static void put_crossing(struct cut *cut, uint32_t i, uint32_t j, double part) {
         put(cut, &x, PIR_CORNER_CROSSING, cut->of_p ? i : j, cut->of_p ? j : i);
 }
 
-/* The corners and crossings of every side of `of`. */
+/* Puts the corners and crossings of every side of `of`. */
 static void cut_sides(struct cut *cut) {
     uint32_t sides = cut->of.count > 2 ? cut->of.count : 1;
     for (uint32_t i = 0; i < sides; i++) {
@@ -250,7 +253,7 @@ static void cut_sides(struct cut *cut) {
     }
 }
 
-/* The corners of `by` that lie in `of`; those at a corner of `of` are that corner. */
+/* Puts the corners of `by` that lie in `of`. Those at a corner of `of` are put as that corner. */
 static void put_others_inside(struct cut *cut) {
     for (uint32_t j = 0; j < cut->by.count; j++) {
         const pir_corner *x = &cut->by.at[j];
@@ -270,7 +273,7 @@ static void put_others_inside(struct cut *cut) {
     }
 }
 
-/* Puts the ends of one segment that are beside the other. */
+/* Puts the ends of segment `of` that lie beside segment `by`. */
 static void put_ends(struct cut *cut) {
     const pir_corner *a = &cut->by.at[0], *b = &cut->by.at[1];
     double u = b->u - a->u, v = b->v - a->v, square = u * u + v * v;
@@ -282,7 +285,7 @@ static void put_ends(struct cut *cut) {
     }
 }
 
-/* What two parallel segments share: its two ends lead. */
+/* Puts the two ends of what two parallel segments share. */
 static void share_segment(struct cut *cut, double part) {
     const pir_corner *a = cut->of.at, *b = cut->by.at;
     double u = a[1].u - a[0].u, v = a[1].v - a[0].v, s = b[1].u - b[0].u, t = b[1].v - b[0].v;
@@ -292,7 +295,7 @@ static void share_segment(struct cut *cut, double part) {
     struct cut other = {cut->by, cut->of, !cut->of_p, cut->snap, cut->corners, cut->count};
     put_ends(&other);
     cut->count = other.count;
-    // the two farthest apart, the first of each where several are one
+    // keep the two that are farthest apart, the first of each where several are one
     for (uint32_t end = 0; end < 2 && cut->count > 2; end++) {
         uint32_t best = end;
         for (uint32_t i = 0; i < cut->count; i++) {
@@ -313,7 +316,7 @@ static void share_segment(struct cut *cut, double part) {
 uint32_t pir_outline_overlap(pir_outline p, pir_outline q, double snap, double part, pir_corner *ret_corners) {
     if (p.count < 2 || q.count < 2)
         return 0;
-    // a segment is cut by a polygon
+    // a segment is cut by a polygon, not the reverse
     bool p_first = p.count == 2 || q.count > 2;
     struct cut cut = {p_first ? p : q, p_first ? q : p, p_first, snap, ret_corners, 0};
     if (cut.by.count == 2) {

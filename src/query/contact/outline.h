@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Convex outlines in a plane, counter-clockwise: hulls of points, and where two outlines overlap. Every buffer is the
- * caller's.
+ * Convex outlines in a plane, counter-clockwise: hulls of points, and the overlap of two outlines. The caller owns
+ * every buffer.
  */
 #ifndef PIR_QUERY_CONTACT_OUTLINE_H
 #define PIR_QUERY_CONTACT_OUTLINE_H
@@ -9,14 +9,17 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What a corner of an overlap is. */
+/* What a corner of an overlap is. Side i of an outline leads from corner i to the next. */
 typedef enum pir_corner_kind {
     PIR_CORNER_P = 0,    /* corner p of the outline of P */
     PIR_CORNER_Q,        /* corner q of the outline of Q */
-    PIR_CORNER_CROSSING, /* where side p of P's outline crosses side q of Q's; side i leads from corner i to the next */
+    PIR_CORNER_CROSSING, /* side p of P's outline crosses side q of Q's */
 } pir_corner_kind;
 
-/* A point of the plane and what it stands for; in an outline, p is the vertex of the body and the rest is not used. */
+/*
+ * A point of the plane and what it stands for. In an outline, p is the vertex of the body and the other members are
+ * not used.
+ */
 typedef struct pir_corner {
     double u, v;
     pir_corner_kind kind;
@@ -32,20 +35,21 @@ typedef struct pir_outline {
 double pir_outline_distance(const pir_corner *a, const pir_corner *b);
 
 /*
- * Replaces the points by the corners of their hull, counter-clockwise, and returns how many those are. Corners that
- * stand out by at most `snap` are left out; at least one stays. `room` holds count + 1 points. O(n log n).
+ * Replaces points by the corners of their hull, counter-clockwise, and returns their count. Corners that stand out by
+ * at most `snap` are left out; at least one stays. `room` holds count + 1 points. O(n log n).
  */
 uint32_t pir_outline_hull(pir_corner *points, uint32_t count, double snap, pir_corner *room);
 
 /*
- * A hull that is at most `part` as wide as it is long becomes the segment of its farthest corners. Returns the count.
+ * Replaces a hull that is at most `part` as wide as it is long by the segment between its farthest corners. Returns
+ * the count.
  */
 uint32_t pir_outline_slim(pir_corner *hull, uint32_t count, double part);
 
 /*
- * The corners of what two outlines share, in no order, up to twice the corners of P and once those of Q; corners and
- * sides closer than `snap` count as touching. Two segments share one when the sine of their angle is at most `part`,
- * else nothing. Returns the count. O(p · q).
+ * Finds the corners of what two outlines share, in no order, and returns their count. There are at most twice as many
+ * as P has, and as many again as Q has. Corners and sides closer than `snap` count as touching. Two segments share a
+ * segment where the sine of their angle is at most `part`, otherwise nothing. O(p · q).
  */
 uint32_t pir_outline_overlap(pir_outline p, pir_outline q, double snap, double part, pir_corner *ret_corners);
 

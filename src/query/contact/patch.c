@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Growing patches, and finding their surface again.
+ * Growing patches, and finding the points of their surfaces.
  *
- * An edge is flat or not by its angle with one plane, not with its neighbour, so a patch does not creep around a
+ * Whether an edge is flat is its angle with one plane, not with its neighbour. So a patch does not grow around a
  * finely faceted body. Along any line across a patch the surface is concave: it rises and falls by no more than
- * PIR_FLAT of the way from one vertex to another.
+ * PIR_FLAT of the way from vertex to vertex.
  */
 #include "query/contact/patch.h"
 
 /* --- room --- */
 
-/* The corners that pir_outline_overlap may give. */
+/* The most corners that pir_outline_overlap finds. */
 static size_t most_shared(const pir_polytope *p, const pir_polytope *q) {
     return 2 * (size_t)p->vertex_count + q->vertex_count + 4;
 }
@@ -50,7 +50,7 @@ static pir_vec3 normal_of(const pir_patch *patch, uint32_t f) {
     return pir_vec_scale(n, patch->sign);
 }
 
-/* A direction of the frame in the body's own. */
+/* A direction of the queries' frame in the body's own frame. */
 static pir_vec3 to_body(const pir_patch *patch, pir_vec3 d) {
     if (patch->r)
         d = pir_mat_apply_transposed(patch->r, d);
@@ -72,7 +72,7 @@ static void add_facet(pir_patch *patch, uint32_t f) {
         add(patch, p->origin[p->loop[i]]);
 }
 
-/* Adds all that members lead to along edges across m. */
+/* Adds every vertex that a member leads to along edges that are nearly across m. */
 static void spread(pir_patch *patch, pir_vec3 m) {
     const pir_polytope *p = patch->polytope;
     m = to_body(patch, m);
@@ -94,8 +94,8 @@ static bool leads_away(const pir_patch *patch, uint32_t f) {
 }
 
 /*
- * The facet most along `out` of those at members, or, with `away`, of those that lead away; PIR_NO_FACET where all
- * stand upright or face away.
+ * The facet that faces `out` most, of those at members, or with `away` of those that have a vertex which is no
+ * member. PIR_NO_FACET where all of them are steep or face away.
  */
 static uint32_t facet_out(const pir_patch *patch, bool away) {
     const pir_polytope *p = patch->polytope;
@@ -130,7 +130,10 @@ void pir_patch_grow(pir_patch *patch, pir_feature feature) {
     patch->facet = facet_out(patch, false);
 }
 
-/* The vertex that the edge least along −out leads to, from a member; UINT32_MAX where there is no edge. */
+/*
+ * The end of the edge that falls least from `out`, of the edges from members to other vertices. UINT32_MAX where all
+ * of them are steep.
+ */
 static uint32_t flattest(const pir_patch *patch) {
     const pir_polytope *p = patch->polytope;
     pir_vec3 out = to_body(patch, patch->out);
@@ -182,9 +185,9 @@ void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner 
 /* --- the surface --- */
 
 /*
- * How far x is from the plane of facet f along `out`; HUGE_VAL where the facet is too steep to tell. A facet that turns
- * away from the first by 60° and more bounds the patch: it counts from twice PIR_SNAP beyond its rim on, for rounding
- * alone may put a corner of the rim beside it.
+ * The distance of x from the plane of facet f along `out`, or HUGE_VAL where the facet is too steep to tell. A facet
+ * at 60° or more to the patch's first facet bounds the patch. Rounding may put a corner of the patch's rim beside it,
+ * so its plane is moved out by twice PIR_SNAP.
  */
 static double height(const pir_patch *patch, uint32_t f, pir_vec3 x) {
     const pir_polytope *p = patch->polytope;
@@ -201,7 +204,7 @@ pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
     const pir_polytope *p = patch->polytope;
     if (patch->facet == PIR_NO_FACET)
         return x;
-    // the surface is the least of its planes: from facet to facet until none beside it is lower
+    // the surface is the least of its planes: go from facet to facet until no neighbour is lower
     uint32_t f = patch->facet;
     double least = height(patch, f, x);
     for (bool lower = true; lower;) {
@@ -221,6 +224,6 @@ pir_vec3 pir_patch_side(const pir_patch *patch, uint32_t side, double t) {
     uint32_t end = side + 1 < patch->outline.count ? side + 1 : 0;
     pir_vec3 a = pir_patch_vertex(patch, patch->outline.at[side].p),
              b = pir_patch_vertex(patch, patch->outline.at[end].p);
-    // sides of the outline are edges, or nearly: the hull may have cut across
+    // a side of the outline is an edge, or nearly: the hull may have cut a corner
     return pir_patch_lift(patch, pir_vec_add(a, pir_vec_scale(pir_vec_sub(b, a), t)));
 }

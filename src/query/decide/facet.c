@@ -5,12 +5,16 @@
 #include "query/decide/side.h"
 
 /*
- * A unit normal is off by 64u·err at most (u = 2^-53), and by 37u more when it is turned into P's frame; a unit edge
- * vector by 8u; their dot product rounds by 4u: below 128u·err.
+ * The error of a slope. With u = 2^-53, a unit normal is off by at most 64u·err, and by 37u more once rotated back
+ * into P's frame; a unit edge vector is off by 8u; their dot product rounds by 4u. Together that is below 113u·err,
+ * and the bound is 128u·err.
  */
 #define SLOPE_BOUND 0x1p-46
 
-/* Slacks below this, relative to the placement's reach, come from integers. */
+/*
+ * Slacks below this, relative to the placement's reach, come from integers. Doubles know them to 2^-46 only, less
+ * than the 12 digits that an answer promises.
+ */
 #define NEXT_TO_NOTHING 0x1p-30
 
 /* --- slopes and exposed faces --- */
@@ -43,8 +47,8 @@ int pir_slope(pir_exact *exact, const pir_normal *normal, const pir_view *view, 
 }
 
 /*
- * The facet that two edges of a vertex share; of a polygon's two the one whose normal is along `unit`, in the body's
- * frame.
+ * The facet that two edges of a vertex share. A polygon has two; then it is the one whose normal is along `unit`, a
+ * direction in the body's frame.
  */
 static uint32_t shared_facet(const pir_polytope *p, uint32_t half, uint32_t other, pir_vec3 unit) {
     uint32_t left = p->left[half], right = pir_right(p, half);
@@ -56,8 +60,8 @@ static uint32_t shared_facet(const pir_polytope *p, uint32_t half, uint32_t othe
 }
 
 /*
- * Where to look from: a vertex that is exposed, and a halfedge that leaves it and is known to be across the normal, or
- * none.
+ * Where a search for an exposed face starts: an exposed vertex, and a halfedge from it that is known to be across the
+ * normal, or NO_HALF.
  */
 struct from {
     uint32_t vertex, across;
@@ -88,7 +92,7 @@ pir_feature pir_exposed(pir_exact *exact, const pir_normal *normal, const pir_vi
 uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face) {
     if (face.kind == PIR_FEATURE_VERTEX)
         return face.index;
-    // an edge's halfedge leaves its lower vertex
+    // edge_half leaves the lower vertex
     if (face.kind == PIR_FEATURE_EDGE)
         return p->origin[p->edge_half[face.index]];
     uint32_t lowest = UINT32_MAX;
@@ -99,14 +103,15 @@ uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face) {
 
 /* --- planes --- */
 
-/* Two edges: the halfedge of Q's for which d × e is along the normal. False when they are parallel. */
+/* Of two edges, the halfedge of Q's for which d × e is along the normal. False where they are parallel. */
 static bool orient_edges(pir_exact *exact, const pir_normal *normal, uint32_t e, uint32_t d, uint32_t *ret_half) {
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t half = q->edge_half[d];
     pir_vec3 n = pir_vec_cross(q->direction[half], pir_mat_apply(&frame->r, p->direction[p->edge_half[e]]));
     double along = pir_vec_dot(n, normal->unit);
-    // both vectors of the product are off by 42u at most, and the normal by 64u·err
+    // d is off by 8u, e by 45u, their product rounds by 4u, the normal is off by 64u·err, the dot product by 4u:
+    // below 125u·err
     if (fabs(along) <= 2 * SLOPE_BOUND * normal->err) {
         uint32_t mark = exact->scratch.used;
         pir_rotation_make_exact(exact->rotation);
@@ -119,7 +124,7 @@ static bool orient_edges(pir_exact *exact, const pir_normal *normal, uint32_t e,
     return along != 0;
 }
 
-/* The plane of the piece that stands for a facet, through its corner. */
+/* Sets the plane of a facet: that of its piece, through its corner. */
 static void make_plane(pir_exact *exact, pir_facet *facet) {
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
@@ -165,7 +170,7 @@ bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness 
     return true;
 }
 
-/* The normal of a piece as doubles; false when its edges are parallel. */
+/* The normal of a piece as doubles. False where its edges are parallel. */
 static bool make_normal(pir_exact *exact, pir_piece piece, pir_normal *ret_normal) {
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
@@ -223,7 +228,7 @@ bool pir_facet_same(const pir_facet *a, const pir_facet *b) {
 bool pir_facet_before(const pir_facet *a, const pir_facet *b) {
     if (a->piece.kind != b->piece.kind)
         return a->piece.kind < b->piece.kind;
-    // features of facets, not of the pieces that stand for them: an edge's number, not its halfedge's
+    // compare the features of the facets, not of the pieces that stand for them: an edge's number, not its halfedge's
     if (a->piece.kind != PIR_FACET_VF && a->faces.p.index != b->faces.p.index)
         return a->faces.p.index < b->faces.p.index;
     return a->piece.kind != PIR_FACET_FV && a->faces.q.index < b->faces.q.index;
@@ -262,7 +267,7 @@ int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pi
     double difference = (a->h - pir_vec_dot(a->n, x)) - (b->h - pir_vec_dot(b->n, x));
     if (fabs(difference) > placement->error * (a->err + b->err))
         return (difference > 0) - (difference < 0);
-    // s²·|m|² against r²·|n|², with the signs of s and r
+    // compare s²·|m|² with r²·|n|², with the signs of s and r
     pir_exact_begin(exact, placement->translation);
     uint32_t mark = exact->scratch.used;
     const pir_facet *facet[2] = {a, b};

@@ -2,13 +2,13 @@
 /*
  * True facets of D: faces of P and Q that one direction exposes.
  *
- * A direction n exposes a face of P (of the turned and reflected P that D is a sum with) and one of Q, and their sum is
- * the face of D that n exposes. Pieces that are exactly coplanar belong to one true facet, and the faces that n exposes
- * name it: a facet of P with any face of Q, a facet of Q with an edge or a vertex of P, or two edges that are not
- * parallel. So an answer that names a true facet depends neither on the perturbation that cut it into pieces nor on
- * which of them a search met.
+ * A direction n exposes one face of P and one of Q, those farthest along n. Here P is the rotated and reflected P
+ * that D is a sum with. The sum of the two faces is the face of D that n exposes. Pieces that are exactly coplanar
+ * belong to one true facet, and the two faces name it: a facet of P with any face of Q, a facet of Q with an edge or
+ * a vertex of P, or two edges that are not parallel. So an answer that names a true facet depends neither on the
+ * perturbation that cut it into pieces nor on the piece that a search met.
  *
- * Which edges are across n is decided by exact signs: a filter on unit vectors, then integers.
+ * Exact signs decide which edges are across n: a filter on unit vectors first, then integers.
  */
 #ifndef PIR_QUERY_DECIDE_FACET_H
 #define PIR_QUERY_DECIDE_FACET_H
@@ -17,20 +17,21 @@
 
 #include "query/decide/piece_plane.h"
 
-/* A direction: as doubles, and exactly as that of a piece or as integers. */
+/* A direction as doubles, and exactly: as the normal of a piece or as integers. */
 typedef struct pir_normal {
     pir_vec3 unit;
     double err; /* unit is off by at most 64·2^-53 times this */
     pir_piece piece;
-    const pir_int3 *exact; /* where it is not NULL the piece does not count; in the scratch */
+    /* where it is not NULL it is the direction, and the piece does not count; it lies in the scratch */
+    const pir_int3 *exact;
 } pir_normal;
 
 typedef struct pir_facet {
     pir_witness faces; /* of the reflected P, and of Q */
-    pir_piece piece;   /* stands for it, in the order of ties: FV where P has a facet there, else VF, else EE */
+    pir_piece piece;   /* that the order of ties goes by: FV where P has a facet there, else VF, else EE */
     uint32_t a, b;     /* a corner of it */
-    pir_vec3 n;        /* its plane: the unit normal and the offset */
-    double h, err;     /* as in pir_planes; err is at most 1 / PIR_SIN_REFINED */
+    pir_vec3 n;        /* its plane */
+    double h, err;     /* as in pir_plane; err is at most 1 / PIR_SIN_REFINED */
 } pir_facet;
 
 /* The facet that a search has found, if any. */
@@ -39,10 +40,10 @@ typedef struct pir_least {
     pir_facet facet;
 } pir_least;
 
-/* The exact normal, in the scratch. */
+/* The direction as integers, in the scratch. */
 pir_int3 pir_normal_integers(pir_exact *exact, const pir_normal *normal);
 
-/* A direction as one of the bodies sees it: the unit normal in the frame of the body's own vertices. */
+/* A direction in the frame of one body's own vertices. */
 typedef struct pir_view {
     const pir_polytope *body;
     bool of_q;
@@ -57,33 +58,36 @@ int pir_slope(pir_exact *exact, const pir_normal *normal, const pir_view *view, 
 /* The face of the body that n exposes, given a vertex of it. */
 pir_feature pir_exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t vertex);
 
-/* The vertex of lowest number of a face. */
+/* The vertex of a face with the lowest number. */
 uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face);
 
-/* The true facet of a piece; false when the piece's plane holds no more than an edge of D. */
+/* The true facet of a piece. False where the piece's plane holds no more than an edge of D. */
 bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet);
 
-/* The true facet of two faces that a direction exposes; false as above. */
+/* The true facet of two faces that a direction exposes. False as above. */
 bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet);
 
 bool pir_facet_same(const pir_facet *a, const pir_facet *b);
 
-/* The order that settles ties. */
+/* Whether a comes before b in the order that settles ties. */
 bool pir_facet_before(const pir_facet *a, const pir_facet *b);
 
 /*
- * The slack, which is negative where the facet separates. It is the same number however it is come by; where it is next
- * to nothing it comes from integers.
+ * The slack. It is negative where the facet separates. It is the same number however the facet was found. Where it is
+ * near 0 it comes from integers.
  */
 double pir_facet_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet);
 
 /* The exact sign of the slack. */
 int pir_facet_side(pir_exact *exact, const pir_placement *placement, const pir_facet *facet);
 
-/* The exact sign of a's slack less b's. */
+/* The exact sign of a's slack minus b's. */
 int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pir_facet *a, const pir_facet *b);
 
-/* Keeps the true facet of least slack, and the first in order of those that tie, of all whose pieces were offered. */
+/*
+ * Compares the true facet of a piece with `least` and keeps the one of less slack, or the first in order where they
+ * tie.
+ */
 void pir_least_offer(pir_exact *exact, const pir_placement *placement, pir_least *least, pir_piece piece);
 
 static inline pir_normal pir_facet_normal(const pir_facet *facet) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Pieces of the boundary of D: the facets of the pairing. */
+/* The pieces that the boundary of D consists of. */
 #ifndef PIR_QUERY_DECIDE_PIECE_H
 #define PIR_QUERY_DECIDE_PIECE_H
 
@@ -10,16 +10,17 @@
 /*
  * A pair of features whose sum is a facet of D, or a part of one:
  *
- *     PIR_FACET_FV    first: a facet of P               second: the vertex of Q farthest along its normal
- *     PIR_FACET_VF    first: the vertex of P            second: a facet of Q, the vertex being farthest along its
- * normal
- *     PIR_FACET_EE    first: an edge of P               second: a halfedge of Q, whose arcs cross
+ *     PIR_FACET_FV    first: a facet of P      second: the vertex of Q farthest along its normal
+ *     PIR_FACET_VF    first: the vertex of P farthest along the facet's normal      second: a facet of Q
+ *     PIR_FACET_EE    first: an edge of P      second: a halfedge of Q; their arcs cross
+ *
+ * A true facet of D consists of several pieces where features are parallel: see facet.h.
  */
 typedef struct pir_piece {
     uint32_t kind, first, second;
 } pir_piece;
 
-/* In place of a kind: no piece. */
+/* In place of a kind: there is no piece. */
 #define PIR_NO_PIECE UINT32_MAX
 
 /* A corner of a piece: a vertex of P and one of Q. */

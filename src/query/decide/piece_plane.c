@@ -9,16 +9,14 @@ bool pir_plane_of_edges(pir_exact *exact, pir_piece piece, pir_plane *ret_plane)
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t half = p->edge_half[piece.first], h = piece.second;
     pir_vec3 n = pir_vec_cross(q->direction[h], pir_mat_apply(&frame->r, p->direction[half]));
-    pir_vec3 y = pir_vec_add(pir_mat_apply(&frame->r, frame->p.vertex[p->origin[half]]), frame->q.vertex[q->origin[h]]);
-    double square = pir_vec_dot(n, n), err = 1;
+    double square = pir_vec_dot(n, n);
     if (square < PIR_SIN_EXACT * PIR_SIN_EXACT) {
-        if (!pir_side_normal(exact, piece, &n))
-            return false;
-    } else {
-        err = 1 / sqrt(square);
-        n = pir_vec_scale(n, err);
+        *ret_plane = (pir_plane){.err = 1 / PIR_SIN_EXACT, .piece = piece};
+        return pir_plane_refine(exact, ret_plane);
     }
-    *ret_plane = (pir_plane){n, pir_vec_dot(n, y), err, piece};
+    double err = 1 / sqrt(square);
+    n = pir_vec_scale(n, err);
+    *ret_plane = (pir_plane){n, pir_vec_dot(n, pir_frame_vertex(frame, p->origin[half], q->origin[h])), err, piece};
     return true;
 }
 

@@ -105,7 +105,7 @@ static int low_bit(double x) {
     return e;
 }
 
-/* The lowest set bit of three numbers, but 0 at most. */
+/* The exponent of the lowest set bit of three numbers, at most 0. */
 static int low_bit_of(pir_vec3 v) {
     const double c[3] = {v.x, v.y, v.z};
     int e = 0;
@@ -130,11 +130,16 @@ static uint32_t longer(uint32_t a, uint32_t b) {
 }
 
 /*
- * Limbs of W, of an edge vector and of a normal are at most w, e and n below. What is live at a time is at most: the
- * placement's own integers; four corners and three differences of them (21 w); their nearest point's normal (3·(3w +
- * 4)) with the determinants that choose it (8w, three times over); in comparisons, two slacks and squares of two
- * normals, each pair multiplied (12 (n + w)); and, along a way, a corner that is moved (3 (n + w + PIR_QUAT_LIMBS))
- * with a side's normal (3 (n + e)) and their product. All of it together is below what is returned.
+ * The limbs that scratch needs. W, an edge vector and a normal have at most w, e and n limbs. At one time these are
+ * in use at most:
+ *
+ * - the placement's own integers;
+ * - four corners and three differences of them: 21 w;
+ * - the normal at their nearest point, 3·(3w + 4), with the determinants that choose it: 8w, three times;
+ * - in comparisons, two slacks and the squares of two normals, each pair multiplied: 12 (n + w);
+ * - along a way, a corner that is moved, 3 (n + w + PIR_QUAT_LIMBS), a side's normal, 3 (n + e), and their product.
+ *
+ * Their sum is below what is returned.
  */
 static uint32_t limbs_needed(const pir_polytope *p, const pir_polytope *q) {
     const uint32_t a = pir_int_length(&p->scale.num), b = pir_int_length(&p->scale.den),

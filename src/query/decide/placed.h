@@ -2,23 +2,24 @@
 /*
  * A placement in exact integers.
  *
- * With P on the scale a/b and Q on the scale c/d (vertices are integers times those), R = M/N and t = T·2^−i, T
- * integers, the corner (p, q) of D less t is, times N·b·d·2^i,
+ * Let P's vertices be integers times a/b and Q's integers times c/d, R = M/N, and t = T·2^−i with T integer. Then the
+ * corner (p, q) of D minus t is, times N·b·d·2^i,
  *
  *     W(p, q) = a·d·2^i · M p  +  N·c·b·2^i · q  −  N·b·d · T,
  *
- * three integers. Every sign that a query needs is one of a polynomial in these, in edge vectors and in normals.
- * Nothing allocates: `scratch` is a stack that pir_exact_reserve sizes for the longest of them.
+ * a vector of three integers. Every sign that a query asks for is the sign of a polynomial in such vectors, in edge
+ * vectors and in normals. Nothing here allocates: `scratch` is a stack that pir_exact_reserve makes as large as the
+ * longest of these polynomials needs.
  */
 #ifndef PIR_QUERY_DECIDE_PLACED_H
 #define PIR_QUERY_DECIDE_PLACED_H
 
 #include "query/decide/piece.h"
 
-/* What turns vertices into W, for one rotation and translation; its integers lie at the bottom of the scratch. */
+/* The factors of W for one rotation and translation. Their integers lie at the bottom of the scratch. */
 typedef struct pir_exact {
     const pir_frame *frame;
-    pir_rotation *rotation; /* that the frame is at; its integers are made on demand */
+    pir_rotation *rotation; /* the rotation of the frame; its integers are made on demand */
     pir_limbs scratch;
 
     bool made;
@@ -26,10 +27,10 @@ typedef struct pir_exact {
     pir_int p, q, k; /* a·d·2^i, N·c·b·2^i, N·b·d */
     uint32_t i;
     pir_int3 t;    /* T */
-    uint32_t mark; /* where scratch begins */
+    uint32_t mark; /* where free scratch begins */
 } pir_exact;
 
-/* A number m·2^e: quotients and roots of integers that may be beyond the doubles. */
+/* A number m·2^e, for quotients and roots of integers that may be beyond the range of doubles. */
 typedef struct pir_real {
     double m;
     int e;
@@ -38,7 +39,7 @@ typedef struct pir_real {
 pir_real pir_real_of(const pir_int *a);
 pir_real pir_real_over(pir_real a, pir_real b);
 pir_real pir_real_times(pir_real a, pir_real b);
-/* Of a number that is not negative. */
+/* The square root of a number that is not negative. */
 pir_real pir_real_root(pir_real a);
 double pir_real_double(pir_real a);
 
@@ -47,33 +48,28 @@ pir_int pir_exact_square(pir_exact *exact, const pir_int3 *v);
 pir_real pir_exact_length(pir_exact *exact, const pir_int3 *v);
 
 /*
- * Sees to scratch for two operands at their scales; what was in it is lost. False when out of memory. Begins with an
- * exact of zeros.
+ * Makes scratch that is large enough for two operands at their scales. What was in it is lost. Begins with a struct
+ * of zeros. False when out of memory; then all is as it was.
  */
 bool pir_exact_reserve(pir_exact *exact, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q);
 void pir_exact_finish(pir_exact *exact, const pir_allocator *allocator);
 
-/*
- * Makes the integers of a translation, unless they are those that are there. Nothing may be taken from the scratch at
- * the time.
- */
+/* Makes the integers of a translation, unless they are there already. No scratch may be in use. */
 void pir_exact_begin(pir_exact *exact, pir_vec3 translation);
 
 /* One unit of W in lengths of the frame. */
 pir_real pir_exact_unit(const pir_exact *exact);
 
-/*
- * All of the following come from the scratch, and need pir_exact_begin.
- */
+/* The results of the following calls lie in the scratch. They need pir_exact_begin. */
 
 /* W(a, b). */
 pir_int3 pir_exact_corner(pir_exact *exact, uint32_t a, uint32_t b);
 
-/* The vector of a halfedge of P, turned, or of Q, up to a positive factor. */
+/* The vector of a halfedge of P, rotated, or of Q, times some positive number. */
 pir_int3 pir_exact_half_p(pir_exact *exact, uint32_t half);
 pir_int3 pir_exact_half_q(const pir_exact *exact, uint32_t half);
 
-/* A piece's normal, of any length; zero for parallel edges. */
+/* A piece's normal, of any length. It is zero for parallel edges. */
 pir_int3 pir_exact_normal(pir_exact *exact, pir_piece piece);
 
 pir_int3 pir_exact_cross(pir_exact *exact, const pir_int3 *a, const pir_int3 *b);
@@ -82,12 +78,12 @@ pir_int pir_exact_dot(pir_exact *exact, const pir_int3 *a, const pir_int3 *b);
 int pir_exact_dot_sign(pir_exact *exact, const pir_int3 *a, const pir_int3 *b);
 /* The sign of a − b. */
 int pir_exact_compare(pir_exact *exact, const pir_int *a, const pir_int *b);
-/* a·b as a product of two integers, from the scratch. */
+/* a·b. */
 pir_int pir_exact_product(pir_exact *exact, const pir_int *a, const pir_int *b);
 /* v·s. */
 pir_int3 pir_exact_scaled(pir_exact *exact, const pir_int3 *v, const pir_int *s);
 
-/* A vector of doubles as integers on a scale of its own: v = d·2^*ret_exponent. */
+/* A vector of doubles as integers on a scale of its own: v = result · 2^*ret_exponent. */
 pir_int3 pir_exact_vector(pir_exact *exact, pir_vec3 v, int *ret_exponent);
 
 #endif

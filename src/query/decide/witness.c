@@ -9,7 +9,7 @@ static bool facet_has(const pir_polytope *p, uint32_t f, uint32_t v) {
     return false;
 }
 
-/* A segment's second edge and its facets are hidden: they all are its one edge. */
+/* The edge that a segment shows. Its second edge and its facets are hidden: all of them stand for its one edge. */
 static pir_feature shown(const pir_polytope *p, pir_feature feature) {
     if (p->artificial && feature.kind != PIR_FEATURE_VERTEX)
         return (pir_feature){PIR_FEATURE_EDGE, 0};
@@ -17,7 +17,7 @@ static pir_feature shown(const pir_polytope *p, pir_feature feature) {
 }
 
 pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint32_t count) {
-    // distinct ones
+    // the distinct vertices
     uint32_t v[4] = {vertices[0]}, n = 1;
     for (uint32_t i = 1; i < count; i++) {
         bool is_new = true;
@@ -32,7 +32,7 @@ pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint
         for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++)
             if (p->target[h] == v[1])
                 return shown(p, (pir_feature){PIR_FEATURE_EDGE, p->edge[h]});
-    // most often an edge leads to another of them
+    // most often an edge leads from the first vertex to another
     if (n == 3)
         for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++)
             if (p->target[h] == v[1] || p->target[h] == v[2]) {
@@ -48,7 +48,7 @@ pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint
         if (all)
             return shown(p, (pir_feature){PIR_FEATURE_FACET, p->left[h]});
     }
-    // no one facet: rounding chose among nearly coplanar ones
+    // no facet holds all: rounding chose among nearly coplanar facets
     return (pir_feature){PIR_FEATURE_VERTEX, v[0]};
 }
 
@@ -59,7 +59,7 @@ pir_vec3 pir_facet_point(const pir_frame *frame, const pir_placement *placement,
     pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
     if (facet->piece.kind == PIR_FACET_VF)
         return pir_vec_sub(y, pir_mat_apply(&frame->r, frame->p.vertex[facet->a]));
-    // y = corner + λ e + μ d on the parallelogram
+    // y = corner + λ e + μ d lies on the parallelogram of the two edges
     uint32_t half = p->edge_half[facet->piece.first], h = facet->piece.second;
     pir_vec3 from = frame->q.vertex[q->origin[h]], d = pir_vec_sub(frame->q.vertex[q->target[h]], from);
     pir_vec3 corner = pir_frame_vertex(frame, p->origin[half], q->origin[h]);

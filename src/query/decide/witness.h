@@ -5,12 +5,13 @@
 
 #include "query/decide/facet.h"
 
-/* The least face of `polytope` that holds the given vertices; the first vertex where no face holds all. */
+/* The least face of `polytope` that holds the given vertices, or the first vertex where no face holds all of them. */
 pir_feature pir_feature_of(const pir_polytope *polytope, const uint32_t *vertices, uint32_t count);
 
 /*
- * A point of Q's for a foot of x, `slack` along the normal from it, that may be beside the facet: relative to Q's
- * middle. On the facet, it is one that touches where the faces are not parallel.
+ * A point of Q, relative to Q's middle, for the foot of x on a facet's plane, which is `slack` along the normal from
+ * x. The foot may lie beside the facet. Where it lies on the facet and the faces are not parallel, this is the point
+ * that touches.
  */
 pir_vec3 pir_facet_point(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet, double slack);
 

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Support vertices of a polytope by hill climbing, and vertices to start from. */
+/*
+ * Support vertices of a polytope by hill climbing, and the vertices that a climb starts from.
+ *
+ * A support vertex in a direction n is one that is farthest along n. On a convex polytope a vertex without a rising
+ * edge is one.
+ */
 #ifndef PIR_QUERY_FRAME_CLIMB_H
 #define PIR_QUERY_FRAME_CLIMB_H
 
@@ -8,13 +13,16 @@
 #include "base/vec.h"
 #include "polytope/polytope.h"
 
-/* A slope of a unit vector below this is taken for none: unit vectors are off by a few 2^-53. */
+/* Rises smaller than this, along unit vectors, are taken for none: unit vectors are off by a few 2^-53. */
 #define PIR_LEAST_SLOPE 0x1p-49
 
 /* The number of directions whose support vertices a body keeps, as places for a climb to start from. */
 #define PIR_LANDMARKS 24
 
-/* The vertex farthest along n, a vector of any length, uphill from vertex `from` along slopes above `least`. */
+/*
+ * The vertex that a climb along n ends at. n has any length. The climb starts at vertex `from` and takes the steepest
+ * edge as long as one rises by more than `least`.
+ */
 static inline uint32_t pir_climb_above(const pir_polytope *polytope, pir_vec3 n, double least, uint32_t from) {
     // every step rises, so no vertex comes twice; the count bounds the loop even if rounding should err
     for (uint32_t left = polytope->vertex_count; left > 0; left--) {

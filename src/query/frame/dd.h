@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Double-double numbers: an unevaluated sum hi + lo with |lo| ≤ ulp(hi)/2, about 106 bits (Dekker, Numerische
- * Mathematik 18, 1971).
+ * Double-double numbers. A number is an unevaluated sum hi + lo with |lo| ≤ ulp(hi)/2, about 106 bits (Dekker,
+ * Numerische Mathematik 18, 1971).
  *
- * Used where a difference of large, nearly equal positions is the answer. Products are split by hand, so that the
- * bits are the same with and without fused hardware. Magnitudes must stay below 2^900.
+ * Queries use them where large, nearly equal positions are subtracted. Products are split by hand, so that the bits
+ * are the same with and without fused hardware. Magnitudes must stay below 2^900.
  */
 #ifndef PIR_QUERY_FRAME_DD_H
 #define PIR_QUERY_FRAME_DD_H

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The frame that queries compute in: bodies about their middles, scaled by a power of two.
+ * The frame that queries compute in: see frame.h.
  *
- * Differences of vertices are taken in exact integers and rounded once, so a body 1e7 away from its origin is known
- * as well as one at it; the distance of the two middles is kept in double-double, and so is the translation's.
+ * Differences of vertices are taken in exact integers and rounded once. So a body at a distance of 1e7 from its
+ * origin is known as well as one at its origin. The distance between the two middles is kept in double-double, and so
+ * is the translation's.
  */
 #include "query/frame/frame.h"
 
@@ -14,14 +15,14 @@
 #include "query/frame/dd_rotation.h"
 
 /*
- * Bodies and translations farther from their origins than this, in units of the frame, are refused: the arithmetic
- * would overflow.
+ * The limit on the distance of bodies and translations from their origins, in units of the frame. Beyond it squares
+ * of squares could overflow.
  */
 #define FARTHEST 0x1p400
 
 /*
- * What double-double may be off by in a placement, relative to how far from their origins the bodies and the
- * translation are: sixteen times over.
+ * The error of a placement in double-double, relative to the distances of the bodies and of the translation from
+ * their origins. It is sixteen times the proven one.
  */
 #define FAR_ERROR 0x1p-96
 
@@ -34,7 +35,7 @@ static double scaled(const pir_int *a, const pir_scale *scale, int *ret_exponent
     return m * (n / d);
 }
 
-/* Component k of vertex v less vertex 0, as m · 2^*ret_exponent, through `room` of a vertex's limbs and one. */
+/* Component k of vertex v minus vertex 0, as m · 2^*ret_exponent. `room` has the limbs of a vertex and one more. */
 static double from_first(const pir_polytope *p, uint32_t v, int k, mp_limb_t *room, int *ret_exponent) {
     pir_int3 a = pir_vertex_exact(p, v), o = pir_vertex_exact(p, 0);
     pir_int difference = {room, 0, p->exact_vertex.stride + 1};
@@ -54,7 +55,7 @@ static int top_exponent(const pir_polytope *p, mp_limb_t *room) {
     return top;
 }
 
-/* What is left of an exact coordinate when its nearest double is taken off. */
+/* An exact coordinate minus its nearest double. */
 static double remainder_of(const pir_polytope *p, const pir_int *a, double nearest) {
     mpq_t exact, rounded;
     mpq_inits(exact, rounded, NULL);
@@ -70,14 +71,14 @@ static double component(pir_vec3 v, int k) {
     return k == 0 ? v.x : k == 1 ? v.y : v.z;
 }
 
-/* A length that |v| is not above. */
+/* An upper bound on |v|. */
 static double taxicab(pir_vec3 v) {
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
 /*
- * The vertices of one operand about the middle of its bounds, its size and its middle; false when that is too far
- * away.
+ * Sets the vertices of a body about the middle of its bounds, its size and its middle. False where the middle is too
+ * far away.
  */
 static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
     const pir_polytope *p = body->polytope;
@@ -113,7 +114,7 @@ static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
     return true;
 }
 
-/* The facets' offsets, and the body's swing: see planes/bounds.c. */
+/* Sets the facets' offsets and the body's swing: see planes/bounds.c. */
 static void set_offsets(pir_body *body) {
     const pir_polytope *p = body->polytope;
     double size = body->size, inner = p->dimension == 3 ? size : 0;
@@ -143,8 +144,8 @@ void pir_frame_finish(pir_frame *frame, const pir_allocator *allocator) {
 }
 
 /*
- * Two points have no size. Where they are so near the origin, or so far from it, that squares would lose digits, their
- * coordinates give the unit.
+ * The unit of a frame of two points, which have no size. It is 1, unless the points are so near the origin, or so far
+ * from it, that squares would lose digits. Then it comes from their coordinates.
  */
 static int exponent_of_points(pir_vec3 p, pir_vec3 q) {
     double most = fmax(fmax(fmax(fabs(p.x), fabs(p.y)), fabs(p.z)), fmax(fmax(fabs(q.x), fabs(q.y)), fabs(q.z)));
@@ -179,7 +180,10 @@ static bool same(pir_quat a, pir_quat b) {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
 }
 
-/* The offset of the frame: Q's middle plus P's, rotated. Near middles need no more than doubles. */
+/*
+ * Sets the offset of the frame: Q's middle plus P's rotated middle. Doubles suffice where P's middle is near its
+ * origin.
+ */
 static void set_offset(pir_frame *frame) {
     const pir_dd3 *centre = &frame->p.centre;
     pir_vec3 near = pir_dd3_round(*centre);

@@ -3,12 +3,12 @@
  * The frame that queries compute in.
  *
  * Each operand is moved so that the middle of its bounding box is the origin, and scaled by one power of two, so that
- * sizes are near 1. The difference of the two operands is D = R·P ⊕ Q, where P is kept reflected. A translation t
- * becomes the point x of the frame, worked out in double-double, so neither a far origin nor a small scale costs
+ * sizes are near 1. D = R·P ⊕ Q is the difference of the two operands; P is stored reflected. A translation t becomes
+ * the point x of the frame. It is computed in double-double, so that neither a far origin nor a small scale costs
  * digits.
  *
- * The slack of a plane of D with unit normal n and offset h is s = h − n·x: all slacks positive is inside, one negative
- * is outside, and the least slack of all facets of D is the depth.
+ * The slack of a plane of D with unit normal n and offset h is s = h − n·x. Where all slacks are positive, x is
+ * inside D. Where one is negative, x is outside. Inside, the least slack of all facets is the penetration depth.
  */
 #ifndef PIR_QUERY_FRAME_FRAME_H
 #define PIR_QUERY_FRAME_FRAME_H
@@ -22,32 +22,35 @@
 #include "query/frame/dd.h"
 
 /*
- * A slack is known within err · PIR_SLACK_BOUND · (size_p + size_q + |x|).
+ * The error of a slack in doubles is at most err · PIR_SLACK_BOUND · (size_p + size_q + |x|).
  *
- * With u = 2^-53 and sizes r_P, r_Q: a rotated unit normal is off by 42u (exact/sign.h), which moves n·(q − x) by 42u
- * (r_Q + |x|); P's own offset n·p is off by 14u r_P (vertices 3u, normal 8u, dot product 3u); q, x and the last
- * operations add less than 12u (r_P + r_Q + |x|). Together below 68u; 2^-46 = 128u. An edge pair's normal is a cross
- * product of unit vectors off by 8u and 42u, so it is off by less than 64u / sin of their angle, and err is 1 / sin
- * there.
+ * Proof, with u = 2^-53 and sizes r_P, r_Q. A unit normal is off by 8u, and by 45u once rotated: the matrix is off by
+ * 31u, the product rounds by 5.3u (exact/sign.h). That moves n·(q − x) by 45u (r_Q + |x|). P's own offset n·p is off
+ * by 14u r_P: vertices 3u, normal 8u, dot product 3u. q, x and the last operations add less than 12u (r_P + r_Q +
+ * |x|). Together that is below 71u, and the bound is 128u.
+ *
+ * The normal of an edge pair is a cross product of unit vectors off by 8u and 45u. The product rounds by 4u and its
+ * scaling by 3u, so the unit normal is off by less than 64u / sin of the edges' angle. `err` is 1 / sin for such
+ * planes and 1 for all others. A slack then is off by less than (64 + 12)u · err.
  */
 #define PIR_SLACK_BOUND 0x1p-46
 
 /* An operand in the frame: P reflected, not turned, or Q. */
 typedef struct pir_body {
     const pir_polytope *polytope;
-    pir_vec3 *vertex; /* about the middle of its bounds */
+    pir_vec3 *vertex; /* relative to the middle of its bounds */
     double *offset;   /* per facet: normal · vertex */
     double size;      /* the length of the farthest vertex, rounded up */
     double swing;     /* how fast its support changes as directions turn: see planes/bounds.c */
     pir_dd3 centre;   /* the middle of its bounds, in units of the frame */
-    double far;       /* how far that is from the origin, at most */
+    double far;       /* an upper bound on the distance of the middle from the origin */
     uint32_t landmarks[PIR_LANDMARKS];
 } pir_body;
 
 typedef struct pir_frame {
     pir_body p, q;
     int exponent;    /* one unit of the frame is 2^exponent */
-    double up, down; /* 2^exponent and 2^-exponent, or 0 where either is no normal number */
+    double up, down; /* 2^exponent and 2^-exponent; both 0 where either is no normal number */
 
     /* the rotation that the frame is at */
     bool is_set;
@@ -61,27 +64,30 @@ typedef struct pir_placement {
     pir_vec3 translation;
     pir_vec3 x;
     double reach; /* size_p + size_q + |x| */
-    double error; /* PIR_SLACK_BOUND · reach, and what x itself may be off by */
+    double error; /* bound on the error of a slack at x, for a plane whose err is 1 */
 } pir_placement;
 
-/* Memory for two operands; they are borrowed. False when out of memory: pir_frame_finish frees what is there. */
+/*
+ * Makes the memory for two operands, which are borrowed. False when out of memory; pir_frame_finish then frees what
+ * is there.
+ */
 bool pir_frame_init(pir_frame *frame, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q);
 void pir_frame_finish(pir_frame *frame, const pir_allocator *allocator);
 
 /*
- * Fills in all that depends on coordinates, for operands that differ from those of pir_frame_init in scale alone. The
- * frame has no rotation after. `room` has the limbs of a vertex and one more. PIR_ERR_LIMIT where an operand is too far
- * from its origin.
+ * Fills in everything that depends on coordinates. The operands may differ from those of pir_frame_init in their
+ * scale only. The frame has no rotation afterwards. `room` has the limbs of a vertex and one more. PIR_ERR_LIMIT
+ * where an operand is too far from its origin.
  */
 pir_status pir_frame_fill(pir_frame *frame, const pir_polytope *p, const pir_polytope *q, mp_limb_t *room);
 
-/* Brings the frame to a rotation; false where it is there already. */
+/* Sets the rotation. False where the frame has it already. */
 bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation);
 
-/* Checks and converts a translation: PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT. */
+/* Checks a translation and converts it: PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT. */
 pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_placement *ret_placement);
 
-/* A point of the frame in world coordinates: that of Q's body, y given relative to Q's centre. */
+/* A point y in the frame of Q's body, relative to Q's middle, in world coordinates. */
 pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y);
 
 static inline double pir_frame_length(const pir_frame *frame, double length) {

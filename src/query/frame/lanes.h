@@ -14,7 +14,7 @@
 /* Elements in a lane. */
 #define PIR_SCAN_LANES 4
 
-/* Planes in a block: the loops that look for a least slack take whole blocks, and groups are padded to them. */
+/* Planes in a block. Loops for a least slack take whole blocks, and groups are padded to whole blocks. */
 #define PIR_SCAN_BLOCK 8
 
 /* Vectors in parallel arrays. */

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The point of D nearest to x, by descent from vertex to vertex (Gilbert, Johnson and Keerthi, 1988) with supports by
- * hill climbing.
+ * The point of D nearest to x, by descent from vertex to vertex (Gilbert, Johnson and Keerthi, 1988). Supports come
+ * from hill climbing.
  *
- * A step takes the nearest point v of the hull of at most three vertices of D (all relative to x), then the vertex w
- * of D farthest towards x; |v| is an upper bound on the distance, w·v/|v| a lower one. It ends when they meet, or
- * when no step brings v nearer: v then is as near as these numbers tell.
+ * All points here are relative to x. A step takes the point v nearest to 0 of the hull of at most three vertices of
+ * D, then the vertex w of D farthest along −v. |v| is an upper bound on the distance, w·v/|v| a lower bound. The
+ * descent ends when the bounds meet, or when a step brings v no nearer; then v is as near as doubles can tell.
  *
- * Near D doubles lose the direction of v: |v| is known to an ulp of the bodies' size, no better. fine.c is for that.
+ * Near D doubles lose the direction of v, for |v| is known to an ulp of the bodies' size only. decide/nearest.c
+ * decides there.
  */
 #include "query/frame/nearest_vertex.h"
 
 /* --- the nearest point of a simplex to the origin --- */
 
-/* Points, and which of them hold the nearest point with which weights. */
+/* Up to three of the points, the weights with which they give the nearest point v, and |v|². */
 struct nearest {
     uint32_t count, index[3];
     double weight[3];
@@ -27,14 +28,14 @@ static void take_point(const pir_vec3 *w, uint32_t a, struct nearest *best) {
         *best = (struct nearest){1, {a, 0, 0}, {1, 0, 0}, w[a], square};
 }
 
-/* The inside of the segment a–b; its ends are points. */
+/* The inside of the segment a–b. Its ends are tried as points. */
 static void take_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct nearest *best) {
     pir_vec3 e = pir_vec_sub(w[b], w[a]);
     double along = -pir_vec_dot(w[a], e), whole = pir_vec_dot(e, e);
     if (!(along > 0 && along < whole))
         return;
     double t = along / whole;
-    // from the nearer end, which loses less
+    // measured from the nearer end, which rounds less
     pir_vec3 v = t <= 0.5 ? pir_vec_add(w[a], pir_vec_scale(e, t)) : pir_vec_sub(w[b], pir_vec_scale(e, 1 - t));
     double square = pir_vec_dot(v, v);
     if (square < best->square)
@@ -42,12 +43,12 @@ static void take_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct neare
 }
 
 /*
- * The foot of the origin on the plane across n, |n|² = whole, through the three points: inside their triangle, with
- * weights in proportion to `share`.
+ * The foot of the origin on the plane through three points. n is across the plane, |n|² = whole. The foot is inside
+ * their triangle, with weights in proportion to `share`.
  */
 static inline void take_inside(const pir_vec3 *w, const uint32_t index[3], const double share[3], pir_vec3 n,
                                double whole, struct nearest *best) {
-    // the plane's distance from the corner that is nearest to it in length
+    // the shortest corner gives the plane's distance with the smallest error
     pir_vec3 a = w[index[0]], b = w[index[1]], c = w[index[2]];
     double qa = pir_vec_dot(a, a), qb = pir_vec_dot(b, b), qc = pir_vec_dot(c, c);
     pir_vec3 corner = qa <= qb && qa <= qc ? a : qb <= qc ? b : c;
@@ -59,9 +60,9 @@ static inline void take_inside(const pir_vec3 *w, const uint32_t index[3], const
 }
 
 /*
- * The inside of the triangle; its sides are segments. Where the foot is inside, the triangle is nearer than its
- * sides, by less than rounding tells when it is nearly flat towards x: it goes first, or the descent would stay on
- * the side.
+ * The inside of the triangle. Its sides are tried as segments. Where the foot is inside, the triangle is nearer than
+ * its sides, but rounding may hide that where the triangle is nearly flat towards x. So the triangle wins within
+ * 2^-20, or the descent would stop at a side.
  */
 static void take_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c, struct nearest *best) {
     pir_vec3 n = pir_vec_cross(pir_vec_sub(w[b], w[a]), pir_vec_sub(w[c], w[a]));
@@ -73,8 +74,8 @@ static void take_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c,
 }
 
 /*
- * Of `count` ≤ 4 points, the last new: the nearest point of the faces that hold it, and of the others' vertices for
- * safety.
+ * The nearest point of the hull of `count` ≤ 4 points, the last of them new. It is tried on every face that can hold
+ * it.
  */
 static void find_nearest(const pir_vec3 *w, uint32_t count, struct nearest *best) {
     best->square = HUGE_VAL;
@@ -95,7 +96,7 @@ static void find_nearest(const pir_vec3 *w, uint32_t count, struct nearest *best
     }
 }
 
-/* --- the same where it is plain, at a third of the work --- */
+/* --- the same for points in general position, at a third of the work --- */
 
 /* The nearest point of the closed segment a–b, a < b, where it is nearer than `best`. */
 static void reach_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct nearest *best) {
@@ -110,9 +111,9 @@ static void reach_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct near
 }
 
 /*
- * That of the closed triangle, a < b < c. A foot beyond one side only is nearest to that side, for the way from it to
- * any other point of the triangle passes there; one beyond two is nearest to either. False where the triangle has no
- * plane.
+ * The nearest point of the closed triangle a, b, c, a < b < c. A foot beyond one side only is nearest to that side,
+ * because the way from it to any other point of the triangle passes through that side. A foot beyond two sides is
+ * nearest to one of them. False where the triangle has no plane.
  */
 static bool reach_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c, struct nearest *best) {
     pir_vec3 n = pir_vec_cross(pir_vec_sub(w[b], w[a]), pir_vec_sub(w[c], w[a]));
@@ -135,8 +136,9 @@ static bool reach_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c
 }
 
 /*
- * Of four points: the nearest of the faces at the last that the origin sees. It sees a face where its weight of the
- * corner across is negative; the weights are these determinants over their sum. False where it sees none.
+ * The nearest point of a tetrahedron, on the faces at the last point that the origin sees. It sees a face where its
+ * weight of the opposite corner is negative. The weights are these determinants over their sum. False where it sees
+ * no face.
  */
 static bool reach_tetrahedron(const pir_vec3 *w, struct nearest *best) {
     pir_vec3 c0 = pir_vec_cross(w[3], w[0]), c1 = pir_vec_cross(w[3], w[1]), c2 = pir_vec_cross(w[3], w[2]);
@@ -152,7 +154,7 @@ static bool reach_tetrahedron(const pir_vec3 *w, struct nearest *best) {
     return sees;
 }
 
-/* As find_nearest; false where it cannot tell. */
+/* As find_nearest. False where the points are not in general position. */
 static bool reach_nearest(const pir_vec3 *w, uint32_t count, struct nearest *best) {
     best->square = HUGE_VAL;
     if (count == 4)
@@ -167,7 +169,7 @@ static bool reach_nearest(const pir_vec3 *w, uint32_t count, struct nearest *bes
 }
 
 /*
- * The simplex becomes the face that holds the nearest point. Indices rise, so nothing is overwritten before it is
+ * Reduces the simplex to the face that holds the nearest point. Indices rise, so nothing is overwritten before it is
  * read.
  */
 static void keep_nearest(pir_simplex *simplex, pir_vec3 *w, const struct nearest *best) {
@@ -182,8 +184,8 @@ static void keep_nearest(pir_simplex *simplex, pir_vec3 *w, const struct nearest
 }
 
 /*
- * Whether the point that the weights make is within `length`: a point of D whatever they are, hence an upper bound
- * even where a triangle is so narrow that its normal is rounding alone.
+ * Whether the point that the weights give is within `length`. It is a point of D whatever the weights are. So this
+ * proves an upper bound even where a triangle is so narrow that its normal is rounding alone.
  */
 static bool held_within(const pir_simplex *simplex, const pir_vec3 *w, double length) {
     pir_vec3 v = pir_vec_scale(w[0], simplex->weight[0]);
@@ -192,7 +194,7 @@ static bool held_within(const pir_simplex *simplex, const pir_vec3 *w, double le
     return length >= 0 && pir_vec_dot(v, v) <= length * length;
 }
 
-/* Where the simplex holds vertex (a, b) of D; its count where it does not. */
+/* The index of vertex (a, b) of D in the simplex, or the simplex's count where it is not there. */
 static inline uint32_t place_of(const pir_simplex *simplex, uint32_t a, uint32_t b) {
     uint32_t i = 0;
     while (i < simplex->count && (simplex->a[i] != a || simplex->b[i] != b))
@@ -200,12 +202,12 @@ static inline uint32_t place_of(const pir_simplex *simplex, uint32_t a, uint32_t
     return i;
 }
 
-/* That of two vertices which is farther along n. */
+/* The one of two vertices that is farther along n. */
 static uint32_t farther(const pir_vec3 *vertices, pir_vec3 n, uint32_t a, uint32_t b) {
     return pir_vec_dot(n, vertices[b]) > pir_vec_dot(n, vertices[a]) ? b : a;
 }
 
-/* A first vertex when there is none: that towards x. */
+/* Gives a simplex without vertices the vertex farthest towards x. */
 void pir_simplex_start(const pir_frame *frame, const pir_placement *placement, pir_simplex *simplex) {
     if (simplex->count > 0)
         return;
@@ -223,7 +225,7 @@ void pir_descend_to_point(const pir_frame *frame, const pir_placement *placement
     pir_vec3 w[4];
     struct nearest best;
     const double meet = PIR_MEET * placement->reach;
-    // what is at hand may be far from where it leads
+    // a cold start may be far from the vertices that it leads to, so landmarks are tried as well
     const bool far = simplex->count == 0;
     pir_simplex_start(frame, placement, simplex);
     for (uint32_t i = 0; i < simplex->count; i++)
@@ -245,7 +247,7 @@ void pir_descend_to_point(const pir_frame *frame, const pir_placement *placement
         simplex->upper = length;
         simplex->direction = pir_vec_scale(best.v, -1 / length);
         ++*steps;
-        // from the vertex that came last, along −v, which is known before its length
+        // climb from the vertex that came last, along −v: unlike its unit vector it is known at once
         pir_vec3 minus = pir_vec_scale(best.v, -1), back = pir_mat_apply_transposed(&frame->r, minus);
         double least = PIR_LEAST_SLOPE * length;
         uint32_t a = simplex->a[n - 1], b = simplex->b[n - 1];

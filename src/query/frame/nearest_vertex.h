@@ -5,16 +5,18 @@
 
 #include "query/frame/frame.h"
 
-/* The bounds meet when they are this close, relative to the placement's reach; 2^-46 is what rounding leaves. */
+/*
+ * The bounds on the distance meet when they are this close, relative to the placement's reach. Rounding leaves 2^-46.
+ */
 #define PIR_MEET 0x1p-44
 
 /*
- * A descent finds a new vertex in every step, four to ten in all. This bound ends a descent that rounding leads in a
- * circle.
+ * The bound on the steps of a descent. In practice there are four to ten, each to a new vertex; rounding might lead
+ * in a circle.
  */
 #define PIR_MOST_STEPS 128
 
-/* Up to three vertices of D whose hull holds the point nearest to x, and its weights. */
+/* Up to three vertices of D whose hull holds the point nearest to x, and the weights of that point. */
 typedef struct pir_simplex {
     uint32_t count;
     uint32_t a[4], b[4];
@@ -24,7 +26,10 @@ typedef struct pir_simplex {
     bool certain;        /* the bounds met */
 } pir_simplex;
 
-/* Descends from `simplex` (count 0: cold) until the bounds meet, the lower passes `cutoff`, or no step helps. */
+/*
+ * Descends from `simplex`, which has no vertices on a cold start. Ends when the bounds meet, when the lower bound
+ * passes `cutoff`, or when a step brings nothing.
+ */
 void pir_descend_to_point(const pir_frame *frame, const pir_placement *placement, double cutoff, pir_simplex *simplex,
                           uint32_t *steps);
 

@@ -159,12 +159,6 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
     bounds->cap_stamp[g / PIR_SCAN_LANES] = groups->stamp;
 }
 
-/* The caps from group `g` on. */
-static pir_cap_lanes caps_from(const pir_cap_lanes *caps, uint32_t g) {
-    return (pir_cap_lanes){pir_lanes_from(caps->axis, g), pir_lanes_from(caps->corner, g), caps->cosine + g,
-                           caps->sine + g};
-}
-
 /* Whether a cap may rule out a group of the block from `g` that is not ruled out yet. */
 static bool is_open(const pir_bounds *bounds, uint32_t g, double limit) {
     bool any = false;
@@ -185,8 +179,8 @@ double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_p
         bool was_open[PIR_SCAN_LANES];
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
             was_open[i] = bounds->low[g + i] <= limit;
-        pir_cap_lanes caps = caps_from(&bounds->caps, g);
-        double least = groups->scan->caps(PIR_SCAN_LANES, &caps, placement->x, placement->error, bounds->low + g);
+        double least =
+            groups->scan->caps(g, PIR_SCAN_LANES, &bounds->caps, placement->x, placement->error, bounds->low);
         high = least < high ? least : high;
         // what a cap rules out now it need not for some while
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)

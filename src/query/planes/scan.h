@@ -78,10 +78,11 @@ typedef struct pir_scan {
                    double *low);
 
     /*
-     * With w = corner[i] − x and along = axis[i]·w: low[i] becomes along · cosine[i] − |w across axis[i]| · sine[i] − 2
-     * error where that is above 0 and above what it is. Returns the least along + error.
+     * For `count` caps from number `from` on, with w = corner[i] − x and along = axis[i]·w: low[i] becomes along ·
+     * cosine[i] − |w across axis[i]| · sine[i] − 2 error where that is above 0 and above what it is. Returns the least
+     * along + error.
      */
-    double (*caps)(uint32_t count, const pir_cap_lanes *caps, pir_vec3 x, double error, double *low);
+    double (*caps)(uint32_t from, uint32_t count, const pir_cap_lanes *caps, pir_vec3 x, double error, double *low);
 } pir_scan;
 
 /* The versions that this build has and this processor runs, the plain one first; NULL past the last. */

@@ -148,11 +148,12 @@ SCAN_TARGET static void bounds(uint32_t count, const pir_lasting_lanes *lasting,
     }
 }
 
-SCAN_TARGET static double caps(uint32_t count, const pir_cap_lanes *caps, pir_vec3 x, double error, double *low) {
+SCAN_TARGET static double caps(uint32_t from, uint32_t count, const pir_cap_lanes *caps, pir_vec3 x, double error,
+                               double *low) {
     const pir_lanes axis = caps->axis, corner = caps->corner;
     const double *cosine = caps->cosine, *sine = caps->sine;
     lane high = (lane){0} + HUGE_VAL;
-    for (uint32_t i = 0; i < count; i += SCAN_WIDTH) {
+    for (uint32_t i = from; i < from + count; i += SCAN_WIDTH) {
         lane wx = load(corner.x + i) - x.x, wy = load(corner.y + i) - x.y, wz = load(corner.z + i) - x.z;
         lane along = load(axis.x + i) * wx + load(axis.y + i) * wy + load(axis.z + i) * wz;
         lane square = wx * wx + wy * wy + wz * wz;
