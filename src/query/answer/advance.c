@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996): from a
- * separation d with normal n, no contact can come before the time that P, at its greatest speed against n, takes to
- * cover d. Moving on by that time again and again comes as near to contact as asked, from the safe side.
+ * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996).
+ *
+ * At a separation d with normal n no contact can come before P, at its greatest speed against n, has covered d.
+ * Advancing by that time again and again comes as near to contact as the caller asks, and never past it.
  */
 #include "query/answer/follow.h"
 
 #define MOST_QUERIES 256
 
-/* The same rotation by a quaternion whose products are far from the ends of the doubles. */
+/* The same rotation as a quaternion whose products neither overflow nor underflow. */
 static pir_quat middling(pir_quat r) {
     int e;
     frexp(fmax(fmax(fabs(r.x), fabs(r.y)), fmax(fabs(r.z), fabs(r.w))), &e);
@@ -16,8 +17,8 @@ static pir_quat middling(pir_quat r) {
 }
 
 /*
- * The rotation at a time, r being that at time 0, middling: where nothing has turned, to the bit the one that was
- * given.
+ * The rotation at a time, where r is that at time 0, by `middling`. Where nothing has turned it is the caller's
+ * quaternion, to the bit.
  */
 static pir_quat rotation_at(const pir_motion *motion, pir_quat r, pir_vec3 unit_axis, double time) {
     double half = 0.5 * motion->angle * time, s = sin(half), w = cos(half);
@@ -29,7 +30,7 @@ static pir_quat rotation_at(const pir_motion *motion, pir_quat r, pir_vec3 unit_
                       w * r.w - pir_vec_dot(a, v)};
 }
 
-/* How far P reaches from the origin that it turns about. */
+/* The distance of P's farthest vertex from the origin that P turns about, rounded up. */
 static double reach_of(const pir_polytope *p) {
     pir_vec3 unit;
     double most = 0, length;
@@ -101,8 +102,8 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
             set_outcome(&result, &at, 1, PIR_CAST_AT_REST);
             break;
         }
-        // as far as half the tolerance, so that it gets there in a few steps; past the end there is no contact within
-        // the motion
+        // advance to half the tolerance, so that few steps are needed; past the end there is no contact within the
+        // motion
         double next = speed > 0 ? time + (at.distance - 0.5 * tolerance) / speed : HUGE_VAL;
         if (next > 1) {
             set_outcome(&result, &at, 1, PIR_CAST_MISS);

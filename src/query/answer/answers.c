@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries on one placement: overlap, separation, penetration. What they share is the exact state; the rest is told in
- * descent.c and depth.c.
+ * Queries on one placement: overlap, separation, penetration. All of them share the exact state. The searches are in
+ * query/search, the decisions in query/decide.
  */
 #include "query/answer/follow.h"
 #include "query/decide/flat.h"
@@ -12,8 +12,8 @@
 #include "query/search/state.h"
 
 /*
- * Distances above this, relative to the placement's reach, are tried for a quick proof; nearer ones go to the exact
- * search at once.
+ * Distances above this, relative to the placement's reach, are tried for a quick proof in doubles, which know them to
+ * 2^-44. Nearer bodies go to the exact search at once.
  */
 #define CLEARLY_APART 0x1p-40
 
@@ -26,7 +26,7 @@ pir_query_input pir_query_input_default(void) {
 static const pir_outcome outcome_of[] = {
     [PIR_OUTSIDE] = PIR_SEPARATED, [PIR_BOUNDARY] = PIR_TOUCHING, [PIR_INSIDE] = PIR_OVERLAPPING};
 
-/* Member by member: a compiler's way of clearing the whole takes a fifth of a query. */
+/* Clears member by member: what compilers make of clearing the whole struct takes a fifth of a query. */
 static void clear(pir_query_result *result) {
     const pir_vec3 none = {0, 0, 0};
     result->state = PIR_OUTSIDE;
@@ -42,18 +42,18 @@ static void set_state(pir_query_result *result, pir_state state) {
     result->outcome = outcome_of[state];
 }
 
-/* The end of P's normal: point_p = point_q + distance · normal. */
+/* Sets both points from Q's: point_p = point_q + distance · normal. */
 static void set_points(pir_query_result *result, pir_vec3 point_q) {
     result->point_q = point_q;
     result->point_p = pir_vec_add(point_q, pir_vec_scale(result->normal, result->distance));
 }
 
-/* The faces of a body as a whole, where D is a point or in a line. */
+/* The face of a body that is a point or lies on a line: the whole body. */
 static pir_feature whole_of(const pir_polytope *p) {
     return (pir_feature){p->edge_count > 0 ? PIR_FEATURE_EDGE : PIR_FEATURE_VERTEX, 0};
 }
 
-/* Where t lies on the boundary: `touching` is the first true facet that it is on. */
+/* Answers where t lies on the boundary. `touching` is the first true facet that t is on. */
 static void answer_touching(pir_query *query, const pir_placement *placement, const pir_least *touching,
                             pir_query_cache *cache, pir_query_result *result) {
     pir_touch touch = {{{0}, {0}}, {0, 0, 0}};
@@ -63,7 +63,7 @@ static void answer_touching(pir_query *query, const pir_placement *placement, co
         pir_touch_facet(&query->exact, placement, &touching->facet, 0, NULL, &touch);
         pir_piece_keep(cache, touching->facet.piece);
     } else {
-        // D has no area, and any direction across it is a normal
+        // D has no area, so that any direction across it is a normal
         pir_normal normal = {.unit = pir_flat_across(&query->frame), .err = 1};
         pir_meeting meeting = {.normal = &normal, .faces = {whole_of(query->p), whole_of(query->q)}};
         result->normal = normal.unit;
@@ -90,7 +90,7 @@ static void recall_simplex(const pir_query *query, const pir_query_cache *cache,
     simplex->count = cache->points;
 }
 
-/* All three, those past the count being 0. */
+/* Keeps a simplex in a cache: three vertices, 0 past the count. */
 static void keep_simplex(pir_query_cache *cache, const pir_simplex *simplex) {
     if (!cache)
         return;
@@ -102,8 +102,8 @@ static void keep_simplex(pir_query_cache *cache, const pir_simplex *simplex) {
 }
 
 /*
- * Bodies that are apart by less than their coordinates can tell still have two points, apart by one rounding along the
- * normal.
+ * Sees to it that the points of two bodies that are apart differ. Bodies that are apart by less than coordinates can
+ * tell get points one rounding apart along the normal.
  */
 static void separate_points(pir_query_result *result) {
     pir_vec3 *p = &result->point_p, *q = &result->point_q, n = result->normal;
@@ -114,7 +114,7 @@ static void separate_points(pir_query_result *result) {
     *most = nextafter(*most, along > 0 ? HUGE_VAL : -HUGE_VAL);
 }
 
-/* Distances are known this well, relative to the placement's reach, however they are found. */
+/* The error of a distance, relative to the placement's reach, whichever way it is found. */
 #define DISTANCE_ERROR 0x1p-42
 
 static void answer_separation(const pir_query *query, const pir_nearest *nearest, pir_query_result *result) {
@@ -133,7 +133,7 @@ static void answer_beyond(pir_query_result *result) {
     result->outcome = PIR_BEYOND_CUTOFF;
 }
 
-/* What a descent that found no nearest point leaves: the best so far. */
+/* Answers where the search for the nearest point has reached its bound on steps: with the best so far. */
 static void answer_unfinished(const pir_query *query, const pir_simplex *simplex, pir_query_result *result) {
     set_state(result, PIR_OUTSIDE);
     result->outcome = PIR_STEP_LIMIT;
@@ -141,7 +141,7 @@ static void answer_unfinished(const pir_query *query, const pir_simplex *simplex
 }
 
 /*
- * The separation, or only the state where there is none. Returns the state; on the boundary *ret_touching is as
+ * Answers with the separation, where there is one, and returns the state. On the boundary *ret_touching is as
  * pir_state_find sets it. `limit` is the cutoff in the frame.
  */
 static pir_state separation(pir_query *query, const pir_placement *placement, double limit, pir_query_cache *cache,
@@ -175,7 +175,7 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
     return PIR_OUTSIDE;
 }
 
-/* The state alone: cheap certain answers first, then the search. */
+/* The state alone. Certain answers that cost little come before the search. */
 static pir_state overlap(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                          pir_least *ret_touching, uint32_t *steps) {
     pir_plane last;
@@ -203,7 +203,7 @@ static pir_state overlap(pir_query *query, const pir_placement *placement, pir_q
 }
 
 /*
- * The state and, inside, the facet of least slack: most often the least slack tells the state as well. On the boundary
+ * The state and, inside, the facet of least slack, which most often tells the state as well. On the boundary
  * *ret_least is the first facet that touches.
  */
 static pir_state depth_and_state(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
@@ -234,10 +234,10 @@ static pir_state depth_and_state(pir_query *query, const pir_placement *placemen
 
 static void answer_depth(pir_query *query, const pir_placement *placement, const pir_facet *facet,
                          pir_query_cache *cache, pir_query_result *result) {
-    // exactly inside: a slack that rounds below zero is one of next to nothing
+    // the state is exact: a slack that rounds below zero is nearly zero
     double slack = fmax(pir_facet_slack(&query->exact, placement, facet), 0);
     pir_touch touch;
-    // in a region the foot may be beside the facet
+    // in a region the foot may lie beside the facet
     if (!pir_touch_facet(&query->exact, placement, facet, slack, NULL, &touch))
         touch = (pir_touch){facet->faces, pir_facet_point(&query->frame, placement, facet, slack)};
     pir_piece_keep(cache, facet->piece);
@@ -249,7 +249,7 @@ static void answer_depth(pir_query *query, const pir_placement *placement, const
     set_points(result, pir_frame_world(&query->frame, touch.point_q));
 }
 
-/* What the facets in the region of the sum tell. */
+/* Answers from the facets in the sum's region. */
 static void answer_in_region(pir_query *query, const pir_placement *placement, pir_query_cache *cache,
                              pir_query_result *result) {
     pir_least least;
@@ -269,7 +269,7 @@ static void answer_in_region(pir_query *query, const pir_placement *placement, p
 
 /* --- radii --- */
 
-/* Grows both bodies by their radii in an answer that knows the signed distance. */
+/* Grows both bodies by their radii, in an answer with the signed distance. */
 static void add_radii(const pir_query_input *input, pir_query_result *result) {
     double sum = input->radius_p + input->radius_q;
     if (result->outcome == PIR_BEYOND_CUTOFF)
@@ -287,7 +287,7 @@ static void add_radii(const pir_query_input *input, pir_query_result *result) {
 
 /* --- the calls --- */
 
-/* What a call wants to know. */
+/* What a call asks for. */
 enum { WANT_SEPARATION = 1, WANT_DEPTH = 2 };
 
 static pir_status answer(pir_query *query, const pir_query_input *input, int want, pir_query_cache *cache,
@@ -298,7 +298,7 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
     pir_status status = pir_query_place(query, input, &placement);
     if (status != PIR_OK)
         return status;
-    // separation, and bodies that are rounded, need the whole sum
+    // separation and rounded bodies need the whole sum
     bool in_region = pir_sum_cone(query->sum)->set;
     if (in_region && (want != WANT_DEPTH || input->radius_p + input->radius_q > 0))
         return PIR_ERR_UNSUPPORTED;
@@ -311,7 +311,7 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
     }
     double radii = input->radius_p + input->radius_q,
            limit = pir_frame_from(&query->frame, fmax(input->cutoff, 0) + radii);
-    // rounded bodies overlap where the polytopes are apart
+    // rounded bodies may overlap where the polytopes are apart
     if (radii > 0)
         want |= WANT_SEPARATION;
     bool depth_first =

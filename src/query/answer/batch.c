@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Many translations at one rotation. All planes are made at once and stand in leaves (leaves.c). Two balls about D's
- * middle settle most states at once: within the depth of the middle everything is inside, beyond the sizes of the
- * bodies everything is outside. What the leaves leave open is asked for by itself.
+ * Many translations at one rotation. All planes are made once and stand in leaves (leaves.h). Two balls about D's
+ * middle decide most states: within the depth of the middle everything is inside, beyond the sizes of the bodies
+ * everything is outside. What leaves and balls leave open goes to single queries.
  */
 #include "query/answer/follow.h"
 
 struct batch {
     pir_query *query;
     pir_query_input input;
-    double inner; /* slacks at the middle are at least this */
+    double inner; /* lower bound on the slacks at the middle */
 };
 
 static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *translations, size_t count,
@@ -26,12 +26,12 @@ static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *t
     middle.x = (pir_vec3){0, 0, 0};
     middle.reach = query->frame.p.size + query->frame.q.size;
     middle.error = PIR_SLACK_BOUND * middle.reach;
-    // what is taken off holds the errors of a slack and of x
+    // 64 errors hold those of the slacks, and of x in every placement that is compared
     batch->inner = pir_leaves_least(&query->leaves, &query->search.groups, &middle) - 64 * middle.error;
     return PIR_OK;
 }
 
-/* The state where a ball settles it. */
+/* The state. False where neither ball decides it. */
 static bool settle(const struct batch *batch, const pir_placement *placement, pir_state *ret_state) {
     double away = placement->reach - batch->query->frame.p.size - batch->query->frame.q.size;
     if (away + placement->error < batch->inner) {
@@ -63,7 +63,7 @@ pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations
     return status;
 }
 
-/* The state, and the depth where that is inside, where a ball or the leaves tell it. */
+/* The state, and the depth where that is inside. False where neither a ball nor the leaves decide it. */
 static bool find_depth(const struct batch *batch, const pir_placement *placement, double *ret_depth,
                        pir_state *ret_state) {
     pir_query *query = batch->query;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Along a line: the directional depth and distance, and the linear cast. Where lines and facets cross is told in
- * line.h.
+ * Queries along a line: the directional depth and distance, and the linear cast. decide/line.h has where lines cross
+ * facets.
  */
 #include "query/answer/follow.h"
 #include "query/decide/flat.h"
@@ -26,7 +26,7 @@ static pir_clip clip_line(pir_query *query, const pir_line *line, uint32_t *step
     return clip;
 }
 
-/* Where P first touches Q along the line from outside: false when it never does. */
+/* Where P first touches Q along a line from outside. False where it never does. */
 static bool first_touch(pir_query *query, const pir_line *line, pir_arrival *ret_arrival, uint32_t *steps) {
     if (pir_flat_is(&query->exact))
         return pir_flat_enter(&query->exact, line, ret_arrival);
@@ -38,7 +38,7 @@ static bool first_touch(pir_query *query, const pir_line *line, pir_arrival *ret
     return pir_line_arrive(&query->exact, line, &clip.enter.facet, ret_arrival);
 }
 
-/* An answer along a line: the length `at`, of the given sign. */
+/* Answers with an arrival. The distance has the given sign. */
 static void set_arrival(const pir_query *query, const pir_arrival *arrival, double sign, pir_query_result *result) {
     result->normal = arrival->normal;
     result->point_p = result->point_q = pir_frame_world(&query->frame, arrival->touch.point_q);
@@ -46,7 +46,7 @@ static void set_arrival(const pir_query *query, const pir_arrival *arrival, doub
     result->distance = sign * pir_frame_length(&query->frame, arrival->at);
 }
 
-/* The exit from what the facets in the region of the sum bound. */
+/* Answers with the exit from the half-spaces of the facets in the region. */
 static void exit_region(pir_query *query, const pir_line *line, pir_query_result *result) {
     pir_least least;
     pir_arrival arrival;
@@ -84,7 +84,7 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
     if (result.state == PIR_INSIDE) {
         pir_clip clip = clip_line(query, &line, &result.steps);
         pir_arrival arrival;
-        // D is bounded and x inside, so there is a facet that the line leaves by, and it leaves on it
+        // D is bounded and x inside, so the line leaves D through a facet, and on it
         bool leaves = clip.leave.some && pir_line_arrive(&query->exact, &line, &clip.leave.facet, &arrival);
         result.outcome = leaves ? PIR_OVERLAPPING : PIR_STEP_LIMIT;
         if (leaves)
@@ -125,8 +125,8 @@ pir_status pir_query_directional_distance(pir_query *query, const pir_query_inpu
 /* --- the cast --- */
 
 /*
- * Whether P, touching, moves into Q along the line: every facet that touches lets it in. The facet is the one that it
- * meets most squarely.
+ * Whether P, which touches Q, moves into Q along the line: it does where every facet that touches lets it in.
+ * *ret_facet is the one that it meets at the steepest angle.
  */
 static bool moves_in(pir_query *query, const pir_line *line, pir_facet *ret_facet) {
     const pir_planes *planes = &query->search.groups.planes;

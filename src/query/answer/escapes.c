@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Every way out of an overlap: the true facets of D whose slack is within a given one of the least, in the order of
- * ties.
+ * Every way out of an overlap: the true facets of D whose slack exceeds the least by at most a given length, in the
+ * order of ties.
  */
 #include "query/answer/follow.h"
 
 /*
- * Facets that tie with the last one asked for are in, which their doubles tell this well, relative to the placement's
- * reach.
+ * Facets that exceed the limit by less than this, relative to the placement's reach, are in. So facets that tie are
+ * in or out together: doubles know their slacks to 2^-46 / sin at worst.
  */
 #define WITHIN 0x1p-44
 
-/* The facet that comes next in order after `after`, with a slack of at most `limit`. */
+/* The first facet in order after `after` with a slack of at most `limit`. */
 static pir_least next_within(pir_query *query, const pir_placement *placement, double limit, const pir_facet *after) {
     const pir_planes *planes = &query->search.groups.planes;
     pir_least next = {.some = false};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The largest distance: that from x to the farthest vertex of D. Every vertex of D is a corner of a piece of the
- * pairing, so the pieces' corners are looked at, not all pairs of vertices.
+ * The largest distance: from x to the farthest vertex of D. Every vertex of D is a corner of a piece of the pairing,
+ * so the corners of pieces are compared, not all pairs of vertices.
  */
 #include "query/answer/follow.h"
 #include "query/search/state.h"

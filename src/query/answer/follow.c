@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A query and the sum that it stands on: making and releasing it, and following what the sum does.
+ * A query and its sum: making a query, releasing it, and following the sum's changes.
  *
- * The query holds references to the sum and to both operands, so whatever it was made from stays in memory as long as
- * it does, in whatever order callers destroy things. Each call compares the sum's generation (dymsum/view.h) with the
- * one that the query is for. Where they differ:
+ * A query holds references to the sum and to both operands. So what it was made from stays in memory as long as the
+ * query does, in whatever order callers destroy things. Each call compares the sum's generation (dymsum/view.h) with
+ * the one that the query was last brought to. Where they differ, these may have changed:
  *
- *   - Operands. A sum's operand is only ever replaced by the same polytope on another scale. Its features keep their
- *     numbers and their normals to the bit, so all sizes and the groups stay. What depends on coordinates is filled
- *     anew, in the memory that is there; only the room for exact signs may have to grow, with the digits of the scale.
- *     Bounds begin as in a new query.
- *   - Rotation. The planes of the last one are forgotten. At one rotation the pairing of given operands is unique, so
- *     nothing is to be forgotten when that stays; a search in a region makes its planes anew each time (region.c).
- *   - The number of crossings. There is room for their planes before anything is asked.
+ * - Operands. A sum's operand is only ever replaced by the same polytope on another scale. Its features keep their
+ *   numbers, and their normals to the bit, so all sizes and the groups stay. What depends on coordinates is filled in
+ *   again, in the same memory; only the scratch of exact signs may have to grow, with the digits of the scale. Bounds
+ *   begin as in a new query.
+ * - Rotation. The planes of the last rotation are forgotten. At one rotation the pairing of given operands is unique,
+ *   so nothing is forgotten where the rotation stays. A search in a region makes its planes anew each time
+ *   (regional.c).
+ * - The number of crossings. There is memory for their planes before anything is asked.
  *
- * A call that fails on the way leaves the generation behind: the next one goes the same way again.
+ * A call that fails on the way leaves the query's generation at 0, so that the next call tries again.
  */
 #include "query/answer/follow.h"
 
@@ -34,21 +35,21 @@ void pir_query_destroy(pir_query *query) {
     PIR_FREE(a, query, 1);
 }
 
-/* Takes a reference to `polytope` in place of the one in *held. */
+/* Replaces the reference in *held by one to `polytope`. */
 static void hold(pir_polytope **held, pir_polytope *polytope) {
     pir_polytope *before = *held;
     *held = pir_polytope_retain(polytope);
     pir_polytope_release(before);
 }
 
-/* Fills in what depends on the operands' coordinates for those that the sum has now. */
+/* Fills in what depends on the coordinates of the operands that the sum has now. */
 static pir_status fit(pir_query *query) {
     query->fits = false;
     hold(&query->p, pir_sum_pairing(query->sum)->p);
     hold(&query->q, pir_sum_pairing(query->sum)->q);
     if (!pir_exact_reserve(&query->exact, &query->allocator, query->p, query->q))
         return PIR_ERR_MEMORY;
-    // the scratch of exact signs is far more than a vertex and a limb
+    // the scratch of exact signs is larger than a vertex and a limb
     pir_status status = pir_frame_fill(&query->frame, query->p, query->q, query->exact.scratch.base);
     if (status != PIR_OK)
         return status;
@@ -58,7 +59,10 @@ static pir_status fit(pir_query *query) {
     return PIR_OK;
 }
 
-/* Memory for everything whose size the operands tell. False when out of memory: destroy frees what is there. */
+/*
+ * Makes all memory whose size the operands tell. False when out of memory; pir_query_destroy then frees what is
+ * there.
+ */
 static bool reserve(pir_query *query) {
     const pir_allocator *a = &query->allocator;
     bool done = pir_frame_init(&query->frame, a, query->p, query->q);
@@ -90,14 +94,14 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
     return PIR_OK;
 }
 
-/* Brings the query to what the sum is now. */
+/* Brings the query to the present state of the sum. */
 static pir_status follow(pir_query *query) {
     pir_sum *sum = query->sum;
     const pir_pairing *pairing = pir_sum_pairing(sum);
     if (query->generation == pir_sum_generation(sum))
         return PIR_OK;
     pir_status status = PIR_OK;
-    // the query's own references keep these addresses from being given to others
+    // no other polytope can have these addresses while the query holds its references
     if (query->p != pairing->p || query->q != pairing->q || !query->fits)
         status = fit(query);
     if (status == PIR_OK) {

@@ -13,13 +13,13 @@
 struct pir_query {
     pir_allocator allocator;
     /*
-     * references: to the sum, and to its operands as all below was made from them; p is reflected, as the sum holds
-     * it
+     * references to the sum, and to the operands that the parts below are filled in from; p is reflected, as the sum
+     * holds it
      */
     pir_sum *sum;
     pir_polytope *p, *q;
-    bool fits;           /* whether what depends on their coordinates is filled in */
-    uint64_t generation; /* of the sum, that all below is for; 0 where it is for none */
+    bool fits;           /* whether the parts that depend on coordinates are filled in */
+    uint64_t generation; /* the generation of the sum that the parts below are for, 0 for none */
 
     pir_frame frame;
     pir_exact exact;
@@ -29,10 +29,10 @@ struct pir_query {
     pir_patch_room patches;
 };
 
-/* What every call begins with: checks, what has changed in the sum, the placement. */
+/* Begins a call: checks the input, follows the sum's changes, converts the translation. */
 pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
 
-/* The same for calls that need the whole sum: PIR_ERR_UNSUPPORTED where it has a region. */
+/* Begins a call that needs the whole sum: PIR_ERR_UNSUPPORTED where the sum has a region. */
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
 
 #endif

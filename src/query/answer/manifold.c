@@ -2,14 +2,14 @@
 /*
  * Contact manifolds: where the contact patches of two bodies lie over each other along the normal of an answer.
  *
- * Each body's patch grows from its feature of the answer (patch.h). When only one of the two has an area, the other
- * body is tilted, and its patch is extended by the facet that faces the first one most. The outlines are laid on a
- * plane across the normal, and the corners of their overlap (outline.h) are looked for again on the surfaces of both
- * bodies, along the normal. So every contact lies on both bodies, however the patches are made.
+ * Each body's patch grows from its feature of the answer (patch.h). Where only one of the two has an area, the other
+ * body is tilted. Its patch then grows by the facet that faces the first body most. The outlines are projected along
+ * the normal, and the corners of their overlap (outline.h) are lifted onto the surfaces of both bodies. So every
+ * contact lies on both bodies, however the patches are made.
  */
 #include "query/answer/follow.h"
 
-/* Ids hold a kind in the two bits on top and two indices; this kind is that of an answer that is no corner. */
+/* An id holds a kind in its top two bits and two indices. This kind is that of an answer that is no corner. */
 #define ID_OF_ANSWER 3
 
 struct manifold {
@@ -18,12 +18,12 @@ struct manifold {
     pir_patch *p, *q;
     pir_vec3 n;
     pir_vec3 axis[2];       /* of the contact plane, axis[0] × axis[1] = n */
-    pir_corner of_answer;   /* where it is there */
+    pir_corner of_answer;   /* the answer's point, in the plane */
     double radius_p, radii; /* radius_p + radius_q */
-    double limit, hair;     /* corners at up to `limit` are kept */
+    double limit;           /* corners up to this distance are kept */
 };
 
-/* --- what is given --- */
+/* --- the caller's answer --- */
 
 static bool is_feature(const pir_polytope *p, pir_feature feature) {
     return (feature.kind == PIR_FEATURE_VERTEX && feature.index < p->vertex_count) ||
@@ -31,7 +31,7 @@ static bool is_feature(const pir_polytope *p, pir_feature feature) {
            (feature.kind == PIR_FEATURE_FACET && feature.index < p->facet_count);
 }
 
-/* Whether an answer can be one of these bodies. */
+/* Whether an answer can be one about these bodies. */
 static bool is_usable(const pir_query *query, const pir_query_result *answer) {
     double square = pir_vec_dot(answer->normal, answer->normal);
     return fabs(square - 1) < 0x1p-20 && is_feature(query->p, answer->witness.p) &&
@@ -50,7 +50,7 @@ static void set_patch(pir_patch *patch, const pir_polytope *polytope, const pir_
     patch->out = out;
 }
 
-/* Two unit vectors across n, from the axis that is least along it. */
+/* Sets two unit vectors across n, from the coordinate axis that is least along n. */
 static void set_axes(struct manifold *m) {
     double x = fabs(m->n.x), y = fabs(m->n.y), z = fabs(m->n.z);
     pir_vec3 least = {x <= y && x <= z, y < x && y <= z, z < x && z < y};
@@ -59,7 +59,7 @@ static void set_axes(struct manifold *m) {
     m->axis[1] = pir_vec_cross(m->n, m->axis[0]);
 }
 
-/* The answer's point of Q's polytope in the frame. */
+/* The answer's point on Q's polytope, in the frame. */
 static pir_vec3 point_of_answer(const struct manifold *m, double radius_q) {
     const pir_query *query = m->query;
     pir_vec3 w = pir_vec_sub(m->answer->point_q, pir_vec_scale(m->n, radius_q)),
@@ -79,18 +79,21 @@ static void begin(struct manifold *m, const pir_query_input *input, const pir_pl
     set_axes(m);
     set_patch(m->q, query->q, query->frame.q.vertex, m->n);
     set_patch(m->p, query->p, query->frame.p.vertex, pir_vec_scale(m->n, -1));
-    // P is kept reflected
+    // P is stored reflected
     m->p->r = &query->frame.r;
     m->p->sign = -1;
     m->p->at = placement->x;
     m->p->snap = m->q->snap = PIR_SNAP * placement->reach;
     pir_vec3 y = point_of_answer(m, input->radius_q);
     m->of_answer = (pir_corner){.u = pir_vec_dot(m->axis[0], y), .v = pir_vec_dot(m->axis[1], y)};
-    m->hair = pir_frame_length(&query->frame, 4 * placement->error);
-    m->limit = fmax(fmax(input->margin, m->answer->distance), 0) + m->hair;
+    double error = pir_frame_length(&query->frame, 4 * placement->error);
+    m->limit = fmax(fmax(input->margin, m->answer->distance), 0) + error;
 }
 
-/* Grows both patches until each has an outline; returns how many corners they share, in query->patches.shared. */
+/*
+ * Grows both patches until each has an outline. Returns the number of corners that they share, in
+ * query->patches.shared.
+ */
 static uint32_t overlap(struct manifold *m) {
     pir_patch_room *room = &m->query->patches;
     pir_patch *both[2] = {m->p, m->q};
@@ -98,7 +101,7 @@ static uint32_t overlap(struct manifold *m) {
     pir_patch_grow(m->q, m->answer->witness.q);
     for (int k = 0; k < 2; k++)
         pir_patch_set_outline(both[k], m->axis, room->hull);
-    // a body that meets the other's area with less is tilted
+    // a body without an area is tilted where it meets the other's area
     for (int k = 0; k < 2; k++)
         if (both[1 - k]->outline.count > 2)
             while (both[k]->outline.count < 3 && pir_patch_extend(both[k]))
@@ -111,14 +114,14 @@ static uint32_t overlap(struct manifold *m) {
 
 /* --- contacts --- */
 
-/* Where side `side` of an outline is nearest to x, as a fraction of it. */
+/* The fraction of side `side` of an outline at which it is nearest to x. */
 static double along_side(const pir_outline *outline, uint32_t side, const pir_corner *x) {
     const pir_corner *a = &outline->at[side], *b = &outline->at[side + 1 < outline->count ? side + 1 : 0];
     double u = b->u - a->u, v = b->v - a->v, part = (u * (x->u - a->u) + v * (x->v - a->v)) / (u * u + v * v);
     return fmin(1, fmax(0, part));
 }
 
-/* A side by the vertex that it leads from; that of a segment by its lower one. */
+/* The id of a side: the vertex that it leads from, or a segment's lower vertex. */
 static uint64_t side_id(const pir_outline *outline, uint32_t side) {
     uint32_t v = outline->at[side].p;
     return outline->count > 2 || v < outline->at[1 - side].p ? v : outline->at[1 - side].p;
@@ -139,7 +142,7 @@ static uint64_t corner_id(const struct manifold *m, const pir_corner *corner) {
     }
 }
 
-/* The point of a patch over a corner, that of a segment over what is nearest to it there. */
+/* The point of a patch over a corner. A segment gives its nearest point. */
 static pir_vec3 beside(const pir_patch *patch, const pir_corner *corner, pir_vec3 x) {
     return patch->outline.count > 2 ? pir_patch_lift(patch, x)
                                     : pir_patch_side(patch, 0, along_side(&patch->outline, 0, corner));
@@ -165,7 +168,8 @@ static pir_contact make_contact(const struct manifold *m, const pir_corner *corn
 }
 
 /*
- * The id that the answer's own contact has as a corner: a vertex where one of its features is, else the two features.
+ * The id of the answer's own contact: as a corner, a vertex where one of its features is one, otherwise the two
+ * features.
  */
 static uint64_t answer_id(const struct manifold *m, bool is_corner) {
     pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
@@ -177,14 +181,14 @@ static uint64_t answer_id(const struct manifold *m, bool is_corner) {
     return make_id(ID_OF_ANSWER, kinds << 27 ^ p.index, q.index);
 }
 
-/* Which corner is the answer's own point; `count` where none is. */
+/* The corner that is the answer's own point, or `count` where none is. */
 static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
     const pir_corner *corner = m->query->patches.shared;
-    // points in world coordinates are as coarse as those are large
+    // the rounding of points in world coordinates grows with those
     pir_vec3 w = m->answer->point_q;
-    double hair = 4 * m->p->snap + 0x1p-50 * pir_frame_from(&m->query->frame, fabs(w.x) + fabs(w.y) + fabs(w.z));
+    double coarse = 4 * m->p->snap + 0x1p-50 * pir_frame_from(&m->query->frame, fabs(w.x) + fabs(w.y) + fabs(w.z));
     for (uint32_t i = 0; i < count; i++)
-        if (pir_outline_distance(&corner[i], &m->of_answer) <= hair)
+        if (pir_outline_distance(&corner[i], &m->of_answer) <= coarse)
             return i;
     return count;
 }

@@ -1,20 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Supports by hill climbing in the form that libccd calls, and what a tracked sum must be asked to pay.
- */
+/* Supports by hill climbing in the form that libccd calls, and the number of queries from which a tracked sum pays. */
 #include <pirouette/ccd.h>
 #include <pirouette/query.h>
 
 #include "dymsum/view.h"
 #include "query/frame/climb.h"
 
-/* The matrix of a quaternion of any size; the identity where it is no rotation. */
+/* The matrix of a quaternion of any length, or the identity where the quaternion is no rotation. */
 static pir_mat3 matrix_of(pir_quat q) {
     pir_rotation rotation;
     return pir_rotation_set(&rotation, q) == PIR_OK ? rotation.r : (pir_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 }
 
-/* `direction` as a unit vector; any will do where it is none. */
+/* `direction` as a unit vector, or any unit vector where it has no direction. */
 static pir_vec3 unit_direction(const double *direction) {
     double most = fmax(fabs(direction[0]), fmax(fabs(direction[1]), fabs(direction[2])));
     if (!(most > 0 && most < HUGE_VAL))
@@ -30,7 +28,7 @@ static void put_point(pir_vec3 p, double *ret_point) {
 }
 
 void pir_support_body_ccd(const void *object, const double *direction, double *ret_point) {
-    // libccd's form says const; the last vertex is a hint that the caller owns
+    // libccd's form says const, but the last vertex is a hint that the caller owns
     pir_support_body *body = (pir_support_body *)object;
     const pir_polytope *p = body->polytope;
     pir_mat3 r = matrix_of(body->rotation);

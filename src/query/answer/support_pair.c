@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Overlap and distance of a pair that has no sum, from support functions through libccd.
+ * Overlap and distance of a pair without a sum, from support functions through libccd.
  *
- * The pair is first brought to size one, Q's middle to the origin, because libccd compares with absolute tolerances.
- * Overlap is its MPR; distance, which libccd has not, is a descent from vertex to vertex of the difference on
- * libccd's distances of the origin to a segment and a triangle. The bounds that a descent keeps tell success from
- * failure; a failure is an outcome, never a number.
+ * The pair is scaled to size one, with Q's middle at the origin, because libccd compares with absolute tolerances.
+ * Overlap is libccd's MPR. libccd has no distance of bodies. Here it is a descent from vertex to vertex of the
+ * difference, on libccd's distances of the origin to a segment and a triangle. The bounds that the descent keeps tell
+ * success from failure. A failure is an outcome, never a number.
  */
 #include <pirouette/ccd.h>
 
@@ -18,7 +18,10 @@
 
 _Static_assert(sizeof(ccd_real_t) == sizeof(double), "libccd must be built for double precision");
 
-/* The bounds of a distance must meet this closely, relative to the size of the pair. */
+/*
+ * The bounds on a distance must meet this closely, relative to the size of the pair: libccd's own sums round at some
+ * 1e-15, and a descent loses half the digits where a triangle is narrow.
+ */
 #define PAIR_MEET 1e-9
 
 #define PAIR_STEPS 128
@@ -29,8 +32,8 @@ _Static_assert(sizeof(ccd_real_t) == sizeof(double), "libccd must be built for d
 struct side {
     const pir_polytope *polytope;
     pir_mat3 r;
-    pir_vec3 middle; /* in body coordinates */
-    pir_vec3 at;     /* where the middle is */
+    pir_vec3 middle; /* of its bounds, in body coordinates */
+    pir_vec3 at;     /* the place of the middle */
     double scale;
     uint32_t last;
 };
@@ -59,7 +62,7 @@ static pir_vec3 middle_of(const pir_polytope *p, double *size) {
     return (pir_vec3){0.5 * low.x + 0.5 * high.x, 0.5 * low.y + 0.5 * high.y, 0.5 * low.z + 0.5 * high.z};
 }
 
-/* Both operands on one scale, P at its place; *ret_unit is the length of the scale's unit. */
+/* Both operands on one scale, P in its place. *ret_unit is the length of the scale's unit. */
 static pir_status make_sides(const pir_ccd_pair *pair, struct side sides[2], double *ret_unit) {
     if (!pair || !pair->p || !pair->q)
         return PIR_ERR_ARGUMENT;
@@ -122,7 +125,7 @@ static void support_of_difference(struct side sides[2], const ccd_vec3_t *direct
 }
 
 /*
- * The nearest point to the origin of the simplex' faces with the last vertex; drops a vertex of four that it does not
+ * The nearest point to the origin on the simplex' faces at the last vertex. Drops one vertex of four that it does not
  * need.
  */
 static double nearest_of(struct pair_simplex *simplex, ccd_vec3_t *ret_v) {
@@ -167,7 +170,7 @@ pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outco
     support_of_difference(sides, &minus, &simplex.w[0]);
     for (int step = 0; step < PAIR_STEPS; step++) {
         double length = sqrt(nearest_of(&simplex, &v));
-        // no nearer than before: as good as the numbers allow
+        // no nearer than before: doubles give no more
         if (!(length < upper) || length <= PAIR_MEET * reach) {
             upper = fmin(upper, length);
             break;
@@ -181,7 +184,7 @@ pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outco
             break;
         simplex.count++;
     }
-    // a pair overlaps when no plane parts it; bounds that neither meet nor part it are no answer
+    // a pair overlaps when no plane separates it; bounds that neither meet nor separate are no answer
     bool met = upper - lower <= PAIR_MEET * reach && lower > 0, close = upper <= PAIR_MEET * reach;
     pir_ccd_outcome outcome = met ? PIR_CCD_SEPARATED : PIR_CCD_FAILED;
     if (!met && (close || lower <= 0)) {

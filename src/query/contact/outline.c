@@ -279,8 +279,8 @@ static void put_ends(struct cut *cut) {
     double u = b->u - a->u, v = b->v - a->v, square = u * u + v * v;
     for (uint32_t i = 0; i < 2; i++) {
         const pir_corner *x = &cut->of.at[i];
-        double along = u * (x->u - a->u) + v * (x->v - a->v), hair = cut->snap * sqrt(square);
-        if (along >= -hair && along <= square + hair)
+        double along = u * (x->u - a->u) + v * (x->v - a->v), merge = cut->snap * sqrt(square);
+        if (along >= -merge && along <= square + merge)
             put_own(cut, i);
     }
 }

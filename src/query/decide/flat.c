@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Differences without an inside, of two flat bodies in one plane or line.
+ * Differences without an inside: those of two flat bodies in one plane or on one line.
  *
- * The planes of their facets do not bound them sideways. More directions do: the normal of the plane that D lies in,
- * and across that the normals of its sides; or those across and along the line that it lies in; or the axes about a
- * point. With their opposites, their support planes bound D exactly. All is worked out in integers: such pairs are
- * rare, and small.
+ * The planes of their pieces do not bound D sideways. Support planes in more directions do: where D lies in a plane,
+ * along its normal and along the normals of D's sides within it; where D lies on a line, along it and across it;
+ * where D is a point, along the axes. With their opposites they bound D exactly. Everything is computed in integers,
+ * because such pairs are rare and small.
  */
 #include "query/decide/flat.h"
 
@@ -16,7 +16,7 @@ static pir_int3 axis_of(pir_exact *exact, uint32_t k) {
     return axis;
 }
 
-/* The vector of edge `index`, of P, turned, for an index below its count, then of Q; in the scratch. */
+/* The vector of edge `index`, in the scratch. P's edges come first, rotated, then Q's. */
 static pir_int3 edge_vector(pir_exact *exact, uint32_t index) {
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
@@ -24,7 +24,7 @@ static pir_int3 edge_vector(pir_exact *exact, uint32_t index) {
                                  : pir_exact_half_q(exact, q->edge_half[index - p->edge_count]);
 }
 
-/* A normal of the plane that the first edge spans with one that is not parallel to it; false where there is none. */
+/* A normal of the plane of the first edge and one that is not parallel to it. False where all edges are parallel. */
 static bool plane_of(pir_exact *exact, uint32_t edges, pir_int3 *ret_normal) {
     pir_int3 first = edge_vector(exact, 0);
     uint32_t mark = exact->scratch.used;
@@ -43,7 +43,9 @@ static uint32_t normal_count(const pir_frame *frame) {
     return edges > 3 ? edges + 1 : 4;
 }
 
-/* Direction `index` below the count, exact, in the scratch, of any length; false where that names none. */
+/*
+ * Direction `index` below normal_count, exact, of any length, in the scratch. False where there is no such direction.
+ */
 static bool flat_normal(pir_exact *exact, uint32_t index, pir_int3 *ret_normal) {
     const pir_frame *frame = exact->frame;
     uint32_t edges = frame->p.polytope->edge_count + frame->q.polytope->edge_count;
@@ -61,7 +63,7 @@ static bool flat_normal(pir_exact *exact, uint32_t index, pir_int3 *ret_normal) 
         *ret_normal = n;
         return index <= edges;
     }
-    // a line: along it and across
+    // D is on a line: along it and across it
     pir_int3 e = edge_vector(exact, 0);
     *ret_normal = e;
     if (index < 3) {
@@ -71,12 +73,12 @@ static bool flat_normal(pir_exact *exact, uint32_t index, pir_int3 *ret_normal) 
     return index <= 3 && !pir_int3_is_zero(ret_normal);
 }
 
-/* The corner of D by vertex `v` of one operand and the first of the other. */
+/* The corner of D of vertex `v` of one operand and the first vertex of the other. */
 static pir_int3 corner_of(pir_exact *exact, uint32_t v, bool of_q) {
     return of_q ? pir_exact_corner(exact, 0, v) : pir_exact_corner(exact, v, 0);
 }
 
-/* The vertex of P, turned, or of Q that is farthest along n, the first of those that are. */
+/* The vertex of P, rotated, or of Q that is farthest along n; the first of several. */
 static uint32_t farthest(pir_exact *exact, const pir_int3 *n, bool of_q) {
     const pir_frame *frame = exact->frame;
     uint32_t best = 0, mark = exact->scratch.used,
@@ -157,13 +159,19 @@ pir_vec3 pir_flat_across(const pir_frame *frame) {
 
 /* --- a line into it --- */
 
-/* A support plane that the line crosses: which of the directions, or its opposite, through which corner of D. */
+/*
+ * A support plane that a line crosses: the number of its direction, whether its opposite is meant, and the corner of
+ * D that it passes through.
+ */
 struct bound {
     bool some, opposite;
     uint32_t index, a, b;
 };
 
-/* Its normal, and its slack S and rate along the line, in the scratch. False where the direction is none. */
+/*
+ * The normal of a support plane, and its slack S and rate along the line, in the scratch. False where there is no
+ * such direction.
+ */
 static bool make_bound(pir_exact *exact, const pir_int3 *direction, struct bound *bound, pir_int3 *ret_n,
                        pir_int *ret_s, pir_int *ret_d) {
     if (!flat_normal(exact, bound->index, ret_n))
@@ -177,7 +185,7 @@ static bool make_bound(pir_exact *exact, const pir_int3 *direction, struct bound
     return true;
 }
 
-/* The sign of where `a` is crossed less where `b` is. */
+/* The sign of λ at the crossing of `a` minus λ at the crossing of `b`. */
 static int compare(pir_exact *exact, const pir_int3 *direction, struct bound a, struct bound b) {
     uint32_t mark = exact->scratch.used;
     pir_int3 n;
@@ -190,7 +198,7 @@ static int compare(pir_exact *exact, const pir_int3 *direction, struct bound a, 
     return order;
 }
 
-/* The last bound that the line enters by; false where it misses D, or would have had to come from before x. */
+/* The last support plane that the line enters by. False where the line misses D, or meets it only before x. */
 static bool find_entry(pir_exact *exact, const pir_int3 *direction, struct bound *ret_enter) {
     const pir_frame *frame = exact->frame;
     struct bound enter = {.some = false}, leave = {.some = false};

@@ -5,16 +5,16 @@
 
 #include "query/decide/line.h"
 
-/* Whether D lies in a plane. */
+/* Whether D has no inside. */
 bool pir_flat_is(pir_exact *exact);
 
-/* Whether t is in D, given that D is flat or that t is on or within the planes of all pieces. */
+/* Whether t is in D, given that D has no inside or that t is outside of no piece's plane. */
 bool pir_flat_holds(pir_exact *exact, pir_vec3 translation);
 
-/* Where a line from outside enters a flat D; false when it never does. */
+/* Where a line from outside enters a flat D. False where it never does. */
 bool pir_flat_enter(pir_exact *exact, const pir_line *line, pir_arrival *ret_arrival);
 
-/* A unit vector across the line that D lies in, or any where D is a point. */
+/* A unit vector across the line that D lies on, or any unit vector where D is a point. */
 pir_vec3 pir_flat_across(const pir_frame *frame);
 
 #endif

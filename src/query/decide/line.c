@@ -4,10 +4,16 @@
 
 #include "query/decide/side.h"
 
-/* A rate is off by at most this times the plane's err: 42u of the normal, 4u of u, and 4u of rounding (u = 2^-53). */
+/*
+ * The error of a rate is at most this times the plane's err, with u = 2^-53: 64u·err of the normal, 4u of the line's
+ * direction and 4u of rounding are below 72u·err, and the bound is 128u·err.
+ */
 #define RATE_BOUND 0x1p-46
 
-/* A crossing that doubles know no better than this, relative to the placement's reach, is worked out in integers. */
+/*
+ * A crossing that doubles know no better than this, relative to the placement's reach, is computed from integers.
+ * Doubles at their best know it to 2^-46.
+ */
 #define GOOD_ENOUGH 0x1p-44
 
 /* --- lines --- */
@@ -34,12 +40,12 @@ pir_status pir_line_make(const pir_placement *placement, pir_vec3 direction, pir
 
 /* --- bounds --- */
 
-/* An interval. */
+/* An interval that holds a number. */
 struct span {
     double low, high;
 };
 
-/* The quotients s/r of s within es and r within er; everything where r may be 0. */
+/* An interval around s/r where s is known within es and r within er. All numbers where r may be 0. */
 static struct span quotient(double s, double es, double r, double er) {
     if (!(fabs(r) > er))
         return (struct span){-HUGE_VAL, HUGE_VAL};
@@ -71,7 +77,7 @@ void pir_clip_bound(const pir_planes *planes, const pir_line *line, pir_clip *cl
         clip->enter_low = fmax(clip->enter_low, at.low);
 }
 
-/* Keeps the facet that is crossed first, or last. */
+/* Keeps in `best` the facet that is crossed first (sense 1) or last (sense −1). */
 static void take(pir_exact *exact, const pir_line *line, pir_least *best, pir_piece piece, int sense) {
     pir_facet facet;
     if (!pir_facet_of(exact, piece, &facet))
@@ -94,7 +100,7 @@ void pir_clip_take(pir_exact *exact, const pir_planes *planes, const pir_line *l
     pir_piece piece = planes->piece[slot];
     int rate = (c.r > c.er) - (c.r < -c.er);
     if (rate == 0) {
-        // a plane that x is far behind is crossed too far ahead to matter, or too far back
+        // a plane that is crossed farther away, on both sides, than the line can enter or leave
         double far = c.s - c.es > 0 ? (c.s - c.es) / (fabs(c.r) + c.er) * (1 - 0x1p-50) : 0;
         if (far > 0 && far > clip->leave_high && -far < clip->enter_low)
             return;
@@ -124,7 +130,7 @@ int pir_line_rate(pir_exact *exact, const pir_line *line, pir_piece piece) {
     return sign;
 }
 
-/* The slack S and the rate D of a facet as integers, in the scratch, after pir_exact_begin. */
+/* The slack S and the rate D of a facet as integers in the scratch. Needs pir_exact_begin. */
 static void make_integers(pir_exact *exact, const pir_int3 *direction, const pir_facet *facet, pir_int *ret_s,
                           pir_int *ret_d) {
     pir_int3 n = pir_exact_normal(exact, facet->piece), corner = pir_exact_corner(exact, facet->a, facet->b);
@@ -132,7 +138,7 @@ static void make_integers(pir_exact *exact, const pir_int3 *direction, const pir
     *ret_d = pir_exact_dot(exact, &n, direction);
 }
 
-/* Where the line crosses one facet, in integers that lie in the scratch from `mark` on: put that back after. */
+/* Where the line crosses a facet, in integers that lie in the scratch from `mark` on. The caller gives them back. */
 struct exact_crossing {
     uint32_t mark;
     int exponent;
@@ -194,7 +200,7 @@ double pir_line_at(pir_exact *exact, const pir_line *line, const pir_facet *face
 }
 
 int pir_line_past_end(pir_exact *exact, const pir_int *s, const pir_int *d, int exponent) {
-    // S/(K·2^i) against D·2^exponent: exponent is not above 0
+    // compare S/(K·2^i) with D·2^exponent, where exponent ≤ 0
     uint32_t mark = exact->scratch.used, down = (uint32_t)-exponent;
     pir_int right = pir_exact_product(exact, d, &exact->k);
     uint32_t up_s = down > exact->i ? down - exact->i : 0, up_d = exact->i > down ? exact->i - down : 0;

@@ -4,18 +4,19 @@
 
 /*
  * Nearer than this, relative to the placement's reach, the direction to a corner or an edge of D comes from integers.
+ * Doubles know x to 2^-53 of the reach, hence the direction to 2^-37 at this distance, and worse below it.
  */
 #define CLOSE 0x1p-16
 
-/* Below this, squares lose digits. */
+/* Lengths above this have squares that are normal numbers, with room for products of them. */
 #define LEAST_LENGTH 0x1p-400
 
-/* Whether doubles know a distance, and the direction that goes with it. */
+/* Whether doubles know a distance and its direction well enough to decide by them. */
 static bool is_far(const pir_placement *placement, double distance) {
     return distance > CLOSE * placement->reach && distance > placement->error / CLOSE && distance > LEAST_LENGTH;
 }
 
-/* A direction that is off by this much, in units of 64·2^-53 (facet.h), for an error in lengths and a distance. */
+/* The error of a direction for an error in lengths and a distance, in units of 64·2^-53 (facet.h). */
 static double direction_error(double error, double distance) {
     return 1 + error / distance * 0x1p47;
 }
@@ -32,10 +33,10 @@ static bool answer_facet(pir_exact *exact, const pir_placement *placement, const
     return true;
 }
 
-/* What is left of a corner or an edge of D: its corner, and the vector of the edge. */
+/* A corner or an edge of D: its corner, and the halfedge along it. */
 struct line {
     uint32_t a, b;
-    bool of_p, of_q; /* along an edge of P's, else of Q's, else a corner */
+    bool of_p, of_q; /* an edge of P, an edge of Q; neither for a corner */
     uint32_t half;
 };
 
@@ -54,7 +55,9 @@ static pir_vec3 direction_of(const pir_frame *frame, const struct line *line) {
                       : frame->q.polytope->direction[line->half];
 }
 
-/* From the corner or the edge to x, by doubles; *ret_along is how far along the edge from the corner. */
+/*
+ * The vector from the corner or the edge to x, in doubles. *ret_along is the distance from the corner along the edge.
+ */
 static pir_vec3 away_from(const pir_frame *frame, const pir_placement *placement, const struct line *line,
                           double *ret_along) {
     pir_vec3 w = pir_vec_sub(placement->x, pir_frame_vertex(frame, line->a, line->b));
@@ -66,7 +69,7 @@ static pir_vec3 away_from(const pir_frame *frame, const pir_placement *placement
     return pir_vec_sub(w, pir_vec_scale(e, *ret_along));
 }
 
-/* The same by integers: the distance and the unit normal. */
+/* The same from integers: the distance and the unit normal. */
 static double exactly_away(pir_exact *exact, const pir_placement *placement, const struct line *line,
                            pir_vec3 *ret_normal) {
     pir_exact_begin(exact, placement->translation);
@@ -110,7 +113,7 @@ static bool answer_line(pir_exact *exact, const pir_placement *placement, pir_wi
 
 /* --- proofs in doubles --- */
 
-/* Whether n leads down from the vertex along all its edges but those to `except`, by more than n may be off. */
+/* Whether every edge of a vertex, but those to `except`, falls along −n by more than n may be off. */
 static bool leads_down_p(const pir_frame *frame, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
     const pir_polytope *p = frame->p.polytope;
     pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
@@ -128,7 +131,7 @@ static bool leads_down_q(const pir_frame *frame, pir_vec3 n, double off, uint32_
     return true;
 }
 
-/* Whether the corner or edge of D that the faces make holds the nearest point for certain. */
+/* Whether the corner or edge of D that is the sum of the faces certainly holds the nearest point. */
 static bool line_is_nearest(const pir_frame *frame, const pir_placement *placement, pir_witness faces) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     struct line line = line_of(frame, faces);
@@ -138,7 +141,7 @@ static bool line_is_nearest(const pir_frame *frame, const pir_placement *placeme
     if (!is_far(placement, distance))
         return false;
     pir_vec3 n = pir_vec_scale(w, 1 / distance);
-    // slopes are off by what n is, in full, and by their own rounding
+    // the error of a slope is that of n, and rounding
     double off = error / distance + 0x1p-45;
     if (!line.of_p && !line.of_q)
         return leads_down_p(frame, n, off, line.a, UINT32_MAX) && leads_down_q(frame, n, off, line.b, UINT32_MAX);
@@ -156,7 +159,7 @@ static bool line_is_nearest(const pir_frame *frame, const pir_placement *placeme
            leads_down_p(frame, n, off, line.a, UINT32_MAX);
 }
 
-/* Whether a facet of D certainly separates and the foot of x is on it. */
+/* Answers from a facet of D that certainly separates and that holds the foot of x. False where it does not. */
 static bool facet_is_nearest(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                              pir_nearest *ret_nearest) {
     double slack = facet->h - pir_vec_dot(facet->n, placement->x);

@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The descent of descent.c in integers, for what doubles leave open: parallel features, feet on the rim of a face, next
- * to nothing between the bodies.
+ * The descent to the nearest point in integers, for what doubles leave open: parallel features, feet on the rim of a
+ * face, bodies that nearly touch.
  *
- * The corners W of D less t (exact.h) are integer vectors. Of up to four of them, affinely independent, the point
- * nearest to 0 is in the inside of one face of their hull: that whose foot has positive weights and beyond which, along
- * n from the foot to 0, no other corner lies. Its n is an integer vector:
+ * The corners W of D minus t (placed.h) are integer vectors. The hull of up to four of them, affinely independent,
+ * has its point nearest to 0 in the inside of one of its faces. On that face the foot of 0 has positive weights, and
+ * no other corner lies beyond the face along n, the direction from the foot to 0. n is an integer vector:
  *
  *     corner W             n = −W
  *     segment W, W + e     n = (W·e) e − (e·e) W
  *     triangle             n = ± its normal, the sign with n·W < 0
  *
- * Then both bodies are climbed along n, by exact slopes. A corner beyond the face makes the next simplex, whose nearest
- * point is strictly nearer, so none comes twice; when there is none, n exposes the face of D that holds the nearest
- * point.
+ * Then both bodies are climbed along n by exact slopes. A corner of D beyond the face joins the simplex, whose
+ * nearest point then is strictly nearer, so no simplex comes twice. Where there is none, n exposes the face of D that
+ * holds the nearest point.
  */
 #include "query/decide/nearest.h"
 
-/* A bound on steps: every one is strictly nearer, and they begin where doubles ended. */
+/*
+ * A bound on steps, which no input is known to come near. Every step is strictly nearer, so there is an end, and the
+ * start is where doubles ended.
+ */
 #define MOST_STEPS 1024
 
 struct corners {
@@ -45,7 +48,7 @@ static void negate(pir_int3 *v) {
         pir_int_negate(&v->c[k]);
 }
 
-/* n of corner i, where that is nearest; stays in the scratch. */
+/* n of corner i, in the scratch, where that corner is the nearest face. */
 static bool try_corner(pir_exact *exact, const struct corners *set, uint32_t i, pir_int3 *ret_n) {
     *ret_n = set->w[i];
     negate(ret_n);
@@ -87,7 +90,7 @@ static bool try_triangle(pir_exact *exact, const struct corners *set, uint32_t i
     return side != 0 && is_farthest(exact, set, i, &n);
 }
 
-/* Keeps the corners that are named. */
+/* Reduces the set to the corners that are named. */
 static void keep(struct corners *set, const uint32_t *index, uint32_t count) {
     for (uint32_t k = 0; k < count; k++) {
         set->a[k] = set->a[index[k]];
@@ -96,10 +99,7 @@ static void keep(struct corners *set, const uint32_t *index, uint32_t count) {
     set->count = count;
 }
 
-/*
- * The face of the set that is nearest, to which the set shrinks, and its n, in the scratch. False when 0 is in the
- * hull.
- */
+/* Reduces the set to its face that is nearest to 0. Its n is in the scratch. False where 0 is in the hull. */
 static bool nearest_face(pir_exact *exact, struct corners *set, pir_int3 *ret_n) {
     uint32_t mark = exact->scratch.used;
     for (uint32_t i = 0; i < set->count; i++, exact->scratch.used = mark)
@@ -123,7 +123,7 @@ static bool nearest_face(pir_exact *exact, struct corners *set, pir_int3 *ret_n)
     return false;
 }
 
-/* --- the way there --- */
+/* --- the descent --- */
 
 /* The vertex farthest along the normal, from `from` uphill. */
 static uint32_t climb(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t from) {
@@ -141,13 +141,13 @@ static void make_corners(pir_exact *exact, struct corners *set) {
         set->w[i] = pir_exact_corner(exact, set->a[i], set->b[i]);
 }
 
-/* One step: the faces once there, which ends it. */
+/* One step. True where it is the last: then the faces are set. */
 static bool step(pir_exact *exact, struct corners *set, pir_witness *ret_faces, pir_facet *ret_facet, bool *ret_flat) {
     const pir_frame *frame = exact->frame;
     make_corners(exact, set);
     pir_int3 n;
     if (!nearest_face(exact, set, &n)) {
-        // never from outside; one corner is a place to begin anew
+        // not possible from outside; begin anew from one corner
         set->count = 1;
         return false;
     }

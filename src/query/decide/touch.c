@@ -3,8 +3,9 @@
 #include "query/decide/touch.h"
 
 /*
- * m·(y − corner) for a unit m = n × e or e is off by less than twice a slack, n's error counted:
- * PIR_SLACK_BOUND·reach·err each for m and for what it is multiplied with.
+ * The error of m·(y − corner) for a unit m = n × e or m = e is less than twice that of a slack. n is off by 64u·err,
+ * e by 45u, their product rounds by 4u: together below PIR_SLACK_BOUND·err, u = 2^-53. What m is multiplied with is
+ * off by less than PIR_SLACK_BOUND·reach.
  */
 #define SIDE_ERRORS 2
 
@@ -13,9 +14,9 @@ struct touch {
     const pir_placement *placement;
     const pir_normal *normal;
     const pir_way *way;
-    pir_vec3 x; /* y, but for its distance along the normal */
+    pir_vec3 x; /* y, apart from its distance along the normal */
     double error;
-    bool flat; /* the sum of the faces has an area: sides are across the normal */
+    bool flat; /* the sum of the faces has an area, so that its sides are across the normal */
 };
 
 /* --- signs --- */
@@ -32,8 +33,8 @@ static pir_vec3 direction_of(const pir_frame *frame, struct side side) {
 }
 
 /*
- * Corner (a, b) of D less y, times a positive number, in the scratch. Along a way, t moves by (S/D)·d, with d the
- * direction, D = n·d and S = n·W of the plane's own corner; all is multiplied by |D|.
+ * Corner (a, b) of D minus y, times a positive number, in the scratch. At the end of a way, t has moved by (S/D)·d,
+ * with d the direction, D = n·d, and S = n·W for the plane's own corner. Everything is multiplied by |D|.
  */
 static pir_int3 exact_corner(const struct touch *touch, uint32_t a, uint32_t b) {
     pir_exact *exact = touch->exact;
@@ -81,13 +82,13 @@ static int position(const struct touch *touch, struct side side, uint32_t a, uin
 
 /* --- whether a point is on a face --- */
 
-/* y less a vertex of the other body, as the face's body has its vertices. */
+/* y minus a vertex of the other body, in the frame of the face's body. */
 struct point {
     const struct touch *touch;
     pir_view view;
-    const pir_vec3 *vertex; /* of the body */
+    const pir_vec3 *vertex; /* of the face's body */
     pir_vec3 at;
-    uint32_t fixed; /* the other body's vertex */
+    uint32_t fixed; /* the vertex of the other body */
 };
 
 static struct point point_less(const struct touch *touch, bool of_q, uint32_t fixed) {
@@ -142,13 +143,13 @@ static bool on_facet(const struct point *point, uint32_t facet, pir_feature *ret
         *ret_least = (pir_feature){PIR_FEATURE_FACET, facet};
     else if (zeros == 1)
         *ret_least = (pir_feature){PIR_FEATURE_EDGE, p->edge[p->loop[on[0]]]};
-    else // between the two sides: at the end of the first, but where they are the last and the first
+    else // the corner between the two sides: the end of the first, unless they are the last and the first
         *ret_least = (pir_feature){PIR_FEATURE_VERTEX,
                                    on[1] == on[0] + 1 ? p->target[p->loop[on[0]]] : p->origin[p->loop[on[0]]]};
     return true;
 }
 
-/* Whether y less the other body's vertex `fixed` is on the face, and the least face that holds it. */
+/* Whether y minus the other body's vertex `fixed` lies on the face, and the least face that holds it. */
 static bool on_face(const struct touch *touch, bool of_q, pir_feature face, uint32_t fixed, pir_feature *ret_least) {
     *ret_least = face;
     if (face.kind == PIR_FEATURE_VERTEX)
@@ -161,8 +162,8 @@ static bool on_face(const struct touch *touch, bool of_q, pir_feature face, uint
 /* --- the parts of a face in order --- */
 
 /*
- * The vertex of a face that is next in number after `last`; UINT32_MAX when there is none. From UINT32_MAX on: the
- * first.
+ * The vertex of a face with the next number after `last`, or UINT32_MAX where there is none. UINT32_MAX for `last`
+ * gives the first.
  */
 static uint32_t next_vertex(const pir_polytope *p, pir_feature face, uint32_t last) {
     uint32_t next = UINT32_MAX, after = last + 1;
@@ -179,7 +180,7 @@ static uint32_t next_vertex(const pir_polytope *p, pir_feature face, uint32_t la
     return next;
 }
 
-/* The edge of a face that is next in number after `last`, as above. */
+/* The edge of a face with the next number after `last`, as above. */
 static uint32_t next_edge(const pir_polytope *p, pir_feature face, uint32_t last) {
     uint32_t next = UINT32_MAX, after = last + 1;
     if (face.kind == PIR_FEATURE_EDGE)
@@ -211,7 +212,7 @@ static int turn_of(const struct touch *touch, uint32_t half_p, uint32_t half_q) 
     return sign;
 }
 
-/* How far along the edge of Q y lies, from 0 to 1, exactly rounded but for a few ulps. */
+/* The fraction of the edge of Q at which y lies, from integers, correct to a few ulps. */
 static double exact_part(const struct touch *touch, uint32_t half_p, uint32_t half_q) {
     pir_exact *exact = touch->exact;
     const pir_frame *frame = exact->frame;
@@ -250,7 +251,7 @@ static pir_vec3 crossing_point(const struct touch *touch, uint32_t half_p, uint3
     return pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part))));
 }
 
-/* Whether the edges cross where y is, and the least faces that hold it. */
+/* Whether the edges cross at y, and the least faces that hold it. */
 static bool edges_cross(const struct touch *touch, uint32_t e, uint32_t d, pir_witness *ret_witness) {
     const pir_polytope *p = touch->exact->frame->p.polytope, *q = touch->exact->frame->q.polytope;
     struct side of_p = {false, p->edge_half[e]}, of_q = {true, q->edge_half[d]};

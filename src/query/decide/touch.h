@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Where faces of P and Q meet: the pair of points that attains an answer, one of P's exposed face and one of Q's, whose
- * sum is a given point y of the face of D.
+ * The pair of points that attains an answer: one of P's exposed face and one of Q's, whose sum is a given point y of
+ * the face of D.
  *
  * y is the foot of x on that face, or x moved along a direction. Where the faces are parallel there are many such
- * pairs: those of a convex polygon or a segment. The one that is taken is a corner of it: the vertex of Q of lowest
- * number that lies on P's face; else the vertex of P of lowest number that lies on Q's; else where the first edges in
- * order cross. So it depends on the two bodies and the pose alone.
+ * pairs; they form a convex polygon or a segment. One corner of it is chosen: the vertex of Q of lowest number that
+ * lies on P's face, else the vertex of P of lowest number that lies on Q's face, else the crossing of the first edges
+ * in order. So it depends on the two bodies and the pose alone.
  *
- * Which points lie on a face is decided by exact signs of m·(y − corner) for the normals m of its sides, which are
- * across the face's normal, so that the foot need not be known.
+ * Exact signs of m·(y − corner) decide which points lie on a face, for the normals m of its sides. These are across
+ * the face's normal, so the exact foot need not be known.
  */
 #ifndef PIR_QUERY_DECIDE_TOUCH_H
 #define PIR_QUERY_DECIDE_TOUCH_H
@@ -17,12 +17,12 @@
 #include "query/decide/facet.h"
 
 /*
- * A way from x: y = x + at·u in doubles. Exactly, it is the translation moved along `direction` to the plane with the
- * given normal through corner (a, b) of D.
+ * A way from x. In doubles it ends at y = x + at·u. Exactly, the translation moves along `direction` to the plane
+ * with the given normal through corner (a, b) of D.
  */
 typedef struct pir_way {
     pir_vec3 u;
-    double at, error; /* `at` is off by at most `error` */
+    double at, error; /* `error` bounds the error of `at` */
     pir_vec3 direction;
     const pir_normal *normal;
     uint32_t a, b;
@@ -30,23 +30,23 @@ typedef struct pir_way {
 
 /* Where an answer is attained. */
 typedef struct pir_touch {
-    pir_witness witness; /* the least faces that hold the points */
+    pir_witness witness; /* the least faces that hold the two points */
     pir_vec3 point_q;    /* relative to Q's middle, in the frame */
 } pir_touch;
 
 /*
- * The faces that a direction exposes, and y: the foot of x, `slack` along the normal from it; or, where there is a way,
- * its end.
+ * The faces that a direction exposes, and where y lies: at the end of `way`, or, without one, at the foot of x,
+ * `slack` along the normal from x.
  */
 typedef struct pir_meeting {
     const pir_normal *normal;
     pir_witness faces;
-    bool flat; /* their sum has an area; else it is an edge or a vertex of D */
+    bool flat; /* their sum has an area; otherwise it is an edge or a vertex of D */
     double slack;
     const pir_way *way; /* or NULL */
 } pir_meeting;
 
-/* Where they meet; false when y is not on the sum of the faces. */
+/* Finds where the faces meet. False where y is not on their sum. */
 bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting, pir_touch *ret_touch);
 
 /* The same for a facet of D. */

@@ -1,29 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a group's slacks can be without looking at its planes.
+ * Lower bounds on the slacks of a group, without looking at its planes.
  *
- * For a unit normal n, s(n) = h_D(n) − n·x is the slack of D's plane in that direction.
+ * For a unit normal n, s(n) = h_D(n) − n·x is the slack of D's plane with that normal.
  *
- * Bounds that last. As n turns by a small angle, the support h_P(n) of a body changes by that angle times the part of
- * its support vertex p across n, √(|p|² − h_P(n)²), which is at most its swing √(size² − inner²), inner the least
- * offset of its facets. Q's facets stand still: a turn by θ changes the support of R·P in a fixed direction by at
- * most θ·swing_p, a move of x by d changes n·x by at most d. P's facets turn with R: seen from P the same holds with
- * Q's support, and with x, turned back: n·x changes by at most θ·|x across n| + θ²/2·|x|, and over an arc n·x is
- * least at an end while positive. Between the facets of P the crossings come and go, but all of them lie on the arcs
- * between facets, where s runs through pieces of a·cos(φ − φ₀): while positive these are concave, so on an arc
- * shorter than half a turn s is nowhere less than at the crossings and at the two facets. P flat has arcs of half a
- * turn: its groups have no bound that lasts.
+ * Bounds that last. Let n turn by a small angle. Then the support h_P(n) of a body changes by that angle times the
+ * part of its support vertex p across n, √(|p|² − h_P(n)²). That part is at most the body's swing √(size² − inner²),
+ * where inner is the least offset of its facets.
  *
- * Caps. For any vertex w of D − x and any n, s(n) ≥ n·w. All normals of a group, those of the crossings on its arcs
- * too, lie within an angle ρ of the normal c of one of its facets, and there n·w ≥ |w|·cos(∠(c, w) + ρ) = (c·w) cos ρ
- * − |w across c| sin ρ. With w the vertex that the pairing has for that facet, c·w is the facet's own slack, which
- * the least slack of all is not above, and the bound falls short by the square of ρ only. It needs no plane and no
- * memory. Where it is not above zero it is no bound, the angle then being more than half a turn perhaps; neither is
- * it where ρ is a right angle or more.
+ * - Facets of Q do not move. A turn of R by θ changes the support of R·P in a fixed direction by at most θ·swing_p,
+ *   and a move of x by d changes n·x by at most d.
+ * - Facets of P turn with R. Seen from P, the same holds with Q's support and with x rotated back: n·x changes by at
+ *   most θ·|x across n| + θ²/2·|x|. Over an arc n·x is least at an end while it is positive.
+ * - The crossings between facets of P come and go, but all lie on the arcs between facets. Along an arc s consists of
+ *   pieces a·cos(φ − φ₀), which are concave while positive. So on an arc shorter than half a turn s is nowhere less
+ *   than at the crossings and at the two facets. Where P is flat its arcs are half turns, and its groups have no
+ *   bound that lasts.
  *
- * Rounding. w, worked out as R a + b − x, is off by less than 60u of the reach (see query.h), a normal by 8u, 42u
- * once turned; what the bound itself adds is below 16u of |w|. One error, 128u of the reach, holds all that, and a
- * second the slack that it is compared to.
+ * Caps. For any vertex w of D − x and any n, s(n) ≥ n·w. All normals of a group, those of crossings on its arcs too,
+ * lie within an angle ρ of the normal c of one of its facets. There n·w ≥ |w|·cos(∠(c, w) + ρ) = (c·w) cos ρ − |w
+ * across c| sin ρ. Let w be the vertex that the pairing has for that facet. Then c·w is the facet's own slack, which
+ * is an upper bound on the least slack of all, and the lower bound falls short by the square of ρ only. A cap needs
+ * no plane and no memory of earlier queries. It is no bound where it is not above zero, because the angle then may be
+ * more than half a turn, nor where ρ is a right angle or more.
+ *
+ * Rounding. w = R a + b − x is off by less than 60u of the reach (frame.h). A normal is off by 8u, and by 45u once
+ * rotated. The bound's own arithmetic adds less than 16u of |w|. Together that is below 121u of the reach, which one
+ * error, 128u, holds. A second error holds the slack that the bound is compared with.
  */
 #include "query/planes/bounds.h"
 
@@ -52,7 +55,7 @@ void pir_bounds_finish(pir_bounds *bounds, const pir_allocator *allocator, const
 
 /* --- bounds that last --- */
 
-/* Adds what R has turned by since bounds were last asked for. What it did between does not matter. */
+/* Adds the angle between the rotation at the last call and the present one. What R did in between does not matter. */
 static void note_turn(pir_bounds *bounds, const pir_groups *groups) {
     if (bounds->turned == groups->stamp)
         return;
@@ -63,8 +66,8 @@ static void note_turn(pir_bounds *bounds, const pir_groups *groups) {
     bounds->turned = groups->stamp;
 }
 /*
- * How far x reaches across the normals of a group that reach `along` it at least; all of |x| where some are at right
- * angles or more.
+ * How far x reaches across the normals n of a group, where every n·x is at least `along`. That is all of |x| where
+ * `along` is not positive.
  */
 static double across(double length, double along) {
     return along > 0 && along < length ? sqrt((length - along) * (length + along)) : length;
@@ -75,21 +78,21 @@ void pir_bounds_keep(pir_bounds *bounds, const pir_groups *groups, uint32_t g, c
     const pir_group *group = &groups->at[g];
     note_turn(bounds, groups);
     double length = placement->reach - groups->frame->p.size - groups->frame->q.size;
-    // a bound that is not above zero does not last: the arcs between are concave only while s is positive
+    // a bound that is not above zero does not last: arcs are concave only while s is positive
     bool lasts = low > 0 && (group->of_q || groups->frame->p.polytope->dimension == 3);
     bounds->lasting.bound[g] = lasts ? low : -HUGE_VAL;
     bounds->lasting.when[g] = bounds->turn;
-    // what rounding may hide of x is below 2^-40 of the reach
-    double hair = 0x1p-40 * placement->reach;
+    // the part of x that rounding may hide is below 2^-40 of the reach
+    double rounding = 0x1p-40 * placement->reach;
     bounds->lasting.lever[g] =
-        group->of_q ? groups->frame->p.swing : groups->frame->q.swing + across(length, along - hair) + hair;
+        group->of_q ? groups->frame->p.swing : groups->frame->q.swing + across(length, along - rounding) + rounding;
     bounds->lasting.bend[g] = group->of_q ? 0 : 0.5 * length;
     pir_lane_put(bounds->lasting.where, g, placement->x);
 }
 
 /* --- caps --- */
 
-/* The least cosine between facet f and any that the group needs, itself included. */
+/* The least cosine between the normals of facet f and of any facet in the group's list. */
 static double least_cosine(const pir_groups *groups, const pir_group *group, const pir_polytope *of, uint32_t f) {
     double least = 1;
     for (uint32_t i = group->facets; i < group->facets_end; i++)
@@ -97,7 +100,7 @@ static double least_cosine(const pir_groups *groups, const pir_group *group, con
     return least;
 }
 
-/* The cap of group `g`; that of the group before where it is empty, so that whole lanes are caps. */
+/* Chooses the cap of group `g`. An empty group takes the cap of the group before it, so that whole lanes are caps. */
 static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
     pir_group *group = &groups->at[g];
     if (group->facets == group->own_end) {
@@ -112,7 +115,7 @@ static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
             if (least > cosine)
                 cosine = least, group->middle = groups->list.facet[i];
         }
-        // normals are off by 8u each
+        // normals are off by 8u each, so their cosine is off by less than 32u
         cosine -= 0x1p-47;
         bounds->caps.cosine[g] = cosine > 0 ? cosine : 0;
         bounds->caps.sine[g] = cosine > 0 ? sqrt((1 - cosine) * (1 + cosine)) * (1 + 0x1p-50) : 0x1p1000;
@@ -131,7 +134,7 @@ void pir_bounds_fill(pir_bounds *bounds, pir_groups *groups) {
     }
 }
 
-/* Brings the caps of groups [g, g + PIR_SCAN_LANES), of one body all, to the rotation. */
+/* Rotates the caps of groups [g, g + PIR_SCAN_LANES), which are all of one body. */
 static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) {
     const pir_pairing *pairing = groups->pairing;
     bool of_q = groups->at[g].of_q;
@@ -159,7 +162,7 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
     bounds->cap_stamp[g / PIR_SCAN_LANES] = groups->stamp;
 }
 
-/* Whether a cap may rule out a group of the block from `g` that is not ruled out yet. */
+/* Whether a cap may rule out a group in the block from `g` that is not ruled out yet. */
 static bool is_open(const pir_bounds *bounds, uint32_t g, double limit) {
     bool any = false;
     for (uint32_t i = g; i < g + PIR_SCAN_LANES; i++)
@@ -182,7 +185,7 @@ double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_p
         double least =
             groups->scan->caps(g, PIR_SCAN_LANES, &bounds->caps, placement->x, placement->error, bounds->low);
         high = least < high ? least : high;
-        // what a cap rules out now it need not for some while
+        // what a cap rules out now stays ruled out for some time
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
             if (was_open[i] && bounds->low[g + i] > limit)
                 pir_bounds_keep(bounds, groups, g + i, placement, bounds->low[g + i], -HUGE_VAL);
@@ -190,7 +193,7 @@ double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_p
     return high;
 }
 
-/* --- looking --- */
+/* --- bounds from planes --- */
 
 void pir_bounds_look(pir_bounds *bounds, pir_groups *groups, uint32_t g, const pir_placement *placement,
                      double *ret_low, double *ret_high) {

@@ -2,7 +2,7 @@
 /* The planes of groups: see group_planes.h. */
 #include "query/planes/group_planes.h"
 
-/* A plane that never matters: infinitely far, its normal that of slot `like`. */
+/* Puts a plane that is infinitely far, with the normal of slot `like`: it pads blocks and changes no least slack. */
 static void put_nothing(pir_planes *planes, uint32_t slot, pir_piece piece, uint32_t like) {
     pir_lane_put(planes->n, slot, pir_planes_normal(planes, like));
     planes->h[slot] = HUGE_VAL;
@@ -10,7 +10,7 @@ static void put_nothing(pir_planes *planes, uint32_t slot, pir_piece piece, uint
     planes->piece[slot] = piece;
 }
 
-/* The planes of the group's facets, from slot `slot`. */
+/* Makes the planes of the group's facets in the slots from `slot` on. */
 static void make_facets(pir_groups *groups, const pir_group *group, uint32_t slot) {
     pir_planes *planes = &groups->planes;
     uint32_t count = group->facets_end - group->facets;
@@ -34,7 +34,7 @@ static void make_facets(pir_groups *groups, const pir_group *group, uint32_t slo
     groups->scan->offset(count, n, groups->list.facet_offset + group->facets, groups->work.vector[1], planes->h + slot);
 }
 
-/* The planes of what crosses the group's edges, from slot `slot`; returns how many. */
+/* Makes the planes of the group's edge pairs in the slots from `slot` on. Returns how many there are. */
 static uint32_t make_crossings(pir_groups *groups, const pir_group *group, uint32_t slot) {
     pir_planes *planes = &groups->planes;
     const pir_polytope *q = groups->frame->q.polytope;
@@ -117,7 +117,7 @@ bool pir_piece_recall(const pir_groups *groups, const pir_query_cache *cache, pi
     case PIR_FACET_EE:
         if (piece.first >= p->edge_count || piece.second >= q->half_count)
             return false;
-        // a crossing that is gone leaves its edge's facet
+        // where the crossing is gone, a facet of its edge is near
         if (pir_crossing_find(groups->pairing, piece.first, piece.second) == PIR_NO_CROSSING)
             piece = pir_piece_fv(groups, p->left[p->edge_half[piece.first]]);
         break;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The planes of groups, and of the piece that a cache names. */
+/* The planes of groups, and the piece that a cache keeps from query to query. */
 #ifndef PIR_QUERY_PLANES_GROUP_PLANES_H
 #define PIR_QUERY_PLANES_GROUP_PLANES_H
 
@@ -7,13 +7,16 @@
 
 #include "query/planes/groups.h"
 
-/* Makes the planes of group `g` unless they are there. */
+/* Makes the planes of group `g`, unless they are there. */
 void pir_group_make(pir_groups *groups, uint32_t g);
 
 /* Keeps a piece in a cache. Nothing changes where there is no cache, NULL, or no piece. */
 void pir_piece_keep(pir_query_cache *cache, pir_piece piece);
 
-/* The plane of the piece that a cache keeps, or of one beside it. False where the cache keeps none. */
+/*
+ * The plane of the piece that a cache keeps, or of a piece beside it where that is gone. False where the cache keeps
+ * none.
+ */
 bool pir_piece_recall(const pir_groups *groups, const pir_query_cache *cache, pir_plane *ret_plane);
 
 #endif

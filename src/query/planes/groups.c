@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* Groups of pieces: see groups.h. What a group's slacks can be, without looking at its planes, is told in bounds.c. */
+/* Groups of pieces: see groups.h. */
 #include "query/planes/groups.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Facets of P in a group, each with about three more edge pairs, and of Q. */
+/*
+ * Facets of P in a group, each with about three edge pairs more, and facets of Q in a group: either makes about 32
+ * planes, four blocks.
+ */
 #define GROUP_OF_P 8
 #define GROUP_OF_Q 32
 
 /* --- memory --- */
 
-/* Every facet once, those beyond the edges of groups of P, and what pads the groups. */
+/* The entries of the facet list: every facet once, those beyond the edges of groups of P, and what pads the groups. */
 static size_t list_capacity(const pir_groups *groups) {
     const pir_polytope *p = groups->frame->p.polytope, *q = groups->frame->q.polytope;
     return 2 * (size_t)p->half_count + p->facet_count + q->facet_count + PIR_SCAN_LANES * (size_t)groups->count;
@@ -48,12 +51,12 @@ static bool work_resize(pir_group_work *work, const pir_allocator *allocator, ui
     return done;
 }
 
-/* Slots for every entry of the lists, so many crossings, and what pads the groups. */
+/* Slots for every entry of the facet list, the given crossings, and what pads the groups. */
 static uint32_t slots_for(const pir_groups *groups, uint32_t crossings) {
     return groups->list.facet_count + crossings + PIR_SCAN_BLOCK * groups->count;
 }
 
-/* A group has all crossings at most, or lists all facets. */
+/* Elements of work space. A group has all crossings at most, or lists all facets. */
 static uint32_t work_for(const pir_groups *groups, uint32_t crossings) {
     return crossings > groups->list.facet_count ? crossings : groups->list.facet_count;
 }
@@ -62,7 +65,7 @@ pir_status pir_groups_reserve(pir_groups *groups, const pir_allocator *allocator
     uint32_t crossings = groups->pairing->crossings.count, slots = slots_for(groups, crossings),
              work = work_for(groups, crossings);
     if (slots > groups->planes.capacity) {
-        // a quarter more than is needed, so that a rising count seldom comes here
+        // a quarter more than is needed, so that a count that rises slowly seldom needs new memory
         if (!pir_planes_resize(&groups->planes, allocator, slots + slots / 4))
             return PIR_ERR_MEMORY;
         pir_groups_forget(groups);
@@ -81,7 +84,7 @@ void pir_groups_finish(pir_groups *groups, const pir_allocator *allocator) {
 
 /* --- grouping, once --- */
 
-/* A facet's number under one coordinate of its normal, to sort by. */
+/* A key to sort a facet by: one coordinate of its normal, then its number. */
 static uint64_t coordinate_key(const pir_polytope *p, uint32_t f, int axis) {
     pir_vec3 n = p->normal[f];
     double c = axis == 0 ? n.x : axis == 1 ? n.y : n.z;
@@ -93,14 +96,14 @@ static int compare_keys(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Where group `g` of `groups` begins among `count` facets. */
+/* The first facet of group `g` of `groups`, among `count` facets in order. */
 static uint32_t group_start(uint32_t count, uint32_t g, uint32_t groups) {
     return (uint32_t)((uint64_t)count * g / groups);
 }
 
 /*
- * Sorts the facets of groups [from, to) of `groups` so that each group's normals are near each other: halves across
- * the longest side.
+ * Sorts the facets of groups [from, to) of `groups` so that the normals of each group are near each other. It halves
+ * the groups across the longest side of their normals' box.
  */
 static void sort_groups(const pir_polytope *p, uint64_t *keys, uint32_t from, uint32_t to, uint32_t groups) {
     uint32_t start = group_start(p->facet_count, from, groups), end = group_start(p->facet_count, to, groups);
@@ -135,8 +138,8 @@ static void sort_facets(const pir_polytope *p, uint64_t *keys, uint32_t groups) 
 }
 
 /*
- * A facet's place in the list of `group`, which is being made, listed there if it is not yet: seen[f] is where f was
- * listed last.
+ * The place of a facet in the list of `group`, which is being made. The facet is added where it is not listed yet:
+ * seen[f] is where f was listed last.
  */
 static uint32_t list_facet(pir_groups *groups, uint32_t f, const pir_group *group, uint32_t *seen) {
     if (seen[f] == UINT32_MAX || seen[f] < group->facets) {
@@ -150,7 +153,7 @@ static uint32_t whole_lanes(uint32_t count) {
     return (count + PIR_SCAN_LANES - 1) / PIR_SCAN_LANES * PIR_SCAN_LANES;
 }
 
-/* Ends the list of `group`, filled up to whole lanes with its first facet. */
+/* Ends the list of `group` and fills it up to whole lanes with its first facet. */
 static void end_facets(pir_groups *groups, pir_group *group) {
     while ((groups->list.facet_count - group->facets) % PIR_SCAN_LANES != 0)
         groups->list.facet[groups->list.facet_count++] = groups->list.facet[group->facets];
@@ -158,7 +161,7 @@ static void end_facets(pir_groups *groups, pir_group *group) {
 }
 
 /*
- * Group `g` of P: facets keys[from..to), the edges whose left facet is one of them, and the facets beyond those
+ * Makes group `g` of P: facets keys[from..to), the edges whose left facet is one of them, and the facets beyond those
  * edges.
  */
 static void make_group_of_p(pir_groups *groups, uint32_t g, const uint64_t *keys, uint32_t from, uint32_t to,
@@ -208,7 +211,7 @@ static void make_groups(pir_groups *groups, uint64_t *keys, uint32_t *seen) {
     }
 }
 
-/* Copies what the lists name into their order. */
+/* Copies the coordinates of what the lists name, in their order. */
 void pir_groups_fill(pir_groups *groups) {
     const pir_frame *frame = groups->frame;
     pir_group_lists *list = &groups->list;
@@ -228,7 +231,11 @@ void pir_groups_fill(pir_groups *groups) {
     }
 }
 
-/* The crossings that most rotations have no more of. */
+/*
+ * A count of crossings that most rotations do not exceed; more make the memory grow once. Two arcs of random
+ * directions cross at random, and 3 per edge is above what random bodies have. The constant is for bodies of few
+ * edges, whose crossings vary most.
+ */
 static uint32_t usual_crossings(const pir_polytope *p, const pir_polytope *q) {
     return 3 * (p->edge_count + q->edge_count) + 64;
 }

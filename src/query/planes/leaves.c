@@ -2,13 +2,13 @@
 /*
  * All planes of D at one rotation, in leaves, for many translations.
  *
- * The planes are sorted by the cell of a grid on the cube that their normals fall in, cells along a Z-order curve,
- * and every LEAF of them, one after the other, have a box: of their normals, their least offset and their greatest
- * err. n·x − h is at most what the box allows, so most leaves are ruled out by four numbers. The first to be looked
- * at is the one that holds the direction of x, which in a round D is the nearest.
+ * A grid on the cube sorts the planes by their normals, its cells along a Z-order curve. LEAF planes in a row make a
+ * leaf. A leaf has a box: of its normals, its least offset and its greatest err. The box bounds its slacks from
+ * below, and most leaves are ruled out by their boxes alone. The first leaf to be searched is that of the direction
+ * of x; in a round D it holds the least slack.
  *
- * As long as no decision is open, all is told by the values of planes and their errors (query.h); what is open is
- * left to the caller.
+ * Values of planes and their errors (frame.h) decide as long as they are certain. What they leave open is left to the
+ * caller.
  */
 #include <string.h>
 
@@ -16,7 +16,10 @@
 
 #define LEAF 32
 
-/* Cells along a side of the cube are 2^CELL_BITS. */
+/*
+ * The cells along a side of the cube are 2^CELL_BITS. 6 · 16² cells hold a few planes each on bodies of some thousand
+ * facets.
+ */
 #define CELL_BITS  4
 #define CELL_COUNT (6u << 2 * CELL_BITS)
 
@@ -54,7 +57,7 @@ static pir_status reserve(pir_leaves *leaves, const pir_allocator *allocator, ui
     return PIR_ERR_MEMORY;
 }
 
-/* Where c, from −1 to 1, falls among the cells of a side; their bits two apart. */
+/* The cell of coordinate c, from −1 to 1, along a side, its bits spread two apart. */
 static uint32_t spread_cell(double c) {
     double at = (c + 1) * (1 << (CELL_BITS - 1));
     uint32_t i = at > 0 ? (uint32_t)at : 0, most = (1u << CELL_BITS) - 1;
@@ -71,12 +74,12 @@ static uint32_t cell_of(pir_vec3 n) {
     return z > 0 ? ((4 + (n.z < 0)) << 2 * CELL_BITS) + spread_cell(n.x / z) + 2 * spread_cell(n.y / z) : 0;
 }
 
-/* Goes over the groups' planes but those of neighbouring facets, which stand in other groups as their own. */
+/* The plane of a group after plane `k`, without the neighbouring facets, which are planes of other groups as well. */
 static uint32_t next_own(const pir_group *group, uint32_t k) {
     return k + 1 == group->own_end - group->facets ? group->facets_end - group->facets : k + 1;
 }
 
-/* Counts the planes of each cell, which are to begin at cell_start, and lays them out by cells. */
+/* Sorts the planes by cells: counts those of each cell, then puts them where their cell begins. */
 static void sort_planes(pir_leaves *leaves, const pir_groups *groups) {
     const pir_planes *planes = &groups->planes;
     uint32_t *start = leaves->cell_start, count = 0;
@@ -103,7 +106,7 @@ static void sort_planes(pir_leaves *leaves, const pir_groups *groups) {
     }
     leaves->plane_count = count;
     leaves->leaf_count = (count + LEAF - 1) / LEAF;
-    // fill the last leaf up with its first plane
+    // fill up the last leaf with its first plane
     for (uint32_t i = count; i < LEAF * leaves->leaf_count; i++) {
         uint32_t like = LEAF * (leaves->leaf_count - 1);
         pir_lane_put(leaves->n, i, pir_lane_get(leaves->n, like));
@@ -144,7 +147,7 @@ pir_status pir_leaves_make(pir_leaves *leaves, pir_groups *groups, const pir_all
     return PIR_OK;
 }
 
-/* The least slack in a leaf; its error is box_err times the placement's at most. */
+/* The least slack in a leaf. Its error is at most box.err times the placement's. */
 static double least_of(const pir_leaves *leaves, const pir_scan *scan, uint32_t leaf, pir_vec3 x) {
     return scan->least(LEAF, pir_lanes_from(leaves->n, LEAF * leaf), leaves->h + LEAF * leaf, x);
 }
@@ -153,9 +156,9 @@ static void bound_leaves(const pir_leaves *leaves, const pir_scan *scan, const p
     scan->boxes(leaves->leaf_count, &leaves->box, placement->x, placement->error, leaves->low);
 }
 
-/* The leaf of the direction of x, or near it. */
+/* The leaf of the direction of x, or one near it. */
 static uint32_t leaf_along(const pir_leaves *leaves, pir_vec3 x) {
-    // cell_start has become where cells end
+    // cell_start holds the ends of cells now
     uint32_t leaf = leaves->cell_start[cell_of(x)] / LEAF;
     return leaf < leaves->leaf_count ? leaf : leaves->leaf_count - 1;
 }
@@ -186,8 +189,8 @@ bool pir_leaves_state(pir_leaves *leaves, const pir_groups *groups, const pir_pl
 }
 
 /*
- * Of the planes in the leaves that were looked at, those that may have a slack of `limit` at most: their slots, in
- * work space, edge pairs at small angles made exact. Returns how many.
+ * Collects the planes that may have a slack of at most `limit`, of the leaves that were searched: their slots, in
+ * work space. Planes of edge pairs at small angles are refined. Returns how many there are.
  */
 static uint32_t collect(pir_leaves *leaves, pir_groups *groups, const pir_placement *placement, uint32_t looked,
                         double limit) {
@@ -197,7 +200,7 @@ static uint32_t collect(pir_leaves *leaves, pir_groups *groups, const pir_placem
         double low[LEAF];
         if (leaves->low[leaf] > limit)
             continue;
-        // planes are boxes of no width
+        // a plane is a box of no width
         pir_lanes n = pir_lanes_from(leaves->n, from);
         pir_box_lanes planes = {n, n, leaves->h + from, leaves->err + from};
         groups->scan->boxes(LEAF, &planes, placement->x, placement->error, low);
@@ -211,8 +214,8 @@ static uint32_t collect(pir_leaves *leaves, pir_groups *groups, const pir_placem
 }
 
 /*
- * Looks at the leaves that may hold the least slack: their numbers in `looked`, what it is not above in *ret_limit.
- * Returns how many there are.
+ * Searches the leaves that may hold the least slack. Their numbers are in `looked`; *ret_limit is an upper bound on
+ * the least slack. Returns how many leaves there are.
  */
 static uint32_t look_at_leaves(pir_leaves *leaves, const pir_groups *groups, const pir_placement *placement,
                                double *ret_limit) {

@@ -7,29 +7,29 @@
 #include "query/planes/group_planes.h"
 
 typedef struct pir_leaves {
-    uint64_t stamp; /* of the groups, when they were made */
+    uint64_t stamp; /* the groups' stamp when they were made */
     uint32_t plane_count, leaf_count, capacity;
     pir_lanes n;
     double *h, *err;
-    uint32_t *slot;              /* where each stands in the planes of the groups */
-    uint32_t *cell, *cell_start; /* cells while planes are sorted, work space after */
+    uint32_t *slot;              /* the slot of each plane in the groups' planes */
+    uint32_t *cell, *cell_start; /* the cells of planes while they are sorted, work space afterwards */
     pir_box_lanes box;           /* per leaf */
     double *low;
     uint32_t *looked;
 } pir_leaves;
 
-/* Makes the leaves of the rotation; PIR_ERR_MEMORY. Begins with leaves of zeros. */
+/* Makes the leaves at the present rotation, unless they are there: PIR_ERR_MEMORY. Begins with a struct of zeros. */
 pir_status pir_leaves_make(pir_leaves *leaves, pir_groups *groups, const pir_allocator *allocator);
 void pir_leaves_finish(pir_leaves *leaves, const pir_allocator *allocator);
 
-/* The state where doubles tell it; false where they leave it open. */
+/* The state. False where doubles leave it open. */
 bool pir_leaves_state(pir_leaves *leaves, const pir_groups *groups, const pir_placement *placement,
                       pir_state *ret_state);
 
-/* The true facet of least slack; false where D has none. */
+/* The true facet of least slack. False where D has none. */
 bool pir_leaves_depth(pir_leaves *leaves, pir_groups *groups, const pir_placement *placement, pir_facet *ret_facet);
 
-/* A number that no slack is below. */
+/* A lower bound on all slacks. */
 double pir_leaves_least(pir_leaves *leaves, const pir_groups *groups, const pir_placement *placement);
 
 #endif

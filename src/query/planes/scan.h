@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The loops over planes, behind one dispatch struct: a plain version and one for AVX2, chosen when a query is made.
- * Both are the same text, compiled twice, without fused operations: they give the same bits.
+ * The loops over planes, behind one dispatch struct: a plain version and one for AVX2. A query chooses one when it is
+ * made. Both are compiled from one text, without fused operations, so that they give the same bits.
  *
- * `look` and `least` take whole blocks of planes, `slacks` and `caps` whole lanes. The other loops read and write up to
- * PIR_SCAN_LANES − 1 elements past `count`.
+ * `look` and `least` take whole blocks of planes, `slacks` and `caps` whole lanes. The other loops read and write up
+ * to PIR_SCAN_LANES − 1 elements past `count`.
  */
 #ifndef PIR_QUERY_PLANES_SCAN_H
 #define PIR_QUERY_PLANES_SCAN_H
@@ -85,7 +85,7 @@ typedef struct pir_scan {
     double (*caps)(uint32_t from, uint32_t count, const pir_cap_lanes *caps, pir_vec3 x, double error, double *low);
 } pir_scan;
 
-/* The versions that this build has and this processor runs, the plain one first; NULL past the last. */
+/* Version `index` of those that this build has and this processor runs, the plain one first. NULL past the last. */
 const pir_scan *pir_scan_version(unsigned index);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The text of scan.h's loops; SCAN_TARGET says for which processor, SCAN_WIDTH how many doubles it takes at once,
- * SCAN_NAME what the result is called.
+ * The text of scan.h's loops. SCAN_TARGET names the processor, SCAN_WIDTH is the number of doubles in a vector,
+ * SCAN_NAME the name of the result.
  */
 
-/* A few doubles at once: the compiler's own vectors, loaded from and stored to any address. */
+/* A vector of doubles: the compiler's own, loaded from and stored to any address. */
 typedef double lane __attribute__((vector_size(8 * SCAN_WIDTH), aligned(8), may_alias));
 typedef int64_t mask __attribute__((vector_size(8 * SCAN_WIDTH)));
 
@@ -61,7 +61,7 @@ SCAN_TARGET static double cross(uint32_t count, pir_lanes d, pir_lanes e, pir_la
     return most;
 }
 
-/* Lane by lane, a where it is less than b. */
+/* The lesser of a and b in every lane, b where they are not ordered. */
 SCAN_TARGET static inline lane lesser(lane a, lane b) {
     mask less = a < b;
     return (lane)(((mask)a & less) | ((mask)b & ~less));
@@ -157,7 +157,7 @@ SCAN_TARGET static double caps(uint32_t from, uint32_t count, const pir_cap_lane
         lane wx = load(corner.x + i) - x.x, wy = load(corner.y + i) - x.y, wz = load(corner.z + i) - x.z;
         lane along = load(axis.x + i) * wx + load(axis.y + i) * wy + load(axis.z + i) * wz;
         lane square = wx * wx + wy * wy + wz * wz;
-        // rounded up by more than either square is off by, so it is never below zero
+        // rounded up by more than the error of either square, so that it is never below zero
         lane across = roots(square * (1 + 0x1p-47) - along * along);
         lane bound = along * load(cosine + i) - across * load(sine + i) - 2 * error, old = load(low + i);
         mask better = (bound > (lane){0}) & (bound > old);

@@ -4,7 +4,7 @@
 
 #include "query/decide/witness.h"
 
-/* The piece that has the features, where the pairing has one. */
+/* The piece that consists of two features. False where the pairing has none. */
 static bool piece_of(const pir_groups *groups, pir_witness faces, pir_piece *ret_piece) {
     const pir_polytope *q = groups->frame->q.polytope;
     const pir_pairing *pairing = groups->pairing;

@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The least slack: the global penetration depth.
+ * The least slack, which is the global penetration depth.
  *
- * An upper bound comes from the facet that won last time, lower bounds from the groups; those that cannot win are not
- * looked at. A group is sieved the first time at a rotation, and has its planes made the second. What doubles leave are
- * pieces that may have the least slack; the true facets that they belong to are compared exactly (facet.h), and equal
- * slacks are settled by the order of facets. So the answer depends on the placement alone and not on what was asked
- * before.
+ * The facet that was least last time gives an upper bound, the groups give lower bounds, and groups that cannot hold
+ * the least slack are not searched. A group is sieved at the first search at a rotation; its planes are made at the
+ * second. Doubles leave the pieces that may have the least slack. Their true facets are compared exactly (facet.h),
+ * and the order of facets settles ties. So the answer depends on the placement alone and not on earlier queries.
  */
 #include "query/search/depth.h"
 
 #include "query/search/sieve.h"
 
 /*
- * The slots that a search is left with: those of part `k` of looked_count + 1, the groups that were looked at and then
- * the candidates.
+ * The slots that a search leaves: part `k` of looked_count + 1. The parts are the groups that were searched, then the
+ * candidates.
  */
 static uint32_t part_of(const pir_search *search, uint32_t k, uint32_t *ret_end) {
     const pir_groups *groups = &search->groups;
@@ -32,7 +31,10 @@ static void forget(pir_search *search) {
     search->candidates = search->groups.planes.capacity;
 }
 
-/* What the least slack of what is left is not above, edge pairs at small angles made exact on the way. */
+/*
+ * An upper bound on the least slack of what a search leaves. Planes of edge pairs at small angles are refined on the
+ * way.
+ */
 static double least_refined(pir_search *search, const pir_placement *placement, double limit) {
     pir_groups *groups = &search->groups;
     pir_planes *planes = &groups->planes;
@@ -47,7 +49,7 @@ static double least_refined(pir_search *search, const pir_placement *placement, 
     return limit;
 }
 
-/* Looks at group g, and notes it where it may hold a slack of at most *limit, which it may lower. */
+/* Searches group g, and notes it where it may hold a slack of at most *limit, which it may lower. */
 static void look_at(pir_search *search, uint32_t g, const pir_placement *placement, double *limit, uint32_t *steps) {
     double low, high;
     pir_bounds_look(&search->bounds, &search->groups, g, placement, &low, &high);
@@ -73,7 +75,7 @@ bool pir_depth_find(pir_search *search, const pir_placement *placement, const pi
     limit = high < limit ? high : limit;
     for (uint32_t g = 0; g < groups->count; g++)
         if (search->bounds.low[g] <= limit) {
-            // planes pay from the second time at a rotation on
+            // making planes pays from the second search at a rotation on
             if (groups->at[g].stamp == groups->stamp || groups->at[g].sieved == groups->stamp) {
                 look_at(search, g, placement, &limit, steps);
             } else {
@@ -81,13 +83,13 @@ bool pir_depth_find(pir_search *search, const pir_placement *placement, const pi
                 ++*steps;
             }
         }
-    // but for groups that were looked at before the limit fell
+    // drop groups that were noted before the limit fell
     uint32_t kept = 0;
     for (uint32_t k = 0; k < search->looked_count; k++)
         if (search->bounds.low[search->looked[k]] <= limit)
             search->looked[kept++] = search->looked[k];
     search->looked_count = kept;
-    // a refined plane's slack and error say more than they did before
+    // a refined plane has another slack and a smaller error
     limit = least_refined(search, placement, limit);
     const pir_planes *planes = &groups->planes;
     pir_least least = {.some = false};

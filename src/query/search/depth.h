@@ -6,8 +6,8 @@
 #include "query/search/search.h"
 
 /*
- * The true facet of least slack; false where D has none. Which it is means nothing when x is outside, but for the
- * sign of its slack.
+ * The true facet of least slack. False where D has none. Where x is outside, only the sign of its slack has a
+ * meaning.
  */
 bool pir_depth_find(pir_search *search, const pir_placement *placement, const pir_query_cache *cache,
                     pir_facet *ret_facet, uint32_t *steps);

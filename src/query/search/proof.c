@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * That the bodies are apart, proven by a facet of D: one that certainly separates.
+ * A proof that the bodies are apart: a facet of D that certainly separates them.
  *
- * The slopes of D beside a vertex are known from the pairing, so this proves what a climb, which rounds, does not.
- * The facet that did it last time comes first, then all around the vertices of the simplex: where the nearest point
- * is, one of those does.
+ * The pairing knows the facets of D at a vertex exactly, so this proves what a climb with its rounding does not. The
+ * facet that separated last time comes first, then all facets around the vertices of the simplex. Where those hold
+ * the nearest point, one of the facets separates.
  */
 #include "query/search/proof.h"
 
-/* Whether a piece certainly separates; then it is kept. */
+/* Whether a piece certainly separates. Then the cache keeps it. */
 static bool try_piece(const pir_groups *groups, const pir_placement *placement, pir_piece piece,
                       pir_query_cache *cache) {
     pir_plane plane;
@@ -18,7 +18,7 @@ static bool try_piece(const pir_groups *groups, const pir_placement *placement, 
     return true;
 }
 
-/* The pieces that have vertex (a, b) of D for a corner. */
+/* Tries the pieces that have vertex (a, b) of D as a corner. */
 static bool try_around(const pir_groups *groups, const pir_placement *placement, uint32_t a, uint32_t b,
                        pir_query_cache *cache) {
     const pir_polytope *p = groups->frame->p.polytope, *q = groups->frame->q.polytope;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* That the bodies are apart, proven by a facet of D: see proof.c. */
+/* A proof that the bodies are apart: see proof.c. */
 #ifndef PIR_QUERY_SEARCH_PROOF_H
 #define PIR_QUERY_SEARCH_PROOF_H
 
 #include "query/frame/nearest_vertex.h"
 #include "query/planes/group_planes.h"
 
-/* Whether a facet of D beside the simplex certainly separates. Then it is kept in the cache, if there is one. */
+/* Whether a facet of D at the simplex certainly separates. Then the cache keeps it, if there is one. */
 bool pir_prove_outside(const pir_groups *groups, const pir_placement *placement, const pir_simplex *simplex,
                        pir_query_cache *cache);
 

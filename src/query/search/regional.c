@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries on a sum with a region: D is taken to be the intersection of the half-spaces of those of its facets whose
- * normals are in the cone. That holds D, so whoever is outside is outside of D, and the depth is the least among
- * those facets; whether a translation inside is inside of D the facets that are left out would have to say.
+ * Searches on a sum with a region.
  *
- * The sum keeps a superset that depends on how it came here. So every piece is asked whether it is in the cone, and
- * the answer depends on the placement and the region alone. What is kept is little, and is looked at one by one,
- * without groups. A piece that may hold the least slack by its doubles is made a plane, in the slots that groups have
- * theirs in; those are forgotten.
+ * D is replaced by the intersection of the half-spaces of those of its facets whose normals are in the cone. That
+ * intersection contains D. So a translation outside of it is outside of D. For a translation inside of it overlap is
+ * not proven: the facets outside of the cone would decide. The depth is the least over facets in the cone.
  *
- * Bounds last as those of groups do (planes.c): s(n) in a direction that stands in P's frame changes, while R turns
- * by θ and x moves by d, by at most θ·(swing_q + |x|) + d, and in one of Q's by θ·swing_p + d. The sums of these over
- * all queries are the ways, way_p and way_q. For each facet, and each edge of P, `known` is a number that its slacks
- * were not below when it was last looked at, plus the way then; less the way of now they are not below it. On an arc,
- * which is shorter than half a turn unless P is flat, s is nowhere less than at its crossings and ends while those
- * are positive. It is geometry alone: whether a feature has been active in between does not matter.
+ * The sum keeps more features than the cone needs, and which ones depends on its past. So every piece is tested
+ * against the cone, and the answer depends on the placement and the region alone. There are few pieces; they are
+ * searched one by one, without groups. A piece that may hold the least slack becomes a plane, in slots of the groups'
+ * planes, which are forgotten.
+ *
+ * Bounds last as those of groups do (planes/bounds.c). While R turns by θ and x moves by d, s(n) changes by at most
+ * θ·(swing_q + |x|) + d in a direction that is fixed in P's frame, and by at most θ·swing_p + d in one that is fixed
+ * in Q's. change_p and change_q are the sums of these over all searches. For each facet, and each edge of P, `known`
+ * is a lower bound on its slacks when they were last computed, plus the change then. `known` minus the present change
+ * is a lower bound on its slacks now. On an arc, which is shorter than half a turn unless P is flat, s is nowhere
+ * less than at its crossings and ends while those are positive. This is geometry alone, so it does not matter whether
+ * a feature has been dormant in between.
  */
 #include "query/search/regional.h"
 
@@ -25,18 +28,18 @@ struct search {
     pir_groups *groups;
     const pir_placement *placement;
     const pir_cone *cone;
-    bool all;       /* keep every plane, not just those that may have the least slack */
-    double limit;   /* the least slack is not above limit */
-    double hair;    /* what slacks worked out one way or another may differ by */
-    double most;    /* slacks by doubles above this are not looked for */
-    uint32_t count; /* planes, from slot 0 */
+    bool all;          /* keep every plane, not just those that may have the least slack */
+    double limit;      /* an upper bound on the least slack */
+    double difference; /* bound on the difference of slacks that are computed in different ways */
+    double most;       /* slacks above this are not searched for */
+    uint32_t count;    /* planes, from slot 0 */
 };
 
 /*
- * Ways begin again when they pass this, in units of the frame: what adding to them rounds then stays below the error
- * of a slack.
+ * The changes begin again at 0 when they pass this, in units of the frame. What rounds in adding to them then stays
+ * below the error of a slack.
  */
-#define FARTHEST_WAY 16.0
+#define GREATEST_CHANGE 16.0
 
 /* --- memory --- */
 
@@ -60,7 +63,7 @@ void pir_regional_finish(pir_regional *regional, const pir_allocator *allocator,
 
 void pir_regional_forget(pir_regional *regional, const pir_frame *frame) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    regional->way_p = regional->way_q = 0;
+    regional->change_p = regional->change_q = 0;
     for (uint32_t f = 0; f < p->facet_count; f++)
         regional->known_p[f] = -HUGE_VAL;
     for (uint32_t g = 0; g < q->facet_count; g++)
@@ -71,15 +74,15 @@ void pir_regional_forget(pir_regional *regional, const pir_frame *frame) {
 
 /* --- the search --- */
 
-/* A number that the least slack is not above. */
+/* Lowers the upper bound on the least slack. */
 static void lower_limit(struct search *search, double limit) {
     if (!(limit < search->limit) || search->all)
         return;
     search->limit = limit;
-    search->most = limit + search->hair;
+    search->most = limit + search->difference;
 }
 
-/* Makes a piece a plane and keeps it where it is in the cone and may be the one that is looked for. */
+/* Makes a piece's plane, and keeps it where it is in the cone and may be searched for. */
 static void take(struct search *search, pir_piece piece) {
     pir_groups *groups = search->groups;
     pir_plane plane;
@@ -94,11 +97,11 @@ static void take(struct search *search, pir_piece piece) {
 }
 
 /*
- * Whether a piece may be looked for, its slack, worked out another way than a plane's, being out / √square within
- * error / √square. Most are told without the root.
+ * Whether a piece may be searched for. Its slack, computed in another way than a plane's, is out / √square within
+ * error / √square. Most pieces are told without the root.
  */
 static inline bool may_win(const struct search *search, double out, double square) {
-    double over = out - search->hair;
+    double over = out - search->difference;
     return !(over > 0) || over * over <= search->most * search->most * square;
 }
 
@@ -114,34 +117,31 @@ static void take_facets(struct search *search) {
     const pir_kept kept = pir_sum_kept(regional->sum);
     const pir_cone *cone = search->cone;
     pir_vec3 x = search->placement->x, back = pir_mat_apply_transposed(&frame->r, x);
-    double hair = search->hair;
+    double off = search->difference;
     for (uint32_t i = 0; i < kept.facets_p.count; i++) {
         uint32_t f = kept.facets_p.at[i];
-        if (regional->known_p[f] > search->most + regional->way_p)
+        if (regional->known_p[f] > search->most + regional->change_p)
             continue;
         pir_vec3 n = pir_mat_apply(&frame->r, frame->p.polytope->normal[f]);
         double slack = frame->p.offset[f] + pir_vec_dot(n, pir_vec_sub(frame->q.vertex[pairing->fv[f]], x));
-        regional->known_p[f] = slack - hair + regional->way_p;
+        regional->known_p[f] = slack - off + regional->change_p;
         if (may_win(search, slack, 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
             take(search, pir_piece_fv(groups, f));
     }
     for (uint32_t i = 0; i < kept.facets_q.count; i++) {
         uint32_t g = kept.facets_q.at[i];
-        if (regional->known_q[g] > search->most + regional->way_q)
+        if (regional->known_q[g] > search->most + regional->change_q)
             continue;
         pir_vec3 n = frame->q.polytope->normal[g],
                  from = pir_mat_apply(&frame->r, pir_vec_sub(frame->p.vertex[pairing->vf[g]], back));
         double slack = frame->q.offset[g] + pir_vec_dot(n, from);
-        regional->known_q[g] = slack - hair + regional->way_q;
+        regional->known_q[g] = slack - off + regional->change_q;
         if (may_win(search, slack, 1) && pir_vec_dot(n, cone->axis) >= cone->cosine)
             take(search, pir_piece_vf(groups, g));
     }
 }
 
-/*
- * Takes what crosses an edge of P; returns a number that no slack there is below, −HUGE_VAL where doubles do not
- * tell.
- */
+/* Takes the edge pairs of an edge of P. Returns a lower bound on their slacks, −HUGE_VAL where doubles give none. */
 static double take_crossings_of(struct search *search, uint32_t edge) {
     const pir_groups *groups = search->groups;
     const pir_frame *frame = groups->frame;
@@ -150,14 +150,14 @@ static double take_crossings_of(struct search *search, uint32_t edge) {
     uint32_t half = p->edge_half[edge];
     pir_vec3 e = pir_mat_apply(&frame->r, p->direction[half]);
     pir_vec3 from = pir_vec_sub(pir_mat_apply(&frame->r, frame->p.vertex[p->origin[half]]), search->placement->x);
-    double least = HUGE_VAL, hair = search->hair;
+    double least = HUGE_VAL, off = search->difference;
     for (uint32_t at = pir_crossing_first(pairing, edge); at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at)) {
         uint32_t h = pir_crossing_half(pairing, at);
         pir_vec3 n = pir_vec_cross(q->direction[h], e);
         double square = pir_vec_dot(n, n), out = pir_vec_dot(n, pir_vec_add(from, frame->q.vertex[q->origin[h]]));
         bool tells = square >= PIR_SIN_EXACT * PIR_SIN_EXACT;
-        least = least_of(least, tells ? (out - hair) / sqrt(square) : -HUGE_VAL);
-        // small angles are told by their exact normals
+        least = least_of(least, tells ? (out - off) / sqrt(square) : -HUGE_VAL);
+        // at small angles the exact normal decides
         if (tells && (!may_win(search, out, square) ||
                       (square >= PIR_SIN_REFINED * PIR_SIN_REFINED && !pir_cone_has(search->cone, n))))
             continue;
@@ -173,35 +173,35 @@ static void take_crossings(struct search *search) {
     const pir_features edges = pir_sum_kept(regional->sum).edges_p;
     for (uint32_t i = 0; i < edges.count; i++) {
         uint32_t edge = edges.at[i];
-        if (regional->known_edge[edge] > search->most + regional->way_p)
+        if (regional->known_edge[edge] > search->most + regional->change_p)
             continue;
         uint32_t half = p->edge_half[edge];
-        double crossings = take_crossings_of(search, edge) + regional->way_p;
+        double crossings = take_crossings_of(search, edge) + regional->change_p;
         double ends = least_of(regional->known_p[p->left[half]], regional->known_p[pir_right(p, half)]);
         double least = least_of(crossings, ends);
-        regional->known_edge[edge] = p->dimension == 3 && least > regional->way_p ? least : -HUGE_VAL;
+        regional->known_edge[edge] = p->dimension == 3 && least > regional->change_p ? least : -HUGE_VAL;
     }
 }
 
 /* Adds how much slacks may have changed since the last search. */
-static void go_on(pir_regional *regional, const pir_frame *frame, const pir_placement *placement) {
+static void note_change(pir_regional *regional, const pir_frame *frame, const pir_placement *placement) {
     pir_quat unit = frame->unit;
-    pir_vec3 off = pir_vec_sub(placement->x, regional->way_x);
-    double moved = sqrt(pir_vec_dot(off, off)), turned = pir_rotation_angle_bound(regional->way_unit, unit);
+    pir_vec3 off = pir_vec_sub(placement->x, regional->last_x);
+    double moved = sqrt(pir_vec_dot(off, off)), turned = pir_rotation_angle_bound(regional->last_unit, unit);
     double far = placement->reach - frame->p.size - frame->q.size + moved;
     // reach is rounded, and so are these sums
     far += 0x1p-40 * placement->reach;
-    regional->way_p = (regional->way_p + turned * (frame->q.swing + far) + moved) * (1 + 0x1p-50);
-    regional->way_q = (regional->way_q + turned * frame->p.swing + moved) * (1 + 0x1p-50);
-    regional->way_x = placement->x;
-    regional->way_unit = unit;
-    // what has gone far rounds badly: it begins again
-    if (regional->way_p < FARTHEST_WAY && regional->way_q < FARTHEST_WAY)
+    regional->change_p = (regional->change_p + turned * (frame->q.swing + far) + moved) * (1 + 0x1p-50);
+    regional->change_q = (regional->change_q + turned * frame->p.swing + moved) * (1 + 0x1p-50);
+    regional->last_x = placement->x;
+    regional->last_unit = unit;
+    // large changes round badly
+    if (regional->change_p < GREATEST_CHANGE && regional->change_q < GREATEST_CHANGE)
         return;
     pir_regional_forget(regional, frame);
 }
 
-/* The piece of a cache, where the sum keeps it. */
+/* The piece of a cache. False where the sum does not keep it. */
 static bool recall(const pir_groups *groups, const pir_query_cache *cache, pir_piece *ret_piece) {
     const pir_polytope *p = groups->frame->p.polytope, *q = groups->frame->q.polytope;
     const pir_pairing *pairing = groups->pairing;
@@ -225,7 +225,7 @@ static bool recall(const pir_groups *groups, const pir_query_cache *cache, pir_p
     }
 }
 
-/* Looks at all that is kept, first at the piece that won last time. */
+/* Searches everything that the sum keeps, first the piece that was least last time. */
 static struct search search_all(pir_regional *regional, pir_groups *groups, const pir_placement *placement, bool all,
                                 const pir_query_cache *cache) {
     struct search search = {.regional = regional,
@@ -234,15 +234,15 @@ static struct search search_all(pir_regional *regional, pir_groups *groups, cons
                             .cone = pir_sum_cone(regional->sum),
                             .all = all,
                             .limit = HUGE_VAL,
-                            .hair = 4 * placement->error,
+                            .difference = 4 * placement->error,
                             .most = HUGE_VAL};
     pir_groups_forget(groups);
-    go_on(regional, groups->frame, placement);
+    note_change(regional, groups->frame, placement);
     if (cache && cache->pieces == 1) {
         pir_piece last;
         if (recall(groups, cache, &last))
             take(&search, last);
-        // the limit stays, and the piece comes again
+        // the limit stays, and the piece will be taken again
         search.count = 0;
     }
     take_facets(&search);
@@ -255,7 +255,7 @@ pir_state pir_regional_find(pir_regional *regional, pir_groups *groups, const pi
     const pir_planes *planes = &groups->planes;
     struct search search = search_all(regional, groups, placement, false, cache);
     ++*steps;
-    // none of the pieces that doubles leave open is above the limit: they are all there
+    // every piece whose slack may be the least is there
     *ret_least = (pir_least){.some = false};
     for (uint32_t i = 0; i < search.count; i++)
         if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] <= search.limit)
@@ -279,7 +279,7 @@ bool pir_regional_exit(pir_regional *regional, pir_groups *groups, const pir_lin
         return false;
     const pir_facet *facet = &clip.leave.facet;
     if (!pir_line_arrive(groups->exact, line, facet, ret_arrival)) {
-        // beside the facet
+        // the line passes beside the facet
         pir_placement there = *line->placement;
         there.x = pir_vec_add(there.x, pir_vec_scale(line->u, ret_arrival->at));
         ret_arrival->touch = (pir_touch){facet->faces, pir_facet_point(groups->frame, &there, facet, 0)};

@@ -8,39 +8,36 @@
 #include "query/planes/groups.h"
 
 /*
- * Bounds on slacks, per facet of P, facet of Q and edge of P; how far all may have fallen since; where the last
- * search was.
+ * Lower bounds on slacks, per facet of P, facet of Q and edge of P; how much all of them may have changed; and where
+ * the last search was.
  */
 typedef struct pir_regional {
     const pir_sum *sum;
     double *known_p, *known_q, *known_edge;
-    double way_p, way_q;
-    pir_quat way_unit;
-    pir_vec3 way_x;
+    double change_p, change_q;
+    pir_quat last_unit;
+    pir_vec3 last_x;
 } pir_regional;
 
 /*
- * Memory, for a frame whose operands are known and a sum, which is borrowed; false when out of memory:
- * pir_regional_finish frees what is there.
+ * Makes the memory for a frame, whose operands are known, and a sum, which is borrowed. False when out of memory;
+ * pir_regional_finish then frees what is there.
  */
 bool pir_regional_init(pir_regional *regional, const pir_allocator *allocator, const pir_frame *frame,
                        const pir_sum *sum);
 void pir_regional_finish(pir_regional *regional, const pir_allocator *allocator, const pir_frame *frame);
 
-/* Begins without a bound. */
+/* Forgets all bounds. */
 void pir_regional_forget(pir_regional *regional, const pir_frame *frame);
 
 /*
- * The state as the facets in the region of the sum tell it. *ret_least is the facet that separates, or touches, or is
- * the one of least slack; there is none where the region has none.
+ * The state that the facets in the region tell. *ret_least is the facet that separates, the one that touches, or the
+ * one of least slack. There is none where no facet is in the region.
  */
 pir_state pir_regional_find(pir_regional *regional, pir_groups *groups, const pir_placement *placement,
                             const pir_query_cache *cache, pir_least *ret_least, uint32_t *steps);
 
-/*
- * From inside: where the line leaves what the facets in the region of the sum bound; false where none of them is
- * passed.
- */
+/* From inside: where a line leaves the half-spaces of the facets in the region. False where it crosses none of them. */
 bool pir_regional_exit(pir_regional *regional, pir_groups *groups, const pir_line *line, pir_arrival *ret_arrival,
                        uint32_t *steps);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a search for the state or the least slack works on: groups, their bounds, and what it has found. */
+/* What searches for the state and for the least slack work on: groups, their bounds, and their findings. */
 #ifndef PIR_QUERY_SEARCH_SEARCH_H
 #define PIR_QUERY_SEARCH_SEARCH_H
 
@@ -9,17 +9,15 @@
 typedef struct pir_search {
     pir_groups groups;
     pir_bounds bounds;
-    double *slack; /* per group: what a search for the state knows, HUGE_VAL where it did not look */
-    /*
-     * what a search for the least slack found: groups that were looked at, and planes from slot `candidates` up to
-     * the spare ones
-     */
+    /* per group: its least slack minus its error, HUGE_VAL where a search for the state has not looked */
+    double *slack;
+    /* what a search for the least slack found: groups, and planes from slot `candidates` to the last */
     uint32_t *looked, looked_count, candidates;
 } pir_search;
 
 /*
- * Memory for a frame, whose operands are known, and a pairing; all of these are borrowed. False when out of
- * memory: pir_search_finish frees what is there.
+ * Makes the memory for the frame of `exact`, whose operands are known, and a pairing; all of them are borrowed. False
+ * when out of memory; pir_search_finish then frees what is there.
  */
 bool pir_search_init(pir_search *search, const pir_allocator *allocator, pir_exact *exact, const pir_pairing *pairing);
 void pir_search_finish(pir_search *search, const pir_allocator *allocator);

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which pieces of a group may hold the least slack, told without making its planes.
+ * A sieve for the pieces of a group that may hold the least slack. It does not make the group's other planes.
  *
- * The slacks of its facets come first: those of P's in P's own frame, where their normals and offsets stand, n·(p +
- * Rᵀ(b − x)) with b the vertex that fv names; those of Q's likewise. An edge of P lies on both its facets 1 and 2, so
- * with a vertex p of it and b₁ of facet 1, w = p + Rᵀ(b₁ − x) is a vertex of D − x, and the slacks of all crossings
- * on the arc from n₁ to n₂ are at least n·w there. Along the arc n·w runs as a·cos(φ − φ₀), and is nowhere less than
- * at the ends while it is positive at both: there it is the slack of facet 1, and the offset of facet 2 plus n₂·Rᵀ(b₁
- * − x). The same holds of b₂, and the better of the two is the bound. Only what crosses the few edges that it does
- * not rule out is worked out.
+ * The slacks of the facets come first. Those of P's facets are computed in P's frame, where their normals and offsets
+ * are: n·(p + Rᵀ(b − x)) with b the vertex that the pairing has. Those of Q's facets are computed likewise. An edge
+ * of P lies on two facets, 1 and 2. With a vertex p of it and b₁ of facet 1, w = p + Rᵀ(b₁ − x) is a vertex of D − x,
+ * so all slacks of edge pairs on the arc from n₁ to n₂ are at least n·w. Along the arc n·w is a·cos(φ − φ₀), and is
+ * nowhere less than at the ends while it is positive at both. At the ends it is the slack of facet 1, and the offset
+ * of facet 2 plus n₂·Rᵀ(b₁ − x). The same holds with b₂; the greater of the two is the bound. Only the edge pairs of
+ * the few edges that it does not rule out are computed.
  *
- * Rounding: each of these is within one error (query.h) of the exact one, and so is the slack that it is compared to.
+ * Rounding: each of these is within one error (frame.h) of the exact one, and so is the slack that it is compared
+ * with.
  */
 #include "query/search/sieve.h"
 
-/* A search at work: what it compares with, and the least that the group in hand can have. */
+/* The state of a sieve: upper bound on the least slack of all, lower bound on the slacks of the group. */
 struct sieve {
     const pir_placement *placement;
     double limit, low;
@@ -24,7 +25,7 @@ static inline double lesser(double a, double b) {
     return a < b ? a : b;
 }
 
-/* Makes the plane of a piece, and keeps it where it may be the least. */
+/* Makes the plane of a piece, and keeps it where it may have the least slack. */
 static void try_piece(pir_search *search, pir_piece piece, struct sieve *sieve) {
     pir_groups *groups = &search->groups;
     pir_plane plane;
@@ -40,8 +41,8 @@ static void try_piece(pir_search *search, pir_piece piece, struct sieve *sieve) 
 }
 
 /*
- * The slacks of the group's facets, in work[2].x, and Rᵀ(b − x), or its like, in work[1]; *ret_along is the least
- * n·x. Returns the least slack.
+ * Computes the slacks of the group's facets, into work.vector[2].x, and Rᵀ(b − x), or its like, into work.vector[1].
+ * *ret_along is the least n·x. Returns the least slack.
  */
 static double facet_slacks(const pir_groups *groups, const pir_group *group, const pir_placement *placement,
                            double *ret_along) {
@@ -66,7 +67,10 @@ static double facet_slacks(const pir_groups *groups, const pir_group *group, con
     return slacks.least;
 }
 
-/* What crosses edge `i` of the list: its slacks by doubles, and those pieces tried that may be the least. */
+/*
+ * Computes the slacks of the edge pairs of edge `i` of the list, and tries those pieces that may have the least
+ * slack.
+ */
 static void sieve_crossings(pir_search *search, uint32_t i, uint32_t at, struct sieve *sieve) {
     const pir_groups *groups = &search->groups;
     const pir_frame *frame = groups->frame;
@@ -81,7 +85,7 @@ static void sieve_crossings(pir_search *search, uint32_t i, uint32_t at, struct 
         double err = 1 / sqrt(pir_vec_dot(n, n)),
                s = pir_vec_dot(n, pir_vec_add(o, frame->q.vertex[q->origin[h]])) * err;
         double low = s - off * err;
-        // a normal that is nothing but rounding is not above the limit either
+        // a normal that is rounding alone is not above the limit either: NaN compares false
         if (low > sieve->limit)
             sieve->low = lesser(sieve->low, low);
         else
@@ -89,13 +93,13 @@ static void sieve_crossings(pir_search *search, uint32_t i, uint32_t at, struct 
     }
 }
 
-/* The edges of a group of P's whose arcs may hold the least slack. */
+/* Tries the edges of a group of P's whose arcs may hold the least slack. */
 static void sieve_edges(pir_search *search, const pir_group *group, struct sieve *sieve) {
     const pir_groups *groups = &search->groups;
     const pir_lanes normal = pir_lanes_from(groups->list.facet_normal, group->facets), to = groups->work.vector[1];
     const double *s = groups->work.vector[2].x, *offset = groups->list.facet_offset + group->facets,
                  off = 2 * sieve->placement->error;
-    // P flat has arcs of half a turn, which nothing bounds
+    // a flat P has arcs of half a turn, which nothing bounds
     bool bounds = groups->frame->p.polytope->dimension == 3;
     for (uint32_t i = group->edges; i < group->edges_end; i++) {
         uint32_t at = pir_crossing_first(groups->pairing, groups->list.edge[i]), a = groups->list.edge_left[i],

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Inside, boundary or outside, exactly: by the facet that decided last time, then by groups that could hold a slack of
- * zero or less, and where doubles leave it open by integers.
+ * The exact state: inside, on the boundary, or outside.
+ *
+ * The facet that decided last time comes first, then the groups that may hold a slack of zero or less. What doubles
+ * leave open is decided by integers.
  */
 #include "query/search/state.h"
 
 #include "query/decide/flat.h"
 #include "query/decide/side.h"
 
-/* The piece of least slack in a group, where one is certainly negative. */
+/* The piece of least slack in a group that has one of certainly negative slack. */
 static pir_piece separating(const pir_groups *groups, const pir_group *group, const pir_placement *placement) {
     uint32_t best = group->start;
     double least = HUGE_VAL;
@@ -20,7 +22,7 @@ static pir_piece separating(const pir_groups *groups, const pir_group *group, co
     return groups->planes.piece[best];
 }
 
-/* Takes note of the true facet of a piece that t lies on; the first in order stays. */
+/* Keeps the true facet of a piece that t lies on, where it is the first in order. */
 static void offer_touching(pir_exact *exact, pir_piece piece, pir_least *touching) {
     pir_facet facet;
     if (!pir_facet_of(exact, piece, &facet))
@@ -30,7 +32,7 @@ static void offer_touching(pir_exact *exact, pir_piece piece, pir_least *touchin
     touching->some = true;
 }
 
-/* What is open after doubles: the exact signs of slacks near zero. */
+/* Decides what doubles leave open, by the exact signs of slacks near zero. */
 static pir_state settle(pir_search *search, const pir_placement *placement, pir_piece *ret_separating,
                         pir_least *ret_touching) {
     const pir_groups *groups = &search->groups;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Inside, boundary or outside, exactly: see state.c. */
+/* The exact state: see state.c. */
 #ifndef PIR_QUERY_SEARCH_STATE_H
 #define PIR_QUERY_SEARCH_STATE_H
 
 #include "query/search/search.h"
 
 /*
- * The exact state. Outside, *ret_separating is a piece whose plane separates, its kind PIR_NO_PIECE where none is
+ * The exact state. Outside, *ret_separating is a piece whose plane separates; its kind is PIR_NO_PIECE where none is
  * known. On the boundary, *ret_touching is the first true facet in order that t lies on; there may be none where D
  * has no area.
  */
