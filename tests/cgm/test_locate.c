@@ -77,6 +77,21 @@ static pir_cgm_position oracle(const pir_mesh *mesh, mpq_t *points, pir_vec3 poi
     return position;
 }
 
+/* The side of the witness's plane that a point is on: 1 beyond it. */
+static int side_of_witness(const pir_cgm *cgm, uint32_t witness, pir_vec3 point) {
+    mpq_t plane[4], x[3];
+    mpq_inits(plane[0], plane[1], plane[2], plane[3], x[0], x[1], x[2], NULL);
+    assert_int_equal(pir_cgm_vertex_plane_exact(cgm, witness, plane), PIR_OK);
+    set_point(x, point);
+    for (int k = 0; k < 3; k++) {
+        mpq_mul(x[k], x[k], plane[k]);
+        mpq_sub(plane[3], plane[3], x[k]);
+    }
+    int side = -mpq_sgn(plane[3]);
+    mpq_clears(plane[0], plane[1], plane[2], plane[3], x[0], x[1], x[2], NULL);
+    return side;
+}
+
 /* A point near the mesh: a vertex, a middle of two or three corners, a grid point, one a hair away from
    any of these, or far off. */
 static pir_vec3 some_point(test_random *random, const pir_mesh *mesh) {
@@ -128,6 +143,10 @@ static void positions_are_exact(void **state) {
                    (unsigned long long)i, k, pose.situation, (int)warm.position, (int)cold.position, (int)expected);
             seen[expected]++;
             witness = warm.witness;
+            int side = expected == PIR_CGM_OUTSIDE ? 1 : expected == PIR_CGM_BOUNDARY ? 0 : -1;
+            expect(side_of_witness(sum, warm.witness, point) == side &&
+                       side_of_witness(sum, cold.witness, point) == side,
+                   "case %llu point %d, %s: the witness is no witness", (unsigned long long)i, k, pose.situation);
             pir_cgm_location again;
             assert_int_equal(pir_cgm_locate(locator, point, witness, &again), PIR_OK);
             // a walk that starts where it must end stays there

@@ -330,6 +330,50 @@ static void any_cache_gives_the_same_bits(void **state) {
     }
 }
 
+/*
+ * A box moves along an edge of its own, turned by quaternions of integers, one of its facets through a corner of the
+ * other box: parallel to it exactly, so that it grazes the corner for the length of the box. One query follows all
+ * rotations.
+ */
+static void casts_along_turned_facets_graze_what_is_in_their_plane(void **state) {
+    (void)state;
+    const pir_vec3 half = {0.5, 0.25, 0.5};
+    for (uint64_t i = 0; i < 20; i++) {
+        test_random random = test_random_case("casts along facets", i);
+        double q[4], n = 0;
+        for (int k = 0; k < 4; k++) {
+            q[k] = test_random_between(&random, 1, 9) * (test_random_below(&random, 2) ? 1 : -1);
+            n += q[k] * q[k];
+        }
+        // of a size that makes all coordinates of the turned box integers
+        struct pair pair = make(box(n, n, n), box(half.x, half.y, half.z), still);
+        for (int step = 0; step < 20; step++) {
+            // the same numbers in another order and with other signs have the same length
+            for (int k = 3; k > 0; k--) {
+                uint32_t j = test_random_below(&random, (uint32_t)k + 1);
+                double swapped = q[k];
+                q[k] = q[j], q[j] = test_random_below(&random, 2) ? swapped : -swapped;
+            }
+            assert_int_equal(pir_sum_rotate(pair.sum, (pir_quat){q[0], q[1], q[2], q[3]}, PIR_METHOD_AUTO), PIR_OK);
+            // two columns of M(q)
+            pir_vec3 e = {n - 2 * (q[1] * q[1] + q[2] * q[2]), 2 * (q[0] * q[1] + q[2] * q[3]),
+                          2 * (q[0] * q[2] - q[1] * q[3])};
+            pir_vec3 d = {2 * (q[0] * q[1] - q[2] * q[3]), n - 2 * (q[0] * q[0] + q[2] * q[2]),
+                          2 * (q[1] * q[2] + q[0] * q[3])};
+            if (e.x * e.y * e.z == 0)
+                continue;
+            pir_query_input input = at(e.x + copysign(half.x, e.x) - 3 * d.x, e.y + copysign(half.y, e.y) - 3 * d.y,
+                                       e.z + copysign(half.z, e.z) - 3 * d.z);
+            pir_cast_result cast;
+            assert_int_equal(pir_query_cast(pair.query, &input, (pir_vec3){6 * d.x, 6 * d.y, 6 * d.z}, &cast), PIR_OK);
+            expect(cast.outcome == PIR_CAST_HIT && fabs(cast.time - 1.0 / 3) <= 1e-15,
+                   "case %llu, step %d: outcome %d at %.17g", (unsigned long long)i, step, (int)cast.outcome,
+                   cast.time);
+        }
+        clear(&pair);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cubes_face_on_face_touch_where_both_are),
@@ -341,6 +385,7 @@ int main(void) {
         cmocka_unit_test(advances_take_rotations_of_any_size),
         cmocka_unit_test(lines_leave_by_facets_that_they_are_nearly_along),
         cmocka_unit_test(farthest_points_touch_at_every_rotation),
+        cmocka_unit_test(casts_along_turned_facets_graze_what_is_in_their_plane),
         cmocka_unit_test(any_cache_gives_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
