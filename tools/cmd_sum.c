@@ -3,6 +3,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include <pirouette/baseline.h>
+
 #include "args.h"
 #include "cmd.h"
 #include "json.h"

@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/baseline.h>
+
 #include "dump.h"
 #include "interrupt.h"
 #include "message.h"

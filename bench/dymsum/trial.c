@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include <pirouette/baseline.h>
+
 #include "results.h"
 #include "spin.h"
 

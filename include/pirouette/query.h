@@ -390,15 +390,6 @@ PIR_API pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *tran
 PIR_API pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *translations, size_t count,
                                              double *ret_distances, pir_state *ret_states);
 
-/**
- * From measured costs in one unit: per rotation of the tracked sum (its update and the preparation of queries), per
- * query on it, and per query of the stateless alternative. The least number of queries per rotation at which the sum
- * pays; HUGE_VAL when it never does, NaN when a cost is negative or not a number.
- *
- * cost_rotation, cost_query, cost_stateless  the three costs.
- */
-PIR_API double pir_query_break_even(double cost_rotation, double cost_query, double cost_stateless);
-
 #ifdef __cplusplus
 }
 #endif

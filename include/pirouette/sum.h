@@ -221,30 +221,6 @@ PIR_API int pir_sum_is_valid(pir_sum *sum);
 PIR_API pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh **ret_mesh);
 
 /**
- * The same mesh by another way: the exact hull of all pairwise sums of vertices. Needs no pairing and shares no code
- * with one: a second opinion. O(nm log nm) for n and m vertices.
- *
- * p, q, rotation  as of pir_sum_create.
- * options         NULL for the defaults.
- * precision       PIR_DOUBLE, or PIR_EXACT for rationals beside the doubles.
- *
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
- */
-PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pir_quat rotation,
-                                const pir_sum_options *options, pir_precision precision, pir_mesh **ret_mesh);
-
-/**
- * The brute-force re-check of all pairs (Algorithm 3.1 of Behar and Lien): every facet against every vertex, every edge
- * against every edge. The pairing of `sum` is replaced by what it finds, which is the same. The baseline that updates
- * are measured against. O(nm).
- *
- * rotation  of any length but 0.
- *
- * Errors as of pir_sum_rotate.
- */
-PIR_API pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation);
-
-/**
  * Writes the sum as bytes that any machine reads: both operands in exact coordinates, the scale each is set to, the
  * rotation, the pairing, the tolerance, the region, whether it is a difference; with a version and a checksum. Not its
  * certificates and counters.

@@ -7,6 +7,8 @@
  */
 #include "dymsum/rotate.h"
 
+#include <pirouette/baseline.h>
+
 #include "dymsum/pairing/crossings.h"
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/brute.h"

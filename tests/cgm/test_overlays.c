@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/cgm.h>
 #include <pirouette/exact.h>
 #include <pirouette/sum.h>

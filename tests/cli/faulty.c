@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include <cjson/cJSON.h>
+#include <pirouette/baseline.h>
 #include <pirouette/pirouette.h>
 
 /* The command has ended: what runs now, such as the writing of coverage, is not its own. */

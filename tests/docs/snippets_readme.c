@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/pirouette.h>
 
 enum { POSES = 60 };

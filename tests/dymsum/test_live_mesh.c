@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/live_mesh.h>
 
 #include "support/bodies.h"

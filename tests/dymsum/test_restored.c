@@ -16,6 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/baseline.h>
+
 #include "dymsum/sum.h"
 #include "support/bodies.h"
 #include "support/memory.h"

@@ -15,6 +15,7 @@
  */
 #include <stdint.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/pirouette.h>
 
 #include "fuzz/input.h"

@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/exact.h>
 
 #include "support/bodies.h"

@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/live_mesh.h>
 #include <pirouette/sum.h>
 

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/exact.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>

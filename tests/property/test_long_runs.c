@@ -2,6 +2,8 @@
 /* The long runs: thousands of frames of large bodies, tens of thousands of poses. Not among the fast suites. */
 #include "support/test.h"
 
+#include <pirouette/baseline.h>
+
 #include "oracle/check_sum.h"
 #include "support/bodies.h"
 #include "support/meshes.h"

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/exact.h>
 #include <pirouette/io.h>
 #include <pirouette/shape.h>

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/exact.h>
 
 #include "oracle/check_sum.h"

@@ -5,6 +5,8 @@
  */
 #include "support/test.h"
 
+#include <pirouette/baseline.h>
+
 #include "oracle/perturbed.h"
 #include "support/bodies.h"
 #include "support/meshes.h"

@@ -8,6 +8,7 @@
 
 #include <math.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/sum.h>
 
 #include "support/bodies.h"

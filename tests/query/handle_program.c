@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/pirouette.h>
 
 #include "fuzz/input.h"

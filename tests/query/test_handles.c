@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/cgm.h>
 #include <pirouette/live_mesh.h>
 #include <pirouette/query.h>

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/ccd.h>
 #include <pirouette/query.h>
 

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#include <pirouette/baseline.h>
+
 #include "oracle/place.h"
 #include "support/bodies.h"
 

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include <pirouette/baseline.h>
 #include <pirouette/exact.h>
 
 #include "support/bodies.h"

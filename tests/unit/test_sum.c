@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <pirouette/baseline.h>
+
 #include "dymsum/sum.h"
 #include "support/bodies.h"
 #include "support/memory.h"

@@ -5,6 +5,8 @@
  * Points are numbered p·(vertices of Q) + q, so rising points are rising pairs and the hull's canonical facets are the
  * mesh's.
  */
+#include <pirouette/baseline.h>
+
 #include "dymsum/mesh/placing.h"
 #include "dymsum/mesh/sum_mesh.h"
 #include "polytope/hull/hull.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Supports by hill climbing in the form that libccd calls, and the number of queries from which a tracked sum pays. */
+/* Supports by hill climbing in the form that libccd calls. */
 #include <pirouette/ccd.h>
 #include <pirouette/query.h>
 
@@ -45,14 +45,4 @@ void pir_support_sum_ccd(const void *object, const double *direction, double *re
     pir_vec3 d = unit_direction(direction);
     uint32_t a = pir_climb(p, pir_mat_apply_transposed(r, d), 0), b = pir_climb(q, d, 0);
     put_point(pir_vec_add(pir_mat_apply(r, p->vertex[a]), q->vertex[b]), ret_point);
-}
-
-double pir_query_break_even(double cost_rotation, double cost_query, double cost_stateless) {
-    if (!(cost_rotation >= 0 && cost_query >= 0 && cost_stateless >= 0))
-        return NAN;
-    // n · stateless ≥ rotation + n · query
-    double saved = cost_stateless - cost_query;
-    if (cost_rotation == 0 && saved >= 0)
-        return 0;
-    return saved > 0 ? ceil(cost_rotation / saved) : HUGE_VAL;
 }
