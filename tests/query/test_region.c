@@ -11,6 +11,8 @@
 
 #include <pirouette/query.h>
 
+#include "base/vec.h"
+#include "exact/rotation.h"
 #include "support/bodies.h"
 
 #define MOST_FACETS 20000
@@ -23,7 +25,7 @@ struct scene {
     pir_sum *region, *fresh, *whole;
     pir_query *ask_region, *ask_fresh, *ask_whole;
     pir_escape *escapes;
-    uint32_t answered, apart, nothing, along;
+    uint32_t answered, apart, nothing, along, edges, beside;
 };
 
 static double dot(pir_vec3 a, pir_vec3 b) {
@@ -80,6 +82,44 @@ static void least_in_cone(struct scene *s, const pir_query_input *input, double 
     }
 }
 
+/* The ends of an edge as it is placed. */
+static void edge_ends(const pir_polytope *polytope, uint32_t edge, const pir_mat3 *r, pir_vec3 t, pir_vec3 ret[2]) {
+    uint32_t v[2];
+    pir_polytope_edge(polytope, edge, v);
+    for (int k = 0; k < 2; k++) {
+        pir_vec3 x = pir_polytope_vertex(polytope, v[k]);
+        ret[k] = pir_vec_add(r ? pir_mat_apply(r, x) : x, t);
+    }
+}
+
+/*
+ * That the point on Q of a witness of two edges is that of Q's edge nearest to the line of P's: in a region the foot
+ * may be beside the facet, and the ends of P's edge are not asked.
+ */
+static void expect_edge_point(struct scene *s, const pir_query_result *part, pir_vec3 t, double size,
+                              const char *situation) {
+    if (part->witness.p.kind != PIR_FEATURE_EDGE || part->witness.q.kind != PIR_FEATURE_EDGE)
+        return;
+    pir_rotation turn;
+    pir_vec3 a[2], b[2];
+    assert_int_equal(pir_rotation_set(&turn, pir_sum_rotation(s->region)), PIR_OK);
+    edge_ends(s->p, part->witness.p.index, &turn.r, t, a);
+    edge_ends(s->q, part->witness.q.index, NULL, (pir_vec3){0, 0, 0}, b);
+    pir_vec3 e = pir_vec_sub(a[1], a[0]), d = pir_vec_sub(b[1], b[0]), n = pir_vec_cross(e, d);
+    double square = dot(n, n);
+    double along = dot(n, part->normal);
+    // edges that doubles tell the directions of, and whose facet it is
+    if (!(square > 1e-6 * dot(e, e) * dot(d, d) && fmin(dot(e, e), dot(d, d)) > 1e-6 * size * size &&
+          along * along > square * (1 - 1e-9)))
+        return;
+    double at = dot(pir_vec_cross(pir_vec_sub(a[0], b[0]), e), pir_vec_cross(d, e)) / square;
+    pir_vec3 nearest = pir_vec_add(b[0], pir_vec_scale(d, fmin(1, fmax(0, at))));
+    pir_vec3 off = pir_vec_sub(part->point_q, nearest);
+    s->edges++;
+    s->beside += at < 0 || at > 1;
+    expect(sqrt(dot(off, off)) <= 1e-11 * size, "%s: the point on Q's edge is %g off", situation, sqrt(dot(off, off)));
+}
+
 static void ask(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, pir_query_cache *cache, double size,
                 const char *situation) {
     pir_query_input input = pir_query_input_default();
@@ -111,7 +151,9 @@ static void ask(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, p
         expect(dot(part.normal, axis) >= cos(half_angle) - RIM, "%s: not in the cone", situation);
         double gap = fmax(fabs(part.point_p.x - part.point_q.x - part.distance * part.normal.x),
                           fabs(part.point_p.y - part.point_q.y - part.distance * part.normal.y));
+        gap = fmax(gap, fabs(part.point_p.z - part.point_q.z - part.distance * part.normal.z));
         expect(gap <= 1e-12 * size, "%s: points", situation);
+        expect_edge_point(s, &part, t, size, situation);
     }
     if (all.state != PIR_INSIDE)
         return;
@@ -193,8 +235,10 @@ static void depth_in_a_region_is_the_least_of_its_facets(void **state) {
         scene_clear(&s);
     }
     free(s.escapes);
-    print_message("# %u depths, %u along, %u apart, %u without a facet\n", s.answered, s.along, s.apart, s.nothing);
+    print_message("# %u depths, %u along, %u apart, %u without a facet, %u on two edges, %u beside them\n", s.answered,
+                  s.along, s.apart, s.nothing, s.edges, s.beside);
     assert_true(s.answered > 300 && s.along > 100 && s.apart > 100 && s.nothing > 10);
+    assert_true(s.edges > 100 && s.beside > 10);
 }
 
 /* A facet's plane through the very point: the region knows it exactly. */
@@ -237,6 +281,37 @@ static void boundary_of_a_region_is_exact(void **state) {
     pir_query_destroy(query);
     pir_sum_destroy(sum);
     pir_polytope_release(p);
+}
+
+/* The facets across a segment are none of D's, though its planes bound D: they do not stand before those that are. */
+static void hidden_facets_of_a_segment_leave_the_others(void **state) {
+    (void)state;
+    struct scene s = {.escapes = malloc(MOST_FACETS * sizeof *s.escapes)};
+    assert_non_null(s.escapes);
+    for (uint64_t i = 0; i < 20; i++) {
+        test_random random = test_random_case("hidden facets", i);
+        test_pose pose = {.p.count = 2, .rotation = test_general_rotation(&random)};
+        for (int k = 0; k < 2; k++)
+            pose.p.at[k] = test_random_direction(&random);
+        test_body_points(&random, i % 2 ? TEST_GRID : TEST_BOX, 12, &pose.q);
+        if (i % 4 < 2) {
+            const test_points swapped = pose.p;
+            pose.p = pose.q;
+            pose.q = swapped;
+        }
+        scene_init(&s, &pose);
+        double size = reach_of(s.p) + reach_of(s.q);
+        for (int n = 0; n < 20; n++) {
+            pir_vec3 axis = test_random_direction(&random), t = pir_vec_scale(test_random_direction(&random), 0.2);
+            double half_angle = 0.9 + 0.4 * (n % 2);
+            assert_int_equal(pir_sum_set_region(s.region, axis, half_angle), PIR_OK);
+            assert_int_equal(pir_sum_set_region(s.fresh, axis, half_angle), PIR_OK);
+            ask(&s, t, axis, half_angle, NULL, size, "a segment");
+        }
+        scene_clear(&s);
+    }
+    free(s.escapes);
+    expect(s.answered > 50, "%u depths", s.answered);
 }
 
 static void what_needs_the_whole_sum_says_so(void **state) {
@@ -289,6 +364,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depth_in_a_region_is_the_least_of_its_facets),
         cmocka_unit_test(boundary_of_a_region_is_exact),
+        cmocka_unit_test(hidden_facets_of_a_segment_leave_the_others),
         cmocka_unit_test(what_needs_the_whole_sum_says_so),
     };
     return cmocka_run_group_tests_name("region queries", tests, NULL, NULL);

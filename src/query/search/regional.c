@@ -82,12 +82,18 @@ static void lower_limit(struct search *search, double limit) {
     search->most = limit + search->difference;
 }
 
+/* Whether the piece is a facet that a segment hides: its plane bounds D, but no facet of D lies in it. */
+static bool is_hidden(const pir_frame *frame, pir_piece piece) {
+    return (piece.kind == PIR_FACET_FV && frame->p.polytope->artificial) ||
+           (piece.kind == PIR_FACET_VF && frame->q.polytope->artificial);
+}
+
 /* Makes a piece's plane, and keeps it where it is in the cone and may be searched for. */
 static void take(struct search *search, pir_piece piece) {
     pir_groups *groups = search->groups;
     pir_plane plane;
-    if (!pir_plane_of(groups->exact, piece, &plane) || !pir_plane_refine(groups->exact, &plane) ||
-        !pir_cone_has(search->cone, plane.n))
+    if (is_hidden(groups->frame, piece) || !pir_plane_of(groups->exact, piece, &plane) ||
+        !pir_plane_refine(groups->exact, &plane) || !pir_cone_has(search->cone, plane.n))
         return;
     double slack = pir_plane_slack(&plane, search->placement->x), error = search->placement->error * plane.err;
     if (slack - error > search->limit)
