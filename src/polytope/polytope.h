@@ -35,6 +35,7 @@
 
 struct pir_polytope {
     atomic_uint references;
+    _Atomic(pir_polytope *) reflection; /* held, or NULL while none was asked for; see reflect.c */
     pir_allocator allocator;
     int dimension;
     double merge_bound; /* how far it may be from the hull of the points it was made from, a length */

@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The polytope −p: vertices negated, loops reversed, all features with the numbers that they had. */
+/*
+ * The polytope −p: vertices negated, loops reversed, all features with the numbers that they had.
+ *
+ * It is made when it is first asked for, and kept by p, so that all sums with p that are differences share one. Two
+ * threads that ask at once may both make it, and one of the two is kept. The reflection does not hold p: it makes one
+ * of its own when it is asked, and no references go round.
+ */
 #include <string.h>
 
 #include "base/vec.h"
@@ -17,9 +23,7 @@ static bool reversed_loops(const pir_polytope *p, pir_loops *loops) {
     return true;
 }
 
-pir_status pir_polytope_reflect(const pir_polytope *p, pir_polytope **ret_polytope) {
-    if (!p || !ret_polytope)
-        return PIR_ERR_ARGUMENT;
+static pir_status make_reflection(const pir_polytope *p, pir_polytope **ret_polytope) {
     const pir_allocator *a = &p->allocator;
     pir_loops loops = {0};
     pir_vectors exact = {0};
@@ -50,4 +54,24 @@ pir_status pir_polytope_reflect(const pir_polytope *p, pir_polytope **ret_polyto
     PIR_FREE(a, vertices, p->vertex_count);
     PIR_FREE(a, doubles, p->vertex_count);
     return status;
+}
+
+pir_status pir_polytope_reflect(const pir_polytope *p, pir_polytope **ret_polytope) {
+    if (!p || !ret_polytope)
+        return PIR_ERR_ARGUMENT;
+    // what is written is no part of what p says
+    _Atomic(pir_polytope *) *kept = &((pir_polytope *)p)->reflection;
+    pir_polytope *reflection = atomic_load_explicit(kept, memory_order_acquire), *none = NULL;
+    if (!reflection) {
+        pir_status status = make_reflection(p, &reflection);
+        if (status != PIR_OK)
+            return status;
+        if (!atomic_compare_exchange_strong_explicit(kept, &none, reflection, memory_order_acq_rel,
+                                                     memory_order_acquire)) {
+            pir_polytope_release(reflection);
+            reflection = none;
+        }
+    }
+    *ret_polytope = pir_polytope_retain(reflection);
+    return PIR_OK;
 }

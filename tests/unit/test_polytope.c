@@ -115,6 +115,35 @@ static void reflection_has_the_same_facets_backwards(void **state) {
     }
 }
 
+static void reflection_is_made_once_and_outlives_its_polytope(void **state) {
+    (void)state;
+    test_memory memory = {0};
+    pir_allocator allocator = test_allocator(&memory);
+    const pir_polytope_options options = {.allocator = &allocator};
+    const pir_vec3 points[4] = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-1, -1, -1}};
+    pir_polytope *p = NULL, *minus = NULL, *same = NULL, *again = NULL;
+    assert_int_equal(pir_polytope_create(points, 4, &options, &p), PIR_OK);
+    // a failed attempt leaves nothing
+    memory.fail_at = memory.requests + 1;
+    assert_int_equal(pir_polytope_reflect(p, &minus), PIR_ERR_MEMORY);
+    memory.fail_at = 0;
+    assert_int_equal(pir_polytope_reflect(p, &minus), PIR_OK);
+    uint64_t requests = memory.requests;
+    assert_int_equal(pir_polytope_reflect(p, &same), PIR_OK);
+    assert_ptr_equal(minus, same);
+    assert_int_equal(memory.requests, requests);
+    pir_polytope_release(same);
+    pir_polytope_release(p);
+    assert_true(pir_polytope_is_valid(minus));
+    assert_int_equal(pir_polytope_reflect(minus, &again), PIR_OK);
+    assert_true(pir_polytope_vertex(again, 2).z == 3);
+    pir_polytope_release(minus);
+    assert_true(pir_polytope_is_valid(again));
+    pir_polytope_release(again);
+    assert_int_equal(memory.blocks, 0);
+    assert_false(memory.wrong_size);
+}
+
 /* x, y, z of `count` points as fractions a/b. */
 static mpq_t *fractions(const int (*numbers)[2], size_t count) {
     mpq_t *q = test_malloc(3 * count * sizeof *q);
@@ -310,6 +339,7 @@ int main(void) {
         cmocka_unit_test(edges_name_their_smaller_vertex_first_and_each_bounds_two_facets),
         cmocka_unit_test(box_has_its_volume_bounds_and_normals),
         cmocka_unit_test(reflection_has_the_same_facets_backwards),
+        cmocka_unit_test(reflection_is_made_once_and_outlives_its_polytope),
         cmocka_unit_test(rational_points_are_kept_exactly),
         cmocka_unit_test(doubles_are_kept_exactly),
         cmocka_unit_test(last_reference_frees),
