@@ -2,6 +2,7 @@
 """What the tests of the `pirouette` command share: models, exact rotations, runs that must succeed or fail."""
 import json
 import os
+import pty
 import re
 import select
 import signal
@@ -124,6 +125,15 @@ class CommandTest(unittest.TestCase):
         self.fault_came = came.exists()
         came.unlink(missing_ok=True)
         return done
+
+    def open_terminal(self):
+        """The two sides of a terminal."""
+        try:
+            master, slave = pty.openpty()
+        except OSError:
+            self.skipTest("no pseudo-terminal to be had here")
+        self.addCleanup(os.close, master)
+        return master, slave
 
     def bad(self, *args, says=()):
         """A run that must end with status 2 and one line on stderr, which holds every word of `says`."""

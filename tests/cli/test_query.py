@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: MIT
 """pirouette query, one placement and many."""
 import json
+import os
 import random
 import re
 import subprocess
+import time
 import xml.etree.ElementTree as ElementTree
 from fractions import Fraction
 
-from command_test import CommandTest, main, numbers, rotation
+from command_test import CommandTest, main, numbers, read_terminal, rotation, with_own_signals
 
 STATES = ["outside", "boundary", "inside"]
 CASTS = ["hit", "miss", "receding", "start inside", "at rest", "step limit"]
@@ -174,6 +176,28 @@ class Query(CommandTest):
         self.bad(*pair, "--translate=0,0,0", "-o", self.path / "no" / "picture.svg", says="picture.svg")
         self.bad("query", "shape:cube", self.path / "none.off", "--translate=0,0,0", says="none.off")
         self.bad("query", self.path / "none.off", "shape:cube", "--translate=0,0,0", says="none.off")
+
+
+class Progress(CommandTest):
+    def test_a_long_batch_shows_how_much_of_its_file_is_read(self):
+        places = self.file("places.csv", "0.1,0.2,0.3\n" * 3000000)
+        total = places.stat().st_size
+        master, slave = self.open_terminal()
+        running = subprocess.Popen([self.command, "query", "shape:cube", self.pyramid, "--batch", places, "-o",
+                                    "/dev/null"], stdout=subprocess.DEVNULL, stderr=slave,
+                                   preexec_fn=with_own_signals)
+        os.close(slave)
+        shown, started = b"", time.monotonic()
+        while shown.count(b"\r[") < 3 and time.monotonic() - started < 30 and running.poll() is None:
+            shown += read_terminal(master, 1)
+        running.terminate()
+        running.wait()
+        shown += read_terminal(master, 1)
+        done = [int(n) for n in re.findall(rb"(\d+) of %d, \d+ s left" % total, shown)]
+        self.assertGreaterEqual(len(done), 2, shown[:300])
+        self.assertTrue(all(a < b <= total for a, b in zip(done, done[1:])), done)
+        # whole lines, each with its end
+        self.assertEqual([n % 12 for n in done], [0] * len(done))
 
 
 class Batch(CommandTest):

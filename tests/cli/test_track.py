@@ -4,7 +4,6 @@
 import json
 import math
 import os
-import pty
 import re
 import subprocess
 import time
@@ -338,14 +337,6 @@ class Plot(CommandTest):
 
 
 class Terminal(CommandTest):
-    def open_terminal(self):
-        try:
-            master, slave = pty.openpty()
-        except OSError:
-            self.skipTest("no pseudo-terminal to be had here")
-        self.addCleanup(os.close, master)
-        return master, slave
-
     def test_a_long_run_shows_its_progress_on_a_terminal_only(self):
         """The bar, its parts and their agreement; wiped away before anything else is printed."""
         master, slave = self.open_terminal()

@@ -87,6 +87,9 @@ static void try_rotations(struct run *run, pir_sum *sum) {
             there = next;
         if (status != PIR_OK || i == 11)
             expect_whole(run, sum, there);
+        // a mesh of what the region leaves out too
+        if (i == 5)
+            try_mesh(run, sum, PIR_DOUBLE);
     }
 }
 
