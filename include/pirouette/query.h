@@ -303,7 +303,7 @@ PIR_API pir_status pir_query_advance(pir_query *query, const pir_motion *motion,
  *
  * input  where P is.
  *
- * Errors: those of a query.
+ * Errors: those of a query; PIR_ERR_LIMIT also where the distance is beyond the largest double.
  */
 PIR_API pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *input,
                                               pir_query_result *ret_result);

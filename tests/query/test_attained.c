@@ -308,6 +308,26 @@ static int same(const pir_query_result *a, const pir_query_result *b) {
            memcmp(&a->witness, &b->witness, sizeof a->witness) == 0;
 }
 
+/* Points at the ends of the doubles: the largest distance is a number or an error, never infinite. */
+static void farthest_points_beyond_the_doubles_are_refused(void **state) {
+    (void)state;
+    const double far[] = {1e300, 1.2e308, 1.3e308, 1.7e308};
+    for (int i = 0; i < 4; i++) {
+        pir_polytope *p, *q;
+        assert_int_equal(pir_polytope_create(&(pir_vec3){far[i], 0, 0}, 1, NULL, &p), PIR_OK);
+        assert_int_equal(pir_polytope_create(&(pir_vec3){0, far[i], 0}, 1, NULL, &q), PIR_OK);
+        struct pair pair = make(p, q, still);
+        pir_query_input input = at(0, 0, 0);
+        pir_query_result result = {.steps = 7};
+        assert_int_equal(pir_query_largest_distance(pair.query, &input, &result), i < 2 ? PIR_OK : PIR_ERR_LIMIT);
+        if (i < 2)
+            assert_true(fabs(result.distance / far[i] - sqrt(2)) < 1e-15 && isfinite(result.point_p.y));
+        else
+            assert_int_equal(result.steps, 7);
+        clear(&pair);
+    }
+}
+
 static void any_cache_gives_the_same_bits(void **state) {
     (void)state;
     const pir_quat rotations[3] = {still, eighth, {0.1, -0.2, 0.3, 0.9}};
@@ -386,6 +406,7 @@ int main(void) {
         cmocka_unit_test(lines_leave_by_facets_that_they_are_nearly_along),
         cmocka_unit_test(farthest_points_touch_at_every_rotation),
         cmocka_unit_test(casts_along_turned_facets_graze_what_is_in_their_plane),
+        cmocka_unit_test(farthest_points_beyond_the_doubles_are_refused),
         cmocka_unit_test(any_cache_gives_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -58,6 +58,8 @@ pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *i
     result.witness = (pir_witness){{PIR_FEATURE_VERTEX, best.a}, {PIR_FEATURE_VERTEX, best.b}};
     double radii = input->radius_p + input->radius_q;
     result.distance += radii;
+    if (!isfinite(result.distance))
+        return PIR_ERR_LIMIT;
     result.point_q = pir_vec_add(result.point_q, pir_vec_scale(result.normal, -input->radius_q));
     result.point_p = pir_vec_add(result.point_q, pir_vec_scale(result.normal, result.distance));
     *ret_result = result;
