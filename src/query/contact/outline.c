@@ -159,10 +159,14 @@ static bool part_inside(pir_outline outline, const pir_corner *a, const pir_corn
         double from = inside_of(outline, i, a) + snap, to = inside_of(outline, i, b) + snap;
         if (from < 0 && to < 0)
             return false;
-        if (from < 0 && from / (from - to) > part.from)
-            part.from = from / (from - to), part.entered = i;
-        if (to < 0 && from / (from - to) < part.to)
-            part.to = from / (from - to), part.left = i;
+        if (from < 0 && from / (from - to) > part.from) {
+            part.from = from / (from - to);
+            part.entered = i;
+        }
+        if (to < 0 && from / (from - to) < part.to) {
+            part.to = from / (from - to);
+            part.left = i;
+        }
     }
     *ret_part = part;
     return part.from <= part.to;

@@ -108,8 +108,10 @@ static uint32_t facet_out(const pir_patch *patch, bool away) {
         uint32_t v = patch->member[i];
         for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
             double along = pir_vec_dot(p->normal[p->left[h]], out);
-            if (along > most && (!away || leads_away(patch, p->left[h])))
-                most = along, best = p->left[h];
+            if (along > most && (!away || leads_away(patch, p->left[h]))) {
+                most = along;
+                best = p->left[h];
+            }
         }
     }
     return best;
@@ -143,8 +145,10 @@ static uint32_t flattest(const pir_patch *patch) {
         uint32_t v = patch->member[i];
         for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
             double along = pir_vec_dot(p->direction[h], out);
-            if (!patch->is_member[p->target[h]] && along > most)
-                most = along, best = p->target[h];
+            if (!patch->is_member[p->target[h]] && along > most) {
+                most = along;
+                best = p->target[h];
+            }
         }
     }
     return most > PIR_STEEP - 1 ? best : UINT32_MAX;
@@ -213,8 +217,11 @@ pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
         for (uint32_t i = p->loop_start[here]; i < p->loop_start[here + 1]; i++) {
             uint32_t g = pir_right(p, p->loop[i]);
             double h = height(patch, g, x);
-            if (h < least)
-                least = h, f = g, lower = true;
+            if (h < least) {
+                least = h;
+                f = g;
+                lower = true;
+            }
         }
     }
     return pir_vec_add(x, pir_vec_scale(patch->out, least));

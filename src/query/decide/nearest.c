@@ -41,12 +41,14 @@ struct line {
 };
 
 static struct line line_of(const pir_frame *frame, pir_witness faces) {
-    struct line line = {pir_face_lowest(frame->p.polytope, faces.p), pir_face_lowest(frame->q.polytope, faces.q), false,
-                        false, 0};
-    if (faces.p.kind == PIR_FEATURE_EDGE)
-        line.of_p = true, line.half = frame->p.polytope->edge_half[faces.p.index];
-    else if (faces.q.kind == PIR_FEATURE_EDGE)
-        line.of_q = true, line.half = frame->q.polytope->edge_half[faces.q.index];
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    struct line line = {.a = pir_face_lowest(p, faces.p), .b = pir_face_lowest(q, faces.q)};
+    line.of_p = faces.p.kind == PIR_FEATURE_EDGE;
+    line.of_q = !line.of_p && faces.q.kind == PIR_FEATURE_EDGE;
+    if (line.of_p)
+        line.half = p->edge_half[faces.p.index];
+    if (line.of_q)
+        line.half = q->edge_half[faces.q.index];
     return line;
 }
 

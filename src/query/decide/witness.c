@@ -37,8 +37,9 @@ pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint
         for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++)
             if (p->target[h] == v[1] || p->target[h] == v[2]) {
                 uint32_t other = p->target[h] == v[1] ? v[2] : v[1], f = p->left[h], g = pir_right(p, h);
-                if (facet_has(p, f, other) || (f = g, facet_has(p, g, other)))
-                    return shown(p, (pir_feature){PIR_FEATURE_FACET, f});
+                bool left = facet_has(p, f, other);
+                if (left || facet_has(p, g, other))
+                    return shown(p, (pir_feature){PIR_FEATURE_FACET, left ? f : g});
                 break;
             }
     for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1]; h++) {

@@ -112,8 +112,10 @@ static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
         double cosine = -HUGE_VAL;
         for (uint32_t i = group->facets; i < group->own_end; i++) {
             double least = least_cosine(groups, group, of, groups->list.facet[i]);
-            if (least > cosine)
-                cosine = least, group->middle = groups->list.facet[i];
+            if (least > cosine) {
+                cosine = least;
+                group->middle = groups->list.facet[i];
+            }
         }
         // normals are off by 8u each, so their cosine is off by less than 32u
         cosine -= 0x1p-47;

@@ -117,8 +117,10 @@ static void sort_groups(const pir_polytope *p, uint64_t *keys, uint32_t from, ui
             low = fmin(low, c);
             high = fmax(high, c);
         }
-        if (high - low > longest)
-            longest = high - low, axis = k;
+        if (high - low > longest) {
+            longest = high - low;
+            axis = k;
+        }
     }
     for (uint32_t i = start; i < end; i++)
         keys[i] = coordinate_key(p, (uint32_t)keys[i], axis);

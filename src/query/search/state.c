@@ -16,8 +16,10 @@ static pir_piece separating(const pir_groups *groups, const pir_group *group, co
     double least = HUGE_VAL;
     for (uint32_t i = group->start; i < group->start + group->count; i++) {
         double s = pir_planes_slack(&groups->planes, i, placement->x) + placement->error * groups->planes.err[i];
-        if (s < least)
-            least = s, best = i;
+        if (s < least) {
+            least = s;
+            best = i;
+        }
     }
     return groups->planes.piece[best];
 }
