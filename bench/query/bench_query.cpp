@@ -110,16 +110,27 @@ Verdict judge(const std::vector<pir_query_result> &results, const std::vector<Ex
     return verdict;
 }
 
-void print_line(FILE *csv, const char *set, const char *situation, const char *who, Times times, const Verdict &v,
-                const char *reference) {
-    std::printf("%-14s %-9s %-16s %9.3f %9.3f  %9.2e %5d %5d %5d  %s\n", set, situation, who, times.median() / 1e3,
-                times.fastest() / 1e3, v.error, v.wrong_states, v.wrong_numbers, v.failures, reference);
-    std::fprintf(csv, "%s,%s,%s,%.1f,%.1f,%.3e,%d,%d,%d,%s\n", set, situation, who, times.median(), times.fastest(),
-                 v.error, v.wrong_states, v.failures, v.wrong_numbers, reference);
+// One set of poses of two bodies, with a name, and how it is run.
+struct Set {
+    const char *name, *situation;
+    pir_polytope *p, *q;
+    std::vector<Pose> poses;
+    Query what;
+    bool exactly, guarded; // held to exact answers; peers that may crash run in a process of their own
+};
+
+void print_line(FILE *csv, const Set &set, const char *who, Times times, const Verdict &v) {
+    const char *reference = set.exactly ? "exact" : "ours";
+    std::printf("%-14s %-9s %-16s %9.3f %9.3f  %9.2e %5d %5d %5d  %s\n", set.name, set.situation, who,
+                times.median() / 1e3, times.fastest() / 1e3, v.error, v.wrong_states, v.wrong_numbers, v.failures,
+                reference);
+    std::fprintf(csv, "%s,%s,%s,%.1f,%.1f,%.3e,%d,%d,%d,%s\n", set.name, set.situation, who, times.median(),
+                 times.fastest(), v.error, v.wrong_states, v.failures, v.wrong_numbers, reference);
 }
 
-void run_peer(FILE *csv, const char *set, const char *situation, Peer &peer, const std::vector<Pose> &poses,
-              const std::vector<Exact> &right, const char *reference, bool guarded, double size, double overhead) {
+void run_peer(FILE *csv, const Set &set, Peer &peer, const std::vector<Exact> &right, double overhead) {
+    const std::vector<Pose> &poses = set.poses;
+    const double size = size_of(set.p) + size_of(set.q);
     Times times;
     Verdict verdict;
     for (size_t i = 0; i < poses.size(); i++) {
@@ -127,7 +138,7 @@ void run_peer(FILE *csv, const char *set, const char *situation, Peer &peer, con
         bool inside = right[i].state == PIR_INSIDE;
         peer.place(poses[i].r, poses[i].t);
         times.ns.push_back(
-            nanoseconds(overhead, [&] { answer = guarded ? peer.ask_guarded(inside) : peer.ask(inside); }));
+            nanoseconds(overhead, [&] { answer = set.guarded ? peer.ask_guarded(inside) : peer.ask(inside); }));
         verdict.failures += answer.failed;
         if (answer.failed)
             continue;
@@ -136,35 +147,33 @@ void run_peer(FILE *csv, const char *set, const char *situation, Peer &peer, con
         if (answer.has_distance)
             verdict.hear(answer.distance, right[i].distance, size);
     }
-    print_line(csv, set, situation, peer.name(), times, verdict, reference);
+    print_line(csv, set, peer.name(), times, verdict);
 }
 
-void run_set(FILE *csv, const char *set, const char *situation, pir_polytope *p, pir_polytope *q,
-             const std::vector<Pose> &poses, Query what, bool exactly, bool guarded, double overhead) {
-    Ours ours = run_ours(p, q, poses, what, overhead);
-    double size = size_of(p) + size_of(q);
+void run_set(FILE *csv, double overhead, const Set &set) {
+    Ours ours = run_ours(set.p, set.q, set.poses, set.what, overhead);
+    double size = size_of(set.p) + size_of(set.q);
     std::vector<Exact> right;
-    if (exactly)
-        right = exact_answers(p, q, poses);
+    if (set.exactly)
+        right = exact_answers(set.p, set.q, set.poses);
     else
         for (const pir_query_result &result : ours.warm_results)
             right.push_back({result.state, result.distance});
-    const char *reference = exactly ? "exact" : "ours";
     Verdict warm = judge(ours.warm_results, right, 1, size), cold = judge(ours.cold_results, right, 10, size);
     warm.failures = ours.failures;
-    print_line(csv, set, situation, "ours warm", ours.warm, warm, reference);
-    print_line(csv, set, situation, "ours cold", ours.cold, cold, reference);
-    print_line(csv, set, situation, "ours frame", ours.frame, warm, reference);
-    for (auto &peer : make_peers(p, q))
-        run_peer(csv, set, situation, *peer, poses, right, reference, guarded, size, overhead);
+    print_line(csv, set, "ours warm", ours.warm, warm);
+    print_line(csv, set, "ours cold", ours.cold, cold);
+    print_line(csv, set, "ours frame", ours.frame, warm);
+    for (auto &peer : make_peers(set.p, set.q))
+        run_peer(csv, set, *peer, right, overhead);
 }
 
 void run_body(FILE *csv, const char *set, pir_polytope *p, pir_polytope *q, bool near, double overhead) {
     bool exactly = pir_polytope_vertex_count(p) * pir_polytope_vertex_count(q) <= EXACT_PAIRS;
-    run_set(csv, set, "separated", p, q, make_poses(p, q, 0.25), SEPARATION, exactly, false, overhead);
+    run_set(csv, overhead, {set, "separated", p, q, make_poses(p, q, 0.25), SEPARATION, exactly, false});
     if (near)
-        run_set(csv, set, "near", p, q, make_poses(p, q, 1e-7), SEPARATION, exactly, false, overhead);
-    run_set(csv, set, "deep", p, q, make_poses(p, q, -0.4), DEPTH, exactly, false, overhead);
+        run_set(csv, overhead, {set, "near", p, q, make_poses(p, q, 1e-7), SEPARATION, exactly, false});
+    run_set(csv, overhead, {set, "deep", p, q, make_poses(p, q, -0.4), DEPTH, exactly, false});
 }
 
 // --- degenerate poses
@@ -251,10 +260,10 @@ int main(int argc, char **argv) {
     pir_polytope *cube = bodies[0].polytope, *gs4 = bodies[2].polytope;
     pir_vec3 low, high;
     pir_polytope_bounds(cube, &low, &high);
-    run_set(csv, "cubes", "face-face", cube, cube, face_to_face(high.x), SIGNED, true, true, overhead);
-    run_set(csv, "cubes", "edge-edge", cube, cube, edge_to_edge(high.x), SIGNED, true, true, overhead);
-    run_set(csv, "cubes", "together", cube, cube, concentric(frames()), DEPTH, true, true, overhead);
-    run_set(csv, "gs4", "together", gs4, gs4, concentric((int)results_count(40)), DEPTH, true, true, overhead);
+    run_set(csv, overhead, {"cubes", "face-face", cube, cube, face_to_face(high.x), SIGNED, true, true});
+    run_set(csv, overhead, {"cubes", "edge-edge", cube, cube, edge_to_edge(high.x), SIGNED, true, true});
+    run_set(csv, overhead, {"cubes", "together", cube, cube, concentric(frames()), DEPTH, true, true});
+    run_set(csv, overhead, {"gs4", "together", gs4, gs4, concentric((int)results_count(40)), DEPTH, true, true});
     run_batches(csv, "gs4", gs4);
     for (auto &body : bodies)
         pir_polytope_release(body.polytope);

@@ -110,8 +110,10 @@ std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish) {
     double size = size_of(p) + size_of(q);
     int count = frames();
     for (int i = 0; i < count; i++) {
-        if (i % 50 == 0)
-            axis = random.direction(), drift = random.direction();
+        if (i % 50 == 0) {
+            axis = random.direction();
+            drift = random.direction();
+        }
         double half = M_PI / 500, s = std::sin(half);
         r = multiply({axis.x * s, axis.y * s, axis.z * s, std::cos(half)}, r);
         double n = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w);

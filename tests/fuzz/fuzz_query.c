@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Any bytes as two small bodies, three rotations, and at each a few translations: zero, on vertices, edges and facets
- * of the difference, a hair off them, tiny, huge, any double. Every query is asked. States are held against exact
+ * of the difference, a small step off them, tiny, huge, any double. Every query is asked. States are held against exact
  * arithmetic (place_oracle.h), numbers as well where doubles can hold them; each answer's own invariants, the answers
  * of one call against those of another, and the pose reflected and swapped against the pose.
  *
@@ -15,43 +15,18 @@
 
 #include <pirouette/pirouette.h>
 
-#include "fuzz/input.h"
-#include "query/place_oracle.h"
+#include "fuzz/query_scene.h"
 #include "support/bodies.h"
 
 #define POINTS    8
 #define ROTATIONS 3
 #define ASKS      3
 
-/* What numbers may be off by, relative to the size of the bodies and of the answer. */
-#define BOUND 1e-12
-
-/* Along a direction a contact may graze, and a flat difference is met when it is next to it: then digits are lost. */
+/*
+ * The error along a direction. A contact may graze, and a flat difference may be missed by little: then digits are
+ * lost.
+ */
 #define GRAZING 1e-9
-
-/* Numbers are compared where bodies are no farther from their origins, times their size. */
-#define FARTHEST 0x1p48
-
-/* And where these and their squares are far from the ends of the doubles. */
-#define LEAST 0x1p-400
-#define MOST  0x1p400
-
-struct scene {
-    pir_polytope *p, *q;
-    pir_sum *sum;
-    pir_query *query; /* NULL where the bodies are too far away */
-    pir_query_cache cache;
-};
-
-struct ask {
-    pir_query_input input;
-    pir_vec3 direction;
-    place_oracle *oracle;
-    place_answer right;
-    double should; /* the signed distance */
-    double far;    /* the greatest coordinate of all */
-    double bound;  /* of numbers; infinite where they are not compared */
-};
 
 static void require_near(double a, double b, double bound, const char *what) {
     // where both overflow they are equal
@@ -61,122 +36,9 @@ static void require_near(double a, double b, double bound, const char *what) {
     }
 }
 
-static pir_vec3 add(pir_vec3 a, pir_vec3 b, double s) {
-    return (pir_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
-
-static double length(pir_vec3 a) {
-    return hypot(a.x, hypot(a.y, a.z));
-}
-
-static double largest(pir_vec3 a) {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
-}
-
-/* --- scenes --- */
-
-/* The greatest coordinate, and the greatest difference of two. */
-static void measure(const pir_polytope *p, double *far, double *extent) {
-    pir_vec3 low, high;
-    pir_polytope_bounds(p, &low, &high);
-    *far = fmax(*far, fmax(largest(low), largest(high)));
-    *extent = fmax(*extent, largest(add(high, low, -1)));
-}
-
-/* Whether a refusal for being too far away may be right: 2^400 times the size, less what the measure may be off. */
-static int may_be_far(const struct scene *scene, pir_vec3 t) {
-    double far = largest(t), extent = 0;
-    measure(scene->p, &far, &extent);
-    measure(scene->q, &far, &extent);
-    if (extent == 0)
-        extent = 1;
-    return ldexp(far, -397) > extent || !isfinite(extent) || extent < 0x1p-600;
-}
-
-/* Takes the references to p and q over. */
-static struct scene scene_make(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
-    struct scene scene = {.p = p, .q = q};
-    pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
-    fuzz_require(pir_sum_create(p, q, rotation, &options, &scene.sum) == PIR_OK, "a sum can be made");
-    pir_status status = pir_query_create(scene.sum, &scene.query);
-    fuzz_require(status == PIR_OK || (status == PIR_ERR_LIMIT && may_be_far(&scene, (pir_vec3){0, 0, 0})),
-                 "a query can be made unless a body is far away");
-    return scene;
-}
-
-static void scene_free(struct scene *scene) {
-    pir_query_destroy(scene->query);
-    pir_sum_destroy(scene->sum);
-    pir_polytope_release(scene->q);
-    pir_polytope_release(scene->p);
-}
-
-/* --- what is asked --- */
-
-static pir_vec3 next_vector(struct fuzz_input *input) {
-    uint8_t form = fuzz_byte(input);
-    int exponent = 4 * fuzz_small(input);
-    double c[3];
-    for (int k = 0; k < 3; k++)
-        c[k] = fuzz_number(input, form % FUZZ_WAYS, exponent);
-    return (pir_vec3){c[0], c[1], c[2]};
-}
-
-static pir_vec3 next_translation(struct fuzz_input *input, const place_oracle *oracle) {
-    uint8_t form = fuzz_byte(input), index = fuzz_byte(input);
-    pir_vec3 v = place_oracle_vertex(oracle, index), w = v;
-    switch (form % 6) {
-    case 0:
-        return (pir_vec3){0, 0, 0};
-    case 1:
-        return next_vector(input);
-    case 2:
-        break;
-    case 3:
-        v = place_oracle_on_facet(oracle, index);
-        break;
-    case 4:
-        v = place_oracle_on_edge(oracle, index);
-        break;
-    default:
-        // deep inside, most often
-        w = place_oracle_vertex(oracle, fuzz_byte(input));
-        v = (pir_vec3){v.x / 2 + w.x / 2, v.y / 2 + w.y / 2, v.z / 2 + w.z / 2};
-    }
-    // as it is, or a hair off
-    if (form / 6 % 2) {
-        double hair = ldexp(place_oracle_size(oracle), -(fuzz_byte(input) % 60));
-        pir_vec3 d = {fuzz_small(input) / 128.0, fuzz_small(input) / 128.0, 0};
-        d.z = fuzz_small(input) / 128.0;
-        v = add(v, d, hair);
-    }
-    int finite = isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
-    return finite ? v : (pir_vec3){1, 0, 0};
-}
-
-static struct ask next_ask(const struct scene *scene, struct fuzz_input *input, place_oracle *oracle) {
-    struct ask ask = {.input = pir_query_input_default(), .oracle = oracle};
-    ask.input.translation = next_translation(input, oracle);
-    ask.direction = next_vector(input);
-    ask.right = place_oracle_ask(oracle, ask.input.translation);
-    ask.should = ask.right.state == PIR_OUTSIDE  ? ask.right.distance
-                 : ask.right.state == PIR_INSIDE ? -ask.right.depth
-                                                 : 0;
-    double size = place_oracle_size(oracle), reach = size + fabs(ask.should), far = 0, extent = 0;
-    measure(scene->p, &far, &extent);
-    measure(scene->q, &far, &extent);
-    int compared = reach > LEAST && reach < MOST && largest(ask.input.translation) < MOST &&
-                   far <= FARTHEST * (extent > 0 ? extent : 1);
-    ask.far = fmax(far, largest(ask.input.translation));
-    // points have no size: then coordinates in double-double are what is left
-    ask.bound = compared ? BOUND * reach + (extent == 0 ? 0x1p-100 * ask.far : 0) : HUGE_VAL;
-    return ask;
-}
-
 /* --- checks of one placement --- */
 
-static void check_answer(const struct ask *ask, const pir_query_result *r) {
+static void check_answer(const struct query_ask *ask, const pir_query_result *r) {
     static const pir_outcome outcomes[] = {
         [PIR_OUTSIDE] = PIR_SEPARATED, [PIR_BOUNDARY] = PIR_TOUCHING, [PIR_INSIDE] = PIR_OVERLAPPING};
     fuzz_require(r->state == ask->right.state, "the state is the exact one");
@@ -190,15 +52,15 @@ static void check_answer(const struct ask *ask, const pir_query_result *r) {
     fuzz_require(r->witness.p.kind != PIR_FEATURE_NONE && r->witness.q.kind != PIR_FEATURE_NONE, "there is a witness");
     if (ask->bound == HUGE_VAL)
         return;
-    require_near(length(r->normal), 1, 1e-14, "the normal is a unit vector");
-    double far = largest(r->point_p) + largest(r->point_q);
-    require_near(length(add(r->point_p, add(r->point_q, r->normal, r->distance), -1)), 0, ask->bound + 0x1p-50 * far,
-                 "P's point is Q's plus the distance along the normal");
+    require_near(query_length(r->normal), 1, 1e-14, "the normal is a unit vector");
+    double far = query_largest(r->point_p) + query_largest(r->point_q);
+    require_near(query_length(query_add(r->point_p, query_add(r->point_q, r->normal, r->distance), -1)), 0,
+                 ask->bound + 0x1p-50 * far, "P's point is Q's plus the distance along the normal");
     require_near(place_oracle_slack(ask->oracle, ask->input.translation, r->normal), -ask->should, 2 * ask->bound,
                  "the normal proves the distance");
 }
 
-static pir_query_result check_distances(struct scene *scene, const struct ask *ask) {
+static pir_query_result check_distances(struct query_scene *scene, const struct query_ask *ask) {
     pir_query *query = scene->query;
     const pir_query_input *input = &ask->input;
     pir_query_cache none = {0};
@@ -225,7 +87,7 @@ static pir_query_result check_distances(struct scene *scene, const struct ask *a
 }
 
 /* Rounding radii shift the distance, and a cutoff is a bound that holds. */
-static void check_radii_and_cutoff(struct scene *scene, const struct ask *ask) {
+static void check_radii_and_cutoff(struct query_scene *scene, const struct query_ask *ask) {
     pir_query_input input = ask->input;
     pir_query_result r;
     double size = place_oracle_size(ask->oracle);
@@ -249,7 +111,7 @@ static void check_radii_and_cutoff(struct scene *scene, const struct ask *ask) {
                      "beyond the cutoff there is a bound that holds");
 }
 
-static void check_batches(struct scene *scene, const struct ask *ask, const pir_query_result *single) {
+static void check_batches(struct query_scene *scene, const struct query_ask *ask, const pir_query_result *single) {
     pir_vec3 t[3] = {ask->input.translation, ask->input.translation, {0, 0, 0}};
     pir_state states[3];
     double depths[3], distances[3];
@@ -263,7 +125,7 @@ static void check_batches(struct scene *scene, const struct ask *ask, const pir_
     require_near(distances[0], single->distance, 2 * ask->bound, "a distance of a batch");
 }
 
-static void check_escapes(struct scene *scene, const struct ask *ask, const pir_query_result *single) {
+static void check_escapes(struct query_scene *scene, const struct query_ask *ask, const pir_query_result *single) {
     pir_escape escapes[64];
     size_t count = 64;
     double slack = ask->right.state == PIR_INSIDE ? ask->right.depth / 2 : 0, least = HUGE_VAL;
@@ -283,23 +145,23 @@ static void check_escapes(struct scene *scene, const struct ask *ask, const pir_
 }
 
 /* Moved as far as told, P touches: neither deep nor away. */
-static void check_contact(const struct ask *ask, double distance, const char *what) {
-    double size = largest(ask->direction);
+static void check_contact(const struct query_ask *ask, double distance, const char *what) {
+    double size = query_largest(ask->direction);
     pir_vec3 u = {ask->direction.x / size, ask->direction.y / size, ask->direction.z / size};
     double reach = place_oracle_size(ask->oracle) + fabs(ask->should) + distance;
-    if (ask->bound == HUGE_VAL || !(reach < MOST))
+    if (ask->bound == HUGE_VAL || !(reach < QUERY_MOST))
         return;
-    pir_vec3 there = add(ask->input.translation, u, distance / length(u));
+    pir_vec3 there = query_add(ask->input.translation, u, distance / query_length(u));
     place_answer at = place_oracle_ask(ask->oracle, there);
     double off = at.state == PIR_OUTSIDE ? at.distance : at.state == PIR_INSIDE ? at.depth : 0;
-    require_near(off, 0, GRAZING * reach + 64 * BOUND * ask->far, what);
+    require_near(off, 0, GRAZING * reach + 64 * QUERY_BOUND * ask->far, what);
 }
 
-static void check_directions(struct scene *scene, const struct ask *ask, const pir_query_result *single) {
+static void check_directions(struct query_scene *scene, const struct query_ask *ask, const pir_query_result *single) {
     pir_query_result depth, apart;
     pir_cast_result cast;
     pir_state state = ask->right.state;
-    int still = largest(ask->direction) == 0;
+    int still = query_largest(ask->direction) == 0;
     pir_status status = still ? PIR_ERR_ARGUMENT : PIR_OK;
     fuzz_require(pir_query_directional_depth(scene->query, &ask->input, ask->direction, &depth) == status &&
                      pir_query_directional_distance(scene->query, &ask->input, ask->direction, &apart) == status,
@@ -312,27 +174,28 @@ static void check_directions(struct scene *scene, const struct ask *ask, const p
     fuzz_require(depth.state == state && apart.state == state, "directions change no state");
     fuzz_require((depth.outcome == PIR_NO_HIT) == (state != PIR_INSIDE), "a directional depth is that of an overlap");
     if (state == PIR_INSIDE) {
-        require_near(fmin(-depth.distance + single->distance, 0), 0, ask->bound / BOUND * GRAZING,
+        require_near(fmin(-depth.distance + single->distance, 0), 0, ask->bound / QUERY_BOUND * GRAZING,
                      "no way out is shorter than the depth");
         check_contact(ask, -depth.distance, "moved by the directional depth P touches");
     }
     if (state == PIR_OUTSIDE && apart.outcome == PIR_SEPARATED) {
-        require_near(fmin(apart.distance - single->distance, 0), 0, ask->bound / BOUND * GRAZING,
+        require_near(fmin(apart.distance - single->distance, 0), 0, ask->bound / QUERY_BOUND * GRAZING,
                      "no way is shorter than the distance");
         check_contact(ask, apart.distance, "moved by the directional distance P touches");
     }
     if (cast.outcome == PIR_CAST_HIT && state == PIR_OUTSIDE)
-        check_contact(ask, cast.time * length(ask->direction), "at the time of impact P touches");
+        check_contact(ask, cast.time * query_length(ask->direction), "at the time of impact P touches");
 }
 
-static void check_rest(struct scene *scene, const struct ask *ask, const pir_query_result *single) {
+static void check_rest(struct query_scene *scene, const struct query_ask *ask, const pir_query_result *single) {
     pir_query_result most;
     fuzz_require(pir_query_largest_distance(scene->query, &ask->input, &most) == PIR_OK, "a largest distance");
     fuzz_require(most.state == ask->right.state, "the largest distance changes no state");
     double farthest = 0;
     // vertices of the difference come round again after as many as it has
     for (uint32_t i = 0; i < POINTS * POINTS; i++)
-        farthest = fmax(farthest, length(add(place_oracle_vertex(ask->oracle, i), ask->input.translation, -1)));
+        farthest =
+            fmax(farthest, query_length(query_add(place_oracle_vertex(ask->oracle, i), ask->input.translation, -1)));
     require_near(most.distance, farthest, ask->bound + 0x1p-48 * ask->far, "the largest distance");
     pir_contact contacts[64];
     size_t count = 0;
@@ -345,7 +208,7 @@ static void check_rest(struct scene *scene, const struct ask *ask, const pir_que
 }
 
 /* Support functions alone: not exact, but what they say is so. */
-static void check_pair(const struct scene *scene, const struct ask *ask) {
+static void check_pair(const struct query_scene *scene, const struct query_ask *ask) {
     pir_ccd_pair pair = {scene->p, scene->q, pir_sum_rotation(scene->sum), ask->input.translation};
     pir_ccd_outcome outcome, overlap;
     double distance = 0;
@@ -353,12 +216,12 @@ static void check_pair(const struct scene *scene, const struct ask *ask) {
     fuzz_require(status == pir_ccd_overlap(&pair, &overlap), "supports alone");
     if (status == PIR_ERR_UNSUPPORTED)
         return;
-    fuzz_require(status == PIR_OK || (status == PIR_ERR_LIMIT && may_be_far(scene, pair.translation)),
+    fuzz_require(status == PIR_OK || (status == PIR_ERR_LIMIT && query_may_be_far(scene, pair.translation)),
                  "pairs are taken unless they are far away");
     // two points have no size to be compared with
     if (status != PIR_OK || ask->bound == HUGE_VAL || place_oracle_size(ask->oracle) == 0)
         return;
-    double bound = ask->bound / BOUND * 1e-8 + 0x1p-48 * ask->far;
+    double bound = ask->bound / QUERY_BOUND * 1e-8 + 0x1p-48 * ask->far;
     if (outcome == PIR_CCD_SEPARATED)
         require_near(distance, fmax(ask->should, 0), bound, "the distance by supports");
     if (outcome == PIR_CCD_OVERLAPPING)
@@ -366,10 +229,10 @@ static void check_pair(const struct scene *scene, const struct ask *ask) {
 }
 
 /* The farthest vertex of P along the direction, against the exact hull of P alone, turned. */
-static void check_support(const struct scene *scene, const struct ask *ask) {
+static void check_support(const struct query_scene *scene, const struct query_ask *ask) {
     static const pir_vec3 origin = {0, 0, 0};
     pir_support_body body = {scene->p, pir_sum_rotation(scene->sum), origin, 0};
-    double size = largest(ask->direction), point[3];
+    double size = query_largest(ask->direction), point[3];
     if (ask->bound == HUGE_VAL || size == 0)
         return;
     pir_vec3 d = {ask->direction.x / size, ask->direction.y / size, ask->direction.z / size};
@@ -380,35 +243,37 @@ static void check_support(const struct scene *scene, const struct ask *ask) {
     place_oracle *alone = place_oracle_make(scene->p, zero, body.rotation);
     double far = 0, most = place_oracle_slack(alone, origin, (pir_vec3){-d.x, -d.y, -d.z});
     for (uint32_t i = 0; i < POINTS; i++)
-        far = fmax(far, largest(place_oracle_vertex(alone, i)));
-    require_near((d.x * point[0] + d.y * point[1] + d.z * point[2]) / length(d), most, 0x1p-40 * far,
+        far = fmax(far, query_largest(place_oracle_vertex(alone, i)));
+    require_near((d.x * point[0] + d.y * point[1] + d.z * point[2]) / query_length(d), most, 0x1p-40 * far,
                  "the support along a direction");
     place_oracle_free(alone);
     pir_polytope_release(zero);
 }
 
 /* The bodies and the pose reflected through the origin: the same answer, but for the way round. */
-static void check_reflected(const struct scene *scene, const struct ask *ask, const pir_query_result *single) {
+static void check_reflected(const struct query_scene *scene, const struct query_ask *ask,
+                            const pir_query_result *single) {
     pir_polytope *p = NULL, *q = NULL;
     fuzz_require(pir_polytope_reflect(scene->p, &p) == PIR_OK, "P is reflected");
     fuzz_require(pir_polytope_reflect(scene->q, &q) == PIR_OK, "Q is reflected");
-    struct scene mirror = scene_make(p, q, pir_sum_rotation(scene->sum));
+    struct query_scene mirror = query_scene_make(p, q, pir_sum_rotation(scene->sum));
     pir_query_input input = ask->input;
     input.translation = (pir_vec3){-input.translation.x, -input.translation.y, -input.translation.z};
     pir_query_result r;
     fuzz_require(pir_query_signed_distance(mirror.query, &input, NULL, &r) == PIR_OK, "a distance, reflected");
     fuzz_require(r.state == single->state, "a reflection changes no state");
     require_near(r.distance, single->distance, 2 * ask->bound, "a reflection changes no distance");
-    scene_free(&mirror);
+    query_scene_free(&mirror);
 }
 
 /* Q against P: the inverse rotation, and the translation turned back, exactly where R is a signed permutation. */
-static void check_swapped(const struct scene *scene, const struct ask *ask, const pir_query_result *single) {
+static void check_swapped(const struct query_scene *scene, const struct query_ask *ask,
+                          const pir_query_result *single) {
     pir_quat r = pir_sum_rotation(scene->sum);
     pir_vec3 t = ask->input.translation;
-    double square = r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w, most = fmax(1, largest(t));
+    double square = r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w, most = fmax(1, query_largest(t));
     // beyond these the products below are not what they should be
-    if (!(square > LEAST && square < MOST && most < MOST))
+    if (!(square > QUERY_LEAST && square < QUERY_MOST && most < QUERY_MOST))
         return;
     double x = r.x, y = r.y, z = r.z, w = r.w;
     pir_quat back = {-x, -y, -z, w};
@@ -416,36 +281,37 @@ static void check_swapped(const struct scene *scene, const struct ask *ask, cons
         -((x * x - y * y - z * z + w * w) * t.x + 2 * (x * y + z * w) * t.y + 2 * (x * z - y * w) * t.z) / square,
         -(2 * (x * y - z * w) * t.x + (y * y - x * x - z * z + w * w) * t.y + 2 * (y * z + x * w) * t.z) / square,
         -(2 * (x * z + y * w) * t.x + 2 * (y * z - x * w) * t.y + (z * z - x * x - y * y + w * w) * t.z) / square};
-    struct scene swapped = scene_make(pir_polytope_retain(scene->q), pir_polytope_retain(scene->p), back);
+    struct query_scene swapped = query_scene_make(pir_polytope_retain(scene->q), pir_polytope_retain(scene->p), back);
     pir_query_input input = pir_query_input_default();
     input.translation = turned;
     pir_query_result s;
     pir_status status = swapped.query ? pir_query_signed_distance(swapped.query, &input, NULL, &s) : PIR_ERR_LIMIT;
-    fuzz_require(status == PIR_OK || may_be_far(&swapped, turned), "a distance, swapped");
+    fuzz_require(status == PIR_OK || query_may_be_far(&swapped, turned), "a distance, swapped");
     double bound = 2 * ask->bound + 0x1p-48 * ask->far;
     if (status == PIR_OK)
         require_near(s.distance, single->distance, bound, "swapping the bodies changes no distance");
     if (status == PIR_OK && fabs(ask->should) > bound)
         fuzz_require(s.state == single->state, "swapping the bodies changes no state");
-    scene_free(&swapped);
+    query_scene_free(&swapped);
 }
 
 /* P moves and turns until it touches: told safely. Leaves the sum where it ends. */
-static void check_advance(struct scene *scene, const struct ask *ask, struct fuzz_input *input) {
+static void check_advance(struct query_scene *scene, const struct query_ask *ask, struct fuzz_input *input) {
     pir_motion motion = {.rotation = pir_sum_rotation(scene->sum), .start = ask->input.translation};
     motion.motion = ask->direction;
-    motion.axis = next_vector(input);
+    motion.axis = query_next_vector(input);
     motion.angle = fuzz_small(input) / 16.0;
     double tolerance = 1e-6 * place_oracle_size(ask->oracle);
-    if (!(tolerance > LEAST && tolerance < MOST))
+    if (!(tolerance > QUERY_LEAST && tolerance < QUERY_MOST))
         return;
     pir_cast_result cast;
     pir_status status = pir_query_advance(scene->query, &motion, tolerance, &cast);
     if (status != PIR_OK) {
-        int no_axis = largest(motion.axis) == 0 && motion.angle != 0;
-        pir_vec3 end = add(motion.start, motion.motion, 1);
-        fuzz_require((status == PIR_ERR_ARGUMENT && no_axis) || (status == PIR_ERR_LIMIT && may_be_far(scene, end)) ||
-                         (status == PIR_ERR_NOT_FINITE && !isfinite(largest(end))),
+        int no_axis = query_largest(motion.axis) == 0 && motion.angle != 0;
+        pir_vec3 end = query_add(motion.start, motion.motion, 1);
+        fuzz_require((status == PIR_ERR_ARGUMENT && no_axis) ||
+                         (status == PIR_ERR_LIMIT && query_may_be_far(scene, end)) ||
+                         (status == PIR_ERR_NOT_FINITE && !isfinite(query_largest(end))),
                      "a motion is followed");
         return;
     }
@@ -456,15 +322,15 @@ static void check_advance(struct scene *scene, const struct ask *ask, struct fuz
         return;
     pir_query_input at = pir_query_input_default();
     pir_query_result there;
-    at.translation = add(motion.start, motion.motion, cast.time);
+    at.translation = query_add(motion.start, motion.motion, cast.time);
     fuzz_require(pir_query_signed_distance(scene->query, &at, NULL, &there) == PIR_OK, "a distance where it ends");
     fuzz_require(there.distance <= tolerance && there.state != PIR_INSIDE, "at the end P is next to Q, and not in it");
 }
 
-static void check_placement(struct scene *scene, const struct ask *ask) {
+static void check_placement(struct query_scene *scene, const struct query_ask *ask) {
     pir_state state;
     pir_status status = pir_query_batch_states(scene->query, &ask->input.translation, 1, &state);
-    fuzz_require(status == PIR_OK || (status == PIR_ERR_LIMIT && may_be_far(scene, ask->input.translation)),
+    fuzz_require(status == PIR_OK || (status == PIR_ERR_LIMIT && query_may_be_far(scene, ask->input.translation)),
                  "translations are taken unless they are far away");
     if (status != PIR_OK)
         return;
@@ -486,13 +352,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     pir_polytope *p = fuzz_body(&input, POINTS);
     pir_polytope *q = form & 1 ? pir_polytope_retain(p) : fuzz_body(&input, POINTS);
     pir_quat rotation = fuzz_rotation(&input, (pir_quat){0, 0, 0, 1});
-    struct scene scene = scene_make(p, q, rotation);
+    struct query_scene scene = query_scene_make(p, q, rotation);
     for (int turn = 0; turn < ROTATIONS && scene.query && (turn == 0 || input.at < size); turn++) {
         fuzz_require(pir_sum_rotate(scene.sum, rotation, PIR_METHOD_AUTO) == PIR_OK, "a sum can be turned");
         place_oracle *oracle = place_oracle_make(p, q, rotation);
-        struct ask ask = {0};
+        struct query_ask ask = {0};
         for (int i = 0; i < ASKS && (i == 0 || input.at < size); i++) {
-            ask = next_ask(&scene, &input, oracle);
+            ask = query_next_ask(&scene, &input, oracle);
             check_placement(&scene, &ask);
         }
         pir_state state;
@@ -501,6 +367,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         place_oracle_free(oracle);
         rotation = fuzz_rotation(&input, rotation);
     }
-    scene_free(&scene);
+    query_scene_free(&scene);
     return 0;
 }

@@ -8,73 +8,9 @@
 #include <string.h>
 
 #include <pirouette/baseline.h>
-#include <pirouette/pirouette.h>
 
-#include "fuzz/input.h"
-#include "support/memory.h"
+#include "query/handle_objects.h"
 #include "support/sum_bytes.h"
-
-#define SLOTS    3
-#define SUBJECTS (2 * SLOTS + 1) /* more than queries and live meshes together stand on */
-#define POINTS   8
-
-/*
- * What a sum says, as the model knows it. The bodies are twins of those that the sum was made of, so that nobody's
- * references are theirs.
- */
-struct subject {
-    uint32_t uses;
-    pir_polytope *p, *q;
-    int difference;
-    double scale[2];
-    pir_quat rotation, shown; /* that the pairing is exact at, that was asked for */
-    bool behind, region, tolerant;
-    pir_vec3 axis;
-    double half_angle;
-};
-
-/* A body and its twin. */
-struct body {
-    pir_polytope *handle, *twin;
-};
-
-struct sum {
-    pir_sum *handle;
-    struct subject *subject;
-};
-
-struct query {
-    pir_query *handle;
-    struct subject *subject;
-    pir_query_cache cache;
-};
-
-struct live {
-    pir_live_mesh *handle;
-    struct subject *subject;
-};
-
-/* A locator, and one of another map of the same body. */
-struct locator {
-    pir_cgm_locator *handle, *twin;
-};
-
-struct program {
-    struct fuzz_input input;
-    const char *failed;
-    test_memory memory; /* of sums and what stands on them */
-    struct subject subjects[SUBJECTS + SLOTS];
-    struct body bodies[SLOTS];
-    struct sum sums[SLOTS];
-    struct query queries[SLOTS];
-    struct live lives[SLOTS];
-    struct locator locators[SLOTS];
-};
-
-static void need(struct program *program, bool condition, const char *what) {
-    if (!condition && !program->failed)
-        program->failed = what;
-}
 
 static uint32_t below(struct program *program, uint32_t count) {
     return fuzz_byte(&program->input) % count;
@@ -321,77 +257,6 @@ static void make_query(struct program *program) {
         query->handle = NULL;
 }
 
-/* To the bit; what is not a number, because the exact one is beyond the doubles, is none in both. */
-static bool same_number(double a, double b) {
-    return a == b || (isnan(a) && isnan(b));
-}
-
-static bool same_vector(pir_vec3 a, pir_vec3 b) {
-    return same_number(a.x, b.x) && same_number(a.y, b.y) && same_number(a.z, b.z);
-}
-
-static bool same_witness(const pir_witness *a, const pir_witness *b) {
-    return a->p.kind == b->p.kind && a->p.index == b->p.index && a->q.kind == b->q.kind && a->q.index == b->q.index;
-}
-
-static bool same_result(const pir_query_result *a, const pir_query_result *b) {
-    return a->state == b->state && a->outcome == b->outcome && same_number(a->distance, b->distance) &&
-           same_witness(&a->witness, &b->witness) && same_vector(a->normal, b->normal) &&
-           same_vector(a->point_p, b->point_p) && same_vector(a->point_q, b->point_q);
-}
-
-static bool same_cast(const pir_cast_result *a, const pir_cast_result *b) {
-    return a->outcome == b->outcome && a->time == b->time && same_vector(a->normal, b->normal) &&
-           same_vector(a->point, b->point) && same_witness(&a->witness, &b->witness);
-}
-
-typedef pir_status (*ask_fn)(pir_query *, const pir_query_input *, pir_query_cache *, pir_query_result *);
-
-static void compare_answers(struct program *program, const struct query *query, pir_query *other,
-                            const pir_query_input *input, pir_vec3 along) {
-    pir_query *one = query->handle;
-    static const ask_fn asks[] = {pir_query_overlap, pir_query_distance, pir_query_penetration,
-                                  pir_query_signed_distance};
-    for (int i = 0; i < 4; i++) {
-        pir_query_result a = {0}, b = {0};
-        pir_status status = asks[i](one, input, NULL, &a);
-        need(program, status == asks[i](other, input, NULL, &b), "both queries end alike");
-        need(program, status != PIR_OK || same_result(&a, &b), "both queries answer alike");
-    }
-    pir_query_result a = {0}, b = {0};
-    pir_cast_result c = {0}, d = {0};
-    pir_status status = pir_query_directional_depth(one, input, along, &a);
-    need(program, status == pir_query_directional_depth(other, input, along, &b), "both directions end alike");
-    need(program, status != PIR_OK || same_result(&a, &b), "both directions answer alike");
-    status = pir_query_cast(one, input, along, &c);
-    need(program, status == pir_query_cast(other, input, along, &d), "both casts end alike");
-    need(program, status != PIR_OK || same_cast(&c, &d), "both casts answer alike");
-    status = pir_query_largest_distance(one, input, &a);
-    need(program, status == pir_query_largest_distance(other, input, &b), "both largest distances end alike");
-    need(program, status != PIR_OK || same_result(&a, &b), "both largest distances are alike");
-}
-
-static void compare_batches(struct program *program, pir_query *one, pir_query *other, const pir_query_input *input) {
-    const pir_vec3 at[2] = {input->translation, {0, 0, 0}};
-    double a[2] = {0, 0}, b[2] = {0, 0};
-    pir_state s[2] = {PIR_OUTSIDE, PIR_OUTSIDE}, t[2] = {PIR_OUTSIDE, PIR_OUTSIDE};
-    pir_status status = pir_query_batch_distances(one, at, 2, a, s);
-    need(program, status == pir_query_batch_distances(other, at, 2, b, t), "both batches end alike");
-    need(program,
-         status != PIR_OK || (same_number(a[0], b[0]) && same_number(a[1], b[1]) && s[0] == t[0] && s[1] == t[1]),
-         "both batches answer alike");
-}
-
-/* An advance without a turn, which brings the sum to where it is already. */
-static void compare_advances(struct program *program, struct query *query, pir_query *other, pir_vec3 from,
-                             pir_vec3 along) {
-    const pir_motion motion = {query->subject->rotation, from, along, {0, 0, 1}, 0};
-    pir_cast_result a = {0}, b = {0};
-    pir_status status = pir_query_advance(query->handle, &motion, 0x1p-6, &a);
-    need(program, status == pir_query_advance(other, &motion, 0x1p-6, &b), "both advances end alike");
-    need(program, status != PIR_OK || same_cast(&a, &b), "both advances answer alike");
-}
-
 static void ask_query(struct program *program) {
     struct query *query = &program->queries[below(program, SLOTS)];
     pir_query_input input = pir_query_input_default();
@@ -407,11 +272,11 @@ static void ask_query(struct program *program) {
     pir_query *fresh = NULL;
     pir_status status = sum ? pir_query_create(sum, &fresh) : PIR_OK;
     if (fresh) {
-        compare_answers(program, query, fresh, &input, along);
+        handle_compare_answers(program, query->handle, fresh, &input, along);
         if (kind == 0)
-            compare_batches(program, query->handle, fresh, &input);
+            handle_compare_batches(program, query->handle, fresh, &input);
         if (kind == 1 && !query->subject->tolerant)
-            compare_advances(program, query, fresh, input.translation, along);
+            handle_compare_advances(program, query, fresh, input.translation, along);
     } else if (sum) {
         need(program, status == PIR_ERR_LIMIT, "a query can be made unless a body is far away");
         need(program, pir_query_penetration(query->handle, &input, NULL, &unused) == PIR_ERR_LIMIT,

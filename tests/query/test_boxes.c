@@ -79,8 +79,10 @@ static box turned(const box *b, int i) {
     if (i == 3)
         return to;
     int j = (i + 1) % 3;
-    to.low[j] = b->low[i], to.high[j] = b->high[i];
-    to.low[i] = -b->high[j], to.high[i] = -b->low[j];
+    to.low[j] = b->low[i];
+    to.high[j] = b->high[i];
+    to.low[i] = -b->high[j];
+    to.high[i] = -b->low[j];
     return to;
 }
 

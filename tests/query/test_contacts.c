@@ -417,7 +417,8 @@ static void radii_move_the_contacts(void **state) {
     pir_contact contact[8];
     size_t count = 0;
     input.translation = (pir_vec3){0, 0, 2.01};
-    input.radius_p = 0.03, input.radius_q = 0.05;
+    input.radius_p = 0.03;
+    input.radius_q = 0.05;
     assert_int_equal(pir_query_signed_distance(scene.query, &input, NULL, &answer), PIR_OK);
     assert_int_equal(pir_query_manifold(scene.query, &input, &answer, 8, contact, &count), PIR_OK);
     assert_true(count >= 4 && count <= 5 && answer.outcome == PIR_OVERLAPPING);

@@ -73,8 +73,10 @@ static bool facet_most(const pir_polytope *body, uint32_t v, pir_vec3 n, uint32_
         for (uint32_t i = 0; i < pir_polytope_facet_size(body, f); i++)
             has |= corner[i] == v;
         double along = test_dot(pir_polytope_normal(body, f), n);
-        if (has && along > most)
-            most = along, best = f;
+        if (has && along > most) {
+            most = along;
+            best = f;
+        }
     }
     if (best == UINT32_MAX || is_nearly_flat(body, best))
         return false;

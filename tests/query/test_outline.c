@@ -95,7 +95,8 @@ static void hulls_have_their_corners_and_no_others(void **state) {
         for (uint32_t i = p.count; i-- > 1;) {
             uint32_t j = test_random_below(&random, i + 1);
             pir_corner moved = p.at[i];
-            p.at[i] = p.at[j], p.at[j] = moved;
+            p.at[i] = p.at[j];
+            p.at[j] = moved;
         }
         hull(&p);
         expect(p.count == n, "case %d: %u corners of %u", (int)number, p.count, n);

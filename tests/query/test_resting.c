@@ -56,8 +56,10 @@ static pir_quat upright(const pir_polytope *shape, test_random *random) {
             level +=
                 fabs(test_dot(n, test_add(pir_polytope_vertex(shape, v), pir_polytope_vertex(shape, corner[0]), -1))) <
                 1e-9;
-        if (-(double)level < least)
-            least = -(double)level, down = n;
+        if (-(double)level < least) {
+            least = -(double)level;
+            down = n;
+        }
     }
     pir_quat lay = rigid_turn_to(down, (pir_vec3){0, 0, -1});
     pir_quat yaw = turn_about((pir_vec3){0, 0, 1}, 3 * test_random_unit(random));

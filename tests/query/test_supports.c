@@ -30,7 +30,9 @@ static double greatest(const pir_vec3 *at, uint32_t count, const double *directi
 static void draw(test_random *random, int n, double *direction) {
     pir_vec3 d = test_random_direction(random);
     double length = n % 3 ? 1 : ldexp(1, test_random_between(random, -200, 200));
-    direction[0] = d.x * length, direction[1] = d.y * length, direction[2] = d.z * length;
+    direction[0] = d.x * length;
+    direction[1] = d.y * length;
+    direction[2] = d.z * length;
     for (int k = 0; k < 3 && n % 4 == 0; k++)
         direction[k] = k == n % 3 ? length : 0;
 }

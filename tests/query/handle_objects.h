@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/* The objects of a program of handles and the model beside them: see handle_program.h. */
+#ifndef PIR_TEST_HANDLE_OBJECTS_H
+#define PIR_TEST_HANDLE_OBJECTS_H
+
+#include <stdbool.h>
+
+#include <pirouette/pirouette.h>
+
+#include "fuzz/input.h"
+#include "support/memory.h"
+
+#define SLOTS    3
+#define SUBJECTS (2 * SLOTS + 1) /* more than queries and live meshes together stand on */
+#define POINTS   8
+
+/*
+ * What a sum says, as the model knows it. The bodies are twins of those that the sum was made of, so that nobody's
+ * references are theirs.
+ */
+struct subject {
+    uint32_t uses;
+    pir_polytope *p, *q;
+    int difference;
+    double scale[2];
+    pir_quat rotation, shown; /* that the pairing is exact at, that was asked for */
+    bool behind, region, tolerant;
+    pir_vec3 axis;
+    double half_angle;
+};
+
+/* A body and its twin. */
+struct body {
+    pir_polytope *handle, *twin;
+};
+
+struct sum {
+    pir_sum *handle;
+    struct subject *subject;
+};
+
+struct query {
+    pir_query *handle;
+    struct subject *subject;
+    pir_query_cache cache;
+};
+
+struct live {
+    pir_live_mesh *handle;
+    struct subject *subject;
+};
+
+/* A locator, and one of another map of the same body. */
+struct locator {
+    pir_cgm_locator *handle, *twin;
+};
+
+struct program {
+    struct fuzz_input input;
+    const char *failed;
+    test_memory memory; /* of sums and what stands on them */
+    struct subject subjects[SUBJECTS + SLOTS];
+    struct body bodies[SLOTS];
+    struct sum sums[SLOTS];
+    struct query queries[SLOTS];
+    struct live lives[SLOTS];
+    struct locator locators[SLOTS];
+};
+
+static inline void need(struct program *program, bool condition, const char *what) {
+    if (!condition && !program->failed)
+        program->failed = what;
+}
+
+/* --- handle_answers.c --- */
+
+/* Asks both queries the same, and notes where they differ: placements, directions and casts. */
+void handle_compare_answers(struct program *program, pir_query *one, pir_query *other, const pir_query_input *input,
+                            pir_vec3 along);
+
+/* The same of batches. */
+void handle_compare_batches(struct program *program, pir_query *one, pir_query *other, const pir_query_input *input);
+
+/* The same of advances without a turn, which bring the sum to the rotation that it has already. */
+void handle_compare_advances(struct program *program, struct query *query, pir_query *other, pir_vec3 from,
+                             pir_vec3 along);
+
+#endif
