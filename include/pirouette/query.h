@@ -1,49 +1,51 @@
 /* SPDX-License-Identifier: MIT */
 /**
- * Placement queries: P, rotated as a sum says and moved by a translation, against Q where it stands.
+ * Placement queries. P is rotated as a sum says and moved by a translation; Q does not move.
  *
  * A query object answers from a tracked difference Q ⊕ (−R·P) (pir_sum_options.difference): P moved by t overlaps Q
  * exactly when t lies in the difference. It follows the sum: rotate the sum, then ask again.
  *
- * The touching rule, the same in every call: the state is PIR_BOUNDARY when t lies exactly on the boundary of the
- * difference, that is, when the bodies share a point and no interiors do; PIR_INSIDE when a ball of translations around
- * t overlaps; PIR_OUTSIDE when the bodies share no point. States are exact, for the very doubles given (rounding radii
- * excepted: see pir_query_input). Numbers are doubles within 1e-12 of the exact ones, relative to the size of the
+ * Touching, in every call. The state is PIR_BOUNDARY when t lies exactly on the boundary of the difference: the
+ * bodies share a point, but no interior points. It is PIR_INSIDE when all translations in some ball around t overlap,
+ * and PIR_OUTSIDE when the bodies share no point. States are exact for the doubles given; only rounding radii make
+ * them floating (pir_query_input). Numbers are doubles within 1e-12 of the exact ones, relative to the size of the
  * bodies and of the answer.
  *
- * Frame: every point and direction is in the frame of Q. `normal` is a unit vector and points from Q to P, the way to
- * move P apart. In every answer point_p = point_q + distance · normal, also at distance 0; distance is negative by the
- * depth where the bodies overlap.
+ * Frame: every point and direction is in the frame of Q, every length in the unit of the bodies' coordinates.
+ * `normal` is a unit vector that points from Q to P; moving P along it separates the bodies. In every answer point_p
+ * = point_q + distance · normal, also at distance 0. Where the bodies overlap, distance is minus the depth.
  *
- * A sum with a region (pir_sum_set_region) answers pir_query_penetration and pir_query_directional_depth alone, by its
- * facets whose normals are in the cone. PIR_OUTSIDE with PIR_SEPARATED is a proof that the bodies are apart. Else the
- * outcome is PIR_NOT_SEPARATED, and overlap is not proven: the state is PIR_INSIDE, or PIR_BOUNDARY where a facet in
- * the cone passes through t. The depth is the least over facets in the cone: the true depth if its normal lies there,
- * otherwise an upper bound. The outcome is PIR_NO_HIT where the cone has no facet, or none that the direction leads out
- * through. All other calls, and rounding radii, are PIR_ERR_UNSUPPORTED on such a sum. The answer depends on placement
- * and region, not on what else the sum keeps.
+ * Regions. A sum with a region (pir_sum_set_region) answers pir_query_penetration and pir_query_directional_depth
+ * only, from its facets whose normals lie in the cone. PIR_OUTSIDE with PIR_SEPARATED proves that the bodies are
+ * apart. Otherwise the outcome is PIR_NOT_SEPARATED: the state is PIR_BOUNDARY where one of these facets passes
+ * through t, else PIR_INSIDE. Overlap is not proven then. The depth is the least over facets in the cone: the true
+ * depth if its normal lies there, otherwise an upper bound. Normal and points belong to that facet. The outcome is
+ * PIR_NO_HIT where no facet lies in the cone, or where the direction leaves through none of them. All other calls,
+ * and rounding radii, give PIR_ERR_UNSUPPORTED. The answer depends on placement and region, not on what else the sum
+ * keeps.
  *
- * One answer: an answer depends on the bodies, the rotation and the input alone. Every number and witness is the same,
- * bit for bit, with any cache or none, whatever was asked before, and in a batch; only `steps` tells of the way there.
+ * Determinism: an answer depends on the bodies, the rotation and the input alone. Every number and witness is the
+ * same, bit for bit, with any cache or none, after any other queries, and in a batch. Only `steps` depends on the way
+ * there.
  *
- * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes how fast
- * an answer is found.
+ * Warm start: a cache belongs to the caller, begins as zeros, and may be passed from pose to pose. It changes only
+ * how fast an answer is found.
  *
- * Threads: a query belongs to one thread at a time, that of its sum. No call allocates once the query has seen as many
- * ee pairs as it will, and a batch where there are to be batches; no loop is without a bound.
+ * Threads: a query belongs to one thread at a time, that of its sum. Once a query has seen its greatest number of
+ * edge pairs, no call allocates; a batch needs memory of its own the first time. Every loop has a bound.
  *
- * Lifetimes: a query holds references to its sum and to the operands, so they may be destroyed before it. It then goes
- * on answering for the sum as it was left. It follows every change of the sum: rotation, scale, region, reset. The
- * first call after pir_sum_set_scale makes anew what depends on coordinates, O(size of both operands), and allocates
- * only where the scale has more digits than any before. When that fails (PIR_ERR_MEMORY, or PIR_ERR_LIMIT where a body
- * is now too far away for its size) so does the call, and the next one tries again.
+ * Lifetimes: a query holds references to its sum and to the operands, so they may be destroyed before it. It then
+ * answers for the sum as it was last. It follows every change of the sum: rotation, scale, region, reset. The first
+ * call after pir_sum_set_scale fills in again what depends on coordinates, O(size of both operands). It allocates
+ * only where the scale has more digits than any before. Where that fails (PIR_ERR_MEMORY, or PIR_ERR_LIMIT for a body
+ * that is now too far away for its size), the call fails, and the next one tries again.
  *
- * Cost of a query: O(size of the sum) at most. With the cache of a near pose, a distance takes some steps of a descent,
- * and a depth looks at a few groups of facets. Its number `steps` tells.
+ * Cost of a query: O(size of the sum) at most. With the cache of a near pose, a distance takes some steps of a
+ * descent, and a depth looks at a few groups of facets. `steps` counts both.
  *
  * Errors of a query: PIR_ERR_ARGUMENT (NULL, a radius below 0 or infinite), PIR_ERR_NOT_FINITE (a translation, radius
- * or cutoff), PIR_ERR_LIMIT (a translation farther than 2^400 times the size of the bodies), PIR_ERR_UNSUPPORTED (on a
- * sum with a region, as said above), PIR_ERR_MEMORY (room for a sum that has grown). `cache` may be NULL.
+ * or cutoff), PIR_ERR_LIMIT (a translation farther than 2^400 times the size of the bodies), PIR_ERR_UNSUPPORTED (on
+ * a sum with a region, as said above), PIR_ERR_MEMORY (room for a sum that has grown). `cache` may be NULL.
  *
  * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
@@ -67,7 +69,7 @@ typedef enum pir_state {
     PIR_INSIDE,
 } pir_state;
 
-/** How a query ended. "Did not finish" is never an answer. */
+/** How a query ended. Not finishing is an outcome of its own. */
 typedef enum pir_outcome {
     PIR_SEPARATED = 0, /**< the bodies share no point; numbers are those of the separation */
     PIR_TOUCHING,      /**< they share a point, no interiors do; distance is 0 */
@@ -75,7 +77,7 @@ typedef enum pir_outcome {
     PIR_BEYOND_CUTOFF, /**< separated by more than the cutoff: distance is the cutoff, normal and points are not set */
     PIR_NO_HIT,        /**< a cast or a direction that meets nothing, or recedes */
     PIR_STEP_LIMIT,    /**< the bound on steps was reached; the state is exact, other numbers are the best so far */
-    PIR_NOT_SEPARATED, /**< on a sum with a region: none of its facets there separates the bodies; see below */
+    PIR_NOT_SEPARATED, /**< on a sum with a region: none of its facets there separates the bodies; see above */
 } pir_outcome;
 
 /** A kind of feature of a polytope. */
@@ -92,17 +94,19 @@ typedef struct pir_feature {
 } pir_feature;
 
 /**
- * The features of P and Q that attain an answer: the least faces that hold the two points. The points are exact ones,
- * of which the result holds doubles within 2^-50 of the largest coordinate of bodies and translation, and the faces are
- * decided exactly. Where parallel features leave more than one pair of points, it is the vertex of Q of lowest index
- * that lies on P's face; else the vertex of P of lowest index that lies on Q's; else the first edges that cross, by
- * rising edge of P, then of Q.
+ * The features of P and Q that attain an answer: the least faces that hold the two points. The faces are decided
+ * exactly. The points of the result are doubles within 2^-50 of the exact points, relative to the largest coordinate
+ * of bodies and translation. Where parallel features leave several pairs of points, one is chosen: the vertex of Q of
+ * lowest index that lies on P's face, else the vertex of P of lowest index that lies on Q's face, else the crossing
+ * of the first edges in order, by the index of P's edge, then of Q's.
  */
 typedef struct pir_witness {
     pir_feature p, q;
 } pir_witness;
 
-/** The caller's memory of the last answer. Starts zeroed; contents are the library's. Any content is safe. */
+/**
+ * The caller's memory of the last answer. It starts zeroed, and its contents are the library's. Any content is safe.
+ */
 typedef struct pir_query_cache {
     uint32_t points; /* vertex pairs of the last separation, 0 when cold */
     uint32_t p[3], q[3];
@@ -112,10 +116,10 @@ typedef struct pir_query_cache {
 
 typedef struct pir_query_input {
     pir_vec3 translation; /**< of P, after its rotation */
-    /** Rounding radii, ≥ 0: each body is grown by a ball. The state is then told from the rounded distance. */
+    /** Rounding radii, ≥ 0: each body grows by a ball. The state then follows from the rounded distance. */
     double radius_p, radius_q;
-    double cutoff; /**< distances above this need not be worked out; HUGE_VAL for none */
-    double margin; /**< of pir_query_manifold alone, ≥ 0: contacts up to this distance apart are given too */
+    double cutoff; /**< distances above this need not be computed; HUGE_VAL for none */
+    double margin; /**< for pir_query_manifold only, ≥ 0: contacts up to this distance apart are given too */
 } pir_query_input;
 
 /** Translation 0, no radii, no cutoff, no margin. */
@@ -132,19 +136,19 @@ typedef struct pir_query_result {
 } pir_query_result;
 
 /**
- * Makes a query object on `difference`, a sum made with options.difference = 1, its clone, or one restored from its
- * bytes; takes a reference to it. Its memory comes from the sum's allocator. O(size of both operands). Errors:
- * PIR_ERR_ARGUMENT (among them: a sum that is no difference), PIR_ERR_LIMIT (a body farther from its origin than 2^400
- * times the size of both), PIR_ERR_MEMORY.
+ * Makes a query object on `difference`: a sum made with options.difference = 1, its clone, or one restored from its
+ * bytes. The query takes a reference to it. Its memory comes from the sum's allocator. O(size of both operands).
+ * Errors: PIR_ERR_ARGUMENT, also for a sum that is no difference; PIR_ERR_LIMIT for a body farther from its origin
+ * than 2^400 times the size of both; PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_query_create(pir_sum *difference, pir_query **ret_query);
 
-/** Frees, and gives its references back; NULL is accepted. */
+/** Frees a query and gives its references back. NULL is accepted. */
 PIR_API void pir_query_destroy(pir_query *query);
 
 /**
- * Overlap: state and outcome, exact. On the boundary normal, points and witness are those of the contact; else they
- * are not set. No distance.
+ * Whether the bodies overlap: state and outcome, exact, without a distance. On the boundary, normal, points and
+ * witness are those of the contact; elsewhere they are not set.
  *
  * input  where P is.
  * cache  NULL, or the caller's memory of an earlier answer.
@@ -157,10 +161,10 @@ PIR_API pir_status pir_query_overlap(pir_query *query, const pir_query_input *in
                                      pir_query_result *ret_result);
 
 /**
- * The separation distance with closest points, by descent on the difference from the cached features (after Gilbert,
- * Johnson and Keerthi, IEEE J. Robotics and Automation 4(2), 1988; supports by hill climbing). Where the bodies touch
- * or overlap the distance is 0 and the outcome says so; the points are then those of contact when they touch, and not
- * set when they overlap.
+ * The separation distance and the closest points. They come from a descent on the difference that starts at the
+ * cached features (after Gilbert, Johnson and Keerthi, IEEE J. Robotics and Automation 4(2), 1988; supports by hill
+ * climbing). Where the bodies touch or overlap the distance is 0, and the outcome says which. The points are then
+ * those of the contact where they touch, and not set where they overlap.
  *
  * input, cache  as of pir_query_overlap.
  *
@@ -172,10 +176,11 @@ PIR_API pir_status pir_query_distance(pir_query *query, const pir_query_input *i
                                       pir_query_result *ret_result);
 
 /**
- * The penetration depth: the least translation of P that ends the overlap, the minimum over every facet of the
- * difference. Which is least is decided exactly. Of facets that tie exactly the first wins: those on which a facet of P
- * lies, by its index; then those on which a facet of Q lies, by its index; then those of two edges, by P's index, then
- * by Q's. Where the bodies do not overlap the distance is 0, and the outcome says why.
+ * The penetration depth: the length of the shortest translation of P that ends the overlap, which is the minimum over
+ * every facet of the difference. Which facet is least is decided exactly. Of facets that tie exactly the first wins:
+ * those on which a facet of P lies, by its index; then those on which a facet of Q lies, by its index; then those of
+ * two edges, by the index of P's edge, then of Q's. Where the bodies do not overlap the distance is 0, and the
+ * outcome says why.
  *
  * input, cache  as of pir_query_overlap.
  *
@@ -187,7 +192,7 @@ PIR_API pir_status pir_query_penetration(pir_query *query, const pir_query_input
                                          pir_query_result *ret_result);
 
 /**
- * Separation where separated, penetration where overlapping.
+ * The separation where the bodies are apart, the penetration where they overlap.
  *
  * input, cache  as of pir_query_overlap.
  *
@@ -206,10 +211,10 @@ typedef struct pir_escape {
 } pir_escape;
 
 /**
- * Every facet of the difference through which P leaves by at most the depth plus `slack` (≥ 0), in the order of the tie
- * rule: up to `capacity` go to `ret_escapes`, *ret_count is how many there are. None unless the bodies overlap. A
- * witness here names the faces of P and Q that make the facet. Within 2^-44 of the size of the bodies a facet counts as
- * within `slack`. O(size of the sum) for each.
+ * Finds every facet of the difference through which P leaves by at most the depth plus `slack` (≥ 0), in the order of
+ * the tie rule. Up to `capacity` of them go to `ret_escapes`; *ret_count is their number. There are none unless the
+ * bodies overlap. A witness here names the faces of P and Q that make the facet. A facet counts as within `slack` up
+ * to 2^-44 of the size of the bodies. O(size of the sum) for each facet.
  *
  * input  where P is.
  *
@@ -219,9 +224,10 @@ PIR_API pir_status pir_query_escapes(pir_query *query, const pir_query_input *in
                                      pir_escape *ret_escapes, size_t *ret_count);
 
 /**
- * How far P moves along `direction` (any length but zero) until the overlap ends: the directional penetration depth, in
- * units of length. result.distance is minus that; result.normal is the facet's, and point_p = point_q there is P's
- * contact at the exit. PIR_NO_HIT when the bodies do not overlap.
+ * The directional penetration depth: how far P moves along `direction`, of any length but zero, until the overlap
+ * ends. It is a length, whatever the length of `direction`. result.distance is minus the depth, result.normal is that
+ * of the facet that P leaves by, and point_p = point_q is P's contact there. PIR_NO_HIT where the bodies do not
+ * overlap.
  *
  * input  where P is.
  *
@@ -233,8 +239,8 @@ PIR_API pir_status pir_query_directional_depth(pir_query *query, const pir_query
                                                pir_query_result *ret_result);
 
 /**
- * How far P moves along `direction` until it touches Q; 0 where it touches or overlaps already, PIR_NO_HIT when it
- * never does. Whether it does is exact: to graze is to touch, to slide along a face with any gap at all is not.
+ * How far P moves along `direction` until it touches Q: 0 where it touches or overlaps already, PIR_NO_HIT where it
+ * never does. Whether it does is exact: grazing is touching, sliding along a face with any gap is not.
  *
  * input  where P is.
  *
@@ -248,23 +254,23 @@ PIR_API pir_status pir_query_directional_distance(pir_query *query, const pir_qu
 typedef enum pir_cast_outcome {
     PIR_CAST_HIT = 0,      /**< touches at `time` in [0, 1] */
     PIR_CAST_MISS,         /**< never within the motion */
-    PIR_CAST_RECEDING,     /**< touches at the start and moves apart, along, or not at all: time 0, nothing to stop */
+    PIR_CAST_RECEDING,     /**< touches at the start and moves apart, along, or not at all: time 0 */
     PIR_CAST_START_INSIDE, /**< overlaps at the start: time 0, normal of the least penetration */
     PIR_CAST_AT_REST,      /**< motion zero and no contact */
-    PIR_CAST_STEP_LIMIT,   /**< not within tolerance after the bound on steps; `time` is safe: no contact before it */
+    PIR_CAST_STEP_LIMIT,   /**< not within tolerance after the bound on steps; there is no contact before `time` */
 } pir_cast_outcome;
 
 typedef struct pir_cast_result {
     pir_cast_outcome outcome;
     double time;     /**< fraction of the motion, 0 to 1; 1 on a miss */
     pir_vec3 normal; /**< at contact, unit, from Q to P */
-    pir_vec3 point;  /**< of contact; on a miss not set */
+    pir_vec3 point;  /**< of contact; not set on a miss */
     pir_witness witness;
     uint32_t steps;
 } pir_cast_result;
 
 /**
- * Linear cast: P moves from input->translation by `motion`. The outcome is exact.
+ * A linear cast: P moves from input->translation by `motion`. The outcome is exact.
  *
  * Cost: O(size of the sum).
  *
@@ -273,8 +279,10 @@ typedef struct pir_cast_result {
 PIR_API pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 motion,
                                   pir_cast_result *ret_result);
 
-/** A screw-free motion over time 0 to 1: translation from `start` by `motion`, while P turns about its origin by
-    `angle` radians about `axis`. */
+/**
+ * A motion over time 0 to 1: P moves from `start` by `motion`, while it turns about its own origin by `angle` radians
+ * about `axis`.
+ */
 typedef struct pir_motion {
     pir_quat rotation; /**< at time 0 */
     pir_vec3 start, motion;
@@ -283,23 +291,23 @@ typedef struct pir_motion {
 } pir_motion;
 
 /**
- * Conservative advancement (Mirtich, 1996): the time of first contact, safe and within `tolerance` (> 0, a length): at
- * `time` the bodies are apart by at most it. Rotates the sum, which is left at the last rotation looked at. At most 256
- * distance queries.
+ * Conservative advancement (Mirtich, 1996): the time of first contact within `tolerance` (> 0, a length). There is no
+ * contact before `time`, and at `time` the bodies are apart by at most `tolerance`. Rotates the sum, which is left at
+ * the last rotation that was tried.
  *
  * motion  over which P moves, at any speed.
  *
  * Cost: at most 256 rotations of the sum, each with a distance query.
  *
- * Errors: those of a query and of pir_sum_rotate, and PIR_ERR_ARGUMENT for a tolerance not above 0 or a zero axis with
- * an angle.
+ * Errors: those of a query and of pir_sum_rotate, and PIR_ERR_ARGUMENT for a tolerance not above 0 or a zero axis
+ * with an angle.
  */
 PIR_API pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double tolerance,
                                      pir_cast_result *ret_result);
 
 /**
- * The largest distance between a point of P and a point of Q, attained by vertices: normal, points and witness as in a
- * separation. O(size of the sum).
+ * The largest distance between a point of P and a point of Q. Vertices attain it. Normal, points and witness are as
+ * in a separation. O(size of the sum).
  *
  * input  where P is.
  *
@@ -311,34 +319,38 @@ PIR_API pir_status pir_query_largest_distance(pir_query *query, const pir_query_
 /** A contact: a point of each body, one over the other along the normal. */
 typedef struct pir_contact {
     pir_vec3 point_p, point_q;
-    double distance; /**< along the manifold's normal; negative where P is in Q */
-    uint64_t id;     /**< of the features that meet here; the same from frame to frame while they do */
+    double distance; /**< along the manifold's normal; negative where the bodies overlap */
+    uint64_t id;     /**< of the features that meet here, the same from frame to frame while they meet */
 } pir_contact;
 
 /**
- * The contact manifold of `answer`, that of pir_query_signed_distance at the same rotation and with the same input:
- * where the patches of surface that carry the answer lie over each other, seen along the answer's normal.
+ * The contact manifold of `answer`, an answer of pir_query_signed_distance at the same rotation and with the same
+ * input: where the surface patches that carry the answer lie over each other along its normal.
  *
- * A patch is the vertex, edge or facet that carries the answer, with all that edges in its plane lead to, within
- * 0.056° (a sine of 2^-10): facets that are coplanar but for rounding are one. Where a body meets the other's area
- * with less, it is tilted, and its patch is the facet there that faces the other body most.
+ * A patch is the vertex, edge or facet that carries the answer, and everything that edges in its plane lead to. An
+ * edge is in the plane when it is within 0.056° of it (a sine of 2^-10), so that facets that are coplanar but for
+ * rounding are one. Where one body has an area there and the other has none, the other is tilted: its patch is the
+ * facet there that faces the first body most.
  *
- * The first contact is the answer itself, its points and its distance. The others are the corners of the region that
- * the patches share, counter-clockwise about the normal. The first is one of them where the answer lies on a corner;
- * where it lies elsewhere in the region, both top bits of its id are set, and of no other. Two parallel edges share a
- * segment, with two corners. Points lie on the surfaces of their bodies, and point_p = point_q + distance · normal;
- * for edges that are parallel within 2^-20 only, up to that part of their length.
+ * The first contact is the answer itself, with its points and its distance. The others are the corners of the region
+ * that the patches share, counter-clockwise about the normal. Where the answer lies on a corner, the first contact is
+ * that corner. Where it lies elsewhere in the region, both top bits of its id are set, and of no other id. Two
+ * parallel edges share a segment, with two corners. Points lie on the surfaces of their bodies, and point_p = point_q
+ * + distance · normal. Edges that are parallel within 2^-20 only meet this up to that part of their length.
  *
- * Kept are the corners whose distance is at most input->margin, or that of the answer, or 0, whichever is most; and
- * those that rise from the answer's point by at most 2^-20 of the way. So a larger margin only adds contacts, and
- * bodies apart by less than it have contacts of positive distance, which a solver may let close by that distance in a
- * step ("speculative contacts"). Ids are distinct. With radii, points move by them along the normal; where a facet is
- * tilted, that is inside of the rounded body by up to radius · (1 − cosine).
+ * A corner is a contact where its distance is at most the greatest of input->margin, the answer's distance, and 0, or
+ * where it rises from the answer's point by at most 2^-20 of the way to it. So a larger margin only adds contacts.
+ * Bodies apart by less than the margin have contacts of positive distance, by which a solver may let them approach in
+ * a step ("speculative contacts"). Ids are distinct. With radii, points move by them along the normal; where a facet
+ * is tilted, that is inside of the rounded body by up to radius · (1 − cosine).
  *
- * Up to `capacity` contacts go to `ret_contacts`; PIR_ERR_LIMIT when there are more, *ret_count then being how many.
- * There are none where the answer has no points (PIR_BEYOND_CUTOFF, PIR_NO_HIT). O(p · q) for patches of p and q
- * vertices. Errors: PIR_ERR_ARGUMENT (also for a margin below 0, and an answer without a unit normal or features of
- * these bodies), PIR_ERR_NOT_FINITE, PIR_ERR_UNSUPPORTED on a sum with a region.
+ * Up to `capacity` contacts go to `ret_contacts`. PIR_ERR_LIMIT where there are more; *ret_count is their number then
+ * too. There are none where the answer has no points (PIR_BEYOND_CUTOFF, PIR_NO_HIT).
+ *
+ * Cost: O(p · q) for patches of p and q vertices.
+ *
+ * Errors: those of a query, PIR_ERR_ARGUMENT also for a margin below 0 and for an answer without a unit normal or
+ * with features that these bodies lack, and PIR_ERR_NOT_FINITE for a margin that is not a number.
  */
 PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
                                       size_t capacity, pir_contact *ret_contacts, size_t *ret_count);
@@ -346,9 +358,9 @@ PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *i
 /*
  * --- many translations at one rotation ---
  *
- * The answers are those of single queries. A call first lays out all facets of the difference, O(size of the sum),
- * unless the rotation is still that of the batch before; the first one makes the memory for that. Errors as for single
- * queries, and PIR_ERR_MEMORY; what was answered before an error stands.
+ * The answers are those of single queries. The first batch at a rotation lays out all facets of the difference,
+ * O(size of the sum); the first batch of all makes the memory for that. Errors as for single queries. Where one
+ * occurs, the answers before it stand.
  */
 
 /**
@@ -365,7 +377,7 @@ PIR_API pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *tran
                                           pir_state *ret_states);
 
 /**
- * The penetration depth of each, 0 unless PIR_INSIDE; ret_states may be NULL.
+ * The penetration depth of each translation, 0 unless PIR_INSIDE. ret_states may be NULL.
  *
  * translations, count  as of pir_query_batch_states.
  * ret_depths           room for `count` of them, at least 0.
@@ -378,7 +390,7 @@ PIR_API pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *tran
                                           double *ret_depths, pir_state *ret_states);
 
 /**
- * The signed distance of each.
+ * The signed distance of each translation.
  *
  * translations, count        as of pir_query_batch_states.
  * ret_distances, ret_states  room for `count` of them; ret_states may be NULL.
