@@ -178,7 +178,7 @@ void run_body(FILE *csv, const char *set, pir_polytope *p, pir_polytope *q, bool
 
 // --- degenerate poses
 
-// Gaps from none through hairs to a tenth, on either side.
+// Gaps from none through tiny ones to a tenth, on either side.
 double some_gap(Random &random) {
     double k = std::floor(20 * std::fabs(random.unit())), gap = k == 0 ? 0 : std::pow(10, -k) * 2;
     return random.unit() < 0 ? -gap : gap;

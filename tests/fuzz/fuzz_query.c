@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Any bytes as two small bodies, three rotations, and at each a few translations: zero, on vertices, edges and facets
- * of the difference, a small step off them, tiny, huge, any double. Every query is asked. States are held against exact
- * arithmetic (place_oracle.h), numbers as well where doubles can hold them; each answer's own invariants, the answers
- * of one call against those of another, and the pose reflected and swapped against the pose.
+ * Reads any bytes as two small bodies and three rotations, with a few translations at each: zero, on vertices, edges
+ * and facets of the difference, a small step off them, tiny, huge, any double. Every query is asked. States are
+ * compared with exact arithmetic (place_oracle.h), and numbers where doubles can hold them. Each answer's own
+ * invariants are checked, and the answers of different calls, of the reflected pose and of the swapped pose are
+ * compared.
  *
  * See fuzz_sum.c for how to run an engine.
  */
@@ -144,7 +145,7 @@ static void check_escapes(struct query_scene *scene, const struct query_ask *ask
         require_near(least, -single->distance, 2 * ask->bound, "the least escape is the depth");
 }
 
-/* Moved as far as told, P touches: neither deep nor away. */
+/* Checks that P, moved by the answer's distance, touches: neither deep nor apart. */
 static void check_contact(const struct query_ask *ask, double distance, const char *what) {
     double size = query_largest(ask->direction);
     pir_vec3 u = {ask->direction.x / size, ask->direction.y / size, ask->direction.z / size};
@@ -207,7 +208,7 @@ static void check_rest(struct query_scene *scene, const struct query_ask *ask, c
         fuzz_require(isfinite(contacts[i].distance), "a contact has a distance");
 }
 
-/* Support functions alone: not exact, but what they say is so. */
+/* Checks support functions alone. They are not exact, but what they say is true. */
 static void check_pair(const struct query_scene *scene, const struct query_ask *ask) {
     pir_ccd_pair pair = {scene->p, scene->q, pir_sum_rotation(scene->sum), ask->input.translation};
     pir_ccd_outcome outcome, overlap;
@@ -228,7 +229,7 @@ static void check_pair(const struct query_scene *scene, const struct query_ask *
         require_near(fmax(ask->should, 0), 0, bound, "an overlap by supports");
 }
 
-/* The farthest vertex of P along the direction, against the exact hull of P alone, turned. */
+/* Checks the farthest vertex of P along the direction against the exact hull of P alone, rotated. */
 static void check_support(const struct query_scene *scene, const struct query_ask *ask) {
     static const pir_vec3 origin = {0, 0, 0};
     pir_support_body body = {scene->p, pir_sum_rotation(scene->sum), origin, 0};
@@ -250,7 +251,7 @@ static void check_support(const struct query_scene *scene, const struct query_as
     pir_polytope_release(zero);
 }
 
-/* The bodies and the pose reflected through the origin: the same answer, but for the way round. */
+/* Checks that the bodies and the pose reflected through the origin have the reflected answer. */
 static void check_reflected(const struct query_scene *scene, const struct query_ask *ask,
                             const pir_query_result *single) {
     pir_polytope *p = NULL, *q = NULL;
@@ -266,13 +267,16 @@ static void check_reflected(const struct query_scene *scene, const struct query_
     query_scene_free(&mirror);
 }
 
-/* Q against P: the inverse rotation, and the translation turned back, exactly where R is a signed permutation. */
+/*
+ * Checks that Q against P has the mirrored answer: the inverse rotation, and the translation rotated back, which is
+ * exact where R is a signed permutation.
+ */
 static void check_swapped(const struct query_scene *scene, const struct query_ask *ask,
                           const pir_query_result *single) {
     pir_quat r = pir_sum_rotation(scene->sum);
     pir_vec3 t = ask->input.translation;
     double square = r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w, most = fmax(1, query_largest(t));
-    // beyond these the products below are not what they should be
+    // beyond these sizes the products below overflow or underflow
     if (!(square > QUERY_LEAST && square < QUERY_MOST && most < QUERY_MOST))
         return;
     double x = r.x, y = r.y, z = r.z, w = r.w;
@@ -295,7 +299,7 @@ static void check_swapped(const struct query_scene *scene, const struct query_as
     query_scene_free(&swapped);
 }
 
-/* P moves and turns until it touches: told safely. Leaves the sum where it ends. */
+/* Checks that P moves and turns until it touches, safely. The sum is left at the last rotation. */
 static void check_advance(struct query_scene *scene, const struct query_ask *ask, struct fuzz_input *input) {
     pir_motion motion = {.rotation = pir_sum_rotation(scene->sum), .start = ask->input.translation};
     motion.motion = ask->direction;

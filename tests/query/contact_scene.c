@@ -71,7 +71,7 @@ static double off_segment(pir_vec3 a, pir_vec3 b, pir_vec3 x) {
     return test_length(test_add(x, test_add(a, d, fmin(1, fmax(0, along))), -1));
 }
 
-/* How far x is beyond the sides of a facet, in its plane. */
+/* The distance of x beyond the sides of a facet, in the facet's plane. */
 static double beside(const pir_polytope *p, uint32_t f, pir_vec3 x) {
     uint32_t corner[SCENE_CONTACTS], n = pir_polytope_facet_size(p, f);
     pir_polytope_facet(p, f, corner);
@@ -109,18 +109,18 @@ static bool same(const pir_contact *a, const pir_contact *b) {
 static void check_points(const contact_scene *scene, const char *what, unsigned long long number) {
     const pir_query_result *answer = &scene->answer;
     const pir_contact *first = &scene->contact[0];
-    double hair = 1e-11 * (scene->size + test_length(scene->t));
+    double error = 1e-11 * (scene->size + test_length(scene->t));
     for (size_t i = 0; i < scene->count; i++) {
         const pir_contact *c = &scene->contact[i];
         pir_vec3 miss = test_add(c->point_p, test_add(c->point_q, answer->normal, c->distance), -1);
-        double way = test_length(test_add(c->point_q, first->point_q, -1)), flush = 0x1p-20 * way + hair;
+        double way = test_length(test_add(c->point_q, first->point_q, -1)), flush = 0x1p-20 * way + error;
         expect(test_length(miss) <= flush, "%s, case %llu: points %.3g off the normal", what, number,
                test_length(miss));
         double of_q = contact_scene_off(scene->q, c->point_q);
         double of_p = contact_scene_off(scene->p, test_turn(scene->r, test_add(c->point_p, scene->t, -1), -1));
-        expect(of_q <= hair && of_p <= hair, "%s, case %llu: contact %zu of %zu is %.3g off P, %.3g off Q", what,
+        expect(of_q <= error && of_p <= error, "%s, case %llu: contact %zu of %zu is %.3g off P, %.3g off Q", what,
                number, i, scene->count, of_p, of_q);
-        expect(c->distance >= answer->distance - hair, "%s, case %llu: %.17g deeper than %.17g", what, number,
+        expect(c->distance >= answer->distance - error, "%s, case %llu: %.17g deeper than %.17g", what, number,
                c->distance, answer->distance);
         expect(c->distance <= fmax(0, fmax(scene->margin, answer->distance)) + flush,
                "%s, case %llu: contact %zu at %.3g", what, number, i, c->distance);
@@ -131,14 +131,14 @@ static void check_points(const contact_scene *scene, const char *what, unsigned 
 }
 
 static void check_turning(const contact_scene *scene, const char *what, unsigned long long number) {
-    // the corners alone: three in a row never turn back
+    // of the corners, no three in a row turn back
     const pir_contact *corner = &scene->contact[scene->contact[0].id >> 62 == 3];
     size_t n = contact_scene_corners(scene);
-    double hair = 1e-11 * (scene->size + test_length(scene->t)) * scene->size;
+    double error = 1e-11 * (scene->size + test_length(scene->t)) * scene->size;
     for (size_t i = 0; i < n && n > 2; i++) {
         pir_vec3 a = corner[i].point_q, b = corner[(i + 1) % n].point_q, c = corner[(i + 2) % n].point_q;
         double turn = test_dot(test_cross(test_add(b, a, -1), test_add(c, b, -1)), scene->answer.normal);
-        expect(turn >= -hair, "%s, case %llu: clockwise at corner %zu of %zu", what, number, i, n);
+        expect(turn >= -error, "%s, case %llu: clockwise at corner %zu of %zu", what, number, i, n);
     }
 }
 
@@ -154,7 +154,7 @@ static void check_room(const contact_scene *scene) {
     }
 }
 
-/* Every contact is there again, in the same order, with twice the margin and with any. */
+/* Every contact is found again, in the same order, with twice the margin and with any margin. */
 static void check_margin(const contact_scene *scene, const char *what, unsigned long long number) {
     pir_query_input input = input_of(scene);
     pir_contact more[SCENE_CONTACTS];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Two bodies, their contacts, and what holds of every manifold. */
+/* Two bodies, their contacts, and checks that hold of every manifold. */
 #ifndef PIR_TEST_CONTACT_SCENE_H
 #define PIR_TEST_CONTACT_SCENE_H
 
@@ -23,7 +23,7 @@ typedef struct contact_scene {
     size_t count;
 } contact_scene;
 
-/* Takes the bodies over. */
+/* Makes a scene and takes over the bodies. */
 contact_scene contact_scene_make(pir_polytope *p, pir_polytope *q, pir_quat r);
 void contact_scene_clear(contact_scene *scene);
 
@@ -31,22 +31,23 @@ void contact_scene_clear(contact_scene *scene);
 void contact_scene_ask(contact_scene *scene);
 
 /*
- * Asks and checks: the answer comes first; each point is on its body and over the other; none is deeper than the
- * answer or above what was asked for; ids are distinct; the corners turn counter-clockwise about the normal; less
- * room gives the first ones; a larger margin only adds. `what` and `number` name the case.
+ * Asks for the manifold and checks it. The answer comes first. Each point is on its body and over the other. No
+ * contact is deeper than the answer or farther than was asked for. Ids are distinct. The corners turn
+ * counter-clockwise about the normal. A smaller capacity gives the first contacts, and a larger margin only adds
+ * contacts. `what` and `number` name the case.
  */
 void contact_scene_check(contact_scene *scene, const char *what, uint64_t number);
 
-/* Corners of the last manifold: all contacts but an answer that is none. */
+/* The number of corners of the last manifold: of all contacts but an answer that is none. */
 size_t contact_scene_corners(const contact_scene *scene);
 
-/* How far x, in the body's frame, is from the surface of a polytope of any dimension. */
+/* The distance of x, in the body's frame, from the surface of a polytope of any dimension. */
 double contact_scene_off(const pir_polytope *body, pir_vec3 x);
 
-/* The hull of the points, each turned in double before. */
+/* The hull of points that are rotated in double first. */
 pir_polytope *contact_scene_baked(const pir_vec3 *points, size_t count, pir_quat turned);
 
-/* The box of these half sides about the origin. */
+/* The box of the given half sides about the origin. */
 pir_polytope *contact_scene_box(double x, double y, double z);
 
 #endif

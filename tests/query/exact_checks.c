@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* See exact_checks.h: what single queries say of a pose. */
+/* The checks of single queries at a pose: see exact_checks.h. */
 #include "query/exact_checks.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 /* --- the tie rule --- */
 
-/* The first, by the tie rule, of the planes whose slacks tie exactly with the least. */
+/* The first facet by the tie rule, of those whose slacks tie exactly with the least. */
 static uint32_t least_plane(const exact_pair *pair) {
     const oracle_place *o = pair->place;
     uint32_t deepest = oracle_place_deepest(o);
@@ -69,7 +69,8 @@ static const struct {
              {"overlap", pir_query_overlap}};
 
 /*
- * Each query with no cache, the caller's, and any other, by a query with a history and one with less: all the same.
+ * Asks each query with no cache, with the caller's cache and with an arbitrary one, of a query object with a history
+ * and of one without. All answers must be the same.
  */
 static void ask_all_ways(exact_pair *pair, test_random *random, exact_pose *pose, pir_query_result *results) {
     for (int k = 0; k < 4; k++) {
@@ -93,17 +94,14 @@ static void ask_all_ways(exact_pair *pair, test_random *random, exact_pose *pose
 
 /* --- answers --- */
 
-/* What each call must say of a state. */
+/* Checks what each call says of a state. */
 static void check_outcome(const char *name, const pir_query_result *r, pir_state state) {
     static const pir_outcome outcome[3] = {PIR_SEPARATED, PIR_TOUCHING, PIR_OVERLAPPING};
     exact_check(EXACT_STATE, r->state == state && r->outcome == outcome[state],
                 "%s: state %d and outcome %d, state %d is right", name, (int)r->state, (int)r->outcome, (int)state);
 }
 
-/*
- * Points are off the features that hold them by roundings of coordinates: those of the bodies, the translation, the
- * points.
- */
+/* The error of a point. It is that of coordinates: of the bodies, of the translation, of the point itself. */
 static void check_points(exact_pair *pair, const exact_pose *pose, const pir_query_result *r, uint32_t plane) {
     double largest = fmax(exact_largest(r->point_p), exact_largest(r->point_q)),
            coordinates = fmax(fmax(largest, pair->reach), exact_largest(pose->t));
@@ -119,7 +117,7 @@ static void check_points(exact_pair *pair, const exact_pose *pose, const pir_que
                         0x1p-50 * coordinates + 1e-14 * pair->size);
 }
 
-/* No number, no point: where a call has none to give. */
+/* Checks that a call without a number and points to give sets none. */
 static int is_bare(const pir_query_result *r) {
     return r->distance == 0 && exact_largest(r->normal) == 0 && exact_largest(r->point_p) == 0 &&
            exact_largest(r->point_q) == 0 && r->witness.p.kind == PIR_FEATURE_NONE &&
@@ -132,13 +130,13 @@ static void check_apart(exact_pair *pair, exact_pose *pose, const pir_query_resu
     exact_check(EXACT_ORACLE, nearest.apart, "outside of a half-space, but in the hull");
     pose->should = nearest.distance;
     exact_number(EXACT_DISTANCE, "signed distance", r[0].distance, nearest.distance, scale);
-    // as exact as points that are right can make it
+    // no point that is right can be nearer
     exact_number(EXACT_NORMAL, "separation's normal is off by",
                  exact_length(exact_add(r[0].normal, nearest.normal, -1)), 0, scale / nearest.distance);
     exact_check(EXACT_CACHE, exact_same_bits(&r[0], &r[2]), "signed distance is not distance");
     exact_check(EXACT_DEPTH, r[1].distance == 0, "penetration %.17g, not 0", r[1].distance);
     exact_check(EXACT_STATE, is_bare(&r[3]), "overlap tells more than the state");
-    // a gap that counts as 0 but for the state
+    // a gap that counts as 0 in numbers, though not in the state
     if (nearest.distance > 0x1p-900 * pair->size)
         check_points(pair, pose, &r[0], 0);
 }

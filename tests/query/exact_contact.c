@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See exact_checks.h: which points of two bodies meet. The contact is a point x of the difference, so every pair of
- * points a of P and b of Q with b − a = x meets there. A face of P and one of Q hold such a pair exactly when x lies in
- * the difference of the two.
+ * Which points of two bodies meet: see exact_checks.h.
+ *
+ * A contact is a point x of the difference, so that every pair of points a of P and b of Q with b − a = x meets
+ * there. A face of P and a face of Q hold such a pair exactly when x lies in the difference of the two faces.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -11,12 +12,12 @@
 #include "query/exact_checks.h"
 #include "query/exact_report.h"
 
-/* Whether x, which the oracle is set to, lies in the difference of parts of both bodies; NULL for all of one. */
+/* Whether x, the oracle's point, lies in the difference of parts of both bodies. NULL for the whole of a body. */
 static int meet(exact_pair *pair, const oracle_set *p, const oracle_set *q) {
     return !oracle_place_is_apart(pair->place, p, q);
 }
 
-/* Goes on from one feature of a body to the next: vertices, edges, facets, in order. */
+/* Advances from one feature of a body to the next: vertices, edges, facets, in order. */
 static int next_feature(const exact_body *body, pir_feature *feature) {
     const uint32_t counts[4] = {0, body->solid->count, body->edges, body->facets};
     feature->index++;
@@ -41,7 +42,7 @@ static pir_feature least_face(exact_pair *pair, pir_operand operand, const oracl
     return found ? face : (pir_feature){PIR_FEATURE_NONE, 0};
 }
 
-/* The lowest vertex of one body that meets the other, with the least face of the other there; 0 when none does. */
+/* The lowest vertex of one body that meets the other, and the least face of the other there. 0 when none meets it. */
 static int vertex_meets(exact_pair *pair, pir_operand operand, pir_witness *ret_witness) {
     const exact_body *body = &pair->body[operand];
     pir_feature *own = operand == PIR_OPERAND_P ? &ret_witness->p : &ret_witness->q;

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* See exact_checks.h: along a direction. */
+/* Checks along a direction: see exact_checks.h. */
 #include <math.h>
 #include <string.h>
 
 #include "query/exact_checks.h"
 #include "query/exact_report.h"
 
-/* What a query says of the contact at t + s·d. */
+/* Checks what a query says of the contact at t + s·d. */
 struct said {
     pir_vec3 point, normal;
     pir_witness witness;
 };
 
-/* The normal is that of a plane which passes there, or lies between such. */
+/* Checks that the normal is that of a plane through the point, or lies between the normals of such planes. */
 static void check_normal(exact_pair *pair, const exact_contact *contact, pir_vec3 normal, double scale) {
     oracle_place *o = pair->place;
     double coordinates = fmax(pair->reach, exact_largest(contact->there));
@@ -26,9 +26,9 @@ static void check_normal(exact_pair *pair, const exact_contact *contact, pir_vec
     oracle_place_set(o, contact->t, contact->direction);
 }
 
-/* The contact at time s, through plane i unless the bodies touch at the start. */
+/* The contact at time s, through plane i, unless the bodies touch at the start. */
 static void check_contact(exact_pair *pair, const exact_pose *pose, double s, uint32_t i, const struct said *said) {
-    // a gap or a depth that counts as 0 but for the state
+    // a gap or a depth that counts as 0 in numbers, though not in the state
     if (pose->state != PIR_BOUNDARY && fabs(pose->should) <= 0x1p-900 * pair->size)
         return;
     double scale = pair->size + s * exact_length(pose->direction);
@@ -40,7 +40,7 @@ static void check_contact(exact_pair *pair, const exact_pose *pose, double s, ui
     exact_check_witness(pair, &contact, &said->witness, said->point, said->point, tolerance);
 }
 
-/* The same from a query that has no history of other rotations, bit for bit. */
+/* Checks that a query object without a history of other rotations answers the same, bit for bit. */
 static void check_same(exact_pair *pair, const exact_pose *pose, const char *name,
                        pir_status (*ask)(pir_query *, const pir_query_input *, pir_vec3, pir_query_result *),
                        const pir_query_result *r) {

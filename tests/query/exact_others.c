@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* See exact_checks.h: escapes, the largest distance, radii, cutoff, the manifold. */
+/* Checks of escapes, the largest distance, radii, cutoff and the manifold: see exact_checks.h. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 #define ROOM 4096
 
-/* Whether an escape is a plane's: witness, normal, depth. */
+/* Whether an escape is that of a plane: witness, normal, depth. */
 static int is_escape(const exact_pair *pair, const pir_escape *escape, uint32_t i) {
     const oracle_plane *plane = &pair->place->plane[i];
     const exact_body *p = &pair->body[PIR_OPERAND_P], *q = &pair->body[PIR_OPERAND_Q];
@@ -19,8 +19,8 @@ static int is_escape(const exact_pair *pair, const pir_escape *escape, uint32_t 
 }
 
 /*
- * All planes within the slack in the order of the tie rule, each once; `doubtful` of the size either way may be told or
- * not.
+ * Checks that the escapes are all planes within the slack, each once, in the order of the tie rule. Planes within
+ * `doubtful` of the limit, times the size, may be there or not.
  */
 static void check_list(const exact_pair *pair, double most, const pir_escape *escapes, size_t count) {
     const oracle_place *o = pair->place;
@@ -126,7 +126,7 @@ static double from_body(exact_pair *pair, const exact_pose *pose, pir_operand op
     return exact_distance_from(pair, operand, NULL, point, pose->t, 0x1p-50 * pair->reach) / pair->size;
 }
 
-/* The first contact is the answer; no other is nearer or deeper, and all lie on the bodies. */
+/* Checks a manifold: the first contact is the answer, no other is nearer or deeper, and all lie on the bodies. */
 static void check_manifold(exact_pair *pair, test_random *random, const exact_pose *pose) {
     static pir_contact contacts[ROOM];
     size_t count = 0;

@@ -106,7 +106,7 @@ int exact_same_feature(const exact_body *body, pir_feature a, pir_feature b) {
 
 /* --- ranks --- */
 
-/* Whether a polygon's facet faces along a plane's normal in the difference: P is subtracted. */
+/* Whether a polygon's facet faces along a plane's normal in the difference, where P is subtracted. */
 static int faces(double (*near)[3], const exact_body *body, uint32_t facet, const double along[3], int sign) {
     uint32_t size = pir_polytope_facet_size(body->polytope, facet), *corner = oracle_new(size, sizeof *corner);
     double height = 0;

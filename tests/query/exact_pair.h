@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two bodies at a rotation, with the oracle's view of them: their features as sets of vertices, facets in the order of
- * the tie rule.
+ * Two bodies at a rotation, and their features in the oracle's terms: sets of vertices, facets in the order of the
+ * tie rule.
  */
 #ifndef PIR_TEST_EXACT_PAIR_H
 #define PIR_TEST_EXACT_PAIR_H
@@ -18,16 +18,16 @@ typedef struct exact_body {
     oracle_set *edge, *facet; /* solid->words for each */
 } exact_body;
 
-/* A facet of the difference in the tie rule: a facet of P lies on it, one of Q, or else two edges do. */
+/* The rank of a facet of the difference in the tie rule: a facet of P lies on it, or one of Q, or else two edges do. */
 typedef struct exact_rank {
     uint32_t kind, first, second;
 } exact_rank;
 
 typedef struct exact_pair {
     exact_body body[2]; /* by pir_operand */
-    double size;        /* of both bodies; 1 in the scene's scale where both are points */
+    double size;        /* of both bodies together; the scene's scale where both are points */
     double reach;       /* the largest coordinate of either */
-    pir_query *query;   /* of the scene: it has seen other rotations */
+    pir_query *query;   /* the scene's: it has seen other rotations */
     pir_query *fresh;   /* made at this rotation */
     pir_query_cache cache;
     oracle_place *place;
@@ -35,7 +35,7 @@ typedef struct exact_pair {
     uint32_t *order;  /* planes by rising rank */
 } exact_pair;
 
-/* Takes the polytopes over. The size is `scale` where both are points. */
+/* Makes a pair and takes over the polytopes. The size is `scale` where both are points. */
 exact_pair exact_pair_make(pir_polytope *p, pir_polytope *q, double scale);
 void exact_pair_free(exact_pair *pair);
 
@@ -43,16 +43,16 @@ void exact_pair_free(exact_pair *pair);
 void exact_pair_turn(exact_pair *pair, pir_quat rotation);
 void exact_pair_leave(exact_pair *pair);
 
-/* The vertices of a feature into `set`; 0 when the body has no such feature. */
+/* Writes the vertices of a feature into `set`. 0 when the body has no such feature. */
 int exact_feature_set(const exact_body *body, pir_feature feature, oracle_set *set);
 
-/* The faces of a body that lie in a plane of the difference, as a feature: `set` is the plane's. */
+/* The face of a body that lies in a plane of the difference, as a feature. `set` is the plane's set of vertices. */
 pir_feature exact_feature_of(const exact_body *body, const oracle_set *set);
 
-/* Whether two features are the same; a polygon's two facets are. */
+/* Whether two features are the same. A polygon's two facets are. */
 int exact_same_feature(const exact_body *body, pir_feature a, pir_feature b);
 
-/* The length of a plane's unit normal less another: how far a direction is off. */
+/* The distance between a plane's unit normal and another vector: the error of a direction. */
 double exact_turn_from(const oracle_plane *plane, pir_vec3 normal);
 
 double exact_length(pir_vec3 v);

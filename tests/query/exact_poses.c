@@ -36,7 +36,7 @@ static void fill_dodecahedron(test_points *points) {
     }
 }
 
-/* A prism over a regular polygon, as doubles make it. */
+/* A prism over a regular polygon, rounded to doubles. */
 static void fill_cylinder(test_random *random, test_points *points) {
     int sides = test_random_between(random, 3, 10);
     double height = ldexp(1, -test_random_between(random, 0, 6));
@@ -48,7 +48,8 @@ static void fill_cylinder(test_random *random, test_points *points) {
 }
 
 /*
- * Small bodies whose features line up with those of others: on a grid, boxes with a corner or the middle at the origin.
+ * Small bodies whose features are parallel to those of others: on a grid, boxes with a corner or the middle at the
+ * origin.
  */
 static void fill_aligned(test_random *random, test_points *points) {
     static const test_body bodies[4] = {TEST_GRID, TEST_BOX, TEST_OCTAHEDRON, TEST_PRISM};
@@ -96,7 +97,7 @@ static void shake(test_random *random, test_points *points, double size) {
     }
 }
 
-/* Turns every vertex, in doubles. */
+/* Rotates every vertex in doubles. */
 static void bake(test_points *points, pir_quat q) {
     double n = sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w), x = q.x / n, y = q.y / n, z = q.z / n, w = q.w / n;
     for (size_t i = 0; i < points->count; i++) {
@@ -107,7 +108,7 @@ static void bake(test_points *points, pir_quat q) {
     }
 }
 
-static double hair(test_random *random) {
+static double tiny_length(test_random *random) {
     return pow(10, -test_random_between(random, 10, 17));
 }
 
@@ -160,8 +161,8 @@ static void make_near(test_random *random, exact_scene *s) {
     switch (test_random_below(random, 5)) {
     case 0:
         snprintf(s->situation, sizeof s->situation, "moved vertices");
-        shake(random, &s->points_p, hair(random));
-        shake(random, &s->points_q, hair(random));
+        shake(random, &s->points_p, tiny_length(random));
+        shake(random, &s->points_q, tiny_length(random));
         break;
     case 1: {
         snprintf(s->situation, sizeof s->situation, "baked alike");
@@ -186,11 +187,11 @@ static void make_near(test_random *random, exact_scene *s) {
             fill_cylinder(random, &s->points_q);
         break;
     default:
-        snprintf(s->situation, sizeof s->situation, "a hair off aligned");
+        snprintf(s->situation, sizeof s->situation, "nearly aligned");
         break;
     }
     if (test_random_below(random, 3) == 0) {
-        double h = hair(random);
+        double h = tiny_length(random);
         s->rotation.x = nudge(random, s->rotation.x, h);
         s->rotation.y = nudge(random, s->rotation.y, h);
         s->rotation.w = nudge(random, s->rotation.w, h);
@@ -235,7 +236,7 @@ pir_quat exact_rotation(test_random *random, const exact_scene *scene) {
         return test_general_rotation(random);
     pir_quat r = test_integer_rotation(random);
     if (test_random_below(random, 4) == 0)
-        r.z = nudge(random, r.z, hair(random));
+        r.z = nudge(random, r.z, tiny_length(random));
     return r;
 }
 
@@ -307,7 +308,7 @@ pir_vec3 exact_translation(test_random *random, const oracle_place *o, double si
     case 9:
         return (pir_vec3){round_to(at.x, unit), round_to(at.y, unit), round_to(at.z, unit)};
     default:
-        // one coordinate next to 0: gaps far below an ulp of the size, where a facet passes there
+        // one coordinate next to 0 gives gaps far below an ulp of the size where a facet passes there
         at.x = test_random_below(random, 2) ? ldexp(size, -test_random_between(random, 46, 58)) : at.x;
         at.y = test_random_below(random, 2) ? -ldexp(size, -test_random_between(random, 46, 58)) : at.y;
         return at;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What exact checks found: for each kind how many, how many failed, the worst error; the first failures of each kind
- * are printed.
+ * The findings of exact checks: for each kind their number, the failures, and the worst error. The first failures of
+ * each kind are printed.
  */
 #ifndef PIR_TEST_EXACT_REPORT_H
 #define PIR_TEST_EXACT_REPORT_H
@@ -35,7 +35,7 @@ typedef enum exact_kind {
     EXACT_KINDS,
 } exact_kind;
 
-/* What is being checked: printed with a failure, so that it can be made again. */
+/* The present case. It is printed with a failure, so that the failure can be repeated. */
 typedef struct exact_where {
     unsigned long long scene;
     int turn, pose;
@@ -44,16 +44,16 @@ typedef struct exact_where {
 
 extern exact_where exact_at;
 
-/* Only the kinds of these names, with commas between them, are counted from here on; 0 when a name is none. */
+/* Counts only the kinds of the given names from here on. Commas separate the names. 0 when a name is unknown. */
 int exact_report_only(const char *names);
 
-/* Counts a check; when it failed, prints the printf-formatted text, for the first few of a kind. */
+/* Counts a check. Where it failed, prints the printf-formatted text, for the first few of a kind. */
 void exact_check(exact_kind kind, int holds, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* Counts a number: |is − should| must be at most bound·scale. The worst |is − should| / scale is kept. */
 void exact_number(exact_kind kind, const char *what, double is, double should, double scale);
 
-/* Prints the table; how many failed. */
+/* Prints the table and returns the number of failures. */
 unsigned long long exact_report_print(void);
 
 #endif

@@ -15,21 +15,21 @@
 #define POINTS   8
 
 /*
- * What a sum says, as the model knows it. The bodies are twins of those that the sum was made of, so that nobody's
- * references are theirs.
+ * What the model knows of a sum. The bodies are twins of those that the sum was made of, so that the model shares no
+ * reference with the objects under test.
  */
 struct subject {
     uint32_t uses;
     pir_polytope *p, *q;
     int difference;
     double scale[2];
-    pir_quat rotation, shown; /* that the pairing is exact at, that was asked for */
+    pir_quat rotation, shown; /* the rotation that the pairing is exact at, and the one that was asked for */
     bool behind, region, tolerant;
     pir_vec3 axis;
     double half_angle;
 };
 
-/* A body and its twin. */
+/* A body and its twin, an equal one of its own. */
 struct body {
     pir_polytope *handle, *twin;
 };
@@ -74,14 +74,14 @@ static inline void need(struct program *program, bool condition, const char *wha
 
 /* --- handle_answers.c --- */
 
-/* Asks both queries the same, and notes where they differ: placements, directions and casts. */
+/* Asks two queries the same placements, directions and casts, and notes a failure where their answers differ. */
 void handle_compare_answers(struct program *program, pir_query *one, pir_query *other, const pir_query_input *input,
                             pir_vec3 along);
 
-/* The same of batches. */
+/* The same with batches. */
 void handle_compare_batches(struct program *program, pir_query *one, pir_query *other, const pir_query_input *input);
 
-/* The same of advances without a turn, which bring the sum to the rotation that it has already. */
+/* The same with advances that do not turn, so that the sum keeps its rotation. */
 void handle_compare_advances(struct program *program, struct query *query, pir_query *other, pir_vec3 from,
                              pir_vec3 along);
 

@@ -49,7 +49,7 @@ static void subject_drop(struct subject *subject) {
     pir_polytope_release(subject->q);
 }
 
-/* A sum that has no history, as the subject is at `rotation`. */
+/* A new sum without a history, in the subject's state at `rotation`. */
 static pir_sum *fresh_sum(struct program *program, const struct subject *subject, pir_quat rotation) {
     pir_polytope *scaled[2] = {NULL, NULL};
     pir_sum_options options = {NULL, subject->difference};
@@ -66,7 +66,7 @@ static pir_sum *fresh_sum(struct program *program, const struct subject *subject
     return sum;
 }
 
-/* Takes note of where a sum is after something was done to it. */
+/* Updates the model's rotations after something was done to a sum. */
 static void note_rotation(struct sum *sum) {
     sum->subject->rotation = pir_sum_pairing_rotation(sum->handle);
     sum->subject->shown = pir_sum_rotation(sum->handle);
@@ -265,7 +265,7 @@ static void ask_query(struct program *program) {
     pir_vec3 along = small_vector(program);
     if (!query->handle)
         return;
-    // a cache goes along from pose to pose: what is in it only has to do no harm
+    // the cache is passed from pose to pose: its contents must do no harm
     pir_query_result unused;
     pir_query_signed_distance(query->handle, &input, &query->cache, &unused);
     pir_sum *sum = fresh_sum(program, query->subject, query->subject->rotation);
@@ -322,7 +322,10 @@ static uint64_t mix_vector(uint64_t hash, pir_vec3 v) {
     return mix_double(mix_double(mix_double(hash, v.x), v.y), v.z);
 }
 
-/* What a live mesh holds, slots in any order: pairs, their planes, and pairs of vertices with their coordinates. */
+/*
+ * A hash of what a live mesh holds, whatever the order of slots: pairs, their planes, pairs of vertices with their
+ * coordinates.
+ */
 static uint64_t hash_live(struct program *program, pir_live_mesh *live) {
     uint32_t facets = pir_live_mesh_facet_slots(live), vertices = pir_live_mesh_vertex_slots(live), ends[2];
     pir_plane_equation *plane = malloc((facets + 1) * sizeof *plane);
@@ -354,7 +357,7 @@ static void refresh_live(struct program *program) {
         return;
     need(program, pir_live_mesh_refresh(live->handle) == PIR_OK, "a live mesh can be refreshed");
     uint64_t held = hash_live(program, live->handle);
-    // with a region it holds what the sum keeps, which depends on how it came there
+    // with a region a live mesh holds what the sum keeps, which depends on its past
     if (live->subject->region || live->subject->behind)
         return;
     pir_live_mesh *fresh = NULL;

@@ -10,7 +10,7 @@
 struct place_oracle {
     oracle_solid *p, *q;
     oracle_place *place;
-    uint32_t count; /* vertices of the difference, as doubles; among them may be points between others on a facet */
+    uint32_t count; /* vertices of the difference as doubles, and perhaps points between others on a facet */
     pir_vec3 *vertex;
 };
 

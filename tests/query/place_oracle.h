@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The oracle of placements (oracle/place.h) as tests of single poses use it: where a translation lies in the
- * difference, how far from it, how deep in it.
+ * The oracle of placements (oracle/place.h) for tests of single poses: where a translation lies in the difference,
+ * its distance from it, its depth in it.
  */
 #ifndef PIR_TEST_PLACE_ORACLE_H
 #define PIR_TEST_PLACE_ORACLE_H
@@ -19,15 +19,15 @@ typedef struct place_answer {
     double depth;    /* inside */
 } place_answer;
 
-/* Exact but for the last rounding. */
+/* The answer at a translation, exact but for the last rounding. */
 place_answer place_oracle_ask(place_oracle *oracle, pir_vec3 translation);
 
-/* How far the difference reaches beyond t along a direction of any length but zero; rounded. */
+/* The distance that the difference reaches beyond t along a direction of any length but zero, rounded. */
 double place_oracle_slack(place_oracle *oracle, pir_vec3 translation, pir_vec3 direction);
 
 /*
- * A vertex of the difference (index modulo their number), the middle of a facet, a point between two of its vertices,
- * rounded: translations nearly or quite on the boundary.
+ * Translations on the boundary, or nearly, because they are rounded: a vertex of the difference (index modulo their
+ * number), the middle of a facet, a point between two of its vertices.
  */
 pir_vec3 place_oracle_vertex(const place_oracle *oracle, uint32_t index);
 pir_vec3 place_oracle_on_facet(const place_oracle *oracle, uint32_t index);

@@ -56,7 +56,7 @@ static inline polygon polygon_overlap(const polygon *a, const polygon *b) {
     return now;
 }
 
-/* How far a point is beyond the sides; 0 inside. */
+/* The distance of a point beyond the sides, 0 inside. */
 static inline double polygon_beyond(const polygon *p, polygon_point x) {
     double most = 0;
     for (size_t i = 0; i < p->count; i++) {

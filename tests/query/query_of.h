@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The difference of two bodies and a query on it, as every test of queries needs them. */
+/* The difference of two bodies and a query on it. */
 #ifndef PIR_TEST_QUERY_OF_H
 #define PIR_TEST_QUERY_OF_H
 

@@ -13,9 +13,9 @@
 #define GRAVITY    9.81
 #define FRICTION   0.5
 #define ITERATIONS 30
-#define MARGIN     0.02 /* how far apart contacts are looked for */
-#define SLOP       5e-4 /* penetration that is let be */
-#define PUSH       0.1  /* the part of the rest that a frame ends */
+#define MARGIN     0.02 /* contacts are found up to this distance */
+#define SLOP       5e-4 /* penetration that is not corrected */
+#define PUSH       0.1  /* the part of the remaining penetration that one frame corrects */
 
 /* --- rotations --- */
 
@@ -130,7 +130,7 @@ double rigid_speed(const rigid_body *body) {
     return test_length(body->velocity) + reach * test_length(body->spin);
 }
 
-/* The inverse inertia, turned as the body is, times v. */
+/* The inverse inertia in the body's rotation, times v. */
 static pir_vec3 yield(const rigid_body *body, pir_vec3 v) {
     pir_vec3 b = test_turn(body->rotation, v, -1);
     double in[3] = {b.x, b.y, b.z}, out[3];
@@ -165,7 +165,7 @@ static void set_contact(rigid_pair *pair, const rigid_body *p, const rigid_body 
     }
 }
 
-/* The contacts of a pair, with the impulses of those of the same id a frame ago. */
+/* Finds the contacts of a pair, with the impulses of contacts of the same id in the frame before. */
 static void find_contacts(rigid_world *world, rigid_pair *pair) {
     const rigid_body *p = &world->body[pair->p], *q = &world->body[pair->q];
     pir_query_input input = pir_query_input_default();

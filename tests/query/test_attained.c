@@ -58,9 +58,9 @@ static pir_query_result ask(struct pair *pair, double x, double y, double z) {
 }
 
 static int in_box(pir_vec3 point, pir_vec3 low, pir_vec3 high) {
-    const double hair = 4e-16;
-    return point.x >= low.x - hair && point.x <= high.x + hair && point.y >= low.y - hair && point.y <= high.y + hair &&
-           point.z >= low.z - hair && point.z <= high.z + hair;
+    const double error = 4e-16;
+    return point.x >= low.x - error && point.x <= high.x + error && point.y >= low.y - error &&
+           point.y <= high.y + error && point.z >= low.z - error && point.z <= high.z + error;
 }
 
 /* --- points on the bodies --- */

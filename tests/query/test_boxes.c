@@ -166,8 +166,8 @@ static struct ray ray_from(const box *d, const int t[3], const int m[3]) {
 
 static bool is_in(const box *b, double unit, pir_vec3 at, pir_vec3 point) {
     for (int k = 0; k < 3; k++) {
-        double x = component(point, k) - component(at, k), hair = 1e-14 * unit;
-        if (x < b->low[k] * unit - hair || x > b->high[k] * unit + hair)
+        double x = component(point, k) - component(at, k), error = 1e-14 * unit;
+        if (x < b->low[k] * unit - error || x > b->high[k] * unit + error)
             return false;
     }
     return true;

@@ -106,8 +106,8 @@ static pir_polytope *clusters(test_random *random) {
     pir_vec3 at[48];
     for (int i = 0; i < 48; i++) {
         int c = i / 6;
-        pir_vec3 hair = test_random_direction(random);
-        at[i] = test_add((pir_vec3){c & 1 ? 0.5 : -0.5, c & 2 ? 0.5 : -0.5, c & 4 ? 0.5 : -0.5}, hair, 2e-15);
+        pir_vec3 tiny = test_random_direction(random);
+        at[i] = test_add((pir_vec3){c & 1 ? 0.5 : -0.5, c & 2 ? 0.5 : -0.5, c & 4 ? 0.5 : -0.5}, tiny, 2e-15);
     }
     return contact_scene_baked(at, 48, still);
 }
@@ -181,10 +181,10 @@ static void edges_of_rounded_grids_share_a_segment(void **state) {
     (void)state;
     for (uint64_t number = 0; number < 100; number++) {
         test_random random = test_random_case("contacts, edges of grids", number);
-        double eighth = atan(1) / 2, s = sin(eighth), hair = number % 2 ? 3e-8 : 1e-15;
+        double eighth = atan(1) / 2, s = sin(eighth), tiny = number % 2 ? 3e-8 : 1e-15;
         contact_scene scene = contact_scene_make(grid((pir_quat){s, 0, 0, cos(eighth)}, number % 2),
                                                  grid((pir_quat){-s, 0, 0, cos(eighth)}, number % 2),
-                                                 (pir_quat){0, 0, hair * test_random_unit(&random), 1});
+                                                 (pir_quat){0, 0, tiny * test_random_unit(&random), 1});
         scene.t = (pir_vec3){0.4 * test_random_unit(&random), 0, sqrt(2) + 0.01};
         contact_scene_check(&scene, "edges of grids", number);
         expect(contact_scene_corners(&scene) == 2, "case %d: %zu corners", (int)number, contact_scene_corners(&scene));
@@ -244,10 +244,10 @@ static void equal_faces_have_four_corners_with_ids_that_last(void **state) {
     uint64_t ids[4] = {0};
     for (uint64_t i = 0; i < 100; i++) {
         test_random random = test_random_case("contacts, equal", i);
-        double hair = i == 0 ? 0 : 1e-14;
+        double tiny = i == 0 ? 0 : 1e-14;
         contact_scene scene = contact_scene_make(contact_scene_box(1, 1, 1), contact_scene_box(1, 1, 1),
-                                                 (pir_quat){0, 0, hair * test_random_unit(&random), 1});
-        scene.t = (pir_vec3){hair * test_random_unit(&random), hair * test_random_unit(&random), 1.75};
+                                                 (pir_quat){0, 0, tiny * test_random_unit(&random), 1});
+        scene.t = (pir_vec3){tiny * test_random_unit(&random), tiny * test_random_unit(&random), 1.75};
         contact_scene_check(&scene, "equal faces", i);
         expect(contact_scene_corners(&scene) == 4, "case %d: %zu corners", (int)i, contact_scene_corners(&scene));
         const pir_contact *corner = &scene.contact[scene.count - 4];

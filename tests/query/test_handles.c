@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Objects that stand on others: queries and live meshes on a sum, locators on a map, sums on polytopes. They follow
- * what they stand on, and keep it in memory, in whatever order things are changed and destroyed.
+ * Objects that hold others: queries and live meshes hold a sum, locators a map, sums polytopes. They follow the
+ * objects that they hold, and keep them in memory, in whatever order objects change and are destroyed.
  *
  * PIR_TEST_PROGRAMS in the environment sets the number of random programs.
  */
@@ -37,7 +37,7 @@ static pir_polytope *cube(double half) {
     return p;
 }
 
-/* The difference of two cubes of sides 2 and the query on it, all else released. */
+/* The difference of two cubes of sides 2 and a query on it. All other references are released. */
 static void make(const pir_allocator *allocator, pir_sum **ret_sum, pir_query **ret_query) {
     pir_polytope *p = cube(1), *q = cube(1);
     pir_sum_options options = {allocator, 1};
@@ -84,7 +84,7 @@ static void query_may_outlive_its_sum(void **state) {
     assert_true(depth_at_middle(query) == 4);
     pir_query_destroy(query);
     assert_true(depth_at_middle(other) == 4);
-    // it still turns the sum, which is its own now
+    // the query still rotates the sum, which it alone holds now
     const pir_motion motion = {{0, 0, 1, 1}, {8, 0, 0}, {-8, 0, 0}, {0, 0, 1}, 0};
     pir_cast_result hit;
     assert_int_equal(pir_query_advance(other, &motion, 1e-6, &hit), PIR_OK);
@@ -93,7 +93,7 @@ static void query_may_outlive_its_sum(void **state) {
     assert_true(memory.blocks == 0 && !memory.wrong_size);
 }
 
-/* A motion's time is safe for the body as large as it is, not as it was. */
+/* A motion's time is safe for the body at its present scale. */
 static void advance_reckons_with_the_scale_of_now(void **state) {
     (void)state;
     pir_sum *sum;
@@ -186,7 +186,10 @@ static void sum_that_is_no_difference_is_refused(void **state) {
     pir_polytope_release(p);
 }
 
-/* A scale of few digits needs no memory; one of many may, and without it the query waits until there is some. */
+/*
+ * A scale of few digits needs no memory. One of many digits may, and without that memory the query fails until there
+ * is some.
+ */
 static void scale_needs_no_memory_or_can_wait_for_it(void **state) {
     (void)state;
     test_memory memory = {0};
@@ -243,7 +246,7 @@ static void scale_that_is_refused_can_be_taken_back(void **state) {
     pir_polytope_release(p);
 }
 
-/* Whether the sum's generation is another than it was when this was asked last. */
+/* Whether the sum's generation has changed since the last call. */
 static bool has_changed(const pir_sum *sum, uint64_t *seen) {
     uint64_t before = *seen;
     *seen = pir_sum_generation(sum);
@@ -289,7 +292,7 @@ static void programs_in_any_order_get_the_answers_of_new_objects(void **state) {
     for (uint64_t number = 0; number < programs; number++) {
         test_random random = test_random_case("handles", number);
         uint32_t step = 0;
-        // no more than there is, so that reading past it is seen
+        // no more room than the objects say, so that a read beyond it is caught
         uint8_t *bytes = malloc(PROGRAM_BYTES);
         assert_non_null(bytes);
         for (size_t i = 0; i < PROGRAM_BYTES; i++)

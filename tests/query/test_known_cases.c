@@ -43,13 +43,13 @@ static void thin_boxes_have_their_depth(void **state) {
     clear(&s);
 }
 
-static void kissing_boxes_swept_by_hairs(void **state) {
+static void touching_boxes_swept_by_tiny_gaps(void **state) {
     (void)state;
     // two boxes turned alike: in the frame of one of them both stand straight
     struct scene s = make(cube(0.5), cube(0.5), still);
-    for (double hair = 1e-16; hair < 2e-6; hair *= 10)
+    for (double gap = 1e-16; gap < 2e-6; gap *= 10)
         for (int side = -1; side <= 1; side += 2) {
-            double x = 0.5 + side * hair;
+            double x = 0.5 + side * gap;
             pir_state right = x > 0.5 ? PIR_OUTSIDE : x < 0.5 ? PIR_INSIDE : PIR_BOUNDARY;
             expect_answer(ask(&s, x, 0, 0), right, x - 0.5, 1);
             expect_answer(ask(&s, 0.1, -x, 0.2), right, x - 0.5, 1);
@@ -237,7 +237,7 @@ int main(void) {
         cmocka_unit_test(cubes_of_side_two_a_tenth_deep),
         cmocka_unit_test(depth_exactly_zero_is_touching),
         cmocka_unit_test(thin_boxes_have_their_depth),
-        cmocka_unit_test(kissing_boxes_swept_by_hairs),
+        cmocka_unit_test(touching_boxes_swept_by_tiny_gaps),
         cmocka_unit_test(small_boxes_nearly_touching),
         cmocka_unit_test(concentric_boxes_leave_by_the_first_face),
         cmocka_unit_test(small_box_on_large_slabs),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What holds of every contact manifold, on bodies at random, on bodies whose vertices were rotated in double, and on
- * flat ones; and that its corners are those of the region that the test works out itself, by clipping polygons.
+ * Checks that hold of every contact manifold, on random bodies, on bodies whose vertices were rotated in double, and
+ * on flat bodies. Its corners are those of the region that the test computes itself, by clipping polygons.
  */
 #include "support/test.h"
 
@@ -28,7 +28,7 @@ static bool same_ids(const contact_scene *a, const contact_scene *b) {
     return a->count == b->count;
 }
 
-/* A hair along keeps the ids while the same features meet. */
+/* Ids stay under small motions while the same features meet. */
 static void check_ids(contact_scene *scene, test_random *random, uint64_t number, int *compared) {
     contact_scene after = *scene;
     after.t = test_add(scene->t, test_random_direction(random), 1e-10 * scene->size);
@@ -43,7 +43,10 @@ static void check_ids(contact_scene *scene, test_random *random, uint64_t number
 
 /* --- regions, by another way --- */
 
-/* Whether an edge of the body leads from a corner of facet f to elsewhere, within a sixth of a degree of its plane. */
+/*
+ * Whether an edge of the body leads from a corner of facet f to another vertex within a sixth of a degree of the
+ * facet's plane.
+ */
 static bool is_nearly_flat(const pir_polytope *body, uint32_t f) {
     uint32_t corner[SCENE_CONTACTS], n = pir_polytope_facet_size(body, f);
     pir_polytope_facet(body, f, corner);
@@ -60,8 +63,8 @@ static bool is_nearly_flat(const pir_polytope *body, uint32_t f) {
 }
 
 /*
- * The facet most along n of those at vertex v, or of all with UINT32_MAX; false where it is not alone: steep, or with
- * others that are nearly coplanar.
+ * The facet that is most along n, of those at vertex v, or of all with UINT32_MAX. False where the choice is not
+ * clear: steep facets, or others that are nearly coplanar.
  */
 static bool facet_most(const pir_polytope *body, uint32_t v, pir_vec3 n, uint32_t *ret_facet) {
     double most = 0.01;
@@ -95,7 +98,7 @@ static polygon project(const pir_polytope *body, uint32_t f, pir_quat r, pir_vec
     return polygon_turned_left(flat);
 }
 
-/* The corners of the last manifold, which must be all, seen along the normal. */
+/* The corners of the last manifold, which must be all its contacts, seen along the normal. */
 static polygon seen(const contact_scene *scene, const pir_vec3 axis[2]) {
     polygon flat = {.count = contact_scene_corners(scene)};
     const pir_contact *corner = &scene->contact[scene->count - flat.count];
@@ -111,17 +114,17 @@ static void set_axes(pir_vec3 n, pir_vec3 axis[2]) {
     axis[1] = test_cross(n, axis[0]);
 }
 
-static void expect_region(const contact_scene *scene, const polygon *expected, const polygon *got, double hair,
+static void expect_region(const contact_scene *scene, const polygon *expected, const polygon *got, double error,
                           const char *what, unsigned long long number) {
     double area = polygon_area(expected), of_corners = polygon_area(got);
-    expect(fabs(area - of_corners) <= hair, "%s, case %llu: the corners of %zu contacts hold %.12g, not %.12g", what,
+    expect(fabs(area - of_corners) <= error, "%s, case %llu: the corners of %zu contacts hold %.12g, not %.12g", what,
            number, scene->count, of_corners, area);
     for (size_t i = 0; i < got->count && expected->count > 2; i++)
-        expect(polygon_beyond(expected, got->at[i]) <= hair, "%s, case %llu: corner %zu is %.3g beyond the region",
+        expect(polygon_beyond(expected, got->at[i]) <= error, "%s, case %llu: corner %zu is %.3g beyond the region",
                what, number, i, polygon_beyond(expected, got->at[i]));
 }
 
-/* Where a facet carries the answer: the facets' overlap. Returns whether it was such a case. */
+/* Checks the overlap of two facets where a facet carries the answer. Returns whether it does. */
 static bool check_facets(contact_scene *scene, uint64_t number) {
     pir_feature p = scene->answer.witness.p, q = scene->answer.witness.q;
     pir_vec3 n = scene->answer.normal, axis[2], away = test_turn(scene->r, test_add(test_zero, n, -1), -1);
@@ -191,8 +194,8 @@ static polygon random_polygon(test_random *random) {
 }
 
 /*
- * A prism over a polygon, turned in double; its sides lean outwards by `lean` from the bottom to the top, one of
- * which is the polygon.
+ * A prism over a polygon, rotated in double. Its sides lean outwards by `lean` from the bottom to the top, and the
+ * polygon is one of the two.
  */
 static pir_polytope *prism(const polygon *base, double low, double high, double lean, pir_quat baked) {
     pir_vec3 at[2 * POLYGON_CORNERS];
@@ -213,7 +216,7 @@ static pir_quat turn_about(double x, double y, double z, double angle) {
     return (pir_quat){s * x, s * y, s * z, cos(angle / 2)};
 }
 
-/* The overlap of the two polygons, one turned and moved. */
+/* The overlap of two polygons, one of them turned and moved. */
 static polygon region_of(const polygon *a, double yaw, pir_vec3 t, const polygon *b) {
     polygon moved = *a;
     for (size_t i = 0; i < a->count; i++)
@@ -223,9 +226,9 @@ static polygon region_of(const polygon *a, double yaw, pir_vec3 t, const polygon
 }
 
 /*
- * A prism stands on a prism, each rotated in double before its hull, by a gap or a depth, level or tilted by less
- * than the angle of flatness. The contacts are the overlap of the two polygons, which the bodies do not know any
- * more.
+ * A prism stands on a prism, each rotated in double before its hull. They are apart or overlap, level or tilted by
+ * less than the angle of flatness. The contacts must be the overlap of the two polygons, though the bodies have no
+ * such facets any more.
  */
 static void prisms_rotated_in_double_stand_on_each_other(void **state) {
     (void)state;
@@ -247,7 +250,7 @@ static void prisms_rotated_in_double_stand_on_each_other(void **state) {
         scene.margin = 0.05;
         polygon expected = region_of(&a, yaw, t, &b);
         contact_scene_check(&scene, "prisms", number);
-        // where the prisms' sides are nearer than their ends, there is another answer
+        // where the prisms' sides are nearer than their ends, the answer is another
         if (expected.count > 2 && fabs(fabs(scene.answer.distance) - 0.01) < 2e-3 && polygon_area(&expected) > 0.01) {
             axis[0] = test_turn(of_q, (pir_vec3){1, 0, 0}, 1), axis[1] = test_turn(of_q, (pir_vec3){0, 1, 0}, 1);
             polygon got = seen(&scene, axis);
@@ -260,7 +263,7 @@ static void prisms_rotated_in_double_stand_on_each_other(void **state) {
     assert_true(split > 300 && regions > 200);
 }
 
-/* In any pose, deep or shallow: all that holds of manifolds holds of bodies whose facets came apart. */
+/* In any pose, deep or shallow, all checks hold of bodies whose facets are split. */
 static void bodies_rotated_in_double_keep_their_answer(void **state) {
     (void)state;
     const char *text = getenv("PIR_TEST_POSES");
@@ -285,7 +288,7 @@ static void bodies_rotated_in_double_keep_their_answer(void **state) {
 /* --- known regions --- */
 
 /*
- * A slab that lies on a table, turned about the upright by any angle: as many contacts as the overlap of two
+ * A slab lies on a table, turned about the upright by any angle. There are as many contacts as the overlap of two
  * rectangles has corners.
  */
 static void slabs_lie_flat(void **state) {
@@ -311,7 +314,7 @@ static void slabs_lie_flat(void **state) {
     assert_true(most == 8);
 }
 
-/* Cubes edge to edge along parallel edges: the ends of what the edges share. */
+/* Cubes edge to edge along parallel edges: the contacts are the ends of what the edges share. */
 static void parallel_edges_share_a_segment(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 60; i++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries whose planes have to grow and cannot: between two rotations the crossings of the sum become far more than a
- * query made room for. A call that finds no memory says so and leaves its results as they were; with memory again the
- * same query answers as a fresh one does, bit for bit.
+ * Queries whose planes must grow and cannot. Between two rotations the crossings of the sum become far more than a
+ * query has memory for. A call that finds no memory says so and leaves its results untouched. With memory again the
+ * same query answers as a new one, bit for bit.
  */
 #include "support/test.h"
 
@@ -59,7 +59,7 @@ static pir_status call(pir_query *query, int which, struct answers *ret_answers)
     }
 }
 
-/* All answers of a query, which has the memory that it wants. */
+/* All answers of a query that has the memory it needs. */
 static struct answers ask_all(pir_query *query) {
     struct answers answers;
     memset(&answers, 0, sizeof answers);
@@ -107,7 +107,7 @@ static void queries_whose_planes_cannot_grow_say_so(void **state) {
             pir_sum *sum = difference_of(p, q, &allocator);
             pir_query *query = NULL;
             assert_int_equal(pir_query_create(sum, &query), PIR_OK);
-            // what batches lay out is there already, but too small for what comes
+            // the memory of batches is there already, but too small for the next one
             ask_all(query);
             assert_int_equal(pir_sum_rotate(sum, many, PIR_METHOD_UPDATE), PIR_OK);
             memory.fail_at = memory.requests + ++n;

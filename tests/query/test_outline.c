@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Hulls and overlaps of outlines in the plane, where every coordinate is off by rounding: what is one corner, on one
- * line or flush but for that is found the same every time.
+ * Hulls and overlaps of outlines in the plane, where every coordinate has a rounding error. What is one corner, on
+ * one line, or flush but for rounding is found to be so every time.
  */
 #include "support/test.h"
 
@@ -132,8 +132,8 @@ static void points_and_segments_are_outlines(void **state) {
 }
 
 /*
- * Flush sides and equal corners, as faces of stacked boxes have them: a corner of P where one is, else of Q, else a
- * crossing.
+ * Flush sides and equal corners, as faces of stacked boxes have them. A corner of P is named where there is one, else
+ * a corner of Q, else a crossing.
  */
 static void flush_outlines_share_the_same_corners_every_time(void **state) {
     (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The oracle of placements itself: cases that plain geometry answers, and its two ways to make the difference,
- * half-spaces and the hull of vertices, against each other and against the exact hull of all pairwise sums.
+ * The oracle of placements: cases that plain geometry answers, and its two ways to make the difference, half-spaces
+ * and the hull of vertices, against each other and against the exact hull of all pairwise sums.
  */
 #include "support/test.h"
 

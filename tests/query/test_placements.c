@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries against exact arithmetic, over random and degenerate bodies, rotations and translations: far, near, deep, and
- * on vertices, edges and facets of the difference. States must agree always, numbers to 1e-12 of the size of things.
+ * Queries against exact arithmetic, over random and degenerate bodies, rotations and translations: far, near, deep,
+ * and on vertices, edges and facets of the difference. States must always agree, numbers within 1e-12 of the sizes.
  * One cache goes through all poses of a pair, and every answer must be the same without it.
  *
  * PIR_TEST_PAIRS in the environment sets the number of pairs.
@@ -29,12 +29,12 @@ static double length(pir_vec3 a) {
     return sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
 }
 
-/* A translation of some kind, most of them hard. */
+/* A translation of one of many kinds, most of them hard. */
 static pir_vec3 some_translation(test_random *random, const place_oracle *oracle) {
     double size = place_oracle_size(oracle);
     uint32_t index = (uint32_t)test_random_bits(random);
     pir_vec3 direction = test_random_direction(random), v = place_oracle_vertex(oracle, index);
-    double hair = ldexp(size, -test_random_between(random, 8, 56));
+    double step = ldexp(size, -test_random_between(random, 8, 56));
     switch (test_random_below(random, 8)) {
     case 0:
         return add(v, direction, 3 * size);
@@ -45,9 +45,9 @@ static pir_vec3 some_translation(test_random *random, const place_oracle *oracle
     case 3:
         return place_oracle_on_edge(oracle, index);
     case 4:
-        return add(place_oracle_on_facet(oracle, index), direction, hair);
+        return add(place_oracle_on_facet(oracle, index), direction, step);
     case 5:
-        return add(place_oracle_on_edge(oracle, index), direction, hair);
+        return add(place_oracle_on_edge(oracle, index), direction, step);
     case 6: {
         // between two vertices: inside, often deep
         pir_vec3 w = place_oracle_vertex(oracle, (uint32_t)test_random_bits(random));
@@ -85,7 +85,7 @@ static void check_pose(pir_query *query, place_oracle *oracle, pir_query_cache *
                where, situation, (unsigned long long)number, t.x, t.y, t.z, (int)all[i]->state, (int)right.state,
                all[i]->distance, should, (int)all[i]->outcome, size, r0.x, r0.y, r0.z, r0.w);
         const pir_query_result *r = all[i];
-        // the invariant, and the normal proves the number
+        // the answer's own invariant, and the normal as a proof of the number
         pir_vec3 end = add(r->point_q, r->normal, r->distance);
         pir_vec3 miss = add(r->point_p, end, -1);
         expect(length(miss) <= bound && fabs(length(r->normal) - 1) < 1e-14, where, situation,
@@ -130,8 +130,10 @@ static void check_pair(uint64_t number) {
     pir_polytope_release(q);
 }
 
-/* Pairs that once failed, with the first seed: slivers in which x lies next to faces that are equally
-   near but for rounding. */
+/*
+ * Pairs that failed once, with the first seed: slivers in which x lies near faces that are equally near but for
+ * rounding.
+ */
 static const uint64_t kept[] = {11790};
 
 static void answers_agree_with_exact_arithmetic(void **state) {

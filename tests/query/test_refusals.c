@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What queries refuse: every call with every input that it cannot take. A refusal names what is wrong by its status,
- * and leaves all results as they were.
+ * What queries refuse: every call with every input that it cannot take. The status of a refusal names the fault, and
+ * all results stay as they were.
  */
 #include "support/test.h"
 
@@ -165,7 +165,7 @@ static void escapes_have_room_and_a_slack(void **state) {
     clear(&s);
 }
 
-/* What came before the translation that is refused stands, and what comes after is as it was. */
+/* Answers before the translation that is refused stand, and results after it stay as they were. */
 static void batches_end_at_what_they_refuse(void **state) {
     (void)state;
     struct scene s = make();

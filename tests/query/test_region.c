@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries on a sum with a region, held against the list of all facets that a whole sum gives, and against another sum
- * that has come to the same place another way.
+ * Queries on a sum with a region, against the list of all facets of a whole sum, and against another sum that has
+ * come to the same rotation in another way.
  */
 #include "support/test.h"
 
@@ -17,7 +17,7 @@
 
 #define MOST_FACETS 20000
 
-/* How near the rim of the cone a normal must not be for it to count as certainly in or out. */
+/* A normal nearer than this to the rim of the cone counts neither as in nor as out. */
 #define RIM 1e-9
 
 struct scene {
@@ -56,7 +56,7 @@ static void scene_clear(struct scene *s) {
     pir_polytope_release(s->p);
 }
 
-/* A cache that names any piece, kept by the sum, dormant or none at all. */
+/* A cache that names any piece: one that the sum keeps, a dormant one, or none at all. */
 static pir_query_cache any_piece(test_random *random) {
     uint32_t most = test_random_below(random, 4) ? 40 : UINT32_MAX;
     return (pir_query_cache){.pieces = 1,
@@ -65,8 +65,10 @@ static pir_query_cache any_piece(test_random *random) {
                              .second = test_random_below(random, most)};
 }
 
-/* The least depth among the whole sum's facets in the cone about unit `axis`, from above and from below where
-   the rim leaves it open. */
+/*
+ * The least depth over the whole sum's facets in the cone about unit `axis`, from above and from below where the rim
+ * leaves it open.
+ */
 static void least_in_cone(struct scene *s, const pir_query_input *input, double size, pir_vec3 axis, double half_angle,
                           double *ret_least, double *ret_most) {
     size_t count;
@@ -166,7 +168,7 @@ static void ask(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, p
     s->answered++;
     expect(-part.distance >= least - 1e-11 * size && -part.distance <= most + 1e-11 * size,
            "%s: depth %g, not %g to %g", situation, -part.distance, least, most);
-    // the way out along a direction: the whole sum's where its facet is in the cone, else no shorter
+    // the depth along a direction: that of the whole sum where its facet is in the cone, otherwise no shorter
     pir_query_result out, all_out;
     assert_int_equal(pir_query_directional_depth(s->ask_region, &input, axis, &out), PIR_OK);
     assert_int_equal(pir_query_directional_depth(s->ask_whole, &input, axis, &all_out), PIR_OK);
@@ -199,7 +201,7 @@ static void depth_in_a_region_is_the_least_of_its_facets(void **state) {
             continue;
         scene_init(&s, &pose);
         double size = reach_of(s.p) + reach_of(s.q);
-        // bodies beyond what queries take are for other tests
+        // bodies that queries refuse are for other tests
         if (size > 1e100 || size < 1e-100) {
             scene_clear(&s);
             continue;
@@ -241,7 +243,7 @@ static void depth_in_a_region_is_the_least_of_its_facets(void **state) {
     assert_true(s.edges > 100 && s.beside > 10);
 }
 
-/* A facet's plane through the very point: the region knows it exactly. */
+/* A facet's plane passes exactly through the point: the region knows it exactly. */
 static void boundary_of_a_region_is_exact(void **state) {
     (void)state;
     test_points box = {.count = 8};
@@ -266,7 +268,7 @@ static void boundary_of_a_region_is_exact(void **state) {
                  {2 + 0x1p-51, PIR_OUTSIDE, PIR_SEPARATED},
                  {-7, PIR_INSIDE, PIR_NOT_SEPARATED}};
     for (int i = 0; i < 4; i++) {
-        // far out sideways, where the region has no facet to tell
+        // far out sideways, where no facet of the region decides
         input.translation = (pir_vec3){9, 0, cases[i].z};
         assert_int_equal(pir_query_penetration(query, &input, NULL, &result), PIR_OK);
         assert_int_equal(result.state, cases[i].state);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two bodies of a kind fall on a slab, beside each other and one onto the other, through the library's contact
- * manifolds alone, and come to rest. Their vertices were rotated in double before their hulls were made, so no facet
- * of them is quite flat. PIR_TEST_DROPS is how many falls of each kind there are.
+ * Two bodies of a kind fall on a slab, side by side and one onto the other, with contacts from the library's
+ * manifolds alone, and come to rest. Their vertices were rotated in double before their hulls were made, so that no
+ * facet is quite flat. PIR_TEST_DROPS sets the number of falls of each kind.
  */
 #include "support/test.h"
 
@@ -20,9 +20,9 @@
 #define FRAMES  5000
 #define STEP    (1.0 / 240)
 #define AT_REST 1e-4
-#define SUNK    2e-3 /* four times as deep as the solver lets bodies lie in each other */
+#define SUNK    2e-3 /* four times the depth that the solver leaves */
 
-/* A shape with its vertices turned in double and made about its middle. */
+/* A shape with its vertices rotated in double, about its middle. */
 static pir_polytope *baked(const char *name, pir_quat turned) {
     pir_polytope *shape, *result;
     pir_vec3 at[256], middle = test_zero;
@@ -45,7 +45,7 @@ static pir_quat turn_about(pir_vec3 axis, double angle) {
 
 /* A rotation that lays the shape's facet with the most corners down, tilted by a few degrees. */
 static pir_quat upright(const pir_polytope *shape, test_random *random) {
-    // facets that come apart have as many corners as others: the greatest reach of what is flat with them counts
+    // split facets have as many corners as others, so the greatest reach of what is flat with them counts
     double least = HUGE_VAL;
     pir_vec3 down = {0, 0, -1};
     for (uint32_t f = 0; f < pir_polytope_facet_count(shape); f++) {
@@ -71,7 +71,7 @@ static pir_quat any_turn(test_random *random) {
     return turn_about(test_random_direction(random), 3 * test_random_unit(random));
 }
 
-/* How far the shape, turned, reaches up, or down with sign −1. */
+/* The height that the rotated shape reaches, or its depth with sign −1. */
 static double reach(const pir_polytope *shape, pir_quat turned, double sign) {
     double most = 0;
     for (uint32_t v = 0; v < pir_polytope_vertex_count(shape); v++)
@@ -79,7 +79,7 @@ static double reach(const pir_polytope *shape, pir_quat turned, double sign) {
     return most;
 }
 
-/* A slab, baked too and turned back, and two bodies above it. */
+/* A slab, rotated in double as well and turned back, and two bodies above it. */
 static void build(rigid_world *world, const char *name, bool stacked, test_random *random) {
     pir_quat bake = any_turn(random);
     double top = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The loops over planes say what their formulas say; with the argument `versions`: every version gives the bits of the
- * plain one, whatever comes in, which is skipped where the plain one alone runs.
+ * The loops over planes compute their formulas. With the argument `versions`: every version gives the bits of the
+ * plain one, for any input. That is skipped where only the plain one runs.
  */
 #include "support/test.h"
 
@@ -29,7 +29,7 @@ static void fill(test_random *random, struct data *data) {
     }
 }
 
-/* What the loops put out, all of it. */
+/* All results of the loops. */
 struct outcome {
     struct data turned, normals, moved;
     double offsets[COUNT], slacks[COUNT], h[COUNT], err[COUNT], bounds[COUNT], boxes[COUNT], caps[COUNT];
@@ -90,7 +90,7 @@ static void the_plain_version_says_what_the_formulas_say(void **state) {
         pir_vec3 d = {in[0].x[i], in[0].y[i], in[0].z[i]}, e = {in[1].x[i], in[1].y[i], in[1].z[i]};
         pir_vec3 c = pir_vec_cross(d, e), n = {out.normals.x[i], out.normals.y[i], out.normals.z[i]};
         double length = sqrt(pir_vec_dot(c, c));
-        // parallel vectors have no normal, and their plane is passed over
+        // parallel vectors have no normal; their plane is skipped
         if (length == 0) {
             assert_true(isinf(out.err[i]));
             continue;
@@ -103,7 +103,7 @@ static void the_plain_version_says_what_the_formulas_say(void **state) {
     assert_true(out.least[0] == low);
 }
 
-/* The bound of a cap is |w| times the cosine of the widest angle to w, where that is above zero. */
+/* The bound of a cap is |w| times the cosine of the greatest angle to w, where that is positive. */
 static void caps_bound_by_their_widest_angle(void **state) {
     (void)state;
     test_random random = test_random_case("scans", 1001);

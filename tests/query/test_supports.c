@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Support functions in libccd's form give points of the body, in its pose, that no other point of it goes beyond. */
+/*
+ * Support functions in libccd's form give points of the body in its pose. No other point of the body is farther along
+ * the direction.
+ */
 #include "support/test.h"
 
 #include <math.h>
@@ -60,7 +63,7 @@ static void supports_of_sums_are_farthest(void **state) {
             draw(&random, n, direction);
             pir_support_sum_ccd(sum, direction, point);
             double most = greatest(pir_mesh_vertices(mesh), pir_mesh_vertex_count(mesh), direction, &size);
-            // what is added up may be larger than the sum
+            // terms may be larger than their sum
             greatest(pose.p.at, (uint32_t)pose.p.count, direction, &size);
             greatest(pose.q.at, (uint32_t)pose.q.count, direction, &size);
             expect_farthest(dot(point, direction), most, direction, size, i);
@@ -108,10 +111,13 @@ static pir_polytope *point_at(double x, double y, double z) {
     return point;
 }
 
-/* Two points have no size: the distance gives the unit, whichever body or coordinate it is in, and the translation. */
+/*
+ * Two points have no size. The unit comes from the distance, whichever body or coordinate it is in, or from the
+ * translation.
+ */
 static void two_points_are_apart_at_every_scale(void **state) {
     (void)state;
-    // a body may not be farther off than 2^400 of the unit, which is 1 for points at the origin
+    // the limit for a body is 2^400 of the unit, which is 1 for points at the origin
     for (int n = 0; n < 9; n++)
         for (int exponent = -1060; exponent <= (n < 6 ? 1000 : 380); exponent += 20) {
             double far = ldexp(1, exponent), v[3] = {n % 3 == 0 ? far : 0, n % 3 == 1 ? far : 0, n % 3 == 2 ? far : 0};
@@ -147,7 +153,10 @@ static void two_points_are_apart_at_every_scale(void **state) {
         }
 }
 
-/* Bodies that touch are too close to tell by supports alone: never apart, and no distance. */
+/*
+ * Bodies that touch are too close to decide by supports alone: the answer is never that they are apart, and no
+ * distance.
+ */
 static void bodies_that_touch_are_not_apart_by_supports(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 200; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Placements that tie or lie in planes together, against exact arithmetic: bodies of many facets about one middle,
- * cubes face to face and edge to edge. Every way to ask gives the same answer: warm, cold, one by one and in a batch.
+ * Placements at ties and in common planes, against exact arithmetic: bodies of many facets about one middle, cubes
+ * face to face and edge to edge. Warm, cold, single and batch queries give the same answer.
  */
 #include "support/test.h"
 
@@ -95,7 +95,7 @@ static void spheres_about_one_middle(void **state) {
     clear(&scene);
 }
 
-/* Nothing, or a power of ten below a fifth, on either side. */
+/* Zero, or a power of ten below a fifth, of either sign. */
 static double some_gap(test_random *random) {
     int k = test_random_between(random, 0, 18);
     double gap = k == 0 ? 0 : 2 * pow(10, -k);
