@@ -7,6 +7,7 @@
  */
 #include "query/answer/follow.h"
 
+/* The bound on queries that query.h promises. Few motions need more than ten. */
 #define MOST_QUERIES 256
 
 /* The same rotation as a quaternion whose products neither overflow nor underflow. */

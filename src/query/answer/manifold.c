@@ -34,6 +34,7 @@ static bool is_feature(const pir_polytope *p, pir_feature feature) {
 /* Whether an answer can be one about these bodies. */
 static bool is_usable(const pir_query *query, const pir_query_result *answer) {
     double square = pir_vec_dot(answer->normal, answer->normal);
+    // ours are unit vectors within a few 2^-53; a caller may keep them in single precision
     return fabs(square - 1) < 0x1p-20 && is_feature(query->p, answer->witness.p) &&
            is_feature(query->q, answer->witness.q) && isfinite(answer->distance) &&
            pir_vec_is_finite(answer->point_p) && pir_vec_is_finite(answer->point_q);

@@ -101,6 +101,7 @@ static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
         vertices[v] = pir_vec_sub(vertices[v], middle);
         square = fmax(square, pir_vec_dot(vertices[v], vertices[v]));
     }
+    // the root and the square round by a few 2^-53
     body->size = sqrt(square) * (1 + 0x1p-48);
     pir_int3 first = pir_vertex_exact(p, 0);
     for (int k = 0; k < 3; k++) {
@@ -122,6 +123,7 @@ static void set_offsets(pir_body *body) {
         body->offset[f] = pir_vec_dot(p->normal[f], body->vertex[p->origin[p->loop[p->loop_start[f]]]]);
         inner = fmin(inner, fmax(0, body->offset[f] - 0x1p-46 * size));
     }
+    // what rounding may add is far below 2^-40 of the size
     body->swing = sqrt(size * size - inner * inner) * (1 + 0x1p-40) + 0x1p-40 * size;
 }
 
@@ -151,6 +153,7 @@ static int exponent_of_points(pir_vec3 p, pir_vec3 q) {
     double most = fmax(fmax(fmax(fabs(p.x), fabs(p.y)), fabs(p.z)), fmax(fmax(fabs(q.x), fabs(q.y)), fabs(q.z)));
     int e;
     frexp(most, &e);
+    // beyond 2^300 a square of squares would leave the range of doubles
     return abs(e) > 300 ? e : 0;
 }
 
@@ -162,6 +165,7 @@ pir_status pir_frame_fill(pir_frame *frame, const pir_polytope *p, const pir_pol
     frame->exponent = top_p > top_q ? top_p : top_q;
     if (frame->exponent == INT_MIN)
         frame->exponent = exponent_of_points(p->vertex[0], q->vertex[0]);
+    // within these bounds both powers are normal numbers
     bool normal = frame->exponent > -1000 && frame->exponent < 1000;
     frame->up = normal ? ldexp(1, frame->exponent) : 0;
     frame->down = normal ? ldexp(1, -frame->exponent) : 0;

@@ -14,6 +14,7 @@
 
 #include "query/planes/leaves.h"
 
+/* Planes in a leaf: four blocks, so that a box costs little beside the planes that it rules out. */
 #define LEAF 32
 
 /*
