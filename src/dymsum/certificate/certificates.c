@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The store of alarms. Its design and its invariant stand in alarms.h. */
+/* The store of certificates. Its design and its invariant stand in certificates.h. */
 #include "dymsum/certificate/certificates.h"
 
 #include "base/layout.h"
 
-/* Blocks are read eight at a time. */
+/* Kernels read blocks eight at a time. */
 #define BLOCKS_AT_A_TIME 8
 
 static pir_layout layout_of(pir_certificates *certificates) {
@@ -38,7 +38,7 @@ void pir_certificates_finish(pir_certificates *certificates, const pir_allocator
     *certificates = (pir_certificates){0};
 }
 
-/* Makes the bounds of block b anew from its certificates. */
+/* Makes the bounds of block b from its certificates. */
 static void bound_block(pir_certificates *certificates, uint32_t b) {
     float ahead = HUGE_VALF, behind = -HUGE_VALF;
     for (uint32_t i = b * PIR_CERTIFICATE_BLOCK; i < (b + 1) * PIR_CERTIFICATE_BLOCK; i++) {
@@ -49,7 +49,7 @@ static void bound_block(pir_certificates *certificates, uint32_t b) {
     certificates->block_behind[b] = behind;
 }
 
-/* From here on keys mean other phases: what is kept is of no use. */
+/* From here on keys mean other phases, so the certificates of previous cells are void. */
 static void begin_stretch(pir_certificates *certificates) {
     if (++certificates->stretch != PIR_NO_STRETCH)
         return;
@@ -70,14 +70,14 @@ void pir_certificates_shift(pir_certificates *certificates, uint32_t used, doubl
 }
 
 /*
- * Unit quaternions at distance 2y (up to sign) turn by at most 4 (y + 0.2215 y³): see pir_rotation_angle_bound. Two of
- * them in floats are off by less than 2^-23 together, 2^-22 of angle for small ones and in proportion for large; what
- * floats round of the rest is less.
+ * Unit quaternions at distance 2y (up to sign) turn by at most 4 (y + 0.2215 y³): see pir_rotation_angle_bound. In
+ * floats two of them are off by less than 2^-23 together, which is 2^-22 of angle for small angles and in proportion
+ * for large ones. The rest of the float rounding is less.
  */
 #define NET_ERROR    0x1p-20f
 #define NET_RELATIVE (1 + 0x1p-19f)
 
-/* What is left of certificate i's margin, at most, never mind the epoch. */
+/* What is left of certificate i's margin, at most, in whatever epoch it was made. */
 static inline float left_of(const pir_certificates *certificates, uint32_t i) {
     const float *now = certificates->now.c;
     float apart = 0, across = 0;

@@ -1,26 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * When certificates wake: a store of two levels, read in order.
+ * The certificates of facets: until when each facet is certain to stay in its cell.
  *
- * Each certificate has two keys, `ahead` and `behind`. In an axial epoch it holds at the phases between them, ahead >
- * phase > behind. In any other it holds while ahead > path, and also while behind < −net: the clock tells what these
- * are. For when an epoch ends it also has the rotation at which it was made and a `margin`, the angle between that and
- * R up to which it holds whatever the way: what a body has turned there and back, or about changing axes, costs it only
- * the net turn. Blocks of 16 carry the least `ahead` and the greatest `behind` of theirs. Finding what wakes reads the
- * blocks' bounds, a few cache lines in all, and then the blocks in question; filing one is two comparisons. Against a
- * timing wheel or a heap this reads more and moves nothing: certificates stay where their pair is, a new epoch is one
- * sweep, and an alarm may be set backwards as well as forwards.
+ * Each certificate has two keys, `ahead` and `behind`. In an axial epoch it holds at the phases between them: ahead >
+ * phase > behind. In any other epoch it holds while ahead > path, and also while behind < −net. epoch.h defines phase,
+ * path and net turn. A certificate also has the rotation at which it was made and a `margin`: it holds at every
+ * rotation that is less than this angle away from that one. When an epoch ends, the keys of the next are made from the
+ * margin. So a motion to and fro, or about changing axes, uses up only its net turn.
  *
- * Keys are kept as floats, rounded so that certificates wake early; a clock counts them from nearby (clock.h).
+ * The certificates are stored in blocks of 16 with the least `ahead` and the greatest `behind` of each block. To find
+ * what has expired, a sum reads the bounds of all blocks, a few cache lines, and then the blocks that have expired
+ * certificates. To file a certificate takes two comparisons. A timing wheel or a heap would read less and move more.
+ * Here certificates stay in place, a new epoch is one pass, and a key may decrease as well as increase.
  *
- * A body that swings brings facets back to where they came from. In an axial epoch a certificate speaks of phases, and
- * goes on to hold at those after its facet has left them; so one that has crossed a single side keeps the certificate
- * of the cell it left, with the way back. When it wakes at a phase which that certificate is good for, it is in that
- * cell again, and all that it has passed through is that side: at every phase from where it crossed to the last
- * rotation's it was seen or certified in its new cell, the step in which it crossed touched no other side, and what
- * lies beyond is the kept certificate's, whose phases are an interval. No look is needed. See pir_certificate_reuse.
+ * Keys are floats, rounded so that certificates expire early. They count from the start of the epoch, so they stay
+ * small.
  *
- * Invariant: a block's bounds are at most, and at least, those of its certificates.
+ * When a motion reverses, facets return to the cells that they came from. In an axial epoch a certificate is a
+ * statement about an interval of phases, and it stays true after its facet has left the cell. So a facet that has
+ * crossed a single side keeps the certificate of its previous cell. When its new certificate expires at a phase at
+ * which the kept one holds, the facet is in the previous cell again, and that side is all that it has crossed. Proof:
+ * from the phase at which it crossed to the phase of the last rotation it was certified in its new cell; the step in
+ * which it crossed touched no other side; the phases beyond are those of the kept certificate, an interval. No check is
+ * needed. See pir_certificate_reuse.
+ *
+ * Invariant: the bounds of a block hold for each of its certificates.
  */
 #ifndef PIR_DYMSUM_CERTIFICATE_CERTIFICATES_H
 #define PIR_DYMSUM_CERTIFICATE_CERTIFICATES_H
@@ -32,7 +36,7 @@
 
 #define PIR_CERTIFICATE_BLOCK 16
 
-/* The certificate of the cell that a facet was in before, and the way there. */
+/* The certificate of the cell that a facet was in before, and the side that leads there. */
 typedef struct pir_previous_cell {
     float ahead, behind;
     uint32_t half;    /* the halfedge of the other operand that leads there from the facet's cell */
@@ -48,23 +52,23 @@ typedef struct pir_float4 {
 typedef struct pir_certificates {
     float *ahead, *behind; /* per certificate */
     float *margin;
-    pir_float4 *at; /* the unit quaternion it was made at */
-    pir_float4 now; /* that of R */
+    pir_float4 *at; /* the unit quaternion at which it was made */
+    pir_float4 now; /* the unit quaternion of R */
     float *block_ahead, *block_behind;
     pir_previous_cell *previous; /* per certificate */
     uint32_t stretch;            /* counts how often keys have been made anew or shifted */
-    uint32_t *expired;           /* what the last collecting found, rising */
+    uint32_t *expired;           /* what the last collection found, rising */
     uint32_t capacity;           /* a multiple of eight blocks */
 } pir_certificates;
 
-/* Room for `count` certificates at least, which never wake; false when out of memory. */
+/* Room for at least `count` certificates, which never expire; false when out of memory. */
 bool pir_certificates_init(pir_certificates *certificates, const pir_allocator *allocator, uint32_t count);
 void pir_certificates_finish(pir_certificates *certificates, const pir_allocator *allocator);
 
-/* Far beyond any turn, and finite, so that subtracting from it stays a number. */
+/* A key beyond any turn. It is finite, so that subtracting from it gives a number. */
 #define PIR_NEVER 1e30f
 
-/* A float at most x, by little; or at least x. */
+/* A float at most x, and close to it; a float at least x. */
 static inline float pir_float_below(double x) {
     return x < (double)PIR_NEVER ? (float)(x - fabs(x) * 0x1p-23) : PIR_NEVER;
 }
@@ -83,7 +87,7 @@ static inline void pir_certificate_set_keys(pir_certificates *certificates, uint
     certificates->block_behind[block] = behind > greatest ? behind : greatest;
 }
 
-/* Files certificate i, made at alarms->now. */
+/* Files certificate i, made at certificates->now. */
 static inline void pir_certificate_set(pir_certificates *certificates, uint32_t i, float margin, float ahead,
                                        float behind) {
     pir_certificate_set_keys(certificates, i, ahead, behind);
@@ -92,16 +96,16 @@ static inline void pir_certificate_set(pir_certificates *certificates, uint32_t 
 }
 
 /*
- * Forgets where the facet of certificate i came from: it is not known that it has stayed in its cell since, or came by
- * one side.
+ * Forgets the previous cell of the facet of certificate i: the facet may have left its cell since, or entered it by
+ * more than one side.
  */
 static inline void pir_certificate_forget_previous(pir_certificates *certificates, uint32_t i) {
     certificates->previous[i].stretch = PIR_NO_STRETCH;
 }
 
 /*
- * Keeps certificate i, of a cell just left, before it is filed for the next cell; `half` leads back. The step touched
- * no other side.
+ * Keeps certificate i, of a cell that its facet has just left, before one for the next cell is filed. `half` leads
+ * back. The step touched no other side.
  */
 static inline void pir_certificate_keep_previous(pir_certificates *certificates, uint32_t i, uint32_t half) {
     certificates->previous[i] =
@@ -109,10 +113,10 @@ static inline void pir_certificate_keep_previous(pir_certificates *certificates,
 }
 
 /*
- * Whether the facet of certificate i, awake at phase `phase` of an axial epoch, is for certain where it came from; then
- * that certificate is filed and the other kept. twin: of the other operand's halfedges. *ret_half: the side crossed.
- * What is filed ends with the epoch, its margin being none: the margin and rotation that are there are the other
- * cell's.
+ * Whether the facet of certificate i, which has expired at `phase` of an axial epoch, is certainly in its previous
+ * cell. Then the certificate of that cell is filed and the other one kept. twin: of the other operand's halfedges.
+ * *ret_half: the side crossed. What is filed ends with the epoch: its margin is set to none, because the margin and
+ * rotation in store are those of the other cell.
  */
 static inline bool pir_certificate_reuse(pir_certificates *certificates, uint32_t i, double phase, const uint32_t *twin,
                                          uint32_t *ret_half) {
@@ -127,7 +131,7 @@ static inline bool pir_certificate_reuse(pir_certificates *certificates, uint32_
     return true;
 }
 
-/* Lets certificate i sleep for good: its pair is gone. */
+/* Sets certificate i never to expire: its facet has no cell. */
 static inline void pir_certificate_clear(pir_certificates *certificates, uint32_t i) {
     certificates->ahead[i] = PIR_NEVER;
     certificates->behind[i] = -PIR_NEVER;
@@ -136,10 +140,10 @@ static inline void pir_certificate_clear(pir_certificates *certificates, uint32_
     pir_certificate_forget_previous(certificates, i);
 }
 
-/* What certificates' keys are compared with. */
+/* How far R has turned, as keys are compared with it. */
 typedef struct pir_turned_angle {
-    double ahead, behind; /* holds: its `ahead` above, its `behind` below */
-    bool either;          /* one of the two is enough */
+    double ahead, behind; /* a certificate holds where its `ahead` is above this and its `behind` below */
+    bool either;          /* one of the two comparisons is enough */
 } pir_turned_angle;
 
 static inline pir_turned_angle pir_turned_angle_of(const pir_epoch *epoch) {
@@ -147,19 +151,21 @@ static inline pir_turned_angle pir_turned_angle_of(const pir_epoch *epoch) {
                         : (pir_turned_angle){epoch->path, -epoch->net, true};
 }
 
-/* Subtracts `shift` from the phases of the first `used` certificates. This and the next two forget all ways back. */
+/*
+ * Subtracts `shift` from the phases of the first `used` certificates. This call and the next forget all previous cells.
+ */
 void pir_certificates_shift(pir_certificates *certificates, uint32_t used, double shift);
 
 /*
- * Files the first `used` certificates anew for an epoch that begins at alarms->now, from what is left of their margins.
- * Those of an axial epoch with less left than `expected` wake at once.
+ * Makes the keys of the first `used` certificates for an epoch that begins at certificates->now, from what is left of
+ * their margins. In an axial epoch those with less left than `expected` expire at once.
  */
 void pir_certificates_new_epoch(pir_certificates *certificates, uint32_t used, bool axial, double expected);
 
-/* Sets alarms->now. */
+/* Sets certificates->now. */
 void pir_certificates_set_now(pir_certificates *certificates, pir_quat unit);
 
-/* Lets the `count` certificates from `first` on wake at once. */
+/* Expires `count` certificates from `first` on. */
 void pir_certificates_expire(pir_certificates *certificates, uint32_t first, uint32_t count);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * How long a certificate may sleep, from the signs that prove it.
+ * How long a certificate holds, from the signs that prove it.
  *
- * A sign's value s, by unit vectors, is the sine of an angle at least |s| away from where it would change; less the
- * filter's bound that is the margin by the path. In an axial epoch s′ is known too, and s + s′t ± t²/2 bounds what
- * comes (clock.h).
+ * The value s of a sign, by unit vectors, is the sine of an angle. R has to turn by at least |s| before the sign
+ * changes. That, less the filter's bound, is the margin. In an axial epoch the derivative s′ is known as well, and s +
+ * s′t ± t²/2 bounds s after a turn by t (epoch.h).
  */
 #ifndef PIR_DYMSUM_CERTIFICATE_EXPIRY_H
 #define PIR_DYMSUM_CERTIFICATE_EXPIRY_H
@@ -15,21 +15,21 @@
 #include "exact/sign.h"
 
 typedef struct pir_expiry {
-    double margin;        /* by the path */
-    double ahead, behind; /* by the phase, from now: ahead ≥ 0 ≥ behind */
+    double margin;        /* the angle that R may turn by, about any axes */
+    double ahead, behind; /* in an axial epoch: the phases until which it holds, from now: ahead ≥ 0 ≥ behind */
 } pir_expiry;
 
-/* What no sign has shortened yet. */
+/* An expiry that no sign has limited yet. */
 static inline pir_expiry pir_expiry_never(void) {
     return (pir_expiry){HUGE_VAL, HUGE_VAL, -HUGE_VAL};
 }
 
-/* What foretelling gives away: the slack for the drift, and a hair of it for the rounding of all this. */
+/* What predictions subtract: the slack for the drift, and 2^-10 of that for the rounding in these functions. */
 #define PIR_EXPIRY_SLACK (PIR_DRIFT_SLACK * (1 + 0x1p-10))
 
 /*
- * Takes in a sign of value s that changes at `rate`. Where less than the slack is left, the certificate wakes at once
- * by the phase. The root of a negative number, which that case would take, is not looked at.
+ * Limits the expiry by a sign of value s and derivative `rate`. Where less than the slack is left, the certificate
+ * expires at once by the phase. In that case the root is not used: its argument may be negative.
  */
 static inline void pir_expiry_take_sign(pir_expiry *expiry, double s, double rate) {
     double margin = fabs(s) - PIR_SIGN_BOUND, sure = margin - PIR_EXPIRY_SLACK, rising = s < 0 ? rate : -rate;

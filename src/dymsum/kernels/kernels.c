@@ -5,7 +5,7 @@
 #include "dymsum/kernels/kernels_versions.h"
 #include "polytope/polytope.h"
 
-/* What is seen of a facet in the cell whose ring fills `blocks` blocks. */
+/* Checks a facet in the cell whose ring fills `blocks` blocks. */
 static pir_probe see(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8]) {
     float highest = -HUGE_VALF, least = 4, ahead = PIR_FARTHEST_PREDICTION, behind = PIR_FARTHEST_PREDICTION;
     uint64_t touched = 0, above = 0;
@@ -19,7 +19,7 @@ static pir_probe see(const float *ring, uint32_t blocks, const pir_step *step, c
             highest = s;
             which = i;
         }
-        // seen as a negative value that rises so fast, how long it takes to come to zero, forwards and backwards
+        // taken as a negative value that rises at `rising`: the angle until it reaches zero, forwards and backwards
         float size = fabsf(s), rising = signbit(s) ? rate : -rate, sure = size - PIR_FLOAT_SLACK;
         float root = sure > 0 ? sqrtf(rising * rising + (sure + sure)) : 0;
         float to = sure > 0 ? root - rising : 0, since = sure > 0 ? root + rising : 0;
@@ -55,7 +55,7 @@ static inline void check_in(const pir_facets *facets, const pir_step *step, uint
 #define REVIEW_TARGET
 #include "dymsum/kernels/review_body.h"
 
-/* The time that certificates are compared with, by floats. */
+/* How far R has turned, by floats. */
 struct turned_now {
     float ahead, behind;
     bool either;
@@ -66,7 +66,7 @@ static inline bool holds(float ahead, float behind, struct turned_now now) {
     return now.either ? forwards || backwards : forwards && backwards;
 }
 
-/* The certificates of block b. */
+/* Collects the certificates of block b. */
 static uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
     uint32_t count = 0;
     float least = HUGE_VALF, greatest = -HUGE_VALF;

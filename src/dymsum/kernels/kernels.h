@@ -2,17 +2,17 @@
 /*
  * The inner loops of an update, behind one dispatch struct: a scalar reference, and AVX2, AVX-512 and NEON versions
  * chosen when a sum is made. Every version performs the same roundings, lane by lane, and minima and maxima do not
- * round: all give the same bits.
+ * round. So all versions give the same bits.
  *
- * They look at facets, points of one Gaussian map, in cells of the other, by floats: a facet of unit normal n in the
- * cell of vertex v is compared with every direction d of v's ring. Doubles stand behind where floats are not certain,
- * and exact signs behind those.
+ * They check facets, points of one Gaussian map, in cells of the other, by floats: a facet of unit normal n in the cell
+ * of vertex v is compared with every direction d of v's ring. Where floats are not certain, callers use doubles, and
+ * exact signs where those are not.
  *
- * The bound on floats, u = 2^-24: the matrix entries are off by u each, √3·u in norm; n and d by u; the turn rounds by
- * 5.3u, the last dot product by 3.01u: below 12.1u in all, for the value s as for its rate of change, and
- * PIR_FLOAT_BOUND is 16u. A span t ≤ 1 then is foretold with an error of 12.1u + 12.1u·t in the value; what its own
- * arithmetic rounds is, in the value, below 4u·(s′² + 2|s|) ≤ 12u; drift takes 16u. PIR_FLOAT_SLACK, 64u, holds all
- * four.
+ * The bound on floats, with u = 2^-24: the matrix entries are off by u each, √3·u in norm; n and d by u; the rotation
+ * rounds by 5.3u, the last dot product by 3.01u. Together that is below 12.1u, for the value s as for its rate of
+ * change, and PIR_FLOAT_BOUND is 16u. A prediction over an angle t ≤ 1 then errs by 12.1u + 12.1u·t in the value. Its
+ * own arithmetic rounds by less than 4u·(s′² + 2|s|) ≤ 12u in the value. Drift takes 16u. PIR_FLOAT_SLACK, 64u, covers
+ * all four.
  */
 #ifndef PIR_DYMSUM_KERNELS_KERNELS_H
 #define PIR_DYMSUM_KERNELS_KERNELS_H
@@ -28,7 +28,7 @@
 #define PIR_FLOAT_BOUND 0x1p-20f
 #define PIR_FLOAT_SLACK 0x1p-18f
 
-/* Spans are foretold no farther than this many radians. */
+/* Predictions reach no farther than this many radians. */
 #define PIR_FARTHEST_PREDICTION 1.0f
 
 /* In place of a side of a cell: there is none, or none is known. */
@@ -37,47 +37,47 @@
 /* A ring longer than this has all bits of a mask of sides set when any of its sides is in it. */
 #define PIR_SIDE_BITS 64
 
-/* What a look at a facet in a cell finds. */
+/* What a check of a facet in a cell finds. */
 typedef struct pir_check {
-    float margin;        /* by the path, until some s changes its sign; negative when one is too close to call */
-    float ahead, behind; /* by the phase, both ≥ 0 */
+    float margin;        /* how far R may turn until some s changes its sign; negative when one is not certain */
+    float ahead, behind; /* how far the phase may go either way, both ≥ 0 */
     float unused;        /* so that the four are a vector */
-    uint64_t
-        touched;    /* the sides that the facet may have touched in the last step, those too close to call among them */
-    uint64_t above; /* those that it is past for certain: s > PIR_FLOAT_BOUND */
+    /* the sides that the facet may have touched in the last step, with those whose sign is not certain */
+    uint64_t touched;
+    uint64_t above; /* the sides that it is certainly past: s > PIR_FLOAT_BOUND */
 } pir_check;
 
-/* What is seen at a glance of a facet in a cell. */
+/* What a probe of a facet in a cell finds: the check, and which side is the farthest that it may be past. */
 typedef struct pir_probe {
-    float highest;  /* the greatest value s: the facet is in the cell for certain when below −PIR_FLOAT_BOUND */
+    float highest;  /* the greatest value s; below −PIR_FLOAT_BOUND the facet is certainly in the cell */
     uint32_t which; /* the first side that has it */
     pir_check check;
 } pir_probe;
 
-/* A facet that may have left its cell, even if only for a moment within the last step. */
+/* A facet that may have left its cell, perhaps only within the last step. */
 typedef struct pir_suspect {
     uint32_t facet;
-    uint32_t crossed; /* the one side crossed, none else touched: its cell is the next one now; or PIR_NO_SIDE */
+    /* the one side that it has crossed, having touched no other: its cell is the next one now; or PIR_NO_SIDE */
+    uint32_t crossed;
 } pir_suspect;
 
 /* The facets of one operand over the cells of the other, which is laid out in rings (polytope.h). */
 typedef struct pir_facets {
     uint32_t count, first_certificate;
     const float *normal;                     /* four floats a facet, the last 0 */
-    const uint32_t *ring_start, *ring_block; /* of the other operand, as all that follows */
+    const uint32_t *ring_start, *ring_block; /* of the other operand, as are the four that follow */
     const uint32_t *target, *twin;
     const float *ring;
     uint32_t *cell; /* per facet */
-    float
-        turn[3]
-            [8]; /* column k of the matrix that turns normals to the other operand, 0, and of that of their motion, 0 */
+    /* column k of the matrix that rotates normals to the other operand, 0, column k of that of their motion, 0 */
+    float turn[3][8];
 } pir_facets;
 
-/* The last step, and the moment it has led to. */
+/* The last step, and how far R has turned with it. */
 typedef struct pir_step {
-    float reach_ahead,
-        reach_behind;    /* where the step lies by the phase, from now: one of them is 0, or both are the same */
-    float ahead, behind; /* what keys are counted from: axial: the phase; otherwise the path, and the net turn */
+    /* the phases of the step, counted from now: one of them is 0, or both are the same */
+    float reach_ahead, reach_behind;
+    float ahead, behind; /* what keys count from: axial: the phase, twice; otherwise the path, and the net turn */
     bool axial;
 } pir_step;
 
@@ -85,32 +85,35 @@ typedef struct pir_kernels {
     const char *name;
 
     /*
-     * Looks at `count` facets, numbered as alarms in `woken`. Those that are in their cells, and certainly have been
-     * all through the last step, are filed to sleep; so are those that have crossed one side and touched no other,
-     * their last certificates kept (alarms.h), and these and the rest are listed. Returns their number; adds to *sides
-     * how many directions were looked at.
+     * Checks `count` facets, given by the numbers of their expired certificates. Facets that are in their cells, and
+     * certainly have been all through the last step, are certified anew. So are those that have crossed one side and
+     * touched no other. Their previous certificates are kept (certificates.h), and they are listed, as are all others.
+     * Returns how many are listed; adds to *sides how many directions were compared.
      */
     uint32_t (*review)(const pir_facets *facets, const pir_step *step, pir_certificates *certificates,
                        const uint32_t *expired, uint32_t count, pir_suspect *ret_suspects, uint64_t *sides);
 
-    /* Looks at a facet in the cell of vertex `cell`; turned: its normal turned, 0, the motion of that, 0. */
+    /* Probes a facet in the cell of vertex `cell`; turned: its normal rotated, 0, the motion of that, 0. */
     void (*probe)(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                   pir_probe *ret_probe);
 
     /*
-     * Lists in alarms->woken which of the certificates in the first `blocks` blocks do not hold, and makes the bounds
-     * of their blocks those of the others, since who wakes is filed again. Returns how many it listed.
+     * Lists in certificates->expired those of the first `blocks` blocks that do not hold. Makes the bounds of their
+     * blocks from the others, since each that has expired is filed again. Returns how many are listed.
      */
     uint32_t (*collect)(pir_certificates *certificates, uint32_t blocks, pir_turned_angle turned);
 } pir_kernels;
 
-/* Lists those of the first `used` certificates that have expired, for certain or not. Returns their number. */
+/*
+ * Lists in certificates->expired those of the first `used` certificates that do not hold for certain. Returns their
+ * number.
+ */
 static inline uint32_t pir_kernels_collect(const pir_kernels *kernels, pir_certificates *certificates, uint32_t used,
                                            pir_turned_angle turned) {
     return kernels->collect(certificates, (used + PIR_CERTIFICATE_BLOCK - 1) / PIR_CERTIFICATE_BLOCK, turned);
 }
 
-/* The mask of the sides of a ring of so many, without the bits that only fill its last block up. */
+/* The mask of the sides of a ring of so many sides, without the bits that only fill its last block. */
 static inline uint64_t pir_side_mask(uint32_t sides) {
     return sides < PIR_SIDE_BITS ? ((uint64_t)1 << sides) - 1 : UINT64_MAX;
 }
@@ -121,8 +124,8 @@ static inline uint64_t pir_side_mask_add(uint64_t mask, uint32_t b, uint32_t eig
 }
 
 /*
- * Files alarm i anew, from now: in an axial epoch by its spans, otherwise by its margin. Keys are rounded towards
- * waking early.
+ * Files certificate i, made now: in an axial epoch by the phases, otherwise by the margin. Keys are rounded towards
+ * expiring early.
  */
 static inline void pir_certificate_file(const pir_step *step, pir_certificates *certificates, uint32_t i, float margin,
                                         float ahead, float behind) {
@@ -130,7 +133,7 @@ static inline void pir_certificate_file(const pir_step *step, pir_certificates *
     pir_certificate_set(certificates, i, margin, until - fabsf(until) * 0x1p-22f, since + fabsf(since) * 0x1p-22f);
 }
 
-/* Files facet f, looked at just now, to sleep as long as the look allows. */
+/* Files the certificate of facet f, which has just been checked. */
 static inline void pir_certificate_file_check(const pir_facets *facets, const pir_step *step,
                                               pir_certificates *certificates, uint32_t f, const pir_check *check) {
     pir_certificate_file(step, certificates, facets->first_certificate + f, check->margin, check->ahead, check->behind);

@@ -33,7 +33,7 @@ TARGET static inline void see_block(const float *ring, const struct turned *t, c
     seen->behind = _mm256_min_ps(seen->behind, since);
 }
 
-/* The time that certificates are compared with. */
+/* How far R has turned, as certificates' keys are compared with it. */
 struct turned_now {
     __m256 ahead, behind;
     bool either;
@@ -46,7 +46,7 @@ TARGET static inline __m256 holding(__m256 ahead, __m256 behind, struct turned_n
     return now.either ? _mm256_or_ps(forwards, backwards) : _mm256_and_ps(forwards, backwards);
 }
 
-/* The certificates of block b. */
+/* Collects the certificates of block b. */
 TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
                                             uint32_t *expired) {
     const __m256 most = _mm256_set1_ps(HUGE_VALF), fewest = _mm256_set1_ps(-HUGE_VALF);
@@ -68,7 +68,7 @@ TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint
 TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_certificates *certificates, uint32_t blocks,
                                                                         struct turned_now now) {
     uint32_t count = 0;
-    // eight blocks at a time; those past the last in use hold for ever
+    // eight blocks at a time; those past the last in use always hold
     for (uint32_t b = 0; b < blocks; b += 8) {
         __m256 ahead = _mm256_loadu_ps(certificates->block_ahead + b),
                behind = _mm256_loadu_ps(certificates->block_behind + b);
@@ -80,7 +80,7 @@ TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_cert
     return count;
 }
 
-/* A loop for each of the two kinds of time. */
+/* A loop for each of the two kinds of epoch. */
 TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
     __m256 ahead = _mm256_set1_ps(pir_float_above(time.ahead)), behind = _mm256_set1_ps(pir_float_below(time.behind));
     return time.either ? collect_at(certificates, blocks, (struct turned_now){ahead, behind, true})

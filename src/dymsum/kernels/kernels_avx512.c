@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The kernels for AVX-512 (F, DQ and VL): a block of eight floats at a time, with masks. Vectors of sixteen cost more
- * to wake up than they save.
+ * The kernels for AVX-512 (F, DQ and VL): a block of eight floats at a time, with masks. Vectors of sixteen are slower:
+ * processors lower their clock for them.
  */
 #include "dymsum/kernels/kernels_versions.h"
 
@@ -36,7 +36,7 @@ TARGET static inline void see_block(const float *ring, const struct turned *t, c
     seen->behind = _mm256_min_ps(seen->behind, since);
 }
 
-/* The time that certificates are compared with. */
+/* How far R has turned, as certificates' keys are compared with it. */
 struct turned_now {
     __m256 ahead, behind;
     bool either;
@@ -50,7 +50,7 @@ TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct turned
     return _mm256_mask_cmp_ps_mask(forwards, behind, now.behind, _CMP_LT_OQ);
 }
 
-/* The certificates of block b. */
+/* Collects the certificates of block b. */
 TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
                                             uint32_t *expired) {
     const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
@@ -61,7 +61,7 @@ TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint
         __mmask8 holds = holding(ahead, behind, now);
         least = _mm256_mask_min_ps(least, holds, least, ahead);
         greatest = _mm256_mask_max_ps(greatest, holds, greatest, behind);
-        // all eight lanes are written: there is room, for no more were listed than looked at
+        // all eight lanes are written: there is room, for no more are listed than compared
         __m256i number = _mm256_add_epi32(lanes, _mm256_set1_epi32((int)i));
         _mm256_storeu_si256((__m256i *)(void *)(expired + count),
                             _mm256_maskz_compress_epi32((__mmask8)~holds, number));
@@ -78,7 +78,7 @@ TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint
 TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_certificates *certificates, uint32_t blocks,
                                                                         struct turned_now now) {
     uint32_t count = 0;
-    // eight blocks at a time; those past the last in use hold for ever
+    // eight blocks at a time; those past the last in use always hold
     for (uint32_t b = 0; b < blocks; b += 8) {
         __m256 ahead = _mm256_loadu_ps(certificates->block_ahead + b),
                behind = _mm256_loadu_ps(certificates->block_behind + b);
@@ -90,7 +90,7 @@ TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_cert
     return count;
 }
 
-/* A loop for each of the two kinds of time. */
+/* A loop for each of the two kinds of epoch. */
 TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
     __m256 ahead = _mm256_set1_ps(pir_float_above(time.ahead)), behind = _mm256_set1_ps(pir_float_below(time.behind));
     return time.either ? collect_at(certificates, blocks, (struct turned_now){ahead, behind, true})

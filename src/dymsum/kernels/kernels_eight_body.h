@@ -28,7 +28,7 @@ TARGET static inline float greatest_of(__m256 v) {
     return _mm_cvtss_f32(_mm_max_ss(half, _mm_shuffle_ps(half, half, 1)));
 }
 
-/* A facet's normal, turned, and how that moves, each component in all lanes. */
+/* A facet's normal, rotated, and its motion, each component in all lanes. */
 struct turned {
     __m256 x, y, z, dx, dy, dz;
 };
@@ -39,18 +39,18 @@ TARGET static inline struct turned spread(const float turned[8]) {
                            _mm256_broadcast_ss(turned + 5), _mm256_broadcast_ss(turned + 6)};
 }
 
-/* What blocks have shown so far, lane by lane. */
+/* What blocks have given so far, lane by lane. */
 struct seen {
     __m256 highest, least, ahead, behind;
 };
 
-/* Looks at one block; gives the masks of its sides that were touched, and that the facet is above. */
+/* Checks one block; gives the masks of its sides that were touched, and that the facet is past. */
 TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
                                     uint32_t *ret_touched, uint32_t *ret_above);
 
 /*
- * The look at a facet in the cell whose ring fills `blocks` blocks, most often one; returns the greatest values of s,
- * lane by lane.
+ * Checks a facet in the cell whose ring fills `blocks` blocks, most often one. Returns the greatest values of s, lane
+ * by lane.
  */
 TARGET static inline __m256 check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                                   pir_check *ret_check) {

@@ -18,7 +18,7 @@ static inline float32x4_t masked(uint32x4_t mask, float32x4_t v) {
     return vreinterpretq_f32_u32(vandq_u32(mask, vreinterpretq_u32_f32(v)));
 }
 
-/* The look at a facet in a cell; returns the greatest value of s. */
+/* Checks a facet in a cell; returns the greatest value of s. */
 static inline float check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                           pir_check *ret_check) {
     const uint32_t bits[4] = {1, 2, 4, 8};
@@ -33,7 +33,7 @@ static inline float check(const float *ring, uint32_t blocks, const pir_step *st
         float32x4_t x = vld1q_f32(at), y = vld1q_f32(at + PIR_LANES), z = vld1q_f32(at + 2 * PIR_LANES);
         float32x4_t s = dot(u, x, y, z), rate = dot(w, x, y, z);
         high = vmaxq_f32(high, s);
-        // seen as a negative value that rises so fast
+        // taken as a negative value that rises at `rising`
         float32x4_t size = vabsq_f32(s);
         uint32x4_t flip = vbicq_u32(sign, vreinterpretq_u32_f32(s));
         float32x4_t rising = vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(rate), flip));
@@ -90,7 +90,7 @@ static inline void check_in(const pir_facets *facets, const pir_step *step, uint
 #define REVIEW_TARGET
 #include "dymsum/kernels/review_body.h"
 
-/* The time that certificates are compared with; either: all bits or none. */
+/* How far R has turned, as certificates' keys are compared with it; either: all bits or none. */
 struct turned_now {
     float32x4_t ahead, behind;
     uint32x4_t either;
@@ -102,7 +102,7 @@ static inline uint32x4_t holding(float32x4_t ahead, float32x4_t behind, struct t
     return vorrq_u32(vandq_u32(forwards, backwards), vandq_u32(vorrq_u32(forwards, backwards), now.either));
 }
 
-/* The certificates of block b. */
+/* Collects the certificates of block b. */
 static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
                                      uint32_t *expired) {
     const float32x4_t most = vdupq_n_f32(HUGE_VALF), fewest = vdupq_n_f32(-HUGE_VALF);
@@ -129,7 +129,7 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
     const struct turned_now now = {vdupq_n_f32(pir_float_above(time.ahead)), vdupq_n_f32(pir_float_below(time.behind)),
                                    vdupq_n_u32(time.either ? UINT32_MAX : 0)};
     uint32_t count = 0;
-    // four blocks at a time; those past the last in use hold for ever
+    // four blocks at a time; those past the last in use always hold
     for (uint32_t b = 0; b < blocks; b += 4) {
         float32x4_t ahead = vld1q_f32(certificates->block_ahead + b),
                     behind = vld1q_f32(certificates->block_behind + b);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The text of the kernels' review, the same for every version; REVIEW_TARGET says for which processor. The file that
- * includes this has
+ * The text of the kernels' review, the same for every version. REVIEW_TARGET says for which processor. The file that
+ * includes this defines
  *
- *     turn_facet(facets, f, turned)                               the normal of facet f turned, 0, and its motion, 0
- *     check_in(facets, moment, cell, turned, ret_check)             the look at it in a cell
+ *     turn_facet(facets, f, turned)                      the normal of facet f rotated, 0, and its motion, 0
+ *     check_in(facets, step, cell, turned, ret_check)    the check of it in a cell
  *
- * Facets are taken by chunks, and a chunk in three passes without branches that depend on what is seen: looking at all;
- * filing those that sleep on; looking at the others in the cell that each may have crossed into. So many looks are
- * under way at a time.
+ * Facets are taken by chunks, and a chunk in three passes without branches that depend on what is found: checking all;
+ * certifying those that have stayed; checking the others in the cell that each may have crossed into. So a processor
+ * can have many checks under way at a time.
  */
 
 #define REVIEW_CHUNK 64
@@ -22,8 +22,8 @@ REVIEW_TARGET static inline uint32_t side_crossed(const pir_facets *facets, uint
 }
 
 /*
- * Whether a facet seen past side `half` is in the next cell, having touched no side of it but the same one; then it is
- * filed there.
+ * Whether a facet that is past side `half` is in the next cell, having touched no side of it but the same one. Then it
+ * is certified there.
  */
 REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const pir_step *step,
                                                pir_certificates *certificates, uint32_t f, uint32_t half,
