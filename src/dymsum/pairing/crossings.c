@@ -13,7 +13,7 @@ bool pir_crossings_reserve(pir_tracked *tracked, uint32_t capacity) {
     const pir_allocator *a = &tracked->pairing.allocator;
     if (capacity <= c->capacity)
         return true;
-    // every new block before an old one goes: a failure changes nothing
+    // every new block is made before an old one is freed: a failure changes nothing
     pir_crossings grown = *c;
     grown.capacity = capacity;
     pir_layout fresh = layout_of(&grown), old = layout_of(c);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What has changed in a sum of late, for those who follow it: live meshes.
+ * The slots of a sum that have changed lately, for live meshes that follow it.
  *
- * Slots are written down in the order in which they change, round and round in room of a fixed size: facets by the
- * numbers of their certificates, behind them crossings by slot. Whoever follows remembers how many entries there were
- * when it looked last. When more have been written since than there is room for, anything may have changed. So a sum
- * need not know who follows it, and a change costs one store.
+ * Slots are noted in the order in which they change, round and round in room of a fixed size: facets by the numbers of
+ * their certificates, behind them crossings by slot. A follower remembers how many entries there were when it read the
+ * journal last. When more have been noted since than there is room for, anything may have changed. So a sum does not
+ * know who follows it, and a change costs one store.
  *
- * Invariant: a facet whose cell, or a crossing whose pair, is another than it was when entry `count` was to be the next
- * is among the entries since then, or these are more than there is room for.
+ * Invariant: let a follower have read the journal at `count` entries. Each facet whose cell has changed since, and each
+ * crossing whose pair has, is among the later entries, or there are more of these than room.
  */
 #ifndef PIR_DYMSUM_PAIRING_JOURNAL_H
 #define PIR_DYMSUM_PAIRING_JOURNAL_H

@@ -8,7 +8,7 @@
 
 #include "dymsum/pairing/pairing.h"
 
-/* The sign of a value by doubles where the filter is certain of it, and counts it; else 0. */
+/* The sign of a value by doubles where the filter is certain of it, which is counted; else 0. */
 static inline int pir_filtered(pir_pairing *pairing, double value) {
     int sign = pir_filter_sign(value);
     pairing->signs.by_filter += sign != 0;
@@ -52,7 +52,7 @@ static inline uint64_t pir_signs_asked(const pir_signs *signs) {
     return signs->by_filter + signs->by_exact + signs->by_perturbation;
 }
 
-/* A facet or edge of P rotated, a facet normal of Q turned back. */
+/* A facet or edge of P rotated, a facet normal of Q rotated back into P's frame. */
 static inline pir_vec3 pir_rotated_normal(const pir_pairing *pairing, uint32_t f) {
     return pir_mat_apply(&pairing->signs.rotation.r, pairing->p->normal[f]);
 }

@@ -97,7 +97,7 @@ void pir_tracked_begin_step(pir_tracked *tracked) {
     }
 }
 
-/* Spans beyond the farthest that is foretold are cut, and all are rounded down. The way here is not known. */
+/* Predictions beyond the farthest are cut, and all are rounded down. How the facet came here is not known. */
 void pir_tracked_certify(pir_tracked *tracked, uint32_t i, const pir_expiry *expiry) {
     pir_certificate_file(&tracked->step, &tracked->certificates, i, pir_float_below(fmin(expiry->margin, 4)),
                          pir_float_below(fmin(expiry->ahead, (double)PIR_FARTHEST_PREDICTION)),

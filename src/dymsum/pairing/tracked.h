@@ -25,7 +25,8 @@
 #include "dymsum/pairing/pairing.h"
 
 /*
- * In place of a stamp: the edge is left out, and nothing that happens to it is of interest. Greater than every stamp.
+ * In place of a stamp: the edge is inactive, left out by a region, and events do not change it. Greater than every
+ * stamp.
  */
 #define PIR_INACTIVE UINT32_MAX
 

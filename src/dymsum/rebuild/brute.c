@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The brute-force re-check (Behar and Lien, Algorithm 3.1): every facet against every vertex of the other polytope,
- * every edge against every edge. It is the baseline that updates are measured against, so it is written with care:
- * normals are rotated once, and a pair is given up at the first sign that rules it out.
+ * The brute-force rebuild (Behar and Lien, Algorithm 3.1): every facet against every vertex of the other polytope,
+ * every edge against every edge. Updates are measured against it, so it is written with care: normals are rotated once,
+ * and a pair is abandoned at the first sign that excludes it.
  */
 #include "dymsum/rebuild/brute.h"
 

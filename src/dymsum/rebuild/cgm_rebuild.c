@@ -3,10 +3,10 @@
  * The rebuild by CGM: the pairing read off the overlay of two cubical Gaussian maps.
  *
  * The overlay is exact but not perturbed. A facet whose normal is strictly inside one cell of the other map, and two
- * arcs that cross at no other feature, are in general position: an infinitely small turn leaves them so, and what the
- * overlay shows is the perturbed pairing. The rest are ties, and are settled by perturbed signs from where the overlay
- * has located them: a facet by descent, an arc that touches a tie anywhere by walking it from the cell of its one end
- * to that of the other.
+ * arcs that cross at no other feature, are in general position: an infinitely small turn leaves them so, and the
+ * overlay shows their perturbed pairing. The rest are ties. They are settled by perturbed signs, from where the overlay
+ * has located them: a facet by descent, an arc that touches a tie anywhere by a walk from the cell of one end to that
+ * of the other.
  *
  * The crossings of an arc need no sorting: each leads from one cell to the next, and an arc is in no cell twice.
  */
@@ -33,8 +33,8 @@ static uint32_t facet_at(const pir_cgm *cgm, uint32_t vertex, uint32_t source) {
 }
 
 /*
- * Pairs the facets of `source` with the vertices of the other by the cells around their normals; where those differ it
- * is a tie.
+ * Pairs the facets of `source` with the vertices of the other operand by the cells around their normals. Where those
+ * differ there is a tie.
  */
 static void read_facets(struct reading *reading, uint32_t source, uint32_t *pairs, uint32_t count) {
     const pir_cgm *cgm = reading->overlay;
@@ -89,7 +89,7 @@ static void mark_tied_edges(struct reading *reading) {
     }
 }
 
-/* Takes in the crossing at vertex v of the overlay, if one is there. */
+/* Stores the crossing at vertex v of the overlay, if there is one. */
 static bool read_crossing(struct reading *reading, uint32_t v) {
     pir_tracked *tracked = reading->tracked;
     pir_pairing *pairing = &tracked->pairing;
@@ -98,7 +98,7 @@ static bool read_crossing(struct reading *reading, uint32_t v) {
     uint32_t of_p = PIR_CGM_NONE, of_q = PIR_CGM_NONE, cell = 0;
     struct pir_cgm_around around = pir_cgm_around_new(cgm, v);
     do {
-        // of copies on cube edges and corners the first speaks for all
+        // of copies on cube edges and corners the first is read
         if (around.vertex < v)
             return true;
         uint32_t h = pir_cgm_source_half(cgm, around.half, 0), k = pir_cgm_source_half(cgm, around.half, 1);
@@ -138,7 +138,7 @@ static void link_crossings(struct reading *reading, uint32_t e) {
     *link = PIR_NO_CROSSING;
 }
 
-/* Walks the arc of edge e by perturbed signs, its ends being located. */
+/* Walks the arc of edge e by perturbed signs; the cells of both ends are known. */
 static bool walk_edge(pir_tracked *tracked, uint32_t e) {
     pir_pairing *pairing = &tracked->pairing;
     const pir_polytope *p = pairing->p, *q = pairing->q;
@@ -199,7 +199,7 @@ pir_status pir_cgm_rebuild(pir_tracked *tracked, pir_cgm **map_q) {
     pir_pairing *pairing = &tracked->pairing;
     pir_cgm *map = NULL, *overlay = NULL;
     pir_status status = PIR_OK;
-    // Q stands and, whatever its scale, keeps its directions: its map is made once
+    // Q does not rotate and keeps its directions at every scale: its map is made once
     if (!*map_q)
         status = pir_cgm_create(pairing->q, NULL, &pairing->allocator, map_q);
     if (status == PIR_OK)

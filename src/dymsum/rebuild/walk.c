@@ -2,12 +2,12 @@
 /*
  * The rebuild by walk: one Gaussian map traversed through the other, in time proportional to the result.
  *
- * One facet of P is located by descent; from there every arc of P is walked once, breadth first, and the walk itself
- * locates the facet at its other end. An arc leaves a convex cell of Q through the one side whose corners it separates,
- * right of it behind, left of it ahead: seen counter-clockwise, the side at which s(e, ·) turns from negative to
- * positive. Past the side it came in by, the corners' signs are first negative, then positive, so the side is found by
- * bisection when the cell has many. Facets of Q are located last, by descent from an end of an edge whose arc crosses
- * beside them. Where a region leaves features dormant, region.c does all this instead.
+ * One facet of P is located by descent. From there every arc of P is walked once, breadth first, and the walk locates
+ * the facet at its other end. An arc leaves a convex cell of Q through the one side that has a corner on either side of
+ * the arc's circle: counter-clockwise, the side at which s(e, ·) turns from negative to positive. From the side by
+ * which the arc entered, the corners' signs are first negative, then positive. So the side is found by bisection when
+ * the cell has many. Facets of Q are located last, by descent from an end of an edge whose arc crosses beside them.
+ * Where a region leaves features out, region/region.c rebuilds instead.
  */
 #include "dymsum/rebuild/walk.h"
 
@@ -37,7 +37,7 @@ uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, ui
         }
         PIR_ASSERT(false);
     }
-    // sides in order from the one it came in by; corner low is negative, corner high positive
+    // sides in order from the one by which the arc entered; corner `low` is negative, corner `high` positive
     uint32_t first = q->twin[entered] - start, low = 0, high = n - 1;
     while (high - low > MANY_SIDES) {
         uint32_t middle = low + (high - low) / 2;
@@ -54,12 +54,12 @@ uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, ui
     return start + (first + high) % n;
 }
 
-/* What has been located, in tracked->work.mark. */
+/* A flag in work.mark: the facet has a cell. */
 enum { LOCATED = 1 };
 
 /*
  * Walks the arc along halfedge h of P from the facet left of it, which is located, to the one right of it, which may
- * not be yet. The crossings are listed for the edge in its own direction.
+ * not be located yet. The crossings are listed in the edge's own direction.
  */
 static bool walk_arc(pir_tracked *tracked, uint32_t h) {
     pir_pairing_work *work = &tracked->work;

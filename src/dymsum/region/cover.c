@@ -2,12 +2,14 @@
 /* Cones and covers. See cover.h. */
 #include "dymsum/region/cover.h"
 
-/* Half-angles of so much are the whole sphere. */
+/*
+ * A half-angle of at least this is the whole sphere. It is above π by more than π is rounded anywhere, in degrees or as
+ * a float.
+ */
 #define WHOLE_HALF_ANGLE 3.15
 
 /*
- * What a cone gives away, so that rounding never keeps out a facet that is in it. Which facets are listed is no
- * question of the pairing's.
+ * What a cone is widened by, so that rounding never excludes a facet that is in it. The pairing does not depend on it.
  */
 #define CONE_SLACK 0x1p-40
 
@@ -36,7 +38,7 @@ pir_arc pir_arc_from_cosine(double cosine) {
 pir_status pir_cone_make(pir_vec3 axis, double half_angle, pir_cone *ret_cone) {
     if (!pir_vec_is_finite(axis) || !isfinite(half_angle))
         return PIR_ERR_NOT_FINITE;
-    // brought near 1, so that squares neither vanish nor overflow
+    // scaled near 1, so that squares neither vanish nor overflow
     double most = fmax(fabs(axis.x), fmax(fabs(axis.y), fabs(axis.z)));
     if (most == 0 || half_angle < 0)
         return PIR_ERR_ARGUMENT;

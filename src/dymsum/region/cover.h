@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Cones of directions, and the covers around them that say what a region keeps: region.c has the idea.
+ * Cones of directions, and covers, which say what a region keeps. region.c has the idea.
  *
- * Angles are pairs of cosine and sine, made by sums and products alone, so that they are the same on every machine.
+ * An angle is a pair of cosine and sine, made by sums and products alone, so that it is the same on every machine.
  */
 #ifndef PIR_DYMSUM_REGION_COVER_H
 #define PIR_DYMSUM_REGION_COVER_H
@@ -20,23 +20,25 @@ typedef struct pir_arc {
     double cosine, sine;
 } pir_arc;
 
-/* Of radians, 0 or more; π from there on. */
+/* The angle of so many radians, at least 0; π from π on. */
 pir_arc pir_arc_of(double angle);
 
 /* The sum of two, at most π. */
 pir_arc pir_arc_add(pir_arc a, pir_arc b);
 
-/* From the cosine, which is brought into its range. */
+/* The angle of a cosine, which is clamped to its range. */
 pir_arc pir_arc_from_cosine(double cosine);
 
 /* A cone of directions in the frame of Q, or all of them. */
 typedef struct pir_cone {
-    bool set;                  /* else all */
+    bool set;                  /* false: all directions */
     pir_vec3 axis;             /* unit */
     double half_angle, cosine; /* cosine: rounded down */
 } pir_cone;
 
-/* Whether a direction of any length is in the cone, rounding towards yes; what has no direction is. */
+/*
+ * Whether a direction of any length is in the cone. Rounding errs towards yes, and a vector of zero is in every cone.
+ */
 static inline bool pir_cone_has(const pir_cone *cone, pir_vec3 n) {
     return !cone->set || pir_vec_dot(n, cone->axis) >= cone->cosine * sqrt(pir_vec_dot(n, n));
 }
@@ -50,18 +52,18 @@ pir_status pir_cone_make(pir_vec3 axis, double half_angle, pir_cone *ret_cone);
 #define PIR_LEAST_STRIDE 0x1p-7
 
 /*
- * Where the region was, and how far it and the bodies may go, when what is kept was chosen: that is a function of this
- * alone.
+ * The axis that a region had when its features were chosen, and how far it may move from there. What is kept is a
+ * function of these fields, up to `stride`, alone.
  */
 typedef struct pir_cover {
     bool whole;              /* all is kept */
-    pir_vec3 axis_p, axis_q; /* the region's axis, unit: as P saw it, and Q */
-    pir_arc half_angle;      /* the region's */
-    double skin_p, skin_q;   /* radians: how far either sight of the axis may go */
+    pir_vec3 axis_p, axis_q; /* the region's axis then, unit, in the frames of P and of Q */
+    pir_arc half_angle;      /* of the region */
+    double skin_p, skin_q;   /* radians: how far the axis may move in either frame */
     double cosine_p, cosine_q;
-    double stride; /* radians: how far a step that leads out of here may, or has led in here */
+    double stride; /* radians: the longest step that may lead out of the cover or into it */
 
-    /* the motion since, which the next cover is made from; what is kept does not depend on it */
+    /* the motion since, from which the next cover is made; what is kept does not depend on it */
     uint32_t steps; /* updates */
     double step;    /* radians: the last step, at most */
 } pir_cover;
@@ -69,7 +71,7 @@ typedef struct pir_cover {
 /* The greatest that `step` can be. */
 #define PIR_MOST_STEP 4.0
 
-/* A cover of the cone, without a motion yet; skins and stride are brought within their bounds. */
+/* A cover of the cone, with no motion yet. Skins and stride are clamped to their bounds. */
 pir_cover pir_cover_make(const pir_cone *cone, bool whole, pir_vec3 axis_p, pir_vec3 axis_q, double skin_p,
                          double skin_q, double stride);
 

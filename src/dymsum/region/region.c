@@ -1,55 +1,55 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Region: only the pairs are kept whose normals lie in a cone about an axis, and a skin around it, as neighbour lists
- * of molecular dynamics have one (Verlet, Physical Review 159, 1967).
+ * Region: only the pairs are kept whose normals lie in a cone about an axis, or in a skin around the cone, as neighbour
+ * lists of molecular dynamics have one (Verlet, Physical Review 159, 1967).
  *
- * Features are active or dormant. A dormant facet has no cell and its alarm never rings; a dormant edge has no
- * crossings and is not touched by events. Which are active is chosen by a sweep over all facets, as a function of the
- * cover alone: the axis as P and Q saw it then (a_P, turned back, and a_Q), the half-angle α, a skin for each, σ_P and
- * σ_Q, and a stride τ. With [n, m] the angle between n and m:
+ * Features are active or inactive. An inactive facet has no cell and its certificate never expires. An inactive edge
+ * has no crossings and no event changes it. A sweep over all facets chooses the active features, as a function of the
+ * cover alone: the axis in the frames of P and Q when the cover was made (a_P, rotated back, and a_Q), the half-angle
+ * α, a skin for each frame, σ_P and σ_Q, and a stride τ. With [n, m] the angle between n and m:
  *
  *   - an edge of P is active when its arc comes within α + σ_P of a_P, and so are the facets at its ends;
- *   - a facet g of Q is active when [g, a_Q] ≤ ρ + σ_P + σ_Q + τ, ρ the farthest from a_P that a point of an active arc
- *     is, and at least α + σ_P.
+ *   - a facet g of Q is active when [g, a_Q] ≤ ρ + σ_P + σ_Q + τ, where ρ is the greatest distance from a_P of a point
+ *     of an active arc, and at least α + σ_P.
  *
- * Rounding errs towards active. The cover holds while [Rᵀ·axis, a_P] ≤ σ_P and [axis, a_Q] ≤ σ_Q. Invariants while it
- * holds, which is after every call that succeeds:
+ * Rounding errs towards active. The cover holds while [Rᵀ·axis, a_P] ≤ σ_P and [axis, a_Q] ≤ σ_Q. It holds after every
+ * call that succeeds. Invariants while it holds:
  *
- *   - all of the sum in the cone is kept: a facet or arc of P that meets the cone comes within α + σ_P of a_P, a facet
- *     of Q in it within α + σ_Q of a_Q, and a crossing in it is on such an arc;
- *   - what is kept is right: an active facet is in its cell, an active edge has its whole list of crossings. In a step
- *     of at most τ from where the cover holds, or to there, no dormant facet of Q comes to an active arc: a point of
- *     that is within ρ of a_P, within ρ + σ_P of where the axis was, within ρ + σ_P + τ on the way, and within ρ + σ_P
- *     + σ_Q + τ of a_Q. Nor does one in any step, of one radian at most, from where it holds to where it holds still:
- *     the axis goes along an arc of a circle whose ends are within σ_P of a_P, and leaves that by less than σ_P·(√(1 +
- *     tan² ¼) − 1) < σ_P/30, less than any τ. So the events of active facets are all that active edges have to hear of.
+ *   - All of the sum in the cone is kept: a facet or arc of P that meets the cone comes within α + σ_P of a_P, a facet
+ *     of Q in it comes within α + σ_Q of a_Q, and a crossing in it is on such an arc.
+ *   - What is kept is right: an active facet is in its cell, and an active edge has its whole list of crossings. In a
+ *     step of at most τ from where the cover holds, or to there, no inactive facet of Q reaches an active arc: a point
+ *     of that arc is within ρ of a_P, within ρ + σ_P of where the axis was, within ρ + σ_P + τ during the step, and
+ *     within ρ + σ_P + σ_Q + τ of a_Q. The same is true of any step of at most one radian between two rotations at
+ *     which the cover holds: the axis moves along an arc of a circle whose ends are within σ_P of a_P, and is farther
+ *     from a_P than σ_P by less than σ_P·(√(1 + tan² ¼) − 1) < σ_P/30, which is less than any τ. So the events of
+ *     active facets are all that concern active edges.
  *
- * An update in which the cover stops to hold first lets go of what a new one leaves out, then repairs what stays, and
- * last brings in what is new: a facet by descent from a neighbour's cell, an edge from cell to cell. What stays is in
- * both covers. A facet of Q that the old one left dormant is beyond the reach of the edges that stay when the step is
- * within the old stride, one that the new one leaves out when it is within the new. After a longer step, a leap, every
- * edge that stays is led anew.
+ * An update in which the cover ceases to hold first drops what a new cover leaves out, then repairs what stays, and
+ * last adds what is new: a facet by descent from a neighbour's cell, an edge from cell to cell. What stays is in both
+ * covers. A facet of Q that was inactive in the old cover is beyond the reach of the edges that stay when the step is
+ * within the old stride, and one that becomes inactive in the new cover when it is within the new stride. After a
+ * longer step, a jump, every edge that stays is derived again.
  *
- * What is kept is a function of the cover alone, whatever the history. The members (region.h) are the active features,
- * and whatever is no member has no cell and no crossings, at every moment, in the midst of a call too:
+ * What is kept is a function of the cover alone, whatever the history. The members (sweep.h) are the active features.
+ * What is no member has no cell and no crossings at any time, within a call as well:
  *
- *   - a choice sweeps with nothing but the cover and the normals, clears the members that the sweep leaves out, and
- *     makes members of those it found; what is no member before or after had nothing and gets nothing;
- *   - a rebuild that pairs all features, one kind after the other, first makes members of all of them (open), and then
- *     chooses (close);
- *   - an update moves cells and crossings of active features alone; admission gives cells and crossings to members
- *     alone;
- *   - a walk within a region clears all members, chooses and admits.
+ *   - A choice sweeps with nothing but the cover and the normals, drops the members that the sweep leaves out, and
+ *     makes members of those that it found. What is no member before or after had nothing and gets nothing.
+ *   - A rebuild that pairs all features first makes members of all of them (open), and then chooses (close).
+ *   - An update moves cells and crossings of active features alone. Admission gives cells and crossings to members
+ *     alone.
+ *   - A walk within a region drops all members, chooses and admits.
  *
- * Each call that succeeds and changes the cover chooses after that, and admits unless all had been paired. One that
- * fails puts the old cover back and walks. So after every call the members are what the sweep finds for the cover, and
- * a sum restored from the cover and the pairing finds the same (pir_region_adopt). The next cover is made from this
- * one, the cone, the rotations and the motion noted in the cover: two sums that agree in these go on to agree as long
- * as they are brought along by the same methods. Which method PIR_METHOD_AUTO takes is told from counted work, and that
- * depends on the history.
+ * Each call that succeeds and changes the cover chooses after that, and admits unless all features had been paired. A
+ * call that fails restores the old cover and walks. So after every call the members are what the sweep finds for the
+ * cover, and a sum that is restored from the cover and the pairing finds the same (pir_region_adopt). The next cover is
+ * made from this one, the cone, the rotations and the motion noted in the cover. Two sums that agree in these continue
+ * to agree as long as the same methods update them. PIR_METHOD_AUTO chooses from counted work, which depends on the
+ * history.
  *
- * The skins grow with how fast the axis goes in the sight of P and of Q, so a sweep lasts for some frames. Flat
- * operands P have arcs of half a turn: they are kept whole.
+ * Skins grow with the speed of the axis in the frames of P and of Q, so that a choice lasts for some frames. A flat P
+ * has arcs of half a turn and is kept whole.
  */
 #include "dymsum/region/region.h"
 
@@ -60,11 +60,11 @@
 #include "dymsum/rebuild/descent.h"
 #include "dymsum/update/repair.h"
 
-/* Skins, by how far the axis goes in a step; the stride likewise, by the step's angle. */
+/* A skin is this many times the axis's motion in a step; a stride this many times the step's angle. */
 #define SKIN_STEPS   5.0
 #define STRIDE_STEPS 1.25
 
-/* Radians: steps of more are leaps, wherever they begin and end. */
+/* Radians. Longer steps are jumps, wherever they begin and end. */
 #define LONGEST_STEP 1.0
 
 /* --- memory --- */
@@ -75,7 +75,6 @@ static void list_all(pir_members *members) {
         members->at[i] = i;
 }
 
-/* Memory for regions, unless it is there, all features being active; false when out of memory. */
 bool pir_region_reserve(pir_region *region, pir_tracked *tracked) {
     const pir_pairing *pairing = &tracked->pairing;
     if (region->sweep.edges.at)
@@ -99,13 +98,13 @@ bool pir_region_holds(const pir_region *region, const pir_rotation *rotation) {
             pir_vec_dot(pir_mat_apply_transposed(&rotation->r, region->cone.axis), cover->axis_p) >= cover->cosine_p);
 }
 
-/* Whether all is kept for a reason besides what the region needs. */
+/* Whether all is kept although the cone may need less. */
 static bool is_whole(const pir_region *region, const pir_tracked *tracked) {
     return !region->cone.set || tracked->pairing.p->dimension < 3;
 }
 
 /*
- * Centres the cover on the region of now. Each sight of the axis is taken to go on as it went, or to rest where
+ * Centres the cover on the region of now. In each frame the axis is expected to move on as it did, or to rest where
  * `afresh`.
  */
 void pir_region_centre(pir_region *region, const pir_tracked *tracked, bool afresh) {
@@ -113,7 +112,7 @@ void pir_region_centre(pir_region *region, const pir_tracked *tracked, bool afre
     pir_vec3 axis_q = region->cone.axis, axis_p = pir_mat_apply_transposed(&tracked->pairing.signs.rotation.r, axis_q);
     pir_vec3 off_p = pir_vec_sub(axis_p, before.axis_p), off_q = pir_vec_sub(axis_q, before.axis_q);
     double steps = afresh ? HUGE_VAL : fmax(1, before.steps) / SKIN_STEPS;
-    // whatever P sees, the axis may go with Q once: when it is set before the rotation that it is set for
+    // whatever its motion in P, the axis may move with Q once: when it is set before the rotation that it is set for
     double stride = afresh ? 0 : STRIDE_STEPS * before.step;
     double skin_p = fmax(sqrt(pir_vec_dot(off_p, off_p)) / steps, stride);
     double skin_q = sqrt(pir_vec_dot(off_q, off_q)) / steps;
@@ -126,7 +125,7 @@ void pir_region_step(pir_region *region, const pir_tracked *tracked, pir_quat be
         region->cover.step = pir_rotation_angle_bound(before, tracked->pairing.signs.rotation.unit);
 }
 
-/* --- falling dormant --- */
+/* --- dropping --- */
 
 /* The facets of one operand over the cells of the other. */
 struct place {
@@ -134,7 +133,7 @@ struct place {
     pir_region_facets *facets;
     const pir_polytope *own;
     uint32_t *cell, first_certificate;
-    uint32_t sweep; /* the number of the last one */
+    uint32_t sweep; /* the number of the last sweep */
     bool of_p;
 };
 
@@ -192,7 +191,6 @@ static void take_next(pir_members *members) {
     members->at = next;
 }
 
-/* Chooses what the cover asks for, and lets go of what it leaves out. */
 void pir_region_choose(pir_region *region, pir_tracked *tracked) {
     pir_members *p = &region->sweep.p.members, *q = &region->sweep.q.members, *edges = &region->sweep.edges;
     uint32_t of_p = p->count, of_q = q->count, of_edges = edges->count;
@@ -220,7 +218,7 @@ void pir_region_follow(pir_region *region, pir_tracked *tracked) {
     region->jumped = region->jumped || !(angle <= fmin(allowed, region->cover.stride));
 }
 
-/* --- waking up --- */
+/* --- admitting --- */
 
 /* An active facet's neighbour that has a cell, or PIR_NO_PAIR. */
 static uint32_t cell_beside(const struct place *place, uint32_t f) {
@@ -243,8 +241,7 @@ static void locate(const struct place *place, uint32_t f, uint32_t from) {
 }
 
 /*
- * Locates the members without a cell: from a neighbour that has one, where there is one, and then outwards, breadth
- * first.
+ * Locates the members without a cell: from a neighbour that has one, where there is one, and from there breadth first.
  */
 static void locate_members(const struct place *place) {
     const pir_polytope *own = place->own;
@@ -262,7 +259,7 @@ static void locate_members(const struct place *place) {
             locate(place, f, beside != PIR_NO_PAIR ? beside : place->facets->hint[f]);
             for (uint32_t k = own->loop_start[f]; k < own->loop_start[f + 1]; k++) {
                 uint32_t to = pir_right(own, own->loop[k]);
-                // in the queue once: the rest of the members comes to those that find no room
+                // each is queued once; those that find no room are reached from the members that follow
                 if (members->seen[to] == place->sweep && place->cell[to] == PIR_NO_PAIR && tail < members->capacity)
                     queue[tail++] = to;
             }
@@ -296,7 +293,7 @@ static bool is_full(const pir_members *members) {
 }
 
 void pir_region_open(pir_region *region, pir_tracked *tracked) {
-    // each kind by itself: facets of Q may be dormant where all arcs of P are active
+    // each kind separately: facets of Q may be inactive where all arcs of P are active
     bool all = is_full(&region->sweep.p.members) && is_full(&region->sweep.q.members) && is_full(&region->sweep.edges);
     if (!region->sweep.edges.at || (all && !region->admits))
         return;
@@ -319,7 +316,7 @@ void pir_region_close(pir_region *region, pir_tracked *tracked) {
 bool pir_region_walk(pir_region *region, pir_tracked *tracked) {
     pir_members *edges = &region->sweep.edges;
     const struct place p = place_of_p(region, tracked), q = place_of_q(region, tracked);
-    // all become inactive, in whatever state a call that failed has left them
+    // all become inactive, in whatever state a failed call has left them
     for (uint32_t i = 0; i < edges->count; i++)
         drop_edge(tracked, edges->at[i]);
     edges->count = 0;
@@ -329,7 +326,7 @@ bool pir_region_walk(pir_region *region, pir_tracked *tracked) {
     return pir_region_admit(region, tracked);
 }
 
-/* Whether the members have cells and no other facet has. */
+/* Whether all members have cells and no other facet has. */
 static bool fit(const pir_members *members, const uint32_t *cell, uint32_t with_cells) {
     for (uint32_t i = 0; i < members->count; i++)
         if (cell[members->at[i]] == PIR_NO_PAIR)

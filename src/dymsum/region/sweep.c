@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The sweep: which features a cover asks for. region.c has the idea, and the two rules. One pass over all facets, a few
- * operations each in floats, finds those that may be near enough; the rest is for them alone. All of it is made from
- * the cover and from what does not change as bodies turn or are scaled: normals, directions of edges, and what has
- * neighbours of what.
+ * The sweep: which features a cover asks for. region.c has the two rules. One pass over all facets, a few operations
+ * each in floats, finds those that may be near enough. The rest is done for those alone. It reads the cover and what
+ * neither rotation nor scale changes: normals, directions of edges, and adjacency.
  */
 #include "dymsum/region/sweep.h"
 
@@ -12,8 +11,8 @@
 #include "base/layout.h"
 
 /*
- * What the sweep gives away: floats are off by less than 2^-20 in the cosine; where that is turned into an angle, by
- * less than 2^-14.
+ * What the sweep is widened by: floats are off by less than 2^-20 in the cosine; where that becomes an angle, by less
+ * than 2^-14.
  */
 #define FLOAT_SLACK 0x1p-18f
 #define EDGE_SLACK  0x1p-40
@@ -43,7 +42,7 @@ void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *a) {
     *sweep = (pir_sweep){0};
 }
 
-/* What the sweep reads of p's facets: that holds at every scale. */
+/* Fills in what the sweep reads of p's facets, at every scale the same. */
 static void fill_facets(pir_region_facets *facets, const pir_polytope *p) {
     for (uint32_t f = 0; f < p->facet_count; f++) {
         pir_vec3 n = p->normal[f];
@@ -87,8 +86,8 @@ static void count_in(pir_members *members, uint32_t i, uint32_t number, uint32_t
 }
 
 /*
- * facets->apart: below zero for those farther than `reach` from the axis, by the cosine, and, `by_arc`, farther by more
- * than half of the longest of their arcs. One plain loop, which compilers make vectors of.
+ * facets->apart: below zero for facets farther than `reach` from the axis, by the cosine, and, `by_arc`, farther by
+ * more than half of their longest arc. One plain loop, which compilers vectorise.
  */
 static void find_apart(pir_region_facets *facets, pir_vec3 axis, pir_arc reach, bool by_arc) {
     const float *restrict x = facets->x, *restrict y = facets->y, *restrict z = facets->z;
@@ -101,7 +100,7 @@ static void find_apart(pir_region_facets *facets, pir_vec3 axis, pir_arc reach, 
         for (uint32_t f = 0; f < count; f++) {
             float beyond = (x[f] * ax + y[f] * ay + z[f] * az) - (rc * c[f] - rs * s[f]),
                   past = -(rs * c[f] + rc * s[f]);
-            // farther than π in all is everywhere
+            // a reach beyond π includes all
             apart[f] = (beyond > past ? beyond : past) + FLOAT_SLACK;
         }
     } else {
@@ -110,7 +109,7 @@ static void find_apart(pir_region_facets *facets, pir_vec3 axis, pir_arc reach, 
     }
 }
 
-/* Whether the arc of halfedge h of P comes within `reach` of the axis, neither end being so near. */
+/* Whether the arc of halfedge h of P comes within `reach` of the axis, where neither end does. */
 static bool passes(const pir_polytope *p, uint32_t h, pir_vec3 axis, pir_arc reach) {
     // its circle does not come so near
     if (reach.cosine > 0 && fabs(pir_vec_dot(axis, p->direction[h])) > reach.sine + EDGE_SLACK)
@@ -122,7 +121,7 @@ static bool passes(const pir_polytope *p, uint32_t h, pir_vec3 axis, pir_arc rea
 }
 
 /*
- * Counts in the edges of P within `reach` and the facets at their ends; returns how far their arcs lead from the axis.
+ * Counts in the edges of P within `reach` and the facets at their ends; returns how far their arcs reach from the axis.
  */
 static pir_arc sweep_p(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
     pir_region_facets *facets = &sweep->p;
@@ -142,7 +141,7 @@ static pir_arc sweep_p(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, p
             count_in(&facets->members, pir_right(p, h), sweep->number, &ends);
         }
     }
-    // an arc whose ends are within a quarter turn goes no farther than they do
+    // an arc whose ends are within a quarter turn reaches no farther than they do
     double least = reach.cosine;
     for (uint32_t i = 0; i < ends; i++) {
         uint32_t f = facets->members.next[i];

@@ -18,7 +18,7 @@ typedef struct pir_members {
 typedef struct pir_region_facets {
     float *x, *y, *z;     /* normals */
     float *cosine, *sine; /* of half the longest arc at each */
-    float *apart;         /* what a pass over them found */
+    float *apart;         /* what the last pass over them found */
     uint32_t *hint;       /* per inactive facet: the cell it was in last */
     pir_members members;
 } pir_region_facets;
@@ -30,15 +30,15 @@ typedef struct pir_sweep {
 } pir_sweep;
 
 /*
- * Memory for sweeps, filled with what they read of the operands; no feature is a member. False when out of memory:
- * there is none then.
+ * Memory for sweeps, filled with what they read of the operands. No feature is a member. False when out of memory: then
+ * there is none.
  */
 bool pir_sweep_init(pir_sweep *sweep, const pir_polytope *p, const pir_polytope *q, const pir_allocator *allocator);
 void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *allocator);
 
 /*
- * Finds the features that the cover asks for: they stand in members->next, as many as members->count says, and the
- * `seen` of each is the number of the sweep. members->at still holds the members of before.
+ * Finds the features that the cover asks for: members->next holds them, as many as members->count says, and the `seen`
+ * of each is the number of the sweep. members->at still holds the members of before.
  */
 void pir_sweep_run(pir_sweep *sweep, const pir_cover *cover, const pir_polytope *p);
 

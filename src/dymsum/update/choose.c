@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The cost model. Work is counted in signs: a walk asks for them one by one, an update by rings of sides and by
- * corners. Per sign asked for, an update takes 1.1 to 1.2 times as long as a walk wherever the two are close, on bodies
- * of 6 to 2,400 facets, and 0.87 where one swings between two places, which processors learn to foresee; far from there
- * it hardly matters. An update's work is taken to be in proportion to the angle, which holds while few certificates
- * expire and overstates large angles, where a walk is right anyway. Facets that swing back ask for no signs, and count
- * as no work: they are so little that a walk is never right for them.
+ * corners. On bodies of 6 to 2,400 facets a sign asked for in an update took 1.1 to 1.2 times as long as one in a walk,
+ * wherever the two methods were close. It took 0.87 times as long where a body turned to and fro between two poses,
+ * which branch predictors learn. Far from break-even the factor hardly matters. The work of an update is taken to be
+ * proportional to the angle. That holds while few certificates expire, and overstates large angles, where a walk is
+ * right anyway. Facets that return to their previous cells ask for no signs and count as no work, since a walk is never
+ * right for them.
  *
- * Where a region keeps a part of the features, both are reckoned for all of them, so that another region changes
- * neither.
+ * Where a region keeps a part of the features, the work of both is scaled up to all of them, so that another region
+ * changes neither.
  *
- * After a walk the first update has to look at every pair, and only the third can find facets swung back. So the first
- * teaches nothing, each of the next two makes the slope anew, and a switch to updating lasts for three at least. A sum
- * that walks must expect a clear gain before it switches, and tries it once in a while all the same, for its slope may
- * be out of date: the first time soon, since a pose full of ties costs more to leave than any other, then less and less
- * often.
+ * After a walk the first update has to check every facet, and only the third can find facets that return. So nothing is
+ * learnt from the first, each of the next two sets the slope anew, and a switch to updating lasts for at least three. A
+ * sum that walks must expect a clear gain before it switches. It tries an update once in a while nevertheless, because
+ * its slope may be out of date: the first time soon, since a pose with many ties costs more to leave than any other,
+ * then at longer and longer intervals.
  */
 #include "dymsum/update/choose.h"
 
@@ -28,9 +29,9 @@
 #define LATEST_PROBE 64
 #define MEMORY       0.125
 /*
- * Signs per radian that stand for none, 0 meaning that nothing is known. No bound of any error: a walk asks for more
- * within any angle, and what is chosen here is a way to the pairing, which every way finds alike. A number much smaller
- * would be one that processors are slow with.
+ * Signs per radian that stand for none; 0 means that nothing is known. This is no bound of any error: a walk asks for
+ * more within any angle, and the choice is one between methods that give the same pairing. A much smaller number would
+ * become a denormal one in products.
  */
 #define NO_WORK 1e-6
 
@@ -49,7 +50,7 @@ void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double
         bool afresh = cost->per_radian == 0 || cost->updates_in_a_row < TRIAL;
         cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), NO_WORK);
     }
-    // a probe that leads back to walking makes the next one later; one that lasts makes it early again
+    // a trial that leads back to walking makes the next one later; one that lasts makes it early again
     if (cost->updates_in_a_row == 0)
         cost->probe_after = cost->probe_after < LATEST_PROBE / 2 ? 2 * cost->probe_after : LATEST_PROBE;
     else if (cost->updates_in_a_row == TRIAL)

@@ -11,30 +11,30 @@
  *     most θ away;
  *   - R₀Rᵀn: then p supports P in Rᵀn, and q supports Q in a direction at most θ away from n: the same with S_Q(θ).
  *
- * Hence |h_M − h_A| ≤ min(S_P(θ), S_Q(θ)) in every direction there is, those of the pairing among them. While that is
- * at most τ nothing is looked at and nothing changes: a rotation costs a few operations whatever the size. Past it one
- * update covers all the turning since.
+ * Hence |h_M − h_A| ≤ min(S_P(θ), S_Q(θ)) in every direction. While that is at most τ no certificate is read and
+ * nothing changes: a rotation costs a few operations whatever the size. Beyond it, one update covers the whole turn
+ * since R₀.
  *
- * S_B is made of pairs of vertices v, w, a distance L apart along d. Of the directions that v supports, those in the
- * cell of v, u·d is greatest at a corner, a facet's normal, for it is negative in the cell, where it is subharmonic,
- * and convex along arcs. So they stay below w's horizon by δ at least, sin δ the least (h − n·w)/L of the facets around
- * v, and
+ * S_B is a maximum over pairs of vertices v, w, a distance L apart along d. In the cell of v, the directions u that v
+ * supports, u·d is negative. It is subharmonic there and convex along arcs, so it is greatest at a corner of the cell,
+ * a facet's normal. So u stays below w's horizon by at least δ, where sin δ is the least (h − n·w)/L of the facets
+ * around v, and
  *
  *     S_B(θ) = max over v, w of L·sin(θ − δ).
  *
- * So it reaches a length s at θ(s), the least δ + asin(s/L) of all pairs farther apart than s. And S_B(θ)/sin θ rises
- * with θ, which bounds S_B between the few lengths for which θ is worked out. On a ball θ(s) is about √(2s), far beyond
- * s divided by its size.
+ * So S_B reaches a length s at θ(s), the least δ + asin(s/L) of all pairs farther apart than s. S_B(θ)/sin θ rises with
+ * θ, which bounds S_B between the few lengths for which θ is computed. On a ball θ(s) is about √(2s), far beyond s
+ * divided by its size.
  *
- * Rounding errs upwards. The angle is an upper bound (rotation.h); asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x
- * bound what would need functions that machines disagree on.
+ * Rounding errs upwards. The angle is an upper bound (rotation.h). asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x
+ * stand for functions that differ between machines.
  */
 #include "dymsum/update/lag.h"
 
 /* Angles beyond this are not told apart: the sine in S_B rises up to here. */
 #define FARTHEST_LAG 1.5
 
-/* What a slack may be off by, per size of the body: normals are off by 8u, dot products and vertices by less again. */
+/* The error of a slack, per size of the body: normals are off by 8u, dot products and vertices by less again. */
 #define SLACK_ERROR 0x1p-47
 
 /* At most the angle whose sine is x, 0 ≤ x ≤ 1. */
@@ -109,7 +109,10 @@ void pir_lag_measure(pir_lag *lag, const pir_polytope *p, const pir_polytope *q)
         lag->angle[k] = fmax(of_p[k], of_q[k]);
 }
 
-/* What the support function falls short of at most after a turn by `angle`, which is below the last of lag->angle. */
+/*
+ * An upper bound of what the support function falls short by after a turn by `angle`, which is below the last of
+ * lag->angle.
+ */
 static double shortfall_at(const pir_lag *lag, double angle) {
     int k = 0;
     while (angle > lag->angle[k])

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Edges brought up to date.
+ * The crossings of one edge, brought up to date.
  *
  * Along a continuous turn the crossings of an arc change only where one facet, a point, passes through an arc. When an
  * end of edge e crosses the arc of h, from one cell to the next, the list of e loses the crossing of h at that end or,
- * if it had none, gains the one back. When facet g of Q crosses the arc of e, e leads around g on the other side: the
- * crossings of g's arcs that it had, a run of them, give way to those of all the others. So an edge that one event has
- * touched is repaired without a sign.
+ * if it had none, gains the reverse crossing. When facet g of Q crosses the arc of e, e passes g on the other side: its
+ * crossings of g's arcs, which are consecutive, are replaced by crossings of all other arcs of g. So an edge with one
+ * event is repaired without a sign.
  *
- * Moves of both ends may come in any order. As long as no facet of Q passes through it, an arc keeps, its ends moving,
- * its homotopy class on the sphere less the facets of Q. That sphere shrinks to the graph of cells and sides, on which
- * a class has one list without a crossing and its reverse side by side; an arc has such a list, for cells are convex;
- * and the moves below keep it so. Where a facet of Q passes and other events meet it, the edge is led from its left
- * cell to its right one again, and what it crossed before is tried first.
+ * Moves of both ends may come in any order. As long as no facet of Q passes through it, an arc whose ends move keeps
+ * its homotopy class on the sphere less the facets of Q. That sphere shrinks to the graph of cells and sides. On this
+ * graph a class has exactly one list in which no crossing stands next to its reverse. An arc has such a list, for cells
+ * are convex, and the moves below keep it so. Where a facet of Q passes and other events touch the same arc, the
+ * crossings are derived again from the left cell to the right one, and the old ones are tried first.
  */
 #include "dymsum/update/repair.h"
 
@@ -50,7 +50,7 @@ bool pir_move_end(pir_tracked *tracked, uint32_t e, uint32_t h) {
         tracked->statistics.repaired++;
         return true;
     }
-    // room may be made elsewhere: the link is found by its slot
+    // the slots may be reallocated: the link is found by its slot
     uint32_t last = *link, slot = pir_crossing_new(tracked, e, h);
     if (slot == PIR_NO_CROSSING)
         return false;
@@ -75,7 +75,7 @@ bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) 
     }
     PIR_ASSERT(at != PIR_NO_CROSSING);
     uint32_t from = c->half[at], to = q->origin[from];
-    // out with the run of them
+    // remove all consecutive crossings of g's arcs
     while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) == g) {
         uint32_t next = c->next[at];
         to = q->target[c->half[at]];
@@ -83,7 +83,7 @@ bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) 
         tracked->statistics.repaired++;
         at = next;
     }
-    // and in with those around the other side, from the cell where it began to the one where it ended
+    // insert crossings of g's other arcs, from the cell where the removed ones began to the one where they ended
     uint32_t half = to_left ? ring_before(q, from) : pir_ring_next(q, from);
     for (;;) {
         uint32_t slot = pir_crossing_new(tracked, e, half);
@@ -99,8 +99,8 @@ bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) 
 }
 
 /*
- * Whether the arc along halfedge `half` of P, which leaves the cell of h's origin, leaves it through h: its corners
- * tell.
+ * Whether the arc along halfedge `half` of P, which leaves the cell of h's origin, leaves it through h. The corners of
+ * h tell.
  */
 static bool leaves_through(pir_tracked *tracked, uint32_t half, pir_vec3 direction, uint32_t h) {
     double unused;
@@ -108,7 +108,10 @@ static bool leaves_through(pir_tracked *tracked, uint32_t half, pir_vec3 directi
            pir_sign_half_facet(&tracked->pairing, half, direction, tracked->pairing.q->left[h], &unused) > 0;
 }
 
-/* Takes from the list at *list the crossing out of cell v if it still holds, or gives PIR_NO_CROSSING. */
+/*
+ * Takes the crossing out of cell v from the list at *list, or gives PIR_NO_CROSSING where the list has none that still
+ * holds.
+ */
 static uint32_t take_crossing(pir_tracked *tracked, uint32_t *list, uint32_t half, pir_vec3 direction, uint32_t v) {
     pir_crossings *c = &tracked->pairing.crossings;
     for (uint32_t *at = list; *at != PIR_NO_CROSSING; at = &c->next[*at]) {
@@ -143,7 +146,7 @@ bool pir_derive_edge(pir_tracked *tracked, uint32_t e) {
         entered = c->half[slot];
         v = q->target[entered];
     }
-    // what is left of the old list crosses no more
+    // what is left of the old list is crossed no more
     while (old != PIR_NO_CROSSING) {
         uint32_t next = c->next[old];
         pir_crossing_free(tracked, old);

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The way of a facet through one step, from the cell where it was to the one where it is, side by side.
+ * The cells that a facet crosses in one step, from the cell where it was to the one where it is, side by side.
  *
- * The step turns the facet's normal about a known axis by an angle T, and its value s against the circle of a side goes
- * the way s(−a) = s − s'a ± a²/2, a from 0 to T, where s and s' are those of now and all is off by E, the sign's bound
- * and twice the clock's drift. Where |s'| is at least 2T + E, s changes monotonically through the step, and the circle
- * is crossed once at most. So in a cell that the facet has come into, or began in:
+ * The step turns the facet's normal about a known axis by an angle T. Its value s against the circle of a side was
+ * s(−a) = s − s'a ± a²/2 an angle a ago, a from 0 to T, where s and s' are those of now. The error of s is at most E,
+ * the sign's bound and twice the epoch's drift. Where |s'| is at least 2T + E, s is monotonic through the step, and the
+ * circle is crossed at most once. So in a cell that the facet has entered, or in which it began:
  *
- *   - it was on the inner side of every circle when it came. A circle that it is past now, it has crossed since, going
+ *   - It was on the inner side of every circle when it entered. A circle that it is past now, it has crossed since,
  *     outwards.
- *   - a circle that it is not past it has not crossed since, for it would have crossed it twice.
+ *   - A circle that it is not past it has not crossed since, because it would have crossed it twice.
  *
  * Hence it has left the cell if it is past some circle, through the side of the circle that it crossed first: the only
- * one, or the one whose span of possible times lies before those of the others. From there the next cell is looked at
- * in the same way. Where a value is within E of zero, where a circle within reach may have been crossed twice, or where
- * the order is open, nothing is said.
+ * one, or the one whose interval of possible angles lies before those of the others. From there the next cell is
+ * examined in the same way. Where a value is within E of zero, where a circle within reach may have been crossed twice,
+ * or where the order is not certain, the trace gives no answer.
  */
 #include "dymsum/update/trace.h"
 
@@ -24,33 +24,34 @@ struct tracer {
     const pir_facets *facets;
     const pir_polytope *other;
     pir_vec3 turned,
-        motion;    /* the facet's normal turned to the other operand, and how that moves along the clock's axis */
-    double stride; /* the angle of the step about that, rounded outwards */
+        motion;    /* the facet's normal rotated to the other operand's frame, and its motion about the epoch's axis */
+    double stride; /* the angle of the step about that axis, rounded away from 0 */
     double error;  /* E */
 };
 
-/* Where a cell was left. */
+/* How a cell was left. */
 struct exit {
     uint32_t count, half; /* how many circles the facet is past, and the halfedge of the one that it crossed first */
-    double s, rising;     /* how far it is past that, and how fast that grew */
-    bool known;           /* false: too close to call */
+    double s, rising;     /* how far it is past that circle, and the derivative */
+    bool known;           /* false: the order is not certain */
 };
 
 /*
- * The span of times ago at which s was zero, if it rose so fast: roots of s − s'a ± a²/2, the error taken to widen it.
+ * The interval of angles ago at which s was zero, where it rises at `rising`: roots of s − s'a ± a²/2, widened by the
+ * error.
  */
-static void time_of_exit(double s, double rising, double error, double *ret_least, double *ret_most) {
+static void angle_of_exit(double s, double rising, double error, double *ret_least, double *ret_most) {
     double square = rising * rising, rest = square - (s + s + 2 * error);
     *ret_least = sqrt(square + (s + s - 2 * error)) - rising;
     *ret_most = rest > 0 ? rising - sqrt(rest) : HUGE_VAL;
 }
 
-/* Takes in that the circle of `half` was crossed outwards too. */
+/* Adds the circle of `half`, which was crossed outwards. */
 static void add_exit(struct exit *exit, uint32_t half, double s, double rising, double error) {
     if (exit->count++ > 0) {
         double least, most, least_before, most_before;
-        time_of_exit(s, rising, error, &least, &most);
-        time_of_exit(exit->s, exit->rising, error, &least_before, &most_before);
+        angle_of_exit(s, rising, error, &least, &most);
+        angle_of_exit(exit->s, exit->rising, error, &least_before, &most_before);
         if (least_before > most)
             return;
         exit->known = least > most_before;
@@ -60,7 +61,7 @@ static void add_exit(struct exit *exit, uint32_t half, double s, double rising, 
     exit->rising = rising;
 }
 
-/* Looks for the side through which the facet has left the cell of v. */
+/* Finds the side through which the facet has left the cell of v. */
 static struct exit find_exit(const struct tracer *tracer, uint32_t v) {
     const pir_polytope *other = tracer->other;
     const double stride = fabs(tracer->stride), error = tracer->error;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The way of one facet through the cells that it has crossed in the last step. */
+/* The cells that one facet has crossed in the last step. */
 #ifndef PIR_DYMSUM_UPDATE_TRACE_H
 #define PIR_DYMSUM_UPDATE_TRACE_H
 
@@ -14,8 +14,8 @@ typedef struct pir_trace {
 } pir_trace;
 
 /*
- * Follows facet f of P, or g of Q, from the cell in fv or vf, where it was before the last step. False where doubles do
- * not tell.
+ * Follows facet f of P, or g of Q, from the cell in fv or vf, where it was before the last step. False where doubles
+ * are not certain.
  */
 bool pir_trace_fv(pir_tracked *tracked, uint32_t f, pir_trace *ret_trace);
 bool pir_trace_vf(pir_tracked *tracked, uint32_t g, pir_trace *ret_trace);

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The update: find the facets that may have left their cells, and repair what they touched.
+ * The update: find the facets that may have left their cells, and repair the edges that they touched.
  *
- * Why a jump is safe. Between two frames let R turn continuously, along the way that the clock measures (clock.h). The
- * pairing changes only where a facet, a point of one Gaussian map, passes through an arc of the other, and so leaves
- * its cell. A facet whose alarm has not rung has stayed in its cell all the way. So crossings need no certificates of
- * their own: an arc that no awake facet has passed through, and whose ends stayed, has the crossings it had.
+ * Why a step of any size is safe. Between two rotations let R turn continuously, as the epoch measures it (epoch.h).
+ * The pairing changes only where a facet, a point of one Gaussian map, passes through an arc of the other, and so
+ * leaves its cell. A facet whose certificate has not expired has stayed in its cell through the whole step. So
+ * crossings need no certificates of their own: an arc through which no facet has passed, and whose ends stayed in their
+ * cells, keeps its crossings.
  *
- * A facet that wakes may for certain be back where it came from (alarms.h). Else it is looked at where it is now.
- * Mostly it is in its cell, too far from each side to have touched one within the step, and sleeps on. Or it has
- * crossed one side, into a cell of which it can have touched no other side than the one it came in by. Both ways of
- * crossing are one event, which changes the arcs concerned in a way known beforehand (repair.c), and at once. Of a
- * facet of Q that has passed through an arc to which something else has happened too the order is not known: that arc
- * is led from cell to cell again at the end. Anything else, several sides within reach, ties, is settled with care: the
- * facet by descent, each arc that it may have passed through by leading it again.
+ * A facet whose certificate has expired may certainly be back in its previous cell (certificates.h). If not, it is
+ * checked where it is now. Mostly it is in its cell, too far from each side to have touched one within the step, and is
+ * certified anew. Or it has crossed one side, into a cell of which it touched no other side. Both kinds of crossing are
+ * one event, which changes the arcs concerned in a known way (repair.c), and at once. When a facet of Q has passed
+ * through an arc that another event has touched too, the order of the two is not known. That edge is derived again at
+ * the end. All else, several sides within reach or ties, takes the slow way: the facet is located by descent, and each
+ * edge whose arc it may have passed through is derived again.
  */
 #include "dymsum/update/update.h"
 
@@ -22,10 +23,13 @@
 #include "dymsum/update/repair.h"
 #include "dymsum/update/trace.h"
 
-/* How many cells a facet is followed back through before every edge is taken to have changed. */
+/* A facet is followed back through at most so many cells. Beyond that all edges are derived again. */
 #define FOLLOWED_CELLS 16
 
-/* One in so many facets is many. */
+/*
+ * When more than one facet in so many has to be located by descent, deriving all edges is less work than finding out
+ * which.
+ */
 #define MANY_OPEN 8
 
 struct update {
@@ -37,7 +41,7 @@ struct update {
     bool failed;     /* out of memory */
 };
 
-/* Edge e is to be led anew. */
+/* Edge e is to be derived again. */
 static inline void note_edge(struct update *update, uint32_t e) {
     pir_tracked *tracked = update->tracked;
     if (tracked->touched[e] == PIR_INACTIVE)
@@ -47,7 +51,7 @@ static inline void note_edge(struct update *update, uint32_t e) {
     tracked->touched[e] = update->stamp + 1;
 }
 
-/* Facet f of P has crossed the arc of halfedge h of Q: its edges start there, or end, and go along. */
+/* Facet f of P has crossed the arc of halfedge h of Q: the edges that start or end there follow. */
 static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     pir_tracked *tracked = update->tracked;
     const pir_polytope *p = tracked->pairing.p;
@@ -63,9 +67,7 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     update->failed |= !done;
 }
 
-/*
- * Facet g of Q has crossed the arc of halfedge `half` of P: noted until it is known what else has happened to its edge.
- */
+/* Facet g of Q has crossed the arc of halfedge `half` of P. It is noted until all events of that edge are known. */
 static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half) {
     pir_tracked *tracked = update->tracked;
     uint32_t e = tracked->pairing.p->edge[half];
@@ -77,7 +79,7 @@ static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half)
     }
 }
 
-/* The edges that a facet of Q has crossed, and nothing else has happened to, lead around it now. */
+/* Repairs the edges that one facet of Q has crossed and no other event has touched. */
 static void pass_facets(struct update *update) {
     pir_tracked *tracked = update->tracked;
     for (uint32_t i = 0; i < update->passes && !update->all; i++) {
@@ -88,7 +90,7 @@ static void pass_facets(struct update *update) {
     }
 }
 
-/* Facet f of P may have touched one side or another. */
+/* Locates facet f of P, which may have touched several sides, and repairs or notes its edges. */
 static void settle_of_p(struct update *update, uint32_t f) {
     pir_tracked *tracked = update->tracked;
     pir_pairing *pairing = &tracked->pairing;
@@ -111,9 +113,7 @@ static void settle_of_p(struct update *update, uint32_t f) {
         note_edge(update, p->edge[p->loop[i]]);
 }
 
-/*
- * Whether side `half` of a cell of P may have been touched by the normal of a facet of Q, turned back, within the step.
- */
+/* Whether the normal of a facet of Q, rotated back, may have touched side `half` of a cell of P within the step. */
 static bool touches(const pir_tracked *tracked, uint32_t half, pir_vec3 turned_back, pir_vec3 motion) {
     pir_vec3 d = tracked->pairing.p->direction[half];
     pir_expiry expiry = pir_expiry_never();
@@ -123,7 +123,7 @@ static bool touches(const pir_tracked *tracked, uint32_t half, pir_vec3 turned_b
 
 /*
  * Follows facet g back from the cell of v through every side that it may have touched, and notes the edges of those: it
- * came in through a touched side, and so on.
+ * came in through such a side, and into that cell through another, and so on.
  */
 static void follow_back(struct update *update, uint32_t g, uint32_t v) {
     const pir_tracked *tracked = update->tracked;
@@ -147,7 +147,7 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
         }
 }
 
-/* Facet g of Q may have touched one side or another. */
+/* Locates facet g of Q, which may have touched several sides, and notes the edges of P that it may have crossed. */
 static void settle_of_q(struct update *update, uint32_t g) {
     pir_tracked *tracked = update->tracked;
     pir_pairing *pairing = &tracked->pairing;
@@ -169,9 +169,7 @@ static void settle_of_q(struct update *update, uint32_t g) {
         follow_back(update, g, v);
 }
 
-/*
- * Whether so many of the suspects are to be settled that leading every edge anew is less work than finding out which.
- */
+/* Whether so many of the suspects are still to be located that all edges are derived again. */
 static bool are_many_open(const pir_tracked *tracked, const pir_suspect *suspects, uint32_t count) {
     uint32_t open = 0;
     for (uint32_t i = 0; i < count; i++)
@@ -180,14 +178,14 @@ static bool are_many_open(const pir_tracked *tracked, const pir_suspect *suspect
 }
 
 /*
- * Takes those back that are where they came from: facets of P with their edges; those of Q are listed in
- * tracked->work.suspects, *ret_of_q of them. What is left of alarms->woken is the others; returns their number.
+ * Returns facets that are certainly back in their previous cells to those. The edges of those of P are repaired. Those
+ * of Q are listed in work.suspects, *ret_of_q of them. The others stay in certificates.expired; returns their number.
  */
-static uint32_t take_back(struct update *update, uint32_t expired, uint32_t *ret_of_q) {
+static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t *ret_of_q) {
     pir_tracked *tracked = update->tracked;
     uint32_t *certificate = tracked->certificates.expired, left = 0, of_q = 0;
     *ret_of_q = 0;
-    // who never turned round never comes back
+    // while the motion has not reversed, no facet returns
     if (!tracked->epoch.reverses)
         return expired;
     for (uint32_t k = 0; k < expired; k++) {
@@ -212,8 +210,11 @@ static uint32_t take_back(struct update *update, uint32_t expired, uint32_t *ret
     return left;
 }
 
-/* What is seen of facets of Q, after all of P: their edges tell then whether another event has touched them. */
-static void take_along_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
+/*
+ * Applies what a review has found of facets of Q. All of P come first, so that each edge shows whether another event
+ * has touched it.
+ */
+static void apply_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         pir_journal_note(&update->tracked->journal, update->tracked->q_facets.first_certificate + suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
@@ -225,7 +226,7 @@ static void take_along_of_q(struct update *update, const pir_suspect *suspects, 
     }
 }
 
-static void take_along_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
+static void apply_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         pir_journal_note(&update->tracked->journal, suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
@@ -237,10 +238,10 @@ static void take_along_of_p(struct update *update, const pir_suspect *suspects, 
     }
 }
 
-/* Finds where the facets that wake are, and brings along what they have touched or notes it. */
+/* Locates the facets whose certificates have expired, and repairs or notes the edges that they have touched. */
 static void review(struct update *update, uint32_t expired) {
     pir_tracked *tracked = update->tracked;
-    uint32_t back, left = take_back(update, expired, &back), of_p = 0, of_q = 0;
+    uint32_t back, left = return_facets(update, expired, &back), of_p = 0, of_q = 0;
     pir_suspect *seen = tracked->work.suspects + back;
     if (left > 0) {
         const uint32_t *certificate = tracked->certificates.expired;
@@ -248,7 +249,7 @@ static void review(struct update *update, uint32_t expired) {
         while (left_of_p < left && certificate[left_of_p] < tracked->q_facets.first_certificate)
             left_of_p++;
         pir_tracked_begin_step(tracked);
-        // all looks before anything that depends on what they see: processors look ahead
+        // all checks come before anything that depends on their results, so that a processor can overlap them
         of_p = tracked->kernels->review(&tracked->p_facets, &tracked->step, &tracked->certificates, certificate,
                                         left_of_p, seen, &tracked->pairing.signs.by_filter);
         of_q = tracked->kernels->review(&tracked->q_facets, &tracked->step, &tracked->certificates,
@@ -256,13 +257,13 @@ static void review(struct update *update, uint32_t expired) {
                                         &tracked->pairing.signs.by_filter);
         update->all |= are_many_open(tracked, seen, of_p + of_q);
     }
-    take_along_of_p(update, seen, of_p);
-    take_along_of_q(update, tracked->work.suspects, back);
-    take_along_of_q(update, seen + of_p, of_q);
+    apply_of_p(update, seen, of_p);
+    apply_of_q(update, tracked->work.suspects, back);
+    apply_of_q(update, seen + of_p, of_q);
     pass_facets(update);
 }
 
-/* Above all that is in tracked->touched. */
+/* A stamp greater than all in `touched`. */
 static uint32_t next_stamp(pir_tracked *tracked) {
     if (tracked->stamp >= UINT32_MAX - 3) {
         tracked->stamp = 0;
