@@ -28,8 +28,8 @@ uint32_t *pir_fill_cells(pir_sum *sum, pir_operand facets_of);
 bool pir_fill_crossings(pir_sum *sum, uint32_t count);
 
 /*
- * One more crossing of edge e with halfedge h, behind *last, which is PIR_NO_CROSSING before the first of an edge and
- * is the new crossing then. There must be room.
+ * One more crossing of edge e with halfedge h, behind *last, which is PIR_NO_CROSSING before the first crossing of an
+ * edge, and becomes the new one. False when out of memory.
  */
 bool pir_fill_crossing(pir_sum *sum, uint32_t e, uint32_t h, uint32_t *last);
 

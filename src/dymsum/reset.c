@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Beginning anew with the memory that is there: the motion so far forgotten, or the counters. */
+/* Beginning again in the memory that is there: a sum without a past motion, and counters at zero. */
 #include "dymsum/sum.h"
 
 pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
@@ -7,7 +7,7 @@ pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation) {
     if (status != PIR_OK)
         return status;
     pir_sum_changes(sum);
-    // the walk has made every certificate anew or let it expire, and a clock that knows no rotation begins an epoch
+    // the walk has renewed or expired every certificate, and an epoch of no rotation ends with the next step
     sum->tracked.epoch = (pir_epoch){0};
     sum->cost = (pir_cost_model){.walk = sum->cost.walk};
     return PIR_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bringing a sum to a rotation: the epoch and the region take note of the step, and one of the methods brings the
- * pairing. Here, and nowhere below, rebuilds and updates meet the region.
+ * Bringing a sum to a rotation: the epoch and the region note the step, and one of the methods finds the pairing. This
+ * is the only place where rebuilds and updates meet the region.
  *
  * A call that fails walks back to the rotation before, in the memory that is there.
  */
@@ -59,7 +59,7 @@ static pir_status update(pir_sum *sum) {
     return status;
 }
 
-/* Moves the epoch on to the rotation, and the certificates with it. */
+/* Advances the epoch to the rotation, and the keys of the certificates with it. */
 static void advance_epoch(pir_tracked *tracked, pir_quat before) {
     double shift = 0;
     uint32_t used = pir_certificate_count(tracked);
@@ -80,8 +80,8 @@ static void advance_epoch(pir_tracked *tracked, pir_quat before) {
 }
 
 /*
- * Makes the pairing that there was at rotation `before`: it fits the memory that is there. The epoch ends with the next
- * step. Returns `status`, of what has failed.
+ * Makes the pairing of rotation `before` again, which fits the memory that is there. The epoch ends with the next step.
+ * Returns `status`, the error that led here.
  */
 static pir_status roll_back(pir_sum *sum, pir_quat before, const pir_cover *cover, pir_status status) {
     pir_rotation_set(&sum->tracked.pairing.signs.rotation, before);
@@ -98,7 +98,7 @@ pir_status pir_sum_stay_behind(pir_sum *sum, pir_quat rotation, bool *ret_done) 
     if (status != PIR_OK)
         return status;
     double angle = pir_rotation_angle_bound(sum->tracked.pairing.signs.rotation.unit, now.unit);
-    // where there is a region, the directions of it and those that the pairing has for them are kept
+    // where there is a region, all directions of its cone are kept at both rotations
     *ret_done = pir_lag_allows(&sum->lag, angle) && pir_region_holds(&sum->region, &now);
     if (!*ret_done)
         return PIR_OK;
@@ -108,7 +108,7 @@ pir_status pir_sum_stay_behind(pir_sum *sum, pir_quat rotation, bool *ret_done) 
     return PIR_OK;
 }
 
-/* Brings the pairing to the rotation that the signs are at, by `method`. */
+/* Finds the pairing at the rotation that the signs are at, by `method`. */
 static pir_status bring(pir_sum *sum, pir_method method) {
     pir_tracked *tracked = &sum->tracked;
     if (method == PIR_METHOD_AUTO)
@@ -133,7 +133,7 @@ static pir_status bring(pir_sum *sum, pir_method method) {
 pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
     if (!sum || method < PIR_METHOD_AUTO || method > PIR_METHOD_CGM)
         return PIR_ERR_ARGUMENT;
-    // with a tolerance, an update is put off while it is within that
+    // with a tolerance, an update is deferred while the pairing may stay behind
     if (sum->lag.tolerance > 0 && method <= PIR_METHOD_UPDATE) {
         bool done;
         pir_status kept = pir_sum_stay_behind(sum, rotation, &done);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Are two pairings the same? Where regions are, so far as both cones reach: what a sum keeps beyond its own depends on
- * how it came there.
+ * Whether two pairings are the same. Where regions are set, they are compared within both cones: what a sum keeps
+ * beyond its own cone depends on its history.
  */
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/view.h"
@@ -12,7 +12,7 @@ struct side {
     const pir_cone *cone;
 };
 
-/* Whether both sums are to have what has this normal. */
+/* Whether both sums must have what has this normal. */
 static bool both_have(const struct side *a, const struct side *b, pir_vec3 n) {
     return pir_cone_has(a->cone, n) && pir_cone_has(b->cone, n);
 }
@@ -28,10 +28,13 @@ static bool same_cells(const struct side *a, const struct side *b) {
     return true;
 }
 
-/* Edges nearer to parallel than this, by the sine, cross nowhere in particular: their pieces have next to no area. */
+/*
+ * The normal of a crossing of edges whose sine is below this is mostly rounding, and its piece has next to no area.
+ * Whether it is in a cone is not told by doubles.
+ */
 #define NEARLY_PARALLEL 0x1p-30
 
-/* The first crossing of edge e from `at` on that both are to have. */
+/* The first crossing of edge e from `at` on that both sums must have. */
 static uint32_t next_crossing(const struct side *a, const struct side *b, const struct side *of, uint32_t e,
                               uint32_t at) {
     if (!a->cone->set && !b->cone->set)

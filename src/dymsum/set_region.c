@@ -2,7 +2,7 @@
 /* The calls about regions. The idea stands in region/region.c. */
 #include "dymsum/rotate.h"
 
-/* Brings what is kept to a cone that the cover does not hold. */
+/* Changes what is kept to what a cone needs that the cover does not hold. */
 static pir_status change_cone(pir_sum *sum, const pir_cone *cone) {
     pir_region *region = &sum->region;
     const pir_cone cone_before = region->cone;
@@ -21,7 +21,7 @@ static pir_status change_cone(pir_sum *sum, const pir_cone *cone) {
     return PIR_ERR_MEMORY;
 }
 
-/* Whether what is kept holds all of the region's cone, where the pairing is exact and where it is shown. */
+/* Whether what is kept includes all of the region's cone, where the pairing is exact and where it is shown. */
 static bool holds(const pir_sum *sum) {
     return pir_region_holds(&sum->region, &sum->tracked.pairing.signs.rotation) &&
            (!sum->lag.lagging || pir_region_holds(&sum->region, &sum->lag.now));
@@ -44,7 +44,7 @@ pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle) {
             return PIR_OK;
         region->cone = before;
     }
-    // a pairing that has stayed behind comes along first
+    // a pairing that has stayed behind is settled first
     status = pir_sum_settle(sum);
     return status == PIR_OK ? change_cone(sum, &cone) : status;
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Another size for an operand, the pairing kept.
+ * Another size for an operand, with the same pairing.
  *
  * Every certificate is the sign of s(n, e) for a facet normal n and an edge vector e, and scaling a body by a positive
- * number turns neither (the invariance that Diktas and Sahiner, Parametric Minkowski Sums in Object Space, 2006, draw
- * on). So the operand is replaced by the same polytope on another scale, its features under the same numbers, and all
- * else stays: the pairing, the alarms, the clock. Only what it costs to stay behind a rotation grows with the body: a
- * pairing that has comes along first.
+ * number changes the direction of neither (the invariance that Diktas and Sahiner, Parametric Minkowski Sums in Object
+ * Space, 2006, use). So the operand is replaced by the same polytope on another scale, its features under the same
+ * numbers, and all else stays: the pairing, the certificates, the epoch. Only the shortfall of a pairing that stays
+ * behind grows with the body, so such a pairing is settled first.
  */
 #include <pirouette/exact.h>
 

@@ -18,7 +18,7 @@
 
 struct pir_sum {
     pir_tracked tracked;      /* first, see pir_sum_pairing */
-    atomic_uint references;   /* the caller's, and those of the queries and live meshes that stand on it */
+    atomic_uint references;   /* the caller's, and those of its queries and live meshes */
     pir_polytope *made_of[2]; /* at scale 1, by pir_operand: the same objects until the scale is set */
     pir_cost_model cost;
     pir_lag lag;
@@ -30,7 +30,7 @@ struct pir_sum {
 pir_status pir_sum_new(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_allocator *allocator,
                        pir_sum **ret_sum);
 
-/* Called before a change, whether or not that succeeds: a failed call may lay the same pairing out in another way. */
+/* Called before a change, whether or not that succeeds: a failed call may store the same pairing in other slots. */
 static inline void pir_sum_changes(pir_sum *sum) {
     sum->tracked.pairing.generation++;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The whole-structure check of a sum: its invariants (sum.h), every sign by exact arithmetic, no filter and no
- * certificate trusted; and that what a region needs is there (region.c).
+ * The whole-structure check of a sum: its invariants (pairing/pairing.h, pairing/tracked.h), every sign by exact
+ * arithmetic, without the filter and the certificates; and that what a region needs is there (region/region.c).
  */
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/sum.h"
@@ -11,13 +11,13 @@ static int sign_of(pir_sum *sum, pir_int3 a, pir_int3 b) {
     return pir_sign_perturbed(&sum->tracked.pairing.signs, &a, &b);
 }
 
-/* Whether the region has a direction, and not just by rounding: then its pair must be there. */
+/* Whether the region certainly has a direction, beyond rounding: then its pair must be there. */
 static bool is_needed(const pir_sum *sum, pir_vec3 n) {
     const pir_cone *cone = &sum->region.cone;
     return !cone->set || pir_vec_dot(cone->axis, n) > cone->cosine + 0x1p-30;
 }
 
-/* Whether the arc along halfedge `half` of P comes into the region. */
+/* Whether the arc along halfedge `half` of P certainly enters the region. */
 static bool is_arc_needed(const pir_sum *sum, uint32_t half) {
     pir_vec3 from = pir_rotated_normal(&sum->tracked.pairing, sum->tracked.pairing.p->left[half]),
              to = pir_rotated_normal(&sum->tracked.pairing, pir_right(sum->tracked.pairing.p, half));
@@ -95,7 +95,7 @@ static bool crossings_are_valid(pir_sum *sum) {
         if (v != sum->tracked.pairing.fv[pir_right(p, half)])
             return false;
     }
-    // the rest of the slots is free
+    // the other slots are free
     for (uint32_t slot = c->free; slot != PIR_NO_CROSSING; slot = c->next[slot])
         if (slot >= c->used || c->edge[slot] != PIR_NO_CROSSING || ++count > c->used)
             return false;

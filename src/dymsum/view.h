@@ -28,8 +28,8 @@ static inline pir_rotation *pir_sum_exact_rotation(pir_sum *sum) {
 }
 
 /*
- * A number that is another after every call that may have changed anything that is read of the sum: operands, rotation,
- * pairing, tolerance, region. Whoever derives something from a sum keeps the number beside it, and derives it anew when
+ * A number that changes with every call that may have changed anything that is read of the sum: operands, rotation,
+ * pairing, tolerance, region. Whoever derives something from a sum keeps the number beside it, and derives again when
  * the two differ. Never 0.
  */
 static inline uint64_t pir_sum_generation(const pir_sum *sum) {
@@ -37,8 +37,8 @@ static inline uint64_t pir_sum_generation(const pir_sum *sum) {
 }
 
 /*
- * Takes a reference, which pir_sum_destroy gives back. The last one frees. Returns the sum. The count is no part of
- * what a sum says.
+ * Takes a reference, which pir_sum_destroy gives back. The last one to go frees the sum. Returns the sum. Taking one
+ * changes nothing that is read of the sum.
  */
 pir_sum *pir_sum_retain(const pir_sum *sum);
 
@@ -65,7 +65,7 @@ typedef struct pir_kept {
 
 pir_kept pir_sum_kept(const pir_sum *sum);
 
-/* The slots that have changed of late. */
+/* The slots that have changed lately. */
 const pir_journal *pir_sum_journal(const pir_sum *sum);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "dymsum/live/live_mesh.h"
+#include "dymsum/live/live_vertices.h"
 #include "support/memory.h"
 #include "support/random.h"
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Sums from bytes: the reader's half of sum_file.h. Nothing that the bytes say is believed.
+ * Sums from bytes: the reader's half of sum_file.h. The bytes are not trusted.
  *
- * Every count is held against the bytes that are left before memory is asked for, so memory stays in proportion to the
+ * Every count is compared with the bytes that are left before memory is allocated, so memory stays in proportion to the
  * file. The operands are made anew (restore_operand.c). The pairing is accepted when every pair of it is proven in
  * exact arithmetic at its rotation (valid.c); then it is the only one there is. What a region keeps is a function of
- * the cover (region.c), and must be what the file has pairs for.
+ * the cover (region/region.c), and the file must have pairs for exactly that.
  */
 #include <math.h>
 #include <stdio.h>
@@ -98,7 +98,7 @@ static pir_status set_region(const pir_source *from, pir_sum *sum, const pir_con
     return fits ? PIR_OK : pir_source_broken(from, "not the pairs that the region asks for");
 }
 
-/* The rotation shown and the tolerance, once the pairing is there. */
+/* Sets the tolerance and the rotation shown, once the pairing is there. */
 static pir_status set_lag(const pir_source *from, pir_sum *sum, double tolerance, bool lagging, pir_quat shown) {
     if (pir_sum_set_tolerance(sum, tolerance) != PIR_OK)
         return pir_source_broken(from, "a tolerance that is no length");
@@ -148,7 +148,7 @@ static pir_status get_sum(pir_source *from, const pir_fill_operands *operands, p
     return PIR_OK;
 }
 
-/* Whether the header, all of which is there, is that of a sum; takes the length it tells. */
+/* Whether the header, which is there in full, is that of a sum. Reads the length and the checksum. */
 static pir_status get_header(pir_source *from, uint64_t *ret_length, uint64_t *ret_checksum) {
     if (memcmp(from->data, PIR_SUM_MAGIC, 8) != 0)
         return pir_source_broken(from, "these bytes are no sum");
@@ -202,10 +202,10 @@ pir_status pir_sum_restore(const void *data, size_t size, const pir_allocator *a
 
 /* --- files --- */
 
-/* What is read at a time before the file has shown that it is as long as it says. */
+/* How much is read at a time before the file has shown that it is as long as it says. */
 #define CHUNK ((size_t)1 << 16)
 
-/* Brings the block up to `length` bytes from the file; the block grows as bytes come. */
+/* Reads from the file until the block has `length` bytes. The block grows as bytes come. */
 static pir_status fill(FILE *file, const pir_source *from, uint8_t **data, size_t *size, size_t length) {
     while (*size < length) {
         size_t more = *size < CHUNK ? CHUNK : *size;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Operands out of the bytes of a sum. Every count is held against the bytes that are left before memory is asked for.
- * The polytope is made anew as the exact hull of the vertices, and the facets in the file must be that hull's, in any
- * order.
+ * Operands out of the bytes of a sum. Every count is compared with the bytes that are left before memory is allocated.
+ * The polytope is made anew as the exact hull of the vertices, and the facets in the file must be those of the hull, in
+ * any order.
  */
 #include <string.h>
 
@@ -84,7 +84,7 @@ static pir_status get_facets(pir_source *from, struct operand *operand) {
     return PIR_OK;
 }
 
-/* Whether the facets that were read are those of the hull, turned or in another order. */
+/* Whether the facets that were read are those of the hull, each from any corner on, in any order. */
 static pir_status compare_facets(const pir_source *from, const struct operand *operand, const pir_hull *hull) {
     const pir_loops *own = &operand->loops;
     bool counts = hull->dimension == (int)operand->dimension && hull->vertex_count == operand->vertices &&

@@ -9,7 +9,7 @@
 
 _Static_assert(GMP_NUMB_BITS % 8 == 0, "bytes do not straddle limbs");
 
-/* Bytes so far; they are kept only where there is memory. */
+/* Bytes so far; they are stored only where there is memory. */
 struct sink {
     uint8_t *data; /* NULL: count only */
     size_t used;

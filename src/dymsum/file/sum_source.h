@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The bytes of a sum while it is restored: where reading is, and the numbers that stand there. Nothing that the bytes
- * say is believed: whoever takes numbers has asked before whether they are there, or has been told by the call that
- * takes them.
+ * The bytes of a sum while it is restored: the position of reading, and the numbers that stand there. The bytes are not
+ * trusted: a caller takes numbers only after asking whether they are there, or from a call that asks itself.
  */
 #ifndef PIR_DYMSUM_FILE_SUM_SOURCE_H
 #define PIR_DYMSUM_FILE_SUM_SOURCE_H

@@ -2,69 +2,74 @@
 /*
  * The live mesh. Its slots and invariants stand in live_mesh.h.
  *
- * A refresh looks at the slots that the sum's journal names, in rising order, and compares its copy of the pairing with
- * the sum's there: so it costs what changed. Where the journal does not reach back, and with a region, into which
- * facets turn, all slots are compared: two loads a pair, against the hash and the four writes that a changed one takes.
- * Either way the mesh comes out the same, slot for slot.
+ * A refresh reads the slots that the sum's journal names, in rising order, and compares its copy of the pairing with
+ * the sum's there. So it costs what changed. Where the journal does not reach back, and with a region, which facets
+ * enter as they rotate, all slots are compared: that takes two loads a pair, against a hash and four writes for one
+ * that has changed. Either way the mesh is the same, slot for slot.
  *
- * A vertex that loses its last corner and then is given another, all in one refresh, stays in its slot: slots are
- * emptied last. Each vertex has two corners at least, so half of all corners is room for the old vertices, and as much
+ * A vertex that loses its last corner and is given another in the same refresh stays in its slot, because slots are
+ * emptied last. Each vertex has at least two corners, so half of all corners is room for the old vertices, and as much
  * for the new.
  *
- * A rebuild gives crossings other slots; then slots are rewritten though their pairs are still there, and a pair that
- * both went and came is in neither list.
+ * A rebuild puts crossings into other slots. Then slots are rewritten although their pairs are the same, and a pair
+ * that both disappeared and appeared is in neither list.
  */
 #include "dymsum/live/live_mesh.h"
+
+#include "base/layout.h"
 
 #include <string.h>
 
 /* --- making it --- */
 
 /* Words of 64 bits for so many slots. */
-static size_t words_for(uint32_t slots) {
-    return (size_t)slots / 64 + 1;
+static size_t words_for(size_t slots) {
+    return slots / 64 + 1;
 }
 
-static bool reserve_crossings(pir_live_mesh *live, uint32_t least) {
-    if (live->corner && least <= live->capacity)
+static pir_layout layout_of(pir_live_mesh *live) {
+    return (pir_layout){{PIR_ROW(live->fv, live->sizes.facets_p), PIR_ROW(live->vf, live->sizes.facets_q),
+                         PIR_ROW(live->turned, live->sizes.vertices_p)}};
+}
+
+static pir_layout layout_of_slots(pir_live_slots *slots, const pir_live_sizes *sizes) {
+    uint32_t crossings = slots->capacity;
+    size_t facets = (size_t)sizes->facets_p + sizes->facets_q + crossings;
+    return (pir_layout){{PIR_ROW(slots->edge, crossings), PIR_ROW(slots->half, crossings),
+                         PIR_ROW(slots->corner, sizes->corners_fixed + 4 * (size_t)crossings),
+                         PIR_ROW(slots->rewritten, facets), PIR_ROW(slots->dirty, words_for(facets))}};
+}
+
+static bool reserve_slots(pir_live_mesh *live, uint32_t least) {
+    if (live->slots.corner && least <= live->slots.capacity)
         return true;
-    const pir_allocator *a = &live->allocator;
-    uint32_t capacity = least, fixed = live->corners_fixed, slots = live->facets_p + live->facets_q;
-    uint32_t *edge = PIR_NEW(a, uint32_t, capacity), *half = PIR_NEW(a, uint32_t, capacity),
-             *corner = PIR_NEW(a, uint32_t, (size_t)fixed + 4 * (size_t)capacity),
-             *rewritten = PIR_NEW(a, uint32_t, (size_t)slots + capacity);
-    uint64_t *dirty = PIR_ZEROED(a, uint64_t, words_for(slots + capacity));
-    bool done = edge && half && corner && rewritten && dirty;
-    if (done) {
-        for (uint32_t i = 0; i < capacity; i++)
-            edge[i] = i < live->used ? live->edge[i] : PIR_NO_CROSSING;
-        if (live->used > 0)
-            memcpy(half, live->half, live->used * sizeof *half);
-        if (live->corner)
-            memcpy(corner, live->corner, ((size_t)fixed + 4 * (size_t)live->used) * sizeof *corner);
+    const pir_live_slots *before = &live->slots;
+    pir_live_slots grown = {.capacity = least, .used = before->used};
+    pir_layout fresh = layout_of_slots(&grown, &live->sizes);
+    if (!pir_layout_new(&live->allocator, &fresh)) {
+        pir_layout_free(&live->allocator, &fresh);
+        return false;
     }
-    PIR_FREE(a, done ? live->edge : edge, done ? live->capacity : capacity);
-    PIR_FREE(a, done ? live->half : half, done ? live->capacity : capacity);
-    PIR_FREE(a, done ? live->corner : corner, (size_t)fixed + 4 * (size_t)(done ? live->capacity : capacity));
-    PIR_FREE(a, done ? live->rewritten : rewritten, (size_t)slots + (done ? live->capacity : capacity));
-    PIR_FREE(a, done ? live->dirty : dirty, words_for(slots + (done ? live->capacity : capacity)));
-    if (done) {
-        live->edge = edge;
-        live->half = half;
-        live->corner = corner;
-        live->rewritten = rewritten;
-        live->dirty = dirty;
-        live->capacity = capacity;
-    }
-    return done;
+    for (uint32_t i = 0; i < least; i++)
+        grown.edge[i] = i < before->used ? before->edge[i] : PIR_NO_CROSSING;
+    if (before->used > 0)
+        memcpy(grown.half, before->half, before->used * sizeof *grown.half);
+    size_t corners = live->sizes.corners_fixed + 4 * (size_t)before->used;
+    if (before->corner)
+        memcpy(grown.corner, before->corner, corners * sizeof *grown.corner);
+    pir_layout old = layout_of_slots(&live->slots, &live->sizes);
+    pir_layout_free(&live->allocator, &old);
+    live->slots = grown;
+    return true;
 }
 
 /* Room for whatever the sum may hold now, so that the rest of a refresh cannot fail. */
 static bool reserve(pir_live_mesh *live) {
-    // as much as the sum itself has room for: grows when the sum grows
-    uint32_t crossings = live->pairing->crossings.capacity, slots = live->facets_p + live->facets_q + crossings;
-    uint32_t corners = live->corners_fixed + 4 * crossings;
-    return reserve_crossings(live, crossings) && pir_live_pairs_reserve(&live->appeared, &live->allocator, slots) &&
+    // as much as the sum itself has room for: it grows when the sum grows
+    uint32_t crossings = live->pairing->crossings.capacity,
+             slots = live->sizes.facets_p + live->sizes.facets_q + crossings;
+    uint32_t corners = live->sizes.corners_fixed + 4 * crossings;
+    return reserve_slots(live, crossings) && pir_live_pairs_reserve(&live->appeared, &live->allocator, slots) &&
            pir_live_pairs_reserve(&live->disappeared, &live->allocator, slots) &&
            pir_live_vertices_reserve(&live->vertices, &live->allocator, corners + 8);
 }
@@ -73,18 +78,11 @@ void pir_live_mesh_destroy(pir_live_mesh *live) {
     if (!live)
         return;
     const pir_allocator allocator = live->allocator, *a = &allocator;
-    PIR_FREE(a, live->fv, live->facets_p);
-    PIR_FREE(a, live->vf, live->facets_q);
-    if (live->corner) {
-        PIR_FREE(a, live->edge, live->capacity);
-        PIR_FREE(a, live->half, live->capacity);
-        PIR_FREE(a, live->corner, (size_t)live->corners_fixed + 4 * (size_t)live->capacity);
-        PIR_FREE(a, live->rewritten, (size_t)live->facets_p + live->facets_q + live->capacity);
-        PIR_FREE(a, live->dirty, words_for(live->facets_p + live->facets_q + live->capacity));
-    }
+    pir_layout layout = layout_of(live), slots = layout_of_slots(&live->slots, &live->sizes);
+    pir_layout_free(a, &layout);
+    pir_layout_free(a, &slots);
     pir_live_pairs_finish(&live->appeared, a);
     pir_live_pairs_finish(&live->disappeared, a);
-    PIR_FREE(a, live->turned, live->vertices_p);
     pir_live_vertices_finish(&live->vertices, a);
     pir_sum_destroy(live->sum);
     PIR_FREE(a, live, 1);
@@ -101,19 +99,15 @@ pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live) {
     live->sum = pir_sum_retain(sum);
     live->pairing = pairing;
     live->allocator = *a;
-    live->facets_p = pairing->p->facet_count;
-    live->facets_q = pairing->q->facet_count;
-    live->vertices_p = pairing->p->vertex_count;
-    live->corners_fixed = pairing->p->half_count + pairing->q->half_count;
+    live->sizes = (pir_live_sizes){pairing->p->facet_count, pairing->q->facet_count, pairing->p->vertex_count,
+                                   pairing->p->half_count + pairing->q->half_count};
     live->vertices.free = PIR_NO_SLOT;
-    live->fv = PIR_NEW(a, uint32_t, live->facets_p);
-    live->vf = PIR_NEW(a, uint32_t, live->facets_q);
-    live->turned = PIR_NEW(a, pir_vec3, live->vertices_p);
+    pir_layout layout = layout_of(live);
     pir_status status = PIR_ERR_MEMORY;
-    if (live->fv && live->vf && live->turned) {
-        for (uint32_t f = 0; f < live->facets_p; f++)
+    if (pir_layout_new(a, &layout)) {
+        for (uint32_t f = 0; f < live->sizes.facets_p; f++)
             live->fv[f] = PIR_NO_SLOT;
-        for (uint32_t g = 0; g < live->facets_q; g++)
+        for (uint32_t g = 0; g < live->sizes.facets_q; g++)
             live->vf[g] = PIR_NO_SLOT;
         live->stale = true;
         status = pir_live_mesh_refresh(live);
@@ -157,12 +151,12 @@ static void refresh_facet(pir_live_mesh *live, bool of_p, uint32_t f) {
     for (uint32_t i = of->loop_start[f]; i < of->loop_start[f + 1]; i++) {
         uint32_t own = of->origin[of->loop[i]];
         if (before != PIR_NO_SLOT)
-            pir_live_vertex_drop(&live->vertices, live->corner[first + i]);
+            pir_live_vertex_drop(&live->vertices, live->slots.corner[first + i]);
         if (v != PIR_NO_SLOT)
-            live->corner[first + i] = pir_live_vertex_take(&live->vertices, of_p ? own : v, of_p ? v : own);
+            live->slots.corner[first + i] = pir_live_vertex_take(&live->vertices, of_p ? own : v, of_p ? v : own);
     }
-    live->rewritten[live->rewritten_count++] = of_p ? f : live->facets_p + f;
-    // the facets of a segment are there to hold its edges only
+    live->slots.rewritten[live->rewritten_count++] = of_p ? f : live->sizes.facets_p + f;
+    // the facets of a segment only hold its edges
     if (!of->artificial && before != PIR_NO_SLOT)
         pir_live_pairs_note(&live->disappeared, kind, of_p ? f : before, of_p ? before : f);
     if (!of->artificial && v != PIR_NO_SLOT)
@@ -173,15 +167,17 @@ static void refresh_facet(pir_live_mesh *live, bool of_p, uint32_t f) {
 /* The parallelogram of a crossing, counter-clockwise from outside. */
 static void write_crossing(pir_live_mesh *live, uint32_t slot) {
     const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
-    uint32_t half = p->edge_half[live->edge[slot]], h = live->half[slot];
-    uint32_t *corner = live->corner + live->corners_fixed + 4 * (size_t)slot;
+    uint32_t half = p->edge_half[live->slots.edge[slot]], h = live->slots.half[slot];
+    uint32_t *corner = live->slots.corner + live->sizes.corners_fixed + 4 * (size_t)slot;
     corner[0] = pir_live_vertex_take(&live->vertices, p->origin[half], q->origin[h]);
     corner[1] = pir_live_vertex_take(&live->vertices, p->origin[half], q->target[h]);
     corner[2] = pir_live_vertex_take(&live->vertices, p->target[half], q->target[h]);
     corner[3] = pir_live_vertex_take(&live->vertices, p->target[half], q->origin[h]);
 }
 
-/* The edge in a crossing's slot now, or PIR_NO_CROSSING where it is empty or not to be held. */
+/*
+ * The edge in a crossing's slot now, or PIR_NO_CROSSING where the slot is empty or its normal is outside of the cone.
+ */
 static uint32_t edge_now(const pir_live_mesh *live, uint32_t slot) {
     const pir_pairing *pairing = live->pairing;
     const pir_crossings *c = &pairing->crossings;
@@ -197,53 +193,53 @@ static uint32_t edge_now(const pir_live_mesh *live, uint32_t slot) {
 
 static void refresh_crossing(pir_live_mesh *live, uint32_t slot) {
     const pir_crossings *c = &live->pairing->crossings;
-    uint32_t edge = edge_now(live, slot), held = live->edge[slot];
-    if (edge == held && (edge == PIR_NO_CROSSING || c->half[slot] == live->half[slot]))
+    uint32_t edge = edge_now(live, slot), held = live->slots.edge[slot];
+    if (edge == held && (edge == PIR_NO_CROSSING || c->half[slot] == live->slots.half[slot]))
         return;
     if (held != PIR_NO_CROSSING) {
-        note_ee(live, &live->disappeared, held, live->half[slot]);
+        note_ee(live, &live->disappeared, held, live->slots.half[slot]);
         for (size_t i = 0; i < 4; i++)
-            pir_live_vertex_drop(&live->vertices, live->corner[live->corners_fixed + 4 * (size_t)slot + i]);
+            pir_live_vertex_drop(&live->vertices, live->slots.corner[live->sizes.corners_fixed + 4 * (size_t)slot + i]);
     }
-    live->edge[slot] = edge;
+    live->slots.edge[slot] = edge;
     if (edge != PIR_NO_CROSSING) {
-        live->half[slot] = c->half[slot];
+        live->slots.half[slot] = c->half[slot];
         note_ee(live, &live->appeared, edge, c->half[slot]);
         write_crossing(live, slot);
     }
-    live->rewritten[live->rewritten_count++] = live->facets_p + live->facets_q + slot;
+    live->slots.rewritten[live->rewritten_count++] = live->sizes.facets_p + live->sizes.facets_q + slot;
 }
 
 static void refresh_all(pir_live_mesh *live) {
-    uint32_t used = live->pairing->crossings.used, slots = used > live->used ? used : live->used;
-    for (uint32_t f = 0; f < live->facets_p; f++)
+    uint32_t used = live->pairing->crossings.used, slots = used > live->slots.used ? used : live->slots.used;
+    for (uint32_t f = 0; f < live->sizes.facets_p; f++)
         refresh_facet(live, true, f);
-    for (uint32_t g = 0; g < live->facets_q; g++)
+    for (uint32_t g = 0; g < live->sizes.facets_q; g++)
         refresh_facet(live, false, g);
     for (uint32_t slot = 0; slot < slots; slot++)
         refresh_crossing(live, slot);
 }
 
-/* Looks at the slots that the journal names since the last refresh, each once. */
+/* Compares the slots that the journal names since the last refresh, each once. */
 static void refresh_noted(pir_live_mesh *live) {
     const pir_journal *journal = pir_sum_journal(live->sum);
-    uint32_t facets = live->facets_p + live->facets_q;
+    uint32_t facets = live->sizes.facets_p + live->sizes.facets_q;
     size_t words = words_for(facets + live->pairing->crossings.used);
     for (uint64_t n = live->seen; n < journal->count; n++) {
         uint32_t slot = journal->slot[n % PIR_JOURNAL_ROOM];
-        live->dirty[slot / 64] |= (uint64_t)1 << slot % 64;
+        live->slots.dirty[slot / 64] |= (uint64_t)1 << slot % 64;
     }
     for (size_t w = 0; w < words; w++) {
-        for (uint64_t left = live->dirty[w]; left; left &= left - 1) {
+        for (uint64_t left = live->slots.dirty[w]; left; left &= left - 1) {
             uint32_t slot = (uint32_t)w * 64 + (uint32_t)__builtin_ctzll(left);
-            if (slot < live->facets_p)
+            if (slot < live->sizes.facets_p)
                 refresh_facet(live, true, slot);
             else if (slot < facets)
-                refresh_facet(live, false, slot - live->facets_p);
+                refresh_facet(live, false, slot - live->sizes.facets_p);
             else
                 refresh_crossing(live, slot - facets);
         }
-        live->dirty[w] = 0;
+        live->slots.dirty[w] = 0;
     }
 }
 
@@ -260,7 +256,7 @@ pir_status pir_live_mesh_refresh(pir_live_mesh *live) {
         refresh_noted(live);
     live->stale = false;
     live->seen = journal->count;
-    live->used = live->pairing->crossings.used;
+    live->slots.used = live->pairing->crossings.used;
     pir_live_vertices_sweep(&live->vertices);
     pir_live_pairs_settle(&live->appeared, &live->disappeared);
     return PIR_OK;

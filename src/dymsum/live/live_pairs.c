@@ -1,35 +1,38 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The lists of pairs that came and went in a refresh. They are gathered as keys, numbers that order them by kind, p, q;
- * sorted by merging, in room that was made before; and then written out for callers.
+ * The lists of pairs that appeared and disappeared in a refresh. They are gathered as keys, numbers that order them by
+ * kind, p, q, sorted by merging in room that was made before, and then written out for callers.
  */
-#include <string.h>
+#include "dymsum/live/live_pairs.h"
 
-#include "dymsum/live/live_mesh.h"
+#include "base/layout.h"
+
+#include <string.h>
 
 /* Runs of so many are sorted by insertion, longer ones merged. */
 #define RUN 8
 
+static pir_layout layout_of(pir_live_pairs *pairs) {
+    return (pir_layout){{PIR_ROW(pairs->at, pairs->capacity), PIR_ROW(pairs->key, pairs->capacity),
+                         PIR_ROW(pairs->spare, pairs->capacity)}};
+}
+
 void pir_live_pairs_finish(pir_live_pairs *pairs, const pir_allocator *a) {
-    PIR_FREE(a, pairs->at, pairs->capacity);
-    PIR_FREE(a, pairs->key, pairs->capacity);
-    PIR_FREE(a, pairs->spare, pairs->capacity);
+    pir_layout layout = layout_of(pairs);
+    pir_layout_free(a, &layout);
     *pairs = (pir_live_pairs){0};
 }
 
 bool pir_live_pairs_reserve(pir_live_pairs *pairs, const pir_allocator *a, uint32_t capacity) {
     if (capacity <= pairs->capacity)
         return true;
-    pir_live_pairs grown = {.at = PIR_NEW(a, pir_sum_pair, capacity),
-                            .key = PIR_NEW(a, uint64_t, capacity),
-                            .spare = PIR_NEW(a, uint64_t, capacity),
-                            .count = pairs->count,
-                            .capacity = capacity};
-    if (!grown.at || !grown.key || !grown.spare) {
-        pir_live_pairs_finish(&grown, a);
+    pir_live_pairs grown = {.count = pairs->count, .capacity = capacity};
+    pir_layout fresh = layout_of(&grown);
+    if (!pir_layout_new(a, &fresh)) {
+        pir_layout_free(a, &fresh);
         return false;
     }
-    // what the last refresh has found stays there to be read
+    // what the last refresh has found stays readable
     if (pairs->count > 0)
         memcpy(grown.at, pairs->at, pairs->count * sizeof *grown.at);
     pir_live_pairs_finish(pairs, a);
@@ -47,7 +50,7 @@ static void sort_run(uint64_t *key, uint32_t count) {
     }
 }
 
-/* Two sorted runs, one behind the other, into one. */
+/* Merges two sorted runs, one behind the other. */
 static void merge(const uint64_t *from, uint32_t first, uint32_t count, uint64_t *to) {
     uint32_t i = 0, j = first;
     while (i < first && j < count) {
@@ -79,24 +82,24 @@ static void sort(pir_live_pairs *pairs) {
     }
 }
 
-/* Takes what is in both sorted lists out of both. */
-static void cancel(pir_live_pairs *came, pir_live_pairs *went) {
+/* Removes from both sorted lists what is in both. */
+static void cancel(pir_live_pairs *appeared, pir_live_pairs *disappeared) {
     uint32_t i = 0, j = 0, kept_i = 0, kept_j = 0;
-    while (i < came->count && j < went->count) {
-        uint64_t a = came->key[i], b = went->key[j];
-        came->key[kept_i] = a;
-        went->key[kept_j] = b;
+    while (i < appeared->count && j < disappeared->count) {
+        uint64_t a = appeared->key[i], b = disappeared->key[j];
+        appeared->key[kept_i] = a;
+        disappeared->key[kept_j] = b;
         kept_i += a < b;
         kept_j += b < a;
         i += a <= b;
         j += b <= a;
     }
-    while (i < came->count)
-        came->key[kept_i++] = came->key[i++];
-    while (j < went->count)
-        went->key[kept_j++] = went->key[j++];
-    came->count = kept_i;
-    went->count = kept_j;
+    while (i < appeared->count)
+        appeared->key[kept_i++] = appeared->key[i++];
+    while (j < disappeared->count)
+        disappeared->key[kept_j++] = disappeared->key[j++];
+    appeared->count = kept_i;
+    disappeared->count = kept_j;
 }
 
 static void write_out(pir_live_pairs *pairs) {
@@ -108,10 +111,10 @@ static void write_out(pir_live_pairs *pairs) {
     }
 }
 
-void pir_live_pairs_settle(pir_live_pairs *came, pir_live_pairs *went) {
-    sort(came);
-    sort(went);
-    cancel(came, went);
-    write_out(came);
-    write_out(went);
+void pir_live_pairs_settle(pir_live_pairs *appeared, pir_live_pairs *disappeared) {
+    sort(appeared);
+    sort(disappeared);
+    cancel(appeared, disappeared);
+    write_out(appeared);
+    write_out(disappeared);
 }

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The vertices of a live mesh: slots counted by use, and a hash table with linear probing whose gaps are closed as
- * entries go.
+ * The vertices of a live mesh: slots counted by use, and a hash table with linear probing whose gaps are closed when
+ * entries are removed.
  */
-#include "dymsum/live/live_mesh.h"
+#include "dymsum/live/live_vertices.h"
+
+#include "base/assert.h"
+#include "base/layout.h"
 
 static uint32_t home_of(const pir_live_vertices *v, uint32_t p, uint32_t q) {
     uint64_t key = (uint64_t)p << 32 | q;
@@ -18,13 +21,11 @@ static uint32_t place_of(const pir_live_vertices *v, uint32_t p, uint32_t q) {
     return i;
 }
 
-static void free_arrays(const pir_live_vertices *v, const pir_allocator *a) {
-    PIR_FREE(a, v->pair, v->capacity);
-    PIR_FREE(a, v->uses, v->capacity);
-    PIR_FREE(a, v->next_free, v->capacity);
-    PIR_FREE(a, v->idle, v->capacity);
-    PIR_FREE(a, v->is_idle, v->capacity);
-    PIR_FREE(a, v->table, (size_t)v->capacity * 2);
+static pir_layout layout_of(pir_live_vertices *v) {
+    uint32_t capacity = v->capacity;
+    return (pir_layout){{PIR_ROW(v->pair, capacity), PIR_ROW(v->uses, capacity), PIR_ROW(v->next_free, capacity),
+                         PIR_ROW(v->idle, capacity), PIR_ROW(v->is_idle, capacity),
+                         PIR_ROW(v->table, (size_t)capacity * 2)}};
 }
 
 bool pir_live_vertices_reserve(pir_live_vertices *v, const pir_allocator *a, uint32_t least) {
@@ -34,17 +35,10 @@ bool pir_live_vertices_reserve(pir_live_vertices *v, const pir_allocator *a, uin
     uint32_t capacity = 64;
     while (capacity < least)
         capacity *= 2;
-    pir_live_vertices grown = {.pair = pir_memory_new(a, capacity, sizeof *v->pair),
-                               .uses = PIR_NEW(a, uint32_t, capacity),
-                               .next_free = PIR_NEW(a, uint32_t, capacity),
-                               .idle = PIR_NEW(a, uint32_t, capacity),
-                               .is_idle = PIR_ZEROED(a, uint8_t, capacity),
-                               .table = PIR_NEW(a, uint32_t, (size_t)capacity * 2),
-                               .capacity = capacity,
-                               .used = v->used,
-                               .free = v->capacity ? v->free : PIR_NO_SLOT};
-    if (!grown.pair || !grown.uses || !grown.next_free || !grown.idle || !grown.is_idle || !grown.table) {
-        free_arrays(&grown, a);
+    pir_live_vertices grown = {.capacity = capacity, .used = v->used, .free = v->capacity ? v->free : PIR_NO_SLOT};
+    pir_layout fresh = layout_of(&grown);
+    if (!pir_layout_new(a, &fresh)) {
+        pir_layout_free(a, &fresh);
         return false;
     }
     for (uint32_t i = 0; i < 2 * capacity; i++)
@@ -57,13 +51,14 @@ bool pir_live_vertices_reserve(pir_live_vertices *v, const pir_allocator *a, uin
         if (grown.uses[i] > 0)
             grown.table[place_of(&grown, grown.pair[i][0], grown.pair[i][1])] = i;
     }
-    free_arrays(v, a);
+    pir_live_vertices_finish(v, a);
     *v = grown;
     return true;
 }
 
 void pir_live_vertices_finish(pir_live_vertices *v, const pir_allocator *a) {
-    free_arrays(v, a);
+    pir_layout layout = layout_of(v);
+    pir_layout_free(a, &layout);
 }
 
 uint32_t pir_live_vertex_take(pir_live_vertices *v, uint32_t p, uint32_t q) {
@@ -94,7 +89,7 @@ void pir_live_vertex_drop(pir_live_vertices *v, uint32_t slot) {
 
 static void empty_slot(pir_live_vertices *v, uint32_t slot) {
     uint32_t mask = 2 * v->capacity - 1, gap = place_of(v, v->pair[slot][0], v->pair[slot][1]);
-    // close the gap: whoever stands behind it, but would rather stand in it or before, moves up
+    // close the gap: an entry behind it moves up if its own place is the gap or before it
     for (uint32_t i = (gap + 1) & mask; v->table[i] != PIR_NO_SLOT; i = (i + 1) & mask) {
         uint32_t home = home_of(v, v->pair[v->table[i]][0], v->pair[v->table[i]][1]);
         if (((i - home) & mask) >= ((i - gap) & mask)) {

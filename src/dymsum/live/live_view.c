@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What callers see of a live mesh: slots, pairs, and coordinates and planes worked out in one pass each. */
+/* What callers see of a live mesh: slots, pairs, and coordinates and planes, computed in one pass each. */
 #include "dymsum/live/live_mesh.h"
 #include "dymsum/mesh/placing.h"
 
@@ -15,11 +15,11 @@ const pir_sum_pair *pir_live_mesh_disappeared(const pir_live_mesh *live, uint32_
 
 const uint32_t *pir_live_mesh_rewritten(const pir_live_mesh *live, uint32_t *ret_count) {
     *ret_count = live->rewritten_count;
-    return live->rewritten;
+    return live->slots.rewritten;
 }
 
 uint32_t pir_live_mesh_facet_slots(const pir_live_mesh *live) {
-    return live->facets_p + live->facets_q + live->used;
+    return live->sizes.facets_p + live->sizes.facets_q + live->slots.used;
 }
 
 uint32_t pir_live_mesh_vertex_slots(const pir_live_mesh *live) {
@@ -28,24 +28,24 @@ uint32_t pir_live_mesh_vertex_slots(const pir_live_mesh *live) {
 
 int pir_live_mesh_pair(const pir_live_mesh *live, uint32_t slot, pir_sum_pair *ret_pair) {
     const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
-    uint32_t facets = live->facets_p + live->facets_q;
-    if (slot < live->facets_p) {
+    uint32_t facets = live->sizes.facets_p + live->sizes.facets_q;
+    if (slot < live->sizes.facets_p) {
         if (p->artificial || live->fv[slot] == PIR_NO_SLOT)
             return 0;
         *ret_pair = (pir_sum_pair){PIR_FACET_FV, slot, live->fv[slot]};
         return 1;
     }
     if (slot < facets) {
-        uint32_t v = live->vf[slot - live->facets_p];
+        uint32_t v = live->vf[slot - live->sizes.facets_p];
         if (q->artificial || v == PIR_NO_SLOT)
             return 0;
-        *ret_pair = (pir_sum_pair){PIR_FACET_VF, v, slot - live->facets_p};
+        *ret_pair = (pir_sum_pair){PIR_FACET_VF, v, slot - live->sizes.facets_p};
         return 1;
     }
-    if (slot - facets >= live->used || live->edge[slot - facets] == PIR_NO_CROSSING)
+    if (slot - facets >= live->slots.used || live->slots.edge[slot - facets] == PIR_NO_CROSSING)
         return 0;
     // a segment's two edges are one to callers
-    uint32_t e = live->edge[slot - facets], h = live->half[slot - facets];
+    uint32_t e = live->slots.edge[slot - facets], h = live->slots.half[slot - facets];
     *ret_pair = (pir_sum_pair){PIR_FACET_EE, p->artificial ? 0 : e, q->artificial ? 0 : q->edge[h]};
     return 1;
 }
@@ -55,18 +55,18 @@ const uint32_t *pir_live_mesh_facet(const pir_live_mesh *live, uint32_t slot, ui
     pir_sum_pair pair;
     *ret_count = 0;
     if (!pir_live_mesh_pair(live, slot, &pair))
-        return live->corner;
-    if (slot < live->facets_p) {
+        return live->slots.corner;
+    if (slot < live->sizes.facets_p) {
         *ret_count = p->loop_start[slot + 1] - p->loop_start[slot];
-        return live->corner + p->loop_start[slot];
+        return live->slots.corner + p->loop_start[slot];
     }
-    slot -= live->facets_p;
-    if (slot < live->facets_q) {
+    slot -= live->sizes.facets_p;
+    if (slot < live->sizes.facets_q) {
         *ret_count = q->loop_start[slot + 1] - q->loop_start[slot];
-        return live->corner + p->half_count + q->loop_start[slot];
+        return live->slots.corner + p->half_count + q->loop_start[slot];
     }
     *ret_count = 4;
-    return live->corner + live->corners_fixed + 4 * (size_t)(slot - live->facets_q);
+    return live->slots.corner + live->sizes.corners_fixed + 4 * (size_t)(slot - live->sizes.facets_q);
 }
 
 int pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t ret_pair[2]) {
@@ -82,7 +82,7 @@ int pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t
 /* Rotates each vertex of P once. */
 static void turn_vertices(pir_live_mesh *live) {
     const pir_mat3 *r = pir_live_matrix(live);
-    for (uint32_t v = 0; v < live->vertices_p; v++)
+    for (uint32_t v = 0; v < live->sizes.vertices_p; v++)
         live->turned[v] = pir_mat_apply(r, live->pairing->p->vertex[v]);
 }
 
@@ -111,7 +111,7 @@ static pir_plane_equation plane_through(const pir_live_mesh *live, pir_vec3 norm
 
 static pir_plane_equation plane_of_crossing(const pir_live_mesh *live, const pir_mat3 *r, uint32_t slot) {
     const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
-    uint32_t half = p->edge_half[live->edge[slot]], h = live->half[slot];
+    uint32_t half = p->edge_half[live->slots.edge[slot]], h = live->slots.half[slot];
     pir_vec3 n = pir_vec_cross(q->direction[h], pir_mat_apply(r, p->direction[half]));
     double length = sqrt(pir_vec_dot(n, n));
     if (length == 0)
@@ -124,15 +124,15 @@ void pir_live_mesh_planes(pir_live_mesh *live, pir_plane_equation *ret_planes) {
     const pir_mat3 *r = pir_live_matrix(live);
     const pir_plane_equation none = {{0, 0, 0}, 0};
     turn_vertices(live);
-    for (uint32_t f = 0; f < live->facets_p; f++)
+    for (uint32_t f = 0; f < live->sizes.facets_p; f++)
         *ret_planes++ = p->artificial || live->fv[f] == PIR_NO_SLOT
                             ? none
                             : plane_through(live, pir_mat_apply(r, p->normal[f]), p->origin[p->loop[p->loop_start[f]]],
                                             live->fv[f]);
-    for (uint32_t g = 0; g < live->facets_q; g++)
+    for (uint32_t g = 0; g < live->sizes.facets_q; g++)
         *ret_planes++ = q->artificial || live->vf[g] == PIR_NO_SLOT
                             ? none
                             : plane_through(live, q->normal[g], live->vf[g], q->origin[q->loop[q->loop_start[g]]]);
-    for (uint32_t slot = 0; slot < live->used; slot++)
-        *ret_planes++ = live->edge[slot] == PIR_NO_CROSSING ? none : plane_of_crossing(live, r, slot);
+    for (uint32_t slot = 0; slot < live->slots.used; slot++)
+        *ret_planes++ = live->slots.edge[slot] == PIR_NO_CROSSING ? none : plane_of_crossing(live, r, slot);
 }

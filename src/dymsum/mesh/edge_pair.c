@@ -44,7 +44,7 @@ static int exact_side(const pir_posed *posed, const pir_edge_pair *pair, pir_fac
         m = pir_int3_take(scratch, pir_int3_length(&own) + PIR_MATRIX_LIMBS + 1);
         pir_rotation_apply(&posed->signs->rotation, &m, &own, scratch);
     }
-    // parallel vectors agree in sign, or differ, in every component where neither is zero
+    // parallel vectors have components that are equal in sign, or opposite in sign, wherever neither is zero
     int side = 0;
     for (int k = 0; k < 3 && side == 0; k++)
         side = pir_int_sign(&n.c[k]) * pir_int_sign(&m.c[k]);

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * An edge of P, rotated, beside an edge of Q: whether they are parallel, and to which side one turns from the other.
- */
+/* An edge of P, rotated, and an edge of Q: whether they are parallel, and to which side one turns from the other. */
 #ifndef PIR_DYMSUM_MESH_EDGE_PAIR_H
 #define PIR_DYMSUM_MESH_EDGE_PAIR_H
 

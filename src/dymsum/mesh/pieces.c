@@ -2,21 +2,20 @@
 /*
  * Pieces of the sum, and which are coplanar.
  *
- * The pairing is that of a perturbed rotation. At the true one, a crossing of arcs e and d may lie on an end of one of
- * them: exactly when one of its four signs is zero. Unless e and d are parallel, and the piece has no area, the
+ * The pairing is that of a perturbed rotation. At the true one, a crossing of arcs e and d may coincide with an end of
+ * one of them: exactly when one of its four signs is zero. Unless e and d are parallel, and the piece has no area, the
  * crossing then is that end: both e's vector and d are perpendicular to the end's normal. So pieces are joined along
- * such zeros alone, and that is all there is to join: whenever two pieces lie in one facet of the true sum, a facet of
- * P or Q does too, and each crossing that coincides with it has a zero that names it.
+ * such zeros alone. That is complete: whenever two pieces lie in one facet of the true sum, a facet of P or Q does too,
+ * and each crossing that coincides with it has a zero that names it.
  *
- * A crossing that coincides with a facet f of P and a facet g of Q says that their normals are equal; one that
+ * A crossing that coincides with a facet f of P and a facet g of Q says that their normals are equal. One that
  * coincides with f alone says that the edge of Q lies along f, and all such crossings of f name that edge. So crossings
- * leave no more than one note with each facet. Once f and g are known to coincide, nothing is asked about a crossing
- * between an arc that ends in f and one that ends in g: it coincides with both, or its edges are parallel. That makes
- * sums with many ties cheap: those of two prisms on one plane have as many such crossings as the product of their
- * sides.
+ * leave at most one note with each facet. Once f and g are known to coincide, no sign is asked of a crossing between an
+ * arc that ends in f and one that ends in g: it coincides with both, or its edges are parallel. That makes sums with
+ * many ties cheap: two prisms on one plane have as many such crossings as the product of their sides.
  *
- * Where an arc is half a circle, as in the map of a polygon, the end may also be the antipode of the crossing; one more
- * exact sign tells. Of two half circles both pairs of ends must be known to coincide before nothing is asked.
+ * Where an arc is half a circle, as in the map of a polygon, the end may also be the antipode of the crossing. One more
+ * exact sign tells. Of two half circles both pairs of ends must be known to coincide before signs are saved.
  */
 #include "dymsum/mesh/pieces.h"
 
@@ -41,7 +40,7 @@ struct ends {
     uint32_t p[2], q[2];
 };
 
-/* Whether the crossing is known to be part of a merged facet, or to have no area, from the notes left so far. */
+/* Whether the crossing is known to be part of a merged facet, or to have no area, from the notes so far. */
 static bool is_known(const pir_pieces *pieces, const pir_posed *posed, const struct ends *ends) {
     bool half_circles = posed->pairing->p->dimension < 3 && posed->pairing->q->dimension < 3;
     for (int i = 0; i < 2; i++)
@@ -52,8 +51,8 @@ static bool is_known(const pir_pieces *pieces, const pir_posed *posed, const str
 }
 
 /*
- * The facet of P that the crossing coincides with, or PIR_NO_FACE. The hidden facets of a segment have no area and
- * count for nothing.
+ * The facet of P that the crossing coincides with, or PIR_NO_FACE. The hidden facets of a segment have no area and do
+ * not count.
  */
 static uint32_t coinciding_p(const pir_posed *posed, const pir_edge_pair *pair, const struct ends *ends,
                              const bool tie[2]) {
@@ -73,7 +72,7 @@ static uint32_t coinciding_q(const pir_posed *posed, const pir_edge_pair *pair, 
     return PIR_NO_FACE;
 }
 
-/* Looks at a crossing: whether it is a facet alone; where it is not, the facets that it coincides with are told. */
+/* Whether a crossing is a facet alone. Where it is not, it is noted with the facets that it coincides with. */
 static bool check_crossing(pir_pieces *pieces, const pir_posed *posed, const pir_edge_pair *pair) {
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     const struct ends ends = {{p->left[pair->half], pir_right(p, pair->half)},

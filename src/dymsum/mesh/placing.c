@@ -18,10 +18,10 @@ pir_status pir_placing_init(pir_placing *placing, const pir_allocator *allocator
         for (int j = 0; j < 3; j++)
             m = pir_int_length(&rotation->m[i][j]) > m ? pir_int_length(&rotation->m[i][j]) : m;
     /*
-     * Products have as many limbs as their factors together; a sum of three products, all of one length at most, one
-     * more. A component of M·p so has m + stride + 1, and pir_placing_set, which takes most of the scratch, holds one
-     * (no longer than `stride`) and a product of it with p_factor or of q_factor with q (no longer than `stride`
-     * either); what is made here first, N·d and its product with m or c, fits beside.
+     * A product has as many limbs as its factors together; a sum of three products, all of one length at most, has one
+     * more. So a component of M·p has m + stride + 1. pir_placing_set takes most of the scratch: one such component (at
+     * most `stride`) and a product of it with p_factor, or of q_factor with q (at most `stride` either). What is made
+     * here first, N·d and its product with m or c, fits beside.
      */
     uint32_t p_limbs = np + dq, q_limbs = norm + nq + dp, den_limbs = norm + dp + dq;
     uint32_t from_p = p_limbs + m + 1 + p->exact_vertex.stride, from_q = q_limbs + q->exact_vertex.stride;
@@ -38,7 +38,7 @@ pir_status pir_placing_init(pir_placing *placing, const pir_allocator *allocator
     placing->scale.num = (pir_int){&placing->one, 1, 0};
     placing->scale.den = pir_limbs_take(&room, den_limbs);
     placing->scratch = (pir_limbs){limbs + room.used, 0, work};
-    // the products of the head of this file
+    // the products at the head of this file
     pir_int_mul(&placing->p_factor, &sp->num, &sq->den);
     pir_int part = pir_limbs_take(&placing->scratch, den_limbs + q_limbs);
     pir_int_mul(&part, &rotation->norm, &sp->den);

@@ -2,13 +2,12 @@
 /*
  * The true sum as a mesh.
  *
- * A facet made of one piece is that piece's polygon. A facet made of several is the sum of two faces, put together side
- * by side without its pieces. An extreme point of the sum is the sum of just one pair of vertices, so pairs name
- * vertices. Vertices are numbered by rising pair, facets put in canonical order: the mesh depends on the true sum
- * alone.
+ * A facet made of one piece is that piece's polygon. A facet made of several is the sum of two faces, merged side by
+ * side without its pieces. An extreme point of the sum is the sum of just one pair of vertices, so pairs name vertices.
+ * Vertices are numbered by rising pair and facets are in canonical order: the mesh depends on the true sum alone.
  *
- * Beside the mesh itself, memory holds a bit for each crossing and what the facets of the true sum take: a sum that is
- * all ties has few.
+ * Beside the mesh itself, memory holds a bit for each crossing and the facets of the true sum. A sum of many ties has
+ * few facets.
  */
 #include "dymsum/mesh/sum_mesh.h"
 #include "dymsum/mesh/face_sum.h"
@@ -25,7 +24,7 @@ struct facets {
     pir_corner *corner;
 };
 
-/* How many corners a facet of one operand can come to with the face of the other in its direction. */
+/* An upper bound of the corners of a facet of one operand plus the face of the other in its direction. */
 static uint32_t corner_bound(const pir_polytope *of, uint32_t facet, const pir_polytope *other, pir_face face) {
     uint32_t own = pir_facet_edges(of, facet).count;
     if (face.facet != PIR_NO_FACE)
