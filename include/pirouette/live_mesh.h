@@ -41,8 +41,9 @@ typedef struct pir_plane_equation {
 } pir_plane_equation;
 
 /**
- * Makes the live mesh of `sum` as it is now, with the sum's allocator. O(size of the sum).
- * PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ * Makes the live mesh of `sum` as it is now, with the sum's allocator.
+ *
+ * Cost: O(size of the sum).
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
@@ -52,31 +53,45 @@ PIR_API pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_
 PIR_API void pir_live_mesh_destroy(pir_live_mesh *live);
 
 /**
- * Brings slots, pairs and corners to the sum's pairing of now: rewrites those that changed. O(changes), where updates
- * led here since the last refresh, few enough to be kept in mind (a thousand); after a rebuild, and with a region,
- * O(size of the sum). Allocates only while the sum is larger than it has ever been. On PIR_ERR_MEMORY it stays as it
- * was.
+ * Brings slots, pairs and corners to the pairing that the sum has now, and rewrites those that have changed. Allocates
+ * only while the sum is larger than it has ever been. When the call fails the live mesh stays as it was.
+ *
+ * Cost: O(changes) where updates have led here since the last refresh and changed at most a thousand slots; O(size of
+ * the sum) after a rebuild, and with a region.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_live_mesh_refresh(pir_live_mesh *live);
 
 /**
- * Holds only the facets whose outward normals, in the frame of Q, are within `half_angle` radians of `axis`, of any
- * length, from the next refresh on. Rounding errs towards holding: by less than 2e-6 radians. Half-angles of 3.15 and
- * more hold all, as before any call. Facets that enter or leave the region count as appeared and disappeared. What the
- * sum keeps does not change. Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE.
+ * From the next refresh on, holds only the facets whose outward normals, in the frame of Q, are within `half_angle`
+ * radians of `axis`. Rounding errs towards holding, by less than 2e-6 radians. Facets that enter or leave the cone
+ * count as appeared and disappeared. What the sum keeps does not change.
+ *
+ * axis        of any length but 0.
+ * half_angle  from 0 to π. A greater one is the whole sphere.
  *
  * Cost: O(1); the next refresh takes O(size of the sum).
+ *
+ * Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE.
  */
 PIR_API pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double half_angle);
 
-/** The pairs that came and those that went in the last refresh, none of them both; sorted by kind, p, q.
-    Valid until the next one. */
+/**
+ * From the next refresh on, holds all facets again, as before any region. NULL is accepted.
+ *
+ * Cost: O(1); the next refresh takes O(size of the sum).
+ */
+PIR_API void pir_live_mesh_clear_region(pir_live_mesh *live);
+
+/**
+ * The pairs that appeared in the last refresh, and those that disappeared; none is in both lists. Sorted by kind, p, q.
+ * Valid until the next refresh.
+ */
 PIR_API const pir_sum_pair *pir_live_mesh_appeared(const pir_live_mesh *live, uint32_t *ret_count);
 PIR_API const pir_sum_pair *pir_live_mesh_disappeared(const pir_live_mesh *live, uint32_t *ret_count);
 
-/** The facet slots whose corners the last refresh rewrote or emptied, rising. Valid until the next one. */
+/** The facet slots whose corners the last refresh rewrote or emptied, rising. Valid until the next refresh. */
 PIR_API const uint32_t *pir_live_mesh_rewritten(const pir_live_mesh *live, uint32_t *ret_count);
 
 /** The number of slots, empty ones included. */
@@ -93,9 +108,9 @@ PIR_API const uint32_t *pir_live_mesh_facet(const pir_live_mesh *live, uint32_t 
 PIR_API int pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t ret_pair[2]);
 
 /**
- * Writes the coordinates of all vertex slots, in the frame of Q, at the sum's rotation of now:
+ * Writes the coordinates of all vertex slots, in the frame of Q, at the rotation of the sum now:
  * pir_live_mesh_vertex_slots of them, the same bits as in pir_sum_mesh. Empty slots get those of some point of the sum.
- * The second rounds each to float.
+ * The second call rounds each to float.
  *
  * Cost: O(size of the sum).
  */
@@ -103,8 +118,8 @@ PIR_API void pir_live_mesh_vertices(pir_live_mesh *live, pir_vec3 *ret_vertices)
 PIR_API void pir_live_mesh_vertices_float(pir_live_mesh *live, float (*ret_vertices)[3]);
 
 /**
- * Writes the planes of all facet slots; an empty slot gets zeros. An ee pair of
- * nearly parallel edges has next to no area, and a normal as good as the rounding of its edges' product allows.
+ * Writes the planes of all facet slots; an empty slot gets zeros. An ee pair of nearly parallel edges has next to no
+ * area, and a normal as good as the rounding of its edges' product allows.
  *
  * Cost: O(size of the sum).
  */

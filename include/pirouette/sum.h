@@ -4,14 +4,14 @@
  *
  * A sum stores the pairing: for every facet of P the vertex of Q that supports it (fv), for every facet of Q the vertex
  * of P (vf), and for every edge of P the edges of Q that its Gaussian arc crosses, in order (ee). Each pair is a facet
- * of the sum. Every pair carries a certificate, the turning through which it cannot fail; an ee pair's is those of the
- * four facets at the ends of its two arcs, for one of them has to leave its cell first. An update looks only at those
- * that expire (after Behar and Lien, Dynamic Minkowski Sum of Convex Shapes, GMU-CS-TR-2010-12, made right for steps of
- * any size).
+ * of the sum. Each fv and vf pair has a certificate, an angle through which the rotation may turn before the pair can
+ * fail. An ee pair has the certificates of the four facets at the ends of its two arcs, because one of them must leave
+ * its cell before the pair can fail. An update checks only the certificates that expire (after Behar and Lien, Dynamic
+ * Minkowski Sum of Convex Shapes, GMU-CS-TR-2010-12, made right for steps of any size).
  *
- * Exactness: the pairing is that of the exact rotation M(q)/|q|², ties settled by one symbolic perturbation of q, so it
- * is in general position and unique; a tracked pairing equals a rebuilt one. The mesh is that of the true sum: coplanar
- * pieces merged.
+ * Exactness: the pairing is that of the exact rotation M(q)/|q|². One symbolic perturbation of q settles all ties, so
+ * the pairing is in general position and unique, and a tracked pairing equals a rebuilt one. The mesh is that of the
+ * true sum: coplanar pieces are merged.
  *
  * Threads: a sum belongs to one thread at a time; different sums are independent, even of the same polytopes.
  *
@@ -32,9 +32,9 @@ extern "C" {
 
 typedef struct pir_sum pir_sum;
 
-/** How a rotation is brought into a sum. All give the same pairing. */
+/** How a sum is brought to a rotation. All methods give the same pairing. */
 typedef enum pir_method {
-    PIR_METHOD_AUTO = 0, /**< update or walk, whichever the sum's own counters say is cheaper */
+    PIR_METHOD_AUTO = 0, /* < update or walk, whichever is cheaper by the sum's own counters */
     PIR_METHOD_UPDATE,   /**< repair the pairs that failed */
     PIR_METHOD_WALK,     /**< rebuild by walking one Gaussian map through the other */
     PIR_METHOD_CGM,      /**< rebuild by overlaying cubical Gaussian maps (cgm.h); allocates */
@@ -49,13 +49,16 @@ typedef struct pir_sum_options {
 PIR_API pir_sum_options pir_sum_options_default(void);
 
 /**
- * Makes the sum of P, rotated by `rotation`, and Q.
+ * Makes the sum of P, rotated by `rotation`, and Q. Release it with pir_sum_destroy.
  *
- * p, q      of any dimension, 0 to 3; the sum takes a reference to each (to −P's reflection when options->difference).
+ * p, q      of any dimension, 0 to 3; the sum takes a reference to each (to −P, the reflection, when
+ *           options->difference).
+ * rotation  of any length but 0.
  * options   NULL for the defaults.
  *
- * Release with pir_sum_destroy. Cost: a walk, O(result). Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE,
- * PIR_ERR_ZERO_QUATERNION, PIR_ERR_MEMORY.
+ * Cost: a walk, O(size of the sum).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_sum_options *options,
                                   pir_sum **ret_sum);
@@ -69,26 +72,35 @@ PIR_API void pir_sum_destroy(pir_sum *sum);
 /**
  * Brings the sum to `rotation`, any distance away from the last one.
  *
- * Allocates only while the list of crossings grows beyond what it has ever been. When it fails the sum stays at its
- * previous rotation, whole and usable. Cost: PIR_METHOD_UPDATE follows the number of certificates that expire,
- * PIR_METHOD_WALK the size of the sum. Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION,
- * PIR_ERR_MEMORY.
+ * Allocates only while the list of crossings grows beyond what it has ever been. When the call fails the sum stays at
+ * its previous rotation, whole and usable.
  *
  * method  how; every method gives the same pairing.
+ *
+ * Cost: PIR_METHOD_UPDATE follows the number of certificates that expire, PIR_METHOD_WALK the size of the sum.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method);
 
 /**
- * Brings the sum to `rotation` by walk and forgets the motion so far: what follows depends on nothing before. The
- * memory is kept, so this does not allocate unless a larger list of crossings is needed. Errors as pir_sum_rotate.
+ * Brings the sum to `rotation` by walk and forgets the motion so far: nothing that follows depends on it. The memory is
+ * kept, so this does not allocate unless a longer list of crossings is needed.
  *
  * Cost: a walk, O(size of the sum).
+ *
+ * Errors as of pir_sum_rotate.
  */
 PIR_API pir_status pir_sum_reset(pir_sum *sum, pir_quat rotation);
 
 /**
- * Makes a second sum of the same operands at the same rotation, with the same pairing and counters at zero. O(size of
- * the sum). allocator NULL for that of `sum`. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ * Makes a second sum of the same operands at the same rotation, with the same pairing and counters at zero.
+ *
+ * allocator  NULL for that of `sum`.
+ *
+ * Cost: O(size of the sum).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_sum_clone(const pir_sum *sum, const pir_allocator *allocator, pir_sum **ret_sum);
 
@@ -99,43 +111,55 @@ typedef enum pir_operand {
 } pir_operand;
 
 /**
- * Makes an operand `scale` times as large as the sum was made with, about its own origin: not times its size of now.
- * The scale is taken exactly. No pair changes, so nothing is rebuilt, but a pairing that a tolerance lets stay behind
- * is settled first; pir_sum_p and pir_sum_q, and what is asked of the sum from here on, are of the new size. Queries
- * and live meshes follow. O(n) for the operand's n vertices. Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT (not
- * positive), PIR_ERR_LIMIT (a coordinate beyond the doubles), PIR_ERR_MEMORY; the sum then stays as it was.
+ * Makes an operand `scale` times as large as it was when the sum was made, about its own origin. Scales do not
+ * accumulate: each counts from the first size. The scale is taken exactly.
+ *
+ * No pair changes, so nothing is rebuilt, but a pairing that stays behind within a tolerance is settled first.
+ * pir_sum_p, pir_sum_q and all later answers are of the new size. Queries and live meshes follow.
+ *
+ * Cost: O(n) for the operand's n vertices.
+ *
+ * Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT (not positive), PIR_ERR_LIMIT (a coordinate beyond the doubles),
+ * PIR_ERR_MEMORY; the sum then stays as it was.
  */
 PIR_API pir_status pir_sum_set_scale(pir_sum *sum, pir_operand operand, double scale);
 
 /**
- * Lets the pairing stay behind the rotation while that costs no more than `tolerance`, a length (the default is 0:
- * never).
+ * Lets the pairing stay behind the rotation while that costs no more than `tolerance`, a length. The default is 0:
+ * never.
  *
- * Then a rotation by PIR_METHOD_AUTO or PIR_METHOD_UPDATE may leave the pairing as it is. The hull of its vertices,
- * placed by the rotation asked for, lies inside the true sum, and its support function falls short of the true one by
- * at most `tolerance` in every direction; pir_sum_shortfall_bound tells the bound attained. PIR_METHOD_WALK and
- * PIR_METHOD_CGM always bring the pairing along. Mesh vertices are placed by the rotation asked for; which pieces a
- * mesh merges is decided where the pairing is exact, and queries answer for that rotation: settle the sum before asking
- * for the one of now.
+ * With a tolerance a rotation by PIR_METHOD_AUTO or PIR_METHOD_UPDATE may leave the pairing as it is. The hull of its
+ * vertices, placed by the rotation asked for, lies inside the true sum, and its support function falls short of the
+ * true one by at most `tolerance` in every direction; pir_sum_shortfall_bound gives the bound attained. PIR_METHOD_WALK
+ * and PIR_METHOD_CGM always bring the pairing to the rotation. Mesh vertices are placed by the rotation asked for. A
+ * mesh merges pieces by the rotation at which the pairing is exact, and queries answer for that rotation. Settle the
+ * sum first where the answer must be for the rotation asked for.
  *
- * O(n m) for the n facets and m vertices of each operand, here and in pir_sum_set_scale while there is a tolerance.
- * Brings the pairing to the rotation first. Errors: PIR_ERR_ARGUMENT (negative or NaN), PIR_ERR_NOT_FINITE,
- * PIR_ERR_MEMORY.
+ * The call itself brings the pairing to the rotation.
+ *
+ * Cost: O(n m) for the n facets and m vertices of each operand, here and in pir_sum_set_scale while there is a
+ * tolerance.
+ *
+ * Errors: PIR_ERR_ARGUMENT (negative or NaN), PIR_ERR_NOT_FINITE, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance);
 PIR_API double pir_sum_tolerance(const pir_sum *sum);
 
-/** By how much the support function of the sum as it is kept falls short of the true one at most: 0
-    when the pairing is exact. */
+/**
+ * An upper bound of what the support function of the sum as it is kept falls short of the true one by: 0 when the
+ * pairing is exact.
+ */
 PIR_API double pir_sum_shortfall_bound(const pir_sum *sum);
 
-/** The rotation that the pairing is exact at: pir_sum_rotation, unless a tolerance lets it stay behind. */
+/** The rotation that the pairing is exact at: pir_sum_rotation, unless the pairing stays behind within a tolerance. */
 PIR_API pir_quat pir_sum_pairing_rotation(const pir_sum *sum);
 
 /**
- * Brings the pairing to pir_sum_rotation when it has stayed behind. Errors as pir_sum_rotate.
+ * Brings the pairing to pir_sum_rotation when it has stayed behind.
  *
  * Cost: as of pir_sum_rotate with PIR_METHOD_AUTO.
+ *
+ * Errors as of pir_sum_rotate.
  */
 PIR_API pir_status pir_sum_settle(pir_sum *sum);
 
@@ -143,34 +167,50 @@ PIR_API pir_status pir_sum_settle(pir_sum *sum);
 #define PIR_NO_PAIR UINT32_MAX
 
 /**
- * Keeps only the part of the sum whose outward normals are within `half_angle` radians of `axis`, of any length, in the
- * frame of Q. The default, and every half-angle of 3.15 and more, is the whole sphere. Updates then cost what the cone
- * holds, with a skin around it of 1 to 7 degrees, five steps of the motion.
+ * Keeps only the part of the sum whose outward normals are within `half_angle` radians of `axis`, in the frame of Q.
+ * Without a call the whole sum is kept; pir_sum_clear_region returns to that. Updates then cost in proportion to what
+ * the cone holds, with a skin around it of 1 to 7 degrees, five steps of the motion.
  *
- * All pairs in the cone are there and right, rounding erring towards keeping; of others some may be, depending on how
- * the sum came here, and those are right too. What is left out has PIR_NO_PAIR for its vertex, and no ee pairs. A P of
- * dimension below 3 is kept whole.
+ * All pairs in the cone are there and right; rounding errs towards keeping a pair. Some other pairs may be there,
+ * depending on the history of the sum, and are right too. A facet that is left out has PIR_NO_PAIR for its vertex, an
+ * edge that is left out has no ee pairs. A P of dimension below 3 is kept whole.
  *
- * May be called in every frame: while the axis stays within the skin nothing is looked at. Past it, or with another
- * half-angle, what is kept is chosen anew in O(facets), a few operations each, and what is new is located. The first
- * region allocates its work space, O(size of both operands); later calls only as pir_sum_rotate does. Other calls on a
- * sum with a region: a mesh is that of the whole sum, made for the occasion; pairings are compared as far as both
- * regions reach; a live mesh has slots for what is kept; a clone and a file have the region; queries answer for the
- * region or not at all (query.h). With a tolerance, the bound on the support function holds for the directions of the
- * cone. Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE, PIR_ERR_MEMORY; the sum then
- * keeps the region it had.
+ * The call may be made in every frame: while the axis stays within the skin it does nothing more. Beyond the skin, or
+ * with another half-angle, it chooses anew what is kept, a few operations for each facet, and locates what is new. The
+ * first call allocates its work space, O(size of both operands); later ones allocate only as pir_sum_rotate does.
+ *
+ * On a sum with a region, a mesh is that of the whole sum, rebuilt for the call. Pairings are compared within both
+ * regions. A live mesh has slots for what is kept. A clone and a file have the region. Queries answer for the region or
+ * return PIR_ERR_UNSUPPORTED (query.h). With a tolerance, the bound on the support function holds for the directions of
+ * the cone.
+ *
+ * axis        of any length but 0.
+ * half_angle  from 0 to π. A greater one is the whole sphere.
+ *
+ * Cost: O(facets of both operands) where what is kept is chosen anew, else O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT (an axis of zeros, a negative angle), PIR_ERR_NOT_FINITE, PIR_ERR_MEMORY; the sum then keeps
+ * the region it had.
  */
 PIR_API pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle);
 
 /**
- * 1 and the cone, its axis of unit length, where a region has been set; 0, and nothing written,
- * where the sum is whole.
+ * Keeps the whole sum again, as before any region. The work space of regions stays for the next one.
  *
- * ret_axis, ret_half_angle  the cone; the angle is in radians.
+ * Cost: O(size of the sum) where there was a region, else O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY; the sum then keeps the region it had.
+ */
+PIR_API pir_status pir_sum_clear_region(pir_sum *sum);
+
+/**
+ * Returns 1 and the cone where a region has been set. Returns 0 and writes nothing where the sum is whole.
+ *
+ * ret_axis, ret_half_angle  the cone: an axis of unit length, and radians.
  */
 PIR_API int pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle);
 
-/** The rotation that the sum is at, as it was given. */
+/** The rotation that the sum was brought to, as it was given. */
 PIR_API pir_quat pir_sum_rotation(const pir_sum *sum);
 
 /** The operands as the sum holds them (P reflected when it keeps the difference); borrowed. */
@@ -188,89 +228,101 @@ PIR_API uint32_t pir_sum_ee_count(const pir_sum *sum);
 
 /**
  * Writes the ee pairs: {edge of P, edge of Q}, by rising edge of P and, for each, in order along its arc. Room for
- * pir_sum_ee_count pairs. O(edges of P + pairs).
+ * pir_sum_ee_count pairs.
+ *
+ * Cost: O(edges of P + pairs).
  */
 PIR_API void pir_sum_ee(const pir_sum *sum, uint32_t (*ret_pairs)[2]);
 
 /**
- * 1 when both sums, of the same polytopes, hold the same fv, vf and ee pairs in the same order: where regions are set,
- * those in both cones, but for ee pairs whose edges are parallel within 2^-30.
+ * Returns 1 when both sums hold the same fv, vf and ee pairs in the same order. Where regions are set, only pairs in
+ * both cones are compared, without ee pairs whose edges are parallel within 2^-30.
  *
- * a, b  two sums.
+ * a, b  sums of the same polytopes.
  *
  * Cost: O(size of the sums).
  */
 PIR_API int pir_sum_same_pairing(const pir_sum *a, const pir_sum *b);
 
 /**
- * A check for tests, every pair that is kept in exact arithmetic and every crossing list from cell to
- * cell: 1 when all hold.
+ * A check for tests: every pair that is kept in exact arithmetic, every list of crossings from cell to cell. Returns 1
+ * when all hold.
  *
  * Cost: O(size of the sum), with exact tests.
  */
 PIR_API int pir_sum_is_valid(pir_sum *sum);
 
 /**
- * The true sum as a mesh: coplanar pieces merged, straight corners and pieces without area dropped. The mesh is the
- * caller's and uses the sum's allocator. O(size of the sum). Beside the mesh it takes memory for the facets of the true
- * sum and a bit for each crossing, so that a sum with more pairs than facets, as of two aligned prisms, stays small.
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY, PIR_ERR_LIMIT (2^32 corners of facets or more).
+ * The true sum as a mesh: coplanar pieces are merged, straight corners and pieces without area are dropped. The mesh is
+ * the caller's and uses the sum's allocator. While it is made, memory holds the facets of the true sum and a bit for
+ * each crossing, so a sum with many more pairs than facets, as of two aligned prisms, takes little.
  *
  * precision  PIR_DOUBLE, or PIR_EXACT for rationals beside the doubles.
+ *
+ * Cost: O(size of the sum).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY, PIR_ERR_LIMIT (2^32 corners of facets or more).
  */
 PIR_API pir_status pir_sum_mesh(pir_sum *sum, pir_precision precision, pir_mesh **ret_mesh);
 
 /**
  * Writes the sum as bytes that any machine reads: both operands in exact coordinates, the scale each is set to, the
- * rotation, the pairing, the tolerance, the region, whether it is a difference; with a version and a checksum. Not its
- * certificates and counters.
+ * rotation, the pairing, the tolerance, the region, whether it is a difference; with a version and a checksum.
+ * Certificates and counters are not written.
  *
- * memory, size  the caller's, of exactly pir_sum_serialised_size bytes. Errors: PIR_ERR_ARGUMENT. O(size of the sum).
+ * memory, size  the caller's, of exactly pir_sum_serialised_size bytes.
+ *
+ * Cost: O(size of the sum), for both calls.
+ *
+ * Errors: PIR_ERR_ARGUMENT.
  */
 PIR_API size_t pir_sum_serialised_size(const pir_sum *sum);
 PIR_API pir_status pir_sum_serialise(const pir_sum *sum, void *memory, size_t size);
 
 /**
- * The same to a stream, from its position on; the stream stays open. Errors: as above,
- * PIR_ERR_FILE, PIR_ERR_MEMORY.
+ * Writes the same bytes to a stream, from its position on. The stream stays open.
  *
- * file, report  a stream open for writing; NULL, or filled when the call fails.
+ * file    a stream open for writing.
+ * report  NULL, or filled when the call fails.
  *
  * Cost: O(size of the sum).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *report);
 
 /**
- * Makes a sum from such bytes. They are not trusted: the operands are made anew as exact hulls, and the pairing is
- * proven pair by pair in exact arithmetic, so a sum that is restored is right; memory stays in proportion to `size`.
- *
- * allocator  NULL for malloc. report  NULL, or filled with what, where and why.
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_UNSUPPORTED (another version), PIR_ERR_LIMIT,
- * PIR_ERR_MEMORY.
+ * Makes a sum from such bytes. They are not trusted: the operands are made anew as exact hulls, and every pair is
+ * proven in exact arithmetic, so a sum that is restored is right. Memory stays in proportion to `size`.
  *
  * data, size  the bytes, which may come from anyone.
+ * allocator   NULL for malloc.
+ * report      NULL, or filled with what, where and why.
  *
  * Cost: two exact hulls, and O(size of the sum) with exact tests.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_UNSUPPORTED (another version), PIR_ERR_LIMIT,
+ * PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_sum_restore(const void *data, size_t size, const pir_allocator *allocator, pir_report *report,
                                    pir_sum **ret_sum);
 
 /**
- * The same from a stream, which is left just past the sum; PIR_ERR_FILE when it cannot be read.
+ * Makes a sum from a stream, which is left just past the sum.
  *
  * file               a stream open for reading.
  * allocator, report  as of pir_sum_restore.
  *
  * Cost: as of pir_sum_restore.
  *
- * Errors as of pir_sum_restore, and PIR_ERR_FILE.
+ * Errors as of pir_sum_restore, and PIR_ERR_FILE when the stream cannot be read.
  */
 PIR_API pir_status pir_sum_read(FILE *file, const pir_allocator *allocator, pir_report *report, pir_sum **ret_sum);
 
-/** What the sum did since it was made. Plain counters. */
+/** What the sum has done since it was made, in plain counters. */
 typedef struct pir_sum_statistics {
-    uint64_t updates, rebuilds; /**< rotations brought in by update and by rebuild */
-    uint64_t kept;              /**< rotations that a tolerance let the pairing stay behind of */
+    uint64_t updates, rebuilds; /* < rotations brought in by update, and by rebuild */
+    uint64_t kept;              /* < rotations that the pairing stayed behind of, within a tolerance */
     uint64_t checked;           /**< certificates that expired */
     uint64_t repaired;          /**< pairs that had failed */
     uint64_t by_filter;         /**< signs that the double filter decided */

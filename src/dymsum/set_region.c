@@ -49,6 +49,13 @@ pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle) {
     return status == PIR_OK ? change_cone(sum, &cone) : status;
 }
 
+pir_status pir_sum_clear_region(pir_sum *sum) {
+    if (!sum)
+        return PIR_ERR_ARGUMENT;
+    const pir_cone *cone = &sum->region.cone;
+    return cone->set ? pir_sum_set_region(sum, cone->axis, PIR_WHOLE_HALF_ANGLE) : PIR_OK;
+}
+
 int pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle) {
     if (!sum->region.cone.set)
         return 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Sums as bytes: what comes back is what went out; what was cut, changed or made up is refused, and never believed. */
+/* Sums as bytes: a restored sum equals the one that was written; what was cut, changed or made up is refused. */
 #include "support/test.h"
 
 #include <math.h>

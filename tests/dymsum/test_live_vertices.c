@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The vertices of a live mesh, counted pair by pair: held against a plain list while they come, go and make the table
-   grow, with memory and without. */
+/*
+ * The vertices of a live mesh, counted pair by pair, and compared with a plain list while they appear, disappear and
+ * make the table grow, with memory and without.
+ */
 #include "support/test.h"
 
 #include <string.h>

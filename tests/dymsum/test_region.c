@@ -48,6 +48,11 @@ static void set_region(struct sums *s, pir_vec3 axis, double half_angle) {
     assert_int_equal(pir_sum_set_region(s->tracked, axis, half_angle), PIR_OK);
 }
 
+static void clear_region(struct sums *s) {
+    s->half_angle = 4;
+    assert_int_equal(pir_sum_clear_region(s->tracked), PIR_OK);
+}
+
 /* A pose of two bodies with so many points of the sphere each. */
 static test_pose spheres(test_random *random, size_t of_p, size_t of_q) {
     test_pose pose = {.situation = "many facets", .rotation = {0.1, 0.2, 0.3, 0.9}};
@@ -85,7 +90,7 @@ static const char *compare(const struct sums *s) {
     return at == count ? NULL : "an ee pair that is none";
 }
 
-/* Whether it can be told apart from the whole sum at all. */
+/* Whether it differs from the whole sum at all. */
 static int is_partial(const struct sums *s) {
     const uint32_t *fv = pir_sum_fv(s->tracked), *vf = pir_sum_vf(s->tracked);
     for (uint32_t f = 0; f < pir_polytope_facet_count(s->p); f++)
@@ -150,7 +155,7 @@ static void run(struct sums *s, test_random *random, uint64_t number, const char
         if (what == 7)
             set_region(s, test_random_direction(random), sizes[test_random_below(random, 8)]);
         else if (what == 8)
-            set_region(s, s->axis, 4);
+            clear_region(s);
         else if (drift > 0)
             set_region(s, nudge(random, s->axis, drift), s->half_angle);
         const char *wrong = compare(s);
@@ -226,10 +231,10 @@ static void jumps_out_of_a_thin_skin_are_right(void **state) {
 }
 
 /*
- * A jump out of the cover can carry the edges at its rim over facets that were dormant before and are active after,
- * whose events nobody hears: only a proof of what is kept beyond the cone shows it, for a frame.
+ * A jump out of the cover can carry the edges at its rim over facets that were inactive before and are active after it.
+ * No event tells the edges. Only a proof of what is kept beyond the cone shows that, for one frame.
  */
-static void jumps_over_dormant_facets_are_right(void **state) {
+static void jumps_over_inactive_facets_are_right(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 8; i++) {
         test_random random = test_random_case("region leaps", i);
@@ -327,6 +332,33 @@ static void bad_regions_are_refused(void **state) {
     assert_true(pir_sum_is_valid(sum));
     pir_sum_destroy(sum);
     pir_polytope_release(p);
+}
+
+static void a_cleared_region_leaves_the_whole_sum(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 20; i++) {
+        test_random random = test_random_case("cleared regions", i);
+        test_pose pose;
+        struct sums s;
+        test_random_pose(&random, 24, &pose);
+        sums_init(&s, &pose, i % 2);
+        assert_int_equal(pir_sum_clear_region(s.tracked), PIR_OK);
+        set_region(&s, test_random_direction(&random), 0.4);
+        pir_quat there = test_general_rotation(&random);
+        assert_int_equal(pir_sum_rotate(s.tracked, there, PIR_METHOD_UPDATE), PIR_OK);
+        assert_int_equal(pir_sum_rotate(s.whole, there, PIR_METHOD_WALK), PIR_OK);
+        clear_region(&s);
+        pir_vec3 axis;
+        double half_angle;
+        assert_int_equal(pir_sum_region(s.tracked, &axis, &half_angle), 0);
+        size_t of_p = pir_polytope_facet_count(s.p), of_q = pir_polytope_facet_count(s.q);
+        assert_memory_equal(pir_sum_fv(s.tracked), pir_sum_fv(s.whole), of_p * sizeof(uint32_t));
+        assert_memory_equal(pir_sum_vf(s.tracked), pir_sum_vf(s.whole), of_q * sizeof(uint32_t));
+        assert_int_equal(pir_sum_ee_count(s.tracked), pir_sum_ee_count(s.whole));
+        assert_true(pir_sum_is_valid(s.tracked) && pir_sum_same_pairing(s.tracked, s.whole));
+        sums_clear(&s);
+    }
+    assert_int_equal(pir_sum_clear_region(NULL), PIR_ERR_ARGUMENT);
 }
 
 static void clone_mesh_reset_and_scale_go_with_a_region(void **state) {
@@ -443,10 +475,11 @@ int main(void) {
         cmocka_unit_test(tracked_region_is_the_part_of_the_whole_sum_in_the_cone),
         cmocka_unit_test(many_facets_are_tracked_in_a_cone),
         cmocka_unit_test(jumps_out_of_a_thin_skin_are_right),
-        cmocka_unit_test(jumps_over_dormant_facets_are_right),
+        cmocka_unit_test(jumps_over_inactive_facets_are_right),
         cmocka_unit_test(spins_within_the_skin_are_right),
         cmocka_unit_test(tracking_a_region_allocates_nothing_after_the_warm_up),
         cmocka_unit_test(bad_regions_are_refused),
+        cmocka_unit_test(a_cleared_region_leaves_the_whole_sum),
         cmocka_unit_test(clone_mesh_reset_and_scale_go_with_a_region),
         cmocka_unit_test(live_mesh_of_a_region_has_its_facets),
         cmocka_unit_test(region_and_tolerance_agree),

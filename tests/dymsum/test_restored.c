@@ -35,7 +35,7 @@ struct history {
     pir_sum *sum, *companion;
     bool counted; /* since they were alike a method was chosen, maybe, from counted work, which they do not share */
     double size;
-    /* the motion: an axis, tan of half the angle of a step, and where swings are about */
+    /* the motion: an axis, tan of half the angle of a step, and the poses that a motion to and fro repeats */
     pir_vec3 axis;
     double turn;
     pir_quat base;
@@ -74,7 +74,7 @@ static pir_quat next_rotation(struct history *h) {
         return test_integer_rotation(&h->random);
     case 3:
     case 4:
-        // a swing: some places, the same ones time and again
+        // to and fro: a few poses, the same ones again and again
         now = h->base;
         turn *= test_random_between(&h->random, -3, 3);
         break;

@@ -315,7 +315,7 @@ static void lagging_sum_is_copied_and_kept_in_bytes(void **state) {
     assert_true(pir_mesh_equal(mesh[0], mesh[1]));
     for (int i = 0; i < 2; i++) {
         pir_mesh_destroy(mesh[i]);
-        // a walk always brings the pairing along
+        // a walk always brings the pairing to the rotation
         assert_int_equal(pir_sum_rotate(both[i], next, PIR_METHOD_WALK), PIR_OK);
         assert_true(pir_sum_shortfall_bound(both[i]) == 0 && pir_sum_is_valid(both[i]));
         pir_sum_destroy(both[i]);

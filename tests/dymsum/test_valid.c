@@ -32,7 +32,9 @@ static bool is_inside(const pir_sum *sum, uint32_t f) {
            sum->region.cone.cosine + 1e-6;
 }
 
-/* Takes the crossings of an edge of P out, as if it were dormant: harmless where its arc keeps out of the region. */
+/*
+ * Removes the crossings of an edge of P as if it were inactive. That is harmless where its arc stays out of the region.
+ */
 static void damage_edges(pir_sum *sum, uint32_t told[2]) {
     for (uint32_t e = 0; e < sum->tracked.pairing.p->edge_count; e++) {
         uint32_t half = sum->tracked.pairing.p->edge_half[e], first = sum->tracked.pairing.crossings.first[e],
@@ -40,7 +42,7 @@ static void damage_edges(pir_sum *sum, uint32_t told[2]) {
                  right = pir_right(sum->tracked.pairing.p, half);
         if (stamp == PIR_INACTIVE || first != PIR_NO_CROSSING)
             continue;
-        // an arc that crosses nothing: dormant or not is all the difference
+        // an arc without crossings: whether it is active is the only difference
         sum->tracked.touched[e] = PIR_INACTIVE;
         bool valid = pir_sum_is_valid(sum) != 0;
         sum->tracked.touched[e] = stamp;

@@ -22,7 +22,7 @@ static uint64_t mix(uint64_t hash, const void *data, size_t size) {
     return hash;
 }
 
-/* Stirs the facets' cells, so that all that can happen does, and the moment. */
+/* Moves the facets' cells and the step at random, so that every case of a review occurs. */
 static void move(test_random *random, pir_facets *facets, uint32_t vertices, pir_step *step) {
     for (uint32_t f = 0; f < facets->count; f++)
         if (test_random_below(random, 4) == 0)
@@ -38,7 +38,7 @@ static void move(test_random *random, pir_facets *facets, uint32_t vertices, pir
                        .axial = test_random_below(random, 4) != 0};
 }
 
-/* A hash of all that a review by `kernels` leaves; the alarms and cells are as before the review afterwards. */
+/* A hash of all that a review by `kernels` leaves. Certificates and cells are afterwards as before the review. */
 static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_facets *facets, pir_step step) {
     uint32_t count = facets->count, certificates = pir_certificate_count(&sum->tracked);
     uint32_t *cells = malloc((count + 1) * sizeof *cells), *expired = malloc((count + 1) * sizeof *expired);
@@ -101,7 +101,7 @@ static void reviews_have_the_bits_of_the_reference(void **state) {
     }
 }
 
-/* Sets alarms about phase 0, some on it. */
+/* Sets certificates about phase 0, some on it. */
 static void set_certificates(test_random *random, pir_certificates *certificates, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         float ahead = (float)uniform(random) + 0.9f, behind = (float)uniform(random) - 0.9f;

@@ -128,6 +128,13 @@ pir_status pir_live_mesh_set_region(pir_live_mesh *live, pir_vec3 axis, double h
     return status;
 }
 
+void pir_live_mesh_clear_region(pir_live_mesh *live) {
+    if (!live)
+        return;
+    live->cone.set = false;
+    live->stale = true;
+}
+
 /* --- the refresh --- */
 
 static void note_ee(pir_live_mesh *live, pir_live_pairs *pairs, uint32_t e, uint32_t h) {

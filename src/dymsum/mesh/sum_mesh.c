@@ -236,7 +236,7 @@ static pir_status mesh_of_whole(const pir_sum *sum, pir_precision precision, pir
     pir_sum *whole = NULL;
     pir_status status = pir_sum_clone(sum, NULL, &whole);
     if (status == PIR_OK)
-        status = pir_sum_set_region(whole, pir_sum_cone(sum)->axis, 4);
+        status = pir_sum_clear_region(whole);
     if (status == PIR_OK)
         status = pir_sum_mesh(whole, precision, ret_mesh);
     pir_sum_destroy(whole);

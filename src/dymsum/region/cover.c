@@ -3,12 +3,6 @@
 #include "dymsum/region/cover.h"
 
 /*
- * A half-angle of at least this is the whole sphere. It is above π by more than π is rounded anywhere, in degrees or as
- * a float.
- */
-#define WHOLE_HALF_ANGLE 3.15
-
-/*
  * What a cone is widened by, so that rounding never excludes a facet that is in it. The pairing does not depend on it.
  */
 #define CONE_SLACK 0x1p-40
@@ -43,7 +37,7 @@ pir_status pir_cone_make(pir_vec3 axis, double half_angle, pir_cone *ret_cone) {
     if (most == 0 || half_angle < 0)
         return PIR_ERR_ARGUMENT;
     axis = (pir_vec3){axis.x / most, axis.y / most, axis.z / most};
-    *ret_cone = (pir_cone){.set = half_angle < WHOLE_HALF_ANGLE,
+    *ret_cone = (pir_cone){.set = half_angle < PIR_WHOLE_HALF_ANGLE,
                            .axis = pir_vec_scale(axis, 1 / sqrt(pir_vec_dot(axis, axis))),
                            .half_angle = half_angle,
                            .cosine = pir_arc_of(half_angle).cosine - CONE_SLACK};

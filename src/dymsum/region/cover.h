@@ -37,6 +37,12 @@ typedef struct pir_cone {
 } pir_cone;
 
 /*
+ * A half-angle of at least this is the whole sphere. It is above π by more than π is rounded anywhere, in degrees or as
+ * a float.
+ */
+#define PIR_WHOLE_HALF_ANGLE 3.15
+
+/*
  * Whether a direction of any length is in the cone. Rounding errs towards yes, and a vector of zero is in every cone.
  */
 static inline bool pir_cone_has(const pir_cone *cone, pir_vec3 n) {
