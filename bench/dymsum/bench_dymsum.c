@@ -15,7 +15,7 @@ int main(int argc, char **argv) {
     fprintf(page,
             "# The experiments of the dymsum paper\n\nMachine: %s; one thread. The paper: Behar and Lien, "
             "GMU-CS-TR-2010-12, "
-            "an Intel processor at 2.13 GHz.\nTimes of updates hold the %.0f ns that two looks at the clock take; "
+            "an Intel processor at 2.13 GHz.\nTimes of updates hold the %.0f ns that two readings of the clock take; "
             "walks and brute force are in CPU time.\n\n",
             results.machine, trial_clock_cost());
     experiment_table1(&results, page);

@@ -75,9 +75,9 @@ static void *room_for(size_t count, size_t size) {
 
 struct scene {
     pir_sum *sum;
-    uint32_t *cells, *expired; /* P's cells as they are; all its facets as alarms */
+    uint32_t *cells, *expired; /* P's cells as they are; all its facets by their certificates */
     pir_suspect *suspects;
-    float *bounds[2]; /* of the alarms' blocks */
+    float *bounds[2]; /* of the blocks of certificates */
     uint32_t blocks;
     pir_turned_angle time; /* for collecting */
 };
@@ -152,7 +152,7 @@ static double run_collect(void *context, unsigned index) {
 static void write_update_loops(const char *model, FILE *csv, FILE *page, bool first) {
     struct scene scene = scene_make(model);
     uint32_t facets = scene.sum->tracked.p_facets.count, certificates = scene.blocks * PIR_CERTIFICATE_BLOCK;
-    struct pass pass = {"collect (none wakes)", model, run_collect, &scene, certificates, 0, {NULL}};
+    struct pass pass = {"collect (none expires)", model, run_collect, &scene, certificates, 0, {NULL}};
     for (; pass.versions < VERSIONS_MAX && pir_kernels_version(pass.versions); pass.versions++)
         pass.names[pass.versions] = pir_kernels_version(pass.versions)->name;
     if (first)

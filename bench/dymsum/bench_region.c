@@ -82,7 +82,7 @@ int main(int argc, char **argv) {
     fprintf(page,
             "# Region\n\nMachine: %s; one thread. Setting the region and updating, a body and itself, random axes, %d "
             "frames. "
-            "Every time holds the %.0f ns that two looks at the clock take.\n\n"
+            "Every time holds the %.0f ns that two readings of the clock take.\n\n"
             "| model | steps | axis goes with | half-angle ° | median ns | mean ns | 1%% | 99%% | checked a frame |\n"
             "|---|---:|---|---:|---:|---:|---:|---:|---:|\n",
             results.machine, FRAMES, trial_clock_cost());

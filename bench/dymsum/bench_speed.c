@@ -220,11 +220,12 @@ int main(int argc, char **argv) {
     }
     struct results results = results_new(argv[1]);
     FILE *page = results_open(&results, "speed.md");
-    fprintf(page,
-            "# Speed\n\nMachine: %s; one thread. Times of updates hold the %.0f ns that two looks at the clock take; "
-            "walks and "
-            "brute force are in CPU time.\n\n",
-            results.machine, trial_clock_cost());
+    fprintf(
+        page,
+        "# Speed\n\nMachine: %s; one thread. Times of updates hold the %.0f ns that two readings of the clock take; "
+        "walks and "
+        "brute force are in CPU time.\n\n",
+        results.machine, trial_clock_cost());
     write_speed(&results, page);
     write_events(&results, page);
     write_rest(&results, page);

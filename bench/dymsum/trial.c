@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The measurement of trial.h. Times stand between two looks at a clock, which are part of them. */
+/* The measurement of trial.h. A time is the difference of two readings of a clock, and includes what they take. */
 #include "trial.h"
 
 #include <math.h>
@@ -25,29 +25,29 @@ pir_polytope *trial_model(const char *name) {
     return polytope;
 }
 
-static double look_at(clockid_t clock) {
+static double read_clock(clockid_t clock) {
     struct timespec t;
     clock_gettime(clock, &t);
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
 double trial_now(void) {
-    return look_at(CLOCK_MONOTONIC);
+    return read_clock(CLOCK_MONOTONIC);
 }
 
-/* What two looks at a clock take. */
-static double check_cost(clockid_t clock) {
+/* What two readings of a clock take. */
+static double reading_cost(clockid_t clock) {
     enum { LOOKS = 2001 };
     double times[LOOKS];
     for (int i = 0; i < LOOKS; i++) {
-        double before = look_at(clock);
-        times[i] = look_at(clock) - before;
+        double before = read_clock(clock);
+        times[i] = read_clock(clock) - before;
     }
     return trial_median(times, LOOKS);
 }
 
 double trial_clock_cost(void) {
-    return check_cost(CLOCK_MONOTONIC);
+    return reading_cost(CLOCK_MONOTONIC);
 }
 
 static int compare(const void *a, const void *b) {
@@ -67,7 +67,7 @@ struct lap {
     double *times;
     uint32_t count, stride; /* timed in every stride-th frame */
     clockid_t clock;
-    double look; /* what is taken off each time */
+    double reading; /* what is taken off each time */
 };
 
 /* Of a way that is short, timed by the monotonic clock, or of one that takes long enough for the thread's own. */
@@ -79,7 +79,7 @@ static struct lap lap_new(pir_polytope *p, pir_polytope *q, pir_quat start, uint
     // of fewer frames than samples, one is timed
     lap.stride = samples <= frames ? frames / samples : frames;
     lap.clock = is_short ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID;
-    lap.look = is_short ? 0 : check_cost(lap.clock);
+    lap.reading = is_short ? 0 : reading_cost(lap.clock);
     lap.times = malloc(frames * sizeof *lap.times);
     trial_need(lap.times ? PIR_OK : PIR_ERR_MEMORY, "times");
     trial_need(pir_sum_create(p, q, start, NULL, &lap.sum), "sum");
@@ -103,13 +103,13 @@ static struct trial_times lap_finish(struct lap *lap) {
 static bool lap_rotate(struct lap *lap, pir_quat rotation, uint64_t frame, bool timed, pir_method method, bool brute) {
     if (!lap->sum || frame % lap->stride != 0)
         return false;
-    double before = look_at(lap->clock);
+    double before = read_clock(lap->clock);
     pir_status status =
         brute ? pir_sum_rotate_brute_force(lap->sum, rotation) : pir_sum_rotate(lap->sum, rotation, method);
-    double after = look_at(lap->clock);
+    double after = read_clock(lap->clock);
     trial_need(status, "rotation");
     if (timed)
-        lap->times[lap->count++] = after - before - lap->look;
+        lap->times[lap->count++] = after - before - lap->reading;
     return timed;
 }
 

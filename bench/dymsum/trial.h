@@ -4,9 +4,9 @@
  *
  * Each way has a sum of its own. Update is timed in every frame; walk and brute force, which do not depend on the step,
  * in frames spread evenly over the same run, so that what else the machine does falls on all alike. Where brute force
- * is timed its pairing is held against the updated one's. Update and auto, which may take less than a look at the
+ * is timed its pairing is held against the updated one's. Update and auto, which may take less than a reading of the
  * thread's own clock, are timed by the monotonic one: the few frames in which the machine did something else do not
- * move a median. Walk and brute force are in CPU time of the thread, what looking at its clock takes taken off. Auto
+ * move a median. Walk and brute force are in CPU time of the thread, less what reading its clock takes. Auto
  * goes through the same motion afterwards, alone, so as not to find or leave a cache that another tracked sum has
  * warmed.
  */
@@ -50,7 +50,7 @@ typedef pir_quat trial_motion(void *context, uint64_t frame);
 /* Runs it about random axes. Ends the program with a message when something fails. */
 struct trial_result trial_run(const struct trial_request *request, pir_polytope *p, pir_polytope *q);
 
-/* The same along a motion of the caller's; the last three members of *request are not looked at. */
+/* The same along a motion of the caller's; the last three members of *request are not read. */
 struct trial_result trial_run_along(const struct trial_request *request, pir_polytope *p, pir_polytope *q,
                                     trial_motion *motion, void *context);
 
@@ -64,7 +64,7 @@ void trial_need(pir_status status, const char *what);
 double trial_now(void);
 double trial_median(double *times, uint32_t count);
 
-/* What two looks at the monotonic clock take by themselves, in nanoseconds: it is in every time of update and auto. */
+/* What two readings of the monotonic clock take by themselves, in nanoseconds: it is in every time of update and auto. */
 double trial_clock_cost(void);
 
 #endif

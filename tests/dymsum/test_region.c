@@ -126,7 +126,7 @@ static void run(struct sums *s, test_random *random, uint64_t number, const char
     static const double steps[] = {1e-4, 2e-3, 0.0126, 0.05, 0.4}, drifts[] = {0, 1e-3, 0.01, 0.1};
     static const double sizes[] = {0, 0.1, 0.26, 0.52, 1.05, 1.57, 2.5, 3.1};
     double step = steps[test_random_below(random, 5)], drift = drifts[test_random_below(random, 4)];
-    bool swings = test_random_below(random, 3) == 0;
+    bool returns = test_random_below(random, 3) == 0;
     pir_quat middle = r;
     pir_vec3 axis = test_random_direction(random);
     set_region(s, test_random_below(random, 2) ? test_random_direction(random) : (pir_vec3){0, 0, 5},
@@ -140,7 +140,7 @@ static void run(struct sums *s, test_random *random, uint64_t number, const char
         else if (what == 2)
             r = after(test_integer_rotation(random), r);
         else
-            r = swings ? turn(middle, axis, step * test_random_between(random, -2, 2)) : turn(r, axis, step);
+            r = returns ? turn(middle, axis, step * test_random_between(random, -2, 2)) : turn(r, axis, step);
         if (what < 3)
             middle = r;
         pir_method method = what == 3   ? PIR_METHOD_AUTO
@@ -237,7 +237,7 @@ static void jumps_out_of_a_thin_skin_are_right(void **state) {
 static void jumps_over_inactive_facets_are_right(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 8; i++) {
-        test_random random = test_random_case("region leaps", i);
+        test_random random = test_random_case("region jumps", i);
         test_pose pose = spheres(&random, 500, 200);
         struct sums s;
         sums_init(&s, &pose, i % 2);

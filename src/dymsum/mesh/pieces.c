@@ -19,14 +19,17 @@
  */
 #include "dymsum/mesh/pieces.h"
 
-static size_t alone_words(const pir_posed *posed) {
-    return (size_t)posed->pairing->crossings.used / 64 + 1;
+#include "base/layout.h"
+
+static pir_layout layout_of(pir_pieces *pieces, const pir_pairing *pairing) {
+    size_t words = (size_t)pairing->crossings.used / 64 + 1;
+    return (pir_layout){{PIR_ROW(pieces->of_p, pairing->p->facet_count), PIR_ROW(pieces->of_q, pairing->q->facet_count),
+                         PIR_ROW(pieces->alone, words)}};
 }
 
 void pir_pieces_finish(pir_pieces *pieces, const pir_posed *posed) {
-    PIR_FREE(&posed->pairing->allocator, pieces->of_p, posed->pairing->p->facet_count);
-    PIR_FREE(&posed->pairing->allocator, pieces->of_q, posed->pairing->q->facet_count);
-    PIR_FREE(&posed->pairing->allocator, pieces->alone, alone_words(posed));
+    pir_layout layout = layout_of(pieces, posed->pairing);
+    pir_layout_free(&posed->pairing->allocator, &layout);
     *pieces = (pir_pieces){0};
 }
 
@@ -101,11 +104,9 @@ static bool check_crossing(pir_pieces *pieces, const pir_posed *posed, const pir
 pir_status pir_pieces_make(pir_pieces *pieces, const pir_posed *posed) {
     const pir_pairing *pairing = posed->pairing;
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
-    const pir_allocator *a = &posed->pairing->allocator;
-    *pieces = (pir_pieces){.of_p = PIR_NEW(a, pir_face, p->facet_count),
-                           .of_q = PIR_NEW(a, pir_face, q->facet_count),
-                           .alone = PIR_ZEROED(a, uint64_t, alone_words(posed))};
-    if (!pieces->of_p || !pieces->of_q || !pieces->alone) {
+    *pieces = (pir_pieces){0};
+    pir_layout layout = layout_of(pieces, pairing);
+    if (!pir_layout_new(&pairing->allocator, &layout)) {
         pir_pieces_finish(pieces, posed);
         return PIR_ERR_MEMORY;
     }

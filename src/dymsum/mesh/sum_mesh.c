@@ -10,6 +10,8 @@
  * few facets.
  */
 #include "dymsum/mesh/sum_mesh.h"
+
+#include "base/layout.h"
 #include "dymsum/mesh/face_sum.h"
 #include "dymsum/mesh/pieces.h"
 #include "dymsum/mesh/placing.h"
@@ -23,6 +25,11 @@ struct facets {
     uint32_t *start;
     pir_corner *corner;
 };
+
+static pir_layout layout_of(struct facets *facets) {
+    return (pir_layout){
+        {PIR_ROW(facets->start, (size_t)facets->facet_room + 1), PIR_ROW(facets->corner, facets->corner_room)}};
+}
 
 /* An upper bound of the corners of a facet of one operand plus the face of the other in its direction. */
 static uint32_t corner_bound(const pir_polytope *of, uint32_t facet, const pir_polytope *other, pir_face face) {
@@ -50,17 +57,13 @@ static pir_status reserve_facets(struct facets *facets, const pir_posed *posed, 
         return PIR_ERR_LIMIT;
     facets->facet_room = (uint32_t)count;
     facets->corner_room = (uint32_t)corners;
-    facets->start = PIR_NEW(&posed->pairing->allocator, uint32_t, (size_t)facets->facet_room + 1);
-    facets->corner = PIR_NEW(&posed->pairing->allocator, pir_corner, facets->corner_room);
-    if (!facets->start || !facets->corner)
-        return PIR_ERR_MEMORY;
-    facets->start[0] = 0;
-    return PIR_OK;
+    pir_layout layout = layout_of(facets);
+    return pir_layout_new(&posed->pairing->allocator, &layout) ? PIR_OK : PIR_ERR_MEMORY;
 }
 
 static void free_facets(struct facets *facets, const pir_allocator *a) {
-    PIR_FREE(a, facets->start, (size_t)facets->facet_room + 1);
-    PIR_FREE(a, facets->corner, facets->corner_room);
+    pir_layout layout = layout_of(facets);
+    pir_layout_free(a, &layout);
     *facets = (struct facets){0};
 }
 
