@@ -64,7 +64,9 @@ void trial_need(pir_status status, const char *what);
 double trial_now(void);
 double trial_median(double *times, uint32_t count);
 
-/* What two readings of the monotonic clock take by themselves, in nanoseconds: it is in every time of update and auto. */
+/*
+ * What two readings of the monotonic clock take by themselves, in nanoseconds: it is in every time of update and auto.
+ */
 double trial_clock_cost(void);
 
 #endif

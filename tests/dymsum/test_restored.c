@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * A sum restored from its bytes is the sum, whatever its history: bodies of all kinds turn by steps of 1e-9 to half a
- * turn, turn to and fro, and jump, by any method or brute force, and in between they are scaled, reset and cloned, tolerances and
- * regions are set, moved and cleared, and memory runs out. After every step the sum is written and restored: its bytes
- * come back bit for bit. A companion that was restored some time ago goes the same way, and its bytes are the sum's
- * after every step too. They may only differ in what is kept beyond a region's cone, and only after a choice between
- * update and walk, which is made from counted work.
+ * turn, turn to and fro, and jump, by any method or brute force, and in between they are scaled, reset and cloned,
+ * tolerances and regions are set, moved and cleared, and memory runs out. After every step the sum is written and
+ * restored: its bytes come back bit for bit. A companion that was restored some time ago goes the same way, and its
+ * bytes are the sum's after every step too. They may only differ in what is kept beyond a region's cone, and only after
+ * a choice between update and walk, which is made from counted work.
  *
  * PIR_TEST_STEPS in the environment sets the number of steps, PIR_TEST_FIRST the first history; a failure names the
  * history, its step, and what was done last.
