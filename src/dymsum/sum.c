@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* The life of a sum: making it, releasing it, reading its pairing. */
-#include "dymsum/pairing/predicates.h"
 #include "dymsum/rotate.h"
 
 pir_sum_options pir_sum_options_default(void) {

@@ -42,11 +42,11 @@
  *   - A walk within a region drops all members, chooses and admits.
  *
  * Each call that succeeds and changes the cover chooses after that, and admits unless all features had been paired. A
- * call that fails restores the old cover and walks. So after every call the members are what the sweep finds for the
- * cover, and a sum that is restored from the cover and the pairing finds the same (pir_region_adopt). The next cover is
- * made from this one, the cone, the rotations and the motion noted in the cover. Two sums that agree in these continue
- * to agree as long as the same methods update them. PIR_METHOD_AUTO chooses from counted work, which depends on the
- * history.
+ * call that fails goes back to the old cover and walks. So after every call the members are what the sweep finds for
+ * the cover, and a sum that is restored from the cover and the pairing finds the same (pir_region_adopt). The next
+ * cover is made from this one, the cone, the rotations and the motion noted in the cover. Two sums that agree in these
+ * continue to agree as long as the same methods update them. PIR_METHOD_AUTO chooses from counted work, which depends
+ * on the history.
  *
  * Skins grow with the speed of the axis in the frames of P and of Q, so that a choice lasts for some frames. A flat P
  * has arcs of half a turn and is kept whole.

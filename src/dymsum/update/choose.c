@@ -22,12 +22,22 @@
 #include <math.h>
 #include <stdbool.h>
 
+/* The time of a sign asked for in an update, by that of one in a walk: between the ratios above. */
 #define WORK_OF_SIGN 1.05
-#define CLEAR_GAIN   0.8
-#define TRIAL        3
-#define FIRST_PROBE  4
-#define LATEST_PROBE 64
-#define MEMORY       0.125
+
+/* A sum that walks changes to updates when one is expected to cost at most this part of a walk. */
+#define CLEAR_GAIN 0.8
+
+/* A change to updates lasts for at least so many. */
+#define TRIAL_LENGTH 3
+
+/* How many walks come before the first trial of an update, and before the latest: the number doubles. */
+#define FIRST_TRIAL_AFTER  4
+#define LATEST_TRIAL_AFTER 64
+
+/* The weight of the last update in the slope. */
+#define MEMORY 0.125
+
 /*
  * Signs per radian that stand for none; 0 means that nothing is known. This is no bound of any error: a walk asks for
  * more within any angle, and the choice is one between methods that give the same pairing. A much smaller number would
@@ -36,8 +46,8 @@
 #define NO_WORK 1e-6
 
 pir_method pir_choose_method(const pir_cost_model *cost, double angle) {
-    bool on_trial = cost->updates_in_a_row > 0 && cost->updates_in_a_row < TRIAL;
-    if (cost->per_radian == 0 || on_trial || cost->walks_in_a_row >= cost->probe_after)
+    bool on_trial = cost->updates_in_a_row > 0 && cost->updates_in_a_row < TRIAL_LENGTH;
+    if (cost->per_radian == 0 || on_trial || cost->walks_in_a_row >= cost->trial_after)
         return PIR_METHOD_UPDATE;
     double expected = cost->per_radian * angle,
            allowed = cost->walks_in_a_row > 0 ? CLEAR_GAIN * cost->walk : cost->walk;
@@ -47,21 +57,21 @@ pir_method pir_choose_method(const pir_cost_model *cost, double angle) {
 void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double share) {
     if (cost->updates_in_a_row > 0 && angle > 0) {
         double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle / share : 0;
-        bool afresh = cost->per_radian == 0 || cost->updates_in_a_row < TRIAL;
+        bool afresh = cost->per_radian == 0 || cost->updates_in_a_row < TRIAL_LENGTH;
         cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), NO_WORK);
     }
     // a trial that leads back to walking makes the next one later; one that lasts makes it early again
     if (cost->updates_in_a_row == 0)
-        cost->probe_after = cost->probe_after < LATEST_PROBE / 2 ? 2 * cost->probe_after : LATEST_PROBE;
-    else if (cost->updates_in_a_row == TRIAL)
-        cost->probe_after = FIRST_PROBE;
+        cost->trial_after = cost->trial_after < LATEST_TRIAL_AFTER / 2 ? 2 * cost->trial_after : LATEST_TRIAL_AFTER;
+    else if (cost->updates_in_a_row == TRIAL_LENGTH)
+        cost->trial_after = FIRST_TRIAL_AFTER;
     cost->updates_in_a_row += cost->updates_in_a_row < UINT32_MAX;
     cost->walks_in_a_row = 0;
 }
 
 void pir_learn_walk(pir_cost_model *cost) {
-    if (cost->probe_after == 0)
-        cost->probe_after = FIRST_PROBE;
+    if (cost->trial_after == 0)
+        cost->trial_after = FIRST_TRIAL_AFTER;
     cost->walks_in_a_row++;
     cost->updates_in_a_row = 0;
 }

@@ -15,16 +15,16 @@ typedef struct pir_cost_model {
     double walk;       /* work of the last walk */
     double per_radian; /* work of recent updates per radian turned, 0 while none is known */
     uint32_t walks_in_a_row, updates_in_a_row;
-    uint32_t probe_after; /* how many walks in a row before an update is tried */
+    uint32_t trial_after; /* how many walks in a row before an update is tried */
 } pir_cost_model;
 
 /* The method to use for a turn of at most `angle`. */
 pir_method pir_choose_method(const pir_cost_model *cost, double angle);
 
-/* Takes in that an update over `angle`, of a `share` of all features, has asked for so many signs. */
+/* Notes that an update over `angle`, of a `share` of all features, has asked for so many signs. */
 void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double share);
 
-/* Takes in that a walk was made. */
+/* Notes a walk. */
 void pir_learn_walk(pir_cost_model *cost);
 
 #endif

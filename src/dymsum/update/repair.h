@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The crossings of one edge of P, brought along with an event. Each call returns false when out of memory. */
+/* The crossings of one edge of P, brought up to date with an event. Each call returns false when out of memory. */
 #ifndef PIR_DYMSUM_UPDATE_REPAIR_H
 #define PIR_DYMSUM_UPDATE_REPAIR_H
 
