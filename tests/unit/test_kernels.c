@@ -46,7 +46,7 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     memcpy(cells, facets->cell, count * sizeof *cells);
     for (uint32_t f = 0; f < count; f++)
         expired[f] = facets->first_certificate + f;
-    pir_certificates_expire(&sum->tracked.certificates, 0, certificates);
+    pir_certificates_expire(&sum->tracked.certificates, certificates);
     uint64_t sides = 0, hash = 0xcbf29ce484222325u;
     uint32_t found = kernels->review(facets, &step, &sum->tracked.certificates, expired, count, suspects, &sides);
     for (uint32_t i = 0; i < found; i++) {
@@ -60,6 +60,12 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     hash = mix(hash, &sides, sizeof sides);
     for (uint32_t f = 0; f < count; f++) {
         pir_probe seen;
+        uint32_t cell = cells[f];
+        uint64_t compared = 0;
+        bool certain = kernels->descend(facets, f, &cell, &compared);
+        hash = mix(hash, &certain, sizeof certain);
+        hash = mix(hash, &cell, sizeof cell);
+        hash = mix(hash, &compared, sizeof compared);
         kernels->probe(facets, &step, cells[f], facets->turn[f % 3], &seen);
         const float spans[4] = {seen.highest, seen.check.margin, seen.check.ahead, seen.check.behind};
         hash = mix(hash, &seen.check.touched, sizeof seen.check.touched);

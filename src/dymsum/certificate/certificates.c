@@ -115,9 +115,19 @@ void pir_certificates_set_now(pir_certificates *certificates, pir_quat unit) {
         certificates->now.c[k] = (float)q[k];
 }
 
-void pir_certificates_expire(pir_certificates *certificates, uint32_t first, uint32_t count) {
-    for (uint32_t i = first; i < first + count; i++) {
-        pir_certificate_set(certificates, i, -1, -PIR_NEVER, PIR_NEVER);
+void pir_certificates_expire(pir_certificates *certificates, uint32_t used) {
+    // array by array: each loop is one of vectors
+    for (uint32_t i = 0; i < used; i++) {
+        certificates->ahead[i] = -PIR_NEVER;
+        certificates->behind[i] = PIR_NEVER;
+        certificates->margin[i] = -1;
+    }
+    for (uint32_t i = 0; i < used; i++)
+        certificates->at[i] = certificates->now;
+    for (uint32_t i = 0; i < used; i++)
         pir_certificate_forget_previous(certificates, i);
+    for (uint32_t b = 0; b * PIR_CERTIFICATE_BLOCK < used; b++) {
+        certificates->block_ahead[b] = -PIR_NEVER;
+        certificates->block_behind[b] = PIR_NEVER;
     }
 }

@@ -165,7 +165,7 @@ void pir_certificates_new_epoch(pir_certificates *certificates, uint32_t used, b
 /* Sets certificates->now. */
 void pir_certificates_set_now(pir_certificates *certificates, pir_quat unit);
 
-/* Expires `count` certificates from `first` on. */
-void pir_certificates_expire(pir_certificates *certificates, uint32_t first, uint32_t count);
+/* Expires the first `used` certificates. */
+void pir_certificates_expire(pir_certificates *certificates, uint32_t used);
 
 #endif

@@ -52,6 +52,21 @@ static inline void check_in(const pir_facets *facets, const pir_step *step, uint
     *ret_check = seen.check;
 }
 
+static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
+    float highest = -HUGE_VALF;
+    for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
+        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
+        float s = turned[0] * at[0] + turned[1] * at[PIR_LANES] + turned[2] * at[2 * PIR_LANES];
+        if (s > highest) {
+            highest = s;
+            *ret_which = i;
+        }
+    }
+    return highest;
+}
+
+#define DESCEND_TARGET
+#include "dymsum/kernels/descend_body.h"
 #define REVIEW_TARGET
 #include "dymsum/kernels/review_body.h"
 
@@ -93,7 +108,7 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
     return count;
 }
 
-static const pir_kernels scalar = {"scalar", review, probe, collect};
+static const pir_kernels scalar = {"scalar", review, probe, descend, collect};
 
 const pir_kernels *pir_kernels_version(unsigned index) {
     const pir_kernels *versions[4] = {&scalar};

@@ -98,6 +98,12 @@ typedef struct pir_kernels {
                   pir_probe *ret_probe);
 
     /*
+     * Moves *cell uphill, always along the steepest direction, to the cell that facet f is in. False where floats are
+     * not certain of the next step: *cell is as far as they led. Adds to *sides how many directions were compared.
+     */
+    bool (*descend)(const pir_facets *facets, uint32_t f, uint32_t *cell, uint64_t *sides);
+
+    /*
      * Lists in certificates->expired those of the first `blocks` blocks that do not hold. Makes the bounds of their
      * blocks from the others, since each that has expired is filed again. Returns how many are listed.
      */

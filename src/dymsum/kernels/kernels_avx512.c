@@ -14,6 +14,9 @@
 /* The lanes in which a and b are equal. */
 #define EQUAL(a, b) ((uint32_t)_mm256_cmp_ps_mask((a), (b), _CMP_EQ_OQ))
 
+/* The lanes in which a is at least b. */
+#define NOT_BELOW(a, b) ((uint32_t)_mm256_cmp_ps_mask((a), (b), _CMP_GE_OQ))
+
 #include "dymsum/kernels/kernels_eight_body.h"
 
 TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
@@ -97,6 +100,6 @@ TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, 
                        : collect_at(certificates, blocks, (struct turned_now){ahead, behind, false});
 }
 
-const pir_kernels pir_kernels_avx512 = {"avx512", review, probe, collect};
+const pir_kernels pir_kernels_avx512 = {"avx512", review, probe, descend, collect};
 
 #endif

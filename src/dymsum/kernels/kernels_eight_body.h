@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The text that the kernels for AVX2 and AVX-512 share: a block of eight floats at a time. The file that includes this
- * says for which processor by TARGET, compares by EQUAL(a, b), a mask of the lanes in which two are equal, and defines
- * see_block().
+ * says for which processor by TARGET, compares by EQUAL(a, b) and NOT_BELOW(a, b), masks of the lanes in which a = b
+ * and a ≥ b, and defines see_block().
  */
 
 #include "polytope/polytope.h"
@@ -103,5 +103,25 @@ TARGET static inline void check_in(const pir_facets *facets, const pir_step *ste
     check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
 
+TARGET static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
+    __m256 x = _mm256_broadcast_ss(turned), y = _mm256_broadcast_ss(turned + 1), z = _mm256_broadcast_ss(turned + 2);
+    float highest = -HUGE_VALF;
+    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
+        __m256 s = dot(x, y, z, _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES),
+                       _mm256_loadu_ps(ring + 2 * PIR_LANES));
+        // most facets are in the cell from which they descend
+        if (!NOT_BELOW(s, _mm256_set1_ps(-PIR_FLOAT_BOUND)))
+            continue;
+        float here = greatest_of(s);
+        if (here > highest) {
+            highest = here;
+            *ret_which = b * PIR_LANES + (uint32_t)__builtin_ctz(EQUAL(s, _mm256_set1_ps(here)));
+        }
+    }
+    return highest;
+}
+
+#define DESCEND_TARGET TARGET
+#include "dymsum/kernels/descend_body.h"
 #define REVIEW_TARGET TARGET
 #include "dymsum/kernels/review_body.h"

@@ -87,6 +87,25 @@ static inline void check_in(const pir_facets *facets, const pir_step *step, uint
     check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
 
+static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
+    const float32x4_t u = vld1q_f32(turned);
+    float highest = -HUGE_VALF;
+    for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
+        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
+        float32x4_t s = dot(u, vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES));
+        float here = vmaxvq_f32(s), lane[4];
+        if (!(here > highest))
+            continue;
+        highest = here;
+        vst1q_f32(lane, s);
+        for (uint32_t k = 4; k-- > 0;)
+            *ret_which = lane[k] == here ? i + k : *ret_which;
+    }
+    return highest;
+}
+
+#define DESCEND_TARGET
+#include "dymsum/kernels/descend_body.h"
 #define REVIEW_TARGET
 #include "dymsum/kernels/review_body.h"
 
@@ -142,6 +161,6 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
     return count;
 }
 
-const pir_kernels pir_kernels_neon = {"neon", review, probe, collect};
+const pir_kernels pir_kernels_neon = {"neon", review, probe, descend, collect};
 
 #endif

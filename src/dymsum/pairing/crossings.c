@@ -86,3 +86,17 @@ bool pir_crossing_append(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t 
     *last = slot;
     return true;
 }
+
+bool pir_crossing_push(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last) {
+    pir_crossings *c = &tracked->pairing.crossings;
+    if (c->used == c->capacity)
+        return pir_crossing_append(tracked, e, h, last);
+    uint32_t slot = c->used++;
+    c->half[slot] = h;
+    c->edge[slot] = e;
+    c->next[slot] = PIR_NO_CROSSING;
+    c->count++;
+    *(*last == PIR_NO_CROSSING ? &c->first[e] : &c->next[*last]) = slot;
+    *last = slot;
+    return true;
+}

@@ -14,11 +14,12 @@ static pir_layout layout_of(pir_tracked *tracked) {
     const pir_polytope *p = pairing->p, *q = pairing->q;
     pir_pairing_work *work = &tracked->work;
     uint32_t queue = most(most(p->facet_count, q->facet_count), p->edge_count);
-    return (pir_layout){
-        {PIR_ROW(pairing->fv, p->facet_count), PIR_ROW(pairing->vf, q->facet_count),
-         PIR_ROW(pairing->crossings.first, p->edge_count), PIR_ROW(tracked->touched, p->edge_count),
-         PIR_ROW(work->queue, queue), PIR_ROW(work->mark, queue), PIR_ROW(work->rotated, p->facet_count),
-         PIR_ROW(work->suspects, pir_certificate_count(tracked)), PIR_ROW(work->passes, q->facet_count)}};
+    return (pir_layout){{PIR_ROW(pairing->fv, p->facet_count), PIR_ROW(pairing->vf, q->facet_count),
+                         PIR_ROW(pairing->crossings.first, p->edge_count), PIR_ROW(tracked->touched, p->edge_count),
+                         PIR_ROW(work->queue, queue), PIR_ROW(work->mark, most(queue, q->edge_count)),
+                         PIR_ROW(work->rotated, p->facet_count),
+                         PIR_ROW(work->suspects, pir_certificate_count(tracked)),
+                         PIR_ROW(work->passes, q->facet_count)}};
 }
 
 /* The facets of p, in the cells `cell` of q. */
@@ -88,6 +89,11 @@ void pir_tracked_begin_step(pir_tracked *tracked) {
                                .behind = pir_float_above(epoch->axial ? epoch->phase : epoch->net),
                                .axial = epoch->axial};
     pir_certificates_set_now(&tracked->certificates, tracked->pairing.signs.rotation.unit);
+    pir_tracked_turn_facets(tracked);
+}
+
+void pir_tracked_turn_facets(pir_tracked *tracked) {
+    const pir_epoch *epoch = &tracked->epoch;
     const pir_mat3 *r = &tracked->pairing.signs.rotation.r;
     pir_vec3 back = pir_mat_apply_transposed(r, epoch->axis);
     for (int k = 0; k < 3; k++) {
@@ -106,5 +112,5 @@ void pir_tracked_certify(pir_tracked *tracked, uint32_t i, const pir_expiry *exp
 }
 
 void pir_tracked_expire_all(pir_tracked *tracked) {
-    pir_certificates_expire(&tracked->certificates, 0, pir_certificate_count(tracked));
+    pir_certificates_expire(&tracked->certificates, pir_certificate_count(tracked));
 }

@@ -68,6 +68,9 @@ void pir_tracked_link_facets(pir_tracked *tracked);
 /* Tells the kernels of the rotation and of the last step: before any facet is checked or certified. */
 void pir_tracked_begin_step(pir_tracked *tracked);
 
+/* Tells the kernels of the rotation alone. */
+void pir_tracked_turn_facets(pir_tracked *tracked);
+
 /* Files certificate i, made now. The previous cell of its facet is forgotten. */
 void pir_tracked_certify(pir_tracked *tracked, uint32_t i, const pir_expiry *expiry);
 

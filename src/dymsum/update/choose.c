@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The cost model. Work is counted in signs: a walk asks for them one by one, an update by rings of sides and by
- * corners. On bodies of 6 to 2,400 facets a sign asked for in an update took 1.1 to 1.2 times as long as one in a walk,
- * wherever the two methods were close. It took 0.87 times as long where a body turned to and fro between two poses,
- * which branch predictors learn. Far from break-even the factor hardly matters. The work of an update is taken to be
+ * The cost model. Work is counted in signs, most of which both methods ask for by rings of sides. On bodies of 6 to 960
+ * facets a sign asked for in an update took 1.1 to 1.5 times as long as one in a walk, wherever the two methods were
+ * close. Far from break-even the factor hardly matters. The work of an update is taken to be
  * proportional to the angle. That holds while few certificates expire, and overstates large angles, where a walk is
  * right anyway. Facets that return to their previous cells ask for no signs and count as no work, since a walk is never
  * right for them.
@@ -23,7 +22,7 @@
 #include <stdbool.h>
 
 /* The time of a sign asked for in an update, by that of one in a walk: between the ratios above. */
-#define WORK_OF_SIGN 1.05
+#define WORK_OF_SIGN 1.35
 
 /* A sum that walks changes to updates when one is expected to cost at most this part of a walk. */
 #define CLEAR_GAIN 0.8
