@@ -17,7 +17,7 @@
  * is a lower bound on its slacks when they were last computed, plus the change then. `known` minus the present change
  * is a lower bound on its slacks now. On an arc, which is shorter than half a turn unless P is flat, s is nowhere
  * less than at its crossings and ends while those are positive. This is geometry alone, so it does not matter whether
- * a feature has been dormant in between.
+ * a feature has been inactive in between.
  */
 #include "query/search/regional.h"
 
