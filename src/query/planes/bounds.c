@@ -119,7 +119,7 @@ static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
         }
         // normals are off by 8u each, so their cosine is off by less than 32u
         cosine -= 0x1p-47;
-        // without a bound: the sine makes every product with it a bound below zero
+        // where the cap is no bound, a huge sine makes its bound negative
         bounds->caps.cosine[g] = cosine > 0 ? cosine : 0;
         bounds->caps.sine[g] = cosine > 0 ? sqrt((1 - cosine) * (1 + cosine)) * (1 + 0x1p-50) : 0x1p1000;
     }

@@ -6,8 +6,8 @@
 #include <string.h>
 
 /*
- * Facets of P in a group, each with about three edge pairs more, and facets of Q in a group: either makes about 32
- * planes, four blocks.
+ * Facets in a group. With about three edge pairs for each facet of P, either kind of group makes about 32 planes,
+ * four blocks.
  */
 #define GROUP_OF_P 8
 #define GROUP_OF_Q 32
@@ -234,9 +234,8 @@ void pir_groups_fill(pir_groups *groups) {
 }
 
 /*
- * A count of crossings that most rotations do not exceed; more make the memory grow once. Two arcs of random
- * directions cross at random, and 3 per edge is above what random bodies have. The constant is for bodies of few
- * edges, whose crossings vary most.
+ * A count of crossings that most rotations do not exceed: three per edge, and some for bodies of few edges, whose
+ * counts vary most. A rotation with more makes the memory grow.
  */
 static uint32_t usual_crossings(const pir_polytope *p, const pir_polytope *q) {
     return 3 * (p->edge_count + q->edge_count) + 64;
