@@ -31,13 +31,6 @@ bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length) {
     return true;
 }
 
-pir_status pir_line_make(const pir_placement *placement, pir_vec3 direction, pir_line *ret_line) {
-    *ret_line = (pir_line){.placement = placement, .direction = direction};
-    if (!pir_vec_is_finite(direction))
-        return PIR_ERR_NOT_FINITE;
-    return pir_unit_of(direction, &ret_line->u, &ret_line->length) ? PIR_OK : PIR_ERR_ARGUMENT;
-}
-
 /* --- bounds --- */
 
 /* An interval that holds a number. */

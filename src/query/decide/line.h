@@ -41,7 +41,12 @@ typedef struct pir_clip {
 bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length);
 
 /* The line from a placement along a direction: PIR_ERR_NOT_FINITE, or PIR_ERR_ARGUMENT for a direction of length 0. */
-pir_status pir_line_make(const pir_placement *placement, pir_vec3 direction, pir_line *ret_line);
+static inline pir_status pir_line_make(const pir_placement *placement, pir_vec3 direction, pir_line *ret_line) {
+    *ret_line = (pir_line){.placement = placement, .direction = direction};
+    if (!pir_vec_is_finite(direction))
+        return PIR_ERR_NOT_FINITE;
+    return pir_unit_of(direction, &ret_line->u, &ret_line->length) ? PIR_OK : PIR_ERR_ARGUMENT;
+}
 
 /*
  * Clips a line by the plane in a slot. The first pass over all planes bounds where it enters and leaves, the second
