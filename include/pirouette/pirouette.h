@@ -9,6 +9,7 @@
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>
 #include <pirouette/mesh.h>
+#include <pirouette/pair.h>
 #include <pirouette/polytope.h>
 #include <pirouette/query.h>
 #include <pirouette/shape.h>

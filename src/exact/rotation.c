@@ -48,11 +48,95 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
     n = xx + yy + zz + ww;
     double by = 1 / n, shrink = 1 / sqrt(n);
     rotation->given = q;
+    rotation->rest = (pir_quat){0, 0, 0, 0};
+    rotation->relative = false;
     rotation->unit = (pir_quat){x * shrink, y * shrink, z * shrink, w * shrink};
     rotation->r = (pir_mat3){{{(ww + xx - yy - zz) * by, 2 * (x * y - w * z) * by, 2 * (x * z + w * y) * by},
                               {2 * (x * y + w * z) * by, (ww - xx + yy - zz) * by, 2 * (y * z - w * x) * by},
                               {2 * (x * z - w * y) * by, 2 * (y * z + w * x) * by, (ww - xx - yy + zz) * by}}};
     rotation->has_exact = false;
+    return PIR_OK;
+}
+
+/* --- relative rotations --- */
+
+/*
+ * q with its components scaled by one power of two, the largest to [0.5, 1). PIR_ERR_LIMIT where one that is not 0
+ * would be below 2^-900, so that the integers of a product of two have their room (PIR_QUAT_LIMBS), and nothing is
+ * lost here.
+ */
+static pir_status bring_near_one(pir_quat q, double c[4]) {
+    const double given[4] = {q.x, q.y, q.z, q.w};
+    for (int k = 0; k < 4; k++)
+        if (!isfinite(given[k]))
+            return PIR_ERR_NOT_FINITE;
+    int top = top_exponent(given);
+    if (top == INT32_MIN)
+        return PIR_ERR_ZERO_QUATERNION;
+    for (int k = 0; k < 4; k++) {
+        c[k] = ldexp(given[k], -top);
+        if (given[k] != 0 && fabs(c[k]) < 0x1p-900)
+            return PIR_ERR_LIMIT;
+    }
+    return PIR_OK;
+}
+
+/*
+ * a·b + c exactly as *ret_rest + what is returned, for numbers whose products lose nothing below 2^-1074 that
+ * matters.
+ */
+static double add_exactly(double sum, double a, double b, double *rest) {
+    double p = a * b, ta = 134217729.0 * a, tb = 134217729.0 * b; // 2^27 + 1
+    double ah = ta - (ta - a), bh = tb - (tb - b), al = a - ah, bl = b - bh;
+    double p_rest = ((ah * bh - p) + ah * bl + al * bh) + al * bl;
+    double s = sum + p, t = s - sum;
+    *rest += ((sum - (s - t)) + (p - t)) + p_rest;
+    return s;
+}
+
+/*
+ * A component of conj(a)·b: four products with what rounding leaves of them and of their sums added up beside
+ * (Ogita, Rump and Oishi, SIAM J. Scientific Computing 26, 2005). Off by u of itself and by some u² of |a||b|.
+ */
+static double component_of(const double a[4], const double b[4], const int i[4], const int j[4], double *ret_rest) {
+    double sum = 0, rest = 0;
+    for (int k = 0; k < 4; k++)
+        sum = add_exactly(sum, k == 1 || k == 2 ? -a[i[k]] : a[i[k]], b[j[k]], &rest);
+    double whole = sum + rest;
+    *ret_rest = rest - (whole - sum);
+    return whole;
+}
+
+/*
+ * What rounding of the product's components, by u each, does to r: |q| is off by u, and M by 2·u·√2 in norm, 4u
+ * with the norm that it is divided by; 6u is more than that and the terms of order u². So r is within 37u, and what
+ * a relative normal or edge is off by elsewhere (42u, 37u) has 6u more; the bounds there leave room for it.
+ */
+pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_quat p) {
+    if (q.x == 0 && q.y == 0 && q.z == 0 && q.w == 1)
+        return pir_rotation_set(rotation, p);
+    double a[4], b[4];
+    pir_status status = bring_near_one(q, a);
+    if (status == PIR_OK)
+        status = bring_near_one(p, b);
+    if (status != PIR_OK)
+        return status;
+    // x: aw bx − ax bw − ay bz + az by, and so on round; w: aw bw + ax bx + ay by + az bz
+    pir_quat rest, product;
+    static const int first[3][4] = {{3, 0, 1, 2}, {3, 1, 2, 0}, {3, 2, 0, 1}};
+    static const int second[3][4] = {{0, 3, 2, 1}, {1, 3, 0, 2}, {2, 3, 1, 0}};
+    product.x = component_of(a, b, first[0], second[0], &rest.x);
+    product.y = component_of(a, b, first[1], second[1], &rest.y);
+    product.z = component_of(a, b, first[2], second[2], &rest.z);
+    const double negated[4] = {a[0], -a[1], -a[2], a[3]};
+    product.w = component_of(negated, b, (const int[4]){3, 1, 2, 0}, (const int[4]){3, 1, 2, 0}, &rest.w);
+    status = pir_rotation_set(rotation, product);
+    if (status != PIR_OK)
+        return status;
+    rotation->rest = rest;
+    rotation->relative = true;
+    rotation->factor[0] = q;
+    rotation->factor[1] = p;
     return PIR_OK;
 }
 
@@ -86,17 +170,47 @@ static void add_product(pir_int *dst, const pir_int *a, const pir_int *b, int si
     pir_int_add(dst, dst, &product);
 }
 
+/* The components as integers on one scale; room: PIR_QUAT_LIMBS each. */
+static void set_integers(pir_quat given, pir_int q[4]) {
+    const double c[4] = {given.x, given.y, given.z, given.w};
+    int low = low_exponent(c);
+    for (int k = 0; k < 4; k++)
+        pir_int_set_double(&q[k], c[k], low);
+}
+
+/* conj(a)·b in integers, each factor in limbs of its own. */
+static void set_product(const pir_quat factor[2], pir_int q[4]) {
+    mp_limb_t limbs[8 * PIR_QUAT_LIMBS];
+    pir_limbs room = {limbs, 0, 8 * PIR_QUAT_LIMBS};
+    pir_int a[4], b[4];
+    for (int k = 0; k < 4; k++) {
+        a[k] = pir_limbs_take(&room, PIR_QUAT_LIMBS);
+        b[k] = pir_limbs_take(&room, PIR_QUAT_LIMBS);
+    }
+    set_integers(factor[0], a);
+    set_integers(factor[1], b);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        add_product(&q[i], &a[3], &b[i], 1, false);
+        add_product(&q[i], &a[i], &b[3], -1, false);
+        add_product(&q[i], &a[j], &b[k], -1, false);
+        add_product(&q[i], &a[k], &b[j], 1, false);
+    }
+    for (int k = 0; k < 4; k++)
+        add_product(&q[3], &a[k], &b[k], 1, false);
+}
+
 void pir_rotation_make_exact(pir_rotation *rotation) {
     if (rotation->has_exact)
         return;
     pir_limbs room = {rotation->limbs, 0, PIR_ROTATION_LIMBS};
-    const double c[4] = {rotation->given.x, rotation->given.y, rotation->given.z, rotation->given.w};
-    int low = low_exponent(c);
     pir_int *q = rotation->q;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 4; k++)
         q[k] = pir_limbs_take(&room, PIR_QUAT_LIMBS);
-        pir_int_set_double(&q[k], c[k], low);
-    }
+    if (rotation->relative)
+        set_product(rotation->factor, q);
+    else
+        set_integers(rotation->given, q);
     // the diagonal, w² ± x² ± y² ± z², and the norm
     for (int i = 0; i < 3; i++) {
         rotation->m[i][i] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
@@ -124,6 +238,14 @@ void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_i
         pir_int_mul(&dst->c[i], &rotation->m[i][0], &v->c[0]);
         pir_int_add_mul(&dst->c[i], &rotation->m[i][1], &v->c[1], scratch);
         pir_int_add_mul(&dst->c[i], &rotation->m[i][2], &v->c[2], scratch);
+    }
+}
+
+void pir_rotation_apply_transposed(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch) {
+    for (int i = 0; i < 3; i++) {
+        pir_int_mul(&dst->c[i], &rotation->m[0][i], &v->c[0]);
+        pir_int_add_mul(&dst->c[i], &rotation->m[1][i], &v->c[1], scratch);
+        pir_int_add_mul(&dst->c[i], &rotation->m[2][i], &v->c[2], scratch);
     }
 }
 

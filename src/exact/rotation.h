@@ -20,9 +20,12 @@
 #define PIR_ROTATION_LIMBS (4 * PIR_QUAT_LIMBS + 10 * PIR_MATRIX_LIMBS)
 
 typedef struct pir_rotation {
-    pir_quat given; /* as the caller gave it */
+    pir_quat given; /* as the caller gave it; of a relative rotation, the nearest doubles */
+    pir_quat rest;  /* of a relative rotation, what `given` leaves, rounded; else 0 */
+    bool relative;  /* conj(factor[0]) · factor[1] exactly */
+    pir_quat factor[2];
     pir_quat unit;  /* scaled to length 1, within 8·2^-53 */
-    pir_mat3 r;     /* within 31·2^-53 of R in Frobenius norm: see rotation.c */
+    pir_mat3 r;     /* within 31·2^-53 of R in Frobenius norm, 37·2^-53 if relative: see rotation.c */
     bool has_exact; /* whether the integers below are made */
     pir_int q[4];   /* x, y, z, w on one scale */
     pir_int m[3][3];
@@ -33,10 +36,18 @@ typedef struct pir_rotation {
 /* Takes `q`: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, or PIR_OK. On failure *rotation is as it was. */
 pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q);
 
+/*
+ * Takes the rotation of body p as body q sees it, both given as they stand in the world: conj(q) · p. Where q is
+ * (0, 0, 0, 1) it is `p` as given. Errors as above, and PIR_ERR_LIMIT where the components of either that are not 0
+ * span more than 2^900.
+ */
+pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_quat p);
+
 /* Makes the integers if they are not there yet. */
 void pir_rotation_make_exact(pir_rotation *rotation);
 
-/* dst = M·v exactly; room: |v| + PIR_MATRIX_LIMBS + 1 each. */
+/* dst = M·v and Mᵀ·v exactly; room: |v| + PIR_MATRIX_LIMBS + 1 each. */
+void pir_rotation_apply_transposed(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch);
 void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch);
 
 /* An upper bound, tight to a few parts in 10^15 for small turns, on the angle between two rotations in

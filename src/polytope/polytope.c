@@ -6,7 +6,7 @@
  * counting, stand opposite each other. Rings are then followed from each vertex's first halfedge: the next one
  * counter-clockwise is the twin of the one before it in its facet.
  */
-#include "polytope/polytope.h"
+#include "polytope/attachment.h"
 
 #include <math.h>
 #include <string.h>
@@ -38,6 +38,7 @@ static bool allocate(pir_polytope *p) {
 
 static void destroy(pir_polytope *p) {
     const pir_allocator allocator = p->allocator, *a = &allocator;
+    pir_polytope_free_attachments(p);
     uint32_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
     PIR_FREE(a, p->ring_start, (size_t)v + 1);
     PIR_FREE(a, p->origin, h);

@@ -33,6 +33,8 @@
 /* How many directions of a ring stand together. */
 #define PIR_LANES 8
 
+typedef struct pir_attachment pir_attachment;
+
 struct pir_polytope {
     atomic_uint references;
     _Atomic(pir_polytope *) reflection; /* held, or NULL while none was asked for; see reflect.c */
@@ -66,6 +68,8 @@ struct pir_polytope {
     pir_vectors exact_edge;   /* per edge, along edge_half */
     pir_vectors exact_normal; /* per facet */
     pir_scale scale;
+
+    pir_attachment *_Atomic attachments; /* of other parts: see attachment.h */
 };
 
 /* What a polytope is built from; everything is copied. */

@@ -42,6 +42,12 @@ int main(void) {
     /* snippet 3 */
 
     good = good && result.outcome == PIR_NOT_SEPARATED && fabs(result.distance + 0.1) < 1e-12;
+
+    /* snippet 4 */
+
+    good = good && result.outcome == PIR_OVERLAPPING && fabs(result.distance + 0.05) < 1e-12;
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
     printf("depth %g, %u contacts\n", -result.distance, (unsigned)count);
     pir_query_destroy(query);
     pir_sum_destroy(sum);

@@ -23,7 +23,7 @@ void pir_query_destroy(pir_query *query) {
     if (!query)
         return;
     const pir_allocator allocator = query->allocator, *a = &allocator;
-    pir_patch_room_finish(&query->patches, a, query->p, query->q);
+    pir_patch_room_finish(&query->patches, a, query->p->vertex_count, query->q->vertex_count);
     pir_regional_finish(&query->regional, a, &query->frame);
     pir_leaves_finish(&query->leaves, a);
     pir_search_finish(&query->search, a);
@@ -70,7 +70,7 @@ static bool reserve(pir_query *query) {
     query->exact.rotation = pir_sum_exact_rotation(query->sum);
     done = pir_search_init(&query->search, a, &query->exact, pir_sum_pairing(query->sum)) && done;
     done = pir_regional_init(&query->regional, a, &query->frame, query->sum) && done;
-    return pir_patch_room_init(&query->patches, a, query->p, query->q) && done;
+    return pir_patch_room_init(&query->patches, a, query->p->vertex_count, query->q->vertex_count) && done;
 }
 
 pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
@@ -122,7 +122,18 @@ pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_p
     if (!(p >= 0 && p < HUGE_VAL && q >= 0 && q < HUGE_VAL) || isnan(input->cutoff))
         return isnan(p) || isnan(q) || isnan(input->cutoff) ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
     pir_status status = follow(query);
+    if (query->exact.world) {
+        query->exact.world = NULL;
+        query->exact.made = false;
+    }
     return status == PIR_OK ? pir_frame_place(&query->frame, input->translation, ret_placement) : status;
+}
+
+pir_status pir_query_place_relative(pir_query *query, const pir_world *world, pir_placement *ret_placement) {
+    pir_status status = follow(query);
+    query->exact.world = pir_world_is_plain(world) ? NULL : world;
+    query->exact.made = false;
+    return status == PIR_OK ? pir_frame_place_relative(&query->frame, world, ret_placement) : status;
 }
 
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {

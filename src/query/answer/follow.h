@@ -32,7 +32,19 @@ struct pir_query {
 /* Begins a call: checks the input, follows the sum's changes, converts the translation. */
 pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
 
+/*
+ * What an answer at a relative pose begins with, the sum being there: the placement. `world` is borrowed until the next
+ * call on the query.
+ */
+pir_status pir_query_place_relative(pir_query *query, const pir_world *world, pir_placement *ret_placement);
+
 /* Begins a call that needs the whole sum: PIR_ERR_UNSUPPORTED where the sum has a region. */
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
+
+/* --- answers.c --- */
+
+/* What a call on a sum without a region answers, at a placement. `want`: see result.h. */
+void pir_query_answer(pir_query *query, const pir_placement *placement, const pir_query_input *input, int want,
+                      pir_query_cache *cache, pir_query_result *result);
 
 #endif

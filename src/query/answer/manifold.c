@@ -7,13 +7,16 @@
  * the normal, and the corners of their overlap (outline.h) are lifted onto the surfaces of both bodies. So every
  * contact lies on both bodies, however the patches are made.
  */
+#include "query/answer/manifold.h"
+
 #include "query/answer/follow.h"
 
 /* An id holds a kind in its top two bits and two indices. This kind is that of an answer that is no corner. */
 #define ID_OF_ANSWER 3
 
 struct manifold {
-    pir_query *query;
+    const pir_frame *frame;
+    pir_patch_room *room;
     const pir_query_result *answer;
     pir_patch *p, *q;
     pir_vec3 n;
@@ -32,11 +35,11 @@ static bool is_feature(const pir_polytope *p, pir_feature feature) {
 }
 
 /* Whether an answer can be one about these bodies. */
-static bool is_usable(const pir_query *query, const pir_query_result *answer) {
+static bool is_usable(const pir_frame *frame, const pir_query_result *answer) {
     double square = pir_vec_dot(answer->normal, answer->normal);
     // ours are unit vectors within a few 2^-53; a caller may keep them in single precision
-    return fabs(square - 1) < 0x1p-20 && is_feature(query->p, answer->witness.p) &&
-           is_feature(query->q, answer->witness.q) && isfinite(answer->distance) &&
+    return fabs(square - 1) < 0x1p-20 && is_feature(frame->p.polytope, answer->witness.p) &&
+           is_feature(frame->q.polytope, answer->witness.q) && isfinite(answer->distance) &&
            pir_vec_is_finite(answer->point_p) && pir_vec_is_finite(answer->point_q);
 }
 
@@ -62,41 +65,36 @@ static void set_axes(struct manifold *m) {
 
 /* The answer's point on Q's polytope, in the frame. */
 static pir_vec3 point_of_answer(const struct manifold *m, double radius_q) {
-    const pir_query *query = m->query;
-    pir_vec3 w = pir_vec_sub(m->answer->point_q, pir_vec_scale(m->n, radius_q)),
-             c = pir_dd3_round(query->frame.q.centre);
-    pir_vec3 y = {pir_frame_from(&query->frame, w.x), pir_frame_from(&query->frame, w.y),
-                  pir_frame_from(&query->frame, w.z)};
+    const pir_frame *frame = m->frame;
+    pir_vec3 w = pir_vec_sub(m->answer->point_q, pir_vec_scale(m->n, radius_q)), c = pir_dd3_round(frame->q.centre);
+    pir_vec3 y = {pir_frame_from(frame, w.x), pir_frame_from(frame, w.y), pir_frame_from(frame, w.z)};
     return pir_vec_sub(y, c);
 }
 
 static void begin(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
-    pir_query *query = m->query;
-    m->p = &query->patches.p;
-    m->q = &query->patches.q;
+    const pir_frame *frame = m->frame;
+    m->p = &m->room->p;
+    m->q = &m->room->q;
     m->n = m->answer->normal;
     m->radius_p = input->radius_p;
     m->radii = input->radius_p + input->radius_q;
     set_axes(m);
-    set_patch(m->q, query->q, query->frame.q.vertex, m->n);
-    set_patch(m->p, query->p, query->frame.p.vertex, pir_vec_scale(m->n, -1));
+    set_patch(m->q, frame->q.polytope, frame->q.vertex, m->n);
+    set_patch(m->p, frame->p.polytope, frame->p.vertex, pir_vec_scale(m->n, -1));
     // P is stored reflected
-    m->p->r = &query->frame.r;
+    m->p->r = &frame->r;
     m->p->sign = -1;
     m->p->at = placement->x;
     m->p->snap = m->q->snap = PIR_SNAP * placement->reach;
     pir_vec3 y = point_of_answer(m, input->radius_q);
     m->of_answer = (pir_corner){.u = pir_vec_dot(m->axis[0], y), .v = pir_vec_dot(m->axis[1], y)};
-    double error = pir_frame_length(&query->frame, 4 * placement->error);
+    double error = pir_frame_length(frame, 4 * placement->error);
     m->limit = fmax(fmax(input->margin, m->answer->distance), 0) + error;
 }
 
-/*
- * Grows both patches until each has an outline. Returns the number of corners that they share, in
- * query->patches.shared.
- */
+/* Grows both patches until each has an outline. Returns the number of corners that they share, in the room. */
 static uint32_t overlap(struct manifold *m) {
-    pir_patch_room *room = &m->query->patches;
+    pir_patch_room *room = m->room;
     pir_patch *both[2] = {m->p, m->q};
     pir_patch_grow(m->p, m->answer->witness.p);
     pir_patch_grow(m->q, m->answer->witness.q);
@@ -162,9 +160,9 @@ static pir_contact make_contact(const struct manifold *m, const pir_corner *corn
         q = pir_patch_side(m->q, corner->q, along_side(&m->q->outline, corner->q, corner));
     }
     pir_contact contact = {.id = corner_id(m, corner)};
-    contact.distance = pir_frame_length(&m->query->frame, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
-    contact.point_p = pir_vec_sub(pir_frame_world(&m->query->frame, p), pir_vec_scale(m->n, m->radius_p));
-    contact.point_q = pir_vec_add(pir_frame_world(&m->query->frame, q), pir_vec_scale(m->n, m->radii - m->radius_p));
+    contact.distance = pir_frame_length(m->frame, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
+    contact.point_p = pir_vec_sub(pir_frame_world(m->frame, p), pir_vec_scale(m->n, m->radius_p));
+    contact.point_q = pir_vec_add(pir_frame_world(m->frame, q), pir_vec_scale(m->n, m->radii - m->radius_p));
     return contact;
 }
 
@@ -184,10 +182,10 @@ static uint64_t answer_id(const struct manifold *m, bool is_corner) {
 
 /* The corner that is the answer's own point, or `count` where none is. */
 static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
-    const pir_corner *corner = m->query->patches.shared;
+    const pir_corner *corner = m->room->shared;
     // the rounding of points in world coordinates grows with those
     pir_vec3 w = m->answer->point_q;
-    double coarse = 4 * m->p->snap + 0x1p-50 * pir_frame_from(&m->query->frame, fabs(w.x) + fabs(w.y) + fabs(w.z));
+    double coarse = 4 * m->p->snap + 0x1p-50 * pir_frame_from(m->frame, fabs(w.x) + fabs(w.y) + fabs(w.z));
     for (uint32_t i = 0; i < count; i++)
         if (pir_outline_distance(&corner[i], &m->of_answer) <= coarse)
             return i;
@@ -196,31 +194,26 @@ static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
 
 /* Whether a corner is near enough to be a contact. */
 static bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
-    double way = pir_frame_length(&m->query->frame, pir_outline_distance(corner, &m->of_answer));
+    double way = pir_frame_length(m->frame, pir_outline_distance(corner, &m->of_answer));
     return distance <= m->limit || distance - m->answer->distance <= PIR_FLUSH * way;
 }
 
-pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
-                              size_t capacity, pir_contact *ret_contacts, size_t *ret_count) {
-    pir_placement placement;
-    if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
-        return PIR_ERR_ARGUMENT;
-    pir_status status = pir_query_begin(query, input, &placement);
-    if (status != PIR_OK)
-        return status;
-    if (isnan(input->margin))
+pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
+                             const pir_manifold_ask *ask, pir_contact *ret_contacts, size_t *ret_count) {
+    const pir_query_result *answer = ask->answer;
+    if (isnan(ask->input->margin))
         return PIR_ERR_NOT_FINITE;
     bool has_points = answer->outcome != PIR_BEYOND_CUTOFF && answer->outcome != PIR_NO_HIT;
-    if (!(input->margin >= 0) || (has_points && !is_usable(query, answer)))
+    if (!(ask->input->margin >= 0) || (has_points && !is_usable(frame, answer)))
         return PIR_ERR_ARGUMENT;
     if (!has_points) {
         *ret_count = 0;
         return PIR_OK;
     }
-    struct manifold m = {.query = query, .answer = answer};
-    begin(&m, input, &placement);
+    struct manifold m = {.frame = frame, .room = room, .answer = answer};
+    begin(&m, ask->input, placement);
     uint32_t corners = overlap(&m), own = corner_of_answer(&m, corners);
-    const pir_corner *corner = query->patches.shared;
+    const pir_corner *corner = room->shared;
     size_t count = 0;
     for (uint32_t i = 0; i < corners + (own == corners); i++) {
         pir_contact contact = {answer->point_p, answer->point_q, answer->distance, 0};
@@ -232,10 +225,22 @@ pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, co
             if (!is_near(&m, &corner[k], contact.distance))
                 continue;
         }
-        if (count < capacity)
+        if (count < ask->capacity)
             ret_contacts[count] = contact;
         count++;
     }
     *ret_count = count;
-    return count <= capacity ? PIR_OK : PIR_ERR_LIMIT;
+    return count <= ask->capacity ? PIR_OK : PIR_ERR_LIMIT;
+}
+
+pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
+                              size_t capacity, pir_contact *ret_contacts, size_t *ret_count) {
+    pir_placement placement;
+    if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_query_begin(query, input, &placement);
+    if (status != PIR_OK)
+        return status;
+    pir_manifold_ask ask = {input, answer, capacity};
+    return pir_manifold_find(&query->frame, &placement, &query->patches, &ask, ret_contacts, ret_count);
 }

@@ -11,26 +11,24 @@
 /* --- room --- */
 
 /* The most corners that pir_outline_overlap finds. */
-static size_t most_shared(const pir_polytope *p, const pir_polytope *q) {
-    return 2 * (size_t)p->vertex_count + q->vertex_count + 4;
+static size_t most_shared(size_t of_p, size_t of_q) {
+    return 2 * of_p + of_q + 4;
 }
 
-static pir_layout layout_of(pir_patch_room *room, const pir_polytope *p, const pir_polytope *q) {
-    size_t of_p = p->vertex_count, of_q = q->vertex_count, shared = most_shared(p, q);
+static pir_layout layout_of(pir_patch_room *room, size_t of_p, size_t of_q) {
+    size_t shared = most_shared(of_p, of_q);
     return (pir_layout){{PIR_ROW(room->p.member, of_p), PIR_ROW(room->p.is_member, of_p), PIR_ROW(room->p.corner, of_p),
                          PIR_ROW(room->q.member, of_q), PIR_ROW(room->q.is_member, of_q), PIR_ROW(room->q.corner, of_q),
                          PIR_ROW(room->shared, shared), PIR_ROW(room->hull, shared + 1)}};
 }
 
-bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, const pir_polytope *p,
-                         const pir_polytope *q) {
-    pir_layout layout = layout_of(room, p, q);
+bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
+    pir_layout layout = layout_of(room, of_p, of_q);
     return pir_layout_new(allocator, &layout);
 }
 
-void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, const pir_polytope *p,
-                           const pir_polytope *q) {
-    pir_layout layout = layout_of(room, p, q);
+void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
+    pir_layout layout = layout_of(room, of_p, of_q);
     pir_layout_free(allocator, &layout);
 }
 

@@ -64,11 +64,12 @@ typedef struct pir_patch_room {
     pir_corner *shared, *hull;
 } pir_patch_room;
 
-/* Makes the memory in a struct of zeros. False when out of memory; pir_patch_room_finish then frees what is there. */
-bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, const pir_polytope *p,
-                         const pir_polytope *q);
-void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, const pir_polytope *p,
-                           const pir_polytope *q);
+/*
+ * Makes the memory for bodies of so many vertices, in a struct of zeros. False when out of memory;
+ * pir_patch_room_finish then frees what is there.
+ */
+bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
+void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
 
 /* Vertex v in its place, in the frame of queries. */
 pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v);

@@ -39,10 +39,46 @@ pir_view pir_view_of(const pir_frame *frame, const pir_normal *normal, bool of_q
     return (pir_view){frame->p.polytope, false, pir_mat_apply_transposed(&frame->r, normal->unit)};
 }
 
+/* The components that are not zero: bit k for component k. */
+static uint32_t occupied(const pir_int3 *v) {
+    return (uint32_t)(v->c[0].size != 0) | (uint32_t)(v->c[1].size != 0) << 1 | (uint32_t)(v->c[2].size != 0) << 2;
+}
+
+/* The entries of row i of M(q) that may not be zero. Off the diagonal they are 2 (q_i q_j ∓ w q_k). */
+static uint32_t occupied_row(const pir_rotation *rotation, int i) {
+    const double q[3] = {rotation->given.x, rotation->given.y, rotation->given.z}, w = rotation->given.w;
+    uint32_t row = 1u << i;
+    for (int step = 1; step < 3; step++) {
+        int j = (i + step) % 3, k = 3 - i - j;
+        row |= (uint32_t)((q[i] != 0 && q[j] != 0) || (w != 0 && q[k] != 0)) << j;
+    }
+    return row;
+}
+
+/*
+ * Whether every product in the slope has a factor that is zero: so it is for boxes that stand on one another
+ * however they are turned about the vertical. Only for a normal of one body and an edge of the other.
+ */
+static bool is_zero_by_terms(const pir_exact *exact, const pir_normal *normal, uint32_t half, bool of_q) {
+    bool crosses = of_q ? normal->piece.kind == PIR_FACET_FV : normal->piece.kind == PIR_FACET_VF;
+    if (normal->exact || !crosses || exact->rotation->relative)
+        return false;
+    const pir_polytope *p = exact->frame->p.polytope, *q = exact->frame->q.polytope;
+    pir_int3 of_p_body = of_q ? pir_normal_exact(p, normal->piece.first) : pir_half_exact(p, half);
+    pir_int3 of_q_body = of_q ? pir_half_exact(q, half) : pir_normal_exact(q, normal->piece.second);
+    uint32_t columns = occupied(&of_p_body), rows = occupied(&of_q_body);
+    for (int i = 0; i < 3; i++)
+        if ((rows >> i & 1) && (occupied_row(exact->rotation, i) & columns))
+            return false;
+    return true;
+}
+
 int pir_slope(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t half) {
     double slope = pir_vec_dot(view->unit, view->body->direction[half]);
     if (fabs(slope) > SLOPE_BOUND * normal->err)
         return (slope > 0) - (slope < 0);
+    if (is_zero_by_terms(exact, normal, half, view->of_q))
+        return 0;
     return exact_slope(exact, normal, half, view->of_q);
 }
 
@@ -69,13 +105,9 @@ struct from {
 
 #define NO_HALF UINT32_MAX
 
-/* The exposed face that holds the vertex of `from`. */
-static pir_feature exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, struct from from) {
+/* The face of a vertex that is exposed, `count` of its edges, two at most, being across the normal. */
+static pir_feature face_across(const pir_view *view, uint32_t vertex, const uint32_t across[2], uint32_t count) {
     const pir_polytope *p = view->body;
-    uint32_t across[2] = {0, 0}, count = 0, vertex = from.vertex;
-    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1] && count < 2; h++)
-        if (h == from.across || pir_slope(exact, normal, view, h) == 0)
-            across[count++] = h;
     if (count == 0)
         return (pir_feature){PIR_FEATURE_VERTEX, vertex};
     if (p->artificial)
@@ -83,6 +115,32 @@ static pir_feature exposed(pir_exact *exact, const pir_normal *normal, const pir
     if (count == 1)
         return (pir_feature){PIR_FEATURE_EDGE, p->edge[across[0]]};
     return (pir_feature){PIR_FEATURE_FACET, shared_facet(p, across[0], across[1], view->unit)};
+}
+
+/* The exposed face that holds the vertex of `from`. */
+static pir_feature exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, struct from from) {
+    const pir_polytope *p = view->body;
+    uint32_t across[2] = {0, 0}, count = 0, vertex = from.vertex;
+    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1] && count < 2; h++)
+        if (h == from.across || pir_slope(exact, normal, view, h) == 0)
+            across[count++] = h;
+    return face_across(view, vertex, across, count);
+}
+
+/* The same for a vertex that may not be exposed; false then. */
+static bool prove_exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, struct from from,
+                          pir_feature *ret_face) {
+    const pir_polytope *p = view->body;
+    uint32_t across[2] = {0, 0}, count = 0, vertex = from.vertex;
+    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++) {
+        int slope = h == from.across ? 0 : pir_slope(exact, normal, view, h);
+        if (slope > 0)
+            return false;
+        if (slope == 0 && count < 2)
+            across[count++] = h;
+    }
+    *ret_face = face_across(view, vertex, across, count);
+    return true;
 }
 
 pir_feature pir_exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t vertex) {
@@ -215,6 +273,26 @@ bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
     return pir_facet_of_faces(exact, &normal, faces, ret_facet);
 }
 
+bool pir_facet_prove(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
+    const pir_frame *frame = exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    pir_normal normal;
+    pir_witness faces = {{PIR_FEATURE_FACET, piece.first}, {PIR_FEATURE_FACET, piece.second}};
+    struct from a = {0, NO_HALF}, b = {0, NO_HALF};
+    if (!make_normal(exact, piece, &normal))
+        return false;
+    pir_piece_corner(frame, piece, &a.vertex, &b.vertex);
+    if (piece.kind == PIR_FACET_EE) {
+        a.across = p->edge_half[piece.first];
+        b.across = piece.second;
+    }
+    pir_view of_p = pir_view_of(frame, &normal, false), of_q = pir_view_of(frame, &normal, true);
+    bool by_p = piece.kind == PIR_FACET_FV && !p->artificial, by_q = piece.kind == PIR_FACET_VF && !q->artificial;
+    return (by_p || prove_exposed(exact, &normal, &of_p, a, &faces.p)) &&
+           (by_q || prove_exposed(exact, &normal, &of_q, b, &faces.q)) &&
+           pir_facet_of_faces(exact, &normal, faces, ret_facet);
+}
+
 /* --- order --- */
 
 static bool same_feature(pir_feature a, pir_feature b) {
@@ -250,10 +328,72 @@ double pir_facet_slack(pir_exact *exact, const pir_placement *placement, const p
     return pir_real_double(pir_real_times(pir_real_over(pir_real_of(&dot), length), pir_exact_unit(exact)));
 }
 
+/* --- planes across an axis --- */
+
+static bool is_power_of_two(const pir_int *a) {
+    return pir_int_sign(a) > 0 && pir_int_trailing_zeros(a) + 1 == pir_int_bits(a);
+}
+
+/* Component k of a vertex, where it is a double exactly. */
+static bool exact_component(const pir_polytope *p, uint32_t vertex, int k, double *ret_c) {
+    pir_int3 v = pir_vertex_exact(p, vertex);
+    const pir_vec3 d = p->vertex[vertex];
+    *ret_c = k == 0 ? d.x : k == 1 ? d.y : d.z;
+    if (v.c[k].size == 0)
+        return true;
+    return is_power_of_two(&p->scale.num) && is_power_of_two(&p->scale.den) && fabs(*ret_c) > 0x1p-900 &&
+           pir_int_bits(&v.c[k]) - pir_int_trailing_zeros(&v.c[k]) <= 53;
+}
+
+/* The axis that a facet's normal is along, where the rotation turns about it or half round across it. */
+static bool axis_of(const pir_exact *exact, const pir_facet *facet, int *ret_k, int *ret_turned) {
+    const pir_frame *frame = exact->frame;
+    bool by_p = facet->piece.kind == PIR_FACET_FV;
+    if (exact->world || exact->rotation->relative || facet->piece.kind == PIR_FACET_EE)
+        return false;
+    pir_int3 n = by_p ? pir_normal_exact(frame->p.polytope, facet->piece.first)
+                      : pir_normal_exact(frame->q.polytope, facet->piece.second);
+    uint32_t along = occupied(&n);
+    int k = along == 1 ? 0 : along == 2 ? 1 : along == 4 ? 2 : -1;
+    if (k < 0 || occupied_row(exact->rotation, k) != along)
+        return false;
+    const pir_quat q = exact->rotation->given;
+    const double c[3] = {q.x, q.y, q.z};
+    // row k of M is zero but for its diagonal entry, which is |q|² or −|q|²
+    *ret_k = k;
+    *ret_turned = c[k] == 0 && q.w == 0 ? -1 : 1;
+    return true;
+}
+
+/*
+ * The exact sign of the slack from one coordinate: that of bodies which stand on one another. The slack is then
+ * ±(±p + q − t), three doubles. False where that is not so, or rounding leaves it open.
+ */
+static bool side_along_axis(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
+                            int *ret_sign) {
+    int k, turned;
+    double p, q;
+    if (!axis_of(exact, facet, &k, &turned) || !exact_component(exact->frame->p.polytope, facet->a, k, &p) ||
+        !exact_component(exact->frame->q.polytope, facet->b, k, &q))
+        return false;
+    const double t[3] = {placement->translation.x, placement->translation.y, placement->translation.z};
+    const double n[3] = {facet->n.x, facet->n.y, facet->n.z};
+    pir_dd first = pir_dd_two_sum(turned * p, q), second = pir_dd_two_sum(first.hi, -t[k]);
+    pir_dd rest = pir_dd_two_sum(first.lo, second.lo), whole = pir_dd_two_sum(second.hi, rest.hi);
+    if (!(fabs(whole.hi) < 0x1p1000) || (whole.hi != 0 && fabs(whole.hi) <= 4 * (fabs(whole.lo) + fabs(rest.lo))) ||
+        (whole.hi == 0 && rest.lo != 0))
+        return false;
+    *ret_sign = ((whole.hi > 0) - (whole.hi < 0)) * (n[k] > 0 ? 1 : -1);
+    return true;
+}
+
 int pir_facet_side(pir_exact *exact, const pir_placement *placement, const pir_facet *facet) {
     double slack = facet->h - pir_vec_dot(facet->n, placement->x);
     if (fabs(slack) > placement->error * facet->err)
         return (slack > 0) - (slack < 0);
+    int along;
+    if (side_along_axis(exact, placement, facet, &along))
+        return along;
     pir_exact_begin(exact, placement->translation);
     uint32_t mark = exact->scratch.used;
     pir_int3 n = pir_exact_normal(exact, facet->piece), corner = pir_exact_corner(exact, facet->a, facet->b);
@@ -286,19 +426,22 @@ int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pi
     return order;
 }
 
-void pir_least_offer(pir_exact *exact, const pir_placement *placement, pir_least *least, pir_piece piece) {
-    pir_facet facet;
-    if (!pir_facet_of(exact, piece, &facet))
-        return;
+void pir_least_offer_facet(pir_exact *exact, const pir_placement *placement, pir_least *least, const pir_facet *facet) {
     int order = -1;
     if (least->some) {
-        if (pir_facet_same(&facet, &least->facet))
+        if (pir_facet_same(facet, &least->facet))
             return;
-        order = pir_facet_compare(exact, placement, &facet, &least->facet);
+        order = pir_facet_compare(exact, placement, facet, &least->facet);
         if (order == 0)
-            order = pir_facet_before(&facet, &least->facet) ? -1 : 1;
+            order = pir_facet_before(facet, &least->facet) ? -1 : 1;
     }
     if (order < 0)
-        least->facet = facet;
+        least->facet = *facet;
     least->some = true;
+}
+
+void pir_least_offer(pir_exact *exact, const pir_placement *placement, pir_least *least, pir_piece piece) {
+    pir_facet facet;
+    if (pir_facet_of(exact, piece, &facet))
+        pir_least_offer_facet(exact, placement, least, &facet);
 }

@@ -64,6 +64,12 @@ uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face);
 /* The true facet of a piece. False where the piece's plane holds no more than an edge of D. */
 bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet);
 
+/*
+ * The same for a piece of which nothing is known: proves that its corner is exposed by its normal, which makes it
+ * one of D. False where it is not.
+ */
+bool pir_facet_prove(pir_exact *exact, pir_piece piece, pir_facet *ret_facet);
+
 /* The true facet of two faces that a direction exposes. False as above. */
 bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet);
 
@@ -89,6 +95,9 @@ int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pi
  * tie.
  */
 void pir_least_offer(pir_exact *exact, const pir_placement *placement, pir_least *least, pir_piece piece);
+
+/* The same for a true facet. */
+void pir_least_offer_facet(pir_exact *exact, const pir_placement *placement, pir_least *least, const pir_facet *facet);
 
 static inline pir_normal pir_facet_normal(const pir_facet *facet) {
     return (pir_normal){facet->n, facet->err, facet->piece, NULL};

@@ -23,8 +23,8 @@ static double direction_error(double error, double distance) {
 
 /* --- answers from faces --- */
 
-static bool answer_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
-                         pir_nearest *ret_nearest) {
+bool pir_nearest_at_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
+                          pir_nearest *ret_nearest) {
     double slack = pir_facet_slack(exact, placement, facet);
     if (!pir_touch_facet(exact, placement, facet, slack, NULL, &ret_nearest->touch))
         return false;
@@ -165,7 +165,7 @@ static bool line_is_nearest(const pir_frame *frame, const pir_placement *placeme
 static bool facet_is_nearest(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                              pir_nearest *ret_nearest) {
     double slack = facet->h - pir_vec_dot(facet->n, placement->x);
-    return slack < -placement->error * facet->err && answer_facet(exact, placement, facet, ret_nearest);
+    return slack < -placement->error * facet->err && pir_nearest_at_facet(exact, placement, facet, ret_nearest);
 }
 
 bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_witness faces, const pir_piece *piece,
@@ -185,6 +185,6 @@ bool pir_nearest_find(pir_exact *exact, const pir_placement *placement, const pi
     bool flat;
     if (!pir_nearest_faces(exact, placement, simplex, &faces, &facet, &flat, steps))
         return false;
-    return flat ? answer_facet(exact, placement, &facet, ret_nearest)
+    return flat ? pir_nearest_at_facet(exact, placement, &facet, ret_nearest)
                 : answer_line(exact, placement, faces, ret_nearest);
 }

@@ -29,6 +29,13 @@ bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_wit
                        pir_nearest *ret_nearest);
 
 /*
+ * The nearest point where it is the foot of x on a facet of D that separates; false where the foot is beside the
+ * facet.
+ */
+bool pir_nearest_at_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
+                          pir_nearest *ret_nearest);
+
+/*
  * The nearest point by integers, from any simplex of at least one vertex, given that x is outside of D. False after
  * MOST_STEPS steps.
  */

@@ -141,13 +141,14 @@ static uint32_t longer(uint32_t a, uint32_t b) {
  *
  * Their sum is below what is returned.
  */
-static uint32_t limbs_needed(const pir_polytope *p, const pir_polytope *q) {
+uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q) {
     const uint32_t a = pir_int_length(&p->scale.num), b = pir_int_length(&p->scale.den),
                    c = pir_int_length(&q->scale.num), d = pir_int_length(&q->scale.den),
                    shift = 1074 / GMP_NUMB_BITS + 2;
-    uint32_t of_p = a + d + shift + PIR_MATRIX_LIMBS + 1 + p->exact_vertex.stride,
-             of_q = PIR_MATRIX_LIMBS + c + b + shift + q->exact_vertex.stride,
-             of_t = PIR_MATRIX_LIMBS + b + d + PIR_QUAT_LIMBS;
+    // with Q's rotation: its norm, its matrix, and the carries of three products
+    uint32_t of_p = a + d + shift + 2 * PIR_MATRIX_LIMBS + 1 + p->exact_vertex.stride,
+             of_q = 2 * PIR_MATRIX_LIMBS + c + b + shift + q->exact_vertex.stride,
+             of_t = 2 * PIR_MATRIX_LIMBS + b + d + PIR_QUAT_LIMBS + 3;
     uint32_t w = longer(of_p, longer(of_q, of_t)) + 3;
     uint32_t e = longer(PIR_MATRIX_LIMBS + p->exact_edge.stride, q->exact_edge.stride) + 2;
     uint32_t n = longer(PIR_MATRIX_LIMBS + p->exact_normal.stride + 2,
@@ -156,7 +157,10 @@ static uint32_t limbs_needed(const pir_polytope *p, const pir_polytope *q) {
 }
 
 bool pir_exact_reserve(pir_exact *exact, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q) {
-    uint32_t need = limbs_needed(p, q);
+    return pir_exact_reserve_limbs(exact, allocator, pir_exact_limbs(p, q));
+}
+
+bool pir_exact_reserve_limbs(pir_exact *exact, const pir_allocator *allocator, uint32_t need) {
     exact->made = false;
     if (exact->scratch.base && need <= exact->scratch.capacity)
         return true;
@@ -190,6 +194,34 @@ static bool same(pir_vec3 a, pir_vec3 b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+/* T in units of 2^*ret_exponent, and N'. */
+static void set_translation(pir_exact *exact, pir_vec3 translation, int *ret_exponent) {
+    const pir_world *world = exact->world;
+    exact->one = 1;
+    exact->norm_q = (pir_int){&exact->one, 1, 0};
+    if (!world) {
+        exact->t = pir_exact_vector(exact, translation, ret_exponent);
+        return;
+    }
+    pir_vec3 to = world->translation_p, from = world->translation_q;
+    pir_rotation_make_exact(world->rotation_q);
+    exact->norm_q = world->rotation_q->norm;
+    int e = low_bit_of(to) < low_bit_of(from) ? low_bit_of(to) : low_bit_of(from);
+    exact->t = pir_int3_take(&exact->scratch, PIR_QUAT_LIMBS + PIR_MATRIX_LIMBS + 3);
+    uint32_t mark = exact->scratch.used;
+    pir_int3 difference = pir_int3_take(&exact->scratch, PIR_QUAT_LIMBS + 1);
+    const double p[3] = {to.x, to.y, to.z}, q[3] = {from.x, from.y, from.z};
+    for (int k = 0; k < 3; k++) {
+        pir_int of_q = pir_limbs_take(&exact->scratch, PIR_QUAT_LIMBS);
+        pir_int_set_double(&difference.c[k], p[k], e);
+        pir_int_set_double(&of_q, q[k], e);
+        pir_int_sub(&difference.c[k], &difference.c[k], &of_q);
+    }
+    pir_rotation_apply_transposed(world->rotation_q, &exact->t, &difference, &exact->scratch);
+    exact->scratch.used = mark;
+    *ret_exponent = e;
+}
+
 void pir_exact_begin(pir_exact *exact, pir_vec3 translation) {
     if (exact->made && same(exact->translation, translation))
         return;
@@ -197,22 +229,21 @@ void pir_exact_begin(pir_exact *exact, pir_vec3 translation) {
     const pir_scale *sp = &exact->frame->p.polytope->scale, *sq = &exact->frame->q.polytope->scale;
     pir_rotation *rotation = exact->rotation;
     pir_rotation_make_exact(rotation);
-    mp_limb_t one_limb = 1;
-    pir_int one = {&one_limb, 1, 0};
     exact->scratch.used = 0;
     exact->translation = translation;
     int exponent;
-    exact->t = pir_exact_vector(exact, translation, &exponent);
+    set_translation(exact, translation, &exponent);
     exact->i = (uint32_t)-exponent;
-    exact->p = product(exact, &sp->num, &sq->den, &one, exact->i);
-    exact->q = product(exact, &rotation->norm, &sq->num, &sp->den, exact->i);
+    pir_int norm = pir_exact_product(exact, &rotation->norm, &exact->norm_q);
+    exact->p = product(exact, &sp->num, &sq->den, &exact->norm_q, exact->i);
+    exact->q = product(exact, &norm, &sq->num, &sp->den, exact->i);
     exact->k = product(exact, &rotation->norm, &sp->den, &sq->den, 0);
     exact->mark = exact->scratch.used;
     exact->made = true;
 }
 
 pir_real pir_exact_unit(const pir_exact *exact) {
-    pir_real k = pir_real_of(&exact->k);
+    pir_real k = pir_real_times(pir_real_of(&exact->k), pir_real_of(&exact->norm_q));
     return pir_real_over((pir_real){0.5, 1 - (int)exact->i - exact->frame->exponent}, k);
 }
 

@@ -7,9 +7,10 @@
  *
  *     W(p, q) = a·d·2^i · M p  +  N·c·b·2^i · q  −  N·b·d · T,
  *
- * a vector of three integers. Every sign that a query asks for is the sign of a polynomial in such vectors, in edge
- * vectors and in normals. Nothing here allocates: `scratch` is a stack that pir_exact_reserve makes as large as the
- * longest of these polynomials needs.
+ * a vector of three integers. Where Q is posed in the world too, with R' = M'/N', t is M'ᵀT·2^−i / N' with T the
+ * difference of the translations, and W is N' times as large. Every sign that a query asks for is the sign of a
+ * polynomial in such vectors, in edge vectors and in normals. Nothing here allocates: `scratch` is a stack that
+ * pir_exact_reserve makes as large as the longest of these polynomials needs.
  */
 #ifndef PIR_QUERY_DECIDE_PLACED_H
 #define PIR_QUERY_DECIDE_PLACED_H
@@ -20,13 +21,16 @@
 typedef struct pir_exact {
     const pir_frame *frame;
     pir_rotation *rotation; /* the rotation of the frame; its integers are made on demand */
+    const pir_world *world; /* where Q does not stand at the identity; else NULL, and the translation given is P's */
     pir_limbs scratch;
 
     bool made;
     pir_vec3 translation;
     pir_int p, q, k; /* a·d·2^i, N·c·b·2^i, N·b·d */
     uint32_t i;
-    pir_int3 t;    /* T */
+    pir_int3 t;     /* T */
+    pir_int norm_q; /* 1, or |q|² of Q's rotation */
+    mp_limb_t one;
     uint32_t mark; /* where free scratch begins */
 } pir_exact;
 
@@ -53,6 +57,10 @@ pir_real pir_exact_length(pir_exact *exact, const pir_int3 *v);
  */
 bool pir_exact_reserve(pir_exact *exact, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q);
 void pir_exact_finish(pir_exact *exact, const pir_allocator *allocator);
+
+/* The limbs of scratch that two operands need, and the same reservation when they are known. */
+uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q);
+bool pir_exact_reserve_limbs(pir_exact *exact, const pir_allocator *allocator, uint32_t limbs);
 
 /* Makes the integers of a translation, unless they are there already. No scratch may be in use. */
 void pir_exact_begin(pir_exact *exact, pir_vec3 translation);

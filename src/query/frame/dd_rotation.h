@@ -5,7 +5,7 @@
 
 #include "query/frame/dd.h"
 
-/* The rows of R = M(q)/|q|², each entry off by a few 2^-104. */
-void pir_dd_rotation(pir_quat q, pir_dd3 row[3]);
+/* The rows of R = M(q)/|q|², each entry off by a few 2^-104, for the quaternion q + rest. */
+void pir_dd_rotation(pir_quat q, pir_quat rest, pir_dd3 row[3]);
 
 #endif

@@ -43,8 +43,7 @@ static double from_first(const pir_polytope *p, uint32_t v, int k, mp_limb_t *ro
     return scaled(&difference, &p->scale, ret_exponent);
 }
 
-/* The greatest exponent of any difference from vertex 0; INT_MIN for a point. */
-static int top_exponent(const pir_polytope *p, mp_limb_t *room) {
+int pir_body_exponent(const pir_polytope *p, mp_limb_t *room) {
     int top = INT_MIN;
     for (uint32_t v = 1; v < p->vertex_count; v++)
         for (int k = 0; k < 3; k++) {
@@ -157,25 +156,35 @@ static int exponent_of_points(pir_vec3 p, pir_vec3 q) {
     return abs(e) > 300 ? e : 0;
 }
 
+int pir_frame_exponent(int exponent_p, int exponent_q, const pir_polytope *p, const pir_polytope *q) {
+    int exponent = exponent_p > exponent_q ? exponent_p : exponent_q;
+    return exponent == INT_MIN ? exponent_of_points(p->vertex[0], q->vertex[0]) : exponent;
+}
+
+void pir_frame_set_exponent(pir_frame *frame, int exponent) {
+    // within these bounds both powers are normal numbers
+    bool normal = exponent > -1000 && exponent < 1000;
+    frame->exponent = exponent;
+    frame->up = normal ? ldexp(1, exponent) : 0;
+    frame->down = normal ? ldexp(1, -exponent) : 0;
+}
+
+pir_status pir_body_fill(pir_body *body, int exponent, mp_limb_t *room) {
+    if (!place_body(body, exponent, room))
+        return PIR_ERR_LIMIT;
+    pir_landmarks_set(body->polytope, body->landmarks);
+    set_offsets(body);
+    return PIR_OK;
+}
+
 pir_status pir_frame_fill(pir_frame *frame, const pir_polytope *p, const pir_polytope *q, mp_limb_t *room) {
     frame->is_set = false;
     frame->p.polytope = p;
     frame->q.polytope = q;
-    int top_p = top_exponent(p, room), top_q = top_exponent(q, room);
-    frame->exponent = top_p > top_q ? top_p : top_q;
-    if (frame->exponent == INT_MIN)
-        frame->exponent = exponent_of_points(p->vertex[0], q->vertex[0]);
-    // within these bounds both powers are normal numbers
-    bool normal = frame->exponent > -1000 && frame->exponent < 1000;
-    frame->up = normal ? ldexp(1, frame->exponent) : 0;
-    frame->down = normal ? ldexp(1, -frame->exponent) : 0;
-    if (!place_body(&frame->p, frame->exponent, room) || !place_body(&frame->q, frame->exponent, room))
-        return PIR_ERR_LIMIT;
-    pir_landmarks_set(p, frame->p.landmarks);
-    pir_landmarks_set(q, frame->q.landmarks);
-    set_offsets(&frame->p);
-    set_offsets(&frame->q);
-    return PIR_OK;
+    int exponent = pir_frame_exponent(pir_body_exponent(p, room), pir_body_exponent(q, room), p, q);
+    pir_frame_set_exponent(frame, exponent);
+    pir_status status = pir_body_fill(&frame->p, exponent, room);
+    return status == PIR_OK ? pir_body_fill(&frame->q, exponent, room) : status;
 }
 
 /* --- the rotation --- */
@@ -201,7 +210,7 @@ static void set_offset(pir_frame *frame) {
         return;
     }
     pir_dd3 row[3];
-    pir_dd_rotation(frame->given, row);
+    pir_dd_rotation(frame->given, frame->rest, row);
     for (int i = 0; i < 3; i++) {
         pir_dd sum = frame->q.centre.c[i];
         for (int j = 0; j < 3; j++)
@@ -211,30 +220,64 @@ static void set_offset(pir_frame *frame) {
 }
 
 bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation) {
-    if (frame->is_set && same(rotation->given, frame->given))
+    // a relative rotation has more than its doubles
+    if (frame->is_set && !rotation->relative && same(rotation->given, frame->given))
         return false;
     frame->is_set = true;
     frame->given = rotation->given;
     frame->unit = rotation->unit;
+    frame->rest = rotation->rest;
     frame->r = rotation->r;
     set_offset(frame);
     return true;
 }
 
+/* A translation in units of the frame. */
+static pir_vec3 in_units(const pir_frame *frame, pir_vec3 t) {
+    if (frame->down != 0)
+        return pir_vec_scale(t, frame->down);
+    return (pir_vec3){ldexp(t.x, -frame->exponent), ldexp(t.y, -frame->exponent), ldexp(t.z, -frame->exponent)};
+}
+
+static bool is_near(pir_vec3 t) {
+    return fabs(t.x) < FARTHEST && fabs(t.y) < FARTHEST && fabs(t.z) < FARTHEST;
+}
+
+/* What follows from x, for translations of so much. */
+static void set_reach(const pir_frame *frame, double far, pir_placement *placement) {
+    placement->reach = frame->p.size + frame->q.size + sqrt(pir_vec_dot(placement->x, placement->x));
+    placement->error = PIR_SLACK_BOUND * placement->reach + FAR_ERROR * (far + frame->p.far + frame->q.far);
+}
+
 pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_placement *ret_placement) {
     if (!pir_vec_is_finite(translation))
         return PIR_ERR_NOT_FINITE;
-    pir_vec3 t = pir_vec_scale(translation, frame->down);
-    if (frame->down == 0)
-        t = (pir_vec3){ldexp(translation.x, -frame->exponent), ldexp(translation.y, -frame->exponent),
-                       ldexp(translation.z, -frame->exponent)};
-    if (!(fabs(t.x) < FARTHEST && fabs(t.y) < FARTHEST && fabs(t.z) < FARTHEST))
+    pir_vec3 t = in_units(frame, translation);
+    if (!is_near(t))
         return PIR_ERR_LIMIT;
     ret_placement->translation = translation;
     ret_placement->x = pir_dd3_round(pir_dd3_add_vec(pir_dd3_negate(frame->offset), t));
-    ret_placement->reach = frame->p.size + frame->q.size + sqrt(pir_vec_dot(ret_placement->x, ret_placement->x));
-    double far = taxicab(t) + frame->p.far + frame->q.far;
-    ret_placement->error = PIR_SLACK_BOUND * ret_placement->reach + FAR_ERROR * far;
+    set_reach(frame, taxicab(t), ret_placement);
+    return PIR_OK;
+}
+
+pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *world, pir_placement *ret_placement) {
+    if (!pir_vec_is_finite(world->translation_p) || !pir_vec_is_finite(world->translation_q))
+        return PIR_ERR_NOT_FINITE;
+    if (pir_world_is_plain(world))
+        return pir_frame_place(frame, world->translation_p, ret_placement);
+    pir_vec3 to = in_units(frame, world->translation_p), from = in_units(frame, world->translation_q);
+    if (!is_near(to) || !is_near(from))
+        return PIR_ERR_LIMIT;
+    pir_dd3 row[3], t = {{pir_dd_two_sum(to.x, -from.x), pir_dd_two_sum(to.y, -from.y), pir_dd_two_sum(to.z, -from.z)}};
+    pir_dd_rotation(world->rotation_q->given, (pir_quat){0, 0, 0, 0}, row);
+    pir_dd3 x = pir_dd3_negate(frame->offset);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            x.c[i] = pir_dd_add(x.c[i], pir_dd_mul(row[j].c[i], t.c[j]));
+    ret_placement->translation = world->translation_p;
+    ret_placement->x = pir_dd3_round(x);
+    set_reach(frame, taxicab(to) + taxicab(from), ret_placement);
     return PIR_OK;
 }
 

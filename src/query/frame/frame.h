@@ -55,6 +55,7 @@ typedef struct pir_frame {
     /* the rotation that the frame is at */
     bool is_set;
     pir_quat given, unit; /* as the caller gave it, and of length 1 */
+    pir_quat rest;        /* what `given` leaves: see exact/rotation.h */
     pir_mat3 r;
     pir_dd3 offset; /* x = translation / 2^exponent − offset */
 } pir_frame;
@@ -66,6 +67,19 @@ typedef struct pir_placement {
     double reach; /* size_p + size_q + |x| */
     double error; /* bound on the error of a slack at x, for a plane whose err is 1 */
 } pir_placement;
+
+/* Where both bodies stand: P's translation, and Q's place. */
+typedef struct pir_world {
+    pir_vec3 translation_p, translation_q;
+    pir_rotation *rotation_q; /* its integers are made on demand */
+} pir_world;
+
+/* Whether Q is at the origin, not turned. */
+static inline bool pir_world_is_plain(const pir_world *world) {
+    pir_quat q = world->rotation_q->given;
+    pir_vec3 t = world->translation_q;
+    return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 1 && t.x == 0 && t.y == 0 && t.z == 0;
+}
 
 /*
  * Makes the memory for two operands, which are borrowed. False when out of memory; pir_frame_finish then frees what
@@ -81,11 +95,29 @@ void pir_frame_finish(pir_frame *frame, const pir_allocator *allocator);
  */
 pir_status pir_frame_fill(pir_frame *frame, const pir_polytope *p, const pir_polytope *q, mp_limb_t *room);
 
+/* The exponent of the greatest difference of two coordinates; INT_MIN for a point. `room` as above. */
+int pir_body_exponent(const pir_polytope *polytope, mp_limb_t *room);
+
+/* The exponent of the frame of two operands with these. */
+int pir_frame_exponent(int exponent_p, int exponent_q, const pir_polytope *p, const pir_polytope *q);
+
+/* Fills in a body whose polytope and arrays are set. `room` and errors as above. */
+pir_status pir_body_fill(pir_body *body, int exponent, mp_limb_t *room);
+
+/* Sets the unit. */
+void pir_frame_set_exponent(pir_frame *frame, int exponent);
+
 /* Sets the rotation. False where the frame has it already. */
 bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation);
 
 /* Checks a translation and converts it: PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT. */
 pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_placement *ret_placement);
+
+/*
+ * The same for a body Q that stands in the world with a rotation and a translation: P's translation as Q sees it.
+ * Where Q is at the identity it is the same to the bit.
+ */
+pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *world, pir_placement *ret_placement);
 
 /* A point y in the frame of Q's body, relative to Q's middle, in world coordinates. */
 pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y);

@@ -20,12 +20,13 @@ struct nearest {
     double weight[3];
     pir_vec3 v;
     double square;
+    bool encloses; /* four points have the origin within, as rounding tells */
 };
 
 static void take_point(const pir_vec3 *w, uint32_t a, struct nearest *best) {
     double square = pir_vec_dot(w[a], w[a]);
     if (square < best->square)
-        *best = (struct nearest){1, {a, 0, 0}, {1, 0, 0}, w[a], square};
+        *best = (struct nearest){1, {a, 0, 0}, {1, 0, 0}, w[a], square, false};
 }
 
 /* The inside of the segment a–b. Its ends are tried as points. */
@@ -39,7 +40,7 @@ static void take_segment(const pir_vec3 *w, uint32_t a, uint32_t b, struct neare
     pir_vec3 v = t <= 0.5 ? pir_vec_add(w[a], pir_vec_scale(e, t)) : pir_vec_sub(w[b], pir_vec_scale(e, 1 - t));
     double square = pir_vec_dot(v, v);
     if (square < best->square)
-        *best = (struct nearest){2, {a, b, 0}, {1 - t, t, 0}, v, square};
+        *best = (struct nearest){2, {a, b, 0}, {1 - t, t, 0}, v, square, false};
 }
 
 /*
@@ -56,7 +57,7 @@ static inline void take_inside(const pir_vec3 *w, const uint32_t index[3], const
     double square = pir_vec_dot(v, v), by = 1 / (share[0] + share[1] + share[2]);
     if (square < best->square * (1 + 0x1p-20))
         *best = (struct nearest){
-            3, {index[0], index[1], index[2]}, {share[0] * by, share[1] * by, share[2] * by}, v, square};
+            3, {index[0], index[1], index[2]}, {share[0] * by, share[1] * by, share[2] * by}, v, square, false};
 }
 
 /*
@@ -143,8 +144,9 @@ static bool reach_triangle(const pir_vec3 *w, uint32_t a, uint32_t b, uint32_t c
 static bool reach_tetrahedron(const pir_vec3 *w, struct nearest *best) {
     pir_vec3 c0 = pir_vec_cross(w[3], w[0]), c1 = pir_vec_cross(w[3], w[1]), c2 = pir_vec_cross(w[3], w[2]);
     double d0 = -pir_vec_dot(w[2], c1), d1 = -pir_vec_dot(w[0], c2), d2 = -pir_vec_dot(w[1], c0);
-    double whole = pir_vec_dot(w[0], pir_vec_cross(w[1], w[2])) + d0 + d1 + d2;
+    double d3 = pir_vec_dot(w[0], pir_vec_cross(w[1], w[2])), whole = d3 + d0 + d1 + d2;
     bool sees = false;
+    best->encloses = d0 * whole > 0 && d1 * whole > 0 && d2 * whole > 0 && d3 * whole > 0;
     if (d2 * whole < 0)
         sees = reach_triangle(w, 0, 1, 3, best);
     if (d1 * whole < 0)
@@ -157,6 +159,7 @@ static bool reach_tetrahedron(const pir_vec3 *w, struct nearest *best) {
 /* As find_nearest. False where the points are not in general position. */
 static bool reach_nearest(const pir_vec3 *w, uint32_t count, struct nearest *best) {
     best->square = HUGE_VAL;
+    best->encloses = false;
     if (count == 4)
         return reach_tetrahedron(w, best);
     if (count == 3)
@@ -236,7 +239,11 @@ void pir_descend_to_point(const pir_frame *frame, const pir_placement *placement
     uint32_t n = simplex->count;
     double square = HUGE_VAL;
     for (uint32_t step = 0; step < PIR_MOST_STEPS; step++) {
-        if (!reach_nearest(w, n, &best) || !(best.square < square))
+        simplex->tried = n;
+        bool reached = reach_nearest(w, n, &best);
+        if (best.encloses)
+            return;
+        if (!reached || !(best.square < square))
             find_nearest(w, n, &best);
         double length = sqrt(best.square);
         if (!(length < simplex->upper) || length == 0)

@@ -24,6 +24,7 @@ typedef struct pir_simplex {
     pir_vec3 direction;  /* unit, from D to x */
     double upper, lower; /* bounds on the distance */
     bool certain;        /* the bounds met */
+    uint32_t tried;      /* vertices at the end, those past the count being new; four where x may be in their hull */
 } pir_simplex;
 
 /*

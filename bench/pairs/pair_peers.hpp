@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What is measured on pairs: ours, and the engines that the build found.
+#ifndef PIR_BENCH_PAIR_PEERS_HPP
+#define PIR_BENCH_PAIR_PEERS_HPP
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "scene.hpp"
+
+class PairPeer {
+  public:
+    virtual ~PairPeer() = default;
+    virtual const char *name() const = 0;
+
+    // Forgets what it keeps from frame to frame.
+    virtual void forget() = 0;
+
+    // Places P and answers: the signed distance, or that of the deepest contact; HUGE_VAL for none.
+    virtual double ask(const Pose &pose) = 0;
+
+    // Whether it stops at 2 % of the size and gives contacts.
+    virtual bool has_manifold() const {
+        return false;
+    }
+};
+
+std::unique_ptr<PairPeer> make_coal(const pir_polytope *p, const pir_polytope *q, bool warm);
+
+// Null for hulls that it does not take.
+std::unique_ptr<PairPeer> make_box3d(const pir_polytope *p, const pir_polytope *q);
+
+#endif

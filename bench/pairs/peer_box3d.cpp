@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// box3d: b3CollideHulls with a kept cache, in floats, with a manifold; hulls of at most 128 edges.
+#include <box3d/box3d.h>
+#include <box3d/collision.h>
+
+#include "pair_peers.hpp"
+
+namespace {
+
+b3HullData *hull(const pir_polytope *p) {
+    std::vector<b3Vec3> points;
+    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {
+        pir_vec3 c = pir_polytope_vertex(p, v);
+        points.push_back({(float)c.x, (float)c.y, (float)c.z});
+    }
+    return b3CreateHull(points.data(), (int)points.size(), (int)points.size());
+}
+
+class Box3d : public PairPeer {
+  public:
+    Box3d(const pir_polytope *p, const pir_polytope *q) : p_(hull(p)), q_(hull(q)) {
+        forget();
+    }
+    ~Box3d() override {
+        b3DestroyHull(p_);
+        b3DestroyHull(q_);
+    }
+    const char *name() const override {
+        return "box3d manifold";
+    }
+    bool is_fit() const {
+        return p_ && q_;
+    }
+    bool has_manifold() const override {
+        return true;
+    }
+    void forget() override {
+        cache_ = {};
+    }
+    double ask(const Pose &pose) override {
+        b3Transform at;
+        at.p = {(float)pose.t.x, (float)pose.t.y, (float)pose.t.z};
+        at.q.v = {(float)pose.r.x, (float)pose.r.y, (float)pose.r.z};
+        at.q.s = (float)pose.r.w;
+        b3LocalManifoldPoint points[32];
+        b3LocalManifold manifold = {};
+        manifold.points = points;
+        b3CollideHulls(&manifold, 32, q_, p_, at, &cache_);
+        double least = HUGE_VAL;
+        for (int i = 0; i < manifold.pointCount; i++)
+            least = points[i].separation < least ? points[i].separation : least;
+        return least;
+    }
+
+  private:
+    b3HullData *p_, *q_;
+    b3SATCache cache_;
+};
+
+} // namespace
+
+std::unique_ptr<PairPeer> make_box3d(const pir_polytope *p, const pir_polytope *q) {
+    if (pir_polytope_edge_count(p) > 128 || pir_polytope_edge_count(q) > 128)
+        return nullptr;
+    auto peer = std::make_unique<Box3d>(p, q);
+    return peer->is_fit() ? std::move(peer) : nullptr;
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Pairs by need: two polytopes, both posed in the world, and the answers of placement queries without a sum.
+ *
+ * A pair keeps what its last answer needed, in levels:
+ *
+ *   - apart: the distance that was proven and the pose that it was proven at. While the motion since cannot have
+ *     used up that distance, a query with a cutoff looks at neither body.
+ *   - near: the vertices that hold the closest points. Distance is found by descent on supports (Gilbert, Johnson and
+ *     Keerthi, IEEE J. Robotics and Automation 4(2), 1988), which begins there.
+ *   - overlapping: a closed surface of triangles in the difference of the bodies, about the origin, expanded where its
+ *     least distance is not yet proven to be the depth (after van den Bergen, Game Developers Conference, 2001).
+ *   - whole: the difference itself (sum.h), in the workspace, for what the others leave open.
+ *
+ * An answer does not depend on the level. It is that of query.h: the state is exact for the very doubles given, witness
+ * and ties are decided exactly, and numbers have the same bits whichever way they were found. Where Q's rotation is
+ * (0, 0, 0, 1) and its translation 0, they are those of a query on a sum made with options.difference = 1.
+ *
+ * Frame: points and directions are in the world. `normal` points from Q to P. With Q turned, numbers and points are
+ * within 1e-12 of the exact ones, relative to the size of the bodies and of the coordinates.
+ *
+ * Memory: a pair is one block, and a second one from its first deep overlap on. Scratch is in a pir_workspace, which is
+ * given to each call and grows to what the largest pair needs; afterwards no call allocates, but those that take the
+ * level `whole` for other bodies than the call before.
+ *
+ * Threads: a pair and a workspace belong to one thread at a time. Polytopes may be shared.
+ */
+#ifndef PIROUETTE_PAIR_H
+#define PIROUETTE_PAIR_H
+
+#include <pirouette/base.h>
+#include <pirouette/polytope.h>
+#include <pirouette/query.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pir_pair pir_pair;
+typedef struct pir_workspace pir_workspace;
+
+/** Scratch for the pairs of one thread. `allocator` may be NULL. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY. */
+PIR_API pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **ret_workspace);
+
+/** Frees; NULL is accepted. */
+PIR_API void pir_workspace_destroy(pir_workspace *workspace);
+
+/** How an answer was found. */
+typedef enum pir_level {
+    PIR_LEVEL_NONE = 0,    /**< nothing has been asked yet */
+    PIR_LEVEL_APART,       /**< by the distance of an earlier answer and the motion since */
+    PIR_LEVEL_NEAR,        /**< by descent on supports, or by the facet of the answer before */
+    PIR_LEVEL_OVERLAPPING, /**< by a surface inside the difference */
+    PIR_LEVEL_WHOLE,       /**< by the difference */
+} pir_level;
+
+typedef struct pir_pair_options {
+    const pir_allocator *allocator; /**< or NULL: malloc's */
+    /**
+     * The levels that may be used: those from `least` to `most`. PIR_LEVEL_WHOLE for both answers all by the
+     * difference. Where `most` is below what an answer needs, the call is PIR_ERR_UNSUPPORTED. PIR_LEVEL_NONE for
+     * `least` is no bound.
+     */
+    pir_level least, most;
+} pir_pair_options;
+
+/** malloc's memory, all levels. */
+PIR_API pir_pair_options pir_pair_options_default(void);
+
+/**
+ * A pair of P and Q, to which it takes references. What depends on one body alone is made once and stays with that
+ * polytope, O(its size); after that O(1). `options` may be NULL. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY,
+ * PIR_ERR_LIMIT (a body farther from its origin than 2^400 times the size of both).
+ */
+PIR_API pir_status pir_pair_create(pir_polytope *p, pir_polytope *q, const pir_pair_options *options,
+                                   pir_pair **ret_pair);
+
+/** Frees, and gives its references back; NULL is accepted. */
+PIR_API void pir_pair_destroy(pir_pair *pair);
+
+/**
+ * Begins anew with other bodies, in the memory that is there: for pairs that come and go. Where both polytopes have
+ * been in a pair with bodies of this size before, it allocates nothing. Errors as pir_pair_create; the pair is then
+ * as it was.
+ */
+PIR_API pir_status pir_pair_reset(pir_pair *pair, pir_polytope *p, pir_polytope *q);
+
+/** A body's place in the world: a vertex v stands at R·v + translation. */
+typedef struct pir_pose {
+    pir_quat rotation; /**< of any length but 0 */
+    pir_vec3 translation;
+} pir_pose;
+
+typedef struct pir_pair_input {
+    pir_pose pose_p, pose_q;
+    double radius_p, radius_q; /**< rounding radii, cutoff and margin as in pir_query_input */
+    double cutoff, margin;
+} pir_pair_input;
+
+/** Both bodies at the origin, not turned; no radii, no cutoff, no margin. */
+PIR_API pir_pair_input pir_pair_input_default(void);
+
+/*
+ * The queries of query.h by the same names; their comments hold here. O(steps of the descent) when warm, O(√n) of
+ * them when cold; O(n log n) with the level `whole`. Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE,
+ * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a translation beyond 2^400 times the size of the bodies, or quaternions
+ * whose components span more than 2^1000), PIR_ERR_MEMORY (the workspace has to grow and cannot),
+ * PIR_ERR_UNSUPPORTED (see pir_pair_options.most).
+ */
+
+/** The exact state, without numbers. */
+PIR_API pir_status pir_pair_overlap(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                    pir_query_result *ret_result);
+
+/** The separation. */
+PIR_API pir_status pir_pair_distance(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                     pir_query_result *ret_result);
+
+/** The penetration depth. */
+PIR_API pir_status pir_pair_penetration(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                        pir_query_result *ret_result);
+
+/** Separation where separated, penetration where overlapping. */
+PIR_API pir_status pir_pair_signed_distance(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                            pir_query_result *ret_result);
+
+/** The contact manifold of `answer`, that of pir_pair_signed_distance with the same input; as pir_query_manifold. */
+PIR_API pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                     const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
+                                     size_t *ret_count);
+
+/** How the last answer was found. */
+PIR_API pir_level pir_pair_level(const pir_pair *pair);
+
+/** What a pair has done since it was made, or reset. */
+typedef struct pir_pair_statistics {
+    uint64_t queries;
+    uint64_t by_certificate; /**< answers at the level `apart` */
+    uint64_t by_facet;       /**< answers by the facet of the one before */
+    uint64_t by_descent;     /**< other answers at the level `near` */
+    uint64_t by_surface;     /**< answers at the level `overlapping` */
+    uint64_t by_whole;       /**< answers at the level `whole` */
+    uint64_t supports;       /**< vertices added to surfaces */
+    uint64_t begun;          /**< surfaces begun anew */
+} pir_pair_statistics;
+
+PIR_API pir_pair_statistics pir_pair_get_statistics(const pir_pair *pair);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

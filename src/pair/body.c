@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT */
+/* What pairs keep of a polytope: see body.h. */
+#include "pair/body.h"
+
+#include <limits.h>
+
+/* Kinds of what is attachment. */
+static const char a_size, a_body;
+
+struct size {
+    pir_attachment attachment;
+    int exponent;
+};
+
+static void destroy_size(pir_attachment *attachment, const pir_allocator *a) {
+    struct size *size = (struct size *)attachment;
+    PIR_FREE(a, size, 1);
+}
+
+static void destroy_body(pir_attachment *attachment, const pir_allocator *a) {
+    pir_pair_body *body = (pir_pair_body *)attachment;
+    PIR_FREE(a, body->body.vertex, body->body.polytope->vertex_count);
+    PIR_FREE(a, body->body.offset, body->body.polytope->facet_count);
+    PIR_FREE(a, body, 1);
+}
+
+/* Limbs for a vertex and one more. */
+static mp_limb_t *room_new(const pir_polytope *p) {
+    return PIR_NEW(&p->allocator, mp_limb_t, (size_t)p->exact_vertex.stride + 1);
+}
+
+static void room_free(const pir_polytope *p, mp_limb_t *room) {
+    PIR_FREE(&p->allocator, room, (size_t)p->exact_vertex.stride + 1);
+}
+
+pir_status pir_pair_exponent(pir_polytope *p, int *ret_exponent) {
+    pir_attachment *attachment = pir_polytope_attachment(p, &a_size, 0);
+    if (!attachment) {
+        struct size *made = PIR_ZEROED(&p->allocator, struct size, 1);
+        mp_limb_t *room = room_new(p);
+        if (!made || !room) {
+            room_free(p, room);
+            PIR_FREE(&p->allocator, made, 1);
+            return PIR_ERR_MEMORY;
+        }
+        made->attachment = (pir_attachment){.kind = &a_size, .destroy = destroy_size};
+        made->exponent = pir_body_exponent(p, room);
+        room_free(p, room);
+        attachment = pir_polytope_attach(p, &made->attachment);
+    }
+    *ret_exponent = ((struct size *)attachment)->exponent;
+    return PIR_OK;
+}
+
+/* The mean of the vertices, each counted by a weight of its own. */
+static pir_vec3 inner_of(const pir_body *body) {
+    pir_vec3 sum = {0, 0, 0};
+    double all = 0, weight = 0.5;
+    for (uint32_t v = 0; v < body->polytope->vertex_count; v++) {
+        // multiples of the golden ratio spread evenly
+        weight += 0.6180339887498949;
+        weight -= weight >= 1.5 ? 1 : 0;
+        sum = pir_vec_add(sum, pir_vec_scale(body->vertex[v], weight));
+        all += weight;
+    }
+    return pir_vec_scale(sum, 1 / all);
+}
+
+static pir_status make_body(pir_polytope *p, int exponent, pir_pair_body **ret_body) {
+    const pir_allocator *a = &p->allocator;
+    pir_pair_body *made = PIR_ZEROED(a, pir_pair_body, 1);
+    if (!made)
+        return PIR_ERR_MEMORY;
+    made->attachment = (pir_attachment){.kind = &a_body, .key = exponent, .destroy = destroy_body};
+    made->body.polytope = p;
+    made->body.vertex = PIR_NEW(a, pir_vec3, p->vertex_count);
+    made->body.offset = PIR_NEW(a, double, p->facet_count);
+    mp_limb_t *room = room_new(p);
+    pir_status status = PIR_ERR_MEMORY;
+    if (made->body.vertex && made->body.offset && room)
+        status = pir_body_fill(&made->body, exponent, room);
+    room_free(p, room);
+    if (status != PIR_OK) {
+        destroy_body(&made->attachment, a);
+        return status;
+    }
+    made->inner = inner_of(&made->body);
+    *ret_body = made;
+    return PIR_OK;
+}
+
+pir_status pir_pair_body_of(pir_polytope *p, int exponent, const pir_pair_body **ret_body) {
+    pir_attachment *attachment = pir_polytope_attachment(p, &a_body, exponent);
+    if (!attachment) {
+        pir_pair_body *made = NULL;
+        pir_status status = make_body(p, exponent, &made);
+        if (status != PIR_OK)
+            return status;
+        attachment = pir_polytope_attach(p, &made->attachment);
+    }
+    *ret_body = (const pir_pair_body *)attachment;
+    return PIR_OK;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/* The least slack from the foot of x: see foot.h. */
+#include "pair/foot.h"
+
+/* What a distance in the plane of F is off by, in units of the placement's error and the facet's: see touch.c. */
+#define MARGIN_ERRORS 16
+
+/* Faces with more vertices are not looked at. */
+#define MOST_VERTICES 32
+
+/* A face as it stands in D: its vertices in order, and the unit vectors from each to the next; an edge has two. */
+struct face {
+    uint32_t count;
+    pir_vec3 at[MOST_VERTICES], along[MOST_VERTICES];
+};
+
+/* One vertex of it, with the halfedge that leads on from there. */
+static void put_vertex(const pir_body *body, const pir_mat3 *r, uint32_t vertex, uint32_t half, struct face *face) {
+    pir_vec3 at = body->vertex[vertex], along = {0, 0, 0};
+    if (half != UINT32_MAX)
+        along = body->polytope->direction[half];
+    face->at[face->count] = r ? pir_mat_apply(r, at) : at;
+    face->along[face->count++] = r ? pir_mat_apply(r, along) : along;
+}
+
+/* A face of P, turned by r, or of Q, r being NULL; false where it has too many vertices. */
+static bool make_face(const pir_body *body, const pir_mat3 *r, pir_feature feature, struct face *face) {
+    const pir_polytope *p = body->polytope;
+    face->count = 0;
+    if (feature.kind == PIR_FEATURE_VERTEX) {
+        put_vertex(body, r, feature.index, UINT32_MAX, face);
+    } else if (feature.kind == PIR_FEATURE_EDGE) {
+        uint32_t half = p->edge_half[feature.index];
+        put_vertex(body, r, p->origin[half], half, face);
+        put_vertex(body, r, p->target[half], p->twin[half], face);
+    } else {
+        uint32_t start = p->loop_start[feature.index], end = p->loop_start[feature.index + 1];
+        if (end - start > MOST_VERTICES)
+            return false;
+        for (uint32_t i = start; i < end; i++)
+            put_vertex(body, r, p->origin[p->loop[i]], p->loop[i], face);
+    }
+    return true;
+}
+
+/* How far y is within the sides of F that are along those of `face`: `other` is the other body's. */
+static double margin_along(const struct face *face, const struct face *other, pir_vec3 n, pir_vec3 y) {
+    double margin = HUGE_VAL;
+    for (uint32_t i = 0; face->count > 1 && i < face->count; i++) {
+        pir_vec3 in = pir_vec_cross(n, face->along[i]);
+        double least = HUGE_VAL;
+        for (uint32_t k = 0; k < other->count; k++)
+            least = fmin(least, pir_vec_dot(in, other->at[k]));
+        margin = fmin(margin, pir_vec_dot(in, pir_vec_sub(y, face->at[i])) - least);
+    }
+    return margin;
+}
+
+/*
+ * The distance of y from the rim of F; negative outside, or where it is not known. F is the sum of two faces, so
+ * each of its sides is along a side of one of them and through the vertex of the other that is farthest across it.
+ */
+static double margin_of(const pir_frame *frame, const pir_facet *facet, pir_vec3 y) {
+    struct face p, q;
+    if (!make_face(&frame->p, &frame->r, facet->faces.p, &p) || !make_face(&frame->q, NULL, facet->faces.q, &q))
+        return -1;
+    return fmin(margin_along(&p, &q, facet->n, y), margin_along(&q, &p, facet->n, y));
+}
+
+/* How far below F a vertex of D on the other side is. */
+static double depth_below(const pir_frame *frame, const pir_facet *facet) {
+    pir_vec3 back = pir_vec_scale(facet->n, -1), turned = pir_mat_apply_transposed(&frame->r, back);
+    uint32_t a = frame->p.landmarks[pir_landmark_of(turned)], b = frame->q.landmarks[pir_landmark_of(back)];
+    return facet->h - pir_vec_dot(facet->n, pir_frame_vertex(frame, a, b));
+}
+
+bool pir_foot_settles(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack) {
+    const pir_frame *frame = exact->frame;
+    if (frame->p.polytope->artificial || frame->q.polytope->artificial)
+        return false;
+    double off = placement->error * facet->err, most = fmax(slack, 0) + off, reach = 2 * placement->reach;
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
+    double below = depth_below(frame, facet) - 2 * off, margin = HUGE_VAL;
+    if (below <= 2 * most || (margin = margin_of(frame, facet, y) - MARGIN_ERRORS * off) <= 4 * most)
+        return false;
+    double sine = 2 * most / margin * (1 + 0x1p-40);
+    return (below - most) * (1 - sine) - reach * sine > 2 * most;
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Overlap from a surface in D (inner_surface.h), proven at one placement.
+ *
+ * Where the surface about x is certain, x is inside of D. The true facets of D that triangles of the surface lie in are
+ * proven by exact slopes (facet.h), and compared exactly. The search ends when each triangle either lies in a
+ * proven facet or is farther from x, for certain, than the least of these: then that is the least of all facets of
+ * D, and every facet that ties with it is among those that were compared.
+ */
+#ifndef PIR_PAIR_OVERLAP_H
+#define PIR_PAIR_OVERLAP_H
+
+#include "pair/pair.h"
+
+typedef struct pir_overlap {
+    pir_exact *exact;
+    const pir_placement *placement;
+    pir_surface *surface;
+    pir_surface_room *room;
+    pir_pair_statistics *statistics;
+} pir_overlap;
+
+/* Places the surface about x. True where it is certain: x then is inside. */
+bool pir_overlap_place(const pir_overlap *overlap);
+
+/* Makes a surface about x from the simplex of a descent; false where that has no certain tetrahedron about x. */
+bool pir_overlap_begin(const pir_overlap *overlap, const pir_simplex *simplex);
+
+/*
+ * Makes a surface about x from one about `inner`, a point inside of D. Where it meets a facet of D that x is within
+ * rounding of, or beyond, *ret_piece is that facet, and *ret_some is set. False where no surface about x came of it.
+ */
+bool pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet, bool *ret_some);
+
+/*
+ * The true facet of least slack, and the first in order of those that tie, from a surface about x; false where it
+ * is left open.
+ */
+bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet);
+
+/* The vertices of P and Q at the corners of the triangle that is least far from x. */
+void pir_overlap_nearest(const pir_overlap *overlap, uint32_t a[3], uint32_t b[3]);
+
+#endif

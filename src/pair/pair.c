@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT */
+/* The life of pairs and workspaces. */
+#include "pair/pair.h"
+
+/* --- workspaces --- */
+
+pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **ret_workspace) {
+    if (!ret_workspace)
+        return PIR_ERR_ARGUMENT;
+    const pir_allocator a = pir_allocator_or_default(allocator);
+    pir_workspace *workspace = PIR_ZEROED(&a, pir_workspace, 1);
+    if (!workspace)
+        return PIR_ERR_MEMORY;
+    workspace->allocator = a;
+    workspace->exact.frame = &workspace->frame;
+    workspace->exact.rotation = &workspace->rotation;
+    workspace->world.rotation_q = &workspace->rotation_q;
+    *ret_workspace = workspace;
+    return PIR_OK;
+}
+
+void pir_workspace_destroy(pir_workspace *workspace) {
+    if (!workspace)
+        return;
+    const pir_allocator a = workspace->allocator;
+    pir_exact_finish(&workspace->exact, &a);
+    pir_patch_room_finish(&workspace->patches, &a, workspace->patch_p, workspace->patch_q);
+    pir_query_destroy(workspace->query);
+    pir_sum_destroy(workspace->sum);
+    PIR_FREE(&a, workspace, 1);
+}
+
+/* --- pairs --- */
+
+pir_pair_options pir_pair_options_default(void) {
+    return (pir_pair_options){NULL, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
+}
+
+/* What a pair needs to know of its bodies. */
+static pir_status find_bodies(pir_polytope *p, pir_polytope *q, pir_pair *pair) {
+    pir_polytope *reflected;
+    int of_p, of_q;
+    pir_status status = pir_polytope_reflect(p, &reflected);
+    if (status != PIR_OK)
+        return status;
+    // p holds it
+    pir_polytope_release(reflected);
+    status = pir_pair_exponent(reflected, &of_p);
+    if (status == PIR_OK)
+        status = pir_pair_exponent(q, &of_q);
+    if (status != PIR_OK)
+        return status;
+    pir_frame frame;
+    pair->exponent = pir_frame_exponent(of_p, of_q, reflected, q);
+    pir_frame_set_exponent(&frame, pair->exponent);
+    pair->up = frame.up;
+    pair->down = frame.down;
+    pair->limbs = pir_exact_limbs(reflected, q);
+    status = pir_pair_body_of(reflected, pair->exponent, &pair->body_p);
+    return status == PIR_OK ? pir_pair_body_of(q, pair->exponent, &pair->body_q) : status;
+}
+
+static bool are_levels(pir_level least, pir_level most) {
+    return least >= PIR_LEVEL_NONE && most >= PIR_LEVEL_APART && most <= PIR_LEVEL_WHOLE && least <= most;
+}
+
+pir_status pir_pair_create(pir_polytope *p, pir_polytope *q, const pir_pair_options *options, pir_pair **ret_pair) {
+    const pir_pair_options used = options ? *options : pir_pair_options_default();
+    if (!p || !q || !ret_pair || !are_levels(used.least, used.most))
+        return PIR_ERR_ARGUMENT;
+    const pir_allocator a = pir_allocator_or_default(used.allocator);
+    pir_pair *pair = PIR_ZEROED(&a, pir_pair, 1);
+    if (!pair)
+        return PIR_ERR_MEMORY;
+    pair->allocator = a;
+    pair->least = (uint8_t)used.least;
+    pair->most = (uint8_t)used.most;
+    pir_status status = find_bodies(p, q, pair);
+    if (status != PIR_OK) {
+        PIR_FREE(&a, pair, 1);
+        return status;
+    }
+    pair->p = pir_polytope_retain(p);
+    pair->q = pir_polytope_retain(q);
+    *ret_pair = pair;
+    return PIR_OK;
+}
+
+void pir_pair_destroy(pir_pair *pair) {
+    if (!pair)
+        return;
+    const pir_allocator a = pair->allocator;
+    PIR_FREE(&a, pair->surface, 1);
+    pir_polytope_release(pair->p);
+    pir_polytope_release(pair->q);
+    PIR_FREE(&a, pair, 1);
+}
+
+pir_status pir_pair_reset(pir_pair *pair, pir_polytope *p, pir_polytope *q) {
+    if (!pair || !p || !q)
+        return PIR_ERR_ARGUMENT;
+    pir_pair fresh = {.allocator = pair->allocator, .least = pair->least, .most = pair->most, .surface = pair->surface};
+    pir_status status = find_bodies(p, q, &fresh);
+    if (status != PIR_OK)
+        return status;
+    fresh.p = pir_polytope_retain(p);
+    fresh.q = pir_polytope_retain(q);
+    pir_polytope_release(pair->p);
+    pir_polytope_release(pair->q);
+    if (fresh.surface)
+        fresh.surface->count = 0;
+    *pair = fresh;
+    return PIR_OK;
+}
+
+/* --- reading --- */
+
+pir_level pir_pair_level(const pir_pair *pair) {
+    return (pir_level)pair->level;
+}
+
+pir_pair_statistics pir_pair_get_statistics(const pir_pair *pair) {
+    return pair->statistics;
+}

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The inside of a pair and of a workspace.
+ *
+ * A pair holds what persists: the bodies, and hints from which the next answer starts. Hints are never believed: an
+ * answer follows from proofs at its own placement, so it has the same bits whatever the hints were.
+ *
+ * The one exception is the proven distance `apart`, with the place that it was proven at: D moved since by no more than
+ * the way of x and the turn times the size of P, so the distance is at least what is left.
+ */
+#ifndef PIR_PAIR_PAIR_H
+#define PIR_PAIR_PAIR_H
+
+#include <pirouette/pair.h>
+
+#include "pair/body.h"
+#include "pair/inner_surface.h"
+#include "query/contact/patch.h"
+#include "query/decide/nearest.h"
+
+struct pir_pair {
+    pir_allocator allocator;
+    pir_polytope *p, *q;                  /* as the caller gave them; referenced */
+    const pir_pair_body *body_p, *body_q; /* of P reflected, and of Q; they belong to p and q */
+    int exponent;                         /* one unit of the frame is 2^exponent */
+    double up, down;                      /* as in pir_frame */
+    uint32_t limbs;                       /* that exact signs need */
+    uint8_t least, most, level;           /* pir_level */
+
+    /* hints */
+    bool has_facet, deep; /* the facet below; the surface */
+    uint8_t points;       /* of the simplex below */
+    uint32_t a[3], b[3];
+    pir_piece facet;      /* of the last answer; its corner may have changed */
+    pir_surface *surface; /* made when first needed; used where `deep` */
+
+    /* a proof: x had at least this distance from D at this place; 0 where there is none */
+    double apart;
+    pir_vec3 at;
+    pir_quat turned;
+
+    pir_pair_statistics statistics;
+};
+
+struct pir_workspace {
+    pir_allocator allocator;
+    pir_frame frame;
+    pir_rotation rotation;   /* of P relative to Q */
+    pir_rotation rotation_q; /* of Q, where `posed` */
+    bool posed, has_rotation_q;
+    pir_world world;
+    pir_exact exact;
+    pir_surface_room room;
+    pir_surface spare; /* where a pair has none */
+    pir_patch_room patches;
+    size_t patch_p, patch_q; /* for bodies of so many vertices */
+
+    /* the level `whole`: for the bodies of the pair that took it last */
+    pir_sum *sum;
+    pir_query *query;
+};
+
+/* --- begin.c --- */
+
+/* What every call begins with: checks, the frame at the relative pose, the placement. */
+pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                          pir_placement *ret_placement);
+
+/* A point in Q's frame, and a result, brought to the world. */
+pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y);
+void pir_pair_to_world(const pir_workspace *workspace, pir_query_result *result);
+
+/* --- whole.c --- */
+
+/* The answer of the whole difference, in Q's frame; `want` as in query/answer/result.h. PIR_ERR_MEMORY. */
+pir_status pir_pair_whole(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want,
+                          pir_query_result *result);
+
+#endif

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/* Contact manifolds of pairs: those of query/answer/manifold.h, brought to Q's frame and back. */
+#include "query/answer/manifold.h"
+
+#include "pair/pair.h"
+
+/* Room for the patches of both bodies; it never shrinks. */
+static bool reserve(pir_workspace *workspace, size_t of_p, size_t of_q) {
+    const pir_allocator *a = &workspace->allocator;
+    if (of_p <= workspace->patch_p && of_q <= workspace->patch_q)
+        return true;
+    of_p = of_p > workspace->patch_p ? of_p : workspace->patch_p;
+    of_q = of_q > workspace->patch_q ? of_q : workspace->patch_q;
+    pir_patch_room room = {.shared = NULL};
+    if (!pir_patch_room_init(&room, a, of_p, of_q)) {
+        pir_patch_room_finish(&room, a, of_p, of_q);
+        return false;
+    }
+    pir_patch_room_finish(&workspace->patches, a, workspace->patch_p, workspace->patch_q);
+    workspace->patches = room;
+    workspace->patch_p = of_p;
+    workspace->patch_q = of_q;
+    return true;
+}
+
+static pir_vec3 from_world(const pir_workspace *workspace, pir_vec3 point) {
+    return pir_mat_apply_transposed(&workspace->rotation_q.r, pir_vec_sub(point, workspace->world.translation_q));
+}
+
+/* An answer in the world as Q sees it. */
+static pir_query_result seen_by_q(const pir_workspace *workspace, const pir_query_result *answer) {
+    pir_query_result seen = *answer;
+    if (workspace->posed) {
+        seen.normal = pir_mat_apply_transposed(&workspace->rotation_q.r, answer->normal);
+        seen.point_p = from_world(workspace, answer->point_p);
+        seen.point_q = from_world(workspace, answer->point_q);
+    }
+    return seen;
+}
+
+pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                             const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
+                             size_t *ret_count) {
+    pir_placement placement;
+    if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_pair_begin(pair, workspace, input, &placement);
+    if (status != PIR_OK)
+        return status;
+    if (!reserve(workspace, pair->p->vertex_count, pair->q->vertex_count))
+        return PIR_ERR_MEMORY;
+    pir_query_result seen = seen_by_q(workspace, answer);
+    pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .margin = input->margin};
+    pir_manifold_ask ask = {&asked, &seen, capacity};
+    status = pir_manifold_find(&workspace->frame, &placement, &workspace->patches, &ask, ret_contacts, ret_count);
+    if ((status != PIR_OK && status != PIR_ERR_LIMIT) || !workspace->posed)
+        return status;
+    for (size_t i = 0; i < *ret_count && i < capacity; i++) {
+        pir_contact *contact = &ret_contacts[i];
+        contact->point_q = pir_pair_point_to_world(workspace, contact->point_q);
+        contact->point_p = pir_vec_add(contact->point_q, pir_vec_scale(answer->normal, contact->distance));
+        if (i == 0) {
+            contact->point_p = answer->point_p;
+            contact->point_q = answer->point_q;
+        }
+    }
+    return status;
+}

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What a query writes down, from the facet or the faces that decide it. The numbers depend on these, the bodies and
+ * the placement alone, so that every way of finding them gives the same bits.
+ */
+#ifndef PIR_QUERY_ANSWER_RESULT_H
+#define PIR_QUERY_ANSWER_RESULT_H
+
+#include "query/decide/nearest.h"
+
+/*
+ * Distances above this, relative to the placement's reach, are tried for a quick proof; nearer ones go to the exact
+ * search at once.
+ */
+#define PIR_CLEARLY_APART 0x1p-40
+
+/* Distances are known this well, relative to the placement's reach, however they are found. */
+#define PIR_DISTANCE_ERROR 0x1p-42
+
+/* What a call wants to know. */
+enum { PIR_WANT_SEPARATION = 1, PIR_WANT_DEPTH = 2 };
+
+void pir_result_clear(pir_query_result *result);
+void pir_result_set_state(pir_query_result *result, pir_state state);
+
+/* Where t lies on the boundary: `touching` is the first true facet that it is on. */
+void pir_result_touching(pir_exact *exact, const pir_placement *placement, const pir_least *touching,
+                         pir_query_result *result);
+
+void pir_result_separation(const pir_frame *frame, const pir_nearest *nearest, pir_query_result *result);
+void pir_result_beyond(pir_query_result *result);
+
+/* What a descent that found no nearest point leaves: the best so far. */
+void pir_result_unfinished(const pir_frame *frame, const pir_simplex *simplex, pir_query_result *result);
+
+/* `facet` is the one of least slack. */
+void pir_result_depth(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
+                      pir_query_result *result);
+
+/* Grows both bodies by their radii in an answer that knows the signed distance. */
+void pir_result_add_radii(const pir_query_input *input, pir_query_result *result);
+
+#endif

@@ -1,0 +1,422 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Pairs as callers use them: what they refuse, memory that fails, poses in the world, resets, levels that are forced or
+ * capped, no allocation once warm.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <pirouette/pair.h>
+
+#include "pair/inner_surface.h"
+#include "support/bodies.h"
+#include "support/memory.h"
+
+static pir_polytope *cube(double half) {
+    test_points points = {.count = 8};
+    for (int i = 0; i < 8; i++)
+        points.at[i] = (pir_vec3){i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half};
+    return test_polytope(&points);
+}
+
+typedef pir_status ask_pair(pir_pair *, pir_workspace *, const pir_pair_input *, pir_query_result *);
+static ask_pair *const calls[4] = {pir_pair_overlap, pir_pair_distance, pir_pair_penetration, pir_pair_signed_distance};
+
+static bool same_result(const pir_query_result *a, const pir_query_result *b) {
+    return a->state == b->state && a->outcome == b->outcome && memcmp(&a->distance, &b->distance, 8) == 0 &&
+           memcmp(&a->normal, &b->normal, 24) == 0 && memcmp(&a->point_p, &b->point_p, 24) == 0 &&
+           memcmp(&a->point_q, &b->point_q, 24) == 0 && a->witness.p.kind == b->witness.p.kind &&
+           a->witness.q.kind == b->witness.q.kind && a->witness.p.index == b->witness.p.index &&
+           a->witness.q.index == b->witness.q.index;
+}
+
+/* --- refusals --- */
+
+static void what_is_no_pair_is_refused(void **state) {
+    (void)state;
+    pir_polytope *p = cube(1);
+    pir_pair *pair = NULL;
+    pir_workspace *workspace;
+    pir_pair_options options = pir_pair_options_default();
+    assert_int_equal(pir_workspace_create(NULL, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(NULL, p, NULL, &pair), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_pair_create(p, NULL, NULL, &pair), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_pair_create(p, p, NULL, NULL), PIR_ERR_ARGUMENT);
+    options.least = PIR_LEVEL_WHOLE, options.most = PIR_LEVEL_NEAR;
+    assert_int_equal(pir_pair_create(p, p, &options, &pair), PIR_ERR_ARGUMENT);
+    options.least = PIR_LEVEL_NONE, options.most = (pir_level)17;
+    assert_int_equal(pir_pair_create(p, p, &options, &pair), PIR_ERR_ARGUMENT);
+    assert_null(pair);
+    assert_int_equal(pir_pair_create(p, p, NULL, &pair), PIR_OK);
+    assert_int_equal(pir_pair_level(pair), PIR_LEVEL_NONE);
+    assert_int_equal(pir_pair_reset(NULL, p, p), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_pair_reset(pair, p, NULL), PIR_ERR_ARGUMENT);
+    pir_pair_destroy(NULL);
+    pir_workspace_destroy(NULL);
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(p);
+}
+
+static void what_is_no_pose_is_refused_and_changes_nothing(void **state) {
+    (void)state;
+    struct {
+        pir_quat q;
+        pir_vec3 t;
+        double radius, cutoff;
+        pir_status status;
+    } const cases[] = {{{0, 0, 0, 0}, {0, 0, 0}, 0, 1, PIR_ERR_ZERO_QUATERNION},
+                       {{0, NAN, 0, 1}, {0, 0, 0}, 0, 1, PIR_ERR_NOT_FINITE},
+                       {{0, 0, 0, INFINITY}, {0, 0, 0}, 0, 1, PIR_ERR_NOT_FINITE},
+                       {{0, 0, 0, 1}, {0, NAN, 0}, 0, 1, PIR_ERR_NOT_FINITE},
+                       {{0, 0, 0, 1}, {0, 0, 1e300}, 0, 1, PIR_ERR_LIMIT},
+                       {{0, 0, 0, 1}, {0, 0, 0}, -1, 1, PIR_ERR_ARGUMENT},
+                       {{0, 0, 0, 1}, {0, 0, 0}, NAN, 1, PIR_ERR_NOT_FINITE},
+                       {{0, 0, 0, 1}, {0, 0, 0}, 0, NAN, PIR_ERR_NOT_FINITE}};
+    pir_polytope *p = cube(1);
+    pir_pair *pair;
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, p, NULL, &pair), PIR_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int of_q = 0; of_q < 2; of_q++)
+            for (int k = 0; k < 4; k++) {
+                pir_pair_input input = pir_pair_input_default();
+                *(of_q ? &input.pose_q : &input.pose_p) = (pir_pose){cases[i].q, cases[i].t};
+                *(of_q ? &input.radius_q : &input.radius_p) = cases[i].radius;
+                input.cutoff = cases[i].cutoff;
+                pir_query_result result, before;
+                memset(&result, 42, sizeof result);
+                before = result;
+                expect(calls[k](pair, workspace, &input, &result) == cases[i].status, "case %zu of %d, call %d", i,
+                       of_q, k);
+                assert_memory_equal(&result, &before, sizeof result);
+            }
+    // components that span more than 2^900 have no room beside another rotation
+    pir_pair_input input = pir_pair_input_default();
+    pir_query_result result;
+    input.pose_q.rotation = (pir_quat){1, 0, 0, 0x1p-1000};
+    assert_int_equal(pir_pair_overlap(pair, workspace, &input, &result), PIR_ERR_LIMIT);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(calls[k](pair, workspace, &input, NULL), PIR_ERR_ARGUMENT);
+        assert_int_equal(calls[k](pair, NULL, &input, &result), PIR_ERR_ARGUMENT);
+        assert_int_equal(calls[k](NULL, workspace, &input, &result), PIR_ERR_ARGUMENT);
+        assert_int_equal(calls[k](pair, workspace, NULL, &result), PIR_ERR_ARGUMENT);
+    }
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(p);
+}
+
+/* --- memory --- */
+
+/* A pair's life: poses apart, resting, deep, on an edge, with contacts. */
+static pir_status live(const pir_allocator *a, pir_polytope *p, pir_polytope *q, pir_query_result results[5]) {
+    static const pir_vec3 places[5] = {{5, 0.1, 0.2}, {0.1, 0.2, 2}, {0.3, 0.2, 0.4}, {2, 2, 0.25}, {1.5, 1.25, 1.75}};
+    pir_pair_options options = {a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
+    pir_workspace *workspace = NULL;
+    pir_pair *pair = NULL;
+    pir_status status = pir_workspace_create(a, &workspace);
+    if (status == PIR_OK)
+        status = pir_pair_create(p, q, &options, &pair);
+    for (int i = 0; i < 5 && status == PIR_OK; i++) {
+        pir_pair_input input = pir_pair_input_default();
+        input.pose_p = (pir_pose){{0, 0, 0, 1}, places[i]};
+        status = pir_pair_signed_distance(pair, workspace, &input, &results[i]);
+        pir_contact contacts[16];
+        size_t count;
+        if (status == PIR_OK)
+            status = pir_pair_manifold(pair, workspace, &input, &results[i], 16, contacts, &count);
+    }
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    return status;
+}
+
+static void memory_that_fails_at_any_request_is_told(void **state) {
+    (void)state;
+    for (uint64_t at = 1, done = 0; !done; at++) {
+        test_memory memory = {.fail_at = at};
+        pir_allocator a = test_allocator(&memory);
+        pir_polytope_options options = pir_polytope_options_default();
+        const pir_vec3 points[8] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
+                                    {-1, -1, 1},  {1, -1, 1},  {-1, 1, 1},  {1, 1, 1}};
+        pir_polytope *p = NULL;
+        pir_query_result results[5], expected[5];
+        options.allocator = &a;
+        pir_status status = pir_polytope_create(points, 8, &options, &p);
+        if (status == PIR_OK)
+            status = live(&a, p, p, results);
+        done = memory.requests < at;
+        // a surface that finds no memory costs time alone
+        assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && !done));
+        if (status == PIR_OK) {
+            pir_polytope *plain = cube(1);
+            assert_int_equal(live(NULL, plain, plain, expected), PIR_OK);
+            for (int i = 0; i < 5; i++)
+                expect(same_result(&results[i], &expected[i]), "request %llu, pose %d", (unsigned long long)at, i);
+            pir_polytope_release(plain);
+        }
+        pir_polytope_release(p);
+        expect(memory.blocks == 0 && !memory.wrong_size && !memory.overrun, "request %llu: %zu blocks are left",
+               (unsigned long long)at, memory.blocks);
+    }
+}
+
+static void no_call_allocates_once_warm(void **state) {
+    (void)state;
+    test_memory memory = {0};
+    pir_allocator a = test_allocator(&memory);
+    pir_pair_options options = {&a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
+    test_random random = test_random_case("warm pairs", 0);
+    pir_polytope *p = test_sphere(&random, 20), *q = test_sphere(&random, 24);
+    pir_workspace *workspace;
+    pir_pair *pair;
+    uint64_t warm = 0;
+    assert_int_equal(pir_workspace_create(&a, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, q, &options, &pair), PIR_OK);
+    for (int i = 0; i < 2000; i++) {
+        pir_pair_input input = pir_pair_input_default();
+        pir_vec3 d = test_random_direction(&random);
+        double far = i % 7 * 0.4;
+        pir_query_result result;
+        input.pose_p = (pir_pose){test_general_rotation(&random), {far * d.x, far * d.y, far * d.z}};
+        input.pose_q.rotation = test_general_rotation(&random);
+        assert_int_equal(calls[i % 4](pair, workspace, &input, &result), PIR_OK);
+        if (i == 200)
+            warm = memory.requests;
+        if (i % 50 == 49)
+            assert_int_equal(pir_pair_reset(pair, i % 100 == 99 ? p : q, q), PIR_OK);
+    }
+    assert_int_equal(memory.requests, warm);
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(p);
+    pir_polytope_release(q);
+    assert_int_equal(memory.blocks, 0);
+}
+
+/* --- poses in the world --- */
+
+static bool is_near(pir_vec3 a, pir_vec3 b, double error) {
+    return fabs(a.x - b.x) <= error && fabs(a.y - b.y) <= error && fabs(a.z - b.z) <= error;
+}
+
+/*
+ * Two bodies in one common turn are as before: the state exactly, what is told in the world turned along. Whatever the
+ * turn, faces that touch go on touching.
+ */
+static void a_common_turn_changes_no_state(void **state) {
+    (void)state;
+    pir_polytope *p = cube(1), *q = cube(0.5);
+    pir_workspace *workspace;
+    pir_pair *pair, *whole;
+    pir_pair_options options = pir_pair_options_default();
+    options.least = PIR_LEVEL_WHOLE;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, q, NULL, &pair), PIR_OK);
+    assert_int_equal(pir_pair_create(p, q, &options, &whole), PIR_OK);
+    uint32_t touching = 0;
+    for (uint64_t i = 0; i < 400; i++) {
+        test_random random = test_random_case("common turns", i);
+        // Q turned by a and P by a·r, r a turn that takes the axes to axes: exact for small integers
+        static const pir_quat turns[4] = {{0, 0, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}, {0, 1, 0, 0}};
+        pir_quat a = test_integer_rotation(&random), r = turns[i % 4];
+        // half steps: faces, edges and corners meet, or the bodies overlap or are apart; a translation along with a
+        // turn by quarters stays exact
+        pir_vec3 t = {test_random_between(&random, -4, 4) / 2.0, test_random_between(&random, -4, 4) / 2.0,
+                      test_random_between(&random, -4, 4) / 2.0};
+        if (i % 2)
+            a = turns[test_random_below(&random, 4)];
+        else
+            t = (pir_vec3){0, 0, 0};
+        pir_pair_input plain = pir_pair_input_default(), turned = plain;
+        plain.pose_p = (pir_pose){r, t};
+        turned.pose_q.rotation = a;
+        turned.pose_p.rotation = test_compose(a, r, 0);
+        pir_query_result expected, result, other;
+        // what a does to t, which is exact for quarter turns
+        double n = a.x * a.x + a.y * a.y + a.z * a.z + a.w * a.w,
+               m[3][3] = {{a.w * a.w + a.x * a.x - a.y * a.y - a.z * a.z, 2 * (a.x * a.y - a.w * a.z),
+                           2 * (a.x * a.z + a.w * a.y)},
+                          {2 * (a.x * a.y + a.w * a.z), a.w * a.w - a.x * a.x + a.y * a.y - a.z * a.z,
+                           2 * (a.y * a.z - a.w * a.x)},
+                          {2 * (a.x * a.z - a.w * a.y), 2 * (a.y * a.z + a.w * a.x),
+                           a.w * a.w - a.x * a.x - a.y * a.y + a.z * a.z}};
+        pir_vec3 at = {(m[0][0] * t.x + m[0][1] * t.y + m[0][2] * t.z) / n,
+                       (m[1][0] * t.x + m[1][1] * t.y + m[1][2] * t.z) / n,
+                       (m[2][0] * t.x + m[2][1] * t.y + m[2][2] * t.z) / n};
+        pir_vec3 origin = {i % 3 == 0 ? 0 : 3, -2, 8};
+        turned.pose_q.translation = origin;
+        turned.pose_p.translation = (pir_vec3){origin.x + at.x, origin.y + at.y, origin.z + at.z};
+        assert_int_equal(pir_pair_signed_distance(pair, workspace, &plain, &expected), PIR_OK);
+        assert_int_equal(pir_pair_signed_distance(pair, workspace, &turned, &result), PIR_OK);
+        assert_int_equal(pir_pair_signed_distance(whole, workspace, &turned, &other), PIR_OK);
+        expect(same_result(&result, &other), "turn %llu: levels %d and %d differ", (unsigned long long)i,
+               (int)pir_pair_level(pair), (int)pir_pair_level(whole));
+        expect(result.state == expected.state && result.witness.p.index == expected.witness.p.index &&
+                   result.witness.q.index == expected.witness.q.index &&
+                   fabs(result.distance - expected.distance) < 1e-13,
+               "turn %llu: state %d, not %d, distance %g, not %g", (unsigned long long)i, (int)result.state,
+               (int)expected.state, result.distance, expected.distance);
+        pir_vec3 w = {(m[0][0] * expected.point_q.x + m[0][1] * expected.point_q.y + m[0][2] * expected.point_q.z) / n,
+                      (m[1][0] * expected.point_q.x + m[1][1] * expected.point_q.y + m[1][2] * expected.point_q.z) / n,
+                      (m[2][0] * expected.point_q.x + m[2][1] * expected.point_q.y + m[2][2] * expected.point_q.z) / n};
+        w = (pir_vec3){w.x + origin.x, w.y + origin.y, w.z + origin.z};
+        expect(is_near(w, result.point_q, 1e-13), "turn %llu: point", (unsigned long long)i);
+        touching += result.state == PIR_BOUNDARY;
+    }
+    // a half of the poses with a translation have faces, edges or corners that meet
+    assert_true(touching > 20);
+    pir_pair_destroy(pair);
+    pir_pair_destroy(whole);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(p);
+    pir_polytope_release(q);
+}
+
+/* Poses of any kind: all levels agree with the whole difference, bit for bit. */
+static void posed_pairs_answer_alike_at_all_levels(void **state) {
+    (void)state;
+    pir_workspace *workspace;
+    pir_pair_options options = pir_pair_options_default();
+    options.least = PIR_LEVEL_WHOLE;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t i = 0; i < 60; i++) {
+        test_random random = test_random_case("posed pairs", i);
+        test_pose pose;
+        test_random_pose(&random, 12, &pose);
+        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
+        pir_pair *pair, *whole;
+        pir_status status = pir_pair_create(p, q, NULL, &pair);
+        if (status == PIR_OK) {
+            assert_int_equal(pir_pair_create(p, q, &options, &whole), PIR_OK);
+            pir_vec3 from = pir_polytope_vertex(p, 0), to = pir_polytope_vertex(q, 0);
+            for (int k = 0; k < 24; k++) {
+                pir_pair_input input = pir_pair_input_default();
+                pir_query_result result, expected;
+                double s = (k % 6) * 0.5;
+                input.pose_q.rotation = k % 3 ? test_integer_rotation(&random) : test_general_rotation(&random);
+                input.pose_p.rotation =
+                    k % 2 ? input.pose_q.rotation : test_compose(input.pose_q.rotation, pose.rotation, 0);
+                input.pose_q.translation = (pir_vec3){from.x, s, 1};
+                input.pose_p.translation = (pir_vec3){s * to.x, 0, from.z};
+                status = calls[k % 4](pair, workspace, &input, &result);
+                assert_int_equal(calls[k % 4](whole, workspace, &input, &expected), status);
+                expect(status != PIR_OK || same_result(&result, &expected), "case %llu (%s), pose %d, level %d",
+                       (unsigned long long)i, pose.situation, k, (int)pir_pair_level(pair));
+            }
+            pir_pair_destroy(pair);
+            pir_pair_destroy(whole);
+        }
+        pir_polytope_release(p);
+        pir_polytope_release(q);
+    }
+    pir_workspace_destroy(workspace);
+}
+
+/* --- levels --- */
+
+static void a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike(void **state) {
+    (void)state;
+    pir_polytope *p = cube(1);
+    pir_workspace *workspace;
+    pir_pair *capped, *forced;
+    pir_pair_options options = pir_pair_options_default();
+    pir_pair_input input = pir_pair_input_default();
+    pir_query_result result, expected;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    options.most = PIR_LEVEL_NEAR;
+    assert_int_equal(pir_pair_create(p, p, &options, &capped), PIR_OK);
+    options.least = options.most = PIR_LEVEL_WHOLE;
+    assert_int_equal(pir_pair_create(p, p, &options, &forced), PIR_OK);
+    // concentric: nothing below a surface tells
+    assert_int_equal(pir_pair_penetration(capped, workspace, &input, &result), PIR_ERR_UNSUPPORTED);
+    assert_int_equal(pir_pair_penetration(forced, workspace, &input, &expected), PIR_OK);
+    assert_int_equal(pir_pair_level(forced), PIR_LEVEL_WHOLE);
+    input.pose_p.translation = (pir_vec3){4, 0.25, 0.5};
+    assert_int_equal(pir_pair_distance(capped, workspace, &input, &result), PIR_OK);
+    assert_int_equal(pir_pair_distance(forced, workspace, &input, &expected), PIR_OK);
+    assert_true(same_result(&result, &expected) && result.distance == 2);
+    assert_int_equal(pir_pair_level(capped), PIR_LEVEL_NEAR);
+    // within a cutoff, the distance that was proven is enough
+    input.cutoff = 0.5;
+    for (int i = 0; i < 10; i++) {
+        input.pose_p.translation.x -= 0.0625;
+        assert_int_equal(pir_pair_distance(capped, workspace, &input, &result), PIR_OK);
+        assert_int_equal(result.outcome, PIR_BEYOND_CUTOFF);
+        assert_int_equal(pir_pair_level(capped), PIR_LEVEL_APART);
+    }
+    pir_pair_statistics statistics = pir_pair_get_statistics(capped);
+    assert_int_equal(statistics.by_certificate, 10);
+    assert_int_equal(statistics.queries, 12);
+    pir_pair_destroy(capped);
+    pir_pair_destroy(forced);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(p);
+}
+
+/* --- surfaces --- */
+
+static void a_surface_stays_closed_as_vertices_are_added(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 40; i++) {
+        test_random random = test_random_case("surfaces", i);
+        pir_surface surface;
+        pir_surface_begin(&surface, (const uint32_t[4]){0, 1, 2, 3}, (const uint32_t[4]){0, 0, 0, 0});
+        assert_true(pir_surface_is_valid(&surface));
+        // points of a sphere about the centre, as vertices of Q with P a point
+        pir_vec3 vertex[40] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, zero = {0, 0, 0};
+        pir_frame frame = {.r = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+        frame.q.vertex = &zero;
+        frame.p.vertex = vertex;
+        for (int k = 4; k < 40; k++) {
+            pir_vec3 d = test_random_direction(&random);
+            vertex[k] = (pir_vec3){2 * d.x, 2 * d.y, 2 * d.z};
+        }
+        pir_surface_room room;
+        uint32_t worst, added = 0;
+        bool certain = pir_surface_place(&surface, &frame, zero, 0x1p-46, 4, &room, &worst);
+        if (!certain) {
+            pir_surface_begin(&surface, (const uint32_t[4]){1, 0, 2, 3}, (const uint32_t[4]){0, 0, 0, 0});
+            certain = pir_surface_place(&surface, &frame, zero, 0x1p-46, 4, &room, &worst);
+        }
+        assert_true(certain);
+        for (uint32_t k = 4; k < 40; k++) {
+            uint32_t t = 0;
+            double most = -HUGE_VAL;
+            for (uint32_t each = 0; each < surface.count; each++) {
+                double over = room.nx[each] * vertex[k].x + room.ny[each] * vertex[k].y + room.nz[each] * vertex[k].z -
+                              room.det[each];
+                if (over > most)
+                    most = over, t = each;
+            }
+            added += pir_surface_add(&surface, &frame, t, k, 0, &room);
+            expect(pir_surface_is_valid(&surface), "case %llu, vertex %u", (unsigned long long)i, k);
+            for (uint32_t s = 0; s < surface.count; s++)
+                expect(room.low[s] > 0, "case %llu, vertex %u: triangle %u", (unsigned long long)i, k, s);
+        }
+        // what is on a sphere is beyond every surface within, as long as there is room
+        assert_true(added >= PIR_SURFACE_CORNERS - 4);
+    }
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_no_pair_is_refused),
+        cmocka_unit_test(what_is_no_pose_is_refused_and_changes_nothing),
+        cmocka_unit_test(memory_that_fails_at_any_request_is_told),
+        cmocka_unit_test(no_call_allocates_once_warm),
+        cmocka_unit_test(a_common_turn_changes_no_state),
+        cmocka_unit_test(posed_pairs_answer_alike_at_all_levels),
+        cmocka_unit_test(a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike),
+        cmocka_unit_test(a_surface_stays_closed_as_vertices_are_added),
+    };
+    return cmocka_run_group_tests_name("pairs in use", tests, NULL, NULL);
+}
