@@ -92,7 +92,7 @@ static int side_of_witness(const pir_cgm *cgm, uint32_t witness, pir_vec3 point)
     return side;
 }
 
-/* A point near the mesh: a vertex, a middle of two or three corners, a grid point, one a hair away from
+/* A point near the mesh: a vertex, a middle of two or three corners, a grid point, one off by rounding from
    any of these, or far off. */
 static pir_vec3 some_point(test_random *random, const pir_mesh *mesh) {
     const pir_vec3 *vertex = pir_mesh_vertices(mesh);

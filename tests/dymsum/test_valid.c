@@ -52,8 +52,8 @@ static void damage_edges(pir_sum *sum, uint32_t told[2]) {
     }
 }
 
-/* Makes a dormant edge of P active whose two facets are in no cell. */
-static void damage_dormant_edges(pir_sum *sum, uint32_t told[2]) {
+/* Makes a inactive edge of P active whose two facets are in no cell. */
+static void damage_inactive_edges(pir_sum *sum, uint32_t told[2]) {
     const pir_polytope *p = sum->tracked.pairing.p;
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t half = p->edge_half[e], stamp = sum->tracked.touched[e];
@@ -119,7 +119,7 @@ static void damage_is_seen(void **state) {
                 damage_crossings(&random, sum, told[1]);
                 damage_free_slots(sum, &told[1][SEEN]);
                 if (region)
-                    damage_edges(sum, told[2]), damage_dormant_edges(sum, told[3]);
+                    damage_edges(sum, told[2]), damage_inactive_edges(sum, told[3]);
                 assert_true(pir_sum_is_valid(sum));
             }
         pir_sum_destroy(sum);

@@ -10,10 +10,10 @@
 #include "query/contact/outline.h"
 #include "support/random.h"
 
-#define SNAP 1e-13
-#define HAIR 1e-15
-#define PART 1e-6
-#define MOST 64
+#define SNAP     1e-13
+#define ROUNDING 1e-15
+#define PART     1e-6
+#define MOST     64
 
 static const double pi = 3.14159265358979323846;
 
@@ -25,7 +25,7 @@ typedef struct points {
 static void put(points *to, test_random *random, double u, double v) {
     assert_true(to->count < MOST);
     to->at[to->count] = (pir_corner){
-        .u = u + HAIR * test_random_unit(random), .v = v + HAIR * test_random_unit(random), .p = to->count};
+        .u = u + ROUNDING * test_random_unit(random), .v = v + ROUNDING * test_random_unit(random), .p = to->count};
     to->count++;
 }
 

@@ -56,7 +56,7 @@ static void scene_clear(struct scene *s) {
     pir_polytope_release(s->p);
 }
 
-/* A cache that names any piece: one that the sum keeps, a dormant one, or none at all. */
+/* A cache that names any piece: one that the sum keeps, a inactive one, or none at all. */
 static pir_query_cache any_piece(test_random *random) {
     uint32_t most = test_random_below(random, 4) ? 40 : UINT32_MAX;
     return (pir_query_cache){.pieces = 1,

@@ -76,7 +76,7 @@ static bool is_nearest(double d, const mpq_t value) {
     return right;
 }
 
-/* value: a double of exponent `exponent`, or the middle of two, perhaps a hair more or less. */
+/* value: a double of exponent `exponent`, or the middle of two, perhaps slightly more or less. */
 static void draw(test_random *random, mpq_t value) {
     static const int ends[] = {-1080, -1075, -1074, -1073, -1050, -1022, -1021, 0, 1, 1022, 1023};
     uint32_t kind = test_random_below(random, 4);
@@ -96,12 +96,12 @@ static void draw(test_random *random, mpq_t value) {
     mpq_set_z(value, mantissa);
     int shift = exponent - (int)mpz_sizeinbase(mantissa, 2) + 1;
     shift >= 0 ? mpq_mul_2exp(value, value, (mp_bitcnt_t)shift) : mpq_div_2exp(value, value, (mp_bitcnt_t)-shift);
-    uint32_t hair = test_random_below(random, 3);
-    if (hair > 0) {
+    uint32_t nudge = test_random_below(random, 3);
+    if (nudge > 0) {
         mpq_t part;
         mpq_init(part);
         mpq_div_2exp(part, value, 60 + test_random_below(random, 200));
-        hair == 1 ? mpq_add(value, value, part) : mpq_sub(value, value, part);
+        nudge == 1 ? mpq_add(value, value, part) : mpq_sub(value, value, part);
         mpq_clear(part);
     }
     // of no power of two, too

@@ -2,10 +2,9 @@
 /*
  * The cost model. Work is counted in signs, most of which both methods ask for by rings of sides. On bodies of 6 to 960
  * facets a sign asked for in an update took 1.1 to 1.5 times as long as one in a walk, wherever the two methods were
- * close. Far from break-even the factor hardly matters. The work of an update is taken to be
- * proportional to the angle. That holds while few certificates expire, and overstates large angles, where a walk is
- * right anyway. Facets that return to their previous cells ask for no signs and count as no work, since a walk is never
- * right for them.
+ * close. Far from break-even the factor hardly matters. The work of an update is taken to be proportional to the angle.
+ * That holds while few certificates expire, and overstates large angles, where a walk is right anyway. Facets that
+ * return to their previous cells ask for no signs and count as no work, since a walk is never right for them.
  *
  * Where a region keeps a part of the features, the work of both is scaled up to all of them, so that another region
  * changes neither.
