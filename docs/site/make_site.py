@@ -147,9 +147,10 @@ class Site:
 
     # ---- the reference
 
-    def uses(self, name, here):
+    def uses(self, names, here):
+        called = re.compile(rf"\b(?:{'|'.join(names)})\b")
         links = [f'<a href="{self.relative(f"examples/{path.stem}.html", here)}">{path.name}</a>' for path in EXAMPLES
-                 if re.search(rf"\b{name}\b", path.read_text(encoding="utf-8"))]
+                 if called.search(path.read_text(encoding="utf-8"))]
         return f'<p class="uses">Used in {", ".join(links)}.</p>' if links else ""
 
     def write_header(self, header):
@@ -177,7 +178,7 @@ class Site:
                                for name, told in first.parameters if told or first.kind == "enum")
                 out.append(f"<dl>{rows}</dl>")
             out += [f'<p class="section">{title}</p>{body}' for title, body in first.sections.items()]
-            out += [self.uses(item.name, here) for item in block if item.kind == "function"][:1]
+            out.append(self.uses([item.name for item in block], here) if first.kind == "function" else "")
             out.append("</section>")
         self.write(here, header.name, self.linked("\n".join(out), here), headings)
 

@@ -8,6 +8,7 @@ Usage: test_site.py ROOT. Needs doxygen and Chromium; ends with 77, skipped, whe
 import html.parser
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -82,6 +83,22 @@ def check_pages(browser, site):
     return len(pages)
 
 
+def check_examples(site, headers):
+    """Every function that an example calls leads there; the number of those."""
+    count = 0
+    for header in headers:
+        page = (site / "api" / (header.name[:-2] + ".html")).read_text(encoding="utf-8")
+        sections = page.split('<section class="item">')
+        for example in sorted((ROOT / "examples").glob("*.c")):
+            text = example.read_text(encoding="utf-8")
+            for item in header.items:
+                if item.kind == "function" and re.search(rf"\b{item.name}\(", text):
+                    own = next(section for section in sections if f'id="{item.name}"' in section)
+                    assert f"examples/{example.stem}.html" in own, (item.name, example.name)
+                    count += 1
+    return count
+
+
 def check_search(browser, site):
     for start in ("index.html", "api/query.html"):
         for typed, expected in (("pir_sum_rotate", "/api/sum.html#pir_sum_rotate"),
@@ -153,6 +170,7 @@ def main():
                    for name in check_reference.declared(header.read_text(encoding="utf-8"))}
         told = {item.name for header in headers for item in header.items if item.kind == "function"}
         assert told == written, told ^ written
+        assert check_examples(site, headers) > 80
         browser = chromium.Chromium(chromium.find())
         try:
             pages = check_pages(browser, site)
