@@ -70,6 +70,18 @@ class Cgm(CommandTest):
         self.assertTrue(strokes["#d22f27"] and strokes["#2456c8"])
         # six edges of the tetrahedron, each in one to three maps
         self.assertTrue(6 <= strokes["#d22f27"].count("M") <= 40)
+        # each line is in one square of the unfolded cube, and the lines of each square reach its corners
+        squares = {(18 + 190 * x, 18 + 190 * y): [] for x, y in ((0, 1), (1, 2), (3, 1), (2, 1), (1, 0), (1, 1))}
+        for line in " ".join(strokes.values()).replace("L", " ").split("M")[1:]:
+            x, y, u, v = map(float, line.split())
+            homes = [square for square in squares if all(left - 0.01 <= c <= left + 190.01 for left, ends in
+                                                         zip(square, ((x, u), (y, v))) for c in ends)]
+            self.assertTrue(homes, line)
+            for square in homes:
+                squares[square] += [(x, y), (u, v)]
+        for (left, top), ends in squares.items():
+            for x, y in ((left, top), (left + 190, top), (left, top + 190), (left + 190, top + 190)):
+                self.assertTrue(any(abs(a - x) + abs(b - y) < 0.01 for a, b in ends), (left, top))
 
     def test_bad_calls(self):
         self.bad("cgm", says="P is missing")
