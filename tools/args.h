@@ -19,9 +19,9 @@ struct args {
     const struct command *command;
     const char *positional[3];
     size_t positional_count;
-    const char
-        *value[ARGS_OPTIONS_MAX]; /* by row of the command's table; "" for an option without value; NULL when absent */
-    bool help;                    /* --help came up; what stands after it was not read */
+    /* By row of the command's table: "" for an option without value, NULL when absent. */
+    const char *value[ARGS_OPTIONS_MAX];
+    bool help; /* --help was given; what stands after it was not read */
 };
 
 /* Sorts `argv`, what stands after the subcommand's name, into `args`. */

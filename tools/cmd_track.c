@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pirouette track: its arguments. The run is in track.c, what is told of it in track_report.c. */
+/* pirouette track: its arguments. The run is in track.c, its report in track_report.c. */
 #include <string.h>
 
 #include "args.h"

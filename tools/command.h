@@ -15,8 +15,8 @@ enum { EXIT_DONE = 0, EXIT_CHECK_FAILED = 1, EXIT_BAD_INPUT = 2 };
 
 struct option {
     const char *name; /* with its dashes, or several names with ", " between them; NULL ends a list of options */
-    const char
-        *value; /* how help shows its value, "a|b" where it is one of two words; NULL for an option that takes none */
+    /* How help shows its value, "a|b" where it is one of two words; NULL for an option that takes none. */
+    const char *value;
     const char *help;
 };
 

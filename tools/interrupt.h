@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * SIGINT, SIGTERM and SIGHUP: what they leave behind. Each removes the temporary files and ends the process as the
+ * SIGINT, SIGTERM and SIGHUP. Each removes the temporary files and ends the process as the
  * signal does by itself. A long run can put that off, to end at a place of its own choice and report what it has
  * measured; a second signal is not put off.
  */

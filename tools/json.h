@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * JSON objects through cJSON, with doubles that read back as themselves (cJSON's own printing may lose the last bit)
- * and a memory failure that is remembered, so that it is asked for once, at the end.
+ * JSON objects through cJSON. Doubles read back as themselves; cJSON's own printing may lose the last bit. A failure
+ * for want of memory is kept in `failed`, so that callers check once, at the end.
  */
 #ifndef TOOLS_JSON_H
 #define TOOLS_JSON_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Complaints: one line each, so that whoever reads stderr can count on it. */
+/* Reports of what went wrong, one line of stderr each. */
 #include "message.h"
 
 #include <errno.h>

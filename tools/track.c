@@ -2,8 +2,8 @@
 /*
  * The run. Up to four sums of the same polytopes go through the same rotations: the tracked one; one that is rebuilt
  * by walk, on the frames where that is timed or compared; one rebuilt by CGM and one re-checked by brute force, on a
- * few frames. A region is kept by the first two; the others are whole. Each timed call stands alone between two looks
- * at the clock. All are timed in turn in one run, so that what else the machine does falls on all alike.
+ * few frames. A region is kept by the first two; the others are whole. Each timed call stands alone between two
+ * readings of the clock. All are timed in turn in one run, so that what else the machine does falls on all alike.
  */
 #include "track.h"
 

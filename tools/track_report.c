@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a tracked run told: as JSON, as text, as a chart. */
+/* The report of a tracked run: as JSON, as text, as a chart. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

@@ -39,8 +39,8 @@ PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pi
 PIR_API pir_status pir_sum_rotate_brute_force(pir_sum *sum, pir_quat rotation);
 
 /**
- * At how many queries per rotation a tracked sum pays, by measured costs in one unit: the least number, HUGE_VAL when it
- * never does, NaN when a cost is negative or not a number. O(1).
+ * At how many queries per rotation a tracked sum pays, by measured costs in one unit: the least number, HUGE_VAL when
+ * it never does, NaN when a cost is negative or not a number. O(1).
  *
  * cost_rotation   per rotation of the sum: its update and the preparation of queries.
  * cost_query      per query on the sum.

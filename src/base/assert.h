@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* PIR_ASSERT states what only a bug of ours could break; it is compiled out with NDEBUG. Bad input
-   is a status, never this. */
+/* PIR_ASSERT states what only a bug in the library could break; NDEBUG compiles it out. Bad input is a status, never an
+   assertion. */
 #ifndef PIR_BASE_ASSERT_H
 #define PIR_BASE_ASSERT_H
 

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Sorts item[0 .. count) so that no later item is `before` an earlier one; equal ones keep their order. `work`
+/* Sorts item[0 .. count) so that no later item is `before` an earlier one; equal items keep their order. `work`
    has room for count items. */
 void pir_sort(uint32_t *item, uint32_t count, uint32_t *work, bool (*before)(void *context, uint32_t a, uint32_t b),
               void *context);

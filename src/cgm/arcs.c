@@ -4,9 +4,9 @@
  *
  * A cube face is a convex cell there. The great circle of an arc, with the line's positive side on its left, leaves a
  * cell through the side whose start is right of it and whose end is left of it, or through the corner before which that
- * changes. The arc's end is inside when it is left of that side; as an arc is no longer than 180°, no point of the
- * circle beyond the antipode is mistaken for it. All questions are signs of a normal with a cube plane or of an edge
- * vector with a cube corner.
+ * changes. The arc's end is inside when it is left of that side. An arc is no longer than 180°, so no point of the
+ * circle beyond the antipode is taken for its end. Every predicate is the sign of a normal with a cube plane or of an
+ * edge vector with a cube corner.
  *
  * A segment's map is a whole great circle without a normal on it: it is walked as two halves between opposite points on
  * cube edges.

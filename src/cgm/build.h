@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What making a map from a polytope and making one from two maps share: memory, rings, faces, copies, flags.
+ * What the two ways to make a map share, from a polytope and from two maps: memory, rings, faces, copies, flags.
  */
 #ifndef PIR_CGM_BUILD_H
 #define PIR_CGM_BUILD_H

@@ -7,9 +7,9 @@
  * comes from are its sources; every feature carries what each source contributes: a vertex the facet, a halfedge the
  * polytope's halfedge, a face the vertex, or PIR_CGM_NONE.
  *
- * Coordinates. A point of a map is a direction, a line in it a plane through the origin. Directions are held by what
- * defines them and worked out exactly only when the filter cannot tell: a facet's normal, or the ray in which two lines
- * meet. A line is an edge vector of a source or one of the cube's planes. So no number grows with the depth of
+ * Coordinates. A point of a map is a direction, and a line of a map is a plane through the origin. A direction is held
+ * by what defines it, a facet's normal or the ray in which two lines meet, and computed exactly only when the filter
+ * cannot decide. A line is an edge vector of a source or one of the cube's planes. So no number grows with the depth of
  * overlays: a line has the length of an edge vector, a direction at most that of the product of two.
  *
  * Lines are numbered: the cube's six planes first, then the edges of source 0, of source 1, and so on. A signed line is
@@ -157,8 +157,8 @@ static inline bool pir_cgm_edge_is_real(const pir_cgm *cgm, uint32_t edge) {
     return false;
 }
 
-/* A way around a direction, clockwise, through the maps that share it: the halfedges that leave it, but for those
-   with the outer face left. */
+/* An iterator over the halfedges that leave a direction, clockwise, through the maps that share it. It leaves out those
+   with the outer face on their left. */
 struct pir_cgm_around {
     uint32_t vertex, start, half;
 };

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The whole-structure check of a map. What it proves: six planar maps whose inner faces are convex, joined along the
- * cube's edges; and that every corner of every face has the vertices that the face carries as extreme ones, so that
- * each face lies in its cell, and the faces, which fill the cube, are the overlay of the sources' Gaussian maps cut by
- * the cube; and that each vertex names the facets whose normal it is.
+ * The whole-structure check of a map. It proves three things. The six maps are planar, their inner faces are convex,
+ * and they are joined along the cube's edges. At every corner of every face the vertices that the face carries are
+ * extreme; so each face lies in its cell, and the faces, which fill the cube, are the overlay of the sources' Gaussian
+ * maps cut by the cube. Each vertex names the facets whose normal it is.
  */
 #include "cgm/build.h"
 #include "cgm/sides.h"
@@ -31,7 +31,7 @@ static bool is_copy(const pir_cgm *cgm, uint32_t copy, bool on_rim) {
     return !on_rim || copy - cgm->vertex_start[map] < cgm->rim[map];
 }
 
-/* Whether all that stands for something stands for something that is there, so that what follows may look at it. */
+/* Whether every index is in range, so that the checks that follow may use it. */
 static bool indices_are_valid(const pir_cgm *cgm, uint32_t map) {
     uint32_t k = cgm->source_count;
     for (uint32_t s = 0; s < k; s++) {

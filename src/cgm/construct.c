@@ -4,8 +4,8 @@
  *
  * The order of edges around a facet's normal is that of the facet's sides. On the rim, a map has those of them that
  * lead into it, between its two sides; every other rim vertex has at most one piece in a map, since arcs meet only in
- * normals. Faces learn their vertex from the arcs beside them; those that no arc borders from the face beyond the cube
- * edge, which is part of the same cell.
+ * normals. A face has the vertex that the arcs beside it name. A face that no arc borders has the vertex of the face
+ * beyond the cube edge, which is part of the same cell.
  */
 #include "base/sort.h"
 #include "cgm/arcs.h"

@@ -8,12 +8,11 @@
  * goes on as long as a neighbour is strictly better ends at the greatest. Then s is outside, on the boundary or inside
  * as n·(s − x) is positive, zero or negative.
  *
- * Without such a c every vertex of the maps is looked at, the artificial ones too. A body is what lies below all its
- * support planes in those directions, even when it is flat: the ends of arcs on cube edges and the corners of the cube
- * hold what the facets leave open.
+ * Without such a c every vertex of the maps is checked, the artificial ones too. A body, even a flat one, is what lies
+ * below its support planes in all those directions: the ends of arcs on cube edges and the corners of the cube bound
+ * the directions in which a flat body has no facets.
  *
- * Signs are settled by doubles with a bound, or else by integers; a point, a double, is an integer times a power of
- * two.
+ * Doubles with a bound decide signs, or else integers; a coordinate of the point is an integer times a power of two.
  */
 #include "cgm/build.h"
 #include "cgm/place.h"

@@ -12,8 +12,8 @@
 
 #define U 0x1p-53
 
-/* An error that no filter passes. */
-#define HOPELESS 4.0
+/* An error above every value that a filter compares with it, so that the integers decide. */
+#define UNKNOWN_ERROR 4.0
 
 uint32_t pir_cgm_point_limbs(const pir_cgm *cgm) {
     uint32_t meeting = 2 * cgm->line_limbs + 1;
@@ -144,7 +144,7 @@ bool pir_cgm_same_way(const pir_cgm *a, uint32_t line, const pir_cgm *b, uint32_
 struct pir_cgm_point pir_cgm_meet(const pir_cgm *cgm, uint32_t a, uint32_t b) {
     pir_vec3 v = pir_vec_cross(signed_unit(cgm, a), signed_unit(cgm, b));
     double length = sqrt(pir_vec_dot(v, v)), off = cgm->line[a >> 1].error + cgm->line[b >> 1].error + 5 * U;
-    struct pir_cgm_point point = {.a = a, .b = b, .error = HOPELESS};
+    struct pir_cgm_point point = {.a = a, .b = b, .error = UNKNOWN_ERROR};
     if (length > 0)
         point.unit = pir_vec_scale(v, 1 / length);
     if (length > 4 * off)

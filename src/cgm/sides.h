@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The two questions that building and overlaying maps ask: on which side of a line a direction is, and which of two
- * directions on a line comes first. Both are signs of integers; a double filter on unit vectors, each with a bound on
- * its error, answers nearly all.
+ * The two predicates of building and overlaying maps: on which side of a line a direction is, and which of two
+ * directions on a line comes first. Both are signs of integers. A double filter on unit vectors, each with a bound on
+ * its error, decides nearly all of them.
  */
 #ifndef PIR_CGM_SIDES_H
 #define PIR_CGM_SIDES_H

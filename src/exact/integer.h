@@ -3,13 +3,12 @@
  * Integers of any size over GMP's mpn layer, in memory that the caller has reserved.
  *
  * mpn works on bare limbs and never asks for memory of its own at the sizes used here, so the hot paths do not allocate
- * and running out of memory is a status, not GMP's abort. An integer is a sign, a length, a pointer and the room there;
- * whoever makes one sees to its room, from the lengths of what goes into it, with the derivation beside the
- * reservation.
+ * and running out of memory is a status, not GMP's abort. An integer is a sign, a length, a pointer and the room there.
+ * Code that makes an integer reserves its room, derived from the lengths of its operands; the derivation stands beside
+ * the reservation.
  *
- * No reservation is trusted. Every call that writes limbs, and every reservation from scratch, first compares what it
- * needs with the room there is, in every build: where a derivation is wrong the process ends with a line on stderr, and
- * nothing is overwritten.
+ * Every call that writes limbs, and every reservation from scratch, first compares what it needs with the room there
+ * is, in every build. Where a derivation is wrong the process ends with a line on stderr, and nothing is overwritten.
  *
  * Invariants: the top limb, limb[|size| − 1], is not zero; zero has size 0; |size| ≤ room, unless room is 0: such an
  * integer is a view, to be read only.
@@ -35,16 +34,16 @@ typedef struct pir_int3 {
     pir_int c[3];
 } pir_int3;
 
-/* Scratch: a stack of limbs. Take from it, note `used` before and put it back after. */
+/* Scratch: a stack of limbs. Callers note `used`, take limbs, and set `used` back when done. */
 typedef struct pir_limbs {
     mp_limb_t *base;
     uint32_t used, capacity;
 } pir_limbs;
 
-/* Ends the process: an integer would outgrow its room. A bug of ours; no input can cause it. */
+/* Ends the process because an integer would outgrow its room: a bug in the library, which no input can cause. */
 _Noreturn void pir_int_outgrown(void);
 
-/* Sees that `room` limbs hold `need`. */
+/* Ends the process unless `room` limbs hold `need`. */
 static inline void pir_int_check_room(uint32_t room, size_t need) {
     if (need > room)
         pir_int_outgrown();

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-/* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is nothing beside u·n. */
+/* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is far below u·n. */
 #define NEAR_ONE 0x1p-400
 
 /* The greatest binary exponent among the components, as frexp gives it. */

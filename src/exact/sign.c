@@ -16,11 +16,11 @@
  * x, y, z, then a bᵀ + b aᵀ = d I, of rank 2 at most, so that d = 0; then a_k b_l = −a_l b_k, and a_k b_k = 0, whence a
  * = 0 or b = 0.
  *
- * Most ties of real scenes are of small integers, and s vanishes product by product: a body turning on a table has two
- * components of q zero, and normals and edges along axes. So doubles try first. Where s vanishes so, a_k b_k = 0 for
- * every k: hence d = 0, A_kk = 0, and A_kl is a single product, as c_k is. What is left are sums like b·v. One of which
- * all products are 0 is 0; one that is not small beside what the magnitudes of its products add up to has the sign that
- * it seems to have. Where neither holds the integers decide.
+ * In most ties of real scenes every single product in s is zero: a body that turns on a table has two components of q
+ * zero, and normals and edges along axes. Doubles settle these first. Then a_k b_k = 0 for every k; hence d = 0, A_kk =
+ * 0, and A_kl is a single product, as c_k is. The other coefficients are sums like b·v. Such a sum is 0 when all its
+ * products are 0. It has the sign of its double when that is not small beside the sum of the magnitudes of its
+ * products. Otherwise the integers decide.
  */
 #include "exact/sign.h"
 

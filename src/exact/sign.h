@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The sign of s(a, b) = (M(q)·a)·b for a vector a of P and b of Q: every question about a sum is one of these.
+ * The sign of s(a, b) = (M(q)·a)·b for a vector a of P and b of Q. Every combinatorial question about a sum is the sign
+ * of such a number.
  *
  * Three stages, each counted: a double filter on unit vectors, exact integers, and for a tie, s = 0, the symbolic
  * perturbation q + (ε₁, ε₂, ε₃, ε₄), ε₁ ≫ ε₂ ≫ ε₃ ≫ ε₄ ≫ 0, which gives every pair of non-zero vectors a sign.
@@ -26,7 +27,7 @@
  */
 #define PIR_SIGN_BOUND 0x1p-47
 
-/* The sign of a value that has the error above, or 0 where it is not certain. */
+/* The sign of a value with the error above, or 0 where the error leaves it open. */
 static inline int pir_filter_sign(double s) {
     return (s > PIR_SIGN_BOUND) - (s < -PIR_SIGN_BOUND);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Every input becomes integers on one scale. Doubles are integers times the power of two of their lowest set bit;
+ * Points become integers on one scale. Doubles are integers times the power of two of their lowest set bit;
  * rationals are integers over the least common multiple of their denominators.
  */
 #include "polytope/exact_points.h"

@@ -16,9 +16,9 @@
  *   - exact vectors: vertices on the common scale `scale`; edge vectors and facet normals along the true direction, of
  *     any length.
  *
- * Lower dimensions keep the same form, so that nothing else needs to know: a polygon has its two sides as facets; a
- * segment has two facets with opposite normals across it and two edges, all its two corners at a time (`artificial`: no
- * area, hidden from callers); a point has a vertex and nothing else.
+ * Lower dimensions keep the same form, so that other parts need no cases for them: a polygon has its two sides as
+ * facets; a segment has two facets with opposite normals across it and two edges, all its two corners at a time
+ * (`artificial`: no area, hidden from callers); a point has a vertex and nothing else.
  */
 #ifndef PIR_POLYTOPE_POLYTOPE_H
 #define PIR_POLYTOPE_POLYTOPE_H

@@ -10,6 +10,7 @@ import time
 import xml.etree.ElementTree as ElementTree
 from fractions import Fraction
 from pathlib import Path
+from typing import NamedTuple
 
 from command_test import CommandTest, TETRAHEDRON, main, numbers, read_terminal, rotation, with_own_signals
 from motion import motion
@@ -91,10 +92,18 @@ class Track(CommandTest):
 METHODS = ["auto", "update", "walk", "cgm"]
 
 
+class Turned(NamedTuple):
+    """How a run turns P: about an axis, or about random ones from a seed; and the method of the sum."""
+    axis: tuple = None
+    seed: int = 1
+    method: str = "auto"
+
+
 class Counters(CommandTest):
     """What a run counts, held against the library's counters over the same rotations, which motion.py makes anew."""
 
-    def compare(self, p, q, frames, steps, options=(), axis=None, seed=1, method="auto", **given):
+    def compare(self, p, q, frames, steps, options=(), turned=Turned(), **given):
+        axis, seed, method = turned
         about = [f"--axis={numbers(axis)}"] if axis else ["--axis=random", f"--seed={seed}"]
         told = self.data("track", p, q, f"--frames={frames}", f"--steps={steps}", "--method", method, *about, *options)
         rotations = self.file("rotations.txt", "".join(numbers(r) + "\n" for r in motion(frames, steps, axis, seed)))
@@ -113,11 +122,11 @@ class Counters(CommandTest):
     def test_methods_axes_and_seeds(self):
         for p, q in ((self.tetrahedron, self.pyramid), ("shape:gs2", "shape:cube")):
             for method in METHODS:
-                self.compare(p, q, 120, 300, method=method)
+                self.compare(p, q, 120, 300, turned=Turned(method=method))
             for axis in ((0, 0, 1), (1, 2, -0.5)):
                 for steps in (1, 2, 3, 4, 6, 12, 1000):
-                    self.compare(p, q, 30, steps, axis=axis)
-            self.compare(p, q, 120, 90, seed=2**64 - 1)
+                    self.compare(p, q, 30, steps, turned=Turned(axis))
+            self.compare(p, q, 120, 90, turned=Turned(seed=2**64 - 1))
 
     def test_what_else_is_done_in_a_frame_is_not_counted(self):
         self.compare("shape:gs1", self.pyramid, 60, 50, ["--verify", "--brute", "--dump", self.path / "d", "--every",

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The rules of the house: the rooms that ARCHITECTURE.md lists and the arrows between them, and the sizes of things.
 
-Usage: house.py ROOT [KNOWN]. Names each breach as FILE:LINE: RULE: REASON, one a line, and exits with 1 when there
-is one.
-KNOWN names breaches that are not mended yet, `RULE FILE THING` a line; one that is mended must leave it.
+Usage: house.py ROOT. Names each breach as FILE:LINE: RULE: REASON, one a line, and exits with 1 when there is one.
 """
 import ast
 import pathlib
@@ -33,11 +31,7 @@ class Breach(NamedTuple):
     rule: str
     file: str
     line: int
-    thing: str
     reason: str
-
-    def key(self):
-        return f"{self.rule} {self.file} {self.thing}"
 
     def __str__(self):
         return f"{self.file}:{self.line}: {self.rule}: {self.reason}"
@@ -83,10 +77,10 @@ def check_rooms(tree):
     present = {folder_of(name): name for name in tree.code("src/")}
     for room, name in sorted(present.items()):
         if room not in rooms:
-            yield Breach("rooms", name, 1, room, f"{room} is not in the list of rooms of ARCHITECTURE.md")
+            yield Breach("rooms", name, 1, f"{room} is not in the list of rooms of ARCHITECTURE.md")
     for room, line in rooms.items():
         if room not in present:
-            yield Breach("rooms", "ARCHITECTURE.md", line, room, f"{room} has no C file")
+            yield Breach("rooms", "ARCHITECTURE.md", line, f"{room} has no C file")
 
 
 def check_arrows(tree):
@@ -96,7 +90,7 @@ def check_arrows(tree):
         for line, quoted, path in c_text.includes(text):
             reason = arrow_reason(tree, order, name, quoted, path)
             if reason:
-                yield Breach("arrows", name, line, path, reason)
+                yield Breach("arrows", name, line, reason)
 
 
 def arrow_reason(tree, order, name, quoted, path):
@@ -139,10 +133,10 @@ def check_declares(tree):
                             if not function.defined and function.name in defined})
             elsewhere = [file for file in files if folder_of(file) != folder_of(name)]
             if len(files) > MAX_DECLARED:
-                yield Breach("declares", name, 1, "functions",
+                yield Breach("declares", name, 1,
                              f"declares functions of {len(files)} files: " + ", ".join(files))
             elif elsewhere:
-                yield Breach("declares", name, 1, "functions",
+                yield Breach("declares", name, 1,
                              "declares functions of another room: " + ", ".join(elsewhere))
 
 
@@ -152,10 +146,10 @@ def check_lines(tree):
         lines = text.split("\n")
         count = len(lines) - (lines[-1] == "")
         if count > MAX_LINES:
-            yield Breach("length", name, MAX_LINES + 1, "lines", f"{count} lines, more than {MAX_LINES}")
+            yield Breach("length", name, MAX_LINES + 1, f"{count} lines, more than {MAX_LINES}")
         for number, line in enumerate(lines, 1):
             if len(line) > MAX_COLUMNS and not (name.endswith(".md") and line.startswith("|")):
-                yield Breach("columns", name, number, "lines", f"{len(line)} columns, more than {MAX_COLUMNS}")
+                yield Breach("columns", name, number, f"{len(line)} columns, more than {MAX_COLUMNS}")
 
 
 def check_parameters(tree):
@@ -170,7 +164,7 @@ def check_parameters(tree):
             continue
         for function, line, count in found:
             if count > MAX_PARAMETERS:
-                yield Breach("parameters", name, line, function,
+                yield Breach("parameters", name, line,
                              f"{function} has {count} parameters, more than {MAX_PARAMETERS}")
 
 
@@ -182,7 +176,7 @@ def check_names(tree):
             stem = name.rpartition("/")[2].rpartition(".")[0]
             folder = seen.setdefault(stem, folder_of(name))
             if folder != folder_of(name):
-                yield Breach("names", name, 1, stem, f"{folder} has a file of the name {stem} as well")
+                yield Breach("names", name, 1, f"{folder} has a file of the name {stem} as well")
 
 
 CHECKS = (check_rooms, check_arrows, check_declares, check_lines, check_parameters, check_names)
@@ -193,23 +187,13 @@ def breaches(root):
     return [breach for check in CHECKS for breach in check(tree)]
 
 
-def read_known(path):
-    lines = [line.strip() for line in path.read_text().split("\n")]
-    return {line for line in lines if line and not line.startswith("#")}
-
-
-def main(root, known_file=None):
+def main(root):
     found = breaches(root)
-    known = read_known(known_file) if known_file else set()
-    new = [breach for breach in found if breach.key() not in known]
-    mended = sorted(known - {breach.key() for breach in found})
-    for breach in new:
+    for breach in found:
         print(breach)
-    for key in mended:
-        print(f"{known_file}: mended, so take it off the list: {key}")
-    print(f"{len(found)} breaches, {len(found) - len(new)} of them known; {len(mended)} known ones are mended")
-    return 1 if new or mended else 0
+    print(f"{len(found)} breaches")
+    return 1 if found else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(*(pathlib.Path(argument) for argument in sys.argv[1:3])))
+    sys.exit(main(pathlib.Path(sys.argv[1])))

@@ -5,12 +5,12 @@
  * Edges of b. The points within an edge, crossings and vertices of a, are sorted along it; what lies between two of
  * them is an edge of the result, one that is there already where a runs along.
  *
- * Rings. The halfedges of a around a point come clockwise, and so do those of b; one of a's lies on one of b's or,
- * known from its walk, in a face of b, that is right of one of b's. So the two orders merge without asking for another
- * sign.
+ * Rings. The halfedges of a around a point are listed clockwise, and so are those of b. The walk has found, for each of
+ * a's, the halfedge of b that it lies on, or the face of b that it lies in, which is right of one of b's halfedges. So
+ * the two lists merge without another sign.
  *
- * Faces. A face of the result lies in one face of a and one of b. Its edges tell which, but for a face of b that no
- * edge of a meets: that learns its face of a from beyond any edge that is not a's.
+ * Faces. A face of the result lies in one face of a and one of b. Its edges name both. A face that no edge of a bounds
+ * takes its face of a from the face beyond any of its edges.
  */
 #include "cgm/overlay/overlay_join.h"
 

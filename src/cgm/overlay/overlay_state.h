@@ -3,9 +3,9 @@
  * The state of one overlay of maps a and b, shared by its three stages: rims (overlay.c), walking the edges of a
  * through the faces of b (overlay_walk.c), and putting the result together (overlay_join.c).
  *
- * Every vertex of the result is a vertex of a, a point within an edge of a, or in no such place; and the same for b.
- * Paper's ten cases: vertex and vertex (1), vertex on edge (2, 3), vertex in face (4, 5), edge and edge crossing (6) or
- * overlapping (7), edge in face (8, 9), face and face (10).
+ * Every vertex of the result is a vertex of a, a point within an edge of a, or within a face of a; and the same for b.
+ * These are the ten cases of Fogel and Halperin: vertex and vertex (1), vertex on edge (2, 3), vertex in face (4, 5),
+ * edge and edge crossing (6) or overlapping (7), edge in face (8, 9), face and face (10).
  */
 #ifndef PIR_CGM_OVERLAY_OVERLAY_STATE_H
 #define PIR_CGM_OVERLAY_OVERLAY_STATE_H

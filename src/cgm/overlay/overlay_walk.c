@@ -3,8 +3,8 @@
  * Walking the edges of map a through the convex faces of map b (the idea of Finke and Hinrichs, "Overlaying simply
  * connected planar subdivisions in linear time", 1995, made simple by convexity and by exact signs).
  *
- * A walk is always within a face of b, at a vertex of b, or along an edge of b, and goes on by two kinds of question
- * only: on which side of the walked line is a vertex of b, and on which side of an edge of b is the walk's end.
+ * A walk is always within a face of b, at a vertex of b, or along an edge of b. Two predicates alone lead it on: on
+ * which side of the walked line a vertex of b is, and on which side of an edge of b the walk's end is.
  *   - It leaves a convex face where, counter-clockwise, vertices right of the line are followed by one that is not:
  *     through that side, or through that vertex when it is on the line. The end comes first exactly when it is left of
  *     that side, and is there when on it.
@@ -94,8 +94,8 @@ static uint32_t cross(struct walk *walk, uint32_t h) {
 
 /* --- steps --- */
 
-/* What comes next: a side to look at from within a face, its start right of the line; a vertex; an edge
-   to follow; or the end. */
+/* The next step: from within a face, beginning with a side whose start is right of the line; from a vertex; along an
+   edge; or the end. */
 enum step { FACE, VERTEX, ALONG, DONE, FAILED };
 
 struct next {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which facets of a hull might become one. Nothing here decides more than what is tried: merge.c proves the outcome.
+ * Which facets of a hull might become one. Doubles choose the groups here, and merge.c proves the outcome exactly.
  *
  * Greatest first, each facet that is in no group yet takes in its neighbours, theirs, and so on, while their corners
  * are within half of the tolerance of its plane. The plane of the group has the sum of its facets' areas for normal,
- * which small slivers with wild normals do not turn. Where the normal of a group before fits its corners nearly as
- * well, it takes that one: opposite sides of a body then have one normal, and the vertices fewer denominators.
+ * which slivers with inaccurate normals hardly change. Where the normal of an earlier group fits its corners nearly as
+ * well, the group takes that normal: opposite sides of a body then share one, and the vertices have fewer denominators.
  */
 #include "polytope/create/merge_groups.h"
 

@@ -13,8 +13,8 @@
 enum pir_joining {
     PIR_JOINED_NOT,     /* some edge is on an odd number of facets: the surface is open */
     PIR_JOINED_ONE_WAY, /* closed, each edge as often walked one way as the other: every facet faces the same side */
-    PIR_JOINED_TURNED,  /* closed, each edge on two facets, and so once some facets are turned round */
-    PIR_JOINED_NEITHER, /* closed, but facets have no two sides, or too many meet at an edge to tell */
+    PIR_JOINED_TURNED,  /* closed, each edge on two facets; one way once some facets are reversed */
+    PIR_JOINED_NEITHER, /* closed, but the surface is not orientable, or an edge is on more than two facets */
 };
 
 struct pir_facets {
@@ -25,10 +25,11 @@ struct pir_facets {
     uint32_t corner_room;
 
     enum pir_joining joining;
-    bool one_way;    /* no edge is walked the same way by more than one facet beyond those that walk it the other way */
+    /* For each edge, the facets that walk it one way and those that walk it the other differ in
+       number by one at most. */
+    bool one_way;
     uint8_t *turned; /* per facet: turned round, when PIR_JOINED_TURNED */
-    uint32_t
-        *piece; /* per facet: a facet of the piece that it is joined to, the same one for all of the piece; likewise */
+    uint32_t *piece; /* likewise, per facet: one facet of the piece that it belongs to, the same for all of the piece */
     /* When PIR_JOINED_NOT: the edge on the earliest facet, that facet, and how many it is on. */
     uint32_t open_edge[2], open_facet, open_count;
 };

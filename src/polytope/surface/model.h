@@ -48,7 +48,8 @@ void pir_model_finish(struct pir_model *model);
 /* Reports that memory ran out. */
 pir_status pir_model_fail_memory(const struct pir_model *model);
 
-/* Room for so many in all, so that adding that many cannot fail; a promise that the bytes of the file bear out. */
+/* Room for `count` points in all, so that adding up to that many cannot fail. The caller has checked that the bytes of
+   the file can hold so many. */
 pir_status pir_model_reserve_points(struct pir_model *model, uint32_t count);
 
 /* Adds a point, finite; a facet without corners; a corner of the last facet. PIR_ERR_MEMORY, PIR_ERR_LIMIT (2^30 points

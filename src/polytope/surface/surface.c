@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See surface.h. The test for convexity rests on this: a closed surface that lies in the boundary of the hull covers it
- * everywhere equally often, k times, and so encloses k times its volume. It is the boundary itself when |k| = 1, which
- * exact volumes tell.
+ * See surface.h. A closed surface that lies in the boundary of the hull covers every part of it the same number of
+ * times, k, and so encloses k times the volume of the hull. It is the boundary itself when |k| = 1. So the surface is
+ * convex when its facets lie in the boundary of the hull and the two exact volumes are equal up to sign.
  */
 #include "polytope/surface/surface.h"
 
@@ -16,7 +16,7 @@
 #include "polytope/surface/cut_polygon.h"
 #include "polytope/surface/facets.h"
 
-/* What is found out about a surface, and where it first fails to be that of a convex solid. */
+/* What is known of a surface, and the facet at which it fails to be that of a convex solid. */
 struct examination {
     const struct pir_model *model;
     const struct pir_exact_points *exact;
@@ -83,7 +83,8 @@ static enum pir_on_hull_answer add_facet(const struct examination *x, uint32_t f
     return PIR_IS_ON_HULL;
 }
 
-/* Six times the volume of all facets, pieces whose facets were turned each with the sign that makes it positive. */
+/* Six times the volume of all facets. Where facets had to be turned, each piece counts with the sign that makes its
+   volume positive. */
 static enum pir_on_hull_answer add_facets(struct examination *x, struct pir_on_hull *on, struct pir_six_volumes *total,
                                           struct pir_six_volumes *piece) {
     const uint32_t *root = x->facets.piece;

@@ -3,8 +3,8 @@
  * Writing OBJ, STL and PLY through assimp's C interface.
  *
  * A scene of one mesh of triangles, each facet a fan, is built by hand: assimp copies it before it works on it, and it
- * is freed here by whoever made it, never by assimp. assimp reads nothing: its PLY reader trusts what files say, and
- * does not end, takes all memory or ends the process on files that do not keep to the format.
+ * is freed here, never by assimp. Files are not read through assimp: on PLY files that break the format its reader may
+ * loop for ever, take all memory or end the process.
  */
 #include "polytope/write/write_assimp.h"
 

@@ -2,10 +2,10 @@
 /*
  * Pictures of convex bodies as SVG.
  *
- * A convex body hides nothing of its own front: the facets that face the viewer, in any order, are the picture. The
+ * No facet of a convex body hides another that faces the viewer, so those that do are drawn in any order. The
  * view is orthographic from a fixed direction, z up, a little to the right of the x axis and above the horizon; a
  * facet's colour says its kind, its shade the angle of its normal to a light over the viewer's left shoulder. Floats
- * decide what faces the viewer: a facet seen from its edge may be drawn or not, and nobody can tell.
+ * decide what faces the viewer: whether a facet seen from its edge is drawn changes no visible area.
  *
  * Bodies of any size and place are drawn alike: coordinates are taken relative to the centre of their bounds and to the
  * largest of them, which overflows nowhere.
