@@ -52,7 +52,7 @@ static void damage_edges(pir_sum *sum, uint32_t told[2]) {
     }
 }
 
-/* Makes a inactive edge of P active whose two facets are in no cell. */
+/* Makes an inactive edge of P active whose two facets are in no cell. */
 static void damage_inactive_edges(pir_sum *sum, uint32_t told[2]) {
     const pir_polytope *p = sum->tracked.pairing.p;
     for (uint32_t e = 0; e < p->edge_count; e++) {
