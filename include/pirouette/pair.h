@@ -24,6 +24,13 @@
  * level `whole` for other bodies than the call before.
  *
  * Threads: a pair and a workspace belong to one thread at a time. Polytopes may be shared.
+ *
+ * Cost of a query of a pair: O(steps of the descent) when warm, O(√n) of them when cold; O(n log n) with the level
+ * `whole`. Errors of a query of a pair: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a
+ * translation beyond 2^400 times the size of the bodies, or quaternions whose components span more than 2^1000),
+ * PIR_ERR_MEMORY (the workspace has to grow and cannot), PIR_ERR_UNSUPPORTED (see pir_pair_options).
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_PAIR_H
 #define PIROUETTE_PAIR_H
@@ -39,7 +46,11 @@ extern "C" {
 typedef struct pir_pair pir_pair;
 typedef struct pir_workspace pir_workspace;
 
-/** Scratch for the pairs of one thread. `allocator` may be NULL. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY. */
+/**
+ * Scratch for the pairs of one thread. `allocator` may be NULL. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ *
+ * Cost: O(1).
+ */
 PIR_API pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **ret_workspace);
 
 /** Frees; NULL is accepted. */
@@ -71,6 +82,8 @@ PIR_API pir_pair_options pir_pair_options_default(void);
  * A pair of P and Q, to which it takes references. What depends on one body alone is made once and stays with that
  * polytope, O(its size); after that O(1). `options` may be NULL. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY,
  * PIR_ERR_LIMIT (a body farther from its origin than 2^400 times the size of both).
+ *
+ * p, q  of any dimension.
  */
 PIR_API pir_status pir_pair_create(pir_polytope *p, pir_polytope *q, const pir_pair_options *options,
                                    pir_pair **ret_pair);
@@ -82,6 +95,10 @@ PIR_API void pir_pair_destroy(pir_pair *pair);
  * Begins anew with other bodies, in the memory that is there: for pairs that come and go. Where both polytopes have
  * been in a pair with bodies of this size before, it allocates nothing. Errors as pir_pair_create; the pair is then
  * as it was.
+ *
+ * p, q  as of pir_pair_create.
+ *
+ * Cost: as of pir_pair_create.
  */
 PIR_API pir_status pir_pair_reset(pir_pair *pair, pir_polytope *p, pir_polytope *q);
 
@@ -100,31 +117,67 @@ typedef struct pir_pair_input {
 /** Both bodies at the origin, not turned; no radii, no cutoff, no margin. */
 PIR_API pir_pair_input pir_pair_input_default(void);
 
-/*
- * The queries of query.h by the same names; their comments hold here. O(steps of the descent) when warm, O(√n) of
- * them when cold; O(n log n) with the level `whole`. Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE,
- * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a translation beyond 2^400 times the size of the bodies, or quaternions
- * whose components span more than 2^1000), PIR_ERR_MEMORY (the workspace has to grow and cannot),
- * PIR_ERR_UNSUPPORTED (see pir_pair_options.most).
- */
+/* --- the queries of query.h by the same names; their comments hold here --- */
 
-/** The exact state, without numbers. */
+/**
+ * The exact state, without numbers.
+ *
+ * workspace, input  scratch, and the poses of both.
+ *
+ * Cost: that of a query of a pair.
+ *
+ * Errors: those of a query of a pair.
+ */
 PIR_API pir_status pir_pair_overlap(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                                     pir_query_result *ret_result);
 
-/** The separation. */
+/**
+ * The separation.
+ *
+ * workspace, input  scratch, and the poses of both.
+ *
+ * Cost: that of a query of a pair.
+ *
+ * Errors: those of a query of a pair.
+ */
 PIR_API pir_status pir_pair_distance(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                                      pir_query_result *ret_result);
 
-/** The penetration depth. */
+/**
+ * The penetration depth.
+ *
+ * workspace, input  scratch, and the poses of both.
+ *
+ * Cost: that of a query of a pair.
+ *
+ * Errors: those of a query of a pair.
+ */
 PIR_API pir_status pir_pair_penetration(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                                         pir_query_result *ret_result);
 
-/** Separation where separated, penetration where overlapping. */
+/**
+ * Separation where separated, penetration where overlapping.
+ *
+ * workspace, input  scratch, and the poses of both.
+ *
+ * Cost: that of a query of a pair.
+ *
+ * Errors: those of a query of a pair.
+ */
 PIR_API pir_status pir_pair_signed_distance(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                                             pir_query_result *ret_result);
 
-/** The contact manifold of `answer`, that of pir_pair_signed_distance with the same input; as pir_query_manifold. */
+/**
+ * The contact manifold of `answer`, that of pir_pair_signed_distance with the same input; as pir_query_manifold.
+ *
+ * workspace               scratch.
+ * capacity, ret_contacts  room for how many contacts, and that room.
+ * ret_count               how many there are.
+ *
+ * Cost: O(p · q) for patches of p and q vertices.
+ *
+ * Errors as of pir_query_manifold, and PIR_ERR_MEMORY.
+ */
 PIR_API pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                                      const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
                                      size_t *ret_count);

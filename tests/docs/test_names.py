@@ -14,7 +14,7 @@ COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 FILE = re.compile(r"(?<![\w.*/-])((?:[\w-]+/)*[\w-]+\.(?:c|h|cpp|hpp|py|md))(?![\w/])(?!\.)")
 NAME = re.compile(r"\b(?:pir|PIR)_\w+")
 # Names of files that the text speaks of without meaning one of the tree.
-OTHERS = {"program.c", "gmp.h", "math.h", "string.h", "stdio.h", "stdlib.h", "pair.h"}
+OTHERS = {"program.c", "gmp.h", "math.h", "string.h", "stdio.h", "stdlib.h"}
 # The beginning of a family of names, as in `pir_query_batch_*`.
 FAMILY = re.compile(r"_$")
 
