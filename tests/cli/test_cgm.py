@@ -42,6 +42,9 @@ class Cgm(CommandTest):
                 self.assertRegex(text, rf"\n  {re.escape(name)} +{row}\n")
             self.assertRegex(text, r"\n  {} +vertices {vertices}, edges {edges}, facets {facets}\n".format(
                 "sum" if q else "polytope", **told["mesh"]))
+            # a line for each map and one for all, and no other before the mesh's
+            table = re.search(r"\n  map .*\n((?:  \S+ +\d+ +\d+ +\d+\n)*)  (?:sum|polytope) ", text)
+            self.assertTrue(table and table[1].count("\n") == 7, text)
             self.assertRegex(text, r"\n  time +[0-9.]+ (ns|us|ms|s)\n  file +.*map\.svg\n$")
 
     def test_overlay_is_the_sum(self):

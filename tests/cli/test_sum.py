@@ -82,7 +82,7 @@ class Sum(CommandTest):
                         told[method] = self.data("sum", p, q, *pose, *extra, "--method", method, "--exact", "-o",
                                                  self.path / f"{method}.off")
                         self.assertEqual(told[method].pop("method"), method)
-                        self.assertGreater(told[method].pop("seconds"), 0)
+                        self.assertTrue(0 < told[method].pop("seconds") < 60)
                     self.assertEqual(told["walk"], told["hull"])
                     self.assertEqual((self.path / "walk.off").read_bytes(), (self.path / "hull.off").read_bytes())
 
@@ -122,7 +122,7 @@ class Sum(CommandTest):
                                          [library[k] for k in ("fv", "vf", "ee")])
                         self.assertEqual((told["p"], told["q"], told["quat"]), (str(p), str(q), list(quat)))
                         self.assertEqual((told["difference"], told["method"]), (bool(difference), method))
-                        self.assertGreater(told["seconds"], 0)
+                        self.assertTrue(0 < told["seconds"] < 60)
 
     def test_files_are_the_librarys(self):
         quat = (0.1, -0.2, 0.3, 0.7)
