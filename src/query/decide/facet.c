@@ -45,11 +45,11 @@ static uint32_t occupied(const pir_int3 *v) {
 }
 
 /* The entries of row i of M(q) that may not be zero. Off the diagonal they are 2 (q_i q_j ∓ w q_k). */
-static uint32_t occupied_row(const pir_rotation *rotation, int i) {
+static uint32_t occupied_row(const pir_rotation *rotation, uint32_t i) {
     const double q[3] = {rotation->given.x, rotation->given.y, rotation->given.z}, w = rotation->given.w;
     uint32_t row = 1u << i;
-    for (int step = 1; step < 3; step++) {
-        int j = (i + step) % 3, k = 3 - i - j;
+    for (uint32_t step = 1; step < 3; step++) {
+        uint32_t j = (i + step) % 3, k = (i + 3 - step) % 3;
         row |= (uint32_t)((q[i] != 0 && q[j] != 0) || (w != 0 && q[k] != 0)) << j;
     }
     return row;
@@ -67,7 +67,7 @@ static bool is_zero_by_terms(const pir_exact *exact, const pir_normal *normal, u
     pir_int3 of_p_body = of_q ? pir_normal_exact(p, normal->piece.first) : pir_half_exact(p, half);
     pir_int3 of_q_body = of_q ? pir_half_exact(q, half) : pir_normal_exact(q, normal->piece.second);
     uint32_t columns = occupied(&of_p_body), rows = occupied(&of_q_body);
-    for (int i = 0; i < 3; i++)
+    for (uint32_t i = 0; i < 3; i++)
         if ((rows >> i & 1) && (occupied_row(exact->rotation, i) & columns))
             return false;
     return true;
