@@ -61,7 +61,6 @@ static void destroy(pir_polytope *p) {
     pir_vectors_finish(&p->exact_edge, a);
     pir_vectors_finish(&p->exact_normal, a);
     pir_scale_finish(&p->scale, a);
-    pir_polytope_release(atomic_load_explicit(&p->reflection, memory_order_acquire));
     PIR_FREE(a, p, 1);
 }
 
@@ -348,7 +347,6 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
         return PIR_ERR_MEMORY;
     bool segment = parts->dimension == 1, point = parts->dimension == 0;
     atomic_init(&p->references, 1);
-    atomic_init(&p->reflection, NULL);
     p->allocator = *allocator;
     p->dimension = parts->dimension;
     p->vertex_count = parts->vertex_count;

@@ -37,7 +37,6 @@ typedef struct pir_attachment pir_attachment;
 
 struct pir_polytope {
     atomic_uint references;
-    _Atomic(pir_polytope *) reflection; /* held, or NULL while none was asked for; see reflect.c */
     pir_allocator allocator;
     int dimension;
     double merge_bound; /* how far it may be from the hull of the points it was made from, a length */

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "polytope/attachment.h"
 #include "polytope/polytope.h"
 
 /* The facets of `p` as loops of vertices, each turned the other way round. */
@@ -56,22 +57,37 @@ static pir_status make_reflection(const pir_polytope *p, pir_polytope **ret_poly
     return status;
 }
 
+/* The kind of the attachment by which a polytope keeps its reflection. */
+static const char a_reflection;
+
+struct kept_reflection {
+    pir_attachment attachment;
+    pir_polytope *polytope; /* held */
+};
+
+static void destroy_kept(pir_attachment *attachment, const pir_allocator *a) {
+    struct kept_reflection *kept = (struct kept_reflection *)attachment;
+    pir_polytope_release(kept->polytope);
+    PIR_FREE(a, kept, 1);
+}
+
 pir_status pir_polytope_reflect(const pir_polytope *p, pir_polytope **ret_polytope) {
     if (!p || !ret_polytope)
         return PIR_ERR_ARGUMENT;
-    // what is written is no part of what p says
-    _Atomic(pir_polytope *) *kept = &((pir_polytope *)p)->reflection;
-    pir_polytope *reflection = atomic_load_explicit(kept, memory_order_acquire), *none = NULL;
-    if (!reflection) {
-        pir_status status = make_reflection(p, &reflection);
-        if (status != PIR_OK)
+    pir_attachment *attachment = pir_polytope_attachment(p, &a_reflection, 0);
+    if (!attachment) {
+        struct kept_reflection *made = PIR_ZEROED(&p->allocator, struct kept_reflection, 1);
+        if (!made)
+            return PIR_ERR_MEMORY;
+        made->attachment = (pir_attachment){.kind = &a_reflection, .destroy = destroy_kept};
+        pir_status status = make_reflection(p, &made->polytope);
+        if (status != PIR_OK) {
+            PIR_FREE(&p->allocator, made, 1);
             return status;
-        if (!atomic_compare_exchange_strong_explicit(kept, &none, reflection, memory_order_acq_rel,
-                                                     memory_order_acquire)) {
-            pir_polytope_release(reflection);
-            reflection = none;
         }
+        // what is attached is no part of what p says
+        attachment = pir_polytope_attach((pir_polytope *)p, &made->attachment);
     }
-    *ret_polytope = pir_polytope_retain(reflection);
+    *ret_polytope = pir_polytope_retain(((struct kept_reflection *)attachment)->polytope);
     return PIR_OK;
 }
