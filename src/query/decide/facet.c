@@ -73,13 +73,20 @@ static bool is_zero_by_terms(const pir_exact *exact, const pir_normal *normal, u
     return true;
 }
 
-int pir_slope(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t half) {
+static int slope_in_doubt(pir_exact *exact, const pir_normal *normal, uint32_t half, bool of_q) {
+    return is_zero_by_terms(exact, normal, half, of_q) ? 0 : exact_slope(exact, normal, half, of_q);
+}
+
+/* As pir_slope. In the searches of this file the part in doubles is inline. */
+static inline int slope_of(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t half) {
     double slope = pir_vec_dot(view->unit, view->body->direction[half]);
     if (fabs(slope) > SLOPE_BOUND * normal->err)
         return (slope > 0) - (slope < 0);
-    if (is_zero_by_terms(exact, normal, half, view->of_q))
-        return 0;
-    return exact_slope(exact, normal, half, view->of_q);
+    return slope_in_doubt(exact, normal, half, view->of_q);
+}
+
+int pir_slope(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t half) {
+    return slope_of(exact, normal, view, half);
 }
 
 /*
@@ -122,7 +129,7 @@ static pir_feature exposed(pir_exact *exact, const pir_normal *normal, const pir
     const pir_polytope *p = view->body;
     uint32_t across[2] = {0, 0}, count = 0, vertex = from.vertex;
     for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1] && count < 2; h++)
-        if (h == from.across || pir_slope(exact, normal, view, h) == 0)
+        if (h == from.across || slope_of(exact, normal, view, h) == 0)
             across[count++] = h;
     return face_across(view, vertex, across, count);
 }
@@ -133,7 +140,7 @@ static bool prove_exposed(pir_exact *exact, const pir_normal *normal, const pir_
     const pir_polytope *p = view->body;
     uint32_t across[2] = {0, 0}, count = 0, vertex = from.vertex;
     for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++) {
-        int slope = h == from.across ? 0 : pir_slope(exact, normal, view, h);
+        int slope = h == from.across ? 0 : slope_of(exact, normal, view, h);
         if (slope > 0)
             return false;
         if (slope == 0 && count < 2)
