@@ -259,6 +259,16 @@ static void test_ply_bodies(void **state) {
     must_read(FACES "3 0 1 2", "ply", 3, 2);
 }
 
+static void test_ply_with_more_properties_than_there_is_room_for(void **state) {
+    (void)state;
+    char text[8192];
+    size_t size = (size_t)snprintf(text, sizeof text, ASCII "element vertex 1\n" XYZ);
+    for (int i = 0; i < 254; i++)
+        size += (size_t)snprintf(text + size, sizeof text - size, "property float a%d\n", i);
+    snprintf(text + size, sizeof text - size, "end_header\n");
+    expect_refusal(text, strlen(text), "ply", PIR_ERR_LIMIT, "m:260: more than 256 properties");
+}
+
 static void test_ply_binary(void **state) {
     (void)state;
     static const char many[] =
@@ -302,13 +312,10 @@ static void test_formats_that_do_not_exist(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_obj_statements),
-        cmocka_unit_test(test_stl_text),
-        cmocka_unit_test(test_stl_binary),
-        cmocka_unit_test(test_ply_headers),
-        cmocka_unit_test(test_ply_bodies),
-        cmocka_unit_test(test_ply_binary),
-        cmocka_unit_test(test_formats_that_do_not_exist),
+        cmocka_unit_test(test_obj_statements), cmocka_unit_test(test_stl_text),
+        cmocka_unit_test(test_stl_binary),     cmocka_unit_test(test_ply_headers),
+        cmocka_unit_test(test_ply_bodies),     cmocka_unit_test(test_ply_with_more_properties_than_there_is_room_for),
+        cmocka_unit_test(test_ply_binary),     cmocka_unit_test(test_formats_that_do_not_exist),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

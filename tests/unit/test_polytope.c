@@ -305,6 +305,36 @@ static int notices(const pir_polytope *p, uint32_t *at, uint32_t other) {
     return noticed;
 }
 
+/* Gives halfedge a the number b and the reverse, in all that names them. */
+static void exchange_numbers(pir_polytope *p, uint32_t a, uint32_t b) {
+    uint32_t *of_halves[] = {p->target, p->left, p->edge, p->twin};
+    for (int k = 0; k < 4; k++) {
+        uint32_t kept = of_halves[k][a];
+        of_halves[k][a] = of_halves[k][b];
+        of_halves[k][b] = kept;
+    }
+    p->twin[p->twin[a]] = a;
+    p->twin[p->twin[b]] = b;
+    for (uint32_t i = 0; i < p->half_count; i++)
+        p->loop[i] = p->loop[i] == a ? b : p->loop[i] == b ? a : p->loop[i];
+    for (uint32_t e = 0; e < p->edge_count; e++)
+        p->edge_half[e] = p->edge_half[e] == a ? b : p->edge_half[e] == b ? a : p->edge_half[e];
+}
+
+static void check_of_a_polytope_sees_a_ring_out_of_order(void **state) {
+    (void)state;
+    test_random random = test_random_case("rings out of order", 0);
+    pir_polytope *p = test_sphere(&random, 30);
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        uint32_t h = p->ring_start[v];
+        exchange_numbers(p, h, h + 1);
+        assert_false(pir_polytope_is_valid(p));
+        exchange_numbers(p, h, h + 1);
+        assert_true(pir_polytope_is_valid(p));
+    }
+    pir_polytope_release(p);
+}
+
 static void check_of_a_polytope_sees_every_kind_of_damage(void **state) {
     (void)state;
     test_random random = test_random_case("polytope damage", 0);
@@ -345,6 +375,7 @@ int main(void) {
         cmocka_unit_test(last_reference_frees),
         cmocka_unit_test(bad_points_are_refused_and_the_result_is_untouched),
         cmocka_unit_test(check_of_a_polytope_sees_every_kind_of_damage),
+        cmocka_unit_test(check_of_a_polytope_sees_a_ring_out_of_order),
         cmocka_unit_test(check_of_a_polytope_sees_facets_left_unmerged),
         cmocka_unit_test(every_status_has_words),
     };
