@@ -258,46 +258,47 @@ static bool make_normal(pir_exact *exact, pir_piece piece, pir_normal *ret_norma
     return pir_side_normal(exact, piece, &ret_normal->unit);
 }
 
-bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
+/* What both ways to a piece's true facet begin with: its normal, and where the search for the exposed faces starts. */
+struct search_start {
+    pir_normal normal;
+    struct from a, b;
+    pir_view of_p, of_q;
+    bool by_p, by_q; /* a facet of P, or of Q, whose own normal it is: that exposes it */
+};
+
+static inline bool start_search(pir_exact *exact, pir_piece piece, struct search_start *ret_start) {
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    pir_normal normal;
-    pir_witness faces;
-    struct from a = {0, NO_HALF}, b = {0, NO_HALF};
-    if (!make_normal(exact, piece, &normal))
+    if (!make_normal(exact, piece, &ret_start->normal))
         return false;
-    pir_piece_corner(frame, piece, &a.vertex, &b.vertex);
-    if (piece.kind == PIR_FACET_EE) {
-        a.across = p->edge_half[piece.first];
-        b.across = piece.second;
-    }
-    pir_view of_p = pir_view_of(frame, &normal, false), of_q = pir_view_of(frame, &normal, true);
-    // a facet's own normal exposes it
-    faces.p = piece.kind == PIR_FACET_FV && !p->artificial ? (pir_feature){PIR_FEATURE_FACET, piece.first}
-                                                           : exposed(exact, &normal, &of_p, a);
-    faces.q = piece.kind == PIR_FACET_VF && !q->artificial ? (pir_feature){PIR_FEATURE_FACET, piece.second}
-                                                           : exposed(exact, &normal, &of_q, b);
-    return pir_facet_of_faces(exact, &normal, faces, ret_facet);
+    ret_start->a.across = piece.kind == PIR_FACET_EE ? p->edge_half[piece.first] : NO_HALF;
+    ret_start->b.across = piece.kind == PIR_FACET_EE ? piece.second : NO_HALF;
+    pir_piece_corner(frame, piece, &ret_start->a.vertex, &ret_start->b.vertex);
+    ret_start->of_p = pir_view_of(frame, &ret_start->normal, false);
+    ret_start->of_q = pir_view_of(frame, &ret_start->normal, true);
+    ret_start->by_p = piece.kind == PIR_FACET_FV && !p->artificial;
+    ret_start->by_q = piece.kind == PIR_FACET_VF && !q->artificial;
+    return true;
+}
+
+bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
+    struct search_start s;
+    if (!start_search(exact, piece, &s))
+        return false;
+    pir_witness faces;
+    faces.p = s.by_p ? (pir_feature){PIR_FEATURE_FACET, piece.first} : exposed(exact, &s.normal, &s.of_p, s.a);
+    faces.q = s.by_q ? (pir_feature){PIR_FEATURE_FACET, piece.second} : exposed(exact, &s.normal, &s.of_q, s.b);
+    return pir_facet_of_faces(exact, &s.normal, faces, ret_facet);
 }
 
 bool pir_facet_prove(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
-    const pir_frame *frame = exact->frame;
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    pir_normal normal;
-    pir_witness faces = {{PIR_FEATURE_FACET, piece.first}, {PIR_FEATURE_FACET, piece.second}};
-    struct from a = {0, NO_HALF}, b = {0, NO_HALF};
-    if (!make_normal(exact, piece, &normal))
+    struct search_start s;
+    if (!start_search(exact, piece, &s))
         return false;
-    pir_piece_corner(frame, piece, &a.vertex, &b.vertex);
-    if (piece.kind == PIR_FACET_EE) {
-        a.across = p->edge_half[piece.first];
-        b.across = piece.second;
-    }
-    pir_view of_p = pir_view_of(frame, &normal, false), of_q = pir_view_of(frame, &normal, true);
-    bool by_p = piece.kind == PIR_FACET_FV && !p->artificial, by_q = piece.kind == PIR_FACET_VF && !q->artificial;
-    return (by_p || prove_exposed(exact, &normal, &of_p, a, &faces.p)) &&
-           (by_q || prove_exposed(exact, &normal, &of_q, b, &faces.q)) &&
-           pir_facet_of_faces(exact, &normal, faces, ret_facet);
+    pir_witness faces = {{PIR_FEATURE_FACET, piece.first}, {PIR_FEATURE_FACET, piece.second}};
+    return (s.by_p || prove_exposed(exact, &s.normal, &s.of_p, s.a, &faces.p)) &&
+           (s.by_q || prove_exposed(exact, &s.normal, &s.of_q, s.b, &faces.q)) &&
+           pir_facet_of_faces(exact, &s.normal, faces, ret_facet);
 }
 
 /* --- order --- */
