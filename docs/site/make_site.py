@@ -21,7 +21,8 @@ ROOT = HERE.parent.parent
 # The pages in the order of the navigation.
 PAGES = {
     "README.md": "Pirouette", "docs/coming-from.md": "Coming from others", "docs/queries.md": "Placement queries",
-    "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps", "docs/command.md": "The command",
+    "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps", "docs/slices.md": "Slices",
+    "docs/command.md": "The command",
     "docs/bad-input.md": "Bad input", "docs/building.md": "Building", "ARCHITECTURE.md": "Architecture",
     "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security", "CHANGELOG.md": "Changelog",
 }

@@ -6,6 +6,8 @@
 #include <pirouette/base.h>
 #include <pirouette/ccd.h>
 #include <pirouette/cgm.h>
+#include <pirouette/cspace.h>
+#include <pirouette/grid.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>
 #include <pirouette/mesh.h>
