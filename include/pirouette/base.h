@@ -69,8 +69,8 @@ typedef struct pir_quat {
  *     resize(context, p, old, 0)     p released; the result is ignored
  *
  * An allocator given to an object must outlive it. It is called only from the thread that called Pirouette. GMP's own
- * memory is used only where exact.h shows GMP types, where exact text is read or written, and where facets are merged
- * (pir_polytope_options); the rest comes from here.
+ * memory is used only where exact.h shows GMP types, where exact text is read or written, where facets are merged
+ * (pir_polytope_options), and where a mass or an exact motion is computed (mass.h); the rest comes from here.
  */
 typedef struct pir_allocator {
     void *(*resize)(void *context, void *block, size_t old_size, size_t new_size);

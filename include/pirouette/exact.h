@@ -59,6 +59,18 @@ PIR_API pir_status pir_polytope_scale_exact(const pir_polytope *polytope, const 
  */
 PIR_API pir_status pir_sum_set_scale_exact(pir_sum *sum, pir_operand operand, const mpq_t scale);
 
+/**
+ * Volume, centroid and inertia as pir_polytope_mass has them, exactly, into initialised rationals.
+ *
+ * ret_inertia  about the centroid: xx, yy, zz, yz, xz, xy.
+ *
+ * Cost: O(n), in exact arithmetic.
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_polytope_mass_exact(const pir_polytope *polytope, mpq_t ret_volume, mpq_t ret_centroid[3],
+                                           mpq_t ret_inertia[6]);
+
 /** The exact coordinates of a vertex, into three initialised rationals. */
 PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t vertex, mpq_t ret_coordinates[3]);
 

@@ -37,6 +37,7 @@
 
 #include <pirouette/base.h>
 #include <pirouette/polytope.h>
+#include <pirouette/pose.h>
 #include <pirouette/query.h>
 
 #ifdef __cplusplus
@@ -101,12 +102,6 @@ PIR_API void pir_pair_destroy(pir_pair *pair);
  * Cost: as of pir_pair_create.
  */
 PIR_API pir_status pir_pair_reset(pir_pair *pair, pir_polytope *p, pir_polytope *q);
-
-/** A body's place in the world: a vertex v stands at R·v + translation. */
-typedef struct pir_pose {
-    pir_quat rotation; /**< of any length but 0 */
-    pir_vec3 translation;
-} pir_pose;
 
 typedef struct pir_pair_input {
     pir_pose pose_p, pose_q;

@@ -10,9 +10,11 @@
 #include <pirouette/grid.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>
+#include <pirouette/mass.h>
 #include <pirouette/mesh.h>
 #include <pirouette/pair.h>
 #include <pirouette/polytope.h>
+#include <pirouette/pose.h>
 #include <pirouette/query.h>
 #include <pirouette/shape.h>
 #include <pirouette/sum.h>
