@@ -16,6 +16,7 @@
 #include <pirouette/cgm.h>
 #include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
+#include <pirouette/section.h>
 #include <pirouette/sum.h>
 
 #ifdef __cplusplus
@@ -84,6 +85,20 @@ PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t ve
  * Errors: PIR_ERR_ARGUMENT.
  */
 PIR_API pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t ret_coordinates[3]);
+
+/**
+ * The exact coordinates of a corner of a section, into three initialised rationals; PIR_ERR_ARGUMENT when the mesh
+ * holds no exact coordinates.
+ *
+ * mesh    the one that the section was cut from.
+ * corner  a number below pir_section_corner_count.
+ *
+ * Cost: O(1), in exact arithmetic.
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_section_corner_exact(const pir_section *section, const pir_mesh *mesh, uint32_t corner,
+                                            mpq_t ret_coordinates[3]);
 
 /**
  * The support plane of a map's polytope or sum in the direction of a vertex: a normal (a, b, c) of integers and the

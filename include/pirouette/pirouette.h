@@ -16,6 +16,7 @@
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
+#include <pirouette/section.h>
 #include <pirouette/shape.h>
 #include <pirouette/sum.h>
 #include <pirouette/version.h>
