@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Reading models: the whole file into memory, then the reader of its format, then the hull of what that made of it. */
-#include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include <pirouette/io.h>
 
@@ -10,65 +8,13 @@
 #include "base/report.h"
 #include "polytope/create/create.h"
 #include "polytope/file/c_locale.h"
+#include "polytope/file/file_bytes.h"
 #include "polytope/file/file_name.h"
 #include "polytope/read/model_make.h"
 #include "polytope/read/read_obj.h"
 #include "polytope/read/read_off.h"
 #include "polytope/read/read_ply.h"
 #include "polytope/read/read_stl.h"
-
-struct bytes {
-    char *data;
-    size_t size, capacity;
-};
-
-static pir_status fail_file(pir_report *report, const char *path, const char *doing, int error) {
-    return pir_fail(report, PIR_ERR_FILE, "%s: cannot %s: %s", pir_short_name(path), doing, strerror(error));
-}
-
-/* Reads an open stream to its end; `expected` is a guess at its size. */
-static pir_status read_stream(FILE *file, size_t expected, const char *path, const pir_allocator *allocator,
-                              pir_report *report, struct bytes *bytes) {
-    for (;;) {
-        // Room for at least one byte more, which a read at the end leaves empty.
-        if (bytes->size == bytes->capacity) {
-            size_t capacity = bytes->capacity ? 2 * bytes->capacity : expected + 1;
-            char *data = PIR_RESIZE(allocator, bytes->data, bytes->capacity, capacity);
-            if (!data)
-                return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", pir_short_name(path));
-            bytes->data = data;
-            bytes->capacity = capacity;
-        }
-        errno = 0;
-        bytes->size += fread(bytes->data + bytes->size, 1, bytes->capacity - bytes->size, file);
-        if (ferror(file))
-            return fail_file(report, path, "read", errno);
-        if (bytes->size > PIR_FILE_SIZE_MAX)
-            return pir_fail(report, PIR_ERR_LIMIT, "%s: larger than 2 GiB", pir_short_name(path));
-        if (feof(file))
-            return PIR_OK;
-    }
-}
-
-/* Reads a file into `bytes`, which the caller frees whatever the outcome. */
-static pir_status read_file(const char *path, const pir_allocator *allocator, pir_report *report, struct bytes *bytes) {
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return fail_file(report, path, "open", errno);
-    pir_status status;
-    struct stat about;
-    if (fstat(fileno(file), &about) != 0)
-        status = fail_file(report, path, "read", errno);
-    else if (S_ISDIR(about.st_mode))
-        status = fail_file(report, path, "read", EISDIR);
-    else if (S_ISREG(about.st_mode) && (uintmax_t)about.st_size > PIR_FILE_SIZE_MAX)
-        status = pir_fail(report, PIR_ERR_LIMIT, "%s: larger than 2 GiB", pir_short_name(path));
-    else
-        status =
-            read_stream(file, S_ISREG(about.st_mode) ? (size_t)about.st_size : 4096, path, allocator, report, bytes);
-    fclose(file);
-    return status;
-}
 
 static pir_status read_model(const char *data, size_t size, const char *ending, struct pir_model *model) {
     static const struct {
@@ -126,8 +72,8 @@ pir_status pir_polytope_read_surface(const char *path, const pir_read_options *o
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name does not end in .off, .obj, .stl or .ply", name);
 
     const pir_allocator memory = pir_allocator_or_default(options ? options->polytope.allocator : NULL);
-    struct bytes bytes = {0};
-    pir_status status = read_file(path, &memory, report, &bytes);
+    struct pir_read_bytes bytes = {0};
+    pir_status status = pir_file_read(path, &memory, report, &bytes);
     if (status == PIR_OK)
         status = pir_polytope_read_bytes(&(pir_file_bytes){bytes.data, bytes.size, path, ending}, options, report,
                                          ret_surface, ret_polytope);
