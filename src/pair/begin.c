@@ -28,15 +28,8 @@ static pir_status set_rotations(pir_workspace *workspace, const pir_pair_input *
     return pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
 }
 
-pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
-                          pir_placement *ret_placement) {
-    if (!pair || !workspace || !input)
-        return PIR_ERR_ARGUMENT;
-    pir_status status = check(input);
-    if (status == PIR_OK)
-        status = set_rotations(workspace, input);
-    if (status != PIR_OK)
-        return status;
+/* The frame and the placement, the rotations being set. */
+static pir_status set_frame(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
     pir_frame *frame = &workspace->frame;
     frame->p = pair->body_p->body;
     frame->q = pair->body_q->body;
@@ -51,7 +44,44 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
     if (!pir_exact_reserve_limbs(&workspace->exact, &workspace->allocator, pair->limbs))
         return PIR_ERR_MEMORY;
     workspace->exact.world = workspace->posed ? &workspace->world : NULL;
-    return pir_frame_place_relative(frame, &workspace->world, ret_placement);
+    return pir_frame_place_relative(frame, &workspace->world, &workspace->placement);
+}
+
+pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                          pir_placement *ret_placement) {
+    if (!pair || !workspace || !input)
+        return PIR_ERR_ARGUMENT;
+    workspace->pair = NULL;
+    pir_status status = check(input);
+    if (status == PIR_OK)
+        status = set_rotations(workspace, input);
+    if (status == PIR_OK)
+        status = set_frame(pair, workspace, input);
+    if (status != PIR_OK)
+        return status;
+    workspace->pair = pair;
+    workspace->pose_p = input->pose_p;
+    workspace->pose_q = input->pose_q;
+    pair->workspace = workspace;
+    *ret_placement = workspace->placement;
+    return PIR_OK;
+}
+
+static bool same_pose(const pir_pose *a, const pir_pose *b) {
+    pir_quat q = a->rotation, r = b->rotation;
+    pir_vec3 s = a->translation, t = b->translation;
+    return q.x == r.x && q.y == r.y && q.z == r.z && q.w == r.w && s.x == t.x && s.y == t.y && s.z == t.z;
+}
+
+pir_status pir_pair_resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                           pir_placement *ret_placement) {
+    if (!pair || !workspace || !input)
+        return PIR_ERR_ARGUMENT;
+    if (workspace->pair != pair || pair->workspace != workspace || !same_pose(&input->pose_p, &workspace->pose_p) ||
+        !same_pose(&input->pose_q, &workspace->pose_q))
+        return pir_pair_begin(pair, workspace, input, ret_placement);
+    *ret_placement = workspace->placement;
+    return check(input);
 }
 
 pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y) {

@@ -39,6 +39,9 @@ struct pir_pair {
     pir_vec3 at;
     pir_quat turned;
 
+    const pir_workspace *workspace; /* of the last call; never followed */
+    pir_fall fall_p, fall_q;        /* of the facets of the last manifold */
+
     pir_pair_statistics statistics;
 };
 
@@ -55,6 +58,14 @@ struct pir_workspace {
     pir_patch_room patches;
     size_t patch_p, patch_q; /* for bodies of so many vertices */
 
+    /*
+     * What the last call began with. The frame is still that pair's where the pair names this workspace: each forgets
+     * the other when it is made, and when it is used with a third.
+     */
+    const pir_pair *pair; /* never followed */
+    pir_pose pose_p, pose_q;
+    pir_placement placement;
+
     /* the level `whole`: for the bodies of the pair that took it last */
     pir_sum *sum;
     pir_query *query;
@@ -65,6 +76,10 @@ struct pir_workspace {
 /* What every call begins with: checks, the frame at the relative pose, the placement. */
 pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                           pir_placement *ret_placement);
+
+/* The same for a call that follows one on the same pair, in the same workspace, at the same poses: it uses that one's. */
+pir_status pir_pair_resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                           pir_placement *ret_placement);
 
 /* A point in Q's frame, and a result, brought to the world. */
 pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A pair answers as a query on the difference does, bit for bit: state, outcome, distance, normal, points and
- * witness, at the poses of the property suite of exact answers, whose scenes are aligned, nearly aligned and
+ * A pair answers as a query on the difference does, bit for bit: state, outcome, distance, normal, points, witness and
+ * contacts, at the poses of the property suite of exact answers, whose scenes are aligned, nearly aligned and
  * general by thirds, some of them of size 1e150 or 1e-150. The query is held against exact arithmetic by that
  * suite.
  *
@@ -26,6 +26,7 @@
 #define TURNS 2
 #define POSES 12
 #define STEPS 4
+#define ROOM  64
 
 struct bench {
     uint64_t number;
@@ -35,7 +36,7 @@ struct bench {
     pir_query *query;
     pir_pair *lasting, *whole;
     pir_workspace *workspace;
-    uint64_t asked, by_whole;
+    uint64_t asked, by_whole, contacts;
 };
 
 static bool same_result(const pir_query_result *a, const pir_query_result *b) {
@@ -78,6 +79,31 @@ static void check_pair(struct bench *bench, pir_pair *pair, const char *which, i
     bench->by_whole += pir_pair_level(pair) == PIR_LEVEL_WHOLE;
 }
 
+/* The contacts of an answer: those of the query, bit for bit, on a workspace that may still be at the pose or not. */
+static void check_contacts(struct bench *bench, pir_pair *pair, const char *which, const pir_pair_input *input,
+                           const pir_query_result *answer) {
+    pir_contact contacts[ROOM], expected[ROOM];
+    size_t count = 0, expected_count = 0;
+    pir_query_input asked = pir_query_input_default();
+    asked.translation = input->pose_p.translation;
+    asked.radius_p = input->radius_p;
+    asked.radius_q = input->radius_q;
+    asked.margin = input->margin;
+    pir_status right = pir_query_manifold(bench->query, &asked, answer, ROOM, expected, &expected_count);
+    pir_status status = pir_pair_manifold(pair, bench->workspace, input, answer, ROOM, contacts, &count);
+    size_t written = expected_count < ROOM ? expected_count : ROOM, same = 0;
+    while (same < written && contacts[same].id == expected[same].id &&
+           memcmp(&contacts[same].point_p, &expected[same].point_p, 24) == 0 &&
+           memcmp(&contacts[same].point_q, &expected[same].point_q, 24) == 0 &&
+           memcmp(&contacts[same].distance, &expected[same].distance, 8) == 0)
+        same++;
+    expect(status == right && count == expected_count && same == written,
+           "scene %llu (%s), %s pair: manifold with status %d not %d, %zu contacts not %zu, the first %zu alike",
+           (unsigned long long)bench->number, bench->scene.situation, which, (int)status, (int)right, count,
+           expected_count, same);
+    bench->contacts += count;
+}
+
 static void check_pose(struct bench *bench, test_random *random, pir_quat rotation, pir_vec3 t, int fresh) {
     pir_pair_input input = pir_pair_input_default();
     pir_query_input asked = pir_query_input_default();
@@ -89,6 +115,7 @@ static void check_pose(struct bench *bench, test_random *random, pir_quat rotati
         input.radius_p = asked.radius_p = bench->scene.scale * ldexp(1, -test_random_between(random, 1, 8));
         input.radius_q = asked.radius_q = test_random_below(random, 2) ? input.radius_p : 0;
     }
+    input.margin = test_random_below(random, 3) ? 0 : bench->scene.scale * ldexp(1, test_random_between(random, -8, 3));
     pir_pair *new_pair = NULL;
     if (fresh)
         assert_int_equal(pir_pair_create(bench->p, bench->q, NULL, &new_pair), PIR_OK);
@@ -101,8 +128,14 @@ static void check_pose(struct bench *bench, test_random *random, pir_quat rotati
             break;
         assert_int_equal(status, PIR_OK);
         check_pair(bench, bench->lasting, "lasting", call, &input, &expected);
+        if (call == 3)
+            check_contacts(bench, bench->lasting, "lasting", &input, &expected);
         if (fresh)
             check_pair(bench, new_pair, "new", call, &input, &expected);
+        if (fresh && call == 3) {
+            check_contacts(bench, bench->lasting, "lasting", &input, &expected);
+            check_contacts(bench, new_pair, "new", &input, &expected);
+        }
         if (i == 0)
             check_pair(bench, bench->whole, "whole", call, &input, &expected);
     }
@@ -178,8 +211,9 @@ static void a_pair_answers_as_the_query_on_its_difference(void **state) {
     else
         for (uint64_t number = 0; number < count; number++)
             check_scene(&bench, number);
-    print_message("# %llu answers, %llu of them by the whole difference\n", (unsigned long long)bench.asked,
-                  (unsigned long long)bench.by_whole);
+    print_message("# %llu answers, %llu of them by the whole difference; %llu contacts\n",
+                  (unsigned long long)bench.asked, (unsigned long long)bench.by_whole,
+                  (unsigned long long)bench.contacts);
     pir_workspace_destroy(bench.workspace);
 }
 

@@ -6,10 +6,19 @@
  * body is tilted. Its patch then grows by the facet that faces the first body most. The outlines are projected along
  * the normal, and the corners of their overlap (outline.h) are lifted onto the surfaces of both bodies. So every
  * contact lies on both bodies, however the patches are made.
+ *
+ * Most answers need less, and each of these is used where it is certain to be the same but for rounding:
+ *
+ *   - two features without an area, from which nothing grows and which are not parallel, share nothing: the answer is
+ *     the one contact;
+ *   - two patches of one facet each (single.h) in general position (clip.h) share corners that need no merging, and
+ *     these lie on the two facets' planes.
  */
 #include "query/answer/manifold.h"
 
 #include "query/answer/follow.h"
+#include "query/contact/clip.h"
+#include "query/contact/single.h"
 
 /* An id holds a kind in its top two bits and two indices. This kind is that of an answer that is no corner. */
 #define ID_OF_ANSWER 3
@@ -20,7 +29,8 @@ struct manifold {
     const pir_query_result *answer;
     pir_patch *p, *q;
     pir_vec3 n;
-    pir_vec3 axis[2];       /* of the contact plane, axis[0] × axis[1] = n */
+    pir_vec3 axis[3];       /* two of the contact plane, and n = axis[0] × axis[1] */
+    bool is_single;         /* both patches are single facets */
     pir_corner of_answer;   /* the answer's point, in the plane */
     double radius_p, radii; /* radius_p + radius_q */
     double limit;           /* corners up to this distance are kept */
@@ -61,6 +71,7 @@ static void set_axes(struct manifold *m) {
     pir_vec3 across = pir_vec_cross(m->n, least);
     m->axis[0] = pir_vec_scale(across, 1 / sqrt(pir_vec_dot(across, across)));
     m->axis[1] = pir_vec_cross(m->n, m->axis[0]);
+    m->axis[2] = m->n;
 }
 
 /* The answer's point on Q's polytope, in the frame. */
@@ -71,14 +82,11 @@ static pir_vec3 point_of_answer(const struct manifold *m, double radius_q) {
     return pir_vec_sub(y, c);
 }
 
-static void begin(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
+static void begin(struct manifold *m, const pir_placement *placement) {
     const pir_frame *frame = m->frame;
     m->p = &m->room->p;
     m->q = &m->room->q;
     m->n = m->answer->normal;
-    m->radius_p = input->radius_p;
-    m->radii = input->radius_p + input->radius_q;
-    set_axes(m);
     set_patch(m->q, frame->q.polytope, frame->q.vertex, m->n);
     set_patch(m->p, frame->p.polytope, frame->p.vertex, pir_vec_scale(m->n, -1));
     // P is stored reflected
@@ -86,10 +94,50 @@ static void begin(struct manifold *m, const pir_query_input *input, const pir_pl
     m->p->sign = -1;
     m->p->at = placement->x;
     m->p->snap = m->q->snap = PIR_SNAP * placement->reach;
+}
+
+/* What corners are measured by. */
+static void set_measures(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
+    m->radius_p = input->radius_p;
+    m->radii = input->radius_p + input->radius_q;
+    set_axes(m);
     pir_vec3 y = point_of_answer(m, input->radius_q);
     m->of_answer = (pir_corner){.u = pir_vec_dot(m->axis[0], y), .v = pir_vec_dot(m->axis[1], y)};
-    double error = pir_frame_length(frame, 4 * placement->error);
+    double error = pir_frame_length(m->frame, 4 * placement->error);
     m->limit = fmax(fmax(input->margin, m->answer->distance), 0) + error;
+}
+
+/* --- overlaps --- */
+
+/* Whether the patches are a vertex or an edge each that share nothing. */
+static bool is_alone(const struct manifold *m) {
+    pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
+    if (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET || !pir_patch_is_sharp(m->p, p) ||
+        !pir_patch_is_sharp(m->q, q))
+        return false;
+    if (p.kind == PIR_FEATURE_VERTEX || q.kind == PIR_FEATURE_VERTEX)
+        return true;
+    const pir_polytope *of_p = m->p->polytope, *of_q = m->q->polytope;
+    pir_vec3 along = pir_mat_apply(m->p->r, of_p->direction[of_p->edge_half[p.index]]);
+    pir_vec3 across = pir_vec_cross(along, of_q->direction[of_q->edge_half[q.index]]);
+    // the sine as seen along the normal is at least this
+    return fabs(pir_vec_dot(across, m->n)) > 2 * PIR_FLUSH;
+}
+
+/* The corners that two single facets share, in the room; PIR_CLIP_UNCLEAR where growing and merging have to tell. */
+static uint32_t overlap_single(struct manifold *m) {
+    pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
+    if (p.kind != PIR_FEATURE_FACET && q.kind != PIR_FEATURE_FACET)
+        return PIR_CLIP_UNCLEAR;
+    uint32_t of_p = pir_patch_single(m->p, p), of_q = pir_patch_single(m->q, q);
+    if (of_p == PIR_NO_FACET || of_q == PIR_NO_FACET)
+        return PIR_CLIP_UNCLEAR;
+    pir_patch_set_single(m->p, of_p, m->axis);
+    pir_patch_set_single(m->q, of_q, m->axis);
+    if (!pir_outline_is_clear(m->p->outline, m->p->snap, PIR_FLUSH) ||
+        !pir_outline_is_clear(m->q->outline, m->q->snap, PIR_FLUSH))
+        return PIR_CLIP_UNCLEAR;
+    return pir_outline_clip(m->p->outline, m->q->outline, m->p->snap, m->room->shared);
 }
 
 /* Grows both patches until each has an outline. Returns the number of corners that they share, in the room. */
@@ -147,7 +195,13 @@ static pir_vec3 beside(const pir_patch *patch, const pir_corner *corner, pir_vec
                                     : pir_patch_side(patch, 0, along_side(&patch->outline, 0, corner));
 }
 
-static pir_contact make_contact(const struct manifold *m, const pir_corner *corner) {
+/* A contact between points of the frame. */
+static void set_points(const struct manifold *m, pir_vec3 p, pir_vec3 q, pir_contact *contact) {
+    contact->point_p = pir_vec_sub(pir_frame_world(m->frame, p), pir_vec_scale(m->n, m->radius_p));
+    contact->point_q = pir_vec_add(pir_frame_world(m->frame, q), pir_vec_scale(m->n, m->radii - m->radius_p));
+}
+
+static pir_contact contact_of_patches(const struct manifold *m, const pir_corner *corner) {
     pir_vec3 p, q;
     if (corner->kind == PIR_CORNER_P) {
         p = pir_patch_vertex(m->p, m->p->outline.at[corner->p].p);
@@ -161,8 +215,7 @@ static pir_contact make_contact(const struct manifold *m, const pir_corner *corn
     }
     pir_contact contact = {.id = corner_id(m, corner)};
     contact.distance = pir_frame_length(m->frame, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
-    contact.point_p = pir_vec_sub(pir_frame_world(m->frame, p), pir_vec_scale(m->n, m->radius_p));
-    contact.point_q = pir_vec_add(pir_frame_world(m->frame, q), pir_vec_scale(m->n, m->radii - m->radius_p));
+    set_points(m, p, q, &contact);
     return contact;
 }
 
@@ -198,6 +251,24 @@ static bool is_near(const struct manifold *m, const pir_corner *corner, double d
     return distance <= m->limit || distance - m->answer->distance <= PIR_FLUSH * way;
 }
 
+/* The contact at a corner; false where it is too far apart. */
+static bool make_contact(const struct manifold *m, const pir_corner *corner, pir_contact *ret_contact) {
+    if (!m->is_single) {
+        *ret_contact = contact_of_patches(m, corner);
+        return is_near(m, corner, ret_contact->distance);
+    }
+    double p = pir_patch_height(m->p, corner), q = pir_patch_height(m->q, corner);
+    double distance = pir_frame_length(m->frame, p - q) - m->radii;
+    if (!is_near(m, corner, distance))
+        return false;
+    pir_vec3 in_plane = pir_vec_add(pir_vec_scale(m->axis[0], corner->u), pir_vec_scale(m->axis[1], corner->v));
+    ret_contact->id = corner_id(m, corner);
+    ret_contact->distance = distance;
+    set_points(m, pir_vec_add(in_plane, pir_vec_scale(m->n, p)), pir_vec_add(in_plane, pir_vec_scale(m->n, q)),
+               ret_contact);
+    return true;
+}
+
 pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
                              const pir_manifold_ask *ask, pir_contact *ret_contacts, size_t *ret_count) {
     const pir_query_result *answer = ask->answer;
@@ -211,20 +282,24 @@ pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placem
         return PIR_OK;
     }
     struct manifold m = {.frame = frame, .room = room, .answer = answer};
-    begin(&m, ask->input, placement);
-    uint32_t corners = overlap(&m), own = corner_of_answer(&m, corners);
+    begin(&m, placement);
+    uint32_t corners = 0;
+    if (!is_alone(&m)) {
+        set_measures(&m, ask->input, placement);
+        corners = overlap_single(&m);
+        m.is_single = corners != PIR_CLIP_UNCLEAR;
+        corners = m.is_single ? corners : overlap(&m);
+    }
+    uint32_t own = corner_of_answer(&m, corners);
     const pir_corner *corner = room->shared;
     size_t count = 0;
     for (uint32_t i = 0; i < corners + (own == corners); i++) {
         pir_contact contact = {answer->point_p, answer->point_q, answer->distance, 0};
         uint32_t k = own == corners ? i - 1 : (own + i) % corners;
-        if (i == 0) {
+        if (i == 0)
             contact.id = own == corners ? answer_id(&m, corners == 0) : corner_id(&m, &corner[own]);
-        } else {
-            contact = make_contact(&m, &corner[k]);
-            if (!is_near(&m, &corner[k], contact.distance))
-                continue;
-        }
+        else if (!make_contact(&m, &corner[k], &contact))
+            continue;
         if (count < ask->capacity)
             ret_contacts[count] = contact;
         count++;

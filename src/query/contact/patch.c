@@ -48,8 +48,7 @@ static pir_vec3 normal_of(const pir_patch *patch, uint32_t f) {
     return pir_vec_scale(n, patch->sign);
 }
 
-/* A direction of the queries' frame in the body's own frame. */
-static pir_vec3 to_body(const pir_patch *patch, pir_vec3 d) {
+pir_vec3 pir_patch_to_body(const pir_patch *patch, pir_vec3 d) {
     if (patch->r)
         d = pir_mat_apply_transposed(patch->r, d);
     return pir_vec_scale(d, patch->sign);
@@ -73,7 +72,7 @@ static void add_facet(pir_patch *patch, uint32_t f) {
 /* Adds every vertex that a member leads to along edges that are nearly across m. */
 static void spread(pir_patch *patch, pir_vec3 m) {
     const pir_polytope *p = patch->polytope;
-    m = to_body(patch, m);
+    m = pir_patch_to_body(patch, m);
     for (uint32_t i = 0; i < patch->members; i++) {
         uint32_t v = patch->member[i];
         for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
@@ -97,7 +96,7 @@ static bool leads_away(const pir_patch *patch, uint32_t f) {
  */
 static uint32_t facet_out(const pir_patch *patch, bool away) {
     const pir_polytope *p = patch->polytope;
-    pir_vec3 out = to_body(patch, patch->out);
+    pir_vec3 out = pir_patch_to_body(patch, patch->out);
     uint32_t best = PIR_NO_FACET;
     double most = PIR_STEEP;
     if (p->artificial)
@@ -136,7 +135,7 @@ void pir_patch_grow(pir_patch *patch, pir_feature feature) {
  */
 static uint32_t flattest(const pir_patch *patch) {
     const pir_polytope *p = patch->polytope;
-    pir_vec3 out = to_body(patch, patch->out);
+    pir_vec3 out = pir_patch_to_body(patch, patch->out);
     uint32_t best = UINT32_MAX;
     double most = -HUGE_VAL;
     for (uint32_t i = 0; i < patch->members; i++) {

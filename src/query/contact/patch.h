@@ -40,6 +40,16 @@
 
 #define PIR_NO_FACET UINT32_MAX
 
+/*
+ * How far a facet stands out from its neighbours: the least sine by which an edge that leaves it falls from its plane;
+ * 0 also where the facet has too many corners to be asked for. It is a function of the facet alone, so a caller may
+ * keep it.
+ */
+typedef struct pir_fall {
+    uint32_t facet; /* its number and 1; 0 where nothing is known */
+    float sine;
+} pir_fall;
+
 typedef struct pir_patch {
     /* the body in its place. P is stored reflected, so its sign is −1. Q is not rotated: its r is NULL. */
     const pir_polytope *polytope;
@@ -56,6 +66,8 @@ typedef struct pir_patch {
     uint32_t facet; /* the facet that faces `out` most, from which a search for the surface starts; or PIR_NO_FACET */
     pir_corner *corner;
     pir_outline outline;
+    pir_fall fall;                   /* of the last single facet: see single.h */
+    double height, along_u, along_v; /* of a single facet's plane over the contact plane's origin, and its slopes */
 } pir_patch;
 
 /* Memory for the patches of a query and what they share. */
@@ -70,6 +82,9 @@ typedef struct pir_patch_room {
  */
 bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
 void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
+
+/* A direction of the queries' frame in the body's own frame. */
+pir_vec3 pir_patch_to_body(const pir_patch *patch, pir_vec3 d);
 
 /* Vertex v in its place, in the frame of queries. */
 pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v);

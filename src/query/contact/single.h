@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Patches that are one vertex, one edge or one facet: almost all, on bodies without split facets. They are found
+ * without growing, and are what pir_patch_grow and pir_patch_extend would find.
+ */
+#ifndef PIR_QUERY_CONTACT_SINGLE_H
+#define PIR_QUERY_CONTACT_SINGLE_H
+
+#include "query/contact/patch.h"
+
+/* Whether the patch of a vertex or an edge is that feature alone. */
+bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature);
+
+/*
+ * The facet that is the whole patch, where the other body's patch has an area: the feature itself, or the facet that a
+ * sharp vertex or edge grows by. PIR_NO_FACET where the patch is more than that, or where the facet is steep.
+ */
+uint32_t pir_patch_single(pir_patch *patch, pir_feature feature);
+
+/*
+ * Sets outline and plane of a single facet. axis[2] = axis[0] × axis[1] is the normal from Q to P.
+ */
+void pir_patch_set_single(pir_patch *patch, uint32_t facet, const pir_vec3 axis[3]);
+
+/* How far the plane of a single facet is along axis[2] over a point of the contact plane. */
+static inline double pir_patch_height(const pir_patch *patch, const pir_corner *at) {
+    return patch->height + patch->along_u * at->u + patch->along_v * at->v;
+}
+
+#endif

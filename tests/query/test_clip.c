@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The short ways to a manifold find what the long ones find: outlines in general position, clipped by signs, share
+ * the corners that merging and a hull find; and where a patch is told to be one facet, growing ends at that facet.
+ */
+#include "support/test.h"
+
+#include <math.h>
+
+#include "query/contact/clip.h"
+#include "query/contact/single.h"
+#include "support/bodies.h"
+
+#define SNAP 1e-13
+#define PART 1e-6
+#define MOST (3 * PIR_CLIP_MOST + 4)
+
+static const double pi = 3.14159265358979323846;
+
+typedef struct points {
+    uint32_t count;
+    pir_corner at[MOST];
+} points;
+
+/* --- outlines --- */
+
+/* A convex outline: corners on an ellipse, or with `number` even on a small grid, so that sides are flush. */
+static points outline(test_random *random, uint64_t number) {
+    points p = {.count = 3 + test_random_below(random, 8)};
+    pir_corner room[MOST + 1];
+    double x = 0.5 * test_random_unit(random), y = 0.5 * test_random_unit(random), size = 1;
+    if (number % 8 == 3)
+        size = 1e-6;
+    for (uint32_t i = 0; i < p.count; i++) {
+        double angle = 2 * pi * (i + 0.8 * test_random_unit(random)) / p.count;
+        double u = x + size * cos(angle), v = y + 0.7 * size * sin(angle);
+        if (number % 2 == 0) {
+            u = test_random_between(random, -2, 2);
+            v = test_random_between(random, -2, 2);
+        }
+        p.at[i] = (pir_corner){.u = u + 1e-15 * test_random_unit(random), .v = v, .p = i};
+    }
+    p.count = pir_outline_hull(p.at, p.count, SNAP, room);
+    return p;
+}
+
+static bool is_corner(const pir_corner *a, const pir_corner *b) {
+    return a->kind == b->kind && a->p == b->p && a->q == b->q && pir_outline_distance(a, b) < 1e-11;
+}
+
+static bool same_cycle(const points *a, const points *b) {
+    for (uint32_t shift = 0; shift < a->count && a->count == b->count; shift++) {
+        uint32_t same = 0;
+        while (same < a->count && is_corner(&a->at[same], &b->at[(same + shift) % b->count]))
+            same++;
+        if (same == a->count)
+            return true;
+    }
+    return a->count == 0 && b->count == 0;
+}
+
+static void clipping_finds_what_merging_finds(void **state) {
+    (void)state;
+    int told = 0, parted = 0, asked = 0;
+    for (uint64_t number = 0; number < 20000; number++) {
+        test_random random = test_random_case("clip", number);
+        points p = outline(&random, number), q = outline(&random, number), merged = {0}, clipped = {0};
+        pir_corner room[MOST + 1];
+        pir_outline of_p = {p.at, p.count}, of_q = {q.at, q.count};
+        if (!pir_outline_is_clear(of_p, SNAP, PART) || !pir_outline_is_clear(of_q, SNAP, PART))
+            continue;
+        expect(pir_outline_slim(p.at, p.count, PART) == p.count, "case %d: a clear outline is slim", (int)number);
+        asked += (int)(number % 2);
+        clipped.count = pir_outline_clip(of_p, of_q, SNAP, clipped.at);
+        if (clipped.count == PIR_CLIP_UNCLEAR)
+            continue;
+        merged.count = pir_outline_overlap(of_p, of_q, SNAP, PART, merged.at);
+        merged.count = pir_outline_hull(merged.at, merged.count, SNAP, room);
+        expect(same_cycle(&merged, &clipped), "case %d: %u corners, not %u", (int)number, clipped.count, merged.count);
+        told += (int)(number % 2);
+        parted += clipped.count == 0;
+    }
+    print_message("# %d of %d pairs in general position told, %d apart\n", told, asked, parted);
+    assert_true(told > 0.99 * asked && asked > 5000 && parted > 500);
+}
+
+/* What is flush, equal or beside is not told. */
+static void flush_outlines_are_unclear(void **state) {
+    (void)state;
+    const pir_corner square[4] = {{.u = 0, .v = 0}, {.u = 1, .v = 0}, {.u = 1, .v = 1}, {.u = 0, .v = 1}};
+    for (int i = 0; i < 3; i++) {
+        pir_corner moved[4], shared[8];
+        for (int k = 0; k < 4; k++)
+            moved[k] = (pir_corner){.u = square[k].u + (i > 0), .v = square[k].v + (i > 1 ? 1 : 0.25 * i)};
+        pir_outline p = {square, 4}, q = {moved, 4};
+        assert_true(pir_outline_is_clear(p, SNAP, PART));
+        assert_true(pir_outline_clip(p, q, SNAP, shared) == PIR_CLIP_UNCLEAR);
+    }
+    // slim ones, ones with a straight corner, and ones with too many corners
+    const pir_corner slim[3] = {{.u = 0, .v = 0}, {.u = 1, .v = 0}, {.u = 0.5, .v = 1e-7}};
+    const pir_corner straight[4] = {{.u = 0, .v = 0}, {.u = 1, .v = 0}, {.u = 2, .v = 1e-13}, {.u = 0, .v = 1}};
+    pir_corner many[PIR_CLIP_MOST + 1];
+    for (int i = 0; i <= PIR_CLIP_MOST; i++)
+        many[i] = (pir_corner){.u = cos(2 * pi * i / (PIR_CLIP_MOST + 1)), .v = sin(2 * pi * i / (PIR_CLIP_MOST + 1))};
+    assert_false(pir_outline_is_clear((pir_outline){slim, 3}, SNAP, PART));
+    assert_false(pir_outline_is_clear((pir_outline){straight, 4}, SNAP, PART));
+    assert_false(pir_outline_is_clear((pir_outline){many, PIR_CLIP_MOST + 1}, SNAP, PART));
+    assert_false(pir_outline_is_clear((pir_outline){square, 2}, SNAP, PART));
+}
+
+/* --- single facets --- */
+
+/* A patch of the body as it stands, with room for its vertices. */
+static pir_patch patch_of(const pir_polytope *p, pir_vec3 out, const pir_mat3 *r, uint32_t *member, bool *is_member,
+                          pir_corner *corner) {
+    return (pir_patch){.polytope = p,
+                       .vertex = p->vertex,
+                       .r = r,
+                       .sign = r ? -1 : 1,
+                       .out = out,
+                       .member = member,
+                       .is_member = is_member,
+                       .corner = corner};
+}
+
+/* Whether growing from the feature, and by one facet where it has no area, ends at the corners of f alone. */
+static bool grows_to(pir_patch *patch, pir_feature feature, uint32_t f) {
+    const pir_polytope *p = patch->polytope;
+    pir_patch_grow(patch, feature);
+    bool grown = feature.kind == PIR_FEATURE_FACET || pir_patch_extend(patch);
+    uint32_t on = 0, size = p->loop_start[f + 1] - p->loop_start[f];
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+        on += patch->is_member[p->origin[p->loop[i]]];
+    grown &= on == size && patch->members == size;
+    pir_patch_clear(patch);
+    return grown;
+}
+
+/* The patch of a feature in a direction that it carries an answer in, or nearly. Returns whether it is one facet. */
+static bool check_feature(pir_patch *patch, test_random *random, pir_feature feature, uint64_t number) {
+    const pir_polytope *p = patch->polytope;
+    uint32_t half = feature.kind == PIR_FEATURE_EDGE     ? p->edge_half[feature.index]
+                    : feature.kind == PIR_FEATURE_VERTEX ? p->ring_start[feature.index]
+                                                         : p->loop[p->loop_start[feature.index]];
+    pir_vec3 n = p->normal[p->left[half]], m = p->normal[pir_right(p, half)], d = test_random_direction(random);
+    double part = feature.kind == PIR_FEATURE_FACET ? 1 : 0.5 + 0.4 * test_random_unit(random);
+    double tilt = ldexp(1, -test_random_between(random, 1, 50));
+    pir_vec3 out = pir_vec_add(pir_vec_add(pir_vec_scale(n, part), pir_vec_scale(m, 1 - part)), pir_vec_scale(d, tilt));
+    out = pir_vec_scale(out, 1 / sqrt(pir_vec_dot(out, out)));
+    patch->out = pir_vec_scale(patch->r ? pir_mat_apply(patch->r, out) : out, patch->sign);
+    uint32_t f = pir_patch_single(patch, feature);
+    expect(f == PIR_NO_FACET || grows_to(patch, feature, f), "case %d: feature %d %u grows beyond facet %u",
+           (int)number, (int)feature.kind, feature.index, f);
+    if (feature.kind != PIR_FEATURE_FACET && pir_patch_is_sharp(patch, feature)) {
+        pir_patch_grow(patch, feature);
+        expect(patch->members == (uint32_t)feature.kind, "case %d: feature %d %u grows", (int)number, (int)feature.kind,
+               feature.index);
+        pir_patch_clear(patch);
+    }
+    return f != PIR_NO_FACET;
+}
+
+static void single_facets_are_what_growing_ends_at(void **state) {
+    (void)state;
+    static uint32_t member[TEST_POINTS_MAX];
+    static bool is_member[TEST_POINTS_MAX];
+    static pir_corner corner[TEST_POINTS_MAX];
+    int single = 0, asked = 0;
+    for (uint64_t number = 0; number < 600; number++) {
+        test_random random = test_random_case("single facets", number);
+        test_points at;
+        test_body_points(&random, (test_body)(number % TEST_BODY_COUNT), 4 + number % 20, &at);
+        if (number % 3 == 0)
+            test_bake(&at, test_general_rotation(&random));
+        pir_polytope *p = test_polytope(&at);
+        pir_mat3 r = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+        pir_patch patch = patch_of(p, (pir_vec3){0, 0, 1}, number % 2 ? &r : NULL, member, is_member, corner);
+        const uint32_t counts[3] = {p->vertex_count, p->edge_count, p->facet_count};
+        for (int i = 0; i < 60 && p->dimension > 1; i++) {
+            pir_feature feature = {(pir_feature_kind)(PIR_FEATURE_VERTEX + i % 3), 0};
+            feature.index = test_random_below(&random, counts[i % 3]);
+            single += check_feature(&patch, &random, feature, number);
+            asked++;
+        }
+        pir_polytope_release(p);
+    }
+    print_message("# %d of %d patches are single facets\n", single, asked);
+    assert_true(3 * single > asked);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {cmocka_unit_test(clipping_finds_what_merging_finds),
+                                       cmocka_unit_test(flush_outlines_are_unclear),
+                                       cmocka_unit_test(single_facets_are_what_growing_ends_at)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
