@@ -77,7 +77,7 @@ struct pir_workspace {
 pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                           pir_placement *ret_placement);
 
-/* The same for a call that follows one on the same pair, in the same workspace, at the same poses: it uses that one's. */
+/* The same for a call that follows one on this pair in this workspace: at the same poses it uses what that one made. */
 pir_status pir_pair_resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                            pir_placement *ret_placement);
 
