@@ -39,8 +39,8 @@ struct pir_pair {
     pir_vec3 at;
     pir_quat turned;
 
-    const pir_workspace *workspace; /* of the last call; never followed */
-    pir_fall fall_p, fall_q;        /* of the facets of the last manifold */
+    const pir_workspace *workspace;   /* of the last call; never followed */
+    pir_facet_shape shape_p, shape_q; /* of the facets of the last manifold */
 
     pir_pair_statistics statistics;
 };

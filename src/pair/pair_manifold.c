@@ -52,11 +52,11 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
     pir_query_result seen = seen_by_q(workspace, answer);
     pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .margin = input->margin};
     pir_manifold_ask ask = {&asked, &seen, capacity};
-    workspace->patches.p.fall = pair->fall_p;
-    workspace->patches.q.fall = pair->fall_q;
+    workspace->patches.p.shape = pair->shape_p;
+    workspace->patches.q.shape = pair->shape_q;
     status = pir_manifold_find(&workspace->frame, &placement, &workspace->patches, &ask, ret_contacts, ret_count);
-    pair->fall_p = workspace->patches.p.fall;
-    pair->fall_q = workspace->patches.q.fall;
+    pair->shape_p = workspace->patches.p.shape;
+    pair->shape_q = workspace->patches.q.shape;
     if ((status != PIR_OK && status != PIR_ERR_LIMIT) || !workspace->posed)
         return status;
     for (size_t i = 0; i < *ret_count && i < capacity; i++) {

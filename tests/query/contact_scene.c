@@ -154,19 +154,26 @@ static void check_room(const contact_scene *scene) {
     }
 }
 
-/* Every contact is found again, in the same order, with twice the margin and with any margin. */
+/*
+ * Every contact is found again, in the same order, with twice the margin and with any margin, and those within the
+ * margin are all there.
+ */
 static void check_margin(const contact_scene *scene, const char *what, unsigned long long number) {
     pir_query_input input = input_of(scene);
     pir_contact more[SCENE_CONTACTS];
     const double margins[2] = {2 * scene->margin + 0.01, HUGE_VAL};
     for (int k = 0; k < 2; k++) {
-        size_t count = 0, found = 0;
+        size_t count = 0, found = 0, within = 0;
         input.margin = margins[k];
         assert_int_equal(pir_query_manifold(scene->query, &input, &scene->answer, SCENE_CONTACTS, more, &count),
                          PIR_OK);
         for (size_t i = 0; i < count && found < scene->count; i++)
             found += same(&more[i], &scene->contact[found]);
         expect(found == scene->count, "%s, case %llu: margin %g loses contacts", what, number, margins[k]);
+        for (size_t i = 0; i < count; i++)
+            within += more[i].distance <= fmax(0, fmax(scene->margin, scene->answer.distance));
+        expect(within <= scene->count, "%s, case %llu: %zu of %zu contacts within margin %g", what, number,
+               scene->count, within, scene->margin);
     }
 }
 

@@ -44,6 +44,21 @@ static points outline(test_random *random, uint64_t number) {
     return p;
 }
 
+static bool is_slim(points p) {
+    return pir_outline_slim(p.at, p.count, PART) < p.count;
+}
+
+/* Whether it is no segment, and every corner is clear of the line through its neighbours. */
+static bool is_clear(const points *p) {
+    bool clear = p->count > 2 && !is_slim(*p);
+    for (uint32_t i = 0; i < p->count; i++) {
+        const pir_corner *a = &p->at[i], *b = &p->at[(i + 1) % p->count], *c = &p->at[(i + 2) % p->count];
+        double cross = (b->u - a->u) * (c->v - a->v) - (b->v - a->v) * (c->u - a->u);
+        clear &= cross > PIR_CLIP_CLEAR * SNAP * pir_outline_distance(a, c);
+    }
+    return clear;
+}
+
 static bool is_corner(const pir_corner *a, const pir_corner *b) {
     return a->kind == b->kind && a->p == b->p && a->q == b->q && pir_outline_distance(a, b) < 1e-11;
 }
@@ -67,9 +82,8 @@ static void clipping_finds_what_merging_finds(void **state) {
         points p = outline(&random, number), q = outline(&random, number), merged = {0}, clipped = {0};
         pir_corner room[MOST + 1];
         pir_outline of_p = {p.at, p.count}, of_q = {q.at, q.count};
-        if (!pir_outline_is_clear(of_p, SNAP, PART) || !pir_outline_is_clear(of_q, SNAP, PART))
+        if (!is_clear(&p) || !is_clear(&q))
             continue;
-        expect(pir_outline_slim(p.at, p.count, PART) == p.count, "case %d: a clear outline is slim", (int)number);
         asked += (int)(number % 2);
         clipped.count = pir_outline_clip(of_p, of_q, SNAP, clipped.at);
         if (clipped.count == PIR_CLIP_UNCLEAR)
@@ -93,22 +107,25 @@ static void flush_outlines_are_unclear(void **state) {
         for (int k = 0; k < 4; k++)
             moved[k] = (pir_corner){.u = square[k].u + (i > 0), .v = square[k].v + (i > 1 ? 1 : 0.25 * i)};
         pir_outline p = {square, 4}, q = {moved, 4};
-        assert_true(pir_outline_is_clear(p, SNAP, PART));
         assert_true(pir_outline_clip(p, q, SNAP, shared) == PIR_CLIP_UNCLEAR);
     }
-    // slim ones, ones with a straight corner, and ones with too many corners
-    const pir_corner slim[3] = {{.u = 0, .v = 0}, {.u = 1, .v = 0}, {.u = 0.5, .v = 1e-7}};
-    const pir_corner straight[4] = {{.u = 0, .v = 0}, {.u = 1, .v = 0}, {.u = 2, .v = 1e-13}, {.u = 0, .v = 1}};
-    pir_corner many[PIR_CLIP_MOST + 1];
+    // too many corners
+    pir_corner many[PIR_CLIP_MOST + 1], shared[2 * PIR_CLIP_MOST + 1];
     for (int i = 0; i <= PIR_CLIP_MOST; i++)
         many[i] = (pir_corner){.u = cos(2 * pi * i / (PIR_CLIP_MOST + 1)), .v = sin(2 * pi * i / (PIR_CLIP_MOST + 1))};
-    assert_false(pir_outline_is_clear((pir_outline){slim, 3}, SNAP, PART));
-    assert_false(pir_outline_is_clear((pir_outline){straight, 4}, SNAP, PART));
-    assert_false(pir_outline_is_clear((pir_outline){many, PIR_CLIP_MOST + 1}, SNAP, PART));
-    assert_false(pir_outline_is_clear((pir_outline){square, 2}, SNAP, PART));
+    pir_outline all = {many, PIR_CLIP_MOST + 1}, far = {square, 4};
+    assert_true(pir_outline_clip(all, far, SNAP, shared) == PIR_CLIP_UNCLEAR);
+    assert_true(pir_outline_clip(far, all, SNAP, shared) == PIR_CLIP_UNCLEAR);
 }
 
 /* --- single facets --- */
+
+static double size_of(const pir_polytope *p) {
+    double most = 0;
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        most = fmax(most, sqrt(pir_vec_dot(p->vertex[v], p->vertex[v])));
+    return most;
+}
 
 /* A patch of the body as it stands, with room for its vertices. */
 static pir_patch patch_of(const pir_polytope *p, pir_vec3 out, const pir_mat3 *r, uint32_t *member, bool *is_member,
@@ -118,6 +135,7 @@ static pir_patch patch_of(const pir_polytope *p, pir_vec3 out, const pir_mat3 *r
                        .r = r,
                        .sign = r ? -1 : 1,
                        .out = out,
+                       .snap = 2 * PIR_SNAP * size_of(p),
                        .member = member,
                        .is_member = is_member,
                        .corner = corner};
@@ -136,6 +154,35 @@ static bool grows_to(pir_patch *patch, pir_feature feature, uint32_t f) {
     return grown;
 }
 
+static bool is_in(const pir_patch *patch, const pir_corner *x) {
+    bool in = false;
+    for (uint32_t i = 0; i < patch->outline.count; i++)
+        in |= patch->outline.at[i].p == x->p && pir_outline_distance(&patch->outline.at[i], x) == 0;
+    return in;
+}
+
+/* The outline of a single facet is the hull of its corners, none left out, and each is on its plane. */
+static void check_outline(pir_patch *patch, const pir_single *single, uint64_t number) {
+    pir_corner hull[PIR_CLIP_MOST], room[PIR_CLIP_MOST + 1];
+    pir_vec3 n = pir_vec_scale(patch->out, patch->sign), least = {fabs(n.x) < 0.6, fabs(n.x) >= 0.6, 0};
+    pir_vec3 u = pir_vec_cross(n, least), axis[3] = {pir_vec_scale(u, 1 / sqrt(pir_vec_dot(u, u)))};
+    axis[1] = pir_vec_cross(n, axis[0]);
+    axis[2] = n;
+    pir_patch_set_single(patch, single, axis);
+    uint32_t count = patch->outline.count;
+    for (uint32_t i = 0; i < count; i++) {
+        hull[i] = patch->outline.at[i];
+        double off = pir_vec_dot(n, pir_patch_vertex(patch, hull[i].p)) - pir_patch_height(patch, &hull[i]);
+        expect(fabs(off) < 8 * patch->snap, "case %d: corner %u of facet %u is %.3g off its plane", (int)number, i,
+               single->facet, off);
+    }
+    expect(pir_outline_hull(hull, count, patch->snap, room) == count &&
+               pir_outline_slim(hull, count, PIR_FLUSH) == count,
+           "case %d: facet %u has corners that do not stand out", (int)number, single->facet);
+    for (uint32_t i = 0; i < count; i++)
+        expect(is_in(patch, &hull[i]), "case %d: corner %u of facet %u", (int)number, hull[i].p, single->facet);
+}
+
 /* The patch of a feature in a direction that it carries an answer in, or nearly. Returns whether it is one facet. */
 static bool check_feature(pir_patch *patch, test_random *random, pir_feature feature, uint64_t number) {
     const pir_polytope *p = patch->polytope;
@@ -148,16 +195,20 @@ static bool check_feature(pir_patch *patch, test_random *random, pir_feature fea
     pir_vec3 out = pir_vec_add(pir_vec_add(pir_vec_scale(n, part), pir_vec_scale(m, 1 - part)), pir_vec_scale(d, tilt));
     out = pir_vec_scale(out, 1 / sqrt(pir_vec_dot(out, out)));
     patch->out = pir_vec_scale(patch->r ? pir_mat_apply(patch->r, out) : out, patch->sign);
-    uint32_t f = pir_patch_single(patch, feature);
-    expect(f == PIR_NO_FACET || grows_to(patch, feature, f), "case %d: feature %d %u grows beyond facet %u",
-           (int)number, (int)feature.kind, feature.index, f);
+    pir_single single;
+    bool is_single = pir_patch_single(patch, feature, &single);
+    if (is_single) {
+        expect(grows_to(patch, feature, single.facet), "case %d: feature %d %u grows beyond facet %u", (int)number,
+               (int)feature.kind, feature.index, single.facet);
+        check_outline(patch, &single, number);
+    }
     if (feature.kind != PIR_FEATURE_FACET && pir_patch_is_sharp(patch, feature)) {
         pir_patch_grow(patch, feature);
         expect(patch->members == (uint32_t)feature.kind, "case %d: feature %d %u grows", (int)number, (int)feature.kind,
                feature.index);
         pir_patch_clear(patch);
     }
-    return f != PIR_NO_FACET;
+    return is_single;
 }
 
 static void single_facets_are_what_growing_ends_at(void **state) {

@@ -55,6 +55,7 @@ static pir_status fit(pir_query *query) {
         return status;
     pir_search_fill(&query->search);
     pir_regional_forget(&query->regional, &query->frame);
+    query->patches.p.shape.facet = query->patches.q.shape.facet = 0;
     query->fits = true;
     return PIR_OK;
 }

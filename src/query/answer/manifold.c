@@ -11,6 +11,7 @@
  *
  *   - two features without an area, from which nothing grows and which are not parallel, share nothing: the answer is
  *     the one contact;
+ *   - a vertex over a facet, the facets at which rise too fast for any other corner to be near, is the one contact;
  *   - two patches of one facet each (single.h) in general position (clip.h) share corners that need no merging, and
  *     these lie on the two facets' planes.
  */
@@ -31,7 +32,9 @@ struct manifold {
     pir_vec3 n;
     pir_vec3 axis[3];       /* two of the contact plane, and n = axis[0] × axis[1] */
     bool is_single;         /* both patches are single facets */
-    pir_corner of_answer;   /* the answer's point, in the plane */
+    pir_vec3 point;         /* the answer's on Q's polytope, in the frame */
+    pir_corner of_answer;   /* that in the plane */
+    double coarse;          /* a corner this near it is the same */
     double radius_p, radii; /* radius_p + radius_q */
     double limit;           /* corners up to this distance are kept */
 };
@@ -98,13 +101,20 @@ static void begin(struct manifold *m, const pir_placement *placement) {
 
 /* What corners are measured by. */
 static void set_measures(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
+    const pir_query_result *answer = m->answer;
+    double error = pir_frame_length(m->frame, 4 * placement->error);
     m->radius_p = input->radius_p;
     m->radii = input->radius_p + input->radius_q;
+    m->limit = fmax(fmax(input->margin, answer->distance), 0) + error;
+    m->point = point_of_answer(m, input->radius_q);
+    // the rounding of points in world coordinates grows with those
+    double far = fabs(answer->point_q.x) + fabs(answer->point_q.y) + fabs(answer->point_q.z);
+    m->coarse = 4 * m->p->snap + 0x1p-50 * pir_frame_from(m->frame, far);
+}
+
+static void set_plane(struct manifold *m) {
     set_axes(m);
-    pir_vec3 y = point_of_answer(m, input->radius_q);
-    m->of_answer = (pir_corner){.u = pir_vec_dot(m->axis[0], y), .v = pir_vec_dot(m->axis[1], y)};
-    double error = pir_frame_length(m->frame, 4 * placement->error);
-    m->limit = fmax(fmax(input->margin, m->answer->distance), 0) + error;
+    m->of_answer = (pir_corner){.u = pir_vec_dot(m->axis[0], m->point), .v = pir_vec_dot(m->axis[1], m->point)};
 }
 
 /* --- overlaps --- */
@@ -124,19 +134,45 @@ static bool is_alone(const struct manifold *m) {
     return fabs(pir_vec_dot(across, m->n)) > 2 * PIR_FLUSH;
 }
 
+/*
+ * Whether a vertex is the answer's point, carried by a facet of the other body, and no other corner is near. `vertex`
+ * and `carrier` are the patches of the two bodies, `from` and `to` their facets.
+ *
+ * Let r be the least distance of another corner from the vertex, along the vertex's facet: that facet's own corners
+ * are `apart`, and all others lie over the rim of the carrier. The facet rises by the slope of its two edges at least,
+ * times the distance along it, while the carrier is level.
+ */
+static bool is_lone_vertex(const struct manifold *m, const pir_patch *vertex, const pir_single *from,
+                           const pir_patch *carrier, const pir_single *to) {
+    double level = 0x1p-20, distance = pir_frame_from(m->frame, m->answer->distance + m->radii);
+    double rise = from->slope - level, apart = vertex->shape.apart;
+    if (!(rise > PIR_FLUSH && to->cosine > 1 - 0x1p-45))
+        return false;
+    pir_vec3 on_q = m->point, on_p = pir_vec_add(on_q, pir_vec_scale(m->n, distance));
+    bool is_p = vertex == m->p;
+    pir_feature feature = is_p ? m->answer->witness.p : m->answer->witness.q;
+    pir_vec3 off = pir_vec_sub(pir_patch_vertex(vertex, feature.index), is_p ? on_p : on_q);
+    if (pir_vec_dot(off, off) > m->coarse * m->coarse)
+        return false;
+    double rim = pir_patch_from_rim(carrier, to, is_p ? on_q : on_p) - m->coarse, r = (rim < apart ? rim : apart);
+    double least = m->answer->distance + pir_frame_length(m->frame, r * rise) * (1 - 0x1p-20);
+    return rim > PIR_CLIP_CLEAR * vertex->snap && least > m->limit;
+}
+
 /* The corners that two single facets share, in the room; PIR_CLIP_UNCLEAR where growing and merging have to tell. */
-static uint32_t overlap_single(struct manifold *m) {
-    pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
-    if (p.kind != PIR_FEATURE_FACET && q.kind != PIR_FEATURE_FACET)
+static uint32_t overlap_singles(struct manifold *m) {
+    pir_feature of_p = m->answer->witness.p, of_q = m->answer->witness.q;
+    pir_single p, q;
+    if ((of_p.kind != PIR_FEATURE_FACET && of_q.kind != PIR_FEATURE_FACET) || !pir_patch_single(m->p, of_p, &p) ||
+        !pir_patch_single(m->q, of_q, &q)) {
+        set_plane(m);
         return PIR_CLIP_UNCLEAR;
-    uint32_t of_p = pir_patch_single(m->p, p), of_q = pir_patch_single(m->q, q);
-    if (of_p == PIR_NO_FACET || of_q == PIR_NO_FACET)
-        return PIR_CLIP_UNCLEAR;
-    pir_patch_set_single(m->p, of_p, m->axis);
-    pir_patch_set_single(m->q, of_q, m->axis);
-    if (!pir_outline_is_clear(m->p->outline, m->p->snap, PIR_FLUSH) ||
-        !pir_outline_is_clear(m->q->outline, m->q->snap, PIR_FLUSH))
-        return PIR_CLIP_UNCLEAR;
+    }
+    if (is_lone_vertex(m, m->p, &p, m->q, &q) || is_lone_vertex(m, m->q, &q, m->p, &p))
+        return 0;
+    set_plane(m);
+    pir_patch_set_single(m->p, &p, m->axis);
+    pir_patch_set_single(m->q, &q, m->axis);
     return pir_outline_clip(m->p->outline, m->q->outline, m->p->snap, m->room->shared);
 }
 
@@ -236,11 +272,8 @@ static uint64_t answer_id(const struct manifold *m, bool is_corner) {
 /* The corner that is the answer's own point, or `count` where none is. */
 static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
     const pir_corner *corner = m->room->shared;
-    // the rounding of points in world coordinates grows with those
-    pir_vec3 w = m->answer->point_q;
-    double coarse = 4 * m->p->snap + 0x1p-50 * pir_frame_from(m->frame, fabs(w.x) + fabs(w.y) + fabs(w.z));
     for (uint32_t i = 0; i < count; i++)
-        if (pir_outline_distance(&corner[i], &m->of_answer) <= coarse)
+        if (pir_outline_distance(&corner[i], &m->of_answer) <= m->coarse)
             return i;
     return count;
 }
@@ -286,7 +319,7 @@ pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placem
     uint32_t corners = 0;
     if (!is_alone(&m)) {
         set_measures(&m, ask->input, placement);
-        corners = overlap_single(&m);
+        corners = overlap_singles(&m);
         m.is_single = corners != PIR_CLIP_UNCLEAR;
         corners = m.is_single ? corners : overlap(&m);
     }

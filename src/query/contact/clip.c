@@ -15,154 +15,140 @@
 
 #include <math.h>
 
-/*
- * A corner is clear of a line at this many times `snap`. Corners that outline.c takes for one are at most 4 snaps
- * apart.
- */
-#define CLEAR 8
-
-/* The sides of an outline as vectors, and what a corner has to exceed to be clear of each, times its length. */
-struct sides {
-    double u[PIR_CLIP_MOST], v[PIR_CLIP_MOST], clear[PIR_CLIP_MOST];
-};
-
-static void set_sides(pir_outline outline, double snap, struct sides *ret_sides) {
-    for (uint32_t i = 0; i < outline.count; i++) {
-        const pir_corner *a = &outline.at[i], *b = &outline.at[i + 1 < outline.count ? i + 1 : 0];
-        double u = b->u - a->u, v = b->v - a->v;
-        ret_sides->u[i] = u;
-        ret_sides->v[i] = v;
-        ret_sides->clear[i] = CLEAR * snap * (fabs(u) + fabs(v));
-    }
-}
-
-/*
- * How far corners are inside of lines, times the length of the side, and a set of the lines that each is outside of.
- * False where one is not clear.
- */
-static bool find_insides(pir_outline of, pir_outline by, const struct sides *sides, double (*ret_inside)[PIR_CLIP_MOST],
-                         uint32_t *ret_outside) {
-    bool clear = true;
-    for (uint32_t i = 0; i < of.count; i++) {
-        double u = of.at[i].u, v = of.at[i].v;
-        uint32_t outside = 0;
-        for (uint32_t j = 0; j < by.count; j++) {
-            double inside = sides->u[j] * (v - by.at[j].v) - sides->v[j] * (u - by.at[j].u);
-            ret_inside[i][j] = inside;
-            clear &= fabs(inside) > sides->clear[j];
-            outside |= (uint32_t)(inside < 0) << j;
-        }
-        ret_outside[i] = outside;
-    }
-    return clear;
-}
-
 struct clip {
     pir_outline p, q;
-    struct sides of_p, of_q;
-    double inside_q[PIR_CLIP_MOST][PIR_CLIP_MOST], inside_p[PIR_CLIP_MOST][PIR_CLIP_MOST];
-    uint32_t outside_q[PIR_CLIP_MOST], outside_p[PIR_CLIP_MOST]; /* per corner of P, of Q: sets of lines */
-    uint32_t crossed[PIR_CLIP_MOST];                             /* per side of P: the set of sides that it crosses */
+    double inside[PIR_CLIP_MOST][PIR_CLIP_MOST]; /* corner i of P inside of line j of Q, times the side's length */
+    uint32_t outside[PIR_CLIP_MOST];             /* per corner of P: the set of lines of Q that it is outside of */
+    uint32_t beyond[PIR_CLIP_MOST];              /* per line of P: the set of corners of Q that are outside of it */
+    uint32_t crossed[PIR_CLIP_MOST];             /* per side of P: the set of sides of Q that it crosses */
+    double snap;
     pir_corner *corners;
     uint32_t count;
 };
 
-/* Sets which sides of Q each side of P crosses. False where one crosses more than convex outlines can. */
-static bool find_crossings(struct clip *clip) {
-    uint32_t p = clip->p.count, q = clip->q.count;
-    for (uint32_t i = 0; i < p; i++) {
-        uint32_t beyond = 0; // corners of Q
-        for (uint32_t j = 0; j < q; j++)
-            beyond |= (clip->outside_p[j] >> i & 1) << j;
-        uint32_t next = beyond >> 1 | (beyond & 1) << (q - 1), end = clip->outside_q[i + 1 < p ? i + 1 : 0];
-        uint32_t crossed = (beyond ^ next) & (clip->outside_q[i] ^ end);
-        clip->crossed[i] = crossed;
-        uint32_t enters = crossed & clip->outside_q[i], leaves = crossed & end;
-        if ((enters & (enters - 1)) != 0 || (leaves & (leaves - 1)) != 0)
-            return false;
+/* A line along a side: how far a point is inside, times the side's length, is u · v' − v · u' − at. */
+struct line {
+    double u, v, at, clear;
+};
+
+static inline struct line line_along(pir_outline outline, uint32_t i, double snap) {
+    const pir_corner *a = &outline.at[i], *b = &outline.at[i + 1 < outline.count ? i + 1 : 0];
+    double u = b->u - a->u, v = b->v - a->v;
+    return (struct line){u, v, u * a->v - v * a->u, PIR_CLIP_CLEAR * snap * (fabs(u) + fabs(v))};
+}
+
+static inline double inside_of(const struct line *line, const pir_corner *x) {
+    return line->u * x->v - line->v * x->u - line->at;
+}
+
+/* Where the corners of P are. False where one is not clear. */
+static bool place_p(struct clip *clip) {
+    uint32_t p = clip->p.count;
+    bool clear = true;
+    for (uint32_t i = 0; i < p; i++)
+        clip->outside[i] = 0;
+    for (uint32_t j = 0; j < clip->q.count; j++) {
+        struct line line = line_along(clip->q, j, clip->snap);
+        for (uint32_t i = 0; i < p; i++) {
+            double inside = inside_of(&line, &clip->p.at[i]);
+            clip->inside[i][j] = inside;
+            clear &= fabs(inside) > line.clear;
+            clip->outside[i] |= (uint32_t)(inside < 0) << j;
+        }
     }
-    return true;
+    return clear;
+}
+
+/* Where the corners of Q are, and which sides cross. False where one is not clear, or more sides cross than can. */
+static bool place_q(struct clip *clip) {
+    uint32_t p = clip->p.count, q = clip->q.count;
+    bool clear = true;
+    for (uint32_t i = 0; i < p; i++) {
+        struct line line = line_along(clip->p, i, clip->snap);
+        uint32_t beyond = 0, start = clip->outside[i], end = clip->outside[i + 1 < p ? i + 1 : 0];
+        for (uint32_t j = 0; j < q; j++) {
+            double inside = inside_of(&line, &clip->q.at[j]);
+            clear &= fabs(inside) > line.clear;
+            beyond |= (uint32_t)(inside < 0) << j;
+        }
+        uint32_t next = beyond >> 1 | (beyond & 1) << (q - 1), crossed = (beyond ^ next) & (start ^ end);
+        uint32_t enters = crossed & start, leaves = crossed & end;
+        clear &= (enters & (enters - 1)) == 0 && (leaves & (leaves - 1)) == 0;
+        clip->beyond[i] = beyond;
+        clip->crossed[i] = crossed;
+    }
+    return clear;
 }
 
 /* The side of Q in a set of one. */
-static uint32_t only(uint32_t set) {
+static inline uint32_t only(uint32_t set) {
     uint32_t j = 0;
     while (!(set >> j & 1))
         j++;
     return j;
 }
 
-static void put_corner(struct clip *clip, pir_corner_kind kind, uint32_t i) {
+static inline void put_corner(struct clip *clip, pir_corner_kind kind, uint32_t i) {
     const pir_corner *at = kind == PIR_CORNER_P ? &clip->p.at[i] : &clip->q.at[i];
     clip->corners[clip->count++] = (pir_corner){at->u, at->v, kind, i, i};
 }
 
-static void put_crossing(struct clip *clip, uint32_t i, uint32_t j) {
-    double from = clip->inside_q[i][j], to = clip->inside_q[i + 1 < clip->p.count ? i + 1 : 0][j];
-    double part = from / (from - to);
-    const pir_corner *a = &clip->p.at[i];
+static inline void put_crossing(struct clip *clip, uint32_t i, uint32_t j) {
+    uint32_t end = i + 1 < clip->p.count ? i + 1 : 0;
+    double part = clip->inside[i][j] / (clip->inside[i][j] - clip->inside[end][j]);
+    const pir_corner *a = &clip->p.at[i], *b = &clip->p.at[end];
     clip->corners[clip->count++] =
-        (pir_corner){a->u + part * clip->of_p.u[i], a->v + part * clip->of_p.v[i], PIR_CORNER_CROSSING, i, j};
+        (pir_corner){a->u + part * (b->u - a->u), a->v + part * (b->v - a->v), PIR_CORNER_CROSSING, i, j};
 }
 
-/* The corners of one outline that lies in the other, where their rims do not cross. */
+/* The corners of the outline that lies in the other, where their rims do not cross. */
 static void put_all(struct clip *clip) {
-    uint32_t outside = 0;
-    for (uint32_t j = 0; j < clip->q.count; j++)
-        outside |= clip->outside_p[j];
-    bool of_p = clip->outside_q[0] == 0;
-    uint32_t count = of_p ? clip->p.count : outside == 0 ? clip->q.count : 0;
+    uint32_t beyond = 0;
+    for (uint32_t i = 0; i < clip->p.count; i++)
+        beyond |= clip->beyond[i];
+    bool of_p = clip->outside[0] == 0;
+    uint32_t count = of_p ? clip->p.count : beyond == 0 ? clip->q.count : 0;
     for (uint32_t i = 0; i < count; i++)
         put_corner(clip, of_p ? PIR_CORNER_P : PIR_CORNER_Q, i);
 }
 
 /* Walks around P, from the end of side `first`, by which P leaves Q. */
 static void walk(struct clip *clip, uint32_t first) {
-    uint32_t p = clip->p.count, q = clip->q.count, left = 0;
-    for (uint32_t k = 0, i = first; k <= p; k++, i = i + 1 < p ? i + 1 : 0) {
-        uint32_t enters = clip->crossed[i] & clip->outside_q[i], leaves = clip->crossed[i] & ~clip->outside_q[i];
-        if (k > 0 && enters) {
+    uint32_t p = clip->p.count, q = clip->q.count, left = only(clip->crossed[first] & ~clip->outside[first]);
+    put_crossing(clip, first, left);
+    for (uint32_t k = 1, i = first; k <= p; k++) {
+        i = i + 1 < p ? i + 1 : 0;
+        uint32_t enters = clip->crossed[i] & clip->outside[i], leaves = clip->crossed[i] & ~clip->outside[i];
+        if (enters) {
             uint32_t entered = only(enters);
-            for (uint32_t j = left; j != entered;) {
-                j = j + 1 < q ? j + 1 : 0;
-                put_corner(clip, PIR_CORNER_Q, j);
+            while (left != entered) {
+                left = left + 1 < q ? left + 1 : 0;
+                put_corner(clip, PIR_CORNER_Q, left);
             }
             put_crossing(clip, i, entered);
-        } else if (k > 0 && clip->outside_q[i] == 0) {
+        } else if (clip->outside[i] == 0) {
             put_corner(clip, PIR_CORNER_P, i);
         }
-        if (leaves) {
+        if (leaves && k < p) {
             left = only(leaves);
-            if (k < p)
-                put_crossing(clip, i, left);
+            put_crossing(clip, i, left);
         }
     }
 }
 
 /* Whether each corner turns left, and is clear of the line through its neighbours. */
-static bool turns_left(const pir_corner *at, uint32_t count, double snap) {
-    bool clear = true;
+static bool is_hull(const pir_corner *at, uint32_t count, double snap) {
+    bool clear = count > 2;
+    double u = at[0].u - at[count - 1].u, v = at[0].v - at[count - 1].v, size = fabs(u) + fabs(v);
     for (uint32_t i = 0; i < count; i++) {
-        const pir_corner *b = &at[i + 1 < count ? i + 1 : 0], *c = &at[i + 2 < count ? i + 2 : i + 2 - count];
-        double u = b->u - at[i].u, v = b->v - at[i].v, s = c->u - b->u, t = c->v - b->v;
-        clear &= u * t - v * s > CLEAR * snap * (fabs(u) + fabs(v) + fabs(s) + fabs(t));
+        const pir_corner *a = &at[i], *b = &at[i + 1 < count ? i + 1 : 0];
+        double s = b->u - a->u, t = b->v - a->v, next = fabs(s) + fabs(t);
+        clear &= u * t - v * s > PIR_CLIP_CLEAR * snap * (size + next);
+        u = s;
+        v = t;
+        size = next;
     }
     return clear;
-}
-
-bool pir_outline_is_clear(pir_outline outline, double snap, double part) {
-    if (outline.count < 3 || outline.count > PIR_CLIP_MOST || !turns_left(outline.at, outline.count, snap))
-        return false;
-    // twice the area of a corner's triangle is at most twice that of the outline, whose width times length is more
-    double most = 0, around = 0;
-    for (uint32_t i = 0; i < outline.count; i++) {
-        const pir_corner *a = &outline.at[i], *b = &outline.at[i + 1 < outline.count ? i + 1 : 0];
-        const pir_corner *c = &outline.at[i + 2 < outline.count ? i + 2 : i + 2 - outline.count];
-        double u = b->u - a->u, v = b->v - a->v;
-        most = fmax(most, u * (c->v - b->v) - v * (c->u - b->u));
-        around += fabs(u) + fabs(v);
-    }
-    return most > part * around * around;
 }
 
 uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_corner *ret_corners) {
@@ -171,20 +157,17 @@ uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_corner 
     struct clip clip;
     clip.p = p;
     clip.q = q;
+    clip.snap = snap;
     clip.corners = ret_corners;
     clip.count = 0;
-    set_sides(p, snap, &clip.of_p);
-    set_sides(q, snap, &clip.of_q);
-    if (!find_insides(p, q, &clip.of_q, clip.inside_q, clip.outside_q) ||
-        !find_insides(q, p, &clip.of_p, clip.inside_p, clip.outside_p) || !find_crossings(&clip))
+    if (!place_p(&clip) || !place_q(&clip))
         return PIR_CLIP_UNCLEAR;
     uint32_t first = 0;
-    while (first < p.count && !(clip.crossed[first] & ~clip.outside_q[first]))
+    while (first < p.count && !(clip.crossed[first] & ~clip.outside[first]))
         first++;
     if (first == p.count)
         put_all(&clip);
     else
         walk(&clip, first);
-    return clip.count == 0 || (clip.count > 2 && turns_left(ret_corners, clip.count, snap)) ? clip.count
-                                                                                            : PIR_CLIP_UNCLEAR;
+    return clip.count == 0 || is_hull(ret_corners, clip.count, snap) ? clip.count : PIR_CLIP_UNCLEAR;
 }

@@ -2,6 +2,10 @@
 /*
  * A facet is its own patch in every direction near its normal where the edges that leave it fall from its plane by
  * more than PIR_FLAT and what the normals differ by.
+ *
+ * Seen at a cosine c to its normal, a length shrinks to c of itself at most, and the area of a corner's triangle to
+ * exactly that. So a corner stands out from its neighbours by at least c times what it does in the facet, and the
+ * outline is at least c times as wide for its length.
  */
 #include "query/contact/single.h"
 
@@ -13,6 +17,9 @@
 /* Above what sines and differences of unit vectors round by. */
 #define ROUNDING 0x1p-40
 
+/* Above what is lost where shapes are kept as floats. */
+#define COARSE 0x1p-20
+
 /* --- vertices and edges --- */
 
 /* Whether all edges from v but one to `except` fall or rise steeply. m is a direction of the body. */
@@ -23,95 +30,164 @@ static bool is_sharp_at(const pir_polytope *p, uint32_t v, uint32_t except, pir_
     return sharp;
 }
 
-bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature) {
-    const pir_polytope *p = patch->polytope;
-    pir_vec3 m = pir_patch_to_body(patch, patch->out);
+static bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3 m) {
     if (feature.kind == PIR_FEATURE_VERTEX)
         return is_sharp_at(p, feature.index, UINT32_MAX, m);
     uint32_t half = p->edge_half[feature.index], a = p->origin[half], b = p->target[half];
     return is_sharp_at(p, a, b, m) && is_sharp_at(p, b, a, m);
 }
 
-/* --- facets --- */
+bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature) {
+    return is_sharp(patch->polytope, feature, pir_patch_to_body(patch, patch->out));
+}
 
-static float fall_of(const pir_polytope *p, uint32_t f) {
+/* --- the shape of a facet --- */
+
+static double fall_of(const pir_polytope *p, uint32_t f) {
     double least = 1;
-    if (p->loop_start[f + 1] - p->loop_start[f] > PIR_CLIP_MOST)
-        return 0;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         uint32_t v = p->origin[p->loop[i]];
         for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++)
             if (p->left[h] != f && pir_right(p, h) != f)
                 least = fmin(least, -pir_vec_dot(p->direction[h], p->normal[f]));
     }
-    return (float)least;
+    return least;
 }
 
-/* Whether f alone is the patch that grows from it across `out`, a direction of the body. */
-static bool stands_alone(pir_patch *patch, uint32_t f, pir_vec3 out) {
-    if (patch->fall.facet != f + 1)
-        patch->fall = (pir_fall){f + 1, fall_of(patch->polytope, f)};
+static double length(pir_vec3 v) {
+    return sqrt(pir_vec_dot(v, v));
+}
+
+static double least_apart(const pir_vec3 *at, uint32_t count) {
+    double least = HUGE_VAL;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < i; k++)
+            least = fmin(least, length(pir_vec_sub(at[i], at[k])));
+    return least;
+}
+
+/*
+ * The double area of a corner's triangle, over the lengths of its two sides, is at most how far the corner stands out.
+ * Over the square of the way around, it is at most the width of the facet over its length: the facet lies in a box of
+ * that width and twice that length, which is at most half of the way around.
+ */
+static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
+    const pir_polytope *p = patch->polytope;
+    uint32_t start = p->loop_start[f], count = p->loop_start[f + 1] - start;
+    pir_facet_shape shape = {f + 1, 0, 0, 0, 0};
+    pir_vec3 at[PIR_CLIP_MOST];
+    if (count > PIR_CLIP_MOST)
+        return shape;
+    for (uint32_t i = 0; i < count; i++)
+        at[i] = patch->vertex[p->origin[p->loop[start + i]]];
+    double thick = HUGE_VAL, around = 0, most = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        pir_vec3 a = pir_vec_sub(at[i], at[i > 0 ? i - 1 : count - 1]);
+        pir_vec3 b = pir_vec_sub(at[i + 1 < count ? i + 1 : 0], at[i]);
+        double twice = length(pir_vec_cross(a, b));
+        thick = fmin(thick, twice / (length(a) + length(b)));
+        most = fmax(most, twice);
+        around += length(b);
+    }
+    shape.fall = (float)fall_of(p, f);
+    shape.thick = (float)thick;
+    shape.wide = (float)(most / (around * around));
+    shape.apart = (float)least_apart(at, count);
+    return shape;
+}
+
+/* --- facets --- */
+
+/* Whether f is the patch that grows from it across `out`, a direction of the body. */
+static bool stands_alone(pir_patch *patch, uint32_t f, pir_vec3 out, double cosine) {
+    if (patch->shape.facet != f + 1)
+        patch->shape = shape_of(patch, f);
+    const pir_facet_shape *shape = &patch->shape;
     pir_vec3 off = pir_vec_sub(out, patch->polytope->normal[f]);
-    double room = patch->fall.sine * (1 - 0x1p-20) - PIR_FLAT - ROUNDING;
-    return room > 0 && pir_vec_dot(off, off) < room * room;
+    double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING, seen = cosine * (1 - COARSE);
+    return room > 0 && pir_vec_dot(off, off) < room * room && seen * shape->thick > PIR_CLIP_CLEAR * patch->snap &&
+           seen * shape->wide > PIR_FLUSH;
 }
 
-/* Of the facets at v, the one that faces `out`, a direction of the body, most, where it does so more than `*most`. */
-static void find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, double *most, uint32_t *facet) {
+/* Of the halfedges at v, the one whose facet faces `out`, a direction of the body, most, if more than *most. */
+static void find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, double *most, uint32_t *half) {
     for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
         double along = pir_vec_dot(p->normal[p->left[h]], out);
         if (along > *most) {
             *most = along;
-            *facet = p->left[h];
+            *half = h;
         }
     }
 }
 
-uint32_t pir_patch_single(pir_patch *patch, pir_feature feature) {
+/* The facet that a vertex or an edge grows by, as the halfedge before which it lies; UINT32_MAX for none. */
+static uint32_t grown_by(const pir_polytope *p, pir_feature feature, pir_vec3 out, double *ret_cosine) {
+    uint32_t found = UINT32_MAX;
+    *ret_cosine = LEAST_COSINE;
+    if (feature.kind == PIR_FEATURE_VERTEX) {
+        find_facing(p, feature.index, out, ret_cosine, &found);
+        return found;
+    }
+    uint32_t half = p->edge_half[feature.index];
+    find_facing(p, p->origin[half], out, ret_cosine, &found);
+    find_facing(p, p->target[half], out, ret_cosine, &found);
+    // one at a single end of the edge leaves the other end beside it
+    bool has_both = found != UINT32_MAX && (p->left[found] == p->left[half] || p->left[found] == pir_right(p, half));
+    return has_both ? found : UINT32_MAX;
+}
+
+bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_single) {
     const pir_polytope *p = patch->polytope;
     pir_vec3 out = pir_patch_to_body(patch, patch->out);
     if (p->artificial)
-        return PIR_NO_FACET;
-    if (feature.kind == PIR_FEATURE_FACET)
-        return stands_alone(patch, feature.index, out) ? feature.index : PIR_NO_FACET;
-    if (!pir_patch_is_sharp(patch, feature))
-        return PIR_NO_FACET;
-    uint32_t f = PIR_NO_FACET;
-    double most = LEAST_COSINE;
-    if (feature.kind == PIR_FEATURE_VERTEX) {
-        find_facing(p, feature.index, out, &most, &f);
-    } else {
-        uint32_t half = p->edge_half[feature.index];
-        find_facing(p, p->origin[half], out, &most, &f);
-        find_facing(p, p->target[half], out, &most, &f);
-        // one at a single end of the edge leaves the other end beside it
-        if (f != p->left[half] && f != pir_right(p, half))
-            return PIR_NO_FACET;
+        return false;
+    if (feature.kind == PIR_FEATURE_FACET) {
+        *ret_single = (pir_single){feature.index, pir_vec_dot(out, p->normal[feature.index]), 0};
+        return stands_alone(patch, feature.index, out, ret_single->cosine);
     }
-    return f != PIR_NO_FACET && stands_alone(patch, f, p->normal[f]) ? f : PIR_NO_FACET;
+    double cosine;
+    uint32_t half = is_sharp(p, feature, out) ? grown_by(p, feature, out, &cosine) : UINT32_MAX;
+    if (half == UINT32_MAX)
+        return false;
+    *ret_single = (pir_single){p->left[half], cosine, 0};
+    if (feature.kind == PIR_FEATURE_VERTEX) {
+        double one = -pir_vec_dot(out, p->direction[half]);
+        double other = -pir_vec_dot(out, p->direction[pir_ring_next(p, half)]);
+        ret_single->slope = one < other ? one : other;
+    }
+    return stands_alone(patch, ret_single->facet, p->normal[ret_single->facet], cosine);
 }
 
-void pir_patch_set_single(pir_patch *patch, uint32_t facet, const pir_vec3 axis[3]) {
+void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]) {
     const pir_polytope *p = patch->polytope;
-    pir_vec3 own[3];
-    double at[3];
-    for (int k = 0; k < 3; k++) {
-        own[k] = pir_patch_to_body(patch, axis[k]);
-        at[k] = pir_vec_dot(axis[k], patch->at);
-    }
-    uint32_t start = p->loop_start[facet], count = p->loop_start[facet + 1] - start;
+    pir_vec3 u = pir_patch_to_body(patch, axis[0]), v = pir_patch_to_body(patch, axis[1]);
+    pir_vec3 w = pir_patch_to_body(patch, axis[2]), n = p->normal[single->facet];
+    double at_u = pir_vec_dot(axis[0], patch->at), at_v = pir_vec_dot(axis[1], patch->at);
+    uint32_t start = p->loop_start[single->facet], count = p->loop_start[single->facet + 1] - start;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t v = p->origin[p->loop[start + i]];
-        pir_vec3 x = patch->vertex[v];
-        patch->corner[i] =
-            (pir_corner){.u = pir_vec_dot(own[0], x) + at[0], .v = pir_vec_dot(own[1], x) + at[1], .p = v};
+        uint32_t a = p->origin[p->loop[start + i]];
+        pir_vec3 x = patch->vertex[a];
+        patch->corner[i].u = pir_vec_dot(u, x) + at_u;
+        patch->corner[i].v = pir_vec_dot(v, x) + at_v;
+        patch->corner[i].p = a;
     }
-    pir_vec3 n = p->normal[facet];
     const pir_corner *first = &patch->corner[0];
-    double by = -1 / pir_vec_dot(n, own[2]);
-    patch->along_u = by * pir_vec_dot(n, own[0]);
-    patch->along_v = by * pir_vec_dot(n, own[1]);
-    patch->height =
-        pir_vec_dot(own[2], patch->vertex[first->p]) + at[2] - patch->along_u * first->u - patch->along_v * first->v;
+    double by = -1 / pir_vec_dot(n, w),
+           from = pir_vec_dot(w, patch->vertex[first->p]) + pir_vec_dot(axis[2], patch->at);
+    patch->along_u = by * pir_vec_dot(n, u);
+    patch->along_v = by * pir_vec_dot(n, v);
+    patch->height = from - patch->along_u * first->u - patch->along_v * first->v;
     patch->outline = (pir_outline){patch->corner, count};
+}
+
+double pir_patch_from_rim(const pir_patch *patch, const pir_single *single, pir_vec3 x) {
+    const pir_polytope *p = patch->polytope;
+    pir_vec3 y = pir_patch_to_body(patch, pir_vec_sub(x, patch->at)), n = p->normal[single->facet];
+    double least = HUGE_VAL;
+    for (uint32_t i = p->loop_start[single->facet]; i < p->loop_start[single->facet + 1]; i++) {
+        uint32_t h = p->loop[i];
+        double inside = pir_vec_dot(pir_vec_cross(n, p->direction[h]), pir_vec_sub(y, patch->vertex[p->origin[h]]));
+        least = inside < least ? inside : least;
+    }
+    return least;
 }

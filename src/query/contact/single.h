@@ -11,20 +11,29 @@
 /* Whether the patch of a vertex or an edge is that feature alone. */
 bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature);
 
-/*
- * The facet that is the whole patch, where the other body's patch has an area: the feature itself, or the facet that a
- * sharp vertex or edge grows by. PIR_NO_FACET where the patch is more than that, or where the facet is steep.
- */
-uint32_t pir_patch_single(pir_patch *patch, pir_feature feature);
+/* A facet that is the whole patch. */
+typedef struct pir_single {
+    uint32_t facet;
+    double cosine; /* of its normal and `out` */
+    double slope;  /* of a vertex: every edge of the facet there falls from `out` by at least this; else 0 */
+} pir_single;
 
 /*
- * Sets outline and plane of a single facet. axis[2] = axis[0] × axis[1] is the normal from Q to P.
+ * Finds the facet that is the whole patch, where the other body's patch has an area: the feature itself, or the facet
+ * that a sharp vertex or edge grows by. Hulls and slimming would leave its outline as it is. False where the patch is
+ * more than that, where the facet is steep, or where rounding might matter.
  */
-void pir_patch_set_single(pir_patch *patch, uint32_t facet, const pir_vec3 axis[3]);
+bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_single);
+
+/* Sets outline and plane of a single facet. axis[2] = axis[0] × axis[1] is the normal from Q to P. */
+void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]);
 
 /* How far the plane of a single facet is along axis[2] over a point of the contact plane. */
 static inline double pir_patch_height(const pir_patch *patch, const pir_corner *at) {
     return patch->height + patch->along_u * at->u + patch->along_v * at->v;
 }
+
+/* How far a point of the frame, on the plane of a single facet, is from its rim; negative outside. */
+double pir_patch_from_rim(const pir_patch *patch, const pir_single *single, pir_vec3 x);
 
 #endif
