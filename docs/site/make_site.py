@@ -21,6 +21,7 @@ ROOT = HERE.parent.parent
 # The pages in the order of the navigation.
 PAGES = {
     "README.md": "Pirouette", "docs/coming-from.md": "Coming from others", "docs/queries.md": "Placement queries",
+    "docs/scenes.md": "Scenes",
     "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps", "docs/slices.md": "Slices",
     "docs/command.md": "The command",
     "docs/bad-input.md": "Bad input", "docs/building.md": "Building", "ARCHITECTURE.md": "Architecture",

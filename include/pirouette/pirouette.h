@@ -16,6 +16,7 @@
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
+#include <pirouette/scene.h>
 #include <pirouette/section.h>
 #include <pirouette/shape.h>
 #include <pirouette/sum.h>

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Scenes: many bodies, of which only what is asked for is computed.
+ *
+ * A body is one polytope, or several that are pieces of a body that is not convex, with a rounding radius. A scene
+ * keeps a box around each piece in a tree, and a pair (pair.h) for each two pieces whose boxes meet. pir_scene_update
+ * brings bodies to new poses, looks at the pairs that moved, and lists what happened: which contacts began, persist and
+ * ended.
+ *
+ * Contacts are of pieces. Two bodies touch where two of their pieces do; events of one pair of bodies stand together.
+ * Two pieces are in contact where they share a point, or are apart by at most the margin of the scene. Whether they
+ * share a point is exact for the doubles given, as in pair.h; with rounding radii, and for the margin, the distance
+ * decides.
+ *
+ * Which pairs are looked at: one of both bodies is a moving one, the other is not of the same body, and each category
+ * is in the other's mask. A sensor is told of what overlaps it, and has no contacts; two sensors do not meet.
+ *
+ * Determinism: events, their order and all their numbers depend on the poses, on the bodies and on which pieces were in
+ * contact before: not on threads, the history of the scene, nor the machine. Events are in the order of body_p, body_q,
+ * piece_p, piece_q.
+ *
+ * Frame: the world. Lengths in the unit of the polytopes' coordinates.
+ *
+ * Ownership: a scene holds a reference to each polytope of its bodies. Memory of the scene comes from its allocator
+ * within its budget. What a pair keeps of a polytope alone belongs to the polytope (pair.h), is made when it first
+ * meets another of a size, and does not count.
+ *
+ * Memory that runs out, or the budget: the call is PIR_ERR_MEMORY, and the scene is as it was before. A scene whose
+ * bodies and contacts have been as many before allocates nothing.
+ *
+ * Threads: a scene belongs to one thread at a time. With options.threads above 1 it uses others within a call, and
+ * calls its allocator and those of the polytopes from them: its own one at a time, those of polytopes at once, as pairs
+ * do.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
+ */
+#ifndef PIROUETTE_SCENE_H
+#define PIROUETTE_SCENE_H
+
+#include <pirouette/base.h>
+#include <pirouette/pair.h>
+#include <pirouette/polytope.h>
+#include <pirouette/pose.h>
+#include <pirouette/query.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pir_scene pir_scene;
+
+/** What a scene computes of pieces that are in contact. */
+typedef enum pir_scene_detail {
+    PIR_SCENE_STATES = 0, /**< that they are; no numbers */
+    PIR_SCENE_DEPTHS,     /**< signed distance, normal, witness too */
+    PIR_SCENE_MANIFOLDS,  /**< and the contact manifold */
+} pir_scene_detail;
+
+/**
+ * Where a caller's own threads do the work of a scene. The two functions are called in turn, start first, from the
+ * thread that called the scene.
+ */
+typedef struct pir_tasks {
+    void *context;
+    /** Has task(data, i) run for each i below `count`, each once, on any threads, at once where there are some. */
+    void (*start)(void *context, void (*task)(void *data, uint32_t index), void *data, uint32_t count);
+    /** Returns when all of them have; may run some itself. */
+    void (*finish)(void *context);
+} pir_tasks;
+
+typedef struct pir_scene_options {
+    const pir_allocator *allocator; /**< or NULL: malloc's */
+    size_t budget;                  /**< the most bytes that the scene may have; 0 for no bound */
+    pir_scene_detail detail;
+    double margin;          /**< ≥ 0: pieces apart by at most this are in contact too, for solvers; 0 for STATES */
+    int approach;           /**< whether events tell how fast the bodies approach */
+    uint32_t threads;       /**< how many threads a call uses, that of the caller included; at least 1, at most 64 */
+    const pir_tasks *tasks; /**< or NULL: threads of the scene's own; copied */
+} pir_scene_options;
+
+/** malloc's memory, no budget, manifolds, no margin, no approach, one thread. */
+PIR_API pir_scene_options pir_scene_options_default(void);
+
+/**
+ * A scene without bodies. `options` may be NULL.
+ *
+ * Cost: O(threads).
+ *
+ * Errors: PIR_ERR_ARGUMENT (a margin below 0 or with PIR_SCENE_STATES, threads out of range), PIR_ERR_NOT_FINITE (the
+ * margin), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_scene);
+
+/** Frees, and gives all references back; NULL is accepted. */
+PIR_API void pir_scene_destroy(pir_scene *scene);
+
+/* --- bodies --- */
+
+typedef enum pir_body_kind {
+    PIR_BODY_MOVING = 0, /**< meets all others */
+    PIR_BODY_KINEMATIC,  /**< moves, and meets moving ones */
+    PIR_BODY_STATIC,     /**< never moves, and meets moving ones */
+} pir_body_kind;
+
+typedef struct pir_body_options {
+    pir_body_kind kind;
+    pir_pose pose;
+    pir_polytope *const *pieces; /**< the convex pieces, in the body's frame; of any dimension */
+    uint32_t piece_count;        /**< 1 to 4096 */
+    double radius;               /**< the rounding radius, ≥ 0 */
+    uint32_t category, mask;     /**< bits: of what the body is; of what it meets */
+    int sensor;
+} pir_body_options;
+
+/** A moving body at the origin, not turned, without pieces yet; category 1, all in its mask, no sensor. */
+PIR_API pir_body_options pir_body_options_default(void);
+
+/**
+ * Adds a body, and gives its number: the least that is free. Its contacts begin with the next update. At most 2^20
+ * bodies.
+ *
+ * body  its pieces are referenced; the rest is copied.
+ *
+ * Cost: O(vertices of the pieces), and O(log n) a piece in a scene of n pieces; O(n) where a number below the greatest
+ * is free.
+ *
+ * Errors: PIR_ERR_ARGUMENT (no piece, a radius below 0 or infinite, a kind out of range), PIR_ERR_NOT_FINITE,
+ * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (too many pieces or bodies; a coordinate of the body in the world beyond
+ * 2^60), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body);
+
+/**
+ * Removes a body. Its contacts are gone without an event.
+ *
+ * body  the number of a body of the scene.
+ *
+ * Cost: O(pieces · log n + pairs that it is in).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_scene_remove(pir_scene *scene, uint32_t body);
+
+/**
+ * Where a body is: after the last update, or as it was added.
+ *
+ * body  the number of a body of the scene.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_scene_pose(const pir_scene *scene, uint32_t body, pir_pose *ret_pose);
+
+/* --- updates and events --- */
+
+/** A body and its new pose. */
+typedef struct pir_scene_move {
+    uint32_t body;
+    pir_pose pose;
+} pir_scene_move;
+
+/**
+ * Brings bodies to new poses, and makes the list of events: for all contacts of bodies that are in `moves` or were
+ * added since the last update. Contacts between others are as they were, and have no event. The list before is gone,
+ * also where the call fails.
+ *
+ * moves, count  in any order, a body once, none of them static; a body that stays may be in it.
+ *
+ * Cost: O(vertices of the pieces that are moved), and a query of a pair for each two of them whose boxes meet; O(log n)
+ * for a piece whose box leaves the margin that the tree has around it. Nothing for bodies that are not in `moves`.
+ *
+ * Errors: PIR_ERR_ARGUMENT (a body that is not there, comes twice or is static), PIR_ERR_NOT_FINITE,
+ * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (coordinates beyond 2^60, and as of a query of a pair), PIR_ERR_MEMORY. The
+ * scene is then as it was before, but for the list of events, which is empty.
+ */
+PIR_API pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *moves, size_t count);
+
+typedef enum pir_event_kind {
+    PIR_EVENT_BEGAN = 0, /**< they are in contact, and were not before */
+    PIR_EVENT_PERSISTED, /**< they are, and were */
+    PIR_EVENT_ENDED,     /**< they are not any more; only the numbers of bodies and pieces are set */
+} pir_event_kind;
+
+/** What an update found of two pieces. Where the detail or a sensor leaves out a number, it is 0. */
+typedef struct pir_scene_event {
+    pir_event_kind kind;
+    uint32_t body_p, body_q;   /**< body_p < body_q */
+    uint32_t piece_p, piece_q; /**< of the bodies' own */
+    int sensor;                /**< whether one of the bodies is a sensor */
+    pir_state state;
+    double distance; /**< signed, as of pir_pair_signed_distance */
+    pir_vec3 normal; /**< unit, from Q to P */
+    pir_witness witness;
+    /** The length by which the bodies approached at the first contact in this update, along the normal; divided by the
+        time between two updates, the speed of approach. */
+    double approach;
+    uint32_t contact_count;
+    const pir_contact
+        *contacts; /**< of the scene's; ids are stable as of pir_pair_manifold; NULL where there are none */
+} pir_scene_event;
+
+/** The events of the last update, until the next one, or NULL where there are none; the scene owns them. */
+PIR_API const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count);
+
+/** What a scene holds, and what its last update did. */
+typedef struct pir_scene_statistics {
+    uint32_t bodies, pieces;
+    uint32_t pairs;    /**< of pieces whose boxes in the tree meet */
+    uint32_t looked;   /**< pairs that the last update looked at */
+    uint32_t asked;    /**< of these, those that needed a query */
+    uint32_t replaced; /**< pieces whose box left its margin in the tree */
+    size_t bytes;      /**< of the scene's memory in use */
+    size_t peak;       /**< the most that has been */
+} pir_scene_statistics;
+
+PIR_API pir_scene_statistics pir_scene_get_statistics(const pir_scene *scene);
+
+/** A whole-structure check for tests: 1 when the tree, the pairs and the bodies agree. O(pairs · degree). */
+PIR_API int pir_scene_is_valid(const pir_scene *scene);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: MIT */
+/* Questions of pairs: see ask.h. */
+#include "scene/answer/ask.h"
+
+#include <stdatomic.h>
+
+#include "scene/world/grow.h"
+
+/* How many questions a task takes at a time, and how many are worth another thread. */
+#define RUN        16
+#define WORTH_MORE 32
+
+/* Distances are asked for up to this part of the bodies' size: what is farther apart is not looked at for a while. */
+#define SKIN 0.05
+
+/* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
+#define DISTANCE_ERROR 1e-11
+
+struct questions {
+    pir_scene *scene;
+    atomic_uint next;
+};
+
+static double length(pir_vec3 v) {
+    return sqrt(pir_vec_dot(v, v));
+}
+
+/* Keeps what the answer proves of the distance. */
+static void keep_apart(pir_scene_pair *pair, const pir_scene_body *p, const pir_scene_body *q, double distance) {
+    double size =
+        p->reach + q->reach + p->radius + q->radius + length(p->pose.translation) + length(q->pose.translation);
+    pair->apart = distance - DISTANCE_ERROR * size;
+    pair->travelled = p->travel + q->travel;
+}
+
+/* The contacts of an answer, behind those that the worker has. */
+static pir_status add_contacts(pir_scene *scene, pir_scene_worker *worker, pir_pair *pair, const pir_pair_input *input,
+                               const pir_query_result *answer) {
+    pir_scene_found *found = &worker->found[worker->found_count];
+    size_t count = 8;
+    pir_status status = PIR_ERR_LIMIT;
+    while (status == PIR_ERR_LIMIT) {
+        uint32_t need = worker->contact_count + (uint32_t)count;
+        if (!PIR_GROW(&scene->allocator, worker->contact, worker->contact_capacity, need))
+            return PIR_ERR_MEMORY;
+        size_t capacity = worker->contact_capacity - worker->contact_count;
+        status = pir_pair_manifold(pair, worker->workspace, input, answer, capacity,
+                                   worker->contact + worker->contact_count, &count);
+        // a limit that is not of the room
+        if (status == PIR_ERR_LIMIT && count <= capacity)
+            return status;
+    }
+    if (status == PIR_OK) {
+        found->count = (uint32_t)count;
+        worker->contact_count += found->count;
+    }
+    return status;
+}
+
+/* Whether two bodies are in contact by an answer. */
+static bool in_contact(const pir_scene *scene, const pir_query_result *answer, bool sensor) {
+    if (answer->state != PIR_OUTSIDE)
+        return true;
+    return !sensor && scene->margin > 0 && answer->outcome != PIR_BEYOND_CUTOFF && answer->distance <= scene->margin;
+}
+
+static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t number) {
+    pir_scene_pair *pair = &scene->pairs.at[number];
+    const pir_scene_piece *piece = scene->bodies.piece;
+    const pir_scene_body *p = &scene->bodies.body[piece[pair->piece[0]].body];
+    const pir_scene_body *q = &scene->bodies.body[piece[pair->piece[1]].body];
+    bool sensor = p->sensor || q->sensor, numbers = !sensor && scene->detail > PIR_SCENE_STATES;
+    pir_pair_input input = {.pose_p = p->pose,
+                            .pose_q = q->pose,
+                            .radius_p = p->radius,
+                            .radius_q = q->radius,
+                            .cutoff = scene->margin + SKIN * (p->reach + q->reach),
+                            .margin = scene->margin};
+    pir_query_result answer;
+    pir_status status =
+        (numbers ? pir_pair_signed_distance : pir_pair_overlap)(pair->asked, worker->workspace, &input, &answer);
+    if (status != PIR_OK)
+        return status;
+    pair->apart = 0;
+    if (numbers && (answer.outcome == PIR_SEPARATED || answer.outcome == PIR_BEYOND_CUTOFF))
+        keep_apart(pair, p, q, answer.distance);
+    if (!in_contact(scene, &answer, sensor))
+        return PIR_OK;
+    if (!PIR_GROW(&scene->allocator, worker->found, worker->found_capacity, worker->found_count + 1))
+        return PIR_ERR_MEMORY;
+    pir_scene_found *found = &worker->found[worker->found_count];
+    *found = (pir_scene_found){.pair = number, .first = worker->contact_count, .state = answer.state};
+    if (numbers) {
+        found->distance = answer.distance;
+        found->normal = answer.normal;
+        found->witness = answer.witness;
+    }
+    if (numbers && scene->detail == PIR_SCENE_MANIFOLDS)
+        status = add_contacts(scene, worker, pair->asked, &input, &answer);
+    worker->found_count += status == PIR_OK;
+    return status;
+}
+
+static void run(void *data, uint32_t index) {
+    struct questions *questions = data;
+    pir_scene *scene = questions->scene;
+    pir_scene_worker *worker = &scene->worker[index];
+    uint32_t count = scene->lists.asked_count;
+    for (;;) {
+        uint32_t begin = atomic_fetch_add_explicit(&questions->next, RUN, memory_order_relaxed);
+        if (begin >= count)
+            break;
+        for (uint32_t i = begin; i < begin + RUN && i < count; i++) {
+            pir_status status = ask(scene, worker, scene->lists.asked[i]);
+            if (status != PIR_OK && i < worker->failed) {
+                worker->status = status;
+                worker->failed = i;
+            }
+        }
+    }
+}
+
+pir_status pir_scene_ask(pir_scene *scene) {
+    struct questions questions = {.scene = scene};
+    uint32_t count = scene->lists.asked_count;
+    uint32_t tasks = count / WORTH_MORE < scene->threads ? count / WORTH_MORE : scene->threads;
+    atomic_init(&questions.next, 0);
+    for (uint32_t i = 0; i < scene->threads; i++) {
+        pir_scene_worker *worker = &scene->worker[i];
+        worker->found_count = worker->contact_count = 0;
+        worker->status = PIR_OK;
+        worker->failed = UINT32_MAX;
+    }
+    if (tasks > 1) {
+        scene->tasks.start(scene->tasks.context, run, &questions, tasks);
+        scene->tasks.finish(scene->tasks.context);
+    } else if (count > 0) {
+        run(&questions, 0);
+    }
+    const pir_scene_worker *first = &scene->worker[0];
+    for (uint32_t i = 1; i < scene->threads; i++)
+        if (scene->worker[i].failed < first->failed)
+            first = &scene->worker[i];
+    return first->status;
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Questions of pairs, in tasks. A task takes a run of questions at a time from a common counter; what it finds stays
+ * with its worker. Which worker has asked what changes nothing but where an answer stands.
+ */
+#ifndef PIR_SCENE_ANSWER_ASK_H
+#define PIR_SCENE_ANSWER_ASK_H
+
+#include "scene/world/scene.h"
+
+/* Asks all of scene->lists.asked. Errors: those of a query of a pair; the one of the first question that failed. */
+pir_status pir_scene_ask(pir_scene *scene);
+
+#endif

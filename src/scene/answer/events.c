@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The events of an update: see events.h.
+ *
+ * Each has a key of 64 bits, the numbers of both bodies, then those of both pieces, so that a radix sort puts them in
+ * an order that depends on these numbers alone.
+ */
+#include "scene/answer/events.h"
+
+#include "scene/world/grow.h"
+
+/* Bits of a body's number and of a piece's: see PIR_BODIES_MAX and PIR_PIECES_MAX. */
+#define BODY_BITS  20
+#define PIECE_BITS 12
+
+static uint64_t key_of(const pir_scene *scene, uint32_t pair) {
+    const uint32_t *of = scene->pairs.at[pair].piece;
+    const pir_scene_piece *p = &scene->bodies.piece[of[0]], *q = &scene->bodies.piece[of[1]];
+    uint64_t bodies = (uint64_t)p->body << BODY_BITS | q->body;
+    return bodies << 2 * PIECE_BITS | (uint64_t)p->number << PIECE_BITS | q->number;
+}
+
+/* Sorts by keys, a byte at a time, and leaves out bytes that all keys share. */
+static void sort(pir_scene_item *item, pir_scene_item *work, uint32_t count) {
+    uint64_t differ = 0;
+    pir_scene_item *from = item, *to = work;
+    for (uint32_t i = 1; i < count; i++)
+        differ |= item[i].key ^ item[0].key;
+    for (int shift = 0; shift < 64; shift += 8) {
+        uint32_t start[257] = {0};
+        if ((differ >> shift & 0xff) == 0)
+            continue;
+        for (uint32_t i = 0; i < count; i++)
+            start[(from[i].key >> shift & 0xff) + 1]++;
+        for (int digit = 0; digit < 256; digit++)
+            start[digit + 1] += start[digit];
+        for (uint32_t i = 0; i < count; i++)
+            to[start[from[i].key >> shift & 0xff]++] = from[i];
+        pir_scene_item *sorted = to;
+        to = from;
+        from = sorted;
+    }
+    if (from != item)
+        memcpy(item, from, count * sizeof *item);
+}
+
+/* Lists what was found, and what was a contact and is none. */
+static uint32_t list_items(pir_scene *scene) {
+    pir_scene_lists *lists = &scene->lists;
+    uint32_t count = 0;
+    for (uint32_t w = 0; w < scene->threads; w++) {
+        const pir_scene_worker *worker = &scene->worker[w];
+        for (uint32_t i = 0; i < worker->found_count; i++) {
+            uint32_t pair = worker->found[i].pair;
+            lists->item[count++] = (pir_scene_item){key_of(scene, pair), worker, &worker->found[i], pair};
+        }
+    }
+    for (uint32_t i = 0; i < lists->ended_count; i++) {
+        uint32_t pair = lists->ended[i];
+        lists->item[count++] = (pir_scene_item){key_of(scene, pair), NULL, NULL, pair};
+    }
+    return count;
+}
+
+/* Where the point of a body that is at `point` was before this update. */
+static pir_vec3 point_before(const pir_scene *scene, const pir_scene_body *body, pir_vec3 point) {
+    if (body->moved != scene->update)
+        return point;
+    return pir_pose_apply(body->previous, pir_pose_apply_inverse(body->pose, point));
+}
+
+static double approach_of(const pir_scene *scene, const pir_scene_item *item, const pir_scene_event *event) {
+    const uint32_t *of = scene->pairs.at[item->pair].piece;
+    const pir_scene_body *p = &scene->bodies.body[scene->bodies.piece[of[0]].body];
+    const pir_scene_body *q = &scene->bodies.body[scene->bodies.piece[of[1]].body];
+    const pir_contact *contact = &event->contacts[0];
+    pir_vec3 way_p = pir_vec_sub(contact->point_p, point_before(scene, p, contact->point_p));
+    pir_vec3 way_q = pir_vec_sub(contact->point_q, point_before(scene, q, contact->point_q));
+    return pir_vec_dot(pir_vec_sub(way_q, way_p), event->normal);
+}
+
+static pir_scene_event event_of(const pir_scene *scene, const pir_scene_item *item) {
+    const pir_scene_pair *pair = &scene->pairs.at[item->pair];
+    const pir_scene_piece *p = &scene->bodies.piece[pair->piece[0]], *q = &scene->bodies.piece[pair->piece[1]];
+    pir_scene_event event = {.kind = PIR_EVENT_ENDED, .body_p = p->body, .body_q = q->body};
+    event.piece_p = p->number;
+    event.piece_q = q->number;
+    event.sensor = scene->bodies.body[p->body].sensor || scene->bodies.body[q->body].sensor;
+    const pir_scene_found *found = item->found;
+    if (!found)
+        return event;
+    event.kind = pair->touching ? PIR_EVENT_PERSISTED : PIR_EVENT_BEGAN;
+    event.state = found->state;
+    event.distance = found->distance;
+    event.normal = found->normal;
+    event.witness = found->witness;
+    event.contact_count = found->count;
+    if (found->count > 0)
+        event.contacts = item->worker->contact + found->first;
+    if (scene->approach && found->count > 0)
+        event.approach = approach_of(scene, item, &event);
+    return event;
+}
+
+/* Adds the pairs that were asked, were in contact and are not to the list of those that ended. */
+static bool list_ended(pir_scene *scene) {
+    pir_scene_lists *lists = &scene->lists;
+    uint32_t most = lists->ended_count + lists->asked_count;
+    if (!PIR_GROW(&scene->allocator, lists->ended, lists->ended_capacity, most))
+        return false;
+    // a pair that was found is marked by a number of `seen` that no update has
+    for (uint32_t w = 0; w < scene->threads; w++)
+        for (uint32_t i = 0; i < scene->worker[w].found_count; i++)
+            scene->pairs.at[scene->worker[w].found[i].pair].seen = UINT64_MAX;
+    for (uint32_t i = 0; i < lists->asked_count; i++) {
+        pir_scene_pair *pair = &scene->pairs.at[lists->asked[i]];
+        if (pair->touching && pair->seen != UINT64_MAX)
+            lists->ended[lists->ended_count++] = lists->asked[i];
+        pair->seen = scene->update;
+    }
+    return true;
+}
+
+pir_status pir_scene_make_events(pir_scene *scene) {
+    pir_scene_lists *lists = &scene->lists;
+    const pir_allocator *a = &scene->allocator;
+    if (!list_ended(scene))
+        return PIR_ERR_MEMORY;
+    uint32_t most = lists->ended_count;
+    for (uint32_t w = 0; w < scene->threads; w++)
+        most += scene->worker[w].found_count;
+    if (!PIR_GROW(a, lists->item, lists->item_capacity, most) ||
+        !PIR_GROW(a, lists->work, lists->work_capacity, most) ||
+        !PIR_GROW(a, scene->event, scene->event_capacity, most))
+        return PIR_ERR_MEMORY;
+    uint32_t count = list_items(scene);
+    if (count > 1)
+        sort(lists->item, lists->work, count);
+    for (uint32_t i = 0; i < count; i++) {
+        scene->event[i] = event_of(scene, &lists->item[i]);
+        scene->pairs.at[lists->item[i].pair].touching = lists->item[i].found != NULL;
+    }
+    scene->event_count = count;
+    return PIR_OK;
+}

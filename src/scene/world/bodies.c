@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+/* Bodies and their pieces: see bodies.h. */
+#include "scene/world/bodies.h"
+
+#include "exact/rotation.h"
+#include "polytope/polytope.h"
+
+#define NO_END UINT32_MAX
+
+void pir_bodies_init(pir_bodies *bodies) {
+    *bodies = (pir_bodies){.piece_unused = PIR_PIECE_NONE};
+}
+
+void pir_bodies_finish(pir_bodies *bodies, const pir_allocator *allocator) {
+    for (uint32_t b = 0; b < bodies->body_end; b++)
+        if (bodies->body[b].used)
+            pir_bodies_remove(bodies, b);
+    PIR_FREE(allocator, bodies->body, bodies->body_capacity);
+    PIR_FREE(allocator, bodies->piece, bodies->piece_capacity);
+}
+
+/* --- places --- */
+
+pir_status pir_place_make(pir_pose pose, pir_place *ret_place) {
+    pir_rotation rotation;
+    if (!pir_vec_is_finite(pose.translation))
+        return PIR_ERR_NOT_FINITE;
+    pir_status status = pir_rotation_set(&rotation, pose.rotation);
+    if (status != PIR_OK)
+        return status;
+    pir_vec3 t = pose.translation;
+    if (!(fabs(t.x) <= PIR_BOX_FARTHEST && fabs(t.y) <= PIR_BOX_FARTHEST && fabs(t.z) <= PIR_BOX_FARTHEST))
+        return PIR_ERR_LIMIT;
+    *ret_place = (pir_place){pose, rotation.unit, rotation.r};
+    return PIR_OK;
+}
+
+/*
+ * Vertices in doubles. A turned vertex is off by 31u |v| by the matrix and by 4u |v| by the product, the vertex itself
+ * by u |v|, the sum with the translation by u (|v| + |t|): below 64u (|v| + |t|) with u = 2^-53.
+ */
+bool pir_place_box(const pir_place *place, const pir_polytope *p, double around, pir_box *ret_box) {
+    const pir_mat3 *r = &place->r;
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, far = 0;
+    double t[3] = {place->pose.translation.x, place->pose.translation.y, place->pose.translation.z};
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        pir_vec3 x = p->vertex[v];
+        double size = fabs(x.x) + fabs(x.y) + fabs(x.z);
+        far = size > far ? size : far;
+        for (int k = 0; k < 3; k++) {
+            double y = r->m[k][0] * x.x + r->m[k][1] * x.y + r->m[k][2] * x.z;
+            low[k] = y < low[k] ? y : low[k];
+            high[k] = y > high[k] ? y : high[k];
+        }
+    }
+    bool near = true;
+    for (int k = 0; k < 3; k++) {
+        double wider = around + (far + fabs(t[k])) * 0x1p-46;
+        low[k] += t[k] - wider;
+        high[k] += t[k] + wider;
+        near = near && low[k] >= -PIR_BOX_FARTHEST && high[k] <= PIR_BOX_FARTHEST;
+    }
+    for (int k = 0; near && k < 3; k++) {
+        ret_box->low[k] = pir_float_below(low[k]);
+        ret_box->high[k] = pir_float_above(high[k]);
+    }
+    return near;
+}
+
+/* --- the tables --- */
+
+static bool grow_bodies(pir_bodies *bodies, const pir_allocator *allocator) {
+    uint32_t old = bodies->body_capacity, capacity = old > 0 ? 2 * old : 32;
+    pir_scene_body *body = PIR_RESIZE(allocator, bodies->body, old, capacity);
+    if (!body)
+        return false;
+    bodies->body = body;
+    bodies->body_capacity = capacity;
+    return true;
+}
+
+static bool grow_pieces(pir_bodies *bodies, const pir_allocator *allocator, uint32_t need) {
+    uint32_t old = bodies->piece_capacity, capacity = 2 * old > need ? 2 * old : need;
+    pir_scene_piece *piece = PIR_RESIZE(allocator, bodies->piece, old, capacity);
+    if (!piece)
+        return false;
+    for (uint32_t i = capacity; i-- > old;) {
+        piece[i] = (pir_scene_piece){.next = bodies->piece_unused};
+        bodies->piece_unused = i;
+    }
+    bodies->piece = piece;
+    bodies->piece_capacity = capacity;
+    return true;
+}
+
+pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces) {
+    if (bodies->body_count >= PIR_BODIES_MAX || bodies->piece_count > (uint32_t)1 << 30)
+        return PIR_ERR_LIMIT;
+    if (bodies->body_count == bodies->body_capacity && !grow_bodies(bodies, allocator))
+        return PIR_ERR_MEMORY;
+    uint32_t need = bodies->piece_count + pieces;
+    if (need > bodies->piece_capacity && !grow_pieces(bodies, allocator, need))
+        return PIR_ERR_MEMORY;
+    return PIR_OK;
+}
+
+/* The farthest that a vertex is from the body's origin, rounded up. */
+static double reach_of(const pir_polytope *p) {
+    double most = 0;
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        most = fmax(most, sqrt(pir_vec_dot(p->vertex[v], p->vertex[v])));
+    return most * (1 + 0x1p-40);
+}
+
+static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, pir_polytope *polytope) {
+    uint32_t piece = bodies->piece_unused;
+    bodies->piece_unused = bodies->piece[piece].next;
+    bodies->piece_count++;
+    bodies->piece[piece] = (pir_scene_piece){.polytope = pir_polytope_retain(polytope),
+                                             .body = body,
+                                             .number = number,
+                                             .next = bodies->body[body].first,
+                                             .node = PIR_PIECE_NONE,
+                                             .first = NO_END};
+    bodies->body[body].first = piece;
+    bodies->body[body].reach = fmax(bodies->body[body].reach, reach_of(polytope));
+}
+
+uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, const pir_place *place) {
+    uint32_t body = 0;
+    while (body < bodies->body_end && bodies->body_count < bodies->body_end && bodies->body[body].used)
+        body++;
+    if (bodies->body_count == bodies->body_end)
+        body = bodies->body_end++;
+    bodies->body_count++;
+    bodies->body[body] = (pir_scene_body){.pose = place->pose,
+                                          .previous = place->pose,
+                                          .unit = place->unit,
+                                          .radius = options->radius,
+                                          .first = PIR_PIECE_NONE,
+                                          .pieces = options->piece_count,
+                                          .category = options->category,
+                                          .mask = options->mask,
+                                          .used = true,
+                                          .sensor = options->sensor != 0,
+                                          .fresh = true,
+                                          .kind = (uint8_t)options->kind};
+    for (uint32_t i = options->piece_count; i-- > 0;)
+        add_piece(bodies, body, i, options->pieces[i]);
+    return body;
+}
+
+void pir_bodies_remove(pir_bodies *bodies, uint32_t body) {
+    uint32_t piece = bodies->body[body].first;
+    while (piece != PIR_PIECE_NONE) {
+        uint32_t next = bodies->piece[piece].next;
+        pir_polytope_release(bodies->piece[piece].polytope);
+        bodies->piece[piece] = (pir_scene_piece){.next = bodies->piece_unused};
+        bodies->piece_unused = piece;
+        bodies->piece_count--;
+        piece = next;
+    }
+    bodies->body[body] = (pir_scene_body){.used = false};
+    bodies->body_count--;
+    while (bodies->body_end > 0 && !bodies->body[bodies->body_end - 1].used)
+        bodies->body_end--;
+}
+
+/* --- motion --- */
+
+void pir_bodies_travel(pir_scene_body *body, const pir_place *place) {
+    pir_vec3 way = pir_vec_sub(place->pose.translation, body->pose.translation);
+    double step = sqrt(pir_vec_dot(way, way)) + pir_rotation_angle_bound(body->unit, place->unit) * body->reach;
+    body->travel = (body->travel + step * (1 + 0x1p-40)) * (1 + 0x1p-51);
+}
+
+bool pir_bodies_meet(const pir_bodies *bodies, uint32_t a, uint32_t b) {
+    const pir_scene_body *p = &bodies->body[a], *q = &bodies->body[b];
+    return a != b && (p->kind == PIR_BODY_MOVING || q->kind == PIR_BODY_MOVING) && (p->category & q->mask) != 0 &&
+           (q->category & p->mask) != 0 && !(p->sensor && q->sensor);
+}

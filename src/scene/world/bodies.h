@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Bodies and their pieces, where they are, and the boxes around them.
+ *
+ * Numbers of bodies are the least that are free; numbers of pieces are of the table's own, and a body has its pieces in
+ * a list.
+ *
+ * `travel` of a body bounds from above how far any of its points has moved since it was added, as the length of all
+ * steps. It only grows. So two bodies that were apart by d are apart by at least d less what both have travelled since.
+ */
+#ifndef PIR_SCENE_WORLD_BODIES_H
+#define PIR_SCENE_WORLD_BODIES_H
+
+#include <pirouette/scene.h>
+
+#include "base/memory.h"
+#include "scene/tree/box.h"
+
+#define PIR_PIECE_NONE UINT32_MAX
+#define PIR_BODIES_MAX ((uint32_t)1 << 20)
+#define PIR_PIECES_MAX 4096u /* of a body */
+
+typedef struct pir_scene_piece {
+    pir_polytope *polytope; /* referenced */
+    uint32_t body, number;  /* of the body's own */
+    uint32_t next;          /* of the body; of an unused piece: the next one */
+    uint32_t node;          /* its leaf of the tree */
+    uint32_t first;         /* end of its list of pairs */
+    uint64_t mark;          /* the visit that has seen it */
+    pir_box tight;          /* holds the piece with its radius and half of the scene's margin */
+} pir_scene_piece;
+
+typedef struct pir_scene_body {
+    pir_pose pose, previous;
+    pir_quat unit; /* of the pose, of length 1 */
+    double radius, reach, travel;
+    uint32_t first, pieces; /* the list; how many */
+    uint32_t category, mask;
+    uint64_t moved; /* the update that moved it last: `previous` is its pose before that */
+    bool used, sensor, fresh;
+    uint8_t kind;
+} pir_scene_body;
+
+typedef struct pir_bodies {
+    pir_scene_body *body;
+    pir_scene_piece *piece;
+    uint32_t body_capacity, body_end, body_count; /* bodies are below body_end */
+    uint32_t piece_capacity, piece_unused, piece_count;
+} pir_bodies;
+
+/* A pose that has been checked. */
+typedef struct pir_place {
+    pir_pose pose;
+    pir_quat unit;
+    pir_mat3 r; /* within 31·2^-53 of the rotation */
+} pir_place;
+
+void pir_bodies_init(pir_bodies *bodies);
+void pir_bodies_finish(pir_bodies *bodies, const pir_allocator *allocator);
+
+/* PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT. */
+pir_status pir_place_make(pir_pose pose, pir_place *ret_place);
+
+/* The box of a polytope in a place, `around` wider on each side; false where it is too far away. */
+bool pir_place_box(const pir_place *place, const pir_polytope *polytope, double around, pir_box *ret_box);
+
+/* Room for one more body with so many pieces. PIR_ERR_LIMIT, PIR_ERR_MEMORY. */
+pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces);
+
+/* Puts in a body for which there is room, without boxes. */
+uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, const pir_place *place);
+void pir_bodies_remove(pir_bodies *bodies, uint32_t body);
+
+/* Adds the way from the body's pose to a place to what it has travelled. */
+void pir_bodies_travel(pir_scene_body *body, const pir_place *place);
+
+/* Whether pieces of the two meet at all. */
+bool pir_bodies_meet(const pir_bodies *bodies, uint32_t a, uint32_t b);
+
+/* Whether there is such a body. */
+static inline bool pir_bodies_has(const pir_bodies *bodies, uint32_t body) {
+    return body < bodies->body_end && bodies->body[body].used;
+}
+
+#endif

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+/* The life of a scene, its bodies coming and going: see scene.h. */
+#include "scene/world/scene.h"
+
+#include "scene/world/grow.h"
+
+#define THREADS_MAX 64
+
+/* How much wider a box in the tree is than the piece in it, of its greatest edge. */
+#define FAT 0.05f
+
+/* --- the scene --- */
+
+pir_scene_options pir_scene_options_default(void) {
+    return (pir_scene_options){.detail = PIR_SCENE_MANIFOLDS, .threads = 1};
+}
+
+static pir_status check(const pir_scene_options *options) {
+    if (!isfinite(options->margin))
+        return PIR_ERR_NOT_FINITE;
+    bool detail = options->detail >= PIR_SCENE_STATES && options->detail <= PIR_SCENE_MANIFOLDS;
+    if (!detail || options->margin < 0 || (options->detail == PIR_SCENE_STATES && options->margin > 0) ||
+        options->threads < 1 || options->threads > THREADS_MAX ||
+        (options->tasks && (!options->tasks->start || !options->tasks->finish)))
+        return PIR_ERR_ARGUMENT;
+    return PIR_OK;
+}
+
+/* Workers, and threads for them where the caller brings none. */
+static pir_status make_workers(pir_scene *scene, const pir_scene_options *options) {
+    scene->threads = options->threads;
+    scene->worker = PIR_ZEROED(&scene->allocator, pir_scene_worker, scene->threads);
+    if (!scene->worker)
+        return PIR_ERR_MEMORY;
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; i < scene->threads && status == PIR_OK; i++)
+        status = pir_workspace_create(&scene->allocator, &scene->worker[i].workspace);
+    if (status == PIR_OK && options->tasks)
+        scene->tasks = *options->tasks;
+    if (status == PIR_OK && !options->tasks && scene->threads > 1) {
+        status = pir_task_pool_create(&scene->allocator, scene->threads, &scene->pool);
+        if (status == PIR_OK)
+            scene->tasks = pir_task_pool_interface(scene->pool);
+    }
+    return status;
+}
+
+pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_scene) {
+    const pir_scene_options used = options ? *options : pir_scene_options_default();
+    pir_status status = ret_scene ? check(&used) : PIR_ERR_ARGUMENT;
+    if (status != PIR_OK)
+        return status;
+    const pir_allocator a = pir_allocator_or_default(used.allocator);
+    pir_scene *scene = used.budget == 0 || used.budget >= sizeof *scene ? PIR_ZEROED(&a, pir_scene, 1) : NULL;
+    if (!scene)
+        return PIR_ERR_MEMORY;
+    pir_budget_init(&scene->budget, &a, used.budget);
+    scene->budget.used = scene->budget.peak = sizeof *scene;
+    scene->allocator = pir_budget_allocator(&scene->budget);
+    scene->detail = used.detail;
+    scene->margin = used.margin;
+    scene->approach = used.approach != 0;
+    pir_bodies_init(&scene->bodies);
+    pir_scene_pairs_init(&scene->pairs);
+    status = make_workers(scene, &used);
+    if (status != PIR_OK)
+        pir_scene_destroy(scene);
+    else
+        *ret_scene = scene;
+    return status;
+}
+
+static void finish_lists(pir_scene_lists *lists, const pir_allocator *a) {
+    PIR_FREE(a, lists->moved, lists->moved_capacity);
+    PIR_FREE(a, lists->box, lists->box_capacity);
+    PIR_FREE(a, lists->replaced, lists->replaced_capacity);
+    PIR_FREE(a, lists->asked, lists->asked_capacity);
+    PIR_FREE(a, lists->ended, lists->ended_capacity);
+    PIR_FREE(a, lists->item, lists->item_capacity);
+    PIR_FREE(a, lists->work, lists->work_capacity);
+}
+
+void pir_scene_destroy(pir_scene *scene) {
+    if (!scene)
+        return;
+    const pir_allocator *a = &scene->allocator;
+    pir_task_pool_destroy(scene->pool);
+    for (uint32_t i = 0; scene->worker && i < scene->threads; i++) {
+        pir_workspace_destroy(scene->worker[i].workspace);
+        PIR_FREE(a, scene->worker[i].found, scene->worker[i].found_capacity);
+        PIR_FREE(a, scene->worker[i].contact, scene->worker[i].contact_capacity);
+    }
+    PIR_FREE(a, scene->worker, scene->threads);
+    pir_scene_pairs_finish(&scene->pairs, a);
+    pir_tree_finish(&scene->tree, a);
+    pir_bodies_finish(&scene->bodies, a);
+    PIR_FREE(a, scene->fresh, scene->fresh_capacity);
+    PIR_FREE(a, scene->event, scene->event_capacity);
+    finish_lists(&scene->lists, a);
+    const pir_allocator base = scene->budget.base;
+    pir_budget_finish(&scene->budget);
+    PIR_FREE(&base, scene, 1);
+}
+
+/* --- bodies --- */
+
+pir_body_options pir_body_options_default(void) {
+    return (pir_body_options){.pose = pir_pose_identity(), .category = 1, .mask = UINT32_MAX};
+}
+
+static pir_status check_body(const pir_body_options *body) {
+    bool kind = body->kind >= PIR_BODY_MOVING && body->kind <= PIR_BODY_STATIC;
+    if (!kind || !body->pieces || body->piece_count == 0)
+        return PIR_ERR_ARGUMENT;
+    if (isnan(body->radius))
+        return PIR_ERR_NOT_FINITE;
+    if (!(body->radius >= 0 && body->radius < HUGE_VAL))
+        return PIR_ERR_ARGUMENT;
+    if (body->piece_count > PIR_PIECES_MAX)
+        return PIR_ERR_LIMIT;
+    for (uint32_t i = 0; i < body->piece_count; i++)
+        if (!body->pieces[i])
+            return PIR_ERR_ARGUMENT;
+    return PIR_OK;
+}
+
+pir_box pir_scene_fat_box(const pir_box *tight, pir_vec3 way) {
+    float edge = 0, on[3] = {(float)way.x, (float)way.y, (float)way.z};
+    for (int k = 0; k < 3; k++)
+        edge = fmaxf(edge, tight->high[k] - tight->low[k]);
+    pir_box fat = *tight;
+    for (int k = 0; k < 3; k++) {
+        // not on by more than the piece itself
+        float ahead = fminf(fmaxf(on[k], -edge), edge);
+        fat.low[k] -= FAT * edge - fminf(ahead, 0);
+        fat.high[k] += FAT * edge + fmaxf(ahead, 0);
+    }
+    return fat;
+}
+
+/* Boxes for the pieces of a body that was put in, and leaves of the tree. */
+static void put_leaves(pir_scene *scene, uint32_t body) {
+    const pir_box *box = scene->lists.box;
+    bool is_static = scene->bodies.body[body].kind == PIR_BODY_STATIC;
+    for (uint32_t i = scene->bodies.body[body].first; i != PIR_PIECE_NONE; i = scene->bodies.piece[i].next) {
+        pir_scene_piece *piece = &scene->bodies.piece[i];
+        piece->tight = box[piece->number];
+        pir_box fat = is_static ? piece->tight : pir_scene_fat_box(&piece->tight, (pir_vec3){0, 0, 0});
+        piece->node = pir_tree_insert(&scene->tree, &fat, i);
+    }
+}
+
+pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body) {
+    pir_place place;
+    if (!scene || !body || !ret_body)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = check_body(body);
+    if (status == PIR_OK)
+        status = pir_place_make(body->pose, &place);
+    if (status == PIR_OK)
+        status = pir_bodies_reserve(&scene->bodies, &scene->allocator, body->piece_count);
+    if (status != PIR_OK)
+        return status;
+    pir_scene_lists *lists = &scene->lists;
+    if (!pir_tree_reserve(&scene->tree, &scene->allocator, scene->tree.leaves + body->piece_count) ||
+        !PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, body->piece_count) ||
+        !PIR_GROW(&scene->allocator, scene->fresh, scene->fresh_capacity, scene->fresh_count + 1))
+        return PIR_ERR_MEMORY;
+    for (uint32_t i = 0; i < body->piece_count; i++)
+        if (!pir_place_box(&place, body->pieces[i], body->radius + 0.5 * scene->margin, &lists->box[i]))
+            return PIR_ERR_LIMIT;
+    uint32_t added = pir_bodies_add(&scene->bodies, body, &place);
+    put_leaves(scene, added);
+    scene->fresh[scene->fresh_count++] = added;
+    *ret_body = added;
+    return PIR_OK;
+}
+
+/* Drops all pairs that a piece is in. */
+static void drop_pairs(pir_scene *scene, uint32_t piece) {
+    pir_scene_piece *pieces = scene->bodies.piece;
+    while (pieces[piece].first != PIR_END_NONE) {
+        uint32_t pair = pieces[piece].first / 2;
+        const uint32_t *of = scene->pairs.at[pair].piece;
+        pir_scene_pairs_drop(&scene->pairs, pair, &pieces[of[0]].first, &pieces[of[1]].first);
+    }
+}
+
+pir_status pir_scene_remove(pir_scene *scene, uint32_t body) {
+    if (!scene || !pir_bodies_has(&scene->bodies, body))
+        return PIR_ERR_ARGUMENT;
+    for (uint32_t i = scene->bodies.body[body].first; i != PIR_PIECE_NONE; i = scene->bodies.piece[i].next) {
+        drop_pairs(scene, i);
+        pir_tree_remove(&scene->tree, scene->bodies.piece[i].node);
+    }
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < scene->fresh_count; i++)
+        if (scene->fresh[i] != body)
+            scene->fresh[kept++] = scene->fresh[i];
+    scene->fresh_count = kept;
+    pir_bodies_remove(&scene->bodies, body);
+    return PIR_OK;
+}
+
+/* --- reading --- */
+
+pir_status pir_scene_pose(const pir_scene *scene, uint32_t body, pir_pose *ret_pose) {
+    if (!scene || !ret_pose || !pir_bodies_has(&scene->bodies, body))
+        return PIR_ERR_ARGUMENT;
+    *ret_pose = scene->bodies.body[body].pose;
+    return PIR_OK;
+}
+
+const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count) {
+    *ret_count = scene->event_count;
+    return scene->event_count > 0 ? scene->event : NULL;
+}
+
+pir_scene_statistics pir_scene_get_statistics(const pir_scene *scene) {
+    return (pir_scene_statistics){.bodies = scene->bodies.body_count,
+                                  .pieces = scene->bodies.piece_count,
+                                  .pairs = scene->pairs.count,
+                                  .looked = scene->looked,
+                                  .asked = scene->lists.asked_count,
+                                  .replaced = scene->lists.replaced_count,
+                                  .bytes = scene->budget.used,
+                                  .peak = scene->budget.peak};
+}

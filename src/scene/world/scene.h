@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The inside of a scene.
+ *
+ * Invariants, between calls
+ *   - The tree has a leaf for each piece, and the box there holds the piece's tight box.
+ *   - Of bodies that are not fresh, each two pieces that may meet and whose boxes in the tree meet have a pair. Fresh
+ *     bodies have been added since the last update, and have none yet.
+ *   - pair.touching says whether the last update that looked at the pair found a contact. Pieces whose tight boxes do
+ *     not meet have none.
+ */
+#ifndef PIR_SCENE_WORLD_SCENE_H
+#define PIR_SCENE_WORLD_SCENE_H
+
+#include "scene/pairs/pairs.h"
+#include "scene/tasks/tasks.h"
+#include "scene/tree/tree.h"
+#include "scene/world/bodies.h"
+#include "scene/world/budget.h"
+
+/* A contact that a worker has found. */
+typedef struct pir_scene_found {
+    uint32_t pair, first, count; /* and its contacts, of the worker's */
+    pir_state state;
+    double distance;
+    pir_vec3 normal;
+    pir_witness witness;
+} pir_scene_found;
+
+/* What belongs to one task at a time. */
+typedef struct pir_scene_worker {
+    pir_workspace *workspace;
+    pir_scene_found *found;
+    uint32_t found_capacity, found_count;
+    pir_contact *contact;
+    uint32_t contact_capacity, contact_count;
+    pir_status status; /* of the question with the least number that failed */
+    uint32_t failed;
+} pir_scene_worker;
+
+/* An event to be: what was found of a pair, or NULL where the contact ended. */
+typedef struct pir_scene_item {
+    uint64_t key;
+    const pir_scene_worker *worker;
+    const pir_scene_found *found;
+    uint32_t pair;
+} pir_scene_item;
+
+/* A body that an update brings to a place. */
+typedef struct pir_scene_moved {
+    uint32_t body;
+    pir_place place;
+} pir_scene_moved;
+
+/* A piece that got a new box in the tree, and the one before. */
+typedef struct pir_scene_replaced {
+    uint32_t piece;
+    bool moved; /* in the tree; a fresh piece that was not is here as well */
+    pir_box before;
+} pir_scene_replaced;
+
+/* What an update works with; the memory stays. */
+typedef struct pir_scene_lists {
+    pir_scene_moved *moved;
+    pir_box *box; /* of the pieces of those */
+    pir_scene_replaced *replaced;
+    uint32_t *asked, *ended; /* pairs */
+    pir_scene_item *item, *work;
+    uint32_t moved_capacity, box_capacity, replaced_capacity, asked_capacity, ended_capacity, item_capacity,
+        work_capacity;
+    uint32_t moved_count, replaced_count, asked_count, ended_count;
+} pir_scene_lists;
+
+struct pir_scene {
+    pir_budget budget;
+    pir_allocator allocator; /* of the budget */
+    pir_scene_detail detail;
+    double margin;
+    bool approach;
+    uint32_t threads;
+    pir_tasks tasks;
+    pir_task_pool *pool; /* or NULL: the tasks are the caller's, or none */
+    pir_scene_worker *worker;
+
+    pir_bodies bodies;
+    pir_tree tree;
+    pir_scene_pairs pairs;
+    uint32_t *fresh; /* bodies added since the last update */
+    uint32_t fresh_capacity, fresh_count;
+
+    uint64_t update, visit; /* numbers of the last ones */
+    pir_scene_lists lists;
+    pir_scene_event *event;
+    uint32_t event_capacity, event_count, looked;
+};
+
+/* A piece's box in the tree: its tight one, wider by a margin, and on along `way`. */
+pir_box pir_scene_fat_box(const pir_box *tight, pir_vec3 way);
+
+#endif
