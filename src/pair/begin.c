@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What a call on a pair begins and ends with: the relative pose, and the way back to the world. */
+#include <string.h>
+
 #include "pair/pair.h"
 
 pir_pair_input pir_pair_input_default(void) {
@@ -28,14 +30,21 @@ static pir_status set_rotations(pir_workspace *workspace, const pir_pair_input *
     return pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
 }
 
-/* The frame and the placement, the rotations being set. */
-static pir_status set_frame(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
+/* Whether the frame is at this pair. */
+static bool is_at(const pir_pair *pair, const pir_workspace *workspace) {
+    return workspace->pair == pair && pair->workspace == workspace;
+}
+
+/* The frame and the placement, the rotations being set. The bodies may be there already. */
+static pir_status set_frame(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, bool fits) {
     pir_frame *frame = &workspace->frame;
-    frame->p = pair->body_p->body;
-    frame->q = pair->body_q->body;
-    frame->exponent = pair->exponent;
-    frame->up = pair->up;
-    frame->down = pair->down;
+    if (!fits) {
+        frame->p = pair->body_p->body;
+        frame->q = pair->body_q->body;
+        frame->exponent = pair->exponent;
+        frame->up = pair->up;
+        frame->down = pair->down;
+    }
     frame->is_set = false;
     pir_frame_turn(frame, &workspace->rotation);
     workspace->world.translation_p = input->pose_p.translation;
@@ -51,36 +60,32 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
                           pir_placement *ret_placement) {
     if (!pair || !workspace || !input)
         return PIR_ERR_ARGUMENT;
+    bool fits = is_at(pair, workspace);
     workspace->pair = NULL;
     pir_status status = check(input);
     if (status == PIR_OK)
         status = set_rotations(workspace, input);
     if (status == PIR_OK)
-        status = set_frame(pair, workspace, input);
+        status = set_frame(pair, workspace, input, fits);
     if (status != PIR_OK)
         return status;
     workspace->pair = pair;
-    workspace->pose_p = input->pose_p;
-    workspace->pose_q = input->pose_q;
+    workspace->pose[0] = input->pose_p;
+    workspace->pose[1] = input->pose_q;
     pair->workspace = workspace;
     *ret_placement = workspace->placement;
     return PIR_OK;
 }
 
-static bool same_pose(const pir_pose *a, const pir_pose *b) {
-    pir_quat q = a->rotation, r = b->rotation;
-    pir_vec3 s = a->translation, t = b->translation;
-    return q.x == r.x && q.y == r.y && q.z == r.z && q.w == r.w && s.x == t.x && s.y == t.y && s.z == t.z;
-}
-
-pir_status pir_pair_resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
-                           pir_placement *ret_placement) {
+pir_status pir_pair_resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
     if (!pair || !workspace || !input)
         return PIR_ERR_ARGUMENT;
-    if (workspace->pair != pair || pair->workspace != workspace || !same_pose(&input->pose_p, &workspace->pose_p) ||
-        !same_pose(&input->pose_q, &workspace->pose_q))
-        return pir_pair_begin(pair, workspace, input, ret_placement);
-    *ret_placement = workspace->placement;
+    pir_placement placement;
+    const pir_pose *pose = workspace->pose;
+    // bits may differ where numbers do not: then it begins anew
+    if (!is_at(pair, workspace) || memcmp(&input->pose_p, &pose[0], sizeof *pose) != 0 ||
+        memcmp(&input->pose_q, &pose[1], sizeof *pose) != 0)
+        return pir_pair_begin(pair, workspace, input, &placement);
     return check(input);
 }
 

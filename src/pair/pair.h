@@ -63,7 +63,7 @@ struct pir_workspace {
      * the other when it is made, and when it is used with a third.
      */
     const pir_pair *pair; /* never followed */
-    pir_pose pose_p, pose_q;
+    pir_pose pose[2];     /* of P and of Q */
     pir_placement placement;
 
     /* the level `whole`: for the bodies of the pair that took it last */
@@ -78,8 +78,7 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
                           pir_placement *ret_placement);
 
 /* The same for a call that follows one on this pair in this workspace: at the same poses it uses what that one made. */
-pir_status pir_pair_resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
-                           pir_placement *ret_placement);
+pir_status pir_pair_resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input);
 
 /* A point in Q's frame, and a result, brought to the world. */
 pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y);

@@ -27,40 +27,18 @@ static pir_vec3 from_world(const pir_workspace *workspace, pir_vec3 point) {
     return pir_mat_apply_transposed(&workspace->rotation_q.r, pir_vec_sub(point, workspace->world.translation_q));
 }
 
-/* An answer in the world as Q sees it. */
-static pir_query_result seen_by_q(const pir_workspace *workspace, const pir_query_result *answer) {
-    pir_query_result seen = *answer;
-    if (workspace->posed) {
-        seen.normal = pir_mat_apply_transposed(&workspace->rotation_q.r, answer->normal);
-        seen.point_p = from_world(workspace, answer->point_p);
-        seen.point_q = from_world(workspace, answer->point_q);
-    }
-    return seen;
+/* Brings an answer in the world to Q's frame. */
+static void see_by_q(const pir_workspace *workspace, pir_query_result *answer) {
+    answer->normal = pir_mat_apply_transposed(&workspace->rotation_q.r, answer->normal);
+    answer->point_p = from_world(workspace, answer->point_p);
+    answer->point_q = from_world(workspace, answer->point_q);
 }
 
-pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
-                             const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
-                             size_t *ret_count) {
-    pir_placement placement;
-    if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
-        return PIR_ERR_ARGUMENT;
-    pir_status status = pir_pair_resume(pair, workspace, input, &placement);
-    if (status != PIR_OK)
-        return status;
-    if (!reserve(workspace, pair->p->vertex_count, pair->q->vertex_count))
-        return PIR_ERR_MEMORY;
-    pir_query_result seen = seen_by_q(workspace, answer);
-    pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .margin = input->margin};
-    pir_manifold_ask ask = {&asked, &seen, capacity};
-    workspace->patches.p.shape = pair->shape_p;
-    workspace->patches.q.shape = pair->shape_q;
-    status = pir_manifold_find(&workspace->frame, &placement, &workspace->patches, &ask, ret_contacts, ret_count);
-    pair->shape_p = workspace->patches.p.shape;
-    pair->shape_q = workspace->patches.q.shape;
-    if ((status != PIR_OK && status != PIR_ERR_LIMIT) || !workspace->posed)
-        return status;
-    for (size_t i = 0; i < *ret_count && i < capacity; i++) {
-        pir_contact *contact = &ret_contacts[i];
+/* Brings contacts in Q's frame to the world, the first of them being the answer. */
+static void to_world(const pir_workspace *workspace, const pir_query_result *answer, pir_contact *contacts,
+                     size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        pir_contact *contact = &contacts[i];
         contact->point_q = pir_pair_point_to_world(workspace, contact->point_q);
         contact->point_p = pir_vec_add(contact->point_q, pir_vec_scale(answer->normal, contact->distance));
         if (i == 0) {
@@ -68,5 +46,32 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
             contact->point_q = answer->point_q;
         }
     }
+}
+
+pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                             const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
+                             size_t *ret_count) {
+    if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_pair_resume(pair, workspace, input);
+    if (status != PIR_OK)
+        return status;
+    if (!reserve(workspace, pair->p->vertex_count, pair->q->vertex_count))
+        return PIR_ERR_MEMORY;
+    pir_query_result seen;
+    if (workspace->posed) {
+        seen = *answer;
+        see_by_q(workspace, &seen);
+    }
+    const pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .margin = input->margin};
+    pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity};
+    workspace->patches.p.shape = pair->shape_p;
+    workspace->patches.q.shape = pair->shape_q;
+    status =
+        pir_manifold_find(&workspace->frame, &workspace->placement, &workspace->patches, &ask, ret_contacts, ret_count);
+    pair->shape_p = workspace->patches.p.shape;
+    pair->shape_q = workspace->patches.q.shape;
+    if (workspace->posed && (status == PIR_OK || status == PIR_ERR_LIMIT))
+        to_world(workspace, answer, ret_contacts, *ret_count < capacity ? *ret_count : capacity);
     return status;
 }

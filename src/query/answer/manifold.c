@@ -11,7 +11,7 @@
  *
  *   - two features without an area, from which nothing grows and which are not parallel, share nothing: the answer is
  *     the one contact;
- *   - a vertex over a facet, the facets at which rise too fast for any other corner to be near, is the one contact;
+ *   - a vertex carried by a facet, where no other corner is near, is the one contact;
  *   - two patches of one facet each (single.h) in general position (clip.h) share corners that need no merging, and
  *     these lie on the two facets' planes.
  */
@@ -134,29 +134,21 @@ static bool is_alone(const struct manifold *m) {
     return fabs(pir_vec_dot(across, m->n)) > 2 * PIR_FLUSH;
 }
 
-/*
- * Whether a vertex is the answer's point, carried by a facet of the other body, and no other corner is near. `vertex`
- * and `carrier` are the patches of the two bodies, `from` and `to` their facets.
- *
- * Let r be the least distance of another corner from the vertex, along the vertex's facet: that facet's own corners
- * are `apart`, and all others lie over the rim of the carrier. The facet rises by the slope of its two edges at least,
- * times the distance along it, while the carrier is level.
- */
-static bool is_lone_vertex(const struct manifold *m, const pir_patch *vertex, const pir_single *from,
-                           const pir_patch *carrier, const pir_single *to) {
-    double level = 0x1p-20, distance = pir_frame_from(m->frame, m->answer->distance + m->radii);
-    double rise = from->slope - level, apart = vertex->shape.apart;
-    if (!(rise > PIR_FLUSH && to->cosine > 1 - 0x1p-45))
+/* Whether a vertex is the answer's point, carried by a facet of the other body, and no other corner is near. */
+static bool is_lone_vertex(const struct manifold *m, const pir_single *p, const pir_single *q) {
+    bool is_p = p->half != UINT32_MAX;
+    const pir_patch *vertex = is_p ? m->p : m->q;
+    uint32_t v = is_p ? m->answer->witness.p.index : m->answer->witness.q.index;
+    if (!is_p && q->half == UINT32_MAX)
         return false;
+    double distance = pir_frame_from(m->frame, m->answer->distance + m->radii);
     pir_vec3 on_q = m->point, on_p = pir_vec_add(on_q, pir_vec_scale(m->n, distance));
-    bool is_p = vertex == m->p;
-    pir_feature feature = is_p ? m->answer->witness.p : m->answer->witness.q;
-    pir_vec3 off = pir_vec_sub(pir_patch_vertex(vertex, feature.index), is_p ? on_p : on_q);
+    pir_vec3 off = pir_vec_sub(pir_patch_vertex(vertex, v), is_p ? on_p : on_q);
     if (pir_vec_dot(off, off) > m->coarse * m->coarse)
         return false;
-    double rim = pir_patch_from_rim(carrier, to, is_p ? on_q : on_p) - m->coarse, r = (rim < apart ? rim : apart);
-    double least = m->answer->distance + pir_frame_length(m->frame, r * rise) * (1 - 0x1p-20);
-    return rim > PIR_CLIP_CLEAR * vertex->snap && least > m->limit;
+    double room = pir_frame_from(m->frame, m->limit - m->answer->distance) * (1 + 0x1p-20);
+    return is_p ? pir_patch_is_lone(m->p, p, m->q, q, on_q, room, m->coarse)
+                : pir_patch_is_lone(m->q, q, m->p, p, on_p, room, m->coarse);
 }
 
 /* The corners that two single facets share, in the room; PIR_CLIP_UNCLEAR where growing and merging have to tell. */
@@ -168,7 +160,7 @@ static uint32_t overlap_singles(struct manifold *m) {
         set_plane(m);
         return PIR_CLIP_UNCLEAR;
     }
-    if (is_lone_vertex(m, m->p, &p, m->q, &q) || is_lone_vertex(m, m->q, &q, m->p, &p))
+    if (is_lone_vertex(m, &p, &q))
         return 0;
     set_plane(m);
     pir_patch_set_single(m->p, &p, m->axis);

@@ -6,6 +6,11 @@
  * Seen at a cosine c to its normal, a length shrinks to c of itself at most, and the area of a corner's triangle to
  * exactly that. So a corner stands out from its neighbours by at least c times what it does in the facet, and the
  * outline is at least c times as wide for its length.
+ *
+ * What rises from a vertex v of a facet by at most h is a triangle, v + e₁ h/s₁, v + e₂ h/s₂, where e₁ and e₂ are the
+ * facet's edges at v and s₁ and s₂ what they rise by: as long as both edges are longer. Then the facet holds the
+ * triangle, which has no corner of it but v. Where the triangle is over the inside of the carrier, no side of the
+ * carrier meets it, so v is the only corner of the overlap there.
  */
 #include "query/contact/single.h"
 
@@ -142,19 +147,14 @@ bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_sin
     if (p->artificial)
         return false;
     if (feature.kind == PIR_FEATURE_FACET) {
-        *ret_single = (pir_single){feature.index, pir_vec_dot(out, p->normal[feature.index]), 0};
+        *ret_single = (pir_single){feature.index, UINT32_MAX, pir_vec_dot(out, p->normal[feature.index])};
         return stands_alone(patch, feature.index, out, ret_single->cosine);
     }
     double cosine;
     uint32_t half = is_sharp(p, feature, out) ? grown_by(p, feature, out, &cosine) : UINT32_MAX;
     if (half == UINT32_MAX)
         return false;
-    *ret_single = (pir_single){p->left[half], cosine, 0};
-    if (feature.kind == PIR_FEATURE_VERTEX) {
-        double one = -pir_vec_dot(out, p->direction[half]);
-        double other = -pir_vec_dot(out, p->direction[pir_ring_next(p, half)]);
-        ret_single->slope = one < other ? one : other;
-    }
+    *ret_single = (pir_single){p->left[half], feature.kind == PIR_FEATURE_VERTEX ? half : UINT32_MAX, cosine};
     return stands_alone(patch, ret_single->facet, p->normal[ret_single->facet], cosine);
 }
 
@@ -180,14 +180,42 @@ void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_
     patch->outline = (pir_outline){patch->corner, count};
 }
 
-double pir_patch_from_rim(const pir_patch *patch, const pir_single *single, pir_vec3 x) {
-    const pir_polytope *p = patch->polytope;
-    pir_vec3 y = pir_patch_to_body(patch, pir_vec_sub(x, patch->at)), n = p->normal[single->facet];
-    double least = HUGE_VAL;
-    for (uint32_t i = p->loop_start[single->facet]; i < p->loop_start[single->facet + 1]; i++) {
-        uint32_t h = p->loop[i];
-        double inside = pir_vec_dot(pir_vec_cross(n, p->direction[h]), pir_vec_sub(y, patch->vertex[p->origin[h]]));
-        least = inside < least ? inside : least;
+/* --- lone vertices --- */
+
+/* What a carrier's normal may be off by from the direction in which things rise, and the square of that over two. */
+#define LEVEL        0x1p-20
+#define LEVEL_COSINE (1 - 0x1p-45)
+
+/* A direction of one body, in its own frame, in the other's. */
+static pir_vec3 carry(const pir_patch *from, const pir_patch *to, pir_vec3 d) {
+    if (from->r)
+        d = pir_mat_apply(from->r, d);
+    return pir_patch_to_body(to, pir_vec_scale(d, from->sign));
+}
+
+bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_patch *carrier, const pir_single *by,
+                       pir_vec3 at, double room, double coarse) {
+    if (of->half == UINT32_MAX || !(by->cosine > LEVEL_COSINE))
+        return false;
+    const pir_polytope *p = vertex->polytope, *q = carrier->polytope;
+    pir_vec3 n = q->normal[by->facet], y = pir_patch_to_body(carrier, pir_vec_sub(at, carrier->at)), edge[2];
+    double rise[2];
+    for (int k = 0; k < 2; k++) {
+        uint32_t half = k == 0 ? of->half : pir_ring_next(p, of->half);
+        edge[k] = carry(vertex, carrier, p->direction[half]);
+        rise[k] = pir_vec_dot(n, edge[k]) - LEVEL;
+        if (!(rise[k] > PIR_FLUSH && rise[k] * vertex->shape.apart * (1 - COARSE) > room))
+            return false;
     }
-    return least;
+    double clear = coarse + PIR_CLIP_CLEAR * carrier->snap;
+    bool inside = true;
+    for (uint32_t i = q->loop_start[by->facet]; i < q->loop_start[by->facet + 1]; i++) {
+        uint32_t h = q->loop[i];
+        pir_vec3 in = pir_vec_cross(n, q->direction[h]);
+        double from = pir_vec_dot(in, pir_vec_sub(y, carrier->vertex[q->origin[h]])) - clear;
+        inside &= from > 0;
+        for (int k = 0; k < 2; k++)
+            inside &= from * rise[k] + pir_vec_dot(in, edge[k]) * room > 0;
+    }
+    return inside;
 }

@@ -14,8 +14,8 @@ bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature);
 /* A facet that is the whole patch. */
 typedef struct pir_single {
     uint32_t facet;
+    uint32_t half; /* of a vertex: the facet lies between this halfedge from it and the next; else UINT32_MAX */
     double cosine; /* of its normal and `out` */
-    double slope;  /* of a vertex: every edge of the facet there falls from `out` by at least this; else 0 */
 } pir_single;
 
 /*
@@ -33,7 +33,12 @@ static inline double pir_patch_height(const pir_patch *patch, const pir_corner *
     return patch->height + patch->along_u * at->u + patch->along_v * at->v;
 }
 
-/* How far a point of the frame, on the plane of a single facet, is from its rim; negative outside. */
-double pir_patch_from_rim(const pir_patch *patch, const pir_single *single, pir_vec3 x);
+/*
+ * Whether all of a vertex's facet that rises from the vertex by at most `room`, along the carrier's normal, is over the
+ * carrier and no corner but the vertex is among it. `at` is the point of the carrier under the vertex; `coarse` is more
+ * than it may be off by. All are in the frame.
+ */
+bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_patch *carrier, const pir_single *by,
+                       pir_vec3 at, double room, double coarse);
 
 #endif
