@@ -223,10 +223,10 @@ static pir_vec3 beside(const pir_patch *patch, const pir_corner *corner, pir_vec
                                     : pir_patch_side(patch, 0, along_side(&patch->outline, 0, corner));
 }
 
-/* A contact between points of the frame. */
-static void set_points(const struct manifold *m, pir_vec3 p, pir_vec3 q, pir_contact *contact) {
-    contact->point_p = pir_vec_sub(pir_frame_world(m->frame, p), pir_vec_scale(m->n, m->radius_p));
-    contact->point_q = pir_vec_add(pir_frame_world(m->frame, q), pir_vec_scale(m->n, m->radii - m->radius_p));
+/* A contact between a point of Q's polytope, in the frame, and the one over it. */
+static pir_contact contact_at(const struct manifold *m, const pir_corner *corner, pir_vec3 q, double distance) {
+    pir_vec3 from = pir_vec_add(pir_frame_world(m->frame, q), pir_vec_scale(m->n, m->radii - m->radius_p));
+    return (pir_contact){pir_vec_add(from, pir_vec_scale(m->n, distance)), from, distance, corner_id(m, corner)};
 }
 
 static pir_contact contact_of_patches(const struct manifold *m, const pir_corner *corner) {
@@ -241,9 +241,10 @@ static pir_contact contact_of_patches(const struct manifold *m, const pir_corner
         p = pir_patch_side(m->p, corner->p, along_side(&m->p->outline, corner->p, corner));
         q = pir_patch_side(m->q, corner->q, along_side(&m->q->outline, corner->q, corner));
     }
-    pir_contact contact = {.id = corner_id(m, corner)};
-    contact.distance = pir_frame_length(m->frame, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
-    set_points(m, p, q, &contact);
+    double distance = pir_frame_length(m->frame, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
+    pir_contact contact = contact_at(m, corner, q, distance);
+    // two sides that are flush may pass each other by a little
+    contact.point_p = pir_vec_sub(pir_frame_world(m->frame, p), pir_vec_scale(m->n, m->radius_p));
     return contact;
 }
 
@@ -272,8 +273,10 @@ static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
 
 /* Whether a corner is near enough to be a contact. */
 static bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
+    if (distance <= m->limit)
+        return true;
     double way = pir_frame_length(m->frame, pir_outline_distance(corner, &m->of_answer));
-    return distance <= m->limit || distance - m->answer->distance <= PIR_FLUSH * way;
+    return distance - m->answer->distance <= PIR_FLUSH * way;
 }
 
 /* The contact at a corner; false where it is too far apart. */
@@ -287,10 +290,7 @@ static bool make_contact(const struct manifold *m, const pir_corner *corner, pir
     if (!is_near(m, corner, distance))
         return false;
     pir_vec3 in_plane = pir_vec_add(pir_vec_scale(m->axis[0], corner->u), pir_vec_scale(m->axis[1], corner->v));
-    ret_contact->id = corner_id(m, corner);
-    ret_contact->distance = distance;
-    set_points(m, pir_vec_add(in_plane, pir_vec_scale(m->n, p)), pir_vec_add(in_plane, pir_vec_scale(m->n, q)),
-               ret_contact);
+    *ret_contact = contact_at(m, corner, pir_vec_add(in_plane, pir_vec_scale(m->n, q)), distance);
     return true;
 }
 
