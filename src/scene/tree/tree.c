@@ -155,8 +155,7 @@ void pir_tree_remove(pir_tree *tree, uint32_t leaf) {
 
 /* --- traversal --- */
 
-/* The node that comes after n and all below it. */
-static uint32_t beyond(const pir_tree *tree, uint32_t n) {
+uint32_t pir_tree_beyond(const pir_tree *tree, uint32_t n) {
     uint32_t parent = tree->node[n].parent;
     while (parent != PIR_TREE_NONE && tree->node[parent].child[1] == n) {
         n = parent;
@@ -170,7 +169,7 @@ static uint32_t find_from(const pir_tree *tree, const pir_box *box, uint32_t n) 
     while (n != PIR_TREE_NONE) {
         const pir_tree_node *node = &tree->node[n];
         if (!pir_box_meets(&node->box, box))
-            n = beyond(tree, n);
+            n = pir_tree_beyond(tree, n);
         else if (is_leaf(node))
             return n;
         else
@@ -184,7 +183,7 @@ uint32_t pir_tree_first(const pir_tree *tree, const pir_box *box) {
 }
 
 uint32_t pir_tree_next(const pir_tree *tree, const pir_box *box, uint32_t leaf) {
-    return find_from(tree, box, beyond(tree, leaf));
+    return find_from(tree, box, pir_tree_beyond(tree, leaf));
 }
 
 bool pir_tree_is_valid(const pir_tree *tree) {
@@ -195,7 +194,7 @@ bool pir_tree_is_valid(const pir_tree *tree) {
             return false;
         if (is_leaf(node)) {
             leaves++;
-            n = beyond(tree, n);
+            n = pir_tree_beyond(tree, n);
             continue;
         }
         pir_box all = pir_box_join(&tree->node[node->child[0]].box, &tree->node[node->child[1]].box);

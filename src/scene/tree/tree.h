@@ -43,6 +43,9 @@ void pir_tree_remove(pir_tree *tree, uint32_t leaf);
 uint32_t pir_tree_first(const pir_tree *tree, const pir_box *box);
 uint32_t pir_tree_next(const pir_tree *tree, const pir_box *box, uint32_t leaf);
 
+/* The node that comes after n and all below it in the order of a traversal; PIR_TREE_NONE at its end. */
+uint32_t pir_tree_beyond(const pir_tree *tree, uint32_t n);
+
 /* Whether both invariants hold: for tests. */
 bool pir_tree_is_valid(const pir_tree *tree);
 

@@ -85,6 +85,7 @@ struct pir_scene {
     pir_bodies bodies;
     pir_tree tree;
     pir_scene_pairs pairs;
+    pir_pair *spare; /* of queries, or NULL */
     uint32_t *fresh; /* bodies added since the last update */
     uint32_t fresh_capacity, fresh_count;
 

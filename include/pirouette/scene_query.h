@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Queries on a scene: what a shape overlaps, what is nearest, what a ray or a moving shape meets first.
+ *
+ * They see all bodies at their present poses, those added since the last update too, and change neither contacts nor
+ * events. A shape is a polytope of any dimension with a pose and a rounding radius; it need not be one of a body.
+ *
+ * States and whether a ray hits are exact for the doubles given, as in pair.h; distances are those of pair.h; times of
+ * moving shapes have a tolerance. Results do not depend on the history of the scene; they are in the order of the
+ * numbers of bodies and pieces, or of distance or time first.
+ *
+ * Sensors are not seen. Two bodies meet as scene.h says; a shape or a ray meets bodies whose category is in its mask.
+ *
+ * Threads: a query is a call on the scene, and belongs to its thread.
+ *
+ * Memory: a query may allocate from the scene's budget, where it is larger than all before. A ray that grazes a piece
+ * makes a segment. Until the next query the scene may hold a reference to the shape. Where a call fails, arrays may
+ * have been written to.
+ *
+ * Cost: O(log n) to find the boxes in a scene of n pieces where these are apart, and a query of a pair for each piece
+ * whose box meets what is asked.
+ *
+ * Errors of a query of a scene: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a shape
+ * beyond coordinates of 2^60, and as of a query of a pair), PIR_ERR_MEMORY.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
+ */
+#ifndef PIROUETTE_SCENE_QUERY_H
+#define PIROUETTE_SCENE_QUERY_H
+
+#include <pirouette/base.h>
+#include <pirouette/pose.h>
+#include <pirouette/query.h>
+#include <pirouette/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The number of no body. */
+#define PIR_SCENE_NONE UINT32_MAX
+
+/** What is asked for: a shape in a place. */
+typedef struct pir_scene_shape {
+    pir_polytope *polytope;
+    pir_pose pose;
+    double radius;   /**< its rounding radius, ≥ 0 */
+    uint32_t mask;   /**< the categories of bodies that it meets */
+    uint32_t except; /**< a body that it does not meet, or PIR_SCENE_NONE */
+} pir_scene_shape;
+
+/** `polytope` at the origin, not turned, with all in its mask. */
+PIR_API pir_scene_shape pir_scene_shape_default(pir_polytope *polytope);
+
+/** A piece of a body. */
+typedef struct pir_scene_hit {
+    uint32_t body, piece;
+    pir_state state;
+} pir_scene_hit;
+
+/**
+ * All pieces that share a point with a shape, by the numbers of body and piece.
+ *
+ * shape               borrowed for the call.
+ * capacity, ret_hits  room for how many, and that room.
+ * ret_count           how many there are, also beyond the capacity.
+ *
+ * Cost: that of a query of a scene.
+ *
+ * Errors: those of a query of a scene.
+ */
+PIR_API pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, size_t capacity,
+                                     pir_scene_hit *ret_hits, size_t *ret_count);
+
+/** Two pieces that are near, or a shape, as P with body_p = PIR_SCENE_NONE, and a piece. */
+typedef struct pir_scene_near {
+    uint32_t body_p, body_q, piece_p, piece_q;
+    pir_query_result result; /**< as of pir_pair_signed_distance */
+} pir_scene_near;
+
+/**
+ * The pieces nearest to a shape, nearest first, where it overlaps them the deepest; of equal distances the lower
+ * numbers first. At most `capacity`, and at most `cutoff` away.
+ *
+ * shape               borrowed for the call.
+ * cutoff              a distance, HUGE_VAL for none: then all boxes are looked at.
+ * capacity, ret_near  how many at most, and room for them.
+ *
+ * Cost: that of a query of a scene, and O(capacity) for each answer.
+ *
+ * Errors: those of a query of a scene.
+ */
+PIR_API pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, double cutoff, size_t capacity,
+                                     pir_scene_near *ret_near, size_t *ret_count);
+
+/**
+ * The closest pairs of pieces of different bodies that may meet, in the order of pir_scene_nearest, body_p < body_q.
+ *
+ * cutoff              a distance, finite or HUGE_VAL.
+ * capacity, ret_near  how many at most, and room for them.
+ *
+ * Cost: that of a query of a scene for each piece, and O(capacity) for each answer.
+ *
+ * Errors: those of a query of a scene.
+ */
+PIR_API pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t capacity, pir_scene_near *ret_near,
+                                           size_t *ret_count);
+
+/** What a ray or a motion meets first. */
+typedef struct pir_scene_impact {
+    uint32_t body, piece; /**< PIR_SCENE_NONE where it meets nothing */
+    uint32_t own_piece;   /**< of the body that moves; 0 for a shape */
+    double time;          /**< a fraction of the way, 0 to 1; 0 where it begins in contact */
+    pir_vec3 normal;      /**< unit, away from the piece that is met; 0 where it begins inside */
+    pir_vec3 point;       /**< of contact, in the world */
+} pir_scene_impact;
+
+/**
+ * What the segment from `origin` to `origin` + `way` meets first: whether it shares a point with a piece is exact, time
+ * and point are doubles within 2^-40 of the way where the segment does not graze. On a flat piece they are those of a
+ * point that both share, and the normal is 0 unless the segment goes through a side. Rounding radii of bodies do not
+ * count.
+ *
+ * origin, way  in the world; a way of 0 asks for what holds the origin.
+ * mask         the categories of bodies that it meets.
+ *
+ * Cost: that of a query of a scene, for the boxes that the segment meets.
+ *
+ * Errors: those of a query of a scene.
+ */
+PIR_API pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32_t mask,
+                                 pir_scene_impact *ret_impact);
+
+/** A motion over time 0 to 1, at constant speed: along `way`, and about the own origin. */
+typedef struct pir_scene_motion {
+    pir_vec3 way;
+    pir_vec3 turn; /**< along the axis, as long as the angle in radians; up to 2^20 */
+} pir_scene_motion;
+
+/**
+ * When a shape that moves first comes within `tolerance` of a piece, by conservative advancement (Mirtich, 1996):
+ * before that time it shares no point with any. A piece that is not reached in 256 steps is taken to be met at the time
+ * that the last one came to.
+ *
+ * shape      where it begins; borrowed for the call.
+ * motion     over which it moves.
+ * tolerance  > 0, a length; below 1e-9 of the size of bodies and coordinates steps are many.
+ *
+ * Cost: that of a query of a scene for all that the way may meet, up to 256 queries of a pair each.
+ *
+ * Errors: those of a query of a scene; PIR_ERR_ARGUMENT also for a tolerance that is not above 0.
+ */
+PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_scene_motion *motion,
+                                  double tolerance, pir_scene_impact *ret_impact);
+
+/**
+ * The same for a body of the scene from its present pose on, with the bodies that it may meet, all others at rest: the
+ * time of impact of a fast body.
+ *
+ * body               the number of a body that is no sensor.
+ * motion, tolerance  as of pir_scene_cast.
+ *
+ * Cost: that of pir_scene_cast for each of its pieces.
+ *
+ * Errors: those of pir_scene_cast.
+ */
+PIR_API pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_scene_motion *motion,
+                                            double tolerance, pir_scene_impact *ret_impact);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

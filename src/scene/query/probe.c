@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/* Shapes held against pieces: see probe.h. */
+#include "scene/query/probe.h"
+
+pir_scene_shape pir_scene_shape_default(pir_polytope *polytope) {
+    return (pir_scene_shape){polytope, pir_pose_identity(), 0, UINT32_MAX, PIR_SCENE_NONE};
+}
+
+pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pir_probe *ret_probe) {
+    pir_place place;
+    if (!shape->polytope)
+        return PIR_ERR_ARGUMENT;
+    if (isnan(shape->radius))
+        return PIR_ERR_NOT_FINITE;
+    if (!(shape->radius >= 0 && shape->radius < HUGE_VAL))
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_place_make(shape->pose, &place);
+    if (status != PIR_OK)
+        return status;
+    pir_probe probe = {.scene = scene,
+                       .polytope = shape->polytope,
+                       .pose = shape->pose,
+                       .radius = shape->radius,
+                       .body = PIR_SCENE_NONE,
+                       .mask = shape->mask,
+                       .except = shape->except};
+    if (!pir_place_box(&place, shape->polytope, shape->radius, &probe.box))
+        return PIR_ERR_LIMIT;
+    *ret_probe = probe;
+    return PIR_OK;
+}
+
+pir_probe pir_probe_of_piece(pir_scene *scene, uint32_t piece) {
+    const pir_scene_piece *p = &scene->bodies.piece[piece];
+    const pir_scene_body *body = &scene->bodies.body[p->body];
+    return (pir_probe){.scene = scene,
+                       .polytope = p->polytope,
+                       .pose = body->pose,
+                       .radius = body->radius,
+                       .body = p->body,
+                       .except = PIR_SCENE_NONE,
+                       .box = p->tight};
+}
+
+bool pir_probe_meets(const pir_probe *probe, uint32_t piece) {
+    const pir_bodies *bodies = &probe->scene->bodies;
+    uint32_t body = bodies->piece[piece].body;
+    if (bodies->body[body].sensor)
+        return false;
+    if (probe->body != PIR_SCENE_NONE)
+        return pir_bodies_meet(bodies, probe->body, body);
+    return body != probe->except && (bodies->body[body].category & probe->mask) != 0;
+}
+
+pir_box pir_probe_wider(const pir_probe *probe, double distance) {
+    pir_box wider;
+    double by = distance < PIR_BOX_FARTHEST ? distance : PIR_BOX_FARTHEST;
+    for (int k = 0; k < 3; k++) {
+        wider.low[k] = pir_float_below(probe->box.low[k] - by);
+        wider.high[k] = pir_float_above(probe->box.high[k] + by);
+    }
+    return wider;
+}
+
+pir_status pir_probe_pair(const pir_probe *probe, uint32_t piece, pir_pair **ret_pair, pir_pair_input *ret_input) {
+    pir_scene *scene = probe->scene;
+    const pir_scene_piece *q = &scene->bodies.piece[piece];
+    const pir_scene_body *body = &scene->bodies.body[q->body];
+    pir_status status;
+    if (scene->spare) {
+        status = pir_pair_reset(scene->spare, probe->polytope, q->polytope);
+    } else {
+        pir_pair_options options = pir_pair_options_default();
+        options.allocator = &scene->allocator;
+        status = pir_pair_create(probe->polytope, q->polytope, &options, &scene->spare);
+    }
+    if (status != PIR_OK)
+        return status;
+    *ret_input = pir_pair_input_default();
+    ret_input->pose_p = probe->pose;
+    ret_input->radius_p = probe->radius;
+    ret_input->pose_q = body->pose;
+    ret_input->radius_q = body->radius;
+    *ret_pair = scene->spare;
+    return PIR_OK;
+}

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What a shape that moves meets first, by conservative advancement.
+ *
+ * With the normal n from Q to P at some time and the distance d, the bodies stay apart along n while P comes nearer
+ * along it by less than d: P's points move along −n at most at the rate −way·n + |turn| · reach. So there is no contact
+ * for d over that rate, and none at all where it is not positive.
+ */
+#include "scene/query/probe.h"
+
+#define MOST_STEPS 256
+
+/* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
+#define DISTANCE_ERROR 1e-11
+
+struct flight {
+    pir_scene *scene;
+    pir_probe probe; /* where it begins */
+    uint32_t own_piece;
+    const pir_scene_motion *motion;
+    double tolerance, reach; /* of the probe, from its origin */
+};
+
+static double length(pir_vec3 v) {
+    return sqrt(pir_vec_dot(v, v));
+}
+
+/* The size that rounding is relative to. */
+static double size_of(const struct flight *flight, const pir_scene_body *body) {
+    return flight->reach + flight->probe.radius + body->reach + body->radius + length(flight->probe.pose.translation) +
+           length(flight->motion->way) + length(body->pose.translation);
+}
+
+static void set_impact(const struct flight *flight, const pir_scene_piece *piece, double time,
+                       const pir_query_result *answer, pir_scene_impact *impact) {
+    *impact = (pir_scene_impact){piece->body, piece->number, flight->own_piece, time, {0, 0, 0}, {0, 0, 0}};
+    impact->point = flight->probe.pose.translation;
+    if (answer->state == PIR_INSIDE || answer->outcome == PIR_BEYOND_CUTOFF)
+        return;
+    impact->normal = answer->normal;
+    impact->point = answer->point_q;
+}
+
+/* The time at which the probe comes within the tolerance of a piece, where that is at most `until`. */
+static pir_status advance(const struct flight *flight, uint32_t number, double until, pir_scene_impact *impact,
+                          bool *ret_meets) {
+    pir_scene *scene = flight->scene;
+    const pir_scene_piece *piece = &scene->bodies.piece[number];
+    double error = DISTANCE_ERROR * size_of(flight, &scene->bodies.body[piece->body]), time = 0;
+    double swing = length(flight->motion->turn) * flight->reach;
+    pir_pair *pair;
+    pir_pair_input input;
+    pir_query_result answer;
+    pir_status status = pir_probe_pair(&flight->probe, number, &pair, &input);
+    for (int step = 0; status == PIR_OK && step < MOST_STEPS; step++) {
+        input.pose_p = time == 0
+                           ? flight->probe.pose
+                           : pir_pose_integrate(flight->probe.pose, flight->motion->way, flight->motion->turn, time);
+        status = pir_pair_distance(pair, scene->worker[0].workspace, &input, &answer);
+        if (status != PIR_OK)
+            return status;
+        double left = answer.distance - error;
+        if (answer.state != PIR_OUTSIDE || answer.distance <= flight->tolerance || step + 1 == MOST_STEPS)
+            break;
+        double rate = (swing - pir_vec_dot(flight->motion->way, answer.normal)) * (1 + 0x1p-40) +
+                      0x1p-40 * length(flight->motion->way);
+        time += rate > 0 && left > 0 ? left / rate : rate > 0 ? 0x1p-40 : HUGE_VAL;
+        if (time > until)
+            return PIR_OK;
+    }
+    if (status == PIR_OK) {
+        *ret_meets = true;
+        set_impact(flight, piece, time, &answer, impact);
+    }
+    return status;
+}
+
+/* A box that holds the probe on all its way. */
+static pir_box box_of_way(const struct flight *flight) {
+    const pir_probe *probe = &flight->probe;
+    const pir_vec3 begin = probe->pose.translation, end = pir_vec_add(begin, flight->motion->way);
+    const double from[3] = {begin.x, begin.y, begin.z}, to[3] = {end.x, end.y, end.z};
+    bool turns = length(flight->motion->turn) > 0;
+    pir_box box;
+    for (int k = 0; k < 3; k++) {
+        double low = probe->box.low[k] - from[k], high = probe->box.high[k] - from[k];
+        if (turns)
+            high = flight->reach + probe->radius, low = -high;
+        double room = flight->tolerance + 0x1p-40 * (fabs(from[k]) + fabs(to[k]) + high - low);
+        box.low[k] = pir_float_below(fmin(from[k], to[k]) + low - room);
+        box.high[k] = pir_float_above(fmax(from[k], to[k]) + high + room);
+    }
+    return box;
+}
+
+static bool comes_before(const pir_scene_impact *a, const pir_scene_impact *b) {
+    if (b->body == PIR_SCENE_NONE || a->time != b->time)
+        return b->body == PIR_SCENE_NONE || a->time < b->time;
+    const uint32_t x[3] = {a->body, a->piece, a->own_piece}, y[3] = {b->body, b->piece, b->own_piece};
+    for (int k = 0; k < 3; k++)
+        if (x[k] != y[k])
+            return x[k] < y[k];
+    return false;
+}
+
+static pir_status fly(const struct flight *flight, pir_scene_impact *first) {
+    const pir_tree *tree = &flight->scene->tree;
+    pir_box box = box_of_way(flight);
+    for (uint32_t leaf = pir_tree_first(tree, &box); leaf != PIR_TREE_NONE; leaf = pir_tree_next(tree, &box, leaf)) {
+        uint32_t piece = pir_tree_item(tree, leaf);
+        pir_scene_impact impact;
+        bool meets = false;
+        if (!pir_box_meets(&box, &flight->scene->bodies.piece[piece].tight) || !pir_probe_meets(&flight->probe, piece))
+            continue;
+        pir_status status = advance(flight, piece, first->time, &impact, &meets);
+        if (status != PIR_OK)
+            return status;
+        if (meets && comes_before(&impact, first))
+            *first = impact;
+    }
+    return PIR_OK;
+}
+
+static pir_status check(const pir_scene_motion *motion, double tolerance) {
+    if (!pir_vec_is_finite(motion->way) || !pir_vec_is_finite(motion->turn) || isnan(tolerance))
+        return PIR_ERR_NOT_FINITE;
+    if (!(tolerance > 0 && tolerance < HUGE_VAL))
+        return PIR_ERR_ARGUMENT;
+    return length(motion->way) <= PIR_BOX_FARTHEST && length(motion->turn) <= 0x1p20 ? PIR_OK : PIR_ERR_LIMIT;
+}
+
+/* How far a polytope reaches from its origin, rounded up. */
+static double reach_of(const pir_polytope *p) {
+    double most = 0;
+    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++)
+        most = fmax(most, length(pir_polytope_vertex(p, v)));
+    return most * (1 + 0x1p-40);
+}
+
+static const pir_scene_impact no_impact = {PIR_SCENE_NONE, PIR_SCENE_NONE, 0, 1, {0, 0, 0}, {0, 0, 0}};
+
+pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_scene_motion *motion,
+                          double tolerance, pir_scene_impact *ret_impact) {
+    if (!scene || !shape || !motion || !ret_impact)
+        return PIR_ERR_ARGUMENT;
+    struct flight flight = {.scene = scene, .motion = motion, .tolerance = tolerance};
+    pir_status status = check(motion, tolerance);
+    if (status == PIR_OK)
+        status = pir_probe_of_shape(scene, shape, &flight.probe);
+    if (status != PIR_OK)
+        return status;
+    flight.reach = reach_of(shape->polytope);
+    pir_scene_impact first = no_impact;
+    status = fly(&flight, &first);
+    if (status == PIR_OK)
+        *ret_impact = first;
+    return status;
+}
+
+pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_scene_motion *motion, double tolerance,
+                                    pir_scene_impact *ret_impact) {
+    if (!scene || !motion || !ret_impact || !pir_bodies_has(&scene->bodies, body) || scene->bodies.body[body].sensor)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = check(motion, tolerance);
+    pir_scene_impact first = no_impact;
+    for (uint32_t p = scene->bodies.body[body].first; status == PIR_OK && p != PIR_PIECE_NONE;
+         p = scene->bodies.piece[p].next) {
+        struct flight flight = {.scene = scene,
+                                .probe = pir_probe_of_piece(scene, p),
+                                .own_piece = scene->bodies.piece[p].number,
+                                .motion = motion,
+                                .tolerance = tolerance,
+                                .reach = scene->bodies.body[body].reach};
+        status = fly(&flight, &first);
+    }
+    if (status == PIR_OK)
+        *ret_impact = first;
+    return status;
+}

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What is nearest to a shape, and the closest pairs of a scene. The best so far are kept in order. Once there are as
+ * many as asked for, the last of them is the cutoff of the next question.
+ */
+#include "scene/query/probe.h"
+
+struct best {
+    double cutoff;
+    size_t capacity, count;
+    pir_scene_near *near;
+};
+
+static bool comes_before(const pir_scene_near *a, const pir_scene_near *b) {
+    if (a->result.distance != b->result.distance)
+        return a->result.distance < b->result.distance;
+    const uint32_t x[4] = {a->body_p, a->body_q, a->piece_p, a->piece_q};
+    const uint32_t y[4] = {b->body_p, b->body_q, b->piece_p, b->piece_q};
+    for (int k = 0; k < 4; k++)
+        if (x[k] != y[k])
+            return x[k] < y[k];
+    return false;
+}
+
+static void put(struct best *best, const pir_scene_near *near) {
+    size_t at = best->count;
+    if (at == best->capacity) {
+        if (!comes_before(near, &best->near[at - 1]))
+            return;
+        at--;
+    } else {
+        best->count++;
+    }
+    for (; at > 0 && comes_before(near, &best->near[at - 1]); at--)
+        best->near[at] = best->near[at - 1];
+    best->near[at] = *near;
+}
+
+/* How far an answer may be away to be one of the best. */
+static double cutoff_of(const struct best *best) {
+    return best->count < best->capacity ? best->cutoff
+                                        : fmin(best->cutoff, best->near[best->count - 1].result.distance);
+}
+
+static pir_status ask(const pir_probe *probe, uint32_t own_piece, uint32_t piece, struct best *best) {
+    pir_scene *scene = probe->scene;
+    const pir_scene_piece *q = &scene->bodies.piece[piece];
+    pir_pair *pair;
+    pir_pair_input input;
+    pir_scene_near near = {probe->body, q->body, own_piece, q->number, {.distance = 0}};
+    pir_status status = pir_probe_pair(probe, piece, &pair, &input);
+    if (status != PIR_OK)
+        return status;
+    // below 0 distances are depths, which no cutoff leaves out; those that tie are asked for in full
+    input.cutoff = fmax(cutoff_of(best), 0) * (1 + 0x1p-40);
+    status = pir_pair_signed_distance(pair, scene->worker[0].workspace, &input, &near.result);
+    near.result.steps = 0;
+    if (status == PIR_OK && near.result.outcome != PIR_BEYOND_CUTOFF && near.result.distance <= best->cutoff)
+        put(best, &near);
+    return status;
+}
+
+/* Holds a probe against all pieces that are near; for a piece of a body against those of bodies after it. */
+static pir_status hold(const pir_probe *probe, uint32_t own_piece, struct best *best) {
+    const pir_scene *scene = probe->scene;
+    pir_box box = pir_probe_wider(probe, best->cutoff);
+    for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE;
+         leaf = pir_tree_next(&scene->tree, &box, leaf)) {
+        uint32_t piece = pir_tree_item(&scene->tree, leaf);
+        pir_box near = pir_probe_wider(probe, fmax(cutoff_of(best), 0) * (1 + 0x1p-20));
+        if (!pir_probe_meets(probe, piece) || !pir_box_meets(&near, &scene->bodies.piece[piece].tight) ||
+            (probe->body != PIR_SCENE_NONE && scene->bodies.piece[piece].body < probe->body))
+            continue;
+        pir_status status = ask(probe, own_piece, piece, best);
+        if (status != PIR_OK)
+            return status;
+    }
+    return PIR_OK;
+}
+
+static pir_status check(double cutoff, size_t capacity, const pir_scene_near *near, const size_t *count) {
+    if (isnan(cutoff))
+        return PIR_ERR_NOT_FINITE;
+    return cutoff < 0 || capacity == 0 || !near || !count ? PIR_ERR_ARGUMENT : PIR_OK;
+}
+
+pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, double cutoff, size_t capacity,
+                             pir_scene_near *ret_near, size_t *ret_count) {
+    struct best best = {cutoff, capacity, 0, ret_near};
+    pir_probe probe;
+    pir_status status = scene && shape ? check(cutoff, capacity, ret_near, ret_count) : PIR_ERR_ARGUMENT;
+    if (status == PIR_OK)
+        status = pir_probe_of_shape(scene, shape, &probe);
+    if (status == PIR_OK)
+        status = hold(&probe, 0, &best);
+    if (status == PIR_OK)
+        *ret_count = best.count;
+    return status;
+}
+
+pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t capacity, pir_scene_near *ret_near,
+                                   size_t *ret_count) {
+    struct best best = {cutoff, capacity, 0, ret_near};
+    pir_status status = scene ? check(cutoff, capacity, ret_near, ret_count) : PIR_ERR_ARGUMENT;
+    for (uint32_t b = 0; status == PIR_OK && b < scene->bodies.body_end; b++) {
+        const pir_scene_body *body = &scene->bodies.body[b];
+        for (uint32_t p = body->used && !body->sensor ? body->first : PIR_PIECE_NONE;
+             p != PIR_PIECE_NONE && status == PIR_OK; p = scene->bodies.piece[p].next) {
+            pir_probe probe = pir_probe_of_piece(scene, p);
+            status = hold(&probe, scene->bodies.piece[p].number, &best);
+        }
+    }
+    if (status == PIR_OK)
+        *ret_count = best.count;
+    return status;
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/* What a shape overlaps. Hits are kept in order as they are found, so that those beyond the capacity fall off. */
+#include "scene/query/probe.h"
+
+static bool comes_before(const pir_scene_hit *a, const pir_scene_hit *b) {
+    return a->body != b->body ? a->body < b->body : a->piece < b->piece;
+}
+
+/* Puts a hit in its place among those that there are, where there is room. */
+static void put(pir_scene_hit hit, size_t capacity, pir_scene_hit *hits, size_t count) {
+    size_t at = count < capacity ? count : capacity;
+    if (at == capacity && (capacity == 0 || !comes_before(&hit, &hits[--at])))
+        return;
+    for (; at > 0 && comes_before(&hit, &hits[at - 1]); at--)
+        hits[at] = hits[at - 1];
+    hits[at] = hit;
+}
+
+pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, size_t capacity, pir_scene_hit *ret_hits,
+                             size_t *ret_count) {
+    pir_probe probe;
+    if (!scene || !shape || (!ret_hits && capacity > 0) || !ret_count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_probe_of_shape(scene, shape, &probe);
+    size_t count = 0;
+    for (uint32_t leaf = status == PIR_OK ? pir_tree_first(&scene->tree, &probe.box) : PIR_TREE_NONE;
+         leaf != PIR_TREE_NONE; leaf = pir_tree_next(&scene->tree, &probe.box, leaf)) {
+        uint32_t piece = pir_tree_item(&scene->tree, leaf);
+        const pir_scene_piece *p = &scene->bodies.piece[piece];
+        pir_pair *pair;
+        pir_pair_input input;
+        pir_query_result answer;
+        if (!pir_box_meets(&p->tight, &probe.box) || !pir_probe_meets(&probe, piece))
+            continue;
+        status = pir_probe_pair(&probe, piece, &pair, &input);
+        if (status == PIR_OK)
+            status = pir_pair_overlap(pair, scene->worker[0].workspace, &input, &answer);
+        if (status != PIR_OK)
+            return status;
+        if (answer.state != PIR_OUTSIDE)
+            put((pir_scene_hit){p->body, p->number, answer.state}, capacity, ret_hits, count++);
+    }
+    if (status == PIR_OK)
+        *ret_count = count;
+    return status;
+}

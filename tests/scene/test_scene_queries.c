@@ -1,0 +1,462 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Queries on scenes against pairs made for each piece: overlaps, nearest pieces, closest pairs, rays with exact hits,
+ * moving shapes, what is refused, memory.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include <pirouette/mass.h>
+#include <pirouette/scene_query.h>
+
+#include "scene/crowd.h"
+#include "support/bodies.h"
+#include "support/memory.h"
+#include "support/vectors.h"
+
+#define MOST 256
+
+/* The answer of a pair made for a polytope in a pose and a piece. */
+static pir_query_result ask(pir_polytope *p, pir_pose pose, double radius, const crowd_body *body, uint32_t piece) {
+    pir_pair *pair;
+    pir_workspace *workspace;
+    pir_pair_input input = pir_pair_input_default();
+    pir_query_result result;
+    input.pose_p = pose;
+    input.radius_p = radius;
+    input.pose_q = body->options.pose;
+    input.radius_q = body->options.radius;
+    assert_int_equal(pir_pair_create(p, body->piece[piece], NULL, &pair), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_signed_distance(pair, workspace, &input, &result), PIR_OK);
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    return result;
+}
+
+static const crowd_body *by_id(const crowd *c, uint32_t id) {
+    for (uint32_t i = 0; i < CROWD_BODIES; i++)
+        if (c->body[i].used && c->body[i].id == id)
+            return &c->body[i];
+    return NULL;
+}
+
+static bool sees(const pir_scene_shape *shape, const crowd_body *body) {
+    return body && !body->options.sensor && (body->options.category & shape->mask) && body->id != shape->except;
+}
+
+static pir_scene_shape random_shape(crowd *c) {
+    static const test_body kinds[4] = {TEST_SPHERE, TEST_BOX, TEST_SEGMENT, TEST_POINT};
+    test_points points;
+    test_body_points(&c->random, kinds[test_random_below(&c->random, 4)], 10, &points);
+    for (size_t i = 0; i < points.count; i++)
+        points.at[i] = test_add(test_zero, points.at[i], 0.25);
+    pir_scene_shape shape = pir_scene_shape_default(test_polytope(&points));
+    shape.pose = (pir_pose){test_integer_rotation(&c->random), test_random_direction(&c->random)};
+    shape.radius = test_random_below(&c->random, 3) ? 0 : 0.125;
+    shape.mask = test_random_below(&c->random, 3) ? UINT32_MAX : 1 + test_random_below(&c->random, 6);
+    shape.except = test_random_below(&c->random, 2) ? PIR_SCENE_NONE : test_random_below(&c->random, 10);
+    return shape;
+}
+
+static void new_crowd(crowd *c, uint64_t number) {
+    pir_scene_options options = pir_scene_options_default();
+    options.margin = number % 2 ? 0.125 : 0;
+    crowd_init(c, 1000 + number, 10 + (uint32_t)number % 20, &options);
+    if (number % 3)
+        assert_int_equal(pir_scene_update(c->scene, NULL, 0), PIR_OK);
+}
+
+static void overlaps_are_those_of_all_pieces(void **state) {
+    (void)state;
+    static crowd c;
+    size_t hits = 0;
+    for (uint64_t n = 0; n < 60; n++) {
+        new_crowd(&c, n);
+        pir_scene_shape shape = random_shape(&c);
+        pir_scene_hit hit[MOST], few[2];
+        size_t count, next = 0, again;
+        assert_int_equal(pir_scene_overlap(c.scene, &shape, MOST, hit, &count), PIR_OK);
+        for (uint32_t id = 0; id < CROWD_BODIES; id++) {
+            const crowd_body *body = by_id(&c, id);
+            for (uint32_t k = 0; sees(&shape, body) && k < body->options.piece_count; k++) {
+                pir_state is = ask(shape.polytope, shape.pose, shape.radius, body, k).state;
+                if (is == PIR_OUTSIDE)
+                    continue;
+                expect(next < count && hit[next].body == id && hit[next].piece == k && hit[next].state == is,
+                       "case %llu, body %u, piece %u", (unsigned long long)n, id, k);
+                next++;
+            }
+        }
+        expect(next == count, "case %llu", (unsigned long long)n);
+        // the first ones of them
+        assert_int_equal(pir_scene_overlap(c.scene, &shape, 2, few, &again), PIR_OK);
+        assert_int_equal(again, count);
+        assert_memory_equal(few, hit, (count < 2 ? count : 2) * sizeof *hit);
+        hits += count;
+        pir_polytope_release(shape.polytope);
+        crowd_finish(&c);
+    }
+    assert_true(hits > 20);
+}
+
+/* --- what is nearest --- */
+
+static bool nearer(const pir_scene_near *a, const pir_scene_near *b) {
+    const uint32_t x[4] = {a->body_p, a->body_q, a->piece_p, a->piece_q};
+    const uint32_t y[4] = {b->body_p, b->body_q, b->piece_p, b->piece_q};
+    if (a->result.distance != b->result.distance)
+        return a->result.distance < b->result.distance;
+    for (int k = 0; k < 4; k++)
+        if (x[k] != y[k])
+            return x[k] < y[k];
+    return false;
+}
+
+static void insert(pir_scene_near *list, size_t *count, const pir_scene_near *near) {
+    size_t at = (*count)++;
+    for (; at > 0 && nearer(near, &list[at - 1]); at--)
+        list[at] = list[at - 1];
+    list[at] = *near;
+}
+
+static void expect_same(const pir_scene_near *a, size_t count_a, const pir_scene_near *b, size_t count_b,
+                        unsigned long long number) {
+    expect(count_a == count_b, "case %llu: %zu, expected %zu", number, count_a, count_b);
+    for (size_t i = 0; i < count_a; i++)
+        expect(a[i].body_p == b[i].body_p && a[i].body_q == b[i].body_q && a[i].piece_p == b[i].piece_p &&
+                   a[i].piece_q == b[i].piece_q && a[i].result.state == b[i].result.state &&
+                   memcmp(&a[i].result.distance, &b[i].result.distance, sizeof(double)) == 0 &&
+                   memcmp(&a[i].result.point_p, &b[i].result.point_p, sizeof(pir_vec3)) == 0,
+               "case %llu, number %zu", number, i);
+}
+
+static void the_nearest_are_those_of_all_pieces(void **state) {
+    (void)state;
+    static crowd c;
+    static pir_scene_near all[MOST], near[MOST];
+    for (uint64_t n = 0; n < 60; n++) {
+        new_crowd(&c, n);
+        pir_scene_shape shape = random_shape(&c);
+        double cutoff = n % 3 == 0 ? HUGE_VAL : n % 3 == 1 ? 0.75 : 0;
+        size_t expected = 0, count, capacity = n % 2 ? MOST : 3;
+        for (uint32_t id = 0; id < CROWD_BODIES; id++) {
+            const crowd_body *body = by_id(&c, id);
+            for (uint32_t k = 0; sees(&shape, body) && k < body->options.piece_count; k++) {
+                pir_scene_near one = {PIR_SCENE_NONE, id, 0, k, ask(shape.polytope, shape.pose, shape.radius, body, k)};
+                if (one.result.distance <= cutoff)
+                    insert(all, &expected, &one);
+            }
+        }
+        assert_int_equal(pir_scene_nearest(c.scene, &shape, cutoff, capacity, near, &count), PIR_OK);
+        expect_same(near, count, all, expected < capacity ? expected : capacity, n);
+        pir_polytope_release(shape.polytope);
+        crowd_finish(&c);
+    }
+}
+
+static bool may_meet(const crowd_body *a, const crowd_body *b) {
+    const pir_body_options *p = &a->options, *q = &b->options;
+    return (p->kind == PIR_BODY_MOVING || q->kind == PIR_BODY_MOVING) && (p->category & q->mask) &&
+           (q->category & p->mask) && !p->sensor && !q->sensor;
+}
+
+static void the_closest_pairs_are_those_of_all(void **state) {
+    (void)state;
+    static crowd c;
+    static pir_scene_near all[4096], near[MOST];
+    for (uint64_t n = 0; n < 12; n++) {
+        new_crowd(&c, n);
+        double cutoff = n % 2 ? HUGE_VAL : 0.5;
+        size_t expected = 0, count, capacity = n % 3 ? 20 : 1;
+        for (uint32_t a = 0; a < CROWD_BODIES; a++)
+            for (uint32_t b = a + 1; b < CROWD_BODIES; b++) {
+                const crowd_body *p = by_id(&c, a), *q = by_id(&c, b);
+                for (uint32_t i = 0; p && q && may_meet(p, q) && i < p->options.piece_count; i++)
+                    for (uint32_t k = 0; k < q->options.piece_count; k++) {
+                        pir_scene_near one = {a, b, i, k, ask(p->piece[i], p->options.pose, p->options.radius, q, k)};
+                        if (one.result.distance <= cutoff)
+                            insert(all, &expected, &one);
+                    }
+            }
+        assert_true(expected < 4096);
+        assert_int_equal(pir_scene_closest_pairs(c.scene, cutoff, capacity, near, &count), PIR_OK);
+        expect_same(near, count, all, expected < capacity ? expected : capacity, n);
+        crowd_finish(&c);
+    }
+}
+
+/* --- rays --- */
+
+/* Whether the segment shares a point with any piece that the mask sees, exactly; *ret_body is the first such body. */
+static bool segment_hits(const crowd *c, pir_vec3 origin, pir_vec3 way, uint32_t mask) {
+    test_points ends = {2, {test_zero, way}};
+    pir_polytope *segment = test_polytope(&ends);
+    bool hits = false;
+    for (uint32_t i = 0; i < CROWD_BODIES && !hits; i++) {
+        crowd_body body = c->body[i];
+        body.options.radius = 0;
+        for (uint32_t k = 0; body.used && !body.options.sensor && (body.options.category & mask) &&
+                             k < body.options.piece_count && !hits;
+             k++)
+            hits = ask(segment, (pir_pose){{0, 0, 0, 1}, origin}, 0, &body, k).state != PIR_OUTSIDE;
+    }
+    pir_polytope_release(segment);
+    return hits;
+}
+
+static void rays_hit_exactly_what_segments_do(void **state) {
+    (void)state;
+    static crowd c;
+    uint32_t hit = 0, missed = 0;
+    for (uint64_t n = 0; n < 40; n++) {
+        new_crowd(&c, n);
+        for (int i = 0; i < 8; i++) {
+            // every other one on a grid, where segments graze
+            pir_vec3 origin = test_add(test_zero, test_random_direction(&c.random), 2 * c.size), way = {0, 0, 0};
+            if (i % 2 == 0) {
+                origin = (pir_vec3){rint(2 * origin.x) / 2, rint(2 * origin.y) / 2, rint(2 * origin.z) / 2};
+                way = (pir_vec3){-2 * origin.x, i % 4 ? -origin.y : 0, i % 4 ? -origin.z : 0};
+            } else {
+                way = test_add(test_random_direction(&c.random), origin, -1.5);
+            }
+            uint32_t mask = i < 6 ? UINT32_MAX : 1;
+            pir_scene_impact impact;
+            assert_int_equal(pir_scene_ray(c.scene, origin, way, mask, &impact), PIR_OK);
+            unsigned long long number = n * 8 + (uint64_t)i;
+            bool hits = segment_hits(&c, origin, way, mask);
+            expect((impact.body != PIR_SCENE_NONE) == hits, "ray %llu", number);
+            hit += hits;
+            missed += !hits;
+            if (!hits) {
+                assert_true(impact.time == 1 && impact.piece == PIR_SCENE_NONE);
+                continue;
+            }
+            // the point is on the piece, and nothing is met before it
+            test_points at = {1, {impact.point}};
+            pir_polytope *point = test_polytope(&at);
+            crowd_body body = *by_id(&c, impact.body);
+            body.options.radius = 0;
+            double distance = ask(point, pir_pose_identity(), 0, &body, impact.piece).distance;
+            pir_polytope_release(point);
+            bool flat = pir_polytope_dimension(body.piece[impact.piece]) < 3;
+            expect(distance < 1e-9 && distance > -2, "ray %llu: %g from the piece", number, distance);
+            expect(impact.time == 0 || flat ||
+                       !segment_hits(&c, origin, test_add(test_zero, way, impact.time - 1e-9), mask),
+                   "ray %llu is met before", number);
+            expect(impact.time == 0 || flat || test_dot(impact.normal, way) < 0, "ray %llu", number);
+        }
+        crowd_finish(&c);
+    }
+    assert_true(hit > 30 && missed > 30);
+}
+
+/* --- moving shapes --- */
+
+static pir_pose pose_at(pir_pose begin, const pir_scene_motion *motion, double time) {
+    return pir_pose_integrate(begin, motion->way, motion->turn, time);
+}
+
+/* The least distance of the shape to anything, at a time. */
+static double least_distance(const crowd *c, const pir_scene_shape *shape, const pir_scene_motion *motion,
+                             double time) {
+    double least = HUGE_VAL;
+    for (uint32_t i = 0; i < CROWD_BODIES; i++)
+        for (uint32_t k = 0; c->body[i].used && sees(shape, &c->body[i]) && k < c->body[i].options.piece_count; k++)
+            least =
+                fmin(least,
+                     ask(shape->polytope, pose_at(shape->pose, motion, time), shape->radius, &c->body[i], k).distance);
+    return least;
+}
+
+static void a_cast_ends_at_the_first_contact(void **state) {
+    (void)state;
+    static crowd c;
+    uint32_t met = 0;
+    const double tolerance = 1e-6;
+    for (uint64_t n = 0; n < 24; n++) {
+        new_crowd(&c, n);
+        pir_scene_shape shape = random_shape(&c);
+        shape.pose.translation = test_add(test_zero, shape.pose.translation, 1.5 * c.size);
+        pir_scene_motion motion = {test_add(test_random_direction(&c.random), shape.pose.translation, -1.75),
+                                   test_add(test_zero, test_random_direction(&c.random), n % 2 ? 2 : 0)};
+        pir_scene_impact impact;
+        assert_int_equal(pir_scene_cast(c.scene, &shape, &motion, tolerance, &impact), PIR_OK);
+        unsigned long long number = n;
+        bool meets = impact.body != PIR_SCENE_NONE;
+        expect(meets || impact.time == 1, "cast %llu", number);
+        for (int i = 0; i <= 20 && impact.time > 0; i++) {
+            double time = impact.time * i / 20 * (1 - 1e-9);
+            expect(least_distance(&c, &shape, &motion, time) > 0, "cast %llu touches at %g", number, time);
+        }
+        if (meets) {
+            double left = ask(shape.polytope, pose_at(shape.pose, &motion, impact.time), shape.radius,
+                              by_id(&c, impact.body), impact.piece)
+                              .distance;
+            expect(left <= tolerance * 1.001, "cast %llu ends %g away", number, left);
+        }
+        met += meets && impact.time > 0;
+        pir_polytope_release(shape.polytope);
+        crowd_finish(&c);
+    }
+    assert_true(met >= 4);
+}
+
+static pir_polytope *cube(double half) {
+    test_points points = {.count = 8};
+    for (int i = 0; i < 8; i++)
+        points.at[i] = (pir_vec3){i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half};
+    return test_polytope(&points);
+}
+
+static uint32_t add(pir_scene *scene, pir_polytope *const *pieces, uint32_t count, pir_vec3 at, int sensor) {
+    pir_body_options body = pir_body_options_default();
+    uint32_t id;
+    body.pieces = pieces;
+    body.piece_count = count;
+    body.pose.translation = at;
+    body.sensor = sensor;
+    assert_int_equal(pir_scene_add(scene, &body, &id), PIR_OK);
+    return id;
+}
+
+static void a_fast_body_meets_a_wall_in_time(void **state) {
+    (void)state;
+    pir_polytope *pieces[2] = {cube(0.5), NULL};
+    assert_int_equal(pir_polytope_translate(pieces[0], (pir_vec3){1, 0, 0}, &pieces[1]), PIR_OK);
+    pir_scene *scene;
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    uint32_t bullet = add(scene, pieces, 2, (pir_vec3){0, 0, 0}, 0);
+    add(scene, pieces, 1, (pir_vec3){5, 0, 0}, 1);
+    uint32_t wall = add(scene, pieces, 1, (pir_vec3){10, 0.25, 0}, 0);
+    pir_scene_motion motion = {{100, 0, 0}, {0, 0, 0}};
+    pir_scene_impact impact;
+    assert_int_equal(pir_scene_time_of_impact(scene, bullet, &motion, 1e-9, &impact), PIR_OK);
+    assert_int_equal(impact.body, wall);
+    assert_int_equal(impact.own_piece, 1);
+    assert_true(fabs(impact.time - 0.08) < 1e-9 && impact.normal.x == -1 && fabs(impact.point.x - 9.5) < 1e-9);
+    motion.way = (pir_vec3){-100, 0, 0};
+    assert_int_equal(pir_scene_time_of_impact(scene, bullet, &motion, 1e-9, &impact), PIR_OK);
+    assert_true(impact.body == PIR_SCENE_NONE && impact.time == 1);
+    // by a turn alone: the second piece swings into a wall beside it
+    uint32_t side = add(scene, pieces, 1, (pir_vec3){0, 1.5, 0}, 0);
+    motion = (pir_scene_motion){{0, 0, 0}, {0, 0, 3}};
+    assert_int_equal(pir_scene_time_of_impact(scene, bullet, &motion, 1e-6, &impact), PIR_OK);
+    assert_true(impact.body == side && impact.time > 0 && impact.time < 0.3);
+    pir_scene_destroy(scene);
+    pir_polytope_release(pieces[0]);
+    pir_polytope_release(pieces[1]);
+}
+
+/* --- refusals and memory --- */
+
+static void what_cannot_be_asked_is_refused(void **state) {
+    (void)state;
+    pir_polytope *p = cube(1);
+    pir_scene *scene;
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    uint32_t ghost = add(scene, &p, 1, (pir_vec3){0, 0, 0}, 1);
+    pir_scene_shape good = pir_scene_shape_default(p), shape = good;
+    pir_scene_motion motion = {{1, 0, 0}, {0, 0, 0}}, wild = {{1, NAN, 0}, {0, 0, 0}}, whirl = {{1, 0, 0}, {0, 1e7, 0}};
+    pir_scene_hit hit;
+    pir_scene_near near;
+    pir_scene_impact impact;
+    size_t count = 42;
+    struct {
+        pir_scene_shape shape;
+        pir_status status;
+    } cases[5] = {{good, PIR_ERR_ARGUMENT},
+                  {good, PIR_ERR_NOT_FINITE},
+                  {good, PIR_ERR_ARGUMENT},
+                  {good, PIR_ERR_ZERO_QUATERNION},
+                  {good, PIR_ERR_LIMIT}};
+    cases[0].shape.polytope = NULL;
+    cases[1].shape.radius = NAN;
+    cases[2].shape.radius = -1;
+    cases[3].shape.pose.rotation.w = 0;
+    cases[4].shape.pose.translation.z = 0x1p70;
+    for (int i = 0; i < 5; i++) {
+        shape = cases[i].shape;
+        assert_int_equal(pir_scene_overlap(scene, &shape, 1, &hit, &count), cases[i].status);
+        assert_int_equal(pir_scene_nearest(scene, &shape, 1, 1, &near, &count), cases[i].status);
+        assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-6, &impact), cases[i].status);
+    }
+    assert_int_equal(pir_scene_overlap(NULL, &good, 1, &hit, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_overlap(scene, NULL, 1, &hit, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_overlap(scene, &good, 1, NULL, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_overlap(scene, &good, 1, &hit, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_nearest(scene, &good, NAN, 1, &near, &count), PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_scene_nearest(scene, &good, -1, 1, &near, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_nearest(scene, &good, 1, 0, &near, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_nearest(NULL, &good, 1, 1, &near, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_closest_pairs(NULL, 1, 1, &near, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_closest_pairs(scene, 1, 1, NULL, &count), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_ray(NULL, test_zero, test_zero, 1, &impact), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_ray(scene, wild.way, test_zero, 1, &impact), PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_scene_ray(scene, (pir_vec3){0x1p70, 0, 0}, test_zero, 1, &impact), PIR_ERR_LIMIT);
+    assert_int_equal(pir_scene_cast(scene, &good, &wild, 1e-6, &impact), PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_scene_cast(scene, &good, &whirl, 1e-6, &impact), PIR_ERR_LIMIT);
+    assert_int_equal(pir_scene_cast(scene, &good, &motion, 0, &impact), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_cast(scene, &good, NULL, 1, &impact), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_time_of_impact(scene, ghost, &motion, 1, &impact), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_time_of_impact(scene, 7, &motion, 1, &impact), PIR_ERR_ARGUMENT);
+    assert_int_equal(count, 42);
+    // a scene in which there is nothing to see
+    assert_int_equal(pir_scene_overlap(scene, &good, 1, &hit, &count), PIR_OK);
+    assert_int_equal(count, 0);
+    assert_int_equal(pir_scene_ray(scene, test_zero, test_zero, UINT32_MAX, &impact), PIR_OK);
+    assert_int_equal(impact.body, PIR_SCENE_NONE);
+    pir_scene_destroy(scene);
+    pir_polytope_release(p);
+}
+
+static void memory_that_fails_fails_the_query_alone(void **state) {
+    (void)state;
+    pir_polytope *p = cube(1), *shape_of = cube(0.75);
+    pir_status status = PIR_ERR_MEMORY;
+    uint64_t failures = 0;
+    for (uint64_t request = 1; status == PIR_ERR_MEMORY; request++) {
+        test_memory memory = {0};
+        pir_allocator allocator = test_allocator(&memory);
+        pir_scene_options options = pir_scene_options_default();
+        pir_scene *scene;
+        options.allocator = &allocator;
+        assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
+        uint32_t id = add(scene, &p, 1, (pir_vec3){2, 0, 0}, 0);
+        pir_scene_shape shape = pir_scene_shape_default(shape_of);
+        pir_scene_near near;
+        pir_scene_impact impact = {.body = 42};
+        size_t count = 0;
+        memory.fail_at = memory.requests + request;
+        status = pir_scene_nearest(scene, &shape, 5, 1, &near, &count);
+        if (status == PIR_OK) // along a face: a segment is made
+            status = pir_scene_ray(scene, (pir_vec3){0, 1, 0}, (pir_vec3){8, 0, 0}, 1, &impact);
+        failures += status == PIR_ERR_MEMORY;
+        assert_true(pir_scene_is_valid(scene));
+        // again, with memory
+        assert_int_equal(pir_scene_nearest(scene, &shape, 5, 1, &near, &count), PIR_OK);
+        assert_true(count == 1 && near.body_q == id && near.result.distance == 0.25);
+        assert_int_equal(pir_scene_ray(scene, (pir_vec3){0, 1, 0}, (pir_vec3){8, 0, 0}, 1, &impact), PIR_OK);
+        assert_true(impact.body == id && impact.time == 0.125);
+        pir_scene_destroy(scene);
+        expect(memory.blocks == 0 && !memory.wrong_size, "request %llu", (unsigned long long)request);
+    }
+    assert_int_equal(status, PIR_OK);
+    assert_true(failures > 5);
+    pir_polytope_release(p);
+    pir_polytope_release(shape_of);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(overlaps_are_those_of_all_pieces),   cmocka_unit_test(the_nearest_are_those_of_all_pieces),
+        cmocka_unit_test(the_closest_pairs_are_those_of_all), cmocka_unit_test(rays_hit_exactly_what_segments_do),
+        cmocka_unit_test(a_cast_ends_at_the_first_contact),   cmocka_unit_test(a_fast_body_meets_a_wall_in_time),
+        cmocka_unit_test(what_cannot_be_asked_is_refused),    cmocka_unit_test(memory_that_fails_fails_the_query_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
