@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Contacts of bodies that have no facet towards the other one: a segment at any inclination over a slab, a thin plate
- * on its corner. Their patch begins as one vertex and goes on along the edge that rises least.
+ * on its corner. Their patch begins as one vertex and goes on along the edge that rises least. And of a needle, whose
+ * patch holds facets at any angle.
  */
 #include "support/test.h"
 
@@ -66,8 +67,43 @@ static void a_plate_on_its_corner_has_the_corner_that_rises_least(void **state) 
     contact_scene_clear(&scene);
 }
 
+/*
+ * A needle 160 long and 0.004 thick in a body. Its patch goes around it, to facets that are nearly along the normal and
+ * yet wider than rounding. Contacts on those were put on the planes beside them, 7e-8 off.
+ */
+static void contacts_beside_a_needle_lie_on_it(void **state) {
+    (void)state;
+    const pir_vec3 points[10] = {{0.1366271016794145, -0.82930411015622463, -0.24915081780089632},
+                                 {0.0061154252612227733, 0.010409043168903898, -0.59539816455920835},
+                                 {-0.65028550243264838, -0.92656148495802393, 0.8375694684553463},
+                                 {-0.86675123465038784, 0.43933857763512751, 0.38217610840970084},
+                                 {-0.43035863068977598, 0.28763898266891053, 0.79217480718447764},
+                                 {-0.69462122769847756, -0.41170302569628037, -0.99383823984317754},
+                                 {-0.48678348250929804, 0.61422223279270804, 0.706623006566238},
+                                 {0.24684697723304039, 0.68652865663353824, 0.54245744968240017},
+                                 {0.21707092455301447, -0.29253708510028131, 0.15142014822464778},
+                                 {-0.59866497914466121, 0.71941512513402128, -0.7592691620330414}};
+    const pir_vec3 needle[9] = {{-8.6652577635081265, 0.0017421385704296331, 0.0029370765247895688},
+                                {68.167847586349467, 0.0014867123363605957, -0.0011735483139874599},
+                                {55.16719218369586, 0.0022597606628754589, 0.0019045455451507649},
+                                {-89.210083744745219, -0.0013197698346146612, 0.0022685158200397128},
+                                {68.795789630113575, -0.0010101961296247503, 0.00020083264839221643},
+                                {-62.418069505181165, 0.0014877635630621922, -0.001512206050944392},
+                                {71.473963271668396, -0.00097021075344427788, 0.0018321467126937536},
+                                {-26.134251386501916, -0.0026753999385623825, -0.0017416378983377563},
+                                {-21.163585594382404, 0.0016444353293342518, -0.0019736960285414314}};
+    const pir_quat r = {-15825507123.598532, 21333670007.519531, -16685079549.675241, 12710586795.677927};
+    contact_scene scene = contact_scene_make(body(points, 10), body(needle, 9), r);
+    scene.t = (pir_vec3){7.2558193423008661e-14, -2.2674435444690207e-15, -0.16145334610816486};
+    scene.margin = 20;
+    contact_scene_check(&scene, "needle", 0);
+    assert_int_equal(contact_scene_corners(&scene), 4);
+    contact_scene_clear(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_segment_over_a_slab_has_both_ends_within_the_margin),
-                                       cmocka_unit_test(a_plate_on_its_corner_has_the_corner_that_rises_least)};
+                                       cmocka_unit_test(a_plate_on_its_corner_has_the_corner_that_rises_least),
+                                       cmocka_unit_test(contacts_beside_a_needle_lie_on_it)};
     return cmocka_run_group_tests_name("inclined", tests, NULL, NULL);
 }

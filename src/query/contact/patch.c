@@ -186,17 +186,19 @@ void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner 
 /* --- the surface --- */
 
 /*
- * The distance of x from the plane of facet f along `out`, or HUGE_VAL where the facet is too steep to tell. A facet
- * at 60° or more to the patch's first facet bounds the patch. Rounding may put a corner of the patch's rim beside it,
- * so its plane is moved out by twice PIR_SNAP.
+ * The distance of x from the plane of facet f along `out`, or HUGE_VAL where the facet faces away. A facet at 60° or
+ * more to the patch's first facet bounds the patch, and so does a steep one. Rounding may put a corner of the patch's
+ * rim beside it, so its plane is moved out by twice PIR_SNAP. Then a point over the patch is never beside it by
+ * rounding alone, and one that is beside it belongs on it, however steep it is: on a needle such facets are wider than
+ * rounding.
  */
 static double height(const pir_patch *patch, uint32_t f, pir_vec3 x) {
     const pir_polytope *p = patch->polytope;
     pir_vec3 n = normal_of(patch, f);
     double along = pir_vec_dot(n, patch->out);
-    if (along < PIR_STEEP)
+    if (along <= 0)
         return HUGE_VAL;
-    bool bounds = 2 * pir_vec_dot(p->normal[f], p->normal[patch->facet]) < 1;
+    bool bounds = along < PIR_STEEP || 2 * pir_vec_dot(p->normal[f], p->normal[patch->facet]) < 1;
     pir_vec3 from = pir_patch_vertex(patch, p->origin[p->loop[p->loop_start[f]]]);
     return (pir_vec_dot(n, pir_vec_sub(from, x)) + (bounds ? 2 * patch->snap : 0)) / along;
 }

@@ -27,8 +27,8 @@
  * Corners that rise by less than this part of their way from the answer's point are as near as that point. It is
  * above what single precision leaves of 0, and below what is visible.
  *
- * PIR_STEEP: a facet whose normal has a smaller cosine with the contact normal is steep. It has no place in a patch,
- * because rounding over that cosine is the error of points on it.
+ * PIR_STEEP: a facet whose normal has a smaller cosine with the contact normal is steep. No patch grows by it, because
+ * rounding over that cosine is the error of heights on it.
  *
  * PIR_SNAP: points of the contact plane closer than this, relative to the placement's reach, are one. Rounding leaves
  * 2^-46.
