@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Writes the records of a sum that turns.
+ *
+ * A recorder holds the pairing of the slice before: the cells of the facets, and what stood in each slot of the sum's
+ * crossings. The sum's journal names the slots that have changed since, so a record costs what has changed. Where the
+ * journal does not reach back all slots are compared.
+ *
+ * A record depends on the pairings before and after alone, not on the way between them or on slots.
+ */
+#ifndef PIR_CSPACE_RECORD_RECORDER_H
+#define PIR_CSPACE_RECORD_RECORDER_H
+
+#include "cspace/record/crossing_set.h"
+#include "cspace/record/record_bytes.h"
+#include "dymsum/view.h"
+
+/* A facet that is in another cell than before. */
+typedef struct pir_cell_change {
+    uint32_t facet, before, now;
+} pir_cell_change;
+
+typedef struct pir_recorder {
+    pir_allocator allocator;
+    const pir_sum *sum; /* borrowed */
+    const pir_pairing *pairing;
+    uint64_t seen;          /* entries of the journal that have been read */
+    uint32_t *fv, *vf;      /* of the slice before */
+    pir_crossing_key *slot; /* what stood in each slot of the sum's crossings, or NO_KEY of recorder.c */
+    uint64_t *dirty;        /* a bit for each facet and slot, for the journal's entries; 0 between calls */
+    uint32_t slot_room;
+    pir_cell_change *change; /* room for all facets: those of −P, then those of Q */
+    uint32_t change_count[2];
+    pir_crossing_set toggled;
+} pir_recorder;
+
+/* False when out of memory. pir_recorder_finish releases whatever is there. */
+bool pir_recorder_init(pir_recorder *recorder, const pir_sum *sum, const pir_allocator *allocator);
+void pir_recorder_finish(pir_recorder *recorder);
+
+/* Appends the record of the sum as it is now: whole where `key`, else as is shorter. False when out of memory. */
+bool pir_recorder_write(pir_recorder *recorder, bool key, pir_bytes *bytes);
+
+#endif
