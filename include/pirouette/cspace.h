@@ -56,8 +56,8 @@ typedef struct pir_cspace_job pir_cspace_job;
 typedef struct pir_cspace_options {
     const pir_allocator *allocator; /**< NULL for malloc; called from all threads of the job */
     uint32_t threads;               /**< that make units; 1 */
-    uint32_t slices_per_unit;       /**< 256 */
-    uint32_t slices_per_key;        /**< every so many slices of a unit one is written whole; 64 */
+    uint32_t slices_per_unit;       /**< 0: 256, or 64 where there are few in all */
+    uint32_t slices_per_key;        /**< every so many slices of a unit one is written whole; 0: 64 */
     int planes;                     /**< 1: also the planes of all slices, as doubles */
     int vertices;                   /**< 1: also the vertices of all slices, as doubles */
     int resume;                     /**< 1: go on from the parts of an earlier run; 0: remove them */
@@ -72,7 +72,62 @@ typedef struct pir_cspace_options {
     void *context; /**< for claim and progress */
 } pir_cspace_options;
 
-/** What a job will take. */
+/** One thread, 256 slices a unit (64 where there are few in all), 64 a key, no planes, no vertices, no resuming. */
+PIR_API pir_cspace_options pir_cspace_options_default(void);
+
+/**
+ * Makes a job. With `resume` it takes over the units that parts of an earlier run hold; else it removes such parts. Of
+ * several processes that share a job only the first may be without `resume`, and the others make theirs after it.
+ *
+ * bodies   pieces of any dimension, at least one of each; the job takes a reference to each.
+ * grid     borrowed until the job is destroyed.
+ * path     the file that will appear when all units are made; what stands there before then stays.
+ * options  NULL for the defaults.
+ * report   NULL, or filled when the call fails.
+ *
+ * Cost: O(rotations + size of the pieces); with `resume`, the time to read all parts.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY (no pieces), PIR_ERR_FORMAT (a part of another job), PIR_ERR_FILE,
+ * PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no HDF5).
+ */
+PIR_API pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
+                                         const pir_cspace_options *options, pir_report *report,
+                                         pir_cspace_job **ret_job);
+
+/** Frees; parts stay. NULL is accepted. */
+PIR_API void pir_cspace_job_destroy(pir_cspace_job *job);
+
+/** Units in all, those that are made included. */
+PIR_API uint64_t pir_cspace_job_units(const pir_cspace_job *job);
+
+/**
+ * Makes units until none is left to claim, or until `progress` returns 0, and appends them to this process's part. Each
+ * unit that was appended is kept, whatever comes after; what is on the disk after a loss of power may be two seconds
+ * old.
+ *
+ * report  NULL, or filled when the call fails.
+ *
+ * Cost: a walk for each unit, and for each slice an update and what it changes.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE (a full disk, a part that another process writes to), PIR_ERR_FORMAT,
+ * PIR_ERR_LIMIT, PIR_ERR_MEMORY. Units made before the error are kept.
+ */
+PIR_API pir_status pir_cspace_job_run(pir_cspace_job *job, pir_report *report);
+
+/**
+ * Makes the file of all parts beside it, and removes these. The file appears complete or not at all, and is the same
+ * whoever made which unit.
+ *
+ * report  NULL, or filled when the call fails.
+ *
+ * Cost: the time to read the parts and write the file.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY (units are still to be made), PIR_ERR_FILE, PIR_ERR_FORMAT, PIR_ERR_MEMORY.
+ * Parts stay after an error.
+ */
+PIR_API pir_status pir_cspace_job_assemble(pir_cspace_job *job, pir_report *report);
+
+/** What a job will take. Times are those of this machine as it is now; bytes count before compression. */
 typedef struct pir_cspace_estimate {
     uint64_t slices;  /**< of piece pairs */
     uint64_t units;   /**< in all */
@@ -81,6 +136,19 @@ typedef struct pir_cspace_estimate {
     double mean_turn; /**< radians between successive rotations */
     double most_turn;
 } pir_cspace_estimate;
+
+/**
+ * Estimates what a job would take, from the first slices of 24 units spread over it. Writes no file.
+ *
+ * bodies, grid, options, report  as of pir_cspace_job_create.
+ *
+ * Cost: O(rotations), and 840 slices at most.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_cspace_get_estimate(const pir_cspace_bodies *bodies, const pir_grid *grid,
+                                           const pir_cspace_options *options, pir_report *report,
+                                           pir_cspace_estimate *ret_estimate);
 
 /* --- reading slices --- */
 
@@ -113,11 +181,95 @@ typedef struct pir_slice {
     const uint32_t (*ee)[2]; /**< {edge of P, edge of Q}, by rising edge of P and in order along its arc */
 } pir_slice;
 
-/** A half-space: the points x with normal·x ≤ offset. */
-typedef struct pir_plane {
+/** The points x with normal·x ≤ offset. */
+typedef struct pir_halfspace {
     pir_vec3 normal; /**< outward, of unit length within 2^-50 */
     double offset;   /**< the half-space holds the whole difference; see docs/slices.md for how far it may exceed it */
-} pir_plane;
+} pir_halfspace;
+
+/**
+ * Opens a file of slices. Its form is checked and its pieces are made anew as exact hulls; the rest is read and checked
+ * as it is asked for.
+ *
+ * path       of the file.
+ * allocator  NULL for malloc; copied, its context must outlive the file. HDF5 has memory of its own.
+ * report     NULL, or filled with what, where and why when the call fails.
+ *
+ * Cost: exact hulls of the pieces; for a grid that is a list, O(rotations).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_FORMAT (no HDF5, truncated, a hash that does not match),
+ * PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (another version; no HDF5 in this build).
+ */
+PIR_API pir_status pir_cspace_open(const char *path, const pir_allocator *allocator, pir_report *report,
+                                   pir_cspace **ret_cspace);
+
+/** Closes and frees; NULL is accepted. */
+PIR_API void pir_cspace_close(pir_cspace *cspace);
+
+PIR_API pir_cspace_info pir_cspace_get_info(const pir_cspace *cspace);
+
+/** The grid; borrowed. */
+PIR_API const pir_grid *pir_cspace_grid(const pir_cspace *cspace);
+
+/** Piece `piece` of the robot, and of the obstacles, which must be below their counts; borrowed. */
+PIR_API const pir_polytope *pir_cspace_robot(const pir_cspace *cspace, uint32_t piece);
+PIR_API const pir_polytope *pir_cspace_obstacle(const pir_cspace *cspace, uint32_t piece);
+
+/**
+ * Reads the pairs of a slice. Every number of the file is checked to be a feature, and crossings to lead from cell to
+ * cell, but not that the pairs are those of the rotation: pir_cspace_sum proves that.
+ *
+ * place   which slice.
+ * report  NULL, or filled when the call fails.
+ *
+ * Cost: reading its unit, where that was not the last one read; then O(size of the pairing), and the changes since the
+ * key slice before it, or since the slice that was read last.
+ *
+ * Errors: PIR_ERR_ARGUMENT (no such slice), PIR_ERR_FILE, PIR_ERR_FORMAT (corrupted), PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_cspace_slice(pir_cspace *cspace, pir_cspace_place place, pir_report *report,
+                                    pir_slice *ret_slice);
+
+/**
+ * The half-spaces of all pairs of a slice: fv, then vf, then ee, in the order of pir_slice. Those of segments, whose
+ * facets a slice does not show, are there too. Each holds the whole difference, if the pairs are those of the rotation.
+ *
+ * place, report            as of pir_cspace_slice.
+ * ret_planes, ret_count    the half-spaces; they belong to `cspace` and hold until its next call.
+ *
+ * Cost: that of pir_cspace_slice.
+ *
+ * Errors: those of pir_cspace_slice.
+ */
+PIR_API pir_status pir_cspace_planes(pir_cspace *cspace, pir_cspace_place place, pir_report *report,
+                                     const pir_halfspace **ret_planes, uint32_t *ret_count);
+
+/**
+ * A slice as a sum that keeps the difference, which queries take, and which turns on from there. Every pair is proven
+ * in exact arithmetic, so the sum is right whoever wrote the file.
+ *
+ * place, report  as of pir_cspace_slice.
+ *
+ * The caller destroys *ret_sum; it may outlive `cspace`.
+ *
+ * Cost: that of pir_cspace_slice and of pir_sum_is_valid.
+ *
+ * Errors: those of pir_cspace_slice; PIR_ERR_FORMAT where the pairing is not that of the rotation.
+ */
+PIR_API pir_status pir_cspace_sum(pir_cspace *cspace, pir_cspace_place place, pir_report *report, pir_sum **ret_sum);
+
+/**
+ * The mesh of a slice: that of the true sum, as pir_sum_mesh makes it. The caller destroys *ret_mesh.
+ *
+ * place, report  as of pir_cspace_slice.
+ * precision      doubles, or exact rationals beside them.
+ *
+ * Cost: that of pir_cspace_sum and of pir_sum_mesh.
+ *
+ * Errors: those of pir_cspace_sum.
+ */
+PIR_API pir_status pir_cspace_mesh(pir_cspace *cspace, pir_cspace_place place, pir_precision precision,
+                                   pir_report *report, pir_mesh **ret_mesh);
 
 /* --- asking --- */
 

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * An open file of slices, and the slice that was read last.
+ *
+ * A slice is read from the key slice before it by applying the records in between. The unit that was read last stays,
+ * so the next slice of it costs one record.
+ *
+ * Invariant: where `at` is a place, `replay` holds the pairing of that slice, `unit` the unit that it stands in.
+ */
+#ifndef PIR_CSPACE_READ_CSPACE_H
+#define PIR_CSPACE_READ_CSPACE_H
+
+#include <pirouette/cspace.h>
+
+#include "cspace/record/replay.h"
+#include "cspace/store/store.h"
+
+/* The slice that was read last. */
+typedef struct pir_cspace_cursor {
+    bool has_unit;      /* `unit` is that of a pair's number, read and checked */
+    bool has_slice;     /* the replay is at `slice` of it */
+    pir_unit unit;      /* records alone */
+    pir_quat *rotation; /* of the unit's slices */
+    uint64_t offset;    /* in the unit's bytes, of the record after `slice` */
+    uint32_t slice;     /* counted in the unit */
+    uint64_t pair;      /* that the replay is of, where has_replay */
+    bool has_replay;
+    pir_polytope *minus_p; /* of that pair; held */
+    pir_replay replay;
+    uint32_t (*ee)[2]; /* room for the pairs that are shown */
+    uint32_t ee_room;
+    pir_halfspace *plane; /* likewise */
+    uint32_t plane_room;
+} pir_cspace_cursor;
+
+struct pir_cspace {
+    pir_allocator allocator;
+    pir_store *store;
+    pir_grid *grid;
+    pir_cspace_info info;
+    uint64_t units_per_pair;
+    pir_cspace_cursor cursor;
+};
+
+/* Brings the cursor to a slice. Errors as of pir_cspace_slice. */
+pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *report);
+
+/* The rotation that the cursor is at. */
+static inline pir_quat pir_cspace_cursor_rotation(const pir_cspace *cspace) {
+    return cspace->cursor.rotation[cspace->cursor.slice];
+}
+
+/* What the crossings are that the cursor is at, in order. Errors: PIR_ERR_FORMAT, PIR_ERR_MEMORY. */
+pir_status pir_cspace_crossings(pir_cspace *cspace, pir_report *report, const pir_replay_crossing **ret_crossings,
+                                uint32_t *ret_count);
+
+#endif

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Parts into the file. Units are taken pair by pair in order, wherever they stand, so that the file does not depend on
+ * who made them when.
+ */
+#include "cspace/store/assemble.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <pirouette/version.h>
+
+#include "base/report.h"
+#include "cspace/store/h5.h"
+#include "cspace/store/names.h"
+#include "cspace/store/piece_file.h"
+
+/* Elements of each section that are compressed together: what a reader of one slice has to unpack. */
+static const uint32_t chunk_of_section[PIR_SECTION_COUNT] = {1u << 15, 1u << 11, 1u << 11};
+#define TABLE_CHUNK 1024
+#define GRID_CHUNK  4096
+
+/* A section that is written, and the tables beside it. */
+struct section {
+    hid_t group, data, count, unit, check;
+    pir_h5_shape shape;
+    uint64_t elements; /* so far */
+};
+
+struct output {
+    const pir_parts *parts;
+    const pir_plan *plan;
+    hid_t file;
+    struct section section[PIR_SECTION_COUNT];
+    pir_unit unit;
+};
+
+/* --- the grid --- */
+
+static bool put_rotations(const struct output *out, hid_t group) {
+    const pir_plan *plan = out->plan;
+    const pir_h5_shape rotations = {PIR_H5_F64, 2, {plan->slices, 4}, {GRID_CHUNK, 4}, false};
+    const pir_h5_shape cells = {PIR_H5_U64, 1, {plan->slices, 0}, {GRID_CHUNK, 0}, false};
+    hid_t rotation = pir_h5_make_set(group, "rotation", &rotations), cell = pir_h5_make_set(group, "cell", &cells);
+    bool good = rotation >= 0 && cell >= 0;
+    for (uint64_t i = 0; good && i < plan->slices; i += GRID_CHUNK) {
+        double q[GRID_CHUNK][4];
+        uint64_t c[GRID_CHUNK], n = 0;
+        for (; n < GRID_CHUNK && i + n < plan->slices; n++) {
+            pir_quat r = pir_grid_rotation(plan->grid, i + n);
+            q[n][0] = r.x;
+            q[n][1] = r.y;
+            q[n][2] = r.z;
+            q[n][3] = r.w;
+            c[n] = pir_grid_cell(plan->grid, i + n);
+        }
+        good = pir_h5_write(rotation, PIR_H5_F64, (uint64_t[]){i, 0}, (uint64_t[]){n, 4}, q) &&
+               pir_h5_write(cell, PIR_H5_U64, &i, &n, c);
+    }
+    good = pir_h5_close(rotation) && good;
+    return pir_h5_close(cell) && good;
+}
+
+static bool put_grid(const struct output *out) {
+    pir_grid_info info = pir_grid_get_info(out->plan->grid);
+    const double axis[3] = {info.axis.x, info.axis.y, info.axis.z};
+    const uint32_t level = info.level;
+    hid_t group = pir_h5_make_group(out->file, "grid");
+    bool good = group >= 0 && pir_h5_put_text(group, "kind", pir_names_of_grid[info.kind]) &&
+                pir_h5_put_numbers(group, "axis", PIR_H5_F64, axis, 3) &&
+                pir_h5_put_numbers(group, "level", PIR_H5_U32, &level, 1) &&
+                pir_h5_put_numbers(group, "spacing", PIR_H5_F64, &info.spacing, 1) && put_rotations(out, group);
+    return pir_h5_close(group) && good;
+}
+
+/* --- models and what the file is --- */
+
+static bool put_head(const struct output *out) {
+    char hash[17];
+    const uint32_t version = PIR_SLICES_VERSION;
+    snprintf(hash, sizeof hash, "%016" PRIx64, out->plan->hash);
+    return pir_h5_put_text(out->file, "format", PIR_SLICES_FORMAT) &&
+           pir_h5_put_numbers(out->file, "version", PIR_H5_U32, &version, 1) &&
+           pir_h5_put_text(out->file, "library", PIR_VERSION_STRING) && pir_h5_put_text(out->file, "hash", hash) &&
+           pir_h5_put_text(out->file, "length_unit", "that of the models") &&
+           pir_h5_put_text(out->file, "angle_unit", "radian");
+}
+
+static bool put_pieces(const struct output *out) {
+    const pir_plan *plan = out->plan;
+    return pir_pieces_put(out->file, "robot", plan->piece, plan->robot_count, &plan->allocator) &&
+           pir_pieces_put(out->file, "obstacle", plan->piece + plan->robot_count, plan->obstacle_count,
+                          &plan->allocator);
+}
+
+/* --- sections --- */
+
+static bool has_section(const pir_plan *plan, int s) {
+    return s == PIR_SECTION_RECORDS || (s == PIR_SECTION_PLANES ? plan->planes : plan->vertices);
+}
+
+static bool begin_section(struct output *out, int s) {
+    const pir_plan *plan = out->plan;
+    const pir_section_names *names = &pir_names_of_section[s];
+    struct section *section = &out->section[s];
+    uint32_t doubles = pir_section_doubles[s];
+    section->shape = (pir_h5_shape){.type = doubles ? PIR_H5_F64 : PIR_H5_U8, .rank = doubles ? 2 : 1, .grows = true};
+    section->shape.size[1] = section->shape.chunk[1] = doubles;
+    section->shape.chunk[0] = chunk_of_section[s];
+    const pir_h5_shape counts = {PIR_H5_U32, 2, {plan->pairs, plan->slices}, {1, TABLE_CHUNK}, false};
+    const pir_h5_shape units = {PIR_H5_U64, 2, {plan->pairs, plan->units_per_pair}, {1, TABLE_CHUNK}, false};
+    section->group = pir_h5_make_group(out->file, names->group);
+    if (section->group < 0)
+        return false;
+    section->data = pir_h5_make_set(section->group, names->data, &section->shape);
+    section->count = pir_h5_make_set(section->group, names->count, &counts);
+    section->unit = pir_h5_make_set(section->group, names->unit, &units);
+    section->check = pir_h5_make_set(section->group, names->check, &units);
+    return section->data >= 0 && section->count >= 0 && section->unit >= 0 && section->check >= 0 &&
+           (s != PIR_SECTION_RECORDS ||
+            (pir_h5_put_numbers(section->group, "slices_per_unit", PIR_H5_U32, &plan->slices_per_unit, 1) &&
+             pir_h5_put_numbers(section->group, "slices_per_key", PIR_H5_U32, &plan->slices_per_key, 1)));
+}
+
+static bool end_section(struct section *section) {
+    bool good = pir_h5_close(section->data);
+    good = pir_h5_close(section->count) && good;
+    good = pir_h5_close(section->unit) && good;
+    good = pir_h5_close(section->check) && good;
+    return pir_h5_close(section->group) && good;
+}
+
+/* Appends the unit that has been read. */
+static bool put_unit(struct output *out, int s) {
+    const pir_plan *plan = out->plan;
+    const pir_unit *unit = &out->unit;
+    struct section *section = &out->section[s];
+    uint64_t pair = unit->number / plan->units_per_pair, elements = unit->data[s].used / pir_section_element[s];
+    const uint64_t in_units[2] = {pair, unit->number % plan->units_per_pair}, one[2] = {1, 1};
+    const uint64_t in_counts[2] = {pair, pir_plan_first(plan, unit->number)}, counts[2] = {1, unit->slices};
+    const uint64_t start[2] = {section->elements, 0}, size[2] = {elements, pir_section_doubles[s]};
+    if (elements > 0 && (!pir_h5_extend(section->data, &section->shape, section->elements + elements) ||
+                         !pir_h5_write(section->data, section->shape.type, start, size, unit->data[s].data)))
+        return false;
+    bool good = pir_h5_write(section->count, PIR_H5_U32, in_counts, counts, unit->count[s]) &&
+                pir_h5_write(section->unit, PIR_H5_U64, in_units, one, &section->elements) &&
+                pir_h5_write(section->check, PIR_H5_U64, in_units, one, &unit->check[s]);
+    section->elements += elements;
+    return good;
+}
+
+static bool put_sections(struct output *out, pir_status *status, pir_report *report) {
+    const pir_plan *plan = out->plan;
+    bool good = true;
+    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+        if (has_section(plan, s))
+            good = good && begin_section(out, s);
+    for (uint64_t u = 0; good && u < plan->units; u++) {
+        *status = pir_parts_read(out->parts, u, &out->unit, report);
+        good = *status == PIR_OK;
+        for (int s = 0; good && s < PIR_SECTION_COUNT; s++)
+            good = !has_section(plan, s) || put_unit(out, s);
+    }
+    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+        good = end_section(&out->section[s]) && good;
+    return good;
+}
+
+/* --- the file --- */
+
+static hid_t create_file(const char *path) {
+    hid_t create = H5Pcreate(H5P_FILE_CREATE);
+    hid_t file = -1;
+    if (create >= 0 && H5Pset_obj_track_times(create, false) >= 0)
+        file = H5Fcreate(path, H5F_ACC_TRUNC, create, H5P_DEFAULT);
+    if (create >= 0)
+        H5Pclose(create);
+    return file;
+}
+
+/* Makes what was written to a file or folder reach the disk. */
+static bool reach_disk(const char *path) {
+    int descriptor = open(path, O_RDONLY);
+    bool good = descriptor >= 0 && fsync(descriptor) == 0;
+    return (descriptor < 0 || close(descriptor) == 0) && good;
+}
+
+/* What HDF5 left of the reason. */
+static const char *reason(int error) {
+    return error ? strerror(error) : "HDF5 could not";
+}
+
+static pir_status write_file(struct output *out, const char *path, pir_report *report) {
+    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+        out->section[s] = (struct section){-1, -1, -1, -1, -1, {0}, 0};
+    errno = 0;
+    out->file = create_file(path);
+    pir_status status = PIR_OK;
+    bool good = out->file >= 0 && put_head(out) && put_grid(out) && put_pieces(out) &&
+                put_sections(out, &status, report) && H5Fflush(out->file, H5F_SCOPE_GLOBAL) >= 0;
+    int error = errno;
+    if (!pir_h5_close(out->file))
+        good = false;
+    if (status != PIR_OK)
+        return status;
+    if (good && !reach_disk(path)) {
+        good = false;
+        error = errno;
+    }
+    return good ? PIR_OK : pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, reason(error));
+}
+
+static pir_status assemble_as(const pir_parts *parts, const char *path, pir_report *report) {
+    struct output out = {.parts = parts, .plan = parts->plan, .file = -1};
+    if (!pir_unit_init(&out.unit, parts->plan->slices_per_unit, &parts->allocator))
+        return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", parts->file);
+    pir_h5_reports reports = pir_h5_quiet();
+    pir_status status = write_file(&out, path, report);
+    pir_h5_loud(reports);
+    pir_unit_finish(&out.unit, &parts->allocator);
+    if (status == PIR_OK && rename(path, parts->file) != 0)
+        status = pir_fail(report, PIR_ERR_FILE, "%s: cannot rename to it: %s", parts->file, strerror(errno));
+    if (status != PIR_OK)
+        unlink(path);
+    return status;
+}
+
+pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
+    size_t size = strlen(parts->file) + 32;
+    char *path = PIR_NEW(&parts->allocator, char, size);
+    if (!path)
+        return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", parts->file);
+    snprintf(path, size, "%s.assembling", parts->file);
+    pir_status status = assemble_as(parts, path, report);
+    PIR_FREE(&parts->allocator, path, size);
+    return status;
+}

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Jobs: threads that make units, one part that they append to, and the file at the end.
+ *
+ * All that threads share stands behind one lock: which unit is next, the part, what has been done, the first error.
+ * A unit is made outside of it. The run ends when no unit is left, when the caller says so, or at the first error; the
+ * units that other threads are making then are still appended.
+ */
+#include <pthread.h>
+#include <string.h>
+#include <time.h>
+
+#include <pirouette/cspace.h>
+
+#include "base/report.h"
+#include "cspace/store/assemble.h"
+#include "cspace/store/maker.h"
+#include "cspace/store/parts.h"
+
+#define THREADS_MOST 1024u
+
+struct pir_cspace_job {
+    pir_allocator allocator;
+    pir_cspace_options options;
+    pir_plan plan;
+    pir_parts parts;
+    char *file;
+    size_t file_size;
+    uint64_t next; /* unit, where the job deals them itself */
+};
+
+pir_cspace_options pir_cspace_options_default(void) {
+    return (pir_cspace_options){.threads = 1};
+}
+
+uint64_t pir_cspace_job_units(const pir_cspace_job *job) {
+    return job ? job->plan.units : 0;
+}
+
+void pir_cspace_job_destroy(pir_cspace_job *job) {
+    if (!job)
+        return;
+    const pir_allocator a = job->allocator;
+    pir_parts_finish(&job->parts);
+    pir_plan_finish(&job->plan);
+    if (job->file)
+        PIR_FREE(&a, job->file, job->file_size);
+    PIR_FREE(&a, job, 1);
+}
+
+static pir_status begin(pir_cspace_job *job, const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
+                        pir_report *report) {
+    pir_status status = pir_plan_init(&job->plan, bodies, grid, &job->options, report);
+    if (status != PIR_OK)
+        return status;
+    job->file_size = strlen(path) + 1;
+    job->file = PIR_NEW(&job->allocator, char, job->file_size);
+    if (!job->file || !pir_parts_init(&job->parts, &job->plan, job->file))
+        return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
+    memcpy(job->file, path, job->file_size);
+    return job->options.resume ? pir_parts_scan(&job->parts, report) : pir_parts_remove(&job->parts, report);
+}
+
+pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
+                                 const pir_cspace_options *options, pir_report *report, pir_cspace_job **ret_job) {
+    if (!path || !*path || !ret_job)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the job");
+    if (!PIR_HAVE_HDF5)
+        return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: this build has no HDF5", path);
+    pir_cspace_options used = options ? *options : pir_cspace_options_default();
+    if (used.threads == 0 || used.threads > THREADS_MOST)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "slices: threads must be 1 to %u", THREADS_MOST);
+    const pir_allocator a = pir_allocator_or_default(used.allocator);
+    pir_cspace_job *job = PIR_ZEROED(&a, pir_cspace_job, 1);
+    if (!job)
+        return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
+    job->allocator = a;
+    job->options = used;
+    pir_status status = begin(job, bodies, grid, path, report);
+    if (status != PIR_OK) {
+        pir_cspace_job_destroy(job);
+        return status;
+    }
+    *ret_job = job;
+    return PIR_OK;
+}
+
+/* --- the run --- */
+
+/* What the threads of a run share, but for `job->plan`, behind the lock. */
+struct run {
+    pthread_mutex_t lock;
+    pir_cspace_job *job;
+    pir_part part;
+    uint64_t done, resumed; /* slices */
+    struct timespec began;
+    pir_status status; /* the first error */
+    pir_report report;
+    bool stopped;
+};
+
+static double seconds_since(const struct timespec *began) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - began->tv_sec) + (double)(now.tv_nsec - began->tv_nsec) / 1e9;
+}
+
+static void tell_progress(struct run *run) {
+    const pir_cspace_options *options = &run->job->options;
+    const pir_plan *plan = &run->job->plan;
+    const pir_cspace_progress progress = {run->done, plan->pairs * plan->slices, run->resumed,
+                                          seconds_since(&run->began)};
+    if (options->progress && !options->progress(options->context, &progress))
+        run->stopped = true;
+}
+
+/* The next unit that no part has; the count of units where there is none, or the run is to end. */
+static uint64_t claim(struct run *run) {
+    pir_cspace_job *job = run->job;
+    while (!run->stopped) {
+        uint64_t unit = job->options.claim ? job->options.claim(job->options.context) : job->next;
+        if (unit >= job->plan.units)
+            break;
+        job->next += !job->options.claim;
+        if (job->parts.unit[unit].part == 0)
+            return unit;
+    }
+    return job->plan.units;
+}
+
+static void fail(struct run *run, pir_status status, const pir_report *report) {
+    if (run->status == PIR_OK) {
+        run->status = status;
+        run->report = *report;
+    }
+    run->stopped = true;
+}
+
+static void *work(void *context) {
+    struct run *run = context;
+    const pir_plan *plan = &run->job->plan;
+    pir_report report = {0};
+    pir_maker maker;
+    pir_status status = PIR_OK;
+    if (!pir_maker_init(&maker, plan))
+        status = pir_fail(&report, PIR_ERR_MEMORY, "slices: out of memory");
+    pthread_mutex_lock(&run->lock);
+    for (uint64_t unit; status == PIR_OK && (unit = claim(run)) < plan->units;) {
+        pthread_mutex_unlock(&run->lock);
+        status = pir_maker_make(&maker, unit, UINT32_MAX);
+        if (status != PIR_OK)
+            pir_fail(&report, status, "slices: unit %llu: %s", (unsigned long long)unit, pir_status_text(status));
+        pthread_mutex_lock(&run->lock);
+        if (status == PIR_OK)
+            status = pir_part_append(&run->part, &maker.unit, &report);
+        run->done += status == PIR_OK ? maker.unit.slices : 0;
+        tell_progress(run);
+    }
+    if (status != PIR_OK)
+        fail(run, status, &report);
+    pthread_mutex_unlock(&run->lock);
+    pir_maker_finish(&maker);
+    return NULL;
+}
+
+/* Starts the other threads, works along, and waits for them. Fewer threads than asked for do the same. */
+static void run_threads(struct run *run) {
+    uint32_t others = run->job->options.threads - 1, started = 0;
+    pthread_t thread[THREADS_MOST];
+    while (started < others && pthread_create(&thread[started], NULL, work, run) == 0)
+        started++;
+    work(run);
+    for (uint32_t i = 0; i < started; i++)
+        pthread_join(thread[i], NULL);
+}
+
+pir_status pir_cspace_job_run(pir_cspace_job *job, pir_report *report) {
+    if (!job)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no job");
+    struct run run = {.job = job, .done = job->parts.done_slices, .resumed = job->parts.done_slices};
+    pir_status status = pir_part_open(&run.part, &job->parts, job->options.part, report);
+    if (status == PIR_OK && pthread_mutex_init(&run.lock, NULL) != 0)
+        status = pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
+    if (status == PIR_OK) {
+        job->next = 0;
+        clock_gettime(CLOCK_MONOTONIC, &run.began);
+        run_threads(&run);
+        pthread_mutex_destroy(&run.lock);
+        status = run.status == PIR_OK ? PIR_OK : pir_fail(report, run.status, "%s", run.report.text);
+    }
+    pir_status closed = pir_part_close(&run.part, &job->allocator, status == PIR_OK ? report : NULL);
+    return status == PIR_OK ? closed : status;
+}
+
+pir_status pir_cspace_job_assemble(pir_cspace_job *job, pir_report *report) {
+    if (!job)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no job");
+    pir_status status = pir_parts_scan(&job->parts, report);
+    if (status == PIR_OK && job->parts.done < job->plan.units)
+        status = pir_fail(report, PIR_ERR_EMPTY, "%s: %llu of %llu units are still to be made", job->file,
+                          (unsigned long long)(job->plan.units - job->parts.done), (unsigned long long)job->plan.units);
+    if (status == PIR_OK)
+        status = pir_assemble(&job->parts, report);
+    if (status == PIR_OK)
+        status = pir_parts_remove(&job->parts, report);
+    return status;
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/* The store of a build without HDF5: no file can be made or opened, so there is nothing to read from one. */
+#include "base/report.h"
+#include "cspace/store/assemble.h"
+#include "cspace/store/store.h"
+
+pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
+    return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: this build has no HDF5", parts->file);
+}
+
+pir_status pir_store_open(const char *path, const pir_allocator *allocator, pir_report *report, pir_store **ret_store) {
+    (void)allocator;
+    (void)ret_store;
+    return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: this build has no HDF5", path);
+}
+
+void pir_store_close(pir_store *store) {
+    (void)store;
+}
+
+const pir_cspace_info *pir_store_info(const pir_store *store) {
+    (void)store;
+    return NULL;
+}
+
+pir_polytope *const *pir_store_pieces(const pir_store *store) {
+    (void)store;
+    return NULL;
+}
+
+pir_status pir_store_rotations(pir_store *store, uint64_t first, size_t count, pir_report *report,
+                               pir_quat *ret_rotations) {
+    (void)store;
+    (void)first;
+    (void)count;
+    (void)ret_rotations;
+    return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
+}
+
+pir_status pir_store_unit(pir_store *store, pir_section section, uint64_t number, pir_report *report, pir_unit *unit) {
+    (void)store;
+    (void)section;
+    (void)number;
+    (void)unit;
+    return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
+}

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT */
+/* All parts of a job: found in the folder of its file, read, removed. */
+#include "cspace/store/parts.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/report.h"
+#include "cspace/store/part_file.h"
+
+/* The longest path that POSIX systems take, its final zero included. */
+#define PATH_SIZE 4096
+
+bool pir_parts_init(pir_parts *parts, const pir_plan *plan, const char *file) {
+    *parts = (pir_parts){.allocator = plan->allocator, .plan = plan, .file = file};
+    parts->unit = PIR_ZEROED(&parts->allocator, pir_unit_place, plan->units);
+    return parts->unit != NULL;
+}
+
+void pir_parts_finish(pir_parts *parts) {
+    if (parts->unit)
+        PIR_FREE(&parts->allocator, parts->unit, parts->plan->units);
+    *parts = (pir_parts){0};
+}
+
+static const char *name_in(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* The number of the part that a name in the folder is, or -1. */
+static int64_t part_number(const char *file, const char *name) {
+    size_t length = strlen(name_in(file));
+    if (strncmp(name, name_in(file), length) != 0 || strncmp(name + length, ".part", 5) != 0)
+        return -1;
+    const char *digits = name + length + 5;
+    if (*digits < '0' || *digits > '9' || strlen(digits) > 9)
+        return -1;
+    char *end;
+    long number = strtol(digits, &end, 10);
+    return *end == '\0' ? number : -1;
+}
+
+/* Calls `visit` for each part in the folder of the file, by path and number, until one fails. */
+static pir_status each_part(const pir_parts *parts, pir_report *report, void *context,
+                            pir_status (*visit)(void *context, const char *path, uint32_t number, pir_report *report)) {
+    char folder[PATH_SIZE] = ".", path[PATH_SIZE];
+    size_t length = (size_t)(name_in(parts->file) - parts->file);
+    if (strlen(parts->file) + 32 > sizeof path)
+        return pir_fail(report, PIR_ERR_FILE, "slices: a path that is too long");
+    if (length > 0)
+        snprintf(folder, sizeof folder, "%.*s", (int)length, parts->file);
+    DIR *entries = opendir(folder);
+    if (!entries)
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open the folder: %s", parts->file, strerror(errno));
+    pir_status status = PIR_OK;
+    for (struct dirent *entry; status == PIR_OK && (entry = readdir(entries));) {
+        int64_t number = part_number(parts->file, entry->d_name);
+        if (number < 0)
+            continue;
+        snprintf(path, sizeof path, "%s.part%" PRId64, parts->file, number);
+        status = visit(context, path, (uint32_t)number, report);
+    }
+    closedir(entries);
+    return status;
+}
+
+/* --- reading --- */
+
+struct scan {
+    pir_parts *parts;
+    pir_unit unit;
+};
+
+static void note_unit(pir_parts *parts, const pir_unit *unit, uint32_t number, uint64_t at) {
+    pir_unit_place *place = &parts->unit[unit->number];
+    if (place->part != 0)
+        return;
+    *place = (pir_unit_place){number + 1, at};
+    parts->done++;
+    parts->done_slices += unit->slices;
+}
+
+static pir_status scan_part(void *context, const char *path, uint32_t number, pir_report *report) {
+    struct scan *scan = context;
+    const pir_plan *plan = scan->parts->plan;
+    int descriptor = open(path, O_RDONLY);
+    if (descriptor < 0)
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open: %s", path, strerror(errno));
+    pir_part_header header;
+    pir_status status = pir_read_at(descriptor, &header, sizeof header, 0);
+    if (status == PIR_OK && (header.magic != PIR_PART_MAGIC || header.plan != plan->hash)) {
+        close(descriptor);
+        return pir_fail(report, PIR_ERR_FORMAT, "%s: it is of another job; without resuming it is removed", path);
+    }
+    // a part that ends within its header has no unit yet
+    for (uint64_t at = sizeof header; status == PIR_OK;) {
+        status = pir_unit_read(descriptor, at, plan, &scan->unit);
+        if (status != PIR_OK)
+            break;
+        note_unit(scan->parts, &scan->unit, number, at);
+        pir_unit_header whole = pir_unit_header_of(&scan->unit, pir_sections_of(plan));
+        at += sizeof whole + pir_unit_body(&whole, pir_sections_of(plan));
+    }
+    close(descriptor);
+    if (status == PIR_ERR_FORMAT)
+        return PIR_OK;
+    return pir_fail(report, status, "%s: cannot read: %s", path, pir_status_text(status));
+}
+
+pir_status pir_parts_scan(pir_parts *parts, pir_report *report) {
+    struct scan scan = {.parts = parts};
+    memset(parts->unit, 0, parts->plan->units * sizeof *parts->unit);
+    parts->done = parts->done_slices = 0;
+    pir_status status;
+    if (pir_unit_init(&scan.unit, parts->plan->slices_per_unit, &parts->allocator))
+        status = each_part(parts, report, &scan, scan_part);
+    else
+        status = pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
+    pir_unit_finish(&scan.unit, &parts->allocator);
+    return status;
+}
+
+pir_status pir_parts_read(const pir_parts *parts, uint64_t number, pir_unit *unit, pir_report *report) {
+    const pir_unit_place *place = &parts->unit[number];
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s.part%u", parts->file, (unsigned)(place->part - 1));
+    int descriptor = open(path, O_RDONLY);
+    if (descriptor < 0)
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open: %s", path, strerror(errno));
+    pir_status status = pir_unit_read(descriptor, place->at, parts->plan, unit);
+    close(descriptor);
+    if (status == PIR_OK && unit->number != number)
+        status = PIR_ERR_FORMAT;
+    return status == PIR_OK ? PIR_OK : pir_fail(report, status, "%s: cannot read: %s", path, pir_status_text(status));
+}
+
+/* --- removing --- */
+
+static pir_status remove_part(void *context, const char *path, uint32_t number, pir_report *report) {
+    (void)context;
+    (void)number;
+    if (unlink(path) != 0 && errno != ENOENT)
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot remove: %s", path, strerror(errno));
+    return PIR_OK;
+}
+
+pir_status pir_parts_remove(const pir_parts *parts, pir_report *report) {
+    return each_part(parts, report, NULL, remove_part);
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+/* Pieces written. A segment has the facets and edges here that the pairing has of it. */
+#include "cspace/store/piece_file.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "base/layout.h"
+#include "polytope/polytope.h"
+
+#define CHUNK 4096
+
+/* The arrays of a piece, as they are written. */
+struct arrays {
+    double (*vertex)[3], (*normal)[3];
+    uint32_t (*edge)[2], (*edge_facet)[2], *facet_start, *facet_vertex;
+};
+
+static pir_layout layout_of(struct arrays *arrays, const pir_polytope *p) {
+    return (pir_layout){{PIR_ROW(arrays->vertex, p->vertex_count), PIR_ROW(arrays->normal, p->facet_count),
+                         PIR_ROW(arrays->edge, p->edge_count), PIR_ROW(arrays->edge_facet, p->edge_count),
+                         PIR_ROW(arrays->facet_start, (size_t)p->facet_count + 1),
+                         PIR_ROW(arrays->facet_vertex, p->half_count)}};
+}
+
+static void put_vec(double *at, pir_vec3 v) {
+    at[0] = v.x;
+    at[1] = v.y;
+    at[2] = v.z;
+}
+
+static void fill(struct arrays *arrays, const pir_polytope *p) {
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        put_vec(arrays->vertex[v], p->vertex[v]);
+    for (uint32_t e = 0; e < p->edge_count; e++) {
+        uint32_t h = p->edge_half[e];
+        arrays->edge[e][0] = p->origin[h];
+        arrays->edge[e][1] = p->target[h];
+        arrays->edge_facet[e][0] = p->left[h];
+        arrays->edge_facet[e][1] = pir_right(p, h);
+    }
+    uint32_t corners = 0;
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        put_vec(arrays->normal[f], p->normal[f]);
+        arrays->facet_start[f] = corners;
+        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+            arrays->facet_vertex[corners++] = p->origin[p->loop[i]];
+        arrays->facet_start[f + 1] = corners;
+    }
+}
+
+static bool put_rows(hid_t group, const char *name, pir_h5_type type, uint64_t rows, uint64_t columns,
+                     const void *data) {
+    const pir_h5_shape shape = {type, columns ? 2 : 1, {rows, columns}, {CHUNK, columns}, false};
+    return pir_h5_put(group, name, &shape, data);
+}
+
+static bool put_arrays(hid_t group, const struct arrays *arrays, const pir_polytope *p) {
+    return put_rows(group, "vertex", PIR_H5_F64, p->vertex_count, 3, arrays->vertex) &&
+           put_rows(group, "normal", PIR_H5_F64, p->facet_count, 3, arrays->normal) &&
+           put_rows(group, "edge", PIR_H5_U32, p->edge_count, 2, arrays->edge) &&
+           put_rows(group, "edge_facet", PIR_H5_U32, p->edge_count, 2, arrays->edge_facet) &&
+           put_rows(group, "facet_start", PIR_H5_U32, (uint64_t)p->facet_count + 1, 0, arrays->facet_start) &&
+           put_rows(group, "facet_vertex", PIR_H5_U32, p->facet_count ? p->half_count : 0, 0, arrays->facet_vertex);
+}
+
+static bool put_piece(hid_t in, uint32_t number, const pir_plan_piece *piece, const pir_allocator *a) {
+    char name[16], hash[17];
+    const pir_polytope *p = piece->polytope;
+    struct arrays arrays = {0};
+    pir_layout layout = layout_of(&arrays, p);
+    snprintf(name, sizeof name, "%" PRIu32, number);
+    snprintf(hash, sizeof hash, "%016" PRIx64, piece->hash);
+    hid_t group = pir_h5_make_group(in, name);
+    bool good = group >= 0 && pir_layout_new(a, &layout) && pir_h5_put_text(group, "hash", hash) &&
+                put_rows(group, "off", PIR_H5_U8, piece->off.used, 0, piece->off.data);
+    if (good) {
+        fill(&arrays, p);
+        good = put_arrays(group, &arrays, p);
+    }
+    pir_layout_free(a, &layout);
+    return pir_h5_close(group) && good;
+}
+
+bool pir_pieces_put(hid_t file, const char *name, const pir_plan_piece *piece, uint32_t count,
+                    const pir_allocator *allocator) {
+    hid_t group = pir_h5_make_group(file, name);
+    bool good = group >= 0;
+    for (uint32_t i = 0; good && i < count; i++)
+        good = put_piece(group, i, &piece[i], allocator);
+    return pir_h5_close(group) && good;
+}
