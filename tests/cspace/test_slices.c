@@ -48,11 +48,12 @@ struct scene {
 
 static void scene_make(struct scene *scene, uint64_t steps) {
     test_random random = test_random_case("slices", 0);
+    const test_points triangle = {3, {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}};
     scene->robot[0] = test_sphere(&random, 20);
     scene->robot[1] = test_random_polytope(&random, TEST_SEGMENT, 4);
     scene->obstacle[0] = test_random_polytope(&random, TEST_BOX, 8);
     scene->obstacle[1] = test_sphere(&random, 30);
-    scene->obstacle[2] = test_random_polytope(&random, TEST_POLYGON, 6);
+    scene->obstacle[2] = test_polytope(&triangle);
     scene->bodies = (pir_cspace_bodies){scene->robot, 2, scene->obstacle, 3};
     assert_int_equal(pir_grid_axis((pir_vec3){1, 2, 3}, steps, NULL, &scene->grid), PIR_OK);
 }
