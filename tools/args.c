@@ -53,7 +53,11 @@ static bool take_option(struct args *args, int argc, char *const *argv, int *at)
 
 static bool take_positional(struct args *args, const char *text) {
     const char *const *names = args->command->positional;
-    if (!names[args->positional_count]) {
+    size_t last = 0;
+    while (names[last] && names[last + 1])
+        last++;
+    bool repeats = names[last] && positional_repeats(names[last]) && args->positional_count > last;
+    if (args->positional_count == ARGS_POSITIONAL_MAX || (!repeats && !names[args->positional_count])) {
         complain("%s: '%s' is one argument too many", args->command->name, text);
         return false;
     }

@@ -13,11 +13,12 @@
 
 #include "command.h"
 
-#define ARGS_OPTIONS_MAX 32
+#define ARGS_OPTIONS_MAX    32
+#define ARGS_POSITIONAL_MAX 4096
 
 struct args {
     const struct command *command;
-    const char *positional[3];
+    const char *positional[ARGS_POSITIONAL_MAX];
     size_t positional_count;
     /* By row of the command's table: "" for an option without value, NULL when absent. */
     const char *value[ARGS_OPTIONS_MAX];

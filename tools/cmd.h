@@ -9,6 +9,7 @@ int cmd_cgm(const struct args *args);
 int cmd_info(const struct args *args);
 int cmd_query(const struct args *args);
 int cmd_shape(const struct args *args);
+int cmd_slice(const struct args *args);
 int cmd_sum(const struct args *args);
 int cmd_track(const struct args *args);
 

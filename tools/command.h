@@ -30,7 +30,7 @@ struct example {
 
 struct command {
     const char *name;
-    const char *positional[3]; /* names of its positional arguments, then NULL */
+    const char *positional[3]; /* names of its positional arguments, then NULL; the last may end in "..." and repeat */
     size_t required;           /* how many of them must be there */
     const char *summary;       /* one line */
     const char *details;       /* one paragraph for its help; NULL for none */
@@ -46,6 +46,7 @@ enum {
     COMMAND_SUM,
     COMMAND_TRACK,
     COMMAND_QUERY,
+    COMMAND_SLICE,
     COMMAND_HELP,
     COMMAND_COUNT,
 };
@@ -57,6 +58,9 @@ extern const struct option command_options[];
 
 /* What the command does, what its models are, what its exit status means. */
 extern const char command_about[], command_models[], command_exit[];
+
+/* Whether a positional argument of this name may be given more than once. */
+bool positional_repeats(const char *name);
 
 /* NULL when no subcommand has this name. */
 const struct command *command_find(const char *name);

@@ -101,6 +101,22 @@ static const struct option query_options[] = {
     MODEL_OPTIONS,
 };
 
+static const struct option slice_options[] = {
+    {"--axis", "x,y,z", "turn the robot about this axis, of any length but 0, ..."},
+    {"--steps", "N", "... in so many equal turns"},
+    {"--grid", "hopf", "all rotations, ..."},
+    {"--level", "L",
+     "... by the grid of 72 times 8 to the power of L of them, 60 degrees by 2 to the power of L apart"},
+    {"--rotations", "FILE", "the rotations of FILE, .csv or .npy: quaternions x,y,z,w, of any length but 0"},
+    {"-o", "FILE", "the file that is made: .h5 or .hdf5"},
+    {"--threads", "N", "make slices in so many threads (1)"},
+    {"--resume", NULL, "go on where an earlier run of the same ended, however it ended"},
+    {"--dry-run", NULL, "only say how many slices there are, how long they will take and how large they will be"},
+    {"--planes", NULL, "also write the planes of every slice, as doubles"},
+    {"--vertices", NULL, "also write the vertices of every slice, as doubles"},
+    MODEL_OPTIONS,
+};
+
 static const struct option help_options[] = {HELP_OPTION};
 
 const struct command command_table[COMMAND_COUNT] = {
@@ -179,6 +195,23 @@ const struct command command_table[COMMAND_COUNT] = {
             .examples = {{"query shape:cube shape:cube --translate 3,0,0", "the distance of two cubes"},
                          {"query shape:cube shape:gs4 --translate 3,0,0 --cast -4,0,0", "also when the cube touches"}},
         },
+    [COMMAND_SLICE] =
+        {
+            .name = "slice",
+            .positional = {"ROBOT", "OBSTACLE..."},
+            .required = 2,
+            .summary = "the differences of a robot and obstacles at every rotation of a grid, in one HDF5 file",
+            .details =
+                "A ROBOT or OBSTACLE is a model, an OBJ file of several objects, or a folder of models; each object or "
+                "model is a convex piece. Every pair of pieces is followed from rotation to rotation, and the file "
+                "holds what changes. Until all slices are made they stand in FILE.part0: a run that was ended in any "
+                "way goes on with --resume.",
+            .options = slice_options,
+            .examples = {{"slice shape:cube shape:gs4 --axis 0,0,1 --steps 500 -o slices.h5",
+                          "the cube about one axis"},
+                         {"slice shape:cube shape:gs2 --grid hopf --level 2 --dry-run",
+                          "what all rotations, 15 degrees apart, would take"}},
+        },
     [COMMAND_HELP] =
         {
             .name = "help",
@@ -195,6 +228,11 @@ const struct command *command_find(const char *name) {
         if (strcmp(command_table[i].name, name) == 0)
             return &command_table[i];
     return NULL;
+}
+
+bool positional_repeats(const char *name) {
+    size_t length = strlen(name);
+    return length > 3 && strcmp(name + length - 3, "...") == 0;
 }
 
 bool option_is(const struct option *option, const char *text, size_t length) {

@@ -63,7 +63,11 @@ static bool read_options(const struct args *args, pir_read_options *options) {
 }
 
 pir_polytope *model_load(const struct args *args, size_t index, pir_surface *ret_surface) {
-    const char *model = args->positional[index], *shape = shape_of(model);
+    return model_of_path(args, args->positional[index], ret_surface);
+}
+
+pir_polytope *model_of_path(const struct args *args, const char *model, pir_surface *ret_surface) {
+    const char *shape = shape_of(model);
     pir_polytope *polytope = NULL;
     pir_report report = {0};
     pir_read_options options;
@@ -75,6 +79,20 @@ pir_polytope *model_load(const struct args *args, size_t index, pir_surface *ret
                               : pir_polytope_read_surface(model, &options, &report, ret_surface, &polytope);
     if (status != PIR_OK)
         complain_status(model, status, &report);
+    return status == PIR_OK ? polytope : NULL;
+}
+
+pir_polytope *model_of_text(const struct args *args, const char *name, const char *text, const char *format) {
+    pir_polytope *polytope = NULL;
+    pir_report report = {0};
+    pir_surface surface;
+    pir_read_options options;
+    if (!read_options(args, &options))
+        return NULL;
+    const pir_file_bytes bytes = {text, strlen(text), name, format};
+    pir_status status = pir_polytope_read_bytes(&bytes, &options, &report, &surface, &polytope);
+    if (status != PIR_OK)
+        complain_status(name, status, &report);
     return status == PIR_OK ? polytope : NULL;
 }
 

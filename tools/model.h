@@ -17,6 +17,12 @@
  */
 pir_polytope *model_load(const struct args *args, size_t index, pir_surface *ret_surface);
 
+/* The same of a MODEL by its name. */
+pir_polytope *model_of_path(const struct args *args, const char *model, pir_surface *ret_surface);
+
+/* The same of a model's text in a format of pir_file_bytes; `name` stands for it in complaints. */
+pir_polytope *model_of_text(const struct args *args, const char *name, const char *text, const char *format);
+
 /* The name for titles: the file's without its folders. Points into `model`. */
 const char *model_title(const char *model);
 

@@ -27,13 +27,14 @@ void progress_show(struct progress *progress, uint64_t done) {
     progress->next = now + THEN_EVERY;
     progress->shown = true;
     double part = (double)done / (double)progress->total;
+    double rate = (double)done / ((double)(now - progress->start) / 1e9);
     double left = done ? (double)(now - progress->start) / 1e9 * (1 - part) / part : 0;
     char bar[BAR_WIDTH + 1];
     for (int i = 0; i < BAR_WIDTH; i++)
         bar[i] = i < part * BAR_WIDTH ? '#' : '.';
     bar[BAR_WIDTH] = '\0';
-    fprintf(stderr, "\r[%s] %3.0f %%  %" PRIu64 " of %" PRIu64 ", %.0f s left\033[K", bar, 100 * part, done,
-            progress->total, left);
+    fprintf(stderr, "\r[%s] %3.0f %%  %" PRIu64 " of %" PRIu64 ", %.3g a second, %.0f s left\033[K", bar, 100 * part,
+            done, progress->total, rate, left);
     fflush(stderr);
 }
 

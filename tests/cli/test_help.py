@@ -163,7 +163,7 @@ def expected_page(text):
     lines = [f'.TH {roff(name.upper())} 1 "" "{run("--version").stdout.strip()}" "User Commands"', ".SH NAME"]
     what = words[0] if text != general else "exact Minkowski sums of rotating convex polyhedra"
     lines += [roff(name) + r" \- " + what, ".SH SYNOPSIS", roff(usage), ".SH DESCRIPTION", words[-1]]
-    if re.search(r"\b(MODEL|P|SUBCOMMAND \[ARG)", usage):
+    if re.search(r"\b(MODEL|P|ROBOT|SUBCOMMAND \[ARG)", usage):
         lines += [".PP", roff(plain(models))]
     if text == general:
         lines += [".SH SUBCOMMANDS"]
