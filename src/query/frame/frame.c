@@ -26,6 +26,12 @@
  */
 #define FAR_ERROR 0x1p-96
 
+/*
+ * The error of a translation that is turned in doubles, relative to its length: u = 2^-53 for its rounding, 31u for the
+ * matrix, 6u for the product and the sum, together below 64u.
+ */
+#define TURN_ERROR 0x1p-47
+
 /* a · num/den as m · 2^*ret_exponent. */
 static double scaled(const pir_int *a, const pir_scale *scale, int *ret_exponent) {
     int e, num, den;
@@ -261,6 +267,22 @@ pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_pla
     return PIR_OK;
 }
 
+/* x for a difference t of translations that is not much longer than the bodies. */
+static pir_vec3 turn_near(const pir_frame *frame, const pir_world *world, pir_vec3 t) {
+    pir_vec3 turned = pir_mat_apply_transposed(&world->rotation_q->r, t);
+    return pir_dd3_round(pir_dd3_add_vec(pir_dd3_negate(frame->offset), turned));
+}
+
+/* x for any t. */
+static pir_vec3 turn_far(const pir_frame *frame, const pir_world *world, const pir_dd3 *t) {
+    pir_dd3 row[3], x = pir_dd3_negate(frame->offset);
+    pir_dd_rotation(world->rotation_q->given, (pir_quat){0, 0, 0, 0}, row);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            x.c[i] = pir_dd_add(x.c[i], pir_dd_mul(row[j].c[i], t->c[j]));
+    return pir_dd3_round(x);
+}
+
 pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *world, pir_placement *ret_placement) {
     if (!pir_vec_is_finite(world->translation_p) || !pir_vec_is_finite(world->translation_q))
         return PIR_ERR_NOT_FINITE;
@@ -269,15 +291,14 @@ pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *wor
     pir_vec3 to = in_units(frame, world->translation_p), from = in_units(frame, world->translation_q);
     if (!is_near(to) || !is_near(from))
         return PIR_ERR_LIMIT;
-    pir_dd3 row[3], t = {{pir_dd_two_sum(to.x, -from.x), pir_dd_two_sum(to.y, -from.y), pir_dd_two_sum(to.z, -from.z)}};
-    pir_dd_rotation(world->rotation_q->given, (pir_quat){0, 0, 0, 0}, row);
-    pir_dd3 x = pir_dd3_negate(frame->offset);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            x.c[i] = pir_dd_add(x.c[i], pir_dd_mul(row[j].c[i], t.c[j]));
+    pir_dd3 t = {{pir_dd_two_sum(to.x, -from.x), pir_dd_two_sum(to.y, -from.y), pir_dd_two_sum(to.z, -from.z)}};
+    pir_vec3 near = pir_dd3_round(t);
+    bool turns_by_doubles = taxicab(near) <= 4 * (frame->p.size + frame->q.size);
     ret_placement->translation = world->translation_p;
-    ret_placement->x = pir_dd3_round(x);
+    ret_placement->x = turns_by_doubles ? turn_near(frame, world, near) : turn_far(frame, world, &t);
     set_reach(frame, taxicab(to) + taxicab(from), ret_placement);
+    if (turns_by_doubles)
+        ret_placement->error += TURN_ERROR * taxicab(near);
     return PIR_OK;
 }
 
