@@ -66,7 +66,7 @@ static pir_status look(pir_scene *scene, uint32_t number) {
     if (!PIR_GROW(&scene->allocator, lists->asked, lists->asked_capacity, lists->asked_count + 1))
         return PIR_ERR_MEMORY;
     lists->asked[lists->asked_count++] = number;
-    return pir_scene_pairs_ready(&scene->pairs, &scene->allocator, number, p->polytope, q->polytope);
+    return pir_scene_pairs_ready(&scene->pairs, &scene->allocator, number, p->extent.polytope, q->extent.polytope);
 }
 
 pir_status pir_scene_list_questions(pir_scene *scene) {

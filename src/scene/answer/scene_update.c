@@ -69,7 +69,7 @@ static pir_status make_boxes(pir_scene *scene) {
     for (uint32_t i = 0; i < lists->moved_count; i++) {
         const pir_scene_body *body = &scene->bodies.body[lists->moved[i].body];
         for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next)
-            if (!pir_place_box(&lists->moved[i].place, scene->bodies.piece[p].polytope, around(scene, body), box++))
+            if (!pir_place_box(&lists->moved[i].place, &scene->bodies.piece[p].extent, around(scene, body), box++))
                 return PIR_ERR_LIMIT;
     }
     return PIR_OK;
@@ -141,7 +141,7 @@ static void move_back(pir_scene *scene) {
         body->pose = place.pose;
         body->unit = place.unit;
         for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next)
-            pir_place_box(&place, scene->bodies.piece[p].polytope, around(scene, body), &scene->bodies.piece[p].tight);
+            pir_place_box(&place, &scene->bodies.piece[p].extent, around(scene, body), &scene->bodies.piece[p].tight);
     }
 }
 

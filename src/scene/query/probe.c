@@ -18,13 +18,13 @@ pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pi
     if (status != PIR_OK)
         return status;
     pir_probe probe = {.scene = scene,
-                       .polytope = shape->polytope,
+                       .extent = pir_extent_of(shape->polytope),
                        .pose = shape->pose,
                        .radius = shape->radius,
                        .body = PIR_SCENE_NONE,
                        .mask = shape->mask,
                        .except = shape->except};
-    if (!pir_place_box(&place, shape->polytope, shape->radius, &probe.box))
+    if (!pir_place_box(&place, &probe.extent, shape->radius, &probe.box))
         return PIR_ERR_LIMIT;
     *ret_probe = probe;
     return PIR_OK;
@@ -34,7 +34,7 @@ pir_probe pir_probe_of_piece(pir_scene *scene, uint32_t piece) {
     const pir_scene_piece *p = &scene->bodies.piece[piece];
     const pir_scene_body *body = &scene->bodies.body[p->body];
     return (pir_probe){.scene = scene,
-                       .polytope = p->polytope,
+                       .extent = p->extent,
                        .pose = body->pose,
                        .radius = body->radius,
                        .body = p->body,
@@ -68,11 +68,11 @@ pir_status pir_probe_pair(const pir_probe *probe, uint32_t piece, pir_pair **ret
     const pir_scene_body *body = &scene->bodies.body[q->body];
     pir_status status;
     if (scene->spare) {
-        status = pir_pair_reset(scene->spare, probe->polytope, q->polytope);
+        status = pir_pair_reset(scene->spare, probe->extent.polytope, q->extent.polytope);
     } else {
         pir_pair_options options = pir_pair_options_default();
         options.allocator = &scene->allocator;
-        status = pir_pair_create(probe->polytope, q->polytope, &options, &scene->spare);
+        status = pir_pair_create(probe->extent.polytope, q->extent.polytope, &options, &scene->spare);
     }
     if (status != PIR_OK)
         return status;

@@ -12,7 +12,7 @@
 
 typedef struct pir_probe {
     pir_scene *scene;
-    pir_polytope *polytope;
+    pir_extent extent;
     pir_pose pose;
     double radius;
     uint32_t body; /* of the scene, whose rules hold then; or PIR_SCENE_NONE */

@@ -18,7 +18,7 @@ struct flight {
     pir_probe probe; /* where it begins */
     uint32_t own_piece;
     const pir_scene_motion *motion;
-    double tolerance, reach; /* of the probe, from its origin */
+    double tolerance;
 };
 
 static double length(pir_vec3 v) {
@@ -27,8 +27,8 @@ static double length(pir_vec3 v) {
 
 /* The size that rounding is relative to. */
 static double size_of(const struct flight *flight, const pir_scene_body *body) {
-    return flight->reach + flight->probe.radius + body->reach + body->radius + length(flight->probe.pose.translation) +
-           length(flight->motion->way) + length(body->pose.translation);
+    return flight->probe.extent.reach + flight->probe.radius + body->reach + body->radius +
+           length(flight->probe.pose.translation) + length(flight->motion->way) + length(body->pose.translation);
 }
 
 static void set_impact(const struct flight *flight, const pir_scene_piece *piece, double time,
@@ -47,7 +47,7 @@ static pir_status advance(const struct flight *flight, uint32_t number, double u
     pir_scene *scene = flight->scene;
     const pir_scene_piece *piece = &scene->bodies.piece[number];
     double error = DISTANCE_ERROR * size_of(flight, &scene->bodies.body[piece->body]), time = 0;
-    double swing = length(flight->motion->turn) * flight->reach;
+    double swing = length(flight->motion->turn) * flight->probe.extent.reach;
     pir_pair *pair;
     pir_pair_input input;
     pir_query_result answer;
@@ -85,7 +85,7 @@ static pir_box box_of_way(const struct flight *flight) {
     for (int k = 0; k < 3; k++) {
         double low = probe->box.low[k] - from[k], high = probe->box.high[k] - from[k];
         if (turns)
-            high = flight->reach + probe->radius, low = -high;
+            high = flight->probe.extent.reach + probe->radius, low = -high;
         double room = flight->tolerance + 0x1p-40 * (fabs(from[k]) + fabs(to[k]) + high - low);
         box.low[k] = pir_float_below(fmin(from[k], to[k]) + low - room);
         box.high[k] = pir_float_above(fmax(from[k], to[k]) + high + room);
@@ -129,14 +129,6 @@ static pir_status check(const pir_scene_motion *motion, double tolerance) {
     return length(motion->way) <= PIR_BOX_FARTHEST && length(motion->turn) <= 0x1p20 ? PIR_OK : PIR_ERR_LIMIT;
 }
 
-/* How far a polytope reaches from its origin, rounded up. */
-static double reach_of(const pir_polytope *p) {
-    double most = 0;
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++)
-        most = fmax(most, length(pir_polytope_vertex(p, v)));
-    return most * (1 + 0x1p-40);
-}
-
 static const pir_scene_impact no_impact = {PIR_SCENE_NONE, PIR_SCENE_NONE, 0, 1, {0, 0, 0}, {0, 0, 0}};
 
 pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_scene_motion *motion,
@@ -149,7 +141,6 @@ pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const 
         status = pir_probe_of_shape(scene, shape, &flight.probe);
     if (status != PIR_OK)
         return status;
-    flight.reach = reach_of(shape->polytope);
     pir_scene_impact first = no_impact;
     status = fly(&flight, &first);
     if (status == PIR_OK)
@@ -169,8 +160,7 @@ pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_s
                                 .probe = pir_probe_of_piece(scene, p),
                                 .own_piece = scene->bodies.piece[p].number,
                                 .motion = motion,
-                                .tolerance = tolerance,
-                                .reach = scene->bodies.body[body].reach};
+                                .tolerance = tolerance};
         status = fly(&flight, &first);
     }
     if (status == PIR_OK)

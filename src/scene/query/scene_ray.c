@@ -92,7 +92,7 @@ static pir_status ask(struct ray *ray, uint32_t piece, pir_query_result *ret_ans
         if (made != PIR_OK)
             return made;
     }
-    pir_probe probe = {.scene = scene, .polytope = ray->polytope, .pose = {{0, 0, 0, 1}, ray->origin}};
+    pir_probe probe = {.scene = scene, .extent = {ray->polytope, 0}, .pose = {{0, 0, 0, 1}, ray->origin}};
     pir_pair *pair;
     pir_pair_input input;
     pir_status status = pir_probe_pair(&probe, piece, &pair, &input);
@@ -113,9 +113,9 @@ static pir_status meet(struct ray *ray, uint32_t number, pir_scene_impact *impac
     const pir_scene_piece *piece = &ray->scene->bodies.piece[number];
     const pir_scene_body *body = &ray->scene->bodies.body[piece->body];
     struct segment segment = seen_by(ray, body);
-    struct clip clip = clip_by_facets(piece->polytope, &segment);
-    if (clip.verdict == OPEN && piece->polytope->dimension == 3 && clip.enter < clip.leave &&
-        is_inside(piece->polytope, &segment, 0.5 * (clip.enter + clip.leave)))
+    struct clip clip = clip_by_facets(piece->extent.polytope, &segment);
+    if (clip.verdict == OPEN && piece->extent.polytope->dimension == 3 && clip.enter < clip.leave &&
+        is_inside(piece->extent.polytope, &segment, 0.5 * (clip.enter + clip.leave)))
         clip.verdict = HIT;
     bool hits = clip.verdict == HIT;
     if (clip.verdict == OPEN) {
@@ -125,7 +125,7 @@ static pir_status meet(struct ray *ray, uint32_t number, pir_scene_impact *impac
             return status;
         hits = answer.state != PIR_OUTSIDE;
         // a flat piece that the segment does not go through: planes do not bound what they share
-        if (answer.state == PIR_BOUNDARY && piece->polytope->dimension < 3)
+        if (answer.state == PIR_BOUNDARY && piece->extent.polytope->dimension < 3)
             clip = (struct clip){HIT, time_of(ray, answer.point_q), 1, UINT32_MAX};
         clip.enter = fmin(fmax(clip.enter, 0), 1);
     }
@@ -134,7 +134,7 @@ static pir_status meet(struct ray *ray, uint32_t number, pir_scene_impact *impac
     impact->time = clip.enter;
     impact->normal = (pir_vec3){0, 0, 0};
     if (clip.facet != UINT32_MAX)
-        impact->normal = pir_pose_rotate(body->pose, piece->polytope->normal[clip.facet]);
+        impact->normal = pir_pose_rotate(body->pose, piece->extent.polytope->normal[clip.facet]);
     impact->point = pir_vec_add(ray->origin, pir_vec_scale(ray->way, clip.enter));
     return PIR_OK;
 }

@@ -35,27 +35,35 @@ pir_status pir_place_make(pir_pose pose, pir_place *ret_place) {
     return PIR_OK;
 }
 
-/*
- * Vertices in doubles. A turned vertex is off by 31u |v| by the matrix and by 4u |v| by the product, the vertex itself
- * by u |v|, the sum with the translation by u (|v| + |t|): below 64u (|v| + |t|) with u = 2^-53.
- */
-bool pir_place_box(const pir_place *place, const pir_polytope *p, double around, pir_box *ret_box) {
-    const pir_mat3 *r = &place->r;
-    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, far = 0;
-    double t[3] = {place->pose.translation.x, place->pose.translation.y, place->pose.translation.z};
+/* The least and the greatest coordinates of a turned polytope. */
+static void turned_bounds(const pir_mat3 *r, const pir_polytope *p, pir_vec3 *ret_low, pir_vec3 *ret_high) {
+    const pir_mat3 m = *r;
+    pir_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t v = 0; v < p->vertex_count; v++) {
-        pir_vec3 x = p->vertex[v];
-        double size = fabs(x.x) + fabs(x.y) + fabs(x.z);
-        far = size > far ? size : far;
-        for (int k = 0; k < 3; k++) {
-            double y = r->m[k][0] * x.x + r->m[k][1] * x.y + r->m[k][2] * x.z;
-            low[k] = y < low[k] ? y : low[k];
-            high[k] = y > high[k] ? y : high[k];
-        }
+        pir_vec3 y = pir_mat_apply(&m, p->vertex[v]);
+        low.x = y.x < low.x ? y.x : low.x;
+        low.y = y.y < low.y ? y.y : low.y;
+        low.z = y.z < low.z ? y.z : low.z;
+        high.x = y.x > high.x ? y.x : high.x;
+        high.y = y.y > high.y ? y.y : high.y;
+        high.z = y.z > high.z ? y.z : high.z;
     }
+    *ret_low = low;
+    *ret_high = high;
+}
+
+/*
+ * A turned vertex is off by 31u |v| by the matrix and by 4u |v| by the product, the vertex itself by u |v|, the sum
+ * with the translation by u (|v| + |t|): below 64u (|v| + |t|) with u = 2^-53.
+ */
+bool pir_place_box(const pir_place *place, const pir_extent *extent, double around, pir_box *ret_box) {
+    pir_vec3 least, most;
+    turned_bounds(&place->r, extent->polytope, &least, &most);
+    double low[3] = {least.x, least.y, least.z}, high[3] = {most.x, most.y, most.z};
+    double t[3] = {place->pose.translation.x, place->pose.translation.y, place->pose.translation.z};
     bool near = true;
     for (int k = 0; k < 3; k++) {
-        double wider = around + (far + fabs(t[k])) * 0x1p-46;
+        double wider = around + (extent->reach + fabs(t[k])) * 0x1p-46;
         low[k] += t[k] - wider;
         high[k] += t[k] + wider;
         near = near && low[k] >= -PIR_BOX_FARTHEST && high[k] <= PIR_BOX_FARTHEST;
@@ -65,6 +73,13 @@ bool pir_place_box(const pir_place *place, const pir_polytope *p, double around,
         ret_box->high[k] = pir_float_above(high[k]);
     }
     return near;
+}
+
+pir_extent pir_extent_of(pir_polytope *polytope) {
+    double most = 0;
+    for (uint32_t v = 0; v < polytope->vertex_count; v++)
+        most = fmax(most, sqrt(pir_vec_dot(polytope->vertex[v], polytope->vertex[v])));
+    return (pir_extent){polytope, most * (1 + 0x1p-40)};
 }
 
 /* --- the tables --- */
@@ -104,26 +119,18 @@ pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator
     return PIR_OK;
 }
 
-/* The farthest that a vertex is from the body's origin, rounded up. */
-static double reach_of(const pir_polytope *p) {
-    double most = 0;
-    for (uint32_t v = 0; v < p->vertex_count; v++)
-        most = fmax(most, sqrt(pir_vec_dot(p->vertex[v], p->vertex[v])));
-    return most * (1 + 0x1p-40);
-}
-
 static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, pir_polytope *polytope) {
     uint32_t piece = bodies->piece_unused;
     bodies->piece_unused = bodies->piece[piece].next;
     bodies->piece_count++;
-    bodies->piece[piece] = (pir_scene_piece){.polytope = pir_polytope_retain(polytope),
+    bodies->piece[piece] = (pir_scene_piece){.extent = pir_extent_of(pir_polytope_retain(polytope)),
                                              .body = body,
                                              .number = number,
                                              .next = bodies->body[body].first,
                                              .node = PIR_PIECE_NONE,
                                              .first = NO_END};
     bodies->body[body].first = piece;
-    bodies->body[body].reach = fmax(bodies->body[body].reach, reach_of(polytope));
+    bodies->body[body].reach = fmax(bodies->body[body].reach, bodies->piece[piece].extent.reach);
 }
 
 uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, const pir_place *place) {
@@ -154,7 +161,7 @@ void pir_bodies_remove(pir_bodies *bodies, uint32_t body) {
     uint32_t piece = bodies->body[body].first;
     while (piece != PIR_PIECE_NONE) {
         uint32_t next = bodies->piece[piece].next;
-        pir_polytope_release(bodies->piece[piece].polytope);
+        pir_polytope_release(bodies->piece[piece].extent.polytope);
         bodies->piece[piece] = (pir_scene_piece){.next = bodies->piece_unused};
         bodies->piece_unused = piece;
         bodies->piece_count--;

@@ -20,14 +20,20 @@
 #define PIR_BODIES_MAX ((uint32_t)1 << 20)
 #define PIR_PIECES_MAX 4096u /* of a body */
 
+/* A polytope, and the farthest that a vertex is from its origin, rounded up. */
+typedef struct pir_extent {
+    pir_polytope *polytope;
+    double reach;
+} pir_extent;
+
 typedef struct pir_scene_piece {
-    pir_polytope *polytope; /* referenced */
-    uint32_t body, number;  /* of the body's own */
-    uint32_t next;          /* of the body; of an unused piece: the next one */
-    uint32_t node;          /* its leaf of the tree */
-    uint32_t first;         /* end of its list of pairs */
-    uint64_t mark;          /* the visit that has seen it */
-    pir_box tight;          /* holds the piece with its radius and half of the scene's margin */
+    pir_extent extent;     /* of its polytope, which is referenced */
+    uint32_t body, number; /* of the body's own */
+    uint32_t next;         /* of the body; of an unused piece: the next one */
+    uint32_t node;         /* its leaf of the tree */
+    uint32_t first;        /* end of its list of pairs */
+    uint64_t mark;         /* the visit that has seen it */
+    pir_box tight;         /* holds the piece with its radius and half of the scene's margin */
 } pir_scene_piece;
 
 typedef struct pir_scene_body {
@@ -61,8 +67,11 @@ void pir_bodies_finish(pir_bodies *bodies, const pir_allocator *allocator);
 /* PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT. */
 pir_status pir_place_make(pir_pose pose, pir_place *ret_place);
 
+/* O(vertices). */
+pir_extent pir_extent_of(pir_polytope *polytope);
+
 /* The box of a polytope in a place, `around` wider on each side; false where it is too far away. */
-bool pir_place_box(const pir_place *place, const pir_polytope *polytope, double around, pir_box *ret_box);
+bool pir_place_box(const pir_place *place, const pir_extent *extent, double around, pir_box *ret_box);
 
 /* Room for one more body with so many pieces. PIR_ERR_LIMIT, PIR_ERR_MEMORY. */
 pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces);

@@ -167,9 +167,11 @@ pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_
         !PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, body->piece_count) ||
         !PIR_GROW(&scene->allocator, scene->fresh, scene->fresh_capacity, scene->fresh_count + 1))
         return PIR_ERR_MEMORY;
-    for (uint32_t i = 0; i < body->piece_count; i++)
-        if (!pir_place_box(&place, body->pieces[i], body->radius + 0.5 * scene->margin, &lists->box[i]))
+    for (uint32_t i = 0; i < body->piece_count; i++) {
+        pir_extent extent = pir_extent_of(body->pieces[i]);
+        if (!pir_place_box(&place, &extent, body->radius + 0.5 * scene->margin, &lists->box[i]))
             return PIR_ERR_LIMIT;
+    }
     uint32_t added = pir_bodies_add(&scene->bodies, body, &place);
     put_leaves(scene, added);
     scene->fresh[scene->fresh_count++] = added;
