@@ -17,6 +17,7 @@
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
 #include <pirouette/scene.h>
+#include <pirouette/scene_file.h>
 #include <pirouette/scene_query.h>
 #include <pirouette/section.h>
 #include <pirouette/shape.h>

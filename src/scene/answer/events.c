@@ -13,15 +13,15 @@
 #define BODY_BITS  20
 #define PIECE_BITS 12
 
-static uint64_t key_of(const pir_scene *scene, uint32_t pair) {
+uint64_t pir_scene_key(const pir_scene *scene, uint32_t pair) {
     const uint32_t *of = scene->pairs.at[pair].piece;
     const pir_scene_piece *p = &scene->bodies.piece[of[0]], *q = &scene->bodies.piece[of[1]];
     uint64_t bodies = (uint64_t)p->body << BODY_BITS | q->body;
     return bodies << 2 * PIECE_BITS | (uint64_t)p->number << PIECE_BITS | q->number;
 }
 
-/* Sorts by keys, a byte at a time, and leaves out bytes that all keys share. */
-static void sort(pir_scene_item *item, pir_scene_item *work, uint32_t count) {
+/* A byte at a time; bytes that all keys share are left out. */
+void pir_scene_sort_items(pir_scene_item *item, pir_scene_item *work, uint32_t count) {
     uint64_t differ = 0;
     pir_scene_item *from = item, *to = work;
     for (uint32_t i = 1; i < count; i++)
@@ -52,12 +52,12 @@ static uint32_t list_items(pir_scene *scene) {
         const pir_scene_worker *worker = &scene->worker[w];
         for (uint32_t i = 0; i < worker->found_count; i++) {
             uint32_t pair = worker->found[i].pair;
-            lists->item[count++] = (pir_scene_item){key_of(scene, pair), worker, &worker->found[i], pair};
+            lists->item[count++] = (pir_scene_item){pir_scene_key(scene, pair), worker, &worker->found[i], pair};
         }
     }
     for (uint32_t i = 0; i < lists->ended_count; i++) {
         uint32_t pair = lists->ended[i];
-        lists->item[count++] = (pir_scene_item){key_of(scene, pair), NULL, NULL, pair};
+        lists->item[count++] = (pir_scene_item){pir_scene_key(scene, pair), NULL, NULL, pair};
     }
     return count;
 }
@@ -135,7 +135,7 @@ pir_status pir_scene_make_events(pir_scene *scene) {
         return PIR_ERR_MEMORY;
     uint32_t count = list_items(scene);
     if (count > 1)
-        sort(lists->item, lists->work, count);
+        pir_scene_sort_items(lists->item, lists->work, count);
     for (uint32_t i = 0; i < count; i++) {
         scene->event[i] = event_of(scene, &lists->item[i]);
         scene->pairs.at[lists->item[i].pair].touching = lists->item[i].found != NULL;
