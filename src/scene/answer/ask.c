@@ -2,12 +2,10 @@
 /* Questions of pairs: see ask.h. */
 #include "scene/answer/ask.h"
 
-#include <stdatomic.h>
-
+#include "scene/answer/share.h"
 #include "scene/world/grow.h"
 
-/* How many questions a task takes at a time, and how many are worth another thread. */
-#define RUN        16
+/* How many questions are worth another thread. */
 #define WORTH_MORE 32
 
 /* Distances are asked for up to this part of the bodies' size: what is farther apart is not looked at for a while. */
@@ -15,11 +13,6 @@
 
 /* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
 #define DISTANCE_ERROR 1e-11
-
-struct questions {
-    pir_scene *scene;
-    atomic_uint next;
-};
 
 static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
@@ -101,45 +94,15 @@ static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t numbe
     return status;
 }
 
-static void run(void *data, uint32_t index) {
-    struct questions *questions = data;
-    pir_scene *scene = questions->scene;
-    pir_scene_worker *worker = &scene->worker[index];
-    uint32_t count = scene->lists.asked_count;
-    for (;;) {
-        uint32_t begin = atomic_fetch_add_explicit(&questions->next, RUN, memory_order_relaxed);
-        if (begin >= count)
-            break;
-        for (uint32_t i = begin; i < begin + RUN && i < count; i++) {
-            pir_status status = ask(scene, worker, scene->lists.asked[i]);
-            if (status != PIR_OK && i < worker->failed) {
-                worker->status = status;
-                worker->failed = i;
-            }
-        }
-    }
+static void ask_item(pir_scene *scene, uint32_t task, uint32_t item) {
+    pir_scene_worker *worker = &scene->worker[task];
+    pir_scene_worker_note(worker, ask(scene, worker, scene->lists.asked[item]), item);
 }
 
 pir_status pir_scene_ask(pir_scene *scene) {
-    struct questions questions = {.scene = scene};
-    uint32_t count = scene->lists.asked_count;
-    uint32_t tasks = count / WORTH_MORE < scene->threads ? count / WORTH_MORE : scene->threads;
-    atomic_init(&questions.next, 0);
-    for (uint32_t i = 0; i < scene->threads; i++) {
-        pir_scene_worker *worker = &scene->worker[i];
-        worker->found_count = worker->contact_count = 0;
-        worker->status = PIR_OK;
-        worker->failed = UINT32_MAX;
-    }
-    if (tasks > 1) {
-        scene->tasks.start(scene->tasks.context, run, &questions, tasks);
-        scene->tasks.finish(scene->tasks.context);
-    } else if (count > 0) {
-        run(&questions, 0);
-    }
-    const pir_scene_worker *first = &scene->worker[0];
-    for (uint32_t i = 1; i < scene->threads; i++)
-        if (scene->worker[i].failed < first->failed)
-            first = &scene->worker[i];
-    return first->status;
+    for (uint32_t i = 0; i < scene->threads; i++)
+        scene->worker[i].found_count = scene->worker[i].contact_count = 0;
+    pir_scene_workers_begin(scene);
+    pir_scene_share(scene, scene->lists.asked_count, WORTH_MORE, ask_item);
+    return pir_scene_workers_status(scene);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Questions of pairs, in tasks. A task takes a run of questions at a time from a common counter; what it finds stays
- * with its worker. Which worker has asked what changes nothing but where an answer stands.
+ * Questions of pairs, in tasks. What a task finds stays with its worker. Which worker has asked what changes nothing
+ * but where an answer stands.
  */
 #ifndef PIR_SCENE_ANSWER_ASK_H
 #define PIR_SCENE_ANSWER_ASK_H

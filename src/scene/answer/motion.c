@@ -2,28 +2,44 @@
 /* Bodies to new places, and back: see motion.h. */
 #include "scene/answer/motion.h"
 
+#include "scene/answer/share.h"
 #include "scene/world/grow.h"
+
+/* How many bodies are worth another thread. */
+#define WORTH_MORE 64
 
 static double around(const pir_scene *scene, const pir_scene_body *body) {
     return body->radius + 0.5 * scene->margin;
 }
 
+/* The place of a moved body, and the boxes of its pieces there. */
+static pir_status make_place(pir_scene *scene, pir_scene_moved *moved) {
+    const pir_scene_body *body = &scene->bodies.body[moved->body];
+    pir_box *box = scene->lists.box + moved->first;
+    pir_status status = pir_place_make(moved->pose, &moved->place);
+    for (uint32_t p = body->first; p != PIR_PIECE_NONE && status == PIR_OK; p = scene->bodies.piece[p].next)
+        if (!pir_place_box(&moved->place, &scene->bodies.piece[p].extent, around(scene, body), box++))
+            status = PIR_ERR_LIMIT;
+    return status;
+}
+
+static void make_item(pir_scene *scene, uint32_t task, uint32_t item) {
+    pir_scene_worker_note(&scene->worker[task], make_place(scene, &scene->lists.moved[item]), item);
+}
+
 pir_status pir_scene_make_boxes(pir_scene *scene) {
     pir_scene_lists *lists = &scene->lists;
     uint32_t pieces = 0;
-    for (uint32_t i = 0; i < lists->moved_count; i++)
+    for (uint32_t i = 0; i < lists->moved_count; i++) {
+        lists->moved[i].first = pieces;
         pieces += scene->bodies.body[lists->moved[i].body].pieces;
+    }
     if (!PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, pieces) ||
         !PIR_GROW(&scene->allocator, lists->replaced, lists->replaced_capacity, pieces))
         return PIR_ERR_MEMORY;
-    pir_box *box = lists->box;
-    for (uint32_t i = 0; i < lists->moved_count; i++) {
-        const pir_scene_body *body = &scene->bodies.body[lists->moved[i].body];
-        for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next)
-            if (!pir_place_box(&lists->moved[i].place, &scene->bodies.piece[p].extent, around(scene, body), box++))
-                return PIR_ERR_LIMIT;
-    }
-    return PIR_OK;
+    pir_scene_workers_begin(scene);
+    pir_scene_share(scene, lists->moved_count, WORTH_MORE, make_item);
+    return pir_scene_workers_status(scene);
 }
 
 static void put_in(pir_scene *scene, uint32_t piece, const pir_box *fat) {

@@ -6,8 +6,9 @@
 #include "scene/world/scene.h"
 
 /*
- * Makes the boxes of all pieces at the places in scene->lists.moved, in its order and that of each body's list, and
- * room for what pir_scene_move_bodies lists. PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ * Checks the poses in scene->lists.moved, and makes the places and the boxes of all pieces, in its order and that of
+ * each body's list, in tasks. Makes room for what pir_scene_move_bodies lists. The error of the first body that has
+ * one: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT; PIR_ERR_MEMORY.
  */
 pir_status pir_scene_make_boxes(pir_scene *scene);
 

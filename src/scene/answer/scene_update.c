@@ -19,38 +19,30 @@
 
 /* --- 1. what is asked for --- */
 
+/* Lists a body with the pose that it goes to. */
+static void put_move(pir_scene *scene, uint32_t body, pir_pose pose) {
+    scene->lists.moved[scene->lists.moved_count++] = (pir_scene_moved){.body = body, .pose = pose};
+    scene->bodies.body[body].moved = scene->update;
+}
+
 /* A moved body, once; `moved` of a body is set to this update so that the second time is seen. */
 static pir_status take_move(pir_scene *scene, const pir_scene_move *move) {
     if (!pir_bodies_has(&scene->bodies, move->body))
         return PIR_ERR_ARGUMENT;
-    pir_scene_body *body = &scene->bodies.body[move->body];
+    const pir_scene_body *body = &scene->bodies.body[move->body];
     if (body->kind == PIR_BODY_STATIC || body->moved == scene->update)
         return PIR_ERR_ARGUMENT;
-    pir_scene_moved *moved = &scene->lists.moved[scene->lists.moved_count];
-    pir_status status = pir_place_make(move->pose, &moved->place);
-    if (status != PIR_OK)
-        return status;
-    moved->body = move->body;
-    body->moved = scene->update;
-    scene->lists.moved_count++;
+    put_move(scene, move->body, move->pose);
     return PIR_OK;
 }
 
 /* Fresh bodies that no move was given for stay where they are. */
-static pir_status take_fresh(pir_scene *scene) {
+static void take_fresh(pir_scene *scene) {
     for (uint32_t i = 0; i < scene->fresh_count; i++) {
-        pir_scene_body *body = &scene->bodies.body[scene->fresh[i]];
-        pir_scene_moved *moved = &scene->lists.moved[scene->lists.moved_count];
-        if (body->moved == scene->update)
-            continue;
-        pir_status status = pir_place_make(body->pose, &moved->place);
-        if (status != PIR_OK)
-            return status;
-        moved->body = scene->fresh[i];
-        body->moved = scene->update;
-        scene->lists.moved_count++;
+        const pir_scene_body *body = &scene->bodies.body[scene->fresh[i]];
+        if (body->moved != scene->update)
+            put_move(scene, scene->fresh[i], body->pose);
     }
-    return PIR_OK;
 }
 
 static pir_status take_moves(pir_scene *scene, const pir_scene_move *moves, size_t count) {
@@ -63,9 +55,10 @@ static pir_status take_moves(pir_scene *scene, const pir_scene_move *moves, size
     pir_status status = PIR_OK;
     for (size_t i = 0; i < count && status == PIR_OK; i++)
         status = take_move(scene, &moves[i]);
-    if (status == PIR_OK)
-        status = take_fresh(scene);
-    return status == PIR_OK ? pir_scene_make_boxes(scene) : status;
+    if (status != PIR_OK)
+        return status;
+    take_fresh(scene);
+    return pir_scene_make_boxes(scene);
 }
 
 /* --- the call --- */

@@ -167,11 +167,7 @@ static pir_status read_body(pir_scene *scene, const struct snapshot *s, const ui
     const pir_scene_body *body = pir_bodies_has(&scene->bodies, number) ? &scene->bodies.body[number] : NULL;
     if (!body || body->pieces != pieces || body->kind != kind)
         return pir_fail(s->report, PIR_ERR_ARGUMENT, "snapshot: the scene has no such body %u", number);
-    pir_scene_moved *moved = &scene->lists.moved[scene->lists.moved_count];
-    if (pir_place_make(pose, &moved->place) != PIR_OK)
-        return pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: the pose of body %u is none", number);
-    moved->body = number;
-    scene->lists.moved_count++;
+    scene->lists.moved[scene->lists.moved_count++] = (pir_scene_moved){.body = number, .pose = pose};
     return PIR_OK;
 }
 
@@ -193,9 +189,9 @@ static pir_status read_bodies(pir_scene *scene, const struct snapshot *s) {
         least = lists->moved[i].body + 1;
     }
     pir_status status = pir_scene_make_boxes(scene);
-    if (status == PIR_ERR_LIMIT)
-        return pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: a body is too far away");
-    return status == PIR_OK ? status : pir_fail(s->report, status, "snapshot: no memory for boxes");
+    if (status == PIR_ERR_MEMORY)
+        return pir_fail(s->report, status, "snapshot: no memory for boxes");
+    return status == PIR_OK ? status : pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: a pose is none");
 }
 
 /* The pair of a key, or PIR_END_NONE. */

@@ -71,9 +71,12 @@ static void set_child(pir_tree *tree, uint32_t parent, int side, uint32_t child)
     tree->node[child].parent = parent;
 }
 
-static void fit(pir_tree *tree, uint32_t n) {
+/* Gives n the box that it has to have; whether that is another. */
+static bool fit(pir_tree *tree, uint32_t n) {
     pir_tree_node *node = &tree->node[n];
+    pir_box before = node->box;
     node->box = pir_box_join(&tree->node[node->child[0]].box, &tree->node[node->child[1]].box);
+    return !pir_box_holds(&before, &node->box) || !pir_box_holds(&node->box, &before);
 }
 
 /* Exchanges a child of n with a grandchild on the other side, where that makes the other child smaller. */
@@ -104,11 +107,11 @@ static void rotate(pir_tree *tree, uint32_t n) {
     fit(tree, other);
 }
 
-/* Boxes from n up to the root. */
+/* Boxes from n up, as far as they change. */
 static void fit_upward(pir_tree *tree, uint32_t n) {
-    for (; n != PIR_TREE_NONE; n = tree->node[n].parent) {
-        fit(tree, n);
+    while (n != PIR_TREE_NONE && fit(tree, n)) {
         rotate(tree, n);
+        n = tree->node[n].parent;
     }
 }
 
@@ -134,7 +137,9 @@ uint32_t pir_tree_insert(pir_tree *tree, const pir_box *box, uint32_t item) {
     replace(tree, tree->node[sibling].parent, sibling, parent);
     set_child(tree, parent, 0, sibling);
     set_child(tree, parent, 1, leaf);
-    fit_upward(tree, parent);
+    fit(tree, parent);
+    rotate(tree, parent);
+    fit_upward(tree, tree->node[parent].parent);
     return leaf;
 }
 

@@ -34,7 +34,7 @@ typedef struct pir_scene_worker {
     uint32_t found_capacity, found_count;
     pir_contact *contact;
     uint32_t contact_capacity, contact_count;
-    pir_status status; /* of the question with the least number that failed */
+    pir_status status; /* of the item with the least number that failed, in this batch of work */
     uint32_t failed;
 } pir_scene_worker;
 
@@ -48,8 +48,9 @@ typedef struct pir_scene_item {
 
 /* A body that an update brings to a place. */
 typedef struct pir_scene_moved {
-    uint32_t body;
-    pir_place place;
+    uint32_t body, first; /* of its boxes */
+    pir_pose pose;        /* where to */
+    pir_place place;      /* the same, once it has been checked */
 } pir_scene_moved;
 
 /* A piece that got a new box in the tree, and the one before. */
@@ -97,5 +98,28 @@ struct pir_scene {
 
 /* A piece's box in the tree: its tight one, wider by a margin, and on along `way`. */
 pir_box pir_scene_fat_box(const pir_box *tight, pir_vec3 way);
+
+/* Errors of a batch of work: begins one; keeps what became of an item; the error of the first that failed. */
+static inline void pir_scene_workers_begin(pir_scene *scene) {
+    for (uint32_t i = 0; i < scene->threads; i++) {
+        scene->worker[i].status = PIR_OK;
+        scene->worker[i].failed = UINT32_MAX;
+    }
+}
+
+static inline void pir_scene_worker_note(pir_scene_worker *worker, pir_status status, uint32_t item) {
+    if (status != PIR_OK && item < worker->failed) {
+        worker->status = status;
+        worker->failed = item;
+    }
+}
+
+static inline pir_status pir_scene_workers_status(const pir_scene *scene) {
+    const pir_scene_worker *first = &scene->worker[0];
+    for (uint32_t i = 1; i < scene->threads; i++)
+        if (scene->worker[i].failed < first->failed)
+            first = &scene->worker[i];
+    return first->status;
+}
 
 #endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* Items shared out to tasks: see share.h. */
+#include "scene/answer/share.h"
+
+#include <stdatomic.h>
+
+/* How many items a task takes at a time. */
+#define RUN 16
+
+struct share {
+    pir_scene *scene;
+    pir_share_item *item;
+    uint32_t count;
+    atomic_uint next;
+};
+
+static void work(void *data, uint32_t task) {
+    struct share *share = data;
+    for (;;) {
+        uint32_t begin = atomic_fetch_add_explicit(&share->next, RUN, memory_order_relaxed);
+        if (begin >= share->count)
+            break;
+        for (uint32_t i = begin; i < begin + RUN && i < share->count; i++)
+            share->item(share->scene, task, i);
+    }
+}
+
+void pir_scene_share(pir_scene *scene, uint32_t count, uint32_t worth, pir_share_item *item) {
+    struct share share = {.scene = scene, .item = item, .count = count};
+    uint32_t tasks = count / worth < scene->threads ? count / worth : scene->threads;
+    atomic_init(&share.next, 0);
+    if (tasks > 1) {
+        scene->tasks.start(scene->tasks.context, work, &share, tasks);
+        scene->tasks.finish(scene->tasks.context);
+    } else {
+        work(&share, 0);
+    }
+}
