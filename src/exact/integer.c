@@ -114,6 +114,135 @@ void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs
     pir_int_add_mul(dst, &minus, b, scratch);
 }
 
+/* --- sums of products --- */
+
+/* Sums of products up to this many limbs are made in one go. */
+#define SHORT_LIMBS 16
+
+/* What holds a product of two limbs. */
+#if GMP_NUMB_BITS == 64
+__extension__ typedef unsigned __int128 two_limbs;
+__extension__ typedef __int128 signed_two_limbs;
+#else
+typedef uint64_t two_limbs;
+#endif
+
+/* sum += a·b for `length` limbs of a sum modulo 2^(64 · length). */
+static inline void add_row(mp_limb_t *sum, uint32_t length, const mp_limb_t *a, uint32_t na, mp_limb_t b) {
+    mp_limb_t carry = 0;
+    uint32_t i = 0;
+    for (; i < na; i++) {
+        two_limbs t = (two_limbs)a[i] * b + sum[i] + carry;
+        sum[i] = (mp_limb_t)t;
+        carry = (mp_limb_t)(t >> GMP_NUMB_BITS);
+    }
+    for (; carry && i < length; i++) {
+        sum[i] += carry;
+        carry = sum[i] < carry;
+    }
+}
+
+/* sum −= a·b, the same way. */
+static inline void subtract_row(mp_limb_t *sum, uint32_t length, const mp_limb_t *a, uint32_t na, mp_limb_t b) {
+    mp_limb_t borrow = 0;
+    uint32_t i = 0;
+    for (; i < na; i++) {
+        two_limbs t = (two_limbs)a[i] * b + borrow;
+        mp_limb_t low = (mp_limb_t)t;
+        borrow = (mp_limb_t)(t >> GMP_NUMB_BITS) + (sum[i] < low);
+        sum[i] -= low;
+    }
+    for (; borrow && i < length; i++) {
+        mp_limb_t before = sum[i];
+        sum[i] -= borrow;
+        borrow = before < borrow;
+    }
+}
+
+/* The limbs of the longest product. */
+static uint32_t longest_product(const pir_term *terms, uint32_t count) {
+    uint32_t longest = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t length = pir_int_length(terms[k].a) + pir_int_length(terms[k].b);
+        longest = length > longest ? length : longest;
+    }
+    return longest;
+}
+
+/*
+ * The sum in the complement of two. Four products of a length, and a sign, need less than one limb more. Short operands
+ * are the common case, and calls of mpn take longer than their work there.
+ */
+static void sum_short(pir_int *dst, const pir_term *terms, uint32_t count, uint32_t length) {
+    mp_limb_t sum[SHORT_LIMBS];
+    for (uint32_t i = 0; i < length; i++)
+        sum[i] = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        const pir_int *a = terms[k].a, *b = terms[k].b;
+        uint32_t na = pir_int_length(a), nb = pir_int_length(b);
+        bool minus = ((a->size < 0) != (b->size < 0)) != terms[k].minus;
+        for (uint32_t j = 0; j < nb; j++)
+            if (minus)
+                subtract_row(sum + j, length - j, a->limb, na, b->limb[j]);
+            else
+                add_row(sum + j, length - j, a->limb, na, b->limb[j]);
+    }
+    bool negative = sum[length - 1] >> (GMP_NUMB_BITS - 1);
+    if (negative)
+        mpn_neg(sum, sum, length);
+    int32_t size = normal_size(sum, length);
+    pir_int_check_room(dst->room, (size_t)size);
+    for (int32_t i = 0; i < size; i++)
+        dst->limb[i] = sum[i];
+    dst->size = negative ? -size : size;
+}
+
+#if GMP_NUMB_BITS == 64
+/* The same for factors below 2^61, four products of which two limbs hold. False where one is longer. */
+static bool sum_tiny(pir_int *dst, const pir_term *terms, uint32_t count) {
+    signed_two_limbs sum = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        const pir_int *a = terms[k].a, *b = terms[k].b;
+        if (pir_int_length(a) > 1 || pir_int_length(b) > 1)
+            return false;
+        mp_limb_t x = a->size != 0 ? a->limb[0] : 0, y = b->size != 0 ? b->limb[0] : 0;
+        if ((x | y) >> 61)
+            return false;
+        signed_two_limbs product = (signed_two_limbs)((two_limbs)x * y);
+        sum += ((a->size < 0) != (b->size < 0)) != terms[k].minus ? -product : product;
+    }
+    two_limbs size = (two_limbs)(sum < 0 ? -sum : sum);
+    const mp_limb_t limb[2] = {(mp_limb_t)size, (mp_limb_t)(size >> 64)};
+    int32_t length = limb[1] != 0 ? 2 : limb[0] != 0;
+    pir_int_check_room(dst->room, (size_t)length);
+    for (int32_t i = 0; i < length; i++)
+        dst->limb[i] = limb[i];
+    dst->size = sum < 0 ? -length : length;
+    return true;
+}
+#else
+static bool sum_tiny(pir_int *dst, const pir_term *terms, uint32_t count) {
+    (void)dst, (void)terms, (void)count;
+    return false;
+}
+#endif
+
+void pir_int_sum(pir_int *dst, const pir_term *terms, uint32_t count, pir_limbs *scratch) {
+    if (sum_tiny(dst, terms, count))
+        return;
+    uint32_t length = longest_product(terms, count) + 1;
+    if (length <= SHORT_LIMBS) {
+        sum_short(dst, terms, count, length);
+        return;
+    }
+    dst->size = 0;
+    for (uint32_t k = 0; k < count; k++)
+        if (terms[k].minus)
+            pir_int_sub_mul(dst, terms[k].a, terms[k].b, scratch);
+        else
+            pir_int_add_mul(dst, terms[k].a, terms[k].b, scratch);
+}
+
 void pir_int_shift_left(pir_int *dst, const pir_int *a, uint32_t bits) {
     uint32_t n = pir_int_length(a), whole = bits / GMP_NUMB_BITS, rest = bits % GMP_NUMB_BITS;
     if (n == 0) {
@@ -205,15 +334,14 @@ double pir_int_to_double(const pir_int *a, int *ret_exponent) {
 void pir_int3_cross(pir_int3 *dst, const pir_int3 *a, const pir_int3 *b, pir_limbs *scratch) {
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
-        pir_int_mul(&dst->c[k], &a->c[i], &b->c[j]);
-        pir_int_sub_mul(&dst->c[k], &a->c[j], &b->c[i], scratch);
+        const pir_term terms[2] = {{&a->c[i], &b->c[j], false}, {&a->c[j], &b->c[i], true}};
+        pir_int_sum(&dst->c[k], terms, 2, scratch);
     }
 }
 
 void pir_int3_dot(pir_int *dst, const pir_int3 *a, const pir_int3 *b, pir_limbs *scratch) {
-    pir_int_mul(dst, &a->c[0], &b->c[0]);
-    pir_int_add_mul(dst, &a->c[1], &b->c[1], scratch);
-    pir_int_add_mul(dst, &a->c[2], &b->c[2], scratch);
+    const pir_term terms[3] = {{&a->c[0], &b->c[0], false}, {&a->c[1], &b->c[1], false}, {&a->c[2], &b->c[2], false}};
+    pir_int_sum(dst, terms, 3, scratch);
 }
 
 uint32_t pir_int3_length(const pir_int3 *a) {

@@ -82,6 +82,21 @@ void pir_int_sub(pir_int *dst, const pir_int *a, const pir_int *b);
 void pir_int_add_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
 void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
 
+/* One product of a sum: a·b, or −a·b where `minus`. */
+typedef struct pir_term {
+    const pir_int *a, *b;
+    bool minus;
+} pir_term;
+
+/* The most terms that pir_int_sum takes. */
+#define PIR_MOST_TERMS 4
+
+/*
+ * dst = the sum of `count` terms, which dst must not overlap; room: one limb more than the longest product. `scratch`
+ * has that much too.
+ */
+void pir_int_sum(pir_int *dst, const pir_term *terms, uint32_t count, pir_limbs *scratch);
+
 /* dst = a·2^bits; room: |a| + bits / GMP_NUMB_BITS + 1; dst may be a. */
 void pir_int_shift_left(pir_int *dst, const pir_int *a, uint32_t bits);
 
@@ -102,6 +117,13 @@ static inline uint64_t pir_double_split(double x, int *ret_exponent) {
     uint64_t fraction = bits & (((uint64_t)1 << 52) - 1);
     *ret_exponent = field > 0 ? field - 1075 : -1074;
     return field > 0 ? fraction | (uint64_t)1 << 52 : fraction;
+}
+
+/* The exponent of the lowest set bit of x; INT32_MAX for zero. */
+static inline int pir_double_low_bit(double x) {
+    int e;
+    uint64_t mantissa = pir_double_split(x, &e);
+    return mantissa != 0 ? e + __builtin_ctzll(mantissa) : INT32_MAX;
 }
 
 /* dst = x / 2^exponent, which must be an integer; room: pir_double_limbs of the same. */

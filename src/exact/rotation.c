@@ -30,14 +30,14 @@ static int top_exponent(const double c[4]) {
 }
 
 pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
-    const double c[4] = {q.x, q.y, q.z, q.w};
-    for (int k = 0; k < 4; k++)
-        if (!isfinite(c[k]))
-            return PIR_ERR_NOT_FINITE;
-    if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
-        return PIR_ERR_ZERO_QUATERNION;
     double x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
     if (!(n >= NEAR_ONE && n <= 1 / NEAR_ONE)) {
+        const double c[4] = {q.x, q.y, q.z, q.w};
+        for (int k = 0; k < 4; k++)
+            if (!isfinite(c[k]))
+                return PIR_ERR_NOT_FINITE;
+        if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
+            return PIR_ERR_ZERO_QUATERNION;
         int top = top_exponent(c);
         x = ldexp(x, -top);
         y = ldexp(y, -top);
@@ -144,30 +144,10 @@ pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_qua
 static int low_exponent(const double c[4]) {
     int low = INT32_MAX;
     for (int k = 0; k < 4; k++) {
-        if (c[k] == 0)
-            continue;
-        int e;
-        uint64_t mantissa = (uint64_t)ldexp(frexp(fabs(c[k]), &e), 53);
-        e -= 53;
-        while ((mantissa & 1) == 0) {
-            mantissa >>= 1;
-            e++;
-        }
+        int e = pir_double_low_bit(c[k]);
         low = e < low ? e : low;
     }
     return low;
-}
-
-/* dst += sign · 2^doubled · a·b. */
-static void add_product(pir_int *dst, const pir_int *a, const pir_int *b, int sign, bool doubled) {
-    mp_limb_t limbs[PIR_MATRIX_LIMBS];
-    pir_int product = {limbs, 0, PIR_MATRIX_LIMBS};
-    pir_int_mul(&product, a, b);
-    if (doubled)
-        pir_int_shift_left(&product, &product, 1);
-    if (sign < 0)
-        pir_int_negate(&product);
-    pir_int_add(dst, dst, &product);
 }
 
 /* The components as integers on one scale; room: PIR_QUAT_LIMBS each. */
@@ -180,8 +160,9 @@ static void set_integers(pir_quat given, pir_int q[4]) {
 
 /* conj(a)·b in integers, each factor in limbs of its own. */
 static void set_product(const pir_quat factor[2], pir_int q[4]) {
-    mp_limb_t limbs[8 * PIR_QUAT_LIMBS];
-    pir_limbs room = {limbs, 0, 8 * PIR_QUAT_LIMBS};
+    // and the product that pir_int_sum makes at a time
+    mp_limb_t limbs[10 * PIR_QUAT_LIMBS + 1];
+    pir_limbs room = {limbs, 0, 10 * PIR_QUAT_LIMBS + 1};
     pir_int a[4], b[4];
     for (int k = 0; k < 4; k++) {
         a[k] = pir_limbs_take(&room, PIR_QUAT_LIMBS);
@@ -191,13 +172,28 @@ static void set_product(const pir_quat factor[2], pir_int q[4]) {
     set_integers(factor[1], b);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
-        add_product(&q[i], &a[3], &b[i], 1, false);
-        add_product(&q[i], &a[i], &b[3], -1, false);
-        add_product(&q[i], &a[j], &b[k], -1, false);
-        add_product(&q[i], &a[k], &b[j], 1, false);
+        const pir_term terms[4] = {
+            {&a[3], &b[i], false}, {&a[i], &b[3], true}, {&a[j], &b[k], true}, {&a[k], &b[j], false}};
+        pir_int_sum(&q[i], terms, 4, &room);
     }
+    const pir_term terms[4] = {
+        {&a[0], &b[0], false}, {&a[1], &b[1], false}, {&a[2], &b[2], false}, {&a[3], &b[3], false}};
+    pir_int_sum(&q[3], terms, 4, &room);
+}
+
+/* The diagonal of M, w² ± x² ± y² ± z², and |q|², entry 3. */
+static void set_diagonal(const pir_int q[4], pir_int *entry, int i, pir_limbs *scratch) {
+    pir_term terms[4];
     for (int k = 0; k < 4; k++)
-        add_product(&q[3], &a[k], &b[k], 1, false);
+        terms[k] = (pir_term){&q[k], &q[k], i < 3 && k != 3 && k != i};
+    pir_int_sum(entry, terms, 4, scratch);
+}
+
+/* Off the diagonal, with (i, j, k) cyclic: m_ij = 2 (q_i q_j − w q_k), m_ji = 2 (q_i q_j + w q_k). */
+static void set_entry(const pir_int q[4], pir_int *entry, int i, bool transposed, pir_limbs *scratch) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    const pir_term of_v = {&q[i], &q[j], false}, of_w = {&q[3], &q[k], !transposed};
+    pir_int_sum(entry, (const pir_term[4]){of_v, of_v, of_w, of_w}, 4, scratch);
 }
 
 void pir_rotation_make_exact(pir_rotation *rotation) {
@@ -211,41 +207,33 @@ void pir_rotation_make_exact(pir_rotation *rotation) {
         set_product(rotation->factor, q);
     else
         set_integers(rotation->given, q);
-    // the diagonal, w² ± x² ± y² ± z², and the norm
+    mp_limb_t product[PIR_MATRIX_LIMBS];
+    pir_limbs scratch = {product, 0, PIR_MATRIX_LIMBS};
     for (int i = 0; i < 3; i++) {
-        rotation->m[i][i] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
-        for (int k = 0; k < 4; k++)
-            add_product(&rotation->m[i][i], &q[k], &q[k], k == 3 || k == i ? 1 : -1, false);
+        int j = (i + 1) % 3;
+        pir_int *entries[3] = {&rotation->m[i][i], &rotation->m[i][j], &rotation->m[j][i]};
+        for (int k = 0; k < 3; k++)
+            *entries[k] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
+        set_diagonal(q, entries[0], i, &scratch);
+        set_entry(q, entries[1], i, false, &scratch);
+        set_entry(q, entries[2], i, true, &scratch);
     }
     rotation->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
-    for (int k = 0; k < 4; k++)
-        add_product(&rotation->norm, &q[k], &q[k], 1, false);
-    // off the diagonal, with (i, j, k) cyclic: m_ij = 2 (q_i q_j − w q_k), m_ji = 2 (q_i q_j + w q_k)
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        for (int transposed = 0; transposed < 2; transposed++) {
-            pir_int *entry = transposed ? &rotation->m[j][i] : &rotation->m[i][j];
-            *entry = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
-            add_product(entry, &q[i], &q[j], 1, true);
-            add_product(entry, &q[3], &q[k], transposed ? 1 : -1, true);
-        }
-    }
+    set_diagonal(q, &rotation->norm, 3, &scratch);
     rotation->has_exact = true;
 }
 
 void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch) {
     for (int i = 0; i < 3; i++) {
-        pir_int_mul(&dst->c[i], &rotation->m[i][0], &v->c[0]);
-        pir_int_add_mul(&dst->c[i], &rotation->m[i][1], &v->c[1], scratch);
-        pir_int_add_mul(&dst->c[i], &rotation->m[i][2], &v->c[2], scratch);
+        const pir_int3 row = {{rotation->m[i][0], rotation->m[i][1], rotation->m[i][2]}};
+        pir_int3_dot(&dst->c[i], &row, v, scratch);
     }
 }
 
 void pir_rotation_apply_transposed(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch) {
     for (int i = 0; i < 3; i++) {
-        pir_int_mul(&dst->c[i], &rotation->m[0][i], &v->c[0]);
-        pir_int_add_mul(&dst->c[i], &rotation->m[1][i], &v->c[1], scratch);
-        pir_int_add_mul(&dst->c[i], &rotation->m[2][i], &v->c[2], scratch);
+        const pir_int3 column = {{rotation->m[0][i], rotation->m[1][i], rotation->m[2][i]}};
+        pir_int3_dot(&dst->c[i], &column, v, scratch);
     }
 }
 

@@ -4,102 +4,35 @@
  * with a proof at this placement, or leaves the question open for the next.
  *
  *   - certificate: the proven distance of an earlier answer, less the motion since;
- *   - facet: the facet of the last answer, proven again. Where it separates and holds the foot of x, it is the nearest;
- *     where x is within it, foot.h tells whether it is the least;
- *   - surface: that of the last answer, placed again (overlap.h);
+ *   - same facet: the facet of the last answer, proven again by doubles (same_facet.h). Where it separates, it is the
+ *     nearest; where x is within it, foot.h or lead.h tell whether it is the least;
+ *   - surface: that of the last answer, placed again and mended (overlap.h);
+ *   - facet: that of the last answer with another corner, or proven by integers;
  *   - descent: to the nearest point, proven by doubles, else by integers where a separating direction is certain;
  *   - a new surface: from the descent's last simplex, or widened from one about a point inside of D;
  *   - whole: the difference (whole.c).
  */
 #include "pair/foot.h"
 #include "pair/overlap.h"
-#include "query/answer/result.h"
-#include "query/decide/witness.h"
-
-struct task {
-    pir_pair *pair;
-    pir_workspace *workspace;
-    const pir_placement *placement;
-    pir_exact *exact;
-    int want;
-    double limit;    /* the cutoff and the radii, in the frame */
-    bool is_outside; /* proven */
-    pir_simplex simplex;
-    pir_query_result *result;
-};
-
-/* --- hints --- */
-
-static void keep_facet(pir_pair *pair, const pir_facet *facet) {
-    pair->facet = facet->piece;
-    pair->has_facet = true;
-}
-
-static void keep_simplex(pir_pair *pair, const pir_simplex *simplex) {
-    pair->points = (uint8_t)simplex->count;
-    for (uint32_t i = 0; i < simplex->count && i < 3; i++) {
-        pair->a[i] = simplex->a[i];
-        pair->b[i] = simplex->b[i];
-    }
-}
-
-static void recall_simplex(const pir_pair *pair, pir_simplex *simplex) {
-    *simplex = (pir_simplex){.count = pair->points};
-    for (uint32_t i = 0; i < pair->points; i++) {
-        simplex->a[i] = pair->a[i];
-        simplex->b[i] = pair->b[i];
-    }
-}
-
-/* Keeps a distance from D, in the frame, that is certain. */
-static void keep_apart(const struct task *task, double distance) {
-    pir_pair *pair = task->pair;
-    pair->apart = distance;
-    pair->at = task->placement->x;
-    pair->turned = task->workspace->rotation.unit;
-}
-
-/* --- answers --- */
-
-static void end(const struct task *task, pir_level level) {
-    task->pair->level = (uint8_t)level;
-}
-
-static void answer_near(struct task *task, const pir_nearest *nearest) {
-    pir_query_result *result = task->result;
-    keep_apart(task, nearest->distance - PIR_DISTANCE_ERROR * task->placement->reach);
-    if (!(task->want & PIR_WANT_SEPARATION))
-        return;
-    pir_result_separation(&task->workspace->frame, nearest, result);
-    if (result->distance > pir_frame_length(&task->workspace->frame, task->limit))
-        pir_result_beyond(result);
-}
-
-/* x on the boundary of D or inside; `facet` is the first that touches, or the one of least slack. */
-static void answer_overlap(struct task *task, pir_state state, const pir_facet *facet) {
-    pir_result_set_state(task->result, state);
-    if (state == PIR_BOUNDARY) {
-        pir_least touching = {true, *facet};
-        pir_result_touching(task->exact, task->placement, &touching, task->result);
-    } else if (task->want & PIR_WANT_DEPTH) {
-        pir_result_depth(task->exact, task->placement, facet, task->result);
-    }
-    keep_facet(task->pair, facet);
-    task->pair->apart = 0;
-}
+#include "pair/task.h"
 
 /* --- by the certificate --- */
 
-static bool by_certificate(struct task *task) {
+/* How far vertices of D may have moved against x since the place of the pair's proof. */
+static double moved_since(const pir_task *task) {
+    const pir_pair *pair = task->pair;
+    pir_vec3 way = pir_vec_sub(task->placement->x, pair->at);
+    double turn = pir_rotation_angle_bound(pair->turned, task->workspace->rotation.unit);
+    return (sqrt(pir_vec_dot(way, way)) + turn * task->workspace->frame.p.size) * (1 + 0x1p-40);
+}
+
+static bool by_certificate(pir_task *task) {
     const pir_pair *pair = task->pair;
     const pir_placement *placement = task->placement;
     // where there is no cutoff, numbers are wanted
     if (!(pair->apart > 0) || ((task->want & PIR_WANT_SEPARATION) && !(task->limit < pair->apart)))
         return false;
-    pir_vec3 way = pir_vec_sub(placement->x, pair->at);
-    double turn = pir_rotation_angle_bound(pair->turned, task->workspace->rotation.unit);
-    double used = (sqrt(pir_vec_dot(way, way)) + turn * task->workspace->frame.p.size) * (1 + 0x1p-40);
-    double left = pair->apart - used - 4 * placement->error;
+    double left = pair->apart - moved_since(task) - 4 * placement->error;
     if (!(left > 0))
         return false;
     task->is_outside = true;
@@ -111,10 +44,44 @@ static bool by_certificate(struct task *task) {
     return true;
 }
 
+/* --- by the same facet --- */
+
+/* The answer from the same facet, where that is enough. */
+static bool settle_same(pir_task *task) {
+    const pir_same_facet *same = &task->same;
+    const pir_frame *frame = &task->workspace->frame;
+    if (same->slack < 0) {
+        pir_nearest nearest = {-same->slack, same->facet.n, same->touch};
+        task->is_outside = true;
+        task->pair->deep = false;
+        pir_task_near(task, &nearest);
+        return true;
+    }
+    if (!pir_foot_settles_within(frame, task->placement, &same->facet, same->slack, same->margin) &&
+        !pir_lead_lasts(&task->pair->lead, task->placement, same, moved_since(task)))
+        return false;
+    pir_task_inside(task, &same->facet, same->slack);
+    return true;
+}
+
+static bool by_same_facet(pir_task *task) {
+    pir_pair *pair = task->pair;
+    if (!pair->has_facet)
+        return false;
+    pir_same is = pir_same_facet_prove(&task->workspace->frame, task->placement, pair->facet, &task->same);
+    task->has_same = is == PIR_SAME_PROVEN;
+    task->in_doubt = is == PIR_SAME_IN_DOUBT;
+    if (!task->has_same || !settle_same(task))
+        return false;
+    pair->statistics.by_facet++;
+    pir_task_end(task, PIR_LEVEL_NEAR);
+    return true;
+}
+
 /* --- by a facet --- */
 
 /* The facet of the last answer with the corner that it has here, as doubles tell. */
-static pir_piece aim(const struct task *task) {
+static pir_piece aim(const pir_task *task) {
     const pir_frame *frame = &task->workspace->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     pir_piece piece = task->pair->facet;
@@ -125,80 +92,58 @@ static pir_piece aim(const struct task *task) {
     return piece;
 }
 
-/* The answer from a true facet, where that is enough. */
-static bool settle(struct task *task, const pir_facet *facet) {
-    const pir_placement *placement = task->placement;
-    double slack = facet->h - pir_vec_dot(facet->n, placement->x), error = placement->error * facet->err;
-    int side = slack > error ? 1 : slack < -error ? -1 : pir_facet_side(task->exact, placement, facet);
-    if (side < 0) {
-        pir_nearest nearest;
-        task->is_outside = true;
-        if (!(task->want & PIR_WANT_SEPARATION))
-            return true;
-        if (!pir_nearest_at_facet(task->exact, placement, facet, &nearest))
-            return false;
-        answer_near(task, &nearest);
-        return true;
-    }
-    if (!pir_foot_settles(task->exact, placement, facet, slack))
-        return false;
-    answer_overlap(task, side > 0 ? PIR_INSIDE : PIR_BOUNDARY, facet);
-    return true;
-}
-
-static bool by_facet(struct task *task) {
+static bool by_facet(pir_task *task) {
     pir_facet facet;
-    if (!task->pair->has_facet || !pir_facet_prove(task->exact, aim(task), &facet) || !settle(task, &facet))
+    if (!task->in_doubt || !pir_facet_prove(task->exact, aim(task), &facet) || !pir_task_settle(task, &facet))
         return false;
-    task->pair->points = 1;
-    task->pair->a[0] = facet.a;
-    task->pair->b[0] = facet.b;
     task->pair->statistics.by_facet++;
-    end(task, PIR_LEVEL_NEAR);
+    pir_task_end(task, PIR_LEVEL_NEAR);
     return true;
 }
 
 /* --- by a surface --- */
 
-static pir_overlap overlap_of(const struct task *task) {
+static pir_overlap overlap_of(pir_task *task) {
     pir_pair *pair = task->pair;
     pir_workspace *workspace = task->workspace;
     if (!pair->surface)
         pair->surface = PIR_ZEROED(&pair->allocator, pir_surface, 1);
     // without memory, one that is not kept
-    return (pir_overlap){task->exact, task->placement, pair->surface ? pair->surface : &workspace->spare,
-                         &workspace->room, &pair->statistics};
+    return (pir_overlap){task->exact,      task->placement,   pair->surface ? pair->surface : &workspace->spare,
+                         &workspace->room, &pair->statistics, &task->has_same,
+                         &task->same};
 }
 
 /* The answer from a surface about x. */
-static bool finish_inside(struct task *task, const pir_overlap *overlap) {
+static bool finish_inside(pir_task *task, const pir_overlap *overlap) {
     pir_facet facet;
+    double others;
     if (!(task->want & PIR_WANT_DEPTH)) {
         pir_result_set_state(task->result, PIR_INSIDE);
         task->pair->apart = 0;
     } else {
-        if (!pir_overlap_least(overlap, &facet))
+        if (!pir_overlap_least(overlap, &facet, &others))
             return false;
-        answer_overlap(task, PIR_INSIDE, &facet);
+        pir_task_inside(task, &facet, pir_facet_slack(task->exact, task->placement, &facet));
+        task->pair->lead = pir_lead_of(task->placement, &facet, others);
+        task->pair->at = task->placement->x;
+        task->pair->turned = task->workspace->rotation.unit;
     }
-    // where a descent begins should x leave the surface
-    task->pair->points = 3;
-    pir_overlap_nearest(overlap, task->pair->a, task->pair->b);
     task->pair->deep = true;
     task->pair->statistics.by_surface++;
-    end(task, PIR_LEVEL_OVERLAPPING);
+    pir_task_end(task, PIR_LEVEL_OVERLAPPING);
     return true;
 }
 
-static bool by_surface(struct task *task) {
+static bool by_surface(pir_task *task) {
     const pir_surface *surface = task->pair->surface;
     if (!surface || surface->count == 0)
         return false;
     pir_overlap overlap = overlap_of(task);
-    return pir_overlap_place(&overlap) && finish_inside(task, &overlap);
+    return (pir_overlap_place(&overlap) || pir_overlap_repair(&overlap)) && finish_inside(task, &overlap);
 }
 
-static bool by_new_surface(struct task *task) {
+static bool by_new_surface(pir_task *task) {
     const pir_frame *frame = &task->workspace->frame;
     pir_overlap overlap = overlap_of(task);
     bool done = pir_overlap_begin(&overlap, &task->simplex) && finish_inside(task, &overlap);
@@ -208,116 +153,14 @@ static bool by_new_surface(struct task *task) {
         bool some;
         done = pir_overlap_widen(&overlap, inner, &facet, &some) && finish_inside(task, &overlap);
         if (!done && some) {
-            done = settle(task, &facet);
+            done = pir_task_settle(task, &facet);
             task->pair->statistics.by_facet += done;
-            end(task, PIR_LEVEL_NEAR);
+            pir_task_end(task, PIR_LEVEL_NEAR);
         }
     }
     if (task->pair->surface && task->pair->level != PIR_LEVEL_OVERLAPPING)
         task->pair->surface->count = 0;
     return done;
-}
-
-/* --- by descent --- */
-
-/* The farthest of all vertices along n. */
-static double farthest(const pir_body *body, pir_vec3 n) {
-    double most = -HUGE_VAL;
-    for (uint32_t v = 0; v < body->polytope->vertex_count; v++)
-        most = fmax(most, pir_vec_dot(n, body->vertex[v]));
-    return most;
-}
-
-/* A distance from D that is certain, along the direction of a descent. */
-static double certain_distance(const struct task *task) {
-    const pir_frame *frame = &task->workspace->frame;
-    pir_vec3 n = task->simplex.direction;
-    double support = farthest(&frame->p, pir_mat_apply_transposed(&frame->r, n)) + farthest(&frame->q, n);
-    return pir_vec_dot(n, task->placement->x) - support - 2 * task->placement->error;
-}
-
-/* The piece that two features make, with its normal along n. */
-static bool piece_of(const pir_frame *frame, pir_witness faces, const pir_simplex *simplex, pir_piece *ret_piece) {
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    pir_vec3 n = simplex->direction;
-    if (faces.p.kind == PIR_FEATURE_FACET) {
-        if (p->dimension == 2 && pir_vec_dot(pir_mat_apply(&frame->r, p->normal[faces.p.index]), n) < 0)
-            faces.p.index = 1 - faces.p.index;
-        *ret_piece = (pir_piece){PIR_FACET_FV, faces.p.index, simplex->b[0]};
-    } else if (faces.q.kind == PIR_FEATURE_FACET) {
-        if (q->dimension == 2 && pir_vec_dot(q->normal[faces.q.index], n) < 0)
-            faces.q.index = 1 - faces.q.index;
-        *ret_piece = (pir_piece){PIR_FACET_VF, simplex->a[0], faces.q.index};
-    } else if (faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE) {
-        uint32_t half = q->edge_half[faces.q.index];
-        pir_vec3 across =
-            pir_vec_cross(q->direction[half], pir_mat_apply(&frame->r, p->direction[p->edge_half[faces.p.index]]));
-        *ret_piece = (pir_piece){PIR_FACET_EE, faces.p.index, pir_vec_dot(across, n) > 0 ? half : q->twin[half]};
-    } else {
-        return false;
-    }
-    return true;
-}
-
-/* The nearest point from the features at which the descent ended, where doubles and filtered signs prove them. */
-static bool prove(struct task *task, pir_nearest *ret_nearest) {
-    const pir_frame *frame = &task->workspace->frame;
-    const pir_simplex *simplex = &task->simplex;
-    pir_witness faces = {pir_feature_of(frame->p.polytope, simplex->a, simplex->count),
-                         pir_feature_of(frame->q.polytope, simplex->b, simplex->count)};
-    pir_piece piece;
-    if (!piece_of(frame, faces, simplex, &piece)) {
-        task->pair->has_facet = false;
-        return pir_nearest_prove(task->exact, task->placement, faces, NULL, ret_nearest);
-    }
-    pir_facet facet;
-    if (!pir_facet_prove(task->exact, piece, &facet))
-        return false;
-    double slack = facet.h - pir_vec_dot(facet.n, task->placement->x);
-    if (!(slack < -task->placement->error * facet.err) ||
-        !pir_nearest_at_facet(task->exact, task->placement, &facet, ret_nearest))
-        return false;
-    keep_facet(task->pair, &facet);
-    return true;
-}
-
-/* From outside, where the descent has not proven its end. */
-static void finish_outside(struct task *task) {
-    pir_nearest nearest;
-    if (!(task->want & PIR_WANT_SEPARATION))
-        return;
-    if (pir_nearest_find(task->exact, task->placement, &task->simplex, &nearest, &task->result->steps))
-        answer_near(task, &nearest);
-    else
-        pir_result_unfinished(&task->workspace->frame, &task->simplex, task->result);
-}
-
-static bool by_descent(struct task *task) {
-    const pir_placement *placement = task->placement;
-    const double error = PIR_DISTANCE_ERROR * placement->reach;
-    pir_simplex *simplex = &task->simplex;
-    pir_nearest nearest;
-    recall_simplex(task->pair, simplex);
-    pir_descend_to_point(&task->workspace->frame, placement, task->limit + error, simplex, &task->result->steps);
-    bool far = simplex->lower > PIR_CLEARLY_APART * placement->reach && simplex->lower > 4 * placement->error;
-    bool beyond = simplex->lower > task->limit + error;
-    if (far && !beyond && prove(task, &nearest)) {
-        answer_near(task, &nearest);
-    } else {
-        double distance = simplex->lower > 0 ? certain_distance(task) : 0;
-        if (!task->is_outside && !(distance > 0))
-            return false;
-        if (distance > 0)
-            keep_apart(task, distance);
-        if ((task->want & PIR_WANT_SEPARATION) && distance > task->limit + error)
-            pir_result_beyond(task->result);
-        else
-            finish_outside(task);
-    }
-    keep_simplex(task->pair, simplex);
-    task->pair->statistics.by_descent++;
-    end(task, PIR_LEVEL_NEAR);
-    return true;
 }
 
 /* --- the calls --- */
@@ -327,20 +170,27 @@ static bool allows(const pir_pair *pair, pir_level level) {
     return pair->least <= (uint8_t)level && (uint8_t)level <= pair->most;
 }
 
-static bool by_need(struct task *task) {
+static bool by_need(pir_task *task) {
     pir_pair *pair = task->pair;
     if (allows(pair, PIR_LEVEL_APART) && by_certificate(task)) {
         pair->statistics.by_certificate++;
-        end(task, PIR_LEVEL_APART);
+        pir_task_end(task, PIR_LEVEL_APART);
         return true;
     }
     bool near = allows(pair, PIR_LEVEL_NEAR), deep = allows(pair, PIR_LEVEL_OVERLAPPING), was_deep = pair->deep;
+    if (near && by_same_facet(task))
+        return true;
     pair->deep = false;
     if (was_deep && deep && by_surface(task))
         return true;
-    if (near && (by_facet(task) || by_descent(task)))
+    if (near && (by_facet(task) || pir_task_descend(task)))
         return true;
     return deep && !task->is_outside && by_new_surface(task);
+}
+
+static void add_radii(const pir_pair_input *input, pir_query_result *result) {
+    pir_query_input radii = {.radius_p = input->radius_p, .radius_q = input->radius_q, .cutoff = input->cutoff};
+    pir_result_add_radii(&radii, result);
 }
 
 static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want,
@@ -354,9 +204,15 @@ static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pai
     pir_query_result result;
     pir_result_clear(&result);
     double radii = input->radius_p + input->radius_q;
-    struct task task = {.pair = pair, .workspace = workspace, .placement = &placement, .exact = &workspace->exact};
+    pir_task task;
+    task.pair = pair;
+    task.workspace = workspace;
+    task.placement = &placement;
+    task.exact = &workspace->exact;
+    task.is_outside = task.has_same = task.in_doubt = false;
+    task.simplex.count = task.simplex.tried = 0;
     task.want = want | (radii > 0 ? PIR_WANT_SEPARATION | PIR_WANT_DEPTH : 0);
-    task.limit = pir_frame_from(&workspace->frame, fmax(input->cutoff, 0) + radii);
+    task.limit = pir_frame_from(&workspace->frame, (input->cutoff > 0 ? input->cutoff : 0) + radii);
     task.result = &result;
     pair->statistics.queries++;
     if (!by_need(&task)) {
@@ -366,10 +222,10 @@ static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pai
         if (status != PIR_OK)
             return status;
         pair->statistics.by_whole++;
-        end(&task, PIR_LEVEL_WHOLE);
+        pir_task_end(&task, PIR_LEVEL_WHOLE);
     } else {
-        pir_query_input radii_of = {.radius_p = input->radius_p, .radius_q = input->radius_q, .cutoff = input->cutoff};
-        pir_result_add_radii(&radii_of, &result);
+        if (radii > 0 || result.outcome == PIR_BEYOND_CUTOFF)
+            add_radii(input, &result);
     }
     pir_pair_to_world(workspace, &result);
     *ret_result = result;

@@ -50,10 +50,14 @@ static pir_status set_frame(pir_pair *pair, pir_workspace *workspace, const pir_
     workspace->world.translation_p = input->pose_p.translation;
     workspace->world.translation_q = input->pose_q.translation;
     workspace->posed = !pir_world_is_plain(&workspace->world);
-    if (!pir_exact_reserve_limbs(&workspace->exact, &workspace->allocator, pair->limbs))
-        return PIR_ERR_MEMORY;
     workspace->exact.world = workspace->posed ? &workspace->world : NULL;
-    return pir_frame_place_relative(frame, &workspace->world, &workspace->placement);
+    pir_exact_forget(&workspace->exact);
+    if (!pir_exact_has_limbs(&workspace->exact, pair->limbs) &&
+        !pir_exact_reserve_limbs(&workspace->exact, &workspace->allocator, pair->limbs))
+        return PIR_ERR_MEMORY;
+    if (workspace->posed)
+        return pir_frame_place_relative(frame, &workspace->world, &workspace->placement);
+    return pir_frame_place(frame, input->pose_p.translation, &workspace->placement);
 }
 
 pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,

@@ -74,15 +74,20 @@ static double depth_below(const pir_frame *frame, const pir_facet *facet) {
     return facet->h - pir_vec_dot(facet->n, pir_frame_vertex(frame, a, b));
 }
 
+bool pir_foot_settles_within(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet,
+                             double slack, double margin) {
+    double off = placement->error * facet->err, most = (slack > 0 ? slack : 0) + off, reach = 2 * placement->reach;
+    if (margin <= 4 * most)
+        return false;
+    double below = depth_below(frame, facet) - 2 * off, sine = 2 * most / margin * (1 + 0x1p-40);
+    return below > 2 * most && (below - most) * (1 - sine) - reach * sine > 2 * most;
+}
+
 bool pir_foot_settles(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack) {
     const pir_frame *frame = exact->frame;
     if (frame->p.polytope->artificial || frame->q.polytope->artificial)
         return false;
-    double off = placement->error * facet->err, most = fmax(slack, 0) + off, reach = 2 * placement->reach;
     pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
-    double below = depth_below(frame, facet) - 2 * off, margin = HUGE_VAL;
-    if (below <= 2 * most || (margin = margin_of(frame, facet, y) - MARGIN_ERRORS * off) <= 4 * most)
-        return false;
-    double sine = 2 * most / margin * (1 + 0x1p-40);
-    return (below - most) * (1 - sine) - reach * sine > 2 * most;
+    double margin = margin_of(frame, facet, y) - MARGIN_ERRORS * placement->error * facet->err;
+    return pir_foot_settles_within(frame, placement, facet, slack, margin);
 }

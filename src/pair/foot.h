@@ -25,4 +25,8 @@
  */
 bool pir_foot_settles(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack);
 
+/* The same where F is known to hold the disc of radius `margin`. */
+bool pir_foot_settles_within(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet,
+                             double slack, double margin);
+
 #endif

@@ -7,6 +7,9 @@
 /* Bounds on the vertices added in one search; most take none to three. */
 #define MOST_ADDED 64
 
+/* The same for a surface that x has left. */
+#define MOST_REPAIRS 8
+
 /* Facets that one search may prove; a body of many equal ones has more, and is left to the whole sum. */
 #define MOST_FACETS 32
 
@@ -37,16 +40,27 @@ static bool has_vertex(const pir_polytope *p, pir_feature face, uint32_t v) {
     return false;
 }
 
-/* Whether a triangle lies in a true facet of D. */
-static bool lies_in(const pir_overlap *overlap, uint32_t t, const pir_facet *facet) {
+/* Whether corner i of the surface is in a true facet of D. */
+static inline bool is_in(const pir_overlap *overlap, uint32_t i, const pir_facet *facet) {
     const pir_frame *frame = overlap->exact->frame;
-    for (int k = 0; k < 3; k++) {
-        uint32_t i = corner_of(overlap, t, k);
-        if (!has_vertex(frame->p.polytope, facet->faces.p, overlap->surface->a[i]) ||
-            !has_vertex(frame->q.polytope, facet->faces.q, overlap->surface->b[i]))
-            return false;
+    return has_vertex(frame->p.polytope, facet->faces.p, overlap->surface->a[i]) &&
+           has_vertex(frame->q.polytope, facet->faces.q, overlap->surface->b[i]);
+}
+
+/* The corners that are: bit i for corner i. */
+static uint32_t corners_in(const pir_overlap *overlap, const pir_facet *facet) {
+    uint32_t in = 0;
+    for (uint32_t rest = overlap->surface->used; rest; rest &= rest - 1) {
+        uint32_t i = (uint32_t)__builtin_ctz(rest);
+        in |= (uint32_t)is_in(overlap, i, facet) << i;
     }
-    return true;
+    return in;
+}
+
+/* Whether all corners of a triangle are among these. */
+static bool lies_in(const pir_overlap *overlap, uint32_t t, uint32_t corners) {
+    uint32_t of = 1u << corner_of(overlap, t, 0) | 1u << corner_of(overlap, t, 1) | 1u << corner_of(overlap, t, 2);
+    return (of & ~corners) == 0;
 }
 
 /* The piece that the features at a triangle's corners make, with its normal on the triangle's outer side. */
@@ -81,11 +95,14 @@ static bool piece_at(const pir_overlap *overlap, uint32_t t, pir_piece *ret_piec
 
 /* --- expansion --- */
 
+/* What came of an expansion: nothing is beyond the triangle, the surface has changed, or it could not. */
+enum expansion { NOTHING_BEYOND, CHANGED, STUCK };
+
 /*
  * Adds the vertex of D farthest along the normal of triangle t, where it is beyond the triangle by more than
- * rounding.
+ * rounding, or makes room for it. *ret_corner is its number, PIR_SURFACE_CORNERS where it was no new one.
  */
-static bool expand(const pir_overlap *overlap, uint32_t t) {
+static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *ret_corner) {
     const pir_frame *frame = overlap->exact->frame;
     pir_vec3 n = pir_surface_normal(overlap->room, t);
     double length = sqrt(pir_vec_dot(n, n));
@@ -95,30 +112,52 @@ static bool expand(const pir_overlap *overlap, uint32_t t) {
     uint32_t b = pir_climb(frame->q.polytope, n, overlap->surface->b[first]);
     pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, a, b), overlap->room->centre);
     if (!(pir_vec_dot(n, w) * length > overlap->room->det[t] + overlap->room->det_error))
-        return false;
+        return NOTHING_BEYOND;
+    *ret_corner = PIR_SURFACE_CORNERS;
+    // room is made first; the vertex comes when the triangle is met again
+    if (!pir_surface_has_room(overlap->surface))
+        return pir_surface_trim(overlap->surface, overlap->room) ? CHANGED : STUCK;
     overlap->statistics->supports++;
-    return pir_surface_add(overlap->surface, frame, t, a, b, overlap->room);
+    const pir_surface_vertex vertex = {a, b, w};
+    *ret_corner = pir_surface_add(overlap->surface, t, &vertex, overlap->room);
+    return *ret_corner < PIR_SURFACE_CORNERS ? CHANGED : STUCK;
 }
 
 /* --- surfaces --- */
 
 bool pir_overlap_place(const pir_overlap *overlap) {
-    uint32_t worst;
     const pir_placement *placement = overlap->placement;
     return pir_surface_place(overlap->surface, overlap->exact->frame, placement->x, placement->error, placement->reach,
-                             overlap->room, &worst);
+                             overlap->room);
+}
+
+/* The triangle that is least far from x. */
+static uint32_t least_of(const pir_overlap *overlap) {
+    const pir_surface_loops *loops = overlap->room->loops;
+    uint64_t least = loops->below(overlap->surface, overlap->room, loops->least(overlap->surface, overlap->room));
+    return least != 0 ? (uint32_t)__builtin_ctzll(least) : 0;
+}
+
+bool pir_overlap_repair(const pir_overlap *overlap) {
+    for (uint32_t added = 0; added < MOST_REPAIRS; added++) {
+        uint32_t t = least_of(overlap), corner;
+        if (overlap->room->low[t] > 0)
+            return true;
+        if (expand(overlap, t, &corner) != CHANGED)
+            return false;
+    }
+    return overlap->room->low[least_of(overlap)] > 0;
 }
 
 /* The tetrahedron of four vertices of D about a point; false where that is not certainly inside. */
 static bool begin_about(const pir_overlap *overlap, const uint32_t a[4], const uint32_t b[4], pir_vec3 centre) {
     const pir_placement *placement = overlap->placement;
-    uint32_t worst;
     for (int turned = 0; turned < 2; turned++) {
         const uint32_t i = turned ? 1 : 0, j = 1 - i;
         pir_surface_begin(overlap->surface, (const uint32_t[4]){a[i], a[j], a[2], a[3]},
                           (const uint32_t[4]){b[i], b[j], b[2], b[3]});
         if (pir_surface_place(overlap->surface, overlap->exact->frame, centre, placement->error, placement->reach,
-                              overlap->room, &worst))
+                              overlap->room))
             return true;
     }
     return false;
@@ -162,11 +201,11 @@ bool pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *re
     pir_vec3 way = pir_vec_sub(placement->x, inner);
     for (uint32_t added = 0; added < MOST_ADDED; added++) {
         double low;
-        uint32_t t = least_about(overlap, way, &low);
+        uint32_t t = least_about(overlap, way, &low), corner;
         if (low > 0 && pir_overlap_place(overlap))
             return true;
         pir_piece piece;
-        if (low <= 0 && !expand(overlap, t)) {
+        if (low <= 0 && expand(overlap, t, &corner) != CHANGED) {
             *ret_some = piece_at(overlap, t, &piece) && pir_facet_prove(overlap->exact, piece, ret_facet);
             return false;
         }
@@ -178,42 +217,77 @@ bool pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *re
 
 /* --- the least facet --- */
 
-/* The facets proven so far, triangles that are known to lie in them, and the least. */
+/* The facets proven so far, the corners of the surface that are in each, and the least. */
 struct found {
     uint32_t count;
     pir_facet facet[MOST_FACETS];
-    uint64_t covered;
+    uint32_t corners[MOST_FACETS];
     pir_least least;
+    uint32_t least_at; /* which of them */
 };
 
-/* Whether triangle t lies in a facet that is proven. */
-static bool is_covered(const pir_overlap *overlap, uint32_t t, const struct found *found) {
-    for (uint32_t i = found->count; i-- > 0;)
-        if (lies_in(overlap, t, &found->facet[i]))
-            return true;
-    return false;
+/* Takes the facet after the last, which has these corners. True where it is the least of all. */
+static bool add_facet(const pir_overlap *overlap, uint32_t corners, struct found *found) {
+    const pir_facet *facet = &found->facet[found->count];
+    found->corners[found->count] = corners;
+    pir_least_offer_facet(overlap->exact, overlap->placement, &found->least, facet);
+    bool is_least = pir_facet_same(facet, &found->least.facet);
+    found->least_at = is_least ? found->count : found->least_at;
+    found->count++;
+    return is_least;
 }
 
 /* Proves that triangle t lies in a facet of D, and takes that. */
 static bool take_facet(const pir_overlap *overlap, uint32_t t, struct found *found) {
     pir_piece piece;
+    pir_same_facet same;
     pir_facet *facet = &found->facet[found->count];
-    if (found->count == MOST_FACETS || !piece_at(overlap, t, &piece) ||
-        !pir_facet_prove(overlap->exact, piece, facet) || !lies_in(overlap, t, facet))
+    if (found->count == MOST_FACETS || !piece_at(overlap, t, &piece))
         return false;
-    found->count++;
-    pir_least_offer_facet(overlap->exact, overlap->placement, &found->least, facet);
-    found->covered |= 1ull << t;
+    bool has_same = pir_same_facet_prove(overlap->exact->frame, overlap->placement, piece, &same) == PIR_SAME_PROVEN;
+    if (has_same)
+        *facet = same.facet;
+    else if (!pir_facet_prove(overlap->exact, piece, facet))
+        return false;
+    uint32_t corners = corners_in(overlap, facet);
+    if (!lies_in(overlap, t, corners))
+        return false;
+    if (add_facet(overlap, corners, found) && has_same) {
+        *overlap->same = same;
+        *overlap->has_same = true;
+    }
     return true;
 }
 
-/* The triangle of least distance that is not covered; the count where none is. */
-static uint32_t next_open(const pir_overlap *overlap, const struct found *found) {
+/* After a corner was added. */
+static void find_corner(const pir_overlap *overlap, uint32_t corner, struct found *found) {
+    for (uint32_t i = 0; i < found->count; i++) {
+        found->corners[i] &= ~(1u << corner);
+        found->corners[i] |= (uint32_t)is_in(overlap, corner, &found->facet[i]) << corner;
+    }
+}
+
+/* Whether triangle t lies in a facet that is proven. */
+static bool is_covered(const pir_overlap *overlap, uint32_t t, const struct found *found) {
+    for (uint32_t i = found->count; i-- > 0;)
+        if (lies_in(overlap, t, found->corners[i]))
+            return true;
+    return false;
+}
+
+/*
+ * The triangle of least distance that is in no facet that is proven; the count where none is, or that is farther than
+ * `limit`.
+ */
+static uint32_t next_open(const pir_overlap *overlap, const struct found *found, double limit) {
     uint32_t next = overlap->surface->count;
-    double low = HUGE_VAL;
-    for (uint32_t t = 0; t < overlap->surface->count; t++)
-        if (overlap->room->low[t] < low && !(found->covered >> t & 1))
-            low = overlap->room->low[t], next = t;
+    if (found->count == 0)
+        limit = overlap->room->loops->least(overlap->surface, overlap->room);
+    for (uint64_t rest = overlap->room->loops->below(overlap->surface, overlap->room, limit); rest; rest &= rest - 1) {
+        uint32_t t = (uint32_t)__builtin_ctzll(rest);
+        if (overlap->room->low[t] <= limit && !is_covered(overlap, t, found))
+            limit = overlap->room->low[t], next = t;
+    }
     return next;
 }
 
@@ -225,35 +299,46 @@ static double bound_of(const pir_overlap *overlap, const pir_least *least) {
     return facet->h - pir_vec_dot(facet->n, overlap->placement->x) + overlap->placement->error * facet->err;
 }
 
-bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet) {
-    struct found found;
-    found.count = 0;
-    found.covered = 0;
-    found.least.some = false;
-    for (uint32_t added = 0; added <= MOST_ADDED;) {
-        uint32_t t = next_open(overlap, &found);
-        if (t == overlap->surface->count || overlap->room->low[t] > bound_of(overlap, &found.least)) {
-            *ret_facet = found.least.facet;
-            return found.least.some;
-        }
-        if (is_covered(overlap, t, &found)) {
-            found.covered |= 1ull << t;
-            continue;
-        }
-        if (take_facet(overlap, t, &found))
-            continue;
-        if (!expand(overlap, t))
-            return false;
-        // triangles have other numbers now
-        found.covered = 0;
-        added++;
+/*
+ * A distance from x beyond which all triangles are that do not lie in the least facet: what a lead over three times its
+ * slack would be worth is never used.
+ */
+static double others_than(const pir_overlap *overlap, uint32_t corners, double bound) {
+    double others = 3 * bound;
+    for (uint64_t rest = overlap->room->loops->below(overlap->surface, overlap->room, others); rest; rest &= rest - 1) {
+        uint32_t t = (uint32_t)__builtin_ctzll(rest);
+        if (overlap->room->low[t] < others && !lies_in(overlap, t, corners))
+            others = overlap->room->low[t];
     }
-    return false;
+    return others;
 }
 
-void pir_overlap_nearest(const pir_overlap *overlap, uint32_t a[3], uint32_t b[3]) {
-    uint32_t nearest = 0;
-    for (uint32_t t = 1; t < overlap->surface->count; t++)
-        nearest = overlap->room->low[t] < overlap->room->low[nearest] ? t : nearest;
-    vertices_of(overlap, nearest, a, b);
+bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet, double *ret_others) {
+    struct found found;
+    found.count = 0;
+    found.corners[0] = 0;
+    found.least.some = false;
+    found.least_at = 0;
+    if (*overlap->has_same) {
+        found.facet[0] = overlap->same->facet;
+        add_facet(overlap, corners_in(overlap, &found.facet[0]), &found);
+    }
+    for (uint32_t added = 0; added <= MOST_ADDED;) {
+        double bound = bound_of(overlap, &found.least);
+        uint32_t t = next_open(overlap, &found, bound), corner;
+        if (t == overlap->surface->count) {
+            *ret_facet = found.least.facet;
+            *ret_others = others_than(overlap, found.corners[found.least_at], bound);
+            return found.least.some;
+        }
+        enum expansion expansion = expand(overlap, t, &corner);
+        if (expansion == STUCK || (expansion == NOTHING_BEYOND && !take_facet(overlap, t, &found)))
+            return false;
+        if (expansion == CHANGED) {
+            if (corner < PIR_SURFACE_CORNERS)
+                find_corner(overlap, corner, &found);
+            added++;
+        }
+    }
+    return false;
 }

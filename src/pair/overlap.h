@@ -18,10 +18,15 @@ typedef struct pir_overlap {
     pir_surface *surface;
     pir_surface_room *room;
     pir_pair_statistics *statistics;
+    bool *has_same; /* whether `same` is proven here, with x on its inner side */
+    pir_same_facet *same;
 } pir_overlap;
 
 /* Places the surface about x. True where it is certain: x then is inside. */
 bool pir_overlap_place(const pir_overlap *overlap);
+
+/* Expands a placed surface that x has left until it is about x again. False where none came of it. */
+bool pir_overlap_repair(const pir_overlap *overlap);
 
 /* Makes a surface about x from the simplex of a descent; false where that has no certain tetrahedron about x. */
 bool pir_overlap_begin(const pir_overlap *overlap, const pir_simplex *simplex);
@@ -34,11 +39,8 @@ bool pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *re
 
 /*
  * The true facet of least slack, and the first in order of those that tie, from a surface about x; false where it
- * is left open.
+ * is left open. All triangles that are not in it are *ret_others from x or farther. `same` may become that facet.
  */
-bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet);
-
-/* The vertices of P and Q at the corners of the triangle that is least far from x. */
-void pir_overlap_nearest(const pir_overlap *overlap, uint32_t a[3], uint32_t b[3]);
+bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet, double *ret_others);
 
 #endif

@@ -15,6 +15,7 @@ pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **
     workspace->exact.frame = &workspace->frame;
     workspace->exact.rotation = &workspace->rotation;
     workspace->world.rotation_q = &workspace->rotation_q;
+    workspace->room.loops = pir_surface_loops_best();
     *ret_workspace = workspace;
     return PIR_OK;
 }

@@ -5,8 +5,9 @@
  * A pair holds what persists: the bodies, and hints from which the next answer starts. Hints are never believed: an
  * answer follows from proofs at its own placement, so it has the same bits whatever the hints were.
  *
- * The one exception is the proven distance `apart`, with the place that it was proven at: D moved since by no more than
- * the way of x and the turn times the size of P, so the distance is at least what is left.
+ * The one exception are proofs with the place that they were made at: the distance `apart`, or the lead of the least
+ * facet (lead.h). D moved since by no more than the way of x and the turn times the size of P, so the distance is at
+ * least what is left.
  */
 #ifndef PIR_PAIR_PAIR_H
 #define PIR_PAIR_PAIR_H
@@ -14,7 +15,8 @@
 #include <pirouette/pair.h>
 
 #include "pair/body.h"
-#include "pair/inner_surface.h"
+#include "pair/lead.h"
+#include "pair/surface/inner_surface.h"
 #include "query/contact/patch.h"
 #include "query/decide/nearest.h"
 
@@ -34,8 +36,9 @@ struct pir_pair {
     pir_piece facet;      /* of the last answer; its corner may have changed */
     pir_surface *surface; /* made when first needed; used where `deep` */
 
-    /* a proof: x had at least this distance from D at this place; 0 where there is none */
+    /* a proof at a place: x had at least this distance from D, or the lead; 0 where there is none */
     double apart;
+    pir_lead lead;
     pir_vec3 at;
     pir_quat turned;
 

@@ -91,19 +91,29 @@ void pir_result_unfinished(const pir_frame *frame, const pir_simplex *simplex, p
     result->distance = pir_frame_length(frame, fmax(0, simplex->upper));
 }
 
+void pir_result_depth_at(const pir_frame *frame, pir_vec3 normal, double slack, const pir_touch *touch,
+                         pir_query_result *result) {
+    result->normal = normal;
+    result->distance = -pir_frame_length(frame, slack);
+    result->witness = touch->witness;
+    set_points(result, pir_frame_world(frame, touch->point_q));
+}
+
 void pir_result_depth(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                       pir_query_result *result) {
+    pir_result_depth_of(exact, placement, facet, pir_facet_slack(exact, placement, facet), result);
+}
+
+void pir_result_depth_of(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
+                         pir_query_result *result) {
     const pir_frame *frame = exact->frame;
-    // exactly inside: a slack that rounds below zero is one of next to nothing
-    double slack = fmax(pir_facet_slack(exact, placement, facet), 0);
     pir_touch touch;
+    // exactly inside: a slack that rounds below zero is one of next to nothing
+    slack = slack > 0 ? slack : 0;
     // in a region the foot may be beside the facet
     if (!pir_touch_facet(exact, placement, facet, slack, NULL, &touch))
         touch = (pir_touch){facet->faces, pir_facet_point(frame, placement, facet, slack)};
-    result->normal = facet->n;
-    result->distance = -pir_frame_length(frame, slack);
-    result->witness = touch.witness;
-    set_points(result, pir_frame_world(frame, touch.point_q));
+    pir_result_depth_at(frame, facet->n, slack, &touch, result);
 }
 
 /* Grows both bodies by their radii in an answer that knows the signed distance. */

@@ -37,6 +37,14 @@ void pir_result_unfinished(const pir_frame *frame, const pir_simplex *simplex, p
 void pir_result_depth(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                       pir_query_result *result);
 
+/* The same where the slack is known, as pir_facet_slack gives it. */
+void pir_result_depth_of(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
+                         pir_query_result *result);
+
+/* The same where what touches at the foot of x is known too. */
+void pir_result_depth_at(const pir_frame *frame, pir_vec3 normal, double slack, const pir_touch *touch,
+                         pir_query_result *result);
+
 /* Grows both bodies by their radii in an answer that knows the signed distance. */
 void pir_result_add_radii(const pir_query_input *input, pir_query_result *result);
 

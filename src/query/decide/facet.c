@@ -4,19 +4,6 @@
 
 #include "query/decide/side.h"
 
-/*
- * The error of a slope. With u = 2^-53, a unit normal is off by at most 64u·err, and by 37u more once rotated back
- * into P's frame; a unit edge vector is off by 8u; their dot product rounds by 4u. Together that is below 113u·err,
- * and the bound is 128u·err.
- */
-#define SLOPE_BOUND 0x1p-46
-
-/*
- * Slacks below this, relative to the placement's reach, come from integers. Doubles know them to 2^-46 only, less
- * than the 12 digits that an answer promises.
- */
-#define NEXT_TO_NOTHING 0x1p-30
-
 /* --- slopes and exposed faces --- */
 
 pir_int3 pir_normal_integers(pir_exact *exact, const pir_normal *normal) {
@@ -80,7 +67,7 @@ static int slope_in_doubt(pir_exact *exact, const pir_normal *normal, uint32_t h
 /* As pir_slope. In the searches of this file the part in doubles is inline. */
 static inline int slope_of(pir_exact *exact, const pir_normal *normal, const pir_view *view, uint32_t half) {
     double slope = pir_vec_dot(view->unit, view->body->direction[half]);
-    if (fabs(slope) > SLOPE_BOUND * normal->err)
+    if (fabs(slope) > PIR_SLOPE_BOUND * normal->err)
         return (slope > 0) - (slope < 0);
     return slope_in_doubt(exact, normal, half, view->of_q);
 }
@@ -177,7 +164,7 @@ static bool orient_edges(pir_exact *exact, const pir_normal *normal, uint32_t e,
     double along = pir_vec_dot(n, normal->unit);
     // d is off by 8u, e by 45u, their product rounds by 4u, the normal is off by 64u·err, the dot product by 4u:
     // below 125u·err
-    if (fabs(along) <= 2 * SLOPE_BOUND * normal->err) {
+    if (fabs(along) <= 2 * PIR_SLOPE_BOUND * normal->err) {
         uint32_t mark = exact->scratch.used;
         pir_rotation_make_exact(exact->rotation);
         pir_int3 across = pir_exact_normal(exact, (pir_piece){PIR_FACET_EE, e, half});
@@ -322,18 +309,32 @@ bool pir_facet_before(const pir_facet *a, const pir_facet *b) {
 
 /* --- slacks --- */
 
-double pir_facet_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet) {
-    pir_vec3 n = facet->n, x = placement->x;
-    double slack = facet->h - (n.x * x.x + n.y * x.y + n.z * x.z);
-    if (fabs(slack) > NEXT_TO_NOTHING * placement->reach)
-        return slack;
+/* The slack and its sign from integers. */
+static int exact_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double *ret_slack) {
     pir_exact_begin(exact, placement->translation);
     uint32_t mark = exact->scratch.used;
     pir_int3 normal = pir_exact_normal(exact, facet->piece), corner = pir_exact_corner(exact, facet->a, facet->b);
     pir_int dot = pir_exact_dot(exact, &normal, &corner);
     pir_real length = pir_exact_length(exact, &normal);
     exact->scratch.used = mark;
-    return pir_real_double(pir_real_times(pir_real_over(pir_real_of(&dot), length), pir_exact_unit(exact)));
+    *ret_slack = pir_real_double(pir_real_times(pir_real_over(pir_real_of(&dot), length), pir_exact_unit(exact)));
+    return pir_int_sign(&dot);
+}
+
+/* By doubles. */
+static double near_slack(const pir_placement *placement, const pir_facet *facet) {
+    return facet->h - pir_vec_dot(facet->n, placement->x);
+}
+
+static int sign_of(double x) {
+    return (x > 0) - (x < 0);
+}
+
+double pir_facet_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet) {
+    double slack = near_slack(placement, facet);
+    if (!(fabs(slack) > PIR_NEXT_TO_NOTHING * placement->reach))
+        exact_slack(exact, placement, facet, &slack);
+    return slack;
 }
 
 /* --- planes across an axis --- */
@@ -396,9 +397,9 @@ static bool side_along_axis(const pir_exact *exact, const pir_placement *placeme
 }
 
 int pir_facet_side(pir_exact *exact, const pir_placement *placement, const pir_facet *facet) {
-    double slack = facet->h - pir_vec_dot(facet->n, placement->x);
+    double slack = near_slack(placement, facet);
     if (fabs(slack) > placement->error * facet->err)
-        return (slack > 0) - (slack < 0);
+        return sign_of(slack);
     int along;
     if (side_along_axis(exact, placement, facet, &along))
         return along;
@@ -408,6 +409,19 @@ int pir_facet_side(pir_exact *exact, const pir_placement *placement, const pir_f
     int sign = pir_exact_dot_sign(exact, &n, &corner);
     exact->scratch.used = mark;
     return sign;
+}
+
+int pir_facet_measure(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double *ret_slack) {
+    double slack = near_slack(placement, facet);
+    *ret_slack = slack;
+    if (fabs(slack) > PIR_NEXT_TO_NOTHING * placement->reach)
+        return fabs(slack) > placement->error * facet->err ? sign_of(slack) : pir_facet_side(exact, placement, facet);
+    int along;
+    if (side_along_axis(exact, placement, facet, &along) && along == 0) {
+        *ret_slack = 0;
+        return 0;
+    }
+    return exact_slack(exact, placement, facet, ret_slack);
 }
 
 int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pir_facet *a, const pir_facet *b) {

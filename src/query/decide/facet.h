@@ -17,6 +17,19 @@
 
 #include "query/decide/piece_plane.h"
 
+/*
+ * The error of a slope. With u = 2^-53, a unit normal is off by at most 64u·err, and by 37u more once rotated back
+ * into P's frame; a unit edge vector is off by 8u; their dot product rounds by 4u. Together that is below 113u·err,
+ * and the bound is 128u·err.
+ */
+#define PIR_SLOPE_BOUND 0x1p-46
+
+/*
+ * Slacks below this, relative to the placement's reach, come from integers. Doubles know them to 2^-46 only, less
+ * than the 12 digits that an answer promises.
+ */
+#define PIR_NEXT_TO_NOTHING 0x1p-30
+
 /* A direction as doubles, and exactly: as the normal of a piece or as integers. */
 typedef struct pir_normal {
     pir_vec3 unit;
@@ -86,6 +99,9 @@ double pir_facet_slack(pir_exact *exact, const pir_placement *placement, const p
 
 /* The exact sign of the slack. */
 int pir_facet_side(pir_exact *exact, const pir_placement *placement, const pir_facet *facet);
+
+/* Both at once, which is less work where they come from integers. Returns the sign. */
+int pir_facet_measure(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double *ret_slack);
 
 /* The exact sign of a's slack minus b's. */
 int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pir_facet *a, const pir_facet *b);

@@ -25,7 +25,11 @@ static double direction_error(double error, double distance) {
 
 bool pir_nearest_at_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                           pir_nearest *ret_nearest) {
-    double slack = pir_facet_slack(exact, placement, facet);
+    return pir_nearest_at_slack(exact, placement, facet, pir_facet_slack(exact, placement, facet), ret_nearest);
+}
+
+bool pir_nearest_at_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
+                          pir_nearest *ret_nearest) {
     if (!pir_touch_facet(exact, placement, facet, slack, NULL, &ret_nearest->touch))
         return false;
     ret_nearest->distance = fmax(0, -slack);

@@ -35,6 +35,10 @@ bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_wit
 bool pir_nearest_at_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                           pir_nearest *ret_nearest);
 
+/* The same where the facet's slack is known, as pir_facet_slack gives it. */
+bool pir_nearest_at_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
+                          pir_nearest *ret_nearest);
+
 /*
  * The nearest point by integers, from any simplex of at least one vertex, given that x is outside of D. False after
  * MOST_STEPS steps.

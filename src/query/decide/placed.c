@@ -94,23 +94,12 @@ pir_real pir_exact_length(pir_exact *exact, const pir_int3 *v) {
     return pir_real_root(pir_real_of(&square));
 }
 
-/* The exponent of the lowest set bit; INT32_MAX for zero. */
-static int low_bit(double x) {
-    if (x == 0)
-        return INT32_MAX;
-    int e;
-    uint64_t mantissa = (uint64_t)ldexp(frexp(fabs(x), &e), 53);
-    for (e -= 53; (mantissa & 1) == 0; e++)
-        mantissa >>= 1;
-    return e;
-}
-
 /* The exponent of the lowest set bit of three numbers, at most 0. */
 static int low_bit_of(pir_vec3 v) {
     const double c[3] = {v.x, v.y, v.z};
     int e = 0;
     for (int k = 0; k < 3; k++)
-        e = low_bit(c[k]) < e ? low_bit(c[k]) : e;
+        e = pir_double_low_bit(c[k]) < e ? pir_double_low_bit(c[k]) : e;
     return e;
 }
 
@@ -161,8 +150,8 @@ bool pir_exact_reserve(pir_exact *exact, const pir_allocator *allocator, const p
 }
 
 bool pir_exact_reserve_limbs(pir_exact *exact, const pir_allocator *allocator, uint32_t need) {
-    exact->made = false;
-    if (exact->scratch.base && need <= exact->scratch.capacity)
+    pir_exact_forget(exact);
+    if (pir_exact_has_limbs(exact, need))
         return true;
     mp_limb_t *limbs = PIR_NEW(allocator, mp_limb_t, need);
     if (!limbs)
@@ -270,9 +259,9 @@ pir_int3 pir_exact_corner(pir_exact *exact, uint32_t a, uint32_t b) {
     pir_int3 turned = pir_int3_take(scratch, turned_length);
     pir_rotation_apply(exact->rotation, &turned, &va, scratch);
     for (int k = 0; k < 3; k++) {
-        pir_int_add_mul(&to.c[k], &turned.c[k], &exact->p, scratch);
-        pir_int_add_mul(&to.c[k], &vb.c[k], &exact->q, scratch);
-        pir_int_sub_mul(&to.c[k], &exact->t.c[k], &exact->k, scratch);
+        const pir_term terms[3] = {
+            {&turned.c[k], &exact->p, false}, {&vb.c[k], &exact->q, false}, {&exact->t.c[k], &exact->k, true}};
+        pir_int_sum(&to.c[k], terms, 3, scratch);
     }
     scratch->used = mark;
     return to;

@@ -62,6 +62,16 @@ void pir_exact_finish(pir_exact *exact, const pir_allocator *allocator);
 uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q);
 bool pir_exact_reserve_limbs(pir_exact *exact, const pir_allocator *allocator, uint32_t limbs);
 
+/* Whether they are reserved already. */
+static inline bool pir_exact_has_limbs(const pir_exact *exact, uint32_t limbs) {
+    return exact->scratch.base && limbs <= exact->scratch.capacity;
+}
+
+/* Forgets the integers of a placement, which belong to another rotation, other bodies or another place. */
+static inline void pir_exact_forget(pir_exact *exact) {
+    exact->made = false;
+}
+
 /* Makes the integers of a translation, unless they are there already. No scratch may be in use. */
 void pir_exact_begin(pir_exact *exact, pir_vec3 translation);
 

@@ -2,13 +2,6 @@
 /* Where faces of P and Q meet: see touch.h. */
 #include "query/decide/touch.h"
 
-/*
- * The error of m·(y − corner) for a unit m = n × e or m = e is less than twice that of a slack. n is off by 64u·err,
- * e by 45u, their product rounds by 4u: together below PIR_SLACK_BOUND·err, u = 2^-53. What m is multiplied with is
- * off by less than PIR_SLACK_BOUND·reach.
- */
-#define SIDE_ERRORS 2
-
 struct touch {
     pir_exact *exact;
     const pir_placement *placement;
@@ -246,9 +239,8 @@ static pir_vec3 crossing_point(const struct touch *touch, uint32_t half_p, uint3
     if (pir_vec_dot(turn, turn) < PIR_SIN_REFINED * PIR_SIN_REFINED)
         part = exact_part(touch, half_p, half_q);
     else
-        part = pir_vec_dot(pir_vec_sub(y, pir_frame_vertex(frame, p->origin[half_p], q->origin[half_q])), across) /
-               pir_vec_dot(d, across);
-    return pir_vec_add(from, pir_vec_scale(d, fmin(1, fmax(0, part))));
+        part = pir_touch_part(pir_vec_sub(y, pir_frame_vertex(frame, p->origin[half_p], q->origin[half_q])), d, across);
+    return pir_touch_along(from, d, part);
 }
 
 /* Whether the edges cross at y, and the least faces that hold it. */
@@ -313,11 +305,11 @@ bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_
                           .normal = normal,
                           .way = way,
                           .x = placement->x,
-                          .error = SIDE_ERRORS * placement->error * normal->err,
+                          .error = PIR_SIDE_ERRORS * placement->error * normal->err,
                           .flat = meeting->flat};
     if (way) {
         touch.x = pir_vec_add(placement->x, pir_vec_scale(way->u, way->at));
-        touch.error += SIDE_ERRORS * (way->error + PIR_SLACK_BOUND * way->at * normal->err);
+        touch.error += PIR_SIDE_ERRORS * (way->error + PIR_SLACK_BOUND * way->at * normal->err);
     }
     if (!find_witness(&touch, meeting->faces, &ret_touch->witness))
         return false;

@@ -17,6 +17,13 @@
 #include "query/decide/facet.h"
 
 /*
+ * The error of m·(y − corner) for a unit m = n × e or m = e is less than twice that of a slack. n is off by 64u·err,
+ * e by 45u, their product rounds by 4u: together below PIR_SLACK_BOUND·err, u = 2^-53. What m is multiplied with is
+ * off by less than PIR_SLACK_BOUND·reach.
+ */
+#define PIR_SIDE_ERRORS 2
+
+/*
  * A way from x. In doubles it ends at y = x + at·u. Exactly, the translation moves along `direction` to the plane
  * with the given normal through corner (a, b) of D.
  */
@@ -48,6 +55,20 @@ typedef struct pir_meeting {
 
 /* Finds where the faces meet. False where y is not on their sum. */
 bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting, pir_touch *ret_touch);
+
+/*
+ * Where the edges of P and Q cross whose sum holds y: the part of Q's edge d at which that is. `from` leads to y from
+ * the corner of D where both edges begin, and `across` is across P's edge and the normal.
+ */
+static inline double pir_touch_part(pir_vec3 from, pir_vec3 d, pir_vec3 across) {
+    return pir_vec_dot(from, across) / pir_vec_dot(d, across);
+}
+
+/* The point at such a part of the edge d that begins at `from`. */
+static inline pir_vec3 pir_touch_along(pir_vec3 from, pir_vec3 d, double part) {
+    double least = part > 0 ? part : 0;
+    return pir_vec_add(from, pir_vec_scale(d, least < 1 ? least : 1));
+}
 
 /* The same for a facet of D. */
 bool pir_touch_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,

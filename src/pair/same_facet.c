@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT */
+/* Facets by doubles alone: see same_facet.h. */
+#include "pair/same_facet.h"
+
+/*
+ * The foot's distance from a side is known to PIR_SIDE_ERRORS of the errors that it is compared with in touch.c. This
+ * many hold as well that a side's unit vector is off.
+ */
+#define MARGIN_ERRORS 16
+
+/* Whether all edges of a vertex, but `except`, certainly fall along n. */
+static inline pir_same all_fall(const pir_polytope *p, uint32_t vertex, uint32_t except, pir_vec3 n, double off) {
+    double most = -HUGE_VAL;
+    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++) {
+        double slope = pir_vec_dot(n, p->direction[h]);
+        most = h != except && slope > most ? slope : most;
+    }
+    return most < -off ? PIR_SAME_PROVEN : most > off ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
+}
+
+/* The vertex uphill from *vertex of which that holds. */
+static inline pir_same find_top(const pir_polytope *p, pir_vec3 n, uint32_t *vertex) {
+    for (uint32_t left = p->vertex_count; left > 0; left--) {
+        double most = -HUGE_VAL;
+        uint32_t best = 0;
+        for (uint32_t h = p->ring_start[*vertex]; h < p->ring_start[*vertex + 1]; h++) {
+            double slope = pir_vec_dot(n, p->direction[h]);
+            best = slope > most ? h : best;
+            most = slope > most ? slope : most;
+        }
+        if (most < -PIR_SLOPE_BOUND)
+            return PIR_SAME_PROVEN;
+        if (!(most > PIR_SLOPE_BOUND))
+            return PIR_SAME_IN_DOUBT;
+        *vertex = p->target[best];
+    }
+    return PIR_SAME_IN_DOUBT;
+}
+
+/* How far `at` is from the nearest side of a body's facet with normal n; negative outside. */
+static double within_facet(const pir_body *body, uint32_t facet, pir_vec3 n, pir_vec3 at) {
+    const pir_polytope *p = body->polytope;
+    double least = HUGE_VAL;
+    for (uint32_t i = p->loop_start[facet]; i < p->loop_start[facet + 1]; i++) {
+        uint32_t half = p->loop[i];
+        pir_vec3 in = pir_vec_cross(n, p->direction[half]);
+        double s = pir_vec_dot(in, pir_vec_sub(at, body->vertex[p->origin[half]]));
+        least = s < least ? s : least;
+    }
+    return least;
+}
+
+/* Sets slack and margin, and tells whether the foot is inside of the rim and x clearly on a side. */
+static inline pir_same measure(const pir_placement *placement, double within, pir_same_facet *same) {
+    const pir_facet *facet = &same->facet;
+    double error = placement->error * facet->err, off = MARGIN_ERRORS * error;
+    same->slack = facet->h - pir_vec_dot(facet->n, placement->x);
+    same->margin = within - off;
+    if (within < -off)
+        return PIR_SAME_NOT;
+    bool clear = fabs(same->slack) > PIR_NEXT_TO_NOTHING * placement->reach && fabs(same->slack) > 2 * error;
+    return clear && within > off ? PIR_SAME_PROVEN : PIR_SAME_IN_DOUBT;
+}
+
+static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    uint32_t f = same->facet.piece.first, b = same->facet.piece.second;
+    pir_vec3 n = pir_mat_apply(&frame->r, p->normal[f]);
+    pir_same exposed = find_top(q, n, &b);
+    if (exposed != PIR_SAME_PROVEN)
+        return exposed;
+    pir_vec3 at = pir_mat_apply_transposed(&frame->r, pir_vec_sub(placement->x, frame->q.vertex[b]));
+    double within = within_facet(&frame->p, f, p->normal[f], at);
+    same->facet.faces = (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}};
+    same->facet.piece.second = b;
+    same->facet.a = p->origin[p->loop[p->loop_start[f]]];
+    same->facet.b = b;
+    same->facet.n = n;
+    same->facet.err = 1;
+    same->facet.h = frame->p.offset[f] + pir_vec_dot(n, frame->q.vertex[b]);
+    same->touch = (pir_touch){same->facet.faces, frame->q.vertex[b]};
+    return measure(placement, within, same);
+}
+
+static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    uint32_t a = same->facet.piece.first, g = same->facet.piece.second;
+    pir_vec3 n = q->normal[g];
+    pir_same exposed = find_top(p, pir_mat_apply_transposed(&frame->r, n), &a);
+    if (exposed != PIR_SAME_PROVEN)
+        return exposed;
+    pir_vec3 turned = pir_mat_apply(&frame->r, frame->p.vertex[a]);
+    double within = within_facet(&frame->q, g, n, pir_vec_sub(placement->x, turned));
+    same->facet.faces = (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}};
+    same->facet.piece.first = a;
+    same->facet.a = a;
+    same->facet.b = q->origin[q->loop[q->loop_start[g]]];
+    same->facet.n = n;
+    same->facet.err = 1;
+    same->facet.h = frame->q.offset[g] + pir_vec_dot(n, turned);
+    pir_same measured = measure(placement, within, same);
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(n, same->slack));
+    same->touch = (pir_touch){same->facet.faces, pir_vec_sub(y, turned)};
+    return measured;
+}
+
+/*
+ * The point where two edges cross. The edge of Q is taken from its vertex of lower number, whichever way its halfedge
+ * leads.
+ */
+static pir_vec3 crossing(const pir_frame *frame, uint32_t edge_q, pir_vec3 a, pir_vec3 e, pir_vec3 n, pir_vec3 y) {
+    const pir_polytope *q = frame->q.polytope;
+    uint32_t half = q->edge_half[edge_q];
+    pir_vec3 from = frame->q.vertex[q->origin[half]], d = pir_vec_sub(frame->q.vertex[q->target[half]], from);
+    double part = pir_touch_part(pir_vec_sub(y, pir_vec_add(a, from)), d, pir_vec_cross(e, n));
+    return pir_touch_along(from, d, part);
+}
+
+static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    uint32_t edge = same->facet.piece.first, half = p->edge_half[edge], other = same->facet.piece.second;
+    pir_vec3 d = q->direction[other], e = pir_mat_apply(&frame->r, p->direction[half]), n = pir_vec_cross(d, e);
+    double square = pir_vec_dot(n, n), err = 1 / sqrt(square);
+    if (square < 4 * PIR_SIN_REFINED * PIR_SIN_REFINED)
+        return PIR_SAME_IN_DOUBT;
+    n = pir_vec_scale(n, err);
+    uint32_t a = p->origin[half], b = q->origin[other];
+    pir_same exposed = all_fall(q, b, other, n, PIR_SLOPE_BOUND * err);
+    if (exposed == PIR_SAME_PROVEN)
+        exposed = all_fall(p, a, half, pir_mat_apply_transposed(&frame->r, n), PIR_SLOPE_BOUND * err);
+    if (exposed != PIR_SAME_PROVEN)
+        return exposed;
+    pir_vec3 from = pir_mat_apply(&frame->r, frame->p.vertex[a]), corner = pir_vec_add(from, frame->q.vertex[b]);
+    // how far the foot is from the sides along d, at either end of P's edge, and from those along e
+    pir_vec3 by_d = pir_vec_cross(n, d), by_e = pir_vec_cross(e, n), w = pir_vec_sub(placement->x, corner);
+    pir_vec3 along_p = pir_mat_apply(&frame->r, pir_vec_sub(frame->p.vertex[p->target[half]], frame->p.vertex[a]));
+    pir_vec3 along_q = pir_vec_sub(frame->q.vertex[q->target[other]], frame->q.vertex[b]);
+    double in_p = pir_vec_dot(by_d, w), in_q = pir_vec_dot(by_e, w);
+    double left_p = pir_vec_dot(by_d, along_p) - in_p, left_q = pir_vec_dot(by_e, along_q) - in_q;
+    double of_p = in_p < left_p ? in_p : left_p, of_q = in_q < left_q ? in_q : left_q;
+    same->facet.faces = (pir_witness){{PIR_FEATURE_EDGE, edge}, {PIR_FEATURE_EDGE, q->edge[other]}};
+    same->facet.a = a;
+    same->facet.b = b;
+    same->facet.n = n;
+    same->facet.err = err;
+    same->facet.h = pir_vec_dot(n, corner);
+    pir_same measured = measure(placement, of_p < of_q ? of_p : of_q, same);
+    if (measured != PIR_SAME_PROVEN)
+        return measured;
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(n, same->slack));
+    same->touch = (pir_touch){same->facet.faces, crossing(frame, q->edge[other], from, e, n, y)};
+    return PIR_SAME_PROVEN;
+}
+
+pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
+                              pir_same_facet *ret_same) {
+    if (frame->p.polytope->artificial || frame->q.polytope->artificial)
+        return PIR_SAME_IN_DOUBT;
+    ret_same->facet.piece = piece;
+    return piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, ret_same)
+           : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, ret_same)
+                                        : prove_ee(frame, placement, ret_same);
+}

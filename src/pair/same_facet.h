@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The facet of a piece by doubles alone, where the foot of x is inside of it.
+ *
+ * Most frames have the features of the frame before. Then doubles prove all that exact signs would: that the piece's
+ * features are exposed by its normal, on which side x is, and that the foot of x is inside of the facet. Where any of
+ * this is in doubt the ways that know integers go on.
+ *
+ * Numbers come from the operations of decide/facet.c and decide/touch.c in their order, so they have the same bits.
+ */
+#ifndef PIR_PAIR_SAME_FACET_H
+#define PIR_PAIR_SAME_FACET_H
+
+#include "query/decide/touch.h"
+
+typedef struct pir_same_facet {
+    pir_facet facet;
+    double slack;
+    double margin; /* the foot of x is at least this far from the rim, above 0 */
+    pir_touch touch;
+} pir_same_facet;
+
+/* Whether the facet is one of D and holds the foot of x. */
+typedef enum pir_same { PIR_SAME_NOT, PIR_SAME_IN_DOUBT, PIR_SAME_PROVEN } pir_same;
+
+/*
+ * `piece` may be one of D at some other placement. A vertex of it is moved to where its facet has it here; the edges of
+ * one of two edges are not.
+ */
+pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
+                              pir_same_facet *ret_same);
+
+#endif

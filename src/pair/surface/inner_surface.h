@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A closed surface of triangles whose corners are vertices of D, about a point of D, its centre.
+ *
+ * Invariants
+ *   - Every directed side (i, j) of a triangle is the side (j, i) of one other.
+ *   - After pir_surface_place has returned true at a placement, det(a, b, c) > 0 for certain for each triangle with the
+ *     corners a, b, c relative to the centre.
+ *
+ * With both, each ray from the centre leaves the surface through a triangle: the surface is a cycle whose
+ * projection on a sphere about the centre covers it at least once. Triangles are parts of D. So a facet of D with
+ * normal n has at least the distance from the centre that the triangle on the ray along n has; and where that
+ * triangle lies in the plane of another facet of D, it has more than that facet.
+ *
+ * A surface need not be convex. It keeps its corners as vertex pairs, which pir_surface_place places again at another
+ * rotation and centre.
+ */
+#ifndef PIR_PAIR_SURFACE_INNER_SURFACE_H
+#define PIR_PAIR_SURFACE_INNER_SURFACE_H
+
+#include "query/frame/frame.h"
+
+/* With v corners a surface like a sphere has 2 v − 4 triangles. */
+#define PIR_SURFACE_CORNERS   32
+#define PIR_SURFACE_TRIANGLES 64
+
+typedef struct pir_surface {
+    uint32_t used; /* a bit for each corner that a triangle has */
+    uint32_t count;
+    uint32_t a[PIR_SURFACE_CORNERS], b[PIR_SURFACE_CORNERS];
+    uint8_t corner[3][PIR_SURFACE_TRIANGLES];
+} pir_surface;
+
+/* The surface at a placement: in the workspace. Loops over triangles take whole lanes of them. */
+typedef struct pir_surface_room {
+    const struct pir_surface_loops *loops;
+    pir_vec3 centre;
+    double det_error, normal_error;    /* of a det, and of a normal's length: see inner_surface.c */
+    double at[PIR_SURFACE_CORNERS][4]; /* corners less the centre; the fourth counts for nothing */
+    double nx[PIR_SURFACE_TRIANGLES], ny[PIR_SURFACE_TRIANGLES], nz[PIR_SURFACE_TRIANGLES]; /* (b − a) × (c − a) */
+    double det[PIR_SURFACE_TRIANGLES];                                                      /* n · a */
+    double low[PIR_SURFACE_TRIANGLES];                        /* the plane is at least this far from the centre */
+    bool has_sides;                                           /* the next is set */
+    uint8_t beside[PIR_SURFACE_CORNERS][PIR_SURFACE_CORNERS]; /* the triangle that has the directed side (i, j) */
+} pir_surface_room;
+
+/* The loops of pir_surface_place, in versions for processors that give the same bits. */
+typedef struct pir_surface_loops {
+    const char *name;
+
+    /* Places the corners that are used. */
+    void (*corners)(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room);
+
+    /* The planes of the triangles from `from` on. Returns whether `low` is positive there. */
+    bool (*planes)(const pir_surface *surface, uint32_t from, pir_surface_room *room);
+
+    /* The triangles whose `low` is at most this: a bit for each. */
+    uint64_t (*below)(const pir_surface *surface, const pir_surface_room *room, double limit);
+
+    /* The least `low`. */
+    double (*least)(const pir_surface *surface, const pir_surface_room *room);
+} pir_surface_loops;
+
+/* Version `index` of those that this build has and this processor runs, the plain one first. NULL past the last. */
+const pir_surface_loops *pir_surface_loops_version(unsigned index);
+
+/* The last of them. */
+const pir_surface_loops *pir_surface_loops_best(void);
+
+/* Empties the surface and gives it the tetrahedron of four vertices of D. */
+void pir_surface_begin(pir_surface *surface, const uint32_t a[4], const uint32_t b[4]);
+
+/*
+ * Places the corners about `centre`, a point of the frame exactly as given that is off by at most `error`. False
+ * where a det is not certain to be positive. `room->loops` is set.
+ */
+bool pir_surface_place(const pir_surface *surface, const pir_frame *frame, pir_vec3 centre, double error, double reach,
+                       pir_surface_room *room);
+
+/* A vertex of D, and where it is, less the centre. */
+typedef struct pir_surface_vertex {
+    uint32_t a, b;
+    pir_vec3 at;
+} pir_surface_vertex;
+
+/*
+ * Adds a vertex of D, in place of triangle t, which it lies beyond, and of others beside that. A vertex that is a
+ * corner already is joined to what is about t. Returns the number of its corner; PIR_SURFACE_CORNERS where no surface
+ * about the centre with certain dets comes of that, or it has no room: then the surface is as it was.
+ */
+uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room);
+
+/* Whether a surface that is placed has room for any vertex that may be added. */
+static inline bool pir_surface_has_room(const pir_surface *surface) {
+    return surface->used != UINT32_MAX;
+}
+
+/*
+ * Takes some of the corners that are farthest from the centre out of a surface that is placed. Its triangles have
+ * other numbers then. False where no certain surface is left without any of them.
+ */
+bool pir_surface_trim(pir_surface *surface, pir_surface_room *room);
+
+/* A bit for each triangle from `from` on. */
+static inline uint64_t pir_surface_from(const pir_surface *surface, uint32_t from) {
+    return UINT64_MAX >> (PIR_SURFACE_TRIANGLES - surface->count) & UINT64_MAX << from;
+}
+
+/* Corner i, and the normal of triangle t. */
+static inline pir_vec3 pir_surface_corner(const pir_surface_room *room, uint32_t i) {
+    return (pir_vec3){room->at[i][0], room->at[i][1], room->at[i][2]};
+}
+
+static inline pir_vec3 pir_surface_normal(const pir_surface_room *room, uint32_t t) {
+    return (pir_vec3){room->nx[t], room->ny[t], room->nz[t]};
+}
+
+/* Whether every directed side has its counterpart: for tests. */
+bool pir_surface_is_valid(const pir_surface *surface);
+
+#endif

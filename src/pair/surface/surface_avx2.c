@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A surface's loops for AVX2, four coordinates or four triangles at a time. Every operation is that of the plain loops
+ * in inner_surface.c, in their order and never fused, so the bits are the same.
+ */
+#include "pair/surface/surface_loops.h"
+
+#if PIR_HAVE_X86_SURFACE
+#include <immintrin.h>
+
+#define AVX2 __attribute__((target("avx2")))
+
+/* A vector of three, the fourth lane being 0. */
+AVX2 static inline __m256d load3(const pir_vec3 *v) {
+    return _mm256_maskload_pd(&v->x, _mm256_set_epi64x(0, -1, -1, -1));
+}
+
+AVX2 static void corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
+    const pir_mat3 *r = &frame->r;
+    const __m256d x = _mm256_set_pd(0, r->m[2][0], r->m[1][0], r->m[0][0]),
+                  y = _mm256_set_pd(0, r->m[2][1], r->m[1][1], r->m[0][1]),
+                  z = _mm256_set_pd(0, r->m[2][2], r->m[1][2], r->m[0][2]), centre = load3(&room->centre);
+    for (uint32_t rest = surface->used; rest; rest &= rest - 1) {
+        uint32_t i = (uint32_t)__builtin_ctz(rest);
+        const pir_vec3 *a = &frame->p.vertex[surface->a[i]];
+        __m256d w = _mm256_add_pd(_mm256_mul_pd(x, _mm256_set1_pd(a->x)), _mm256_mul_pd(y, _mm256_set1_pd(a->y)));
+        w = _mm256_add_pd(w, _mm256_mul_pd(z, _mm256_set1_pd(a->z)));
+        w = _mm256_sub_pd(_mm256_add_pd(w, load3(&frame->q.vertex[surface->b[i]])), centre);
+        _mm256_storeu_pd(room->at[i], w);
+    }
+}
+
+/* One component of a vector for each of four triangles. */
+struct lanes {
+    __m256d x, y, z;
+};
+
+/* The same corner of four triangles. */
+AVX2 static inline struct lanes corner_of(const pir_surface_room *room, const uint8_t *corner) {
+    __m256d a = _mm256_loadu_pd(room->at[corner[0]]), b = _mm256_loadu_pd(room->at[corner[1]]);
+    __m256d c = _mm256_loadu_pd(room->at[corner[2]]), d = _mm256_loadu_pd(room->at[corner[3]]);
+    __m256d xz_ab = _mm256_unpacklo_pd(a, b), y_ab = _mm256_unpackhi_pd(a, b);
+    __m256d xz_cd = _mm256_unpacklo_pd(c, d), y_cd = _mm256_unpackhi_pd(c, d);
+    return (struct lanes){_mm256_permute2f128_pd(xz_ab, xz_cd, 0x20), _mm256_permute2f128_pd(y_ab, y_cd, 0x20),
+                          _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31)};
+}
+
+AVX2 static inline struct lanes less(struct lanes a, struct lanes b) {
+    return (struct lanes){_mm256_sub_pd(a.x, b.x), _mm256_sub_pd(a.y, b.y), _mm256_sub_pd(a.z, b.z)};
+}
+
+AVX2 static inline __m256d dot(struct lanes a, struct lanes b) {
+    __m256d xy = _mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y));
+    return _mm256_add_pd(xy, _mm256_mul_pd(a.z, b.z));
+}
+
+/* a·b − c·d. */
+AVX2 static inline __m256d minor(__m256d a, __m256d b, __m256d c, __m256d d) {
+    return _mm256_sub_pd(_mm256_mul_pd(a, b), _mm256_mul_pd(c, d));
+}
+
+AVX2 static bool planes(const pir_surface *surface, uint32_t from, pir_surface_room *room) {
+    const __m256d det_error = _mm256_set1_pd(room->det_error), normal_error = _mm256_set1_pd(room->normal_error);
+    uint64_t above = 0;
+    for (uint32_t t = from & ~3u; t < surface->count; t += 4) {
+        struct lanes a = corner_of(room, &surface->corner[0][t]);
+        struct lanes e = less(corner_of(room, &surface->corner[1][t]), a);
+        struct lanes f = less(corner_of(room, &surface->corner[2][t]), a);
+        struct lanes n = {minor(e.y, f.z, e.z, f.y), minor(e.z, f.x, e.x, f.z), minor(e.x, f.y, e.y, f.x)};
+        __m256d det = dot(n, a), length = _mm256_sqrt_pd(dot(n, n));
+        __m256d low = _mm256_div_pd(_mm256_sub_pd(det, det_error), _mm256_add_pd(length, normal_error));
+        _mm256_storeu_pd(&room->nx[t], n.x);
+        _mm256_storeu_pd(&room->ny[t], n.y);
+        _mm256_storeu_pd(&room->nz[t], n.z);
+        _mm256_storeu_pd(&room->det[t], det);
+        _mm256_storeu_pd(&room->low[t], low);
+        above |= (uint64_t)_mm256_movemask_pd(_mm256_cmp_pd(low, _mm256_setzero_pd(), _CMP_GT_OQ)) << t;
+    }
+    // past the count there are corners of triangles that are gone
+    return (~above & pir_surface_from(surface, from)) == 0;
+}
+
+AVX2 static uint64_t below(const pir_surface *surface, const pir_surface_room *room, double limit) {
+    const __m256d most = _mm256_set1_pd(limit);
+    uint64_t found = 0;
+    for (uint32_t t = 0; t < surface->count; t += 4)
+        found |= (uint64_t)_mm256_movemask_pd(_mm256_cmp_pd(_mm256_loadu_pd(&room->low[t]), most, _CMP_LE_OQ)) << t;
+    return found & pir_surface_from(surface, 0);
+}
+
+AVX2 static double least(const pir_surface *surface, const pir_surface_room *room) {
+    uint32_t t = 0;
+    __m256d low = _mm256_set1_pd(HUGE_VAL);
+    for (; t + 4 <= surface->count; t += 4)
+        low = _mm256_min_pd(_mm256_loadu_pd(&room->low[t]), low);
+    double of[4], least = HUGE_VAL;
+    _mm256_storeu_pd(of, low);
+    for (int k = 0; k < 4; k++)
+        least = of[k] < least ? of[k] : least;
+    for (; t < surface->count; t++)
+        least = room->low[t] < least ? room->low[t] : least;
+    return least;
+}
+
+const pir_surface_loops pir_surface_avx2 = {"AVX2", corners, planes, below, least};
+#else
+typedef int pir_no_avx2_surface; // a file holds at least a declaration
+#endif

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+/* Answers from what is proven: see task.h. */
+#include "pair/task.h"
+
+#include "pair/foot.h"
+
+void pir_task_keep_facet(pir_pair *pair, const pir_facet *facet) {
+    pair->facet = facet->piece;
+    pair->has_facet = true;
+}
+
+void pir_task_keep_apart(const pir_task *task, double distance) {
+    pir_pair *pair = task->pair;
+    pair->apart = distance;
+    pair->lead.others = 0;
+    pair->at = task->placement->x;
+    pair->turned = task->workspace->rotation.unit;
+}
+
+void pir_task_near(pir_task *task, const pir_nearest *nearest) {
+    pir_query_result *result = task->result;
+    pir_task_keep_apart(task, nearest->distance - PIR_DISTANCE_ERROR * task->placement->reach);
+    if (!(task->want & PIR_WANT_SEPARATION))
+        return;
+    pir_result_separation(&task->workspace->frame, nearest, result);
+    if (result->distance > pir_frame_length(&task->workspace->frame, task->limit))
+        pir_result_beyond(result);
+}
+
+void pir_task_inside(pir_task *task, const pir_facet *facet, double slack) {
+    pir_result_set_state(task->result, PIR_INSIDE);
+    pir_task_keep_facet(task->pair, facet);
+    task->pair->apart = 0;
+    if (!(task->want & PIR_WANT_DEPTH))
+        return;
+    if (task->has_same && pir_facet_same(facet, &task->same.facet))
+        pir_result_depth_at(task->exact->frame, facet->n, slack, &task->same.touch, task->result);
+    else
+        pir_result_depth_of(task->exact, task->placement, facet, slack, task->result);
+}
+
+void pir_task_touching(pir_task *task, const pir_facet *facet) {
+    pir_least touching = {true, *facet};
+    pir_result_set_state(task->result, PIR_BOUNDARY);
+    pir_result_touching(task->exact, task->placement, &touching, task->result);
+    pir_task_keep_facet(task->pair, facet);
+    task->pair->apart = 0;
+}
+
+bool pir_task_settle(pir_task *task, const pir_facet *facet) {
+    const pir_placement *placement = task->placement;
+    double slack;
+    int side = pir_facet_measure(task->exact, placement, facet, &slack);
+    if (side < 0) {
+        pir_nearest nearest;
+        task->is_outside = true;
+        if (!(task->want & PIR_WANT_SEPARATION))
+            return true;
+        if (!pir_nearest_at_slack(task->exact, placement, facet, slack, &nearest))
+            return false;
+        pir_task_near(task, &nearest);
+        return true;
+    }
+    if (!pir_foot_settles(task->exact, placement, facet, slack))
+        return false;
+    if (side > 0)
+        pir_task_inside(task, facet, slack);
+    else
+        pir_task_touching(task, facet);
+    return true;
+}
