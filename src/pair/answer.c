@@ -135,28 +135,35 @@ static bool finish_inside(pir_task *task, const pir_overlap *overlap) {
     return true;
 }
 
+/* The answer from what came of a surface. */
+static bool finish(pir_task *task, const pir_overlap *overlap, pir_about about, const pir_facet *facet) {
+    if (about == PIR_ABOUT_X)
+        return finish_inside(task, overlap);
+    if (about == PIR_ABOUT_NOTHING || !pir_task_settle(task, facet))
+        return false;
+    task->pair->statistics.by_facet++;
+    pir_task_end(task, PIR_LEVEL_NEAR);
+    return true;
+}
+
 static bool by_surface(pir_task *task) {
     const pir_surface *surface = task->pair->surface;
+    pir_facet facet;
     if (!surface || surface->count == 0)
         return false;
     pir_overlap overlap = overlap_of(task);
-    return (pir_overlap_place(&overlap) || pir_overlap_repair(&overlap)) && finish_inside(task, &overlap);
+    return finish(task, &overlap, pir_overlap_place(&overlap) ? PIR_ABOUT_X : pir_overlap_repair(&overlap, &facet),
+                  &facet);
 }
 
 static bool by_new_surface(pir_task *task) {
     const pir_frame *frame = &task->workspace->frame;
     pir_overlap overlap = overlap_of(task);
-    bool done = pir_overlap_begin(&overlap, &task->simplex) && finish_inside(task, &overlap);
+    pir_facet facet;
+    bool done = finish(task, &overlap, pir_overlap_begin(&overlap, &task->simplex, &facet), &facet);
     if (!done) {
         pir_vec3 inner = pir_vec_add(pir_mat_apply(&frame->r, task->pair->body_p->inner), task->pair->body_q->inner);
-        pir_facet facet;
-        bool some;
-        done = pir_overlap_widen(&overlap, inner, &facet, &some) && finish_inside(task, &overlap);
-        if (!done && some) {
-            done = pir_task_settle(task, &facet);
-            task->pair->statistics.by_facet += done;
-            pir_task_end(task, PIR_LEVEL_NEAR);
-        }
+        done = finish(task, &overlap, pir_overlap_widen(&overlap, inner, &facet), &facet);
     }
     if (task->pair->surface && task->pair->level != PIR_LEVEL_OVERLAPPING)
         task->pair->surface->count = 0;

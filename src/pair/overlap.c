@@ -105,13 +105,12 @@ enum expansion { NOTHING_BEYOND, CHANGED, STUCK };
 static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *ret_corner) {
     const pir_frame *frame = overlap->exact->frame;
     pir_vec3 n = pir_surface_normal(overlap->room, t);
-    double length = sqrt(pir_vec_dot(n, n));
-    n = pir_vec_scale(n, 1 / length);
-    uint32_t first = corner_of(overlap, t, 0);
-    uint32_t a = pir_climb(frame->p.polytope, pir_mat_apply_transposed(&frame->r, n), overlap->surface->a[first]);
-    uint32_t b = pir_climb(frame->q.polytope, n, overlap->surface->b[first]);
+    double least = PIR_LEAST_SLOPE * sqrt(pir_vec_dot(n, n));
+    uint32_t first = corner_of(overlap, t, 0), a = overlap->surface->a[first], b = overlap->surface->b[first];
+    a = pir_climb_above(frame->p.polytope, pir_mat_apply_transposed(&frame->r, n), least, a);
+    b = pir_climb_above(frame->q.polytope, n, least, b);
     pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, a, b), overlap->room->centre);
-    if (!(pir_vec_dot(n, w) * length > overlap->room->det[t] + overlap->room->det_error))
+    if (!(pir_vec_dot(n, w) > overlap->room->det[t] + overlap->room->det_error))
         return NOTHING_BEYOND;
     *ret_corner = PIR_SURFACE_CORNERS;
     // room is made first; the vertex comes when the triangle is met again
@@ -138,34 +137,53 @@ static uint32_t least_of(const pir_overlap *overlap) {
     return least != 0 ? (uint32_t)__builtin_ctzll(least) : 0;
 }
 
-bool pir_overlap_repair(const pir_overlap *overlap) {
+/* The facet of D that a triangle lies in which nothing is beyond. */
+static pir_about facet_at(const pir_overlap *overlap, uint32_t t, pir_facet *ret_facet) {
+    pir_piece piece;
+    bool some = piece_at(overlap, t, &piece) && pir_facet_prove(overlap->exact, piece, ret_facet);
+    return some ? PIR_ABOUT_FACET : PIR_ABOUT_NOTHING;
+}
+
+pir_about pir_overlap_repair(const pir_overlap *overlap, pir_facet *ret_facet) {
     for (uint32_t added = 0; added < MOST_REPAIRS; added++) {
         uint32_t t = least_of(overlap), corner;
         if (overlap->room->low[t] > 0)
-            return true;
-        if (expand(overlap, t, &corner) != CHANGED)
-            return false;
+            return PIR_ABOUT_X;
+        enum expansion expansion = expand(overlap, t, &corner);
+        if (expansion == NOTHING_BEYOND)
+            return facet_at(overlap, t, ret_facet);
+        if (expansion == STUCK)
+            return PIR_ABOUT_NOTHING;
     }
-    return overlap->room->low[least_of(overlap)] > 0;
+    return overlap->room->low[least_of(overlap)] > 0 ? PIR_ABOUT_X : PIR_ABOUT_NOTHING;
 }
 
-/* The tetrahedron of four vertices of D about a point; false where that is not certainly inside. */
-static bool begin_about(const pir_overlap *overlap, const uint32_t a[4], const uint32_t b[4], pir_vec3 centre) {
+/* The tetrahedron of four vertices of D, placed about a point. Returns whether that is certainly inside. */
+static bool begin_about(const pir_overlap *overlap, const pir_simplex *simplex, pir_vec3 centre) {
     const pir_placement *placement = overlap->placement;
+    const uint32_t *a = simplex->a, *b = simplex->b;
+    bool certain = false;
     for (int turned = 0; turned < 2; turned++) {
         const uint32_t i = turned ? 1 : 0, j = 1 - i;
         pir_surface_begin(overlap->surface, (const uint32_t[4]){a[i], a[j], a[2], a[3]},
                           (const uint32_t[4]){b[i], b[j], b[2], b[3]});
-        if (pir_surface_place(overlap->surface, overlap->exact->frame, centre, placement->error, placement->reach,
-                              overlap->room))
-            return true;
+        certain = pir_surface_place(overlap->surface, overlap->exact->frame, centre, placement->error,
+                                    placement->reach, overlap->room);
+        // the sum is its volume, six times, wherever the centre is
+        const double *det = overlap->room->det;
+        if (certain || det[0] + det[1] + det[2] + det[3] > 0)
+            break;
     }
-    return false;
+    return certain;
 }
 
-bool pir_overlap_begin(const pir_overlap *overlap, const pir_simplex *simplex) {
+pir_about pir_overlap_begin(const pir_overlap *overlap, const pir_simplex *simplex, pir_facet *ret_facet) {
     overlap->statistics->begun++;
-    return simplex->tried == 4 && begin_about(overlap, simplex->a, simplex->b, overlap->placement->x);
+    if (simplex->tried != 4)
+        return PIR_ABOUT_NOTHING;
+    if (begin_about(overlap, simplex, overlap->placement->x))
+        return PIR_ABOUT_X;
+    return pir_overlap_repair(overlap, ret_facet);
 }
 
 /*
@@ -187,32 +205,26 @@ static uint32_t least_about(const pir_overlap *overlap, pir_vec3 way, double *re
     return least;
 }
 
-bool pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet, bool *ret_some) {
+pir_about pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet) {
     const pir_placement *placement = overlap->placement;
     pir_placement within = *placement;
     pir_simplex simplex = {.count = 0};
     uint32_t steps = 0;
-    *ret_some = false;
     within.x = inner;
     pir_descend_to_point(overlap->exact->frame, &within, 0, &simplex, &steps);
     overlap->statistics->begun++;
-    if (simplex.tried != 4 || !begin_about(overlap, simplex.a, simplex.b, inner))
-        return false;
+    if (simplex.tried != 4 || !begin_about(overlap, &simplex, inner))
+        return PIR_ABOUT_NOTHING;
     pir_vec3 way = pir_vec_sub(placement->x, inner);
     for (uint32_t added = 0; added < MOST_ADDED; added++) {
         double low;
         uint32_t t = least_about(overlap, way, &low), corner;
-        if (low > 0 && pir_overlap_place(overlap))
-            return true;
-        pir_piece piece;
-        if (low <= 0 && expand(overlap, t, &corner) != CHANGED) {
-            *ret_some = piece_at(overlap, t, &piece) && pir_facet_prove(overlap->exact, piece, ret_facet);
-            return false;
-        }
         if (low > 0)
-            return false;
+            return pir_overlap_place(overlap) ? PIR_ABOUT_X : PIR_ABOUT_NOTHING;
+        if (expand(overlap, t, &corner) != CHANGED)
+            return facet_at(overlap, t, ret_facet);
     }
-    return false;
+    return PIR_ABOUT_NOTHING;
 }
 
 /* --- the least facet --- */

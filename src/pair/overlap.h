@@ -25,17 +25,17 @@ typedef struct pir_overlap {
 /* Places the surface about x. True where it is certain: x then is inside. */
 bool pir_overlap_place(const pir_overlap *overlap);
 
-/* Expands a placed surface that x has left until it is about x again. False where none came of it. */
-bool pir_overlap_repair(const pir_overlap *overlap);
+/* What came of a surface: nothing, a facet of D that x is within rounding of or beyond, or a certain one about x. */
+typedef enum pir_about { PIR_ABOUT_NOTHING, PIR_ABOUT_FACET, PIR_ABOUT_X } pir_about;
 
-/* Makes a surface about x from the simplex of a descent; false where that has no certain tetrahedron about x. */
-bool pir_overlap_begin(const pir_overlap *overlap, const pir_simplex *simplex);
+/* Expands a placed surface that x has left. */
+pir_about pir_overlap_repair(const pir_overlap *overlap, pir_facet *ret_facet);
 
-/*
- * Makes a surface about x from one about `inner`, a point inside of D. Where it meets a facet of D that x is within
- * rounding of, or beyond, *ret_piece is that facet, and *ret_some is set. False where no surface about x came of it.
- */
-bool pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet, bool *ret_some);
+/* Makes a surface from the four vertices that a descent ended with, if there are so many. */
+pir_about pir_overlap_begin(const pir_overlap *overlap, const pir_simplex *simplex, pir_facet *ret_facet);
+
+/* Makes a surface about x from one about `inner`, a point inside of D. */
+pir_about pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet);
 
 /*
  * The true facet of least slack, and the first in order of those that tie, from a surface about x; false where it

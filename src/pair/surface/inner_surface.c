@@ -297,20 +297,24 @@ static void list_sides(const pir_surface *surface, uint32_t side[PIR_SURFACE_COR
             side[surface->corner[k][t]] |= 1u << surface->corner[(k + 1) % 3][t];
 }
 
-/* The corner that is farthest from the centre by the least of its triangles, of those that are not `tried`. */
-static uint32_t farthest_corner(const pir_surface *surface, const pir_surface_room *room, uint32_t tried) {
-    double least[PIR_SURFACE_CORNERS];
-    uint32_t farthest = PIR_SURFACE_CORNERS;
+/* How far each corner is from the centre, by the least of its triangles. */
+static void list_distances(const pir_surface *surface, const pir_surface_room *room,
+                           double distance[PIR_SURFACE_CORNERS]) {
     for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
-        least[i] = HUGE_VAL;
+        distance[i] = HUGE_VAL;
     for (uint32_t t = 0; t < surface->count; t++)
         for (int k = 0; k < 3; k++) {
-            double *of = &least[surface->corner[k][t]];
+            double *of = &distance[surface->corner[k][t]];
             *of = room->low[t] < *of ? room->low[t] : *of;
         }
-    for (uint32_t rest = surface->used & ~tried; rest; rest &= rest - 1) {
+}
+
+/* The farthest of these corners; PIR_SURFACE_CORNERS where there are none. */
+static uint32_t farthest_of(uint32_t corners, const double distance[PIR_SURFACE_CORNERS]) {
+    uint32_t farthest = PIR_SURFACE_CORNERS;
+    for (uint32_t rest = corners; rest; rest &= rest - 1) {
         uint32_t i = (uint32_t)__builtin_ctz(rest);
-        if (farthest == PIR_SURFACE_CORNERS || least[i] > least[farthest])
+        if (farthest == PIR_SURFACE_CORNERS || distance[i] > distance[farthest])
             farthest = i;
     }
     return farthest;
@@ -332,16 +336,18 @@ static bool spans(const pir_surface_room *room, const struct rim *rim, uint32_t 
     return true;
 }
 
-/* Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole. */
-static bool take_corner(pir_surface *surface, uint32_t c, pir_surface_room *room) {
+/*
+ * Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole.
+ * `side` is of the surface as it stands.
+ */
+static bool take_corner(pir_surface *surface, uint32_t c, const uint32_t side[], pir_surface_room *room) {
     struct rim rim;
-    uint32_t side[PIR_SURFACE_CORNERS], v = 0;
+    uint32_t v = 0;
     uint64_t gone = 0;
     for (uint32_t t = 0; t < surface->count; t++)
         gone |= (uint64_t)(corners_of(surface, t) >> c & 1) << t;
     if (!list_rim(surface, room, gone, &rim) || rim.count < 3)
         return false;
-    list_sides(surface, side);
     while (v < rim.count && !spans(room, &rim, rim.from[v], side))
         v++;
     if (v == rim.count)
@@ -353,14 +359,17 @@ static bool take_corner(pir_surface *surface, uint32_t c, pir_surface_room *room
 }
 
 bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
-    uint32_t tried = 0, taken = 0;
+    double distance[PIR_SURFACE_CORNERS];
+    uint32_t side[PIR_SURFACE_CORNERS], left = surface->used, taken = 0;
     note_all_sides(surface, room);
-    while (taken < PIR_SURFACE_CORNERS / 4) {
-        uint32_t c = farthest_corner(surface, room, tried);
-        if (c == PIR_SURFACE_CORNERS)
-            break;
-        tried |= 1u << c;
-        taken += take_corner(surface, c, room);
+    list_distances(surface, room, distance);
+    list_sides(surface, side);
+    for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
+        left &= ~(1u << c);
+        if (take_corner(surface, c, side, room)) {
+            taken++;
+            list_sides(surface, side);
+        }
     }
     return taken > 0;
 }
