@@ -167,8 +167,8 @@ static bool begin_about(const pir_overlap *overlap, const pir_simplex *simplex, 
         const uint32_t i = turned ? 1 : 0, j = 1 - i;
         pir_surface_begin(overlap->surface, (const uint32_t[4]){a[i], a[j], a[2], a[3]},
                           (const uint32_t[4]){b[i], b[j], b[2], b[3]});
-        certain = pir_surface_place(overlap->surface, overlap->exact->frame, centre, placement->error,
-                                    placement->reach, overlap->room);
+        certain = pir_surface_place(overlap->surface, overlap->exact->frame, centre, placement->error, placement->reach,
+                                    overlap->room);
         // the sum is its volume, six times, wherever the centre is
         const double *det = overlap->room->det;
         if (certain || det[0] + det[1] + det[2] + det[3] > 0)

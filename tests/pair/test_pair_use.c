@@ -12,7 +12,6 @@
 
 #include <pirouette/pair.h>
 
-#include "pair/surface/inner_surface.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 
@@ -361,138 +360,6 @@ static void a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike(
     pir_polytope_release(p);
 }
 
-/* --- surfaces --- */
-
-static void a_surface_stays_closed_as_vertices_are_added(void **state) {
-    (void)state;
-    for (uint64_t i = 0; i < 40; i++) {
-        test_random random = test_random_case("surfaces", i);
-        pir_surface surface;
-        pir_surface_begin(&surface, (const uint32_t[4]){0, 1, 2, 3}, (const uint32_t[4]){0, 0, 0, 0});
-        assert_true(pir_surface_is_valid(&surface));
-        // points of a sphere about the centre, as vertices of Q with P a point
-        pir_vec3 vertex[40] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, zero = {0, 0, 0};
-        pir_frame frame = {.r = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
-        frame.q.vertex = &zero;
-        frame.p.vertex = vertex;
-        for (int k = 4; k < 40; k++) {
-            pir_vec3 d = test_random_direction(&random);
-            vertex[k] = (pir_vec3){2 * d.x, 2 * d.y, 2 * d.z};
-        }
-        pir_surface_room room = {.loops = pir_surface_loops_best()};
-        uint32_t added = 0;
-        bool certain = pir_surface_place(&surface, &frame, zero, 0x1p-46, 4, &room);
-        if (!certain) {
-            pir_surface_begin(&surface, (const uint32_t[4]){1, 0, 2, 3}, (const uint32_t[4]){0, 0, 0, 0});
-            certain = pir_surface_place(&surface, &frame, zero, 0x1p-46, 4, &room);
-        }
-        assert_true(certain);
-        for (uint32_t k = 4; k < 40; k++) {
-            uint32_t t = 0;
-            double most = -HUGE_VAL;
-            for (uint32_t each = 0; each < surface.count; each++) {
-                double over = room.nx[each] * vertex[k].x + room.ny[each] * vertex[k].y + room.nz[each] * vertex[k].z -
-                              room.det[each];
-                if (over > most)
-                    most = over, t = each;
-            }
-            const pir_surface_vertex next = {k, 0, vertex[k]};
-            added += pir_surface_add(&surface, t, &next, &room) < PIR_SURFACE_CORNERS;
-            expect(pir_surface_is_valid(&surface), "case %llu, vertex %u", (unsigned long long)i, k);
-            for (uint32_t s = 0; s < surface.count; s++)
-                expect(room.low[s] > 0, "case %llu, vertex %u: triangle %u", (unsigned long long)i, k, s);
-        }
-        // what is on a sphere is beyond every surface within, as long as there is room
-        assert_true(added >= PIR_SURFACE_CORNERS - 4);
-    }
-}
-
-/* A surface around the origin whose corners are random points, and a room where it is placed. */
-static void make_surface(test_random *random, pir_surface *surface, pir_vec3 vertex[40], pir_frame *frame,
-                         pir_surface_room *room) {
-    static pir_vec3 zero = {0, 0, 0};
-    *frame = (pir_frame){.r = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
-    frame->q.vertex = &zero;
-    frame->p.vertex = vertex;
-    const pir_vec3 first[4] = {{1, 1, 1}, {-1, -1, 1}, {1, -1, -1}, {-1, 1, -1}};
-    for (int k = 0; k < 40; k++) {
-        pir_vec3 d = test_random_direction(random);
-        vertex[k] = k < 4 ? first[k] : (pir_vec3){2 * d.x, 2 * d.y, 2 * d.z};
-    }
-    pir_surface_begin(surface, (const uint32_t[4]){0, 1, 2, 3}, (const uint32_t[4]){0, 0, 0, 0});
-    assert_true(pir_surface_place(surface, frame, zero, 0x1p-46, 4, room));
-    uint32_t corners = (uint32_t)test_random_between(random, 5, 40);
-    for (uint32_t k = 4; k < corners && pir_surface_has_room(surface); k++)
-        for (uint32_t t = 0; t < surface->count; t++) {
-            const pir_surface_vertex next = {k, 0, vertex[k]};
-            if (pir_vec_dot(pir_surface_normal(room, t), vertex[k]) > room->det[t]) {
-                pir_surface_add(surface, t, &next, room);
-                break;
-            }
-        }
-}
-
-static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **state) {
-    (void)state;
-    if (!pir_surface_loops_version(1))
-        print_message("this processor runs the plain version only\n");
-    for (uint64_t i = 0; i < 60; i++) {
-        test_random random = test_random_case("surface loops", i);
-        pir_vec3 vertex[40];
-        pir_frame frame;
-        pir_surface surface;
-        static pir_surface_room plain, room;
-        plain.loops = pir_surface_loops_version(0);
-        make_surface(&random, &surface, vertex, &frame, &plain);
-        pir_quat q = test_general_rotation(&random);
-        double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, w = q.w, x = q.x, y = q.y, z = q.z;
-        frame.r = (pir_mat3){{{(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n},
-                              {2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n},
-                              {2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n}}};
-        pir_vec3 centre = test_random_direction(&random);
-        bool certain = pir_surface_place(&surface, &frame, centre, 0x1p-46, 4, &plain);
-        for (unsigned version = 1; pir_surface_loops_version(version); version++) {
-            room.loops = pir_surface_loops_version(version);
-            assert_int_equal(pir_surface_place(&surface, &frame, centre, 0x1p-46, 4, &room), certain);
-            double least = room.loops->least(&surface, &room), limits[3] = {least, 0, plain.low[surface.count / 2]};
-            assert_memory_equal(room.nx, plain.nx, surface.count * sizeof *room.nx);
-            assert_memory_equal(room.ny, plain.ny, surface.count * sizeof *room.ny);
-            assert_memory_equal(room.nz, plain.nz, surface.count * sizeof *room.nz);
-            assert_memory_equal(room.det, plain.det, surface.count * sizeof *room.det);
-            assert_memory_equal(room.low, plain.low, surface.count * sizeof *room.low);
-            assert_true(least == plain.loops->least(&surface, &plain));
-            for (int k = 0; k < 3; k++)
-                assert_true(room.loops->below(&surface, &room, limits[k]) ==
-                            plain.loops->below(&surface, &plain, limits[k]));
-        }
-    }
-}
-
-static void a_trimmed_surface_is_closed_about_its_centre(void **state) {
-    (void)state;
-    uint32_t taken = 0;
-    for (uint64_t i = 0; i < 60; i++) {
-        test_random random = test_random_case("trimmed surfaces", i);
-        pir_vec3 vertex[40];
-        pir_frame frame;
-        pir_surface surface;
-        static pir_surface_room room;
-        room.loops = pir_surface_loops_best();
-        make_surface(&random, &surface, vertex, &frame, &room);
-        uint32_t before = (uint32_t)__builtin_popcount(surface.used);
-        bool done = pir_surface_trim(&surface, &room);
-        uint32_t after = (uint32_t)__builtin_popcount(surface.used);
-        expect(done == (after < before) && pir_surface_is_valid(&surface), "case %llu: %u corners, then %u",
-               (unsigned long long)i, before, after);
-        taken += before - after;
-        for (uint32_t t = 0; t < surface.count; t++)
-            expect(room.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);
-        // placed anew it is the same
-        assert_true(pir_surface_place(&surface, &frame, (pir_vec3){0, 0, 0}, 0x1p-46, 4, &room));
-    }
-    assert_true(taken > 200);
-}
-
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -503,9 +370,6 @@ int main(void) {
         cmocka_unit_test(a_common_turn_changes_no_state),
         cmocka_unit_test(posed_pairs_answer_alike_at_all_levels),
         cmocka_unit_test(a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike),
-        cmocka_unit_test(a_surface_stays_closed_as_vertices_are_added),
-        cmocka_unit_test(every_version_of_the_loops_gives_the_bits_of_the_plain_one),
-        cmocka_unit_test(a_trimmed_surface_is_closed_about_its_centre),
     };
     return cmocka_run_group_tests_name("pairs in use", tests, NULL, NULL);
 }
