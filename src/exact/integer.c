@@ -127,36 +127,35 @@ __extension__ typedef __int128 signed_two_limbs;
 typedef uint64_t two_limbs;
 #endif
 
-/* sum += a·b for `length` limbs of a sum modulo 2^(64 · length). */
-static inline void add_row(mp_limb_t *sum, uint32_t length, const mp_limb_t *a, uint32_t na, mp_limb_t b) {
+/* sum += a·b, the sum having room for what is carried. */
+static inline void add_row(mp_limb_t *sum, const mp_limb_t *a, uint32_t na, mp_limb_t b) {
     mp_limb_t carry = 0;
-    uint32_t i = 0;
-    for (; i < na; i++) {
+    for (uint32_t i = 0; i < na; i++) {
         two_limbs t = (two_limbs)a[i] * b + sum[i] + carry;
         sum[i] = (mp_limb_t)t;
         carry = (mp_limb_t)(t >> GMP_NUMB_BITS);
     }
-    for (; carry && i < length; i++) {
-        sum[i] += carry;
-        carry = sum[i] < carry;
+    for (sum += na; carry; sum++) {
+        *sum += carry;
+        carry = *sum < carry;
     }
 }
 
-/* sum −= a·b, the same way. */
-static inline void subtract_row(mp_limb_t *sum, uint32_t length, const mp_limb_t *a, uint32_t na, mp_limb_t b) {
+/* dst = a − b for a ≥ b of `length` limbs. Returns how many limbs it has. */
+static inline int32_t subtract(mp_limb_t *dst, const mp_limb_t *a, const mp_limb_t *b, uint32_t length) {
     mp_limb_t borrow = 0;
-    uint32_t i = 0;
-    for (; i < na; i++) {
-        two_limbs t = (two_limbs)a[i] * b + borrow;
-        mp_limb_t low = (mp_limb_t)t;
-        borrow = (mp_limb_t)(t >> GMP_NUMB_BITS) + (sum[i] < low);
-        sum[i] -= low;
+    int32_t size = 0;
+    for (uint32_t i = 0; i < length; i++) {
+        mp_limb_t less = a[i] - b[i], limb = less - borrow;
+        borrow = (a[i] < b[i]) | (less < borrow);
+        if (limb != 0) {
+            // limbs below that are written, and those above the last that is not zero are not
+            for (; size < (int32_t)i; size++)
+                dst[size] = 0;
+            dst[size++] = limb;
+        }
     }
-    for (; borrow && i < length; i++) {
-        mp_limb_t before = sum[i];
-        sum[i] -= borrow;
-        borrow = before < borrow;
-    }
+    return size;
 }
 
 /* The limbs of the longest product. */
@@ -170,30 +169,24 @@ static uint32_t longest_product(const pir_term *terms, uint32_t count) {
 }
 
 /*
- * The sum in the complement of two. Four products of a length, and a sign, need less than one limb more. Short operands
- * are the common case, and calls of mpn take longer than their work there.
+ * The sum as the difference of those that count and those that count against it. Four products of a length need one
+ * limb more. Short operands are the common case, and calls of mpn take longer than their work there.
  */
 static void sum_short(pir_int *dst, const pir_term *terms, uint32_t count, uint32_t length) {
-    mp_limb_t sum[SHORT_LIMBS];
-    for (uint32_t i = 0; i < length; i++)
-        sum[i] = 0;
+    mp_limb_t sums[2][SHORT_LIMBS] = {{0}};
     for (uint32_t k = 0; k < count; k++) {
         const pir_int *a = terms[k].a, *b = terms[k].b;
         uint32_t na = pir_int_length(a), nb = pir_int_length(b);
-        bool minus = ((a->size < 0) != (b->size < 0)) != terms[k].minus;
+        mp_limb_t *sum = sums[((a->size < 0) != (b->size < 0)) != terms[k].minus];
         for (uint32_t j = 0; j < nb; j++)
-            if (minus)
-                subtract_row(sum + j, length - j, a->limb, na, b->limb[j]);
-            else
-                add_row(sum + j, length - j, a->limb, na, b->limb[j]);
+            add_row(sum + j, a->limb, na, b->limb[j]);
     }
-    bool negative = sum[length - 1] >> (GMP_NUMB_BITS - 1);
-    if (negative)
-        mpn_neg(sum, sum, length);
-    int32_t size = normal_size(sum, length);
-    pir_int_check_room(dst->room, (size_t)size);
-    for (int32_t i = 0; i < size; i++)
-        dst->limb[i] = sum[i];
+    uint32_t top = length;
+    while (top > 0 && sums[0][top - 1] == sums[1][top - 1])
+        top--;
+    bool negative = top > 0 && sums[0][top - 1] < sums[1][top - 1];
+    pir_int_check_room(dst->room, top);
+    int32_t size = subtract(dst->limb, sums[negative], sums[!negative], top);
     dst->size = negative ? -size : size;
 }
 
