@@ -122,7 +122,6 @@ void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs
 /* What holds a product of two limbs. */
 #if GMP_NUMB_BITS == 64
 __extension__ typedef unsigned __int128 two_limbs;
-__extension__ typedef __int128 signed_two_limbs;
 #else
 typedef uint64_t two_limbs;
 #endif
@@ -159,7 +158,7 @@ static inline int32_t subtract(mp_limb_t *dst, const mp_limb_t *a, const mp_limb
 }
 
 /* The limbs of the longest product. */
-static uint32_t longest_product(const pir_term *terms, uint32_t count) {
+static inline uint32_t longest_product(const pir_term *terms, uint32_t count) {
     uint32_t longest = 0;
     for (uint32_t k = 0; k < count; k++) {
         uint32_t length = pir_int_length(terms[k].a) + pir_int_length(terms[k].b);
@@ -169,63 +168,37 @@ static uint32_t longest_product(const pir_term *terms, uint32_t count) {
 }
 
 /*
- * The sum as the difference of those that count and those that count against it. Four products of a length need one
- * limb more. Short operands are the common case, and calls of mpn take longer than their work there.
+ * The sum as the difference of those that count and those that count against it, each in `room` limbs. Four products of
+ * a length need one limb more. Short operands are the common case, and calls of mpn take longer than their work there.
  */
-static void sum_short(pir_int *dst, const pir_term *terms, uint32_t count, uint32_t length) {
-    mp_limb_t sums[2][SHORT_LIMBS] = {{0}};
+static inline void sum_short(pir_int *dst, const pir_term *terms, uint32_t count, uint32_t length, mp_limb_t *sums,
+                             uint32_t room) {
     for (uint32_t k = 0; k < count; k++) {
         const pir_int *a = terms[k].a, *b = terms[k].b;
         uint32_t na = pir_int_length(a), nb = pir_int_length(b);
-        mp_limb_t *sum = sums[((a->size < 0) != (b->size < 0)) != terms[k].minus];
+        mp_limb_t *sum = sums + (((a->size < 0) != (b->size < 0)) != terms[k].minus ? room : 0);
         for (uint32_t j = 0; j < nb; j++)
             add_row(sum + j, a->limb, na, b->limb[j]);
     }
     uint32_t top = length;
-    while (top > 0 && sums[0][top - 1] == sums[1][top - 1])
+    while (top > 0 && sums[top - 1] == sums[room + top - 1])
         top--;
-    bool negative = top > 0 && sums[0][top - 1] < sums[1][top - 1];
+    bool negative = top > 0 && sums[top - 1] < sums[room + top - 1];
     pir_int_check_room(dst->room, top);
-    int32_t size = subtract(dst->limb, sums[negative], sums[!negative], top);
+    int32_t size = subtract(dst->limb, negative ? sums + room : sums, negative ? sums : sums + room, top);
     dst->size = negative ? -size : size;
 }
 
-#if GMP_NUMB_BITS == 64
-/* The same for factors below 2^61, four products of which two limbs hold. False where one is longer. */
-static bool sum_tiny(pir_int *dst, const pir_term *terms, uint32_t count) {
-    signed_two_limbs sum = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        const pir_int *a = terms[k].a, *b = terms[k].b;
-        if (pir_int_length(a) > 1 || pir_int_length(b) > 1)
-            return false;
-        mp_limb_t x = a->size != 0 ? a->limb[0] : 0, y = b->size != 0 ? b->limb[0] : 0;
-        if ((x | y) >> 61)
-            return false;
-        signed_two_limbs product = (signed_two_limbs)((two_limbs)x * y);
-        sum += ((a->size < 0) != (b->size < 0)) != terms[k].minus ? -product : product;
-    }
-    two_limbs size = (two_limbs)(sum < 0 ? -sum : sum);
-    const mp_limb_t limb[2] = {(mp_limb_t)size, (mp_limb_t)(size >> 64)};
-    int32_t length = limb[1] != 0 ? 2 : limb[0] != 0;
-    pir_int_check_room(dst->room, (size_t)length);
-    for (int32_t i = 0; i < length; i++)
-        dst->limb[i] = limb[i];
-    dst->size = sum < 0 ? -length : length;
-    return true;
-}
-#else
-static bool sum_tiny(pir_int *dst, const pir_term *terms, uint32_t count) {
-    (void)dst, (void)terms, (void)count;
-    return false;
-}
-#endif
-
 void pir_int_sum(pir_int *dst, const pir_term *terms, uint32_t count, pir_limbs *scratch) {
-    if (sum_tiny(dst, terms, count))
-        return;
     uint32_t length = longest_product(terms, count) + 1;
+    if (length <= SHORT_LIMBS / 2) {
+        mp_limb_t sums[SHORT_LIMBS] = {0};
+        sum_short(dst, terms, count, length, sums, SHORT_LIMBS / 2);
+        return;
+    }
     if (length <= SHORT_LIMBS) {
-        sum_short(dst, terms, count, length);
+        mp_limb_t sums[2 * SHORT_LIMBS] = {0};
+        sum_short(dst, terms, count, length, sums, SHORT_LIMBS);
         return;
     }
     dst->size = 0;

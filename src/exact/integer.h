@@ -82,6 +82,30 @@ void pir_int_sub(pir_int *dst, const pir_int *a, const pir_int *b);
 void pir_int_add_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
 void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
 
+#if GMP_NUMB_BITS == 64
+/* What holds sums of products of two limbs below 2^61. */
+__extension__ typedef __int128 pir_two_limbs;
+
+/* The integer, where it is below 2^61. */
+static inline bool pir_int_get_short(const pir_int *a, int64_t *ret_value) {
+    uint64_t size = a->size != 0 ? a->limb[0] : 0;
+    if (a->size < -1 || a->size > 1 || size >> 61)
+        return false;
+    *ret_value = a->size < 0 ? -(int64_t)size : (int64_t)size;
+    return true;
+}
+
+/* dst = a; room: two limbs. */
+static inline void pir_int_set_two(pir_int *dst, pir_two_limbs a) {
+    pir_two_limbs size = a < 0 ? -a : a;
+    pir_int_check_room(dst->room, 2);
+    dst->limb[0] = (mp_limb_t)size;
+    dst->limb[1] = (mp_limb_t)(size >> 64);
+    int32_t length = dst->limb[1] != 0 ? 2 : dst->limb[0] != 0;
+    dst->size = a < 0 ? -length : length;
+}
+#endif
+
 /* One product of a sum: a·b, or −a·b where `minus`. */
 typedef struct pir_term {
     const pir_int *a, *b;

@@ -196,6 +196,33 @@ static void set_entry(const pir_int q[4], pir_int *entry, int i, bool transposed
     pir_int_sum(entry, (const pir_term[4]){of_v, of_v, of_w, of_w}, 4, scratch);
 }
 
+#if GMP_NUMB_BITS == 64
+/* M and |q|² where the components of q are short, as they are unless one is far smaller than another. */
+static bool set_short(pir_rotation *rotation) {
+    int64_t q[4];
+    for (int k = 0; k < 4; k++)
+        if (!pir_int_get_short(&rotation->q[k], &q[k]))
+            return false;
+    pir_two_limbs square[4], norm = 0;
+    for (int k = 0; k < 4; k++)
+        norm += square[k] = (pir_two_limbs)q[k] * q[k];
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        pir_two_limbs of_v = (pir_two_limbs)q[i] * q[j], of_w = (pir_two_limbs)q[3] * q[k];
+        pir_int_set_two(&rotation->m[i][i], 2 * (square[i] + square[3]) - norm);
+        pir_int_set_two(&rotation->m[i][j], 2 * (of_v - of_w));
+        pir_int_set_two(&rotation->m[j][i], 2 * (of_v + of_w));
+    }
+    pir_int_set_two(&rotation->norm, norm);
+    return true;
+}
+#else
+static bool set_short(pir_rotation *rotation) {
+    (void)rotation;
+    return false;
+}
+#endif
+
 void pir_rotation_make_exact(pir_rotation *rotation) {
     if (rotation->has_exact)
         return;
@@ -207,20 +234,21 @@ void pir_rotation_make_exact(pir_rotation *rotation) {
         set_product(rotation->factor, q);
     else
         set_integers(rotation->given, q);
+    for (int i = 0; i < 9; i++)
+        rotation->m[i / 3][i % 3] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
+    rotation->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
+    rotation->has_exact = true;
+    if (set_short(rotation))
+        return;
     mp_limb_t product[PIR_MATRIX_LIMBS];
     pir_limbs scratch = {product, 0, PIR_MATRIX_LIMBS};
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3;
-        pir_int *entries[3] = {&rotation->m[i][i], &rotation->m[i][j], &rotation->m[j][i]};
-        for (int k = 0; k < 3; k++)
-            *entries[k] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
-        set_diagonal(q, entries[0], i, &scratch);
-        set_entry(q, entries[1], i, false, &scratch);
-        set_entry(q, entries[2], i, true, &scratch);
+        set_diagonal(q, &rotation->m[i][i], i, &scratch);
+        set_entry(q, &rotation->m[i][j], i, false, &scratch);
+        set_entry(q, &rotation->m[j][i], i, true, &scratch);
     }
-    rotation->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
     set_diagonal(q, &rotation->norm, 3, &scratch);
-    rotation->has_exact = true;
 }
 
 void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch) {
