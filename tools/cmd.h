@@ -6,6 +6,7 @@
 #include "args.h"
 
 int cmd_cgm(const struct args *args);
+int cmd_configuration(const struct args *args);
 int cmd_info(const struct args *args);
 int cmd_query(const struct args *args);
 int cmd_shape(const struct args *args);

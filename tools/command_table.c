@@ -117,6 +117,19 @@ static const struct option slice_options[] = {
     MODEL_OPTIONS,
 };
 
+static const struct option configuration_options[] = {
+    {"--quat", "x,y,z,w", "the robot is turned by this quaternion, of any length but 0"},
+    {"--axis", "x,y,z", "turned about this axis, of any length but 0, ..."},
+    {"--angle", "DEGREES", "... by this angle"},
+    {"--translate", "x,y,z", "moved by this, after turning it"},
+    {"--to", "x,y,z", "ask for the motion that ends at this translation"},
+    {"--to-quat", "x,y,z,w", "ask for the motion that ends at this rotation"},
+    {"--batch", "FILE",
+     "many poses, x,y,z,w,tx,ty,tz a line, or an .npy of such rows; answers go to -o; - is standard input"},
+    {"-o", "FILE.csv", "where the answers of --batch go"},
+    COMMON_OPTIONS,
+};
+
 static const struct option help_options[] = {HELP_OPTION};
 
 const struct command command_table[COMMAND_COUNT] = {
@@ -211,6 +224,21 @@ const struct command command_table[COMMAND_COUNT] = {
                           "the cube about one axis"},
                          {"slice shape:cube shape:gs2 --grid hopf --level 2 --dry-run",
                           "what all rotations, 15 degrees apart, would take"}},
+        },
+    [COMMAND_CONFIGURATION] =
+        {
+            .name = "configuration",
+            .positional = {"FILE.h5"},
+            .required = 1,
+            .summary = "whether a pose of the robot is free or blocked, by the slices of a file",
+            .details =
+                "Free: no piece of the robot overlaps or touches an obstacle. Blocked: some piece does. Unknown: "
+                "the slices prove neither. At the rotation of a slice the state, outside, boundary or inside, is "
+                "exact.",
+            .options = configuration_options,
+            .examples = {{"configuration map.h5 --quat 0,0,1,1 --translate 3,0,0", "one pose"},
+                         {"configuration map.h5 --translate 3,0,0 --to -3,0,0", "a motion, and where it is not free"},
+                         {"configuration map.h5 --batch poses.csv -o answers.csv", "many poses"}},
         },
     [COMMAND_HELP] =
         {

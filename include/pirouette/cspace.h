@@ -289,11 +289,77 @@ typedef struct pir_configuration {
     double turn;            /**< radians, rounded up, from the slice's rotation to the pose's */
 } pir_configuration;
 
-/** The answer for a motion from one pose to another: straight in translation, about one axis in rotation. */
+/**
+ * Classifies a pose by the slices of the nearest rotations.
+ *
+ * At the rotation of a slice (a quaternion that is a multiple of the grid's) the state is exact. Beside it, four
+ * proofs are tried on the four nearest slices: balls around the pieces that are apart; the distance or depth at the
+ * slice, where it exceeds what any point of the piece moves by between the two rotations; a direction of the slice that
+ * separates at the pose; a facet of the slice that, carried to the pose, covers the translation together with a ball
+ * that lies in the difference. What none of them proves is unknown: the pose is nearer to contact than the grid is
+ * fine. The share of such poses falls faster than the grid's spacing; docs/slices.md has figures. pair.h answers all
+ * poses, without slices.
+ *
+ * pose    of the robot.
+ * report  NULL, or filled when the call fails.
+ *
+ * Up to 256 slices, or 16 for each piece pair if that is more, are kept between calls.
+ *
+ * Cost: a query for each pair of pieces whose balls meet, O(log n) steps when warm, O(vertices) near contact; for a
+ * slice that is not kept, that of pir_cspace_sum.
+ *
+ * Errors: those of pir_cspace_sum; PIR_ERR_NOT_FINITE and PIR_ERR_ZERO_QUATERNION of the pose.
+ */
+PIR_API pir_status pir_cspace_classify(pir_cspace *cspace, const pir_pose *pose, pir_report *report,
+                                       pir_configuration *ret_configuration);
+
+/** The answer for a motion from one pose to another. */
 typedef struct pir_cspace_motion {
     pir_verdict verdict; /**< of the whole: free all along, blocked somewhere, else unknown */
-    double from, to;     /**< where the first stretch that is not proven free begins and ends, of 0 to 1 */
+    double from, to;     /**< where the first stretch that is not proven free begins and ends, of 0 to 1; else 0, 0 */
 } pir_cspace_motion;
+
+/**
+ * Classifies all poses of a motion: at time s of 0 to 1 the translation is (1 − s) times that of `from` plus s times
+ * that of `to`, and the robot is turned from the first rotation by s of the angle to the second, the shorter way about
+ * one axis; where both ways are half a turn, the way of the quaternions as they are given.
+ *
+ * Stretches of the motion are halved until what is proven of their middle holds all along them, at most 16 times, and
+ * 4096 poses are asked at most. Up to motion.from the motion is proven free.
+ *
+ * from, to  the poses at its ends.
+ * report    NULL, or filled when the call fails.
+ *
+ * Cost: that of pir_cspace_classify for each pose that is asked.
+ *
+ * Errors: those of pir_cspace_classify.
+ */
+PIR_API pir_status pir_cspace_segment(pir_cspace *cspace, const pir_pose *from, const pir_pose *to, pir_report *report,
+                                      pir_cspace_motion *ret_motion);
+
+/**
+ * Reads poses from a file: seven numbers x,y,z,w,tx,ty,tz a row, the quaternion and the translation. The file is text
+ * or npy, as of pir_grid_read.
+ *
+ * path       of the file, of at most 2 GiB.
+ * allocator  NULL for malloc.
+ * report     NULL, or filled with what, where (line or row) and why when the call fails.
+ * ret_poses  the poses, of which there are *ret_count; pir_cspace_free_poses frees them.
+ *
+ * Cost: O(size of the file).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION,
+ * PIR_ERR_LIMIT, PIR_ERR_UNSUPPORTED (an npy file of another form), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_cspace_read_poses(const char *path, const pir_allocator *allocator, pir_report *report,
+                                         pir_pose **ret_poses, size_t *ret_count);
+
+/**
+ * Frees poses that were read; NULL is accepted.
+ *
+ * poses, count, allocator  as pir_cspace_read_poses gave them, and was given.
+ */
+PIR_API void pir_cspace_free_poses(pir_pose *poses, size_t count, const pir_allocator *allocator);
 
 #ifdef __cplusplus
 }

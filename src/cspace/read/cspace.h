@@ -40,6 +40,9 @@ struct pir_cspace {
     pir_cspace_info info;
     uint64_t units_per_pair;
     pir_cspace_cursor cursor;
+    /* What answers keep between calls, and what frees it; NULL where nothing has been asked. */
+    void *answers;
+    void (*answers_free)(pir_cspace *cspace);
 };
 
 /* Brings the cursor to a slice. Errors as of pir_cspace_slice. */

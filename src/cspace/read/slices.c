@@ -70,6 +70,8 @@ void pir_cspace_close(pir_cspace *cspace) {
         return;
     const pir_allocator a = cspace->allocator;
     pir_cspace_cursor *cursor = &cspace->cursor;
+    if (cspace->answers_free)
+        cspace->answers_free(cspace);
     forget_pair(cspace);
     PIR_FREE(&a, cursor->rotation, cursor->unit.room);
     pir_unit_finish(&cursor->unit, &a);

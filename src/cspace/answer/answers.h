@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* What classifying keeps between calls: the pieces' balls, the slices asked last. */
+#ifndef PIR_CSPACE_ANSWER_ANSWERS_H
+#define PIR_CSPACE_ANSWER_ANSWERS_H
+
+#include "cspace/answer/pair_proof.h"
+
+typedef struct pir_answers {
+    pir_allocator allocator;
+    pir_slice_source source;
+    pir_piece_ball *robot, *obstacle;
+    pir_held held;
+} pir_answers;
+
+/* Borrows all of `source`. PIR_ERR_MEMORY; pir_answers_finish frees whatever there is. */
+pir_status pir_answers_init(pir_answers *answers, const pir_slice_source *source, const pir_allocator *allocator);
+void pir_answers_finish(pir_answers *answers);
+
+/*
+ * What the slices prove of a pose, over all pairs of pieces. It holds as well wherever no point of the robot is farther
+ * than *ret_gap, or as far, from its place in the pose. Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, those
+ * of queries, of reading slices.
+ */
+pir_status pir_answers_classify(pir_answers *answers, const pir_pose *pose, pir_report *report,
+                                pir_configuration *ret_configuration, double *ret_gap);
+
+#endif

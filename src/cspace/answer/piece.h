@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* A convex piece with a ball around it. */
+#ifndef PIR_CSPACE_ANSWER_PIECE_H
+#define PIR_CSPACE_ANSWER_PIECE_H
+
+#include <pirouette/polytope.h>
+
+/* The unit of rounding. */
+#define PIR_ROUNDING 0x1p-53
+
+typedef struct pir_piece_ball {
+    const pir_polytope *polytope; /* borrowed */
+    pir_vec3 centre;              /* in the hull but for rounding, near the middle of the least ball around it */
+    double radius;                /* no vertex is farther from the centre */
+    double reach;                 /* no vertex is farther from the origin */
+} pir_piece_ball;
+
+/* The length of a vector, also where its square is beyond the doubles. */
+double pir_safe_length(pir_vec3 v);
+
+/* O(n) for n vertices. */
+pir_piece_ball pir_piece_ball_of(const pir_polytope *polytope);
+
+#endif

@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Poses and motions asked of files: the answers are those of the sums themselves, and files that were cut short or
+ * changed are refused or answer rightly.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cspace/answer_world.h"
+#include "support/memory.h"
+#include "support/vectors.h"
+
+static char folder[] = "classify-XXXXXX";
+
+static const char *path_of(const char *name) {
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void make_file(const answer_world *world, const char *name) {
+    const pir_cspace_bodies bodies = {world->robot, world->robot_count, world->obstacle, world->obstacle_count};
+    pir_cspace_options options = pir_cspace_options_default();
+    options.slices_per_unit = 16;
+    options.slices_per_key = 8;
+    pir_cspace_job *job = NULL;
+    pir_report report = {0};
+    expect(pir_cspace_job_create(&bodies, world->grid, path_of(name), &options, &report, &job) == PIR_OK, "%s",
+           report.text);
+    expect(pir_cspace_job_run(job, &report) == PIR_OK, "%s", report.text);
+    expect(pir_cspace_job_assemble(job, &report) == PIR_OK, "%s", report.text);
+    pir_cspace_job_destroy(job);
+}
+
+static pir_cspace *open_file(const char *name) {
+    pir_cspace *cspace = NULL;
+    pir_report report = {0};
+    expect(pir_cspace_open(path_of(name), NULL, &report, &cspace) == PIR_OK, "%s", report.text);
+    return cspace;
+}
+
+static pir_grid *make_grid(int which) {
+    pir_grid *grid = NULL;
+    pir_quat list[12];
+    test_random random = test_random_case("list", 0);
+    for (int i = 0; i < 12; i++) {
+        pir_vec3 v = test_random_direction(&random);
+        list[i] = (pir_quat){v.x, v.y, v.z, 3 * test_random_unit(&random)};
+    }
+    pir_status status = which == 0   ? pir_grid_axis((pir_vec3){1, 1, 0}, 40, NULL, &grid)
+                        : which == 1 ? pir_grid_hopf(0, NULL, &grid)
+                                     : pir_grid_list(list, 12, 0, NULL, &grid);
+    assert_int_equal(status, PIR_OK);
+    return grid;
+}
+
+/* Every field of an answer, but what padding holds. */
+static int same_answer(const pir_configuration *a, const pir_configuration *b) {
+    return a->verdict == b->verdict && a->place.robot == b->place.robot && a->place.obstacle == b->place.obstacle &&
+           a->place.slice == b->place.slice && a->on_grid == b->on_grid && a->state == b->state && a->turn == b->turn;
+}
+
+static void a_file_answers_as_the_sums_do(void **state) {
+    (void)state;
+    for (int kind = 0; kind < WORLD_KINDS; kind++) {
+        answer_world world;
+        answer_world_init(&world, kind, make_grid(kind % 3));
+        make_file(&world, "whole.h5");
+        pir_cspace *cspace = open_file("whole.h5");
+        const uint64_t count = pir_cspace_get_info(cspace).grid.count;
+        for (uint32_t i = 0; i < 120; i++) {
+            test_random random = test_random_case("file", (uint64_t)kind << 32 | i);
+            pir_pose from = answer_world_pose(&world, &random), to = answer_world_pose(&world, &random);
+            if (i % 4 == 0)
+                from.rotation = pir_grid_rotation(world.grid, test_random_below(&random, (uint32_t)count));
+            pir_configuration sums, file;
+            pir_report report = {0};
+            double gap;
+            assert_int_equal(pir_answers_classify(&world.answers, &from, NULL, &sums, &gap), PIR_OK);
+            expect(pir_cspace_classify(cspace, &from, &report, &file) == PIR_OK, "%s", report.text);
+            expect(same_answer(&sums, &file), "world %d pose %u", kind, i);
+            assert_true(file.verdict == PIR_VERDICT_UNKNOWN ||
+                        (file.verdict == PIR_VERDICT_FREE) == (answer_world_state(&world, &from) == PIR_OUTSIDE));
+            if (i % 20 != 0)
+                continue;
+            pir_cspace_motion of_sums, of_file;
+            assert_int_equal(pir_answers_segment(&world.answers, &from, &to, NULL, &of_sums), PIR_OK);
+            expect(pir_cspace_segment(cspace, &from, &to, &report, &of_file) == PIR_OK, "%s", report.text);
+            assert_true(of_sums.verdict == of_file.verdict && of_sums.from == of_file.from && of_sums.to == of_file.to);
+        }
+        pir_cspace_close(cspace);
+        answer_world_finish(&world);
+    }
+}
+
+/* --- files that are broken --- */
+
+struct bytes {
+    uint8_t *data;
+    size_t size;
+};
+
+static struct bytes load(const char *name) {
+    FILE *file = fopen(path_of(name), "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    struct bytes bytes = {.size = (size_t)ftell(file)};
+    rewind(file);
+    bytes.data = malloc(bytes.size);
+    assert_int_equal(fread(bytes.data, 1, bytes.size, file), bytes.size);
+    fclose(file);
+    return bytes;
+}
+
+static void save(const char *name, const uint8_t *data, size_t size) {
+    FILE *file = fopen(path_of(name), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    fclose(file);
+}
+
+/* Asks a file that may be broken: 1 where it answers, always rightly; 0 where it says what is wrong. */
+static int ask_broken(answer_world *world, const pir_pose *poses, const pir_state *states, int count) {
+    pir_cspace *cspace = NULL;
+    pir_report report = {0};
+    pir_status status = pir_cspace_open(path_of("broken.h5"), NULL, &report, &cspace);
+    if (status == PIR_OK && pir_cspace_get_info(cspace).robot_count != world->robot_count)
+        status = PIR_ERR_FORMAT;
+    int right = 0;
+    for (int i = 0; status == PIR_OK && i < count; i++) {
+        pir_configuration answer;
+        status = pir_cspace_classify(cspace, &poses[i], &report, &answer);
+        if (status == PIR_OK)
+            right += answer.verdict == PIR_VERDICT_UNKNOWN ||
+                     (answer.verdict == PIR_VERDICT_FREE) == (states[i] == PIR_OUTSIDE);
+    }
+    pir_cspace_close(cspace);
+    if (status == PIR_OK)
+        assert_int_equal(right, count);
+    else
+        assert_true(report.status == status && report.text[0] != '\0');
+    return status == PIR_OK;
+}
+
+static void broken_files_are_refused_or_right(void **state) {
+    (void)state;
+    answer_world world;
+    answer_world_init(&world, 1, make_grid(0));
+    make_file(&world, "whole.h5");
+    struct bytes whole = load("whole.h5");
+    pir_pose poses[12];
+    pir_state states[12];
+    for (uint32_t i = 0; i < 12; i++) {
+        test_random random = test_random_case("broken", i);
+        poses[i] = answer_world_pose(&world, &random);
+        poses[i].rotation = pir_grid_rotation(world.grid, 3 * i);
+        states[i] = answer_world_state(&world, &poses[i]);
+    }
+    save("broken.h5", whole.data, whole.size);
+    assert_true(ask_broken(&world, poses, states, 12));
+    uint32_t answered = 0, refused = 0;
+    for (uint32_t i = 0; i < 60; i++) {
+        // cut short
+        save("broken.h5", whole.data, whole.size * i / 60);
+        refused += !ask_broken(&world, poses, states, 12);
+    }
+    assert_int_equal(refused, 60);
+    for (uint32_t i = 0; i < 400; i++) {
+        test_random random = test_random_case("changed file", i);
+        uint8_t *data = malloc(whole.size);
+        memcpy(data, whole.data, whole.size);
+        for (uint32_t k = 0; k <= i % 3; k++) {
+            size_t at = test_random_bits(&random) % whole.size;
+            data[at] =
+                i % 2 ? (uint8_t)(data[at] ^ 1u << test_random_below(&random, 8)) : (uint8_t)test_random_bits(&random);
+        }
+        save("broken.h5", data, whole.size);
+        free(data);
+        if (ask_broken(&world, poses, states, 12))
+            answered++;
+        else
+            refused++;
+    }
+    printf("# 400 changed files: %u refused, %u answer rightly\n", refused - 60, answered);
+    assert_true(refused > 100);
+    free(whole.data);
+    answer_world_finish(&world);
+}
+
+static void bad_arguments_are_refused(void **state) {
+    (void)state;
+    answer_world world;
+    answer_world_init(&world, 0, make_grid(0));
+    make_file(&world, "whole.h5");
+    pir_cspace *cspace = open_file("whole.h5");
+    pir_configuration answer;
+    pir_cspace_motion motion;
+    pir_report report = {0};
+    const pir_pose pose = {{0, 0, 0, 1}, {0, 0, 0}}, none = {{0, 0, 0, 0}, {0, 0, 0}};
+    assert_int_equal(pir_cspace_classify(NULL, &pose, &report, &answer), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_cspace_classify(cspace, NULL, NULL, &answer), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_cspace_segment(cspace, &pose, NULL, NULL, &motion), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_cspace_classify(cspace, &none, &report, &answer), PIR_ERR_ZERO_QUATERNION);
+    assert_string_equal(report.text, "the pose: zero quaternion");
+    assert_int_equal(pir_cspace_segment(cspace, &pose, &none, &report, &motion), PIR_ERR_ZERO_QUATERNION);
+    pir_cspace_close(cspace);
+    answer_world_finish(&world);
+}
+
+static void no_memory_is_a_status(void **state) {
+    (void)state;
+    answer_world world;
+    answer_world_init(&world, 3, make_grid(0));
+    make_file(&world, "whole.h5");
+    const pir_pose pose = {{0.1, 0.2, 0.3, 1}, {0.2, 0.4, 0}};
+    uint32_t failures = 0;
+    for (uint64_t n = 1;; n++) {
+        test_memory memory = {.fail_at = n};
+        pir_allocator allocator = test_allocator(&memory);
+        pir_cspace *cspace = NULL;
+        pir_configuration answer;
+        pir_report report = {0};
+        pir_status status = pir_cspace_open(path_of("whole.h5"), &allocator, &report, &cspace);
+        if (status == PIR_OK)
+            status = pir_cspace_classify(cspace, &pose, &report, &answer);
+        assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && report.text[0] != '\0'));
+        pir_cspace_close(cspace);
+        assert_true(memory.blocks == 0 && !memory.wrong_size && !memory.overrun);
+        if (status == PIR_OK)
+            break;
+        failures++;
+    }
+    assert_true(failures > 20);
+    answer_world_finish(&world);
+}
+
+static void poses_are_read(void **state) {
+    (void)state;
+    static const char text[] = "x,y,z,w,tx,ty,tz\n0,0,0,1,1,2,3\n1,0,0,0,-1,-2,-3\n";
+    save("poses.csv", (const uint8_t *)text, sizeof text - 1);
+    pir_pose *poses = NULL;
+    size_t count = 0;
+    pir_report report = {0};
+    assert_int_equal(pir_cspace_read_poses(path_of("poses.csv"), NULL, &report, &poses, &count), PIR_OK);
+    assert_true(count == 2 && poses[1].rotation.x == 1 && poses[1].translation.z == -3);
+    pir_cspace_free_poses(poses, count, NULL);
+    static const char zero[] = "0,0,0,1,1,2,3\n0,0,0,0,1,2,3\n", wild[] = "0 0 0 1 inf 0 0\n", few[] = "0,0,0,1\n";
+    save("poses.csv", (const uint8_t *)zero, sizeof zero - 1);
+    assert_int_equal(pir_cspace_read_poses(path_of("poses.csv"), NULL, &report, &poses, &count),
+                     PIR_ERR_ZERO_QUATERNION);
+    assert_non_null(strstr(report.text, "poses.csv:2: the quaternion 0, 0, 0, 0 is no rotation"));
+    save("poses.csv", (const uint8_t *)wild, sizeof wild - 1);
+    assert_int_equal(pir_cspace_read_poses(path_of("poses.csv"), NULL, &report, &poses, &count), PIR_ERR_NOT_FINITE);
+    save("poses.csv", (const uint8_t *)few, sizeof few - 1);
+    assert_int_equal(pir_cspace_read_poses(path_of("poses.csv"), NULL, &report, &poses, &count), PIR_ERR_FORMAT);
+    assert_non_null(strstr(report.text, "poses.csv:1: 4 numbers, not 7: x,y,z,w,tx,ty,tz"));
+    for (uint64_t n = 1;; n++) {
+        test_memory memory = {.fail_at = n};
+        pir_allocator allocator = test_allocator(&memory);
+        save("poses.csv", (const uint8_t *)text, sizeof text - 1);
+        pir_status status = pir_cspace_read_poses(path_of("poses.csv"), &allocator, &report, &poses, &count);
+        if (status == PIR_OK)
+            pir_cspace_free_poses(poses, count, &allocator);
+        assert_true(memory.blocks == 0 && (status == PIR_OK || status == PIR_ERR_MEMORY));
+        if (status == PIR_OK)
+            break;
+    }
+    pir_cspace_free_poses(NULL, 0, NULL);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    static const char *const names[] = {"whole.h5", "broken.h5", "poses.csv"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        unlink(path_of(names[i]));
+    return rmdir(folder);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_answers_as_the_sums_do),
+        cmocka_unit_test(broken_files_are_refused_or_right),
+        cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(no_memory_is_a_status),
+        cmocka_unit_test(poses_are_read),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
