@@ -229,7 +229,8 @@ static void no_memory_is_a_status(void **state) {
             status = pir_cspace_classify(cspace, &pose, &report, &answer);
         assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && report.text[0] != '\0'));
         pir_cspace_close(cspace);
-        assert_true(memory.blocks == 0 && !memory.wrong_size && !memory.overrun);
+        expect(memory.blocks == 0 && !memory.wrong_size && !memory.overrun, "request %llu: %zu blocks, wrong size %d",
+               (unsigned long long)n, memory.blocks, memory.wrong_size);
         if (status == PIR_OK)
             break;
         failures++;

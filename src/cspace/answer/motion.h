@@ -3,7 +3,7 @@
 #ifndef PIR_CSPACE_ANSWER_MOTION_H
 #define PIR_CSPACE_ANSWER_MOTION_H
 
-#include "cspace/answer/answers.h"
+#include "cspace/answer/pose_answers.h"
 
 /* What the slices prove of the motion between two poses. Errors as of pir_answers_classify. */
 pir_status pir_answers_segment(pir_answers *answers, const pir_pose *from, const pir_pose *to, pir_report *report,

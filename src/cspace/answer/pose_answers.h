@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What classifying keeps between calls: the pieces' balls, the slices asked last. */
-#ifndef PIR_CSPACE_ANSWER_ANSWERS_H
-#define PIR_CSPACE_ANSWER_ANSWERS_H
+#ifndef PIR_CSPACE_ANSWER_POSE_ANSWERS_H
+#define PIR_CSPACE_ANSWER_POSE_ANSWERS_H
 
 #include "cspace/answer/pair_proof.h"
 

@@ -3,7 +3,7 @@
  * Classifying a pose: blocked as soon as one pair of pieces is, free when all pairs are. A pair that its balls do not
  * part is asked at the slices of the nearest rotations, the nearest first, until one proves something.
  */
-#include "cspace/answer/answers.h"
+#include "cspace/answer/pose_answers.h"
 
 #include <math.h>
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * A ball around a piece: its centre begins at the mean of the vertices and moves towards the farthest vertex by ever
- * smaller parts of the way (Badoiu and Clarkson, Smaller core-sets for balls, SODA 2003); the best place is kept. A vertex is rounded to the nearest double, so it is off by up to
- * u of its length; radius and reach are rounded up by more than that and what sums and roots are off by.
+ * smaller parts of the way (Badoiu and Clarkson, Smaller core-sets for balls, SODA 2003); the best place is kept. A
+ * vertex is rounded to the nearest double, so it is off by up to u of its length; radius and reach are rounded up by
+ * more than that and what sums and roots are off by.
  */
-#include "cspace/answer/piece.h"
+#include "cspace/answer/piece_ball.h"
 
 #include <math.h>
 

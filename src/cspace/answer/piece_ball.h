@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A convex piece with a ball around it. */
-#ifndef PIR_CSPACE_ANSWER_PIECE_H
-#define PIR_CSPACE_ANSWER_PIECE_H
+#ifndef PIR_CSPACE_ANSWER_PIECE_BALL_H
+#define PIR_CSPACE_ANSWER_PIECE_BALL_H
 
 #include <pirouette/polytope.h>
 
