@@ -71,13 +71,13 @@ class Configuration(CommandTest):
         through = self.ask("--quat=0,0,1,1", "--translate=0.25,-2,0", "--to=0.25,2,0")
         self.assertEqual((through["verdict"], through["from"], through["to"]), ("free", 0, 0))
         # across, the arm of the L meets a wall; without a turn the middle of the way is blocked
-        across = self.ask("--translate=0,-2,0", "--to=0,2,0")
+        across = self.ask("--translate=0.125,-2,0", "--to=0.125,2,0")
         self.assertEqual(across["verdict"], "blocked")
         self.assertTrue(0 < across["from"] < across["to"] < 1)
         turning = self.ask("--quat=0,0,1,1", "--translate=0,0,0", "--to-quat=0,0,0,1")
         self.assertEqual((turning["verdict"], turning["to_quat"], turning["to_translation"]),
                          ("blocked", [0, 0, 0, 1], [0, 0, 0]))
-        text = self.good("configuration", self.slices, "--translate=0,-2,0", "--to=0,2,0")
+        text = self.good("configuration", self.slices, "--translate=0.125,-2,0", "--to=0.125,2,0")
         self.assertIn("the motion is blocked", text)
         self.assertIn("of the way", text)
 
