@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * write_slices FILE.h5: the slices of a robot of two boxes, an L, among two walls, at 40 turns about z. A file for tests
+ * write_slices FILE.h5: the slices of a robot of two boxes, an L, among two walls, at 40 turns about z. For tests
  * of the command.
  */
 #include <stdio.h>
