@@ -13,5 +13,6 @@ int cmd_shape(const struct args *args);
 int cmd_slice(const struct args *args);
 int cmd_sum(const struct args *args);
 int cmd_track(const struct args *args);
+int cmd_view(const struct args *args);
 
 #endif

@@ -130,6 +130,18 @@ static const struct option configuration_options[] = {
     COMMON_OPTIONS,
 };
 
+static const struct option view_options[] = {
+    {"-o", "FILE",
+     "what to make: .off, .obj, .stl or .ply, one difference; .svg, a contact sheet; .html, a page with a slider; "
+     ".vtkhdf, for ParaView"},
+    {"--slice", "K", "only slice K, counted from 0"},
+    {"--every", "K", "slices 0, K, 2K, ... (as few as make at most 60 views of a sheet, 2000 of a page)"},
+    {"--pair", "P,Q", "of a mesh: which piece of the robot and which of the obstacles, counted from 0 (0,0)"},
+    {"--exact", NULL, "of a mesh in .off: integers and a/b instead of doubles"},
+    {"--planar", "z=NUMBER", "of a sheet: planar sections instead of bodies, where x, y or z is this"},
+    COMMON_OPTIONS,
+};
+
 static const struct option help_options[] = {HELP_OPTION};
 
 const struct command command_table[COMMAND_COUNT] = {
@@ -239,6 +251,20 @@ const struct command command_table[COMMAND_COUNT] = {
             .examples = {{"configuration map.h5 --quat 0,0,1,1 --translate 3,0,0", "one pose"},
                          {"configuration map.h5 --translate 3,0,0 --to -3,0,0", "a motion, and where it is not free"},
                          {"configuration map.h5 --batch poses.csv -o answers.csv", "many poses"}},
+        },
+    [COMMAND_VIEW] =
+        {
+            .name = "view",
+            .positional = {"FILE.h5"},
+            .required = 1,
+            .summary = "slices of a file as a mesh, a contact sheet, a page with a slider, or a file for ParaView",
+            .details = "A sheet and a page show the differences of all pairs of pieces, what is behind others hidden. "
+                       "A file of "
+                       "VTK holds a partition and a step for each slice, with the pair and the kind of each facet.",
+            .options = view_options,
+            .examples = {{"view slices.h5 -o sheet.svg", "a grid of small views"},
+                         {"view slices.h5 -o slices.html", "a page that needs nothing else"},
+                         {"view slices.h5 --slice 17 --pair 0,0 -o one.ply", "one difference as a mesh"}},
         },
     [COMMAND_HELP] =
         {
