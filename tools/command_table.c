@@ -249,7 +249,7 @@ const struct command command_table[COMMAND_COUNT] = {
                 "exact.",
             .options = configuration_options,
             .examples = {{"configuration slices.h5 --quat 0,0,1,1 --translate 3,0,0", "one pose"},
-                         {"configuration slices.h5 --translate 3,0,0 --to -3,0,0", "a motion, and where it is not free"},
+                         {"configuration slices.h5 --translate 3,0,0 --to -3,0,0", "a motion, where it is not free"},
                          {"configuration slices.h5 --batch poses.csv -o answers.csv", "many poses"}},
         },
     [COMMAND_VIEW] =

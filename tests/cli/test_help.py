@@ -31,7 +31,7 @@ def run(*args):
 def subcommands():
     """The names that the help lists."""
     listed = run("--help").stdout.split("subcommands:\n")[1].split("\n\n")[0]
-    return re.findall(r"^  ([a-z]+) ", listed, re.M)
+    return re.findall(r"^  ([a-z]+)(?: |$)", listed, re.M)
 
 
 def plain(text):

@@ -193,7 +193,7 @@ class Progress(CommandTest):
         running.terminate()
         running.wait()
         shown += read_terminal(master, 1)
-        done = [int(n) for n in re.findall(rb"(\d+) of %d, \d+ s left" % total, shown)]
+        done = [int(n) for n in re.findall(rb"(\d+) of %d, [0-9.e+]+ a second, \d+ s left" % total, shown)]
         self.assertGreaterEqual(len(done), 2, shown[:300])
         self.assertTrue(all(a < b <= total for a, b in zip(done, done[1:])), done)
         # whole lines, each with its end

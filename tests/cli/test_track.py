@@ -360,7 +360,8 @@ class Terminal(CommandTest):
         running.terminate()
         running.wait()
         shown += read_terminal(master, 1)
-        bars = re.findall(rb"\r\[([#.]{30})\] +(\d+) %  (\d+) of 5000000, (\d+) s left\033\[K", shown)
+        bars = re.findall(rb"\r\[([#.]{30})\] +(\d+) %  (\d+) of 5000000, [0-9.e+]+ a second, (\d+) s left"
+                          rb"\033\[K", shown)
         self.assertGreaterEqual(len(bars), 3)
         self.assertTrue(0.9 < waited < 15)
         before = 0

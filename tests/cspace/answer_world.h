@@ -6,7 +6,7 @@
 #ifndef PIR_TEST_ANSWER_WORLD_H
 #define PIR_TEST_ANSWER_WORLD_H
 
-#include "cspace/answer/motion.h"
+#include "cspace/answer/pose_motion.h"
 #include "support/random.h"
 
 #define WORLD_PIECES 3

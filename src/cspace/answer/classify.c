@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Poses and motions, asked of a file of slices. What is kept between calls is made by the first one. */
 #include "base/report.h"
-#include "cspace/answer/motion.h"
+#include "cspace/answer/pose_motion.h"
 #include "cspace/read/cspace.h"
 
 static pir_status make_sum(void *context, pir_cspace_place place, pir_report *report, pir_sum **ret_sum) {

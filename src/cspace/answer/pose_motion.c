@@ -15,7 +15,7 @@
  * Stretches are taken from left to right. One that is still open at DEEPEST, or when POSES poses have been asked, is
  * left unproven. A stretch that is blocked all along, by the same bound, is not halved.
  */
-#include "cspace/answer/motion.h"
+#include "cspace/answer/pose_motion.h"
 
 #include <math.h>
 
