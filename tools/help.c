@@ -8,7 +8,7 @@
 #define COLUMNS 80
 /* Where the text of an option and of a subcommand begins. */
 #define OPTION_INDENT  28
-#define SUMMARY_INDENT 11
+#define SUMMARY_INDENT 17
 
 /* Prints the words of a text, the cursor being at column `at`; lines after the first begin at column `indent`. */
 static void print_wrapped(const char *text, size_t at, size_t indent) {

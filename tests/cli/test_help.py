@@ -31,7 +31,7 @@ def run(*args):
 def subcommands():
     """The names that the help lists."""
     listed = run("--help").stdout.split("subcommands:\n")[1].split("\n\n")[0]
-    return re.findall(r"^  ([a-z]+)(?: |$)", listed, re.M)
+    return re.findall(r"^  ([a-z]+) ", listed, re.M)
 
 
 def plain(text):
@@ -99,7 +99,7 @@ class Help(unittest.TestCase):
             for paragraph in self.help(*args)[:-1].split("\n\n"):
                 heading, *rest = paragraph.split("\n", 1)
                 if heading == "subcommands:":
-                    expected = [wrapped(f"  {name}", text, 11) for name, text in re.findall(
+                    expected = [wrapped(f"  {name}", text, 17) for name, text in re.findall(
                         r"^  (\S+) +(.*(?:\n {8}.*)*)", rest[0], re.M)]
                 elif heading == "options:":
                     expected = [wrapped(f"  {left}", text, 28) for left, text in option_table(paragraph).items()]
