@@ -85,11 +85,14 @@ static pir_vec3 point_of_answer(const struct manifold *m, double radius_q) {
     return pir_vec_sub(y, c);
 }
 
-static void begin(struct manifold *m, const pir_placement *placement) {
-    const pir_frame *frame = m->frame;
-    m->p = &m->room->p;
-    m->q = &m->room->q;
-    m->n = m->answer->normal;
+static void begin(struct manifold *m, const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
+                  const pir_query_result *answer) {
+    m->frame = frame;
+    m->room = room;
+    m->answer = answer;
+    m->p = &room->p;
+    m->q = &room->q;
+    m->n = answer->normal;
     set_patch(m->q, frame->q.polytope, frame->q.vertex, m->n);
     set_patch(m->p, frame->p.polytope, frame->p.vertex, pir_vec_scale(m->n, -1));
     // P is stored reflected
@@ -294,6 +297,38 @@ static bool make_contact(const struct manifold *m, const pir_corner *corner, pir
     return true;
 }
 
+/* Puts the answer as the first contact. `own` of `corners` is its corner, where there is one. */
+static size_t put_answer(const struct manifold *m, const pir_manifold_ask *ask, uint32_t own, uint32_t corners,
+                         pir_contact *ret_contacts) {
+    const pir_query_result *answer = m->answer;
+    if (ask->capacity > 0) {
+        uint64_t id = own < corners ? corner_id(m, &m->room->shared[own]) : answer_id(m, corners == 0);
+        ret_contacts[0] = (pir_contact){answer->point_p, answer->point_q, answer->distance, id};
+    }
+    return 1;
+}
+
+/* Puts all contacts, as far as there is room for them, and returns their number. */
+static size_t put_contacts(struct manifold *m, const pir_placement *placement, const pir_manifold_ask *ask,
+                           pir_contact *ret_contacts) {
+    set_measures(m, ask->input, placement);
+    uint32_t corners = overlap_singles(m);
+    m->is_single = corners != PIR_CLIP_UNCLEAR;
+    corners = m->is_single ? corners : overlap(m);
+    uint32_t own = corner_of_answer(m, corners);
+    size_t count = put_answer(m, ask, own, corners, ret_contacts);
+    for (uint32_t i = own < corners; i < corners; i++) {
+        pir_contact contact;
+        uint32_t k = own == corners ? i : (own + i) % corners;
+        if (!make_contact(m, &m->room->shared[k], &contact))
+            continue;
+        if (count < ask->capacity)
+            ret_contacts[count] = contact;
+        count++;
+    }
+    return count;
+}
+
 pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
                              const pir_manifold_ask *ask, pir_contact *ret_contacts, size_t *ret_count) {
     const pir_query_result *answer = ask->answer;
@@ -306,31 +341,11 @@ pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placem
         *ret_count = 0;
         return PIR_OK;
     }
-    struct manifold m = {.frame = frame, .room = room, .answer = answer};
-    begin(&m, placement);
-    uint32_t corners = 0;
-    if (!is_alone(&m)) {
-        set_measures(&m, ask->input, placement);
-        corners = overlap_singles(&m);
-        m.is_single = corners != PIR_CLIP_UNCLEAR;
-        corners = m.is_single ? corners : overlap(&m);
-    }
-    uint32_t own = corner_of_answer(&m, corners);
-    const pir_corner *corner = room->shared;
-    size_t count = 0;
-    for (uint32_t i = 0; i < corners + (own == corners); i++) {
-        pir_contact contact = {answer->point_p, answer->point_q, answer->distance, 0};
-        uint32_t k = own == corners ? i - 1 : (own + i) % corners;
-        if (i == 0)
-            contact.id = own == corners ? answer_id(&m, corners == 0) : corner_id(&m, &corner[own]);
-        else if (!make_contact(&m, &corner[k], &contact))
-            continue;
-        if (count < ask->capacity)
-            ret_contacts[count] = contact;
-        count++;
-    }
-    *ret_count = count;
-    return count <= ask->capacity ? PIR_OK : PIR_ERR_LIMIT;
+    struct manifold m;
+    begin(&m, frame, placement, room, answer);
+    *ret_count =
+        is_alone(&m) ? put_answer(&m, ask, 0, 0, ret_contacts) : put_contacts(&m, placement, ask, ret_contacts);
+    return *ret_count <= ask->capacity ? PIR_OK : PIR_ERR_LIMIT;
 }
 
 pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,

@@ -34,24 +34,11 @@ void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator,
 
 /* --- the body as it stands --- */
 
-pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v) {
-    pir_vec3 x = patch->vertex[v];
-    if (patch->r)
-        x = pir_mat_apply(patch->r, x);
-    return pir_vec_add(pir_vec_scale(x, patch->sign), patch->at);
-}
-
 static pir_vec3 normal_of(const pir_patch *patch, uint32_t f) {
     pir_vec3 n = patch->polytope->normal[f];
     if (patch->r)
         n = pir_mat_apply(patch->r, n);
     return pir_vec_scale(n, patch->sign);
-}
-
-pir_vec3 pir_patch_to_body(const pir_patch *patch, pir_vec3 d) {
-    if (patch->r)
-        d = pir_mat_apply_transposed(patch->r, d);
-    return pir_vec_scale(d, patch->sign);
 }
 
 /* --- growing --- */

@@ -83,10 +83,19 @@ bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, s
 void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
 
 /* A direction of the queries' frame in the body's own frame. */
-pir_vec3 pir_patch_to_body(const pir_patch *patch, pir_vec3 d);
+static inline pir_vec3 pir_patch_to_body(const pir_patch *patch, pir_vec3 d) {
+    if (patch->r)
+        d = pir_mat_apply_transposed(patch->r, d);
+    return pir_vec_scale(d, patch->sign);
+}
 
 /* Vertex v in its place, in the frame of queries. */
-pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v);
+static inline pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v) {
+    pir_vec3 x = patch->vertex[v];
+    if (patch->r)
+        x = pir_mat_apply(patch->r, x);
+    return pir_vec_add(pir_vec_scale(x, patch->sign), patch->at);
+}
 
 /*
  * Grows the patch from a feature of the body, whose index must be in range, along edges that are nearly across `out`.
