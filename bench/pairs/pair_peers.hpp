@@ -28,7 +28,12 @@ class PairPeer {
 
 std::unique_ptr<PairPeer> make_coal(const pir_polytope *p, const pir_polytope *q, bool warm);
 
-// Null for hulls that it does not take.
-std::unique_ptr<PairPeer> make_box3d(const pir_polytope *p, const pir_polytope *q);
+// The distance up to which contacts are asked for: 2 % of the size.
+inline double contact_cutoff(const pir_polytope *p, const pir_polytope *q) {
+    return 0.02 * (size_of(p) + size_of(q));
+}
+
+// Null for hulls that it does not take. `scaled`: see peer_box3d.cpp.
+std::unique_ptr<PairPeer> make_box3d(const pir_polytope *p, const pir_polytope *q, bool scaled);
 
 #endif
