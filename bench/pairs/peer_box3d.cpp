@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// box3d: b3CollideHulls with a kept cache, in floats, with a manifold; hulls of at most 128 edges. It looks for contacts
-// up to 0.02 units and takes contacts for the same within 0.005, whatever the bodies' size is. So there are two of it:
-// one with the bodies as they are, one with bodies scaled to where 0.02 is the cutoff of ours.
+// box3d: b3CollideHulls with a kept cache, in floats, with a manifold; hulls of at most 128 edges. It looks for
+// contacts up to 0.02 units and takes contacts for the same within 0.005, whatever the bodies' size is. So there are
+// two of it: one with the bodies as they are, one with bodies scaled to where 0.02 is the cutoff of ours.
 #include <box3d/box3d.h>
 #include <box3d/collision.h>
 
