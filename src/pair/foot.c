@@ -49,9 +49,12 @@ static double margin_along(const struct face *face, const struct face *other, pi
     for (uint32_t i = 0; face->count > 1 && i < face->count; i++) {
         pir_vec3 in = pir_vec_cross(n, face->along[i]);
         double least = HUGE_VAL;
-        for (uint32_t k = 0; k < other->count; k++)
-            least = fmin(least, pir_vec_dot(in, other->at[k]));
-        margin = fmin(margin, pir_vec_dot(in, pir_vec_sub(y, face->at[i])) - least);
+        for (uint32_t k = 0; k < other->count; k++) {
+            double along = pir_vec_dot(in, other->at[k]);
+            least = along < least ? along : least;
+        }
+        double within = pir_vec_dot(in, pir_vec_sub(y, face->at[i])) - least;
+        margin = within < margin ? within : margin;
     }
     return margin;
 }
@@ -64,7 +67,8 @@ static double margin_of(const pir_frame *frame, const pir_facet *facet, pir_vec3
     struct face p, q;
     if (!make_face(&frame->p, &frame->r, facet->faces.p, &p) || !make_face(&frame->q, NULL, facet->faces.q, &q))
         return -1;
-    return fmin(margin_along(&p, &q, facet->n, y), margin_along(&q, &p, facet->n, y));
+    double of_p = margin_along(&p, &q, facet->n, y), of_q = margin_along(&q, &p, facet->n, y);
+    return of_p < of_q ? of_p : of_q;
 }
 
 /* How far below F a vertex of D on the other side is. */

@@ -64,10 +64,8 @@ static int exact_position(const struct touch *touch, struct side side, bool alon
 }
 
 /* The sign of m·(y − corner (a, b)), m = n × e. */
-static int position(const struct touch *touch, struct side side, uint32_t a, uint32_t b) {
-    const pir_frame *frame = touch->exact->frame;
-    pir_vec3 m = pir_vec_cross(touch->normal->unit, direction_of(frame, side));
-    double s = pir_vec_dot(m, pir_vec_sub(touch->x, pir_frame_vertex(frame, a, b)));
+static inline int position(const struct touch *touch, struct side side, pir_vec3 m, uint32_t a, uint32_t b) {
+    double s = pir_vec_dot(m, pir_vec_sub(touch->x, pir_frame_vertex(touch->exact->frame, a, b)));
     if (fabs(s) > touch->error)
         return (s > 0) - (s < 0);
     return exact_position(touch, side, false, a, b);
@@ -84,10 +82,10 @@ struct point {
     uint32_t fixed; /* the vertex of the other body */
 };
 
-static struct point point_less(const struct touch *touch, bool of_q, uint32_t fixed) {
+static inline struct point point_less(const struct touch *touch, const pir_view *view, uint32_t fixed) {
     const pir_frame *frame = touch->exact->frame;
-    struct point point = {.touch = touch, .view = pir_view_of(frame, touch->normal, of_q), .fixed = fixed};
-    if (of_q) {
+    struct point point = {.touch = touch, .view = *view, .fixed = fixed};
+    if (view->of_q) {
         point.vertex = frame->q.vertex;
         point.at = pir_vec_sub(touch->x, pir_mat_apply(&frame->r, frame->p.vertex[fixed]));
     } else {
@@ -143,11 +141,12 @@ static bool on_facet(const struct point *point, uint32_t facet, pir_feature *ret
 }
 
 /* Whether y minus the other body's vertex `fixed` lies on the face, and the least face that holds it. */
-static bool on_face(const struct touch *touch, bool of_q, pir_feature face, uint32_t fixed, pir_feature *ret_least) {
+static bool on_face(const struct touch *touch, const pir_view *view, pir_feature face, uint32_t fixed,
+                    pir_feature *ret_least) {
     *ret_least = face;
     if (face.kind == PIR_FEATURE_VERTEX)
         return true;
-    struct point point = point_less(touch, of_q, fixed);
+    struct point point = point_less(touch, view, fixed);
     return face.kind == PIR_FEATURE_FACET ? on_facet(&point, face.index, ret_least)
                                           : on_edge(&point, face.index, ret_least);
 }
@@ -187,12 +186,9 @@ static uint32_t next_edge(const pir_polytope *p, pir_feature face, uint32_t last
 
 /* --- edges that cross --- */
 
-/* The sign of n·(d × e). */
-static int turn_of(const struct touch *touch, uint32_t half_p, uint32_t half_q) {
+/* The sign of n·(d × e), for the directions d and e of two halfedges. */
+static int turn_of(const struct touch *touch, uint32_t half_p, uint32_t half_q, pir_vec3 e, pir_vec3 d) {
     pir_exact *exact = touch->exact;
-    const pir_frame *frame = exact->frame;
-    pir_vec3 d = frame->q.polytope->direction[half_q],
-             e = pir_mat_apply(&frame->r, frame->p.polytope->direction[half_p]);
     double s = pir_vec_dot(touch->normal->unit, pir_vec_cross(d, e));
     if (fabs(s) > 2 * PIR_SLACK_BOUND * touch->normal->err)
         return (s > 0) - (s < 0);
@@ -247,15 +243,21 @@ static pir_vec3 crossing_point(const struct touch *touch, uint32_t half_p, uint3
 static bool edges_cross(const struct touch *touch, uint32_t e, uint32_t d, pir_witness *ret_witness) {
     const pir_polytope *p = touch->exact->frame->p.polytope, *q = touch->exact->frame->q.polytope;
     struct side of_p = {false, p->edge_half[e]}, of_q = {true, q->edge_half[d]};
-    int turn = turn_of(touch, of_p.half, of_q.half);
+    pir_vec3 along_p = direction_of(touch->exact->frame, of_p), along_q = direction_of(touch->exact->frame, of_q);
+    int turn = turn_of(touch, of_p.half, of_q.half, along_p, along_q);
     if (turn == 0)
         return false;
+    pir_vec3 n = touch->normal->unit, across_p = pir_vec_cross(n, along_p), across_q = pir_vec_cross(n, along_q);
     uint32_t a[2] = {p->origin[of_p.half], p->target[of_p.half]}, b[2] = {q->origin[of_q.half], q->target[of_q.half]};
-    int after_a = turn * position(touch, of_q, a[0], b[0]);
-    int before_a = turn * position(touch, of_q, a[1], b[0]);
-    int after_b = -turn * position(touch, of_p, a[0], b[0]);
-    int before_b = -turn * position(touch, of_p, a[0], b[1]);
-    if (after_a < 0 || before_a > 0 || after_b < 0 || before_b > 0)
+    int after_a = turn * position(touch, of_q, across_q, a[0], b[0]);
+    if (after_a < 0)
+        return false;
+    int before_a = turn * position(touch, of_q, across_q, a[1], b[0]);
+    if (before_a > 0)
+        return false;
+    int after_b = -turn * position(touch, of_p, across_p, a[0], b[0]);
+    int before_b = -turn * position(touch, of_p, across_p, a[0], b[1]);
+    if (after_b < 0 || before_b > 0)
         return false;
     ret_witness->p = after_a == 0    ? (pir_feature){PIR_FEATURE_VERTEX, a[0]}
                      : before_a == 0 ? (pir_feature){PIR_FEATURE_VERTEX, a[1]}
@@ -274,15 +276,17 @@ static bool find_witness(const struct touch *touch, pir_witness faces, pir_witne
     // edges that are not parallel meet in one point
     if (two_edges && touch->flat)
         return edges_cross(touch, faces.p.index, faces.q.index, ret_witness);
+    const pir_view of_p = pir_view_of(touch->exact->frame, touch->normal, false);
     if (faces.p.kind != PIR_FEATURE_VERTEX || faces.q.kind == PIR_FEATURE_VERTEX)
         for (uint32_t b = next_vertex(q, faces.q, UINT32_MAX); b != UINT32_MAX; b = next_vertex(q, faces.q, b))
-            if (on_face(touch, false, faces.p, b, &ret_witness->p)) {
+            if (on_face(touch, &of_p, faces.p, b, &ret_witness->p)) {
                 ret_witness->q = (pir_feature){PIR_FEATURE_VERTEX, b};
                 return true;
             }
+    const pir_view of_q = pir_view_of(touch->exact->frame, touch->normal, true);
     if (faces.q.kind != PIR_FEATURE_VERTEX)
         for (uint32_t a = next_vertex(p, faces.p, UINT32_MAX); a != UINT32_MAX; a = next_vertex(p, faces.p, a))
-            if (on_face(touch, true, faces.q, a, &ret_witness->q)) {
+            if (on_face(touch, &of_q, faces.q, a, &ret_witness->q)) {
                 ret_witness->p = (pir_feature){PIR_FEATURE_VERTEX, a};
                 return true;
             }
