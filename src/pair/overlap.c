@@ -312,8 +312,8 @@ static double bound_of(const pir_overlap *overlap, const pir_least *least) {
 }
 
 /*
- * A distance from x beyond which all triangles are that do not lie in the least facet: what a lead over three times its
- * slack would be worth is never used.
+ * A distance from x beyond which all triangles are that do not lie in the least facet. It is cut at three times the
+ * bound on the least slack, which few frames notice: what has moved that far mostly needs another proof anyway.
  */
 static double others_than(const pir_overlap *overlap, uint32_t corners, double bound) {
     double others = 3 * bound;
