@@ -4,6 +4,7 @@
  * with a proof at this placement, or leaves the question open for the next.
  *
  *   - certificate: the proven distance of an earlier answer, less the motion since;
+ *   - axis: the direction in which the last answer was apart by more than the cutoff (apart.c);
  *   - same facet: the facet of the last answer, proven again by doubles (same_facet.h). Where it separates, it is the
  *     nearest; where x is within it, foot.h or lead.h tell whether it is the least;
  *   - surface: that of the last answer, placed again and mended (overlap.h);
@@ -12,6 +13,7 @@
  *   - a new surface: from the descent's last simplex, or widened from one about a point inside of D;
  *   - whole: the difference (whole.c).
  */
+#include "pair/apart.h"
 #include "pair/foot.h"
 #include "pair/overlap.h"
 #include "pair/task.h"
@@ -179,7 +181,7 @@ static bool allows(const pir_pair *pair, pir_level level) {
 
 static bool by_need(pir_task *task) {
     pir_pair *pair = task->pair;
-    if (allows(pair, PIR_LEVEL_APART) && by_certificate(task)) {
+    if (allows(pair, PIR_LEVEL_APART) && (by_certificate(task) || pir_task_apart(task))) {
         pair->statistics.by_certificate++;
         pir_task_end(task, PIR_LEVEL_APART);
         return true;

@@ -66,6 +66,21 @@ static pir_vec3 inner_of(const pir_body *body) {
     return pir_vec_scale(sum, 1 / all);
 }
 
+/* The least sine by which an edge falls along the mean of the normals at its vertex. */
+static double point_of(const pir_polytope *p) {
+    double least = 1;
+    for (uint32_t v = 0; v < p->vertex_count && p->dimension == 3; v++) {
+        pir_vec3 sum = {0, 0, 0};
+        double most = -1;
+        for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++)
+            sum = pir_vec_add(sum, p->normal[p->left[h]]);
+        for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++)
+            most = fmax(most, pir_vec_dot(sum, p->direction[h]));
+        least = fmin(least, -most / sqrt(pir_vec_dot(sum, sum)));
+    }
+    return p->dimension == 3 && least > 0x1p-20 ? least * (1 - 0x1p-20) : 0;
+}
+
 static pir_status make_body(pir_polytope *p, int exponent, pir_pair_body **ret_body) {
     const pir_allocator *a = &p->allocator;
     pir_pair_body *made = PIR_ZEROED(a, pir_pair_body, 1);
@@ -85,6 +100,7 @@ static pir_status make_body(pir_polytope *p, int exponent, pir_pair_body **ret_b
         return status;
     }
     made->inner = inner_of(&made->body);
+    made->point = point_of(p);
     *ret_body = made;
     return PIR_OK;
 }

@@ -14,6 +14,7 @@ typedef struct pir_pair_body {
     pir_attachment attachment;
     pir_body body;
     pir_vec3 inner; /* a point of it, inside where it has an inside, and of no symmetry */
+    double point;   /* along some direction all edges of a vertex fall by this sine at least; 0 where not known */
 } pir_pair_body;
 
 /* The exponent of its size; INT_MIN for a point. PIR_ERR_MEMORY. */

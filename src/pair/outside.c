@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Descent from the features of the last answer to the nearest point: see answer.c. */
+#include "pair/apart.h"
 #include "pair/same_facet.h"
 #include "pair/task.h"
 #include "query/decide/witness.h"
@@ -61,22 +62,6 @@ static void recall_simplex(const pir_task *task, pir_simplex *simplex) {
 }
 
 /* --- what is proven at its end --- */
-
-/* The farthest of all vertices along n. */
-static double farthest(const pir_body *body, pir_vec3 n) {
-    double most = -HUGE_VAL;
-    for (uint32_t v = 0; v < body->polytope->vertex_count; v++)
-        most = fmax(most, pir_vec_dot(n, body->vertex[v]));
-    return most;
-}
-
-/* A distance from D that is certain, along the direction of a descent. */
-static double certain_distance(const pir_task *task) {
-    const pir_frame *frame = &task->workspace->frame;
-    pir_vec3 n = task->simplex.direction;
-    double support = farthest(&frame->p, pir_mat_apply_transposed(&frame->r, n)) + farthest(&frame->q, n);
-    return pir_vec_dot(n, task->placement->x) - support - 2 * task->placement->error;
-}
 
 /* The piece that two features make, with its normal along n. */
 static bool piece_of(const pir_frame *frame, pir_witness faces, const pir_simplex *simplex, pir_piece *ret_piece) {
@@ -175,15 +160,18 @@ bool pir_task_descend(pir_task *task) {
     if (far && !beyond && prove(task, &nearest)) {
         pir_task_near(task, &nearest);
     } else {
-        double distance = simplex->lower > 0 ? certain_distance(task) : 0;
+        double distance = simplex->lower > 0 ? pir_task_certain(task, simplex->direction, simplex->lower) : 0;
         if (!task->is_outside && !(distance > 0))
             return false;
         if (distance > 0)
             pir_task_keep_apart(task, distance);
-        if ((task->want & PIR_WANT_SEPARATION) && distance > task->limit + error)
+        if (pir_task_is_beyond(task, distance)) {
             pir_result_beyond(task->result);
-        else
+            pir_task_keep_axis(task, simplex->direction);
+            task->pair->has_facet = false;
+        } else {
             finish_outside(task);
+        }
     }
     keep_simplex(task->pair, simplex);
     task->pair->statistics.by_descent++;

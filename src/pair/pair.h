@@ -30,11 +30,13 @@ struct pir_pair {
     uint8_t least, most, level;           /* pir_level */
 
     /* hints */
-    bool has_facet, deep; /* the facet below; the surface */
-    uint8_t points;       /* of the simplex below */
+    bool has_facet, has_axis, deep; /* the facet, the axis below; the surface */
+    uint8_t points;                 /* of the simplex below */
     uint32_t a[3], b[3];
-    pir_piece facet;      /* of the last answer; its corner may have changed */
-    pir_surface *surface; /* made when first needed; used where `deep` */
+    pir_piece facet;         /* of the last answer; its corner may have changed */
+    pir_vec3 axis;           /* unit; x was apart along it by more than the cutoff */
+    uint32_t axis_a, axis_b; /* the supports there */
+    pir_surface *surface;    /* made when first needed; used where `deep` */
 
     /* a proof at a place: x had at least this distance from D, or the lead; 0 where there is none */
     double apart;

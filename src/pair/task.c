@@ -2,6 +2,7 @@
 /* Answers from what is proven: see task.h. */
 #include "pair/task.h"
 
+#include "pair/apart.h"
 #include "pair/foot.h"
 
 void pir_task_keep_facet(pir_pair *pair, const pir_facet *facet) {
@@ -23,8 +24,10 @@ void pir_task_near(pir_task *task, const pir_nearest *nearest) {
     if (!(task->want & PIR_WANT_SEPARATION))
         return;
     pir_result_separation(&task->workspace->frame, nearest, result);
-    if (result->distance > pir_frame_length(&task->workspace->frame, task->limit))
+    if (result->distance > pir_frame_length(&task->workspace->frame, task->limit)) {
         pir_result_beyond(result);
+        pir_task_keep_axis(task, nearest->normal);
+    }
 }
 
 void pir_task_inside(pir_task *task, const pir_facet *facet, double slack) {

@@ -19,20 +19,21 @@
 #include "support/bodies.h"
 
 #define FRAMES 60
+#define ROOM   64
 
 struct motion {
     uint64_t number;
     pir_polytope *p, *q;
     pir_sum *sum;
     pir_query *query;
-    pir_pair *pair;
+    pir_pair *pair, *near; /* without and with a cutoff */
     pir_workspace *workspace;
     double size;
 };
 
 /* What all motions together have used. */
 static pir_pair_statistics used;
-static uint64_t inside_by_facet;
+static uint64_t inside_by_facet, apart;
 
 static bool same_result(const pir_query_result *a, const pir_query_result *b) {
     return a->state == b->state && a->outcome == b->outcome && memcmp(&a->distance, &b->distance, 8) == 0 &&
@@ -40,6 +41,34 @@ static bool same_result(const pir_query_result *a, const pir_query_result *b) {
            memcmp(&a->point_q, &b->point_q, 24) == 0 && a->witness.p.kind == b->witness.p.kind &&
            a->witness.q.kind == b->witness.q.kind && a->witness.p.index == b->witness.p.index &&
            a->witness.q.index == b->witness.q.index;
+}
+
+static bool same_contact(const pir_contact *a, const pir_contact *b) {
+    return a->id == b->id && memcmp(&a->distance, &b->distance, 8) == 0 && memcmp(&a->point_p, &b->point_p, 24) == 0 &&
+           memcmp(&a->point_q, &b->point_q, 24) == 0;
+}
+
+/* The pair with a cutoff and its contacts, the sum being there. */
+static void check_near(struct motion *motion, int frame, pir_pair_input input) {
+    pir_query_input asked = pir_query_input_default();
+    pir_query_result result, expected;
+    pir_contact contacts[ROOM], right[ROOM];
+    size_t count = 0, right_count = 0, same = 0;
+    asked.translation = input.pose_p.translation;
+    asked.cutoff = input.cutoff = asked.margin = input.margin = motion->size * (frame % 7 ? 0.02 : 0.1);
+    assert_int_equal(pir_query_signed_distance(motion->query, &asked, NULL, &expected), PIR_OK);
+    pir_status status = pir_pair_signed_distance(motion->near, motion->workspace, &input, &result);
+    expect(status == PIR_OK && same_result(&result, &expected),
+           "motion %llu, frame %d, with a cutoff: status %d, level %d, outcome %d not %d, distance %.17g not %.17g",
+           (unsigned long long)motion->number, frame, (int)status, (int)pir_pair_level(motion->near),
+           (int)result.outcome, (int)expected.outcome, result.distance, expected.distance);
+    status = pir_pair_manifold(motion->near, motion->workspace, &input, &result, ROOM, contacts, &count);
+    pir_status of_query = pir_query_manifold(motion->query, &asked, &expected, ROOM, right, &right_count);
+    while (same < count && same < ROOM && same < right_count && same_contact(&contacts[same], &right[same]))
+        same++;
+    expect(status == of_query && count == right_count && (same == count || same == ROOM),
+           "motion %llu, frame %d: %zu contacts, not %zu, the first %zu alike", (unsigned long long)motion->number,
+           frame, count, right_count, same);
 }
 
 static void check_frame(struct motion *motion, int frame, pir_quat rotation, pir_vec3 t) {
@@ -61,6 +90,7 @@ static void check_frame(struct motion *motion, int frame, pir_quat rotation, pir
            (int)expected.state, result.distance, expected.distance, result.witness.p.kind, result.witness.p.index,
            result.witness.q.kind, result.witness.q.index, expected.witness.p.kind, expected.witness.p.index,
            expected.witness.q.kind, expected.witness.q.index);
+    check_near(motion, frame, input);
 }
 
 static pir_vec3 middle_of(const pir_polytope *p) {
@@ -166,6 +196,7 @@ static void check_motion(uint64_t number) {
     assert_int_equal(pir_sum_create(motion.p, motion.q, (pir_quat){0, 0, 0, 1}, &options, &motion.sum), PIR_OK);
     assert_int_equal(pir_query_create(motion.sum, &motion.query), PIR_OK);
     assert_int_equal(pir_pair_create(motion.p, motion.q, NULL, &motion.pair), PIR_OK);
+    assert_int_equal(pir_pair_create(motion.p, motion.q, NULL, &motion.near), PIR_OK);
     assert_int_equal(pir_workspace_create(NULL, &motion.workspace), PIR_OK);
     double step = pow(10, -4 + 4.3 * test_random_unit(&random));
     if (number % 3 == 2 && test_random_below(&random, 2))
@@ -178,7 +209,9 @@ static void check_motion(uint64_t number) {
     used.by_descent += s.by_descent;
     used.by_surface += s.by_surface;
     used.supports += s.supports;
+    apart += pir_pair_get_statistics(motion.near).by_certificate;
     pir_pair_destroy(motion.pair);
+    pir_pair_destroy(motion.near);
     pir_workspace_destroy(motion.workspace);
     pir_query_destroy(motion.query);
     pir_sum_destroy(motion.sum);
@@ -192,13 +225,15 @@ static void a_pair_in_motion_answers_as_the_sum(void **state) {
     uint64_t from = one ? strtoull(one, NULL, 10) : 0, motions = one ? 1 : count ? strtoull(count, NULL, 10) : 120;
     for (uint64_t i = from; i < from + motions; i++)
         check_motion(i);
-    print_message("%llu frames: %llu by the facet before, %llu of them inside, %llu by descent, %llu by a surface\n",
+    print_message("%llu frames: %llu by the facet before, %llu of them inside, %llu by descent, %llu by a surface; "
+                  "%llu apart\n",
                   (unsigned long long)used.queries, (unsigned long long)used.by_facet,
                   (unsigned long long)inside_by_facet, (unsigned long long)used.by_descent,
-                  (unsigned long long)used.by_surface);
+                  (unsigned long long)used.by_surface, (unsigned long long)apart);
     // every way must have been taken often
     assert_true(one || (used.by_facet > used.queries / 5 && inside_by_facet > used.queries / 50 &&
-                        used.by_descent > used.queries / 50 && used.by_surface > used.queries / 50));
+                        used.by_descent > used.queries / 50 && used.by_surface > used.queries / 50 &&
+                        apart > used.queries / 20));
 }
 
 int main(void) {

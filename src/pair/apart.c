@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Apart by more than the cutoff, without the nearest point.
+ *
+ * Along a unit vector n, x is n·x − h(n) from D at least, where h is the sum of both bodies' supports. A climb along n
+ * ends at a vertex v of a body where no edge rises by more than ε, which is the rounding of a slope. All of the body is
+ * in the cone of these edges. Where all of them fall by the sine c along some other direction, a point at the distance
+ * r from v is v and a sum of edges of at most r / c in all. So the body rises above v by ε · 2 · size / c at most.
+ */
+#include "pair/apart.h"
+
+/* What a climb may have missed of a body's support: see above. */
+static double missed(const pir_pair_body *body) {
+    return 4 * PIR_SLOPE_BOUND * body->body.size / body->point;
+}
+
+/* The farthest of all vertices along n. */
+static double farthest(const pir_body *body, pir_vec3 n) {
+    double most = -HUGE_VAL;
+    for (uint32_t v = 0; v < body->polytope->vertex_count; v++) {
+        double along = pir_vec_dot(n, body->vertex[v]);
+        most = along > most ? along : most;
+    }
+    return most;
+}
+
+double pir_task_certain(const pir_task *task, pir_vec3 n, double distance) {
+    const pir_pair_body *p = task->pair->body_p, *q = task->pair->body_q;
+    const double error = 2 * task->placement->error;
+    if (p->point > 0 && q->point > 0)
+        return distance - error - missed(p) - missed(q);
+    double support = farthest(&p->body, pir_mat_apply_transposed(&task->workspace->frame.r, n)) + farthest(&q->body, n);
+    return pir_vec_dot(n, task->placement->x) - support - error;
+}
+
+bool pir_task_is_beyond(const pir_task *task, double distance) {
+    double error = PIR_DISTANCE_ERROR * task->placement->reach;
+    return (task->want & PIR_WANT_SEPARATION) && distance > task->limit + error;
+}
+
+void pir_task_keep_axis(const pir_task *task, pir_vec3 n) {
+    task->pair->axis = n;
+    task->pair->has_axis = true;
+}
+
+bool pir_task_apart(pir_task *task) {
+    const pir_frame *frame = &task->workspace->frame;
+    pir_pair *pair = task->pair;
+    if (!pair->has_axis || !(task->want & PIR_WANT_SEPARATION))
+        return false;
+    pir_vec3 n = pair->axis, back = pir_mat_apply_transposed(&frame->r, n);
+    pair->axis_a = pir_climb(frame->p.polytope, back, pair->axis_a);
+    pair->axis_b = pir_climb(frame->q.polytope, n, pair->axis_b);
+    pir_vec3 way = pir_vec_sub(task->placement->x, pir_frame_vertex(frame, pair->axis_a, pair->axis_b));
+    double distance = pir_task_certain(task, n, pir_vec_dot(n, way));
+    pair->has_axis = pir_task_is_beyond(task, distance);
+    if (!pair->has_axis)
+        return false;
+    pir_task_keep_apart(task, distance);
+    pir_result_beyond(task->result);
+    return true;
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* Apart by more than the cutoff, along a direction that is kept: see apart.c. */
+#ifndef PIR_PAIR_APART_H
+#define PIR_PAIR_APART_H
+
+#include "pair/task.h"
+
+/* A distance from D along the unit vector n that is certain, where climbs along n found `distance`. */
+double pir_task_certain(const pir_task *task, pir_vec3 n, double distance);
+
+/* Whether a certain distance is an answer: more than the cutoff. */
+bool pir_task_is_beyond(const pir_task *task, double distance);
+
+/* Keeps the direction of such an answer as a hint. */
+void pir_task_keep_axis(const pir_task *task, pir_vec3 n);
+
+/* The answer, where x is apart by more than the cutoff along the kept direction. */
+bool pir_task_apart(pir_task *task);
+
+#endif
