@@ -7,6 +7,9 @@
 
 #define NO_END UINT32_MAX
 
+/* How much wider boxes are than they have to be, relative to bodies and coordinates. */
+#define BOX_ERROR 0x1p-36
+
 void pir_bodies_init(pir_bodies *bodies) {
     *bodies = (pir_bodies){.piece_unused = PIR_PIECE_NONE};
 }
@@ -54,7 +57,9 @@ static void turned_bounds(const pir_mat3 *r, const pir_polytope *p, pir_vec3 *re
 
 /*
  * A turned vertex is off by 31u |v| by the matrix and by 4u |v| by the product, the vertex itself by u |v|, the sum
- * with the translation by u (|v| + |t|): below 64u (|v| + |t|) with u = 2^-53.
+ * with the translation by u (|v| + |t|): below 64u (|v| + |t|) with u = 2^-53. Boxes are wider by more than that, and
+ * by more than a distance in doubles is off by: where a distance says that two pieces are within radii and margin of
+ * each other, their boxes meet.
  */
 bool pir_place_box(const pir_place *place, const pir_extent *extent, double around, pir_box *ret_box) {
     pir_vec3 least, most;
@@ -63,7 +68,7 @@ bool pir_place_box(const pir_place *place, const pir_extent *extent, double arou
     double t[3] = {place->pose.translation.x, place->pose.translation.y, place->pose.translation.z};
     bool near = true;
     for (int k = 0; k < 3; k++) {
-        double wider = around + (extent->reach + fabs(t[k])) * 0x1p-46;
+        double wider = around + (around + extent->reach + fabs(t[k])) * BOX_ERROR;
         low[k] += t[k] - wider;
         high[k] += t[k] + wider;
         near = near && low[k] >= -PIR_BOX_FARTHEST && high[k] <= PIR_BOX_FARTHEST;
