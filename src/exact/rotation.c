@@ -11,6 +11,7 @@
 #include "exact/rotation.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is far below u·n. */
@@ -18,14 +19,10 @@
 
 /* The greatest binary exponent among the components, as frexp gives it. */
 static int top_exponent(const double c[4]) {
+    double most = fmax(fmax(fabs(c[0]), fabs(c[1])), fmax(fabs(c[2]), fabs(c[3])));
     int top = INT32_MIN;
-    for (int k = 0; k < 4; k++) {
-        int e;
-        if (c[k] != 0) {
-            frexp(c[k], &e);
-            top = e > top ? e : top;
-        }
-    }
+    if (most > 0)
+        frexp(most, &top);
     return top;
 }
 
@@ -73,38 +70,57 @@ static pir_status bring_near_one(pir_quat q, double c[4]) {
     int top = top_exponent(given);
     if (top == INT32_MIN)
         return PIR_ERR_ZERO_QUATERNION;
+    // as ldexp, but for what falls below 2^-1022 and is refused
+    double power = abs(top) <= 1000 ? ldexp(1, -top) : 0;
     for (int k = 0; k < 4; k++) {
-        c[k] = ldexp(given[k], -top);
+        c[k] = power != 0 ? given[k] * power : ldexp(given[k], -top);
         if (given[k] != 0 && fabs(c[k]) < 0x1p-900)
             return PIR_ERR_LIMIT;
     }
     return PIR_OK;
 }
 
-/*
- * a·b + c exactly as *ret_rest + what is returned, for numbers whose products lose nothing below 2^-1074 that
- * matters.
- */
-static double add_exactly(double sum, double a, double b, double *rest) {
-    double p = a * b, ta = 134217729.0 * a, tb = 134217729.0 * b; // 2^27 + 1
-    double ah = ta - (ta - a), bh = tb - (tb - b), al = a - ah, bl = b - bh;
-    double p_rest = ((ah * bh - p) + ah * bl + al * bh) + al * bl;
-    double s = sum + p, t = s - sum;
-    *rest += ((sum - (s - t)) + (p - t)) + p_rest;
+/* Components with their halves, of 26 bits each, for products without loss (Dekker, 1971). */
+struct halves {
+    double whole[4], high[4], low[4];
+};
+
+static struct halves split(const double c[4]) {
+    struct halves s;
+    for (int k = 0; k < 4; k++) {
+        double t = 134217729.0 * c[k]; // 2^27 + 1
+        s.whole[k] = c[k];
+        s.high[k] = t - (t - c[k]);
+        s.low[k] = c[k] - s.high[k];
+    }
     return s;
 }
 
 /*
- * A component of conj(a)·b: four products with what rounding leaves of them and of their sums added up beside
- * (Ogita, Rump and Oishi, SIAM J. Scientific Computing 26, 2005). Off by u of itself and by some u² of |a||b|.
+ * The product conj(a)·b: for each component four products, in rows, with what rounding leaves of them and of their sums
+ * added up beside (Ogita, Rump and Oishi, SIAM J. Scientific Computing 26, 2005). Off by u of itself and by some u² of
+ * |a||b|. x: aw bx − ax bw − ay bz + az by, and so on round; w: aw bw + ax bx + ay by + az bz.
  */
-static double component_of(const double a[4], const double b[4], const int i[4], const int j[4], double *ret_rest) {
-    double sum = 0, rest = 0;
-    for (int k = 0; k < 4; k++)
-        sum = add_exactly(sum, k == 1 || k == 2 ? -a[i[k]] : a[i[k]], b[j[k]], &rest);
-    double whole = sum + rest;
-    *ret_rest = rest - (whole - sum);
-    return whole;
+static void multiply_conjugate(const double a[4], const double b[4], double ret_product[4], double ret_rest[4]) {
+    static const int first[4][4] = {{3, 3, 3, 3}, {0, 1, 2, 1}, {1, 2, 0, 2}, {2, 0, 1, 0}};
+    static const int second[4][4] = {{0, 1, 2, 3}, {3, 3, 3, 1}, {2, 0, 1, 2}, {1, 2, 0, 0}};
+    static const double sign[4][4] = {{1, 1, 1, 1}, {-1, -1, -1, 1}, {-1, -1, -1, 1}, {1, 1, 1, 1}};
+    const struct halves p = split(a), q = split(b);
+    double sum[4] = {0}, rest[4] = {0};
+    for (int row = 0; row < 4; row++)
+        for (int k = 0; k < 4; k++) {
+            int i = first[row][k], j = second[row][k];
+            double by = sign[row][k], product = by * p.whole[i] * q.whole[j];
+            double high = by * p.high[i], low = by * p.low[i];
+            double lost = ((high * q.high[j] - product) + high * q.low[j] + low * q.high[j]) + low * q.low[j];
+            double s = sum[k] + product, t = s - sum[k];
+            rest[k] += ((sum[k] - (s - t)) + (product - t)) + lost;
+            sum[k] = s;
+        }
+    for (int k = 0; k < 4; k++) {
+        ret_product[k] = sum[k] + rest[k];
+        ret_rest[k] = rest[k] - (ret_product[k] - sum[k]);
+    }
 }
 
 /*
@@ -121,19 +137,12 @@ pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_qua
         status = bring_near_one(p, b);
     if (status != PIR_OK)
         return status;
-    // x: aw bx − ax bw − ay bz + az by, and so on round; w: aw bw + ax bx + ay by + az bz
-    pir_quat rest, product;
-    static const int first[3][4] = {{3, 0, 1, 2}, {3, 1, 2, 0}, {3, 2, 0, 1}};
-    static const int second[3][4] = {{0, 3, 2, 1}, {1, 3, 0, 2}, {2, 3, 1, 0}};
-    product.x = component_of(a, b, first[0], second[0], &rest.x);
-    product.y = component_of(a, b, first[1], second[1], &rest.y);
-    product.z = component_of(a, b, first[2], second[2], &rest.z);
-    const double negated[4] = {a[0], -a[1], -a[2], a[3]};
-    product.w = component_of(negated, b, (const int[4]){3, 1, 2, 0}, (const int[4]){3, 1, 2, 0}, &rest.w);
-    status = pir_rotation_set(rotation, product);
+    double product[4], rest[4];
+    multiply_conjugate(a, b, product, rest);
+    status = pir_rotation_set(rotation, (pir_quat){product[0], product[1], product[2], product[3]});
     if (status != PIR_OK)
         return status;
-    rotation->rest = rest;
+    rotation->rest = (pir_quat){rest[0], rest[1], rest[2], rest[3]};
     rotation->relative = true;
     rotation->factor[0] = q;
     rotation->factor[1] = p;
