@@ -76,8 +76,9 @@ typedef struct pir_cspace_options {
 PIR_API pir_cspace_options pir_cspace_options_default(void);
 
 /**
- * Makes a job. With `resume` it takes over the units that parts of an earlier run hold; else it removes such parts. Of
- * several processes that share a job only the first may be without `resume`, and the others make theirs after it.
+ * Makes a job. With `resume` it takes over the units that parts of an earlier run hold, and where the file itself is
+ * there, of the same job, nothing is left to make; else it removes such parts. Of several processes that share a job
+ * only the first may be without `resume`, and the others make theirs after it.
  *
  * bodies   pieces of any dimension, at least one of each; the job takes a reference to each.
  * grid     borrowed until the job is destroyed.

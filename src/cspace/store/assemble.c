@@ -79,10 +79,14 @@ static bool put_grid(const struct output *out) {
 
 /* --- models and what the file is --- */
 
+static void write_hash(const pir_plan *plan, char hash[17]) {
+    snprintf(hash, 17, "%016" PRIx64, plan->hash);
+}
+
 static bool put_head(const struct output *out) {
     char hash[17];
     const uint32_t version = PIR_SLICES_VERSION;
-    snprintf(hash, sizeof hash, "%016" PRIx64, out->plan->hash);
+    write_hash(out->plan, hash);
     return pir_h5_put_text(out->file, "format", PIR_SLICES_FORMAT) &&
            pir_h5_put_numbers(out->file, "version", PIR_H5_U32, &version, 1) &&
            pir_h5_put_text(out->file, "library", PIR_VERSION_STRING) && pir_h5_put_text(out->file, "hash", hash) &&
@@ -238,4 +242,15 @@ pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
     pir_status status = assemble_as(parts, path, report);
     PIR_FREE(&parts->allocator, path, size);
     return status;
+}
+
+bool pir_assembled(const pir_parts *parts) {
+    char hash[17], found[17];
+    write_hash(parts->plan, hash);
+    pir_h5_reports reports = pir_h5_quiet();
+    hid_t file = access(parts->file, R_OK) == 0 ? H5Fopen(parts->file, H5F_ACC_RDONLY, H5P_DEFAULT) : -1;
+    bool same = file >= 0 && pir_h5_get_text(file, "hash", found, sizeof found) && strcmp(hash, found) == 0;
+    pir_h5_close(file);
+    pir_h5_loud(reports);
+    return same;
 }

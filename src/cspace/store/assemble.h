@@ -13,4 +13,7 @@
  */
 pir_status pir_assemble(const pir_parts *parts, pir_report *report);
 
+/* Whether the file is there and is that of the plan. It appears complete, so then nothing is left to make. */
+bool pir_assembled(const pir_parts *parts);
+
 #endif

@@ -18,6 +18,10 @@
 #define TABLE_BYTES    4
 #define ROTATION_BYTES 40
 
+/* Bytes that an HDF5 file takes before there is anything in it, and a piece, beside its model. */
+#define FILE_BYTES  16384
+#define PIECE_BYTES 8192
+
 static double seconds_now(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -75,14 +79,15 @@ static pir_status sample(const pir_plan *plan, struct sample *whole, struct samp
 static pir_cspace_estimate work_out(const pir_plan *plan, const struct sample *whole, const struct sample *changes) {
     double slices = (double)plan->pairs * (double)plan->slices, units = (double)plan->units;
     double keys = fmax(units, fmin(slices, slices / plan->slices_per_key)), rest = slices - keys;
-    double bytes = keys * whole->bytes / whole->count + slices * TABLE_BYTES + (double)plan->slices * ROTATION_BYTES;
+    double bytes =
+        FILE_BYTES + keys * whole->bytes / whole->count + slices * TABLE_BYTES + (double)plan->slices * ROTATION_BYTES;
     double seconds = units * whole->seconds / whole->count;
     if (changes->count > 0) {
         bytes += rest * changes->bytes / changes->count;
         seconds += (slices - units) * changes->seconds / changes->count;
     }
     for (uint32_t i = 0; i < plan->robot_count + plan->obstacle_count; i++)
-        bytes += 4 * (double)plan->piece[i].off.used;
+        bytes += PIECE_BYTES + 4 * (double)plan->piece[i].off.used;
     pir_grid_turns turns = pir_grid_get_turns(plan->grid);
     return (pir_cspace_estimate){.slices = plan->pairs * plan->slices,
                                  .units = plan->units,

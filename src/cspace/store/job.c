@@ -27,6 +27,7 @@ struct pir_cspace_job {
     char *file;
     size_t file_size;
     uint64_t next; /* unit, where the job deals them itself */
+    bool is_made;  /* the file is there: nothing is left to do but to remove parts */
 };
 
 pir_cspace_options pir_cspace_options_default(void) {
@@ -58,7 +59,13 @@ static pir_status begin(pir_cspace_job *job, const pir_cspace_bodies *bodies, co
     if (!job->file || !pir_parts_init(&job->parts, &job->plan, job->file))
         return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
     memcpy(job->file, path, job->file_size);
-    return job->options.resume ? pir_parts_scan(&job->parts, report) : pir_parts_remove(&job->parts, report);
+    if (!job->options.resume)
+        return pir_parts_remove(&job->parts, report);
+    job->is_made = pir_assembled(&job->parts);
+    if (!job->is_made)
+        return pir_parts_scan(&job->parts, report);
+    job->parts.done_slices = job->plan.pairs * job->plan.slices;
+    return PIR_OK;
 }
 
 pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
@@ -178,12 +185,15 @@ pir_status pir_cspace_job_run(pir_cspace_job *job, pir_report *report) {
     if (!job)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no job");
     struct run run = {.job = job, .done = job->parts.done_slices, .resumed = job->parts.done_slices};
+    clock_gettime(CLOCK_MONOTONIC, &run.began);
+    tell_progress(&run);
+    if (job->is_made)
+        return PIR_OK;
     pir_status status = pir_part_open(&run.part, &job->parts, job->options.part, report);
     if (status == PIR_OK && pthread_mutex_init(&run.lock, NULL) != 0)
         status = pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
     if (status == PIR_OK) {
         job->next = 0;
-        clock_gettime(CLOCK_MONOTONIC, &run.began);
         run_threads(&run);
         pthread_mutex_destroy(&run.lock);
         status = run.status == PIR_OK ? PIR_OK : pir_fail(report, run.status, "%s", run.report.text);
@@ -195,6 +205,8 @@ pir_status pir_cspace_job_run(pir_cspace_job *job, pir_report *report) {
 pir_status pir_cspace_job_assemble(pir_cspace_job *job, pir_report *report) {
     if (!job)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no job");
+    if (job->is_made)
+        return pir_parts_remove(&job->parts, report);
     pir_status status = pir_parts_scan(&job->parts, report);
     if (status == PIR_OK && job->parts.done < job->plan.units)
         status = pir_fail(report, PIR_ERR_EMPTY, "%s: %llu of %llu units are still to be made", job->file,

@@ -8,6 +8,11 @@ pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
     return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: this build has no HDF5", parts->file);
 }
 
+bool pir_assembled(const pir_parts *parts) {
+    (void)parts;
+    return false;
+}
+
 pir_status pir_store_open(const char *path, const pir_allocator *allocator, pir_report *report, pir_store **ret_store) {
     (void)allocator;
     (void)ret_store;
