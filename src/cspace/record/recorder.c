@@ -16,8 +16,16 @@
 /* In place of a crossing: the slot was free. */
 #define NO_KEY UINT64_MAX
 
+/* Of so many facets that change more than one, the record is whole: that takes less time, and little more room. */
+#define FEW_OF 4
+
 static uint32_t facets_of(const pir_recorder *recorder) {
     return recorder->pairing->p->facet_count + recorder->pairing->q->facet_count;
+}
+
+/* Words of bits for all facets; the bits of slots begin with the next word. */
+static size_t facet_words(const pir_recorder *recorder) {
+    return (size_t)facets_of(recorder) / 64 + 1;
 }
 
 /* --- memory --- */
@@ -30,7 +38,7 @@ static pir_layout layout_of(pir_recorder *recorder) {
 
 static pir_layout layout_of_slots(pir_recorder *recorder) {
     return (pir_layout){{PIR_ROW(recorder->slot, recorder->slot_room),
-                         PIR_ROW(recorder->dirty, ((size_t)facets_of(recorder) + recorder->slot_room) / 64 + 1)}};
+                         PIR_ROW(recorder->dirty, facet_words(recorder) + recorder->slot_room / 64 + 1)}};
 }
 
 /* Room for all slots of the sum's crossings. */
@@ -103,40 +111,56 @@ static bool look_at_slot(pir_recorder *recorder, uint32_t slot) {
            (now == NO_KEY || pir_crossing_set_toggle(&recorder->toggled, now));
 }
 
-/* A facet of −P, a facet of Q, or a slot, as the journal numbers them. */
-static bool look_at(pir_recorder *recorder, uint32_t number) {
-    uint32_t facets_p = recorder->pairing->p->facet_count, facets = facets_of(recorder);
-    if (number >= facets)
-        return look_at_slot(recorder, number - facets);
+/* A facet of −P or of Q, as the journal numbers them. */
+static void look_at_facet_number(pir_recorder *recorder, uint32_t number) {
+    uint32_t facets_p = recorder->pairing->p->facet_count;
     if (number < facets_p)
         look_at_facet(recorder, PIR_OPERAND_P, number);
     else
         look_at_facet(recorder, PIR_OPERAND_Q, number - facets_p);
-    return true;
 }
 
-/* Looks at what the journal names, each once and rising. */
-static bool look_at_noted(pir_recorder *recorder) {
+/* Marks what the journal names; false where it does not reach back. */
+static bool mark_noted(pir_recorder *recorder) {
     const pir_journal *journal = pir_sum_journal(recorder->sum);
+    if (journal->count - recorder->seen > PIR_JOURNAL_ROOM)
+        return false;
+    uint32_t facets = facets_of(recorder);
+    size_t shift = 64 * facet_words(recorder) - facets;
     for (uint64_t n = recorder->seen; n < journal->count; n++) {
         uint32_t number = journal->slot[n % PIR_JOURNAL_ROOM];
-        recorder->dirty[number / 64] |= (uint64_t)1 << number % 64;
+        size_t bit = number < facets ? number : number + shift;
+        recorder->dirty[bit / 64] |= (uint64_t)1 << bit % 64;
     }
-    bool enough = true;
-    size_t words = ((size_t)facets_of(recorder) + recorder->slot_room) / 64 + 1;
-    for (size_t w = 0; w < words; w++) {
-        for (uint64_t left = recorder->dirty[w]; left; left &= left - 1)
-            enough = enough && look_at(recorder, (uint32_t)w * 64 + (uint32_t)__builtin_ctzll(left));
-        recorder->dirty[w] = 0;
-    }
-    return enough;
+    return true;
 }
 
-static bool look_at_all(pir_recorder *recorder) {
-    for (uint32_t i = 0; i < facets_of(recorder) + recorder->slot_room; i++)
-        if (!look_at(recorder, i))
+/* Looks at all facets, or at those that are marked, each once and rising. */
+static void look_at_facets(pir_recorder *recorder, bool all) {
+    for (uint32_t i = 0; all && i < facets_of(recorder); i++)
+        look_at_facet_number(recorder, i);
+    for (size_t w = 0; !all && w < facet_words(recorder); w++)
+        for (uint64_t left = recorder->dirty[w]; left; left &= left - 1)
+            look_at_facet_number(recorder, (uint32_t)w * 64 + (uint32_t)__builtin_ctzll(left));
+}
+
+/* The same of slots. */
+static bool look_at_slots(pir_recorder *recorder, bool all) {
+    for (uint32_t i = 0; all && i < recorder->slots_seen; i++)
+        if (!look_at_slot(recorder, i))
             return false;
+    const uint64_t *dirty = recorder->dirty + facet_words(recorder);
+    for (size_t w = 0; !all && w <= recorder->slots_seen / 64; w++)
+        for (uint64_t left = dirty[w]; left; left &= left - 1)
+            if (!look_at_slot(recorder, (uint32_t)w * 64 + (uint32_t)__builtin_ctzll(left)))
+                return false;
     return true;
+}
+
+/* Unmarks everything. */
+static void unmark(pir_recorder *recorder) {
+    size_t words = facet_words(recorder) + recorder->slots_seen / 64 + 1;
+    memset(recorder->dirty, 0, words * sizeof *recorder->dirty);
 }
 
 /* --- writing --- */
@@ -221,31 +245,50 @@ static bool write_whole(pir_recorder *recorder, pir_bytes *bytes) {
     return true;
 }
 
-/* Takes the pairing as it is for that of the slice before. */
-static void hold_all(pir_recorder *recorder) {
+/* Takes what stands in the slots for that of the slice before. */
+static void hold_slots(pir_recorder *recorder) {
+    for (uint32_t slot = 0; slot < recorder->slots_seen; slot++)
+        recorder->slot[slot] = key_in(recorder, slot);
+}
+
+static void hold_cells(pir_recorder *recorder) {
     const pir_pairing *pairing = recorder->pairing;
     memcpy(recorder->fv, pairing->fv, pairing->p->facet_count * sizeof *recorder->fv);
     memcpy(recorder->vf, pairing->vf, pairing->q->facet_count * sizeof *recorder->vf);
-    for (uint32_t slot = 0; slot < recorder->slot_room; slot++)
-        recorder->slot[slot] = key_in(recorder, slot);
+}
+
+/* The record of what has changed, where that is little, else a whole one. */
+static bool write_difference(pir_recorder *recorder, pir_bytes *bytes) {
+    bool all = !mark_noted(recorder);
+    recorder->change_count[0] = recorder->change_count[1] = 0;
+    look_at_facets(recorder, all);
+    uint64_t changed = (uint64_t)recorder->change_count[0] + recorder->change_count[1];
+    bool enough;
+    if (FEW_OF * changed > facets_of(recorder)) {
+        hold_slots(recorder);
+        enough = write_whole(recorder, bytes);
+    } else {
+        pir_crossing_set_clear(&recorder->toggled);
+        enough = look_at_slots(recorder, all) && write_changes(recorder, bytes);
+    }
+    unmark(recorder);
+    return enough;
 }
 
 bool pir_recorder_write(pir_recorder *recorder, bool key, pir_bytes *bytes) {
     if (!reserve_slots(recorder))
         return false;
-    const pir_journal *journal = pir_sum_journal(recorder->sum);
-    bool enough = true;
-    recorder->change_count[0] = recorder->change_count[1] = 0;
-    pir_crossing_set_clear(&recorder->toggled);
-    if (key)
-        hold_all(recorder);
-    else if (journal->count - recorder->seen > PIR_JOURNAL_ROOM)
-        enough = look_at_all(recorder);
-    else
-        enough = look_at_noted(recorder);
-    recorder->seen = journal->count;
-    if (!enough)
-        return false;
-    uint64_t changed = (uint64_t)recorder->change_count[0] + recorder->change_count[1];
-    return key || 2 * changed > facets_of(recorder) ? write_whole(recorder, bytes) : write_changes(recorder, bytes);
+    // slots that are used no more were seen before, and are looked at too
+    uint32_t used = recorder->pairing->crossings.used;
+    recorder->slots_seen = used > recorder->slots_seen ? used : recorder->slots_seen;
+    bool enough;
+    if (key) {
+        hold_cells(recorder);
+        hold_slots(recorder);
+        enough = write_whole(recorder, bytes);
+    } else {
+        enough = write_difference(recorder, bytes);
+    }
+    recorder->seen = pir_sum_journal(recorder->sum)->count;
+    return enough;
 }

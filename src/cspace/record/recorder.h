@@ -24,11 +24,11 @@ typedef struct pir_recorder {
     pir_allocator allocator;
     const pir_sum *sum; /* borrowed */
     const pir_pairing *pairing;
-    uint64_t seen;          /* entries of the journal that have been read */
-    uint32_t *fv, *vf;      /* of the slice before */
-    pir_crossing_key *slot; /* what stood in each slot of the sum's crossings, or NO_KEY of recorder.c */
-    uint64_t *dirty;        /* a bit for each facet and slot, for the journal's entries; 0 between calls */
-    uint32_t slot_room;
+    uint64_t seen;                  /* entries of the journal that have been read */
+    uint32_t *fv, *vf;              /* of the slice before */
+    pir_crossing_key *slot;         /* what stood in each slot of the sum's crossings, or NO_KEY of recorder.c */
+    uint32_t slot_room, slots_seen; /* of `slot`; up to where slots have been in use */
+    uint64_t *dirty;         /* a bit for each facet, then for each slot, by the journal's entries; 0 between calls */
     pir_cell_change *change; /* room for all facets: those of −P, then those of Q */
     uint32_t change_count[2];
     pir_crossing_set toggled;
@@ -38,7 +38,7 @@ typedef struct pir_recorder {
 bool pir_recorder_init(pir_recorder *recorder, const pir_sum *sum, const pir_allocator *allocator);
 void pir_recorder_finish(pir_recorder *recorder);
 
-/* Appends the record of the sum as it is now: whole where `key`, else as is shorter. False when out of memory. */
+/* Appends the record of the sum as it is now: whole where `key` or where much has changed. False when out of memory. */
 bool pir_recorder_write(pir_recorder *recorder, bool key, pir_bytes *bytes);
 
 #endif
