@@ -9,6 +9,7 @@
 #include "json.h"
 #include "message.h"
 #include "model.h"
+#include "solid.h"
 #include "surface.h"
 #include "text.h"
 
@@ -72,6 +73,8 @@ static void print_text(const char *model, const pir_polytope *polytope, const pi
 int cmd_info(const struct args *args) {
     const char *model = args->positional[0];
     pir_surface surface;
+    if (args_has(args, "--solid"))
+        return solid_info(args);
     pir_polytope *polytope = model_load(args, 0, &surface);
     if (!polytope)
         return EXIT_BAD_INPUT;

@@ -12,6 +12,7 @@
 #include "message.h"
 #include "model.h"
 #include "pose.h"
+#include "solid.h"
 #include "surface.h"
 #include "target.h"
 #include "text.h"
@@ -123,6 +124,8 @@ static void print_text(const struct args *args, const struct request *request, c
 
 int cmd_sum(const struct args *args) {
     struct request request;
+    if (args_has(args, "--solid"))
+        return solid_sum(args);
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
     struct outcome outcome = {0};

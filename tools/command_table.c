@@ -43,7 +43,15 @@ const struct option command_options[] = {
     {NULL, NULL, NULL},
 };
 
-static const struct option info_options[] = {MODEL_OPTIONS};
+static const struct option info_options[] = {
+    {"--solid", NULL, "the model as the solid that it is: reflex edges, shells, genus, volume"},
+    MODEL_OPTIONS,
+};
+
+static const struct option decompose_options[] = {
+    {"-o", "DIR|FILE.obj", "write the pieces: an OFF file each, exact, or one object each in an OBJ file"},
+    COMMON_OPTIONS,
+};
 
 static const struct option cgm_options[] = {
     POSE_OPTIONS,
@@ -65,6 +73,7 @@ static const struct option sum_options[] = {
     {"--method", "walk|cgm|hull",
      "by walking the Gaussian maps (default), by overlaying the cubical ones, or as the hull of all sums"},
     {"--exact", NULL, "exact coordinates; in .off: integers and a/b instead of doubles"},
+    {"--solid", NULL, "P and Q as the solids that they are, not their hulls; -o then takes .off"},
     {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg"},
     MODEL_OPTIONS,
 };
@@ -190,7 +199,8 @@ const struct command command_table[COMMAND_COUNT] = {
             .options = sum_options,
             .examples = {{"sum shape:cube shape:gs4 --axis 0,0,1 --angle 30 -o sum.off",
                           "turn the cube and write the sum"},
-                         {"sum shape:cube shape:cube --quat 1,2,3,4 --exact -o sum.off", "the same in exact numbers"}},
+                         {"sum shape:cube shape:cube --quat 1,2,3,4 --exact -o sum.off", "the same in exact numbers"},
+                         {"sum shape:cube shape:cube --solid -o sum.off", "as solids, convex or not"}},
         },
     [COMMAND_TRACK] =
         {
@@ -265,6 +275,17 @@ const struct command command_table[COMMAND_COUNT] = {
             .examples = {{"view slices.h5 -o sheet.svg", "a grid of small views"},
                          {"view slices.h5 -o slices.html", "a page that needs nothing else"},
                          {"view slices.h5 --slice 17 --pair 0,0 -o one.ply", "one difference as a mesh"}},
+        },
+    [COMMAND_DECOMPOSE] =
+        {
+            .name = "decompose",
+            .positional = {"MODEL"},
+            .required = 1,
+            .summary = "divide a solid into convex pieces, exactly",
+            .details = "The pieces have disjoint insides, and the solid is their union. They are cut along planes of "
+                       "facets, and joined where that leaves them convex.",
+            .options = decompose_options,
+            .examples = {{"decompose shape:cube -o pieces.obj", "one object a piece"}},
         },
     [COMMAND_HELP] =
         {

@@ -17,6 +17,7 @@
 #include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
 #include <pirouette/section.h>
+#include <pirouette/solid.h>
 #include <pirouette/sum.h>
 
 #ifdef __cplusplus
@@ -71,6 +72,17 @@ PIR_API pir_status pir_sum_set_scale_exact(pir_sum *sum, pir_operand operand, co
  */
 PIR_API pir_status pir_polytope_mass_exact(const pir_polytope *polytope, mpq_t ret_volume, mpq_t ret_centroid[3],
                                            mpq_t ret_inertia[6]);
+
+/**
+ * The exact volume of a solid, into an initialised rational.
+ *
+ * solid  any.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_solid_volume_exact(const pir_solid *solid, mpq_t ret_volume);
 
 /** The exact coordinates of a vertex, into three initialised rationals. */
 PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t vertex, mpq_t ret_coordinates[3]);

@@ -35,6 +35,7 @@ void pir_mesh_destroy(pir_mesh *mesh) {
     PIR_FREE(a, mesh->kind, mesh->facets.count);
     pir_loops_finish(&mesh->facets, a, mesh->corners);
     pir_vectors_finish(&mesh->where, a);
+    pir_vectors_finish(&mesh->weight, a);
     pir_scale_finish(&mesh->scale, a);
     PIR_FREE(a, mesh, 1);
 }
@@ -112,6 +113,15 @@ pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t re
     pir_int3 v = pir_vectors_at(&mesh->where, vertex);
     for (int k = 0; k < 3; k++)
         pir_scale_to_rational(ret_coordinates[k], &v.c[k], &mesh->scale);
+    if (mesh->weight.count > 0) {
+        const pir_int weight = pir_vectors_at(&mesh->weight, vertex).c[0];
+        mpz_t view;
+        mpz_roinit_n(view, weight.limb, weight.size);
+        for (int k = 0; k < 3; k++) {
+            mpz_mul(mpq_denref(ret_coordinates[k]), mpq_denref(ret_coordinates[k]), view);
+            mpq_canonicalize(ret_coordinates[k]);
+        }
+    }
     return PIR_OK;
 }
 

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Solids: polyhedral bodies that need not be convex, their division into convex pieces, and the exact sum of two.
+ *
+ * A solid is bounded by one or more closed surfaces, its shells: facets are planar polygons, counter-clockwise from
+ * outside, without holes. A shell inside another that faces inwards is the boundary of a cavity. Whatever is not such a
+ * boundary is refused with the place named, and never repaired. Everything is decided exactly.
+ *
+ * A solid is immutable and counts its references; threads may read one together. A call that returns no status takes
+ * O(1) unless it frees memory or its comment says otherwise.
+ */
+#ifndef PIROUETTE_SOLID_H
+#define PIROUETTE_SOLID_H
+
+#include <pirouette/base.h>
+#include <pirouette/io.h>
+#include <pirouette/mesh.h>
+#include <pirouette/polytope.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pir_solid pir_solid;
+typedef struct pir_pieces pir_pieces;
+
+/** How solids are made and computed with. */
+typedef struct pir_solid_options {
+    const pir_allocator *allocator; /**< NULL for malloc's; copied; it outlives what is made */
+    size_t memory; /**< the most bytes that one call may hold beside its result; GMP's numbers come on top */
+} pir_solid_options;
+
+/** malloc's allocator, and 4 GiB. */
+PIR_API pir_solid_options pir_solid_options_default(void);
+
+/** What a solid is. Lengths in units of the model. */
+typedef struct pir_solid_info {
+    uint32_t vertices, edges, facets; /**< as given; points at one place are one vertex */
+    /** The same once coplanar neighbours are one facet and straight corners are gone. */
+    uint32_t merged_vertices, merged_edges, merged_facets;
+    uint32_t reflex_edges; /**< those with more than 180 degrees inside, straight corners gone */
+    uint32_t shells;
+    int64_t genus;      /**< of all shells together */
+    double volume;      /**< nearest to the exact one */
+    pir_vec3 low, high; /**< bounds */
+} pir_solid_info;
+
+/**
+ * Reads the solid in `path`, by its ending (.off, .obj, .stl, .ply).
+ *
+ * options  NULL for the defaults.
+ * report   NULL, or filled when the call fails: it names the facet by its line, or the edge by its ends.
+ *
+ * Points at the same place are one vertex. Every edge must be on two facets, which walk it opposite ways; facets
+ * must be planar exactly as the file's numbers are, with an area; none may meet another but along edges and at
+ * vertices; outer shells face outwards, cavities inwards.
+ *
+ * Cost: O(n log n) for n facets of bounded size whose boxes meet few others; exact arithmetic where doubles cannot
+ * tell.
+ *
+ * Errors: those of reading (pir_polytope_read_surface); PIR_ERR_NOT_CLOSED for an edge that is not on two facets or not
+ * walked both ways; PIR_ERR_FORMAT for facets that are not planar, have no area, cross or overlap, for shells that are
+ * inside out or hold no volume; PIR_ERR_EMPTY without facets; PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ *
+ * ret_solid  the caller owns one reference.
+ */
+PIR_API pir_status pir_solid_read(const char *path, const pir_solid_options *options, pir_report *report,
+                                  pir_solid **ret_solid);
+
+/**
+ * The same for a file in memory.
+ *
+ * file                        the bytes, and their format.
+ * options, report, ret_solid  as of pir_solid_read.
+ *
+ * Cost: as of pir_solid_read.
+ *
+ * Errors as of pir_solid_read, without PIR_ERR_FILE.
+ */
+PIR_API pir_status pir_solid_read_bytes(const pir_file_bytes *file, const pir_solid_options *options,
+                                        pir_report *report, pir_solid **ret_solid);
+
+/** Facets in memory: facet f has the corners from corners[starts[f]] up to corners[starts[f + 1]], numbers of points.
+    */
+typedef struct pir_solid_facets {
+    const pir_vec3 *points; /**< borrowed, as are the others */
+    size_t point_count;
+    const uint32_t *starts; /**< facet_count + 1 */
+    const uint32_t *corners;
+    size_t facet_count;
+} pir_solid_facets;
+
+/**
+ * The same for facets in memory.
+ *
+ * facets                      everything is copied.
+ * options, report, ret_solid  as of pir_solid_read; facets are told by their numbers.
+ *
+ * Cost: as of pir_solid_read.
+ *
+ * Errors as of pir_solid_read, PIR_ERR_NOT_FINITE, and PIR_ERR_ARGUMENT for corners that are no points.
+ */
+PIR_API pir_status pir_solid_create(const pir_solid_facets *facets, const pir_solid_options *options,
+                                    pir_report *report, pir_solid **ret_solid);
+
+/**
+ * The solid that a polytope is.
+ *
+ * polytope            with an inside: one of dimension 3.
+ * options, ret_solid  as of pir_solid_read.
+ *
+ * Cost: as of pir_solid_read.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY for a flat polytope, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_solid_from_polytope(const pir_polytope *polytope, const pir_solid_options *options,
+                                           pir_solid **ret_solid);
+
+/** Another reference to `solid`, which is returned. */
+PIR_API pir_solid *pir_solid_retain(pir_solid *solid);
+
+/** Gives back a reference; NULL is accepted. */
+PIR_API void pir_solid_release(pir_solid *solid);
+
+/** What the solid is. */
+PIR_API void pir_solid_describe(const pir_solid *solid, pir_solid_info *ret_info);
+
+/**
+ * Divides a solid into convex pieces with disjoint insides, whose union it is: space is cut along planes of facets at
+ * reflex edges, then pieces are joined while the union of two is convex.
+ *
+ * options     NULL for the defaults.
+ * ret_pieces  to be freed with pir_pieces_destroy.
+ *
+ * Cost: for r reflex edges and n facets O(r²) pieces and O(r·n) fragments in most models.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_solid_decompose(const pir_solid *solid, const pir_solid_options *options,
+                                       pir_pieces **ret_pieces);
+
+/** Frees; NULL is accepted. */
+PIR_API void pir_pieces_destroy(pir_pieces *pieces);
+
+PIR_API uint32_t pir_pieces_count(const pir_pieces *pieces);
+
+/**
+ * Piece `index` as a polytope, exactly.
+ *
+ * Cost: a hull of its vertices, whose exact coordinates have one common denominator then.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_LIMIT (numbers too long), PIR_ERR_MEMORY.
+ *
+ * ret_polytope  the caller owns one reference.
+ */
+PIR_API pir_status pir_pieces_polytope(const pir_pieces *pieces, uint32_t index, pir_polytope **ret_polytope);
+
+/** How a sum of solids is made. */
+typedef struct pir_solid_sum_options {
+    pir_solid_options solid;
+    int difference; /**< 1: Q ⊕ (−R·P), what P may be moved by to meet Q; 0: R·P ⊕ Q */
+} pir_solid_sum_options;
+
+/** pir_solid_options_default, no difference. */
+PIR_API pir_solid_sum_options pir_solid_sum_options_default(void);
+
+/** What a sum of solids is, and the work that it took. */
+typedef struct pir_solid_sum_info {
+    uint32_t vertices, edges, facets; /**< with maximal facets */
+    uint32_t holes;                   /**< of facets */
+    uint32_t pieces_p, pieces_q;      /**< convex pieces */
+    uint64_t candidates;              /**< facets that features of P and Q make where they support each other locally */
+    uint64_t survivors;               /**< those of which something bounds the sum */
+} pir_solid_sum_info;
+
+/**
+ * The exact sum of P, turned, and Q as the bodies they are, boundaries included.
+ *
+ * rotation  of P, of any non-zero length: it stands for the exact rotation.
+ * options   NULL for the defaults.
+ * ret_info  NULL, or what the sum is.
+ * ret_mesh  its boundary with exact coordinates, to be freed with pir_mesh_destroy. Facets are maximal and need not be
+ *           convex. One with holes is a single loop: a slit, walked both ways, joins each hole to what is round it.
+ *           Vertices have no pairs, facets are of kind PIR_FACET_MERGED.
+ *
+ * A passage that Q fits through exactly is filled: the sum of closed bodies is closed.
+ *
+ * Cost: for p and q pieces with few facets each, O(p·q) to add their pairs, and for c candidates O(c·k), where k pairs
+ * are near a candidate; O(n·m) to find the candidates of solids with n and m edges.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (options->solid.memory),
+ * PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotation,
+                                 const pir_solid_sum_options *options, pir_solid_sum_info *ret_info,
+                                 pir_mesh **ret_mesh);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

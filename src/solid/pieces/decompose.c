@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Space is divided by planes of facets until the body is convex in every cell: a binary space partition (Fuchs, Kedem,
+ * Naylor 1980) that stops early.
+ *
+ * A cell holds fragments, the parts of facets that are in its inside, and creases, the parts of reflex edges there.
+ * When every fragment is on or below the plane of every other, the body in the cell is the cell cut by those
+ * planes: that convex set K has the fragments in its boundary and none within, so its inside is inside the body,
+ * and since K's other faces are in the cell's boundary, whatever else of the cell the body held would meet K in the
+ * inside of the cell with no fragment between. Otherwise the cell is cut by the plane of one of its fragments. A
+ * cell without fragments is what a side of the cut was: below the fragment whose plane it was, inside.
+ *
+ * Which plane: one that resolves many creases, which is to hold them, and that cuts few fragments.
+ */
+#include "solid/pieces/decompose.h"
+
+#include "solid/space/polygons.h"
+
+struct node {
+    uint32_t cell;
+    uint32_t fragment, fragment_count; /* in `list` */
+    uint32_t crease, crease_count;     /* in `creases` */
+    bool inside;                       /* when there are no fragments */
+};
+
+struct crease {
+    uint32_t a, b;     /* points */
+    uint32_t plane[2]; /* of its facets */
+};
+
+struct division {
+    const pir_body *body;
+    pir_space *space;
+    pir_cells *cells;
+    pir_piece_list *pieces;
+    pir_polygons polygons;
+    struct node *node;
+    uint32_t node_count, node_room;
+    uint32_t *list;
+    uint32_t list_count, list_room;
+    uint32_t *above; /* scratch: fragments above the plane of a cut */
+    uint32_t above_count, above_room;
+    struct crease *creases;
+    uint32_t crease_count, crease_room;
+};
+
+void pir_piece_list_add(pir_piece_list *pieces, pir_space *space, uint32_t cell) {
+    if (pir_space_grow(space, (void **)&pieces->cell, &pieces->room, pieces->count, sizeof *pieces->cell))
+        pieces->cell[pieces->count++] = cell;
+}
+
+void pir_piece_list_finish(pir_piece_list *pieces, pir_space *space) {
+    pir_space_shrink(space, pieces->cell, pieces->room, sizeof *pieces->cell);
+    *pieces = (pir_piece_list){0};
+}
+
+static void push_fragment(struct division *d, uint32_t polygon) {
+    if (pir_space_grow(d->space, (void **)&d->list, &d->list_room, d->list_count, sizeof *d->list))
+        d->list[d->list_count++] = polygon;
+}
+
+static void push_crease(struct division *d, struct crease crease) {
+    if (pir_space_grow(d->space, (void **)&d->creases, &d->crease_room, d->crease_count, sizeof *d->creases))
+        d->creases[d->crease_count++] = crease;
+}
+
+static void push_node(struct division *d, struct node node) {
+    if (pir_space_grow(d->space, (void **)&d->node, &d->node_room, d->node_count, sizeof *d->node))
+        d->node[d->node_count++] = node;
+}
+
+static uint32_t half_of(const struct division *d, uint32_t at) {
+    return d->polygons.polygon[d->list[at]].half;
+}
+
+/* --- the choice of a plane --- */
+
+struct score {
+    int64_t value;
+    bool divides;
+};
+
+static bool seen_before(const struct division *d, const struct node *node, uint32_t at) {
+    for (uint32_t i = node->fragment; i < at; i++)
+        if (half_of(d, i) >> 1 == half_of(d, at) >> 1)
+            return true;
+    return false;
+}
+
+static struct score score_plane(struct division *d, const struct node *node, uint32_t half) {
+    int64_t cut = 0, above = 0, resolved = 0, creases_cut = 0;
+    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count; i++) {
+        const unsigned sides = pir_polygons_sides(&d->polygons, d->list[i], half);
+        cut += sides == 3;
+        above += sides == 2;
+    }
+    for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++) {
+        const int a = pir_space_side(d->space, half, d->creases[i].a),
+                  b = pir_space_side(d->space, half, d->creases[i].b);
+        resolved += a == 0 && b == 0;
+        creases_cut += a * b < 0;
+    }
+    return (struct score){16 * resolved - 8 * creases_cut - cut, cut + above > 0};
+}
+
+/* The half-space to cut by, or none when every fragment is on or below the plane of every other. */
+static uint32_t choose_plane(struct division *d, const struct node *node) {
+    uint32_t best = PIR_SPACE_NONE;
+    int64_t value = INT64_MIN;
+    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && d->space->status == PIR_OK; i++) {
+        if (seen_before(d, node, i))
+            continue;
+        const struct score score = score_plane(d, node, half_of(d, i));
+        if (score.divides && score.value > value) {
+            value = score.value;
+            best = half_of(d, i);
+        }
+    }
+    return best;
+}
+
+/* --- the cut --- */
+
+static void push_above(struct division *d, uint32_t polygon) {
+    if (pir_space_grow(d->space, (void **)&d->above, &d->above_room, d->above_count, sizeof *d->above))
+        d->above[d->above_count++] = polygon;
+}
+
+static void cut_fragments(struct division *d, const struct node *node, uint32_t half, struct node child[2]) {
+    child[0].fragment = d->list_count;
+    d->above_count = 0;
+    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && d->space->status == PIR_OK; i++) {
+        const uint32_t fragment = d->list[i];
+        uint32_t parts[2] = {fragment, fragment};
+        const unsigned sides = pir_polygons_sides(&d->polygons, fragment, half);
+        if (sides == 3)
+            pir_polygons_cut(&d->polygons, fragment, half, parts);
+        if (sides & 1)
+            push_fragment(d, parts[0]);
+        if (sides & 2)
+            push_above(d, parts[1]);
+    }
+    child[0].fragment_count = d->list_count - child[0].fragment;
+    child[1].fragment = d->list_count;
+    child[1].fragment_count = d->above_count;
+    for (uint32_t i = 0; i < d->above_count; i++)
+        push_fragment(d, d->above[i]);
+}
+
+static void cut_creases(struct division *d, const struct node *node, uint32_t half, struct node child[2]) {
+    for (int above = 0; above < 2; above++) {
+        const int keep = above ? 1 : -1;
+        child[above].crease = d->crease_count;
+        for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++) {
+            struct crease crease = d->creases[i];
+            const int a = keep * pir_space_side(d->space, half, crease.a);
+            const int b = keep * pir_space_side(d->space, half, crease.b);
+            if (a <= 0 && b <= 0)
+                continue;
+            if (a * b < 0) {
+                const uint32_t point = pir_space_add_meet(d->space, crease.plane[0], crease.plane[1], half >> 1);
+                *(a < 0 ? &crease.a : &crease.b) = point;
+            }
+            push_crease(d, crease);
+        }
+        child[above].crease_count = d->crease_count - child[above].crease;
+    }
+}
+
+static void cut_node(struct division *d, const struct node *node, uint32_t half) {
+    struct node child[2] = {{.inside = true}, {.inside = false}};
+    uint32_t parts[2] = {0};
+    pir_cells_cut(d->cells, node->cell, half, parts);
+    cut_fragments(d, node, half, child);
+    cut_creases(d, node, half, child);
+    for (int above = 0; above < 2; above++) {
+        child[above].cell = parts[above];
+        if (parts[above] != PIR_SPACE_NONE)
+            push_node(d, child[above]);
+    }
+}
+
+/* The cell of a node, cut by the planes of all its fragments. */
+static void keep_piece(struct division *d, const struct node *node) {
+    uint32_t cell = node->cell;
+    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && cell != PIR_SPACE_NONE; i++) {
+        uint32_t parts[2] = {0};
+        if (seen_before(d, node, i))
+            continue;
+        pir_cells_cut(d->cells, cell, half_of(d, i), parts);
+        cell = parts[0];
+    }
+    if (cell != PIR_SPACE_NONE)
+        pir_piece_list_add(d->pieces, d->space, cell);
+}
+
+static void divide(struct division *d) {
+    while (d->node_count > 0 && d->space->status == PIR_OK) {
+        const struct node node = d->node[--d->node_count];
+        const uint32_t half = node.fragment_count ? choose_plane(d, &node) : PIR_SPACE_NONE;
+        if (half != PIR_SPACE_NONE)
+            cut_node(d, &node, half);
+        else if (node.fragment_count || node.inside)
+            keep_piece(d, &node);
+    }
+}
+
+/* --- the whole --- */
+
+static void begin(struct division *d) {
+    const pir_body *body = d->body;
+    struct node root = {.cell = pir_cells_add_box(d->cells)};
+    for (uint32_t p = 0; p < body->part_count; p++)
+        push_fragment(d, pir_polygons_add(&d->polygons, body->half[body->part_facet[p]],
+                                          body->part_corner + body->part_start[p],
+                                          body->part_direction + body->part_start[p],
+                                          body->part_start[p + 1] - body->part_start[p]));
+    for (uint32_t e = 0; e < body->edge_count; e++) {
+        const pir_body_edge *edge = &body->edge[e];
+        if (edge->bend == PIR_BEND_REFLEX)
+            push_crease(d, (struct crease){edge->a, edge->b, {body->plane[edge->left], body->plane[edge->right]}});
+    }
+    root.fragment_count = d->list_count;
+    root.crease_count = d->crease_count;
+    push_node(d, root);
+}
+
+pir_status pir_decompose(const pir_body *body, pir_cells *cells, pir_piece_list *pieces) {
+    pir_space *space = body->space;
+    struct division d = {.body = body, .space = space, .cells = cells, .pieces = pieces};
+    pir_polygons_init(&d.polygons, space);
+    begin(&d);
+    divide(&d);
+    pir_space_shrink(space, d.node, d.node_room, sizeof *d.node);
+    pir_space_shrink(space, d.list, d.list_room, sizeof *d.list);
+    pir_space_shrink(space, d.above, d.above_room, sizeof *d.above);
+    pir_space_shrink(space, d.creases, d.crease_room, sizeof *d.creases);
+    pir_polygons_finish(&d.polygons);
+    return space->status;
+}

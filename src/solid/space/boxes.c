@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/* See boxes.h. The tree is complete: its leaves are as many as the least power of two that four boxes each fill. */
+#include "solid/space/boxes.h"
+
+#include "base/sort.h"
+
+#define LEAF 4
+
+void pir_box_add(pir_box *box, const pir_space_point *point) {
+    for (int k = 0; k < 3; k++) {
+        const double low = point->x[k] - point->err, high = point->x[k] + point->err;
+        box->low[k] = low < box->low[k] ? low : box->low[k];
+        box->high[k] = high > box->high[k] ? high : box->high[k];
+    }
+}
+
+static void join(pir_box *box, const pir_box *other) {
+    for (int k = 0; k < 3; k++) {
+        box->low[k] = other->low[k] < box->low[k] ? other->low[k] : box->low[k];
+        box->high[k] = other->high[k] > box->high[k] ? other->high[k] : box->high[k];
+    }
+}
+
+struct order {
+    const pir_box *box;
+    int axis;
+};
+
+static bool box_before(void *context, uint32_t a, uint32_t b) {
+    const struct order *by = context;
+    return by->box[a].low[by->axis] + by->box[a].high[by->axis] < by->box[b].low[by->axis] + by->box[b].high[by->axis];
+}
+
+/* Puts order[first .. first + count) into the leaves below `node`, halves along the longest side of their box. */
+static void split(pir_boxes *boxes, const pir_box *box, uint32_t first, uint32_t count, uint32_t *work) {
+    if (count <= LEAF)
+        return;
+    pir_box all = PIR_BOX_EMPTY;
+    for (uint32_t i = first; i < first + count; i++)
+        join(&all, &box[boxes->order[i]]);
+    struct order by = {box, 0};
+    for (int k = 1; k < 3; k++)
+        if (all.high[k] - all.low[k] > all.high[by.axis] - all.low[by.axis])
+            by.axis = k;
+    pir_sort(boxes->order + first, count, work, box_before, &by);
+    // a full left half: the leaves below it are a power of two
+    uint32_t half = LEAF;
+    while (2 * half < count)
+        half *= 2;
+    split(boxes, box, first, half, work);
+    split(boxes, box, first + half, count - half, work);
+}
+
+bool pir_boxes_init(pir_boxes *boxes, pir_space *space, const pir_box *box, uint32_t count) {
+    const pir_allocator *a = &space->allocator;
+    uint32_t leaves = 1;
+    while (leaves * LEAF < count)
+        leaves *= 2;
+    *boxes = (pir_boxes){.count = count, .leaf_count = leaves, .node_count = 2 * leaves - 1};
+    boxes->node = PIR_NEW(a, pir_box, boxes->node_count);
+    boxes->box = PIR_NEW(a, pir_box, count);
+    boxes->order = PIR_NEW(a, uint32_t, count);
+    uint32_t *work = PIR_NEW(a, uint32_t, count);
+    const bool done = boxes->node && boxes->box && boxes->order && work;
+    if (done) {
+        for (uint32_t i = 0; i < count; i++)
+            boxes->order[i] = i;
+        split(boxes, box, 0, count, work);
+        for (uint32_t k = boxes->node_count; k-- > 0;) {
+            boxes->node[k] = PIR_BOX_EMPTY;
+            if (k + 1 < leaves) {
+                join(&boxes->node[k], &boxes->node[2 * k + 1]);
+                join(&boxes->node[k], &boxes->node[2 * k + 2]);
+            }
+            for (uint32_t i = k + 1 < leaves ? count : (k + 1 - leaves) * LEAF;
+                 i < count && i < (k + 2 - leaves) * LEAF; i++)
+                join(&boxes->node[k], &box[boxes->order[i]]);
+        }
+        for (uint32_t i = 0; i < count; i++)
+            boxes->box[i] = box[boxes->order[i]];
+    }
+    PIR_FREE(a, work, count);
+    if (done)
+        return true;
+    pir_boxes_finish(boxes, a);
+    space->status = PIR_ERR_MEMORY;
+    return false;
+}
+
+void pir_boxes_finish(pir_boxes *boxes, const pir_allocator *allocator) {
+    PIR_FREE(allocator, boxes->node, boxes->node_count);
+    PIR_FREE(allocator, boxes->box, boxes->count);
+    PIR_FREE(allocator, boxes->order, boxes->count);
+    *boxes = (pir_boxes){0};
+}
+
+uint32_t pir_boxes_find(const pir_boxes *boxes, const pir_box *box, uint32_t *ret_found) {
+    uint32_t stack[64], depth = 0, found = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const uint32_t k = stack[--depth];
+        if (!pir_box_meets(&boxes->node[k], box))
+            continue;
+        if (k + 1 < boxes->leaf_count) {
+            stack[depth++] = 2 * k + 2;
+            stack[depth++] = 2 * k + 1;
+            continue;
+        }
+        const uint32_t first = (k + 1 - boxes->leaf_count) * LEAF;
+        for (uint32_t i = first; i < boxes->count && i < first + LEAF; i++)
+            if (pir_box_meets(&boxes->box[i], box))
+                ret_found[found++] = boxes->order[i];
+    }
+    return found;
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+/* See space.h: the store of a job's points, directions and planes. Number 0 of each is there from the start. */
+#include "solid/space/space.h"
+
+#include <math.h>
+
+#include "solid/space/exact.h"
+
+#define SCRATCH (sizeof((pir_space *)0)->t / sizeof(mpz_t))
+
+void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t limit, size_t bits) {
+    *space = (pir_space){.allocator = *allocator, .limit = limit, .shift = (int)bits + 1};
+    for (size_t k = 0; k < SCRATCH; k++)
+        mpz_init(space->t[k]);
+    pir_space_numbers(space, 4);
+    mpz_t one;
+    mpz_init_set_ui(one, 1);
+    pir_space_add_direction(space, one, one, one);
+    pir_space_add_point(space, one, one, one, one);
+    pir_space_add_plane(space, (const uint32_t[]){0, PIR_SPACE_NONE}, false, (const uint32_t[]){0, PIR_SPACE_NONE});
+    mpz_clear(one);
+}
+
+void pir_space_finish(pir_space *space) {
+    for (size_t k = 0; k < SCRATCH; k++)
+        mpz_clear(space->t[k]);
+    for (uint32_t k = 0; k < space->number_count; k++)
+        mpz_clear(space->number[k]);
+    pir_space_shrink(space, space->number, space->number_room, sizeof *space->number);
+    pir_space_shrink(space, space->direction, space->direction_room, sizeof *space->direction);
+    pir_space_shrink(space, space->point, space->point_room, sizeof *space->point);
+    pir_space_shrink(space, space->plane, space->plane_room, sizeof *space->plane);
+    *space = (pir_space){0};
+}
+
+bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count, size_t size) {
+    if (space->status != PIR_OK)
+        return false;
+    if (count < *room)
+        return true;
+    const size_t larger = 2 * count + 16, bytes = (larger - *room) * size;
+    if (larger >= UINT32_MAX / 2 || bytes > space->limit - space->bytes) {
+        space->status = PIR_ERR_LIMIT;
+        return false;
+    }
+    void *grown = pir_memory_resize(&space->allocator, *array, *room, larger, size);
+    if (!grown) {
+        space->status = PIR_ERR_MEMORY;
+        return false;
+    }
+    *array = grown;
+    *room = (uint32_t)larger;
+    space->bytes += bytes;
+    return true;
+}
+
+void pir_space_shrink(pir_space *space, void *array, uint32_t room, size_t size) {
+    pir_memory_free(&space->allocator, array, room, size);
+    space->bytes -= room * size;
+}
+
+uint32_t pir_space_numbers(pir_space *space, uint32_t count) {
+    if (!pir_space_grow(space, (void **)&space->number, &space->number_room, space->number_count + count,
+                        sizeof *space->number))
+        return 0;
+    const uint32_t first = space->number_count;
+    for (uint32_t k = 0; k < count; k++)
+        mpz_init(space->number[space->number_count++]);
+    return first;
+}
+
+uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z) {
+    const uint32_t exact = pir_space_numbers(space, 3), made = space->direction_count;
+    if (!pir_space_grow(space, (void **)&space->direction, &space->direction_room, made, sizeof *space->direction))
+        return 0;
+    mpz_t *n = space->number + exact;
+    mpz_set(n[0], x);
+    mpz_set(n[1], y);
+    mpz_set(n[2], z);
+    pir_numbers_reduce(n, 3, space->t[16]);
+    space->direction[made].exact = exact;
+    pir_space_round_direction(space->direction[made].n, n);
+    return space->direction_count++;
+}
+
+/* A new point without coordinates. */
+static uint32_t new_point(pir_space *space, enum pir_point_kind kind) {
+    const uint32_t made = space->point_count;
+    if (!pir_space_grow(space, (void **)&space->point, &space->point_room, made, sizeof *space->point))
+        return 0;
+    space->point[made] = (pir_space_point){.exact = PIR_SPACE_NONE, .kind = kind};
+    return space->point_count++;
+}
+
+uint32_t pir_space_add_point(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z, mpz_srcptr w) {
+    const uint32_t exact = pir_space_numbers(space, 4), made = new_point(space, PIR_POINT_GIVEN);
+    if (space->status != PIR_OK)
+        return 0;
+    mpz_t *n = space->number + exact;
+    mpz_set(n[0], x);
+    mpz_set(n[1], y);
+    mpz_set(n[2], z);
+    mpz_set(n[3], w);
+    pir_numbers_reduce(n, 4, space->t[16]);
+    space->point[made].exact = exact;
+    pir_space_round_point(space, made);
+    return made;
+}
+
+uint32_t pir_space_add_sum(pir_space *space, uint32_t a, uint32_t b) {
+    const uint32_t made = new_point(space, PIR_POINT_SUM);
+    if (space->status != PIR_OK)
+        return 0;
+    const pir_space_point *p = &space->point[a], *q = &space->point[b];
+    pir_space_point *sum = &space->point[made];
+    sum->of[0] = a;
+    sum->of[1] = b;
+    for (int k = 0; k < 3; k++)
+        sum->x[k] = p->x[k] + q->x[k];
+    sum->err = p->err + q->err + 0x1p-51;
+    return made;
+}
+
+/* How far a solution may be from where the true planes meet: each plane's residual, with what it may be wrong by, over
+ * the least determinant that the true normals may have. The cross product of two unit normals is no longer than 1. */
+static double meet_error(const pir_space_plane *const plane[3], const double x[3], double det) {
+    double all = 0, wrong = 0x1p-48;
+    for (int k = 0; k < 3; k++) {
+        const double *n = plane[k]->n;
+        all += fabs(n[0] * x[0] + n[1] * x[1] + n[2] * x[2] - plane[k]->d) + plane[k]->err + 0x1p-48;
+        wrong += 2 * plane[k]->err;
+    }
+    const double least = fabs(det) * (1 - 0x1p-40) - wrong;
+    return least > 0 ? all * (1 + 0x1p-40) / least : (double)INFINITY;
+}
+
+uint32_t pir_space_add_meet(pir_space *space, uint32_t f, uint32_t g, uint32_t h) {
+    const uint32_t made = new_point(space, PIR_POINT_MEET), of[3] = {f, g, h};
+    if (space->status != PIR_OK)
+        return 0;
+    const pir_space_plane *const plane[3] = {&space->plane[f], &space->plane[g], &space->plane[h]};
+    double x[3] = {0}, det = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = plane[(i + 1) % 3]->n, *b = plane[(i + 2) % 3]->n, d = plane[i]->d;
+        const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        for (int k = 0; k < 3; k++)
+            x[k] += d * cross[k];
+        if (i == 0)
+            det = plane[0]->n[0] * cross[0] + plane[0]->n[1] * cross[1] + plane[0]->n[2] * cross[2];
+    }
+    bool usable = fabs(det) > 0x1p-40;
+    for (int k = 0; k < 3 && usable; k++) {
+        x[k] /= det;
+        usable = fabs(x[k]) <= 1.5;
+    }
+    pir_space_point *p = &space->point[made];
+    for (int k = 0; k < 3; k++) {
+        p->of[k] = of[k];
+        p->x[k] = usable ? x[k] : 0;
+    }
+    p->err = usable ? meet_error(plane, x, det) : (double)INFINITY;
+    return made;
+}
+
+/* The unit normal of a plane, and how far it may be from the true one: two directions, each within 2^-49, bring
+ * 2^-48 and the rounding of their product, over its length. */
+static double set_normal(const pir_space *space, pir_space_plane *p) {
+    const double *a = space->direction[p->direction[0]].n, sign = p->turned ? -1 : 1;
+    if (p->direction[1] == PIR_SPACE_NONE) {
+        for (int k = 0; k < 3; k++)
+            p->n[k] = sign * a[k];
+        return 0x1p-49;
+    }
+    const double *b = space->direction[p->direction[1]].n;
+    const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
+    if (!(length > 0x1p-40))
+        return (double)INFINITY;
+    for (int k = 0; k < 3; k++)
+        p->n[k] = sign * cross[k] / length;
+    return 0x1p-46 / length;
+}
+
+uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool turned, const uint32_t point[2]) {
+    const uint32_t made = space->plane_count;
+    if (!pir_space_grow(space, (void **)&space->plane, &space->plane_room, made, sizeof *space->plane))
+        return 0;
+    pir_space_plane p = {.exact = PIR_SPACE_NONE,
+                         .direction = {direction[0], direction[1]},
+                         .point = {point[0], point[1]},
+                         .turned = turned};
+    const double off = set_normal(space, &p);
+    double x[3], err = 0;
+    for (int k = 0; k < 3; k++)
+        x[k] = space->point[point[0]].x[k] + (point[1] == PIR_SPACE_NONE ? 0 : space->point[point[1]].x[k]);
+    err = space->point[point[0]].err + (point[1] == PIR_SPACE_NONE ? 0 : space->point[point[1]].err);
+    p.d = p.n[0] * x[0] + p.n[1] * x[1] + p.n[2] * x[2];
+    // the normal is wrong at x and at the point itself, each within √3 of the middle
+    p.err = 4 * off + err + 0x1p-48;
+    space->plane[made] = p;
+    return space->plane_count++;
+}

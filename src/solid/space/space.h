@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The points, directions and planes that one job on solids works with: held as doubles with a proven error, and exactly
+ * where a sign needs it.
+ *
+ * Coordinates are integers on one scale. Doubles are those integers times 2^-shift, where the shift puts every point of
+ * the job into |x|, |y|, |z| ≤ 1. Each point and plane knows how far its doubles may be from the truth:
+ *
+ *     |point.x − x| ≤ point.err,     |(plane.n·x − plane.d) − (n·x − d)| ≤ plane.err  for |n| = 1 and x in that cube.
+ *
+ * A point is given, or the sum of two points, or where three planes meet. A plane has a direction, or the cross product
+ * of two, for a normal, and holds the sum of two points. So exact numbers never rest on constructed ones in a row: they
+ * are made from the definition when a filter fails, in lowest terms, and kept.
+ *
+ * Memory that runs out, or past the limit, is remembered in `status`; calls then return number 0, and the job looks at
+ * `status` before it gives a result. Exact numbers are GMP's, in GMP's own memory.
+ */
+#ifndef PIR_SOLID_SPACE_SPACE_H
+#define PIR_SOLID_SPACE_SPACE_H
+
+#include <gmp.h>
+
+#include <pirouette/base.h>
+
+#include "base/memory.h"
+
+#define PIR_SPACE_NONE UINT32_MAX
+
+typedef struct pir_space_direction {
+    double n[3];    /* unit, within 2^-49 of the true one */
+    uint32_t exact; /* three numbers without a common factor */
+} pir_space_direction;
+
+enum pir_point_kind { PIR_POINT_GIVEN, PIR_POINT_SUM, PIR_POINT_MEET };
+
+typedef struct pir_space_point {
+    double x[3], err;
+    uint32_t exact; /* X, Y, Z, W > 0 in lowest terms, or none yet */
+    uint32_t of[3]; /* two points, or three planes */
+    enum pir_point_kind kind;
+} pir_space_point;
+
+typedef struct pir_space_plane {
+    double n[3], d, err;
+    uint32_t exact;        /* a, b, c, d of a·x + b·y + c·z = d in lowest terms, or none yet */
+    uint32_t direction[2]; /* the second may be none */
+    uint32_t point[2];     /* likewise */
+    bool turned;           /* the normal is the reverse of what the directions say */
+} pir_space_plane;
+
+typedef struct pir_space {
+    pir_allocator allocator;
+    pir_status status;
+    size_t bytes, limit;
+    int shift;
+    pir_space_direction *direction;
+    pir_space_point *point;
+    pir_space_plane *plane;
+    mpz_t *number;
+    uint32_t direction_count, point_count, plane_count, number_count;
+    uint32_t direction_room, point_room, plane_room, number_room;
+    mpz_t t[20];       /* scratch of the exact calls */
+    uint64_t by_exact; /* sides that doubles could not tell */
+} pir_space;
+
+/* `bits` of the longest coordinate of the job, sums included; at most `limit` bytes of memory. */
+void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t limit, size_t bits);
+void pir_space_finish(pir_space *space);
+
+/* Grows *array, of *room elements, to hold one more than `count`, within the limit. False once `status` is a failure.
+ * */
+bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count, size_t size);
+
+/* Memory of the job that is given back by hand counts for the limit as well. */
+void pir_space_shrink(pir_space *space, void *array, uint32_t room, size_t size);
+
+/* `count` new numbers, all 0; the number of the first. */
+uint32_t pir_space_numbers(pir_space *space, uint32_t count);
+
+/* The direction (x, y, z), which is not zero. */
+uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z);
+
+/* The point (x, y, z)/w, w > 0. */
+uint32_t pir_space_add_point(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z, mpz_srcptr w);
+
+uint32_t pir_space_add_sum(pir_space *space, uint32_t a, uint32_t b);
+
+/* Where three planes meet in one point. */
+uint32_t pir_space_add_meet(pir_space *space, uint32_t f, uint32_t g, uint32_t h);
+
+/* The plane with normal ±a, or ±(a × b) unless b is none, through point p, or p + q unless q is none. */
+uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool turned, const uint32_t point[2]);
+
+/* A half-space: a plane's, and whether it is turned. Its points have side ≤ 0. */
+static inline uint32_t pir_half(uint32_t plane, bool turned) {
+    return plane << 1 | turned;
+}
+
+/* The side of a half-space on which a point lies: 1 above, −1 below, 0 in its plane. */
+int pir_space_side(pir_space *space, uint32_t half, uint32_t point);
+
+/* The sign of det(a, b, c) and of a · b for directions. */
+int pir_space_det(pir_space *space, uint32_t a, uint32_t b, uint32_t c);
+int pir_space_dot(pir_space *space, uint32_t a, uint32_t b);
+
+/* The sign of the turn from a over b to c, seen from above the half-space in whose plane all three are. */
+int pir_space_turn(pir_space *space, uint32_t half, uint32_t a, uint32_t b, uint32_t c);
+
+/* The sign of det(b − a, c − a, d − a). */
+int pir_space_orient(pir_space *space, uint32_t a, uint32_t b, uint32_t c, uint32_t d);
+
+/* The sign of direction · (b − a). */
+int pir_space_order(pir_space *space, uint32_t direction, uint32_t a, uint32_t b);
+
+#endif

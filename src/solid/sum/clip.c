@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * See clip.h. A fragment is cut by one plane after the other; what is above a plane stays, and what is left in the
+ * end is covered. A fragment that the set does not meet is left as it is, so nothing is cut in vain: that is asked
+ * first, by doubles alone, then with every plane exactly, and once more while cutting.
+ */
+#include "solid/sum/clip.h"
+
+void pir_fragments_finish(pir_fragments *fragments, pir_space *space) {
+    pir_space_shrink(space, fragments->polygon, fragments->room, sizeof *fragments->polygon);
+    pir_space_shrink(space, fragments->spare, fragments->spare_room, sizeof *fragments->spare);
+    *fragments = (pir_fragments){0};
+}
+
+void pir_fragments_add(pir_fragments *fragments, pir_space *space, uint32_t polygon) {
+    if (pir_space_grow(space, (void **)&fragments->polygon, &fragments->room, fragments->count,
+                       sizeof *fragments->polygon))
+        fragments->polygon[fragments->count++] = polygon;
+}
+
+/* Whether doubles prove that all corners are above some half-space. */
+static bool is_surely_apart(const pir_polygons *polygons, pir_polygon p, const uint32_t *half, uint32_t count) {
+    const pir_space *space = polygons->space;
+    for (uint32_t h = 0; h < count; h++) {
+        const pir_space_plane *f = &space->plane[half[h] >> 1];
+        const double turn = half[h] & 1 ? -1 : 1;
+        uint32_t i = 0;
+        for (; i < p.count; i++) {
+            const pir_space_point *x = &space->point[polygons->point[p.first + i]];
+            if (!(turn * (f->n[0] * x->x[0] + f->n[1] * x->x[1] + f->n[2] * x->x[2] - f->d) >
+                  f->err + x->err + 0x1p-48))
+                break;
+        }
+        if (i == p.count)
+            return true;
+    }
+    return false;
+}
+
+/* The sign of the scalar product of two normals that are parallel, as half-spaces. */
+static bool faces_same_way(const pir_space *space, uint32_t a, uint32_t b) {
+    const double *m = space->plane[a >> 1].n, *n = space->plane[b >> 1].n;
+    return (m[0] * n[0] + m[1] * n[1] + m[2] * n[2] > 0) == !((a ^ b) & 1);
+}
+
+enum meeting { MEETS, APART };
+
+/* Whether a fragment meets the set; the half-spaces that cut it are counted, and stand first in `cutter`. */
+static enum meeting find_cutters(pir_polygons *polygons, uint32_t fragment, const uint32_t *half, uint32_t count,
+                                 uint32_t *cutter, uint32_t *ret_cutters) {
+    uint32_t cutters = 0;
+    for (uint32_t h = 0; h < count; h++) {
+        const unsigned sides = pir_polygons_sides(polygons, fragment, half[h]);
+        if (sides == 2 || (sides == 0 && faces_same_way(polygons->space, polygons->polygon[fragment].half, half[h])))
+            return APART;
+        if (sides == 3)
+            cutter[cutters++] = half[h];
+    }
+    *ret_cutters = cutters;
+    return MEETS;
+}
+
+static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *polygons, const uint32_t *half,
+                         uint32_t count) {
+    pir_space *space = polygons->space;
+    uint32_t rest = fragments->polygon[at], cutters = 0;
+    if (is_surely_apart(polygons, polygons->polygon[rest], half, count) ||
+        !pir_space_grow(space, (void **)&fragments->spare, &fragments->spare_room, count, sizeof *fragments->spare))
+        return;
+    if (find_cutters(polygons, rest, half, count, fragments->spare, &cutters) == APART)
+        return;
+    const uint32_t before = fragments->count, polygon_count = polygons->count;
+    for (uint32_t h = 0; h < cutters && space->status == PIR_OK; h++) {
+        const unsigned sides = pir_polygons_sides(polygons, rest, fragments->spare[h]);
+        if (sides == 2) {
+            // the set is beside what is left: the fragment was not met at all
+            fragments->count = before;
+            pir_polygons_truncate(polygons, polygon_count);
+            return;
+        }
+        if (sides != 3)
+            continue;
+        uint32_t parts[2] = {0};
+        pir_polygons_cut(polygons, rest, fragments->spare[h], parts);
+        pir_fragments_add(fragments, space, parts[1]);
+        rest = parts[0];
+    }
+    fragments->polygon[at] = PIR_SPACE_NONE;
+}
+
+void pir_fragments_subtract(pir_fragments *fragments, pir_polygons *polygons, const uint32_t *half, uint32_t count) {
+    const uint32_t before = fragments->count;
+    for (uint32_t i = 0; i < before && polygons->space->status == PIR_OK; i++)
+        subtract_one(fragments, i, polygons, half, count);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < fragments->count; i++)
+        if (fragments->polygon[i] != PIR_SPACE_NONE)
+            fragments->polygon[kept++] = fragments->polygon[i];
+    fragments->count = kept;
+}

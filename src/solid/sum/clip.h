@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* What of a convex polygon a convex set leaves uncovered. */
+#ifndef PIR_SOLID_SUM_CLIP_H
+#define PIR_SOLID_SUM_CLIP_H
+
+#include "solid/space/polygons.h"
+
+/* Polygons of a list, a set being cut. */
+typedef struct pir_fragments {
+    uint32_t *polygon;
+    uint32_t count, room, spare_room;
+    uint32_t *spare; /* scratch */
+} pir_fragments;
+
+void pir_fragments_finish(pir_fragments *fragments, pir_space *space);
+
+/* Adds a polygon to the set. */
+void pir_fragments_add(pir_fragments *fragments, pir_space *space, uint32_t polygon);
+
+/*
+ * Takes from the fragments what lies in a convex set, of the half-spaces half[0 .. count), all of whose planes are
+ * different. A plane of the set may be that of a fragment: where the set is on its upper side, the fragment counts as
+ * just above the plane and so within it; where the set is on the lower side, the fragment is left alone.
+ */
+void pir_fragments_subtract(pir_fragments *fragments, pir_polygons *polygons, const uint32_t *half, uint32_t count);
+
+#endif

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * See facet_loops.h. At a corner from which several edges lead on, the loop takes the one that turns most to the
+ * left: between an edge and the next lies then a wedge of the facet's inside, and parts that only touch at a corner
+ * get loops of their own. A loop's extreme corner says which way it goes round.
+ */
+#include "solid/sum/facet_loops.h"
+
+#include <math.h>
+
+#include "solid/sum/slits.h"
+
+struct tracer {
+    pir_loop_list *list;
+    pir_space *space;
+    const pir_outline *outline;
+    uint32_t half;
+    uint32_t first, end; /* runs of the half-space */
+    uint32_t first_loop; /* of it */
+    bool *used;          /* per run */
+    uint32_t axis[2];    /* directions that tell points of the plane apart */
+};
+
+static uint32_t from_of(const pir_run *run) {
+    return run->sign > 0 ? run->a : run->b;
+}
+
+static uint32_t to_of(const pir_run *run) {
+    return run->sign > 0 ? run->b : run->a;
+}
+
+static void push_corner(pir_loop_list *list, uint32_t point) {
+    if (pir_space_grow(list->space, (void **)&list->corner, &list->corner_room, list->corner_count,
+                       sizeof *list->corner))
+        list->corner[list->corner_count++] = point;
+}
+
+/* Whether `b` turns more to the left than `a`, coming from p to q. */
+static bool turns_more(struct tracer *t, const uint32_t pq[2], uint32_t a, uint32_t b) {
+    const int left_a = pir_space_turn(t->space, t->half, pq[0], pq[1], a);
+    const int left_b = pir_space_turn(t->space, t->half, pq[0], pq[1], b);
+    return left_a != left_b ? left_b > left_a : pir_space_turn(t->space, t->half, pq[1], a, b) > 0;
+}
+
+/* The run that a loop goes on with after `run`. */
+static uint32_t next_run(struct tracer *t, uint32_t run) {
+    const pir_run *runs = t->outline->run;
+    const uint32_t pq[2] = {from_of(&runs[run]), to_of(&runs[run])};
+    uint32_t best = PIR_SPACE_NONE;
+    for (uint32_t r = t->first; r < t->end; r++)
+        if (from_of(&runs[r]) == pq[1] &&
+            (best == PIR_SPACE_NONE || turns_more(t, pq, to_of(&runs[best]), to_of(&runs[r]))))
+            best = r;
+    return best;
+}
+
+/* The directions of the two axes that a plane's normal is not nearest to. */
+static void set_axes(struct tracer *t) {
+    pir_space *space = t->space;
+    const double *n = space->plane[t->half >> 1].n;
+    int most = 0;
+    for (int k = 1; k < 3; k++)
+        most = fabs(n[k]) > fabs(n[most]) ? k : most;
+    for (int i = 0; i < 2; i++) {
+        const int axis = (most + 1 + i) % 3;
+        for (int k = 0; k < 3; k++)
+            mpz_set_ui(space->t[k], k == axis);
+        t->axis[i] = pir_space_add_direction(space, space->t[0], space->t[1], space->t[2]);
+    }
+}
+
+/* Whether a loop goes round clockwise: the turn at the corner that is first along one axis, then along the other. */
+static bool is_hole(struct tracer *t, const pir_loop *loop) {
+    const uint32_t *corner = t->list->corner + loop->first;
+    uint32_t best = 0;
+    for (uint32_t i = 1; i < loop->count; i++) {
+        int order = pir_space_order(t->space, t->axis[0], corner[best], corner[i]);
+        if (order == 0)
+            order = pir_space_order(t->space, t->axis[1], corner[best], corner[i]);
+        best = order < 0 ? i : best;
+    }
+    return pir_space_turn(t->space, t->half, corner[best > 0 ? best - 1 : loop->count - 1], corner[best],
+                          corner[best + 1 < loop->count ? best + 1 : 0]) < 0;
+}
+
+static void trace_loop(struct tracer *t, uint32_t start) {
+    pir_loop_list *list = t->list;
+    pir_loop loop = {.first = list->corner_count};
+    uint32_t run = start;
+    do {
+        t->used[run] = true;
+        push_corner(list, from_of(&t->outline->run[run]));
+        run = next_run(t, run);
+    } while (run != start && run != PIR_SPACE_NONE && t->space->status == PIR_OK);
+    loop.count = list->corner_count - loop.first;
+    if (!pir_space_grow(t->space, (void **)&list->loop, &list->room, list->count, sizeof *list->loop))
+        return;
+    loop.hole = is_hole(t, &loop);
+    loop.within = list->count;
+    list->loop[list->count++] = loop;
+}
+
+/* --- holes --- */
+
+static bool holds(struct tracer *t, const pir_loop *loop, uint32_t point) {
+    const uint32_t *corner = t->list->corner + loop->first;
+    bool inside = false;
+    for (uint32_t i = 0; i < loop->count; i++) {
+        const uint32_t a = corner[i], b = corner[i + 1 < loop->count ? i + 1 : 0];
+        const bool from = pir_space_order(t->space, t->axis[1], point, a) > 0;
+        const bool to = pir_space_order(t->space, t->axis[1], point, b) > 0;
+        if (from != to)
+            inside ^= (pir_space_turn(t->space, t->half, a, b, point) > 0) == to;
+    }
+    return inside;
+}
+
+static double area_of(struct tracer *t, const pir_loop *loop) {
+    const uint32_t *corner = t->list->corner + loop->first;
+    double sum[3] = {0};
+    for (uint32_t i = 0; i < loop->count; i++) {
+        const double *p = t->space->point[corner[i]].x;
+        const double *q = t->space->point[corner[i + 1 < loop->count ? i + 1 : 0]].x;
+        for (int k = 0; k < 3; k++)
+            sum[k] += p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+    }
+    return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+}
+
+/* The smallest of the facets' loops that hold the hole; loops of one plane do not cross, so those nest. */
+static void find_facet(struct tracer *t, pir_loop *hole) {
+    pir_loop_list *list = t->list;
+    double least = (double)INFINITY;
+    for (uint32_t l = t->first_loop; l < list->count; l++) {
+        const pir_loop *loop = &list->loop[l];
+        if (loop->hole || !holds(t, loop, list->corner[hole->first]))
+            continue;
+        const double area = area_of(t, loop);
+        hole->within = area < least ? l : hole->within;
+        least = area < least ? area : least;
+    }
+}
+
+static void trace_half(struct tracer *t) {
+    pir_loop_list *list = t->list;
+    t->first_loop = list->count;
+    set_axes(t);
+    for (uint32_t r = t->first; r < t->end && t->space->status == PIR_OK; r++)
+        if (!t->used[r])
+            trace_loop(t, r);
+    for (uint32_t l = t->first_loop; l < list->count; l++)
+        if (list->loop[l].hole)
+            find_facet(t, &list->loop[l]);
+    for (uint32_t l = t->first_loop; l < list->count && t->space->status == PIR_OK; l++)
+        if (!list->loop[l].hole)
+            pir_loops_add_facet(list, t->half, l);
+}
+
+void pir_loops_trace(pir_loop_list *loops, const pir_outline *outline) {
+    pir_space *space = outline->space;
+    *loops = (pir_loop_list){.space = space};
+    struct tracer t = {.list = loops, .space = space, .outline = outline};
+    t.used = PIR_ZEROED(&space->allocator, bool, outline->run_count);
+    if (!t.used)
+        space->status = PIR_ERR_MEMORY;
+    for (t.first = 0; t.first < outline->run_count && space->status == PIR_OK; t.first = t.end) {
+        t.half = outline->run[t.first].half;
+        for (t.end = t.first + 1; t.end < outline->run_count && outline->run[t.end].half == t.half; t.end++)
+            ;
+        trace_half(&t);
+    }
+    PIR_FREE(&space->allocator, t.used, outline->run_count);
+}
+
+void pir_loop_list_finish(pir_loop_list *loops) {
+    if (!loops->space)
+        return;
+    pir_space_shrink(loops->space, loops->loop, loops->room, sizeof *loops->loop);
+    pir_space_shrink(loops->space, loops->corner, loops->corner_room, sizeof *loops->corner);
+    pir_space_shrink(loops->space, loops->facet, loops->facet_room, sizeof *loops->facet);
+    pir_space_shrink(loops->space, loops->facet_corner, loops->facet_corner_room, sizeof *loops->facet_corner);
+    pir_space_shrink(loops->space, loops->spare, loops->spare_room, sizeof *loops->spare);
+    *loops = (pir_loop_list){0};
+}

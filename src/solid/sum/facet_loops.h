@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* Facets from the edges round them: loops, holes with the facets they are in, and slits that make each one loop. */
+#ifndef PIR_SOLID_SUM_LOOPS_H
+#define PIR_SOLID_SUM_LOOPS_H
+
+#include "solid/sum/union_outline.h"
+
+typedef struct pir_loop {
+    uint32_t first, count; /* corners */
+    bool hole;
+    uint32_t within; /* of a hole: the loop of its facet */
+} pir_loop;
+
+typedef struct pir_loop_list {
+    pir_space *space;
+    uint32_t count, room, corner_count, corner_room;
+    pir_loop *loop;
+    uint32_t *corner; /* points */
+    uint32_t facet_count, facet_room, facet_corner_count, facet_corner_room;
+    uint32_t *facet; /* where the corners of each facet end */
+    uint32_t *facet_corner;
+    uint32_t *spare, spare_count, spare_room; /* scratch: the corners of the facet at hand */
+    uint32_t hole_count;
+} pir_loop_list;
+
+/* Traces the runs of an outline that has been cut, those of one half-space after the other. */
+void pir_loops_trace(pir_loop_list *loops, const pir_outline *outline);
+void pir_loop_list_finish(pir_loop_list *loops);
+
+#endif

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * See remains.h. A candidate has the sum below it; it bounds the sum where the points just above it are in no
+ * pair's sum. A pair's sum covers the points of a candidate that are inside it, or in its boundary with its inside
+ * above: so the rest is exact, in general position or not. The pairs that hold the candidate's middle deepest come
+ * first, since one of them often covers all of it.
+ */
+#include "solid/sum/remains.h"
+
+#include "base/sort.h"
+#include "solid/space/intern.h"
+#include "solid/sum/convolution.h"
+
+static double depth_of(const pir_space *space, const pir_pair_sum *pair, const double x[3]) {
+    double least = 1e300;
+    for (uint32_t k = pair->first; k < pair->first + pair->count; k++) {
+        const pir_space_plane *f = &space->plane[k];
+        const double depth = f->d - (f->n[0] * x[0] + f->n[1] * x[1] + f->n[2] * x[2]);
+        least = depth < least ? depth : least;
+    }
+    return least;
+}
+
+static bool deeper(void *context, uint32_t a, uint32_t b) {
+    const double *depth = context;
+    return depth[a] > depth[b];
+}
+
+/* The pairs that may cover a candidate, the deepest first, into `order`. */
+static uint32_t find_pairs(pir_remains *c, pir_polygon p) {
+    pir_box box = PIR_BOX_EMPTY;
+    double middle[3] = {0};
+    for (uint32_t i = 0; i < p.count; i++) {
+        const pir_space_point *x = &c->space->point[c->polygons.point[p.first + i]];
+        pir_box_add(&box, x);
+        for (int k = 0; k < 3; k++)
+            middle[k] += x->x[k] / p.count;
+    }
+    const uint32_t count = pir_boxes_find(&c->boxes, &box, c->order);
+    for (uint32_t i = 0; i < count; i++)
+        c->depth[c->order[i]] = depth_of(c->space, &c->pair[c->order[i]], middle);
+    pir_sort(c->order, count, c->work, deeper, c->depth);
+    return count;
+}
+
+static bool list_halves(pir_remains *c, const pir_pair_sum *pair) {
+    if (!pir_space_grow(c->space, (void **)&c->half, &c->half_room, pair->count, sizeof *c->half))
+        return false;
+    for (uint32_t k = 0; k < pair->count; k++)
+        c->half[k] = pir_half(pair->first + k, false);
+    return true;
+}
+
+static void keep(pir_remains *c, uint32_t candidate) {
+    if (!pir_space_grow(c->space, (void **)&c->survivor, &c->survivor_room, c->survivor_count, sizeof *c->survivor))
+        return;
+    pir_survivor s = {.half = c->polygons.polygon[candidate].half, .count = c->fragments.count};
+    s.polygon = pir_polygons_copy(&c->kept, &c->polygons, candidate);
+    s.first = c->kept.count;
+    for (uint32_t i = 0; i < c->fragments.count; i++)
+        pir_polygons_copy(&c->kept, &c->polygons, c->fragments.polygon[i]);
+    c->survivor[c->survivor_count++] = s;
+}
+
+static void take(void *context, uint32_t polygon) {
+    pir_remains *c = context;
+    c->candidates++;
+    c->fragments.count = 0;
+    pir_fragments_add(&c->fragments, c->space, polygon);
+    const uint32_t pairs = find_pairs(c, c->polygons.polygon[polygon]);
+    for (uint32_t i = 0; i < pairs && c->fragments.count > 0 && c->space->status == PIR_OK; i++) {
+        const pir_pair_sum *pair = &c->pair[c->order[i]];
+        if (list_halves(c, pair))
+            pir_fragments_subtract(&c->fragments, &c->polygons, c->half, pair->count);
+    }
+    if (c->fragments.count > 0)
+        keep(c, polygon);
+    pir_polygons_truncate(&c->polygons, 0);
+}
+
+static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
+    for (uint32_t i = 0; i < convexes[0].count; i++)
+        for (uint32_t j = 0; j < convexes[1].count; j++) {
+            if (!pir_space_grow(c->space, (void **)&c->pair, &c->pair_room, c->pair_count, sizeof *c->pair))
+                return false;
+            c->pair[c->pair_count++] = pir_pair_sum_make(&convexes[0], i, &convexes[1], j);
+        }
+    const pir_allocator *a = &c->space->allocator;
+    pir_box *box = PIR_NEW(a, pir_box, c->pair_count);
+    c->depth = PIR_NEW(a, double, c->pair_count);
+    c->order = PIR_NEW(a, uint32_t, c->pair_count);
+    c->work = PIR_NEW(a, uint32_t, c->pair_count);
+    bool done = box && c->depth && c->order && c->work;
+    for (uint32_t i = 0; i < c->pair_count && done; i++)
+        box[i] = c->pair[i].box;
+    done = done && pir_boxes_init(&c->boxes, c->space, box, c->pair_count);
+    PIR_FREE(a, box, c->pair_count);
+    if (!done && c->space->status == PIR_OK)
+        c->space->status = PIR_ERR_MEMORY;
+    return done;
+}
+
+/* Gives all survivors in one plane one half-space. */
+static void join_planes(pir_remains *c) {
+    pir_intern planes;
+    pir_intern_init(&planes, c->space, 4);
+    for (uint32_t s = 0; s < c->survivor_count && c->space->status == PIR_OK; s++) {
+        pir_survivor *survivor = &c->survivor[s];
+        survivor->half = pir_intern_half(&planes, survivor->half);
+        c->kept.polygon[survivor->polygon].half = survivor->half;
+        for (uint32_t i = 0; i < survivor->count; i++)
+            c->kept.polygon[survivor->first + i].half = survivor->half;
+    }
+    pir_intern_finish(&planes);
+}
+
+void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_convexes convexes[2]) {
+    *remains = (pir_remains){.space = body[0].space};
+    pir_polygons_init(&remains->polygons, remains->space);
+    pir_polygons_init(&remains->kept, remains->space);
+    if (make_pairs(remains, convexes))
+        pir_candidates(&body[0], &body[1], &remains->polygons, take, remains);
+    join_planes(remains);
+}
+
+void pir_remains_part(pir_remains *remains, const uint32_t *order, uint32_t count, pir_fragments *fragments) {
+    pir_remains *c = remains;
+    for (uint32_t i = 0; i < count && c->space->status == PIR_OK; i++) {
+        const pir_survivor survivor = c->survivor[order[i]];
+        c->fragments.count = 0;
+        for (uint32_t k = 0; k < survivor.count; k++)
+            pir_fragments_add(&c->fragments, c->space, survivor.first + k);
+        for (uint32_t j = 0; j < i && c->fragments.count > 0; j++) {
+            const pir_polygon earlier = c->kept.polygon[c->survivor[order[j]].polygon];
+            if (!pir_space_grow(c->space, (void **)&c->half, &c->half_room, earlier.count, sizeof *c->half))
+                return;
+            for (uint32_t k = 0; k < earlier.count; k++)
+                c->half[k] = c->kept.wall[earlier.first + k];
+            pir_fragments_subtract(&c->fragments, &c->kept, c->half, earlier.count);
+        }
+        for (uint32_t k = 0; k < c->fragments.count; k++)
+            pir_fragments_add(fragments, c->space, c->fragments.polygon[k]);
+    }
+}
+
+void pir_remains_finish(pir_remains *remains) {
+    pir_remains *c = remains;
+    if (!c->space)
+        return;
+    const pir_allocator *a = &c->space->allocator;
+    pir_boxes_finish(&c->boxes, a);
+    PIR_FREE(a, c->depth, c->pair_count);
+    PIR_FREE(a, c->order, c->pair_count);
+    PIR_FREE(a, c->work, c->pair_count);
+    pir_space_shrink(c->space, c->pair, c->pair_room, sizeof *c->pair);
+    pir_space_shrink(c->space, c->half, c->half_room, sizeof *c->half);
+    pir_space_shrink(c->space, c->survivor, c->survivor_room, sizeof *c->survivor);
+    pir_polygons_finish(&c->polygons);
+    pir_polygons_finish(&c->kept);
+    pir_fragments_finish(&c->fragments, c->space);
+    *c = (pir_remains){0};
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* What is left of the candidates of a sum once the sums of all pairs of pieces have covered what is inside. */
+#ifndef PIR_SOLID_SUM_REMAINS_H
+#define PIR_SOLID_SUM_REMAINS_H
+
+#include "solid/body/solid_body.h"
+#include "solid/space/polygons.h"
+#include "solid/sum/clip.h"
+#include "solid/sum/convex.h"
+
+/* A candidate of which something is left. */
+typedef struct pir_survivor {
+    uint32_t half;         /* of one plane for all in it */
+    uint32_t polygon;      /* the whole candidate, in `kept` */
+    uint32_t first, count; /* what is left, in `kept` */
+} pir_survivor;
+
+typedef struct pir_remains {
+    pir_space *space;
+    pir_pair_sum *pair;
+    uint32_t pair_count, pair_room;
+    pir_boxes boxes;
+    uint32_t *found; /* scratch: pairs whose boxes meet a candidate's */
+    double *depth;   /* scratch, per pair: how deep in it the candidate's middle is */
+    uint32_t *order, *work;
+    uint32_t *half, half_room; /* scratch */
+    pir_polygons polygons;     /* of the candidate at hand */
+    pir_polygons kept;
+    pir_fragments fragments;
+    pir_survivor *survivor;
+    uint32_t survivor_count, survivor_room;
+    uint64_t candidates;
+} pir_remains;
+
+/* Makes the sums of all pairs of pieces, then clips every candidate by them. The status is the space's. */
+void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_convexes convexes[2]);
+void pir_remains_finish(pir_remains *remains);
+
+/*
+ * Of survivors in one plane, order[0 .. count), what the earlier ones among them leave of each: fragments that do not
+ * overlap, in `kept`, whose numbers are added to `fragments`.
+ */
+void pir_remains_part(pir_remains *remains, const uint32_t *order, uint32_t count, pir_fragments *fragments);
+
+#endif

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""pirouette info --solid, sum --solid and decompose."""
+from command_test import CommandTest, main
+
+# an L, 1 thick: 12 vertices, 8 facets, a reflex edge
+CORNERS = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
+
+
+def prism(facets=None):
+    points = [(x, y, z) for z in (0, 1) for x, y in CORNERS]
+    loops = [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11]] + [[i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6] for i in range(6)]
+    loops = loops if facets is None else facets(loops)
+    lines = [f"{x} {y} {z}" for x, y, z in points] + [" ".join(map(str, [len(f), *f])) for f in loops]
+    return "\n".join([f"OFF\n{len(points)} {len(loops)} 0", *lines]) + "\n"
+
+
+class Solid(CommandTest):
+    def test_info_counts_what_the_hull_hides(self):
+        told = self.data("info", self.file("l.off", prism()), "--solid")
+        keys = ("vertices", "edges", "facets", "reflex_edges", "shells", "genus", "volume")
+        self.assertEqual([told[k] for k in keys], [12, 18, 8, 1, 1, 0, 5])
+        self.assertIn("1 of them reflex", self.good("info", self.file("l.off", prism()), "--solid"))
+
+    def test_sum_of_solids_is_not_that_of_their_hulls(self):
+        model, out = self.file("l.off", prism()), self.path / "sum.off"
+        told = self.data("sum", model, "shape:cube", "--solid", "--exact", "-o", out)
+        self.assertEqual([told[k] for k in ("vertices", "edges", "facets", "pieces")], [12, 18, 8, [2, 1]])
+        again = self.data("info", out, "--solid")
+        self.assertEqual((again["reflex_edges"], again["facets"]), (1, 8))
+        turned = self.data("sum", model, model, "--solid", "--quat", "0,0,1,1", "--difference")
+        self.assertTrue(turned["solid"] and turned["difference"])
+
+    def test_decompose_writes_a_piece_each(self):
+        model = self.file("l.off", prism())
+        self.assertEqual(self.data("decompose", model, "-o", self.path / "pieces")["pieces"], 2)
+        volumes = [self.data("info", self.path / f"pieces/piece-{k:06}.off")["volume"] for k in range(2)]
+        self.assertEqual(sum(volumes), 5)
+        self.good("decompose", model, "-o", self.path / "pieces.obj")
+        with open(self.path / "pieces.obj", encoding="utf-8") as file:
+            self.assertEqual(sum(line.startswith("o ") for line in file), 2)
+
+    def test_what_is_no_solid_is_refused_with_its_place(self):
+        for name, change, text in (
+                ("open", lambda f: f[:-1], "bad.off:15: the surface is open"),
+                ("inside out", lambda f: [g[::-1] for g in f], "inside out"),
+                ("doubled", lambda f: f + [f[0]], "is on 3 facets"),
+                ("turned", lambda f: f[:-1] + [f[-1][::-1]], "the same way")):
+            with self.subTest(name):
+                self.bad("sum", self.file("bad.off", prism(change)), "shape:cube", "--solid", says=text)
+
+    def test_what_is_about_hulls_is_refused(self):
+        model = self.file("l.off", prism())
+        self.bad("info", model, "--solid", "--merge", "1", says="--merge is for hulls")
+        self.bad("sum", model, model, "--solid", "--method", "walk", says="--method is for hulls")
+        self.bad("sum", model, model, "--solid", "-o", "sum.stl", says="does not end in .off")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+/* See bodies.h. */
+#include "solid/bodies.h"
+
+#include <string.h>
+
+#include <pirouette/exact.h>
+
+void solid_add_facet(solid_facets *facets, const pir_vec3 *corner, uint32_t count) {
+    uint32_t at = facets->start[facets->facets];
+    for (uint32_t i = 0; i < count; i++) {
+        facets->point[facets->points] = corner[i];
+        facets->corner[at++] = facets->points++;
+    }
+    facets->start[++facets->facets] = at;
+}
+
+void solid_add_prism(solid_facets *facets, const double (*corner)[2], uint32_t count, double height) {
+    pir_vec3 bottom[64], top[64];
+    for (uint32_t i = 0; i < count; i++) {
+        top[i] = (pir_vec3){corner[i][0], corner[i][1], height};
+        bottom[count - 1 - i] = (pir_vec3){corner[i][0], corner[i][1], 0};
+    }
+    solid_add_facet(facets, top, count);
+    solid_add_facet(facets, bottom, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const double *a = corner[i], *b = corner[i + 1 < count ? i + 1 : 0];
+        solid_add_facet(
+            facets, (const pir_vec3[]){{a[0], a[1], 0}, {b[0], b[1], 0}, {b[0], b[1], height}, {a[0], a[1], height}},
+            4);
+    }
+}
+
+pir_status solid_make(const solid_facets *facets, const pir_solid_options *options, pir_report *report,
+                      pir_solid **ret_solid) {
+    const pir_solid_facets all = {facets->point, facets->points, facets->start, facets->corner, facets->facets};
+    return pir_solid_create(&all, options, report, ret_solid);
+}
+
+/* --- cells --- */
+
+static bool is_full(const cells *of, int x, int y, int z) {
+    return x >= 0 && y >= 0 && z >= 0 && x < CELLS && y < CELLS && z < CELLS && of->full[x][y][z];
+}
+
+/* Whether the eight cells round a corner of the grid, taken as full or empty, make a surface there: those of a kind
+ * hang together through sides. */
+static bool is_surface(const cells *of, int x, int y, int z) {
+    for (int kind = 0; kind < 2; kind++) {
+        unsigned members = 0, reached = 0;
+        for (int i = 0; i < 8; i++)
+            if (is_full(of, x - (i & 1), y - (i >> 1 & 1), z - (i >> 2)) == (kind == 1))
+                members |= 1u << i;
+        reached = members & -members;
+        for (int round = 0; round < 8; round++)
+            for (int i = 0; i < 8; i++)
+                for (int k = 0; k < 3; k++)
+                    if (reached >> i & 1)
+                        reached |= members & 1u << (i ^ 1 << k);
+        if (reached != members)
+            return false;
+    }
+    return true;
+}
+
+static bool is_solid(const cells *of) {
+    for (int x = 0; x <= CELLS; x++)
+        for (int y = 0; y <= CELLS; y++)
+            for (int z = 0; z <= CELLS; z++)
+                if (!is_surface(of, x, y, z))
+                    return false;
+    return true;
+}
+
+cells cells_random(test_random *random, uint32_t count) {
+    cells made;
+    memset(&made, 0, sizeof made);
+    made.full[1][1][1] = true;
+    for (uint32_t tries = 0, full = 1; full < count && tries < 100; tries++) {
+        const int x = test_random_between(random, 0, CELLS - 1), y = test_random_between(random, 0, CELLS - 1),
+                  z = test_random_between(random, 0, CELLS - 1);
+        if (made.full[x][y][z])
+            continue;
+        made.full[x][y][z] = true;
+        made.full[x][y][z] = is_solid(&made);
+        full += made.full[x][y][z];
+    }
+    return made;
+}
+
+void solid_add_cells(solid_facets *facets, const cells *of) {
+    for (int x = 0; x < CELLS; x++)
+        for (int y = 0; y < CELLS; y++)
+            for (int z = 0; z < CELLS; z++)
+                for (int side = 0; side < 6 && of->full[x][y][z]; side++) {
+                    const int k = side / 2, up = side % 2, at[3] = {x, y, z};
+                    int beside[3] = {x, y, z};
+                    beside[k] += up ? 1 : -1;
+                    if (is_full(of, beside[0], beside[1], beside[2]))
+                        continue;
+                    pir_vec3 corner[4];
+                    for (int i = 0; i < 4; i++) {
+                        // round the square counter-clockwise about +k, the other way for its lower side
+                        const int turn = up ? i : 3 - i;
+                        double c[3];
+                        c[k] = at[k] + up;
+                        c[(k + 1) % 3] = at[(k + 1) % 3] + (turn == 1 || turn == 2);
+                        c[(k + 2) % 3] = at[(k + 2) % 3] + (turn >= 2);
+                        corner[i] = (pir_vec3){c[0], c[1], c[2]};
+                    }
+                    solid_add_facet(facets, corner, 4);
+                }
+}
+
+/* --- volumes --- */
+
+void mesh_volume(const pir_mesh *mesh, mpq_t ret_volume) {
+    mpq_t v[3][3], a, b;
+    mpq_inits(a, b, NULL);
+    for (int i = 0; i < 3; i++)
+        mpq_inits(v[i][0], v[i][1], v[i][2], NULL);
+    mpq_set_ui(ret_volume, 0, 1);
+    for (uint32_t f = 0; f < pir_mesh_facet_count(mesh); f++) {
+        uint32_t count;
+        const uint32_t *corner = pir_mesh_facet(mesh, f, &count);
+        for (uint32_t i = 1; i + 1 < count; i++) {
+            const uint32_t fan[3] = {corner[0], corner[i], corner[i + 1]};
+            for (int k = 0; k < 3; k++)
+                pir_mesh_vertex_exact(mesh, fan[k], v[k]);
+            for (int k = 0; k < 3; k++) {
+                mpq_mul(a, v[1][(k + 1) % 3], v[2][(k + 2) % 3]);
+                mpq_mul(b, v[1][(k + 2) % 3], v[2][(k + 1) % 3]);
+                mpq_sub(a, a, b);
+                mpq_mul(a, a, v[0][k]);
+                mpq_add(ret_volume, ret_volume, a);
+            }
+        }
+    }
+    mpq_set_ui(a, 6, 1);
+    mpq_div(ret_volume, ret_volume, a);
+    mpq_clears(a, b, NULL);
+    for (int i = 0; i < 3; i++)
+        mpq_clears(v[i][0], v[i][1], v[i][2], NULL);
+}

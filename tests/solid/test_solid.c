@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: MIT */
+/* What solids are, and which are refused, with what in the report. */
+#include "support/test.h"
+
+#include <string.h>
+
+#include <pirouette/pirouette.h>
+
+#include "solid/bodies.h"
+#include "support/memory.h"
+
+static const double l_shape[6][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
+
+static void add_box(solid_facets *facets, double low, double high, bool inwards) {
+    const uint32_t first = facets->facets, from = facets->start[first];
+    const double square[4][2] = {{low, low}, {high, low}, {high, high}, {low, high}};
+    const uint32_t points = facets->points;
+    solid_add_prism(facets, square, 4, high - low);
+    for (uint32_t i = points; i < facets->points; i++)
+        facets->point[i].z += low;
+    for (uint32_t f = first; inwards && f < facets->facets; f++)
+        for (uint32_t i = 0; i < 2; i++) {
+            uint32_t *corner = facets->corner + from + 4 * (f - first), other = corner[i];
+            corner[i] = corner[3 - i];
+            corner[3 - i] = other;
+        }
+}
+
+static void prism_has_its_reflex_edge_and_volume(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    solid_add_prism(&facets, l_shape, 6, 1);
+    pir_solid *solid = NULL;
+    pir_solid_info info;
+    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
+    pir_solid_describe(solid, &info);
+    assert_int_equal(info.vertices, 12);
+    assert_int_equal(info.edges, 18);
+    assert_int_equal(info.merged_facets, 8);
+    assert_int_equal(info.reflex_edges, 1);
+    assert_int_equal(info.shells, 1);
+    assert_int_equal(info.genus, 0);
+    assert_true(info.volume == 5);
+    assert_true(info.high.x == 3 && info.low.z == 0);
+    pir_solid *same = pir_solid_retain(solid);
+    pir_solid_release(solid);
+    pir_solid_release(same);
+}
+
+static void cells_are_counted_once_coplanar_ones_are_merged(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    cells ring = {0};
+    for (int x = 0; x < 3; x++)
+        for (int y = 0; y < 3; y++)
+            ring.full[x][y][0] = x != 1 || y != 1;
+    solid_add_cells(&facets, &ring);
+    pir_solid *solid = NULL;
+    pir_solid_info info;
+    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
+    pir_solid_describe(solid, &info);
+    assert_int_equal(info.facets, 32);
+    assert_int_equal(info.merged_vertices, 16);
+    assert_int_equal(info.merged_edges, 24);
+    assert_int_equal(info.merged_facets, 10);
+    assert_int_equal(info.reflex_edges, 4);
+    assert_int_equal(info.genus, 1);
+    assert_true(info.volume == 8);
+    pir_solid_release(solid);
+}
+
+static void cavity_is_a_second_shell(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    add_box(&facets, 0, 3, false);
+    add_box(&facets, 1, 2, true);
+    pir_solid *solid = NULL;
+    pir_solid_info info;
+    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
+    pir_solid_describe(solid, &info);
+    assert_int_equal(info.shells, 2);
+    assert_int_equal(info.reflex_edges, 12);
+    assert_true(info.volume == 26);
+    pir_solid_release(solid);
+}
+
+static void polytope_becomes_a_solid_unless_it_is_flat(void **state) {
+    (void)state;
+    pir_polytope *cube = NULL, *flat = NULL;
+    pir_solid *solid = NULL;
+    const pir_vec3 square[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    assert_int_equal(pir_shape_create("cube", NULL, NULL, &cube), PIR_OK);
+    assert_int_equal(pir_polytope_create(square, 4, NULL, &flat), PIR_OK);
+    assert_int_equal(pir_solid_from_polytope(flat, NULL, &solid), PIR_ERR_EMPTY);
+    assert_int_equal(pir_solid_from_polytope(cube, NULL, &solid), PIR_OK);
+    pir_solid_info info;
+    pir_solid_describe(solid, &info);
+    assert_int_equal(info.facets, 6);
+    assert_true(info.volume == pir_polytope_volume(cube));
+    pir_solid_release(solid);
+    pir_polytope_release(flat);
+    pir_polytope_release(cube);
+}
+
+/* --- refusals --- */
+
+static void expect_refusal(const solid_facets *facets, pir_status status, const char *text) {
+    pir_report report = {0};
+    pir_solid *solid = NULL;
+    assert_int_equal(solid_make(facets, NULL, &report, &solid), status);
+    assert_null(solid);
+    expect(strstr(report.text, text), "'%s' in '%s'", text, report.text);
+}
+
+static void open_surface_is_refused_with_its_edge(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    add_box(&facets, 0, 1, false);
+    facets.facets--;
+    expect_refusal(&facets, PIR_ERR_NOT_CLOSED, "is on 1 facet");
+}
+
+static void facets_that_face_different_sides_are_refused(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    add_box(&facets, 0, 1, false);
+    const uint32_t other = facets.corner[0];
+    facets.corner[0] = facets.corner[2];
+    facets.corner[2] = other;
+    expect_refusal(&facets, PIR_ERR_NOT_CLOSED, "the same way");
+}
+
+static void doubled_facet_is_refused(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    add_box(&facets, 0, 1, false);
+    add_box(&facets, 0, 1, false);
+    expect_refusal(&facets, PIR_ERR_NOT_CLOSED, "is on 4 facets");
+}
+
+static void crossing_facets_are_refused(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    add_box(&facets, 0, 2, false);
+    add_box(&facets, 1, 3, false);
+    expect_refusal(&facets, PIR_ERR_FORMAT, "meets itself");
+}
+
+static void facet_that_crosses_itself_is_refused(void **state) {
+    (void)state;
+    static solid_facets facets;
+    static const double bow[5][2] = {{0, 0}, {2, 0}, {0, 2}, {2, 2}, {1, 4}};
+    facets = (solid_facets){0};
+    solid_add_prism(&facets, bow, 5, 1);
+    pir_solid *solid = NULL;
+    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_ERR_FORMAT);
+}
+
+static void inside_out_is_refused(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    add_box(&facets, 0, 1, true);
+    expect_refusal(&facets, PIR_ERR_FORMAT, "inside out");
+    facets = (solid_facets){0};
+    add_box(&facets, 0, 3, false);
+    add_box(&facets, 1, 2, false);
+    expect_refusal(&facets, PIR_ERR_FORMAT, "within another");
+}
+
+static void facets_without_volume_or_plane_are_refused(void **state) {
+    (void)state;
+    static solid_facets facets;
+    const pir_vec3 a = {0, 0, 0}, b = {1, 0, 0}, c = {0, 1, 0}, d = {0, 0, 1};
+    facets = (solid_facets){0};
+    solid_add_facet(&facets, (const pir_vec3[]){a, b, c}, 3);
+    solid_add_facet(&facets, (const pir_vec3[]){c, b, a}, 3);
+    expect_refusal(&facets, PIR_ERR_FORMAT, "folded onto");
+    facets = (solid_facets){0};
+    solid_add_facet(&facets, (const pir_vec3[]){a, b, {2, 0, 0}}, 3);
+    expect_refusal(&facets, PIR_ERR_FORMAT, "no area");
+    facets = (solid_facets){0};
+    solid_add_facet(&facets, (const pir_vec3[]){a, b, c, d}, 4);
+    expect_refusal(&facets, PIR_ERR_FORMAT, "not planar");
+    facets = (solid_facets){0};
+    expect_refusal(&facets, PIR_ERR_EMPTY, "no facets");
+}
+
+static void every_failing_request_and_a_low_limit_are_survived(void **state) {
+    (void)state;
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    solid_add_prism(&facets, l_shape, 6, 1);
+    for (uint64_t fail_at = 1, done = 0; !done; fail_at++) {
+        test_memory memory = {.fail_at = fail_at};
+        pir_allocator allocator = test_allocator(&memory);
+        pir_solid_sum_options options = pir_solid_sum_options_default();
+        options.solid.allocator = &allocator;
+        pir_solid *solid = NULL;
+        pir_pieces *pieces = NULL;
+        pir_mesh *mesh = NULL;
+        pir_status status = solid_make(&facets, &options.solid, NULL, &solid);
+        if (status == PIR_OK)
+            status = pir_solid_decompose(solid, &options.solid, &pieces);
+        if (status == PIR_OK)
+            status = pir_solid_sum(solid, solid, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh);
+        done = status == PIR_OK;
+        expect(done || status == PIR_ERR_MEMORY, "request %llu: status %d", (unsigned long long)fail_at, (int)status);
+        pir_mesh_destroy(mesh);
+        pir_pieces_destroy(pieces);
+        pir_solid_release(solid);
+        expect(memory.blocks == 0 && !memory.wrong_size, "request %llu: %zu blocks left", (unsigned long long)fail_at,
+               memory.blocks);
+    }
+    pir_solid_options low = pir_solid_options_default();
+    pir_solid *solid = NULL;
+    low.memory = 4096;
+    assert_int_equal(solid_make(&facets, &low, NULL, &solid), PIR_ERR_LIMIT);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(prism_has_its_reflex_edge_and_volume),
+        cmocka_unit_test(cells_are_counted_once_coplanar_ones_are_merged),
+        cmocka_unit_test(cavity_is_a_second_shell),
+        cmocka_unit_test(polytope_becomes_a_solid_unless_it_is_flat),
+        cmocka_unit_test(open_surface_is_refused_with_its_edge),
+        cmocka_unit_test(facets_that_face_different_sides_are_refused),
+        cmocka_unit_test(doubled_facet_is_refused),
+        cmocka_unit_test(crossing_facets_are_refused),
+        cmocka_unit_test(facet_that_crosses_itself_is_refused),
+        cmocka_unit_test(inside_out_is_refused),
+        cmocka_unit_test(facets_without_volume_or_plane_are_refused),
+        cmocka_unit_test(every_failing_request_and_a_low_limit_are_survived),
+    };
+    return cmocka_run_group_tests_name("solids", tests, NULL, NULL);
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette decompose: a solid in convex pieces, into one OBJ file or a folder of OFF files. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cmd.h"
+#include "file.h"
+#include "json.h"
+#include "measure.h"
+#include "message.h"
+#include "solid.h"
+#include "target.h"
+#include "text.h"
+
+struct outcome {
+    pir_pieces *pieces;
+    pir_solid_info info;
+    double seconds;
+};
+
+/* A piece's boundary, exact; NULL after a complaint. */
+static pir_mesh *mesh_of(const pir_pieces *pieces, uint32_t number) {
+    pir_polytope *piece = NULL;
+    pir_mesh *mesh = NULL;
+    pir_status status = pir_pieces_polytope(pieces, number, &piece);
+    if (status == PIR_OK)
+        status = pir_mesh_from_polytope(piece, &mesh);
+    pir_polytope_release(piece);
+    if (status != PIR_OK)
+        complain_status("decompose", status, NULL);
+    return mesh;
+}
+
+/* Writes one piece as an object of an OBJ file, whose vertices are numbered from 1 through the whole file. */
+static void write_object(FILE *file, const pir_mesh *mesh, uint32_t number, uint32_t *vertices) {
+    fprintf(file, "o piece_%" PRIu32 "\n", number);
+    for (uint32_t v = 0; v < pir_mesh_vertex_count(mesh); v++) {
+        const pir_vec3 x = pir_mesh_vertices(mesh)[v];
+        fprintf(file, "v %.17g %.17g %.17g\n", x.x, x.y, x.z);
+    }
+    for (uint32_t f = 0; f < pir_mesh_facet_count(mesh); f++) {
+        uint32_t count;
+        const uint32_t *corners = pir_mesh_facet(mesh, f, &count);
+        fputc('f', file);
+        for (uint32_t i = 0; i < count; i++)
+            fprintf(file, " %" PRIu32, *vertices + corners[i] + 1);
+        fputc('\n', file);
+    }
+    *vertices += pir_mesh_vertex_count(mesh);
+}
+
+static bool write_objects(const pir_pieces *pieces, const char *path) {
+    struct output_file file = {0};
+    bool good = output_open(&file, path);
+    uint32_t vertices = 0;
+    for (uint32_t k = 0; good && k < pir_pieces_count(pieces); k++) {
+        pir_mesh *mesh = mesh_of(pieces, k);
+        good = mesh;
+        if (good)
+            write_object(file.stream, mesh, k, &vertices);
+        pir_mesh_destroy(mesh);
+    }
+    good = good && output_commit(&file);
+    output_discard(&file);
+    return good;
+}
+
+static bool write_piece(const pir_pieces *pieces, const char *folder, uint32_t number) {
+    char name[32];
+    snprintf(name, sizeof name, "piece-%06" PRIu32 ".off", number);
+    struct output_file file = {0};
+    char *path = path_join(folder, name);
+    pir_mesh *mesh = path ? mesh_of(pieces, number) : NULL;
+    const bool good = mesh && output_open(&file, path) && target_write_mesh(&file, mesh, true);
+    output_discard(&file);
+    pir_mesh_destroy(mesh);
+    free(path);
+    return good;
+}
+
+static bool write_folder(const pir_pieces *pieces, const char *folder) {
+    bool good = folder_make(folder);
+    for (uint32_t k = 0; good && k < pir_pieces_count(pieces); k++)
+        good = write_piece(pieces, folder, k);
+    return good;
+}
+
+static bool print_json(const struct args *args, const struct outcome *outcome) {
+    struct json json = json_new();
+    json_add_text(&json, json.root, "model", args->positional[0]);
+    json_add_number(&json, json.root, "reflex_edges", outcome->info.reflex_edges);
+    json_add_number(&json, json.root, "pieces", pir_pieces_count(outcome->pieces));
+    json_add_number(&json, json.root, "volume", outcome->info.volume);
+    json_add_number(&json, json.root, "seconds", outcome->seconds);
+    return json_print(&json, stdout);
+}
+
+static void print_text(const struct args *args, const struct outcome *outcome) {
+    char time[TEXT_NUMBER];
+    text_time(outcome->seconds * 1e9, time);
+    printf("%s in convex pieces\n", args->positional[0]);
+    printf("  %-10s %" PRIu32 "\n", "pieces", pir_pieces_count(outcome->pieces));
+    printf("  %-10s %" PRIu32 "\n", "reflex", outcome->info.reflex_edges);
+    printf("  %-10s %s\n", "time", time);
+    if (args_has(args, "-o"))
+        printf("  %-10s %s\n", "written to", args_value(args, "-o"));
+}
+
+static bool write(const pir_pieces *pieces, const char *path) {
+    const bool one_file = output_ends_in(path, ".obj") || output_is_stream(path);
+    return one_file ? write_objects(pieces, path) : write_folder(pieces, path);
+}
+
+static int decompose(const struct args *args, const pir_solid *solid) {
+    struct outcome outcome = {0};
+    const char *path = args_value(args, "-o");
+    pir_solid_describe(solid, &outcome.info);
+    const int64_t start = clock_now();
+    const pir_status status = pir_solid_decompose(solid, NULL, &outcome.pieces);
+    outcome.seconds = (double)(clock_now() - start) / 1e9;
+    if (status != PIR_OK)
+        return complain_status("decompose", status, NULL);
+    int result = !path || write(outcome.pieces, path) ? EXIT_DONE : EXIT_BAD_INPUT;
+    if (result == EXIT_DONE && args_has(args, "--json"))
+        result = print_json(args, &outcome) ? EXIT_DONE : EXIT_BAD_INPUT;
+    else if (result == EXIT_DONE && !target_is_stdout(args, "-o"))
+        print_text(args, &outcome);
+    pir_pieces_destroy(outcome.pieces);
+    return result;
+}
+
+int cmd_decompose(const struct args *args) {
+    if (!target_check(args, "-o", NULL))
+        return EXIT_BAD_INPUT;
+    pir_solid *solid = solid_load(args, 0);
+    const int result = solid ? decompose(args, solid) : EXIT_BAD_INPUT;
+    pir_solid_release(solid);
+    return result;
+}

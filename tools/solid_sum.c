@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette sum --solid: the sum of two models as the solids that they are. */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "json.h"
+#include "measure.h"
+#include "message.h"
+#include "pose.h"
+#include "solid.h"
+#include "target.h"
+#include "text.h"
+
+/* The formats whose readers take facets that are not convex, with slits to their holes. */
+#define TARGET_SOLID ".off"
+
+struct request {
+    pir_quat rotation;
+    pir_solid_sum_options options;
+};
+
+struct outcome {
+    pir_mesh *mesh;
+    pir_solid_sum_info info;
+    double seconds;
+};
+
+static bool print_json(const struct args *args, const struct request *request, const struct outcome *outcome) {
+    const double quat[4] = {request->rotation.x, request->rotation.y, request->rotation.z, request->rotation.w};
+    const pir_solid_sum_info *info = &outcome->info;
+    struct json json = json_new();
+    json_add_text(&json, json.root, "p", args->positional[0]);
+    json_add_text(&json, json.root, "q", args->positional[1]);
+    json_add_flag(&json, json.root, "solid", true);
+    json_add_numbers(&json, json.root, "quat", quat, 4);
+    json_add_flag(&json, json.root, "difference", request->options.difference);
+    json_add_number(&json, json.root, "vertices", info->vertices);
+    json_add_number(&json, json.root, "edges", info->edges);
+    json_add_number(&json, json.root, "facets", info->facets);
+    json_add_number(&json, json.root, "holes", info->holes);
+    json_add_numbers(&json, json.root, "pieces", (const double[]){info->pieces_p, info->pieces_q}, 2);
+    json_add_count(&json, json.root, "candidates", info->candidates);
+    json_add_number(&json, json.root, "seconds", outcome->seconds);
+    return json_print(&json, stdout);
+}
+
+static void print_text(const struct args *args, const struct request *request, const struct outcome *outcome) {
+    const pir_solid_sum_info *info = &outcome->info;
+    char time[TEXT_NUMBER];
+    text_time(outcome->seconds * 1e9, time);
+    printf("%s of %s and %s, as solids\n", request->options.difference ? "difference" : "sum", args->positional[0],
+           args->positional[1]);
+    printf("  %-10s %" PRIu32 "\n", "vertices", info->vertices);
+    printf("  %-10s %" PRIu32 "\n", "edges", info->edges);
+    printf("  %-10s %" PRIu32 ", with %" PRIu32 " holes\n", "facets", info->facets, info->holes);
+    printf("  %-10s %" PRIu32 " of P, %" PRIu32 " of Q\n", "pieces", info->pieces_p, info->pieces_q);
+    printf("  %-10s %s\n", "time", time);
+    if (args_has(args, "-o"))
+        printf("  %-10s %s\n", "file", args_value(args, "-o"));
+}
+
+static int report(const struct args *args, const struct request *request, const struct outcome *outcome) {
+    if (args_has(args, "--json"))
+        return print_json(args, request, outcome) ? EXIT_DONE : EXIT_BAD_INPUT;
+    if (!target_is_stdout(args, "-o"))
+        print_text(args, request, outcome);
+    return EXIT_DONE;
+}
+
+int solid_sum(const struct args *args) {
+    struct request request = {.options = pir_solid_sum_options_default()};
+    request.options.difference = args_has(args, "--difference");
+    if (!pose_read(args, &request.rotation) || !target_check(args, "-o", TARGET_SOLID))
+        return EXIT_BAD_INPUT;
+    struct outcome outcome = {0};
+    struct output_file file = {0};
+    const char *path = args_value(args, "-o");
+    int result = EXIT_BAD_INPUT;
+    pir_solid *p = solid_load(args, 0), *q = p ? solid_load(args, 1) : NULL;
+    if (p && q && (!path || output_open(&file, path))) {
+        const int64_t start = clock_now();
+        const pir_status status = pir_solid_sum(p, q, request.rotation, &request.options, &outcome.info, &outcome.mesh);
+        outcome.seconds = (double)(clock_now() - start) / 1e9;
+        if (status != PIR_OK)
+            complain_status("sum", status, NULL);
+        else if (!path || target_write_mesh(&file, outcome.mesh, args_has(args, "--exact")))
+            result = report(args, &request, &outcome);
+    }
+    output_discard(&file);
+    pir_mesh_destroy(outcome.mesh);
+    pir_solid_release(q);
+    pir_solid_release(p);
+    return result;
+}
