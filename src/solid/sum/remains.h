@@ -5,8 +5,8 @@
 
 #include "solid/body/solid_body.h"
 #include "solid/space/polygons.h"
-#include "solid/sum/clip.h"
 #include "solid/sum/convex.h"
+#include "solid/sum/subtract.h"
 
 /* A candidate of which something is left. */
 typedef struct pir_survivor {

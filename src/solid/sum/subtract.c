@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See clip.h. A fragment is cut by one plane after the other; what is above a plane stays, and what is left in the
+ * See subtract.h. A fragment is cut by one plane after the other; what is above a plane stays, and what is left in the
  * end is covered. A fragment that the set does not meet is left as it is, so nothing is cut in vain: that is asked
  * first, by doubles alone, then with every plane exactly, and once more while cutting.
  */
-#include "solid/sum/clip.h"
+#include "solid/sum/subtract.h"
 
 void pir_fragments_finish(pir_fragments *fragments, pir_space *space) {
     pir_space_shrink(space, fragments->polygon, fragments->room, sizeof *fragments->polygon);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What of a convex polygon a convex set leaves uncovered. */
-#ifndef PIR_SOLID_SUM_CLIP_H
-#define PIR_SOLID_SUM_CLIP_H
+#ifndef PIR_SOLID_SUM_SUBTRACT_H
+#define PIR_SOLID_SUM_SUBTRACT_H
 
 #include "solid/space/polygons.h"
 
