@@ -29,10 +29,17 @@ static int run_help(const struct args *args) {
 }
 
 static int (*const runs[COMMAND_COUNT])(const struct args *) = {
-    [COMMAND_INFO] = cmd_info,   [COMMAND_CGM] = cmd_cgm,     [COMMAND_SHAPE] = cmd_shape,
-    [COMMAND_SUM] = cmd_sum,     [COMMAND_TRACK] = cmd_track, [COMMAND_QUERY] = cmd_query,
-    [COMMAND_SLICE] = cmd_slice, [COMMAND_HELP] = run_help,   [COMMAND_CONFIGURATION] = cmd_configuration,
-    [COMMAND_VIEW] = cmd_view, [COMMAND_DECOMPOSE] = cmd_decompose,
+    [COMMAND_INFO] = cmd_info,
+    [COMMAND_CGM] = cmd_cgm,
+    [COMMAND_SHAPE] = cmd_shape,
+    [COMMAND_SUM] = cmd_sum,
+    [COMMAND_TRACK] = cmd_track,
+    [COMMAND_QUERY] = cmd_query,
+    [COMMAND_SLICE] = cmd_slice,
+    [COMMAND_HELP] = run_help,
+    [COMMAND_CONFIGURATION] = cmd_configuration,
+    [COMMAND_VIEW] = cmd_view,
+    [COMMAND_DECOMPOSE] = cmd_decompose,
 };
 
 static int run_command(const struct command *command, int argc, char *const *argv) {

@@ -8,7 +8,7 @@
 #include "base/layout.h"
 #include "base/report.h"
 #include "base/sort.h"
-#include "solid/body/parts.h"
+#include "solid/body/facet_parts.h"
 #include "solid/space/exact.h"
 #include "solid/space/intern.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Convex parts that cover the facets of a body. */
-#ifndef PIR_SOLID_BODY_PARTS_H
-#define PIR_SOLID_BODY_PARTS_H
+#ifndef PIR_SOLID_BODY_FACET_PARTS_H
+#define PIR_SOLID_BODY_FACET_PARTS_H
 
 #include "solid/body/solid_body.h"
 

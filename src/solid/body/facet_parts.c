@@ -4,7 +4,7 @@
  * twins. Then each diagonal and each flat edge between facets goes, when both its ends stay convex without it (Hertel
  * and Mehlhorn 1983). O(n²) for a facet of n corners, O(n) for the joins.
  */
-#include "solid/body/parts.h"
+#include "solid/body/facet_parts.h"
 
 #include "solid/space/polygons.h"
 
