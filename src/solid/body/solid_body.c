@@ -226,9 +226,10 @@ static void join_planes(pir_body *body) {
 /* --- the whole --- */
 
 static pir_status make(pir_body *body, uint32_t numbers) {
-    pir_status status = PIR_OK;
     add_points(body, numbers);
-    fill_halves(body);
+    pir_status status = body->space->status;
+    if (status == PIR_OK)
+        fill_halves(body);
     for (uint32_t f = 0; f < body->source.facet_count && status == PIR_OK; f++)
         status = add_plane(body, f);
     if (status == PIR_OK)
