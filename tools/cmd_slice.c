@@ -16,7 +16,11 @@
 #include "pieces.h"
 #include "pose.h"
 #include "progress.h"
+#include "ranks/ranks.h"
 #include "text.h"
+#if PIR_HAVE_HDF5
+#include "views/planar_file.h"
+#endif
 
 #define DEGREES (180 / 3.14159265358979323846)
 
@@ -28,6 +32,8 @@ struct slicing {
     struct pieces robot, obstacles;
     pir_grid *grid;
     pir_cspace_options options;
+    struct ranks ranks;
+    struct planar planar; /* sections that the file gets as well */
     struct progress bar;
     pir_cspace_progress progress; /* the last one told */
     bool has_bar;
@@ -78,8 +84,14 @@ static bool check_file(const struct args *args) {
     return false;
 }
 
+static uint64_t on_claim(void *context) {
+    return ranks_next(&((struct slicing *)context)->ranks);
+}
+
 static int on_progress(void *context, const pir_cspace_progress *progress) {
     struct slicing *run = context;
+    if (run->ranks.number > 0)
+        return !interrupt_asked();
     if (!run->has_bar) {
         run->bar = progress_new(progress->total - progress->resumed);
         run->has_bar = true;
@@ -104,7 +116,9 @@ static bool read_request(const struct args *args, struct slicing *run) {
     run->options.vertices = args_has(args, "--vertices");
     run->options.progress = on_progress;
     run->options.context = run;
-    return true;
+    run->options.part = run->ranks.number;
+    run->options.claim = run->ranks.count > 1 ? on_claim : NULL;
+    return planar_read(args, &run->planar);
 }
 
 static pir_cspace_bodies bodies_of(const struct slicing *run) {
@@ -190,27 +204,57 @@ static int report_done(const struct slicing *run, double seconds) {
 
 /* --- the run --- */
 
-static int make_slices(struct slicing *run) {
+/* The job, of all ranks: the first may remove what an earlier run left, then others join. NULL after a complaint. */
+static pir_cspace_job *create_job(struct slicing *run) {
     pir_report report = {0};
     pir_cspace_job *job = NULL;
     const pir_cspace_bodies bodies = bodies_of(run);
-    int64_t start = clock_now();
-    pir_status status =
-        pir_cspace_job_create(&bodies, run->grid, args_value(run->args, "-o"), &run->options, &report, &job);
-    if (status == PIR_OK) {
-        interrupt_put_off(true);
-        status = pir_cspace_job_run(job, &report);
-        progress_end(&run->bar);
-        interrupt_put_off(false);
+    const char *path = args_value(run->args, "-o");
+    for (int turn = 0; turn < 2; turn++) {
+        pir_status status = PIR_OK;
+        if (run->ranks.number > 0)
+            run->options.resume = 1;
+        if ((run->ranks.number > 0) == (turn > 0))
+            status = pir_cspace_job_create(&bodies, run->grid, path, &run->options, &report, &job);
+        if (ranks_agree(&run->ranks, status == PIR_OK))
+            continue;
+        if (status != PIR_OK)
+            complain_status("slice", status, &report);
+        pir_cspace_job_destroy(job);
+        return NULL;
     }
-    int result;
+    return job;
+}
+
+/* Adds the sections, where they were asked for. */
+static bool add_sections(const struct slicing *run) {
+#if PIR_HAVE_HDF5
+    return !run->planar.given || planar_file_write(args_value(run->args, "-o"), &run->planar);
+#else
+    return !run->planar.given;
+#endif
+}
+
+static int make_slices(struct slicing *run) {
+    pir_report report = {0};
+    int64_t start = clock_now();
+    pir_cspace_job *job = create_job(run);
+    if (!job)
+        return EXIT_BAD_INPUT;
+    interrupt_put_off(true);
+    pir_status status = ranks_run(&run->ranks, job, (uint64_t)run->robot.count * run->obstacles.count, &report);
+    progress_end(&run->bar);
+    interrupt_put_off(false);
+    int result = EXIT_DONE;
     if (status == PIR_OK && interrupt_asked())
         result = complain("slice: ended after %" PRIu64 " of %" PRIu64 " slices, which are kept; --resume goes on",
                           run->progress.done, run->progress.total);
-    else if (status != PIR_OK || (status = pir_cspace_job_assemble(job, &report)) != PIR_OK)
+    else if (status != PIR_OK)
         result = complain_status("slice", status, &report);
-    else
-        result = report_done(run, (double)(clock_now() - start) / 1e9);
+    else if (run->ranks.number == 0 && (status = pir_cspace_job_assemble(job, &report)) != PIR_OK)
+        result = complain_status("slice", status, &report);
+    else if (run->ranks.number == 0)
+        result = add_sections(run) ? report_done(run, (double)(clock_now() - start) / 1e9) : EXIT_BAD_INPUT;
     pir_cspace_job_destroy(job);
     return result;
 }
@@ -218,8 +262,16 @@ static int make_slices(struct slicing *run) {
 int cmd_slice(const struct args *args) {
     struct slicing run = {.args = args};
     int result = EXIT_BAD_INPUT;
-    if (read_request(args, &run))
-        result = args_has(args, "--dry-run") ? foresee(&run) : make_slices(&run);
+    if (!ranks_begin(&run.ranks))
+        return EXIT_BAD_INPUT;
+    bool good = read_request(args, &run);
+    if (!ranks_agree(&run.ranks, good))
+        result = EXIT_BAD_INPUT;
+    else if (args_has(args, "--dry-run"))
+        result = run.ranks.number == 0 ? foresee(&run) : EXIT_DONE;
+    else
+        result = make_slices(&run);
+    ranks_end(&run.ranks);
     pir_grid_destroy(run.grid);
     pieces_release(&run.obstacles);
     pieces_release(&run.robot);

@@ -123,6 +123,7 @@ static const struct option slice_options[] = {
     {"--dry-run", NULL, "only say how many slices there are, how long they will take and how large they will be"},
     {"--planes", NULL, "also write the planes of every slice, as doubles"},
     {"--vertices", NULL, "also write the vertices of every slice, as doubles"},
+    {"--planar", "z=NUMBER", "also write planar sections of every slice, where x, y or z is this"},
     MODEL_OPTIONS,
 };
 
@@ -240,7 +241,8 @@ const struct command command_table[COMMAND_COUNT] = {
                 "A ROBOT or OBSTACLE is a model, an OBJ file of several objects, or a folder of models; each object or "
                 "model is a convex piece. Every pair of pieces is followed from rotation to rotation, and the file "
                 "holds what changes. Until all slices are made they stand in FILE.part0: a run that was ended in any "
-                "way goes on with --resume.",
+                "way goes on with --resume. Started by mpirun, where "
+                "the build has MPI, processes share the work, each with a part of its own.",
             .options = slice_options,
             .examples = {{"slice shape:cube shape:gs4 --axis 0,0,1 --steps 500 -o slices.h5",
                           "the cube about one axis"},

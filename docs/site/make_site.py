@@ -23,6 +23,7 @@ PAGES = {
     "README.md": "Pirouette", "docs/coming-from.md": "Coming from others", "docs/queries.md": "Placement queries",
     "docs/scenes.md": "Scenes",
     "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps", "docs/slices.md": "Slices",
+    "docs/scale.md": "Slices at scale",
     "docs/solids.md": "Solids", "docs/command.md": "The command", "docs/bad-input.md": "Bad input",
     "docs/building.md": "Building", "ARCHITECTURE.md": "Architecture",
     "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security", "CHANGELOG.md": "Changelog",

@@ -130,10 +130,8 @@ class Help(unittest.TestCase):
     def prepare(self, line, folder):
         """The files that an example reads."""
         if " slices.h5" in line and "-o slices.h5" not in line:
-            for shape in ("cube", "octahedron"):
-                run("shape", shape, "-o", folder / f"{shape}.off")
-            subprocess.run([os.environ["WRITE_SLICES"], folder / "slices.h5", "20", "1,2,3", folder / "cube.off", "--",
-                            folder / "octahedron.off"], check=True, timeout=60)
+            run("slice", "shape:cube", "shape:octahedron", "--axis", "1,2,3", "--steps", "20", "-o",
+                folder / "slices.h5")
         if "poses.csv" in line:
             (folder / "poses.csv").write_text("0,0,0,1,3,0,0\n1,0,0,1,0,0,0\n")
 
@@ -142,12 +140,12 @@ class Help(unittest.TestCase):
         for name in subcommands():
             for line in re.findall(r"^  pirouette (.*)$", self.help("help", name).split("examples:\n")[1], re.M):
                 count += 1
-                if ".h5" in line and "WRITE_SLICES" not in os.environ:
-                    continue  # a build without HDF5
                 with tempfile.TemporaryDirectory() as folder:
                     self.prepare(line, Path(folder))
                     result = subprocess.run(["/bin/sh", "-c", f'"$0" {line}', COMMAND], cwd=folder, capture_output=True,
                                             text=True, timeout=60)
+                    if ".h5" in line and "no HDF5" in result.stderr:
+                        continue  # in this build
                     self.assertEqual((result.returncode, result.stderr), (0, ""), line)
                     for written in re.findall(r"(?:-o|--plot|--dump) (\S+)", line):
                         self.assertTrue((Path(folder) / written).exists(), line)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Files of slices and of VTK in the hands of other programs: h5py, h5dump, VTK.
 
-Usage: test_readers.py COMMAND WRITE_SLICES PYTHON, where PYTHON has h5py and VTK. Ends with 77, skipped, where one is
+Usage: test_readers.py COMMAND PYTHON, where PYTHON has h5py and VTK. Ends with 77, skipped, where one is
 missing.
 """
 import json
@@ -50,9 +50,18 @@ with h5py.File(sys.argv[1], "r") as file:
                       else file.attrs["format"].decode(), "version": int(file.attrs["version"]), "names": names,
                       "rotation": file["grid/rotation"][...].tolist()}))
 """
+SECTIONS = r"""
+import json, sys
+import h5py
+with h5py.File(sys.argv[1], "r") as file:
+    group = file["planar"]
+    axis = group.attrs["axis"]
+    print(json.dumps({"axis": axis if isinstance(axis, str) else axis.decode(), "offset": float(group.attrs["offset"]),
+                      "count": group["count"][...].tolist(), "corner": group["corner"][...].tolist()}))
+"""
 
 
-def main(command, write_slices, python):
+def main(command, python):
     for what, program in (("h5py and VTK", [python, "-c", "import h5py, vtkmodules.vtkIOHDF"]),
                           ("h5dump", ["h5dump", "-V"])):
         if not shutil.which(program[0]) or subprocess.run(program, capture_output=True).returncode != 0:
@@ -69,8 +78,8 @@ def main(command, write_slices, python):
         run(command, "shape", "octahedron", "-o", path / "q" / "0.off")
         run(command, "shape", "icosahedron", "-o", path / "q" / "1.off")
         slices = path / "s.h5"
-        run(command, "shape", "cube", "-o", path / "p.off")
-        run(write_slices, slices, STEPS, "1,2,3", path / "p.off", "--", path / "q" / "0.off", path / "q" / "1.off")
+        run(command, "slice", "shape:cube", path / "q", "-o", slices, "--axis", "1,2,3", "--steps", STEPS, "--planar",
+            "z=0.25")
 
         seen = json.loads(run(python, "-c", LOOK, slices))
         names = dict(seen["names"])
@@ -78,11 +87,16 @@ def main(command, write_slices, python):
         assert names["grid/rotation"] == [STEPS, 4] and names["obstacle/1/vertex"] == [12, 3], names
         assert len(names["slices/bytes"]) == 1 and names["slices/length"] == [2, STEPS], names
         dump = run("h5dump", "-H", slices)
-        for name in ("rotation", "bytes", "length", "off"):
+        for name in ("rotation", "bytes", "length", "off", "planar"):
             assert f'"{name}"' in dump, name
 
         run(command, "view", slices, "-o", path / "s.vtkhdf")
         read = json.loads(run(python, "-c", READ, path / "s.vtkhdf", STEPS))
+        sections = json.loads(run(python, "-c", SECTIONS, slices))
+        assert (sections["axis"], sections["offset"]) == ("z", 0.25)
+        assert len(sections["count"]) == 2 * STEPS and sum(sections["count"]) == len(sections["corner"])
+        corner = iter(sections["corner"])
+        polygons = [[next(corner) for _ in range(count)] for count in sections["count"]]
         for k in range(STEPS):
             for number, pair in enumerate(PAIRS):
                 run(command, "view", slices, "--slice", k, "--pair", pair, "-o", path / "one.off")
@@ -94,8 +108,24 @@ def main(command, write_slices, python):
                 own = sorted(corners for (_, obstacle, kind), corners in read[k]
                              if obstacle == number and 0 <= kind < 4)
                 assert own == exported, (k, pair)
+                check_section(polygons[number * STEPS + k], points)
     print(f"{STEPS} slices of {len(PAIRS)} pairs read by VTK, h5py and h5dump")
     return 0
+
+
+def check_section(polygon, points):
+    """Each corner is at z = 0.25, and the polygon is the hull of where segments of vertices cross it."""
+    assert all(corner[2] == 0.25 for corner in polygon)
+    below, above = [p for p in points if p[2] <= 0.25], [p for p in points if p[2] > 0.25]
+    assert bool(polygon) == bool(below and above)
+    ring = list(zip(polygon, polygon[1:] + polygon[:1]))
+    for p in below:
+        for q in above:
+            t = (0.25 - p[2]) / (q[2] - p[2])
+            x, y = (p[k] + t * (q[k] - p[k]) for k in range(2))
+            assert all((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) > -1e-9 for a, b in ring)
+    area = sum(a[0] * b[1] - a[1] * b[0] for a, b in ring)
+    assert not polygon or area > 0
 
 
 if __name__ == "__main__":

@@ -4,10 +4,8 @@
 import base64
 import json
 import math
-import os
 import re
 import struct
-import subprocess
 import xml.etree.ElementTree as ElementTree
 from fractions import Fraction
 
@@ -35,8 +33,7 @@ class Sliced(CommandTest):
             for i, corners in enumerate(boxes):
                 (folder / f"{i}.off").write_text(box_off(*corners))
         self.slices = self.path / "slices.h5"
-        subprocess.run([os.environ["WRITE_SLICES"], self.slices, str(STEPS), AXIS, *sorted(self.robot.iterdir()), "--",
-                        *sorted(self.obstacles.iterdir())], check=True, timeout=60)
+        self.good("slice", self.robot, self.obstacles, "-o", self.slices, "--axis", AXIS, "--steps", STEPS)
 
     def view(self, name, *args):
         self.good("view", self.slices, "-o", self.path / name, *args)

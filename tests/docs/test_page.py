@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The page of `pirouette view` in Chromium: what its canvas shows is what the command exports, slice by slice.
 
-Usage: test_page.py COMMAND WRITE_SLICES. Ends with 77, skipped, where Chromium is missing.
+Usage: test_page.py COMMAND. Ends with 77, skipped, where Chromium is missing.
 """
 import pathlib
 import random
@@ -84,7 +84,7 @@ def check_slice(browser, exported, number):
     assert sum(row.count("#") for row in rows) > 200
 
 
-def main(command, write_slices):
+def main(command):
     program = chromium.find()
     if not program:
         print("no Chromium")
@@ -92,15 +92,14 @@ def main(command, write_slices):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder)
 
-        def run(*args, program=command):
-            subprocess.run([program, *map(str, args)], check=True, timeout=60, stdout=subprocess.DEVNULL)
+        def run(*args):
+            subprocess.run([command, *map(str, args)], check=True, timeout=60, stdout=subprocess.DEVNULL)
 
         (path / "p.off").write_text(box((-1, -.25, -.25), (1, .25, .5)))
         (path / "q").mkdir()
         (path / "q" / "0.off").write_text(box((1, -1, -1), (2, 1, 1)))
         (path / "q" / "1.off").write_text(box((-1, -2, -1), (1, -1, .5)))
-        run(path / "s.h5", STEPS, "1,2,3", path / "p.off", "--", path / "q" / "0.off", path / "q" / "1.off",
-            program=write_slices)
+        run("slice", path / "p.off", path / "q", "-o", path / "s.h5", "--axis", "1,2,3", "--steps", STEPS)
         run("view", path / "s.h5", "-o", path / "s.html")
         browser = chromium.Chromium(program)
         try:

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Processes that make one file of slices together, ranks of MPI. Rank 0 deals the units and makes some as well; each
+ * rank appends to a part of its own. Without MPI in the build, or without a launcher such as mpirun, there is one rank.
+ *
+ * A rank that fails is told to rank 0, and others make its unit. A rank that is killed ends the whole job, as MPI has
+ * it; what all ranks had appended is then still there for a run with --resume.
+ */
+#ifndef TOOLS_RANKS_RANKS_H
+#define TOOLS_RANKS_RANKS_H
+
+#include <stdbool.h>
+
+#include <pirouette/cspace.h>
+
+#include "dealer.h"
+
+struct ranks_shared;
+
+struct ranks {
+    uint32_t number, count;      /* of this rank; of all */
+    struct ranks_shared *shared; /* NULL for one rank */
+};
+
+/* Joins the others where a launcher has started several. False after a complaint. */
+bool ranks_begin(struct ranks *ranks);
+
+/* Waits until the others have ended as well. */
+void ranks_end(struct ranks *ranks);
+
+/* Whether `good` is true on all ranks; all call it. */
+bool ranks_agree(const struct ranks *ranks, bool good);
+
+/* What the `claim` of a job's options gives where there are several ranks; one alone needs none. */
+uint64_t ranks_next(const struct ranks *ranks);
+
+/* The units of the job that all ranks have made, as far as rank 0 knows; on another rank 0. */
+uint64_t ranks_done(const struct ranks *ranks);
+
+/*
+ * pir_cspace_job_run on all ranks, until all units are made. `pairs`: of pieces. Rank 0 may assemble the file after it
+ * succeeded there.
+ */
+pir_status ranks_run(struct ranks *ranks, pir_cspace_job *job, uint64_t pairs, pir_report *report);
+
+#endif

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT */
+/* The file is copied, the copy gets the group and then the file's name. */
+#include "planar_file.h"
+
+#include "../file.h"
+#include "../message.h"
+#include "columns.h"
+
+/* A group under way: how many corners each section has, and all corners. */
+struct planar_group {
+    hid_t file, group; /* 0 when closed */
+    struct column count, corner;
+};
+
+/* Copies the file `path` to an open stream. */
+static bool copy_file(const char *path, struct output_file *out) {
+    static char block[1 << 16];
+    FILE *from = fopen(path, "rb");
+    if (!from) {
+        complain("%s: cannot be read again", path);
+        return false;
+    }
+    size_t size;
+    bool done = true;
+    while (done && (size = fread(block, 1, sizeof block, from)) > 0)
+        done = fwrite(block, 1, size, out->stream) == size;
+    done = done && !ferror(from) && fflush(out->stream) == 0;
+    fclose(from);
+    if (!done)
+        complain("%s: cannot be copied; is the disk full?", path);
+    return done;
+}
+
+static bool group_open(struct planar_group *group, const char *path, const struct planar *planar) {
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    group->file = file > 0 ? file : 0;
+    if (!group->file || (H5Lexists(file, "planar", H5P_DEFAULT) > 0 && H5Ldelete(file, "planar", H5P_DEFAULT) < 0))
+        return false;
+    hid_t made = H5Gcreate2(file, "planar", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    group->group = made > 0 ? made : 0;
+    const char axis[2] = {"xyz"[planar->axis], '\0'};
+    return group->group && attribute_text(made, "axis", axis) &&
+           attribute_number(made, "offset", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &planar->offset, 1) &&
+           column_make(&group->count, made, "count", H5T_STD_U32LE, H5T_NATIVE_UINT32, 0) &&
+           column_make(&group->corner, made, "corner", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3);
+}
+
+static bool group_close(struct planar_group *group) {
+    bool done = column_close(&group->count);
+    done &= column_close(&group->corner);
+    done &= group->group == 0 || H5Gclose(group->group) >= 0;
+    done &= group->file == 0 || H5Fclose(group->file) >= 0;
+    return done;
+}
+
+static bool put_section(struct planar_group *group, const pir_section *section) {
+    uint32_t count = pir_section_corner_count(section);
+    bool done = column_add(&group->count, &count);
+    for (uint32_t i = 0; done && i < count; i++) {
+        pir_vec3 c = pir_section_corners(section)[i];
+        done = column_add(&group->corner, (const double[]){c.x, c.y, c.z});
+    }
+    return done;
+}
+
+/* All sections, pair by pair; false after a complaint or, with *ret_told false, when HDF5 failed. */
+static bool put_sections(struct planar_group *group, const struct slices *slices, const struct planar *planar,
+                         bool *ret_told) {
+    for (uint32_t pair = 0; pair < slices->pairs; pair++)
+        for (uint64_t s = 0; s < slices->count; s++) {
+            pir_section *section = planar_section(planar, slices, s, pair);
+            *ret_told = !section;
+            bool done = section && put_section(group, section);
+            pir_section_destroy(section);
+            if (!done)
+                return false;
+        }
+    return true;
+}
+
+bool planar_file_write(const char *path, const struct planar *planar) {
+    struct slices slices;
+    struct output_file out = {0};
+    struct planar_group group = {0};
+    bool told = false;
+    columns_quiet();
+    if (!slices_open(&slices, path, 1, 1))
+        return false;
+    bool copied = output_open(&out, path) && copy_file(path, &out);
+    bool done = copied && group_open(&group, out.temporary, planar) && put_sections(&group, &slices, planar, &told);
+    done &= group_close(&group);
+    if (copied && !done && !told)
+        complain("%s: HDF5 cannot add the sections; is the disk full?", path);
+    done = done && output_commit(&out);
+    output_discard(&out);
+    slices_close(&slices);
+    return done;
+}
