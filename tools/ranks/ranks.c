@@ -2,7 +2,8 @@
 /*
  * A rank asks rank 0 with two numbers, what it wants and the unit that it has done, and gets one.
  *
- *     CLAIM   a unit that no one has, or NONE
+ *     CLAIM   a unit that no one has, or NONE; asked for ahead, while the unit before is made
+ *     NOTE    no answer: only the unit that is done
  *     REST    a late unit, once there is one; ENDED when all are done, or when rank 0 has failed
  *     FAILED  no answer: the rank has ended, by an error or a signal, and its unit is lost
  *
@@ -21,7 +22,7 @@
 #include "../interrupt.h"
 #include "../message.h"
 
-enum want { WANT_CLAIM, WANT_REST, WANT_FAILED };
+enum want { WANT_CLAIM, WANT_NOTE, WANT_REST, WANT_FAILED };
 
 #define NONE  UINT64_MAX
 #define ENDED (UINT64_MAX - 1)
@@ -110,7 +111,7 @@ static void serve(const struct ranks *ranks) {
             answer(shared, rank, deal(shared));
         else if (ask[0] == WANT_REST)
             shared->resting[rank] = true;
-        else
+        else if (ask[0] == WANT_FAILED)
             shared->told[rank] = true;
         if (ask[0] == WANT_FAILED && shared->holds[rank] != NONE)
             dealer_lost(&shared->dealer, shared->holds[rank]);
@@ -124,30 +125,62 @@ static void serve(const struct ranks *ranks) {
 
 /* --- any rank --- */
 
-/* Asks rank 0, or, on rank 0 itself, does as it would. */
-static uint64_t ask(const struct ranks *ranks, enum want want) {
-    struct ranks_shared *shared = ranks->shared;
-    const uint64_t question[3] = {want, in_work, now() - in_work_since > FOUND_SECONDS};
+/* Whether this process has asked for a unit ahead. The library claims one at a time. */
+static bool asked_ahead;
+
+static void send_question(enum want want) {
+    const uint64_t question[3] = {want, want == WANT_CLAIM ? NONE : in_work, now() - in_work_since > FOUND_SECONDS};
+    MPI_Send(question, 3, MPI_UINT64_T, 0, TAG_ASK, MPI_COMM_WORLD);
+}
+
+static uint64_t receive_answer(void) {
     uint64_t unit = NONE;
-    if (ranks->number > 0) {
-        MPI_Send(question, 3, MPI_UINT64_T, 0, TAG_ASK, MPI_COMM_WORLD);
-        for (int there = 0; want == WANT_REST && !there; nap(500000))
-            MPI_Iprobe(0, TAG_ANSWER, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
-        if (want != WANT_FAILED)
-            MPI_Recv(&unit, 1, MPI_UINT64_T, 0, TAG_ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    } else {
+    MPI_Recv(&unit, 1, MPI_UINT64_T, 0, TAG_ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return unit;
+}
+
+/* A unit for another rank than 0, which was asked for ahead; the next one is asked for. */
+static uint64_t claim_ahead(void) {
+    if (in_work != NONE)
+        send_question(WANT_NOTE);
+    if (!asked_ahead)
+        send_question(WANT_CLAIM);
+    uint64_t unit = receive_answer();
+    asked_ahead = unit != NONE;
+    if (asked_ahead)
+        send_question(WANT_CLAIM);
+    return unit;
+}
+
+/* Asks rank 0 for rest, or tells it of a failure, from another rank. */
+static uint64_t ask(enum want want) {
+    if (asked_ahead)
+        receive_answer(); // of a run that was ended; rank 0 knows what this rank holds
+    asked_ahead = false;
+    send_question(want);
+    if (want == WANT_FAILED)
+        return ENDED;
+    for (int there = 0; !there; nap(500000))
+        MPI_Iprobe(0, TAG_ANSWER, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+    return receive_answer();
+}
+
+/* The same on rank 0 itself. */
+static uint64_t claim_own(struct ranks_shared *shared) {
+    pthread_mutex_lock(&shared->lock);
+    note_done(shared, in_work, now() - in_work_since > FOUND_SECONDS);
+    uint64_t unit = deal(shared);
+    pthread_mutex_unlock(&shared->lock);
+    return unit;
+}
+
+static uint64_t rest_own(struct ranks_shared *shared) {
+    uint64_t unit = NONE;
+    for (bool first = true; unit == NONE; first = false) {
+        if (!first)
+            nap(500000);
         pthread_mutex_lock(&shared->lock);
-        note_done(shared, question[1], question[2]);
-        if (want == WANT_CLAIM)
-            unit = deal(shared);
-        for (bool first = true; want == WANT_REST && unit == NONE; first = false) {
-            if (!first) {
-                pthread_mutex_unlock(&shared->lock);
-                nap(500000);
-                pthread_mutex_lock(&shared->lock);
-            }
-            unit = interrupt_asked() ? ENDED : deal_late(shared);
-        }
+        unit = interrupt_asked() ? ENDED : deal_late(shared);
         pthread_mutex_unlock(&shared->lock);
     }
     return unit;
@@ -160,7 +193,7 @@ uint64_t ranks_next(const struct ranks *ranks) {
     uint64_t unit = handed;
     handed = NONE;
     if (unit == NONE)
-        unit = ask(ranks, WANT_CLAIM);
+        unit = ranks->number > 0 ? claim_ahead() : claim_own(ranks->shared);
     in_work = unit;
     in_work_since = now();
     return unit;
@@ -174,10 +207,10 @@ static void work(const struct ranks *ranks) {
         if (shared->status != PIR_OK || interrupt_asked()) {
             in_work = NONE;
             if (ranks->number > 0)
-                ask(ranks, WANT_FAILED);
+                ask(WANT_FAILED);
             return;
         }
-        handed = ask(ranks, WANT_REST);
+        handed = ranks->number > 0 ? ask(WANT_REST) : rest_own(shared);
         in_work = NONE;
     } while (handed != ENDED);
 }
@@ -210,6 +243,7 @@ pir_status ranks_run(struct ranks *ranks, pir_cspace_job *job, uint64_t pairs, p
         return pir_cspace_job_run(job, report);
     shared->job = job;
     handed = in_work = NONE;
+    asked_ahead = false;
     if (ranks->number > 0) {
         work(ranks);
     } else {
