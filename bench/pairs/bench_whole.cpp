@@ -3,9 +3,9 @@
 // Whole sums with their queries, as objects: what they weigh, what making them takes, and many at once.
 //
 // whole.csv has a line for each body with itself: the bytes of a sum and of a query on it, both after a thousand frames
-// at 500 steps, of the workspace of their thread, and of what they left with the polytopes, which all others share; then
-// the time of making either, in a workspace that is warm, and of beginning again by pir_sum_reset. whole_many.csv has
-// 10 to 10,000 sums of two hulls of 20 points, each at its own place of the motion: the time of a turn and a signed
+// at 500 steps, of the workspace of their thread, and of what they left with the polytopes, which all others share;
+// then the time of making either, in a workspace that is warm, and of beginning again by pir_sum_reset. whole_many.csv
+// has 10 to 10,000 sums of two hulls of 20 points, each at its own place of the motion: the time of a turn and a signed
 // distance, and the bytes.
 //
 //     bench_whole FOLDER
@@ -41,6 +41,14 @@ struct Counted {
         return nullptr;
     }
 };
+
+pir_sum_options options_of(const pir_allocator *allocator, pir_workspace *workspace) {
+    pir_sum_options options = pir_sum_options_default();
+    options.difference = 1;
+    options.allocator = allocator;
+    options.workspace = workspace;
+    return options;
+}
 
 struct Whole {
     pir_sum *sum = nullptr;
@@ -84,11 +92,13 @@ void weigh(pir_polytope *polytope, const std::vector<Pose> &poses, size_t ret_by
     pir_polytope *p;
     check(pir_polytope_create(points.data(), points.size(), &with, &p));
     size_t alone = shared.bytes;
-    pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
-    options.allocator = &own.allocator;
+    pir_workspace *workspace;
+    check(pir_workspace_create(&scratch.allocator, &workspace));
+    pir_sum_options options = options_of(&own.allocator, workspace);
     Whole whole;
     whole.make_sum(p, poses[0], options);
+    for (const Pose &pose : poses)
+        check(pir_sum_rotate(whole.sum, pose.r, PIR_METHOD_AUTO));
     size_t sum = own.bytes;
     whole.make_query();
     for (const Pose &pose : poses)
@@ -98,6 +108,7 @@ void weigh(pir_polytope *polytope, const std::vector<Pose> &poses, size_t ret_by
     ret_bytes[2] = scratch.bytes;
     ret_bytes[3] = shared.bytes - alone;
     whole.destroy();
+    pir_workspace_destroy(workspace);
     pir_polytope_release(p);
     if (own.bytes + scratch.bytes + shared.bytes != 0)
         std::exit(2);
@@ -107,8 +118,9 @@ void run_body(FILE *csv, const char *name, pir_polytope *p, double overhead) {
     std::vector<Pose> poses = hovering(p, p, (int)results_count(1000), 500);
     size_t bytes[4];
     weigh(p, poses, bytes);
-    pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    pir_workspace *workspace;
+    check(pir_workspace_create(nullptr, &workspace));
+    pir_sum_options options = options_of(nullptr, workspace);
     std::vector<double> sum, query, both, again;
     Whole kept;
     kept.make_sum(p, poses[0], options);
@@ -124,6 +136,7 @@ void run_body(FILE *csv, const char *name, pir_polytope *p, double overhead) {
         again.push_back(nanoseconds(overhead, [&] { check(pir_sum_reset(kept.sum, pose.r)); }));
     }
     kept.destroy();
+    pir_workspace_destroy(workspace);
     std::printf("%-13s %8zu %8zu %8zu %8zu  %9.0f %9.0f %9.0f %9.0f\n", name, bytes[0], bytes[1] - bytes[0], bytes[2],
                 bytes[3], median_of(sum), median_of(query), median_of(both), median_of(again));
     std::fprintf(csv, "%s,%u,%zu,%zu,%zu,%zu,%zu,%.0f,%.0f,%.0f,%.0f\n", name, pir_polytope_facet_count(p), bytes[0],
@@ -133,9 +146,9 @@ void run_body(FILE *csv, const char *name, pir_polytope *p, double overhead) {
 
 void run_many(FILE *csv, pir_polytope *p, const std::vector<Pose> &poses, int count) {
     Counted own;
-    pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
-    options.allocator = &own.allocator;
+    pir_workspace *workspace;
+    check(pir_workspace_create(&own.allocator, &workspace));
+    pir_sum_options options = options_of(&own.allocator, workspace);
     std::vector<Whole> all((size_t)count);
     auto pose_of = [&](size_t i, size_t frame) { return poses[(i * 37 + frame) % poses.size()]; };
     for (size_t i = 0; i < all.size(); i++) {
@@ -155,6 +168,7 @@ void run_many(FILE *csv, pir_polytope *p, const std::vector<Pose> &poses, int co
     std::fprintf(csv, "20 points,%d,%.1f,%.4f,%zu,%zu\n", count, median / count, median / 1e6, own.bytes, frames);
     for (Whole &whole : all)
         whole.destroy();
+    pir_workspace_destroy(workspace);
 }
 
 } // namespace
@@ -169,12 +183,16 @@ int main(int argc, char **argv) {
     struct {
         const char *name;
         pir_polytope *polytope;
-    } bodies[] = {{"cube", shape("cube")},           {"icosahedron", shape("icosahedron")},
-                  {"20 points", sphere_points(20)},  {"60 points", sphere_points(60)},
-                  {"gs4", shape("gs4")},             {"ellipsoid960", shape("ellipse")}};
+    } bodies[] = {{"cube", shape("cube")},
+                  {"icosahedron", shape("icosahedron")},
+                  {"20 points", sphere_points(20)},
+                  {"60 points", sphere_points(60)},
+                  {"gs4", shape("gs4")},
+                  {"ellipsoid960", shape("ellipse")}};
     FILE *csv = results_open(&where, "whole.csv");
-    std::fprintf(csv, "body,facets,sum_bytes,query_bytes,both_bytes,workspace_bytes,polytope_bytes,sum_ns,query_ns,both_ns,"
-                      "reset_ns\n");
+    std::fprintf(csv,
+                 "body,facets,sum_bytes,query_bytes,both_bytes,workspace_bytes,polytope_bytes,sum_ns,query_ns,both_ns,"
+                 "reset_ns\n");
     std::printf("%-13s %8s %8s %8s %8s  %9s %9s %9s %9s\n", "body", "sum", "query", "scratch", "shared", "sum ns",
                 "query ns", "both ns", "reset ns");
     for (auto &body : bodies)

@@ -39,23 +39,13 @@
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
+#include <pirouette/workspace.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef struct pir_pair pir_pair;
-typedef struct pir_workspace pir_workspace;
-
-/**
- * Scratch for the pairs of one thread. `allocator` may be NULL. Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
- *
- * Cost: O(1).
- */
-PIR_API pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **ret_workspace);
-
-/** Frees; NULL is accepted. */
-PIR_API void pir_workspace_destroy(pir_workspace *workspace);
 
 /** How an answer was found. */
 typedef enum pir_level {

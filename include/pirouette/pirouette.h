@@ -24,5 +24,6 @@
 #include <pirouette/solid.h>
 #include <pirouette/sum.h>
 #include <pirouette/version.h>
+#include <pirouette/workspace.h>
 
 #endif

@@ -36,8 +36,9 @@
  *
  * Lifetimes: a query holds references to its sum and to the operands, so they may be destroyed before it. It then
  * answers for the sum as it was last. It follows every change of the sum: rotation, scale, region, reset. The first
- * call after pir_sum_set_scale fills in again what depends on coordinates, O(size of both operands). It allocates
- * only where the scale has more digits than any before. Where that fails (PIR_ERR_MEMORY, or PIR_ERR_LIMIT for a body
+ * call after pir_sum_set_scale makes again what depends on coordinates, O(size of both operands). It is the scaled
+ * polytope's, in memory of that one's allocator; the sum's gives memory only where the scale has more digits than any
+ * before. Where that fails (PIR_ERR_MEMORY, or PIR_ERR_LIMIT for a body
  * that is now too far away for its size), the call fails, and the next one tries again.
  *
  * Cost of a query: O(size of the sum) at most. With the cache of a near pose, a distance takes some steps of a
@@ -137,7 +138,9 @@ typedef struct pir_query_result {
 
 /**
  * Makes a query object on `difference`: a sum made with options.difference = 1, its clone, or one restored from its
- * bytes. The query takes a reference to it. Its memory comes from the sum's allocator. O(size of both operands).
+ * bytes. The query takes a reference to it. Its memory comes from the sum's allocator, scratch from the sum's workspace
+ * (pir_sum_options). What depends on one operand alone is made once, O(its size · log), and stays with that polytope;
+ * after that O(groups of facets).
  * Errors: PIR_ERR_ARGUMENT, also for a sum that is no difference; PIR_ERR_LIMIT for a body farther from its origin
  * than 2^400 times the size of both; PIR_ERR_MEMORY.
  */

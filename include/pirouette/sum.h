@@ -25,6 +25,7 @@
 #include <pirouette/base.h>
 #include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
+#include <pirouette/workspace.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -43,9 +44,15 @@ typedef enum pir_method {
 typedef struct pir_sum_options {
     const pir_allocator *allocator; /**< NULL for malloc; copied, its context must outlive the sum */
     int difference; /**< 1: keep Q ⊕ (−R·P), the difference that placement queries use; 0: R·P ⊕ Q */
+    /**
+     * Scratch that the sum, and queries on it, share with others of its thread, so that each is small. All that share
+     * it belong to one thread at a time. NULL: the sum makes scratch of its own, about 20 KB for small bodies, 120 KB
+     * with a query.
+     */
+    pir_workspace *workspace;
 } pir_sum_options;
 
-/** malloc, no difference. */
+/** malloc, no difference, scratch of its own. */
 PIR_API pir_sum_options pir_sum_options_default(void);
 
 /**

@@ -42,7 +42,7 @@ bool pir_cgm_reserve_edges(pir_cgm *cgm, uint32_t count, uint32_t extra) {
 
 static void release_sources(pir_cgm *cgm) {
     for (uint32_t s = 0; s < cgm->source_count; s++) {
-        PIR_FREE(&cgm->allocator, cgm->source[s].rotation, 1);
+        PIR_FREE(&cgm->allocator, cgm->source[s].turn, 1);
         pir_polytope_release(cgm->source[s].polytope);
     }
 }
@@ -76,12 +76,14 @@ void pir_cgm_destroy(pir_cgm *cgm) {
 /* Takes one more source; false when out of memory. */
 static bool add_source(pir_cgm *cgm, pir_polytope *polytope, const pir_rotation *rotation) {
     struct pir_cgm_source *source = &cgm->source[cgm->source_count];
-    *source = (struct pir_cgm_source){NULL, NULL, cgm->line_count, cgm->normal_count};
+    *source = (struct pir_cgm_source){.line_start = cgm->line_count, .normal_start = cgm->normal_count};
     uint32_t longer = 0;
     if (rotation) {
-        source->rotation = PIR_NEW(&cgm->allocator, pir_rotation, 1);
-        if (!source->rotation)
+        source->turn = PIR_NEW(&cgm->allocator, struct pir_cgm_turn, 1);
+        if (!source->turn)
             return false;
+        source->rotation = &source->turn->rotation;
+        source->rotation->integers = &source->turn->integers;
         // its integers are made now, so that asking changes nothing later
         pir_rotation_set(source->rotation, rotation->given);
         pir_rotation_make_exact(source->rotation);

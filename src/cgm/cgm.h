@@ -49,11 +49,18 @@
 #define PIR_CGM_UNIT_ERROR   (8 * 0x1p-53)
 #define PIR_CGM_TURNED_ERROR (45 * 0x1p-53)
 
+/* A rotation with integers of its own. */
+struct pir_cgm_turn {
+    pir_rotation rotation;
+    pir_rotation_integers integers;
+};
+
 struct pir_cgm_source {
     pir_polytope *polytope;
-    pir_rotation *rotation; /* NULL when not rotated; shared by no one */
-    uint32_t line_start;    /* the number of its edge 0 among lines */
-    uint32_t normal_start;  /* the number of its facet 0 among facets */
+    struct pir_cgm_turn *turn; /* NULL when not rotated; shared by no one */
+    pir_rotation *rotation;    /* its rotation, or NULL */
+    uint32_t line_start;       /* the number of its edge 0 among lines */
+    uint32_t normal_start;     /* the number of its facet 0 among facets */
 };
 
 /* What defines a direction: facet `a` when b is PIR_CGM_NONE, else the ray along (signed line a) × (signed line b). */

@@ -99,6 +99,6 @@ pir_cgm_statistics pir_cgm_get_statistics(const pir_cgm *cgm) {
     bytes += cgm->face_capacity * sizeof *cgm->face_half + (vertices + edges + faces) * k * sizeof(uint32_t);
     bytes += cgm->line_count * sizeof *cgm->line + k * sizeof *cgm->source;
     for (size_t s = 0; s < k; s++)
-        bytes += cgm->source[s].rotation ? sizeof(pir_rotation) : 0;
+        bytes += cgm->source[s].rotation ? sizeof(struct pir_cgm_turn) : 0;
     return (pir_cgm_statistics){cgm->by_filter, cgm->by_exact, bytes};
 }

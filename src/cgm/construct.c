@@ -341,7 +341,8 @@ pir_status pir_cgm_create(pir_polytope *polytope, const pir_quat *rotation, cons
     if (!polytope || !ret_cgm)
         return PIR_ERR_ARGUMENT;
     const pir_allocator used = pir_allocator_or_default(allocator);
-    pir_rotation turned;
+    pir_rotation_integers integers;
+    pir_rotation turned = {.integers = &integers};
     if (rotation) {
         pir_status status = pir_rotation_set(&turned, *rotation);
         if (status != PIR_OK)

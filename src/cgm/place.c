@@ -21,7 +21,7 @@ static void multiply_denominators(const pir_cgm *cgm, uint32_t but, pir_int *pro
             continue;
         multiply(product, &cgm->source[t].polytope->scale.den, work);
         if (cgm->source[t].rotation)
-            multiply(product, &cgm->source[t].rotation->norm, work);
+            multiply(product, &cgm->source[t].rotation->integers->norm, work);
     }
 }
 
@@ -31,7 +31,7 @@ bool pir_cgm_places_init(struct pir_cgm_places *places, const pir_cgm *cgm) {
         const struct pir_cgm_source *source = &cgm->source[s];
         uint32_t n = pir_int_length(&source->polytope->scale.num), v = source->polytope->exact_vertex.stride;
         den += pir_int_length(&source->polytope->scale.den) +
-               (source->rotation ? pir_int_length(&source->rotation->norm) : 0);
+               (source->rotation ? pir_int_length(&source->rotation->integers->norm) : 0);
         factor = n > factor ? n : factor;
         v += source->rotation ? PIR_MATRIX_LIMBS + 1 : 0;
         longest = v > longest ? v : longest;

@@ -23,6 +23,20 @@ static bool copy_pairing(pir_sum *to, const pir_pairing *from) {
     return true;
 }
 
+static bool copy_lag(pir_sum *to, const pir_lag *from) {
+    if (!from->knots)
+        return true;
+    if (!pir_sum_reserve_lag(to))
+        return false;
+    pir_lag_knots *knots = to->lag.knots;
+    pir_rotation_integers *integers = knots->now.integers;
+    *knots = *from->knots;
+    knots->now.integers = integers;
+    to->lag = *from;
+    to->lag.knots = knots;
+    return true;
+}
+
 pir_status pir_sum_clone(const pir_sum *sum, const pir_allocator *allocator, pir_sum **ret_sum) {
     if (!sum || !ret_sum)
         return PIR_ERR_ARGUMENT;
@@ -35,7 +49,7 @@ pir_status pir_sum_clone(const pir_sum *sum, const pir_allocator *allocator, pir
     pir_status status = pir_fill_begin(&operands, pairing->signs.rotation.given, &used, &copy);
     if (status != PIR_OK)
         return status;
-    bool done = copy_pairing(copy, pairing), fits = true;
+    bool done = copy_pairing(copy, pairing) && copy_lag(copy, &sum->lag), fits = true;
     if (done && sum->region.cone.set)
         done = pir_fill_region(copy, &sum->region.cone, &sum->region.cover, &fits);
     PIR_ASSERT(fits);
@@ -44,9 +58,6 @@ pir_status pir_sum_clone(const pir_sum *sum, const pir_allocator *allocator, pir
         return PIR_ERR_MEMORY;
     }
     copy->cost = sum->cost;
-    copy->lag = sum->lag;
-    if (sum->lag.lagging)
-        pir_rotation_set(&copy->lag.now, sum->lag.now.given); // its integers point into itself
     copy->tracked.statistics = (pir_sum_statistics){0};
     *ret_sum = copy;
     return PIR_OK;

@@ -8,8 +8,8 @@
 pir_status pir_fill_begin(const pir_fill_operands *operands, pir_quat rotation, const pir_allocator *allocator,
                           pir_sum **ret_sum) {
     pir_sum *sum = NULL;
-    pir_status status =
-        pir_sum_new(operands->now[PIR_OPERAND_P], operands->now[PIR_OPERAND_Q], rotation, allocator, &sum);
+    const pir_sum_parts parts = {operands->now[PIR_OPERAND_P], operands->now[PIR_OPERAND_Q], rotation, allocator, NULL};
+    pir_status status = pir_sum_new(&parts, &sum);
     if (status != PIR_OK)
         return status;
     for (int i = 0; i < 2; i++) {

@@ -24,7 +24,7 @@ static pir_status change_cone(pir_sum *sum, const pir_cone *cone) {
 /* Whether what is kept includes all of the region's cone, where the pairing is exact and where it is shown. */
 static bool holds(const pir_sum *sum) {
     return pir_region_holds(&sum->region, &sum->tracked.pairing.signs.rotation) &&
-           (!sum->lag.lagging || pir_region_holds(&sum->region, &sum->lag.now));
+           (!sum->lag.lagging || pir_region_holds(&sum->region, &sum->lag.knots->now));
 }
 
 pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_angle) {

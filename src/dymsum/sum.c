@@ -3,11 +3,19 @@
 #include "dymsum/rotate.h"
 
 pir_sum_options pir_sum_options_default(void) {
-    return (pir_sum_options){.allocator = NULL, .difference = 0};
+    return (pir_sum_options){.allocator = NULL, .difference = 0, .workspace = NULL};
+}
+
+bool pir_sum_reserve_lag(pir_sum *sum) {
+    pir_pairing *pairing = &sum->tracked.pairing;
+    // the room is there since the sum was made
+    pir_sum_room *room = pir_sum_room_of(pairing->scratch, pairing->p, pairing->q);
+    return room && pir_lag_reserve(&sum->lag, &pairing->allocator, &room->shown);
 }
 
 static void free_sum(pir_sum *sum) {
     const pir_allocator allocator = sum->tracked.pairing.allocator;
+    pir_lag_finish(&sum->lag, &allocator);
     pir_region_finish(&sum->region, &allocator);
     pir_tracked_finish(&sum->tracked);
     pir_cgm_destroy(sum->cgm_q);
@@ -21,21 +29,25 @@ void pir_sum_destroy(pir_sum *sum) {
         free_sum(sum);
 }
 
-pir_status pir_sum_new(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_allocator *allocator,
-                       pir_sum **ret_sum) {
-    pir_sum *sum = PIR_ZEROED(allocator, pir_sum, 1);
+pir_status pir_sum_new(const pir_sum_parts *parts, pir_sum **ret_sum) {
+    pir_sum *sum = PIR_ZEROED(parts->allocator, pir_sum, 1);
     if (!sum)
         return PIR_ERR_MEMORY;
     atomic_init(&sum->references, 1);
-    sum->made_of[PIR_OPERAND_P] = pir_polytope_retain(p);
-    sum->made_of[PIR_OPERAND_Q] = pir_polytope_retain(q);
-    pir_status status = pir_tracked_init(&sum->tracked, p, q, rotation, allocator);
+    sum->made_of[PIR_OPERAND_P] = pir_polytope_retain(parts->p);
+    sum->made_of[PIR_OPERAND_Q] = pir_polytope_retain(parts->q);
+    pir_status status = pir_tracked_init(&sum->tracked, parts);
     if (status != PIR_OK) {
         pir_sum_destroy(sum);
         return status;
     }
     *ret_sum = sum;
     return PIR_OK;
+}
+
+/* The scratch that a workspace begins with. */
+static pir_scratch *scratch_of(pir_workspace *workspace) {
+    return workspace ? ((const pir_workspace_head *)(const void *)workspace)->scratch : NULL;
 }
 
 pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_sum_options *options,
@@ -55,7 +67,7 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
     else
         turning = pir_polytope_retain(p);
     if (status == PIR_OK)
-        status = pir_sum_new(turning, q, rotation, &allocator, &sum);
+        status = pir_sum_new(&(pir_sum_parts){turning, q, rotation, &allocator, scratch_of(used.workspace)}, &sum);
     pir_polytope_release(turning);
     if (status == PIR_OK)
         status = pir_sum_walk(sum);

@@ -26,9 +26,11 @@ struct pir_sum {
     pir_cgm *cgm_q; /* Q's cubical Gaussian map, from the first rebuild by CGM on */
 };
 
-/* A sum at `rotation` with all its memory and no pairing yet; it takes references of its own. */
-pir_status pir_sum_new(pir_polytope *p, pir_polytope *q, pir_quat rotation, const pir_allocator *allocator,
-                       pir_sum **ret_sum);
+/* A sum at a rotation with all its memory and no pairing yet; it takes references of its own. */
+pir_status pir_sum_new(const pir_sum_parts *parts, pir_sum **ret_sum);
+
+/* Makes what a tolerance needs. False when out of memory. */
+bool pir_sum_reserve_lag(pir_sum *sum);
 
 /* Called before a change, whether or not that succeeds: a failed call may store the same pairing in other slots. */
 static inline void pir_sum_changes(pir_sum *sum) {

@@ -10,6 +10,8 @@ pir_status pir_sum_set_tolerance(pir_sum *sum, double tolerance) {
     pir_status status = pir_sum_settle(sum);
     if (status != PIR_OK)
         return status;
+    if (tolerance > 0 && !pir_sum_reserve_lag(sum))
+        return PIR_ERR_MEMORY;
     pir_sum_changes(sum);
     sum->lag.tolerance = tolerance;
     pir_lag_measure(&sum->lag, sum->tracked.pairing.p, sum->tracked.pairing.q);
@@ -23,7 +25,7 @@ pir_status pir_sum_settle(pir_sum *sum) {
         return PIR_OK;
     double tolerance = sum->lag.tolerance;
     sum->lag.tolerance = 0;
-    pir_status status = pir_sum_rotate(sum, sum->lag.now.given, PIR_METHOD_AUTO);
+    pir_status status = pir_sum_rotate(sum, sum->lag.knots->now.given, PIR_METHOD_AUTO);
     sum->lag.tolerance = tolerance;
     return status;
 }
@@ -37,7 +39,7 @@ double pir_sum_shortfall_bound(const pir_sum *sum) {
 }
 
 pir_quat pir_sum_rotation(const pir_sum *sum) {
-    return sum->lag.lagging ? sum->lag.now.given : sum->tracked.pairing.signs.rotation.given;
+    return sum->lag.lagging ? sum->lag.knots->now.given : sum->tracked.pairing.signs.rotation.given;
 }
 
 pir_quat pir_sum_pairing_rotation(const pir_sum *sum) {

@@ -17,7 +17,7 @@ pir_sum *pir_sum_retain(const pir_sum *sum) {
 
 pir_rotation *pir_sum_shown_rotation(const pir_sum *sum) {
     pir_sum *at = (pir_sum *)sum;
-    return sum->lag.lagging ? &at->lag.now : &at->tracked.pairing.signs.rotation;
+    return sum->lag.lagging ? &at->lag.knots->now : &at->tracked.pairing.signs.rotation;
 }
 
 const pir_polytope *pir_sum_made_of(const pir_sum *sum, pir_operand operand) {
@@ -38,10 +38,16 @@ static pir_features features_of(const pir_members *members) {
 
 pir_kept pir_sum_kept(const pir_sum *sum) {
     const pir_region *region = &sum->region;
-    return (pir_kept){features_of(&region->sweep.p.members), features_of(&region->sweep.q.members),
-                      features_of(&region->sweep.edges)};
+    return (pir_kept){features_of(&region->sweep->p.members), features_of(&region->sweep->q.members),
+                      features_of(&region->sweep->edges)};
 }
 
 const pir_journal *pir_sum_journal(const pir_sum *sum) {
     return &sum->tracked.journal;
+}
+
+pir_status pir_sum_keep_journal(const pir_sum *sum) {
+    // what is noted is no part of what the sum says
+    pir_tracked *tracked = &((pir_sum *)sum)->tracked;
+    return pir_journal_keep(&tracked->journal, &tracked->pairing.allocator) ? PIR_OK : PIR_ERR_MEMORY;
 }

@@ -22,6 +22,11 @@ static inline pir_signs *pir_sum_signs(pir_sum *sum) {
     return &((pir_pairing *)(void *)sum)->signs;
 }
 
+/* The scratch that the sum and what stands on it work in. */
+static inline pir_scratch *pir_sum_scratch(const pir_sum *sum) {
+    return pir_sum_pairing(sum)->scratch;
+}
+
 /* The rotation that the pairing is exact at. */
 static inline pir_rotation *pir_sum_exact_rotation(pir_sum *sum) {
     return &pir_sum_signs(sum)->rotation;
@@ -65,7 +70,8 @@ typedef struct pir_kept {
 
 pir_kept pir_sum_kept(const pir_sum *sum);
 
-/* The slots that have changed lately. */
+/* The slots that have changed lately, from the time on that pir_sum_keep_journal has made room: PIR_ERR_MEMORY. */
 const pir_journal *pir_sum_journal(const pir_sum *sum);
+pir_status pir_sum_keep_journal(const pir_sum *sum);
 
 #endif

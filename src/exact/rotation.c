@@ -207,10 +207,10 @@ static void set_entry(const pir_int q[4], pir_int *entry, int i, bool transposed
 
 #if GMP_NUMB_BITS == 64
 /* M and |q|² where the components of q are short, as they are unless one is far smaller than another. */
-static bool set_short(pir_rotation *rotation) {
+static bool set_short(pir_rotation_integers *to) {
     int64_t q[4];
     for (int k = 0; k < 4; k++)
-        if (!pir_int_get_short(&rotation->q[k], &q[k]))
+        if (!pir_int_get_short(&to->q[k], &q[k]))
             return false;
     pir_two_limbs square[4], norm = 0;
     for (int k = 0; k < 4; k++)
@@ -218,25 +218,27 @@ static bool set_short(pir_rotation *rotation) {
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         pir_two_limbs of_v = (pir_two_limbs)q[i] * q[j], of_w = (pir_two_limbs)q[3] * q[k];
-        pir_int_set_two(&rotation->m[i][i], 2 * (square[i] + square[3]) - norm);
-        pir_int_set_two(&rotation->m[i][j], 2 * (of_v - of_w));
-        pir_int_set_two(&rotation->m[j][i], 2 * (of_v + of_w));
+        pir_int_set_two(&to->m[i][i], 2 * (square[i] + square[3]) - norm);
+        pir_int_set_two(&to->m[i][j], 2 * (of_v - of_w));
+        pir_int_set_two(&to->m[j][i], 2 * (of_v + of_w));
     }
-    pir_int_set_two(&rotation->norm, norm);
+    pir_int_set_two(&to->norm, norm);
     return true;
 }
 #else
-static bool set_short(pir_rotation *rotation) {
-    (void)rotation;
+static bool set_short(pir_rotation_integers *to) {
+    (void)to;
     return false;
 }
 #endif
 
 void pir_rotation_make_exact(pir_rotation *rotation) {
-    if (rotation->has_exact)
+    if (pir_rotation_has_integers(rotation))
         return;
-    pir_limbs room = {rotation->limbs, 0, PIR_ROTATION_LIMBS};
-    pir_int *q = rotation->q;
+    pir_rotation_integers *to = rotation->integers;
+    pir_limbs room = {to->limbs, 0, PIR_ROTATION_LIMBS};
+    pir_int *q = to->q;
+    to->of = rotation;
     for (int k = 0; k < 4; k++)
         q[k] = pir_limbs_take(&room, PIR_QUAT_LIMBS);
     if (rotation->relative)
@@ -244,32 +246,33 @@ void pir_rotation_make_exact(pir_rotation *rotation) {
     else
         set_integers(rotation->given, q);
     for (int i = 0; i < 9; i++)
-        rotation->m[i / 3][i % 3] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
-    rotation->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
+        to->m[i / 3][i % 3] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
+    to->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
     rotation->has_exact = true;
-    if (set_short(rotation))
+    if (set_short(to))
         return;
     mp_limb_t product[PIR_MATRIX_LIMBS];
     pir_limbs scratch = {product, 0, PIR_MATRIX_LIMBS};
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3;
-        set_diagonal(q, &rotation->m[i][i], i, &scratch);
-        set_entry(q, &rotation->m[i][j], i, false, &scratch);
-        set_entry(q, &rotation->m[j][i], i, true, &scratch);
+        set_diagonal(q, &to->m[i][i], i, &scratch);
+        set_entry(q, &to->m[i][j], i, false, &scratch);
+        set_entry(q, &to->m[j][i], i, true, &scratch);
     }
-    set_diagonal(q, &rotation->norm, 3, &scratch);
+    set_diagonal(q, &to->norm, 3, &scratch);
 }
 
 void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch) {
     for (int i = 0; i < 3; i++) {
-        const pir_int3 row = {{rotation->m[i][0], rotation->m[i][1], rotation->m[i][2]}};
+        const pir_int3 row = {{rotation->integers->m[i][0], rotation->integers->m[i][1], rotation->integers->m[i][2]}};
         pir_int3_dot(&dst->c[i], &row, v, scratch);
     }
 }
 
 void pir_rotation_apply_transposed(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch) {
     for (int i = 0; i < 3; i++) {
-        const pir_int3 column = {{rotation->m[0][i], rotation->m[1][i], rotation->m[2][i]}};
+        const pir_int3 column = {
+            {rotation->integers->m[0][i], rotation->integers->m[1][i], rotation->integers->m[2][i]}};
         pir_int3_dot(&dst->c[i], &column, v, scratch);
     }
 }

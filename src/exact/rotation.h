@@ -6,7 +6,8 @@
  *
  * held twice: as a matrix of doubles with a proven bound, and as integers, M of q scaled to integers by a power of two.
  *
- * The integers are made on demand, in memory inside the struct: a double spans at most 2098 bits, so nothing allocates.
+ * The integers are made on demand, in memory that the rotation is given: a double spans at most 2098 bits, so nothing
+ * allocates. Rotations of one thread may share that memory, one after the other.
  */
 #ifndef PIR_EXACT_ROTATION_H
 #define PIR_EXACT_ROTATION_H
@@ -19,19 +20,27 @@
 #define PIR_MATRIX_LIMBS   (2 * PIR_QUAT_LIMBS + 1)
 #define PIR_ROTATION_LIMBS (4 * PIR_QUAT_LIMBS + 10 * PIR_MATRIX_LIMBS)
 
-typedef struct pir_rotation {
+typedef struct pir_rotation pir_rotation;
+
+/* A rotation as integers. */
+typedef struct pir_rotation_integers {
+    const pir_rotation *of; /* whose they are, where that has_exact */
+    pir_int q[4];           /* x, y, z, w on one scale */
+    pir_int m[3][3];
+    pir_int norm; /* |q|² on the scale of m: R = m/norm */
+    mp_limb_t limbs[PIR_ROTATION_LIMBS];
+} pir_rotation_integers;
+
+struct pir_rotation {
     pir_quat given; /* as the caller gave it; of a relative rotation, the nearest doubles */
     pir_quat rest;  /* of a relative rotation, what `given` leaves, rounded; else 0 */
     bool relative;  /* conj(factor[0]) · factor[1] exactly */
     pir_quat factor[2];
     pir_quat unit;  /* scaled to length 1, within 8·2^-53 */
     pir_mat3 r;     /* within 31·2^-53 of R in Frobenius norm, 37·2^-53 if relative: see rotation.c */
-    bool has_exact; /* whether the integers below are made */
-    pir_int q[4];   /* x, y, z, w on one scale */
-    pir_int m[3][3];
-    pir_int norm; /* |q|² on the scale of m: R = m/norm */
-    mp_limb_t limbs[PIR_ROTATION_LIMBS];
-} pir_rotation;
+    bool has_exact; /* whether integers have been made; they may be another rotation's by now */
+    pir_rotation_integers *integers; /* set by whoever asks for integers; pir_rotation_set leaves it as it is */
+};
 
 /* Takes `q`: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, or PIR_OK. On failure *rotation is as it was. */
 pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q);
@@ -43,7 +52,12 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q);
  */
 pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_quat p);
 
-/* Makes the integers if they are not there yet. */
+/* Whether the integers are there, and this rotation's. */
+static inline bool pir_rotation_has_integers(const pir_rotation *rotation) {
+    return rotation->has_exact && rotation->integers->of == rotation;
+}
+
+/* Makes the integers if they are not there. */
 void pir_rotation_make_exact(pir_rotation *rotation);
 
 /* dst = M·v and Mᵀ·v exactly; room: |v| + PIR_MATRIX_LIMBS + 1 each. */

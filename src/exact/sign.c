@@ -26,7 +26,7 @@
 
 #include <math.h>
 
-pir_status pir_signs_init(pir_signs *signs, const pir_allocator *allocator, uint32_t a_limbs, uint32_t b_limbs) {
+pir_status pir_signs_reserve(pir_signs_room *room, const pir_allocator *allocator, uint32_t a_limbs, uint32_t b_limbs) {
     /*
      * No number is longer than `longest`: those of exact_sign are M·a, of PIR_MATRIX_LIMBS + a_limbs + 1 limbs, its
      * products with b, and sums of three of those; those of tie_sign are products of a, b and q with two carries, and q
@@ -38,24 +38,29 @@ pir_status pir_signs_init(pir_signs *signs, const pir_allocator *allocator, uint
      */
     uint32_t longest = PIR_MATRIX_LIMBS + a_limbs + b_limbs + 4;
     uint32_t capacity = 10 * longest;
+    if (capacity <= room->scratch.capacity)
+        return PIR_OK;
     mp_limb_t *base = PIR_NEW(allocator, mp_limb_t, capacity);
     if (!base)
         return PIR_ERR_MEMORY;
-    signs->scratch = (pir_limbs){base, 0, capacity};
-    signs->rotation.has_exact = false;
-    signs->by_filter = signs->by_exact = signs->by_perturbation = 0;
+    pir_signs_room_finish(room, allocator);
+    room->scratch = (pir_limbs){base, 0, capacity};
     return PIR_OK;
 }
 
-void pir_signs_finish(pir_signs *signs, const pir_allocator *allocator) {
-    PIR_FREE(allocator, signs->scratch.base, signs->scratch.capacity);
-    signs->scratch = (pir_limbs){0};
+void pir_signs_room_finish(pir_signs_room *room, const pir_allocator *allocator) {
+    PIR_FREE(allocator, room->scratch.base, room->scratch.capacity);
+    room->scratch = (pir_limbs){0};
+}
+
+void pir_signs_init(pir_signs *signs, pir_signs_room *room) {
+    *signs = (pir_signs){.rotation = {.integers = &room->rotation}, .scratch = &room->scratch};
 }
 
 /* The sign of s at the rotation itself; counts nothing. */
 static int exact_sign(pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
     pir_rotation *rotation = &signs->rotation;
-    pir_limbs *scratch = &signs->scratch;
+    pir_limbs *scratch = signs->scratch;
     pir_rotation_make_exact(rotation);
     uint32_t mark = scratch->used;
     uint32_t la = pir_int3_length(a), lb = pir_int3_length(b);
@@ -66,7 +71,7 @@ static int exact_sign(pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
             continue;
         row.size = 0;
         for (int j = 0; j < 3; j++)
-            pir_int_add_mul(&row, &rotation->m[i][j], &a->c[j], scratch);
+            pir_int_add_mul(&row, &rotation->integers->m[i][j], &a->c[j], scratch);
         pir_int_add_mul(&s, &row, &b->c[i], scratch);
     }
     scratch->used = mark;
@@ -111,10 +116,10 @@ static int form_sign(struct tie *tie, int k, int l, pir_limbs *scratch) {
 
 /* The sign of the greatest non-zero monomial of s(q + ε) − s(q). */
 static int tie_sign(pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
-    pir_limbs *scratch = &signs->scratch;
+    pir_limbs *scratch = signs->scratch;
     uint32_t mark = scratch->used;
     uint32_t la = pir_int3_length(a), lb = pir_int3_length(b);
-    struct tie tie = {.a = a, .b = b, .q = signs->rotation.q};
+    struct tie tie = {.a = a, .b = b, .q = signs->rotation.integers->q};
     pir_int3 v = {{tie.q[0], tie.q[1], tie.q[2]}};
     tie.c = pir_int3_take(scratch, la + lb + 1);
     pir_int3_cross(&tie.c, a, b, scratch);

@@ -35,13 +35,24 @@ static inline int pir_filter_sign(double s) {
 /* Works out signs for one rotation after another. */
 typedef struct pir_signs {
     pir_rotation rotation;
-    pir_limbs scratch;
+    pir_limbs *scratch;
     uint64_t by_filter, by_exact, by_perturbation;
 } pir_signs;
 
-/* Makes room for vectors of up to `a_limbs` and `b_limbs` a component; PIR_ERR_MEMORY. The rotation is not set yet. */
-pir_status pir_signs_init(pir_signs *signs, const pir_allocator *allocator, uint32_t a_limbs, uint32_t b_limbs);
-void pir_signs_finish(pir_signs *signs, const pir_allocator *allocator);
+/*
+ * What exact signs work in, which may be shared by all signs of a thread. It begins as zeros. pir_signs_reserve makes
+ * room for vectors of up to `a_limbs` and `b_limbs` a component: PIR_ERR_MEMORY.
+ */
+typedef struct pir_signs_room {
+    pir_rotation_integers rotation;
+    pir_limbs scratch;
+} pir_signs_room;
+
+pir_status pir_signs_reserve(pir_signs_room *room, const pir_allocator *allocator, uint32_t a_limbs, uint32_t b_limbs);
+void pir_signs_room_finish(pir_signs_room *room, const pir_allocator *allocator);
+
+/* Signs that work in a room, which must stay where it is. The rotation is not set yet. */
+void pir_signs_init(pir_signs *signs, pir_signs_room *room);
 
 /* The sign of s(a, b) at the true rotation: −1, 0 or 1. */
 int pir_sign_true(pir_signs *signs, const pir_int3 *a, const pir_int3 *b);

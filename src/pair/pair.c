@@ -12,6 +12,13 @@ pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **
     if (!workspace)
         return PIR_ERR_MEMORY;
     workspace->allocator = a;
+    workspace->head.scratch = pir_scratch_new(&a);
+    if (!workspace->head.scratch) {
+        PIR_FREE(&a, workspace, 1);
+        return PIR_ERR_MEMORY;
+    }
+    workspace->rotation.integers = &workspace->integers[0];
+    workspace->rotation_q.integers = &workspace->integers[1];
     workspace->exact.frame = &workspace->frame;
     workspace->exact.rotation = &workspace->rotation;
     workspace->world.rotation_q = &workspace->rotation_q;
@@ -28,6 +35,7 @@ void pir_workspace_destroy(pir_workspace *workspace) {
     pir_patch_room_finish(&workspace->patches, &a, workspace->patch_p, workspace->patch_q);
     pir_query_destroy(workspace->query);
     pir_sum_destroy(workspace->sum);
+    pir_scratch_release(workspace->head.scratch);
     PIR_FREE(&a, workspace, 1);
 }
 
@@ -46,9 +54,9 @@ static pir_status find_bodies(pir_polytope *p, pir_polytope *q, pir_pair *pair) 
         return status;
     // p holds it
     pir_polytope_release(reflected);
-    status = pir_pair_exponent(reflected, &of_p);
+    status = pir_kept_exponent(reflected, &of_p);
     if (status == PIR_OK)
-        status = pir_pair_exponent(q, &of_q);
+        status = pir_kept_exponent(q, &of_q);
     if (status != PIR_OK)
         return status;
     pir_frame frame;
@@ -57,8 +65,8 @@ static pir_status find_bodies(pir_polytope *p, pir_polytope *q, pir_pair *pair) 
     pair->up = frame.up;
     pair->down = frame.down;
     pair->limbs = pir_exact_limbs(reflected, q);
-    status = pir_pair_body_of(reflected, pair->exponent, &pair->body_p);
-    return status == PIR_OK ? pir_pair_body_of(q, pair->exponent, &pair->body_q) : status;
+    status = pir_kept_body_of(reflected, pair->exponent, &pair->body_p);
+    return status == PIR_OK ? pir_kept_body_of(q, pair->exponent, &pair->body_q) : status;
 }
 
 static bool are_levels(pir_level least, pir_level most) {

@@ -14,16 +14,17 @@
 
 #include <pirouette/pair.h>
 
-#include "pair/body.h"
+#include "base/scratch.h"
 #include "pair/lead.h"
 #include "pair/surface/inner_surface.h"
 #include "query/contact/patch.h"
 #include "query/decide/nearest.h"
+#include "query/frame/body.h"
 
 struct pir_pair {
     pir_allocator allocator;
     pir_polytope *p, *q;                  /* as the caller gave them; referenced */
-    const pir_pair_body *body_p, *body_q; /* of P reflected, and of Q; they belong to p and q */
+    const pir_kept_body *body_p, *body_q; /* of P reflected, and of Q; they belong to p and q */
     int exponent;                         /* one unit of the frame is 2^exponent */
     double up, down;                      /* as in pir_frame */
     uint32_t limbs;                       /* that exact signs need */
@@ -51,10 +52,12 @@ struct pir_pair {
 };
 
 struct pir_workspace {
+    pir_workspace_head head; /* first, see base/scratch.h */
     pir_allocator allocator;
     pir_frame frame;
     pir_rotation rotation;   /* of P relative to Q */
     pir_rotation rotation_q; /* of Q, where `posed` */
+    pir_rotation_integers integers[2];
     bool posed, has_rotation_q;
     pir_world world;
     pir_exact exact;

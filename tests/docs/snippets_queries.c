@@ -46,6 +46,13 @@ int main(void) {
     /* snippet 4 */
 
     good = good && result.outcome == PIR_OVERLAPPING && fabs(result.distance + 0.05) < 1e-12;
+
+    /* snippet 5 */
+
+    pir_query_input middle = pir_query_input_default();
+    good = good && pir_query_penetration(asked, &middle, NULL, &result) == PIR_OK && fabs(result.distance + 1) < 1e-12;
+    pir_query_destroy(asked);
+    pir_sum_destroy(another);
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
     printf("depth %g, %u contacts\n", -result.distance, (unsigned)count);

@@ -141,12 +141,12 @@ static void numbers_of_sweeps_begin_again(void **state) {
         sums_init(&s, p, q, test_general_rotation(&random));
         for (int i = 0; i < 7; i++) {
             if (i == 3)
-                s.tracked->region.sweep.number = UINT32_MAX - before;
+                s.tracked->region.sweep->number = UINT32_MAX - before;
             assert_int_equal(pir_sum_set_region(s.tracked, axes[i], 0.4), PIR_OK);
             expect(pir_sum_is_valid(s.tracked) && pir_sum_same_pairing(s.tracked, s.whole),
                    "%u before the last: axis %d", before, i);
         }
-        assert_true(s.tracked->region.sweep.number < 8);
+        assert_true(s.tracked->region.sweep->number < 8);
         sums_clear(&s);
     }
 }

@@ -58,7 +58,8 @@ struct locator {
 struct program {
     struct fuzz_input input;
     const char *failed;
-    test_memory memory; /* of sums and what stands on them */
+    test_memory memory;       /* of sums and what stands on them */
+    pir_workspace *workspace; /* of the sums that are not in slot 0 */
     struct subject subjects[SUBJECTS + SLOTS];
     struct body bodies[SLOTS];
     struct sum sums[SLOTS];

@@ -128,8 +128,8 @@ static void queries_whose_planes_cannot_grow_say_so(void **state) {
             pir_sum_destroy(sum);
             expect(memory.blocks == 0 && !memory.wrong_size, "call %d, request %llu", which, (unsigned long long)n);
         }
-        // a normal in three lanes, two numbers and the pieces at least, and nine lanes to work in; batches have more
-        expect(failures >= (which < 3 ? 15 : 30), "call %d failed %llu times", which, (unsigned long long)failures);
+        // planes and work space; batches have leaves as well
+        expect(failures >= (which < 3 ? 2 : 3), "call %d failed %llu times", which, (unsigned long long)failures);
     }
     pir_query_destroy(fresh);
     pir_sum_destroy(there);
@@ -144,12 +144,11 @@ static void queries_that_cannot_be_made_leave_nothing(void **state) {
         test_random random = test_random_case("query memory", (uint64_t)body);
         pir_polytope *p = test_random_polytope(&random, (test_body)body, 12),
                      *q = test_random_polytope(&random, TEST_GRID, 12);
-        test_memory memory = {0};
-        pir_allocator allocator = test_allocator(&memory);
-        pir_sum *sum = difference_of(p, q, &allocator);
-        size_t blocks = memory.blocks;
         pir_status status = PIR_ERR_MEMORY;
         for (uint64_t n = 1; status != PIR_OK; n++) {
+            test_memory memory = {0};
+            pir_allocator allocator = test_allocator(&memory);
+            pir_sum *sum = difference_of(p, q, &allocator);
             pir_query *const before = (pir_query *)&before, *query = before;
             memory.fail_at = memory.requests + n;
             status = pir_query_create(sum, &query);
@@ -160,13 +159,14 @@ static void queries_that_cannot_be_made_leave_nothing(void **state) {
                 assert_ptr_equal(query, before);
                 failures++;
             }
-            expect(memory.blocks == blocks && !memory.wrong_size, "body %d, request %llu", body, (unsigned long long)n);
+            pir_sum_destroy(sum);
+            expect(memory.blocks == 0 && !memory.wrong_size, "body %d, request %llu", body, (unsigned long long)n);
         }
-        pir_sum_destroy(sum);
         pir_polytope_release(q);
         pir_polytope_release(p);
     }
-    assert_true(failures > 30 * TEST_BODY_COUNT);
+    // the query, its room, limbs there, its arrays
+    assert_true(failures >= 4 * TEST_BODY_COUNT);
 }
 
 int main(void) {

@@ -36,7 +36,8 @@ static void integer_matrix_is_a_positive_multiple_of_the_rotation(void **state) 
     (void)state;
     for (uint64_t i = 0; i < 300; i++) {
         test_random random = test_random_case("rotation exact", i);
-        pir_rotation rotation;
+        pir_rotation_integers integers;
+        pir_rotation rotation = {.integers = &integers};
         pir_quat q = rotation_of_case(&random, i);
         assert_int_equal(pir_rotation_set(&rotation, q), PIR_OK);
         pir_rotation_make_exact(&rotation);
@@ -46,13 +47,13 @@ static void integer_matrix_is_a_positive_multiple_of_the_rotation(void **state) 
         oracle_quat_init(exact, q);
         oracle_vec_init(column);
         mpz_inits(square, entry, norm, left, right, NULL);
-        test_int_get(norm, &rotation.norm);
+        test_int_get(norm, &integers.norm);
         expect(mpz_sgn(norm) > 0, "case %llu", (unsigned long long)i);
         for (int c = 0; c < 3; c++) {
             exact_column(exact, c, column, square);
             for (int r = 0; r < 3; r++) {
                 // m / norm = column / square
-                test_int_get(entry, &rotation.m[r][c]);
+                test_int_get(entry, &integers.m[r][c]);
                 mpz_mul(left, entry, square);
                 mpz_mul(right, column[r], norm);
                 expect(mpz_cmp(left, right) == 0, "case %llu: entry %d %d", (unsigned long long)i, r, c);

@@ -18,16 +18,19 @@ struct question {
     oracle_vec exact_a, exact_b;
     pir_quat q;
     pir_signs signs;
+    pir_signs_room room;
 };
 
 static void question_init(struct question *question, const pir_allocator *allocator) {
     oracle_vec_init(question->exact_a);
     oracle_vec_init(question->exact_b);
-    assert_int_equal(pir_signs_init(&question->signs, allocator, TEST_LIMBS, TEST_LIMBS), PIR_OK);
+    question->room = (pir_signs_room){.scratch = {0}};
+    assert_int_equal(pir_signs_reserve(&question->room, allocator, TEST_LIMBS, TEST_LIMBS), PIR_OK);
+    pir_signs_init(&question->signs, &question->room);
 }
 
 static void question_clear(struct question *question, const pir_allocator *allocator) {
-    pir_signs_finish(&question->signs, allocator);
+    pir_signs_room_finish(&question->room, allocator);
     oracle_vec_clear(question->exact_b);
     oracle_vec_clear(question->exact_a);
 }
@@ -357,7 +360,7 @@ static void each_sign_is_counted_once_and_scratch_is_given_back(void **state) {
         assert_int_equal(question.signs.by_exact, exact);
         assert_int_equal(question.signs.by_perturbation, perturbed);
         assert_int_equal(question.signs.by_filter, 0);
-        assert_int_equal(question.signs.scratch.used, 0);
+        assert_int_equal(question.signs.scratch->used, 0);
     }
     question_clear(&question, &allocator);
 }

@@ -7,8 +7,14 @@
 /* Kernels read blocks eight at a time. */
 #define BLOCKS_AT_A_TIME 8
 
+/* The blocks that have bounds. Those behind the last block of certificates never expire. */
+static uint32_t block_count(const pir_certificates *certificates) {
+    uint32_t blocks = certificates->capacity / PIR_CERTIFICATE_BLOCK;
+    return (blocks + BLOCKS_AT_A_TIME - 1) / BLOCKS_AT_A_TIME * BLOCKS_AT_A_TIME;
+}
+
 static pir_layout layout_of(pir_certificates *certificates) {
-    uint32_t capacity = certificates->capacity, blocks = capacity / PIR_CERTIFICATE_BLOCK;
+    uint32_t capacity = certificates->capacity, blocks = block_count(certificates);
     return (pir_layout){{PIR_ROW(certificates->margin, capacity), PIR_ROW(certificates->at, capacity),
                          PIR_ROW(certificates->ahead, capacity), PIR_ROW(certificates->behind, capacity),
                          PIR_ROW(certificates->block_ahead, blocks), PIR_ROW(certificates->block_behind, blocks),
@@ -16,7 +22,7 @@ static pir_layout layout_of(pir_certificates *certificates) {
 }
 
 bool pir_certificates_init(pir_certificates *certificates, const pir_allocator *allocator, uint32_t count) {
-    const uint32_t unit = BLOCKS_AT_A_TIME * PIR_CERTIFICATE_BLOCK;
+    const uint32_t unit = PIR_CERTIFICATE_BLOCK;
     *certificates = (pir_certificates){.capacity = (count + unit - 1) / unit * unit};
     pir_layout layout = layout_of(certificates);
     if (!pir_layout_new(allocator, &layout)) {
@@ -25,7 +31,7 @@ bool pir_certificates_init(pir_certificates *certificates, const pir_allocator *
     }
     for (uint32_t i = 0; i < certificates->capacity; i++)
         pir_certificate_clear(certificates, i);
-    for (uint32_t b = 0; b < certificates->capacity / PIR_CERTIFICATE_BLOCK; b++) {
+    for (uint32_t b = 0; b < block_count(certificates); b++) {
         certificates->block_ahead[b] = PIR_NEVER;
         certificates->block_behind[b] = -PIR_NEVER;
     }

@@ -58,7 +58,7 @@ typedef struct pir_certificates {
     pir_previous_cell *previous; /* per certificate */
     uint32_t stretch;            /* counts how often keys have been made anew or shifted */
     uint32_t *expired;           /* what the last collection found, rising */
-    uint32_t capacity;           /* a multiple of eight blocks */
+    uint32_t capacity;           /* whole blocks; their bounds are in a multiple of eight */
 } pir_certificates;
 
 /* Room for at least `count` certificates, which never expire; false when out of memory. */

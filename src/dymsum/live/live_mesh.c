@@ -104,7 +104,7 @@ pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live) {
     live->vertices.free = PIR_NO_SLOT;
     pir_layout layout = layout_of(live);
     pir_status status = PIR_ERR_MEMORY;
-    if (pir_layout_new(a, &layout)) {
+    if (pir_sum_keep_journal(sum) == PIR_OK && pir_layout_new(a, &layout)) {
         for (uint32_t f = 0; f < live->sizes.facets_p; f++)
             live->fv[f] = PIR_NO_SLOT;
         for (uint32_t g = 0; g < live->sizes.facets_q; g++)

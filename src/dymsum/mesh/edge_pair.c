@@ -12,7 +12,7 @@
 
 /* d × M·e exactly, into scratch that the caller gives back. */
 static pir_int3 exact_normal(const pir_posed *posed, const pir_edge_pair *pair) {
-    pir_limbs *scratch = &posed->signs->scratch;
+    pir_limbs *scratch = posed->signs->scratch;
     pir_int3 e = pir_half_exact(posed->pairing->p, pair->half), d = pir_half_exact(posed->pairing->q, pair->h);
     uint32_t le = pir_int3_length(&e) + PIR_MATRIX_LIMBS + 1, ld = pir_int3_length(&d);
     pir_rotation_make_exact(&posed->signs->rotation);
@@ -26,15 +26,15 @@ bool pir_edges_are_parallel(const pir_posed *posed, const pir_edge_pair *pair) {
     pir_vec3 n = pir_vec_cross(pair->d, pair->e);
     if (fabs(n.x) > PARALLEL_BOUND || fabs(n.y) > PARALLEL_BOUND || fabs(n.z) > PARALLEL_BOUND)
         return false;
-    uint32_t mark = posed->signs->scratch.used;
+    uint32_t mark = posed->signs->scratch->used;
     pir_int3 exact = exact_normal(posed, pair);
-    posed->signs->scratch.used = mark;
+    posed->signs->scratch->used = mark;
     return pir_int3_is_zero(&exact);
 }
 
 /* 1 where d × e points along the normal of the facet, −1 where against it, 0 where it is zero; exactly. */
 static int exact_side(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet) {
-    pir_limbs *scratch = &posed->signs->scratch;
+    pir_limbs *scratch = posed->signs->scratch;
     uint32_t mark = scratch->used;
     pir_int3 n = exact_normal(posed, pair);
     pir_int3 m = facet.of_p ? pir_normal_exact(posed->pairing->p, facet.facet)

@@ -79,7 +79,8 @@ pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pir_quat q
         return PIR_ERR_ARGUMENT;
     const pir_sum_options used = options ? *options : pir_sum_options_default();
     const pir_allocator allocator = pir_allocator_or_default(used.allocator);
-    pir_rotation rotation;
+    pir_rotation_integers integers;
+    pir_rotation rotation = {.integers = &integers};
     pir_status status = pir_rotation_set(&rotation, quaternion);
     if (status != PIR_OK)
         return status;

@@ -13,10 +13,10 @@ pir_status pir_placing_init(pir_placing *placing, const pir_allocator *allocator
     pir_rotation_make_exact(rotation);
     const pir_scale *sp = &p->scale, *sq = &q->scale;
     uint32_t np = pir_int_length(&sp->num), dp = pir_int_length(&sp->den), nq = pir_int_length(&sq->num),
-             dq = pir_int_length(&sq->den), norm = pir_int_length(&rotation->norm), m = 0;
+             dq = pir_int_length(&sq->den), norm = pir_int_length(&rotation->integers->norm), m = 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            m = pir_int_length(&rotation->m[i][j]) > m ? pir_int_length(&rotation->m[i][j]) : m;
+            m = pir_int_length(&rotation->integers->m[i][j]) > m ? pir_int_length(&rotation->integers->m[i][j]) : m;
     /*
      * A product has as many limbs as its factors together; a sum of three products, all of one length at most, has one
      * more. So a component of M·p has m + stride + 1. pir_placing_set takes most of the scratch: one such component (at
@@ -41,7 +41,7 @@ pir_status pir_placing_init(pir_placing *placing, const pir_allocator *allocator
     // the products at the head of this file
     pir_int_mul(&placing->p_factor, &sp->num, &sq->den);
     pir_int part = pir_limbs_take(&placing->scratch, den_limbs + q_limbs);
-    pir_int_mul(&part, &rotation->norm, &sp->den);
+    pir_int_mul(&part, &rotation->integers->norm, &sp->den);
     pir_int_mul(&placing->q_factor, &part, &sq->num);
     pir_int_mul(&placing->scale.den, &part, &sq->den);
     placing->scratch.used = 0;
@@ -62,7 +62,7 @@ void pir_placing_set(pir_placing *placing, uint32_t p, uint32_t q, pir_vectors *
     for (int i = 0; i < 3; i++) {
         rotated.size = 0;
         for (int j = 0; j < 3; j++)
-            pir_int_add_mul(&rotated, &placing->rotation->m[i][j], &x.c[j], scratch);
+            pir_int_add_mul(&rotated, &placing->rotation->integers->m[i][j], &x.c[j], scratch);
         pir_int_mul(&to.c[i], &rotated, &placing->p_factor);
         pir_int_add_mul(&to.c[i], &y.c[i], &placing->q_factor, scratch);
     }

@@ -20,8 +20,17 @@
 
 #include <pirouette/sum.h>
 
+#include "base/scratch.h"
 #include "exact/sign.h"
 #include "polytope/polytope.h"
+
+/* What a sum is made from. References are taken; without scratch it makes its own. */
+typedef struct pir_sum_parts {
+    pir_polytope *p, *q;
+    pir_quat rotation;
+    const pir_allocator *allocator;
+    pir_scratch *scratch;
+} pir_sum_parts;
 
 /* In place of a crossing's slot: there is none. */
 #define PIR_NO_CROSSING UINT32_MAX
@@ -38,21 +47,23 @@ typedef struct pir_crossings {
 
 typedef struct pir_pairing {
     pir_allocator allocator;
-    pir_polytope *p, *q; /* at the scale that was last set */
-    bool difference;     /* made as a difference: p is the caller's P reflected */
-    uint64_t generation; /* see pir_sum_generation */
-    pir_signs signs;     /* holds the rotation that the pairing is exact at */
-    uint32_t *fv, *vf;   /* per facet of P the vertex of Q, per facet of Q the vertex of P, or PIR_NO_PAIR */
+    pir_scratch *scratch; /* referenced */
+    pir_polytope *p, *q;  /* at the scale that was last set */
+    bool difference;      /* made as a difference: p is the caller's P reflected */
+    uint64_t generation;  /* see pir_sum_generation */
+    pir_signs signs;      /* holds the rotation that the pairing is exact at */
+    uint32_t *fv, *vf;    /* per facet of P the vertex of Q, per facet of Q the vertex of P, or PIR_NO_PAIR */
     pir_crossings crossings;
 } pir_pairing;
 
 /*
- * How many crossings most rotations of two operands stay below: memory made for so many seldom grows. Two round bodies
- * have fewer than their edges together; the rest is room for aligned and flat ones, and for small bodies, whose counts
- * vary most.
+ * How many crossings most rotations of two operands stay below: memory made for so many seldom grows. Two bodies of
+ * about one size have fewer than their edges together, platonic solids at most a few more; the rest is room for small
+ * bodies, whose counts vary most.
  */
 static inline uint32_t pir_crossings_expected(const pir_polytope *p, const pir_polytope *q) {
-    return 3 * (p->edge_count + q->edge_count) + 64;
+    uint32_t edges = p->edge_count + q->edge_count;
+    return edges + edges / 4 + 32;
 }
 
 /*

@@ -8,18 +8,57 @@ static uint32_t most(uint32_t a, uint32_t b) {
     return a > b ? a : b;
 }
 
+/* --- the room --- */
+
+static pir_layout layout_of_work(pir_pairing_work *work) {
+    uint32_t queue = most(most(work->facets_p, work->facets_q), work->edges);
+    return (pir_layout){
+        {PIR_ROW(work->queue, queue), PIR_ROW(work->mark, queue), PIR_ROW(work->rotated, work->facets_p),
+         PIR_ROW(work->suspects, work->facets_p + work->facets_q), PIR_ROW(work->passes, work->facets_q)}};
+}
+
+static void destroy_room(void *at, const pir_allocator *allocator) {
+    pir_sum_room *room = at;
+    pir_layout layout = layout_of_work(&room->work);
+    pir_layout_free(allocator, &layout);
+    pir_signs_room_finish(&room->signs, allocator);
+    PIR_FREE(allocator, room, 1);
+}
+
+/* Makes work space for two more operands. */
+static bool reserve_work(pir_pairing_work *work, const pir_allocator *allocator, const pir_polytope *p,
+                         const pir_polytope *q) {
+    uint32_t edges = most(p->edge_count, q->edge_count);
+    pir_pairing_work fresh = {.facets_p = most(p->facet_count, work->facets_p),
+                              .facets_q = most(q->facet_count, work->facets_q),
+                              .edges = most(edges, work->edges)};
+    if (work->queue && p->facet_count <= work->facets_p && q->facet_count <= work->facets_q && edges <= work->edges)
+        return true;
+    pir_layout layout = layout_of_work(&fresh), old = layout_of_work(work);
+    if (!pir_layout_new(allocator, &layout))
+        return false;
+    pir_layout_free(allocator, &old);
+    *work = fresh;
+    return true;
+}
+
+pir_sum_room *pir_sum_room_of(pir_scratch *scratch, const pir_polytope *p, const pir_polytope *q) {
+    const pir_allocator *a = &scratch->allocator;
+    pir_sum_room *room = pir_scratch_room(scratch, PIR_ROOM_SUM, sizeof *room, destroy_room);
+    bool done = room && reserve_work(&room->work, a, p, q) &&
+                pir_signs_reserve(&room->signs, a, most(p->exact_edge.stride, p->exact_normal.stride),
+                                  most(q->exact_edge.stride, q->exact_normal.stride)) == PIR_OK;
+    return done ? room : NULL;
+}
+
+/* --- a pairing --- */
+
 /* The arrays, but those of the certificates and of the crossings' slots. */
 static pir_layout layout_of(pir_tracked *tracked) {
     pir_pairing *pairing = &tracked->pairing;
     const pir_polytope *p = pairing->p, *q = pairing->q;
-    pir_pairing_work *work = &tracked->work;
-    uint32_t queue = most(most(p->facet_count, q->facet_count), p->edge_count);
     return (pir_layout){{PIR_ROW(pairing->fv, p->facet_count), PIR_ROW(pairing->vf, q->facet_count),
-                         PIR_ROW(pairing->crossings.first, p->edge_count), PIR_ROW(tracked->touched, p->edge_count),
-                         PIR_ROW(work->queue, queue), PIR_ROW(work->mark, most(queue, q->edge_count)),
-                         PIR_ROW(work->rotated, p->facet_count),
-                         PIR_ROW(work->suspects, pir_certificate_count(tracked)),
-                         PIR_ROW(work->passes, q->facet_count)}};
+                         PIR_ROW(pairing->crossings.first, p->edge_count), PIR_ROW(tracked->touched, p->edge_count)}};
 }
 
 /* The facets of p, in the cells `cell` of q. */
@@ -52,19 +91,21 @@ static bool allocate(pir_tracked *tracked) {
     return pir_crossings_reserve(tracked, pir_crossings_expected(pairing->p, pairing->q));
 }
 
-pir_status pir_tracked_init(pir_tracked *tracked, pir_polytope *p, pir_polytope *q, pir_quat rotation,
-                            const pir_allocator *allocator) {
+pir_status pir_tracked_init(pir_tracked *tracked, const pir_sum_parts *parts) {
     pir_pairing *pairing = &tracked->pairing;
-    *pairing = (pir_pairing){
-        .allocator = *allocator, .p = pir_polytope_retain(p), .q = pir_polytope_retain(q), .generation = 1};
+    *pairing = (pir_pairing){.allocator = *parts->allocator,
+                             .p = pir_polytope_retain(parts->p),
+                             .q = pir_polytope_retain(parts->q),
+                             .generation = 1};
     tracked->kernels = pir_kernels_choose();
-    pir_status status = pir_signs_init(&pairing->signs, allocator, most(p->exact_edge.stride, p->exact_normal.stride),
-                                       most(q->exact_edge.stride, q->exact_normal.stride));
-    if (status == PIR_OK && !allocate(tracked))
-        status = PIR_ERR_MEMORY;
-    if (status == PIR_OK)
-        status = pir_rotation_set(&pairing->signs.rotation, rotation);
-    return status;
+    pir_journal_init(&tracked->journal);
+    pairing->scratch = parts->scratch ? pir_scratch_retain(parts->scratch) : pir_scratch_new(parts->allocator);
+    pir_sum_room *room = pairing->scratch ? pir_sum_room_of(pairing->scratch, parts->p, parts->q) : NULL;
+    if (!room || !allocate(tracked))
+        return PIR_ERR_MEMORY;
+    pir_signs_init(&pairing->signs, &room->signs);
+    tracked->work = &room->work;
+    return pir_rotation_set(&pairing->signs.rotation, parts->rotation);
 }
 
 void pir_tracked_finish(pir_tracked *tracked) {
@@ -74,7 +115,8 @@ void pir_tracked_finish(pir_tracked *tracked) {
     pir_crossings_finish(tracked);
     pir_layout_free(a, &layout);
     pir_certificates_finish(&tracked->certificates, a);
-    pir_signs_finish(&pairing->signs, a);
+    pir_journal_finish(&tracked->journal, a);
+    pir_scratch_release(pairing->scratch);
     pir_polytope_release(pairing->p);
     pir_polytope_release(pairing->q);
 }

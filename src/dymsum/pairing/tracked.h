@@ -30,14 +30,22 @@
  */
 #define PIR_INACTIVE UINT32_MAX
 
-/* What rebuilds and updates work in. */
+/* What rebuilds and updates work in: nothing of it lasts from call to call. */
 typedef struct pir_pairing_work {
     uint32_t *queue;       /* facets to visit, or edges */
     uint8_t *mark;         /* flags of facets or edges */
     pir_vec3 *rotated;     /* normals of P, rotated */
     pir_suspect *suspects; /* facets of Q that are back in an earlier cell, behind them what a review has listed */
     pir_suspect *passes;   /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */
+    uint32_t facets_p, facets_q, edges; /* what there is room for */
 } pir_pairing_work;
+
+/* The sums' room in a thread's scratch (base/scratch.h). It grows to what the largest sum needs. */
+typedef struct pir_sum_room {
+    pir_signs_room signs;
+    pir_rotation_integers shown; /* of a rotation that the pairing stays behind */
+    pir_pairing_work work;
+} pir_sum_room;
 
 typedef struct pir_tracked {
     pir_pairing pairing; /* first, see dymsum/view.h */
@@ -48,18 +56,21 @@ typedef struct pir_tracked {
     uint64_t expired_in_epoch;     /* certificates that have expired in this epoch */
     pir_facets p_facets, q_facets; /* of each operand, over the cells of the other */
     pir_journal journal;
-    uint32_t *touched; /* per edge of P: the stamp of the last update that changed it, or PIR_INACTIVE */
-    uint32_t stamp;    /* the last one given */
-    pir_pairing_work work;
+    uint32_t *touched;      /* per edge of P: the stamp of the last update that changed it, or PIR_INACTIVE */
+    uint32_t stamp;         /* the last one given */
+    pir_pairing_work *work; /* the thread's */
     pir_sum_statistics statistics;
 } pir_tracked;
 
+/* The sums' room in a scratch, for two more operands; NULL when out of memory. */
+pir_sum_room *pir_sum_room_of(pir_scratch *scratch, const pir_polytope *p, const pir_polytope *q);
+
 /*
- * Takes references to the operands and makes all memory. There is no pairing yet. pir_tracked_finish releases whatever
- * is there, also after a failure. Errors: PIR_ERR_MEMORY and those of pir_rotation_set.
+ * Takes references to the operands and to the scratch, and makes all memory. There is no pairing yet.
+ * pir_tracked_finish releases whatever is there, also after a failure. Errors: PIR_ERR_MEMORY and those of
+ * pir_rotation_set.
  */
-pir_status pir_tracked_init(pir_tracked *tracked, pir_polytope *p, pir_polytope *q, pir_quat rotation,
-                            const pir_allocator *allocator);
+pir_status pir_tracked_init(pir_tracked *tracked, const pir_sum_parts *parts);
 void pir_tracked_finish(pir_tracked *tracked);
 
 /* Tells the kernels where the operands' arrays are: after an operand has been replaced. */

@@ -13,7 +13,7 @@
 static bool fv_is_compatible(pir_tracked *tracked, uint32_t f, uint32_t v) {
     double unused;
     for (uint32_t h = tracked->pairing.q->ring_start[v]; h < tracked->pairing.q->ring_start[v + 1]; h++)
-        if (pir_sign_facet_half(&tracked->pairing, f, tracked->work.rotated[f], h, &unused) > 0)
+        if (pir_sign_facet_half(&tracked->pairing, f, tracked->work->rotated[f], h, &unused) > 0)
             return false;
     return true;
 }
@@ -32,8 +32,8 @@ static uint32_t crossed_half(pir_tracked *tracked, uint32_t h, pir_vec3 directio
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     uint32_t side = q->edge_half[e2], from = p->left[h], to = pir_right(p, h);
     double unused;
-    int behind = pir_sign_facet_half(&tracked->pairing, from, tracked->work.rotated[from], side, &unused);
-    if (pir_sign_facet_half(&tracked->pairing, to, tracked->work.rotated[to], side, &unused) == behind)
+    int behind = pir_sign_facet_half(&tracked->pairing, from, tracked->work->rotated[from], side, &unused);
+    if (pir_sign_facet_half(&tracked->pairing, to, tracked->work->rotated[to], side, &unused) == behind)
         return PIR_NO_CROSSING;
     // of the two halfedges, the one along which the arc goes from behind to ahead
     if (behind > 0)
@@ -65,7 +65,7 @@ pir_status pir_brute_rebuild(pir_tracked *tracked) {
     pir_pairing *pairing = &tracked->pairing;
     const pir_polytope *p = pairing->p, *q = pairing->q;
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        tracked->work.rotated[f] = pir_rotated_normal(pairing, f);
+        tracked->work->rotated[f] = pir_rotated_normal(pairing, f);
         for (uint32_t v = 0; v < q->vertex_count; v++)
             if (fv_is_compatible(tracked, f, v))
                 pairing->fv[f] = v;

@@ -34,7 +34,7 @@ static uint32_t locate_of_q(pir_tracked *tracked, uint32_t g, uint32_t from) {
 
 void pir_locate_facets_of_p(pir_tracked *tracked) {
     const pir_polytope *p = tracked->pairing.p;
-    uint32_t *fv = tracked->pairing.fv, *queue = tracked->work.queue, head = 0, tail = 0;
+    uint32_t *fv = tracked->pairing.fv, *queue = tracked->work->queue, head = 0, tail = 0;
     if (p->facet_count == 0)
         return;
     for (uint32_t f = 1; f < p->facet_count; f++)
@@ -59,14 +59,14 @@ static inline void set_cell(pir_tracked *tracked, uint32_t g, uint32_t v, uint32
     if (tracked->pairing.vf[g] != PIR_NO_PAIR)
         return;
     tracked->pairing.vf[g] = v;
-    tracked->work.queue[(*tail)++] = g;
+    tracked->work->queue[(*tail)++] = g;
 }
 
 /* The crossings of each edge of Q, in work.mark: 0, 1, or 2 for more. */
 static void count_crossings(pir_tracked *tracked) {
     const pir_polytope *q = tracked->pairing.q;
     const pir_crossings *c = &tracked->pairing.crossings;
-    uint8_t *mark = tracked->work.mark;
+    uint8_t *mark = tracked->work->mark;
     memset(mark, 0, q->edge_count);
     for (uint32_t i = 0; i < c->used; i++) {
         uint32_t e = q->edge[c->half[i]];
@@ -80,9 +80,9 @@ static void count_crossings(pir_tracked *tracked) {
 static uint32_t spread(pir_tracked *tracked, uint32_t head, uint32_t tail) {
     const pir_polytope *q = tracked->pairing.q;
     for (; head < tail; head++) {
-        uint32_t g = tracked->work.queue[head];
+        uint32_t g = tracked->work->queue[head];
         for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++)
-            if (tracked->work.mark[q->edge[q->loop[i]]] == 0)
+            if (tracked->work->mark[q->edge[q->loop[i]]] == 0)
                 set_cell(tracked, pir_right(q, q->loop[i]), tracked->pairing.vf[g], &tail);
     }
     return tail;
@@ -106,7 +106,7 @@ void pir_locate_facets_of_q(pir_tracked *tracked) {
         vf[g] = PIR_NO_PAIR;
     for (uint32_t i = 0; i < c->used; i++) {
         uint32_t h = c->half[i], half = p->edge_half[c->edge[i]];
-        if (tracked->work.mark[q->edge[h]] != 1)
+        if (tracked->work->mark[q->edge[h]] != 1)
             continue;
         set_cell(tracked, pir_right(q, h), p->origin[half], &tail);
         set_cell(tracked, q->left[h], p->target[half], &tail);

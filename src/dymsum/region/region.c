@@ -77,16 +77,23 @@ static void list_all(pir_members *members) {
 
 bool pir_region_reserve(pir_region *region, pir_tracked *tracked) {
     const pir_pairing *pairing = &tracked->pairing;
-    if (region->sweep.edges.at)
+    if (region->sweep)
         return true;
-    if (!pir_sweep_init(&region->sweep, pairing->p, pairing->q, &pairing->allocator))
+    const pir_allocator *a = &pairing->allocator;
+    pir_sweep *sweep = PIR_ZEROED(a, pir_sweep, 1);
+    if (!sweep || !pir_sweep_init(sweep, pairing->p, pairing->q, a)) {
+        PIR_FREE(a, sweep, 1);
         return false;
+    }
+    region->sweep = sweep;
     pir_region_open(region, tracked);
     return true;
 }
 
 void pir_region_finish(pir_region *region, const pir_allocator *allocator) {
-    pir_sweep_finish(&region->sweep, allocator);
+    if (region->sweep)
+        pir_sweep_finish(region->sweep, allocator);
+    PIR_FREE(allocator, region->sweep, 1);
 }
 
 /* --- the cover --- */
@@ -139,13 +146,13 @@ struct place {
 
 static struct place place_of_p(pir_region *region, pir_tracked *tracked) {
     pir_pairing *pairing = &tracked->pairing;
-    return (struct place){tracked, &region->sweep.p, pairing->p, pairing->fv, 0, region->sweep.number, true};
+    return (struct place){tracked, &region->sweep->p, pairing->p, pairing->fv, 0, region->sweep->number, true};
 }
 
 static struct place place_of_q(pir_region *region, pir_tracked *tracked) {
     pir_pairing *pairing = &tracked->pairing;
     uint32_t first = tracked->q_facets.first_certificate;
-    return (struct place){tracked, &region->sweep.q, pairing->q, pairing->vf, first, region->sweep.number, false};
+    return (struct place){tracked, &region->sweep->q, pairing->q, pairing->vf, first, region->sweep->number, false};
 }
 
 static void drop_facet(const struct place *place, uint32_t f) {
@@ -192,12 +199,12 @@ static void take_next(pir_members *members) {
 }
 
 void pir_region_choose(pir_region *region, pir_tracked *tracked) {
-    pir_members *p = &region->sweep.p.members, *q = &region->sweep.q.members, *edges = &region->sweep.edges;
+    pir_members *p = &region->sweep->p.members, *q = &region->sweep->q.members, *edges = &region->sweep->edges;
     uint32_t of_p = p->count, of_q = q->count, of_edges = edges->count;
     region->admits = true;
-    pir_sweep_run(&region->sweep, &region->cover, tracked->pairing.p);
+    pir_sweep_run(region->sweep, &region->cover, tracked->pairing.p);
     for (uint32_t i = 0; i < of_edges; i++)
-        if (edges->seen[edges->at[i]] != region->sweep.number)
+        if (edges->seen[edges->at[i]] != region->sweep->number)
             drop_edge(tracked, edges->at[i]);
     const struct place place_p = place_of_p(region, tracked), place_q = place_of_q(region, tracked);
     drop_unseen_facets(&place_p, of_p);
@@ -246,7 +253,7 @@ static void locate(const struct place *place, uint32_t f, uint32_t from) {
 static void locate_members(const struct place *place) {
     const pir_polytope *own = place->own;
     const pir_members *members = &place->facets->members;
-    uint32_t *queue = place->tracked->work.queue;
+    uint32_t *queue = place->tracked->work->queue;
     for (uint32_t i = 0; i < members->count; i++) {
         uint32_t head = 0, tail = 0;
         if (place->cell[members->at[i]] == PIR_NO_PAIR)
@@ -274,8 +281,8 @@ bool pir_region_admit(pir_region *region, pir_tracked *tracked) {
     pir_tracked_begin_step(tracked);
     locate_members(&p);
     locate_members(&q);
-    for (uint32_t i = 0; i < region->sweep.edges.count; i++) {
-        uint32_t e = region->sweep.edges.at[i];
+    for (uint32_t i = 0; i < region->sweep->edges.count; i++) {
+        uint32_t e = region->sweep->edges.at[i];
         if (tracked->touched[e] != PIR_INACTIVE)
             continue;
         tracked->touched[e] = 0;
@@ -293,13 +300,14 @@ static bool is_full(const pir_members *members) {
 }
 
 void pir_region_open(pir_region *region, pir_tracked *tracked) {
+    pir_sweep *sweep = region->sweep;
     // each kind separately: facets of Q may be inactive where all arcs of P are active
-    bool all = is_full(&region->sweep.p.members) && is_full(&region->sweep.q.members) && is_full(&region->sweep.edges);
-    if (!region->sweep.edges.at || (all && !region->admits))
+    if (!sweep ||
+        (is_full(&sweep->p.members) && is_full(&sweep->q.members) && is_full(&sweep->edges) && !region->admits))
         return;
-    list_all(&region->sweep.p.members);
-    list_all(&region->sweep.q.members);
-    list_all(&region->sweep.edges);
+    list_all(&sweep->p.members);
+    list_all(&sweep->q.members);
+    list_all(&sweep->edges);
     memset(tracked->touched, 0, tracked->pairing.p->edge_count * sizeof *tracked->touched);
     tracked->stamp = 0;
     region->admits = false;
@@ -314,7 +322,7 @@ void pir_region_close(pir_region *region, pir_tracked *tracked) {
 }
 
 bool pir_region_walk(pir_region *region, pir_tracked *tracked) {
-    pir_members *edges = &region->sweep.edges;
+    pir_members *edges = &region->sweep->edges;
     const struct place p = place_of_p(region, tracked), q = place_of_q(region, tracked);
     // all become inactive, in whatever state a failed call has left them
     for (uint32_t i = 0; i < edges->count; i++)
@@ -353,14 +361,15 @@ bool pir_region_adopt(pir_region *region, pir_tracked *tracked, const pir_cone *
              of_q = count_with_cells(pairing->vf, pairing->q->facet_count), pairs = pairing->crossings.count;
     pir_region_choose(region, tracked);
     region->admits = false;
-    *ret_fits = fit(&region->sweep.p.members, pairing->fv, of_p) && fit(&region->sweep.q.members, pairing->vf, of_q) &&
-                pairing->crossings.count == pairs && pir_region_holds(region, &pairing->signs.rotation);
+    *ret_fits = fit(&region->sweep->p.members, pairing->fv, of_p) &&
+                fit(&region->sweep->q.members, pairing->vf, of_q) && pairing->crossings.count == pairs &&
+                pir_region_holds(region, &pairing->signs.rotation);
     return true;
 }
 
 double pir_region_share(const pir_region *region, const pir_tracked *tracked) {
     uint32_t all = pir_certificate_count(tracked);
     return region->cone.set && all > 0
-               ? (double)(region->sweep.p.members.count + region->sweep.q.members.count + 1) / (all + 1.0)
+               ? (double)(region->sweep->p.members.count + region->sweep->q.members.count + 1) / (all + 1.0)
                : 1;
 }

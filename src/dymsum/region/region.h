@@ -12,9 +12,9 @@
 typedef struct pir_region {
     pir_cone cone;
     pir_cover cover;
-    bool admits;     /* a sweep has chosen features that are not admitted yet */
-    bool jumped;     /* the last step may have carried inactive facets through active arcs */
-    pir_sweep sweep; /* made for the first cone */
+    bool admits;      /* a sweep has chosen features that are not admitted yet */
+    bool jumped;      /* the last step may have carried inactive facets through active arcs */
+    pir_sweep *sweep; /* made for the first cone */
 } pir_region;
 
 void pir_region_finish(pir_region *region, const pir_allocator *allocator);

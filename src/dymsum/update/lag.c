@@ -97,32 +97,46 @@ static void measure(const pir_polytope *p, const double *given_lengths, double *
     }
 }
 
+bool pir_lag_reserve(pir_lag *lag, const pir_allocator *allocator, pir_rotation_integers *integers) {
+    if (lag->knots)
+        return true;
+    lag->knots = PIR_ZEROED(allocator, pir_lag_knots, 1);
+    if (!lag->knots)
+        return false;
+    lag->knots->now.integers = integers;
+    return true;
+}
+
+void pir_lag_finish(pir_lag *lag, const pir_allocator *allocator) {
+    PIR_FREE(allocator, lag->knots, 1);
+}
+
 void pir_lag_measure(pir_lag *lag, const pir_polytope *p, const pir_polytope *q) {
     if (lag->tolerance == 0)
         return;
     double of_p[PIR_LAG_KNOTS], of_q[PIR_LAG_KNOTS];
     for (int k = 0; k < PIR_LAG_KNOTS; k++)
-        lag->length[k] = ldexp(lag->tolerance, 2 * (k + 1 - PIR_LAG_KNOTS));
-    measure(p, lag->length, of_p);
-    measure(q, lag->length, of_q);
+        lag->knots->length[k] = ldexp(lag->tolerance, 2 * (k + 1 - PIR_LAG_KNOTS));
+    measure(p, lag->knots->length, of_p);
+    measure(q, lag->knots->length, of_q);
     for (int k = 0; k < PIR_LAG_KNOTS; k++)
-        lag->angle[k] = fmax(of_p[k], of_q[k]);
+        lag->knots->angle[k] = fmax(of_p[k], of_q[k]);
 }
 
 /*
  * An upper bound of what the support function falls short by after a turn by `angle`, which is below the last of
- * lag->angle.
+ * lag->knots->angle.
  */
 static double shortfall_at(const pir_lag *lag, double angle) {
     int k = 0;
-    while (angle > lag->angle[k])
+    while (angle > lag->knots->angle[k])
         k++;
-    double most = lag->angle[k], sine = (most - most * most * most * (1.0 / 6)) * (1 - 0x1p-50);
-    return fmin(lag->length[k], lag->length[k] * (angle / sine) * (1 + 0x1p-50));
+    double most = lag->knots->angle[k], sine = (most - most * most * most * (1.0 / 6)) * (1 - 0x1p-50);
+    return fmin(lag->knots->length[k], lag->knots->length[k] * (angle / sine) * (1 + 0x1p-50));
 }
 
 void pir_lag_show(pir_lag *lag, pir_quat rotation, double angle) {
-    pir_rotation_set(&lag->now, rotation);
+    pir_rotation_set(&lag->knots->now, rotation);
     lag->bound = shortfall_at(lag, angle);
     lag->lagging = true;
 }

@@ -47,7 +47,7 @@ static inline void note_edge(struct update *update, uint32_t e) {
     if (tracked->touched[e] == PIR_INACTIVE)
         return;
     if (tracked->touched[e] != update->stamp + 1)
-        tracked->work.queue[update->derive++] = e;
+        tracked->work->queue[update->derive++] = e;
     tracked->touched[e] = update->stamp + 1;
 }
 
@@ -75,7 +75,7 @@ static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half)
         note_edge(update, e);
     } else {
         tracked->touched[e] = update->stamp;
-        tracked->work.passes[update->passes++] = (pir_suspect){g, half};
+        tracked->work->passes[update->passes++] = (pir_suspect){g, half};
     }
 }
 
@@ -83,7 +83,7 @@ static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half)
 static void pass_facets(struct update *update) {
     pir_tracked *tracked = update->tracked;
     for (uint32_t i = 0; i < update->passes && !update->all; i++) {
-        uint32_t g = tracked->work.passes[i].facet, half = tracked->work.passes[i].crossed,
+        uint32_t g = tracked->work->passes[i].facet, half = tracked->work->passes[i].crossed,
                  e = tracked->pairing.p->edge[half];
         if (tracked->touched[e] == update->stamp)
             update->failed |= !pir_pass_facet(tracked, e, g, tracked->pairing.p->edge_half[e] == half);
@@ -203,7 +203,7 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
             cross_of_p(update, f, half);
             tracked->statistics.repaired++;
         } else {
-            tracked->work.suspects[of_q++] = (pir_suspect){f, half};
+            tracked->work->suspects[of_q++] = (pir_suspect){f, half};
         }
     }
     *ret_of_q = of_q;
@@ -242,7 +242,7 @@ static void apply_of_p(struct update *update, const pir_suspect *suspects, uint3
 static void review(struct update *update, uint32_t expired) {
     pir_tracked *tracked = update->tracked;
     uint32_t back, left = return_facets(update, expired, &back), of_p = 0, of_q = 0;
-    pir_suspect *seen = tracked->work.suspects + back;
+    pir_suspect *seen = tracked->work->suspects + back;
     if (left > 0) {
         const uint32_t *certificate = tracked->certificates.expired;
         uint32_t left_of_p = 0;
@@ -258,7 +258,7 @@ static void review(struct update *update, uint32_t expired) {
         update->all |= are_many_open(tracked, seen, of_p + of_q);
     }
     apply_of_p(update, seen, of_p);
-    apply_of_q(update, tracked->work.suspects, back);
+    apply_of_q(update, tracked->work->suspects, back);
     apply_of_q(update, seen + of_p, of_q);
     pass_facets(update);
 }
@@ -286,6 +286,6 @@ pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
     for (uint32_t e = 0; update.all && e < tracked->pairing.p->edge_count; e++)
         note_edge(&update, e);
     for (uint32_t i = 0; i < update.derive && !update.failed; i++)
-        update.failed = !pir_derive_edge(tracked, tracked->work.queue[i]);
+        update.failed = !pir_derive_edge(tracked, tracked->work->queue[i]);
     return update.failed ? PIR_ERR_MEMORY : PIR_OK;
 }

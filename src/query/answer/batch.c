@@ -12,6 +12,13 @@ struct batch {
     double inner; /* lower bound on the slacks at the middle */
 };
 
+/* Makes the leaves' struct, once. */
+static pir_status need_leaves(pir_query *query) {
+    if (!query->leaves)
+        query->leaves = PIR_ZEROED(&query->allocator, pir_leaves, 1);
+    return query->leaves ? PIR_OK : PIR_ERR_MEMORY;
+}
+
 static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *translations, size_t count,
                         const void *ret) {
     pir_placement middle;
@@ -20,14 +27,16 @@ static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *t
     *batch = (struct batch){.query = query, .input = pir_query_input_default()};
     pir_status status = pir_query_begin(query, &batch->input, &middle);
     if (status == PIR_OK)
-        status = pir_leaves_make(&query->leaves, &query->search.groups, &query->allocator);
+        status = need_leaves(query);
+    if (status == PIR_OK)
+        status = pir_leaves_make(query->leaves, &query->search.groups, &query->allocator);
     if (status != PIR_OK)
         return status;
     middle.x = (pir_vec3){0, 0, 0};
     middle.reach = query->frame.p.size + query->frame.q.size;
     middle.error = PIR_SLACK_BOUND * middle.reach;
     // 64 errors hold those of the slacks, and of x in every placement that is compared
-    batch->inner = pir_leaves_least(&query->leaves, &query->search.groups, &middle) - 64 * middle.error;
+    batch->inner = pir_leaves_least(query->leaves, &query->search.groups, &middle) - 64 * middle.error;
     return PIR_OK;
 }
 
@@ -53,7 +62,7 @@ pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations
         pir_query_result result;
         status = pir_frame_place(&query->frame, translations[i], &placement);
         if (status != PIR_OK || settle(&batch, &placement, &ret_states[i]) ||
-            pir_leaves_state(&query->leaves, &query->search.groups, &placement, &ret_states[i]))
+            pir_leaves_state(query->leaves, &query->search.groups, &placement, &ret_states[i]))
             continue;
         batch.input.translation = translations[i];
         status = pir_query_overlap(query, &batch.input, NULL, &result);
@@ -70,11 +79,11 @@ static bool find_depth(const struct batch *batch, const pir_placement *placement
     pir_facet facet;
     *ret_depth = 0;
     if (!settle(batch, placement, ret_state) &&
-        !pir_leaves_state(&query->leaves, &query->search.groups, placement, ret_state))
+        !pir_leaves_state(query->leaves, &query->search.groups, placement, ret_state))
         return false;
     if (*ret_state != PIR_INSIDE)
         return true;
-    if (!pir_leaves_depth(&query->leaves, &query->search.groups, placement, &facet))
+    if (!pir_leaves_depth(query->leaves, &query->search.groups, placement, &facet))
         return false;
     double slack = pir_facet_slack(&query->exact, placement, &facet);
     *ret_depth = pir_frame_length(&query->frame, slack > 0 ? slack : 0);

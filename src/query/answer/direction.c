@@ -15,12 +15,12 @@ static pir_clip clip_line(pir_query *query, const pir_line *line, uint32_t *step
         pir_group_make(&query->search.groups, g);
         const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count; i++)
-            pir_clip_bound(&query->search.groups.planes, line, &clip, i);
+            pir_clip_bound(query->search.groups.planes, line, &clip, i);
     }
     for (uint32_t g = 0; g < query->search.groups.count; g++) {
         const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count && !clip.misses; i++)
-            pir_clip_take(&query->exact, &query->search.groups.planes, line, &clip, i);
+            pir_clip_take(&query->exact, query->search.groups.planes, line, &clip, i);
     }
     ++*steps;
     return clip;
@@ -129,7 +129,7 @@ pir_status pir_query_directional_distance(pir_query *query, const pir_query_inpu
  * *ret_facet is the one that it meets at the steepest angle.
  */
 static bool moves_in(pir_query *query, const pir_line *line, pir_facet *ret_facet) {
-    const pir_planes *planes = &query->search.groups.planes;
+    const pir_planes *planes = query->search.groups.planes;
     const pir_placement *placement = line->placement;
     double most = HUGE_VAL;
     bool some = false;

@@ -13,7 +13,7 @@
 
 /* The first facet in order after `after` with a slack of at most `limit`. */
 static pir_least next_within(pir_query *query, const pir_placement *placement, double limit, const pir_facet *after) {
-    const pir_planes *planes = &query->search.groups.planes;
+    const pir_planes *planes = query->search.groups.planes;
     pir_least next = {.some = false};
     for (uint32_t g = 0; g < query->search.groups.count; g++) {
         const pir_group *group = &query->search.groups.at[g];

@@ -7,9 +7,8 @@
  * the one that the query was last brought to. Where they differ, these may have changed:
  *
  * - Operands. A sum's operand is only ever replaced by the same polytope on another scale. Its features keep their
- *   numbers, and their normals to the bit, so all sizes and the groups stay. What depends on coordinates is filled in
- *   again, in the same memory; only the scratch of exact signs may have to grow, with the digits of the scale. Bounds
- *   begin as in a new query.
+ *   numbers, and their normals to the bit, so all sizes stay. What depends on coordinates is kept by the new polytope
+ *   (frame/body.h, planes/group_lists.h), with the same groups. Bounds begin as in a new query.
  * - Rotation. The planes of the last rotation are forgotten. At one rotation the pairing of given operands is unique,
  *   so nothing is forgotten where the rotation stays. A search in a region makes its planes anew each time
  *   (regional.c).
@@ -19,16 +18,25 @@
  */
 #include "query/answer/follow.h"
 
+static pir_layout layout_of(pir_query *query) {
+    pir_layout layout = {{{0}}};
+    pir_search_add_rows(&query->search, &layout);
+    return layout;
+}
+
 void pir_query_destroy(pir_query *query) {
     if (!query)
         return;
     const pir_allocator allocator = query->allocator, *a = &allocator;
-    pir_patch_room_finish(&query->patches, a, query->p->vertex_count, query->q->vertex_count);
-    pir_regional_finish(&query->regional, a, &query->frame);
-    pir_leaves_finish(&query->leaves, a);
-    pir_search_finish(&query->search, a);
-    pir_exact_finish(&query->exact, a);
-    pir_frame_finish(&query->frame, a);
+    if (query->regional.known_p)
+        pir_regional_finish(&query->regional, a, &query->frame);
+    if (query->leaves)
+        pir_leaves_finish(query->leaves, a);
+    PIR_FREE(a, query->leaves, 1);
+    pir_layout layout = layout_of(query);
+    pir_layout_free(a, &layout);
+    if (query->room && query->room->owner == query)
+        query->room->owner = NULL;
     pir_polytope_release(query->p);
     pir_polytope_release(query->q);
     pir_sum_destroy(query->sum);
@@ -42,57 +50,84 @@ static void hold(pir_polytope **held, pir_polytope *polytope) {
     pir_polytope_release(before);
 }
 
-/* Fills in what depends on the coordinates of the operands that the sum has now. */
+/* Finds what the operands that the sum has now keep. When it fails the query is as it was. */
 static pir_status fit(pir_query *query) {
-    query->fits = false;
-    hold(&query->p, pir_sum_pairing(query->sum)->p);
-    hold(&query->q, pir_sum_pairing(query->sum)->q);
-    if (!pir_exact_reserve(&query->exact, &query->allocator, query->p, query->q))
-        return PIR_ERR_MEMORY;
-    // the scratch of exact signs is larger than a vertex and a limb
-    pir_status status = pir_frame_fill(&query->frame, query->p, query->q, query->exact.scratch.base);
+    pir_groups *groups = &query->search.groups;
+    pir_polytope *const operand[2] = {pir_sum_pairing(query->sum)->p, pir_sum_pairing(query->sum)->q};
+    const pir_group_lists *lists[2];
+    pir_frame frame;
+    pir_status status = pir_query_room_reserve_limbs(query->room, pir_sum_scratch(query->sum), operand[0], operand[1]);
+    if (status == PIR_OK)
+        status = pir_frame_set_bodies(&frame, operand[0], operand[1]);
+    if (status == PIR_OK)
+        status = pir_groups_find_lists(&frame, operand, groups->lists, lists);
     if (status != PIR_OK)
         return status;
-    pir_search_fill(&query->search);
-    pir_regional_forget(&query->regional, &query->frame);
-    query->patches.p.shape.facet = query->patches.q.shape.facet = 0;
-    query->fits = true;
+    query->frame = frame;
+    pir_groups_set_lists(groups, lists);
+    hold(&query->p, operand[0]);
+    hold(&query->q, operand[1]);
     return PIR_OK;
 }
 
-/*
- * Makes all memory whose size the operands tell. False when out of memory; pir_query_destroy then frees what is
- * there.
- */
-static bool reserve(pir_query *query) {
-    const pir_allocator *a = &query->allocator;
-    bool done = pir_frame_init(&query->frame, a, query->p, query->q);
+/* Begins anew with the bodies and groups that have been found. */
+static void fill(pir_query *query) {
+    pir_search_fill(&query->search);
+    if (query->regional.known_p)
+        pir_regional_forget(&query->regional, &query->frame);
+    if (query->room->owner == query)
+        query->room->owner = NULL;
+}
+
+/* Makes what is the query's own. When it fails pir_query_destroy frees what is there. */
+static pir_status make(pir_query *query) {
+    query->room = pir_query_room_of(pir_sum_scratch(query->sum));
+    if (!query->room)
+        return PIR_ERR_MEMORY;
     query->exact.frame = &query->frame;
     query->exact.rotation = pir_sum_exact_rotation(query->sum);
-    done = pir_search_init(&query->search, a, &query->exact, pir_sum_pairing(query->sum)) && done;
-    done = pir_regional_init(&query->regional, a, &query->frame, query->sum) && done;
-    return pir_patch_room_init(&query->patches, a, query->p->vertex_count, query->q->vertex_count) && done;
+    pir_search_init(&query->search, &query->exact, pir_sum_pairing(query->sum));
+    query->search.groups.planes = &query->room->planes;
+    query->search.groups.work = &query->room->work;
+    query->regional.sum = query->sum;
+    pir_status status = fit(query);
+    if (status != PIR_OK)
+        return status;
+    pir_layout layout = layout_of(query);
+    if (!pir_layout_new(&query->allocator, &layout))
+        return PIR_ERR_MEMORY;
+    fill(query);
+    return PIR_OK;
 }
 
 pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
     if (!difference || !ret_query || !pir_sum_pairing(difference)->difference)
         return PIR_ERR_ARGUMENT;
-    const pir_pairing *pairing = pir_sum_pairing(difference);
-    const pir_allocator *a = &pairing->allocator;
+    const pir_allocator *a = &pir_sum_pairing(difference)->allocator;
     pir_query *query = PIR_ZEROED(a, pir_query, 1);
     if (!query)
         return PIR_ERR_MEMORY;
     query->allocator = *a;
     query->sum = pir_sum_retain(difference);
-    hold(&query->p, pairing->p);
-    hold(&query->q, pairing->q);
-    pir_status status = reserve(query) ? fit(query) : PIR_ERR_MEMORY;
+    pir_status status = make(query);
     if (status != PIR_OK) {
         pir_query_destroy(query);
         return status;
     }
     *ret_query = query;
     return PIR_OK;
+}
+
+/* Makes room for what the present pairing needs. */
+static pir_status reserve(pir_query *query) {
+    const pir_allocator *a = &query->allocator;
+    bool grown;
+    pir_status status = pir_groups_reserve(&query->search.groups, &pir_sum_scratch(query->sum)->allocator, &grown);
+    if (grown)
+        query->room->owner = NULL;
+    if (status != PIR_OK || !pir_sum_cone(query->sum)->set || query->regional.known_p)
+        return status;
+    return pir_regional_init(&query->regional, a, &query->frame) ? PIR_OK : PIR_ERR_MEMORY;
 }
 
 /* Brings the query to the present state of the sum. */
@@ -103,17 +138,32 @@ static pir_status follow(pir_query *query) {
         return PIR_OK;
     pir_status status = PIR_OK;
     // no other polytope can have these addresses while the query holds its references
-    if (query->p != pairing->p || query->q != pairing->q || !query->fits)
+    if (query->p != pairing->p || query->q != pairing->q) {
         status = fit(query);
+        if (status == PIR_OK)
+            fill(query);
+    }
     if (status == PIR_OK) {
         if (pir_frame_turn(&query->frame, pir_sum_exact_rotation(sum))) {
             query->exact.made = false;
             pir_groups_forget(&query->search.groups);
         }
-        status = pir_groups_reserve(&query->search.groups, &query->allocator);
+        status = reserve(query);
     }
     query->generation = status == PIR_OK ? pir_sum_generation(sum) : 0;
     return status;
+}
+
+/* Takes over the room, unless the last call on it was on this query. */
+static inline void take_room(pir_query *query) {
+    pir_query_room *room = query->room;
+    if (room->owner == query)
+        return;
+    room->owner = query;
+    query->exact.scratch = room->limbs;
+    query->exact.made = false;
+    room->patches.p.shape.facet = room->patches.q.shape.facet = 0;
+    pir_groups_forget(&query->search.groups);
 }
 
 pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {
@@ -123,6 +173,7 @@ pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_p
     if (!(p >= 0 && p < HUGE_VAL && q >= 0 && q < HUGE_VAL) || isnan(input->cutoff))
         return isnan(p) || isnan(q) || isnan(input->cutoff) ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
     pir_status status = follow(query);
+    take_room(query);
     if (query->exact.world) {
         query->exact.world = NULL;
         query->exact.made = false;
@@ -132,6 +183,7 @@ pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_p
 
 pir_status pir_query_place_relative(pir_query *query, const pir_world *world, pir_placement *ret_placement) {
     pir_status status = follow(query);
+    take_room(query);
     query->exact.world = pir_world_is_plain(world) ? NULL : world;
     query->exact.made = false;
     return status == PIR_OK ? pir_frame_place_relative(&query->frame, world, ret_placement) : status;

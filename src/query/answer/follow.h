@@ -5,7 +5,8 @@
 
 #include <pirouette/query.h>
 
-#include "query/contact/patch.h"
+#include "query/answer/room.h"
+#include "query/frame/body.h"
 #include "query/planes/leaves.h"
 #include "query/search/regional.h"
 #include "query/search/search.h"
@@ -18,15 +19,15 @@ struct pir_query {
      */
     pir_sum *sum;
     pir_polytope *p, *q;
-    bool fits;           /* whether the parts that depend on coordinates are filled in */
     uint64_t generation; /* the generation of the sum that the parts below are for, 0 for none */
+
+    pir_query_room *room; /* in the sum's scratch */
 
     pir_frame frame;
     pir_exact exact;
     pir_search search;
-    pir_leaves leaves;
-    pir_regional regional;
-    pir_patch_room patches;
+    pir_leaves *leaves;    /* made by the first batch */
+    pir_regional regional; /* made when the sum first has a region */
 };
 
 /* Begins a call: checks the input, follows the sum's changes, converts the translation. */

@@ -145,10 +145,6 @@ uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q) {
     return 64 * w + 24 * (n + e + PIR_QUAT_LIMBS) + 256;
 }
 
-bool pir_exact_reserve(pir_exact *exact, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q) {
-    return pir_exact_reserve_limbs(exact, allocator, pir_exact_limbs(p, q));
-}
-
 bool pir_exact_reserve_limbs(pir_exact *exact, const pir_allocator *allocator, uint32_t need) {
     pir_exact_forget(exact);
     if (pir_exact_has_limbs(exact, need))
@@ -194,7 +190,7 @@ static void set_translation(pir_exact *exact, pir_vec3 translation, int *ret_exp
     }
     pir_vec3 to = world->translation_p, from = world->translation_q;
     pir_rotation_make_exact(world->rotation_q);
-    exact->norm_q = world->rotation_q->norm;
+    exact->norm_q = world->rotation_q->integers->norm;
     int e = low_bit_of(to) < low_bit_of(from) ? low_bit_of(to) : low_bit_of(from);
     exact->t = pir_int3_take(&exact->scratch, PIR_QUAT_LIMBS + PIR_MATRIX_LIMBS + 3);
     uint32_t mark = exact->scratch.used;
@@ -212,7 +208,7 @@ static void set_translation(pir_exact *exact, pir_vec3 translation, int *ret_exp
 }
 
 void pir_exact_begin(pir_exact *exact, pir_vec3 translation) {
-    if (exact->made && same(exact->translation, translation))
+    if (exact->made && same(exact->translation, translation) && pir_rotation_has_integers(exact->rotation))
         return;
     PIR_ASSERT(!exact->made || exact->scratch.used == exact->mark);
     const pir_scale *sp = &exact->frame->p.polytope->scale, *sq = &exact->frame->q.polytope->scale;
@@ -223,10 +219,10 @@ void pir_exact_begin(pir_exact *exact, pir_vec3 translation) {
     int exponent;
     set_translation(exact, translation, &exponent);
     exact->i = (uint32_t)-exponent;
-    pir_int norm = pir_exact_product(exact, &rotation->norm, &exact->norm_q);
+    pir_int norm = pir_exact_product(exact, &rotation->integers->norm, &exact->norm_q);
     exact->p = product(exact, &sp->num, &sq->den, &exact->norm_q, exact->i);
     exact->q = product(exact, &norm, &sq->num, &sp->den, exact->i);
-    exact->k = product(exact, &rotation->norm, &sp->den, &sq->den, 0);
+    exact->k = product(exact, &rotation->integers->norm, &sp->den, &sq->den, 0);
     exact->mark = exact->scratch.used;
     exact->made = true;
 }

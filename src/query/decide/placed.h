@@ -9,8 +9,8 @@
  *
  * a vector of three integers. Where Q is posed in the world too, with R' = M'/N', t is M'ᵀT·2^−i / N' with T the
  * difference of the translations, and W is N' times as large. Every sign that a query asks for is the sign of a
- * polynomial in such vectors, in edge vectors and in normals. Nothing here allocates: `scratch` is a stack that
- * pir_exact_reserve makes as large as the longest of these polynomials needs.
+ * polynomial in such vectors, in edge vectors and in normals. Nothing here allocates: `scratch` is a stack,
+ * as large as the longest of these polynomials needs.
  */
 #ifndef PIR_QUERY_DECIDE_PLACED_H
 #define PIR_QUERY_DECIDE_PLACED_H
@@ -51,15 +51,14 @@ double pir_real_double(pir_real a);
 pir_int pir_exact_square(pir_exact *exact, const pir_int3 *v);
 pir_real pir_exact_length(pir_exact *exact, const pir_int3 *v);
 
-/*
- * Makes scratch that is large enough for two operands at their scales. What was in it is lost. Begins with a struct
- * of zeros. False when out of memory; then all is as it was.
- */
-bool pir_exact_reserve(pir_exact *exact, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q);
-void pir_exact_finish(pir_exact *exact, const pir_allocator *allocator);
-
-/* The limbs of scratch that two operands need, and the same reservation when they are known. */
+/* The limbs of scratch that two operands need at their scales. */
 uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q);
+
+/*
+ * Makes scratch of so many limbs. What was in it is lost. Begins with a struct of zeros. False when out of memory; then
+ * all is as it was.
+ */
+void pir_exact_finish(pir_exact *exact, const pir_allocator *allocator);
 bool pir_exact_reserve_limbs(pir_exact *exact, const pir_allocator *allocator, uint32_t limbs);
 
 /* Whether they are reserved already. */

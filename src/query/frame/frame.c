@@ -11,7 +11,6 @@
 #include <limits.h>
 #include <stdlib.h>
 
-#include "base/layout.h"
 #include "query/frame/dd_rotation.h"
 
 /*
@@ -132,24 +131,6 @@ static void set_offsets(pir_body *body) {
     body->swing = sqrt(size * size - inner * inner) * (1 + 0x1p-40) + 0x1p-40 * size;
 }
 
-static pir_layout layout_of(pir_frame *frame) {
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    return (pir_layout){{PIR_ROW(frame->p.vertex, p->vertex_count), PIR_ROW(frame->p.offset, p->facet_count),
-                         PIR_ROW(frame->q.vertex, q->vertex_count), PIR_ROW(frame->q.offset, q->facet_count)}};
-}
-
-bool pir_frame_init(pir_frame *frame, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q) {
-    frame->p.polytope = p;
-    frame->q.polytope = q;
-    pir_layout layout = layout_of(frame);
-    return pir_layout_new(allocator, &layout);
-}
-
-void pir_frame_finish(pir_frame *frame, const pir_allocator *allocator) {
-    pir_layout layout = layout_of(frame);
-    pir_layout_free(allocator, &layout);
-}
-
 /*
  * The unit of a frame of two points, which have no size. It is 1, unless the points are so near the origin, or so far
  * from it, that squares would lose digits. Then it comes from their coordinates.
@@ -181,16 +162,6 @@ pir_status pir_body_fill(pir_body *body, int exponent, mp_limb_t *room) {
     pir_landmarks_set(body->polytope, body->landmarks);
     set_offsets(body);
     return PIR_OK;
-}
-
-pir_status pir_frame_fill(pir_frame *frame, const pir_polytope *p, const pir_polytope *q, mp_limb_t *room) {
-    frame->is_set = false;
-    frame->p.polytope = p;
-    frame->q.polytope = q;
-    int exponent = pir_frame_exponent(pir_body_exponent(p, room), pir_body_exponent(q, room), p, q);
-    pir_frame_set_exponent(frame, exponent);
-    pir_status status = pir_body_fill(&frame->p, exponent, room);
-    return status == PIR_OK ? pir_body_fill(&frame->q, exponent, room) : status;
 }
 
 /* --- the rotation --- */

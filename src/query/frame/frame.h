@@ -82,26 +82,18 @@ static inline bool pir_world_is_plain(const pir_world *world) {
 }
 
 /*
- * Makes the memory for two operands, which are borrowed. False when out of memory; pir_frame_finish then frees what
- * is there.
+ * The exponent of the greatest difference of two coordinates; INT_MIN for a point. `room` has the limbs of a vertex
+ * and one more.
  */
-bool pir_frame_init(pir_frame *frame, const pir_allocator *allocator, const pir_polytope *p, const pir_polytope *q);
-void pir_frame_finish(pir_frame *frame, const pir_allocator *allocator);
-
-/*
- * Fills in everything that depends on coordinates. The operands may differ from those of pir_frame_init in their
- * scale only. The frame has no rotation afterwards. `room` has the limbs of a vertex and one more. PIR_ERR_LIMIT
- * where an operand is too far from its origin.
- */
-pir_status pir_frame_fill(pir_frame *frame, const pir_polytope *p, const pir_polytope *q, mp_limb_t *room);
-
-/* The exponent of the greatest difference of two coordinates; INT_MIN for a point. `room` as above. */
 int pir_body_exponent(const pir_polytope *polytope, mp_limb_t *room);
 
 /* The exponent of the frame of two operands with these. */
 int pir_frame_exponent(int exponent_p, int exponent_q, const pir_polytope *p, const pir_polytope *q);
 
-/* Fills in a body whose polytope and arrays are set. `room` and errors as above. */
+/*
+ * Fills in a body whose polytope and arrays are set; `room` as above. PIR_ERR_LIMIT where it is too far from its
+ * origin.
+ */
 pir_status pir_body_fill(pir_body *body, int exponent, mp_limb_t *room);
 
 /* Sets the unit. */

@@ -3,7 +3,7 @@
  * Vectors and planes in parallel arrays, as the loops of planes/scan.h read and write them.
  *
  * A loop takes whole lanes: it reads and writes up to PIR_SCAN_LANES − 1 elements past the count that it is given.
- * Every array has room for them, and they are zero until a loop writes there.
+ * Arrays have room for them, or hold whole lanes.
  */
 #ifndef PIR_QUERY_FRAME_LANES_H
 #define PIR_QUERY_FRAME_LANES_H
@@ -22,7 +22,11 @@ typedef struct pir_lanes {
     double *x, *y, *z;
 } pir_lanes;
 
-/* Rows of a layout: an array of doubles, and the three of a pir_lanes. */
+/* Rows of a layout: the three arrays of a pir_lanes that loops do not leave. */
+#define PIR_ROWS(lanes, elements)                                                                                      \
+    PIR_ROW((lanes).x, elements), PIR_ROW((lanes).y, elements), PIR_ROW((lanes).z, elements)
+
+/* The same with room for what loops write past the end: of an array, and of the three of a pir_lanes. */
 #define PIR_ROW_LANE(member, elements) PIR_ROW(member, (size_t)(elements) + PIR_SCAN_LANES)
 #define PIR_ROWS_LANES(lanes, elements)                                                                                \
     PIR_ROW_LANE((lanes).x, elements), PIR_ROW_LANE((lanes).y, elements), PIR_ROW_LANE((lanes).z, elements)

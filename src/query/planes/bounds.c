@@ -32,25 +32,16 @@
 
 /* --- memory --- */
 
-static pir_layout layout_of(pir_bounds *bounds, const pir_groups *groups) {
+void pir_bounds_add_rows(pir_bounds *bounds, const pir_groups *groups, pir_layout *layout) {
     uint32_t count = groups->count;
-    return (pir_layout){{PIR_ROW_LANE(bounds->lasting.bound, count), PIR_ROW_LANE(bounds->lasting.when, count),
-                         PIR_ROW_LANE(bounds->lasting.lever, count), PIR_ROW_LANE(bounds->lasting.bend, count),
-                         PIR_ROWS_LANES(bounds->lasting.where, count), PIR_ROW_LANE(bounds->low, count),
-                         PIR_ROWS_LANES(bounds->caps.axis, count), PIR_ROWS_LANES(bounds->caps.corner, count),
-                         PIR_ROWS_LANES(bounds->cap_axis_body, count), PIR_ROWS_LANES(bounds->cap_corner_body, count),
-                         PIR_ROW_LANE(bounds->caps.cosine, count), PIR_ROW_LANE(bounds->caps.sine, count),
-                         PIR_ROW(bounds->cap_stamp, count / PIR_SCAN_LANES)}};
-}
-
-bool pir_bounds_init(pir_bounds *bounds, const pir_allocator *allocator, const pir_groups *groups) {
-    pir_layout layout = layout_of(bounds, groups);
-    return pir_layout_new(allocator, &layout);
-}
-
-void pir_bounds_finish(pir_bounds *bounds, const pir_allocator *allocator, const pir_groups *groups) {
-    pir_layout layout = layout_of(bounds, groups);
-    pir_layout_free(allocator, &layout);
+    // there are whole lanes of groups, so that loops stay within an array
+    const pir_layout rows = {{PIR_ROW(bounds->lasting.bound, count), PIR_ROW(bounds->lasting.when, count),
+                              PIR_ROW(bounds->lasting.lever, count), PIR_ROW(bounds->lasting.bend, count),
+                              PIR_ROWS(bounds->lasting.where, count), PIR_ROW(bounds->low, count),
+                              PIR_ROWS(bounds->cap_axis, count), PIR_ROWS(bounds->cap_corner, count),
+                              PIR_ROW(bounds->cap_stamp, count / PIR_SCAN_LANES)}};
+    for (const pir_layout_row *row = rows.row; row->size != 0; row++)
+        pir_layout_add(layout, *row);
 }
 
 /* --- bounds that last --- */
@@ -92,49 +83,19 @@ void pir_bounds_keep(pir_bounds *bounds, const pir_groups *groups, uint32_t g, c
 
 /* --- caps --- */
 
-/* The least cosine between the normals of facet f and of any facet in the group's list. */
-static double least_cosine(const pir_groups *groups, const pir_group *group, const pir_polytope *of, uint32_t f) {
-    double least = 1;
-    for (uint32_t i = group->facets; i < group->facets_end; i++)
-        least = fmin(least, pir_vec_dot(of->normal[f], of->normal[groups->list.facet[i]]));
-    return least;
-}
-
-/* Chooses the cap of group `g`. An empty group takes the cap of the group before it, so that whole lanes are caps. */
-static void choose_cap(pir_bounds *bounds, pir_groups *groups, uint32_t g) {
-    pir_group *group = &groups->at[g];
-    if (group->facets == group->own_end) {
-        *group = (pir_group){.of_q = group[-1].of_q, .middle = group[-1].middle};
-        bounds->caps.cosine[g] = bounds->caps.cosine[g - 1];
-        bounds->caps.sine[g] = bounds->caps.sine[g - 1];
-    } else {
-        const pir_polytope *of = group->of_q ? groups->frame->q.polytope : groups->frame->p.polytope;
-        double cosine = -HUGE_VAL;
-        for (uint32_t i = group->facets; i < group->own_end; i++) {
-            double least = least_cosine(groups, group, of, groups->list.facet[i]);
-            if (least > cosine) {
-                cosine = least;
-                group->middle = groups->list.facet[i];
-            }
-        }
-        // normals are off by 8u each, so their cosine is off by less than 32u
-        cosine -= 0x1p-47;
-        // where the cap is no bound, a huge sine makes its bound negative
-        bounds->caps.cosine[g] = cosine > 0 ? cosine : 0;
-        bounds->caps.sine[g] = cosine > 0 ? sqrt((1 - cosine) * (1 + cosine)) * (1 + 0x1p-50) : 0x1p1000;
-    }
-    const pir_polytope *of = group->of_q ? groups->frame->q.polytope : groups->frame->p.polytope;
-    pir_lane_put(bounds->cap_axis_body, g, of->normal[group->middle]);
-    pir_lane_put(bounds->cap_corner_body, g,
-                 (group->of_q ? groups->frame->q.vertex
-                              : groups->frame->p.vertex)[of->origin[of->loop[of->loop_start[group->middle]]]]);
-}
-
-void pir_bounds_fill(pir_bounds *bounds, pir_groups *groups) {
-    for (uint32_t g = 0; g < groups->count; g++) {
+void pir_bounds_fill(pir_bounds *bounds, const pir_groups *groups) {
+    for (uint32_t g = 0; g < groups->count; g++)
         bounds->lasting.bound[g] = groups->at[g].facets == groups->at[g].own_end ? HUGE_VAL : -HUGE_VAL;
-        choose_cap(bounds, groups, g);
-    }
+    for (uint32_t k = 0; k < groups->count / PIR_SCAN_LANES; k++)
+        bounds->cap_stamp[k] = 0;
+}
+
+/* The caps of groups [g, g + PIR_SCAN_LANES), which are all of one body, at the rotation of their stamp. */
+static pir_cap_lanes caps_from(const pir_bounds *bounds, const pir_groups *groups, uint32_t g) {
+    const pir_group_lists *lists = pir_lists_of(groups, &groups->at[g]);
+    uint32_t at = lists->of_q ? g - groups->first_of_q : g;
+    return (pir_cap_lanes){pir_lanes_from(bounds->cap_axis, g), pir_lanes_from(bounds->cap_corner, g),
+                           lists->cap_cosine + at, lists->cap_sine + at};
 }
 
 /* Rotates the caps of groups [g, g + PIR_SCAN_LANES), which are all of one body. */
@@ -146,9 +107,10 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
         uint32_t middle = groups->at[g + i].middle;
         other[i] = of_q ? groups->frame->p.vertex[pairing->vf[middle]] : groups->frame->q.vertex[pairing->fv[middle]];
     }
-    pir_lanes axis = pir_lanes_from(bounds->caps.axis, g), corner = pir_lanes_from(bounds->caps.corner, g);
-    pir_lanes axis_body = pir_lanes_from(bounds->cap_axis_body, g),
-              corner_body = pir_lanes_from(bounds->cap_corner_body, g);
+    const pir_group_lists *lists = groups->lists[of_q];
+    uint32_t at = of_q ? g - groups->first_of_q : g;
+    pir_lanes axis = pir_lanes_from(bounds->cap_axis, g), corner = pir_lanes_from(bounds->cap_corner, g);
+    pir_lanes axis_body = pir_lanes_from(lists->cap_axis, at), corner_body = pir_lanes_from(lists->cap_corner, at);
     if (of_q) {
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++) {
             pir_lane_put(axis, i, pir_lane_get(axis_body, i));
@@ -165,11 +127,11 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
     bounds->cap_stamp[g / PIR_SCAN_LANES] = groups->stamp;
 }
 
-/* Whether a cap may rule out a group in the block from `g` that is not ruled out yet. */
-static bool is_open(const pir_bounds *bounds, uint32_t g, double limit) {
+/* Whether a cap may rule out a group of a block that is not ruled out yet. */
+static bool is_open(const double *low, const double *cosine, double limit) {
     bool any = false;
-    for (uint32_t i = g; i < g + PIR_SCAN_LANES; i++)
-        any |= bounds->low[i] <= limit && bounds->caps.cosine[i] > 0;
+    for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
+        any |= low[i] <= limit && cosine[i] > 0;
     return any;
 }
 
@@ -178,15 +140,15 @@ double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_p
     note_turn(bounds, groups);
     groups->scan->bounds(groups->count, &bounds->lasting, bounds->turn, placement->x, placement->error, bounds->low);
     for (uint32_t g = 0; g < groups->count; g += PIR_SCAN_LANES) {
-        if (!is_open(bounds, g, limit))
+        const pir_cap_lanes caps = caps_from(bounds, groups, g);
+        if (!is_open(bounds->low + g, caps.cosine, limit))
             continue;
         if (bounds->cap_stamp[g / PIR_SCAN_LANES] != groups->stamp)
             make_caps(bounds, groups, g);
         bool was_open[PIR_SCAN_LANES];
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
             was_open[i] = bounds->low[g + i] <= limit;
-        double least =
-            groups->scan->caps(g, PIR_SCAN_LANES, &bounds->caps, placement->x, placement->error, bounds->low);
+        double least = groups->scan->caps(0, PIR_SCAN_LANES, &caps, placement->x, placement->error, bounds->low + g);
         high = least < high ? least : high;
         // what a cap rules out now stays ruled out for some time
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
@@ -202,7 +164,7 @@ void pir_bounds_look(pir_bounds *bounds, pir_groups *groups, uint32_t g, const p
                      double *ret_low, double *ret_high) {
     pir_group_make(groups, g);
     const pir_group *group = &groups->at[g];
-    const pir_planes *planes = &groups->planes;
+    const pir_planes *planes = groups->planes;
     uint32_t blocks = (group->count + PIR_SCAN_BLOCK - 1) / PIR_SCAN_BLOCK * PIR_SCAN_BLOCK;
     double least[3];
     groups->scan->look(blocks, pir_lanes_from(planes->n, group->start), planes->h + group->start,

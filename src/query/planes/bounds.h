@@ -10,9 +10,8 @@ typedef struct pir_bounds {
     pir_lasting_lanes lasting;
     double *low; /* the bounds for the present placement */
 
-    /* caps at the rotation that the stamp of their block is of; their axes and corners in the body's frame */
-    pir_cap_lanes caps;
-    pir_lanes cap_axis_body, cap_corner_body;
+    /* caps at the rotation that the stamp of their block is of; their angles are in the groups' lists */
+    pir_lanes cap_axis, cap_corner;
     uint64_t *cap_stamp; /* per block of lanes */
 
     /* an upper bound on the sum of the angles between the rotations at which bounds were found */
@@ -21,13 +20,11 @@ typedef struct pir_bounds {
     uint64_t turned;    /* its stamp */
 } pir_bounds;
 
-/*
- * Makes the memory. False when out of memory; pir_bounds_finish then frees what is there. pir_bounds_fill chooses the
- * caps and forgets all bounds.
- */
-bool pir_bounds_init(pir_bounds *bounds, const pir_allocator *allocator, const pir_groups *groups);
-void pir_bounds_finish(pir_bounds *bounds, const pir_allocator *allocator, const pir_groups *groups);
-void pir_bounds_fill(pir_bounds *bounds, pir_groups *groups);
+/* Adds the rows of the bounds to a layout. */
+void pir_bounds_add_rows(pir_bounds *bounds, const pir_groups *groups, pir_layout *layout);
+
+/* Forgets all bounds. */
+void pir_bounds_fill(pir_bounds *bounds, const pir_groups *groups);
 
 /*
  * Sets bounds->low[g] to a lower bound on the slacks of every group g at x, as tight as it takes to tell it from

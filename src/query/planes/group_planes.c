@@ -12,40 +12,42 @@ static void put_nothing(pir_planes *planes, uint32_t slot, pir_piece piece, uint
 
 /* Makes the planes of the group's facets in the slots from `slot` on. */
 static void make_facets(pir_groups *groups, const pir_group *group, uint32_t slot) {
-    pir_planes *planes = &groups->planes;
+    pir_planes *planes = groups->planes;
     uint32_t count = group->facets_end - group->facets;
-    const uint32_t *list = groups->list.facet + group->facets;
-    pir_lanes normals = pir_lanes_from(groups->list.facet_normal, group->facets), n = pir_lanes_from(planes->n, slot);
+    const pir_group_lists *lists = pir_lists_of(groups, group);
+    const uint32_t *list = lists->facet + group->facets;
+    pir_lanes normals = pir_lanes_from(lists->facet_normal, group->facets), n = pir_lanes_from(planes->n, slot);
     for (uint32_t i = 0; i < count; i++) {
         planes->err[slot + i] = 1;
         if (group->of_q) {
             planes->piece[slot + i] = pir_piece_vf(groups, list[i]);
-            pir_lane_put(groups->work.vector[0], i, groups->frame->p.vertex[planes->piece[slot + i].first]);
+            pir_lane_put(groups->work->vector[0], i, groups->frame->p.vertex[planes->piece[slot + i].first]);
             pir_lane_put(n, i, groups->frame->q.polytope->normal[list[i]]);
         } else {
             planes->piece[slot + i] = pir_piece_fv(groups, list[i]);
-            pir_lane_put(groups->work.vector[1], i, groups->frame->q.vertex[planes->piece[slot + i].second]);
+            pir_lane_put(groups->work->vector[1], i, groups->frame->q.vertex[planes->piece[slot + i].second]);
         }
     }
     if (group->of_q)
-        groups->scan->turn(count, &groups->frame->r, groups->work.vector[0], groups->work.vector[1]);
+        groups->scan->turn(count, &groups->frame->r, groups->work->vector[0], groups->work->vector[1]);
     else
         groups->scan->turn(count, &groups->frame->r, normals, n);
-    groups->scan->offset(count, n, groups->list.facet_offset + group->facets, groups->work.vector[1], planes->h + slot);
+    groups->scan->offset(count, n, lists->facet_offset + group->facets, groups->work->vector[1], planes->h + slot);
 }
 
 /* Makes the planes of the group's edge pairs in the slots from `slot` on. Returns how many there are. */
 static uint32_t make_crossings(pir_groups *groups, const pir_group *group, uint32_t slot) {
-    pir_planes *planes = &groups->planes;
+    pir_planes *planes = groups->planes;
     const pir_polytope *q = groups->frame->q.polytope;
     const pir_pairing *pairing = groups->pairing;
-    const pir_lanes *work = groups->work.vector;
-    pir_lanes e = groups->work.direction, o = groups->work.origin;
+    const pir_lanes *work = groups->work->vector;
+    pir_lanes e = groups->work->direction, o = groups->work->origin;
+    const pir_group_lists *lists = groups->lists[0];
     uint32_t edges = group->edges_end - group->edges, count = 0;
-    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(groups->list.edge_direction, group->edges), e);
-    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(groups->list.edge_origin, group->edges), o);
+    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(lists->edge_direction, group->edges), e);
+    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(lists->edge_origin, group->edges), o);
     for (uint32_t i = 0; i < edges; i++) {
-        uint32_t edge = groups->list.edge[group->edges + i];
+        uint32_t edge = lists->edge[group->edges + i];
         for (uint32_t at = pir_crossing_first(pairing, edge); at != PIR_NO_CROSSING;
              at = pir_crossing_next(pairing, at), count++) {
             uint32_t h = pir_crossing_half(pairing, at);
@@ -74,7 +76,7 @@ void pir_group_make(pir_groups *groups, uint32_t g) {
     pir_group *group = &groups->at[g];
     if (group->stamp == groups->stamp)
         return;
-    pir_planes *planes = &groups->planes;
+    pir_planes *planes = groups->planes;
     group->stamp = groups->stamp;
     group->start = planes->used;
     group->count = group->facets_end - group->facets;

@@ -47,10 +47,11 @@ void pir_leaves_finish(pir_leaves *leaves, const pir_allocator *allocator) {
 }
 
 static pir_status reserve(pir_leaves *leaves, const pir_allocator *allocator, uint32_t capacity) {
-    if (capacity <= leaves->capacity)
+    if (leaves->h && capacity <= leaves->capacity)
         return PIR_OK;
     pir_leaves_finish(leaves, allocator);
-    leaves->capacity = (capacity + LEAF - 1) / LEAF * LEAF;
+    // a quarter more than is needed, so that a count that rises slowly seldom needs new memory
+    leaves->capacity = (capacity + capacity / 4 + LEAF - 1) / LEAF * LEAF;
     pir_layout layout = layout_of(leaves);
     if (pir_layout_new(allocator, &layout))
         return PIR_OK;
@@ -82,7 +83,7 @@ static uint32_t next_own(const pir_group *group, uint32_t k) {
 
 /* Sorts the planes by cells: counts those of each cell, then puts them where their cell begins. */
 static void sort_planes(pir_leaves *leaves, const pir_groups *groups) {
-    const pir_planes *planes = &groups->planes;
+    const pir_planes *planes = groups->planes;
     uint32_t *start = leaves->cell_start, count = 0;
     memset(start, 0, (CELL_COUNT + 1) * sizeof *start);
     for (uint32_t g = 0; g < groups->count; g++) {
@@ -138,7 +139,7 @@ pir_status pir_leaves_make(pir_leaves *leaves, pir_groups *groups, const pir_all
         return PIR_OK;
     for (uint32_t g = 0; g < groups->count; g++)
         pir_group_make(groups, g);
-    pir_status status = reserve(leaves, allocator, groups->planes.capacity);
+    pir_status status = reserve(leaves, allocator, groups->planes->used);
     if (status != PIR_OK)
         return status;
     sort_planes(leaves, groups);
@@ -207,7 +208,7 @@ static uint32_t collect(pir_leaves *leaves, pir_groups *groups, const pir_placem
         groups->scan->boxes(LEAF, &planes, placement->x, placement->error, low);
         for (uint32_t i = 0; i < LEAF; i++)
             if (low[i] <= limit) {
-                pir_planes_refine(groups->exact, &groups->planes, leaves->slot[from + i]);
+                pir_planes_refine(groups->exact, groups->planes, leaves->slot[from + i]);
                 leaves->cell[count++] = leaves->slot[from + i];
             }
     }
@@ -252,7 +253,7 @@ bool pir_leaves_depth(pir_leaves *leaves, pir_groups *groups, const pir_placemen
     uint32_t looked = look_at_leaves(leaves, groups, placement, &limit),
              count = collect(leaves, groups, placement, looked, limit);
     const uint32_t *slot = leaves->cell;
-    const pir_planes *planes = &groups->planes;
+    const pir_planes *planes = groups->planes;
     for (uint32_t i = 0; i < count; i++)
         limit = fmin(limit, pir_planes_slack(planes, slot[i], placement->x) + placement->error * planes->err[slot[i]]);
     pir_least least = {.some = false};

@@ -18,7 +18,7 @@
 static uint32_t part_of(const pir_search *search, uint32_t k, uint32_t *ret_end) {
     const pir_groups *groups = &search->groups;
     if (k == search->looked_count) {
-        *ret_end = groups->planes.capacity;
+        *ret_end = groups->planes->capacity;
         return search->candidates;
     }
     const pir_group *group = &groups->at[search->looked[k]];
@@ -28,7 +28,7 @@ static uint32_t part_of(const pir_search *search, uint32_t k, uint32_t *ret_end)
 
 static void forget(pir_search *search) {
     search->looked_count = 0;
-    search->candidates = search->groups.planes.capacity;
+    search->candidates = search->groups.planes->capacity;
 }
 
 /*
@@ -37,7 +37,7 @@ static void forget(pir_search *search) {
  */
 static double least_refined(pir_search *search, const pir_placement *placement, double limit) {
     pir_groups *groups = &search->groups;
-    pir_planes *planes = &groups->planes;
+    pir_planes *planes = groups->planes;
     for (uint32_t k = 0, end; k <= search->looked_count; k++)
         for (uint32_t i = part_of(search, k, &end); i < end; i++) {
             if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit)
@@ -91,7 +91,7 @@ bool pir_depth_find(pir_search *search, const pir_placement *placement, const pi
     search->looked_count = kept;
     // a refined plane has another slack and a smaller error
     limit = least_refined(search, placement, limit);
-    const pir_planes *planes = &groups->planes;
+    const pir_planes *planes = groups->planes;
     pir_least least = {.some = false};
     for (uint32_t k = 0, end; k <= search->looked_count; k++)
         for (uint32_t i = part_of(search, k, &end); i < end; i++)

@@ -49,11 +49,12 @@ static pir_layout layout_of(pir_regional *regional, const pir_frame *frame) {
                          PIR_ROW(regional->known_edge, p->edge_count)}};
 }
 
-bool pir_regional_init(pir_regional *regional, const pir_allocator *allocator, const pir_frame *frame,
-                       const pir_sum *sum) {
-    regional->sum = sum;
+bool pir_regional_init(pir_regional *regional, const pir_allocator *allocator, const pir_frame *frame) {
     pir_layout layout = layout_of(regional, frame);
-    return pir_layout_new(allocator, &layout);
+    if (!pir_layout_new(allocator, &layout))
+        return false;
+    pir_regional_forget(regional, frame);
+    return true;
 }
 
 void pir_regional_finish(pir_regional *regional, const pir_allocator *allocator, const pir_frame *frame) {
@@ -99,7 +100,7 @@ static void take(struct search *search, pir_piece piece) {
     if (slack - error > search->limit)
         return;
     lower_limit(search, slack + error);
-    pir_planes_put(&groups->planes, search->count++, &plane);
+    pir_planes_put(groups->planes, search->count++, &plane);
 }
 
 /*
@@ -258,7 +259,7 @@ static struct search search_all(pir_regional *regional, pir_groups *groups, cons
 
 pir_state pir_regional_find(pir_regional *regional, pir_groups *groups, const pir_placement *placement,
                             const pir_query_cache *cache, pir_least *ret_least, uint32_t *steps) {
-    const pir_planes *planes = &groups->planes;
+    const pir_planes *planes = groups->planes;
     struct search search = search_all(regional, groups, placement, false, cache);
     ++*steps;
     // every piece whose slack may be the least is there
@@ -277,9 +278,9 @@ bool pir_regional_exit(pir_regional *regional, pir_groups *groups, const pir_lin
     struct search search = search_all(regional, groups, line->placement, true, NULL);
     pir_clip clip = PIR_CLIP_NONE;
     for (uint32_t i = 0; i < search.count; i++)
-        pir_clip_bound(&groups->planes, line, &clip, i);
+        pir_clip_bound(groups->planes, line, &clip, i);
     for (uint32_t i = 0; i < search.count; i++)
-        pir_clip_take(groups->exact, &groups->planes, line, &clip, i);
+        pir_clip_take(groups->exact, groups->planes, line, &clip, i);
     ++*steps;
     if (!clip.leave.some)
         return false;

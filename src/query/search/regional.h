@@ -19,12 +19,8 @@ typedef struct pir_regional {
     pir_vec3 last_x;
 } pir_regional;
 
-/*
- * Makes the memory for a frame, whose operands are known, and a sum, which is borrowed. False when out of memory;
- * pir_regional_finish then frees what is there.
- */
-bool pir_regional_init(pir_regional *regional, const pir_allocator *allocator, const pir_frame *frame,
-                       const pir_sum *sum);
+/* Makes the memory for a frame, with no bounds yet. `sum` must be set, which is borrowed. False when out of memory. */
+bool pir_regional_init(pir_regional *regional, const pir_allocator *allocator, const pir_frame *frame);
 void pir_regional_finish(pir_regional *regional, const pir_allocator *allocator, const pir_frame *frame);
 
 /* Forgets all bounds. */

@@ -2,26 +2,20 @@
 /* Memory of searches: see search.h. */
 #include "query/search/search.h"
 
-static pir_layout layout_of(pir_search *search) {
-    uint32_t count = search->groups.count;
-    return (pir_layout){{PIR_ROW(search->slack, count), PIR_ROW(search->looked, count)}};
-}
-
-bool pir_search_init(pir_search *search, const pir_allocator *allocator, pir_exact *exact, const pir_pairing *pairing) {
+void pir_search_init(pir_search *search, pir_exact *exact, const pir_pairing *pairing) {
     search->groups.frame = exact->frame;
     search->groups.exact = exact;
     search->groups.pairing = pairing;
-    bool done = pir_groups_init(&search->groups, allocator);
-    pir_layout layout = layout_of(search);
-    done = pir_layout_new(allocator, &layout) && done;
-    return pir_bounds_init(&search->bounds, allocator, &search->groups) && done;
+    for (unsigned i = 0; pir_scan_version(i); i++)
+        search->groups.scan = pir_scan_version(i);
 }
 
-void pir_search_finish(pir_search *search, const pir_allocator *allocator) {
-    pir_layout layout = layout_of(search);
-    pir_layout_free(allocator, &layout);
-    pir_bounds_finish(&search->bounds, allocator, &search->groups);
-    pir_groups_finish(&search->groups, allocator);
+void pir_search_add_rows(pir_search *search, pir_layout *layout) {
+    uint32_t count = search->groups.count;
+    pir_groups_add_rows(&search->groups, layout);
+    pir_bounds_add_rows(&search->bounds, &search->groups, layout);
+    pir_layout_add(layout, (pir_layout_row)PIR_ROW(search->slack, count));
+    pir_layout_add(layout, (pir_layout_row)PIR_ROW(search->looked, count));
 }
 
 void pir_search_fill(pir_search *search) {

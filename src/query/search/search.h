@@ -15,14 +15,13 @@ typedef struct pir_search {
     uint32_t *looked, looked_count, candidates;
 } pir_search;
 
-/*
- * Makes the memory for the frame of `exact`, whose operands are known, and a pairing; all of them are borrowed. False
- * when out of memory; pir_search_finish then frees what is there.
- */
-bool pir_search_init(pir_search *search, const pir_allocator *allocator, pir_exact *exact, const pir_pairing *pairing);
-void pir_search_finish(pir_search *search, const pir_allocator *allocator);
+/* Sets what a search works on, which is borrowed. It begins as zeros, and has no groups yet. */
+void pir_search_init(pir_search *search, pir_exact *exact, const pir_pairing *pairing);
 
-/* Fills in what depends on the frame's coordinates. */
+/* Adds the rows of a search, whose groups have their lists, to a layout. */
+void pir_search_add_rows(pir_search *search, pir_layout *layout);
+
+/* Makes groups and bounds anew. */
 void pir_search_fill(pir_search *search);
 
 #endif

@@ -34,8 +34,8 @@ static void try_piece(pir_search *search, pir_piece piece, struct sieve *sieve) 
     double s = pir_plane_slack(&plane, sieve->placement->x), error = sieve->placement->error * plane.err;
     sieve->low = lesser(sieve->low, s - error);
     if (s - error <= sieve->limit) {
-        PIR_ASSERT(search->candidates > groups->planes.used);
-        pir_planes_put(&groups->planes, --search->candidates, &plane);
+        PIR_ASSERT(search->candidates > groups->planes->used);
+        pir_planes_put(groups->planes, --search->candidates, &plane);
         sieve->limit = lesser(sieve->limit, s + error);
     }
 }
@@ -47,10 +47,11 @@ static void try_piece(pir_search *search, pir_piece piece, struct sieve *sieve) 
 static double facet_slacks(const pir_groups *groups, const pir_group *group, const pir_placement *placement,
                            double *ret_along) {
     const pir_frame *frame = groups->frame;
-    const uint32_t *list = groups->list.facet + group->facets,
+    const pir_group_lists *lists = pir_lists_of(groups, group);
+    const uint32_t *list = lists->facet + group->facets,
                    *other = group->of_q ? groups->pairing->vf : groups->pairing->fv;
     const pir_vec3 *vertex = group->of_q ? frame->p.vertex : frame->q.vertex;
-    pir_lanes from = groups->work.vector[0];
+    pir_lanes from = groups->work->vector[0];
     uint32_t count = group->facets_end - group->facets;
     for (uint32_t i = 0; i < count; i++)
         pir_lane_put(from, i, vertex[other[list[i]]]);
@@ -59,9 +60,8 @@ static double facet_slacks(const pir_groups *groups, const pir_group *group, con
         for (int j = 0; j < 3; j++)
             back.m[i][j] = frame->r.m[j][i];
     pir_vec3 x = group->of_q ? placement->x : pir_mat_apply(&back, placement->x);
-    pir_facet_lanes facets = {pir_lanes_from(groups->list.facet_normal, group->facets),
-                              groups->list.facet_offset + group->facets};
-    pir_slack_lanes slacks = {.to = groups->work.vector[1], .s = groups->work.vector[2].x};
+    pir_facet_lanes facets = {pir_lanes_from(lists->facet_normal, group->facets), lists->facet_offset + group->facets};
+    pir_slack_lanes slacks = {.to = groups->work->vector[1], .s = groups->work->vector[2].x};
     groups->scan->slacks(count, group->of_q ? &frame->r : &back, from, x, &facets, &slacks);
     *ret_along = slacks.along;
     return slacks.least;
@@ -76,8 +76,9 @@ static void sieve_crossings(pir_search *search, uint32_t i, uint32_t at, struct 
     const pir_frame *frame = groups->frame;
     const pir_polytope *q = frame->q.polytope;
     const pir_pairing *pairing = groups->pairing;
-    pir_vec3 e = pir_mat_apply(&frame->r, pir_lane_get(groups->list.edge_direction, i));
-    pir_vec3 o = pir_vec_sub(pir_mat_apply(&frame->r, pir_lane_get(groups->list.edge_origin, i)), sieve->placement->x);
+    const pir_group_lists *lists = groups->lists[0];
+    pir_vec3 e = pir_mat_apply(&frame->r, pir_lane_get(lists->edge_direction, i));
+    pir_vec3 o = pir_vec_sub(pir_mat_apply(&frame->r, pir_lane_get(lists->edge_origin, i)), sieve->placement->x);
     const double off = 2 * sieve->placement->error;
     for (; at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at)) {
         uint32_t h = pir_crossing_half(pairing, at);
@@ -89,21 +90,22 @@ static void sieve_crossings(pir_search *search, uint32_t i, uint32_t at, struct 
         if (low > sieve->limit)
             sieve->low = lesser(sieve->low, low);
         else
-            try_piece(search, (pir_piece){PIR_FACET_EE, groups->list.edge[i], h}, sieve);
+            try_piece(search, (pir_piece){PIR_FACET_EE, lists->edge[i], h}, sieve);
     }
 }
 
 /* Tries the edges of a group of P's whose arcs may hold the least slack. */
 static void sieve_edges(pir_search *search, const pir_group *group, struct sieve *sieve) {
     const pir_groups *groups = &search->groups;
-    const pir_lanes normal = pir_lanes_from(groups->list.facet_normal, group->facets), to = groups->work.vector[1];
-    const double *s = groups->work.vector[2].x, *offset = groups->list.facet_offset + group->facets,
+    const pir_group_lists *lists = pir_lists_of(groups, group);
+    const pir_lanes normal = pir_lanes_from(lists->facet_normal, group->facets), to = groups->work->vector[1];
+    const double *s = groups->work->vector[2].x, *offset = lists->facet_offset + group->facets,
                  off = 2 * sieve->placement->error;
     // a flat P has arcs of half a turn, which nothing bounds
     bool bounds = groups->frame->p.polytope->dimension == 3;
     for (uint32_t i = group->edges; i < group->edges_end; i++) {
-        uint32_t at = pir_crossing_first(groups->pairing, groups->list.edge[i]), a = groups->list.edge_left[i],
-                 b = groups->list.edge_right[i];
+        uint32_t at = pir_crossing_first(groups->pairing, lists->edge[i]), a = lists->edge_left[i],
+                 b = lists->edge_right[i];
         if (at == PIR_NO_CROSSING)
             continue;
         double of_a = offset[b] + pir_vec_dot(pir_lane_get(normal, b), pir_lane_get(to, a));
@@ -125,8 +127,8 @@ double pir_group_sieve(pir_search *search, uint32_t g, const pir_placement *plac
     struct sieve sieve = {placement, lesser(limit, least + off), least - off};
     group->sieved = groups->stamp;
     for (uint32_t i = group->facets; least - off <= sieve.limit && i < group->own_end; i++)
-        if (groups->work.vector[2].x[i - group->facets] - off <= sieve.limit) {
-            uint32_t f = groups->list.facet[i];
+        if (groups->work->vector[2].x[i - group->facets] - off <= sieve.limit) {
+            uint32_t f = pir_lists_of(groups, group)->facet[i];
             try_piece(search, group->of_q ? pir_piece_vf(groups, f) : pir_piece_fv(groups, f), &sieve);
         }
     sieve_edges(search, group, &sieve);

@@ -15,13 +15,13 @@ static pir_piece separating(const pir_groups *groups, const pir_group *group, co
     uint32_t best = group->start;
     double least = HUGE_VAL;
     for (uint32_t i = group->start; i < group->start + group->count; i++) {
-        double s = pir_planes_slack(&groups->planes, i, placement->x) + placement->error * groups->planes.err[i];
+        double s = pir_planes_slack(groups->planes, i, placement->x) + placement->error * groups->planes->err[i];
         if (s < least) {
             least = s;
             best = i;
         }
     }
-    return groups->planes.piece[best];
+    return groups->planes->piece[best];
 }
 
 /* Keeps the true facet of a piece that t lies on, where it is the first in order. */
@@ -39,7 +39,7 @@ static pir_state settle(pir_search *search, const pir_placement *placement, pir_
                         pir_least *ret_touching) {
     const pir_groups *groups = &search->groups;
     const pir_frame *frame = groups->frame;
-    const pir_planes *planes = &groups->planes;
+    const pir_planes *planes = groups->planes;
     bool touches = false, any = false;
     ret_touching->some = false;
     for (uint32_t g = 0; g < groups->count; g++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What pairs keep of a polytope: see body.h. */
-#include "pair/body.h"
+/* Operands in the frame of an exponent, kept by their polytopes: see body.h. */
+#include "query/frame/body.h"
 
 #include <limits.h>
 
@@ -18,7 +18,7 @@ static void destroy_size(pir_attachment *attachment, const pir_allocator *a) {
 }
 
 static void destroy_body(pir_attachment *attachment, const pir_allocator *a) {
-    pir_pair_body *body = (pir_pair_body *)attachment;
+    pir_kept_body *body = (pir_kept_body *)attachment;
     PIR_FREE(a, body->body.vertex, body->body.polytope->vertex_count);
     PIR_FREE(a, body->body.offset, body->body.polytope->facet_count);
     PIR_FREE(a, body, 1);
@@ -33,7 +33,7 @@ static void room_free(const pir_polytope *p, mp_limb_t *room) {
     PIR_FREE(&p->allocator, room, (size_t)p->exact_vertex.stride + 1);
 }
 
-pir_status pir_pair_exponent(pir_polytope *p, int *ret_exponent) {
+pir_status pir_kept_exponent(pir_polytope *p, int *ret_exponent) {
     pir_attachment *attachment = pir_polytope_attachment(p, &a_size, 0);
     if (!attachment) {
         struct size *made = PIR_ZEROED(&p->allocator, struct size, 1);
@@ -81,9 +81,9 @@ static double point_of(const pir_polytope *p) {
     return p->dimension == 3 && least > 0x1p-20 ? least * (1 - 0x1p-20) : 0;
 }
 
-static pir_status make_body(pir_polytope *p, int exponent, pir_pair_body **ret_body) {
+static pir_status make_body(pir_polytope *p, int exponent, pir_kept_body **ret_body) {
     const pir_allocator *a = &p->allocator;
-    pir_pair_body *made = PIR_ZEROED(a, pir_pair_body, 1);
+    pir_kept_body *made = PIR_ZEROED(a, pir_kept_body, 1);
     if (!made)
         return PIR_ERR_MEMORY;
     made->attachment = (pir_attachment){.kind = &a_body, .key = exponent, .destroy = destroy_body};
@@ -105,15 +105,36 @@ static pir_status make_body(pir_polytope *p, int exponent, pir_pair_body **ret_b
     return PIR_OK;
 }
 
-pir_status pir_pair_body_of(pir_polytope *p, int exponent, const pir_pair_body **ret_body) {
+pir_status pir_kept_body_of(pir_polytope *p, int exponent, const pir_kept_body **ret_body) {
     pir_attachment *attachment = pir_polytope_attachment(p, &a_body, exponent);
     if (!attachment) {
-        pir_pair_body *made = NULL;
+        pir_kept_body *made = NULL;
         pir_status status = make_body(p, exponent, &made);
         if (status != PIR_OK)
             return status;
         attachment = pir_polytope_attach(p, &made->attachment);
     }
-    *ret_body = (const pir_pair_body *)attachment;
+    *ret_body = (const pir_kept_body *)attachment;
+    return PIR_OK;
+}
+
+pir_status pir_frame_set_bodies(pir_frame *frame, pir_polytope *p, pir_polytope *q) {
+    int of_p, of_q;
+    pir_status status = pir_kept_exponent(p, &of_p);
+    if (status == PIR_OK)
+        status = pir_kept_exponent(q, &of_q);
+    if (status != PIR_OK)
+        return status;
+    int exponent = pir_frame_exponent(of_p, of_q, p, q);
+    const pir_kept_body *body_p, *body_q;
+    status = pir_kept_body_of(p, exponent, &body_p);
+    if (status == PIR_OK)
+        status = pir_kept_body_of(q, exponent, &body_q);
+    if (status != PIR_OK)
+        return status;
+    pir_frame_set_exponent(frame, exponent);
+    frame->p = body_p->body;
+    frame->q = body_q->body;
+    frame->is_set = false;
     return PIR_OK;
 }
