@@ -221,7 +221,7 @@ static void no_memory_is_a_status(void **state) {
         pir_grid_destroy(grid);
         assert_true(memory.blocks == 0 && !memory.wrong_size && !memory.overrun);
         if (status == PIR_OK) {
-            assert_true(n > 15);
+            assert_true(n > 4);
             break;
         }
     }
