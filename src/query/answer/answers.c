@@ -212,6 +212,8 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
     bool in_region = pir_sum_cone(query->sum)->set;
     if (in_region && (want != PIR_WANT_DEPTH || input->radius_p + input->radius_q > 0))
         return PIR_ERR_UNSUPPORTED;
+    if (in_region && (status = pir_query_need_regional(query)) != PIR_OK)
+        return status;
     // nothing fails from here on
     if (in_region) {
         pir_result_clear(ret_result);

@@ -73,6 +73,9 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
         return status;
     pir_query_result result = {0};
     if (pir_sum_cone(query->sum)->set) {
+        status = pir_query_need_regional(query);
+        if (status != PIR_OK)
+            return status;
         exit_region(query, &line, &result);
         *ret_result = result;
         return PIR_OK;

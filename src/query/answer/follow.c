@@ -120,14 +120,11 @@ pir_status pir_query_create(pir_sum *difference, pir_query **ret_query) {
 
 /* Makes room for what the present pairing needs. */
 static pir_status reserve(pir_query *query) {
-    const pir_allocator *a = &query->allocator;
     bool grown;
     pir_status status = pir_groups_reserve(&query->search.groups, &pir_sum_scratch(query->sum)->allocator, &grown);
     if (grown)
         query->room->owner = NULL;
-    if (status != PIR_OK || !pir_sum_cone(query->sum)->set || query->regional.known_p)
-        return status;
-    return pir_regional_init(&query->regional, a, &query->frame) ? PIR_OK : PIR_ERR_MEMORY;
+    return status;
 }
 
 /* Brings the query to the present state of the sum. */
@@ -148,10 +145,17 @@ static pir_status follow(pir_query *query) {
             query->exact.made = false;
             pir_groups_forget(&query->search.groups);
         }
-        status = reserve(query);
+        if (pairing->crossings.count >= query->search.groups.room_for)
+            status = reserve(query);
     }
     query->generation = status == PIR_OK ? pir_sum_generation(sum) : 0;
     return status;
+}
+
+pir_status pir_query_need_regional(pir_query *query) {
+    if (query->regional.known_p || pir_regional_init(&query->regional, &query->allocator, &query->frame))
+        return PIR_OK;
+    return PIR_ERR_MEMORY;
 }
 
 /* Takes over the room, unless the last call on it was on this query. */

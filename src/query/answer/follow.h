@@ -27,7 +27,7 @@ struct pir_query {
     pir_exact exact;
     pir_search search;
     pir_leaves *leaves;    /* made by the first batch */
-    pir_regional regional; /* made when the sum first has a region */
+    pir_regional regional; /* made when a region is first asked */
 };
 
 /* Begins a call: checks the input, follows the sum's changes, converts the translation. */
@@ -38,6 +38,9 @@ pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_p
  * call on the query.
  */
 pir_status pir_query_place_relative(pir_query *query, const pir_world *world, pir_placement *ret_placement);
+
+/* Makes what a search in a region needs: PIR_ERR_MEMORY. */
+pir_status pir_query_need_regional(pir_query *query);
 
 /* Begins a call that needs the whole sum: PIR_ERR_UNSUPPORTED where the sum has a region. */
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);

@@ -30,6 +30,8 @@
  */
 #include "query/planes/bounds.h"
 
+#include <string.h>
+
 /* --- memory --- */
 
 void pir_bounds_add_rows(pir_bounds *bounds, const pir_groups *groups, pir_layout *layout) {
@@ -38,7 +40,8 @@ void pir_bounds_add_rows(pir_bounds *bounds, const pir_groups *groups, pir_layou
     const pir_layout rows = {{PIR_ROW(bounds->lasting.bound, count), PIR_ROW(bounds->lasting.when, count),
                               PIR_ROW(bounds->lasting.lever, count), PIR_ROW(bounds->lasting.bend, count),
                               PIR_ROWS(bounds->lasting.where, count), PIR_ROW(bounds->low, count),
-                              PIR_ROWS(bounds->cap_axis, count), PIR_ROWS(bounds->cap_corner, count),
+                              PIR_ROWS(bounds->caps.axis, count), PIR_ROWS(bounds->caps.corner, count),
+                              PIR_ROW(bounds->caps.cosine, count), PIR_ROW(bounds->caps.sine, count),
                               PIR_ROW(bounds->cap_stamp, count / PIR_SCAN_LANES)}};
     for (const pir_layout_row *row = rows.row; row->size != 0; row++)
         pir_layout_add(layout, *row);
@@ -88,14 +91,12 @@ void pir_bounds_fill(pir_bounds *bounds, const pir_groups *groups) {
         bounds->lasting.bound[g] = groups->at[g].facets == groups->at[g].own_end ? HUGE_VAL : -HUGE_VAL;
     for (uint32_t k = 0; k < groups->count / PIR_SCAN_LANES; k++)
         bounds->cap_stamp[k] = 0;
-}
-
-/* The caps of groups [g, g + PIR_SCAN_LANES), which are all of one body, at the rotation of their stamp. */
-static pir_cap_lanes caps_from(const pir_bounds *bounds, const pir_groups *groups, uint32_t g) {
-    const pir_group_lists *lists = pir_lists_of(groups, &groups->at[g]);
-    uint32_t at = lists->of_q ? g - groups->first_of_q : g;
-    return (pir_cap_lanes){pir_lanes_from(bounds->cap_axis, g), pir_lanes_from(bounds->cap_corner, g),
-                           lists->cap_cosine + at, lists->cap_sine + at};
+    for (int of_q = 0; of_q < 2; of_q++) {
+        const pir_group_lists *lists = groups->lists[of_q];
+        uint32_t from = of_q ? groups->first_of_q : 0;
+        memcpy(bounds->caps.cosine + from, lists->cap_cosine, lists->count * sizeof *lists->cap_cosine);
+        memcpy(bounds->caps.sine + from, lists->cap_sine, lists->count * sizeof *lists->cap_sine);
+    }
 }
 
 /* Rotates the caps of groups [g, g + PIR_SCAN_LANES), which are all of one body. */
@@ -109,7 +110,7 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
     }
     const pir_group_lists *lists = groups->lists[of_q];
     uint32_t at = of_q ? g - groups->first_of_q : g;
-    pir_lanes axis = pir_lanes_from(bounds->cap_axis, g), corner = pir_lanes_from(bounds->cap_corner, g);
+    pir_lanes axis = pir_lanes_from(bounds->caps.axis, g), corner = pir_lanes_from(bounds->caps.corner, g);
     pir_lanes axis_body = pir_lanes_from(lists->cap_axis, at), corner_body = pir_lanes_from(lists->cap_corner, at);
     if (of_q) {
         for (uint32_t i = 0; i < PIR_SCAN_LANES; i++) {
@@ -127,12 +128,12 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
     bounds->cap_stamp[g / PIR_SCAN_LANES] = groups->stamp;
 }
 
-/* Whether a cap may rule out a group of a block that is not ruled out yet. */
-static bool is_open(const double *low, const double *cosine, double limit) {
-    bool any = false;
+/* The groups of the block from `g` that are not ruled out yet, but may be by their caps: a bit each. */
+static inline uint32_t open_groups(const pir_bounds *bounds, uint32_t g, double limit) {
+    uint32_t open = 0;
     for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
-        any |= low[i] <= limit && cosine[i] > 0;
-    return any;
+        open |= (uint32_t)(bounds->low[g + i] <= limit && bounds->caps.cosine[g + i] > 0) << i;
+    return open;
 }
 
 double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_placement *placement, double limit) {
@@ -140,20 +141,18 @@ double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_p
     note_turn(bounds, groups);
     groups->scan->bounds(groups->count, &bounds->lasting, bounds->turn, placement->x, placement->error, bounds->low);
     for (uint32_t g = 0; g < groups->count; g += PIR_SCAN_LANES) {
-        const pir_cap_lanes caps = caps_from(bounds, groups, g);
-        if (!is_open(bounds->low + g, caps.cosine, limit))
+        uint32_t open = open_groups(bounds, g, limit);
+        if (!open)
             continue;
         if (bounds->cap_stamp[g / PIR_SCAN_LANES] != groups->stamp)
             make_caps(bounds, groups, g);
-        bool was_open[PIR_SCAN_LANES];
-        for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
-            was_open[i] = bounds->low[g + i] <= limit;
-        double least = groups->scan->caps(0, PIR_SCAN_LANES, &caps, placement->x, placement->error, bounds->low + g);
+        double least =
+            groups->scan->caps(g, PIR_SCAN_LANES, &bounds->caps, placement->x, placement->error, bounds->low);
         high = least < high ? least : high;
         // what a cap rules out now stays ruled out for some time
-        for (uint32_t i = 0; i < PIR_SCAN_LANES; i++)
-            if (was_open[i] && bounds->low[g + i] > limit)
-                pir_bounds_keep(bounds, groups, g + i, placement, bounds->low[g + i], -HUGE_VAL);
+        for (uint32_t i = g; open; i++, open >>= 1)
+            if ((open & 1) && bounds->low[i] > limit)
+                pir_bounds_keep(bounds, groups, i, placement, bounds->low[i], -HUGE_VAL);
     }
     return high;
 }

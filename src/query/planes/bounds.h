@@ -10,8 +10,8 @@ typedef struct pir_bounds {
     pir_lasting_lanes lasting;
     double *low; /* the bounds for the present placement */
 
-    /* caps at the rotation that the stamp of their block is of; their angles are in the groups' lists */
-    pir_lanes cap_axis, cap_corner;
+    /* caps at the rotation that the stamp of their block is of, with the angles of the groups' lists */
+    pir_cap_lanes caps;
     uint64_t *cap_stamp; /* per block of lanes */
 
     /* an upper bound on the sum of the angles between the rotations at which bounds were found */
@@ -23,7 +23,7 @@ typedef struct pir_bounds {
 /* Adds the rows of the bounds to a layout. */
 void pir_bounds_add_rows(pir_bounds *bounds, const pir_groups *groups, pir_layout *layout);
 
-/* Forgets all bounds. */
+/* Forgets all bounds and takes the angles of the caps from the lists. */
 void pir_bounds_fill(pir_bounds *bounds, const pir_groups *groups);
 
 /*

@@ -50,11 +50,11 @@ pir_status pir_groups_reserve(pir_groups *groups, const pir_allocator *allocator
             return PIR_ERR_MEMORY;
         *ret_grown = true;
     }
-    if (capacity <= work->capacity && edges <= work->edges)
-        return PIR_OK;
-    return work_resize(work, allocator, greater(edges, work->edges), greater(capacity, work->capacity))
-               ? PIR_OK
-               : PIR_ERR_MEMORY;
+    if ((capacity > work->capacity || edges > work->edges) &&
+        !work_resize(work, allocator, greater(edges, work->edges), greater(capacity, work->capacity)))
+        return PIR_ERR_MEMORY;
+    groups->room_for = crossings + 1;
+    return PIR_OK;
 }
 
 /* --- the groups --- */

@@ -44,6 +44,7 @@ typedef struct pir_groups {
     const pir_group_lists *lists[2]; /* P's and Q's, which belong to the polytopes */
     pir_group_work *work;            /* both are the thread's, see answer/room.h */
     pir_planes *planes;
+    uint32_t room_for; /* there is room for fewer crossings than this; 0 before there is any */
 } pir_groups;
 
 /* The lists that a group is a part of. */

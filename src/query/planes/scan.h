@@ -44,7 +44,7 @@ typedef struct pir_lasting_lanes {
 /* Caps: directions within an angle of a unit axis, and a corner of D. */
 typedef struct pir_cap_lanes {
     pir_lanes axis, corner;
-    const double *cosine, *sine; /* of the angle */
+    double *cosine, *sine; /* of the angle */
 } pir_cap_lanes;
 
 typedef struct pir_scan {
