@@ -64,7 +64,7 @@ static pir_polytope *body_of(const char *name) {
 
 /* Follows the difference through all slices, each unit from a walk, as a job does. */
 static double track(pir_polytope *p, pir_polytope *q, const pir_grid *grid, uint64_t slices) {
-    const pir_sum_options options = {NULL, 1};
+    const pir_sum_options options = {.allocator = NULL, .difference = 1};
     pir_sum *sum = NULL;
     trial_need(pir_sum_create(p, q, pir_grid_rotation(grid, 0), &options, &sum), "sum");
     double start = cpu_now();
@@ -78,7 +78,7 @@ static double track(pir_polytope *p, pir_polytope *q, const pir_grid *grid, uint
 }
 
 static double walk(pir_polytope *p, pir_polytope *q, const pir_grid *grid, uint64_t slices) {
-    const pir_sum_options options = {NULL, 1};
+    const pir_sum_options options = {.allocator = NULL, .difference = 1};
     pir_sum *sum = NULL;
     uint64_t samples = results_count(WALK_SAMPLES);
     if (samples > slices)
