@@ -66,7 +66,7 @@ bool pir_recorder_init(pir_recorder *recorder, const pir_sum *sum, const pir_all
     *recorder = (pir_recorder){.allocator = *allocator, .sum = sum, .pairing = pir_sum_pairing(sum)};
     pir_crossing_set_init(&recorder->toggled, allocator);
     pir_layout layout = layout_of(recorder);
-    return pir_layout_new(allocator, &layout);
+    return pir_sum_keep_journal(sum) == PIR_OK && pir_layout_new(allocator, &layout);
 }
 
 void pir_recorder_finish(pir_recorder *recorder) {
