@@ -10,7 +10,7 @@
 #include "pair/apart.h"
 
 /* What a climb may have missed of a body's support: see above. */
-static double missed(const pir_pair_body *body) {
+static double missed(const pir_kept_body *body) {
     return 4 * PIR_SLOPE_BOUND * body->body.size / body->point;
 }
 
@@ -25,7 +25,7 @@ static double farthest(const pir_body *body, pir_vec3 n) {
 }
 
 double pir_task_certain(const pir_task *task, pir_vec3 n, double distance) {
-    const pir_pair_body *p = task->pair->body_p, *q = task->pair->body_q;
+    const pir_kept_body *p = task->pair->body_p, *q = task->pair->body_q;
     const double error = 2 * task->placement->error;
     if (p->point > 0 && q->point > 0)
         return distance - error - missed(p) - missed(q);
