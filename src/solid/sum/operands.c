@@ -22,7 +22,7 @@ static void copy_points(pir_operands *o, int k, const pir_solid *solid, const pi
             set_int(rotation ? v[r] : to[r], &x.c[r]);
         for (int r = 0; r < 3 && rotation; r++)
             for (int c = 0; c < 3; c++) {
-                set_int(m, &rotation->m[r][c]);
+                set_int(m, &rotation->integers->m[r][c]);
                 mpz_addmul(to[r], m, v[c]);
             }
     }
@@ -38,7 +38,7 @@ static void unify(pir_operands *o, const pir_solid *const solid[2], const pir_ro
         set_int(num[k], &solid[k]->scale.num);
         set_int(den[k], &solid[k]->scale.den);
     }
-    set_int(common, &rotation->norm);
+    set_int(common, &rotation->integers->norm);
     mpz_mul(den[0], den[0], common);
     mpz_lcm(o->den, den[0], den[1]);
     mpz_set_ui(common, 0);

@@ -198,7 +198,8 @@ pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotati
     const pir_solid_sum_options used = options ? *options : pir_solid_sum_options_default();
     pir_allocator allocator;
     const pir_solid_options solid_options = pir_solid_options_or_default(&used.solid, &allocator);
-    pir_rotation exact;
+    pir_rotation_integers integers;
+    pir_rotation exact = {.integers = &integers};
     pir_status status = pir_rotation_set(&exact, rotation);
     if (status != PIR_OK)
         return status;
