@@ -104,6 +104,18 @@ void answer_world_finish(answer_world *world) {
     pir_grid_destroy(world->grid);
 }
 
+void answer_world_write(const answer_world *world, const char *path) {
+    const pir_cspace_bodies bodies = {world->robot, world->robot_count, world->obstacle, world->obstacle_count};
+    pir_cspace_options options = pir_cspace_options_default();
+    options.slices_per_unit = 16;
+    options.slices_per_key = 8;
+    pir_cspace_job *job = NULL;
+    check(pir_cspace_job_create(&bodies, world->grid, path, &options, NULL, &job));
+    check(pir_cspace_job_run(job, NULL));
+    check(pir_cspace_job_assemble(job, NULL));
+    pir_cspace_job_destroy(job);
+}
+
 static pir_query_result ask(answer_world *world, uint32_t k, uint32_t l, const pir_pose *pose) {
     pir_pair_input input = pir_pair_input_default();
     pir_query_result result;

@@ -30,6 +30,9 @@ typedef struct answer_world {
 void answer_world_init(answer_world *world, int kind, pir_grid *grid);
 void answer_world_finish(answer_world *world);
 
+/* Writes the slices of the world to a file, in units of 16. The program ends where that fails. */
+void answer_world_write(const answer_world *world, const char *path);
+
 /* A random pose: half of the translations are near the boundary. */
 pir_pose answer_world_pose(answer_world *world, test_random *random);
 

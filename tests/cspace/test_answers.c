@@ -85,7 +85,7 @@ static uint32_t ask_poses(int kind, uint32_t level, uint32_t count) {
 static void no_pose_is_answered_wrongly(void **state) {
     (void)state;
     const uint32_t most = number_of("PIR_TEST_LEVEL", 2);
-    const uint32_t each = number_of("PIR_TEST_POSES", 1500) / (WORLD_KINDS * (most + 1));
+    const uint32_t each = number_of("PIR_TEST_POSES", 900) / (WORLD_KINDS * (most + 1));
     for (int kind = 0; kind < WORLD_KINDS; kind++) {
         uint32_t before = 0;
         for (uint32_t level = 0; level <= most; level++) {
@@ -207,7 +207,7 @@ static void check_motion(answer_world *world, const pir_pose *from, const pir_po
 static void no_motion_is_answered_wrongly(void **state) {
     (void)state;
     const uint32_t most = number_of("PIR_TEST_LEVEL", 2);
-    const uint32_t each = number_of("PIR_TEST_MOTIONS", 150) / (WORLD_KINDS * (most + 1));
+    const uint32_t each = number_of("PIR_TEST_MOTIONS", 90) / (WORLD_KINDS * (most + 1));
     for (int kind = 0; kind < WORLD_KINDS; kind++)
         for (uint32_t level = 0; level <= most; level++) {
             answer_world world;

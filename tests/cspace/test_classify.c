@@ -14,26 +14,18 @@
 #include "support/memory.h"
 #include "support/vectors.h"
 
+/* HDF5 does not free all that it has made of a broken file. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) {
+    return "leak:libhdf5";
+}
+
 static char folder[] = "classify-XXXXXX";
 
 static const char *path_of(const char *name) {
     static char path[256];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return path;
-}
-
-static void make_file(const answer_world *world, const char *name) {
-    const pir_cspace_bodies bodies = {world->robot, world->robot_count, world->obstacle, world->obstacle_count};
-    pir_cspace_options options = pir_cspace_options_default();
-    options.slices_per_unit = 16;
-    options.slices_per_key = 8;
-    pir_cspace_job *job = NULL;
-    pir_report report = {0};
-    expect(pir_cspace_job_create(&bodies, world->grid, path_of(name), &options, &report, &job) == PIR_OK, "%s",
-           report.text);
-    expect(pir_cspace_job_run(job, &report) == PIR_OK, "%s", report.text);
-    expect(pir_cspace_job_assemble(job, &report) == PIR_OK, "%s", report.text);
-    pir_cspace_job_destroy(job);
 }
 
 static pir_cspace *open_file(const char *name) {
@@ -69,10 +61,10 @@ static void a_file_answers_as_the_sums_do(void **state) {
     for (int kind = 0; kind < WORLD_KINDS; kind++) {
         answer_world world;
         answer_world_init(&world, kind, make_grid(kind % 3));
-        make_file(&world, "whole.h5");
+        answer_world_write(&world, path_of("whole.h5"));
         pir_cspace *cspace = open_file("whole.h5");
         const uint64_t count = pir_cspace_get_info(cspace).grid.count;
-        for (uint32_t i = 0; i < 120; i++) {
+        for (uint32_t i = 0; i < 60; i++) {
             test_random random = test_random_case("file", (uint64_t)kind << 32 | i);
             pir_pose from = answer_world_pose(&world, &random), to = answer_world_pose(&world, &random);
             if (i % 4 == 0)
@@ -150,7 +142,7 @@ static void broken_files_are_refused_or_right(void **state) {
     (void)state;
     answer_world world;
     answer_world_init(&world, 1, make_grid(0));
-    make_file(&world, "whole.h5");
+    answer_world_write(&world, path_of("whole.h5"));
     struct bytes whole = load("whole.h5");
     pir_pose poses[12];
     pir_state states[12];
@@ -163,13 +155,13 @@ static void broken_files_are_refused_or_right(void **state) {
     save("broken.h5", whole.data, whole.size);
     assert_true(ask_broken(&world, poses, states, 12));
     uint32_t answered = 0, refused = 0;
-    for (uint32_t i = 0; i < 60; i++) {
+    for (uint32_t i = 0; i < 30; i++) {
         // cut short
-        save("broken.h5", whole.data, whole.size * i / 60);
+        save("broken.h5", whole.data, whole.size * i / 30);
         refused += !ask_broken(&world, poses, states, 12);
     }
-    assert_int_equal(refused, 60);
-    for (uint32_t i = 0; i < 400; i++) {
+    assert_int_equal(refused, 30);
+    for (uint32_t i = 0; i < 120; i++) {
         test_random random = test_random_case("changed file", i);
         uint8_t *data = malloc(whole.size);
         memcpy(data, whole.data, whole.size);
@@ -185,8 +177,8 @@ static void broken_files_are_refused_or_right(void **state) {
         else
             refused++;
     }
-    printf("# 400 changed files: %u refused, %u answer rightly\n", refused - 60, answered);
-    assert_true(refused > 100);
+    printf("# 120 changed files: %u refused, %u answer rightly\n", refused - 30, answered);
+    assert_true(refused > 40);
     free(whole.data);
     answer_world_finish(&world);
 }
@@ -195,7 +187,7 @@ static void bad_arguments_are_refused(void **state) {
     (void)state;
     answer_world world;
     answer_world_init(&world, 0, make_grid(0));
-    make_file(&world, "whole.h5");
+    answer_world_write(&world, path_of("whole.h5"));
     pir_cspace *cspace = open_file("whole.h5");
     pir_configuration answer;
     pir_cspace_motion motion;
@@ -215,7 +207,7 @@ static void no_memory_is_a_status(void **state) {
     (void)state;
     answer_world world;
     answer_world_init(&world, 3, make_grid(0));
-    make_file(&world, "whole.h5");
+    answer_world_write(&world, path_of("whole.h5"));
     const pir_pose pose = {{0.1, 0.2, 0.3, 1}, {0.2, 0.4, 0}};
     uint32_t failures = 0;
     for (uint64_t n = 1;; n++) {

@@ -9,19 +9,43 @@
 
 /* --- opening --- */
 
-/* All rotations, where the grid is a list. */
+/* How many rotations of a list are read at a time. */
+#define BLOCK 4096
+
+/* Reads all rotations. Memory grows with what has been read, whatever number of them the file claims. */
+static pir_status read_list(pir_cspace *cspace, pir_report *report, pir_quat **rotation, size_t *room) {
+    const size_t count = (size_t)cspace->info.grid.count;
+    for (size_t done = 0; done < count;) {
+        size_t more = count - done < BLOCK ? count - done : BLOCK;
+        if (done + more > *room) {
+            size_t wanted = 2 * *room > done + more ? 2 * *room : done + more;
+            pir_quat *grown = PIR_RESIZE(&cspace->allocator, *rotation, *room, wanted);
+            if (!grown)
+                return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
+            *rotation = grown;
+            *room = wanted;
+        }
+        pir_status status = pir_store_rotations(cspace->store, done, more, report, *rotation + done);
+        if (status != PIR_OK)
+            return status;
+        done += more;
+    }
+    return PIR_OK;
+}
+
+/* The grid of a list. */
 static pir_status make_list(pir_cspace *cspace, pir_report *report) {
-    uint64_t count = cspace->info.grid.count;
-    if (count > PIR_GRID_LIST_MAX)
+    if (cspace->info.grid.count > PIR_GRID_LIST_MAX)
         return pir_fail(report, PIR_ERR_LIMIT, "slices: grid: more rotations than a list may have");
-    pir_quat *rotation = PIR_NEW(&cspace->allocator, pir_quat, (size_t)count);
-    pir_status status = PIR_ERR_MEMORY;
-    if (rotation)
-        status = pir_store_rotations(cspace->store, 0, (size_t)count, report, rotation);
-    if (status == PIR_OK)
-        status = pir_grid_list(rotation, (size_t)count, 1, &cspace->allocator, &cspace->grid);
-    if (rotation)
-        PIR_FREE(&cspace->allocator, rotation, (size_t)count);
+    pir_quat *rotation = NULL;
+    size_t room = 0, count = (size_t)cspace->info.grid.count;
+    pir_status status = read_list(cspace, report, &rotation, &room);
+    if (status == PIR_OK) {
+        status = pir_grid_list(rotation, count, 1, &cspace->allocator, &cspace->grid);
+        if (status != PIR_OK)
+            pir_fail(report, status, "slices: grid: %s", pir_status_text(status));
+    }
+    PIR_FREE(&cspace->allocator, rotation, room);
     return status;
 }
 

@@ -8,6 +8,9 @@
 /* Fast, and nearly as small as more: records are dense. */
 #define DEFLATE_LEVEL 1
 
+/* The largest chunk that is read, in bytes: HDF5 makes memory for a whole one. */
+#define CHUNK_MOST ((hsize_t)1 << 26)
+
 /* HDF5 keeps state of its own for the process, and is in general not made for threads: one at a time is in it. */
 static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
 
@@ -167,8 +170,33 @@ bool pir_h5_read(hid_t set, pir_h5_type type, const uint64_t *start, const uint6
 
 /* --- opening --- */
 
+/* Whether the name is that of an object of this file: a link may lead to another one. */
+static bool is_own(hid_t in, const char *name) {
+    H5L_info_t info;
+    return H5Lget_info(in, name, &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
+}
+
 hid_t pir_h5_open_group(hid_t in, const char *name) {
-    return H5Gopen2(in, name, H5P_DEFAULT);
+    return is_own(in, name) ? H5Gopen2(in, name, H5P_DEFAULT) : -1;
+}
+
+/* Whether a data set is kept in this file, in chunks that are read one at a time in little memory where in chunks. */
+static bool is_modest(hid_t set, size_t element) {
+    hid_t how = H5Dget_create_plist(set);
+    if (how < 0)
+        return false;
+    hsize_t chunk[H5S_MAX_RANK], bytes = element;
+    int rank = 0;
+    H5D_layout_t layout = H5Pget_layout(how);
+    bool good = layout != H5D_VIRTUAL && layout != H5D_LAYOUT_ERROR && H5Pget_external_count(how) == 0;
+    if (good && layout == H5D_CHUNKED)
+        good = (rank = H5Pget_chunk(how, H5S_MAX_RANK, chunk)) > 0;
+    for (int i = 0; good && i < rank; i++) {
+        good = chunk[i] <= CHUNK_MOST / bytes;
+        bytes *= chunk[i];
+    }
+    H5Pclose(how);
+    return good;
 }
 
 /* Whether a stored type is the one expected: of its class, size and order. */
@@ -178,13 +206,13 @@ static bool is_type(hid_t stored, pir_h5_type type) {
 }
 
 hid_t pir_h5_open_set(hid_t in, const char *name, pir_h5_type type, int rank, uint64_t *ret_size) {
-    hid_t set = H5Dopen2(in, name, H5P_DEFAULT);
+    hid_t set = is_own(in, name) ? H5Dopen2(in, name, H5P_DEFAULT) : -1;
     if (set < 0)
         return -1;
     hid_t stored = H5Dget_type(set), space = H5Dget_space(set);
     hsize_t size[PIR_H5_RANK];
-    bool good = is_type(stored, type) && space >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
-                H5Sget_simple_extent_dims(space, size, NULL) == rank;
+    bool good = is_type(stored, type) && is_modest(set, H5Tget_size(stored)) && space >= 0 &&
+                H5Sget_simple_extent_ndims(space) == rank && H5Sget_simple_extent_dims(space, size, NULL) == rank;
     for (int i = 0; good && i < rank; i++)
         ret_size[i] = size[i];
     if (stored >= 0)

@@ -56,7 +56,7 @@ bool pir_h5_extend(hid_t set, const pir_h5_shape *shape, uint64_t length);
 
 /*
  * Opens a data set that must have numbers of this type and `rank` dimensions; their sizes go to ret_size. -1 where it
- * is missing or another.
+ * is missing or another, where it stands in another file, or where one chunk of it would take more than 64 MiB.
  */
 hid_t pir_h5_open_set(hid_t in, const char *name, pir_h5_type type, int rank, uint64_t *ret_size);
 
