@@ -13,6 +13,8 @@
  * Threads: one object of this header belongs to one thread at a time, but a job makes threads of its own.
  *
  * Without HDF5 in the build, calls that read or write files return PIR_ERR_UNSUPPORTED.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_CSPACE_H
 #define PIROUETTE_CSPACE_H

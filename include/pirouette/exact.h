@@ -64,14 +64,16 @@ PIR_API pir_status pir_sum_set_scale_exact(pir_sum *sum, pir_operand operand, co
 /**
  * Volume, centroid and inertia as pir_polytope_mass has them, exactly, into initialised rationals.
  *
- * ret_inertia  about the centroid: xx, yy, zz, yz, xz, xy.
+ * ret_volume    one rational.
+ * ret_centroid  three: x, y, z.
+ * ret_inertia   six, about the centroid: xx, yy, zz, yz, xz, xy.
  *
  * Cost: O(n), in exact arithmetic.
  *
  * Errors: PIR_ERR_ARGUMENT.
  */
-PIR_API pir_status pir_polytope_mass_exact(const pir_polytope *polytope, mpq_t ret_volume, mpq_t ret_centroid[3],
-                                           mpq_t ret_inertia[6]);
+PIR_API pir_status pir_polytope_mass_exact(const pir_polytope *polytope, mpq_t ret_volume, mpq_t *ret_centroid,
+                                           mpq_t *ret_inertia);
 
 /**
  * The exact volume of a solid, into an initialised rational.

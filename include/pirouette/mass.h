@@ -14,7 +14,7 @@
  *
  * Threads: polytopes are read, never changed; any thread.
  *
- * A call that returns no status takes O(1).
+ * A call that returns no status takes O(1) unless its comment says otherwise.
  */
 #ifndef PIROUETTE_MASS_H
 #define PIROUETTE_MASS_H
@@ -77,8 +77,8 @@ PIR_API pir_status pir_polytope_translate(const pir_polytope *polytope, pir_vec3
 PIR_API pir_status pir_polytope_transform(const pir_polytope *polytope, pir_pose pose, pir_polytope **ret_polytope);
 
 /**
- * The polytope moved so that its centroid is at the origin within the rounding of one double, and by how much: exactly,
- * the polytope is the result moved by *ret_offset.
+ * The polytope moved so that its centroid is at the origin within the rounding of one double, as *ret_polytope, and by
+ * how much: exactly, the polytope is the result moved by *ret_offset.
  *
  * Cost: as of pir_polytope_translate.
  *

@@ -11,7 +11,7 @@
  *
  * Threads: plain values; any thread.
  *
- * A call that returns no status takes O(1).
+ * A call that returns no status takes O(1) unless its comment says otherwise.
  */
 #ifndef PIROUETTE_POSE_H
 #define PIROUETTE_POSE_H
@@ -37,16 +37,16 @@ PIR_API pir_pose pir_pose_compose(pir_pose outer, pir_pose inner);
 /** The pose that undoes `pose`. */
 PIR_API pir_pose pir_pose_invert(pir_pose pose);
 
-/** Where `point` of the body stands in the world. */
+/** Where `point` of the body at `pose` stands in the world. */
 PIR_API pir_vec3 pir_pose_apply(pir_pose pose, pir_vec3 point);
 
-/** Which point of the body stands at `point` of the world. */
+/** Which point of the body at `pose` stands at `point` of the world. */
 PIR_API pir_vec3 pir_pose_apply_inverse(pir_pose pose, pir_vec3 point);
 
-/** A direction of the body, turned into the world: without the translation. */
+/** A direction of the body at `pose`, turned into the world: without the translation. */
 PIR_API pir_vec3 pir_pose_rotate(pir_pose pose, pir_vec3 direction);
 
-/** A direction of the world, as the body sees it. */
+/** A direction of the world, as the body at `pose` sees it. */
 PIR_API pir_vec3 pir_pose_rotate_inverse(pir_pose pose, pir_vec3 direction);
 
 /**

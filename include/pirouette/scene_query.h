@@ -84,7 +84,7 @@ typedef struct pir_scene_near {
  *
  * shape               borrowed for the call.
  * cutoff              a distance, HUGE_VAL for none: then all boxes are looked at.
- * capacity, ret_near  how many at most, and room for them.
+ * capacity, ret_near  how many at most, and room for them; *ret_count of them are filled.
  *
  * Cost: that of a query of a scene, and O(capacity) for each answer.
  *
@@ -97,7 +97,7 @@ PIR_API pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *sh
  * The closest pairs of pieces of different bodies that may meet, in the order of pir_scene_nearest, body_p < body_q.
  *
  * cutoff              a distance, finite or HUGE_VAL.
- * capacity, ret_near  how many at most, and room for them.
+ * capacity, ret_near  how many at most, and room for them; *ret_count of them are filled.
  *
  * Cost: that of a query of a scene for each piece, and O(capacity) for each answer.
  *

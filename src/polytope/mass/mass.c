@@ -172,8 +172,7 @@ static void set_inertia(moments *m, const mpq_t fifth, mpq_t inertia[6]) {
     mpq_clears(spread[0], spread[1], spread[2], NULL);
 }
 
-pir_status pir_polytope_mass_exact(const pir_polytope *p, mpq_t ret_volume, mpq_t ret_centroid[3],
-                                   mpq_t ret_inertia[6]) {
+pir_status pir_polytope_mass_exact(const pir_polytope *p, mpq_t ret_volume, mpq_t *ret_centroid, mpq_t *ret_inertia) {
     if (!p || !ret_volume || !ret_centroid || !ret_inertia)
         return PIR_ERR_ARGUMENT;
     moments m = {.across = 0};
