@@ -16,7 +16,7 @@ void solid_add_facet(solid_facets *facets, const pir_vec3 *corner, uint32_t coun
 }
 
 void solid_add_prism(solid_facets *facets, const double (*corner)[2], uint32_t count, double height) {
-    pir_vec3 bottom[64], top[64];
+    pir_vec3 bottom[64] = {{0, 0, 0}}, top[64] = {{0, 0, 0}};
     for (uint32_t i = 0; i < count; i++) {
         top[i] = (pir_vec3){corner[i][0], corner[i][1], height};
         bottom[count - 1 - i] = (pir_vec3){corner[i][0], corner[i][1], 0};
