@@ -30,7 +30,9 @@ static int nearest(const grown *tree, const spot *to) {
     return best;
 }
 
-/* Grows from the nearest spot towards `to`: 1 where it is reached, 0 after one stride, −1 where the way is not free. */
+/*
+ * Grows from the nearest spot towards `to`: 1 where it is reached, 0 after one stride, −1 where the way is not free.
+ */
 static int grow(world *place, grown *tree, const spot *to) {
     int from = nearest(tree, to);
     double far = spot_distance(&tree->at[from], to);

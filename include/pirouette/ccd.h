@@ -67,8 +67,8 @@ typedef struct pir_support_body {
 
 /**
  * Support functions of the form of ccd_support_fn of a double-precision libccd: `object` is a pir_support_body, or a
- * pir_sum, whether it keeps R·P ⊕ Q or the difference; `direction` and `ret_point` point to three doubles. O(√n) steps
- * where the last climb is no help.
+ * pir_sum, whether it keeps R·P ⊕ Q or the difference; `direction` and `ret_point` point to three doubles. O(√n)
+ * steps where the last climb is no help.
  */
 PIR_API void pir_support_body_ccd(const void *object, const double *direction, double *ret_point);
 PIR_API void pir_support_sum_ccd(const void *object, const double *direction, double *ret_point);

@@ -12,9 +12,10 @@
  * Everything combinatorial is exact, at the exact rotations M(q)/|q|² and without perturbation: arcs that overlap,
  * equal normals, normals on arcs, on cube edges and cube corners are ordinary.
  *
- * Maps are numbered 0 to 5 for the cube faces −x, −y, −z, +x, +y, +z. Vertices, halfedges and faces have numbers that
- * count through all six maps; those of one map are a range. Halfedges 2e and 2e + 1 are twins. Each map's first face is
- * the outer one, beyond its square. A direction on a cube edge is a vertex of two maps, one on a cube corner of three.
+ * Maps are numbered 0 to 5 for the cube faces −x, −y, −z, +x, +y, +z. Vertices, halfedges and faces have numbers
+ * that count through all six maps; those of one map are a range. Halfedges 2e and 2e + 1 are twins. Each map's first
+ * face is the outer one, beyond its square. A direction on a cube edge is a vertex of two maps, one on a cube corner of
+ * three.
  *
  * A map is immutable; threads may read one together.
  *

@@ -4,9 +4,9 @@
  * piece, made by following the pairing from rotation to rotation, kept in one HDF5 file, read and asked.
  *
  * Robot and obstacles are lists of convex pieces. A *piece pair* is one of each; it is written (robot, obstacle). A
- * *slice* of a piece pair is the pairing of the difference Q ⊕ (−R·P) at one rotation of the grid, P the robot's piece
- * and Q the obstacle's: the translations at which the two pieces overlap. The file holds changes from slice to slice
- * with key slices at fixed numbers; docs/slices.md is its specification.
+ * *slice* of a piece pair is the pairing of the difference Q ⊕ (−R·P) at one rotation of the grid, P the robot's
+ * piece and Q the obstacle's: the translations at which the two pieces overlap. The file holds changes from slice to
+ * slice with key slices at fixed numbers; docs/slices.md is its specification.
  *
  * Frame: that of the obstacles; the robot turns about its own origin. Unit of length: that of the models.
  *

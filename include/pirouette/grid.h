@@ -3,8 +3,8 @@
  * Grids of rotations, in an order in which successive rotations are near each other.
  *
  * Rotations are numbered 0, 1, … in the order of visiting, a path of small turns through the grid. They are made with
- * +, −, ·, / and √ of doubles alone, so that a grid has the same bits on every machine. A grid about an axis and one of
- * all rotations keep no rotations: any one is made from its number.
+ * +, −, ·, / and √ of doubles alone, so that a grid has the same bits on every machine. A grid about an axis and
+ * one of all rotations keep no rotations: any one is made from its number.
  *
  * Threads may read one grid at the same time.
  *
@@ -63,8 +63,8 @@ PIR_API pir_status pir_grid_axis(pir_vec3 axis, uint64_t steps, const pir_alloca
 
 /**
  * Makes the grid of all rotations (Yershova, Jain, LaValle and Mitchell, Generating Uniform Incremental Grids on SO(3)
- * Using the Hopf Fibration, Int. J. Robotics Research 29(7), 2010): over each of the 12·4^level pixels of a HEALPix map
- * (Górski et al., Astrophysical J. 622, 2005) a circle of 6·2^level rotations.
+ * Using the Hopf Fibration, Int. J. Robotics Research 29(7), 2010): over each of the 12·4^level pixels of a HEALPix
+ * map (Górski et al., Astrophysical J. 622, 2005) a circle of 6·2^level rotations.
  *
  * The path runs once round the circle of a pixel, in equal turns about the axis x of the frame that does not turn. It
  * then goes to the nearest rotation over the next pixel. Pixels follow a Hilbert curve, so that each is a neighbour of

@@ -70,8 +70,8 @@ PIR_API pir_status pir_polytope_create(const pir_vec3 *points, size_t count, con
 PIR_API double pir_polytope_merge_bound(const pir_polytope *polytope);
 
 /**
- * Gives −P, the reflection of `polytope` through the origin, made with the same allocator. Vertex i is minus vertex i.
- * The first call makes it, in O(n), and `polytope` keeps it: later ones cost O(1) and no memory, and give the same
+ * Gives −P, the reflection of `polytope` through the origin, made with the same allocator. Vertex i is minus vertex
+ * i. The first call makes it, in O(n), and `polytope` keeps it: later ones cost O(1) and no memory, and give the same
  * object. The caller releases each. Any threads may call at once, where the allocator allows it.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.

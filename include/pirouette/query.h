@@ -2,8 +2,8 @@
 /**
  * Placement queries. P is rotated as a sum says and moved by a translation; Q does not move.
  *
- * A query object answers from a tracked difference Q ⊕ (−R·P) (pir_sum_options.difference): P moved by t overlaps Q
- * exactly when t lies in the difference. It follows the sum: rotate the sum, then ask again.
+ * A query object answers from a tracked difference Q ⊕ (−R·P) (pir_sum_options.difference): P moved by t overlaps
+ * Q exactly when t lies in the difference. It follows the sum: rotate the sum, then ask again.
  *
  * Touching, in every call. The state is PIR_BOUNDARY when t lies exactly on the boundary of the difference: the
  * bodies share a point, but no interior points. It is PIR_INSIDE when all translations in some ball around t overlap,

@@ -185,8 +185,8 @@ typedef struct pir_solid_sum_info {
  *
  * A passage that Q fits through exactly is filled: the sum of closed bodies is closed.
  *
- * Cost: for p and q pieces with few facets each, O(p·q) to add their pairs, and for c candidates O(c·k), where k pairs
- * are near a candidate; O(n·m) to find the candidates of solids with n and m edges.
+ * Cost: for p and q pieces with few facets each, O(p·q) to add their pairs, and for c candidates O(c·k), where k
+ * pairs are near a candidate; O(n·m) to find the candidates of solids with n and m edges.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (options->solid.memory),
  * PIR_ERR_MEMORY.

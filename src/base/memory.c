@@ -2,8 +2,8 @@
 /*
  * Memory through a pir_allocator.
  *
- * Invariant: a block's size in bytes is max(count, 1) · size, computed the same way when it is made, resized and freed,
- * so an allocator that counts bytes gets the same number each time.
+ * Invariant: a block's size in bytes is max(count, 1) · size, computed the same way when it is made, resized and
+ * freed, so an allocator that counts bytes gets the same number each time.
  */
 #include "base/memory.h"
 

@@ -24,8 +24,8 @@
  *     the outer face, face_start[m], on its right.
  *   - next is a permutation; following it walks a face's boundary with the face on the left. Every face but the outer
  *     one is convex.
- *   - no vertex off the rim has an angle of 180° or more: all edges that meet there span the plane. No two neighbouring
- *     edges at a vertex are collinear, but for those of the rim.
+ *   - no vertex off the rim has an angle of 180° or more: all edges that meet there span the plane. No two
+ *     neighbouring edges at a vertex are collinear, but for those of the rim.
  *   - `copy` leads from a rim vertex to the same direction in the map beyond the side that it starts, the next one
  *     clockwise about it: pairs on cube edges, cyclic triplets at corners; from any other vertex to itself. Two maps
  *     have the same points on their common side.

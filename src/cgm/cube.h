@@ -3,11 +3,12 @@
  * The cube that Gaussian maps are projected on, as numbers: six maps, four sides and corners each, six planes through
  * the origin.
  *
- * Map m stands for the cube face at sign·axis: −x, −y, −z, +x, +y, +z for m = 0 to 5. Its axes X and Y are those of
- * Fogel and Halperin's Table 1, so that X, Y and the outward normal are right-handed. Corners are numbered in
+ * Map m stands for the cube face at sign·axis: −x, −y, −z, +x, +y, +z for m = 0 to 5. Its axes X and Y are those
+ * of Fogel and Halperin's Table 1, so that X, Y and the outward normal are right-handed. Corners are numbered in
  * lexicographic order of (X, Y); sides go counter-clockwise from corner 0: bottom, right, top, left.
  *
- * Each side lies in one of the six planes x = ±y, y = ±z, z = ±x. As lines of the projected sphere they are the vectors
+ * Each side lies in one of the six planes x = ±y, y = ±z, z = ±x. As lines of the projected sphere they are the
+ * vectors
  *
  *     plane 2k: e_k − e_(k+1),   plane 2k + 1: e_k + e_(k+1)
  *

@@ -3,10 +3,10 @@
  * Where a point is (Fogel and Halperin, section 4).
  *
  * With c strictly inside and s the point asked about, the ray from c through s stabs the facet with the greatest a/b,
- * where for a normal n and a point x of its facet a = n·(s − c) and b = n·(x − c) > 0. That is a linear function on the
- * polar polytope about c, the vertices and edges of which are the real vertices and real edges of the map: a walk that
- * goes on as long as a neighbour is strictly better ends at the greatest. Then s is outside, on the boundary or inside
- * as n·(s − x) is positive, zero or negative.
+ * where for a normal n and a point x of its facet a = n·(s − c) and b = n·(x − c) > 0. That is a linear function
+ * on the polar polytope about c, the vertices and edges of which are the real vertices and real edges of the map: a
+ * walk that goes on as long as a neighbour is strictly better ends at the greatest. Then s is outside, on the boundary
+ * or inside as n·(s − x) is positive, zero or negative.
  *
  * Without such a c every vertex of the maps is checked, the artificial ones too. A body, even a flat one, is what lies
  * below its support planes in all those directions: the ends of arcs on cube edges and the corners of the cube bound
@@ -67,7 +67,9 @@ static pir_int3 exact_point(pir_vec3 v, int low, pir_limbs *scratch) {
     return p;
 }
 
-/* n·(x − p), for the normal n of v and a point x of its facet, times the positive 2^-low · D of places; in scratch. */
+/*
+ * n·(x − p), for the normal n of v and a point x of its facet, times the positive 2^-low · D of places; in scratch.
+ */
 static pir_int exact_height(struct pir_cgm_locator *l, uint32_t v, const pir_int3 *p, int low) {
     pir_limbs *scratch = &l->scratch;
     uint32_t limbs = l->places.stride + POINT_LIMBS + pir_int_length(&l->places.scale.den) + 2;

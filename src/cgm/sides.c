@@ -4,9 +4,9 @@
  *
  * Errors, with u = 2^-53. A polytope's unit vectors are within 8u (polytope.h); rotated by a matrix within 31u
  * (rotation.h), which rounds by 5.3u (sign.h), within 45u. A cube plane's (±1, ±1, 0)/√2 is within 2u. A meeting
- * direction v = a × b, |a|, |b| ≤ 1 + 2^-40, is off by e = |δa| + |δb| + 5u before it is made a unit vector, which then
- * is within 2e/|v| + 4u of the true one as long as e < |v|/2. A dot product of unit vectors rounds by less than 4u, a
- * triple product by less than 12u.
+ * direction v = a × b, |a|, |b| ≤ 1 + 2^-40, is off by e = |δa| + |δb| + 5u before it is made a unit vector, which
+ * then is within 2e/|v| + 4u of the true one as long as e < |v|/2. A dot product of unit vectors rounds by less than
+ * 4u, a triple product by less than 12u.
  */
 #include "cgm/sides.h"
 

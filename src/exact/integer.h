@@ -10,8 +10,8 @@
  * Every call that writes limbs, and every reservation from scratch, first compares what it needs with the room there
  * is, in every build. Where a derivation is wrong the process ends with a line on stderr, and nothing is overwritten.
  *
- * Invariants: the top limb, limb[|size| − 1], is not zero; zero has size 0; |size| ≤ room, unless room is 0: such an
- * integer is a view, to be read only.
+ * Invariants: the top limb, limb[|size| − 1], is not zero; zero has size 0; |size| ≤ room, unless room is 0: such
+ * an integer is a view, to be read only.
  */
 #ifndef PIR_EXACT_INTEGER_H
 #define PIR_EXACT_INTEGER_H

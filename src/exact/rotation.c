@@ -97,9 +97,9 @@ static struct halves split(const double c[4]) {
 }
 
 /*
- * The product conj(a)·b: for each component four products, in rows, with what rounding leaves of them and of their sums
- * added up beside (Ogita, Rump and Oishi, SIAM J. Scientific Computing 26, 2005). Off by u of itself and by some u² of
- * |a||b|. x: aw bx − ax bw − ay bz + az by, and so on round; w: aw bw + ax bx + ay by + az bz.
+ * The product conj(a)·b: for each component four products, in rows, with what rounding leaves of them and of their
+ * sums added up beside (Ogita, Rump and Oishi, SIAM J. Scientific Computing 26, 2005). Off by u of itself and by some
+ * u² of |a||b|. x: aw bx − ax bw − ay bz + az by, and so on round; w: aw bw + ax bx + ay by + az bz.
  */
 static void multiply_conjugate(const double a[4], const double b[4], double ret_product[4], double ret_rest[4]) {
     static const int first[4][4] = {{3, 3, 3, 3}, {0, 1, 2, 1}, {1, 2, 0, 2}, {2, 0, 1, 0}};
@@ -285,9 +285,9 @@ static double chord(pir_quat a, pir_quat b, double sign) {
 
 double pir_rotation_angle_bound(pir_quat a, pir_quat b) {
     /*
-     * Unit quaternions at distance c (up to sign) turn by θ = 4 asin(c/2), c ≤ √2. (asin(y) − y)/y³ rises with y and is
-     * below 0.2215 at y = √2/2, so θ ≤ 4 (y + 0.2215 y³). Rounding: each unit quaternion is off by at most 8u, the
-     * chord so by 16u and, relatively, by 5u; 2^-48 = 32u on c and 1 + 2^-48 on the result hold all of it.
+     * Unit quaternions at distance c (up to sign) turn by θ = 4 asin(c/2), c ≤ √2. (asin(y) − y)/y³ rises with
+     * y and is below 0.2215 at y = √2/2, so θ ≤ 4 (y + 0.2215 y³). Rounding: each unit quaternion is off by at
+     * most 8u, the chord so by 16u and, relatively, by 5u; 2^-48 = 32u on c and 1 + 2^-48 on the result hold all of it.
      */
     double y = 0.5 * (chord(a, b, a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1 : 1) + 0x1p-48);
     return 4 * (y + 0.2215 * (y * y * y)) * (1 + 0x1p-48);

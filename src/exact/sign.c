@@ -7,14 +7,15 @@
  *     A_kl = a_k b_l + a_l b_k − δ_kl d,   A_kw = c_k,   A_ww = d         (k, l among x, y, z)
  *     (Aq)_k = a_k (b·v) + b_k (a·v) − d v_k + c_k w,   (Aq)_w = c·v + d w.
  *
- * Perturbed, s(q + ε) = s + 2 (Aq)·ε + εᵀAε. Each ε is smaller than every power of the one before, so monomials rank by
- * the power of ε₄ first, then of ε₃, and so on, the lower the greater:
+ * Perturbed, s(q + ε) = s + 2 (Aq)·ε + εᵀAε. Each ε is smaller than every power of the one before, so monomials
+ * rank by the power of ε₄ first, then of ε₃, and so on, the lower the greater:
  *
- *     1, ε₁, ε₁², ε₂, ε₁ε₂, ε₂², ε₃, ε₁ε₃, ε₂ε₃, ε₃², ε₄, ε₁ε₄, ε₂ε₄, ε₃ε₄, ε₄²
+ *     1, ε₁, ε₁², ε₂, ε₁ε₂, ε₂², ε₃, ε₁ε₃, ε₂ε₃, ε₃², ε₄, ε₁ε₄,
+ *     ε₂ε₄, ε₃ε₄, ε₄²
  *
- * and the first coefficient that is not zero gives the sign. One without ε₄ is not: were A_kl = 0 for all k and l among
- * x, y, z, then a bᵀ + b aᵀ = d I, of rank 2 at most, so that d = 0; then a_k b_l = −a_l b_k, and a_k b_k = 0, whence a
- * = 0 or b = 0.
+ * and the first coefficient that is not zero gives the sign. One without ε₄ is not: were A_kl = 0 for all k and l
+ * among x, y, z, then a bᵀ + b aᵀ = d I, of rank 2 at most, so that d = 0; then a_k b_l = −a_l b_k, and a_k b_k =
+ * 0, whence a = 0 or b = 0.
  *
  * In most ties of real scenes every single product in s is zero: a body that turns on a table has two components of q
  * zero, and normals and edges along axes. Doubles settle these first. Then a_k b_k = 0 for every k; hence d = 0, A_kk =

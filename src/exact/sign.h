@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The sign of s(a, b) = (M(q)·a)·b for a vector a of P and b of Q. Every combinatorial question about a sum is the sign
- * of such a number.
+ * The sign of s(a, b) = (M(q)·a)·b for a vector a of P and b of Q. Every combinatorial question about a sum is the
+ * sign of such a number.
  *
  * Three stages, each counted: a double filter on unit vectors, exact integers, and for a tie, s = 0, the symbolic
- * perturbation q + (ε₁, ε₂, ε₃, ε₄), ε₁ ≫ ε₂ ≫ ε₃ ≫ ε₄ ≫ 0, which gives every pair of non-zero vectors a sign.
+ * perturbation q + (ε₁, ε₂, ε₃, ε₄), ε₁ ≫ ε₂ ≫ ε₃ ≫ ε₄ ≫ 0, which gives every pair of
+ * non-zero vectors a sign.
  *
  * Reversing a or b reverses the sign, ties included: the perturbed s is linear in both.
  */
@@ -21,9 +22,9 @@
  *
  *     |fl((r·â)·b̂) − (R·a)·b/(|a||b|)| < 64u = 2^-47:
  *
- * r·â is off by 31u from r, 8u from â, and 5.3u from rounding (three products of a row of norm 1 with â, 3.01u a row,
- * over three rows); b̂ brings 8u, the last dot product 3.01u; together below 55.4u, and terms of order u² are far below
- * the rest.
+ * r·â is off by 31u from r, 8u from â, and 5.3u from rounding (three products of a row of norm 1 with â, 3.01u a
+ * row, over three rows); b̂ brings 8u, the last dot product 3.01u; together below 55.4u, and terms of order u² are
+ * far below the rest.
  */
 #define PIR_SIGN_BOUND 0x1p-47
 

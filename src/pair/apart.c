@@ -2,10 +2,11 @@
 /*
  * Apart by more than the cutoff, without the nearest point.
  *
- * Along a unit vector n, x is n·x − h(n) from D at least, where h is the sum of both bodies' supports. A climb along n
- * ends at a vertex v of a body where no edge rises by more than ε, which is the rounding of a slope. All of the body is
- * in the cone of these edges. Where all of them fall by the sine c along some other direction, a point at the distance
- * r from v is v and a sum of edges of at most r / c in all. So the body rises above v by ε · 2 · size / c at most.
+ * Along a unit vector n, x is n·x − h(n) from D at least, where h is the sum of both bodies' supports. A climb along
+ * n ends at a vertex v of a body where no edge rises by more than ε, which is the rounding of a slope. All of the body
+ * is in the cone of these edges. Where all of them fall by the sine c along some other direction, a point at the
+ * distance r from v is v and a sum of edges of at most r / c in all. So the body rises above v by ε · 2 · size / c
+ * at most.
  */
 #include "pair/apart.h"
 

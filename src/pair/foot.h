@@ -5,8 +5,8 @@
  * Let F be a facet of D with normal n and slack s at x, y = x + s n the foot of x, and let F hold the disc of radius m
  * about y. Let z be a point of D, k below F, and L at least its distance from y. Let G be another facet of D with
  * a normal at the angle θ from n, and S = max(s, 0). D is within the plane of G, so the disc and z are, and the
- * slack of G at y is at least m sin θ and at least k |cos θ| − L sin θ where cos θ < 0. At x it is that, plus s cos
- * θ. So it is above s
+ * slack of G at y is at least m sin θ and at least k |cos θ| − L sin θ where cos θ < 0. At x it is that, plus s
+ * cos θ. So it is above s
  *
  *   - for θ ≤ 90°, where m > S: it is at least m sin θ + s cos θ, and 1 − cos θ ≤ sin θ;
  *   - for θ > 90°, where sin θ ≥ σ = 2 S / m: it is at least 2 S − S;

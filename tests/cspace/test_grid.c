@@ -92,8 +92,8 @@ static void the_hopf_grid_is_the_published_one(void **state) {
 }
 
 /*
- * Balls of any radius α hold the share (α − sin α)/π of all rotations. Cells of equal volume let a ball's count be off
- * by those that its surface cuts: the greatest deviation falls as the surface over the volume, 1/2^level.
+ * Balls of any radius α hold the share (α − sin α)/π of all rotations. Cells of equal volume let a ball's count
+ * be off by those that its surface cuts: the greatest deviation falls as the surface over the volume, 1/2^level.
  */
 static void the_hopf_grid_is_equidistributed(void **state) {
     (void)state;

@@ -14,8 +14,8 @@ static uint32_t bits_of(mpz_t *z, size_t count) {
 
 void oracle_perturbed_quat_init(oracle_quat to, pir_quat q, uint32_t bits) {
     oracle_quat_init(to, q);
-    // The components are integers now: coefficients are integers below 2^(2·bits + 2·span + 8), and neighbours in rank
-    // differ by ε at least.
+    // The components are integers now: coefficients are integers below 2^(2·bits + 2·span + 8), and neighbours in
+    // rank differ by ε at least.
     uint32_t k = 2 * bits + 2 * bits_of(to, 4) + 16;
     mpz_t one;
     mpz_init_set_ui(one, 1);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Ties settled for real: the rotation q + (ε, ε³, ε⁹, ε²⁷) with an ε so small that its powers rank like the symbolic
- * ones do. That is the perturbation that the library promises, carried out in (large) integers instead of symbols.
+ * Ties settled for real: the rotation q + (ε, ε³, ε⁹, ε²⁷) with an ε so small that its powers rank like the
+ * symbolic ones do. That is the perturbation that the library promises, carried out in (large) integers instead of
+ * symbols.
  */
 #ifndef PIR_ORACLE_PERTURBED_H
 #define PIR_ORACLE_PERTURBED_H

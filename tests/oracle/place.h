@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The oracle of placements: P, turned by a quaternion and moved by t, against Q, in exact arithmetic. The difference Q
- * ⊕ (−R·P) is made twice: as half-spaces, from the facets of both bodies and all pairs of their edges (place_make.c),
- * and as the hull of all differences of vertices (place_nearest.c). Nothing of the library is used but vertices as
- * doubles.
+ * ⊕ (−R·P) is made twice: as half-spaces, from the facets of both bodies and all pairs of their edges
+ * (place_make.c), and as the hull of all differences of vertices (place_nearest.c). Nothing of the library is used but
+ * vertices as doubles.
  *
  * Integers: a rotated body has coordinates in units of 2^unit / |q|². A pose has units smaller by a whole factor,
  * `grain`, to hold the doubles of its translation and direction too, or a rational point.
@@ -38,7 +38,7 @@ typedef struct oracle_place {
     mpz_t square; /* |q|² */
     long unit;    /* of both bodies */
     oracle_vec *a,
-        *b; /* vertices of P, rotated, and of Q, less the first; the difference is all b − a and first_q − first_p */
+        *b; /* vertices of P, rotated, and of Q, less the first; the difference: all b − a and first_q − first_p */
     oracle_vec first_p, first_q; /* the first vertices */
     oracle_set *only_p, *only_q; /* the sets of these alone */
     double (*near_a)[3], (*near_b)[3];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See place.h: the difference D as half-spaces. A facet of D with outward normal n is F_Q(n) − F_P(−n), the difference
- * of the sets of vertices that lie farthest. One of them is a facet, or both hold edges that are not parallel: so n is
- * that of a facet of −R·P or Q, or ± the cross product of two edges. All are tried.
+ * See place.h: the difference D as half-spaces. A facet of D with outward normal n is F_Q(n) − F_P(−n), the
+ * difference of the sets of vertices that lie farthest. One of them is a facet, or both hold edges that are not
+ * parallel: so n is that of a facet of −R·P or Q, or ± the cross product of two edges. All are tried.
  */
 #include "oracle/place.h"
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Blocks have count·size bytes whenever they are asked for, resized and given back; what does not fit a size_t is never
-   asked for. Reports hold one line. */
+/*
+ * Blocks have count·size bytes whenever they are asked for, resized and given back; what does not fit a size_t is
+ * never asked for. Reports hold one line.
+ */
 #include "support/test.h"
 
 #include <stdlib.h>

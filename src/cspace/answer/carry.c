@@ -5,8 +5,8 @@
  *
  *     |t − b − λ(s − b)| + e ≤ (1 − λ)·r,
  *
- * and e, a bound on how far t, b and s are off, keeps this true for the exact points: an s off by e moves the ball of λ
- * by λ·e. Any λ will do; the best is found by setting a derivative to 0.
+ * and e, a bound on how far t, b and s are off, keeps this true for the exact points: an s off by e moves the ball of
+ * λ by λ·e. Any λ will do; the best is found by setting a derivative to 0.
  *
  * Points s are corners of the sum of the two faces, and the points of its triangles where the ray from b through t
  * meets their planes, brought into the triangle: a mean of corners with weights that are not negative, wherever

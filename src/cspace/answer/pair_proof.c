@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * One pair of pieces, one slice. In words of turned.h: at the slice the query tells how far t' is from D(B), outside or
- * inside. Outside by more than δ, some direction separates t' from D(B) by that much, hence t from D(A). Inside by more
- * than δ, every direction leaves that much room, and still some at A. Distances of queries are within 1e-12 of the
- * exact ones, relative to the bodies and the answer; the state is exact.
+ * inside. Outside by more than δ, some direction separates t' from D(B) by that much, hence t from D(A). Inside by
+ * more than δ, every direction leaves that much room, and still some at A. Distances of queries are within 1e-12 of
+ * the exact ones, relative to the bodies and the answer; the state is exact.
  */
 #include "cspace/answer/pair_proof.h"
 

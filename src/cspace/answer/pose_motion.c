@@ -3,8 +3,8 @@
  * Motions, halved until each part is proven.
  *
  * At time s the robot is turned from the first rotation towards the second by s of the angle φ between them, the
- * shorter way, and its translation is (1 − s)·t₀ + s·t₁. A stretch of length h about its middle: no point of a piece of
- * reach ρ is farther from its place at the middle than
+ * shorter way, and its translation is (1 − s)·t₀ + s·t₁. A stretch of length h about its middle: no point of a
+ * piece of reach ρ is farther from its place at the middle than
  *
  *     h/2·|t₁ − t₀| + h/2·φ·ρ.
  *

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Multiples of each other: a_i·b_k = a_k·b_i for a component k of b that is not 0 and all others. A product of doubles
- * has a mantissa of at most 106 bits and a power of two, and is compared as such.
+ * Multiples of each other: a_i·b_k = a_k·b_i for a component k of b that is not 0 and all others. A product of
+ * doubles has a mantissa of at most 106 bits and a power of two, and is compared as such.
  */
 #include "cspace/answer/same_rotation.h"
 

@@ -3,12 +3,12 @@
  * A pose beside a slice's rotation.
  *
  * A is the pose's rotation and t its translation, B the slice's rotation. P is moved so that its centre c stays where
- * the pose has it: with t' = t + (A − B)c a point v of P is at A·v + t in the pose and at B·v + t' beside the slice,
- * and the two places are |(A − B)(v − c)| apart. That is no more than δ, the turn from B to A times the radius of P's
- * ball or, closer, the most that a vertex moves.
+ * the pose has it: with t' = t + (A − B)c a point v of P is at A·v + t in the pose and at B·v + t' beside the
+ * slice, and the two places are |(A − B)(v − c)| apart. That is no more than δ, the turn from B to A times the
+ * radius of P's ball or, closer, the most that a vertex moves.
  *
- * In the space of translations D(R) = Q ⊕ (−R·P): the difference at the pose's rotation, moved by (A − B)c, and the one
- * at the slice's differ by at most δ in every direction.
+ * In the space of translations D(R) = Q ⊕ (−R·P): the difference at the pose's rotation, moved by (A − B)c, and
+ * the one at the slice's differ by at most δ in every direction.
  */
 #ifndef PIR_CSPACE_ANSWER_TURNED_H
 #define PIR_CSPACE_ANSWER_TURNED_H

@@ -9,8 +9,8 @@
 #include <pirouette/base.h>
 
 /*
- * Writes the numbers 0 … count − 1 of unit quaternions to ret_order in the order of a path. False when out of memory;
- * ret_order is then undefined. O(n log n) expected.
+ * Writes the numbers 0 … count − 1 of unit quaternions to ret_order in the order of a path. False when out of
+ * memory; ret_order is then undefined. O(n log n) expected.
  */
 bool pir_chain_make(const pir_quat *unit, uint32_t count, const pir_allocator *allocator, uint32_t *ret_order);
 

@@ -19,8 +19,8 @@ pir_circle pir_circle_of(uint32_t level, pir_pixel pixel);
 pir_quat pir_circle_rotation(const pir_circle *circle, uint32_t around, uint32_t k);
 
 /*
- * The complex number h such that the product of the unit quaternion with the one at ψ is the real part of e^{−iψ/2}·h.
- * Its magnitude is the greatest closeness on the circle.
+ * The complex number h such that the product of the unit quaternion with the one at ψ is the real part of
+ * e^{−iψ/2}·h. Its magnitude is the greatest closeness on the circle.
  */
 pir_circle_point pir_circle_product(const pir_circle *circle, pir_quat unit);
 

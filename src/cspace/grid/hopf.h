@@ -7,7 +7,7 @@
  * e^{iψ/2}·(a, b), so they make a circle, and go along it by turns about the axis x of the frame that does not turn.
  * The grid has, over each pixel's centre (θ, φ), the rotations
  *
- *     a = cos(θ/2)·e^{iψ/2},      b = sin(θ/2)·e^{i(φ + ψ/2)},      ψ = (k + ½)/m of a full turn, k = 0 … m − 1,
+ *     a = cos(θ/2)·e^{iψ/2},   b = sin(θ/2)·e^{i(φ + ψ/2)},   ψ = (k + ½)/m of a full turn, k = 0 … m − 1,
  *
  * with m = 6·2^level. The Hopf map lengthens no way: two rotations differ by at least the angle between their points.
  *

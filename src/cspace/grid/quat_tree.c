@@ -90,7 +90,8 @@ static void descend(const struct search *search, uint32_t from, uint32_t to, uin
             descend(search, from, middle, depth);
         else
             descend(search, middle + 1, to, depth);
-        // chords on the sphere: |q − r|² = 2 − 2 q·r, no less than the distance from the plane that divides, squared
+        // chords on the sphere: |q − r|² = 2 − 2 q·r, no less than the distance from the plane that divides,
+        // squared
         if (beyond * beyond > 2 - 2 * pir_near_least(search->near) + 1e-12)
             return;
         if (beyond < 0)

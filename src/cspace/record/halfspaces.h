@@ -4,10 +4,10 @@
  *
  * A normal in doubles is within some units of rounding of the pair's own, n. In its direction the support of D exceeds
  * that of the pair's facet by at most the error of the normal times the diameter of D, and the corner that is put into
- * the offset is off by its own rounding. Both are below 2^-44 times the reach, the greatest distance of a vertex of −P
- * from the origin and the same of Q added; for a pair of edges, below that by the sine of the angle between them. That
- * much is added to the offset. Where the sine is below 2^-30, the half-space is that of the facet of −P beside the
- * edge.
+ * the offset is off by its own rounding. Both are below 2^-44 times the reach, the greatest distance of a vertex of
+ * −P from the origin and the same of Q added; for a pair of edges, below that by the sine of the angle between them.
+ * That much is added to the offset. Where the sine is below 2^-30, the half-space is that of the facet of −P beside
+ * the edge.
  */
 #ifndef PIR_CSPACE_RECORD_HALFSPACES_H
 #define PIR_CSPACE_RECORD_HALFSPACES_H

@@ -3,8 +3,8 @@
  * The certificates of facets: until when each facet is certain to stay in its cell.
  *
  * Each certificate has two keys, `ahead` and `behind`. In an axial epoch it holds at the phases between them: ahead >
- * phase > behind. In any other epoch it holds while ahead > path, and also while behind < −net. epoch.h defines phase,
- * path and net turn. A certificate also has the rotation at which it was made and a `margin`: it holds at every
+ * phase > behind. In any other epoch it holds while ahead > path, and also while behind < −net. epoch.h defines
+ * phase, path and net turn. A certificate also has the rotation at which it was made and a `margin`: it holds at every
  * rotation that is less than this angle away from that one. When an epoch ends, the keys of the next are made from the
  * margin. So a motion to and fro, or about changing axes, uses up only its net turn.
  *

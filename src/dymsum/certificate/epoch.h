@@ -5,9 +5,9 @@
  * The motion is divided into epochs. In each, one of two measures is used:
  *
  *   - In an axial epoch all steps have one axis k. The phase is the signed angle turned about k since the epoch began:
- *     R is S·Rot(k, phase)·R₀, where R₀ is the rotation at which the epoch began and S a turn by at most `drift`. A
- *     sign can be predicted: s(t) along Rot(k, t) has |s''| ≤ 1, so with s and s' known now it keeps its sign until a
- *     root of s + s't ± t²/2. That is much later than its margin, and it also holds backwards, for a motion that
+ *     R is S·Rot(k, phase)·R₀, where R₀ is the rotation at which the epoch began and S a turn by at most `drift`.
+ *     A sign can be predicted: s(t) along Rot(k, t) has |s''| ≤ 1, so with s and s' known now it keeps its sign until
+ *     a root of s + s't ± t²/2. That is much later than its margin, and it also holds backwards, for a motion that
  *     reverses. The drift may grow to half of PIR_DRIFT_SLACK, which every prediction subtracts. So the rotation now
  *     and the predicted one differ by less than that.
  *   - In any other epoch there are two upper bounds on the turn since its beginning. The path is the sum of all steps'

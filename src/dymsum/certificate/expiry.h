@@ -3,8 +3,8 @@
  * How long a certificate holds, from the signs that prove it.
  *
  * The value s of a sign, by unit vectors, is the sine of an angle. R has to turn by at least |s| before the sign
- * changes. That, less the filter's bound, is the margin. In an axial epoch the derivative s′ is known as well, and s +
- * s′t ± t²/2 bounds s after a turn by t (epoch.h).
+ * changes. That, less the filter's bound, is the margin. In an axial epoch the derivative s′ is known as well, and s
+ * + s′t ± t²/2 bounds s after a turn by t (epoch.h).
  */
 #ifndef PIR_DYMSUM_CERTIFICATE_EXPIRY_H
 #define PIR_DYMSUM_CERTIFICATE_EXPIRY_H

@@ -5,7 +5,8 @@
  *
  *     turn_facet(facets, f, turned)                       the normal of facet f rotated, 0, and its motion, 0
  *     steepest(ring, blocks, turned, ret_which)           the greatest s over a ring, and the first direction with it;
- *                                                         or, where all are below −PIR_FLOAT_BOUND, a number below that
+ *                                                         or, where all are below −PIR_FLOAT_BOUND, a number below
+ *                                                         that
  */
 
 DESCEND_TARGET static bool descend(const pir_facets *facets, uint32_t f, uint32_t *cell, uint64_t *sides) {

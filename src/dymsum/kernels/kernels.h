@@ -8,11 +8,11 @@
  * of vertex v is compared with every direction d of v's ring. Where floats are not certain, callers use doubles, and
  * exact signs where those are not.
  *
- * The bound on floats, with u = 2^-24: the matrix entries are off by u each, √3·u in norm; n and d by u; the rotation
- * rounds by 5.3u, the last dot product by 3.01u. Together that is below 12.1u, for the value s as for its rate of
- * change, and PIR_FLOAT_BOUND is 16u. A prediction over an angle t ≤ 1 then errs by 12.1u + 12.1u·t in the value. Its
- * own arithmetic rounds by less than 4u·(s′² + 2|s|) ≤ 12u in the value. Drift takes 16u. PIR_FLOAT_SLACK, 64u, covers
- * all four.
+ * The bound on floats, with u = 2^-24: the matrix entries are off by u each, √3·u in norm; n and d by u; the
+ * rotation rounds by 5.3u, the last dot product by 3.01u. Together that is below 12.1u, for the value s as for its rate
+ * of change, and PIR_FLOAT_BOUND is 16u. A prediction over an angle t ≤ 1 then errs by 12.1u + 12.1u·t in the value.
+ * Its own arithmetic rounds by less than 4u·(s′² + 2|s|) ≤ 12u in the value. Drift takes 16u. PIR_FLOAT_SLACK,
+ * 64u, covers all four.
  */
 #ifndef PIR_DYMSUM_KERNELS_KERNELS_H
 #define PIR_DYMSUM_KERNELS_KERNELS_H

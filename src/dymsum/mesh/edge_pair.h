@@ -31,7 +31,8 @@ typedef struct pir_facet_of {
 bool pir_edges_are_parallel(const pir_posed *posed, const pir_edge_pair *pair);
 
 /*
- * Whether d × e, which is parallel to the facet's normal and not zero, points along that normal rather than against it.
+ * Whether d × e, which is parallel to the facet's normal and not zero, points along that normal rather than against
+ * it.
  */
 bool pir_edges_point_along(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet);
 

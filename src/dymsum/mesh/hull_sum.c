@@ -2,8 +2,8 @@
 /*
  * The sum by another way: the exact hull of all pairwise sums of vertices.
  *
- * Points are numbered p·(vertices of Q) + q, so rising points are rising pairs and the canonical facets of the hull are
- * those of the mesh.
+ * Points are numbered p·(vertices of Q) + q, so rising points are rising pairs and the canonical facets of the hull
+ * are those of the mesh.
  */
 #include <pirouette/baseline.h>
 

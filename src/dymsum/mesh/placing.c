@@ -19,9 +19,9 @@ pir_status pir_placing_init(pir_placing *placing, const pir_allocator *allocator
             m = pir_int_length(&rotation->integers->m[i][j]) > m ? pir_int_length(&rotation->integers->m[i][j]) : m;
     /*
      * A product has as many limbs as its factors together; a sum of three products, all of one length at most, has one
-     * more. So a component of M·p has m + stride + 1. pir_placing_set takes most of the scratch: one such component (at
-     * most `stride`) and a product of it with p_factor, or of q_factor with q (at most `stride` either). What is made
-     * here first, N·d and its product with m or c, fits beside.
+     * more. So a component of M·p has m + stride + 1. pir_placing_set takes most of the scratch: one such component
+     * (at most `stride`) and a product of it with p_factor, or of q_factor with q (at most `stride` either). What is
+     * made here first, N·d and its product with m or c, fits beside.
      */
     uint32_t p_limbs = np + dq, q_limbs = norm + nq + dp, den_limbs = norm + dp + dq;
     uint32_t from_p = p_limbs + m + 1 + p->exact_vertex.stride, from_q = q_limbs + q->exact_vertex.stride;

@@ -8,10 +8,10 @@
  * facets of Q. A facet that a region leaves out has one that never expires.
  *
  * A crossing of edge e of P (facets f⁻ left, f⁺ right) with halfedge h of Q (vector d, facets R right, L left) is
- * proven by four signs: s(f⁻, d) < 0 < s(f⁺, d) and s(e, R) < 0 < s(e, L). They place the ends of each arc on opposite
- * sides of the other's circle, and the orientation excludes the antipodal point. A crossing has no certificate of its
- * own: it has those of the four facets. Between two rotations R is taken to turn continuously, and two arcs that cross
- * cannot part before an end of one passes through the other, which is a facet that leaves its cell.
+ * proven by four signs: s(f⁻, d) < 0 < s(f⁺, d) and s(e, R) < 0 < s(e, L). They place the ends of each arc on
+ * opposite sides of the other's circle, and the orientation excludes the antipodal point. A crossing has no certificate
+ * of its own: it has those of the four facets. Between two rotations R is taken to turn continuously, and two arcs that
+ * cross cannot part before an end of one passes through the other, which is a facet that leaves its cell.
  */
 #ifndef PIR_DYMSUM_PAIRING_TRACKED_H
 #define PIR_DYMSUM_PAIRING_TRACKED_H

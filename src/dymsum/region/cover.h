@@ -37,8 +37,8 @@ typedef struct pir_cone {
 } pir_cone;
 
 /*
- * A half-angle of at least this is the whole sphere. It is above π by more than π is rounded anywhere, in degrees or as
- * a float.
+ * A half-angle of at least this is the whole sphere. It is above π by more than π is rounded anywhere, in degrees or
+ * as a float.
  */
 #define PIR_WHOLE_HALF_ANGLE 3.15
 

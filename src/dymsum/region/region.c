@@ -9,21 +9,21 @@
  * α, a skin for each frame, σ_P and σ_Q, and a stride τ. With [n, m] the angle between n and m:
  *
  *   - an edge of P is active when its arc comes within α + σ_P of a_P, and so are the facets at its ends;
- *   - a facet g of Q is active when [g, a_Q] ≤ ρ + σ_P + σ_Q + τ, where ρ is the greatest distance from a_P of a point
- *     of an active arc, and at least α + σ_P.
+ *   - a facet g of Q is active when [g, a_Q] ≤ ρ + σ_P + σ_Q + τ, where ρ is the greatest distance from a_P of a
+ *     point of an active arc, and at least α + σ_P.
  *
- * Rounding errs towards active. The cover holds while [Rᵀ·axis, a_P] ≤ σ_P and [axis, a_Q] ≤ σ_Q. It holds after every
- * call that succeeds. Invariants while it holds:
+ * Rounding errs towards active. The cover holds while [Rᵀ·axis, a_P] ≤ σ_P and [axis, a_Q] ≤ σ_Q. It holds
+ * after every call that succeeds. Invariants while it holds:
  *
- *   - All of the sum in the cone is kept: a facet or arc of P that meets the cone comes within α + σ_P of a_P, a facet
- *     of Q in it comes within α + σ_Q of a_Q, and a crossing in it is on such an arc.
+ *   - All of the sum in the cone is kept: a facet or arc of P that meets the cone comes within α + σ_P of a_P, a
+ *     facet of Q in it comes within α + σ_Q of a_Q, and a crossing in it is on such an arc.
  *   - What is kept is right: an active facet is in its cell, and an active edge has its whole list of crossings. In a
  *     step of at most τ from where the cover holds, or to there, no inactive facet of Q reaches an active arc: a point
- *     of that arc is within ρ of a_P, within ρ + σ_P of where the axis was, within ρ + σ_P + τ during the step, and
- *     within ρ + σ_P + σ_Q + τ of a_Q. The same is true of any step of at most one radian between two rotations at
- *     which the cover holds: the axis moves along an arc of a circle whose ends are within σ_P of a_P, and is farther
- *     from a_P than σ_P by less than σ_P·(√(1 + tan² ¼) − 1) < σ_P/30, which is less than any τ. So the events of
- *     active facets are all that concern active edges.
+ *     of that arc is within ρ of a_P, within ρ + σ_P of where the axis was, within ρ + σ_P + τ during the step,
+ *     and within ρ + σ_P + σ_Q + τ of a_Q. The same is true of any step of at most one radian between two rotations
+ *     at which the cover holds: the axis moves along an arc of a circle whose ends are within σ_P of a_P, and is
+ *     farther from a_P than σ_P by less than σ_P·(√(1 + tan² ¼) − 1) < σ_P/30, which is less than any τ. So
+ *     the events of active facets are all that concern active edges.
  *
  * An update in which the cover ceases to hold first drops what a new cover leaves out, then repairs what stays, and
  * last adds what is new: a facet by descent from a neighbour's cell, an edge from cell to cell. What stays is in both

@@ -37,11 +37,10 @@
 #define MEMORY 0.125
 
 /*
- * Signs per radian that stand for none; 0 means that nothing is known. This is no bound of any error: a walk asks for
- * more within any angle, and the choice is one between methods that give the same pairing. A much smaller number would
- * become a denormal one in products.
+ * The least slope kept, in signs per radian; 0 means that nothing is known. It decides no choice: half a turn at this
+ * slope asks for four signs, and a walk of two bodies with facets for more.
  */
-#define NO_WORK 1e-6
+#define LEAST_SLOPE 1
 
 pir_method pir_choose_method(const pir_cost_model *cost, double angle) {
     bool on_trial = cost->updates_in_a_row > 0 && cost->updates_in_a_row < TRIAL_LENGTH;
@@ -56,7 +55,7 @@ void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double
     if (cost->updates_in_a_row > 0 && angle > 0) {
         double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle / share : 0;
         bool afresh = cost->per_radian == 0 || cost->updates_in_a_row < TRIAL_LENGTH;
-        cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), NO_WORK);
+        cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), LEAST_SLOPE);
     }
     // a trial that leads back to walking makes the next one later; one that lasts makes it early again
     if (cost->updates_in_a_row == 0)

@@ -6,10 +6,11 @@
  * points R·p + q over the pairing's vertices (p, q). A lies in the sum M, so its support function h_A is at most h_M.
  * For a direction n take the vertex (p, q) that supports M at R₀ in the direction
  *
- *   - n: then q supports Q in n, and p supports P in R₀ᵀn, which is at most θ away from Rᵀn: h_M(n) − h_A(n) ≤ S_P(θ),
- *     where S_B(θ) is how far a vertex that supports B in some direction may fall short of B's support in another, at
- *     most θ away;
- *   - R₀Rᵀn: then p supports P in Rᵀn, and q supports Q in a direction at most θ away from n: the same with S_Q(θ).
+ *   - n: then q supports Q in n, and p supports P in R₀ᵀn, which is at most θ away from Rᵀn: h_M(n) − h_A(n)
+ *     ≤ S_P(θ), where S_B(θ) is how far a vertex that supports B in some direction may fall short of B's support in
+ *     another, at most θ away;
+ *   - R₀Rᵀn: then p supports P in Rᵀn, and q supports Q in a direction at most θ away from n: the same with
+ *     S_Q(θ).
  *
  * Hence |h_M − h_A| ≤ min(S_P(θ), S_Q(θ)) in every direction. While that is at most τ no certificate is read and
  * nothing changes: a rotation costs a few operations whatever the size. Beyond it, one update covers the whole turn
@@ -22,12 +23,12 @@
  *
  *     S_B(θ) = max over v, w of L·sin(θ − δ).
  *
- * So S_B reaches a length s at θ(s), the least δ + asin(s/L) of all pairs farther apart than s. S_B(θ)/sin θ rises with
- * θ, which bounds S_B between the few lengths for which θ is computed. On a ball θ(s) is about √(2s), far beyond s
- * divided by its size.
+ * So S_B reaches a length s at θ(s), the least δ + asin(s/L) of all pairs farther apart than s. S_B(θ)/sin θ rises
+ * with θ, which bounds S_B between the few lengths for which θ is computed. On a ball θ(s) is about √(2s), far
+ * beyond s divided by its size.
  *
- * Rounding errs upwards. The angle is an upper bound (rotation.h). asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin x ≤ x
- * stand for functions that differ between machines.
+ * Rounding errs upwards. The angle is an upper bound (rotation.h). asin x ≥ x + x³/6, sin x ≥ x − x³/6 and sin
+ * x ≤ x stand for functions that differ between machines.
  */
 #include "dymsum/update/lag.h"
 

@@ -3,9 +3,9 @@
  * The cells that a facet crosses in one step, from the cell where it was to the one where it is, side by side.
  *
  * The step turns the facet's normal about a known axis by an angle T. Its value s against the circle of a side was
- * s(−a) = s − s'a ± a²/2 an angle a ago, a from 0 to T, where s and s' are those of now. The error of s is at most E,
- * the sign's bound and twice the epoch's drift. Where |s'| is at least 2T + E, s is monotonic through the step, and the
- * circle is crossed at most once. So in a cell that the facet has entered, or in which it began:
+ * s(−a) = s − s'a ± a²/2 an angle a ago, a from 0 to T, where s and s' are those of now. The error of s is at
+ * most E, the sign's bound and twice the epoch's drift. Where |s'| is at least 2T + E, s is monotonic through the step,
+ * and the circle is crossed at most once. So in a cell that the facet has entered, or in which it began:
  *
  *   - It was on the inner side of every circle when it entered. A circle that it is past now, it has crossed since,
  *     outwards.
@@ -37,8 +37,8 @@ struct exit {
 };
 
 /*
- * The interval of angles ago at which s was zero, where it rises at `rising`: roots of s − s'a ± a²/2, widened by the
- * error.
+ * The interval of angles ago at which s was zero, where it rises at `rising`: roots of s − s'a ± a²/2, widened by
+ * the error.
  */
 static void angle_of_exit(double s, double rising, double error, double *ret_least, double *ret_most) {
     double square = rising * rising, rest = square - (s + s + 2 * error);

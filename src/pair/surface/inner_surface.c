@@ -3,9 +3,9 @@
  * Surfaces in D: see inner_surface.h.
  *
  * Errors. A corner less the centre is off by at most `error` in length and is at most `reach` long. A det is a
- * product of three of them, so it is off by 3 · error · reach² and by less than error · reach² from rounding, error
- * being at least 2^-46 reach. A normal is a product of two sides of at most 2 · reach, each off by 2 · error: by 8
- * · error · reach, and by less than 2 · error · reach from rounding.
+ * product of three of them, so it is off by 3 · error · reach² and by less than error · reach² from rounding,
+ * error being at least 2^-46 reach. A normal is a product of two sides of at most 2 · reach, each off by 2 · error:
+ * by 8 · error · reach, and by less than 2 · error · reach from rounding.
  */
 #include <string.h>
 

@@ -9,8 +9,8 @@
 #define PIR_NO_GROUP UINT32_MAX
 
 /*
- * The direction of a group's plane, whose normal has components 2^bits at `axis`, −slope[0] and −slope[1] at the two
- * axes that follow cyclically. So a coordinate along `axis` of a point of the plane is an integer over 2^bits.
+ * The direction of a group's plane, whose normal has components 2^bits at `axis`, −slope[0] and −slope[1] at the
+ * two axes that follow cyclically. So a coordinate along `axis` of a point of the plane is an integer over 2^bits.
  */
 typedef struct pir_merge_slope {
     int axis, bits;

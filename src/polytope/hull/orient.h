@@ -38,8 +38,8 @@ static inline uint32_t pir_points_source(const pir_points *points, uint32_t p) {
 /*
  * The plane through a, b, c of `near` points, with the error of pir_plane_height below 2^-43. With u = 2^-53: a
  * difference of coordinates is at most 2 and off by 4.1u; a normal component, two products of those, by
- * 2·(2·2·4.1u + 4u) + 8u < 49u, and at most 8; a height, three products of 8 with 2, by 3·(49u·2 + 8·4.1u + 16u) + 96u
- * < 540u < 2^10·u.
+ * 2·(2·2·4.1u + 4u) + 8u < 49u, and at most 8; a height, three products of 8 with 2, by 3·(49u·2 + 8·4.1u + 16u)
+ * + 96u < 540u < 2^10·u.
  */
 #define PIR_ORIENT_BOUND 0x1p-43
 

@@ -35,7 +35,10 @@ static void motion_clear(motion *m) {
     }
 }
 
-/* linear = M(q) and norm = |q|²: M has w² + v_i² − v_j² − v_k² on its diagonal and 2 (v_i v_k ± w v_j) beside it. */
+/*
+ * linear = M(q) and norm = |q|²: M has w² + v_i² − v_j² − v_k² on its diagonal and 2 (v_i v_k ± w v_j) beside
+ * it.
+ */
 static void set_rotation(motion *m, pir_quat q) {
     double components[4] = {q.x, q.y, q.z, q.w};
     mpq_t c[4], t;

@@ -84,9 +84,9 @@ void pir_points_rod(const double *value, struct pir_point_list *points) {
 }
 
 /*
- * level − 1 rings of 2·level points between two poles: 4·level·(level − 1) triangles. Points are no further apart along
- * a ring than across, so the staggered triangles are the Delaunay triangles of the points on the sphere, which are the
- * facets of their hull; stretching the sphere keeps them.
+ * level − 1 rings of 2·level points between two poles: 4·level·(level − 1) triangles. Points are no further
+ * apart along a ring than across, so the staggered triangles are the Delaunay triangles of the points on the sphere,
+ * which are the facets of their hull; stretching the sphere keeps them.
  */
 void pir_points_ellipsoid(const double *value, struct pir_point_list *points) {
     const uint64_t level = (uint64_t)value[0];

@@ -12,8 +12,8 @@ pir_status pir_mesh_write_svg(const pir_mesh *mesh, FILE *file);
 
 /*
  * One body as it lies in the view: what a picture needs to place it. A point v of the mesh is drawn, in units of
- * `radius`, at the projection of (v − centre)/radius, x to the right and y down, as SVG has it; low and high bound that
- * projection.
+ * `radius`, at the projection of (v − centre)/radius, x to the right and y down, as SVG has it; low and high bound
+ * that projection.
  */
 struct pir_svg_body {
     const pir_mesh *mesh;

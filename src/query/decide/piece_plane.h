@@ -15,7 +15,8 @@
 #define PIR_SIN_EXACT   0x1p-40
 
 /*
- * A piece's plane: unit normal and offset. The error of its slack h − n·x is at most err times the placement's error.
+ * A piece's plane: unit normal and offset. The error of its slack h − n·x is at most err times the placement's
+ * error.
  */
 typedef struct pir_plane {
     pir_vec3 n;

@@ -2,8 +2,8 @@
 /*
  * A placement in exact integers.
  *
- * Let P's vertices be integers times a/b and Q's integers times c/d, R = M/N, and t = T·2^−i with T integer. Then the
- * corner (p, q) of D minus t is, times N·b·d·2^i,
+ * Let P's vertices be integers times a/b and Q's integers times c/d, R = M/N, and t = T·2^−i with T integer. Then
+ * the corner (p, q) of D minus t is, times N·b·d·2^i,
  *
  *     W(p, q) = a·d·2^i · M p  +  N·c·b·2^i · q  −  N·b·d · T,
  *

@@ -3,9 +3,9 @@
  * The frame that queries compute in.
  *
  * Each operand is moved so that the middle of its bounding box is the origin, and scaled by one power of two, so that
- * sizes are near 1. D = R·P ⊕ Q is the difference of the two operands; P is stored reflected. A translation t becomes
- * the point x of the frame. It is computed in double-double, so that neither a far origin nor a small scale costs
- * digits.
+ * sizes are near 1. D = R·P ⊕ Q is the difference of the two operands; P is stored reflected. A translation t
+ * becomes the point x of the frame. It is computed in double-double, so that neither a far origin nor a small scale
+ * costs digits.
  *
  * The slack of a plane of D with unit normal n and offset h is s = h − n·x. Where all slacks are positive, x is
  * inside D. Where one is negative, x is outside. Inside, the least slack of all facets is the penetration depth.
@@ -25,8 +25,8 @@
  * The error of a slack in doubles is at most err · PIR_SLACK_BOUND · (size_p + size_q + |x|).
  *
  * Proof, with u = 2^-53 and sizes r_P, r_Q. A unit normal is off by 8u, and by 45u once rotated: the matrix is off by
- * 31u, the product rounds by 5.3u (exact/sign.h). That moves n·(q − x) by 45u (r_Q + |x|). P's own offset n·p is off
- * by 14u r_P: vertices 3u, normal 8u, dot product 3u. q, x and the last operations add less than 12u (r_P + r_Q +
+ * 31u, the product rounds by 5.3u (exact/sign.h). That moves n·(q − x) by 45u (r_Q + |x|). P's own offset n·p is
+ * off by 14u r_P: vertices 3u, normal 8u, dot product 3u. q, x and the last operations add less than 12u (r_P + r_Q +
  * |x|). Together that is below 71u, and the bound is 128u.
  *
  * The normal of an edge pair is a cross product of unit vectors off by 8u and 45u. The product rounds by 4u and its

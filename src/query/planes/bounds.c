@@ -5,24 +5,24 @@
  * For a unit normal n, s(n) = h_D(n) − n·x is the slack of D's plane with that normal.
  *
  * Bounds that last. Let n turn by a small angle. Then the support h_P(n) of a body changes by that angle times the
- * part of its support vertex p across n, √(|p|² − h_P(n)²). That part is at most the body's swing √(size² − inner²),
- * where inner is the least offset of its facets.
+ * part of its support vertex p across n, √(|p|² − h_P(n)²). That part is at most the body's swing √(size² −
+ * inner²), where inner is the least offset of its facets.
  *
  * - Facets of Q do not move. A turn of R by θ changes the support of R·P in a fixed direction by at most θ·swing_p,
  *   and a move of x by d changes n·x by at most d.
  * - Facets of P turn with R. Seen from P, the same holds with Q's support and with x rotated back: n·x changes by at
  *   most θ·|x across n| + θ²/2·|x|. Over an arc n·x is least at an end while it is positive.
  * - The crossings between facets of P come and go, but all lie on the arcs between facets. Along an arc s consists of
- *   pieces a·cos(φ − φ₀), which are concave while positive. So on an arc shorter than half a turn s is nowhere less
- *   than at the crossings and at the two facets. Where P is flat its arcs are half turns, and its groups have no
+ *   pieces a·cos(φ − φ₀), which are concave while positive. So on an arc shorter than half a turn s is nowhere
+ *   less than at the crossings and at the two facets. Where P is flat its arcs are half turns, and its groups have no
  *   bound that lasts.
  *
- * Caps. For any vertex w of D − x and any n, s(n) ≥ n·w. All normals of a group, those of crossings on its arcs too,
- * lie within an angle ρ of the normal c of one of its facets. There n·w ≥ |w|·cos(∠(c, w) + ρ) = (c·w) cos ρ − |w
- * across c| sin ρ. Let w be the vertex that the pairing has for that facet. Then c·w is the facet's own slack, which
- * is an upper bound on the least slack of all, and the lower bound falls short by the square of ρ only. A cap needs
- * no plane and no memory of earlier queries. It is no bound where it is not above zero, because the angle then may be
- * more than half a turn, nor where ρ is a right angle or more.
+ * Caps. For any vertex w of D − x and any n, s(n) ≥ n·w. All normals of a group, those of crossings on its arcs
+ * too, lie within an angle ρ of the normal c of one of its facets. There n·w ≥ |w|·cos(∠(c, w) + ρ) = (c·w)
+ * cos ρ − |w across c| sin ρ. Let w be the vertex that the pairing has for that facet. Then c·w is the facet's own
+ * slack, which is an upper bound on the least slack of all, and the lower bound falls short by the square of ρ only. A
+ * cap needs no plane and no memory of earlier queries. It is no bound where it is not above zero, because the angle
+ * then may be more than half a turn, nor where ρ is a right angle or more.
  *
  * Rounding. w = R a + b − x is off by less than 60u of the reach (frame.h). A normal is off by 8u, and by 45u once
  * rotated. The bound's own arithmetic adds less than 16u of |w|. Together that is below 121u of the reach, which one

@@ -73,14 +73,17 @@ typedef struct pir_scan {
     /* low[i] = h[i] − the greatest n · x of the normals in box i − error · err[i]. */
     void (*boxes)(uint32_t count, const pir_box_lanes *boxes, pir_vec3 x, double error, double *low);
 
-    /* low[i] = bound[i] − (a · (lever[i] + a · bend[i]) + |x − where[i]|) · (1 + 2^-40) − error, a = turn − when[i]. */
+    /*
+     * low[i] = bound[i] − (a · (lever[i] + a · bend[i]) + |x − where[i]|) · (1 + 2^-40) − error, a = turn −
+     * when[i].
+     */
     void (*bounds)(uint32_t count, const pir_lasting_lanes *lasting, double turn, pir_vec3 x, double error,
                    double *low);
 
     /*
      * For `count` caps from number `from` on, with w = corner[i] − x and along = axis[i]·w: low[i] becomes along ·
-     * cosine[i] − |w across axis[i]| · sine[i] − 2 error where that is above 0 and above what it is. Returns the least
-     * along + error.
+     * cosine[i] − |w across axis[i]| · sine[i] − 2 error where that is above 0 and above what it is. Returns the
+     * least along + error.
      */
     double (*caps)(uint32_t from, uint32_t count, const pir_cap_lanes *caps, pir_vec3 x, double error, double *low);
 } pir_scan;

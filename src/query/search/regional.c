@@ -12,12 +12,12 @@
  * planes, which are forgotten.
  *
  * Bounds last as those of groups do (planes/bounds.c). While R turns by θ and x moves by d, s(n) changes by at most
- * θ·(swing_q + |x|) + d in a direction that is fixed in P's frame, and by at most θ·swing_p + d in one that is fixed
- * in Q's. change_p and change_q are the sums of these over all searches. For each facet, and each edge of P, `known`
- * is a lower bound on its slacks when they were last computed, plus the change then. `known` minus the present change
- * is a lower bound on its slacks now. On an arc, which is shorter than half a turn unless P is flat, s is nowhere
- * less than at its crossings and ends while those are positive. This is geometry alone, so it does not matter whether
- * a feature has been inactive in between.
+ * θ·(swing_q + |x|) + d in a direction that is fixed in P's frame, and by at most θ·swing_p + d in one that is
+ * fixed in Q's. change_p and change_q are the sums of these over all searches. For each facet, and each edge of P,
+ * `known` is a lower bound on its slacks when they were last computed, plus the change then. `known` minus the present
+ * change is a lower bound on its slacks now. On an arc, which is shorter than half a turn unless P is flat, s is
+ * nowhere less than at its crossings and ends while those are positive. This is geometry alone, so it does not matter
+ * whether a feature has been inactive in between.
  */
 #include "query/search/regional.h"
 

@@ -3,12 +3,12 @@
  * A sieve for the pieces of a group that may hold the least slack. It does not make the group's other planes.
  *
  * The slacks of the facets come first. Those of P's facets are computed in P's frame, where their normals and offsets
- * are: n·(p + Rᵀ(b − x)) with b the vertex that the pairing has. Those of Q's facets are computed likewise. An edge
- * of P lies on two facets, 1 and 2. With a vertex p of it and b₁ of facet 1, w = p + Rᵀ(b₁ − x) is a vertex of D − x,
- * so all slacks of edge pairs on the arc from n₁ to n₂ are at least n·w. Along the arc n·w is a·cos(φ − φ₀), and is
- * nowhere less than at the ends while it is positive at both. At the ends it is the slack of facet 1, and the offset
- * of facet 2 plus n₂·Rᵀ(b₁ − x). The same holds with b₂; the greater of the two is the bound. Only the edge pairs of
- * the few edges that it does not rule out are computed.
+ * are: n·(p + Rᵀ(b − x)) with b the vertex that the pairing has. Those of Q's facets are computed likewise. An
+ * edge of P lies on two facets, 1 and 2. With a vertex p of it and b₁ of facet 1, w = p + Rᵀ(b₁ − x) is a
+ * vertex of D − x, so all slacks of edge pairs on the arc from n₁ to n₂ are at least n·w. Along the arc n·w is
+ * a·cos(φ − φ₀), and is nowhere less than at the ends while it is positive at both. At the ends it is the slack
+ * of facet 1, and the offset of facet 2 plus n₂·Rᵀ(b₁ − x). The same holds with b₂; the greater of the two
+ * is the bound. Only the edge pairs of the few edges that it does not rule out are computed.
  *
  * Rounding: each of these is within one error (frame.h) of the exact one, and so is the slack that it is compared
  * with.
@@ -41,7 +41,8 @@ static void try_piece(pir_search *search, pir_piece piece, struct sieve *sieve) 
 }
 
 /*
- * Computes the slacks of the group's facets, into work.vector[2].x, and Rᵀ(b − x), or its like, into work.vector[1].
+ * Computes the slacks of the group's facets, into work.vector[2].x, and Rᵀ(b − x), or its like, into
+ * work.vector[1].
  * *ret_along is the least n·x. Returns the least slack.
  */
 static double facet_slacks(const pir_groups *groups, const pir_group *group, const pir_placement *placement,

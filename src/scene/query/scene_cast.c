@@ -3,8 +3,8 @@
  * What a shape that moves meets first, by conservative advancement.
  *
  * With the normal n from Q to P at some time and the distance d, the bodies stay apart along n while P comes nearer
- * along it by less than d: P's points move along −n at most at the rate −way·n + |turn| · reach. So there is no contact
- * for d over that rate, and none at all where it is not positive.
+ * along it by less than d: P's points move along −n at most at the rate −way·n + |turn| · reach. So there is no
+ * contact for d over that rate, and none at all where it is not positive.
  */
 #include "scene/query/probe.h"
 

@@ -95,7 +95,9 @@ static void make_sum(pir_space *space, mpz_t *ret, uint32_t a, uint32_t b) {
     mpz_mul(ret[3], x[3], y[3]);
 }
 
-/* ret becomes the point where three planes meet, by Cramer's rule: sum of d_f·(g × h) over the planes, det(f, g, h). */
+/*
+ * ret becomes the point where three planes meet, by Cramer's rule: sum of d_f·(g × h) over the planes, det(f, g, h).
+ */
 static void make_meet(pir_space *space, mpz_t *ret, const uint32_t exact[3]) {
     mpz_t *cross = space->t + 4;
     for (int k = 0; k < 4; k++)

@@ -2,9 +2,9 @@
 /*
  * The signs that solids ask for, by doubles where their errors allow it, else by the exact numbers.
  *
- * The filters' bounds: with u = 2^-53, |n| ≤ 1 + 2^-49, |x|, |d| ≤ √3 + 2^-40, n·x − d in doubles is within 20u < 2^-48
- * of its value. A determinant of three unit directions is within 3·2^-49 + 12u of the true one, a dot product within
- * 2·2^-49 + 4u: both below 2^-46.
+ * The filters' bounds: with u = 2^-53, |n| ≤ 1 + 2^-49, |x|, |d| ≤ √3 + 2^-40, n·x − d in doubles is within
+ * 20u < 2^-48 of its value. A determinant of three unit directions is within 3·2^-49 + 12u of the true one, a dot
+ * product within 2·2^-49 + 4u: both below 2^-46.
  */
 #include <math.h>
 

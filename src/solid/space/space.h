@@ -6,7 +6,8 @@
  * Coordinates are integers on one scale. Doubles are those integers times 2^-shift, where the shift puts every point of
  * the job into |x|, |y|, |z| ≤ 1. Each point and plane knows how far its doubles may be from the truth:
  *
- *     |point.x − x| ≤ point.err,     |(plane.n·x − plane.d) − (n·x − d)| ≤ plane.err  for |n| = 1 and x in that cube.
+ *     |point.x − x| ≤ point.err,
+ *     |(plane.n·x − plane.d) − (n·x − d)| ≤ plane.err  for |n| = 1 and x in that cube.
  *
  * A point is given, or the sum of two points, or where three planes meet. A plane has a direction, or the cross product
  * of two, for a normal, and holds the sum of two points. So exact numbers never rest on constructed ones in a row: they

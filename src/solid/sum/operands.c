@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See operands.h. P's coordinates are integers times n_p/d_p, turned M·X times n_p/(d_p·|q|²); Q's are integers times
- * n_q/d_q. With L a common multiple of both denominators, both are integers over L; their common factors go into the
- * scale, so that the numbers are as short as they can be.
+ * See operands.h. P's coordinates are integers times n_p/d_p, turned M·X times n_p/(d_p·|q|²); Q's are integers
+ * times n_q/d_q. With L a common multiple of both denominators, both are integers over L; their common factors go into
+ * the scale, so that the numbers are as short as they can be.
  */
 #include "solid/sum/operands.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The exact sum of two solids: P = ∪ P_i and Q = ∪ Q_j in convex pieces, P ⊕ Q = ∪ (P_i ⊕ Q_j). Its boundary is
- * what the sums of pairs leave of the candidates (convolution.c, remains.c), glued plane by plane into maximal
+ * The exact sum of two solids: P = ∪ P_i and Q = ∪ Q_j in convex pieces, P ⊕ Q = ∪ (P_i ⊕ Q_j). Its boundary
+ * is what the sums of pairs leave of the candidates (convolution.c, remains.c), glued plane by plane into maximal
  * facets (union_outline.c, facet_loops.c). Instead of uniting volumes, polygons are clipped in their planes
  * (Hachenberger 2009 unites Nef polyhedra).
  */
