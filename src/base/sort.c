@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Merge sort, top down; short runs by insertion. */
+/* Merge sort, top down; short lists by insertion. */
 #include "base/sort.h"
 
 #include <string.h>
@@ -26,4 +26,14 @@ void pir_sort(uint32_t *item, uint32_t count, uint32_t *work, bool (*before)(voi
         item[to++] = before(context, item[right], work[left]) ? item[right++] : work[left++];
     while (left < half)
         item[to++] = work[left++];
+}
+
+void pir_sort_short(uint64_t *key, uint32_t count) {
+    for (uint32_t i = 1; i < count; i++) {
+        uint64_t moved = key[i];
+        uint32_t at = i;
+        for (; at > 0 && key[at - 1] > moved; at--)
+            key[at] = key[at - 1];
+        key[at] = moved;
+    }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Merge sort of numbers by an order that needs a context. */
+/* Sorting numbers: by an order that needs a context, and short lists of keys. */
 #ifndef PIR_BASE_SORT_H
 #define PIR_BASE_SORT_H
 
@@ -10,5 +10,8 @@
    has room for count items. */
 void pir_sort(uint32_t *item, uint32_t count, uint32_t *work, bool (*before)(void *context, uint32_t a, uint32_t b),
               void *context);
+
+/* Sorts a short list of keys; O(count²). */
+void pir_sort_short(uint64_t *key, uint32_t count);
 
 #endif

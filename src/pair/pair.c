@@ -32,7 +32,7 @@ void pir_workspace_destroy(pir_workspace *workspace) {
         return;
     const pir_allocator a = workspace->allocator;
     pir_exact_finish(&workspace->exact, &a);
-    pir_patch_room_finish(&workspace->patches, &a, workspace->patch_p, workspace->patch_q);
+    pir_patch_room_finish(&workspace->patches, &a);
     pir_query_destroy(workspace->query);
     pir_sum_destroy(workspace->sum);
     pir_scratch_release(workspace->head.scratch);

@@ -64,7 +64,6 @@ struct pir_workspace {
     pir_surface_room room;
     pir_surface spare; /* where a pair has none */
     pir_patch_room patches;
-    size_t patch_p, patch_q; /* for bodies of so many vertices */
 
     /*
      * What the last call began with. The frame is still that pair's where the pair names this workspace: each forgets

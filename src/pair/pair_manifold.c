@@ -4,25 +4,6 @@
 
 #include "pair/pair.h"
 
-/* Room for the patches of both bodies; it never shrinks. */
-static bool reserve(pir_workspace *workspace, size_t of_p, size_t of_q) {
-    const pir_allocator *a = &workspace->allocator;
-    if (of_p <= workspace->patch_p && of_q <= workspace->patch_q)
-        return true;
-    of_p = of_p > workspace->patch_p ? of_p : workspace->patch_p;
-    of_q = of_q > workspace->patch_q ? of_q : workspace->patch_q;
-    pir_patch_room room = {.shared = NULL};
-    if (!pir_patch_room_init(&room, a, of_p, of_q)) {
-        pir_patch_room_finish(&room, a, of_p, of_q);
-        return false;
-    }
-    pir_patch_room_finish(&workspace->patches, a, workspace->patch_p, workspace->patch_q);
-    workspace->patches = room;
-    workspace->patch_p = of_p;
-    workspace->patch_q = of_q;
-    return true;
-}
-
 static pir_vec3 from_world(const pir_workspace *workspace, pir_vec3 point) {
     return pir_mat_apply_transposed(&workspace->rotation_q.r, pir_vec_sub(point, workspace->world.translation_q));
 }
@@ -56,7 +37,8 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
     pir_status status = pir_pair_resume(pair, workspace, input);
     if (status != PIR_OK)
         return status;
-    if (!reserve(workspace, pair->p->vertex_count, pair->q->vertex_count))
+    if (!pir_patch_room_reserve(&workspace->patches, &workspace->allocator, pair->p->vertex_count,
+                                pair->q->vertex_count))
         return PIR_ERR_MEMORY;
     pir_query_result seen;
     if (workspace->posed) {

@@ -22,6 +22,7 @@
 
 #include "query/exact_poses.h"
 #include "query/query_of.h"
+#include "support/answers.h"
 
 #define TURNS 2
 #define POSES 12
@@ -38,14 +39,6 @@ struct bench {
     pir_workspace *workspace;
     uint64_t asked, by_whole, contacts;
 };
-
-static bool same_result(const pir_query_result *a, const pir_query_result *b) {
-    return a->state == b->state && a->outcome == b->outcome && memcmp(&a->distance, &b->distance, 8) == 0 &&
-           memcmp(&a->normal, &b->normal, 24) == 0 && memcmp(&a->point_p, &b->point_p, 24) == 0 &&
-           memcmp(&a->point_q, &b->point_q, 24) == 0 && a->witness.p.kind == b->witness.p.kind &&
-           a->witness.q.kind == b->witness.q.kind && a->witness.p.index == b->witness.p.index &&
-           a->witness.q.index == b->witness.q.index;
-}
 
 typedef pir_status ask_pair(pir_pair *, pir_workspace *, const pir_pair_input *, pir_query_result *);
 typedef pir_status ask_query(pir_query *, const pir_query_input *, pir_query_cache *, pir_query_result *);
@@ -67,7 +60,7 @@ static void check_pair(struct bench *bench, pir_pair *pair, const char *which, i
     pir_vec3 t = input->pose_p.translation;
     pir_quat r = input->pose_p.rotation;
     expect(
-        status == PIR_OK && same_result(&result, expected),
+        status == PIR_OK && test_same_result(&result, expected),
         "scene %llu (%s), %s pair, %s, rotation %.17g,%.17g,%.17g,%.17g, t %.17g,%.17g,%.17g, cutoff %g: status %d, "
         "level %d, state %d not %d, outcome %d not %d, distance %.17g not %.17g, witness %d %u %d %u not %d %u %d %u",
         (unsigned long long)bench->number, bench->scene.situation, which, calls[call].name, r.x, r.y, r.z, r.w, t.x,

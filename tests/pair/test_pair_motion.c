@@ -16,6 +16,7 @@
 
 #include <pirouette/pair.h>
 
+#include "support/answers.h"
 #include "support/bodies.h"
 
 #define FRAMES 60
@@ -35,14 +36,6 @@ struct motion {
 static pir_pair_statistics used;
 static uint64_t inside_by_facet, apart;
 
-static bool same_result(const pir_query_result *a, const pir_query_result *b) {
-    return a->state == b->state && a->outcome == b->outcome && memcmp(&a->distance, &b->distance, 8) == 0 &&
-           memcmp(&a->normal, &b->normal, 24) == 0 && memcmp(&a->point_p, &b->point_p, 24) == 0 &&
-           memcmp(&a->point_q, &b->point_q, 24) == 0 && a->witness.p.kind == b->witness.p.kind &&
-           a->witness.q.kind == b->witness.q.kind && a->witness.p.index == b->witness.p.index &&
-           a->witness.q.index == b->witness.q.index;
-}
-
 static bool same_contact(const pir_contact *a, const pir_contact *b) {
     return a->id == b->id && memcmp(&a->distance, &b->distance, 8) == 0 && memcmp(&a->point_p, &b->point_p, 24) == 0 &&
            memcmp(&a->point_q, &b->point_q, 24) == 0;
@@ -58,7 +51,7 @@ static void check_near(struct motion *motion, int frame, pir_pair_input input) {
     asked.cutoff = input.cutoff = asked.margin = input.margin = motion->size * (frame % 7 ? 0.02 : 0.1);
     assert_int_equal(pir_query_signed_distance(motion->query, &asked, NULL, &expected), PIR_OK);
     pir_status status = pir_pair_signed_distance(motion->near, motion->workspace, &input, &result);
-    expect(status == PIR_OK && same_result(&result, &expected),
+    expect(status == PIR_OK && test_same_result(&result, &expected),
            "motion %llu, frame %d, with a cutoff: status %d, level %d, outcome %d not %d, distance %.17g not %.17g",
            (unsigned long long)motion->number, frame, (int)status, (int)pir_pair_level(motion->near),
            (int)result.outcome, (int)expected.outcome, result.distance, expected.distance);
@@ -82,7 +75,7 @@ static void check_frame(struct motion *motion, int frame, pir_quat rotation, pir
     uint64_t before = pir_pair_get_statistics(motion->pair).by_facet;
     pir_status status = pir_pair_signed_distance(motion->pair, motion->workspace, &input, &result);
     inside_by_facet += pir_pair_get_statistics(motion->pair).by_facet > before && expected.state == PIR_INSIDE;
-    expect(status == PIR_OK && same_result(&result, &expected),
+    expect(status == PIR_OK && test_same_result(&result, &expected),
            "motion %llu, frame %d: status %d, level %d, state %d not %d, distance %.17g not %.17g, witness %d %u %d %u "
            "not "
            "%d %u %d %u",

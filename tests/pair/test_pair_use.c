@@ -12,6 +12,7 @@
 
 #include <pirouette/pair.h>
 
+#include "support/answers.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 
@@ -24,14 +25,6 @@ static pir_polytope *cube(double half) {
 
 typedef pir_status ask_pair(pir_pair *, pir_workspace *, const pir_pair_input *, pir_query_result *);
 static ask_pair *const calls[4] = {pir_pair_overlap, pir_pair_distance, pir_pair_penetration, pir_pair_signed_distance};
-
-static bool same_result(const pir_query_result *a, const pir_query_result *b) {
-    return a->state == b->state && a->outcome == b->outcome && memcmp(&a->distance, &b->distance, 8) == 0 &&
-           memcmp(&a->normal, &b->normal, 24) == 0 && memcmp(&a->point_p, &b->point_p, 24) == 0 &&
-           memcmp(&a->point_q, &b->point_q, 24) == 0 && a->witness.p.kind == b->witness.p.kind &&
-           a->witness.q.kind == b->witness.q.kind && a->witness.p.index == b->witness.p.index &&
-           a->witness.q.index == b->witness.q.index;
-}
 
 /* --- refusals --- */
 
@@ -158,7 +151,7 @@ static void memory_that_fails_at_any_request_is_told(void **state) {
             pir_polytope *plain = cube(1);
             assert_int_equal(live(NULL, plain, plain, expected), PIR_OK);
             for (int i = 0; i < 5; i++)
-                expect(same_result(&results[i], &expected[i]), "request %llu, pose %d", (unsigned long long)at, i);
+                expect(test_same_result(&results[i], &expected[i]), "request %llu, pose %d", (unsigned long long)at, i);
             pir_polytope_release(plain);
         }
         pir_polytope_release(p);
@@ -256,7 +249,7 @@ static void a_common_turn_changes_no_state(void **state) {
         assert_int_equal(pir_pair_signed_distance(pair, workspace, &plain, &expected), PIR_OK);
         assert_int_equal(pir_pair_signed_distance(pair, workspace, &turned, &result), PIR_OK);
         assert_int_equal(pir_pair_signed_distance(whole, workspace, &turned, &other), PIR_OK);
-        expect(same_result(&result, &other), "turn %llu: levels %d and %d differ", (unsigned long long)i,
+        expect(test_same_result(&result, &other), "turn %llu: levels %d and %d differ", (unsigned long long)i,
                (int)pir_pair_level(pair), (int)pir_pair_level(whole));
         expect(result.state == expected.state && result.witness.p.index == expected.witness.p.index &&
                    result.witness.q.index == expected.witness.q.index &&
@@ -307,7 +300,7 @@ static void posed_pairs_answer_alike_at_all_levels(void **state) {
                 input.pose_p.translation = (pir_vec3){s * to.x, 0, from.z};
                 status = calls[k % 4](pair, workspace, &input, &result);
                 assert_int_equal(calls[k % 4](whole, workspace, &input, &expected), status);
-                expect(status != PIR_OK || same_result(&result, &expected), "case %llu (%s), pose %d, level %d",
+                expect(status != PIR_OK || test_same_result(&result, &expected), "case %llu (%s), pose %d, level %d",
                        (unsigned long long)i, pose.situation, k, (int)pir_pair_level(pair));
             }
             pir_pair_destroy(pair);
@@ -341,7 +334,7 @@ static void a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike(
     input.pose_p.translation = (pir_vec3){4, 0.25, 0.5};
     assert_int_equal(pir_pair_distance(capped, workspace, &input, &result), PIR_OK);
     assert_int_equal(pir_pair_distance(forced, workspace, &input, &expected), PIR_OK);
-    assert_true(same_result(&result, &expected) && result.distance == 2);
+    assert_true(test_same_result(&result, &expected) && result.distance == 2);
     assert_int_equal(pir_pair_level(capped), PIR_LEVEL_NEAR);
     // within a cutoff, the distance that was proven is enough
     input.cutoff = 0.5;

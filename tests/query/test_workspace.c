@@ -11,6 +11,7 @@
 #include <pirouette/shape.h>
 #include <pirouette/workspace.h>
 
+#include "support/answers.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 
@@ -61,15 +62,6 @@ static void clear(struct object *object) {
     pir_polytope_release(object->q);
 }
 
-static bool same_result(const pir_query_result *a, const pir_query_result *b) {
-    return a->state == b->state && a->outcome == b->outcome && a->distance == b->distance &&
-           memcmp(&a->normal, &b->normal, sizeof a->normal) == 0 &&
-           memcmp(&a->point_p, &b->point_p, sizeof a->point_p) == 0 &&
-           memcmp(&a->point_q, &b->point_q, sizeof a->point_q) == 0 && a->witness.p.kind == b->witness.p.kind &&
-           a->witness.p.index == b->witness.p.index && a->witness.q.kind == b->witness.q.kind &&
-           a->witness.q.index == b->witness.q.index;
-}
-
 /* A translation of small integers, or half of one: where bodies of integers touch. */
 static pir_vec3 grid_vector(test_random *random) {
     double by = test_random_below(random, 2) ? 1 : 0.5;
@@ -97,7 +89,7 @@ static void ask(struct object *object, test_random *random, uint64_t number) {
     expect(status[0] == status[1], "step %llu: status", (unsigned long long)number);
     if (status[0] != PIR_OK)
         return;
-    expect(same_result(&result[0], &result[1]), "step %llu: answers differ", (unsigned long long)number);
+    expect(test_same_result(&result[0], &result[1]), "step %llu: answers differ", (unsigned long long)number);
     expect(count[0] == count[1] && memcmp(contacts[0], contacts[1], count[0] * sizeof *contacts[0]) == 0,
            "step %llu: contacts differ", (unsigned long long)number);
     expect(!batch || memcmp(depth[0], depth[1], sizeof depth[0]) == 0, "step %llu: batches differ",

@@ -6,6 +6,7 @@
 #include "dymsum/live/live_pairs.h"
 
 #include "base/layout.h"
+#include "base/sort.h"
 
 #include <string.h>
 
@@ -40,16 +41,6 @@ bool pir_live_pairs_reserve(pir_live_pairs *pairs, const pir_allocator *a, uint3
     return true;
 }
 
-static void sort_run(uint64_t *key, uint32_t count) {
-    for (uint32_t i = 1; i < count; i++) {
-        uint64_t k = key[i];
-        uint32_t at = i;
-        for (; at > 0 && key[at - 1] > k; at--)
-            key[at] = key[at - 1];
-        key[at] = k;
-    }
-}
-
 /* Merges two sorted runs, one behind the other. */
 static void merge(const uint64_t *from, uint32_t first, uint32_t count, uint64_t *to) {
     uint32_t i = 0, j = first;
@@ -70,7 +61,7 @@ static uint32_t least(uint32_t a, uint32_t b) {
 static void sort(pir_live_pairs *pairs) {
     uint32_t count = pairs->count;
     for (uint32_t i = 0; i < count; i += RUN)
-        sort_run(pairs->key + i, least(RUN, count - i));
+        pir_sort_short(pairs->key + i, least(RUN, count - i));
     for (uint64_t width = RUN; width < count; width *= 2) {
         for (uint64_t i = 0; i < count; i += 2 * width) {
             uint32_t left = count - (uint32_t)i;

@@ -357,9 +357,9 @@ pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, co
     if (status != PIR_OK)
         return status;
     pir_manifold_ask ask = {input, answer, capacity};
-    status = pir_query_room_reserve_patches(query->room, pir_sum_scratch(query->sum), query->p->vertex_count,
-                                            query->q->vertex_count);
-    return status == PIR_OK
-               ? pir_manifold_find(&query->frame, &placement, &query->room->patches, &ask, ret_contacts, ret_count)
-               : status;
+    pir_patch_room *room = &query->room->patches;
+    if (!pir_patch_room_reserve(room, &pir_sum_scratch(query->sum)->allocator, query->p->vertex_count,
+                                query->q->vertex_count))
+        return PIR_ERR_MEMORY;
+    return pir_manifold_find(&query->frame, &placement, room, &ask, ret_contacts, ret_count);
 }

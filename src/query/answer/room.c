@@ -7,7 +7,7 @@ static void destroy(void *at, const pir_allocator *allocator) {
     pir_planes_finish(&room->planes, allocator);
     pir_group_work_finish(&room->work, allocator);
     PIR_FREE(allocator, room->limbs.base, room->limbs.capacity);
-    pir_patch_room_finish(&room->patches, allocator, room->patch_p, room->patch_q);
+    pir_patch_room_finish(&room->patches, allocator);
     PIR_FREE(allocator, room, 1);
 }
 
@@ -26,23 +26,5 @@ pir_status pir_query_room_reserve_limbs(pir_query_room *room, const pir_scratch 
     PIR_FREE(&scratch->allocator, room->limbs.base, room->limbs.capacity);
     room->limbs = (pir_limbs){limbs, 0, need};
     room->owner = NULL;
-    return PIR_OK;
-}
-
-pir_status pir_query_room_reserve_patches(pir_query_room *room, const pir_scratch *scratch, size_t of_p, size_t of_q) {
-    const pir_allocator *a = &scratch->allocator;
-    if (of_p <= room->patch_p && of_q <= room->patch_q)
-        return PIR_OK;
-    of_p = of_p > room->patch_p ? of_p : room->patch_p;
-    of_q = of_q > room->patch_q ? of_q : room->patch_q;
-    pir_patch_room patches = {.shared = NULL};
-    if (!pir_patch_room_init(&patches, a, of_p, of_q)) {
-        pir_patch_room_finish(&patches, a, of_p, of_q);
-        return PIR_ERR_MEMORY;
-    }
-    pir_patch_room_finish(&room->patches, a, room->patch_p, room->patch_q);
-    room->patches = patches;
-    room->patch_p = of_p;
-    room->patch_q = of_q;
     return PIR_OK;
 }

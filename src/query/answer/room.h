@@ -19,7 +19,6 @@ typedef struct pir_query_room {
     pir_group_work work;
     pir_limbs limbs;
     pir_patch_room patches;
-    size_t patch_p, patch_q; /* for bodies of so many vertices */
 } pir_query_room;
 
 /* The room in a scratch; NULL when out of memory. */
@@ -28,8 +27,5 @@ pir_query_room *pir_query_room_of(pir_scratch *scratch);
 /* Makes room for the exact signs of two operands: PIR_ERR_MEMORY. */
 pir_status pir_query_room_reserve_limbs(pir_query_room *room, const pir_scratch *scratch, const pir_polytope *p,
                                         const pir_polytope *q);
-
-/* Makes room for patches of bodies of so many vertices: PIR_ERR_MEMORY. */
-pir_status pir_query_room_reserve_patches(pir_query_room *room, const pir_scratch *scratch, size_t of_p, size_t of_q);
 
 #endif

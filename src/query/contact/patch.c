@@ -15,20 +15,28 @@ static size_t most_shared(size_t of_p, size_t of_q) {
     return 2 * of_p + of_q + 4;
 }
 
-static pir_layout layout_of(pir_patch_room *room, size_t of_p, size_t of_q) {
-    size_t shared = most_shared(of_p, of_q);
+static pir_layout layout_of(pir_patch_room *room) {
+    size_t of_p = room->of_p, of_q = room->of_q, shared = most_shared(of_p, of_q);
     return (pir_layout){{PIR_ROW(room->p.member, of_p), PIR_ROW(room->p.is_member, of_p), PIR_ROW(room->p.corner, of_p),
                          PIR_ROW(room->q.member, of_q), PIR_ROW(room->q.is_member, of_q), PIR_ROW(room->q.corner, of_q),
                          PIR_ROW(room->shared, shared), PIR_ROW(room->hull, shared + 1)}};
 }
 
-bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
-    pir_layout layout = layout_of(room, of_p, of_q);
-    return pir_layout_new(allocator, &layout);
+bool pir_patch_room_reserve(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
+    if (of_p <= room->of_p && of_q <= room->of_q)
+        return true;
+    pir_patch_room grown = {.of_p = of_p > room->of_p ? of_p : room->of_p,
+                            .of_q = of_q > room->of_q ? of_q : room->of_q};
+    pir_layout layout = layout_of(&grown);
+    if (!pir_layout_new(allocator, &layout))
+        return false;
+    pir_patch_room_finish(room, allocator);
+    *room = grown;
+    return true;
 }
 
-void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
-    pir_layout layout = layout_of(room, of_p, of_q);
+void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator) {
+    pir_layout layout = layout_of(room);
     pir_layout_free(allocator, &layout);
 }
 

@@ -69,18 +69,16 @@ typedef struct pir_patch {
     double height, along_u, along_v; /* of a single facet's plane over the contact plane's origin, and its slopes */
 } pir_patch;
 
-/* Memory for the patches of a query and what they share. */
+/* Memory for the patches of a query and what they share; zeros at first. */
 typedef struct pir_patch_room {
     pir_patch p, q;
     pir_corner *shared, *hull;
+    size_t of_p, of_q; /* for bodies of so many vertices */
 } pir_patch_room;
 
-/*
- * Makes the memory for bodies of so many vertices, in a struct of zeros. False when out of memory;
- * pir_patch_room_finish then frees what is there.
- */
-bool pir_patch_room_init(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
-void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
+/* Makes room for bodies of so many vertices; it never shrinks. False when out of memory: the room is as it was. */
+bool pir_patch_room_reserve(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
+void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator);
 
 /* A direction of the queries' frame in the body's own frame. */
 static inline pir_vec3 pir_patch_to_body(const pir_patch *patch, pir_vec3 d) {

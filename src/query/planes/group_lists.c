@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "base/sort.h"
+
 /*
  * Facets in a group. With about three edge pairs for each facet of P, either kind of group makes about 32 planes,
  * four blocks.
@@ -43,16 +45,6 @@ static uint64_t coordinate_key(const pir_polytope *p, uint32_t f, int axis) {
 /* The first facet of group `g` of `groups`, among `count` facets in order. */
 static uint32_t group_start(uint32_t count, uint32_t g, uint32_t groups) {
     return (uint32_t)((uint64_t)count * g / groups);
-}
-
-static void sort_keys(uint64_t *keys, uint32_t count) {
-    for (uint32_t i = 1; i < count; i++) {
-        uint64_t key = keys[i];
-        uint32_t at = i;
-        for (; at > 0 && keys[at - 1] > key; at--)
-            keys[at] = keys[at - 1];
-        keys[at] = key;
-    }
 }
 
 /* Moves the `first` lowest of `count` different keys to the front. */
@@ -113,7 +105,7 @@ static void sort_groups(const pir_polytope *p, uint64_t *keys, uint32_t from, ui
     for (uint32_t i = start; i < end; i++)
         keys[i] = coordinate_key(p, (uint32_t)keys[i], axis);
     if (to - from == 1) {
-        sort_keys(keys + start, end - start);
+        pir_sort_short(keys + start, end - start);
         return;
     }
     part_keys(keys + start, end - start, group_start(p->facet_count, middle, groups) - start);
