@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: MIT */
+/* Stages; see stage.h. */
+#include "stage.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fields.h"
+#include "stage_shapes.h"
+
+/* A file longer than this is none of ours. */
+#define FILE_MOST ((size_t)1 << 28)
+/* The longest run, in seconds. */
+#define SECONDS_MOST 3600
+
+void stage_clear(struct stage *stage) {
+    for (uint32_t i = 0; i < stage->shape_count; i++)
+        world_shape_release(&stage->shape[i]);
+    free(stage->shape);
+    free(stage->body);
+    *stage = (struct stage){0};
+}
+
+static bool read_shapes(const struct fields *all, const char *folder, struct stage *stage) {
+    struct fields shapes = fields_at(all, "shapes");
+    if (!cJSON_IsObject(shapes.object))
+        return fields_fail(all, "shapes", shapes.object ? "is no object" : "is missing");
+    int count = cJSON_GetArraySize(shapes.object);
+    stage->shape = calloc((size_t)count + 1, sizeof *stage->shape);
+    if (!stage->shape)
+        return fields_fail(all, "shapes", "out of memory");
+    for (const cJSON *item = shapes.object->child; item; item = item->next) {
+        struct fields one = fields_at(&shapes, item->string);
+        if (one.object != item)
+            return fields_fail(&shapes, NULL, "key '%.40s' comes twice", item->string);
+        if (!stage_shape(&one, folder, &stage->shape[stage->shape_count]))
+            return false;
+        stage->shape_count++;
+    }
+    return true;
+}
+
+static bool read_shape_of(const struct fields *fields, const struct fields *all, struct stage *stage,
+                          struct stage_body *to) {
+    const char *name = fields_text(fields, "shape");
+    if (!name)
+        return false;
+    const cJSON *shapes = cJSON_GetObjectItemCaseSensitive(all->object, "shapes"), *item = shapes->child;
+    for (to->shape = 0; item && strcmp(item->string, name) != 0; item = item->next)
+        to->shape++;
+    if (!item)
+        return fields_fail(fields, "shape", "there is no shape '%.40s'", name);
+    to->body.shape = &stage->shape[to->shape];
+    return true;
+}
+
+static bool read_body(const struct fields *fields, const struct fields *all, struct stage *stage,
+                      struct stage_body *to) {
+    static const char *const known[] = {"shape", "kind",    "position", "quat",        "velocity",
+                                        "spin",  "density", "friction", "restitution", NULL};
+    static const char *const kinds[] = {"moving", "kinematic", "static", NULL};
+    struct world_body *body = &to->body;
+    double position[3] = {0}, quat[4] = {0, 0, 0, 1}, velocity[3] = {0}, spin[3] = {0};
+    int kind = PIR_BODY_MOVING;
+    *body = (struct world_body){.density = 1000, .friction = 0.6};
+    if (!fields_known(fields, known) || !read_shape_of(fields, all, stage, to) ||
+        !fields_choice(fields, "kind", kinds, &kind) || !fields_numbers(fields, "position", 3, position) ||
+        !fields_numbers(fields, "quat", 4, quat) || !fields_numbers(fields, "velocity", 3, velocity) ||
+        !fields_numbers(fields, "spin", 3, spin) || !fields_number(fields, "density", 1e-9, 1e15, &body->density) ||
+        !fields_number(fields, "friction", 0, 1e3, &body->friction) ||
+        !fields_number(fields, "restitution", 0, 1, &body->restitution))
+        return false;
+    if (quat[0] == 0 && quat[1] == 0 && quat[2] == 0 && quat[3] == 0)
+        return fields_fail(fields, "quat", "has length 0");
+    if (kind == PIR_BODY_MOVING && !(body->shape->mass.volume > 0))
+        return fields_fail(fields, "shape", "is flat; a body that moves by itself has a volume");
+    if (kind == PIR_BODY_STATIC &&
+        (cJSON_HasObjectItem(fields->object, "velocity") || cJSON_HasObjectItem(fields->object, "spin")))
+        return fields_fail(fields, NULL, "is static, and has a velocity or a spin");
+    body->kind = (pir_body_kind)kind;
+    pir_pose pose = {{quat[0], quat[1], quat[2], quat[3]}, {position[0], position[1], position[2]}};
+    body->pose = (pir_pose){pose.rotation, pir_pose_apply(pose, body->shape->offset)};
+    body->velocity = (pir_vec3){velocity[0], velocity[1], velocity[2]};
+    body->spin = (pir_vec3){spin[0], spin[1], spin[2]};
+    return true;
+}
+
+static bool read_bodies(const struct fields *all, struct stage *stage) {
+    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(all->object, "bodies");
+    if (!cJSON_IsArray(bodies))
+        return fields_fail(all, "bodies", bodies ? "is no array" : "is missing");
+    stage->body = calloc((size_t)cJSON_GetArraySize(bodies) + 1, sizeof *stage->body);
+    if (!stage->body)
+        return fields_fail(all, "bodies", "out of memory");
+    for (const cJSON *item = bodies->child; item; item = item->next) {
+        struct fields one = {.object = item, .why = all->why, .size = all->size};
+        snprintf(one.place, sizeof one.place, "bodies[%u]", (unsigned)stage->body_count);
+        if (!read_body(&one, all, stage, &stage->body[stage->body_count]))
+            return false;
+        stage->body_count++;
+    }
+    return true;
+}
+
+static bool read_all(const struct fields *all, const char *folder, struct stage *stage) {
+    static const char *const known[] = {"title",      "gravity",     "seconds", "margin", "sleep",
+                                        "iterations", "relaxations", "shapes",  "bodies", NULL};
+    struct world_options *options = &stage->options;
+    double gravity[3] = {options->gravity.x, options->gravity.y, options->gravity.z};
+    double iterations = options->iterations, relaxations = options->relaxations;
+    if (!fields_known(all, known) || !fields_numbers(all, "gravity", 3, gravity) ||
+        !fields_number(all, "seconds", 0, SECONDS_MOST, &stage->seconds) ||
+        !fields_number(all, "margin", 0, 1e6, &options->margin) || !fields_flag(all, "sleep", &options->sleep) ||
+        !fields_number(all, "iterations", 1, 1000, &iterations) ||
+        !fields_number(all, "relaxations", 0, 1000, &relaxations))
+        return false;
+    options->gravity = (pir_vec3){gravity[0], gravity[1], gravity[2]};
+    options->iterations = (uint32_t)iterations;
+    options->relaxations = (uint32_t)relaxations;
+    const char *title = cJSON_HasObjectItem(all->object, "title") ? fields_text(all, "title") : "";
+    if (!title)
+        return false;
+    if (strlen(title) >= sizeof stage->title)
+        return fields_fail(all, "title", "is longer than %zu bytes", sizeof stage->title - 1);
+    memcpy(stage->title, title, strlen(title) + 1);
+    return read_shapes(all, folder, stage) && read_bodies(all, stage);
+}
+
+/* --- the file --- */
+
+/* All of the file, ended by a zero, to be freed; NULL after a line. */
+static char *read_text(const char *path, char why[STAGE_WHY]) {
+    bool from_stdin = strcmp(path, "-") == 0;
+    FILE *file = from_stdin ? stdin : fopen(path, "rb");
+    char *text = NULL;
+    size_t used = 0, room = 0;
+    bool memory = true;
+    while (file && memory && used <= FILE_MOST && !feof(file) && !ferror(file)) {
+        if (room - used < 4096) {
+            char *grown = realloc(text, room += room + 65536);
+            memory = grown;
+            text = grown ? grown : text;
+        }
+        if (memory)
+            used += fread(text + used, 1, room - used - 1, file);
+    }
+    bool good = false;
+    if (!file || ferror(file))
+        snprintf(why, STAGE_WHY, "cannot be read: %s", strerror(errno));
+    else if (!memory)
+        snprintf(why, STAGE_WHY, "out of memory");
+    else if (used > FILE_MOST)
+        snprintf(why, STAGE_WHY, "is longer than %zu bytes", FILE_MOST);
+    else if (memchr(text, 0, used))
+        snprintf(why, STAGE_WHY, "has a zero byte; it is no text");
+    else
+        good = true;
+    if (file && !from_stdin)
+        fclose(file);
+    if (good) {
+        text[used] = '\0';
+        return text;
+    }
+    free(text);
+    return NULL;
+}
+
+static void say_where(const char *text, const char *end, char why[STAGE_WHY]) {
+    size_t line = 1, column = 1;
+    for (const char *at = text; at < end; at++, column++)
+        if (*at == '\n') {
+            line++;
+            column = 0;
+        }
+    snprintf(why, STAGE_WHY, "line %zu, column %zu: is no JSON", line, column);
+}
+
+static bool read_from(const char *path, struct stage *stage, char why[STAGE_WHY]) {
+    char *text = read_text(path, why);
+    if (!text)
+        return false;
+    const char *end = text;
+    cJSON *root = cJSON_ParseWithLengthOpts(text, strlen(text) + 1, &end, 1);
+    const char *slash = strrchr(path, '/');
+    char folder[4096];
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 0, path);
+    struct fields all = {.object = root, .why = why, .size = STAGE_WHY};
+    if (!root)
+        say_where(text, end, why);
+    bool good = root && read_all(&all, folder, stage);
+    cJSON_Delete(root);
+    free(text);
+    return good;
+}
+
+bool stage_read(const char *path, struct stage *ret_stage, char why[STAGE_WHY]) {
+    struct stage stage = {.options = world_options_default(), .seconds = 10};
+    char what[STAGE_WHY] = "";
+    if (read_from(path, &stage, what)) {
+        *ret_stage = stage;
+        return true;
+    }
+    stage_clear(&stage);
+    const int room = STAGE_WHY / 2 - 4;
+    snprintf(why, STAGE_WHY, "%.*s: %.*s", room, strcmp(path, "-") == 0 ? "standard input" : path, room, what);
+    return false;
+}
+
+pir_status stage_world(const struct stage *stage, struct world **ret_world) {
+    struct world *world = NULL;
+    pir_status status = world_create(&stage->options, &world);
+    for (uint32_t i = 0; status == PIR_OK && i < stage->body_count; i++)
+        status = world_add(world, &stage->body[i].body);
+    if (status == PIR_OK)
+        *ret_world = world;
+    else
+        world_destroy(world);
+    return status;
+}

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A small world of rigid bodies on pir_scene: bodies fall, touch, rub and come to rest.
+ *
+ * A step is 1/240 s. It takes the contacts that the scene found at the end of the step before, finds impulses at them
+ * (solver.h), moves the bodies, and tells the scene where they are. Impulses are kept by the ids of contacts from step
+ * to step. Bodies that have been still for half a second, with all that they touch, sleep: they cost nothing until
+ * something that moves touches them.
+ *
+ * Numbers are made with +, −, ·, / and the square root alone, and the scene's are the same everywhere: so are runs.
+ *
+ * Units: metres, kilograms, seconds, radians.
+ */
+#ifndef PHYSICS_WORLD_H
+#define PHYSICS_WORLD_H
+
+#include <stdbool.h>
+
+#include <pirouette/pirouette.h>
+
+/* A body's form: convex pieces about their common centre of mass. */
+struct world_shape {
+    pir_polytope **piece; /* `count` of them, a reference each */
+    uint32_t count;
+    pir_mass mass;   /* of density 1, about the origin */
+    double radius;   /* no point is farther from the origin */
+    pir_vec3 offset; /* what was taken away from all coordinates */
+};
+
+/* Moves pieces so that their centre of mass is the origin, exactly by a double. The pieces stay the caller's. */
+pir_status world_shape_make(pir_polytope *const *pieces, uint32_t count, struct world_shape *ret_shape);
+
+/* Gives the references back; a zeroed shape is accepted. */
+void world_shape_release(struct world_shape *shape);
+
+struct world_options {
+    pir_vec3 gravity;
+    double step;          /* seconds */
+    double margin;        /* how far apart pieces may be that have contacts */
+    uint32_t iterations;  /* passes over all contacts that also push overlapping bodies apart */
+    uint32_t relaxations; /* passes afterwards that take the speed of that away again */
+    bool sleep;
+    uint32_t threads; /* of the scene */
+};
+
+/* 9.81 m/s² along −z, 1/240 s, 5 mm, 8 and 4 passes, sleeping, one thread. */
+struct world_options world_options_default(void);
+
+struct world_body {
+    pir_body_kind kind;
+    pir_pose pose;
+    pir_vec3 velocity, spin;
+    const struct world_shape *shape; /* its pieces are referenced; a moving body's has a volume */
+    double density;                  /* > 0 */
+    double friction;                 /* ≥ 0; of two bodies the geometric mean counts */
+    double restitution;              /* 0 to 1; of two bodies the greater counts */
+};
+
+/* Two pieces that touch or nearly do, as of the last step. */
+struct world_contact {
+    pir_vec3 point; /* in the middle between both bodies */
+    pir_vec3 normal;
+    double distance; /* negative where they overlap */
+    double impulse;  /* along the normal, in the last step */
+    uint32_t body_p, body_q;
+};
+
+/* What a body does. */
+struct world_motion {
+    pir_pose pose;
+    pir_vec3 velocity, spin;
+    bool asleep;
+};
+
+struct world;
+
+pir_status world_create(const struct world_options *options, struct world **ret_world);
+
+/* NULL is accepted. */
+void world_destroy(struct world *world);
+
+/* Bodies are numbered in the order in which they come. */
+pir_status world_add(struct world *world, const struct world_body *body);
+
+uint32_t world_count(const struct world *world);
+
+/*
+ * One step. Fails where memory runs out, or where a body goes where the scene does not reach (PIR_ERR_LIMIT,
+ * PIR_ERR_NOT_FINITE); the world is then not to be used any more, but to be destroyed.
+ */
+pir_status world_step(struct world *world);
+
+struct world_motion world_motion(const struct world *world, uint32_t body);
+
+/* Mean over the moving bodies of speed; 0 where there are none. */
+double world_mean_speed(const struct world *world);
+
+/* The number of contacts, and each. */
+uint32_t world_contact_count(const struct world *world);
+struct world_contact world_contact(const struct world *world, uint32_t index);
+
+/* What finds the contacts: for statistics and queries between steps. */
+pir_scene *world_scene(struct world *world);
+
+#endif

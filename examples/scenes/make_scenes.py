@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Writes the scenes beside this file, for `pirouette simulate`: make_scenes.py [FOLDER]
+
+Metres, kilograms, seconds; z is up. Only the standard library is used, and nothing of the build depends on this script.
+"""
+import json
+import math
+import pathlib
+import random
+import sys
+
+
+def about(axis, degrees):
+    """The quaternion of a turn about x, y or z."""
+    half = math.radians(degrees) / 2
+    quat = [0.0, 0.0, 0.0, math.cos(half)]
+    quat["xyz".index(axis)] = math.sin(half)
+    return quat
+
+
+def times(a, b):
+    """First b, then a."""
+    (x, y, z, w), (p, q, r, s) = a, b
+    return [w * p + x * s + y * r - z * q, w * q - x * r + y * s + z * p, w * r + x * q - y * p + z * s,
+            w * s - x * p - y * q - z * r]
+
+
+def rounded(value):
+    if isinstance(value, float):
+        return round(value, 9) + 0.0
+    if isinstance(value, list):
+        return [rounded(v) for v in value]
+    return {k: rounded(v) for k, v in value.items()} if isinstance(value, dict) else value
+
+
+def box(x, y, z):
+    return {"points": [[i * x / 2, j * y / 2, k * z / 2] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)]}
+
+
+def body(shape, position, quat=None, **more):
+    return {"shape": shape, "position": list(position), **({"quat": quat} if quat else {}), **more}
+
+
+def floor(size, **more):
+    """A slab whose top is at z = 0."""
+    return {"floor": box(size, size, 0.1)}, body("floor", [0, 0, -0.05], kind="static", **more)
+
+
+def stack():
+    shapes, ground = floor(4.0)
+    shapes["crate"] = box(0.4, 0.4, 0.4)
+    crates = [body("crate", [0, 0, 0.2 + 0.4 * i], density=300) for i in range(10)]
+    return {"title": "A stack of ten boxes", "seconds": 10, "shapes": shapes, "bodies": [ground, *crates]}
+
+
+def cards():
+    """Three storeys: 3, 2 and 1 pairs of leaning cards, with 2 and 1 flat ones between them."""
+    height, depth, thick, tilt, apart = 0.2, 0.14, 0.004, 25, 0.205
+    s, c = math.sin(math.radians(tilt)), math.cos(math.radians(tilt))
+    shapes, ground = floor(2.0, friction=0.7)
+    shapes["card"] = box(thick, depth, height)
+    # a leaning card reaches so far from its middle
+    across, up = (height * s + thick * c) / 2, (height * c + thick * s) / 2
+    bodies, z = [ground], 0.0
+    for storey in range(3):
+        frames = 3 - storey
+        for i in range(frames):
+            x = apart * (i - (frames - 1) / 2)
+            bodies += [body("card", [x + side * across, 0, z + up], about("y", -side * tilt), friction=0.7)
+                       for side in (-1, 1)]
+        z += 2 * up
+        bodies += [body("card", [apart * (i - (frames - 2) / 2), 0, z + thick / 2], about("y", 90), friction=0.7)
+                   for i in range(frames - 1)]
+        z += thick
+    return {"title": "A house of fifteen cards", "seconds": 10, "margin": 0.001, "shapes": shapes, "bodies": bodies}
+
+
+def hull(numbers, corners, size):
+    """Points on an ellipsoid, as a shape."""
+    axes = [size * numbers.uniform(0.6, 1) for _ in range(3)]
+    points = []
+    while len(points) < corners:
+        p = [numbers.uniform(-1, 1) for _ in range(3)]
+        length = math.hypot(*p)
+        if 0.1 < length < 1:
+            points.append([axis * x / length for axis, x in zip(axes, p)])
+    return {"points": points}
+
+
+def turned(numbers):
+    quat = [numbers.gauss(0, 1) for _ in range(4)]
+    return [x / math.hypot(*quat) for x in quat]
+
+
+def pile(count, side, seconds):
+    numbers = random.Random(1)
+    shapes, ground = floor(6.0)
+    half, bodies = 0.16 * side, [ground]
+    shapes["wall"] = box(0.2, 2 * half + 0.4, 1.6)
+    for i in range(4):
+        a = math.radians(90 * i)
+        bodies.append(body("wall", [(half + 0.1) * round(math.cos(a)), (half + 0.1) * round(math.sin(a)), 0.8],
+                           about("z", 90 * i), kind="static"))
+    for i in range(20):
+        shapes[f"hull {i}"] = hull(numbers, 8 + 24 * i // 20, 0.11)
+    for i in range(count):
+        place = [i % side, i // side % side, i // side ** 2]
+        x, y = (0.3 * (p - (side - 1) / 2) + numbers.uniform(-0.02, 0.02) for p in place[:2])
+        bodies.append(body(f"hull {numbers.randrange(20)}", [x, y, 0.2 + 0.26 * place[2]], turned(numbers)))
+    return {"title": f"A pile of {count} hulls", "seconds": seconds, "shapes": shapes, "bodies": bodies}
+
+
+def dominoes():
+    shapes, ground = floor(6.0)
+    shapes["domino"], shapes["ball"] = box(0.05, 0.25, 0.5), {"model": "shape:geodesic?level=3", "scale": 0.12}
+    bodies, count, radius = [ground], 40, 1.5
+    for i in range(count):
+        angle = 300 * i / (count - 1)
+        a = math.radians(angle)
+        bodies.append(body("domino", [radius * math.cos(a), radius * math.sin(a), 0.25], about("z", angle + 90)))
+    bodies.append(body("ball", [radius, -0.3, 0.4], velocity=[0, 2.5, 0]))
+    return {"title": "Dominoes", "seconds": 8, "shapes": shapes, "bodies": bodies}
+
+
+def table():
+    shapes, ground = floor(2.0)
+    shapes["top"], shapes["leg"] = box(0.8, 0.5, 0.04), box(0.05, 0.05, 0.4)
+    shapes["mug"] = {"model": "../models/mug.off", "scale": 0.001}
+    shapes["controller"] = {"model": "../models/gamepad.off", "scale": 0.001}
+    bodies = [ground, body("top", [0, 0, 0.42], kind="static")]
+    bodies += [body("leg", [x, y, 0.2], kind="static") for x in (-0.35, 0.35) for y in (-0.2, 0.2)]
+    bodies += [body("mug", [-0.1, 0, 0.6], times(about("x", 40), about("y", 25)), density=600),
+               body("controller", [0.1, 0.02, 0.65], times(about("y", 35), about("x", 100)), density=400),
+               body("mug", [-0.02, 0.05, 0.85], about("y", 80), density=600)]
+    return {"title": "The mug and the controller on a table", "seconds": 6, "margin": 0.001, "shapes": shapes,
+            "bodies": bodies}
+
+
+def prism(corners, height):
+    return {"points": [[x, y, side * height / 2] for x, y in corners for side in (-1, 1)]}
+
+
+def gear(teeth, height):
+    """A ring and its teeth, in convex pieces; the pitch circle has radius 1."""
+    hole, rim, tip = 0.35, 1 - 2.4 / teeth, 1 + 1.7 / teeth
+    step, pieces = 2 * math.pi / teeth, []
+
+    def at(radius, angle):
+        return [radius * math.cos(angle), radius * math.sin(angle)]
+
+    for i in range(teeth):
+        a = i * step
+        pieces.append(prism([at(r, a + s * step / 2) for r in (hole, rim) for s in (-1, 1)], height))
+        sides = [at(r, a + s * w * step) for r, w in ((0.97 * rim, 0.3), (1, 0.22), (tip, 0.1)) for s in (-1, 1)]
+        pieces.append(prism(sides, height))
+    return {"pieces": pieces, "scale": 0.5}
+
+
+def gears():
+    """The left gear is turned, the right one turns on its pin by what the teeth push."""
+    teeth, radius, height = 16, 0.5, 0.3
+    shapes, ground = floor(4.0, friction=0.1)
+    shapes["gear"], shapes["pin"] = gear(teeth, height), {"model": "shape:cylinder?sides=24", "scale": 0.17}
+    pin = [[0.172 * math.cos(i * math.pi / 12), 0.172 * math.sin(i * math.pi / 12)] for i in range(24)]
+    shapes["pin"] = prism(pin, 0.4)
+    bodies = [ground, body("gear", [-radius, 0, height / 4 + 0.001], kind="kinematic", spin=[0, 0, 1], friction=0.1),
+              body("pin", [radius, 0, 0.2], kind="static", friction=0.05),
+              body("gear", [radius, 0, height / 4 + 0.001], about("z", 180 / teeth), density=500, friction=0.1)]
+    return {"title": "A pair of gears", "seconds": 10, "margin": 0.002, "shapes": shapes, "bodies": bodies}
+
+
+def slot():
+    """A tenth of a millimetre of room on each side."""
+    shapes, ground = floor(2.0)
+    shapes["box"], shapes["cheek"] = box(0.2, 0.2, 0.3), box(0.3, 0.6, 0.4)
+    gap = 0.2002 / 2 + 0.15
+    bodies = [ground, body("cheek", [gap, 0, 0.2], kind="static", friction=0.2),
+              body("cheek", [-gap, 0, 0.2], kind="static", friction=0.2),
+              body("box", [0, 0, 0.54], friction=0.2, density=700, velocity=[0, 0.05, 0])]
+    return {"title": "A box in a tight slot", "seconds": 4, "margin": 0.001, "shapes": shapes, "bodies": bodies}
+
+
+SCENES = {"stack": stack, "cards": cards, "pile": lambda: pile(500, 8, 12), "heap": lambda: pile(80, 4, 6),
+          "dominoes": dominoes, "table": table, "gears": gears, "slot": slot}
+
+
+def text_of(scene):
+    """One line for each shape and each body."""
+    scene = rounded(scene)
+    shapes = ",\n".join(f"  {json.dumps(name)}: {json.dumps(shape)}" for name, shape in scene.pop("shapes").items())
+    bodies = ",\n".join("  " + json.dumps(one) for one in scene.pop("bodies"))
+    head = json.dumps(scene)[:-1]
+    return f'{head},\n "shapes": {{\n{shapes}}},\n "bodies": [\n{bodies}]}}\n'
+
+
+if __name__ == "__main__":
+    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
+    for scene_name, make in SCENES.items():
+        (folder / f"{scene_name}.json").write_text(text_of(make()))
