@@ -242,7 +242,13 @@ static int make_slices(struct slicing *run) {
     if (!job)
         return EXIT_BAD_INPUT;
     interrupt_put_off(true);
-    pir_status status = ranks_run(&run->ranks, job, (uint64_t)run->robot.count * run->obstacles.count, &report);
+    // rank 0 alone knows whether a file that is complete leaves nothing to share
+    bool shared = ranks_agree(&run->ranks, run->ranks.number > 0 || pir_cspace_job_left(job) > 0);
+    pir_status status = PIR_OK;
+    if (shared)
+        status = ranks_run(&run->ranks, job, (uint64_t)run->robot.count * run->obstacles.count, &report);
+    else if (run->ranks.number == 0)
+        status = pir_cspace_job_run(job, &report);
     progress_end(&run->bar);
     interrupt_put_off(false);
     int result = EXIT_DONE;

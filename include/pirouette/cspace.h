@@ -80,18 +80,20 @@ PIR_API pir_cspace_options pir_cspace_options_default(void);
 /**
  * Makes a job. With `resume` it takes over the units that parts of an earlier run hold, and where the file itself is
  * there, of the same job, nothing is left to make; else it removes such parts. Of several processes that share a job
- * only the first may be without `resume`, and the others make theirs after it.
+ * only the first, whose `part` is 0, may be without `resume`, and the others make theirs after it.
  *
  * bodies   pieces of any dimension, at least one of each; the job takes a reference to each.
  * grid     borrowed until the job is destroyed.
- * path     the file that will appear when all units are made; what stands there before then stays.
+ * path     the file that will appear when all units are made; links are followed. A file that stands there stays until
+ *          then, and leaves the new one its permissions; what is no regular file is refused.
  * options  NULL for the defaults.
  * report   NULL, or filled when the call fails.
  *
  * Cost: O(rotations + size of the pieces); with `resume`, the time to read all parts.
  *
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY (no pieces), PIR_ERR_FORMAT (a part of another job), PIR_ERR_FILE,
- * PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no HDF5).
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY (no pieces), PIR_ERR_FORMAT (with `resume`, a part of another job, or a file
+ * that is another one and no part of this job), PIR_ERR_FILE, PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no
+ * HDF5).
  */
 PIR_API pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
                                          const pir_cspace_options *options, pir_report *report,
@@ -102,6 +104,12 @@ PIR_API void pir_cspace_job_destroy(pir_cspace_job *job);
 
 /** Units in all, those that are made included. */
 PIR_API uint64_t pir_cspace_job_units(const pir_cspace_job *job);
+
+/**
+ * Units that were still to be made when the job was created. Of processes that share a job only the first one, whose
+ * `part` is 0, looks whether the file is complete.
+ */
+PIR_API uint64_t pir_cspace_job_left(const pir_cspace_job *job);
 
 /**
  * Makes units until none is left to claim, or until `progress` returns 0, and appends them to this process's part. Each

@@ -64,6 +64,15 @@ class Same(Ranks):
             self.assertEqual(digest(path), expected, f"{ranks} ranks")
         self.assertEqual(sorted(p.suffix for p in self.path.iterdir()), [".h5"] * 5)
 
+    def test_a_file_that_is_there_is_made_anew_or_left(self):
+        expected = self.slice("one.h5", *JOB)
+        path = self.path / "one.h5"
+        for more, resumed in (([], 0), (["--resume"], 576)):
+            done = run(launch(2, *JOB, "-o", path, "--json", *more))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(json.loads(done.stdout)["resumed"], resumed)
+            self.assertEqual(digest(path), expected)
+
     def test_ranks_of_several_threads(self):
         path = self.path / "threads.h5"
         done = run(launch(2, *JOB, "-o", path, "--threads", 2))

@@ -291,6 +291,66 @@ class Usage(InFolder):
         self.assertEqual(os.listdir(self.folder), ["box.off"])
 
 
+class WhatStandsThere(InFolder):
+    JOB = ("shape:cube", "shape:cube", "--axis", "0,0,1", "--steps", 4)
+
+    def other(self, name="a.h5"):
+        self.make(name, models=("shape:tetrahedron", "shape:cube"), grid=("--axis", "0,0,1", "--steps", 5))
+        return Path(self.path(name)).read_bytes()
+
+    def test_a_link_is_followed(self):
+        (self.folder / "far").mkdir()
+        for old in (None, self.other("far/b.h5")):
+            if old is None:
+                (self.folder / "a.h5").symlink_to("far/b.h5")
+            self.make("a.h5", models=self.JOB[:2], grid=self.JOB[2:])
+            self.assertTrue((self.folder / "a.h5").is_symlink())
+            self.assertNotEqual((self.folder / "far/b.h5").read_bytes(), old)
+            self.assertEqual(os.listdir(self.folder / "far"), ["b.h5"])
+
+    def test_what_is_no_file_is_refused_before_any_work(self):
+        (self.folder / "folder.h5").mkdir()
+        os.mkfifo(self.path("fifo.h5"))
+        (self.folder / "link.h5").symlink_to("fifo.h5")
+        (self.folder / "round.h5").symlink_to("round.h5")
+        here = sorted(os.listdir(self.folder))
+        many = ("shape:gs4", "shape:gs4", "--grid", "hopf", "--level", 3)
+        for name, says in (("folder", "no regular file"), ("fifo", "no regular file"), ("link", "no regular file"),
+                           ("round", "symbolic links")):
+            self.refused(*many, "-o", self.path(name + ".h5"), says=rf"{name}\.h5: cannot write: .*{says}")
+            self.assertFalse(os.path.exists(self.path(name + ".h5.part0")))
+        self.assertEqual(sorted(os.listdir(self.folder)), here)
+
+    def test_permissions_are_kept(self):
+        old = self.other()
+        os.chmod(self.path("a.h5"), 0o640)
+        self.make("a.h5", models=self.JOB[:2], grid=self.JOB[2:])
+        self.assertEqual(os.stat(self.path("a.h5")).st_mode & 0o7777, 0o640)
+        self.assertNotEqual(Path(self.path("a.h5")).read_bytes(), old)
+
+    @unittest.skipIf(os.geteuid() == 0, "all files may be written")
+    def test_a_file_that_may_not_be_written_is_refused(self):
+        self.other()
+        os.chmod(self.path("a.h5"), 0o440)
+        self.refused(*self.JOB, "-o", self.path("a.h5"), says=r"a\.h5: cannot write: Permission denied")
+
+    def test_resuming_leaves_the_file_of_another_job(self):
+        old = self.other()
+        self.refused(*self.JOB, "-o", self.path("a.h5"), "--resume",
+                     says=r"a\.h5: it is of another job; without resuming it is replaced")
+        self.assertEqual(Path(self.path("a.h5")).read_bytes(), old)
+
+    def test_a_run_over_an_older_file_resumes(self):
+        self.make("whole.h5", models=self.JOB[:2], grid=self.JOB[2:])
+        self.other()
+        # what a run leaves that is killed before its first unit
+        for left in (b"", Path(self.path("whole.h5")).read_bytes()[:3]):
+            Path(self.path("a.h5.part0")).write_bytes(left)
+            self.make("a.h5", "--resume", models=self.JOB[:2], grid=self.JOB[2:])
+            self.assertEqual(Path(self.path("a.h5")).read_bytes(), Path(self.path("whole.h5")).read_bytes())
+            self.other()
+
+
 class LongJobs(InFolder):
     GRID = ("--grid", "hopf", "--level", 2)
     MODELS = ("shape:gs2", "shape:gs3", "shape:icosahedron")

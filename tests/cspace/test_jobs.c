@@ -82,7 +82,7 @@ static void runs_that_resume_make_the_same_file(void **state) {
     slice_scene_finish(&scene);
 }
 
-/* What stands in the way: a file that is complete is not made again, any other is replaced. */
+/* What stands in the way: a file that is complete is not made again; any other is replaced, but not by resuming. */
 static void a_file_that_is_complete_is_left_alone(void **state) {
     (void)state;
     struct slice_scene scene;
@@ -103,6 +103,13 @@ static void a_file_that_is_complete_is_left_alone(void **state) {
     assert_true(before.st_ino == after.st_ino);
     assert_int_not_equal(access(part, F_OK), 0);
     slice_write_whole(path, bytes, size / 2);
+    pir_cspace_job *job = NULL;
+    pir_report report = {0};
+    assert_int_equal(pir_cspace_job_create(&scene.bodies, scene.grid, path, &options, &report, &job), PIR_ERR_FORMAT);
+    assert_non_null(strstr(report.text, "of another job"));
+    assert_int_equal(stat(path, &after), 0);
+    assert_int_equal(after.st_size, size / 2);
+    options.resume = 0;
     slice_make_file(&scene, path, &options);
     size_t again;
     uint8_t *made = slice_read_whole(path, &again);

@@ -30,10 +30,13 @@ bool pir_balls_apart(const pir_asked_pair *pair, const pir_rotation *pose, pir_v
     return true;
 }
 
-/* The slice, with the translation at which the centres meet for its inner point. */
-static pir_status get_slice(const pir_asked_pair *pair, uint64_t number, const pir_mat3 *b,
-                            pir_held_slice **ret_slice) {
-    pir_vec3 meeting = pir_vec_sub(pair->q->centre, pir_mat_apply(b, pair->p->centre));
+/* The rotation of a slice, and the slice, with the translation at which the centres meet for its inner point. */
+static pir_status hold_slice(const pir_asked_pair *pair, uint64_t number, pir_rotation *ret_rotation,
+                             pir_held_slice **ret_slice) {
+    pir_status status = pir_rotation_set(ret_rotation, pir_grid_rotation(pair->source->grid, number));
+    if (status != PIR_OK)
+        return status;
+    pir_vec3 meeting = pir_vec_sub(pair->q->centre, pir_mat_apply(&ret_rotation->r, pair->p->centre));
     return pir_held_get(pair->held, pair->source, (pir_cspace_place){pair->robot, pair->obstacle, number}, meeting,
                         pair->report, ret_slice);
 }
@@ -44,21 +47,25 @@ static pir_status fail_query(const pir_asked_pair *pair, pir_status status) {
     return status;
 }
 
+/* Where a translation lies beside the difference at the slice's rotation, and how far from its boundary. */
+static pir_status ask_slice(const pir_asked_pair *pair, pir_held_slice *slice, pir_vec3 translation,
+                            pir_query_result *ret_result) {
+    pir_query_input input = pir_query_input_default();
+    input.translation = translation;
+    pir_status status = pir_query_signed_distance(slice->query, &input, &slice->cache, ret_result);
+    return status == PIR_OK ? PIR_OK : fail_query(pair, status);
+}
+
 pir_status pir_pair_at_slice(const pir_asked_pair *pair, uint64_t slice, pir_vec3 translation, pir_state *ret_state,
                              pir_proof *proof) {
     pir_rotation rotation;
     pir_held_slice *held;
-    pir_status status = pir_rotation_set(&rotation, pir_grid_rotation(pair->source->grid, slice));
+    pir_query_result result;
+    pir_status status = hold_slice(pair, slice, &rotation, &held);
     if (status == PIR_OK)
-        status = get_slice(pair, slice, &rotation.r, &held);
+        status = ask_slice(pair, held, translation, &result);
     if (status != PIR_OK)
         return status;
-    pir_query_input input = pir_query_input_default();
-    input.translation = translation;
-    pir_query_result result;
-    status = pir_query_signed_distance(held->query, &input, &held->cache, &result);
-    if (status != PIR_OK)
-        return fail_query(pair, status);
     *ret_state = result.state;
     proof->free = result.state == PIR_OUTSIDE;
     proof->blocked = !proof->free;
@@ -101,18 +108,15 @@ pir_status pir_pair_by_slice(const pir_asked_pair *pair, const pir_rotation *pos
                              pir_proof *proof) {
     pir_rotation at;
     pir_held_slice *held;
-    pir_status status = pir_rotation_set(&at, pir_grid_rotation(pair->source->grid, slice));
-    if (status == PIR_OK)
-        status = get_slice(pair, slice, &at.r, &held);
+    pir_status status = hold_slice(pair, slice, &at, &held);
     if (status != PIR_OK)
         return status;
     pir_turned turned = pir_turned_of(pose, translation, &at);
-    pir_query_input input = pir_query_input_default();
-    input.translation = pir_vec_add(translation, pir_turned_shift(&turned, pair->p));
+    pir_vec3 shifted = pir_vec_add(translation, pir_turned_shift(&turned, pair->p));
     pir_query_result result;
-    status = pir_query_signed_distance(held->query, &input, &held->cache, &result);
+    status = ask_slice(pair, held, shifted, &result);
     if (status != PIR_OK)
-        return fail_query(pair, status);
+        return status;
     // the bound by the ball, then the closer one by the vertices
     double error = pir_turned_error(&turned, pair->p, pair->q) + query_error(pair, result.distance);
     double moved = pir_turned_by_ball(&turned, pair->p);
@@ -129,6 +133,6 @@ pir_status pir_pair_by_slice(const pir_asked_pair *pair, const pir_rotation *pos
     pir_carry(&carrying, &at.r, result.witness, result.normal, proof);
     if (proof->free || proof->blocked)
         return PIR_OK;
-    status = carry_exit(&carrying, held, &at, input.translation, proof);
+    status = carry_exit(&carrying, held, &at, shifted, proof);
     return status == PIR_OK ? PIR_OK : fail_query(pair, status);
 }

@@ -45,16 +45,16 @@ struct pir_cspace {
     void (*answers_free)(pir_cspace *cspace);
 };
 
-/* Brings the cursor to a slice. Errors as of pir_cspace_slice. */
-pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *report);
+/*
+ * Brings the cursor to a slice, and gives its crossings, in order; they hold until the next call. Errors as of
+ * pir_cspace_slice.
+ */
+pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *report,
+                            const pir_replay_crossing **ret_crossings, uint32_t *ret_count);
 
 /* The rotation that the cursor is at. */
 static inline pir_quat pir_cspace_cursor_rotation(const pir_cspace *cspace) {
     return cspace->cursor.rotation[cspace->cursor.slice];
 }
-
-/* What the crossings are that the cursor is at, in order. Errors: PIR_ERR_FORMAT, PIR_ERR_MEMORY. */
-pir_status pir_cspace_crossings(pir_cspace *cspace, pir_report *report, const pir_replay_crossing **ret_crossings,
-                                uint32_t *ret_count);
 
 #endif

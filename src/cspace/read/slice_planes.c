@@ -35,9 +35,7 @@ pir_status pir_cspace_planes(pir_cspace *cspace, pir_cspace_place place, pir_rep
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the planes");
     const pir_replay_crossing *crossing;
     uint32_t count;
-    pir_status status = pir_cspace_go_to(cspace, place, report);
-    if (status == PIR_OK)
-        status = pir_cspace_crossings(cspace, report, &crossing, &count);
+    pir_status status = pir_cspace_go_to(cspace, place, report, &crossing, &count);
     if (status != PIR_OK)
         return status;
     const pir_replay *replay = &cspace->cursor.replay;

@@ -26,12 +26,16 @@ static bool fill(pir_sum *sum, const pir_replay *replay, const pir_replay_crossi
     return true;
 }
 
-static pir_status make_sum(pir_cspace *cspace, pir_polytope *obstacle, pir_report *report, pir_sum **ret_sum) {
+pir_status pir_cspace_sum(pir_cspace *cspace, pir_cspace_place place, pir_report *report, pir_sum **ret_sum) {
+    if (!cspace || !ret_sum)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the sum");
     const pir_replay_crossing *crossing;
     uint32_t count;
-    pir_status status = pir_cspace_crossings(cspace, report, &crossing, &count);
+    pir_status status = pir_cspace_go_to(cspace, place, report, &crossing, &count);
     if (status != PIR_OK)
         return status;
+    // a sum takes a reference, which is no change of what the piece says
+    pir_polytope *obstacle = (pir_polytope *)pir_cspace_obstacle(cspace, place.obstacle);
     pir_polytope *minus_p = cspace->cursor.minus_p;
     const pir_fill_operands operands = {{minus_p, obstacle}, {minus_p, obstacle}, true};
     pir_sum *sum = NULL;
@@ -47,16 +51,6 @@ static pir_status make_sum(pir_cspace *cspace, pir_polytope *obstacle, pir_repor
     }
     *ret_sum = sum;
     return PIR_OK;
-}
-
-pir_status pir_cspace_sum(pir_cspace *cspace, pir_cspace_place place, pir_report *report, pir_sum **ret_sum) {
-    if (!cspace || !ret_sum)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the sum");
-    pir_status status = pir_cspace_go_to(cspace, place, report);
-    if (status != PIR_OK)
-        return status;
-    // a sum takes a reference, which is no change of what the piece says
-    return make_sum(cspace, (pir_polytope *)pir_cspace_obstacle(cspace, place.obstacle), report, ret_sum);
 }
 
 pir_status pir_cspace_mesh(pir_cspace *cspace, pir_cspace_place place, pir_precision precision, pir_report *report,

@@ -216,7 +216,7 @@ static pir_status go_to_slice(pir_cspace *cspace, uint32_t to, pir_report *repor
     return PIR_OK;
 }
 
-pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *report) {
+static pir_status go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *report) {
     const pir_cspace_info *info = &cspace->info;
     if (place.robot >= info->robot_count || place.obstacle >= info->obstacle_count || place.slice >= info->grid.count)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: there is no slice %" PRIu64 " of pair (%u, %u)", place.slice,
@@ -231,10 +231,13 @@ pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_repo
 
 /* --- pairs --- */
 
-pir_status pir_cspace_crossings(pir_cspace *cspace, pir_report *report, const pir_replay_crossing **ret_crossings,
-                                uint32_t *ret_count) {
-    pir_cspace_cursor *cursor = &cspace->cursor;
-    pir_status status = pir_replay_crossings(&cursor->replay, ret_crossings, ret_count);
+pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *report,
+                            const pir_replay_crossing **ret_crossings, uint32_t *ret_count) {
+    const pir_cspace_cursor *cursor = &cspace->cursor;
+    pir_status status = go_to(cspace, place, report);
+    if (status != PIR_OK)
+        return status;
+    status = pir_replay_crossings(&cspace->cursor.replay, ret_crossings, ret_count);
     if (status == PIR_OK)
         return PIR_OK;
     return pir_fail(report, status, "slices: unit %" PRIu64 ": record %u: %s", cursor->unit.number,
@@ -260,9 +263,7 @@ pir_status pir_cspace_slice(pir_cspace *cspace, pir_cspace_place place, pir_repo
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the slice");
     const pir_replay_crossing *crossing;
     uint32_t count;
-    pir_status status = pir_cspace_go_to(cspace, place, report);
-    if (status == PIR_OK)
-        status = pir_cspace_crossings(cspace, report, &crossing, &count);
+    pir_status status = pir_cspace_go_to(cspace, place, report, &crossing, &count);
     if (status != PIR_OK)
         return status;
     if (!reserve_ee(cspace, count))

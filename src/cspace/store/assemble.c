@@ -10,6 +10,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <pirouette/version.h>
@@ -226,6 +227,9 @@ static pir_status assemble_as(const pir_parts *parts, const char *path, pir_repo
     pir_status status = write_file(&out, path, report);
     pir_h5_loud(reports);
     pir_unit_finish(&out.unit, &parts->allocator);
+    struct stat old;
+    if (status == PIR_OK && stat(parts->file, &old) == 0)
+        chmod(path, old.st_mode & 07777);
     if (status == PIR_OK && rename(path, parts->file) != 0)
         status = pir_fail(report, PIR_ERR_FILE, "%s: cannot rename to it: %s", parts->file, strerror(errno));
     if (status != PIR_OK)

@@ -260,34 +260,52 @@ bool pir_h5_put_numbers(hid_t in, const char *name, pir_h5_type type, const void
     return put_attribute(in, name, file_type(type), memory_type(type), space, numbers);
 }
 
+/* An attribute that is read: its type as stored, its space. -1 where there is none. */
+struct attribute {
+    hid_t id, stored, space;
+};
+
+static struct attribute open_attribute(hid_t in, const char *name) {
+    struct attribute attribute = {H5Aopen(in, name, H5P_DEFAULT), -1, -1};
+    if (attribute.id >= 0) {
+        attribute.stored = H5Aget_type(attribute.id);
+        attribute.space = H5Aget_space(attribute.id);
+    }
+    return attribute;
+}
+
+/* Whether it has so many elements. */
+static bool has_elements(const struct attribute *attribute, uint64_t count) {
+    return attribute->stored >= 0 && attribute->space >= 0 &&
+           H5Sget_simple_extent_npoints(attribute->space) == (hssize_t)count;
+}
+
+static void close_attribute(const struct attribute *attribute) {
+    if (attribute->space >= 0)
+        H5Sclose(attribute->space);
+    if (attribute->stored >= 0)
+        H5Tclose(attribute->stored);
+    if (attribute->id >= 0)
+        H5Aclose(attribute->id);
+}
+
 bool pir_h5_get_text(hid_t in, const char *name, char *ret_text, size_t room) {
-    hid_t attribute = H5Aopen(in, name, H5P_DEFAULT), stored = attribute >= 0 ? H5Aget_type(attribute) : -1;
-    hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1, type = text_type(room);
-    bool good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && H5Tis_variable_str(stored) == 0 && space >= 0 &&
-                H5Sget_simple_extent_npoints(space) == 1 && type >= 0 && H5Aread(attribute, type, ret_text) >= 0;
+    struct attribute attribute = open_attribute(in, name);
+    hid_t type = text_type(room);
+    bool good = type >= 0 && has_elements(&attribute, 1) && H5Tget_class(attribute.stored) == H5T_STRING &&
+                H5Tis_variable_str(attribute.stored) == 0 && H5Aread(attribute.id, type, ret_text) >= 0;
     if (good)
         ret_text[room - 1] = '\0';
     if (type >= 0)
         H5Tclose(type);
-    if (space >= 0)
-        H5Sclose(space);
-    if (stored >= 0)
-        H5Tclose(stored);
-    if (attribute >= 0)
-        H5Aclose(attribute);
+    close_attribute(&attribute);
     return good;
 }
 
 bool pir_h5_get_numbers(hid_t in, const char *name, pir_h5_type type, void *ret_numbers, uint64_t count) {
-    hid_t attribute = H5Aopen(in, name, H5P_DEFAULT), stored = attribute >= 0 ? H5Aget_type(attribute) : -1;
-    hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
-    bool good = is_type(stored, type) && space >= 0 && H5Sget_simple_extent_npoints(space) == (hssize_t)count &&
-                H5Aread(attribute, memory_type(type), ret_numbers) >= 0;
-    if (space >= 0)
-        H5Sclose(space);
-    if (stored >= 0)
-        H5Tclose(stored);
-    if (attribute >= 0)
-        H5Aclose(attribute);
+    struct attribute attribute = open_attribute(in, name);
+    bool good = has_elements(&attribute, count) && is_type(attribute.stored, type) &&
+                H5Aread(attribute.id, memory_type(type), ret_numbers) >= 0;
+    close_attribute(&attribute);
     return good;
 }

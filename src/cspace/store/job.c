@@ -6,9 +6,12 @@
  * A unit is made outside of it. The run ends when no unit is left, when the caller says so, or at the first error; the
  * units that other threads are making then are still appended.
  */
+#include <errno.h>
 #include <pthread.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <pirouette/cspace.h>
 
@@ -16,6 +19,7 @@
 #include "cspace/store/assemble.h"
 #include "cspace/store/maker.h"
 #include "cspace/store/parts.h"
+#include "polytope/file/target.h"
 
 #define THREADS_MOST 1024u
 
@@ -38,6 +42,10 @@ uint64_t pir_cspace_job_units(const pir_cspace_job *job) {
     return job ? job->plan.units : 0;
 }
 
+uint64_t pir_cspace_job_left(const pir_cspace_job *job) {
+    return job ? job->plan.units - job->parts.done : 0;
+}
+
 void pir_cspace_job_destroy(pir_cspace_job *job) {
     if (!job)
         return;
@@ -49,23 +57,53 @@ void pir_cspace_job_destroy(pir_cspace_job *job) {
     PIR_FREE(&a, job, 1);
 }
 
+/*
+ * What the path leads to. Where something stands there, a job is refused before any work unless it is a regular file
+ * that may be replaced.
+ */
+static pir_status find_target(const char *path, char ret_target[PIR_PATH_SIZE], pir_report *report) {
+    struct stat there;
+    if (!pir_follow_links(path, ret_target))
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, strerror(errno));
+    if (stat(ret_target, &there) != 0)
+        return PIR_OK;
+    if (!S_ISREG(there.st_mode))
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: it is no regular file", path);
+    if (access(ret_target, W_OK) != 0)
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, strerror(errno));
+    return PIR_OK;
+}
+
+/* Takes over what an earlier run has left. */
+static pir_status take_over(pir_cspace_job *job, pir_report *report) {
+    const bool is_first = job->options.part == 0;
+    job->is_made = is_first && pir_assembled(&job->parts);
+    if (job->is_made) {
+        job->parts.done = job->plan.units;
+        job->parts.done_slices = job->plan.pairs * job->plan.slices;
+        return PIR_OK;
+    }
+    pir_status status = pir_parts_scan(&job->parts, report);
+    // the first run of this job may have been ended before it could replace an older file: then it has left a part
+    if (status == PIR_OK && is_first && job->parts.found == 0 && access(job->file, F_OK) == 0)
+        return pir_fail(report, PIR_ERR_FORMAT, "%s: it is of another job; without resuming it is replaced", job->file);
+    return status;
+}
+
 static pir_status begin(pir_cspace_job *job, const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
                         pir_report *report) {
-    pir_status status = pir_plan_init(&job->plan, bodies, grid, &job->options, report);
+    char target[PIR_PATH_SIZE];
+    pir_status status = find_target(path, target, report);
+    if (status == PIR_OK)
+        status = pir_plan_init(&job->plan, bodies, grid, &job->options, report);
     if (status != PIR_OK)
         return status;
-    job->file_size = strlen(path) + 1;
+    job->file_size = strlen(target) + 1;
     job->file = PIR_NEW(&job->allocator, char, job->file_size);
     if (!job->file || !pir_parts_init(&job->parts, &job->plan, job->file))
         return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
-    memcpy(job->file, path, job->file_size);
-    if (!job->options.resume)
-        return pir_parts_remove(&job->parts, report);
-    job->is_made = pir_assembled(&job->parts);
-    if (!job->is_made)
-        return pir_parts_scan(&job->parts, report);
-    job->parts.done_slices = job->plan.pairs * job->plan.slices;
-    return PIR_OK;
+    memcpy(job->file, target, job->file_size);
+    return job->options.resume ? take_over(job, report) : pir_parts_remove(&job->parts, report);
 }
 
 pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,

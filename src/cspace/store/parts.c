@@ -13,9 +13,7 @@
 
 #include "base/report.h"
 #include "cspace/store/part_file.h"
-
-/* The longest path that POSIX systems take, its final zero included. */
-#define PATH_SIZE 4096
+#include "polytope/file/target.h"
 
 bool pir_parts_init(pir_parts *parts, const pir_plan *plan, const char *file) {
     *parts = (pir_parts){.allocator = plan->allocator, .plan = plan, .file = file};
@@ -50,7 +48,7 @@ static int64_t part_number(const char *file, const char *name) {
 /* Calls `visit` for each part in the folder of the file, by path and number, until one fails. */
 static pir_status each_part(const pir_parts *parts, pir_report *report, void *context,
                             pir_status (*visit)(void *context, const char *path, uint32_t number, pir_report *report)) {
-    char folder[PATH_SIZE] = ".", path[PATH_SIZE];
+    char folder[PIR_PATH_SIZE] = ".", path[PIR_PATH_SIZE];
     size_t length = (size_t)(name_in(parts->file) - parts->file);
     if (strlen(parts->file) + 32 > sizeof path)
         return pir_fail(report, PIR_ERR_FILE, "slices: a path that is too long");
@@ -90,6 +88,7 @@ static void note_unit(pir_parts *parts, const pir_unit *unit, uint32_t number, u
 static pir_status scan_part(void *context, const char *path, uint32_t number, pir_report *report) {
     struct scan *scan = context;
     const pir_plan *plan = scan->parts->plan;
+    scan->parts->found++;
     int descriptor = open(path, O_RDONLY);
     if (descriptor < 0)
         return pir_fail(report, PIR_ERR_FILE, "%s: cannot open: %s", path, strerror(errno));
@@ -117,7 +116,7 @@ static pir_status scan_part(void *context, const char *path, uint32_t number, pi
 pir_status pir_parts_scan(pir_parts *parts, pir_report *report) {
     struct scan scan = {.parts = parts};
     memset(parts->unit, 0, parts->plan->units * sizeof *parts->unit);
-    parts->done = parts->done_slices = 0;
+    parts->done = parts->done_slices = parts->found = 0;
     pir_status status;
     if (pir_unit_init(&scan.unit, parts->plan->slices_per_unit, &parts->allocator))
         status = each_part(parts, report, &scan, scan_part);
@@ -129,7 +128,7 @@ pir_status pir_parts_scan(pir_parts *parts, pir_report *report) {
 
 pir_status pir_parts_read(const pir_parts *parts, uint64_t number, pir_unit *unit, pir_report *report) {
     const pir_unit_place *place = &parts->unit[number];
-    char path[PATH_SIZE];
+    char path[PIR_PATH_SIZE];
     snprintf(path, sizeof path, "%s.part%u", parts->file, (unsigned)(place->part - 1));
     int descriptor = open(path, O_RDONLY);
     if (descriptor < 0)

@@ -38,6 +38,7 @@ typedef struct pir_parts {
     const pir_plan *plan; /* borrowed */
     const char *file;     /* the file that is being made; borrowed */
     pir_unit_place *unit; /* per unit of the plan */
+    uint64_t found;       /* parts, those without a whole unit included */
     uint64_t done;        /* units that stand in some part */
     uint64_t done_slices;
 } pir_parts;

@@ -15,6 +15,7 @@
 
 #include "base/report.h"
 #include "polytope/file/file_name.h"
+#include "polytope/file/target.h"
 #include "polytope/write/write_assimp.h"
 #include "polytope/write/write_off.h"
 #include "polytope/write/write_svg.h"
@@ -24,12 +25,6 @@
  * once.
  */
 #define TEMPORARY_NAMES 100
-
-/* The longest path that POSIX systems take, its final zero included. */
-#define PATH_SIZE 4096
-
-/* Links that are followed before they count as a circle. */
-#define LINKS_MOST 40
 
 /* --- one mesh to an open stream --- */
 
@@ -82,41 +77,13 @@ pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *n
 
 /* --- files --- */
 
-/*
- * What `path` leads to when links are followed, whether it is there or not. False, with errno set, for a circle or
- * too long a name.
- */
-static bool follow_links(const char *path, char ret_target[PATH_SIZE]) {
-    errno = ENAMETOOLONG;
-    size_t length = strlen(path);
-    if (length >= PATH_SIZE)
-        return false;
-    memcpy(ret_target, path, length + 1);
-    for (int links = 0; links < LINKS_MOST; links++) {
-        char next[PATH_SIZE];
-        ssize_t size = readlink(ret_target, next, sizeof next);
-        if (size < 0)
-            return true;
-        // A relative link starts from the folder that it stands in.
-        const char *slash = next[0] == '/' ? NULL : strrchr(ret_target, '/');
-        size_t folder = slash ? (size_t)(slash + 1 - ret_target) : 0;
-        errno = ENAMETOOLONG;
-        if (folder + (size_t)size >= PATH_SIZE)
-            return false;
-        memcpy(ret_target + folder, next, (size_t)size);
-        ret_target[folder + (size_t)size] = '\0';
-    }
-    errno = ELOOP;
-    return false;
-}
-
 /* A new file in the folder of `target`; its name to ret_name. NULL with errno set on failure. */
-static FILE *open_beside(const char *target, char ret_name[PATH_SIZE]) {
+static FILE *open_beside(const char *target, char ret_name[PIR_PATH_SIZE]) {
     const char *slash = strrchr(target, '/');
     int folder = slash ? (int)(slash + 1 - target) : 0;
     for (int i = 0; i < TEMPORARY_NAMES; i++) {
-        int length = snprintf(ret_name, PATH_SIZE, "%.*s.pirouette-%ld-%d", folder, target, (long)getpid(), i);
-        if (length >= PATH_SIZE) {
+        int length = snprintf(ret_name, PIR_PATH_SIZE, "%.*s.pirouette-%ld-%d", folder, target, (long)getpid(), i);
+        if (length >= PIR_PATH_SIZE) {
             errno = ENAMETOOLONG;
             return NULL;
         }
@@ -147,7 +114,7 @@ static pir_status write_and_close(const struct job *job, FILE *file) {
 
 /* To a name beside the target, which then takes its place; `old` is what is there now, or NULL. */
 static pir_status replace(const struct job *job, const char *target, const struct stat *old) {
-    char temporary[PATH_SIZE];
+    char temporary[PIR_PATH_SIZE];
     if (old && access(target, W_OK) != 0)
         return fail_file(job->report, job->path, errno);
     FILE *file = open_beside(target, temporary);
@@ -169,8 +136,8 @@ static pir_status write_file(const struct job *job) {
         FILE *file = fopen(job->path, "wb");
         return file ? write_and_close(job, file) : fail_file(job->report, job->path, errno);
     }
-    char target[PATH_SIZE];
-    if (!follow_links(job->path, target))
+    char target[PIR_PATH_SIZE];
+    if (!pir_follow_links(job->path, target))
         return fail_file(job->report, job->path, errno);
     return replace(job, target, stat(target, &there) == 0 ? &there : NULL);
 }
