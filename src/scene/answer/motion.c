@@ -23,8 +23,9 @@ static pir_status make_place(pir_scene *scene, pir_scene_moved *moved) {
     return status;
 }
 
-static void make_item(pir_scene *scene, uint32_t task, uint32_t item) {
-    pir_scene_worker_note(&scene->worker[task], make_place(scene, &scene->lists.moved[item]), item);
+static void make_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
+    for (uint32_t i = begin; i < end; i++)
+        pir_scene_worker_note(&scene->worker[task], make_place(scene, &scene->lists.moved[i]), i);
 }
 
 pir_status pir_scene_make_boxes(pir_scene *scene) {
@@ -38,7 +39,7 @@ pir_status pir_scene_make_boxes(pir_scene *scene) {
         !PIR_GROW(&scene->allocator, lists->replaced, lists->replaced_capacity, pieces))
         return PIR_ERR_MEMORY;
     pir_scene_workers_begin(scene);
-    pir_scene_share(scene, lists->moved_count, WORTH_MORE, make_item);
+    pir_scene_share(scene, lists->moved_count, WORTH_MORE, make_items);
     return pir_scene_workers_status(scene);
 }
 

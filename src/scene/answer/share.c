@@ -4,12 +4,9 @@
 
 #include <stdatomic.h>
 
-/* How many items a task takes at a time. */
-#define RUN 16
-
 struct share {
     pir_scene *scene;
-    pir_share_item *item;
+    pir_share_items *items;
     uint32_t count;
     atomic_uint next;
 };
@@ -17,16 +14,16 @@ struct share {
 static void work(void *data, uint32_t task) {
     struct share *share = data;
     for (;;) {
-        uint32_t begin = atomic_fetch_add_explicit(&share->next, RUN, memory_order_relaxed);
+        uint32_t begin = atomic_fetch_add_explicit(&share->next, PIR_SHARE_RUN, memory_order_relaxed);
         if (begin >= share->count)
             break;
-        for (uint32_t i = begin; i < begin + RUN && i < share->count; i++)
-            share->item(share->scene, task, i);
+        uint32_t left = share->count - begin;
+        share->items(share->scene, task, begin, begin + (left < PIR_SHARE_RUN ? left : PIR_SHARE_RUN));
     }
 }
 
-void pir_scene_share(pir_scene *scene, uint32_t count, uint32_t worth, pir_share_item *item) {
-    struct share share = {.scene = scene, .item = item, .count = count};
+void pir_scene_share(pir_scene *scene, uint32_t count, uint32_t worth, pir_share_items *items) {
+    struct share share = {.scene = scene, .items = items, .count = count};
     uint32_t tasks = count / worth < scene->threads ? count / worth : scene->threads;
     atomic_init(&share.next, 0);
     if (tasks > 1) {

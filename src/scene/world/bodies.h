@@ -37,7 +37,8 @@ typedef struct pir_scene_piece {
 } pir_scene_piece;
 
 typedef struct pir_scene_body {
-    pir_pose pose, previous;
+    /* what every question of a pair reads is first */
+    pir_pose pose;
     pir_quat unit; /* of the pose, of length 1 */
     double radius, reach, travel;
     uint32_t first, pieces; /* the list; how many */
@@ -45,6 +46,7 @@ typedef struct pir_scene_body {
     uint64_t moved; /* the update that moved it last: `previous` is its pose before that */
     bool used, sensor, fresh;
     uint8_t kind;
+    pir_pose previous;
 } pir_scene_body;
 
 typedef struct pir_bodies {
