@@ -64,6 +64,16 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
  */
 static pir_status bring_near_one(pir_quat q, double c[4]) {
     const double given[4] = {q.x, q.y, q.z, q.w};
+    bool some = false, near = true;
+    for (int k = 0; k < 4; k++) {
+        double most = fabs(given[k]);
+        c[k] = given[k];
+        some |= most >= 0.5;
+        near &= most < 1 && (most == 0 || most >= 0x1p-900);
+    }
+    // most quaternions are there already
+    if (some && near)
+        return PIR_OK;
     for (int k = 0; k < 4; k++)
         if (!isfinite(given[k]))
             return PIR_ERR_NOT_FINITE;
@@ -96,27 +106,47 @@ static struct halves split(const double c[4]) {
     return s;
 }
 
+/* Factors by component: which one of a, with what sign, and which one of b. */
+struct factors {
+    int a[4];
+    double sign[4];
+    int b[4];
+};
+
+/* Adds a product to each of four sums, and what rounding leaves of it and of the sum to `rest`. */
+static inline void add_products(const struct halves *a, const struct halves *b, struct factors of, double sum[4],
+                                double rest[4]) {
+    double p[4], p_high[4], p_low[4], q[4], q_high[4], q_low[4];
+    for (int k = 0; k < 4; k++) {
+        p[k] = of.sign[k] * a->whole[of.a[k]];
+        p_high[k] = of.sign[k] * a->high[of.a[k]];
+        p_low[k] = of.sign[k] * a->low[of.a[k]];
+        q[k] = b->whole[of.b[k]];
+        q_high[k] = b->high[of.b[k]];
+        q_low[k] = b->low[of.b[k]];
+    }
+    for (int k = 0; k < 4; k++) {
+        double product = p[k] * q[k];
+        double lost =
+            ((p_high[k] * q_high[k] - product) + p_high[k] * q_low[k] + p_low[k] * q_high[k]) + p_low[k] * q_low[k];
+        double s = sum[k] + product, t = s - sum[k];
+        rest[k] += ((sum[k] - (s - t)) + (product - t)) + lost;
+        sum[k] = s;
+    }
+}
+
 /*
  * The product conj(a)·b: for each component four products, in rows, with what rounding leaves of them and of their
  * sums added up beside (Ogita, Rump and Oishi, SIAM J. Scientific Computing 26, 2005). Off by u of itself and by some
  * u² of |a||b|. x: aw bx − ax bw − ay bz + az by, and so on round; w: aw bw + ax bx + ay by + az bz.
  */
 static void multiply_conjugate(const double a[4], const double b[4], double ret_product[4], double ret_rest[4]) {
-    static const int first[4][4] = {{3, 3, 3, 3}, {0, 1, 2, 1}, {1, 2, 0, 2}, {2, 0, 1, 0}};
-    static const int second[4][4] = {{0, 1, 2, 3}, {3, 3, 3, 1}, {2, 0, 1, 2}, {1, 2, 0, 0}};
-    static const double sign[4][4] = {{1, 1, 1, 1}, {-1, -1, -1, 1}, {-1, -1, -1, 1}, {1, 1, 1, 1}};
     const struct halves p = split(a), q = split(b);
     double sum[4] = {0}, rest[4] = {0};
-    for (int row = 0; row < 4; row++)
-        for (int k = 0; k < 4; k++) {
-            int i = first[row][k], j = second[row][k];
-            double by = sign[row][k], product = by * p.whole[i] * q.whole[j];
-            double high = by * p.high[i], low = by * p.low[i];
-            double lost = ((high * q.high[j] - product) + high * q.low[j] + low * q.high[j]) + low * q.low[j];
-            double s = sum[k] + product, t = s - sum[k];
-            rest[k] += ((sum[k] - (s - t)) + (product - t)) + lost;
-            sum[k] = s;
-        }
+    add_products(&p, &q, (struct factors){{3, 3, 3, 3}, {1, 1, 1, 1}, {0, 1, 2, 3}}, sum, rest);
+    add_products(&p, &q, (struct factors){{0, 1, 2, 1}, {-1, -1, -1, 1}, {3, 3, 3, 1}}, sum, rest);
+    add_products(&p, &q, (struct factors){{1, 2, 0, 2}, {-1, -1, -1, 1}, {2, 0, 1, 2}}, sum, rest);
+    add_products(&p, &q, (struct factors){{2, 0, 1, 0}, {1, 1, 1, 1}, {1, 2, 0, 0}}, sum, rest);
     for (int k = 0; k < 4; k++) {
         ret_product[k] = sum[k] + rest[k];
         ret_rest[k] = rest[k] - (ret_product[k] - sum[k]);
