@@ -126,6 +126,8 @@ int cmd_sum(const struct args *args) {
     struct request request;
     if (args_has(args, "--solid"))
         return solid_sum(args);
+    if (args_has(args, "--open"))
+        return complain("sum: --open is about solids: give --solid as well"), EXIT_BAD_INPUT;
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
     struct outcome outcome = {0};

@@ -74,6 +74,7 @@ static const struct option sum_options[] = {
      "by walking the Gaussian maps (default), by overlaying the cubical ones, or as the hull of all sums"},
     {"--exact", NULL, "exact coordinates; in .off: integers and a/b instead of doubles"},
     {"--solid", NULL, "P and Q as the solids that they are, not their hulls; -o then takes .off"},
+    {"--open", NULL, "with --solid: without their boundaries, so that tight passages are left out"},
     {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg"},
     MODEL_OPTIONS,
 };

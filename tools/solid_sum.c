@@ -38,6 +38,10 @@ static bool print_json(const struct args *args, const struct request *request, c
     json_add_number(&json, json.root, "edges", info->edges);
     json_add_number(&json, json.root, "facets", info->facets);
     json_add_number(&json, json.root, "holes", info->holes);
+    json_add_flag(&json, json.root, "open", request->options.open);
+    json_add_number(&json, json.root, "two_sided", info->two_sided);
+    json_add_number(&json, json.root, "segments", info->segments);
+    json_add_number(&json, json.root, "points", info->points);
     json_add_numbers(&json, json.root, "pieces", (const double[]){info->pieces_p, info->pieces_q}, 2);
     json_add_count(&json, json.root, "candidates", info->candidates);
     json_add_number(&json, json.root, "seconds", outcome->seconds);
@@ -53,6 +57,9 @@ static void print_text(const struct args *args, const struct request *request, c
     printf("  %-10s %" PRIu32 "\n", "vertices", info->vertices);
     printf("  %-10s %" PRIu32 "\n", "edges", info->edges);
     printf("  %-10s %" PRIu32 ", with %" PRIu32 " holes\n", "facets", info->facets, info->holes);
+    if (request->options.open)
+        printf("  %-10s %" PRIu32 " two-sided facets, %" PRIu32 " segments, %" PRIu32 " points\n", "left out",
+               info->two_sided, info->segments, info->points);
     printf("  %-10s %" PRIu32 " of P, %" PRIu32 " of Q\n", "pieces", info->pieces_p, info->pieces_q);
     printf("  %-10s %s\n", "time", time);
     if (args_has(args, "-o"))
@@ -70,6 +77,7 @@ static int report(const struct args *args, const struct request *request, const 
 int solid_sum(const struct args *args) {
     struct request request = {.options = pir_solid_sum_options_default()};
     request.options.difference = args_has(args, "--difference");
+    request.options.open = args_has(args, "--open");
     if (!pose_read(args, &request.rotation) || !target_check(args, "-o", TARGET_SOLID))
         return EXIT_BAD_INPUT;
     struct outcome outcome = {0};

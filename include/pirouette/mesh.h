@@ -23,10 +23,11 @@ typedef struct pir_mesh pir_mesh;
 
 /** Which features of P and Q a facet of the sum came from. */
 typedef enum pir_facet_kind {
-    PIR_FACET_FV = 0, /**< a facet of P, a vertex of Q */
-    PIR_FACET_VF,     /**< a vertex of P, a facet of Q */
-    PIR_FACET_EE,     /**< an edge of each */
-    PIR_FACET_MERGED, /**< several coplanar pieces */
+    PIR_FACET_FV = 0,    /**< a facet of P, a vertex of Q */
+    PIR_FACET_VF,        /**< a vertex of P, a facet of Q */
+    PIR_FACET_EE,        /**< an edge of each */
+    PIR_FACET_MERGED,    /**< several coplanar pieces */
+    PIR_FACET_TWO_SIDED, /**< of a sum of open solids: the sum is on both sides */
 } pir_facet_kind;
 
 /** Which coordinates a mesh of the sum carries. */
@@ -65,6 +66,21 @@ PIR_API const uint32_t *pir_mesh_facet(const pir_mesh *mesh, uint32_t facet, uin
  * What facet `facet` of `mesh` is made of.
  */
 PIR_API pir_facet_kind pir_mesh_facet_kind(const pir_mesh *mesh, uint32_t facet);
+
+/**
+ * The segments that no facet has for a side, two vertices each: only sums of open solids have such (pir_solid_sum).
+ * Valid as long as the mesh.
+ *
+ * ret_count  how many segments there are.
+ */
+PIR_API const uint32_t *pir_mesh_segments(const pir_mesh *mesh, uint32_t *ret_count);
+
+/**
+ * The vertices that no facet or segment has: only sums of open solids have such. Valid as long as the mesh.
+ *
+ * ret_count  how many there are.
+ */
+PIR_API const uint32_t *pir_mesh_points(const pir_mesh *mesh, uint32_t *ret_count);
 
 /** 1 when the mesh holds exact coordinates beside the doubles. */
 PIR_API int pir_mesh_is_exact(const pir_mesh *mesh);

@@ -159,15 +159,18 @@ PIR_API pir_status pir_pieces_polytope(const pir_pieces *pieces, uint32_t index,
 typedef struct pir_solid_sum_options {
     pir_solid_options solid;
     int difference; /**< 1: Q ⊕ (−R·P), what P may be moved by to meet Q; 0: R·P ⊕ Q */
+    int open;       /**< 1: P and Q without their boundaries; what they leave out within is in the mesh */
 } pir_solid_sum_options;
 
-/** pir_solid_options_default, no difference. */
+/** pir_solid_options_default, no difference, closed. */
 PIR_API pir_solid_sum_options pir_solid_sum_options_default(void);
 
 /** What a sum of solids is, and the work that it took. */
 typedef struct pir_solid_sum_info {
     uint32_t vertices, edges, facets; /**< with maximal facets */
     uint32_t holes;                   /**< of facets */
+    uint32_t two_sided;               /**< facets among these that have the sum on both sides: of open solids */
+    uint32_t segments, points;        /**< on their own, which no facet has: of open solids */
     uint32_t pieces_p, pieces_q;      /**< convex pieces */
     uint64_t candidates;              /**< facets that features of P and Q make where they support each other locally */
     uint64_t survivors;               /**< those of which something bounds the sum */
@@ -183,7 +186,10 @@ typedef struct pir_solid_sum_info {
  *           convex. One with holes is a single loop: a slit, walked both ways, joins each hole to what is round it.
  *           Vertices have no pairs, facets are of kind PIR_FACET_MERGED.
  *
- * A passage that Q fits through exactly is filled: the sum of closed bodies is closed.
+ * A passage that Q fits through exactly is filled: the sum of closed bodies is closed. That of open ones
+ * (`options->open`) leaves it out. The mesh then has two-sided facets, after those of the boundary, each twice in a
+ * row, once each way; segments (pir_mesh_segments) and points (pir_mesh_points) that are on their own. Facets and
+ * segments are cut where others begin or cross them; `ret_info` counts a two-sided facet once.
  *
  * Cost: for p and q pieces with few facets each, O(p·q) to add their pairs, and for c candidates O(c·k), where k
  * pairs are near a candidate; O(n·m) to find the candidates of solids with n and m edges.

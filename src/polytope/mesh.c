@@ -33,6 +33,8 @@ void pir_mesh_destroy(pir_mesh *mesh) {
     PIR_FREE(a, mesh->vertex, mesh->vertex_count);
     PIR_FREE(a, mesh->pair, mesh->vertex_count);
     PIR_FREE(a, mesh->kind, mesh->facets.count);
+    PIR_FREE(a, mesh->segment, 2 * (size_t)mesh->segment_count);
+    PIR_FREE(a, mesh->point, mesh->point_count);
     pir_loops_finish(&mesh->facets, a, mesh->corners);
     pir_vectors_finish(&mesh->where, a);
     pir_vectors_finish(&mesh->weight, a);
@@ -103,6 +105,16 @@ pir_facet_kind pir_mesh_facet_kind(const pir_mesh *mesh, uint32_t facet) {
     return (pir_facet_kind)mesh->kind[facet];
 }
 
+const uint32_t *pir_mesh_segments(const pir_mesh *mesh, uint32_t *ret_count) {
+    *ret_count = mesh->segment_count;
+    return mesh->segment;
+}
+
+const uint32_t *pir_mesh_points(const pir_mesh *mesh, uint32_t *ret_count) {
+    *ret_count = mesh->point_count;
+    return mesh->point;
+}
+
 int pir_mesh_is_exact(const pir_mesh *mesh) {
     return mesh->exact;
 }
@@ -126,12 +138,15 @@ pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t re
 }
 
 int pir_mesh_equal(const pir_mesh *a, const pir_mesh *b) {
-    if (a->vertex_count != b->vertex_count || a->facets.count != b->facets.count)
+    if (a->vertex_count != b->vertex_count || a->facets.count != b->facets.count ||
+        a->segment_count != b->segment_count || a->point_count != b->point_count)
         return 0;
     uint32_t corners = pir_loops_corners(&a->facets);
     if (corners != pir_loops_corners(&b->facets))
         return 0;
     return memcmp(a->vertex, b->vertex, a->vertex_count * sizeof *a->vertex) == 0 &&
+           (a->segment_count == 0 || memcmp(a->segment, b->segment, 2 * a->segment_count * sizeof *a->segment) == 0) &&
+           (a->point_count == 0 || memcmp(a->point, b->point, a->point_count * sizeof *a->point) == 0) &&
            memcmp(a->pair, b->pair, a->vertex_count * sizeof *a->pair) == 0 &&
            memcmp(a->facets.start, b->facets.start, (a->facets.count + 1) * sizeof(uint32_t)) == 0 &&
            memcmp(a->facets.corner, b->facets.corner, corners * sizeof(uint32_t)) == 0;

@@ -17,9 +17,11 @@ struct pir_mesh {
     pir_vec3 *vertex;
     uint32_t (*pair)[2];
     pir_loops facets;
-    uint8_t *kind;      /* per facet: pir_facet_kind */
-    bool exact;         /* whether the next two are set */
-    pir_vectors where;  /* exact coordinates, times scale */
+    uint8_t *kind; /* per facet: pir_facet_kind */
+    uint32_t segment_count, point_count;
+    uint32_t *segment, *point; /* two vertices a segment; vertices of points on their own */
+    bool exact;                /* whether the next two are set */
+    pir_vectors where;         /* exact coordinates, times scale */
     pir_vectors weight; /* when it is not empty: per vertex, in its first component, what those are to be divided by */
     pir_scale scale;
 };

@@ -31,6 +31,24 @@ class Solid(CommandTest):
         turned = self.data("sum", model, model, "--solid", "--quat", "0,0,1,1", "--difference")
         self.assertTrue(turned["solid"] and turned["difference"])
 
+    def test_open_solids_leave_tight_passages_out(self):
+        # a block with a square hole, through which the cube passes
+        ring = [(0, 0), (3, 0), (3, 3), (0, 3)], [(1, 1), (2, 1), (2, 2), (1, 2)]
+        points = [(x, y, z) for z in (0, 1) for loop in ring for x, y in loop]
+        sides = [[i, (i + 1) % 4, (i + 1) % 4 + 8, i + 8] for i in range(4)]
+        holes = [[(i + 1) % 4 + 4, i + 4, i + 12, (i + 1) % 4 + 12] for i in range(4)]
+        tops = [[i + 8, (i + 1) % 4 + 8, (i + 1) % 4 + 12, i + 12] for i in range(4)]
+        loops = sides + holes + tops + [[i - 8 for i in f[::-1]] for f in tops]
+        lines = ["OFF\n16 16 0", *(f"{x} {y} {z}" for x, y, z in points)]
+        lines += [" ".join(map(str, [4, *f])) for f in loops]
+        model, out = self.file("frame.off", "\n".join(lines) + "\n"), self.path / "open.off"
+        told = self.data("sum", model, "shape:box?x=1&y=1&z=1", "--solid", "--open", "-o", out)
+        keys = ("vertices", "edges", "facets", "two_sided", "segments", "points")
+        self.assertEqual([told[k] for k in keys], [10, 13, 6, 0, 1, 0])
+        self.assertIn("# segment 8 9", out.read_text())
+        self.assertEqual(self.data("sum", model, "shape:box?x=1&y=1&z=1", "--solid")["facets"], 6)
+        self.bad("sum", model, model, "--open", says="give --solid as well")
+
     def test_decompose_writes_a_piece_each(self):
         model = self.file("l.off", prism())
         self.assertEqual(self.data("decompose", model, "-o", self.path / "pieces")["pieces"], 2)

@@ -39,7 +39,7 @@ pir_status solid_make(const solid_facets *facets, const pir_solid_options *optio
 
 /* --- cells --- */
 
-static bool is_full(const cells *of, int x, int y, int z) {
+bool cells_full(const cells *of, int x, int y, int z) {
     return x >= 0 && y >= 0 && z >= 0 && x < CELLS && y < CELLS && z < CELLS && of->full[x][y][z];
 }
 
@@ -49,7 +49,7 @@ static bool is_surface(const cells *of, int x, int y, int z) {
     for (int kind = 0; kind < 2; kind++) {
         unsigned members = 0, reached = 0;
         for (int i = 0; i < 8; i++)
-            if (is_full(of, x - (i & 1), y - (i >> 1 & 1), z - (i >> 2)) == (kind == 1))
+            if (cells_full(of, x - (i & 1), y - (i >> 1 & 1), z - (i >> 2)) == (kind == 1))
                 members |= 1u << i;
         reached = members & -members;
         for (int round = 0; round < 8; round++)
@@ -63,7 +63,7 @@ static bool is_surface(const cells *of, int x, int y, int z) {
     return true;
 }
 
-static bool is_solid(const cells *of) {
+bool cells_are_solid(const cells *of) {
     for (int x = 0; x <= CELLS; x++)
         for (int y = 0; y <= CELLS; y++)
             for (int z = 0; z <= CELLS; z++)
@@ -82,7 +82,7 @@ cells cells_random(test_random *random, uint32_t count) {
         if (made.full[x][y][z])
             continue;
         made.full[x][y][z] = true;
-        made.full[x][y][z] = is_solid(&made);
+        made.full[x][y][z] = cells_are_solid(&made);
         full += made.full[x][y][z];
     }
     return made;
@@ -96,7 +96,7 @@ void solid_add_cells(solid_facets *facets, const cells *of) {
                     const int k = side / 2, up = side % 2, at[3] = {x, y, z};
                     int beside[3] = {x, y, z};
                     beside[k] += up ? 1 : -1;
-                    if (is_full(of, beside[0], beside[1], beside[2]))
+                    if (cells_full(of, beside[0], beside[1], beside[2]))
                         continue;
                     pir_vec3 corner[4];
                     for (int i = 0; i < 4; i++) {

@@ -37,6 +37,12 @@ typedef struct cells {
     bool full[CELLS][CELLS][CELLS];
 } cells;
 
+/* Whether a cell is full; those outside are not. */
+bool cells_full(const cells *of, int x, int y, int z);
+
+/* Whether no cells touch along an edge or at a corner alone. */
+bool cells_are_solid(const cells *of);
+
 /* Cells that are connected through their sides, none of which touch along an edge or at a corner alone: a solid. */
 cells cells_random(test_random *random, uint32_t count);
 

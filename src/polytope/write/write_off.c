@@ -50,26 +50,36 @@ static pir_status write_rationals(const pir_mesh *mesh, FILE *file) {
     return status;
 }
 
+/* Facets; what a facet cannot tell is in comments, which readers pass over. */
+static void write_facets(const pir_mesh *mesh, FILE *file) {
+    uint32_t count;
+    for (uint32_t f = 0; f < pir_mesh_facet_count(mesh); f++) {
+        const uint32_t *corners = pir_mesh_facet(mesh, f, &count);
+        fprintf(file, "%" PRIu32, count);
+        for (uint32_t i = 0; i < count; i++)
+            fprintf(file, " %" PRIu32, corners[i]);
+        fputs(pir_mesh_facet_kind(mesh, f) == PIR_FACET_TWO_SIDED ? " # two-sided\n" : "\n", file);
+    }
+    const uint32_t *segments = pir_mesh_segments(mesh, &count);
+    for (uint32_t i = 0; i < count; i++)
+        fprintf(file, "# segment %" PRIu32 " %" PRIu32 "\n", segments[2 * i], segments[2 * i + 1]);
+    const uint32_t *points = pir_mesh_points(mesh, &count);
+    for (uint32_t i = 0; i < count; i++)
+        fprintf(file, "# point %" PRIu32 "\n", points[i]);
+}
+
 pir_status pir_mesh_write_off(const pir_mesh *mesh, FILE *file, bool exact) {
     struct pir_c_locale locale;
     if (!pir_c_locale_enter(&locale))
         return PIR_ERR_MEMORY;
-    uint32_t facets = pir_mesh_facet_count(mesh);
-    fprintf(file, "OFF\n%" PRIu32 " %" PRIu32 " %" PRIu32 "\n", pir_mesh_vertex_count(mesh), facets,
+    fprintf(file, "OFF\n%" PRIu32 " %" PRIu32 " %" PRIu32 "\n", pir_mesh_vertex_count(mesh), pir_mesh_facet_count(mesh),
             pir_mesh_edge_count(mesh));
     pir_status status = PIR_OK;
     if (exact)
         status = write_rationals(mesh, file);
     else
         write_doubles(mesh, file);
-    for (uint32_t f = 0; f < facets; f++) {
-        uint32_t count;
-        const uint32_t *corners = pir_mesh_facet(mesh, f, &count);
-        fprintf(file, "%" PRIu32, count);
-        for (uint32_t i = 0; i < count; i++)
-            fprintf(file, " %" PRIu32, corners[i]);
-        fputc('\n', file);
-    }
+    write_facets(mesh, file);
     pir_c_locale_leave(&locale);
     return status;
 }

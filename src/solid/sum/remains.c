@@ -4,6 +4,13 @@
  * pair's sum. A pair's sum covers the points of a candidate that are inside it, or in its boundary with its inside
  * above: so the rest is exact, in general position or not. The pairs that hold the candidate's middle deepest come
  * first, since one of them often covers all of it.
+ *
+ * The sum of open solids is the union of the insides of all pairs' sums: the two points of a sum may be moved, one
+ * against the other, off the walls between pieces. Whatever the open sum leaves out within the closed one is where the
+ * solids only touch. So near some contact they bound each other, and a candidate holds the point, at the least in its
+ * boundary: hence polygons are clipped as closed sets there. Or the contact is between two vertices that are not
+ * convex, a fin in a groove, whose sums are looked at one by one. What is left of a candidate and has the closed sum
+ * above it is two-sided, and left of a candidate that faces the other way as well.
  */
 #include "solid/sum/remains.h"
 
@@ -51,32 +58,93 @@ static bool list_halves(pir_remains *c, const pir_pair_sum *pair) {
     return true;
 }
 
-static void keep(pir_remains *c, uint32_t candidate) {
-    if (!pir_space_grow(c->space, (void **)&c->survivor, &c->survivor_room, c->survivor_count, sizeof *c->survivor))
+/* Keeps fragments that are left of a candidate. */
+static void keep(pir_remains *c, uint32_t candidate, const pir_fragments *left, bool two_sided) {
+    if (left->count == 0 ||
+        !pir_space_grow(c->space, (void **)&c->survivor, &c->survivor_room, c->survivor_count, sizeof *c->survivor))
         return;
-    pir_survivor s = {.half = c->polygons.polygon[candidate].half, .count = c->fragments.count};
+    pir_survivor s = {.half = c->polygons.polygon[candidate].half, .count = left->count, .two_sided = two_sided};
     s.polygon = pir_polygons_copy(&c->kept, &c->polygons, candidate);
     s.first = c->kept.count;
-    for (uint32_t i = 0; i < c->fragments.count; i++)
-        pir_polygons_copy(&c->kept, &c->polygons, c->fragments.polygon[i]);
+    for (uint32_t i = 0; i < left->count; i++)
+        pir_polygons_copy(&c->kept, &c->polygons, left->polygon[i]);
     c->survivor[c->survivor_count++] = s;
+}
+
+/* Takes the insides of the pairs' sums, `pairs` of them in `order`, from what `touching` holds. */
+static void clip_touching(pir_remains *c, uint32_t pairs) {
+    pir_touching *t = &c->touching;
+    for (uint32_t i = 0; i < pairs && t->fragments.count + t->segment_count + t->point_count > 0; i++) {
+        const pir_pair_sum *pair = &c->pair[c->order[i]];
+        if (c->space->status != PIR_OK || !list_halves(c, pair))
+            return;
+        pir_touching_subtract(t, c->half, pair->count);
+    }
+    for (uint32_t i = 0; i < t->segment_count; i++)
+        pir_touching_add_segment(&c->left, c->space, t->segment[i]);
+    for (uint32_t i = 0; i < t->point_count; i++)
+        pir_touching_add_point(&c->left, c->space, t->point[i]);
 }
 
 static void take(void *context, uint32_t polygon) {
     pir_remains *c = context;
-    c->candidates++;
-    c->fragments.count = 0;
-    pir_fragments_add(&c->fragments, c->space, polygon);
     const uint32_t pairs = find_pairs(c, c->polygons.polygon[polygon]);
+    c->candidates++;
+    c->fragments.count = c->covered.count = 0;
+    if (c->open) {
+        pir_touching_clear(&c->touching);
+        pir_fragments_add(&c->touching.fragments, c->space, polygon);
+        clip_touching(c, pairs);
+        for (uint32_t i = 0; i < c->touching.fragments.count; i++)
+            pir_fragments_add(&c->fragments, c->space, c->touching.fragments.polygon[i]);
+    } else {
+        pir_fragments_add(&c->fragments, c->space, polygon);
+    }
     for (uint32_t i = 0; i < pairs && c->fragments.count > 0 && c->space->status == PIR_OK; i++) {
         const pir_pair_sum *pair = &c->pair[c->order[i]];
         if (list_halves(c, pair))
-            pir_fragments_subtract(&c->fragments, &c->polygons, c->half, pair->count);
+            pir_fragments_subtract(&c->fragments, &c->polygons, c->half, pair->count, c->open ? &c->covered : NULL);
     }
-    if (c->fragments.count > 0)
-        keep(c, polygon);
+    keep(c, polygon, &c->fragments, false);
+    keep(c, polygon, &c->covered, true);
     pir_polygons_truncate(&c->polygons, 0);
 }
+
+/* --- vertices that are not convex, of open solids --- */
+
+/* Whether each point of a body is on a reflex edge; NULL when out of memory. */
+static bool *list_reflex(const pir_body *body) {
+    bool *reflex = PIR_ZEROED(&body->space->allocator, bool, body->source.point_count);
+    for (uint32_t e = 0; e < body->edge_count && reflex; e++)
+        if (body->edge[e].bend == PIR_BEND_REFLEX)
+            reflex[body->edge[e].a - body->first_point] = reflex[body->edge[e].b - body->first_point] = true;
+    return reflex;
+}
+
+static void take_vertices(pir_remains *c, uint32_t p, uint32_t q) {
+    const uint32_t point = pir_space_add_sum(c->space, p, q);
+    pir_box box = PIR_BOX_EMPTY;
+    if (c->space->status != PIR_OK)
+        return;
+    pir_box_add(&box, &c->space->point[point]);
+    pir_touching_clear(&c->touching);
+    pir_touching_add_point(&c->touching, c->space, point);
+    clip_touching(c, pir_boxes_find(&c->boxes, &box, c->order));
+}
+
+static void take_reflex_vertices(pir_remains *c, const pir_body body[2]) {
+    bool *reflex[2] = {list_reflex(&body[0]), list_reflex(&body[1])};
+    if (!reflex[0] || !reflex[1])
+        c->space->status = PIR_ERR_MEMORY;
+    for (uint32_t i = 0; i < body[0].source.point_count && c->space->status == PIR_OK; i++)
+        for (uint32_t j = 0; j < body[1].source.point_count && reflex[0][i]; j++)
+            if (reflex[1][j])
+                take_vertices(c, body[0].first_point + i, body[1].first_point + j);
+    for (int k = 0; k < 2; k++)
+        PIR_FREE(&c->space->allocator, reflex[k], body[k].source.point_count);
+}
+
+/* --- all --- */
 
 static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
     for (uint32_t i = 0; i < convexes[0].count; i++)
@@ -114,12 +182,15 @@ static void join_planes(pir_remains *c) {
     pir_intern_finish(&planes);
 }
 
-void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_convexes convexes[2]) {
-    *remains = (pir_remains){.space = body[0].space};
+void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_convexes convexes[2], bool open) {
+    *remains = (pir_remains){.space = body[0].space, .open = open};
+    remains->touching.polygons = &remains->polygons;
     pir_polygons_init(&remains->polygons, remains->space);
     pir_polygons_init(&remains->kept, remains->space);
     if (make_pairs(remains, convexes))
         pir_candidates(&body[0], &body[1], &remains->polygons, take, remains);
+    if (open)
+        take_reflex_vertices(remains, body);
     join_planes(remains);
 }
 
@@ -136,7 +207,7 @@ void pir_remains_part(pir_remains *remains, const uint32_t *order, uint32_t coun
                 return;
             for (uint32_t k = 0; k < earlier.count; k++)
                 c->half[k] = c->kept.wall[earlier.first + k];
-            pir_fragments_subtract(&c->fragments, &c->kept, c->half, earlier.count);
+            pir_fragments_subtract(&c->fragments, &c->kept, c->half, earlier.count, NULL);
         }
         for (uint32_t k = 0; k < c->fragments.count; k++)
             pir_fragments_add(fragments, c->space, c->fragments.polygon[k]);
@@ -158,5 +229,8 @@ void pir_remains_finish(pir_remains *remains) {
     pir_polygons_finish(&c->polygons);
     pir_polygons_finish(&c->kept);
     pir_fragments_finish(&c->fragments, c->space);
+    pir_fragments_finish(&c->covered, c->space);
+    pir_touching_finish(&c->touching, c->space);
+    pir_touching_finish(&c->left, c->space);
     *c = (pir_remains){0};
 }

@@ -2,18 +2,18 @@
 /*
  * The exact sum of two solids: P = ∪ P_i and Q = ∪ Q_j in convex pieces, P ⊕ Q = ∪ (P_i ⊕ Q_j). Its boundary
  * is what the sums of pairs leave of the candidates (convolution.c, remains.c), glued plane by plane into maximal
- * facets (union_outline.c, facet_loops.c). Instead of uniting volumes, polygons are clipped in their planes
- * (Hachenberger 2009 unites Nef polyhedra).
+ * facets (solid/glue). Instead of uniting volumes, polygons are clipped in their planes (Hachenberger 2009 unites Nef
+ * polyhedra). The sum of open solids leaves out more within: two-sided facets, glued likewise, and what tight.c adds.
  */
 #include <pirouette/solid.h>
 
 #include "base/sort.h"
 #include "polytope/mesh.h"
+#include "solid/glue/cut_runs.h"
 #include "solid/pieces/join_pieces.h"
-#include "solid/space/exact.h"
-#include "solid/sum/facet_loops.h"
-#include "solid/sum/operands.h"
 #include "solid/sum/remains.h"
+#include "solid/sum/solid_mesh.h"
+#include "solid/sum/tight.h"
 
 struct job {
     pir_operands operands;
@@ -23,13 +23,17 @@ struct job {
     pir_remains remains;
     pir_outline outline;
     pir_loop_list loops;
-    pir_fragments fragments;
+    pir_fragments fragments; /* of all groups */
+    pir_facet_group *group;
     uint32_t *order, *work;
-    uint32_t order_count;
+    uint32_t order_count, group_count, group_room;
+    uint32_t first_loose; /* fragments of boundary facets */
+    pir_touching points;
+    uint32_t edges;
 };
 
 pir_solid_sum_options pir_solid_sum_options_default(void) {
-    return (pir_solid_sum_options){.solid = pir_solid_options_default(), .difference = 0};
+    return (pir_solid_sum_options){.solid = pir_solid_options_default(), .difference = 0, .open = 0};
 }
 
 static void finish(struct job *job) {
@@ -40,6 +44,8 @@ static void finish(struct job *job) {
     pir_loop_list_finish(&job->loops);
     pir_outline_finish(&job->outline);
     pir_fragments_finish(&job->fragments, space);
+    pir_space_shrink(space, job->group, job->group_room, sizeof *job->group);
+    pir_touching_finish(&job->points, space);
     pir_remains_finish(&job->remains);
     for (int k = 0; k < 2; k++) {
         pir_convexes_finish(&job->convexes[k]);
@@ -49,12 +55,49 @@ static void finish(struct job *job) {
     pir_operands_finish(&job->operands);
 }
 
+/* The boundary first, plane by plane. */
 static bool survivor_before(void *context, uint32_t a, uint32_t b) {
-    const pir_survivor *survivor = context;
-    return survivor[a].half < survivor[b].half;
+    const pir_survivor *s = &((const pir_survivor *)context)[a], *t = &((const pir_survivor *)context)[b];
+    return s->two_sided != t->two_sided ? t->two_sided : s->half < t->half;
 }
 
-/* The boundary of what is left, plane by plane. */
+/* Adds the outline of a group: survivors of one plane and side. */
+static void outline_group(struct job *job, const uint32_t *order, uint32_t count) {
+    pir_space *space = &job->operands.space;
+    const pir_survivor *survivor = &job->remains.survivor[order[0]];
+    // of a two-sided facet, candidates that face either way tell the same
+    if ((survivor->two_sided && (survivor->half & 1)) ||
+        !pir_space_grow(space, (void **)&job->group, &job->group_room, job->group_count, sizeof *job->group))
+        return;
+    const uint32_t first = job->fragments.count;
+    pir_remains_part(&job->remains, order, count, &job->fragments);
+    if (!survivor->two_sided) {
+        job->outline.loose = job->group_count + 1;
+        job->first_loose = job->fragments.count;
+    }
+    job->group[job->group_count] = (pir_facet_group){.count = job->fragments.count - first};
+    pir_outline_add(&job->outline, job->group_count++, &job->remains.kept, job->fragments.polygon + first,
+                    job->fragments.count - first);
+}
+
+/* What of open solids is no boundary, onto the outline before it is cut. */
+static void add_tight(struct job *job) {
+    const pir_facet_polygons facets = {&job->remains.kept, job->fragments.polygon, job->fragments.count,
+                                       job->first_loose};
+    pir_tight_add(&job->outline, &facets, &job->remains.left, &job->points);
+}
+
+static void imprint(struct job *job) {
+    uint32_t first = 0;
+    for (uint32_t g = 0; g < job->group_count; g++) {
+        job->group[g].polygons = &job->remains.kept;
+        job->group[g].polygon = job->fragments.polygon + first;
+        first += job->group[g].count;
+    }
+    pir_outline_imprint(&job->outline, job->group, job->group_count);
+}
+
+/* The outline of what is left, plane by plane, and the facets that it goes round. */
 static void outline_planes(struct job *job) {
     pir_space *space = &job->operands.space;
     pir_remains *remains = &job->remains;
@@ -70,19 +113,23 @@ static void outline_planes(struct job *job) {
         job->order[s] = s;
     pir_sort(job->order, job->order_count, job->work, survivor_before, remains->survivor);
     for (uint32_t i = 0, end; i < job->order_count && space->status == PIR_OK; i = end) {
-        for (end = i + 1;
-             end < job->order_count && remains->survivor[job->order[i]].half == remains->survivor[job->order[end]].half;
+        for (end = i + 1; end < job->order_count && !survivor_before(remains->survivor, job->order[i], job->order[end]);
              end++)
             ;
-        job->fragments.count = 0;
-        pir_remains_part(remains, job->order + i, end - i, &job->fragments);
-        pir_outline_add(&job->outline, &remains->kept, job->fragments.polygon, job->fragments.count);
+        outline_group(job, job->order + i, end - i);
     }
+    if (remains->open)
+        add_tight(job);
     pir_outline_cut(&job->outline);
+    job->edges = job->outline.run_count / 2;
+    if (remains->open) {
+        imprint(job);
+        job->edges = pir_outline_edges(&job->outline);
+    }
     pir_loops_trace(&job->loops, &job->outline);
 }
 
-static pir_status compute(struct job *job) {
+static pir_status compute(struct job *job, bool open) {
     pir_space *space = &job->operands.space;
     for (int k = 0; k < 2; k++) {
         pir_cells_init(&job->cells[k], space);
@@ -93,98 +140,20 @@ static pir_status compute(struct job *job) {
         pir_convexes_make(&job->convexes[k], &job->cells[k], &job->pieces[k]);
     }
     if (space->status == PIR_OK)
-        pir_remains_make(&job->remains, job->operands.body, job->convexes);
+        pir_remains_make(&job->remains, job->operands.body, job->convexes, open);
     if (space->status == PIR_OK)
         outline_planes(job);
     return space->status;
 }
 
-/* --- the mesh --- */
-
-static bool reserve_exact(pir_mesh *mesh, struct job *job, const uint32_t *point) {
-    const pir_allocator *a = &mesh->allocator;
-    const pir_space *space = &job->operands.space;
-    size_t longest = 1, weight = 1;
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        mpz_t *x = space->number + space->point[point[v]].exact;
-        for (int k = 0; k < 3; k++)
-            longest = mpz_size(x[k]) > longest ? mpz_size(x[k]) : longest;
-        weight = mpz_size(x[3]) > weight ? mpz_size(x[3]) : weight;
-    }
-    const pir_scale scale = {pir_int_of_mpz(job->operands.num), pir_int_of_mpz(job->operands.den)};
-    return pir_vectors_init(&mesh->where, a, mesh->vertex_count, (uint32_t)longest) &&
-           pir_vectors_init(&mesh->weight, a, mesh->vertex_count, (uint32_t)weight) &&
-           pir_scale_copy(&mesh->scale, a, &scale);
-}
-
-static void set_vertex(pir_mesh *mesh, struct job *job, uint32_t v, uint32_t point) {
-    pir_space *space = &job->operands.space;
-    mpz_t *x = space->number + space->point[point].exact, *t = space->t;
-    pir_int3 to = pir_vectors_at(&mesh->where, v), weight = pir_vectors_at(&mesh->weight, v);
-    double nearest[3];
-    mpz_mul(t[1], x[3], job->operands.den);
-    const pir_int den = pir_int_of_mpz(t[1]), own = pir_int_of_mpz(x[3]), num = pir_int_of_mpz(job->operands.num);
-    for (int k = 0; k < 3; k++) {
-        const pir_int c = pir_int_of_mpz(x[k]);
-        pir_int_copy(&to.c[k], &c);
-        nearest[k] = pir_scaled_nearest_double(&c, &num, &den);
-    }
-    pir_int_copy(&weight.c[0], &own);
-    pir_vectors_put(&mesh->where, v, &to);
-    pir_vectors_put(&mesh->weight, v, &weight);
-    mesh->vertex[v] = (pir_vec3){nearest[0], nearest[1], nearest[2]};
-    mesh->pair[v][0] = mesh->pair[v][1] = 0;
-}
-
-/* The vertices in the order in which facets name them; `number` is per point of the space. */
-static pir_status fill_mesh(struct job *job, uint32_t *number, uint32_t *point, pir_mesh **ret_mesh) {
-    const pir_loop_list *loops = &job->loops;
-    uint32_t vertices = 0;
-    for (uint32_t i = 0; i < loops->facet_corner_count; i++) {
-        const uint32_t p = loops->facet_corner[i];
-        if (number[p] == PIR_SPACE_NONE) {
-            number[p] = vertices;
-            point[vertices++] = p;
-        }
-    }
-    pir_mesh *mesh = pir_mesh_new(&job->operands.allocator, vertices, loops->facet_count, loops->facet_corner_count);
-    if (!mesh || !reserve_exact(mesh, job, point)) {
-        pir_mesh_destroy(mesh);
-        return PIR_ERR_MEMORY;
-    }
-    mesh->exact = true;
-    mesh->edge_count = job->outline.run_count / 2;
-    for (uint32_t v = 0; v < vertices; v++)
-        set_vertex(mesh, job, v, point[v]);
-    mesh->facets.start[0] = 0;
-    for (uint32_t f = 0; f < loops->facet_count; f++) {
-        mesh->facets.start[f + 1] = loops->facet[f];
-        mesh->kind[f] = PIR_FACET_MERGED;
-    }
-    for (uint32_t i = 0; i < loops->facet_corner_count; i++)
-        mesh->facets.corner[i] = number[loops->facet_corner[i]];
-    *ret_mesh = mesh;
-    return PIR_OK;
-}
-
-static pir_status make_mesh(struct job *job, pir_mesh **ret_mesh) {
-    const pir_allocator *a = &job->operands.allocator;
-    const uint32_t points = job->operands.space.point_count;
-    uint32_t *number = PIR_NEW(a, uint32_t, points), *point = PIR_NEW(a, uint32_t, points);
-    pir_status status = PIR_ERR_MEMORY;
-    for (uint32_t p = 0; p < points && number; p++)
-        number[p] = PIR_SPACE_NONE;
-    if (number && point)
-        status = fill_mesh(job, number, point, ret_mesh);
-    PIR_FREE(a, number, points);
-    PIR_FREE(a, point, points);
-    return status;
-}
-
-static pir_solid_sum_info describe(const struct job *job) {
-    return (pir_solid_sum_info){.facets = job->loops.facet_count,
-                                .edges = job->outline.run_count / 2,
+static pir_solid_sum_info describe(const struct job *job, const pir_mesh *mesh) {
+    return (pir_solid_sum_info){.vertices = mesh->vertex_count,
+                                .edges = mesh->edge_count,
+                                .facets = job->loops.facet_count,
                                 .holes = job->loops.hole_count,
+                                .two_sided = job->loops.facet_count - job->loops.boundary_count,
+                                .segments = mesh->segment_count,
+                                .points = mesh->point_count,
                                 .pieces_p = job->pieces[0].count,
                                 .pieces_q = job->pieces[1].count,
                                 .candidates = job->remains.candidates,
@@ -207,15 +176,14 @@ pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotati
     const pir_solid *const solids[2] = {p, q};
     status = pir_operands_init(&job.operands, solids, &exact, used.difference != 0, &solid_options);
     if (status == PIR_OK)
-        status = compute(&job);
+        status = compute(&job, used.open != 0);
     pir_mesh *mesh = NULL;
     if (status == PIR_OK)
-        status = make_mesh(&job, &mesh);
+        status = pir_solid_mesh_make(&job.operands, &job.outline, &job.loops, &job.points, &mesh);
     if (status == PIR_OK) {
-        if (ret_info) {
-            *ret_info = describe(&job);
-            ret_info->vertices = mesh->vertex_count;
-        }
+        mesh->edge_count = job.edges;
+        if (ret_info)
+            *ret_info = describe(&job, mesh);
         *ret_mesh = mesh;
     }
     finish(&job);

@@ -18,9 +18,9 @@ void pir_fragments_add(pir_fragments *fragments, pir_space *space, uint32_t poly
         fragments->polygon[fragments->count++] = polygon;
 }
 
-/* Whether doubles prove that all corners are above some half-space. */
-static bool is_surely_apart(const pir_polygons *polygons, pir_polygon p, const uint32_t *half, uint32_t count) {
+bool pir_polygon_is_apart(const pir_polygons *polygons, uint32_t polygon, const uint32_t *half, uint32_t count) {
     const pir_space *space = polygons->space;
+    const pir_polygon p = polygons->polygon[polygon];
     for (uint32_t h = 0; h < count; h++) {
         const pir_space_plane *f = &space->plane[half[h] >> 1];
         const double turn = half[h] & 1 ? -1 : 1;
@@ -61,10 +61,10 @@ static enum meeting find_cutters(pir_polygons *polygons, uint32_t fragment, cons
 }
 
 static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *polygons, const uint32_t *half,
-                         uint32_t count) {
+                         uint32_t count, pir_fragments *covered) {
     pir_space *space = polygons->space;
     uint32_t rest = fragments->polygon[at], cutters = 0;
-    if (is_surely_apart(polygons, polygons->polygon[rest], half, count) ||
+    if (pir_polygon_is_apart(polygons, rest, half, count) ||
         !pir_space_grow(space, (void **)&fragments->spare, &fragments->spare_room, count, sizeof *fragments->spare))
         return;
     if (find_cutters(polygons, rest, half, count, fragments->spare, &cutters) == APART)
@@ -85,13 +85,16 @@ static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *po
         pir_fragments_add(fragments, space, parts[1]);
         rest = parts[0];
     }
+    if (covered)
+        pir_fragments_add(covered, space, rest);
     fragments->polygon[at] = PIR_SPACE_NONE;
 }
 
-void pir_fragments_subtract(pir_fragments *fragments, pir_polygons *polygons, const uint32_t *half, uint32_t count) {
+void pir_fragments_subtract(pir_fragments *fragments, pir_polygons *polygons, const uint32_t *half, uint32_t count,
+                            pir_fragments *covered) {
     const uint32_t before = fragments->count;
     for (uint32_t i = 0; i < before && polygons->space->status == PIR_OK; i++)
-        subtract_one(fragments, i, polygons, half, count);
+        subtract_one(fragments, i, polygons, half, count, covered);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < fragments->count; i++)
         if (fragments->polygon[i] != PIR_SPACE_NONE)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Facets from the edges round them: loops, holes with the facets they are in, and slits that make each one loop. */
-#ifndef PIR_SOLID_SUM_LOOPS_H
-#define PIR_SOLID_SUM_LOOPS_H
+#ifndef PIR_SOLID_GLUE_LOOPS_H
+#define PIR_SOLID_GLUE_LOOPS_H
 
-#include "solid/sum/union_outline.h"
+#include "solid/glue/union_outline.h"
 
 typedef struct pir_loop {
     uint32_t first, count; /* corners */
@@ -17,13 +17,14 @@ typedef struct pir_loop_list {
     pir_loop *loop;
     uint32_t *corner; /* points */
     uint32_t facet_count, facet_room, facet_corner_count, facet_corner_room;
-    uint32_t *facet; /* where the corners of each facet end */
+    uint32_t boundary_count; /* facets of groups that are not loose, which come first */
+    uint32_t *facet;         /* where the corners of each facet end */
     uint32_t *facet_corner;
     uint32_t *spare, spare_count, spare_room; /* scratch: the corners of the facet at hand */
     uint32_t hole_count;
 } pir_loop_list;
 
-/* Traces the runs of an outline that has been cut, those of one half-space after the other. */
+/* Traces the runs of an outline that has been cut, those of one group after the other. */
 void pir_loops_trace(pir_loop_list *loops, const pir_outline *outline);
 void pir_loop_list_finish(pir_loop_list *loops);
 

@@ -3,7 +3,7 @@
  * See slits.h. A slit is a segment from a corner of a hole to a corner of the loop so far, which is walked both
  * ways. It leaves both corners into the facet, and meets no side of the loop or of any hole that is not yet joined.
  */
-#include "solid/sum/slits.h"
+#include "solid/glue/slits.h"
 
 struct slit {
     uint32_t hole, from, to; /* the loop of the hole, the corner's place there, the corner's place in the facet */

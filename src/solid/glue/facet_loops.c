@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * See facet_loops.h. At a corner from which several edges lead on, the loop takes the one that turns most to the
- * left: between an edge and the next lies then a wedge of the facet's inside, and parts that only touch at a corner
- * get loops of their own. A loop's extreme corner says which way it goes round.
+ * left, and goes back only where no other leads on: between an edge and the next lies then a wedge of the facet's
+ * inside, and parts that only touch at a corner get loops of their own. At a loop's extreme corner all edges lead to
+ * one side; the loop goes round a hole when the wedge on the other side is one of its own.
  */
-#include "solid/sum/facet_loops.h"
+#include "solid/glue/facet_loops.h"
 
 #include <math.h>
 
-#include "solid/sum/slits.h"
+#include "solid/glue/slits.h"
 
 struct tracer {
     pir_loop_list *list;
     pir_space *space;
     const pir_outline *outline;
     uint32_t half;
-    uint32_t first, end; /* runs of the half-space */
+    uint32_t first, end; /* runs of the group */
     uint32_t first_loop; /* of it */
     bool *used;          /* per run */
     uint32_t axis[2];    /* directions that tell points of the plane apart */
@@ -35,21 +36,28 @@ static void push_corner(pir_loop_list *list, uint32_t point) {
         list->corner[list->corner_count++] = point;
 }
 
-/* Whether `b` turns more to the left than `a`, coming from p to q. */
-static bool turns_more(struct tracer *t, const uint32_t pq[2], uint32_t a, uint32_t b) {
-    const int left_a = pir_space_turn(t->space, t->half, pq[0], pq[1], a);
-    const int left_b = pir_space_turn(t->space, t->half, pq[0], pq[1], b);
-    return left_a != left_b ? left_b > left_a : pir_space_turn(t->space, t->half, pq[1], a, b) > 0;
+/* How a loop turns that comes from p to q and goes on along `run`: 2 to the left, 1 straight on, 0 to the right, −1
+ * back. */
+static int turn_of(struct tracer *t, const pir_run *from, const pir_run *run) {
+    const int turn = pir_space_turn(t->space, t->half, from_of(from), to_of(from), to_of(run));
+    if (turn != 0)
+        return turn > 0 ? 2 : 0;
+    return from->line == run->line && from->sign == run->sign ? 1 : -1;
+}
+
+/* Whether `b` turns more to the left than `a`, after `from`. */
+static bool turns_more(struct tracer *t, const pir_run *from, const pir_run *a, const pir_run *b) {
+    const int turn_a = turn_of(t, from, a), turn_b = turn_of(t, from, b);
+    return turn_a != turn_b ? turn_b > turn_a : pir_space_turn(t->space, t->half, to_of(from), to_of(a), to_of(b)) > 0;
 }
 
 /* The run that a loop goes on with after `run`. */
 static uint32_t next_run(struct tracer *t, uint32_t run) {
     const pir_run *runs = t->outline->run;
-    const uint32_t pq[2] = {from_of(&runs[run]), to_of(&runs[run])};
     uint32_t best = PIR_SPACE_NONE;
     for (uint32_t r = t->first; r < t->end; r++)
-        if (from_of(&runs[r]) == pq[1] &&
-            (best == PIR_SPACE_NONE || turns_more(t, pq, to_of(&runs[best]), to_of(&runs[r]))))
+        if (from_of(&runs[r]) == to_of(&runs[run]) &&
+            (best == PIR_SPACE_NONE || turns_more(t, &runs[run], &runs[best], &runs[r])))
             best = r;
     return best;
 }
@@ -69,7 +77,8 @@ static void set_axes(struct tracer *t) {
     }
 }
 
-/* Whether a loop goes round clockwise: the turn at the corner that is first along one axis, then along the other. */
+/* Whether a loop goes round a hole: a turn to the right, or back, at the corner that is first along one axis, then
+ * along the other. */
 static bool is_hole(struct tracer *t, const pir_loop *loop) {
     const uint32_t *corner = t->list->corner + loop->first;
     uint32_t best = 0;
@@ -79,8 +88,11 @@ static bool is_hole(struct tracer *t, const pir_loop *loop) {
             order = pir_space_order(t->space, t->axis[1], corner[best], corner[i]);
         best = order < 0 ? i : best;
     }
-    return pir_space_turn(t->space, t->half, corner[best > 0 ? best - 1 : loop->count - 1], corner[best],
-                          corner[best + 1 < loop->count ? best + 1 : 0]) < 0;
+    for (uint32_t i = best; i < loop->count; i++)
+        if (corner[i] == corner[best] && pir_space_turn(t->space, t->half, corner[i > 0 ? i - 1 : loop->count - 1],
+                                                        corner[i], corner[i + 1 < loop->count ? i + 1 : 0]) <= 0)
+            return true;
+    return false;
 }
 
 static void trace_loop(struct tracer *t, uint32_t start) {
@@ -141,7 +153,7 @@ static void find_facet(struct tracer *t, pir_loop *hole) {
     }
 }
 
-static void trace_half(struct tracer *t) {
+static void trace_group(struct tracer *t) {
     pir_loop_list *list = t->list;
     t->first_loop = list->count;
     set_axes(t);
@@ -164,10 +176,14 @@ void pir_loops_trace(pir_loop_list *loops, const pir_outline *outline) {
     if (!t.used)
         space->status = PIR_ERR_MEMORY;
     for (t.first = 0; t.first < outline->run_count && space->status == PIR_OK; t.first = t.end) {
-        t.half = outline->run[t.first].half;
-        for (t.end = t.first + 1; t.end < outline->run_count && outline->run[t.end].half == t.half; t.end++)
+        const pir_run run = outline->run[t.first];
+        t.half = run.half;
+        for (t.end = t.first + 1; t.end < outline->run_count && outline->run[t.end].group == run.group; t.end++)
             ;
-        trace_half(&t);
+        if (run.group < PIR_GROUP_CROSSING)
+            trace_group(&t);
+        if (run.group < outline->loose)
+            loops->boundary_count = loops->facet_count;
     }
     PIR_FREE(&space->allocator, t.used, outline->run_count);
 }
