@@ -21,11 +21,11 @@ pir_status pir_sum_walk(pir_sum *sum) {
     pir_region *region = &sum->region;
     const pir_signs *signs = &tracked->pairing.signs;
     uint64_t asked = pir_signs_asked(signs);
-    pir_crossings_clear(tracked);
     pir_status status;
     if (region->cone.set && !region->cover.whole) {
         status = pir_region_walk(region, tracked) ? PIR_OK : PIR_ERR_MEMORY;
     } else {
+        pir_crossings_clear(tracked);
         pir_region_open(region, tracked);
         status = pir_walk_rebuild(tracked);
     }

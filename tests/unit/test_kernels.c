@@ -46,7 +46,7 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     memcpy(cells, facets->cell, count * sizeof *cells);
     for (uint32_t f = 0; f < count; f++)
         expired[f] = facets->first_certificate + f;
-    pir_certificates_expire(&sum->tracked.certificates, certificates);
+    pir_certificates_lay_out(&sum->tracked.certificates, certificates);
     uint64_t sides = 0, hash = 0xcbf29ce484222325u;
     uint32_t found = kernels->review(facets, &step, &sum->tracked.certificates, expired, count, suspects, &sides);
     for (uint32_t i = 0; i < found; i++) {

@@ -67,6 +67,8 @@ static void begin_stretch(pir_certificates *certificates) {
 
 void pir_certificates_shift(pir_certificates *certificates, uint32_t used, double shift) {
     begin_stretch(certificates);
+    if (certificates->expired_all)
+        return;
     for (uint32_t i = 0; i < used; i++) {
         certificates->ahead[i] = pir_float_below((double)certificates->ahead[i] - shift);
         certificates->behind[i] = pir_float_above((double)certificates->behind[i] - shift);
@@ -99,6 +101,8 @@ static inline float left_of(const pir_certificates *certificates, uint32_t i) {
 void pir_certificates_new_epoch(pir_certificates *certificates, uint32_t used, bool axial, double expected) {
     const float slack = axial ? (float)PIR_DRIFT_SLACK : 0, enough = axial ? (float)expected : -HUGE_VALF;
     begin_stretch(certificates);
+    if (certificates->expired_all)
+        return;
     for (uint32_t b = 0; b * PIR_CERTIFICATE_BLOCK < used; b++) {
         float left[PIR_CERTIFICATE_BLOCK];
         for (uint32_t i = 0; i < PIR_CERTIFICATE_BLOCK; i++)
@@ -121,17 +125,20 @@ void pir_certificates_set_now(pir_certificates *certificates, pir_quat unit) {
         certificates->now.c[k] = (float)q[k];
 }
 
-void pir_certificates_expire(pir_certificates *certificates, uint32_t used) {
+void pir_certificates_expire(pir_certificates *certificates) {
+    certificates->expired_all = true;
+    begin_stretch(certificates);
+}
+
+void pir_certificates_lay_out(pir_certificates *certificates, uint32_t used) {
+    certificates->expired_all = false;
     // array by array: each loop is one of vectors
-    for (uint32_t i = 0; i < used; i++) {
+    for (uint32_t i = 0; i < used; i++)
         certificates->ahead[i] = -PIR_NEVER;
+    for (uint32_t i = 0; i < used; i++)
         certificates->behind[i] = PIR_NEVER;
+    for (uint32_t i = 0; i < used; i++)
         certificates->margin[i] = -1;
-    }
-    for (uint32_t i = 0; i < used; i++)
-        certificates->at[i] = certificates->now;
-    for (uint32_t i = 0; i < used; i++)
-        pir_certificate_forget_previous(certificates, i);
     for (uint32_t b = 0; b * PIR_CERTIFICATE_BLOCK < used; b++) {
         certificates->block_ahead[b] = -PIR_NEVER;
         certificates->block_behind[b] = PIR_NEVER;

@@ -24,7 +24,7 @@
  * which it crossed touched no other side; the phases beyond are those of the kept certificate, an interval. No check is
  * needed. See pir_certificate_reuse.
  *
- * Invariant: the bounds of a block hold for each of its certificates.
+ * Invariant: the bounds of a block hold for each of its certificates, unless `expired_all`.
  */
 #ifndef PIR_DYMSUM_CERTIFICATE_CERTIFICATES_H
 #define PIR_DYMSUM_CERTIFICATE_CERTIFICATES_H
@@ -59,6 +59,7 @@ typedef struct pir_certificates {
     uint32_t stretch;            /* counts how often keys have been made anew or shifted */
     uint32_t *expired;           /* what the last collection found, rising */
     uint32_t capacity;           /* whole blocks; their bounds are in a multiple of eight */
+    bool expired_all;            /* every certificate has expired: no key, bound or margin is in force */
 } pir_certificates;
 
 /* Room for at least `count` certificates, which never expire; false when out of memory. */
@@ -165,7 +166,13 @@ void pir_certificates_new_epoch(pir_certificates *certificates, uint32_t used, b
 /* Sets certificates->now. */
 void pir_certificates_set_now(pir_certificates *certificates, pir_quat unit);
 
-/* Expires the first `used` certificates. */
-void pir_certificates_expire(pir_certificates *certificates, uint32_t used);
+/*
+ * Expires all certificates, in O(1): a rebuild is often followed by another one. Before the next of them is looked at
+ * or filed, they are laid out.
+ */
+void pir_certificates_expire(pir_certificates *certificates);
+
+/* Expires the first `used` certificates one by one. */
+void pir_certificates_lay_out(pir_certificates *certificates, uint32_t used);
 
 #endif

@@ -41,9 +41,14 @@ void pir_crossings_clear(pir_tracked *tracked) {
     pir_pairing *pairing = &tracked->pairing;
     for (uint32_t e = 0; e < pairing->p->edge_count; e++)
         pairing->crossings.first[e] = PIR_NO_CROSSING;
-    pairing->crossings.used = 0;
-    pairing->crossings.free = PIR_NO_CROSSING;
-    pairing->crossings.count = 0;
+    pir_crossings_forget(tracked);
+}
+
+void pir_crossings_forget(pir_tracked *tracked) {
+    pir_crossings *c = &tracked->pairing.crossings;
+    c->used = 0;
+    c->free = PIR_NO_CROSSING;
+    c->count = 0;
     pir_journal_note_all(&tracked->journal);
 }
 

@@ -19,6 +19,9 @@ void pir_crossings_finish(pir_tracked *tracked);
 /* Empties every list. */
 void pir_crossings_clear(pir_tracked *tracked);
 
+/* Makes every slot unused. The caller empties the lists. */
+void pir_crossings_forget(pir_tracked *tracked);
+
 /* A slot for the crossing of edge e with halfedge h, not linked; PIR_NO_CROSSING when out of memory. */
 uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32_t h);
 void pir_crossing_free(pir_tracked *tracked, uint32_t slot);

@@ -154,5 +154,20 @@ void pir_tracked_certify(pir_tracked *tracked, uint32_t i, const pir_expiry *exp
 }
 
 void pir_tracked_expire_all(pir_tracked *tracked) {
-    pir_certificates_expire(&tracked->certificates, pir_certificate_count(tracked));
+    pir_certificates_expire(&tracked->certificates);
+}
+
+/* Facets that a region leaves out have certificates that never expire. */
+static void clear_inactive(pir_certificates *certificates, const pir_facets *facets) {
+    for (uint32_t f = 0; f < facets->count; f++)
+        if (facets->cell[f] == PIR_NO_PAIR)
+            pir_certificate_clear(certificates, facets->first_certificate + f);
+}
+
+void pir_tracked_lay_out_certificates(pir_tracked *tracked) {
+    if (!tracked->certificates.expired_all)
+        return;
+    pir_certificates_lay_out(&tracked->certificates, pir_certificate_count(tracked));
+    clear_inactive(&tracked->certificates, &tracked->p_facets);
+    clear_inactive(&tracked->certificates, &tracked->q_facets);
 }

@@ -88,6 +88,9 @@ void pir_tracked_certify(pir_tracked *tracked, uint32_t i, const pir_expiry *exp
 /* Expires every certificate: the pairing is new. */
 void pir_tracked_expire_all(pir_tracked *tracked);
 
+/* Lays out certificates that have expired all at once: before any is looked at or filed. */
+void pir_tracked_lay_out_certificates(pir_tracked *tracked);
+
 static inline uint32_t pir_certificate_count(const pir_tracked *tracked) {
     return tracked->pairing.p->facet_count + tracked->pairing.q->facet_count;
 }

@@ -15,8 +15,7 @@
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/descent.h"
 
-/* The cell of facet f of P from that of vertex `from`. */
-static uint32_t locate_of_p(pir_tracked *tracked, uint32_t f, uint32_t from) {
+uint32_t pir_locate_facet_of_p(pir_tracked *tracked, uint32_t f, uint32_t from) {
     uint32_t cell = from;
     pir_expiry unused;
     if (!tracked->kernels->descend(&tracked->p_facets, f, &cell, &tracked->pairing.signs.by_filter))
@@ -24,7 +23,7 @@ static uint32_t locate_of_p(pir_tracked *tracked, uint32_t f, uint32_t from) {
     return cell;
 }
 
-static uint32_t locate_of_q(pir_tracked *tracked, uint32_t g, uint32_t from) {
+uint32_t pir_locate_facet_of_q(pir_tracked *tracked, uint32_t g, uint32_t from) {
     uint32_t cell = from;
     pir_expiry unused;
     if (!tracked->kernels->descend(&tracked->q_facets, g, &cell, &tracked->pairing.signs.by_filter))
@@ -39,7 +38,7 @@ void pir_locate_facets_of_p(pir_tracked *tracked) {
         return;
     for (uint32_t f = 1; f < p->facet_count; f++)
         fv[f] = PIR_NO_PAIR;
-    fv[0] = locate_of_p(tracked, 0, 0);
+    fv[0] = pir_locate_facet_of_p(tracked, 0, 0);
     queue[tail++] = 0;
     while (head < tail) {
         uint32_t f = queue[head++], cell = fv[f];
@@ -48,7 +47,7 @@ void pir_locate_facets_of_p(pir_tracked *tracked) {
             uint32_t beside = pir_right(p, *half);
             if (fv[beside] != PIR_NO_PAIR)
                 continue;
-            fv[beside] = locate_of_p(tracked, beside, cell);
+            fv[beside] = pir_locate_facet_of_p(tracked, beside, cell);
             queue[tail++] = beside;
         }
     }
@@ -62,15 +61,14 @@ static inline void set_cell(pir_tracked *tracked, uint32_t g, uint32_t v, uint32
     tracked->work->queue[(*tail)++] = g;
 }
 
-/* The crossings of each edge of Q, in work.mark: 0, 1, or 2 for more. */
+/* Counts the crossings of each edge of Q whose mark is 0: afterwards 0, 1, or 2 for more. Other marks stay. */
 static void count_crossings(pir_tracked *tracked) {
     const pir_polytope *q = tracked->pairing.q;
     const pir_crossings *c = &tracked->pairing.crossings;
     uint8_t *mark = tracked->work->mark;
-    memset(mark, 0, q->edge_count);
     for (uint32_t i = 0; i < c->used; i++) {
-        uint32_t e = q->edge[c->half[i]];
-        mark[e] = mark[e] == 0 ? 1 : 2;
+        uint8_t *of_edge = &mark[q->edge[c->half[i]]];
+        *of_edge += *of_edge < 2;
     }
 }
 
@@ -97,13 +95,11 @@ static uint32_t cell_beside(const pir_tracked *tracked, uint32_t g) {
     return cell != PIR_NO_PAIR ? cell : 0;
 }
 
-void pir_locate_facets_of_q(pir_tracked *tracked) {
+uint32_t pir_spread_cells_of_q(pir_tracked *tracked) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     const pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t *vf = tracked->pairing.vf, tail = 0;
+    uint32_t tail = 0;
     count_crossings(tracked);
-    for (uint32_t g = 0; g < q->facet_count; g++)
-        vf[g] = PIR_NO_PAIR;
     for (uint32_t i = 0; i < c->used; i++) {
         uint32_t h = c->half[i], half = p->edge_half[c->edge[i]];
         if (tracked->work->mark[q->edge[h]] != 1)
@@ -111,11 +107,20 @@ void pir_locate_facets_of_q(pir_tracked *tracked) {
         set_cell(tracked, pir_right(q, h), p->origin[half], &tail);
         set_cell(tracked, q->left[h], p->target[half], &tail);
     }
-    tail = spread(tracked, 0, tail);
+    return spread(tracked, 0, tail);
+}
+
+void pir_locate_facets_of_q(pir_tracked *tracked) {
+    const pir_polytope *q = tracked->pairing.q;
+    uint32_t *vf = tracked->pairing.vf;
+    memset(tracked->work->mark, 0, q->edge_count);
+    for (uint32_t g = 0; g < q->facet_count; g++)
+        vf[g] = PIR_NO_PAIR;
+    uint32_t tail = pir_spread_cells_of_q(tracked);
     for (uint32_t g = 0; g < q->facet_count && tail < q->facet_count; g++) {
         uint32_t head = tail;
         if (vf[g] == PIR_NO_PAIR)
-            set_cell(tracked, g, locate_of_q(tracked, g, cell_beside(tracked, g)), &tail);
+            set_cell(tracked, g, pir_locate_facet_of_q(tracked, g, cell_beside(tracked, g)), &tail);
         tail = spread(tracked, head, tail);
     }
 }

@@ -8,7 +8,7 @@
  * of the arc's circle: counter-clockwise, the side at which s(e, ·) turns from negative to positive. From the side by
  * which the arc entered, the corners' signs are first negative, then positive. So the side is found by bisection when
  * the cell has many. The cells of Q's facets follow from the crossings. Where a region leaves features out,
- * region/region.c rebuilds instead.
+ * region/region_walk.c rebuilds instead.
  */
 #include "dymsum/rebuild/walk.h"
 
@@ -93,16 +93,19 @@ static bool walk_arc(pir_tracked *tracked, uint32_t e, uint32_t from, uint32_t t
     return true;
 }
 
+bool pir_walk_edge(pir_tracked *tracked, uint32_t e) {
+    const pir_polytope *p = tracked->pairing.p;
+    const uint32_t *fv = tracked->pairing.fv;
+    uint32_t from = fv[p->left[p->edge_half[e]]], to = fv[pir_right(p, p->edge_half[e])];
+    return from == to || walk_arc(tracked, e, from, to);
+}
+
 pir_status pir_walk_rebuild(pir_tracked *tracked) {
     pir_tracked_turn_facets(tracked);
     pir_locate_facets_of_p(tracked);
-    const pir_polytope *p = tracked->pairing.p;
-    const uint32_t *fv = tracked->pairing.fv;
-    for (uint32_t e = 0; e < p->edge_count; e++) {
-        uint32_t from = fv[p->left[p->edge_half[e]]], to = fv[pir_right(p, p->edge_half[e])];
-        if (from != to && !walk_arc(tracked, e, from, to))
+    for (uint32_t e = 0; e < tracked->pairing.p->edge_count; e++)
+        if (!pir_walk_edge(tracked, e))
             return PIR_ERR_MEMORY;
-    }
     pir_locate_facets_of_q(tracked);
     pir_tracked_expire_all(tracked);
     return PIR_OK;

@@ -12,6 +12,11 @@
 uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered);
 
 /*
+ * Lists the crossings of edge e, whose ends have cells, in a store that has been emptied. False when out of memory.
+ */
+bool pir_walk_edge(pir_tracked *tracked, uint32_t e);
+
+/*
  * Makes the whole pairing from nothing and leaves its certificates expired. There are no crossings before. On
  * PIR_ERR_MEMORY the pairing is not usable.
  */

@@ -74,6 +74,11 @@ typedef struct pir_cover {
     double step;    /* radians: the last step, at most */
 } pir_cover;
 
+/* Within what of axis_p the arcs of active edges come: the half-angle and the skin of P. */
+static inline pir_arc pir_cover_reach(const pir_cover *cover) {
+    return pir_arc_add(cover->half_angle, pir_arc_of(cover->skin_p));
+}
+
 /* The greatest that `step` can be. */
 #define PIR_MOST_STEP 4.0
 

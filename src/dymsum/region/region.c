@@ -39,7 +39,7 @@
  *   - A rebuild that pairs all features first makes members of all of them (open), and then chooses (close).
  *   - An update moves cells and crossings of active features alone. Admission gives cells and crossings to members
  *     alone.
- *   - A walk within a region drops all members, chooses and admits.
+ *   - A walk within a region drops all members, sweeps, and makes the pairing of the new ones (region_walk.c).
  *
  * Each call that succeeds and changes the cover chooses after that, and admits unless all features had been paired. A
  * call that fails goes back to the old cover and walks. So after every call the members are what the sweep finds for
@@ -56,8 +56,7 @@
 #include <string.h>
 
 #include "dymsum/pairing/crossings.h"
-#include "dymsum/pairing/predicates.h"
-#include "dymsum/rebuild/descent.h"
+#include "dymsum/region/members.h"
 #include "dymsum/update/repair.h"
 
 /* A skin is this many times the axis's motion in a step; a stride this many times the step's angle. */
@@ -132,51 +131,21 @@ void pir_region_step(pir_region *region, const pir_tracked *tracked, pir_quat be
         region->cover.step = pir_rotation_angle_bound(before, tracked->pairing.signs.rotation.unit);
 }
 
-/* --- dropping --- */
+/* --- choosing --- */
 
-/* The facets of one operand over the cells of the other. */
-struct place {
-    pir_tracked *tracked;
-    pir_region_facets *facets;
-    const pir_polytope *own;
-    uint32_t *cell, first_certificate;
-    uint32_t sweep; /* the number of the last sweep */
-    bool of_p;
-};
-
-static struct place place_of_p(pir_region *region, pir_tracked *tracked) {
-    pir_pairing *pairing = &tracked->pairing;
-    return (struct place){tracked, &region->sweep->p, pairing->p, pairing->fv, 0, region->sweep->number, true};
-}
-
-static struct place place_of_q(pir_region *region, pir_tracked *tracked) {
-    pir_pairing *pairing = &tracked->pairing;
-    uint32_t first = tracked->q_facets.first_certificate;
-    return (struct place){tracked, &region->sweep->q, pairing->q, pairing->vf, first, region->sweep->number, false};
-}
-
-static void drop_facet(const struct place *place, uint32_t f) {
+static void drop_facet(const pir_member_place *place, uint32_t f) {
     uint32_t certificate = place->first_certificate + f;
-    if (place->cell[f] != PIR_NO_PAIR)
-        place->facets->hint[f] = place->cell[f];
-    place->cell[f] = PIR_NO_PAIR;
+    pir_member_drop(place, f);
     pir_certificate_clear(&place->tracked->certificates, certificate);
     pir_journal_note(&place->tracked->journal, certificate);
 }
 
 /* Drops those of the first `count` members that the last sweep has not seen. */
-static void drop_unseen_facets(const struct place *place, uint32_t count) {
+static void drop_unseen_facets(const pir_member_place *place, uint32_t count) {
     const pir_members *members = &place->facets->members;
     for (uint32_t i = 0; i < count; i++)
         if (members->seen[members->at[i]] != place->sweep)
             drop_facet(place, members->at[i]);
-}
-
-static void drop_members(const struct place *place) {
-    pir_members *members = &place->facets->members;
-    for (uint32_t i = 0; i < members->count; i++)
-        drop_facet(place, members->at[i]);
-    members->count = 0;
 }
 
 static void drop_edge(pir_tracked *tracked, uint32_t e) {
@@ -191,27 +160,19 @@ static void drop_edge(pir_tracked *tracked, uint32_t e) {
     tracked->touched[e] = PIR_INACTIVE;
 }
 
-/* Takes what the last sweep found for the members. */
-static void take_next(pir_members *members) {
-    uint32_t *next = members->next;
-    members->next = members->at;
-    members->at = next;
-}
-
 void pir_region_choose(pir_region *region, pir_tracked *tracked) {
     pir_members *p = &region->sweep->p.members, *q = &region->sweep->q.members, *edges = &region->sweep->edges;
-    uint32_t of_p = p->count, of_q = q->count, of_edges = edges->count;
+    uint32_t facets_p = p->count, facets_q = q->count, of_edges = edges->count;
     region->admits = true;
     pir_sweep_run(region->sweep, &region->cover, tracked->pairing.p);
     for (uint32_t i = 0; i < of_edges; i++)
         if (edges->seen[edges->at[i]] != region->sweep->number)
             drop_edge(tracked, edges->at[i]);
-    const struct place place_p = place_of_p(region, tracked), place_q = place_of_q(region, tracked);
-    drop_unseen_facets(&place_p, of_p);
-    drop_unseen_facets(&place_q, of_q);
-    take_next(p);
-    take_next(q);
-    take_next(edges);
+    const pir_member_place of_p = pir_members_of_p(region->sweep, tracked),
+                           of_q = pir_members_of_q(region->sweep, tracked);
+    drop_unseen_facets(&of_p, facets_p);
+    drop_unseen_facets(&of_q, facets_q);
+    pir_sweep_take(region->sweep);
 }
 
 void pir_region_follow(pir_region *region, pir_tracked *tracked) {
@@ -227,60 +188,14 @@ void pir_region_follow(pir_region *region, pir_tracked *tracked) {
 
 /* --- admitting --- */
 
-/* An active facet's neighbour that has a cell, or PIR_NO_PAIR. */
-static uint32_t cell_beside(const struct place *place, uint32_t f) {
-    const pir_polytope *own = place->own;
-    for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
-        uint32_t v = place->cell[pir_right(own, own->loop[i])];
-        if (v != PIR_NO_PAIR)
-            return v;
-    }
-    return PIR_NO_PAIR;
-}
-
-static void locate(const struct place *place, uint32_t f, uint32_t from) {
-    pir_tracked *tracked = place->tracked;
-    pir_expiry expiry;
-    place->cell[f] = place->of_p ? pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), from, &expiry)
-                                 : pir_descend_vf(tracked, f, from, &expiry);
-    pir_tracked_certify(tracked, place->first_certificate + f, &expiry);
-    pir_journal_note(&tracked->journal, place->first_certificate + f);
-}
-
-/*
- * Locates the members without a cell: from a neighbour that has one, where there is one, and from there breadth first.
- */
-static void locate_members(const struct place *place) {
-    const pir_polytope *own = place->own;
-    const pir_members *members = &place->facets->members;
-    uint32_t *queue = place->tracked->work->queue;
-    for (uint32_t i = 0; i < members->count; i++) {
-        uint32_t head = 0, tail = 0;
-        if (place->cell[members->at[i]] == PIR_NO_PAIR)
-            queue[tail++] = members->at[i];
-        while (head < tail) {
-            uint32_t f = queue[head++], beside;
-            if (place->cell[f] != PIR_NO_PAIR)
-                continue;
-            beside = cell_beside(place, f);
-            locate(place, f, beside != PIR_NO_PAIR ? beside : place->facets->hint[f]);
-            for (uint32_t k = own->loop_start[f]; k < own->loop_start[f + 1]; k++) {
-                uint32_t to = pir_right(own, own->loop[k]);
-                // each is queued once; those that find no room are reached from the members that follow
-                if (members->seen[to] == place->sweep && place->cell[to] == PIR_NO_PAIR && tail < members->capacity)
-                    queue[tail++] = to;
-            }
-        }
-    }
-}
-
 bool pir_region_admit(pir_region *region, pir_tracked *tracked) {
     if (!region->admits)
         return true;
-    const struct place p = place_of_p(region, tracked), q = place_of_q(region, tracked);
+    const pir_member_place p = pir_members_of_p(region->sweep, tracked), q = pir_members_of_q(region->sweep, tracked);
+    pir_tracked_lay_out_certificates(tracked);
     pir_tracked_begin_step(tracked);
-    locate_members(&p);
-    locate_members(&q);
+    pir_members_locate(&p, true);
+    pir_members_locate(&q, true);
     for (uint32_t i = 0; i < region->sweep->edges.count; i++) {
         uint32_t e = region->sweep->edges.at[i];
         if (tracked->touched[e] != PIR_INACTIVE)
@@ -319,19 +234,6 @@ void pir_region_close(pir_region *region, pir_tracked *tracked) {
     pir_region_centre(region, tracked, true);
     pir_region_choose(region, tracked);
     region->admits = false;
-}
-
-bool pir_region_walk(pir_region *region, pir_tracked *tracked) {
-    pir_members *edges = &region->sweep->edges;
-    const struct place p = place_of_p(region, tracked), q = place_of_q(region, tracked);
-    // all become inactive, in whatever state a failed call has left them
-    for (uint32_t i = 0; i < edges->count; i++)
-        drop_edge(tracked, edges->at[i]);
-    edges->count = 0;
-    drop_members(&p);
-    drop_members(&q);
-    pir_region_choose(region, tracked);
-    return pir_region_admit(region, tracked);
 }
 
 /* Whether all members have cells and no other facet has. */

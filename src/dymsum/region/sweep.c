@@ -189,8 +189,20 @@ void pir_sweep_run(pir_sweep *sweep, const pir_cover *cover, const pir_polytope 
         sweep_all(&sweep->edges, sweep->number);
         return;
     }
-    pir_arc reach = pir_arc_add(cover->half_angle, pir_arc_of(cover->skin_p));
+    pir_arc reach = pir_cover_reach(cover);
     pir_arc farthest = sweep_p(sweep, p, cover->axis_p, reach);
     double around = cover->skin_p + cover->skin_q + cover->stride + ANGLE_SLACK;
     sweep_q(sweep, cover->axis_q, pir_arc_add(farthest, pir_arc_of(around)));
+}
+
+static void take(pir_members *members) {
+    uint32_t *next = members->next;
+    members->next = members->at;
+    members->at = next;
+}
+
+void pir_sweep_take(pir_sweep *sweep) {
+    take(&sweep->p.members);
+    take(&sweep->q.members);
+    take(&sweep->edges);
 }

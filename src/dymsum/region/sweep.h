@@ -42,4 +42,7 @@ void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *allocator);
  */
 void pir_sweep_run(pir_sweep *sweep, const pir_cover *cover, const pir_polytope *p);
 
+/* Takes what the last sweep found for the members. */
+void pir_sweep_take(pir_sweep *sweep);
+
 #endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Cells of active facets, found by descent: from the cell of a neighbour where one has a cell, otherwise from the cell
+ * in which the facet was last; and from there breadth first.
+ */
+#include "dymsum/region/members.h"
+
+#include "dymsum/pairing/predicates.h"
+#include "dymsum/rebuild/descent.h"
+#include "dymsum/rebuild/facet_cells.h"
+
+pir_member_place pir_members_of_p(pir_sweep *sweep, pir_tracked *tracked) {
+    pir_pairing *pairing = &tracked->pairing;
+    return (pir_member_place){tracked, &sweep->p, pairing->p, pairing->fv, 0, sweep->number, true};
+}
+
+pir_member_place pir_members_of_q(pir_sweep *sweep, pir_tracked *tracked) {
+    pir_pairing *pairing = &tracked->pairing;
+    uint32_t first = tracked->q_facets.first_certificate;
+    return (pir_member_place){tracked, &sweep->q, pairing->q, pairing->vf, first, sweep->number, false};
+}
+
+/* A facet's neighbour that has a cell, or PIR_NO_PAIR. */
+static uint32_t cell_beside(const pir_member_place *place, uint32_t f) {
+    const pir_polytope *own = place->own;
+    for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
+        uint32_t v = place->cell[pir_right(own, own->loop[i])];
+        if (v != PIR_NO_PAIR)
+            return v;
+    }
+    return PIR_NO_PAIR;
+}
+
+static void locate(const pir_member_place *place, uint32_t f, uint32_t from, bool certify) {
+    pir_tracked *tracked = place->tracked;
+    if (!certify) {
+        place->cell[f] =
+            place->of_p ? pir_locate_facet_of_p(tracked, f, from) : pir_locate_facet_of_q(tracked, f, from);
+        return;
+    }
+    pir_expiry expiry;
+    place->cell[f] = place->of_p ? pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), from, &expiry)
+                                 : pir_descend_vf(tracked, f, from, &expiry);
+    pir_tracked_certify(tracked, place->first_certificate + f, &expiry);
+    pir_journal_note(&tracked->journal, place->first_certificate + f);
+}
+
+/* Locates members without a cell from facet `from`, which has one: breadth first. */
+static void locate_around(const pir_member_place *place, uint32_t from, bool certify) {
+    const pir_polytope *own = place->own;
+    const uint32_t *seen = place->facets->members.seen;
+    uint32_t *queue = place->tracked->work->queue, head = 0, tail = 0;
+    queue[tail++] = from;
+    while (head < tail) {
+        uint32_t f = queue[head++], cell = place->cell[f];
+        for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
+            uint32_t to = pir_right(own, own->loop[i]);
+            if (seen[to] != place->sweep || place->cell[to] != PIR_NO_PAIR)
+                continue;
+            locate(place, to, cell, certify);
+            queue[tail++] = to;
+        }
+    }
+}
+
+void pir_members_locate(const pir_member_place *place, bool certify) {
+    const pir_members *members = &place->facets->members;
+    for (uint32_t i = 0; i < members->count; i++) {
+        uint32_t f = members->at[i];
+        if (place->cell[f] != PIR_NO_PAIR)
+            continue;
+        uint32_t beside = cell_beside(place, f);
+        locate(place, f, beside != PIR_NO_PAIR ? beside : place->facets->hint[f], certify);
+        locate_around(place, f, certify);
+    }
+}
