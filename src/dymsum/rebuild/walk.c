@@ -76,8 +76,7 @@ static bool crosses_once(pir_tracked *tracked, uint32_t h, pir_vec3 direction, u
     return false;
 }
 
-/* Walks the arc of edge e between two different cells, and lists its crossings. */
-static bool walk_arc(pir_tracked *tracked, uint32_t e, uint32_t from, uint32_t to) {
+bool pir_walk_arc(pir_tracked *tracked, uint32_t e, uint32_t from, uint32_t to) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t h = tracked->pairing.p->edge_half[e], side, last = PIR_NO_CROSSING;
     pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
@@ -91,13 +90,6 @@ static bool walk_arc(pir_tracked *tracked, uint32_t e, uint32_t from, uint32_t t
         entered = side;
     }
     return true;
-}
-
-bool pir_walk_edge(pir_tracked *tracked, uint32_t e) {
-    const pir_polytope *p = tracked->pairing.p;
-    const uint32_t *fv = tracked->pairing.fv;
-    uint32_t from = fv[p->left[p->edge_half[e]]], to = fv[pir_right(p, p->edge_half[e])];
-    return from == to || walk_arc(tracked, e, from, to);
 }
 
 pir_status pir_walk_rebuild(pir_tracked *tracked) {

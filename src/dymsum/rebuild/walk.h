@@ -11,10 +11,19 @@
  */
 uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered);
 
+/* Walks the arc of edge e between two different cells, and lists its crossings. False when out of memory. */
+bool pir_walk_arc(pir_tracked *tracked, uint32_t e, uint32_t from, uint32_t to);
+
 /*
  * Lists the crossings of edge e, whose ends have cells, in a store that has been emptied. False when out of memory.
  */
-bool pir_walk_edge(pir_tracked *tracked, uint32_t e);
+static inline bool pir_walk_edge(pir_tracked *tracked, uint32_t e) {
+    const pir_polytope *p = tracked->pairing.p;
+    const uint32_t *fv = tracked->pairing.fv;
+    uint32_t half = p->edge_half[e], from = fv[p->left[half]], to = fv[pir_right(p, half)];
+    // an arc whose ends are in one cell stays in it
+    return from == to || pir_walk_arc(tracked, e, from, to);
+}
 
 /*
  * Makes the whole pairing from nothing and leaves its certificates expired. There are no crossings before. On

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The sweep: which features a cover asks for. region.c has the two rules. One pass over all facets, a few operations
- * each in floats, finds those that may be near enough. The rest is done for those alone. It reads the cover and what
- * neither rotation nor scale changes: normals, directions of edges, and adjacency.
+ * The sweep: which features a cover asks for. region.c has the two rules. Edges of P and facets of Q stand in clusters;
+ * those in clusters that may be near enough are compared by floats, a few operations each, and where floats are not
+ * certain by doubles. It reads the cover and what neither rotation nor scale changes: normals, directions of edges, and
+ * adjacency.
  */
 #include "dymsum/region/sweep.h"
 
@@ -18,44 +19,75 @@
 #define EDGE_SLACK  0x1p-40
 #define ANGLE_SLACK 0x1p-13
 
+/* What is kept of an arc: the normals at its ends, the direction of its edge, the cosine of its length. */
+enum arc_row { FROM_X, FROM_Y, FROM_Z, TO_X, TO_Y, TO_Z, ALONG_X, ALONG_Y, ALONG_Z, COSINE, ARC_ROWS };
+
+/* What is kept of a facet of Q: its normal. */
+enum { POINT_ROWS = 3 };
+
 /* --- memory --- */
 
-static pir_layout layout_of(pir_region_facets *facets) {
-    pir_members *members = &facets->members;
-    uint32_t count = members->capacity;
-    return (pir_layout){{PIR_ROW(facets->x, count), PIR_ROW(facets->y, count), PIR_ROW(facets->z, count),
-                         PIR_ROW(facets->cosine, count), PIR_ROW(facets->sine, count), PIR_ROW(facets->apart, count),
-                         PIR_ROW(facets->hint, count), PIR_ROW(members->at, count), PIR_ROW(members->next, count),
-                         PIR_ROW(members->seen, count)}};
-}
-
-static pir_layout layout_of_edges(pir_members *edges) {
-    uint32_t count = edges->capacity;
-    return (pir_layout){{PIR_ROW(edges->at, count), PIR_ROW(edges->next, count), PIR_ROW(edges->seen, count)}};
+static pir_layout layout_of(pir_sweep *sweep) {
+    pir_members *p = &sweep->p.members, *q = &sweep->q.members, *edges = &sweep->edges;
+    uint32_t arcs = pir_cluster_count(&sweep->arcs) * PIR_CLUSTER * ARC_ROWS,
+             points = pir_cluster_count(&sweep->points) * PIR_CLUSTER * POINT_ROWS;
+    return (pir_layout){
+        {PIR_ROW(sweep->p.hint, p->capacity), PIR_ROW(p->at, p->capacity), PIR_ROW(p->next, p->capacity),
+         PIR_ROW(p->seen, p->capacity), PIR_ROW(sweep->q.hint, q->capacity), PIR_ROW(q->at, q->capacity),
+         PIR_ROW(q->next, q->capacity), PIR_ROW(q->seen, q->capacity), PIR_ROW(edges->at, edges->capacity),
+         PIR_ROW(edges->next, edges->capacity), PIR_ROW(edges->seen, edges->capacity), PIR_ROW(sweep->arc, arcs),
+         PIR_ROW(sweep->point, points)}};
 }
 
 void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *a) {
-    pir_layout p = layout_of(&sweep->p), q = layout_of(&sweep->q), edges = layout_of_edges(&sweep->edges);
-    pir_layout_free(a, &p);
-    pir_layout_free(a, &q);
-    pir_layout_free(a, &edges);
+    pir_layout layout = layout_of(sweep);
+    pir_layout_free(a, &layout);
+    pir_clusters_finish(&sweep->arcs, a);
+    pir_clusters_finish(&sweep->points, a);
     *sweep = (pir_sweep){0};
 }
 
-/* Fills in what the sweep reads of p's facets, at every scale the same. */
-static void fill_facets(pir_region_facets *facets, const pir_polytope *p) {
-    for (uint32_t f = 0; f < p->facet_count; f++) {
-        pir_vec3 n = p->normal[f];
-        double least = 1;
-        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
-            least = fmin(least, pir_vec_dot(n, p->normal[pir_right(p, p->loop[i])]));
-        least = fmax(-1, least);
-        facets->x[f] = (float)n.x;
-        facets->y[f] = (float)n.y;
-        facets->z[f] = (float)n.z;
-        facets->cosine[f] = (float)sqrt((1 + least) / 2);
-        facets->sine[f] = (float)sqrt((1 - least) / 2);
+static pir_cap cap_of_facet(const pir_polytope *p, uint32_t f) {
+    return (pir_cap){p->normal[f], {1, 0}};
+}
+
+/* About the middle of the arc; where that is not certain, the whole sphere. */
+static pir_cap cap_of_edge(const pir_polytope *p, uint32_t e) {
+    pir_vec3 from = p->normal[p->left[p->edge_half[e]]], to = p->normal[pir_right(p, p->edge_half[e])];
+    pir_vec3 both = pir_vec_add(from, to);
+    double length = sqrt(pir_vec_dot(both, both));
+    if (length < 0x1p-10)
+        return (pir_cap){from, {-1, 0}};
+    return (pir_cap){pir_vec_scale(both, 1 / length), pir_arc_from_cosine(length / 2)};
+}
+
+/* The first of the rows of cluster k's items. */
+static inline float *rows_of(float *items, uint32_t k, uint32_t rows) {
+    return items + (size_t)k * rows * PIR_CLUSTER;
+}
+
+static void keep_vec(float *row, uint32_t i, pir_vec3 v) {
+    row[i] = (float)v.x;
+    row[i + PIR_CLUSTER] = (float)v.y;
+    row[i + 2 * PIR_CLUSTER] = (float)v.z;
+}
+
+/* Fills in what the sweep reads of the arcs of P, at every scale the same. */
+static void fill_arcs(pir_sweep *sweep, const pir_polytope *p) {
+    for (uint32_t i = 0; i < sweep->arcs.count; i++) {
+        uint32_t half = p->edge_half[sweep->arcs.item[i]], at = i % PIR_CLUSTER;
+        float *rows = rows_of(sweep->arc, i / PIR_CLUSTER, ARC_ROWS);
+        pir_vec3 from = p->normal[p->left[half]], to = p->normal[pir_right(p, half)];
+        keep_vec(rows + FROM_X * PIR_CLUSTER, at, from);
+        keep_vec(rows + TO_X * PIR_CLUSTER, at, to);
+        keep_vec(rows + ALONG_X * PIR_CLUSTER, at, p->direction[half]);
+        rows[COSINE * PIR_CLUSTER + at] = (float)pir_vec_dot(from, to);
     }
+}
+
+static void fill_points(pir_sweep *sweep, const pir_polytope *q) {
+    for (uint32_t i = 0; i < sweep->points.count; i++)
+        keep_vec(rows_of(sweep->point, i / PIR_CLUSTER, POINT_ROWS), i % PIR_CLUSTER, q->normal[sweep->points.item[i]]);
 }
 
 bool pir_sweep_init(pir_sweep *sweep, const pir_polytope *p, const pir_polytope *q, const pir_allocator *a) {
@@ -63,53 +95,28 @@ bool pir_sweep_init(pir_sweep *sweep, const pir_polytope *p, const pir_polytope 
     sweep->p.members.capacity = p->facet_count;
     sweep->q.members.capacity = q->facet_count;
     sweep->edges.capacity = p->edge_count;
-    pir_layout of_p = layout_of(&sweep->p), of_q = layout_of(&sweep->q), edges = layout_of_edges(&sweep->edges);
-    bool done = pir_layout_new(a, &of_p);
-    done = pir_layout_new(a, &of_q) && done;
-    done = pir_layout_new(a, &edges) && done;
-    if (!done) {
+    bool done = pir_clusters_init(&sweep->arcs, p, p->edge_count, cap_of_edge, a) &&
+                pir_clusters_init(&sweep->points, q, q->facet_count, cap_of_facet, a);
+    pir_layout layout = layout_of(sweep);
+    if (!done || !pir_layout_new(a, &layout)) {
         pir_sweep_finish(sweep, a);
         return false;
     }
-    fill_facets(&sweep->p, p);
-    fill_facets(&sweep->q, q);
+    fill_arcs(sweep, p);
+    fill_points(sweep, q);
     return true;
 }
 
 /* --- the sweep --- */
 
-static void count_in(pir_members *members, uint32_t i, uint32_t number, uint32_t *count) {
+static inline void count_in(pir_members *members, uint32_t i, uint32_t number, uint32_t *count) {
     if (members->seen[i] == number)
         return;
     members->seen[i] = number;
     members->next[(*count)++] = i;
 }
 
-/*
- * facets->apart: below zero for facets farther than `reach` from the axis, by the cosine, and, `by_arc`, farther by
- * more than half of their longest arc. One plain loop, which compilers vectorise.
- */
-static void find_apart(pir_region_facets *facets, pir_vec3 axis, pir_arc reach, bool by_arc) {
-    const float *restrict x = facets->x, *restrict y = facets->y, *restrict z = facets->z;
-    const float *restrict c = facets->cosine, *restrict s = facets->sine;
-    float *restrict apart = facets->apart;
-    const float ax = (float)axis.x, ay = (float)axis.y, az = (float)axis.z;
-    const float rc = (float)reach.cosine, rs = (float)reach.sine;
-    uint32_t count = facets->members.capacity;
-    if (by_arc) {
-        for (uint32_t f = 0; f < count; f++) {
-            float beyond = (x[f] * ax + y[f] * ay + z[f] * az) - (rc * c[f] - rs * s[f]),
-                  past = -(rs * c[f] + rc * s[f]);
-            // a reach beyond π includes all
-            apart[f] = (beyond > past ? beyond : past) + FLOAT_SLACK;
-        }
-    } else {
-        for (uint32_t f = 0; f < count; f++)
-            apart[f] = (x[f] * ax + y[f] * ay + z[f] * az) - rc + FLOAT_SLACK;
-    }
-}
-
-/* Whether the arc of halfedge h of P comes within `reach` of the axis, where neither end does. */
+/* Whether the arc of halfedge h of P comes within `reach` of the axis between its ends. */
 static bool passes(const pir_polytope *p, uint32_t h, pir_vec3 axis, pir_arc reach) {
     // its circle does not come so near
     if (reach.cosine > 0 && fabs(pir_vec_dot(axis, p->direction[h])) > reach.sine + EDGE_SLACK)
@@ -120,49 +127,106 @@ static bool passes(const pir_polytope *p, uint32_t h, pir_vec3 axis, pir_arc rea
     return x - c * y >= -EDGE_SLACK && y - c * x >= -EDGE_SLACK;
 }
 
+/* Whether the arc of edge e of P comes within `reach` of the axis. */
+static bool is_within(const pir_polytope *p, uint32_t e, pir_vec3 axis, pir_arc reach) {
+    uint32_t h = p->edge_half[e];
+    double inner = reach.cosine - (double)FLOAT_SLACK;
+    return pir_vec_dot(axis, p->normal[p->left[h]]) >= inner ||
+           pir_vec_dot(axis, p->normal[pir_right(p, h)]) >= inner || passes(p, h, axis, reach);
+}
+
+/*
+ * The same of a cluster of arcs by floats: above FLOAT_SLACK for those that certainly come so near, below −FLOAT_SLACK
+ * for those that certainly do not. One plain loop, which compilers vectorise.
+ */
+static void measure_arcs(const float *restrict arc, pir_vec3 axis, pir_arc reach, float *restrict ret_by) {
+    const float ax = (float)axis.x, ay = (float)axis.y, az = (float)axis.z;
+    const float inner = (float)(reach.cosine - (double)FLOAT_SLACK), sine = reach.cosine > 0 ? (float)reach.sine : 4;
+    for (uint32_t i = 0; i < PIR_CLUSTER; i++) {
+        const float *at = arc + i;
+        float x = at[FROM_X * PIR_CLUSTER] * ax + at[FROM_Y * PIR_CLUSTER] * ay + at[FROM_Z * PIR_CLUSTER] * az;
+        float y = at[TO_X * PIR_CLUSTER] * ax + at[TO_Y * PIR_CLUSTER] * ay + at[TO_Z * PIR_CLUSTER] * az;
+        float d = at[ALONG_X * PIR_CLUSTER] * ax + at[ALONG_Y * PIR_CLUSTER] * ay + at[ALONG_Z * PIR_CLUSTER] * az;
+        float c = at[COSINE * PIR_CLUSTER], one = x - c * y, other = y - c * x;
+        float foot = one < other ? one : other, near = sine - fabsf(d), end = (x > y ? x : y) - inner;
+        float passing = foot < near ? foot : near;
+        ret_by[i] = end > passing ? end : passing;
+    }
+}
+
+/* The first `count` of members->next are all of them, each once. */
+static void mark_seen(pir_members *members, uint32_t number, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++)
+        members->seen[members->next[i]] = number;
+    members->count = count;
+}
+
+/* Counts in the edges of P within `reach`. */
+static void sweep_edges(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
+    uint32_t count = 0, clusters = pir_clusters_search(&sweep->arcs, axis, reach);
+    for (uint32_t j = 0; j < clusters; j++) {
+        uint32_t k = sweep->arcs.near[j];
+        float by[PIR_CLUSTER];
+        const uint32_t *edge = sweep->arcs.item + k * PIR_CLUSTER;
+        measure_arcs(rows_of(sweep->arc, k, ARC_ROWS), axis, reach, by);
+        uint32_t near[PIR_CLUSTER], found = pir_list_from(by, -FLOAT_SLACK, pir_cluster_size(&sweep->arcs, k), near);
+        for (uint32_t i = 0; i < found; i++)
+            if (by[near[i]] > FLOAT_SLACK || is_within(p, edge[near[i]], axis, reach))
+                sweep->edges.next[count++] = edge[near[i]];
+    }
+    mark_seen(&sweep->edges, sweep->number, count);
+}
+
+/* Half of the longest arc at facet f. */
+static pir_arc half_longest(const pir_polytope *p, uint32_t f) {
+    double least = 1;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
+        least = fmin(least, pir_vec_dot(p->normal[f], p->normal[pir_right(p, p->loop[i])]));
+    least = fmax(-1, least);
+    return (pir_arc){sqrt((1 + least) / 2), sqrt((1 - least) / 2)};
+}
+
 /*
  * Counts in the edges of P within `reach` and the facets at their ends; returns how far their arcs reach from the axis.
  */
 static pir_arc sweep_p(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
-    pir_region_facets *facets = &sweep->p;
-    uint32_t edges = 0, ends = 0;
-    double inner = reach.cosine - (double)FLOAT_SLACK;
-    find_apart(facets, axis, reach, true);
-    for (uint32_t f = 0; f < facets->members.capacity; f++) {
-        if (facets->apart[f] < 0)
-            continue;
-        bool inside = pir_vec_dot(axis, p->normal[f]) >= inner;
-        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
-            uint32_t h = p->loop[i], e = p->edge[h];
-            if (sweep->edges.seen[e] == sweep->number || (!inside && !passes(p, h, axis, reach)))
-                continue;
-            count_in(&sweep->edges, e, sweep->number, &edges);
-            count_in(&facets->members, f, sweep->number, &ends);
-            count_in(&facets->members, pir_right(p, h), sweep->number, &ends);
-        }
+    pir_members *facets = &sweep->p.members;
+    uint32_t ends = 0;
+    sweep_edges(sweep, p, axis, reach);
+    for (uint32_t i = 0; i < sweep->edges.count; i++) {
+        uint32_t half = p->edge_half[sweep->edges.next[i]];
+        count_in(facets, p->left[half], sweep->number, &ends);
+        count_in(facets, pir_right(p, half), sweep->number, &ends);
     }
     // an arc whose ends are within a quarter turn reaches no farther than they do
     double least = reach.cosine;
     for (uint32_t i = 0; i < ends; i++) {
-        uint32_t f = facets->members.next[i];
+        uint32_t f = facets->next[i];
         double x = pir_vec_dot(axis, p->normal[f]);
         if (x < 0)
-            x = pir_arc_add(pir_arc_from_cosine(x), (pir_arc){(double)facets->cosine[f], (double)facets->sine[f]})
-                    .cosine;
-        least = fmin(least, x);
+            x = pir_arc_add(pir_arc_from_cosine(x), half_longest(p, f)).cosine;
+        least = x < least ? x : least;
     }
-    sweep->edges.count = edges;
-    facets->members.count = ends;
+    facets->count = ends;
     return pir_arc_from_cosine(least);
 }
 
+/* Counts in the facets of Q within `reach`. */
 static void sweep_q(pir_sweep *sweep, pir_vec3 axis, pir_arc reach) {
-    uint32_t count = 0;
-    find_apart(&sweep->q, axis, reach, false);
-    for (uint32_t g = 0; g < sweep->q.members.capacity; g++)
-        if (sweep->q.apart[g] >= 0)
-            count_in(&sweep->q.members, g, sweep->number, &count);
-    sweep->q.members.count = count;
+    const float ax = (float)axis.x, ay = (float)axis.y, az = (float)axis.z, rc = (float)reach.cosine;
+    pir_members *facets = &sweep->q.members;
+    uint32_t count = 0, clusters = pir_clusters_search(&sweep->points, axis, reach);
+    for (uint32_t j = 0; j < clusters; j++) {
+        uint32_t k = sweep->points.near[j];
+        const float *x = rows_of(sweep->point, k, POINT_ROWS), *y = x + PIR_CLUSTER, *z = y + PIR_CLUSTER;
+        float by[PIR_CLUSTER];
+        for (uint32_t i = 0; i < PIR_CLUSTER; i++)
+            by[i] = (x[i] * ax + y[i] * ay + z[i] * az) - rc + FLOAT_SLACK;
+        uint32_t near[PIR_CLUSTER], found = pir_list_from(by, 0, pir_cluster_size(&sweep->points, k), near);
+        for (uint32_t i = 0; i < found; i++)
+            facets->next[count++] = sweep->points.item[k * PIR_CLUSTER + near[i]];
+    }
+    mark_seen(facets, sweep->number, count);
 }
 
 static void sweep_all(pir_members *members, uint32_t number) {

@@ -3,7 +3,7 @@
 #ifndef PIR_DYMSUM_REGION_SWEEP_H
 #define PIR_DYMSUM_REGION_SWEEP_H
 
-#include "dymsum/region/cover.h"
+#include "dymsum/region/clusters.h"
 #include "polytope/polytope.h"
 
 /* Features of one kind. */
@@ -14,12 +14,9 @@ typedef struct pir_members {
     uint32_t capacity;   /* how many features there are */
 } pir_members;
 
-/* Facets as the sweep reads them. */
+/* The facets of one operand. */
 typedef struct pir_region_facets {
-    float *x, *y, *z;     /* normals */
-    float *cosine, *sine; /* of half the longest arc at each */
-    float *apart;         /* what the last pass over them found */
-    uint32_t *hint;       /* per inactive facet: the cell it was in last */
+    uint32_t *hint; /* per inactive facet: the cell it was in last */
     pir_members members;
 } pir_region_facets;
 
@@ -27,6 +24,10 @@ typedef struct pir_sweep {
     uint32_t number;        /* of the last sweep */
     pir_region_facets p, q; /* of either operand */
     pir_members edges;      /* of P */
+
+    /* edges of P and facets of Q as the sweep reads them, cluster by cluster: see sweep.c */
+    pir_clusters arcs, points;
+    float *arc, *point;
 } pir_sweep;
 
 /*
