@@ -18,10 +18,7 @@ static const char *const names[EXACT_KINDS] = {
     "witness",   "tie",      "cache",   "batch",    "exit",    "approach-outcome", "approach", "cast-outcome",
     "cast-time", "contact",  "escapes", "farthest", "rounded", "cutoff",           "manifold"};
 
-static struct {
-    unsigned long long count, failed;
-    double worst;
-} tally[EXACT_KINDS];
+static exact_tally tally[EXACT_KINDS];
 
 exact_where exact_at;
 static bool left_out[EXACT_KINDS];
@@ -29,8 +26,8 @@ static unsigned long long printed_limit;
 
 int exact_report_only(const char *wanted) {
     for (int k = 0; k < EXACT_KINDS; k++)
-        left_out[k] = true;
-    while (*wanted) {
+        left_out[k] = wanted != NULL;
+    while (wanted && *wanted) {
         size_t length = strcspn(wanted, ",");
         int kind = 0;
         while (kind < EXACT_KINDS && (strlen(names[kind]) != length || strncmp(names[kind], wanted, length) != 0))
@@ -70,6 +67,17 @@ void exact_number(exact_kind kind, const char *what, double is, double should, d
     if (!(error <= tally[kind].worst))
         tally[kind].worst = error;
     exact_check(kind, error <= PROMISE, "%s %.17g, not %.17g (off by %.3g of %.3g)", what, is, should, error, scale);
+}
+
+exact_tally exact_report_take(void) {
+    exact_tally all = {0, 0, 0};
+    for (int k = 0; k < EXACT_KINDS; k++) {
+        all.count += tally[k].count;
+        all.failed += tally[k].failed;
+        all.worst = fmax(all.worst, tally[k].worst);
+        tally[k] = (exact_tally){0, 0, 0};
+    }
+    return all;
 }
 
 unsigned long long exact_report_print(void) {

@@ -44,7 +44,8 @@ typedef struct exact_where {
 
 extern exact_where exact_at;
 
-/* Counts only the kinds of the given names from here on. Commas separate the names. 0 when a name is unknown. */
+/* Counts only the kinds of the given names from here on; all for NULL. Commas separate the names. 0 when a name is
+   unknown. */
 int exact_report_only(const char *names);
 
 /* Counts a check. Where it failed, prints the printf-formatted text, for the first few of a kind. */
@@ -52,6 +53,14 @@ void exact_check(exact_kind kind, int holds, const char *format, ...) __attribut
 
 /* Counts a number: |is − should| must be at most bound·scale. The worst |is − should| / scale is kept. */
 void exact_number(exact_kind kind, const char *what, double is, double should, double scale);
+
+/* What was found since the last call of this one: checks, failures, and the worst error of a number. */
+typedef struct exact_tally {
+    unsigned long long count, failed;
+    double worst;
+} exact_tally;
+
+exact_tally exact_report_take(void);
 
 /* Prints the table and returns the number of failures. */
 unsigned long long exact_report_print(void);

@@ -139,6 +139,20 @@ static pir_status ask_all(struct asked *asked) {
     return PIR_OK;
 }
 
+/* The nearest slices, that of the pose's very rotation first: doubles may take a rotation 1e-16 off for nearer. */
+static void find_nearest(struct asked *asked, pir_quat rotation) {
+    const pir_grid *grid = asked->answers->source.grid;
+    uint64_t *nearest = asked->nearest;
+    asked->count = pir_grid_nearest(grid, rotation, NEAREST, nearest);
+    for (size_t k = 0; k < asked->count && !asked->configuration.on_grid; k++)
+        if (pir_same_rotation(rotation, pir_grid_rotation(grid, nearest[k]))) {
+            uint64_t same = nearest[k];
+            nearest[k] = nearest[0];
+            nearest[0] = same;
+            asked->configuration.on_grid = 1;
+        }
+}
+
 pir_status pir_answers_classify(pir_answers *answers, const pir_pose *pose, pir_report *report,
                                 pir_configuration *ret_configuration, double *ret_gap) {
     struct asked asked = {.answers = answers, .translation = pose->translation, .report = report, .gap = HUGE_VAL};
@@ -147,10 +161,8 @@ pir_status pir_answers_classify(pir_answers *answers, const pir_pose *pose, pir_
         status = PIR_ERR_NOT_FINITE;
     if (status != PIR_OK)
         return pir_fail(report, status, "the pose: %s", pir_status_text(status));
-    asked.count = pir_grid_nearest(answers->source.grid, pose->rotation, NEAREST, asked.nearest);
-    pir_quat nearest = pir_grid_rotation(answers->source.grid, asked.nearest[0]);
+    find_nearest(&asked, pose->rotation);
     asked.configuration.verdict = PIR_VERDICT_FREE;
-    asked.configuration.on_grid = pir_same_rotation(pose->rotation, nearest);
     asked.configuration.place.slice = asked.nearest[0];
     status = ask_all(&asked);
     if (status != PIR_OK)

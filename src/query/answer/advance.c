@@ -34,11 +34,12 @@ static pir_quat rotation_at(const pir_motion *motion, pir_quat r, pir_vec3 unit_
 /* The distance of P's farthest vertex from the origin that P turns about, rounded up. */
 static double reach_of(const pir_polytope *p) {
     pir_vec3 unit;
-    double most = 0, length;
+    double most = 0, part;
+    int exponent;
     for (uint32_t v = 0; v < p->vertex_count; v++)
-        if (pir_unit_of(p->vertex[v], &unit, &length))
-            most = fmax(most, length);
-    return most * (1 + 0x1p-48);
+        if (pir_unit_of(p->vertex[v], &unit, &part, &exponent))
+            most = fmax(most, ldexp(part, exponent));
+    return most * (1 + 0x1p-48) + 0x1p-1074;
 }
 
 static bool is_zero(pir_vec3 v) {
@@ -68,10 +69,11 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
     pir_status status = check(query, motion, tolerance, ret_result);
     if (status != PIR_OK)
         return status;
-    double length;
+    double part;
+    int exponent;
     pir_quat start = middling(motion->rotation);
     pir_vec3 axis = {0, 0, 0};
-    pir_unit_of(motion->axis, &axis, &length);
+    pir_unit_of(motion->axis, &axis, &part, &exponent);
     double turning = fabs(motion->angle) * reach_of(pir_sum_pairing(query->sum)->p), time = 0;
     pir_cast_result result = {.outcome = PIR_CAST_STEP_LIMIT};
     pir_query_cache cache = {0};

@@ -166,7 +166,7 @@ static void cast_from_outside(pir_query *query, const pir_line *line, pir_cast_r
     if (!first_touch(query, line, &arrival, &result->steps) || !arrival.within)
         return;
     result->outcome = PIR_CAST_HIT;
-    result->time = fmin(1, pir_frame_length(&query->frame, arrival.at) / line->length);
+    result->time = fmin(1, ldexp(arrival.at / line->part, query->frame.exponent - line->exponent));
     result->normal = arrival.normal;
     result->point = pir_frame_world(&query->frame, arrival.touch.point_q);
     result->witness = arrival.touch.witness;

@@ -18,7 +18,7 @@
 
 /* --- lines --- */
 
-bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length) {
+bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_part, int *ret_exponent) {
     double most = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
     if (most == 0)
         return false;
@@ -27,7 +27,8 @@ bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length) {
     pir_vec3 scaled = {ldexp(v.x, -e), ldexp(v.y, -e), ldexp(v.z, -e)};
     double length = sqrt(pir_vec_dot(scaled, scaled));
     *ret_unit = (pir_vec3){scaled.x / length, scaled.y / length, scaled.z / length};
-    *ret_length = ldexp(length, e);
+    *ret_part = length;
+    *ret_exponent = e;
     return true;
 }
 
@@ -208,8 +209,9 @@ int pir_line_past_end(pir_exact *exact, const pir_int *s, const pir_int *d, int 
 
 /* Whether the line crosses a facet within its direction's length. */
 static bool is_within(pir_exact *exact, const pir_line *line, const pir_facet *facet, double at, double error) {
-    double length = pir_frame_from(exact->frame, line->length);
-    if (length > 0 && length < HUGE_VAL && fabs(at - length) > error + 0x1p-48 * length)
+    // below the normal numbers the length has lost bits, beyond all numbers it is none
+    double length = ldexp(line->part, line->exponent - exact->frame->exponent);
+    if (length >= 0x1p-1022 && length < HUGE_VAL && fabs(at - length) > error + 0x1p-48 * length)
         return at < length;
     struct exact_crossing crossing = exact_crossing_of(exact, line, facet);
     bool within = pir_line_past_end(exact, &crossing.s, &crossing.d, crossing.exponent) <= 0;

@@ -17,7 +17,8 @@ typedef struct pir_line {
     const pir_placement *placement;
     pir_vec3 direction; /* as the caller gave it */
     pir_vec3 u;         /* of unit length */
-    double length;      /* of `direction` */
+    double part;        /* `direction` has the length part·2^exponent, which no double may hold */
+    int exponent;
 } pir_line;
 
 /* Where a line crosses a facet, and what touches there. */
@@ -37,15 +38,16 @@ typedef struct pir_clip {
 
 #define PIR_CLIP_NONE ((pir_clip){.enter_low = -HUGE_VAL, .leave_high = HUGE_VAL})
 
-/* A vector of any length as a unit vector and its length. False where it is zero. */
-bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_length);
+/* A vector of any length as a unit vector and its length, part·2^exponent. False where it is zero. */
+bool pir_unit_of(pir_vec3 v, pir_vec3 *ret_unit, double *ret_part, int *ret_exponent);
 
 /* The line from a placement along a direction: PIR_ERR_NOT_FINITE, or PIR_ERR_ARGUMENT for a direction of length 0. */
 static inline pir_status pir_line_make(const pir_placement *placement, pir_vec3 direction, pir_line *ret_line) {
     *ret_line = (pir_line){.placement = placement, .direction = direction};
     if (!pir_vec_is_finite(direction))
         return PIR_ERR_NOT_FINITE;
-    return pir_unit_of(direction, &ret_line->u, &ret_line->length) ? PIR_OK : PIR_ERR_ARGUMENT;
+    bool some = pir_unit_of(direction, &ret_line->u, &ret_line->part, &ret_line->exponent);
+    return some ? PIR_OK : PIR_ERR_ARGUMENT;
 }
 
 /*
