@@ -192,11 +192,14 @@ static void traversal_is_consistent(void **state) {
     (void)state;
     test_random random = test_random_case("cgm traversal", 0);
     pir_polytope *p = test_sphere(&random, 40), *q = test_sphere(&random, 30);
-    pir_cgm *a = map_of(p, test_general_rotation(&random)), *b = map_of(q, identity), *cgm;
+    pir_quat rotation = test_general_rotation(&random);
+    pir_cgm *a = map_of(p, rotation), *b = map_of(q, identity), *cgm;
     assert_int_equal(pir_cgm_overlay(a, b, &cgm), PIR_OK);
     assert_int_equal(pir_cgm_source_count(cgm), 2);
     assert_ptr_equal(pir_cgm_source(cgm, 0), p);
     assert_ptr_equal(pir_cgm_source(cgm, 1), q);
+    const pir_quat kept[2] = {pir_cgm_source_rotation(cgm, 0), pir_cgm_source_rotation(cgm, 1)};
+    assert_memory_equal(kept, ((pir_quat[2]){rotation, identity}), sizeof kept);
     pir_cgm_counts total = pir_cgm_total_counts(cgm);
     uint32_t corners = 0, beyond = 0, facets_of_p = 0;
     for (uint32_t v = 0; v < total.vertices; v++) {
