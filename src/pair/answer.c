@@ -66,14 +66,39 @@ static bool settle_same(pir_task *task) {
     return true;
 }
 
-static bool by_same_facet(pir_task *task) {
-    pir_pair *pair = task->pair;
-    if (!pair->has_facet)
+/* The same with what is left of an earlier proof. */
+static bool by_held_facet(pir_task *task) {
+    pir_workspace *workspace = task->workspace;
+    const pir_held *held = &task->pair->held;
+    pir_same_known known;
+    if (!held->some)
         return false;
-    pir_same is = pir_same_facet_prove(&task->workspace->frame, task->placement, pair->facet, &task->same);
+    workspace->moved = pir_held_moved(held, &workspace->frame, task->placement);
+    if (!pir_held_known(held, workspace->moved, task->placement, &known))
+        return false;
+    task->has_same = pir_same_facet_prove(&workspace->frame, task->placement, task->pair->facet, &known, &task->same) ==
+                     PIR_SAME_PROVEN;
+    return task->has_same && settle_same(task);
+}
+
+static bool by_fresh_facet(pir_task *task) {
+    pir_workspace *workspace = task->workspace;
+    pir_pair *pair = task->pair;
+    pir_same is = pir_same_facet_prove(&workspace->frame, task->placement, pair->facet, NULL, &task->same);
     task->has_same = is == PIR_SAME_PROVEN;
     task->in_doubt = is == PIR_SAME_IN_DOUBT;
     if (!task->has_same || !settle_same(task))
+        return false;
+    // what is held is of this piece, with its corner as it is here
+    pir_task_keep_facet(pair, &task->same.facet);
+    pir_held_set(&pair->held, &workspace->frame, task->placement, &task->same);
+    workspace->moved = (pir_leeway){0, 0};
+    return true;
+}
+
+static bool by_same_facet(pir_task *task) {
+    pir_pair *pair = task->pair;
+    if (!pair->has_facet || !(by_held_facet(task) || by_fresh_facet(task)))
         return false;
     pair->statistics.by_facet++;
     pir_task_end(task, PIR_LEVEL_NEAR);
@@ -189,7 +214,7 @@ static bool by_need(pir_task *task) {
     bool near = allows(pair, PIR_LEVEL_NEAR), deep = allows(pair, PIR_LEVEL_OVERLAPPING), was_deep = pair->deep;
     if (near && by_same_facet(task))
         return true;
-    pair->deep = false;
+    pair->deep = pair->held.some = false;
     if (was_deep && deep && by_surface(task))
         return true;
     if (near && (by_facet(task) || pir_task_descend(task)))
@@ -237,6 +262,8 @@ static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pai
             add_radii(input, &result);
     }
     pir_pair_to_world(workspace, &result);
+    if (pair->held.some)
+        workspace->answer = result;
     *ret_result = result;
     return PIR_OK;
 }

@@ -66,6 +66,7 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
         return PIR_ERR_ARGUMENT;
     bool fits = is_at(pair, workspace);
     workspace->pair = NULL;
+    workspace->moved = (pir_leeway){HUGE_VAL, HUGE_VAL};
     pir_status status = check(input);
     if (status == PIR_OK)
         status = set_rotations(workspace, input);

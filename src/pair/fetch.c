@@ -8,15 +8,17 @@
 #define LINE 64
 
 /* How far the way to a feature of a body has been followed: each step reads what the one before has asked for. */
-enum step { AT_BODY, AT_EDGE, AT_HALF, AT_VERTEX, AT_RING, AT_FACET, AT_LOOP, AT_CORNERS, AT_END };
+enum step { AT_BODY, AT_EDGE, AT_HALF, AT_ENDS, AT_VERTEX, AT_RING, AT_FACET, AT_LOOP, AT_CORNERS, AT_END };
 
 /* The longest way, from a body by an edge to the facets of a ring. */
-#define STEPS 5
+#define STEPS 6
 
 struct way {
     enum step step, first; /* the first after the body */
     const pir_kept_body *kept;
-    uint32_t index; /* of the edge, halfedge, vertex or facet */
+    uint32_t index;  /* of the edge, halfedge, vertex or facet */
+    uint32_t target; /* of a halfedge */
+    bool is_held;    /* what is around the feature is not read */
 };
 
 static inline void touch(const void *at) {
@@ -29,6 +31,13 @@ static inline void touch_bytes(const void *at, size_t size) {
     touch((const char *)at + size - 1);
 }
 
+static void touch_ring(const pir_polytope *p, uint32_t vertex) {
+    uint32_t start = p->ring_start[vertex], end = p->ring_start[vertex + 1];
+    touch_bytes(&p->direction[start], (end - start) * sizeof *p->direction);
+    touch(&p->left[start]);
+    touch(&p->target[start]);
+}
+
 /* The next step. Returns where the way is then. */
 static inline enum step take_step(struct way *way) {
     const pir_body *body = &way->kept->body;
@@ -39,18 +48,30 @@ static inline enum step take_step(struct way *way) {
         touch_bytes(p, offsetof(pir_polytope, exact_vertex));
         return way->first;
     case AT_EDGE:
-        touch(&p->edge_half[i]);
         way->index = p->edge_half[i];
+        touch(&p->origin[way->index]);
+        touch(&p->target[way->index]);
         return AT_HALF;
     case AT_HALF:
-        touch(&p->origin[i]);
+        touch(&p->direction[i]);
         way->index = p->origin[i];
-        return AT_VERTEX;
+        way->target = p->target[i];
+        touch(&p->ring_start[way->target]);
+        touch(&p->ring_start[way->index]);
+        return AT_ENDS;
+    case AT_ENDS:
+        touch(&body->vertex[way->target]);
+        touch(&body->vertex[i]);
+        if (!way->is_held) {
+            touch_ring(p, way->target);
+            touch_ring(p, i);
+        }
+        return AT_END;
     case AT_VERTEX:
         touch(&body->vertex[i]);
-        touch_bytes(&p->direction[p->ring_start[i]], (p->ring_start[i + 1] - p->ring_start[i]) * sizeof *p->direction);
-        touch(&p->left[p->ring_start[i]]);
-        touch(&p->target[p->ring_start[i]]);
+        if (way->is_held)
+            return AT_END;
+        touch_ring(p, i);
         return AT_RING;
     case AT_RING:
         for (uint32_t h = p->ring_start[i]; h < p->ring_start[i + 1]; h++)
@@ -59,6 +80,8 @@ static inline enum step take_step(struct way *way) {
     case AT_FACET:
         touch(&p->normal[i]);
         touch(&body->offset[i]);
+        if (way->is_held)
+            return AT_END;
         touch(&p->loop[p->loop_start[i]]);
         return AT_LOOP;
     case AT_LOOP:
@@ -81,11 +104,13 @@ static void begin_ways(const pir_pair *pair, struct way way[2]) {
     const pir_piece piece = pair->facet;
     enum step p = piece.kind == PIR_FACET_FV ? AT_FACET : piece.kind == PIR_FACET_VF ? AT_VERTEX : AT_EDGE;
     enum step q = piece.kind == PIR_FACET_FV ? AT_VERTEX : piece.kind == PIR_FACET_VF ? AT_FACET : AT_HALF;
-    way[0] = (struct way){AT_BODY, pair->has_facet ? p : AT_END, pair->body_p, piece.first};
-    way[1] = (struct way){AT_BODY, pair->has_facet ? q : AT_END, pair->body_q, piece.second};
+    // a manifold of more than one contact reads what is around
+    bool is_held = pair->held.some && pair->held.lone.kind != PIR_LONE_UNKNOWN;
+    way[0] = (struct way){AT_BODY, pair->has_facet ? p : AT_END, pair->body_p, piece.first, 0, is_held};
+    way[1] = (struct way){AT_BODY, pair->has_facet ? q : AT_END, pair->body_q, piece.second, 0, is_held};
     touch_bytes(pair->body_p, sizeof *pair->body_p);
     touch_bytes(pair->body_q, sizeof *pair->body_q);
-    if (pair->deep && pair->surface)
+    if (pair->deep && pair->surface && !is_held)
         touch_bytes(pair->surface, offsetof(pir_surface, corner[1]));
 }
 

@@ -15,6 +15,7 @@
 #include <pirouette/pair.h>
 
 #include "base/scratch.h"
+#include "pair/held_proof.h"
 #include "pair/lead.h"
 #include "pair/surface/inner_surface.h"
 #include "query/contact/patch.h"
@@ -45,6 +46,8 @@ struct pir_pair {
     pir_vec3 at;
     pir_quat turned;
 
+    pir_held held; /* what is left of the last proof of `facet` */
+
     const pir_workspace *workspace;   /* of the last call; never followed */
     pir_facet_shape shape_p, shape_q; /* of the facets of the last manifold */
 
@@ -72,6 +75,8 @@ struct pir_workspace {
     const pir_pair *pair; /* never followed */
     pir_pose pose[2];     /* of P and of Q */
     pir_placement placement;
+    pir_query_result answer; /* that it gave, where the pair holds its facet */
+    pir_leeway moved;        /* since the proof that is held; no numbers where the call did not look */
 
     /* the level `whole`: for the bodies of the pair that took it last */
     pir_sum *sum;

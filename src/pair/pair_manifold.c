@@ -2,6 +2,8 @@
 /* Contact manifolds of pairs: those of query/answer/manifold.h, brought to Q's frame and back. */
 #include "query/answer/manifold.h"
 
+#include <string.h>
+
 #include "pair/pair.h"
 
 static pir_vec3 from_world(const pir_workspace *workspace, pir_vec3 point) {
@@ -29,6 +31,24 @@ static void to_world(const pir_workspace *workspace, const pir_query_result *ans
     }
 }
 
+/* Whether an answer is what the last call gave. */
+static bool is_answer(const pir_workspace *workspace, const pir_query_result *answer) {
+    const pir_query_result *given = &workspace->answer;
+    return memcmp(&given->normal, &answer->normal, sizeof given->normal) == 0 &&
+           memcmp(&given->point_p, &answer->point_p, sizeof given->point_p) == 0 &&
+           memcmp(&given->point_q, &answer->point_q, sizeof given->point_q) == 0 &&
+           memcmp(&given->distance, &answer->distance, sizeof given->distance) == 0 &&
+           memcmp(&given->witness, &answer->witness, sizeof given->witness) == 0 && given->outcome == answer->outcome;
+}
+
+/* The answer's own contact, where that is known to be all. */
+static bool is_lone(const pir_pair *pair, pir_workspace *workspace, const pir_manifold_ask *ask,
+                    pir_contact *ret_contacts) {
+    const pir_lone *lone = &pair->held.lone;
+    return workspace->moved.turn <= lone->leeway.turn && workspace->moved.way <= lone->leeway.way &&
+           pir_manifold_lone(&workspace->frame, &workspace->placement, &workspace->patches, ask, lone, ret_contacts);
+}
+
 pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                              const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
                              size_t *ret_count) {
@@ -46,7 +66,20 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
         see_by_q(workspace, &seen);
     }
     const pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .margin = input->margin};
-    pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity};
+    bool is_held = pair->held.some && is_answer(workspace, answer);
+    pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity, NULL};
+    if (is_held && pair->held.lone.kind != PIR_LONE_UNKNOWN) {
+        if (is_lone(pair, workspace, &ask, ret_contacts)) {
+            *ret_count = 1;
+            if (workspace->posed)
+                to_world(workspace, answer, ret_contacts, capacity > 0);
+            return capacity > 0 ? PIR_OK : PIR_ERR_LIMIT;
+        }
+        // the next answer proves all of it again
+        pair->held.some = false;
+    } else if (is_held && workspace->moved.way == 0 && workspace->moved.turn == 0) {
+        ask.ret_lone = &pair->held.lone;
+    }
     workspace->patches.p.shape = pair->shape_p;
     workspace->patches.q.shape = pair->shape_q;
     status =

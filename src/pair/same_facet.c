@@ -8,18 +8,20 @@
  */
 #define MARGIN_ERRORS 16
 
-/* Whether all edges of a vertex, but `except`, certainly fall along n. */
-static inline pir_same all_fall(const pir_polytope *p, uint32_t vertex, uint32_t except, pir_vec3 n, double off) {
+/* Whether all edges of a vertex, but `except`, certainly fall along n, and by what sine at least. */
+static inline pir_same all_fall(const pir_polytope *p, uint32_t vertex, uint32_t except, pir_vec3 n, double off,
+                                double *ret_falls) {
     double most = -HUGE_VAL;
     for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++) {
         double slope = pir_vec_dot(n, p->direction[h]);
         most = h != except && slope > most ? slope : most;
     }
+    *ret_falls = -off - most;
     return most < -off ? PIR_SAME_PROVEN : most > off ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
 }
 
 /* The vertex uphill from *vertex of which that holds. */
-static inline pir_same find_top(const pir_polytope *p, pir_vec3 n, uint32_t *vertex) {
+static inline pir_same find_top(const pir_polytope *p, pir_vec3 n, uint32_t *vertex, double *ret_falls) {
     for (uint32_t left = p->vertex_count; left > 0; left--) {
         double most = -HUGE_VAL;
         uint32_t best = 0;
@@ -28,6 +30,7 @@ static inline pir_same find_top(const pir_polytope *p, pir_vec3 n, uint32_t *ver
             best = slope > most ? h : best;
             most = slope > most ? slope : most;
         }
+        *ret_falls = -PIR_SLOPE_BOUND - most;
         if (most < -PIR_SLOPE_BOUND)
             return PIR_SAME_PROVEN;
         if (!(most > PIR_SLOPE_BOUND))
@@ -62,18 +65,41 @@ static inline pir_same measure(const pir_placement *placement, double within, pi
     return clear && within > off ? PIR_SAME_PROVEN : PIR_SAME_IN_DOUBT;
 }
 
-static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same) {
+/*
+ * How far R may turn while edges that fall by `falls` along a unit normal do: of a facet that moves by the angle
+ * itself. The normal of two edges that cross at the sine 1/err moves by 2 err times that at most, and P's edges by it
+ * as well.
+ */
+static double turn_of_facet(double falls) {
+    return falls * (1 - 0x1p-20) - 0x1p-40;
+}
+
+static double turn_of_edges(double falls, double err) {
+    return turn_of_facet(falls / (2 * err + 1));
+}
+
+static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
+                         pir_same_facet *same) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    uint32_t f = same->facet.piece.first, b = same->facet.piece.second;
+    uint32_t f = same->facet.piece.first, b = same->facet.piece.second, corner;
     pir_vec3 n = pir_mat_apply(&frame->r, p->normal[f]);
-    pir_same exposed = find_top(q, n, &b);
-    if (exposed != PIR_SAME_PROVEN)
-        return exposed;
-    pir_vec3 at = pir_mat_apply_transposed(&frame->r, pir_vec_sub(placement->x, frame->q.vertex[b]));
-    double within = within_facet(&frame->p, f, p->normal[f], at);
+    double within;
+    if (known) {
+        within = known->margin;
+        corner = known->corner;
+    } else {
+        double falls;
+        pir_same exposed = find_top(q, n, &b, &falls);
+        if (exposed != PIR_SAME_PROVEN)
+            return exposed;
+        pir_vec3 at = pir_mat_apply_transposed(&frame->r, pir_vec_sub(placement->x, frame->q.vertex[b]));
+        within = within_facet(&frame->p, f, p->normal[f], at);
+        corner = p->origin[p->loop[p->loop_start[f]]];
+        same->falls = turn_of_facet(falls);
+    }
     same->facet.faces = (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}};
     same->facet.piece.second = b;
-    same->facet.a = p->origin[p->loop[p->loop_start[f]]];
+    same->facet.a = corner;
     same->facet.b = b;
     same->facet.n = n;
     same->facet.err = 1;
@@ -82,19 +108,30 @@ static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement,
     return measure(placement, within, same);
 }
 
-static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same) {
+static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
+                         pir_same_facet *same) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    uint32_t a = same->facet.piece.first, g = same->facet.piece.second;
-    pir_vec3 n = q->normal[g];
-    pir_same exposed = find_top(p, pir_mat_apply_transposed(&frame->r, n), &a);
-    if (exposed != PIR_SAME_PROVEN)
-        return exposed;
-    pir_vec3 turned = pir_mat_apply(&frame->r, frame->p.vertex[a]);
-    double within = within_facet(&frame->q, g, n, pir_vec_sub(placement->x, turned));
+    uint32_t a = same->facet.piece.first, g = same->facet.piece.second, corner;
+    pir_vec3 n = q->normal[g], turned;
+    double within;
+    if (known) {
+        turned = pir_mat_apply(&frame->r, frame->p.vertex[a]);
+        within = known->margin;
+        corner = known->corner;
+    } else {
+        double falls;
+        pir_same exposed = find_top(p, pir_mat_apply_transposed(&frame->r, n), &a, &falls);
+        if (exposed != PIR_SAME_PROVEN)
+            return exposed;
+        turned = pir_mat_apply(&frame->r, frame->p.vertex[a]);
+        within = within_facet(&frame->q, g, n, pir_vec_sub(placement->x, turned));
+        corner = q->origin[q->loop[q->loop_start[g]]];
+        same->falls = turn_of_facet(falls);
+    }
     same->facet.faces = (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}};
     same->facet.piece.first = a;
     same->facet.a = a;
-    same->facet.b = q->origin[q->loop[q->loop_start[g]]];
+    same->facet.b = corner;
     same->facet.n = n;
     same->facet.err = 1;
     same->facet.h = frame->q.offset[g] + pir_vec_dot(n, turned);
@@ -116,7 +153,8 @@ static pir_vec3 crossing(const pir_frame *frame, uint32_t edge_q, pir_vec3 a, pi
     return pir_touch_along(from, d, part);
 }
 
-static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same) {
+static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
+                         pir_same_facet *same) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t edge = same->facet.piece.first, half = p->edge_half[edge], other = same->facet.piece.second;
     pir_vec3 d = q->direction[other], e = pir_mat_apply(&frame->r, p->direction[half]), n = pir_vec_cross(d, e);
@@ -125,11 +163,15 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
         return PIR_SAME_IN_DOUBT;
     n = pir_vec_scale(n, err);
     uint32_t a = p->origin[half], b = q->origin[other];
-    pir_same exposed = all_fall(q, b, other, n, PIR_SLOPE_BOUND * err);
-    if (exposed == PIR_SAME_PROVEN)
-        exposed = all_fall(p, a, half, pir_mat_apply_transposed(&frame->r, n), PIR_SLOPE_BOUND * err);
-    if (exposed != PIR_SAME_PROVEN)
-        return exposed;
+    if (!known) {
+        double falls_q, falls_p = 0;
+        pir_same exposed = all_fall(q, b, other, n, PIR_SLOPE_BOUND * err, &falls_q);
+        if (exposed == PIR_SAME_PROVEN)
+            exposed = all_fall(p, a, half, pir_mat_apply_transposed(&frame->r, n), PIR_SLOPE_BOUND * err, &falls_p);
+        if (exposed != PIR_SAME_PROVEN)
+            return exposed;
+        same->falls = turn_of_edges(falls_p < falls_q ? falls_p : falls_q, err);
+    }
     pir_vec3 from = pir_mat_apply(&frame->r, frame->p.vertex[a]), corner = pir_vec_add(from, frame->q.vertex[b]);
     // how far the foot is from the sides along d, at either end of P's edge, and from those along e
     pir_vec3 by_d = pir_vec_cross(n, d), by_e = pir_vec_cross(e, n), w = pir_vec_sub(placement->x, corner);
@@ -153,11 +195,12 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
 }
 
 pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
-                              pir_same_facet *ret_same) {
+                              const pir_same_known *known, pir_same_facet *ret_same) {
     if (frame->p.polytope->artificial || frame->q.polytope->artificial)
         return PIR_SAME_IN_DOUBT;
     ret_same->facet.piece = piece;
-    return piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, ret_same)
-           : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, ret_same)
-                                        : prove_ee(frame, placement, ret_same);
+    ret_same->falls = 0;
+    return piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, known, ret_same)
+           : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, known, ret_same)
+                                        : prove_ee(frame, placement, known, ret_same);
 }

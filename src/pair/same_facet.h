@@ -17,17 +17,25 @@ typedef struct pir_same_facet {
     pir_facet facet;
     double slack;
     double margin; /* the foot of x is at least this far from the rim, above 0 */
+    double falls;  /* its features are exposed until R has turned by this; 0 where that was known before */
     pir_touch touch;
 } pir_same_facet;
+
+/* What a proof at an earlier placement leaves certain: see held_proof.h. */
+typedef struct pir_same_known {
+    double margin;   /* the foot is at least this far from the rim; not of two edges */
+    uint32_t corner; /* of the facet of P or of Q, its vertex in D's corner */
+} pir_same_known;
 
 /* Whether the facet is one of D and holds the foot of x. */
 typedef enum pir_same { PIR_SAME_NOT, PIR_SAME_IN_DOUBT, PIR_SAME_PROVEN } pir_same;
 
 /*
  * `piece` may be one of D at some other placement. A vertex of it is moved to where its facet has it here; the edges of
- * one of two edges are not.
+ * one of two edges are not. `known` is NULL, or says what need not be proven: that the features are exposed, and how
+ * far the foot is inside.
  */
 pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
-                              pir_same_facet *ret_same);
+                              const pir_same_known *known, pir_same_facet *ret_same);
 
 #endif

@@ -3,7 +3,8 @@
  * A pair in smooth motion answers as a query on the difference does, bit for bit, whatever its hints, surfaces and
  * proofs of earlier frames are. P turns by steps from 2 radians to 10^-4 about an axis that changes, and hovers about
  * contact, deep in Q at times. By thirds the bodies are in general position, on a grid, or boxes that spin on one
- * another or sink into one another aligned.
+ * another or sink into one another aligned. With both bodies moved along, a pair answers as one that is new in each
+ * frame.
  *
  * PIR_TEST_SCENES sets how many motions there are, PIR_TEST_SCENE names one of them.
  */
@@ -27,7 +28,8 @@ struct motion {
     pir_polytope *p, *q;
     pir_sum *sum;
     pir_query *query;
-    pir_pair *pair, *near; /* without and with a cutoff */
+    pir_pair *pair, *near;    /* without and with a cutoff */
+    pir_pair *lasting, *anew; /* both bodies being posed */
     pir_workspace *workspace;
     double size;
 };
@@ -64,6 +66,37 @@ static void check_near(struct motion *motion, int frame, pir_pair_input input) {
            frame, count, right_count, same);
 }
 
+static size_t contacts_of(struct motion *motion, pir_pair *pair, const pir_pair_input *input, pir_query_result *result,
+                          pir_contact *contacts) {
+    size_t count = 0;
+    assert_int_equal(pir_pair_signed_distance(pair, motion->workspace, input, result), PIR_OK);
+    pir_status status = pir_pair_manifold(pair, motion->workspace, input, result, ROOM, contacts, &count);
+    assert_true(status == PIR_OK || status == PIR_ERR_LIMIT);
+    return count;
+}
+
+/* Q turns as well, far from the origin in one motion of four. */
+static void check_posed(struct motion *motion, int frame, pir_pair_input input) {
+    pir_query_result result, expected;
+    pir_contact contacts[ROOM], right[ROOM];
+    double far = motion->number % 4 ? 1 : 1e5, angle = 1e-3 * frame;
+    const pir_pose common = {{0.3, sin(angle), -0.2, 1}, {far * motion->size, -motion->size, 1e-4 * frame}};
+    input.pose_p = pir_pose_compose(common, input.pose_p);
+    input.pose_q = common;
+    input.cutoff = motion->size;
+    input.margin = motion->number % 2 ? 0 : 0.02 * motion->size;
+    assert_int_equal(pir_pair_reset(motion->anew, motion->p, motion->q), PIR_OK);
+    size_t right_count = contacts_of(motion, motion->anew, &input, &expected, right), same = 0;
+    size_t count = contacts_of(motion, motion->lasting, &input, &result, contacts);
+    while (same < count && same < ROOM && same < right_count && same_contact(&contacts[same], &right[same]))
+        same++;
+    expect(
+        test_same_result(&result, &expected) && count == right_count && (same == count || same == ROOM),
+        "motion %llu, frame %d, posed: level %d, distance %.17g not %.17g, %zu contacts, not %zu, the first %zu alike",
+        (unsigned long long)motion->number, frame, (int)pir_pair_level(motion->lasting), result.distance,
+        expected.distance, count, right_count, same);
+}
+
 static void check_frame(struct motion *motion, int frame, pir_quat rotation, pir_vec3 t) {
     pir_pair_input input = pir_pair_input_default();
     pir_query_input asked = pir_query_input_default();
@@ -84,6 +117,7 @@ static void check_frame(struct motion *motion, int frame, pir_quat rotation, pir
            result.witness.q.kind, result.witness.q.index, expected.witness.p.kind, expected.witness.p.index,
            expected.witness.q.kind, expected.witness.q.index);
     check_near(motion, frame, input);
+    check_posed(motion, frame, input);
 }
 
 static pir_vec3 middle_of(const pir_polytope *p) {
@@ -190,6 +224,8 @@ static void check_motion(uint64_t number) {
     assert_int_equal(pir_query_create(motion.sum, &motion.query), PIR_OK);
     assert_int_equal(pir_pair_create(motion.p, motion.q, NULL, &motion.pair), PIR_OK);
     assert_int_equal(pir_pair_create(motion.p, motion.q, NULL, &motion.near), PIR_OK);
+    assert_int_equal(pir_pair_create(motion.p, motion.q, NULL, &motion.lasting), PIR_OK);
+    assert_int_equal(pir_pair_create(motion.p, motion.q, NULL, &motion.anew), PIR_OK);
     assert_int_equal(pir_workspace_create(NULL, &motion.workspace), PIR_OK);
     double step = pow(10, -4 + 4.3 * test_random_unit(&random));
     if (number % 3 == 2 && test_random_below(&random, 2))
@@ -205,6 +241,8 @@ static void check_motion(uint64_t number) {
     apart += pir_pair_get_statistics(motion.near).by_certificate;
     pir_pair_destroy(motion.pair);
     pir_pair_destroy(motion.near);
+    pir_pair_destroy(motion.lasting);
+    pir_pair_destroy(motion.anew);
     pir_workspace_destroy(motion.workspace);
     pir_query_destroy(motion.query);
     pir_sum_destroy(motion.sum);

@@ -196,13 +196,13 @@ static bool check_feature(pir_patch *patch, test_random *random, pir_feature fea
     out = pir_vec_scale(out, 1 / sqrt(pir_vec_dot(out, out)));
     patch->out = pir_vec_scale(patch->r ? pir_mat_apply(patch->r, out) : out, patch->sign);
     pir_single single;
-    bool is_single = pir_patch_single(patch, feature, &single);
+    bool is_single = pir_patch_single(patch, feature, 0, &single);
     if (is_single) {
         expect(grows_to(patch, feature, single.facet), "case %d: feature %d %u grows beyond facet %u", (int)number,
                (int)feature.kind, feature.index, single.facet);
         check_outline(patch, &single, number);
     }
-    if (feature.kind != PIR_FEATURE_FACET && pir_patch_is_sharp(patch, feature)) {
+    if (feature.kind != PIR_FEATURE_FACET && pir_patch_is_sharp(patch, feature, 0)) {
         pir_patch_grow(patch, feature);
         expect(patch->members == (uint32_t)feature.kind, "case %d: feature %d %u grows", (int)number, (int)feature.kind,
                feature.index);

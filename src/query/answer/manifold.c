@@ -32,6 +32,7 @@ struct manifold {
     pir_vec3 n;
     pir_vec3 axis[3];       /* two of the contact plane, and n = axis[0] × axis[1] */
     bool is_single;         /* both patches are single facets */
+    bool is_lone;           /* of which one is at a vertex that is the only corner */
     pir_vec3 point;         /* the answer's on Q's polytope, in the frame */
     pir_corner of_answer;   /* that in the plane */
     double coarse;          /* a corner this near it is the same */
@@ -89,6 +90,7 @@ static void begin(struct manifold *m, const pir_frame *frame, const pir_placemen
                   const pir_query_result *answer) {
     m->frame = frame;
     m->room = room;
+    m->is_lone = false;
     m->answer = answer;
     m->p = &room->p;
     m->q = &room->q;
@@ -122,11 +124,12 @@ static void set_plane(struct manifold *m) {
 
 /* --- overlaps --- */
 
-/* Whether the patches are a vertex or an edge each that share nothing. */
-static bool is_alone(const struct manifold *m) {
+/* Whether the patches are a vertex or an edge each that share nothing; of two edges that they do while `out` turns. */
+static bool is_alone(const struct manifold *m, double turn, double *ret_sine) {
     pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
-    if (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET || !pir_patch_is_sharp(m->p, p) ||
-        !pir_patch_is_sharp(m->q, q))
+    *ret_sine = 0;
+    if (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET || !pir_patch_is_sharp(m->p, p, turn) ||
+        !pir_patch_is_sharp(m->q, q, turn))
         return false;
     if (p.kind == PIR_FEATURE_VERTEX || q.kind == PIR_FEATURE_VERTEX)
         return true;
@@ -134,36 +137,57 @@ static bool is_alone(const struct manifold *m) {
     pir_vec3 along = pir_mat_apply(m->p->r, of_p->direction[of_p->edge_half[p.index]]);
     pir_vec3 across = pir_vec_cross(along, of_q->direction[of_q->edge_half[q.index]]);
     // the sine as seen along the normal is at least this
-    return fabs(pir_vec_dot(across, m->n)) > 2 * PIR_FLUSH;
+    *ret_sine = fabs(pir_vec_dot(across, m->n));
+    return *ret_sine > 2 * PIR_FLUSH;
+}
+
+/* The answer's points, in the frame. */
+struct ends {
+    pir_vec3 on_p, on_q;
+};
+
+static struct ends ends_of(const struct manifold *m) {
+    double distance = pir_frame_from(m->frame, m->answer->distance + m->radii);
+    return (struct ends){pir_vec_add(m->point, pir_vec_scale(m->n, distance)), m->point};
+}
+
+/* Whether a vertex of P or of Q is the answer's point. */
+static bool is_at_vertex(const struct manifold *m, const struct ends *ends, bool of_p) {
+    const pir_patch *vertex = of_p ? m->p : m->q;
+    uint32_t v = of_p ? m->answer->witness.p.index : m->answer->witness.q.index;
+    pir_vec3 off = pir_vec_sub(pir_patch_vertex(vertex, v), of_p ? ends->on_p : ends->on_q);
+    return pir_vec_dot(off, off) <= m->coarse * m->coarse;
 }
 
 /* Whether a vertex is the answer's point, carried by a facet of the other body, and no other corner is near. */
-static bool is_lone_vertex(const struct manifold *m, const pir_single *p, const pir_single *q) {
+static bool is_lone_vertex(const struct manifold *m, const pir_single *p, const pir_single *q, pir_leeway leeway) {
     bool is_p = p->half != UINT32_MAX;
-    const pir_patch *vertex = is_p ? m->p : m->q;
-    uint32_t v = is_p ? m->answer->witness.p.index : m->answer->witness.q.index;
     if (!is_p && q->half == UINT32_MAX)
         return false;
-    double distance = pir_frame_from(m->frame, m->answer->distance + m->radii);
-    pir_vec3 on_q = m->point, on_p = pir_vec_add(on_q, pir_vec_scale(m->n, distance));
-    pir_vec3 off = pir_vec_sub(pir_patch_vertex(vertex, v), is_p ? on_p : on_q);
-    if (pir_vec_dot(off, off) > m->coarse * m->coarse)
+    struct ends ends = ends_of(m);
+    if (!is_at_vertex(m, &ends, is_p))
         return false;
     double room = pir_frame_from(m->frame, m->limit - m->answer->distance) * (1 + 0x1p-20);
-    return is_p ? pir_patch_is_lone(m->p, p, m->q, q, on_q, room, m->coarse)
-                : pir_patch_is_lone(m->q, q, m->p, p, on_p, room, m->coarse);
+    const pir_lone_place place = {is_p ? ends.on_q : ends.on_p, m->coarse, room, leeway};
+    return is_p ? pir_patch_is_lone(m->p, p, m->q, q, &place) : pir_patch_is_lone(m->q, q, m->p, p, &place);
+}
+
+/* The single facets of both patches, where at least one has an area. */
+static bool find_singles(const struct manifold *m, double turn, pir_single *ret_p, pir_single *ret_q) {
+    pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
+    return (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET) && pir_patch_single(m->p, p, turn, ret_p) &&
+           pir_patch_single(m->q, q, turn, ret_q);
 }
 
 /* The corners that two single facets share, in the room; PIR_CLIP_UNCLEAR where growing and merging have to tell. */
 static uint32_t overlap_singles(struct manifold *m) {
-    pir_feature of_p = m->answer->witness.p, of_q = m->answer->witness.q;
     pir_single p, q;
-    if ((of_p.kind != PIR_FEATURE_FACET && of_q.kind != PIR_FEATURE_FACET) || !pir_patch_single(m->p, of_p, &p) ||
-        !pir_patch_single(m->q, of_q, &q)) {
+    if (!find_singles(m, 0, &p, &q)) {
         set_plane(m);
         return PIR_CLIP_UNCLEAR;
     }
-    if (is_lone_vertex(m, &p, &q))
+    m->is_lone = is_lone_vertex(m, &p, &q, (pir_leeway){0, 0});
+    if (m->is_lone)
         return 0;
     set_plane(m);
     pir_patch_set_single(m->p, &p, m->axis);
@@ -329,6 +353,58 @@ static size_t put_contacts(struct manifold *m, const pir_placement *placement, c
     return count;
 }
 
+/* --- lone contacts --- */
+
+/* Parts of a right angle's radian and of the reach that leeways are tried with. */
+static const double LEEWAYS[] = {0x1p-6, 0x1p-9, 0x1p-12};
+
+/* What is left of a leeway, so that rounding is no part of it. */
+#define KEPT (1 - 0x1p-10)
+
+/* A leeway within which a part of all is enough: points move by the way, and by the turn as seen from afar. */
+static bool is_lone_within(struct manifold *m, double part, double reach, pir_lone *lone) {
+    pir_single p, q;
+    double sine;
+    if (lone->kind == PIR_LONE_EDGES) {
+        // the normal turns by 2 / sine, and P's edges by 1
+        bool alone = is_alone(m, part, &sine) && sine > 4 * PIR_FLUSH;
+        lone->leeway = (pir_leeway){KEPT * part * sine / (2 + sine), HUGE_VAL};
+        return alone;
+    }
+    lone->leeway = (pir_leeway){KEPT * part, KEPT * part * reach};
+    return find_singles(m, part, &p, &q) && is_lone_vertex(m, &p, &q, (pir_leeway){part, 2 * part * reach});
+}
+
+/* Finds out within what leeway a lone contact stays one. */
+static void find_leeway(struct manifold *m, const pir_manifold_ask *ask, double reach, pir_lone_kind kind) {
+    pir_lone lone = {kind, {0, 0}, ask->input->radius_p, ask->input->radius_q, ask->input->margin};
+    for (size_t i = 0; i < sizeof LEEWAYS / sizeof *LEEWAYS; i++)
+        if (is_lone_within(m, LEEWAYS[i], reach, &lone)) {
+            *ask->ret_lone = lone;
+            return;
+        }
+}
+
+bool pir_manifold_lone(const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
+                       const pir_manifold_ask *ask, const pir_lone *lone, pir_contact *ret_contacts) {
+    const pir_query_input *input = ask->input;
+    if (input->radius_p != lone->radius_p || input->radius_q != lone->radius_q || input->margin != lone->margin ||
+        !is_usable(frame, ask->answer))
+        return false;
+    struct manifold m;
+    begin(&m, frame, placement, room, ask->answer);
+    if (lone->kind == PIR_LONE_VERTEX) {
+        set_measures(&m, input, placement);
+        struct ends ends = ends_of(&m);
+        if (!is_at_vertex(&m, &ends, ask->answer->witness.p.kind == PIR_FEATURE_VERTEX))
+            return false;
+    }
+    put_answer(&m, ask, 0, 0, ret_contacts);
+    return true;
+}
+
+/* --- the calls --- */
+
 pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
                              const pir_manifold_ask *ask, pir_contact *ret_contacts, size_t *ret_count) {
     const pir_query_result *answer = ask->answer;
@@ -343,8 +419,11 @@ pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placem
     }
     struct manifold m;
     begin(&m, frame, placement, room, answer);
-    *ret_count =
-        is_alone(&m) ? put_answer(&m, ask, 0, 0, ret_contacts) : put_contacts(&m, placement, ask, ret_contacts);
+    double sine;
+    bool alone = is_alone(&m, 0, &sine);
+    *ret_count = alone ? put_answer(&m, ask, 0, 0, ret_contacts) : put_contacts(&m, placement, ask, ret_contacts);
+    if (ask->ret_lone && ((alone && sine > 0) || m.is_lone))
+        find_leeway(&m, ask, placement->reach, alone ? PIR_LONE_EDGES : PIR_LONE_VERTEX);
     return *ret_count <= ask->capacity ? PIR_OK : PIR_ERR_LIMIT;
 }
 
@@ -356,7 +435,7 @@ pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, co
     pir_status status = pir_query_begin(query, input, &placement);
     if (status != PIR_OK)
         return status;
-    pir_manifold_ask ask = {input, answer, capacity};
+    pir_manifold_ask ask = {input, answer, capacity, NULL};
     pir_patch_room *room = &query->room->patches;
     if (!pir_patch_room_reserve(room, &pir_sum_scratch(query->sum)->allocator, query->p->vertex_count,
                                 query->q->vertex_count))

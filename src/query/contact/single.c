@@ -28,22 +28,22 @@
 /* --- vertices and edges --- */
 
 /* Whether all edges from v but one to `except` fall or rise steeply. m is a direction of the body. */
-static bool is_sharp_at(const pir_polytope *p, uint32_t v, uint32_t except, pir_vec3 m) {
+static bool is_sharp_at(const pir_polytope *p, uint32_t v, uint32_t except, pir_vec3 m, double turn) {
     bool sharp = true;
     for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++)
-        sharp &= fabs(pir_vec_dot(m, p->direction[h])) > PIR_FLAT || p->target[h] == except;
+        sharp &= fabs(pir_vec_dot(m, p->direction[h])) > PIR_FLAT + turn || p->target[h] == except;
     return sharp;
 }
 
-static bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3 m) {
+static bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3 m, double turn) {
     if (feature.kind == PIR_FEATURE_VERTEX)
-        return is_sharp_at(p, feature.index, UINT32_MAX, m);
+        return is_sharp_at(p, feature.index, UINT32_MAX, m, turn);
     uint32_t half = p->edge_half[feature.index], a = p->origin[half], b = p->target[half];
-    return is_sharp_at(p, a, b, m) && is_sharp_at(p, b, a, m);
+    return is_sharp_at(p, a, b, m, turn) && is_sharp_at(p, b, a, m, turn);
 }
 
-bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature) {
-    return is_sharp(patch->polytope, feature, pir_patch_to_body(patch, patch->out));
+bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn) {
+    return is_sharp(patch->polytope, feature, pir_patch_to_body(patch, patch->out), turn);
 }
 
 /* --- the shape of a facet --- */
@@ -103,59 +103,78 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
 
 /* --- facets --- */
 
-/* Whether f is the patch that grows from it across `out`, a direction of the body. */
-static bool stands_alone(pir_patch *patch, uint32_t f, pir_vec3 out, double cosine) {
+/*
+ * Whether f is the patch that grows from it across `out`, a direction of the body. With a leeway `out` is f's normal,
+ * and the least cosine is given; what is asked for besides is then more than what rounding may change.
+ */
+static bool stands_alone(pir_patch *patch, uint32_t f, pir_vec3 out, double cosine, bool leeway) {
     if (patch->shape.facet != f + 1)
         patch->shape = shape_of(patch, f);
     const pir_facet_shape *shape = &patch->shape;
     pir_vec3 off = pir_vec_sub(out, patch->polytope->normal[f]);
     double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING, seen = cosine * (1 - COARSE);
+    if (leeway) {
+        room -= COARSE;
+        seen *= 0.5;
+    }
     return room > 0 && pir_vec_dot(off, off) < room * room && seen * shape->thick > PIR_CLIP_CLEAR * patch->snap &&
            seen * shape->wide > PIR_FLUSH;
 }
 
-/* Of the halfedges at v, the one whose facet faces `out`, a direction of the body, most, if more than *most. */
-static void find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, double *most, uint32_t *half) {
+/* Of halfedges, the one whose facet faces a direction most, by a cosine above the least; the cosine of the next one. */
+struct facing {
+    uint32_t half; /* UINT32_MAX for none */
+    double cosine, next;
+};
+
+/* Looks at the halfedges at v; `out` is a direction of the body. */
+static void find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, struct facing *most) {
     for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
         double along = pir_vec_dot(p->normal[p->left[h]], out);
-        if (along > *most) {
-            *most = along;
-            *half = h;
+        if (along > most->cosine) {
+            most->next = most->cosine;
+            most->cosine = along;
+            most->half = h;
+        } else if (along > most->next) {
+            most->next = along;
         }
     }
 }
 
-/* The facet that a vertex or an edge grows by, as the halfedge before which it lies; UINT32_MAX for none. */
-static uint32_t grown_by(const pir_polytope *p, pir_feature feature, pir_vec3 out, double *ret_cosine) {
-    uint32_t found = UINT32_MAX;
-    *ret_cosine = LEAST_COSINE;
+/* The facet that a vertex or an edge grows by, as the halfedge before which it lies. */
+static struct facing grown_by(const pir_polytope *p, pir_feature feature, pir_vec3 out) {
+    struct facing found = {UINT32_MAX, LEAST_COSINE, LEAST_COSINE};
     if (feature.kind == PIR_FEATURE_VERTEX) {
-        find_facing(p, feature.index, out, ret_cosine, &found);
+        find_facing(p, feature.index, out, &found);
         return found;
     }
     uint32_t half = p->edge_half[feature.index];
-    find_facing(p, p->origin[half], out, ret_cosine, &found);
-    find_facing(p, p->target[half], out, ret_cosine, &found);
+    find_facing(p, p->origin[half], out, &found);
+    find_facing(p, p->target[half], out, &found);
     // one at a single end of the edge leaves the other end beside it
-    bool has_both = found != UINT32_MAX && (p->left[found] == p->left[half] || p->left[found] == pir_right(p, half));
-    return has_both ? found : UINT32_MAX;
+    uint32_t facet = found.half != UINT32_MAX ? p->left[found.half] : UINT32_MAX;
+    if (facet != p->left[half] && facet != pir_right(p, half))
+        found.half = UINT32_MAX;
+    return found;
 }
 
-bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_single) {
+bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_single *ret_single) {
     const pir_polytope *p = patch->polytope;
     pir_vec3 out = pir_patch_to_body(patch, patch->out);
     if (p->artificial)
         return false;
     if (feature.kind == PIR_FEATURE_FACET) {
         *ret_single = (pir_single){feature.index, UINT32_MAX, pir_vec_dot(out, p->normal[feature.index])};
-        return stands_alone(patch, feature.index, out, ret_single->cosine);
+        return stands_alone(patch, feature.index, out, ret_single->cosine, turn > 0);
     }
-    double cosine;
-    uint32_t half = is_sharp(p, feature, out) ? grown_by(p, feature, out, &cosine) : UINT32_MAX;
-    if (half == UINT32_MAX)
+    if (!is_sharp(p, feature, out, turn))
         return false;
-    *ret_single = (pir_single){p->left[half], feature.kind == PIR_FEATURE_VERTEX ? half : UINT32_MAX, cosine};
-    return stands_alone(patch, ret_single->facet, p->normal[ret_single->facet], cosine);
+    struct facing found = grown_by(p, feature, out);
+    if (found.half == UINT32_MAX || (turn > 0 && !(found.cosine - found.next > 2 * turn)))
+        return false;
+    uint32_t half = found.half;
+    *ret_single = (pir_single){p->left[half], feature.kind == PIR_FEATURE_VERTEX ? half : UINT32_MAX, found.cosine};
+    return stands_alone(patch, ret_single->facet, p->normal[ret_single->facet], found.cosine - turn, turn > 0);
 }
 
 void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]) {
@@ -194,28 +213,33 @@ static pir_vec3 carry(const pir_patch *from, const pir_patch *to, pir_vec3 d) {
 }
 
 bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_patch *carrier, const pir_single *by,
-                       pir_vec3 at, double room, double coarse) {
+                       const pir_lone_place *place) {
     if (of->half == UINT32_MAX || !(by->cosine > LEVEL_COSINE))
         return false;
     const pir_polytope *p = vertex->polytope, *q = carrier->polytope;
-    pir_vec3 n = q->normal[by->facet], y = pir_patch_to_body(carrier, pir_vec_sub(at, carrier->at)), edge[2];
-    double rise[2];
+    const pir_leeway leeway = place->leeway;
+    pir_vec3 n = q->normal[by->facet], y = pir_patch_to_body(carrier, pir_vec_sub(place->at, carrier->at)), edge[2];
+    double rise[2], room = place->room + leeway.way;
     for (int k = 0; k < 2; k++) {
         uint32_t half = k == 0 ? of->half : pir_ring_next(p, of->half);
         edge[k] = carry(vertex, carrier, p->direction[half]);
-        rise[k] = pir_vec_dot(n, edge[k]) - LEVEL;
+        rise[k] = pir_vec_dot(n, edge[k]) - LEVEL - leeway.turn;
         if (!(rise[k] > PIR_FLUSH && rise[k] * vertex->shape.apart * (1 - COARSE) > room))
             return false;
     }
-    double clear = coarse + PIR_CLIP_CLEAR * carrier->snap;
+    // the terms grow with the reach, of which the way is a part
+    double clear = (leeway.way > 0 ? 2 : 1) * (place->coarse + PIR_CLIP_CLEAR * carrier->snap) + leeway.way;
     bool inside = true;
     for (uint32_t i = q->loop_start[by->facet]; i < q->loop_start[by->facet + 1]; i++) {
         uint32_t h = q->loop[i];
         pir_vec3 in = pir_vec_cross(n, q->direction[h]);
         double from = pir_vec_dot(in, pir_vec_sub(y, carrier->vertex[q->origin[h]])) - clear;
         inside &= from > 0;
-        for (int k = 0; k < 2; k++)
-            inside &= from * rise[k] + pir_vec_dot(in, edge[k]) * room > 0;
+        for (int k = 0; k < 2; k++) {
+            double along = pir_vec_dot(in, edge[k]) - leeway.turn;
+            // `room` may shrink as well, and with it what is gained
+            inside &= from * rise[k] + (leeway.way > 0 && along > 0 ? 0 : along * room) > 0;
+        }
     }
     return inside;
 }

@@ -8,8 +8,16 @@
 
 #include "query/contact/patch.h"
 
-/* Whether the patch of a vertex or an edge is that feature alone. */
-bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature);
+/*
+ * How far things may move while what is said of them here still holds: directions of one body as seen by the other by
+ * `turn`, an angle or a chord, points by `way`. 0 for this placement alone.
+ */
+typedef struct pir_leeway {
+    double turn, way;
+} pir_leeway;
+
+/* Whether the patch of a vertex or an edge is that feature alone, `out` turning by the leeway. */
+bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn);
 
 /* A facet that is the whole patch. */
 typedef struct pir_single {
@@ -21,9 +29,10 @@ typedef struct pir_single {
 /*
  * Finds the facet that is the whole patch, where the other body's patch has an area: the feature itself, or the facet
  * that a sharp vertex or edge grows by. Hulls and slimming would leave its outline as it is. False where the patch is
- * more than that, where the facet is steep, or where rounding might matter.
+ * more than that, where the facet is steep, or where rounding might matter. With a turn above 0: where it is the same
+ * facet within that. `out` is then the normal of a facet of one of the two bodies.
  */
-bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_single);
+bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_single *ret_single);
 
 /* Sets outline and plane of a single facet. axis[2] = axis[0] × axis[1] is the normal from Q to P. */
 void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]);
@@ -33,12 +42,19 @@ static inline double pir_patch_height(const pir_patch *patch, const pir_corner *
     return patch->height + patch->along_u * at->u + patch->along_v * at->v;
 }
 
+/* A vertex on its carrier, in the frame. */
+typedef struct pir_lone_place {
+    pir_vec3 at;   /* the point of the carrier under the vertex */
+    double coarse; /* more than it may be off by */
+    double room;
+    pir_leeway leeway; /* `room` may grow by the way */
+} pir_lone_place;
+
 /*
  * Whether all of a vertex's facet that rises from the vertex by at most `room`, along the carrier's normal, is over the
- * carrier and no corner but the vertex is among it. `at` is the point of the carrier under the vertex; `coarse` is more
- * than it may be off by. All are in the frame.
+ * carrier and no corner but the vertex is among it.
  */
 bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_patch *carrier, const pir_single *by,
-                       pir_vec3 at, double room, double coarse);
+                       const pir_lone_place *place);
 
 #endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What is left of a proof when the bodies have moved little.
+ *
+ * A facet of D was proven at a placement: its features were exposed, by so much that R has to turn by an angle before
+ * they may not be, and its foot was inside of the rim by so much. At a placement that differs by a turn and a way of x
+ * less than that both still hold. The foot has come nearer to the rim by no more than the way and the turn times the
+ * reach. So only the numbers of the facet are computed anew, from the few vertices that they depend on.
+ *
+ * The same goes for a manifold of one contact.
+ *
+ * Decisions alone are held, never numbers: an answer has the bits of one for which all was proven anew.
+ */
+#ifndef PIR_PAIR_HELD_PROOF_H
+#define PIR_PAIR_HELD_PROOF_H
+
+#include "pair/same_facet.h"
+#include "query/answer/manifold.h"
+
+typedef struct pir_held {
+    bool some;
+    pir_vec3 at; /* the place of the proof */
+    pir_quat turned;
+    double falls;         /* as of pir_same_facet */
+    pir_same_known known; /* at that place */
+    pir_lone lone;
+} pir_held;
+
+/* How far things have moved since. */
+pir_leeway pir_held_moved(const pir_held *held, const pir_frame *frame, const pir_placement *placement);
+
+/* Holds what a proof of a facet at a placement has found. */
+void pir_held_set(pir_held *held, const pir_frame *frame, const pir_placement *placement, const pir_same_facet *same);
+
+/* What is left of that after the bodies have moved; false where nothing is. */
+bool pir_held_known(const pir_held *held, pir_leeway moved, const pir_placement *placement, pir_same_known *ret_known);
+
+#endif
