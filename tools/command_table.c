@@ -53,6 +53,16 @@ static const struct option decompose_options[] = {
     COMMON_OPTIONS,
 };
 
+static const struct option simulate_options[] = {
+    {"-o", "FILE", "write a page that plays the run back to FILE, .html"},
+    {"--record", "FILE",
+     "write the poses of convex bodies, 60 frames a second, to FILE; docs/scenes.md has the format"},
+    {"--seconds", "S", "simulate S seconds (what the scene says, or 10)"},
+    {"--awake", NULL, "let no body sleep"},
+    {"--threads", "N", "find contacts with N threads; the run is the same (1)"},
+    COMMON_OPTIONS,
+};
+
 static const struct option cgm_options[] = {
     POSE_OPTIONS,
     {"--difference", NULL, "reflect P through the origin before it is turned"},
@@ -289,6 +299,19 @@ const struct command command_table[COMMAND_COUNT] = {
                        "facets, and joined where that leaves them convex.",
             .options = decompose_options,
             .examples = {{"decompose shape:cube -o pieces.obj", "one object a piece"}},
+        },
+    [COMMAND_SIMULATE] =
+        {
+            .name = "simulate",
+            .positional = {"SCENE.json"},
+            .required = 1,
+            .summary = "run a scene of rigid bodies, as a page that plays it back",
+            .details = "The scene says shapes, by model or by points, and bodies; docs/scenes.md has its keys, "
+                       "examples/scenes has scenes. Files of models are looked for from its folder on. Steps are of "
+                       "1/240 s, and a run is the same on every machine.",
+            .options = simulate_options,
+            .examples = {{"simulate stack.json -o stack.html", "a page that needs nothing else"},
+                         {"simulate pile.json --seconds 5 --record pile.bin", "poses for a replay"}},
         },
     [COMMAND_HELP] =
         {

@@ -40,6 +40,7 @@ static int (*const runs[COMMAND_COUNT])(const struct args *) = {
     [COMMAND_CONFIGURATION] = cmd_configuration,
     [COMMAND_VIEW] = cmd_view,
     [COMMAND_DECOMPOSE] = cmd_decompose,
+    [COMMAND_SIMULATE] = cmd_simulate,
 };
 
 static int run_command(const struct command *command, int argc, char *const *argv) {

@@ -16,7 +16,7 @@ def find():
 
 
 class Chromium:
-    def __init__(self, program):
+    def __init__(self, program, *options):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_read, self.to_write = os.pipe()
         self.to_read, to_write = os.pipe()
@@ -29,7 +29,7 @@ class Chromium:
 
         self.process = subprocess.Popen(
             [program, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-             f"--user-data-dir={self.folder.name}", "--remote-debugging-pipe", "about:blank"],
+             f"--user-data-dir={self.folder.name}", "--remote-debugging-pipe", *options, "about:blank"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, close_fds=False,
             preexec_fn=give_pipes)
         os.close(to_read)

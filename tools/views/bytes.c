@@ -29,6 +29,26 @@ void bytes_add_number(struct bytes *bytes, uint64_t number) {
     bytes_add(bytes, digits, count);
 }
 
+void bytes_add_vec(struct bytes *bytes, pir_vec3 v) {
+    const float values[3] = {(float)v.x, (float)v.y, (float)v.z};
+    for (int i = 0; i < 3; i++) {
+        uint32_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        const uint8_t four[4] = {(uint8_t)bits, (uint8_t)(bits >> 8), (uint8_t)(bits >> 16), (uint8_t)(bits >> 24)};
+        bytes_add(bytes, four, sizeof four);
+    }
+}
+
+void bytes_print_text(FILE *file, const char *text) {
+    fputc('"', file);
+    for (; *text; text++)
+        if (strchr("\"\\<>&", *text) || (unsigned char)*text < ' ')
+            fprintf(file, "\\u%04x", (unsigned)(unsigned char)*text);
+        else
+            fputc(*text, file);
+    fputc('"', file);
+}
+
 void bytes_print(FILE *file, const void *from, size_t size) {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const uint8_t *at = from;

@@ -216,20 +216,9 @@ static bool print_body(FILE *file, const pir_polytope *body, bool first) {
     return true;
 }
 
-/* A text of JSON that no HTML ends. */
-static void print_text(FILE *file, const char *text) {
-    fputc('"', file);
-    for (; *text; text++)
-        if (strchr("\"\\<>&", *text) || (unsigned char)*text < ' ')
-            fprintf(file, "\\u%04x", (unsigned)(unsigned char)*text);
-        else
-            fputc(*text, file);
-    fputc('"', file);
-}
-
 static bool print_data(FILE *file, const struct slices *slices) {
     fputs("{\"title\":", file);
-    print_text(file, model_title(slices->path));
+    bytes_print_text(file, model_title(slices->path));
     fprintf(file, ",\"total\":%llu,\"first\":%llu,\"every\":%llu,\"slices\":%llu,\"robot\":[",
             (unsigned long long)slices->info.grid.count, (unsigned long long)slices->first,
             (unsigned long long)slices->every, (unsigned long long)slices->count);

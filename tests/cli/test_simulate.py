@@ -1,0 +1,287 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""pirouette simulate: what stands and what rests, pages, recordings, and scenes that are refused."""
+import base64
+import json
+import math
+import os
+import re
+import struct
+import threading
+from pathlib import Path
+
+from command_test import CommandTest, main
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+CUBE = {"model": "shape:box?x=1&y=1&z=1"}
+SLAB = {"points": [[x, y, z] for x in (-5, 5) for y in (-5, 5) for z in (-1, 0)]}
+
+
+def scene(bodies=(), **more):
+    floor = {"shape": "slab", "kind": "static"}
+    return {"shapes": {"cube": CUBE, "slab": SLAB}, "bodies": [floor, *bodies], **more}
+
+
+def cube(z, **more):
+    return {"shape": "cube", "position": [0, 0, z], **more}
+
+
+def numbers(data):
+    """Numbers of 7 bits a byte."""
+    value, place = 0, 0
+    for byte in data:
+        value |= (byte & 127) << place
+        place += 7
+        if byte < 128:
+            yield value
+            value, place = 0, 0
+
+
+class Simulated(CommandTest):
+    def scene(self, data, name="scene.json"):
+        return self.file(name, data if isinstance(data, (str, bytes)) else json.dumps(data))
+
+    def page(self, path):
+        text = path.read_text()
+        self.assertFalse(re.search(r'(?:src|href)\s*=|https?://|import\s*\(|fetch\(', text))
+        return json.loads(re.search(r'<script id="data" type="application/json">(.*?)</script>', text, re.S)[1])
+
+
+def signed(n):
+    return -(n + 1) // 2 if n % 2 else n // 2
+
+
+def frames_of(page):
+    """The poses of each frame, the looks and the contacts, decoded as the page says."""
+    at = numbers(base64.b64decode(page["motion"]))
+    count = len(page["shape"])
+    pose, look, contacts, frames = [[0] * 7 for _ in range(count)], [0] * count, [], []
+    for _ in range(page["frames"]):
+        body = -1
+        for _ in range(next(at)):
+            body += next(at) + 1
+            pose[body] = [old + signed(next(at)) for old in pose[body]]
+        body = -1
+        for _ in range(next(at)):
+            body += next(at) + 1
+            look[body] = next(at)
+        points = next(at)
+        if points:
+            contacts, place = [], [0, 0, 0]
+            for _ in range(points - 1):
+                place = [old + signed(next(at)) for old in place]
+                contacts.append((*(8 * page["quantum"] * c for c in place), next(at)))
+        q = page["quantum"]
+        frames.append(([[*(c * q for c in p[:3]), *(c / 16384 for c in p[3:])] for p in pose], look[:], contacts))
+    assert next(at, None) is None
+    return frames
+
+
+def read_recording(path):
+    data = path.read_bytes()
+    assert data[:8] == b"SCENE01\0"
+    shapes, bodies, statics, frames = struct.unpack_from("<4I", data, 8)
+    at, hulls = 28, []
+    for _ in range(shapes):
+        vertices, triangles = struct.unpack_from("<2I", data, at)
+        points = [struct.unpack_from("<3f", data, at + 8 + 12 * i) for i in range(vertices)]
+        at += 8 + 12 * vertices
+        corners = [struct.unpack_from("<3I", data, at + 12 * i) for i in range(triangles)]
+        at += 12 * triangles
+        hulls.append((points, corners))
+    boxes = [struct.unpack_from("<10f", data, at + 40 * i) for i in range(statics)]
+    at += 40 * statics
+    shape = struct.unpack_from(f"<{bodies}I", data, at)
+    at += 4 * bodies
+    poses = [[struct.unpack_from("<7f", data, at + 28 * (f * bodies + i)) for i in range(bodies)]
+             for f in range(frames)]
+    assert at + 28 * frames * bodies == len(data)
+    return {"dt": struct.unpack_from("<f", data, 24)[0], "hulls": hulls, "boxes": boxes, "shape": shape, "poses": poses}
+
+
+class Simulate(Simulated):
+    def test_what_stands_stands(self):
+        for name, moving in (("stack", 10), ("cards", 15)):
+            recording = self.path / "run.bin"
+            told = self.data("simulate", SCENES / f"{name}.json", "--awake", "--seconds", 3, "--record", recording)
+            self.assertEqual((told["moving"], told["asleep"], told["duration"], told["steps"]), (moving, 0, 3, 720))
+            self.assertLess(told["mean_speed"], 1e-3)
+            poses = read_recording(recording)["poses"]
+            self.assertEqual(len(poses), 181)
+            for first, last in zip(poses[0], poses[-1]):
+                self.assertLess(max(abs(a - b) for a, b in zip(first[:3], last[:3])), 0.012, name)
+
+    def test_a_fall_is_what_gravity_makes_it(self):
+        recording, page = self.path / "fall.bin", self.path / "fall.html"
+        spun = cube(4, velocity=[1, 0, 0], spin=[0, 0, 1])
+        path = self.scene(scene([spun], gravity=[0, 0, -10], seconds=0.5))
+        told = self.data("simulate", path, "--record", recording, "-o", page)
+        run = read_recording(recording)
+        self.assertEqual((len(run["poses"]), len(run["boxes"])), (31, 1))
+        self.assertAlmostEqual(run["dt"], 1 / 60, delta=1e-8)
+        # about its centre the slab is a box
+        self.assertEqual(run["boxes"][0], (5, 5, 0.5, 0, 0, -0.5, 0, 0, 0, 1))
+        frames = frames_of(self.page(page))
+        self.assertEqual((told["frames"], len(frames)), (16, 16))
+        for f, poses in enumerate(run["poses"]):
+            t = f / 60
+            x, y, z, *quat = poses[-1]
+            # velocities first, then places, in steps of 1/240 s
+            self.assertAlmostEqual(z, 4 - 5 * t * (t + 1 / 240), delta=1e-5)
+            self.assertAlmostEqual(x, t, delta=1e-5)
+            self.assertAlmostEqual(abs(quat[2]), math.sin(t / 2), delta=1e-5)
+            if f % 2 == 0:
+                for a, b in zip(frames[f // 2][0][-1], poses[-1]):
+                    self.assertAlmostEqual(a, b, delta=1e-3)
+
+    def test_levels_and_contacts_of_a_page(self):
+        page = self.path / "rest.html"
+        self.good("simulate", self.scene(scene([cube(0.6), cube(3)], seconds=4)), "-o", page)
+        data = self.page(page)
+        frames = frames_of(data)
+        self.assertEqual(data["kind"], [2, 0, 0])
+        self.assertEqual(frames[0][1:], ([0, 0, 0], []))
+        self.assertEqual(frames[-1][1][1:], [3, 3])  # asleep
+        self.assertEqual(len(frames[-1][2]) >= 8, True)
+        self.assertTrue(any(look[1] == 2 for _, look, _ in frames))
+        for x, y, z, kind in frames[-1][2]:
+            self.assertLess(max(abs(x), abs(y)), 0.52)
+            self.assertLess(min(abs(z), abs(z - 1)), 0.02)
+
+    def test_runs_are_the_same(self):
+        states = set()
+        for more in ([], ["--threads", 3]):
+            told = self.data("simulate", SCENES / "heap.json", "--seconds", 0.6, *more)
+            states.add(told["state"])
+            self.assertEqual(told["seconds"] > 0, True)
+        self.assertEqual(len(states), 1)
+
+    def test_every_shipped_scene_runs(self):
+        names = sorted(path.stem for path in SCENES.glob("*.json"))
+        self.assertEqual(names, ["cards", "dominoes", "gears", "heap", "pile", "slot", "stack", "table"])
+        for name in names:
+            told = self.data("simulate", SCENES / f"{name}.json", "--seconds", 0.05)
+            self.assertGreater(told["moving"], 0)
+
+    def test_a_recording_has_what_a_replay_needs(self):
+        recording = self.path / "heap.bin"
+        self.good("simulate", SCENES / "heap.json", "--seconds", 0.1, "--record", recording)
+        run = read_recording(recording)
+        self.assertEqual((len(run["boxes"]), len(run["shape"]), len(run["poses"])), (5, 80, 7))
+        for points, corners in run["hulls"]:
+            self.assertEqual(len(points) - len(corners) / 2, 2)  # Euler's count for triangles
+        self.assertTrue(all(abs(sum(c * c for c in pose[3:]) - 1) < 1e-5 for pose in run["poses"][-1]))
+        self.assertIn("bodies[1] has 32 pieces", self.run_command(
+            "simulate", SCENES / "gears.json", "--record", self.path / "gears.bin").stderr)
+
+    def test_empty_and_short_runs(self):
+        page = self.path / "none.html"
+        for data, bodies in (({"shapes": {}, "bodies": []}, 0), (scene(), 1), (scene([cube(1)], seconds=0), 2)):
+            told = self.data("simulate", self.scene(data), "-o", page, "--seconds", 0)
+            self.assertEqual((told["bodies"], told["steps"], told["frames"]), (bodies, 0, 1))
+            self.page(page)
+        self.assertEqual(self.data("simulate", self.scene({"shapes": {}, "bodies": []}))["duration"], 10)
+
+    def test_bodies_that_begin_in_each_other_part(self):
+        told = self.data("simulate", self.scene(scene([cube(0.5)] * 6, seconds=3)))
+        self.assertLess(told["deepest"], 0.02)
+
+    def test_huge_and_tiny_bodies(self):
+        for density in (1e-9, 1e15):
+            told = self.data("simulate", self.scene(scene([cube(0.6, density=density), cube(1.7)], seconds=1)))
+            self.assertLess(told["mean_speed"], 1)
+        self.bad("simulate", self.scene(scene([cube(1e300, velocity=[1e300, 0, 0])])), says="scene.json")
+        self.bad("simulate", self.scene(scene([cube(4, velocity=[1e17, 0, 0])], gravity=[1e18, 0, 0])),
+                 says=["scene.json", "after"])
+
+    def test_targets(self):
+        path = self.scene(scene([cube(1)], seconds=0.1))
+        link, real = self.path / "link.html", self.path / "real.html"
+        link.symlink_to(real)
+        self.good("simulate", path, "-o", link)
+        self.assertTrue(link.is_symlink() and real.read_text().startswith("<!DOCTYPE html>"))
+        self.assertTrue(self.good("simulate", path, "-o", "-").startswith("<!DOCTYPE html>"))
+        fifo = self.path / "fifo"
+        os.mkfifo(fifo)
+        got = []
+        reader = threading.Thread(target=lambda: got.append(fifo.read_bytes()))
+        reader.start()
+        self.good("simulate", path, "-o", fifo)
+        reader.join()
+        self.assertIn(b"</html>", got[0])
+        self.good("simulate", path, "-o", "/dev/null", "--record", self.path / "r.bin")
+        for option, target, says in (("-o", self.path / "a.txt", ".html"), ("-o", "/dev/full", "/dev/full"),
+                                     ("--record", "/dev/full", "/dev/full"), ("--record", self.path, str(self.path)),
+                                     ("-o", self.path / "no" / "a.html", "no")):
+            self.bad("simulate", path, option, target, says=says)
+        self.bad("simulate", path, "-o", self.path / "a.html", "--record", self.path / "a.html", says="both")
+        self.bad("simulate", path, "-o", "-", "--record", "-", says="both")
+        self.bad("simulate", path, "-o", "-", "--json", says="--json")
+        for seconds in (-1, "nan", 1e9, "x", ""):
+            self.bad("simulate", path, "--seconds", seconds, says="--seconds")
+
+    def test_scenes_that_are_refused(self):
+        def refused(data, *says):
+            self.bad("simulate", self.scene(data), says=["scene.json", *says])
+
+        def body(**more):
+            return scene([cube(1) | more])
+
+        for text, says in (("", "line 1"), ("{", "line 1"), ("[]", "no object"), ("{} x", "line 1"),
+                           ("null", "no object"), ('{\n"shapes": {},\n "bodies" 1}', "line 3"),
+                           ('{"bodies": [NaN]}', "no JSON"),
+                           (b"{\0}", "zero byte"), ("[" * 100000, "no JSON"), ('{"shapes": {}}', "bodies: is missing"),
+                           ('{"bodies": []}', "shapes: is missing"), ('{"shapes": {}, "bodies": {}}', "no array"),
+                           ('{"shapes": {}, "bodies": [], "bodies": []}', "twice"), ("\xff\xfe", "line 1")):
+            refused(text, says)
+        refused(scene(colour=1), "unknown key 'colour'")
+        refused(scene(gravity=[0, 0]), "gravity", "3 numbers")
+        refused('{"shapes": {}, "bodies": [], "gravity": [0, 0, 1e999]}', "gravity", "not finite")
+        refused(scene(seconds=-1), "seconds: -1")
+        refused(scene(seconds=1e6), "seconds")
+        refused(scene(sleep=1), "sleep: is neither true nor false")
+        refused(scene(title="x" * 200), "title")
+        refused(scene(title=3), "title")
+        refused(scene(["x"]), "bodies[1]", "no object")
+        refused(body(shape="ball"), "bodies[1].shape", "'ball'")
+        refused(body(postion=[0, 0, 0]), "bodies[1]", "'postion'")
+        refused(body(position=[0, 0, "1"]), "bodies[1].position", "element 2")
+        refused(body(quat=[0, 0, 0, 0]), "bodies[1].quat")
+        refused(body(kind="dynamic"), "bodies[1].kind", "'dynamic'")
+        refused(body(kind="static", velocity=[1, 0, 0]), "bodies[1]", "static")
+        refused(body(density=0), "bodies[1].density")
+        refused(body(density="heavy"), "bodies[1].density")
+        refused(body(friction=-0.1), "friction")
+        refused(body(restitution=2), "restitution")
+        for shape, says in (({}, "none of"), ({"model": "shape:nosuch"}, "nosuch"), ({"model": "none.off"}, "none.off"),
+                            ({"model": 1}, "no text"), ({"points": []}, "empty"), ({"points": [[0, 0]]}, "element 0"),
+                            ({"points": [[0, 0, 0]]}, "flat"), ({"pieces": []}, "empty"),
+                            ({"pieces": [{"pieces": [{"pieces": [{"pieces": [{"pieces": [CUBE]}]}]}]}]}, "too deep"),
+                            ({"model": "shape:cube", "points": [[0, 0, 0]]}, "more than one"),
+                            ({"model": "shape:cube", "scale": 0}, "scale"),
+                            ({"points": [[0, 0, 0]], "solid": True}, "solid"),
+                            ({"model": str(self.path)}, str(self.path)), ({"model": "scene.json"}, "scene.json")):
+            refused({"shapes": {"cube": shape}, "bodies": [cube(1)]}, "cube" if says != "flat" else "bodies[0]", says)
+        self.bad("simulate", self.path / "none.json", says="none.json")
+        self.bad("simulate", self.path, says=str(self.path))
+        self.bad("simulate", says="SCENE.json")
+
+    def test_models_are_found_from_the_scene_on(self):
+        (self.path / "deep").mkdir()
+        data = {"shapes": {"t": {"model": "../tetrahedron.off"}, "s": {"model": "../tetrahedron.off", "solid": True}},
+                "bodies": [{"shape": "t"}, {"shape": "s", "position": [3, 0, 0]}]}
+        path = self.scene(data, "deep/scene.json")
+        self.assertEqual(self.data("simulate", path, "--seconds", 0.1)["moving"], 2)
+
+    def test_memory_that_runs_out(self):
+        path = self.scene(scene([cube(0.6)], seconds=0.1))
+        for number in range(1, 60, 7):
+            done = self.fault("memory", number, "simulate", path, "-o", self.path / "m.html")
+            if not self.fault_came:
+                break
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertFalse((self.path / "m.html").exists())
+
+
+if __name__ == "__main__":
+    main()

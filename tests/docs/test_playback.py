@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The page of `pirouette simulate` in Chromium: its canvas shows the bodies where they are, frame by frame.
+
+Usage: test_playback.py COMMAND. Ends with 77, skipped, where Chromium is missing or has no WebGL.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+import chromium  # noqa: E402
+
+SCENE = {"title": "Two <boxes>", "seconds": 2, "shapes": {"box": {"model": "shape:box?x=1&y=1&z=1"},
+                                                        "floor": {"model": "shape:box?x=9&y=9&z=1"}},
+         "bodies": [{"shape": "floor", "kind": "static", "position": [0, 0, -0.5]},
+                    {"shape": "box", "position": [0, 0, 0.5]}, {"shape": "box", "position": [2, 0, 2]}]}
+# The colours of the canvas at points of the world.
+LOOK = """(points => {
+    const view = viewOf(), seen = new Uint8Array(4);
+    return points.map(p => {
+        const at = [0, 1, 2, 3].map(r => view[r] * p[0] + view[4 + r] * p[1] + view[8 + r] * p[2] + view[12 + r]);
+        const x = (at[0] / at[3] + 1) / 2 * canvas.width, y = (at[1] / at[3] + 1) / 2 * canvas.height;
+        gl.readPixels(x, y, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, seen);
+        return [...seen];
+    });
+})"""
+PICTURE = "canvas.toDataURL('image/png')"
+
+
+def is_like(colour, other):
+    """Whether a pixel is a colour under some light: the same but for its length, nearly."""
+    dot = sum(a * b for a, b in zip(colour, other))
+    return dot ** 2 > 0.985 * sum(a * a for a in colour) * sum(b * b for b in other) > 0
+
+
+def check(browser):
+    assert browser.evaluate("document.title") == "Two <boxes>"
+    browser.evaluate("play(false); document.getElementById('points').click()")
+    looks = browser.evaluate("LOOKS.map(look => look[1].map(x => 255 * x))")
+    pictures = set()
+    for frame in (0, 8, 59):
+        browser.evaluate(f"slider.value = {frame}; slider.dispatchEvent(new Event('input'));")
+        assert browser.evaluate("Math.floor(time)") == frame
+        for body in (1, 2):
+            x, y, z = browser.evaluate(f"[...frames[{frame}].pose.slice({7 * body}, {7 * body + 3})]")
+            look = browser.evaluate(f"frames[{frame}].look[{body}]")
+            (*seen, _), = browser.evaluate(f"{LOOK}({json.dumps([[x, y, z + 0.5]])})")
+            assert is_like(seen, looks[look]), (frame, body, seen, looks[look])
+        pictures.add(browser.evaluate(PICTURE))
+    assert browser.evaluate("frames[0].look.join()") == "0,0,0"
+    assert browser.evaluate("frames[59].look.slice(1).includes(2) || frames[59].look.slice(1).includes(3)")
+    # contacts, another view, colours by body, and the dark theme each change the picture
+    browser.evaluate("document.getElementById('points').click()")
+    pictures.add(browser.evaluate(PICTURE))
+    for kind, x, y in (("pointerdown", 100, 100), ("pointermove", 180, 130), ("pointerup", 180, 130)):
+        browser.evaluate("canvas.setPointerCapture = () => {}; canvas.dispatchEvent(new PointerEvent("
+                         f"'{kind}', {{clientX: {x}, clientY: {y}, pointerId: 1}}));")
+    pictures.add(browser.evaluate(PICTURE))
+    browser.evaluate("const list = document.getElementById('colours'); list.value = 'bodies';"
+                     "list.dispatchEvent(new Event('change'))")
+    pictures.add(browser.evaluate(PICTURE))
+    browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+    browser.evaluate("draw()")
+    pictures.add(browser.evaluate(PICTURE))
+    assert len(pictures) == 7, len(pictures)
+    browser.evaluate("show(3); document.getElementById('play').click()")
+    browser.evaluate("new Promise(done => setTimeout(done, 500))")
+    assert browser.evaluate("time") != 3, "playing moves on"
+
+
+def main(command):
+    program = chromium.find()
+    if not program:
+        print("no Chromium")
+        return 77
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)
+        (path / "scene.json").write_text(json.dumps(SCENE))
+        subprocess.run([command, "simulate", path / "scene.json", "-o", path / "page.html"], check=True, timeout=60,
+                       stdout=subprocess.DEVNULL)
+        browser = chromium.Chromium(program, "--enable-unsafe-swiftshader")
+        try:
+            browser.open((path / "page.html").as_uri())
+            if not browser.evaluate("Boolean(gl)"):
+                print("no WebGL")
+                return 77
+            check(browser)
+            # what the driver says of reading pixels is not the page's
+            complaints = [text for text in browser.complaints() if "GL Driver Message" not in text]
+            assert not complaints, complaints
+        finally:
+            browser.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette simulate: a scene of rigid bodies, run, as a page that plays it back and as a recording. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <stage.h>
+
+#include "args.h"
+#include "cmd.h"
+#include "file.h"
+#include "json.h"
+#include "measure.h"
+#include "message.h"
+#include "model.h"
+#include "progress.h"
+#include "simulate/playback.h"
+#include "simulate/recording.h"
+#include "target.h"
+#include "text.h"
+
+/* A recording has 60 frames a second, a page every second one of them. */
+#define FRAME_RATE  60
+#define SECONDS_MAX 3600
+
+struct run {
+    const char *path; /* of the scene */
+    struct stage stage;
+    struct world *world;
+    struct playback playback;
+    struct output_file page, recording; /* open where they were asked for */
+    uint32_t frames;                    /* after the first one */
+    uint32_t steps;                     /* of a frame */
+    double seconds;                     /* that the run took */
+    uint64_t state;                     /* a hash of poses and contacts at the end */
+};
+
+/* --- what is asked for --- */
+
+/* Whether -o and --record name what can be written, and not the same. */
+static bool check_targets(const struct args *args) {
+    const char *page = args_value(args, "-o"), *recording = args_value(args, "--record");
+    if (!target_check(args, "-o", NULL) || !target_check(args, "--record", NULL))
+        return false;
+    if (page && !output_is_stream(page) && !output_ends_in(page, ".html")) {
+        complain("simulate: -o: '%s' does not end in .html", page);
+        return false;
+    }
+    if (page && recording &&
+        (strcmp(page, recording) == 0 || (output_is_stdout(page) && output_is_stdout(recording)))) {
+        complain("simulate: -o and --record both write to '%s'", page);
+        return false;
+    }
+    return true;
+}
+
+/* The scene with what the options say otherwise. */
+static bool read_stage(const struct args *args, struct run *run) {
+    char why[STAGE_WHY];
+    uint64_t threads = 1;
+    double seconds = -1;
+    if (!args_numbers(args, "--seconds", 1, &seconds) || !args_count(args, "--threads", 1, 64, &threads))
+        return false;
+    if (args_has(args, "--seconds") && !(seconds >= 0 && seconds <= SECONDS_MAX)) {
+        complain("simulate: --seconds: %g is not between 0 and %d", seconds, SECONDS_MAX);
+        return false;
+    }
+    if (!stage_read(run->path, &run->stage, why)) {
+        complain("%s", why);
+        return false;
+    }
+    run->stage.options.threads = (uint32_t)threads;
+    if (args_has(args, "--awake"))
+        run->stage.options.sleep = false;
+    if (seconds < 0)
+        seconds = run->stage.seconds;
+    run->frames = (uint32_t)(seconds * FRAME_RATE + 1e-6);
+    run->steps = (uint32_t)nearbyint(1 / (FRAME_RATE * run->stage.options.step));
+    return !args_has(args, "--record") || recording_check(&run->stage);
+}
+
+static bool open_targets(const struct args *args, struct run *run) {
+    const char *page = args_value(args, "-o"), *recording = args_value(args, "--record");
+    if (page && !(output_open(&run->page, page) && playback_init(&run->playback, &run->stage)))
+        return false;
+    return !recording || (output_open(&run->recording, recording) &&
+                          recording_begin(run->recording.stream, &run->stage, run->frames + 1));
+}
+
+/* --- the run --- */
+
+static bool add_frame(struct run *run, uint32_t frame) {
+    if (run->recording.stream)
+        recording_add(run->recording.stream, &run->stage, run->world);
+    return !run->page.stream || frame % (FRAME_RATE / PLAYBACK_RATE) != 0 || playback_add(&run->playback, run->world);
+}
+
+static bool run_world(struct run *run) {
+    struct progress progress = progress_new(run->frames);
+    const int64_t start = clock_now();
+    pir_status status = stage_world(&run->stage, &run->world);
+    bool good = status == PIR_OK && add_frame(run, 0);
+    uint32_t frame = 0;
+    while (good && frame < run->frames) {
+        for (uint32_t i = 0; status == PIR_OK && i < run->steps; i++)
+            status = world_step(run->world);
+        frame++;
+        good = status == PIR_OK && add_frame(run, frame);
+        progress_show(&progress, frame);
+    }
+    progress_end(&progress);
+    run->seconds = (double)(clock_now() - start) / 1e9;
+    if (status != PIR_OK)
+        complain("%s: after %.2f s: %s", run->path, (double)frame / FRAME_RATE, pir_status_text(status));
+    return good;
+}
+
+/* FNV-1a of a snapshot of the scene: runs that end in one state have one hash. */
+static bool hash_state(struct run *run) {
+    pir_scene *scene = world_scene(run->world);
+    size_t size = pir_scene_serialised_size(scene);
+    uint8_t *bytes = malloc(size);
+    pir_status status = bytes ? pir_scene_serialise(scene, bytes, size) : PIR_ERR_MEMORY;
+    run->state = 0xcbf29ce484222325;
+    for (size_t i = 0; status == PIR_OK && i < size; i++)
+        run->state = (run->state ^ bytes[i]) * 0x100000001b3;
+    free(bytes);
+    if (status != PIR_OK)
+        complain_status("simulate", status, NULL);
+    return status == PIR_OK;
+}
+
+static bool write_targets(struct run *run) {
+    const char *title = *run->stage.title ? run->stage.title : model_title(run->path);
+    return (!run->page.stream ||
+            (playback_print(run->page.stream, &run->playback, title) && output_commit(&run->page))) &&
+           (!run->recording.stream || output_commit(&run->recording));
+}
+
+/* --- what is told --- */
+
+struct end {
+    uint32_t moving, asleep;
+    double deepest;
+};
+
+static struct end end_of(const struct run *run) {
+    struct end end = {0};
+    for (uint32_t i = 0; i < run->stage.body_count; i++) {
+        end.moving += run->stage.body[i].body.kind == PIR_BODY_MOVING;
+        end.asleep += world_motion(run->world, i).asleep;
+    }
+    for (uint32_t i = 0; i < world_contact_count(run->world); i++)
+        end.deepest = fmax(end.deepest, -world_contact(run->world, i).distance);
+    return end;
+}
+
+static bool print_json(const struct args *args, const struct run *run) {
+    struct end end = end_of(run);
+    char state[24];
+    struct json json = json_new();
+    snprintf(state, sizeof state, "%016" PRIx64, run->state);
+    json_add_text(&json, json.root, "scene", run->path);
+    json_add_text(&json, json.root, "title", run->stage.title);
+    json_add_count(&json, json.root, "bodies", run->stage.body_count);
+    json_add_count(&json, json.root, "moving", end.moving);
+    json_add_number(&json, json.root, "duration", (double)run->frames / FRAME_RATE);
+    json_add_count(&json, json.root, "steps", (uint64_t)run->frames * run->steps);
+    json_add_number(&json, json.root, "mean_speed", world_mean_speed(run->world));
+    json_add_count(&json, json.root, "asleep", end.asleep);
+    json_add_count(&json, json.root, "contacts", world_contact_count(run->world));
+    json_add_number(&json, json.root, "deepest", end.deepest);
+    json_add_text(&json, json.root, "state", state);
+    if (args_has(args, "-o")) {
+        json_add_text(&json, json.root, "file", args_value(args, "-o"));
+        json_add_count(&json, json.root, "frames", run->playback.frames);
+    }
+    if (args_has(args, "--record"))
+        json_add_text(&json, json.root, "record", args_value(args, "--record"));
+    json_add_number(&json, json.root, "seconds", run->seconds);
+    return json_print(&json, stdout);
+}
+
+static void print_text(const struct args *args, const struct run *run) {
+    struct end end = end_of(run);
+    char time[TEXT_NUMBER];
+    text_time(run->seconds * 1e9, time);
+    printf("%s\n", *run->stage.title ? run->stage.title : run->path);
+    printf("  %-10s %" PRIu32 ", %" PRIu32 " of them moving, %" PRIu32 " asleep at the end\n", "bodies",
+           run->stage.body_count, end.moving, end.asleep);
+    printf("  %-10s %g s in %" PRIu64 " steps\n", "simulated", (double)run->frames / FRAME_RATE,
+           (uint64_t)run->frames * run->steps);
+    printf("  %-10s %.3g m/s at the end\n", "mean speed", world_mean_speed(run->world));
+    printf("  %-10s %" PRIu32 " at the end, the deepest %.3g m\n", "contacts", world_contact_count(run->world),
+           end.deepest);
+    printf("  %-10s %016" PRIx64 "\n", "state", run->state);
+    printf("  %-10s %s\n", "time", time);
+    if (args_has(args, "-o"))
+        printf("  %-10s %s\n", "written to", args_value(args, "-o"));
+    if (args_has(args, "--record"))
+        printf("  %-10s %s\n", "recorded", args_value(args, "--record"));
+}
+
+static bool tell(const struct args *args, const struct run *run) {
+    if (args_has(args, "--json"))
+        return print_json(args, run);
+    if (!target_is_stdout(args, "-o") && !target_is_stdout(args, "--record"))
+        print_text(args, run);
+    return true;
+}
+
+int cmd_simulate(const struct args *args) {
+    struct run run = {.path = args->positional[0]};
+    bool good = check_targets(args) && read_stage(args, &run) && open_targets(args, &run) && run_world(&run) &&
+                hash_state(&run) && write_targets(&run);
+    good = good && tell(args, &run);
+    output_discard(&run.page);
+    output_discard(&run.recording);
+    playback_clear(&run.playback);
+    world_destroy(run.world);
+    stage_clear(&run.stage);
+    return good ? EXIT_DONE : EXIT_BAD_INPUT;
+}
