@@ -20,8 +20,6 @@
 #include "cspace/store/names.h"
 #include "cspace/store/piece_file.h"
 
-/* Elements of each section that are compressed together: what a reader of one slice has to unpack. */
-static const uint32_t chunk_of_section[PIR_SECTION_COUNT] = {1u << 15, 1u << 11, 1u << 11};
 #define TABLE_CHUNK 1024
 #define GRID_CHUNK  4096
 
@@ -29,7 +27,7 @@ static const uint32_t chunk_of_section[PIR_SECTION_COUNT] = {1u << 15, 1u << 11,
 struct section {
     hid_t group, data, count, unit, check;
     pir_h5_shape shape;
-    uint64_t elements; /* so far */
+    uint64_t elements; /* so far, those included that fill chunks up */
 };
 
 struct output {
@@ -115,7 +113,7 @@ static bool begin_section(struct output *out, int s) {
     uint32_t doubles = pir_section_doubles[s];
     section->shape = (pir_h5_shape){.type = doubles ? PIR_H5_F64 : PIR_H5_U8, .rank = doubles ? 2 : 1, .grows = true};
     section->shape.size[1] = section->shape.chunk[1] = doubles;
-    section->shape.chunk[0] = chunk_of_section[s];
+    section->shape.chunk[0] = pir_chunk_elements[s];
     const pir_h5_shape counts = {PIR_H5_U32, 2, {plan->pairs, plan->slices}, {1, TABLE_CHUNK}, false};
     const pir_h5_shape units = {PIR_H5_U64, 2, {plan->pairs, plan->units_per_pair}, {1, TABLE_CHUNK}, false};
     section->group = pir_h5_make_group(out->file, names->group);
@@ -139,22 +137,35 @@ static bool end_section(struct section *section) {
     return pir_h5_close(section->group) && good;
 }
 
-/* Appends the unit that has been read. */
+/* Appends the chunks of a section of the unit that has been read. */
+static bool put_chunks(struct output *out, int s, uint64_t elements) {
+    struct section *section = &out->section[s];
+    const pir_bytes *packed = &out->unit.packed[s];
+    uint64_t start[2] = {section->elements, 0};
+    size_t at = 0;
+    if (!pir_h5_extend(section->data, &section->shape, section->elements + elements))
+        return false;
+    for (pir_chunk chunk; pir_next_chunk(packed, &at, &chunk); start[0] += pir_chunk_elements[s])
+        if (!pir_h5_write_chunk(section->data, &section->shape, start, &chunk))
+            return false;
+    return true;
+}
+
+/* Appends a section of the unit that has been read. */
 static bool put_unit(struct output *out, int s) {
     const pir_plan *plan = out->plan;
     const pir_unit *unit = &out->unit;
     struct section *section = &out->section[s];
-    uint64_t pair = unit->number / plan->units_per_pair, elements = unit->data[s].used / pir_section_element[s];
+    uint64_t pair = unit->number / plan->units_per_pair, elements = pir_unit_elements(unit, s);
     const uint64_t in_units[2] = {pair, unit->number % plan->units_per_pair}, one[2] = {1, 1};
     const uint64_t in_counts[2] = {pair, pir_plan_first(plan, unit->number)}, counts[2] = {1, unit->slices};
-    const uint64_t start[2] = {section->elements, 0}, size[2] = {elements, pir_section_doubles[s]};
-    if (elements > 0 && (!pir_h5_extend(section->data, &section->shape, section->elements + elements) ||
-                         !pir_h5_write(section->data, section->shape.type, start, size, unit->data[s].data)))
+    if (elements > 0 && !put_chunks(out, s, elements))
         return false;
     bool good = pir_h5_write(section->count, PIR_H5_U32, in_counts, counts, unit->count[s]) &&
                 pir_h5_write(section->unit, PIR_H5_U64, in_units, one, &section->elements) &&
                 pir_h5_write(section->check, PIR_H5_U64, in_units, one, &unit->check[s]);
-    section->elements += elements;
+    // the next unit begins a chunk
+    section->elements += (elements + pir_chunk_elements[s] - 1) / pir_chunk_elements[s] * pir_chunk_elements[s];
     return good;
 }
 

@@ -5,9 +5,6 @@
 #include <pthread.h>
 #include <string.h>
 
-/* Fast, and nearly as small as more: records are dense. */
-#define DEFLATE_LEVEL 1
-
 /* The largest chunk that is read, in bytes: HDF5 makes memory for a whole one. */
 #define CHUNK_MOST ((hsize_t)1 << 26)
 
@@ -96,7 +93,7 @@ static hid_t layout_of(const pir_h5_shape *shape) {
                        : shape->size[i] > 0                             ? shape->size[i]
                                                                         : 1;
         good = H5Pset_chunk(list, shape->rank, chunk) >= 0 && (shape->type == PIR_H5_U8 || H5Pset_shuffle(list) >= 0) &&
-               H5Pset_deflate(list, DEFLATE_LEVEL) >= 0;
+               H5Pset_deflate(list, PIR_DEFLATE_LEVEL) >= 0;
     }
     if (good)
         return list;
@@ -166,6 +163,13 @@ bool pir_h5_write(hid_t set, pir_h5_type type, const uint64_t *start, const uint
 
 bool pir_h5_read(hid_t set, pir_h5_type type, const uint64_t *start, const uint64_t *count, void *data) {
     return transfer_block(set, type, start, count, data, read_block);
+}
+
+bool pir_h5_write_chunk(hid_t set, const pir_h5_shape *shape, const uint64_t *start, const pir_chunk *chunk) {
+    const hsize_t first[PIR_H5_RANK] = {start[0], start[1]};
+    // a bit for each filter that was left out; deflate is the last one
+    uint32_t left_out = !chunk->stored ? 0 : shape->type == PIR_H5_U8 ? 1 : 2;
+    return H5Dwrite_chunk(set, H5P_DEFAULT, left_out, first, chunk->size, chunk->data) >= 0;
 }
 
 /* --- opening --- */

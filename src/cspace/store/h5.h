@@ -7,9 +7,7 @@
 
 #include <hdf5.h>
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "cspace/store/pack.h"
 
 /*
  * Between quiet and loud this thread alone is in HDF5, and what HDF5 would print is put aside. All other calls stand
@@ -50,6 +48,12 @@ bool pir_h5_put(hid_t in, const char *name, const pir_h5_shape *shape, const voi
 /* Writes, or reads, a block of a data set: `count` elements from `start` on, along each dimension. */
 bool pir_h5_write(hid_t set, pir_h5_type type, const uint64_t *start, const uint64_t *count, const void *data);
 bool pir_h5_read(hid_t set, pir_h5_type type, const uint64_t *start, const uint64_t *count, void *data);
+
+/*
+ * Writes a chunk, which begins at `start`, as the data set keeps it: shuffled unless it is of bytes, and deflated
+ * unless it is `stored`.
+ */
+bool pir_h5_write_chunk(hid_t set, const pir_h5_shape *shape, const uint64_t *start, const pir_chunk *chunk);
 
 /* Makes a data set that grows `length` long. */
 bool pir_h5_extend(hid_t set, const pir_h5_shape *shape, uint64_t length);

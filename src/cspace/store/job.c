@@ -18,6 +18,7 @@
 #include "base/report.h"
 #include "cspace/store/assemble.h"
 #include "cspace/store/maker.h"
+#include "cspace/store/pack.h"
 #include "cspace/store/parts.h"
 #include "polytope/file/target.h"
 
@@ -193,6 +194,8 @@ static void *work(void *context) {
     for (uint64_t unit; status == PIR_OK && (unit = claim(run)) < plan->units;) {
         pthread_mutex_unlock(&run->lock);
         status = pir_maker_make(&maker, unit, UINT32_MAX);
+        if (status == PIR_OK && !pir_unit_pack(&maker.unit, &plan->allocator))
+            status = PIR_ERR_MEMORY;
         if (status != PIR_OK)
             pir_fail(&report, status, "slices: unit %llu: %s", (unsigned long long)unit, pir_status_text(status));
         pthread_mutex_lock(&run->lock);

@@ -98,8 +98,8 @@ pir_status pir_part_append(pir_part *part, const pir_unit *unit, pir_report *rep
             at += size;
         }
     for (int s = 0; written && s < PIR_SECTION_COUNT; s++) {
-        written = write_all(part->descriptor, unit->data[s].data, unit->data[s].used, at);
-        at += unit->data[s].used;
+        written = write_all(part->descriptor, unit->packed[s].data, unit->packed[s].used, at);
+        at += unit->packed[s].used;
     }
     double now = seconds_now();
     if (written && now - part->synced > SYNC_EVERY) {

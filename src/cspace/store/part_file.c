@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Units in parts, read and checked. */
 #include "cspace/store/part_file.h"
+#include "cspace/store/pack.h"
 
 #include <errno.h>
 #include <stddef.h>
@@ -14,6 +15,10 @@ static uint64_t hash_counts(const pir_unit *unit, unsigned sections) {
     return hash;
 }
 
+static uint64_t hash_packed(const pir_unit *unit, int s) {
+    return pir_hash_bytes(PIR_HASH_START, unit->packed[s].data, unit->packed[s].used);
+}
+
 static uint64_t hash_header(const pir_unit_header *header) {
     return pir_hash_bytes(PIR_HASH_START, header, offsetof(pir_unit_header, hash));
 }
@@ -21,7 +26,8 @@ static uint64_t hash_header(const pir_unit_header *header) {
 pir_unit_header pir_unit_header_of(const pir_unit *unit, unsigned sections) {
     pir_unit_header header = {.magic = PIR_UNIT_MAGIC, .number = unit->number, .slices = unit->slices};
     for (int s = 0; s < PIR_SECTION_COUNT; s++) {
-        header.size[s] = unit->data[s].used;
+        header.size[s] = unit->packed[s].used;
+        header.packed[s] = hash_packed(unit, s);
         header.check[s] = unit->check[s];
     }
     header.counts = hash_counts(unit, sections);
@@ -46,15 +52,11 @@ pir_status pir_read_at(int descriptor, void *data, size_t size, uint64_t at) {
     return PIR_OK;
 }
 
-/* Whether the counts of each section add up to its size. */
+/* Whether each section has the chunks that its counts add up to. */
 static bool counts_add_up(const pir_unit *unit) {
-    for (int s = 0; s < PIR_SECTION_COUNT; s++) {
-        uint64_t elements = 0;
-        for (uint32_t i = 0; i < unit->slices; i++)
-            elements += unit->count[s][i];
-        if (elements * pir_section_element[s] != unit->data[s].used)
+    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+        if (!pir_packed_holds(&unit->packed[s], s, pir_unit_elements(unit, s)))
             return false;
-    }
     return true;
 }
 
@@ -95,14 +97,15 @@ pir_status pir_unit_read(int descriptor, uint64_t at, const pir_plan *plan, pir_
         at += sections & 1u << s ? size : 0;
     }
     for (int s = 0; status == PIR_OK && s < PIR_SECTION_COUNT; s++) {
-        status = read_data(descriptor, at, header.size[s], &plan->allocator, &unit->data[s]);
+        status = read_data(descriptor, at, header.size[s], &plan->allocator, &unit->packed[s]);
         at += header.size[s];
     }
     if (status != PIR_OK)
         return status;
-    pir_unit_seal(unit);
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
-        if (unit->check[s] != header.check[s])
+    for (int s = 0; s < PIR_SECTION_COUNT; s++) {
+        unit->check[s] = header.check[s];
+        if (hash_packed(unit, s) != header.packed[s])
             return PIR_ERR_FORMAT;
+    }
     return header.counts == hash_counts(unit, sections) && counts_add_up(unit) ? PIR_OK : PIR_ERR_FORMAT;
 }

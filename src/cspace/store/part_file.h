@@ -5,19 +5,21 @@
 
 #include "cspace/store/parts.h"
 
-#define PIR_PART_MAGIC UINT64_C(0x0a31545241504950) /* "PIPART1\n" where bytes stand with the least first */
+#define PIR_PART_MAGIC UINT64_C(0x0a32545241504950) /* "PIPART2\n" where bytes stand with the least first */
 #define PIR_UNIT_MAGIC UINT64_C(0x54494e5552495031)
 
 typedef struct pir_part_header {
     uint64_t magic, plan;
 } pir_part_header;
 
-/* Behind it stand the counts of each section that the plan has, then their bytes. */
+/* Behind it stand the counts of each section that the plan has, then their packed bytes. */
 typedef struct pir_unit_header {
     uint64_t magic, number, slices;
-    uint64_t size[PIR_SECTION_COUNT], check[PIR_SECTION_COUNT];
-    uint64_t counts; /* FNV-1a of the counts */
-    uint64_t hash;   /* FNV-1a of what stands before it */
+    uint64_t size[PIR_SECTION_COUNT];   /* packed bytes, */
+    uint64_t packed[PIR_SECTION_COUNT]; /* and FNV-1a of them */
+    uint64_t check[PIR_SECTION_COUNT];  /* of the bytes before they were packed */
+    uint64_t counts;                    /* FNV-1a of the counts */
+    uint64_t hash;                      /* FNV-1a of what stands before it */
 } pir_unit_header;
 
 /* The sections that a plan has: a bit for each. */
@@ -25,7 +27,7 @@ static inline unsigned pir_sections_of(const pir_plan *plan) {
     return 1u | (plan->planes ? 2u : 0) | (plan->vertices ? 4u : 0);
 }
 
-/* The header of a unit that is sealed. */
+/* The header of a unit that is sealed and packed. */
 pir_unit_header pir_unit_header_of(const pir_unit *unit, unsigned sections);
 
 /* Whether it is the header of a unit of the plan. */
@@ -44,7 +46,8 @@ pir_status pir_read_at(int descriptor, void *data, size_t size, uint64_t at);
 
 /*
  * Reads the unit whose header stands at `at` into `unit`, which has room for its slices, and checks it against its
- * checksums. Errors: PIR_ERR_FORMAT, PIR_ERR_FILE, PIR_ERR_MEMORY.
+ * checksums: its counts, its packed bytes, and the checks of what these were made of. Errors: PIR_ERR_FORMAT,
+ * PIR_ERR_FILE, PIR_ERR_MEMORY.
  */
 pir_status pir_unit_read(int descriptor, uint64_t at, const pir_plan *plan, pir_unit *unit);
 

@@ -62,13 +62,16 @@ pir_status pir_parts_remove(const pir_parts *parts, pir_report *report);
  */
 pir_status pir_part_open(pir_part *part, const pir_parts *parts, uint32_t number, pir_report *report);
 
-/* Appends a unit that is sealed, and now and then sees to it that what was written is on the disk. */
+/* Appends a unit that is sealed and packed, and now and then sees to it that what was written is on the disk. */
 pir_status pir_part_append(pir_part *part, const pir_unit *unit, pir_report *report);
 
 /* Closes the part once it is on the disk. PIR_ERR_FILE where that fails. */
 pir_status pir_part_close(pir_part *part, const pir_allocator *allocator, pir_report *report);
 
-/* Reads a unit that stands in a part; `unit` has room for its slices. Errors: PIR_ERR_FILE, PIR_ERR_FORMAT, … */
+/*
+ * Reads a unit that stands in a part, packed as it is; `unit` has room for its slices. Errors: PIR_ERR_FILE,
+ * PIR_ERR_FORMAT, PIR_ERR_MEMORY.
+ */
 pir_status pir_parts_read(const pir_parts *parts, uint64_t number, pir_unit *unit, pir_report *report);
 
 #endif

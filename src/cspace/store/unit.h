@@ -21,15 +21,25 @@ static const uint32_t pir_section_doubles[PIR_SECTION_COUNT] = {0, 4, 3};
 
 typedef struct pir_unit {
     uint64_t number;
-    uint32_t slices, room;              /* slices; how many `count` has room for */
-    uint32_t *count[PIR_SECTION_COUNT]; /* per slice: elements */
-    pir_bytes data[PIR_SECTION_COUNT];  /* empty where a job has no such section */
-    uint64_t check[PIR_SECTION_COUNT];  /* of the bytes of data */
+    uint32_t slices, room;               /* slices; how many `count` has room for */
+    uint32_t *count[PIR_SECTION_COUNT];  /* per slice: elements */
+    pir_bytes data[PIR_SECTION_COUNT];   /* empty where a job has no such section */
+    uint64_t check[PIR_SECTION_COUNT];   /* of the bytes of data */
+    pir_bytes packed[PIR_SECTION_COUNT]; /* data as the file keeps it; see pack.h */
+    pir_bytes work;                      /* of packing */
 } pir_unit;
 
 /* Room for so many slices; false when out of memory, and there is nothing to finish then. */
 bool pir_unit_init(pir_unit *unit, uint32_t slices, const pir_allocator *allocator);
 void pir_unit_finish(pir_unit *unit, const pir_allocator *allocator);
+
+/* Elements of all slices of a section. */
+static inline uint64_t pir_unit_elements(const pir_unit *unit, int section) {
+    uint64_t elements = 0;
+    for (uint32_t i = 0; i < unit->slices; i++)
+        elements += unit->count[section][i];
+    return elements;
+}
 
 /* Works the checks out. */
 void pir_unit_seal(pir_unit *unit);
