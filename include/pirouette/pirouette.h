@@ -21,6 +21,7 @@
 #include <pirouette/scene_query.h>
 #include <pirouette/section.h>
 #include <pirouette/shape.h>
+#include <pirouette/simplify.h>
 #include <pirouette/solid.h>
 #include <pirouette/sum.h>
 #include <pirouette/version.h>

@@ -16,6 +16,7 @@
 #include <math.h>
 
 #include "polytope/create/merge.h"
+#include "polytope/some_vertices.h"
 
 /* Vertices with more neighbours stay: looking at them takes time that grows with the square of that number. */
 #define NEIGHBOURS_MAX 64
@@ -145,28 +146,14 @@ static void try_vertex(struct thinning *t, uint32_t v) {
 /* The hull of the vertices that were not dropped. */
 static pir_status build_rest(const struct thinning *t, pir_polytope **ret_rest) {
     const pir_polytope *hull = t->hull;
-    const pir_allocator *a = &hull->allocator;
-    uint32_t count = hull->vertex_count - t->dropped, *kept = PIR_NEW(a, uint32_t, count);
-    pir_vec3 *doubles = PIR_NEW(a, pir_vec3, count);
-    pir_vectors exact = {0};
-    pir_status status = PIR_ERR_MEMORY;
-    if (kept && doubles && pir_vectors_init(&exact, a, count, hull->exact_vertex.stride)) {
-        for (uint32_t v = 0, i = 0; v < hull->vertex_count; v++) {
-            if (t->mark[v] == DROPPED)
-                continue;
-            pir_int3 x = pir_vertex_exact(hull, v);
-            pir_vectors_set(&exact, i, &x);
-            doubles[i] = hull->vertex[v];
+    uint32_t count = hull->vertex_count - t->dropped, *kept = PIR_NEW(&hull->allocator, uint32_t, count);
+    if (!kept)
+        return PIR_ERR_MEMORY;
+    for (uint32_t v = 0, i = 0; v < hull->vertex_count; v++)
+        if (t->mark[v] != DROPPED)
             kept[i++] = v;
-        }
-        const pir_polytope_parts parts = {.points = &exact, .scale = &hull->scale, .doubles = doubles};
-        status = pir_polytope_build_hull(&parts, a, ret_rest);
-        for (uint32_t v = 0; status == PIR_OK && v < (*ret_rest)->vertex_count; v++)
-            (*ret_rest)->source[v] = hull->source[kept[(*ret_rest)->source[v]]];
-    }
-    pir_vectors_finish(&exact, a);
-    PIR_FREE(a, doubles, count);
-    PIR_FREE(a, kept, count);
+    pir_status status = pir_polytope_of_some(hull, kept, count, ret_rest);
+    PIR_FREE(&hull->allocator, kept, count);
     return status;
 }
 

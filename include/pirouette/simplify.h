@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Simplified polytopes: one inside and one around a polytope, with fewer vertices, and how far each is from it at most.
+ *
+ * The inner polytope is the hull of some of the vertices. The vertex that is farthest from it is added until it is near
+ * enough. The outer polytope is bounded by planes of some of the facets, and at first by four more planes. Where it is
+ * farthest from the body, a facet's plane cuts it off. Its vertices are doubles, moved outwards by what rounding needs.
+ *
+ * What is proven: inner ⊆ polytope ⊆ outer, exactly. The bounds are on the Hausdorff distance, the greatest distance of
+ * a point of the larger body from the smaller one. So a distance between simplified bodies bounds that between the
+ * bodies: with the outer ones it is at most the true one, with the inner ones at least, each within the sum of both
+ * bounds. Overlap of inner bodies proves overlap, outer bodies apart prove the bodies apart.
+ *
+ * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
+ */
+#ifndef PIROUETTE_SIMPLIFY_H
+#define PIROUETTE_SIMPLIFY_H
+
+#include <pirouette/base.h>
+#include <pirouette/polytope.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** When to stop: at either. One of the two must be set. */
+typedef struct pir_simplify_options {
+    uint32_t vertices; /**< the most that either may have, 4 at least; 0 for no bound */
+    double error;      /**< a length: what is this near is near enough; 0 for as near as `vertices` allows */
+} pir_simplify_options;
+
+/** No bound on the vertices, no error: one of them must be set. */
+PIR_API pir_simplify_options pir_simplify_options_default(void);
+
+/** Both polytopes, references of the caller's: release them with pir_simplified_release. */
+typedef struct pir_simplified {
+    pir_polytope *inner, *outer;
+    double inner_error; /**< no point of the polytope is farther than this from `inner`; rounded up */
+    double outer_error; /**< no point of `outer` is farther than this from the polytope; rounded up */
+} pir_simplified;
+
+/**
+ * Simplifies a polytope, with its allocator.
+ *
+ * polytope  of any dimension. One below dimension 3 is its own outer polytope, whatever number of vertices it has.
+ * options   when to stop.
+ *
+ * Either result is the polytope itself, with the error 0, where that has no more vertices than are allowed, or where
+ * nothing else is as near as asked for. Errors above 0 are at least 10^-12 of the size: distances are known to that.
+ *
+ * Cost: O(r · (n + v) · log n) for n vertices, v of them in the results, and r rounds, about 10 · log v.
+ *
+ * Errors: PIR_ERR_ARGUMENT (fewer than 4 vertices, a negative error, neither set), PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT (a
+ * body farther from its origin than 2^400 times its size), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_polytope_simplify(pir_polytope *polytope, const pir_simplify_options *options,
+                                         pir_simplified *ret_simplified);
+
+/** Gives both references back, and sets them to NULL. NULL is accepted. */
+PIR_API void pir_simplified_release(pir_simplified *simplified);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
