@@ -47,7 +47,7 @@ double pir_half_spaces_beyond(const pir_half_spaces *spaces, pir_vec3 normal, pi
     return pir_vec_dot(n, beyond) / sqrt(pir_vec_dot(n, n));
 }
 
-/* The corner of a facet of the dual, moved outwards and out of the frame. False where the facet passes the middle by. */
+/* The corner of a facet of the dual, moved outwards, out of the frame. False where the facet passes the middle by. */
 static bool corner_of(const pir_half_spaces *s, const pir_polytope *dual, uint32_t facet, double push,
                       pir_vec3 *ret_corner) {
     pir_vec3 n = dual->normal[facet], on = dual->vertex[dual->origin[dual->loop[dual->loop_start[facet]]]];
