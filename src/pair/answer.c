@@ -48,11 +48,25 @@ static bool by_certificate(pir_task *task) {
 
 /* --- by the same facet --- */
 
+/* Sets the slack of the same facet from integers where doubles do not give it. Returns its sign. */
+static int measure_same(pir_task *task, pir_same is) {
+    double slack = task->same.slack;
+    if (is == PIR_SAME_PROVEN)
+        return slack < 0 ? -1 : 1;
+    int side = pir_facet_measure(task->exact, task->placement, &task->same.facet, &slack);
+    pir_same_facet_set_slack(&task->workspace->frame, task->placement, slack, &task->same);
+    return side;
+}
+
 /* The answer from the same facet, where that is enough. */
-static bool settle_same(pir_task *task) {
+static bool settle_same(pir_task *task, pir_same is) {
     const pir_same_facet *same = &task->same;
     const pir_frame *frame = &task->workspace->frame;
-    if (same->slack < 0) {
+    task->has_same = is >= PIR_SAME_NEAR;
+    if (!task->has_same)
+        return false;
+    int side = measure_same(task, is);
+    if (side < 0) {
         pir_nearest nearest = {-same->slack, same->facet.n, same->touch};
         task->is_outside = true;
         task->pair->deep = false;
@@ -62,7 +76,10 @@ static bool settle_same(pir_task *task) {
     if (!pir_foot_settles_within(frame, task->placement, &same->facet, same->slack, same->margin) &&
         !pir_lead_lasts(&task->pair->lead, task->placement, same, moved_since(task)))
         return false;
-    pir_task_inside(task, &same->facet, same->slack);
+    if (side == 0)
+        pir_task_touching(task, &same->facet);
+    else
+        pir_task_inside(task, &same->facet, same->slack);
     return true;
 }
 
@@ -76,18 +93,16 @@ static bool by_held_facet(pir_task *task) {
     workspace->moved = pir_held_moved(held, &workspace->frame, task->placement);
     if (!pir_held_known(held, workspace->moved, task->placement, &known))
         return false;
-    task->has_same = pir_same_facet_prove(&workspace->frame, task->placement, task->pair->facet, &known, &task->same) ==
-                     PIR_SAME_PROVEN;
-    return task->has_same && settle_same(task);
+    return settle_same(
+        task, pir_same_facet_prove(&workspace->frame, task->placement, task->pair->facet, &known, &task->same));
 }
 
 static bool by_fresh_facet(pir_task *task) {
     pir_workspace *workspace = task->workspace;
     pir_pair *pair = task->pair;
     pir_same is = pir_same_facet_prove(&workspace->frame, task->placement, pair->facet, NULL, &task->same);
-    task->has_same = is == PIR_SAME_PROVEN;
     task->in_doubt = is == PIR_SAME_IN_DOUBT;
-    if (!task->has_same || !settle_same(task))
+    if (!settle_same(task, is))
         return false;
     // what is held is of this piece, with its corner as it is here
     pir_task_keep_facet(pair, &task->same.facet);

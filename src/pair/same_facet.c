@@ -62,7 +62,7 @@ static inline pir_same measure(const pir_placement *placement, double within, pi
     if (within < -off)
         return PIR_SAME_NOT;
     bool clear = fabs(same->slack) > PIR_NEXT_TO_NOTHING * placement->reach && fabs(same->slack) > 2 * error;
-    return clear && within > off ? PIR_SAME_PROVEN : PIR_SAME_IN_DOUBT;
+    return !(within > off) ? PIR_SAME_IN_DOUBT : clear ? PIR_SAME_PROVEN : PIR_SAME_NEAR;
 }
 
 /*
@@ -104,7 +104,6 @@ static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement,
     same->facet.n = n;
     same->facet.err = 1;
     same->facet.h = frame->p.offset[f] + pir_vec_dot(n, frame->q.vertex[b]);
-    same->touch = (pir_touch){same->facet.faces, frame->q.vertex[b]};
     return measure(placement, within, same);
 }
 
@@ -135,22 +134,7 @@ static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement,
     same->facet.n = n;
     same->facet.err = 1;
     same->facet.h = frame->q.offset[g] + pir_vec_dot(n, turned);
-    pir_same measured = measure(placement, within, same);
-    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(n, same->slack));
-    same->touch = (pir_touch){same->facet.faces, pir_vec_sub(y, turned)};
-    return measured;
-}
-
-/*
- * The point where two edges cross. The edge of Q is taken from its vertex of lower number, whichever way its halfedge
- * leads.
- */
-static pir_vec3 crossing(const pir_frame *frame, uint32_t edge_q, pir_vec3 a, pir_vec3 e, pir_vec3 n, pir_vec3 y) {
-    const pir_polytope *q = frame->q.polytope;
-    uint32_t half = q->edge_half[edge_q];
-    pir_vec3 from = frame->q.vertex[q->origin[half]], d = pir_vec_sub(frame->q.vertex[q->target[half]], from);
-    double part = pir_touch_part(pir_vec_sub(y, pir_vec_add(a, from)), d, pir_vec_cross(e, n));
-    return pir_touch_along(from, d, part);
+    return measure(placement, within, same);
 }
 
 static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
@@ -186,12 +170,35 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     same->facet.n = n;
     same->facet.err = err;
     same->facet.h = pir_vec_dot(n, corner);
-    pir_same measured = measure(placement, of_p < of_q ? of_p : of_q, same);
-    if (measured != PIR_SAME_PROVEN)
-        return measured;
-    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(n, same->slack));
-    same->touch = (pir_touch){same->facet.faces, crossing(frame, q->edge[other], from, e, n, y)};
-    return PIR_SAME_PROVEN;
+    return measure(placement, of_p < of_q ? of_p : of_q, same);
+}
+
+/*
+ * The point of Q where y is attained by two edges that cross. The edge of Q is taken from its vertex of lower number,
+ * whichever way its halfedge leads.
+ */
+static pir_vec3 crossing(const pir_frame *frame, const pir_facet *facet, pir_vec3 y) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    uint32_t half_p = p->edge_half[facet->piece.first], half = q->edge_half[facet->faces.q.index];
+    pir_vec3 a = pir_mat_apply(&frame->r, frame->p.vertex[facet->a]);
+    pir_vec3 e = pir_mat_apply(&frame->r, p->direction[half_p]);
+    pir_vec3 from = frame->q.vertex[q->origin[half]], d = pir_vec_sub(frame->q.vertex[q->target[half]], from);
+    double part = pir_touch_part(pir_vec_sub(y, pir_vec_add(a, from)), d, pir_vec_cross(e, facet->n));
+    return pir_touch_along(from, d, part);
+}
+
+void pir_same_facet_set_slack(const pir_frame *frame, const pir_placement *placement, double slack,
+                              pir_same_facet *same) {
+    const pir_facet *facet = &same->facet;
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
+    same->slack = slack;
+    same->touch.witness = facet->faces;
+    if (facet->piece.kind == PIR_FACET_FV)
+        same->touch.point_q = frame->q.vertex[facet->b];
+    else if (facet->piece.kind == PIR_FACET_VF)
+        same->touch.point_q = pir_vec_sub(y, pir_mat_apply(&frame->r, frame->p.vertex[facet->a]));
+    else
+        same->touch.point_q = crossing(frame, facet, y);
 }
 
 pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
@@ -200,7 +207,10 @@ pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *place
         return PIR_SAME_IN_DOUBT;
     ret_same->facet.piece = piece;
     ret_same->falls = 0;
-    return piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, known, ret_same)
-           : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, known, ret_same)
-                                        : prove_ee(frame, placement, known, ret_same);
+    pir_same same = piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, known, ret_same)
+                    : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, known, ret_same)
+                                                 : prove_ee(frame, placement, known, ret_same);
+    if (same == PIR_SAME_PROVEN)
+        pir_same_facet_set_slack(frame, placement, ret_same->slack, ret_same);
+    return same;
 }

@@ -27,15 +27,20 @@ typedef struct pir_same_known {
     uint32_t corner; /* of the facet of P or of Q, its vertex in D's corner */
 } pir_same_known;
 
-/* Whether the facet is one of D and holds the foot of x. */
-typedef enum pir_same { PIR_SAME_NOT, PIR_SAME_IN_DOUBT, PIR_SAME_PROVEN } pir_same;
+/* Whether the facet is one of D and holds the foot of x; PIR_SAME_NEAR: it is, but its slack is next to nothing. */
+typedef enum pir_same { PIR_SAME_NOT, PIR_SAME_IN_DOUBT, PIR_SAME_NEAR, PIR_SAME_PROVEN } pir_same;
 
 /*
  * `piece` may be one of D at some other placement. A vertex of it is moved to where its facet has it here; the edges of
  * one of two edges are not. `known` is NULL, or says what need not be proven: that the features are exposed, and how
- * far the foot is inside.
+ * far the foot is inside. Where the slack is next to nothing, facet and margin are proven, the slack is off and
+ * there is no touch.
  */
 pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
                               const pir_same_known *known, pir_same_facet *ret_same);
+
+/* Sets the slack, as pir_facet_measure gives it, and the touch. */
+void pir_same_facet_set_slack(const pir_frame *frame, const pir_placement *placement, double slack,
+                              pir_same_facet *same);
 
 #endif

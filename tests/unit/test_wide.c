@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+/* Integers of fixed length against GMP's own, with many carries and cancellations, up to the lengths they allow. */
+#include "support/test.h"
+
+#include <gmp.h>
+
+#include "exact/wide.h"
+#include "support/random.h"
+
+#if PIR_HAVE_WIDE
+
+#define CASES 3000
+
+/* Up to `bits` bits, in runs of ones and zeros or any, with a sign. */
+static pir_two_limbs random_two(test_random *random, uint32_t bits) {
+    uint32_t shift = test_random_below(random, bits + 1);
+    pir_two_limbs_unsigned size = (pir_two_limbs_unsigned)test_random_bits(random) << 64 | test_random_bits(random);
+    if (test_random_below(random, 3) == 0)
+        size = ~(pir_two_limbs_unsigned)0 << test_random_below(random, 100);
+    size &= ((pir_two_limbs_unsigned)1 << (bits - shift)) - 1;
+    return test_random_below(random, 2) ? -(pir_two_limbs)size : (pir_two_limbs)size;
+}
+
+static void set_two(mpz_t z, pir_two_limbs a) {
+    const uint64_t limb[2] = {(uint64_t)(a < 0 ? -a : a), (uint64_t)((a < 0 ? -a : a) >> 64)};
+    mpz_import(z, 2, -1, 8, 0, 0, limb);
+    if (a < 0)
+        mpz_neg(z, z);
+}
+
+/* An integer in two's complement. */
+static void set_wide(mpz_t z, const mp_limb_t *limb, size_t count) {
+    mpz_t top;
+    mpz_import(z, count, -1, sizeof *limb, 0, 0, limb);
+    if (limb[count - 1] >> 63) {
+        mpz_init_set_ui(top, 1);
+        mpz_mul_2exp(top, top, 64 * count);
+        mpz_sub(z, z, top);
+        mpz_clear(top);
+    }
+}
+
+/* Sums of products of 92 bits, times 62: up to 250, whose products stay below 2^511. */
+static void check_case(test_random *random, pir_int256 v[3], mpz_t z[3], mpz_t a, mpz_t b) {
+    for (int k = 0; k < 3; k++) {
+        v[k] = (pir_int256){{0}};
+        mpz_set_ui(z[k], 0);
+        for (int term = 0; term < 4; term++) {
+            pir_two_limbs x = random_two(random, 92), y = random_two(random, 92);
+            pir_int256_add_product(&v[k], x, y);
+            set_two(a, x);
+            set_two(b, y);
+            mpz_addmul(z[k], a, b);
+        }
+        int64_t by = (int64_t)random_two(random, 62);
+        pir_int256 scaled = {{0}};
+        pir_int256_add_scaled(&scaled, &v[k], by);
+        set_two(a, by);
+        mpz_mul(z[k], z[k], a);
+        v[k] = scaled;
+        set_wide(a, v[k].limb, 4);
+        assert_int_equal(mpz_cmp(a, z[k]), 0);
+    }
+}
+
+static void sums_of_products_are_exact(void **state) {
+    (void)state;
+    test_random random = test_random_case("wide integers", 0);
+    mpz_t z[2][3], a, b;
+    mpz_inits(a, b, NULL);
+    for (int i = 0; i < 6; i++)
+        mpz_init(z[i / 3][i % 3]);
+    for (int i = 0; i < CASES; i++) {
+        pir_int256 v[2][3];
+        for (int k = 0; k < 2; k++)
+            check_case(&random, v[k], z[k], a, b);
+        pir_int512 dot = pir_int256_dot(v[0], v[1]);
+        mpz_set_ui(a, 0);
+        for (int k = 0; k < 3; k++)
+            mpz_addmul(a, z[0][k], z[1][k]);
+        set_wide(b, dot.limb, 8);
+        assert_int_equal(mpz_cmp(a, b), 0);
+        assert_int_equal(pir_int512_sign(&dot), mpz_sgn(a));
+        mp_limb_t limbs[8] = {0};
+        size_t count;
+        mpz_export(limbs, &count, -1, sizeof *limbs, 0, 0, a);
+        pir_int same = {limbs, mpz_sgn(a) * (int32_t)count, 0};
+        int e, f;
+        double m = pir_int512_to_double(&dot, &e), n = pir_int_to_double(&same, &f);
+        assert_true(m == n && e == f);
+    }
+    for (int i = 0; i < 6; i++)
+        mpz_clear(z[i / 3][i % 3]);
+    mpz_clears(a, b, NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_of_products_are_exact)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+#else
+int main(void) {
+    return 77;
+}
+#endif
