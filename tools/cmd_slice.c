@@ -102,15 +102,17 @@ static int on_progress(void *context, const pir_cspace_progress *progress) {
 }
 
 static bool read_request(const struct args *args, struct slicing *run) {
-    uint64_t threads = 1;
+    uint64_t threads = 1, per_unit = 0;
     run->options = pir_cspace_options_default();
-    if (!check_file(args) || !args_count(args, "--threads", 1, 1024, &threads) || !read_grid(args, &run->grid) ||
+    if (!check_file(args) || !args_count(args, "--threads", 1, 1024, &threads) ||
+        !args_count(args, "--slices-per-unit", 1, PIR_CSPACE_UNIT_MAX, &per_unit) || !read_grid(args, &run->grid) ||
         !pieces_load(args, 0, &run->robot))
         return false;
     for (size_t i = 1; i < args->positional_count; i++)
         if (!pieces_load(args, i, &run->obstacles))
             return false;
     run->options.threads = (uint32_t)threads;
+    run->options.slices_per_unit = (uint32_t)per_unit;
     run->options.resume = args_has(args, "--resume");
     run->options.planes = args_has(args, "--planes");
     run->options.vertices = args_has(args, "--vertices");
@@ -173,7 +175,7 @@ static int foresee(struct slicing *run) {
     printf("  %-10s %" PRIu64 " in %" PRIu64 " units\n", "slices", estimate.slices, estimate.units);
     printf("  %-10s about %s with %" PRIu32 " thread%s\n", "time", time, run->options.threads,
            run->options.threads == 1 ? "" : "s");
-    printf("  %-10s about %.3g MB before compression\n", "size", estimate.bytes / 1e6);
+    printf("  %-10s about %.3g MB\n", "size", estimate.bytes / 1e6);
     return EXIT_DONE;
 }
 

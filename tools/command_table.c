@@ -130,6 +130,8 @@ static const struct option slice_options[] = {
     {"--rotations", "FILE", "the rotations of FILE, .csv or .npy: quaternions x,y,z,w, of any length but 0"},
     {"-o", "FILE", "the file that is made: .h5 or .hdf5"},
     {"--threads", "N", "make slices in so many threads (1)"},
+    {"--slices-per-unit", "N",
+     "deal slices to threads and ranks so many at a time, at most 1048576 (256, or 64 where there are few in all)"},
     {"--resume", NULL, "go on where an earlier run of the same ended, however it ended"},
     {"--dry-run", NULL, "only say how many slices there are, how long they will take and how large they will be"},
     {"--planes", NULL, "also write the planes of every slice, as doubles"},

@@ -4,7 +4,9 @@
  *
  * Over the same rotations: following alone, a job with one thread that writes its part, the file made of the part, and
  * walks and hulls of all sums of vertices (qhull) at a sample of rotations. Three rounds, each way in each round, the
- * fastest round of each counts; CPU time of the process. slices.csv, one row a scene.
+ * fastest round of each counts; CPU time of the process. Beside the bytes of a slice, those of a mesh stored whole, a
+ * mean over a sample: vertices as doubles, corners of facets as numbers of 32 bits, both deflated as gzip does.
+ * slices.csv, one row a scene.
  */
 #include <math.h>
 #include <stdio.h>
@@ -13,6 +15,7 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <pirouette/pirouette.h>
 
@@ -27,6 +30,7 @@
 #define UNIT         256
 #define WALK_SAMPLES 400
 #define HULL_SAMPLES 2
+#define MESH_SAMPLES 25
 
 /* What is measured: two bodies, a grid, the share of it that is visited. */
 struct scene {
@@ -38,7 +42,7 @@ struct scene {
 /* Nanoseconds a slice. */
 struct times {
     double track, job, assemble, walk, hull;
-    double bytes, turn;
+    double bytes, mesh_bytes, turn;
     uint64_t slices;
 };
 
@@ -179,6 +183,56 @@ static double hull(const pir_polytope *p, const pir_polytope *q, const pir_grid 
 #endif
 }
 
+/* --- meshes stored whole --- */
+
+static double deflated(const void *data, size_t size) {
+    uLongf length = compressBound((uLong)size);
+    Bytef *room = malloc(length);
+    if (!room || compress2(room, &length, data, (uLong)size, Z_DEFAULT_COMPRESSION) != Z_OK)
+        exit(2);
+    free(room);
+    return (double)length;
+}
+
+static double mesh_bytes(const pir_mesh *mesh) {
+    uint32_t facets = pir_mesh_facet_count(mesh), count, used = 0;
+    size_t corners = 0;
+    for (uint32_t f = 0; f < facets; f++) {
+        pir_mesh_facet(mesh, f, &count);
+        corners += 1 + count;
+    }
+    uint32_t *list = malloc((corners + 1) * sizeof *list);
+    if (!list)
+        exit(2);
+    for (uint32_t f = 0; f < facets; f++) {
+        const uint32_t *corner = pir_mesh_facet(mesh, f, &count);
+        list[used++] = count;
+        memcpy(list + used, corner, count * sizeof *list);
+        used += count;
+    }
+    double bytes = deflated(list, used * sizeof *list) +
+                   deflated(pir_mesh_vertices(mesh), pir_mesh_vertex_count(mesh) * sizeof(pir_vec3));
+    free(list);
+    return bytes;
+}
+
+/* The mean of some slices. */
+static double meshes(pir_polytope *p, pir_polytope *q, const pir_grid *grid, uint64_t slices) {
+    const pir_sum_options options = {.allocator = NULL, .difference = 1};
+    uint64_t samples = results_count(MESH_SAMPLES);
+    double bytes = 0;
+    for (uint64_t i = 0; i < samples; i++) {
+        pir_sum *sum = NULL;
+        pir_mesh *mesh = NULL;
+        trial_need(pir_sum_create(p, q, pir_grid_rotation(grid, i * (slices / samples)), &options, &sum), "sum");
+        trial_need(pir_sum_mesh(sum, PIR_DOUBLE, &mesh), "mesh");
+        bytes += mesh_bytes(mesh);
+        pir_mesh_destroy(mesh);
+        pir_sum_destroy(sum);
+    }
+    return bytes / (double)samples;
+}
+
 /* --- scenes --- */
 
 static void measure(const struct scene *scene, const char *folder, FILE *csv) {
@@ -186,7 +240,7 @@ static void measure(const struct scene *scene, const char *folder, FILE *csv) {
     pir_polytope *p = body_of(scene->p), *q = body_of(scene->q);
     const pir_cspace_bodies bodies = {&p, 1, &q, 1};
     pir_grid *grid = NULL;
-    struct times times = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, NAN, NAN, 0, 0};
+    struct times times = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, NAN, NAN, NAN, 0, 0};
     snprintf(path, sizeof path, "%s/slices-%ld.h5", folder, (long)getpid());
     if (scene->steps)
         trial_need(pir_grid_axis((pir_vec3){0.48, 0.6, 0.64}, scene->steps, NULL, &grid), "grid");
@@ -205,11 +259,14 @@ static void measure(const struct scene *scene, const char *folder, FILE *csv) {
         times.walk = fmin(times.walk, walk(p, q, grid, times.slices));
     }
     times.hull = hull(p, q, grid, times.slices);
-    double assemble = isfinite(times.assemble) ? times.assemble : NAN, write = times.job - times.track;
-    fprintf(csv, "%s,%s,%llu,%.4f,%.0f,%.0f,%.0f,%.0f,%.0f,%.2f,%.1f,%.0f\n", scene->name,
+    times.mesh_bytes = meshes(p, q, grid, times.slices);
+    // a share of a grid makes no file
+    double assemble = isfinite(times.assemble) ? times.assemble : NAN;
+    double all = times.job + (isfinite(assemble) ? assemble : 0), write = all - times.track;
+    fprintf(csv, "%s,%s,%llu,%.4f,%.0f,%.0f,%.0f,%.0f,%.0f,%.2f,%.1f,%.0f,%.0f\n", scene->name,
             scene->steps ? "axis" : "hopf", (unsigned long long)times.slices, times.turn * 57.29577951308232,
-            times.track, times.job, assemble, times.walk, times.hull, (times.walk + write) / times.job,
-            times.hull / times.job, times.bytes);
+            times.track, times.job, assemble, times.walk, times.hull, (times.walk + write) / all, times.hull / all,
+            times.bytes, times.mesh_bytes);
     fflush(csv);
     pir_grid_destroy(grid);
     pir_polytope_release(q);
@@ -231,7 +288,7 @@ int main(int argc, char **argv) {
     };
     FILE *csv = argc == 4 ? stdout : results_open(&results, "slices.csv");
     fprintf(csv, "scene,grid,slices,mean_turn_degrees,track_ns,job_ns,assemble_ns,walk_ns,qhull_ns,"
-                 "faster_than_walks,faster_than_qhull,bytes_a_slice\n");
+                 "faster_than_walks,faster_than_qhull,bytes_a_slice,mesh_bytes\n");
     if (argc == 4) {
         measure(&(struct scene){"given level 3", argv[2], argv[3], 0, 3, 1}, results.folder, csv);
         return 0;

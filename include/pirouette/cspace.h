@@ -55,10 +55,13 @@ typedef struct pir_cspace_progress {
  */
 typedef struct pir_cspace_job pir_cspace_job;
 
+/** The most slices of a unit. */
+#define PIR_CSPACE_UNIT_MAX ((uint32_t)1 << 20)
+
 typedef struct pir_cspace_options {
     const pir_allocator *allocator; /**< NULL for malloc; called from all threads of the job */
     uint32_t threads;               /**< that make units; 1 */
-    uint32_t slices_per_unit;       /**< 0: 256, or 64 where there are few in all */
+    uint32_t slices_per_unit;       /**< at most PIR_CSPACE_UNIT_MAX; 0: 256, or 64 where there are few in all */
     uint32_t slices_per_key;        /**< every so many slices of a unit one is written whole; 0: 64 */
     int planes;                     /**< 1: also the planes of all slices, as doubles */
     int vertices;                   /**< 1: also the vertices of all slices, as doubles */
@@ -138,12 +141,12 @@ PIR_API pir_status pir_cspace_job_run(pir_cspace_job *job, pir_report *report);
  */
 PIR_API pir_status pir_cspace_job_assemble(pir_cspace_job *job, pir_report *report);
 
-/** What a job will take. Times are those of this machine as it is now; bytes count before compression. */
+/** What a job will take. Times are those of this machine as it is now. */
 typedef struct pir_cspace_estimate {
     uint64_t slices;  /**< of piece pairs */
     uint64_t units;   /**< in all */
     double seconds;   /**< of one thread */
-    double bytes;     /**< of the file */
+    double bytes;     /**< of the file, compressed; of its tables alone in a build without HDF5 */
     double mean_turn; /**< radians between successive rotations */
     double most_turn;
 } pir_cspace_estimate;
@@ -233,8 +236,8 @@ PIR_API const pir_polytope *pir_cspace_obstacle(const pir_cspace *cspace, uint32
  * place   which slice.
  * report  NULL, or filled when the call fails.
  *
- * Cost: reading its unit, where that was not the last one read; then O(size of the pairing), and the changes since the
- * key slice before it, or since the slice that was read last.
+ * Cost: reading its unit, where that was not one of the 16 asked last; then O(size of the pairing), and the changes
+ * since the key slice before it, or since the slice that was read last.
  *
  * Errors: PIR_ERR_ARGUMENT (no such slice), PIR_ERR_FILE, PIR_ERR_FORMAT (corrupted), PIR_ERR_LIMIT, PIR_ERR_MEMORY.
  */

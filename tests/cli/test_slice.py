@@ -290,6 +290,15 @@ class Usage(InFolder):
                          "time +about .*\n +size +about")
         self.assertEqual(os.listdir(self.folder), ["box.off"])
 
+    def test_dry_run_tells_the_size(self):
+        job = ("shape:gs2", "shape:gs3", "--grid", "hopf", "--level", 1, "--json")
+        for more in ((), ("--slices-per-unit", 32), ("--planes",)):
+            foreseen = json.loads(run(*job, *more, "--dry-run").stdout)
+            made = json.loads(self.make("a.h5", *job[4:], *more, models=job[:2], grid=job[2:4]).stdout)
+            self.assertEqual(foreseen["units"], 18 if more and more[-1] == 32 else 9)
+            self.assertTrue(0.7 < foreseen["bytes"] / made["bytes"] < 1.4, (foreseen["bytes"], made["bytes"]))
+        self.refused(*job, "-o", self.path("a.h5"), "--slices-per-unit", "0", says="--slices-per-unit: 0 is not")
+
 
 class WhatStandsThere(InFolder):
     JOB = ("shape:cube", "shape:cube", "--axis", "0,0,1", "--steps", 4)

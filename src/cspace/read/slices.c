@@ -69,15 +69,7 @@ static pir_status begin(pir_cspace *cspace, pir_report *report) {
     if (status != PIR_OK)
         return status;
     cspace->info.grid = pir_grid_get_info(cspace->grid);
-    uint32_t slices = cspace->info.slices_per_unit;
-    if (slices > cspace->info.grid.count)
-        slices = (uint32_t)cspace->info.grid.count;
     cspace->units_per_pair = (cspace->info.grid.count - 1) / cspace->info.slices_per_unit + 1;
-    bool enough = pir_unit_init(&cspace->cursor.unit, slices, &cspace->allocator);
-    if (enough)
-        cspace->cursor.rotation = PIR_NEW(&cspace->allocator, pir_quat, slices);
-    if (!cspace->cursor.rotation)
-        return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
     return PIR_OK;
 }
 
@@ -97,8 +89,10 @@ void pir_cspace_close(pir_cspace *cspace) {
     if (cspace->answers_free)
         cspace->answers_free(cspace);
     forget_pair(cspace);
-    PIR_FREE(&a, cursor->rotation, cursor->unit.room);
-    pir_unit_finish(&cursor->unit, &a);
+    for (int i = 0; i < PIR_UNITS_KEPT; i++) {
+        PIR_FREE(&a, cursor->kept[i].rotation, cursor->kept[i].unit.room);
+        pir_unit_finish(&cursor->kept[i].unit, &a);
+    }
     PIR_FREE(&a, cursor->ee, cursor->ee_room);
     PIR_FREE(&a, cursor->plane, cursor->plane_room);
     pir_grid_destroy(cspace->grid);
@@ -147,8 +141,8 @@ const pir_polytope *pir_cspace_obstacle(const pir_cspace *cspace, uint32_t piece
 /* --- the cursor --- */
 
 /* The rotations of the unit; each must be the grid's own, bit for bit. */
-static pir_status read_rotations(pir_cspace *cspace, uint64_t first, uint32_t count, pir_report *report) {
-    pir_quat *rotation = cspace->cursor.rotation;
+static pir_status read_rotations(pir_cspace *cspace, pir_quat *rotation, uint64_t first, uint32_t count,
+                                 pir_report *report) {
     pir_status status = pir_store_rotations(cspace->store, first, count, report, rotation);
     for (uint32_t i = 0; status == PIR_OK && i < count; i++) {
         pir_quat q = pir_grid_rotation(cspace->grid, first + i);
@@ -159,17 +153,52 @@ static pir_status read_rotations(pir_cspace *cspace, uint64_t first, uint32_t co
     return status;
 }
 
+/* Room for the slices of a unit, made when it is first needed. */
+static bool reserve_unit(const pir_cspace *cspace, pir_cspace_unit *kept) {
+    const pir_cspace_info *info = &cspace->info;
+    uint32_t slices = info->slices_per_unit < info->grid.count ? info->slices_per_unit : (uint32_t)info->grid.count;
+    if (kept->rotation)
+        return true;
+    if (!kept->unit.room && !pir_unit_init(&kept->unit, slices, &cspace->allocator))
+        return false;
+    kept->rotation = PIR_NEW(&cspace->allocator, pir_quat, slices);
+    return kept->rotation != NULL;
+}
+
+/* The unit where it is kept, else the place of the one that was not asked for longest. */
+static pir_cspace_unit *find_unit(pir_cspace_cursor *cursor, uint64_t number) {
+    pir_cspace_unit *oldest = cursor->kept;
+    for (pir_cspace_unit *kept = cursor->kept; kept < cursor->kept + PIR_UNITS_KEPT; kept++) {
+        if (kept->asked && kept->unit.number == number)
+            return kept;
+        if (kept->asked < oldest->asked)
+            oldest = kept;
+    }
+    oldest->asked = 0;
+    return oldest;
+}
+
 static pir_status go_to_unit(pir_cspace *cspace, uint64_t number, pir_report *report) {
     pir_cspace_cursor *cursor = &cspace->cursor;
-    if (cursor->has_unit && cursor->unit.number == number)
+    if (cursor->at && cursor->at->unit.number == number)
         return PIR_OK;
-    cursor->has_unit = cursor->has_slice = false;
-    pir_status status = pir_store_unit(cspace->store, PIR_SECTION_RECORDS, number, report, &cursor->unit);
-    if (status == PIR_OK)
-        status = read_rotations(cspace, number % cspace->units_per_pair * cspace->info.slices_per_unit,
-                                cursor->unit.slices, report);
-    cursor->has_unit = status == PIR_OK;
-    return status;
+    cursor->has_slice = false;
+    cursor->at = NULL;
+    pir_cspace_unit *kept = find_unit(cursor, number);
+    if (!kept->asked) {
+        if (!reserve_unit(cspace, kept))
+            return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
+        pir_status status = pir_store_unit(cspace->store, PIR_SECTION_RECORDS, number, report, &kept->unit);
+        if (status == PIR_OK)
+            status =
+                read_rotations(cspace, kept->rotation, number % cspace->units_per_pair * cspace->info.slices_per_unit,
+                               kept->unit.slices, report);
+        if (status != PIR_OK)
+            return status;
+    }
+    kept->asked = ++cursor->asks;
+    cursor->at = kept;
+    return PIR_OK;
 }
 
 static pir_status go_to_pair(pir_cspace *cspace, pir_cspace_place place, uint64_t pair, pir_report *report) {
@@ -193,7 +222,8 @@ static pir_status go_to_pair(pir_cspace *cspace, pir_cspace_place place, uint64_
 /* Applies records up to that of slice `to` of the unit: from where the replay is, or from the key slice before. */
 static pir_status go_to_slice(pir_cspace *cspace, uint32_t to, pir_report *report) {
     pir_cspace_cursor *cursor = &cspace->cursor;
-    const uint32_t *length = cursor->unit.count[PIR_SECTION_RECORDS];
+    const pir_unit *unit = &cursor->at->unit;
+    const uint32_t *length = unit->count[PIR_SECTION_RECORDS];
     uint32_t key = to - to % cspace->info.slices_per_key, at = cursor->slice + 1;
     if (cursor->has_slice && cursor->slice == to)
         return PIR_OK;
@@ -204,10 +234,10 @@ static pir_status go_to_slice(pir_cspace *cspace, uint32_t to, pir_report *repor
     }
     cursor->has_slice = false;
     for (; at <= to; at++) {
-        pir_status status = pir_replay_record(&cursor->replay,
-                                              cursor->unit.data[PIR_SECTION_RECORDS].data + cursor->offset, length[at]);
+        pir_status status =
+            pir_replay_record(&cursor->replay, unit->data[PIR_SECTION_RECORDS].data + cursor->offset, length[at]);
         if (status != PIR_OK)
-            return pir_fail(report, status, "slices: unit %" PRIu64 ": record %u: %s", cursor->unit.number,
+            return pir_fail(report, status, "slices: unit %" PRIu64 ": record %u: %s", cursor->at->unit.number,
                             (unsigned)at, pir_status_text(status));
         cursor->offset += length[at];
     }
@@ -240,7 +270,7 @@ pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_repo
     status = pir_replay_crossings(&cspace->cursor.replay, ret_crossings, ret_count);
     if (status == PIR_OK)
         return PIR_OK;
-    return pir_fail(report, status, "slices: unit %" PRIu64 ": record %u: %s", cursor->unit.number,
+    return pir_fail(report, status, "slices: unit %" PRIu64 ": record %u: %s", cursor->at->unit.number,
                     (unsigned)cursor->slice, pir_status_text(status));
 }
 

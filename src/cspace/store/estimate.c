@@ -10,13 +10,18 @@
 
 #include "base/report.h"
 #include "cspace/store/maker.h"
+#include "cspace/store/pack.h"
 
 #define SAMPLES       24
 #define SLICES_SAMPLE 17u
 
-/* Bytes of a slice in the tables, and of a rotation with its number in the grid. */
-#define TABLE_BYTES    4
-#define ROTATION_BYTES 40
+/* Bytes of a slice in the tables, and of a rotation with its number in the grid, compressed as they mostly are. */
+#define TABLE_BYTES    1.5
+#define ROTATION_BYTES 27
+
+/* Bytes of a unit in the tables, and what a chunk takes beside the records in it. */
+#define UNIT_BYTES  16
+#define CHUNK_BYTES 100
 
 /* Bytes that an HDF5 file takes before there is anything in it, and a piece, beside its model. */
 #define FILE_BYTES  16384
@@ -33,13 +38,14 @@ struct sample {
     double count, seconds, bytes;
 };
 
-/* Bytes of slices first .. last − 1 of the unit that was made. */
-static double bytes_of(const pir_unit *unit, uint32_t first, uint32_t last) {
-    double bytes = 0;
+/* Bytes of the slices of the unit that was made, as the file holds them. */
+static pir_status add_bytes(pir_maker *maker, double *bytes) {
+    pir_unit *unit = &maker->unit;
+    if (!pir_unit_pack(unit, &maker->plan->allocator))
+        return PIR_ERR_MEMORY;
     for (int s = 0; s < PIR_SECTION_COUNT; s++)
-        for (uint32_t i = first; i < last; i++)
-            bytes += (double)unit->count[s][i] * pir_section_element[s];
-    return bytes;
+        *bytes += fmax(0, (double)unit->packed[s].used - CHUNK_BYTES);
+    return PIR_OK;
 }
 
 static pir_status take_sample(pir_maker *maker, uint64_t number, struct sample *whole, struct sample *changes) {
@@ -49,19 +55,23 @@ static pir_status take_sample(pir_maker *maker, uint64_t number, struct sample *
     double start = seconds_now();
     if (status == PIR_OK)
         status = pir_maker_make(maker, number, 1);
-    double first = seconds_now() - start;
+    double first = seconds_now() - start, first_bytes = 0, all_bytes = 0;
+    if (status == PIR_OK)
+        status = add_bytes(maker, &first_bytes);
     start = seconds_now();
     if (status == PIR_OK)
         status = pir_maker_make(maker, number, most);
     double all = seconds_now() - start;
+    if (status == PIR_OK)
+        status = add_bytes(maker, &all_bytes);
     if (status != PIR_OK)
         return status;
     whole->count += 1;
     whole->seconds += first;
-    whole->bytes += bytes_of(&maker->unit, 0, 1);
+    whole->bytes += first_bytes;
     changes->count += most - 1;
     changes->seconds += all > first ? all - first : 0;
-    changes->bytes += bytes_of(&maker->unit, 1, most);
+    changes->bytes += fmax(0, all_bytes - first_bytes);
     return PIR_OK;
 }
 
@@ -79,8 +89,8 @@ static pir_status sample(const pir_plan *plan, struct sample *whole, struct samp
 static pir_cspace_estimate work_out(const pir_plan *plan, const struct sample *whole, const struct sample *changes) {
     double slices = (double)plan->pairs * (double)plan->slices, units = (double)plan->units;
     double keys = fmax(units, fmin(slices, slices / plan->slices_per_key)), rest = slices - keys;
-    double bytes =
-        FILE_BYTES + keys * whole->bytes / whole->count + slices * TABLE_BYTES + (double)plan->slices * ROTATION_BYTES;
+    double bytes = FILE_BYTES + keys * whole->bytes / whole->count + slices * TABLE_BYTES +
+                   units * (UNIT_BYTES + CHUNK_BYTES) + (double)plan->slices * ROTATION_BYTES;
     double seconds = units * whole->seconds / whole->count;
     if (changes->count > 0) {
         bytes += rest * changes->bytes / changes->count;

@@ -12,12 +12,11 @@
 #include "base/report.h"
 
 /* Where the caller leaves it open: units are shorter where all slices together are few, so that threads share them. */
-#define LONG_UNIT     256
-#define SHORT_UNIT    64
-#define MANY_SLICES   (64 * LONG_UNIT)
-#define USUAL_KEYS    64
-#define PIR_UNIT_MOST (1u << 20)
-#define PIECES_MOST   (1u << 24)
+#define LONG_UNIT   256
+#define SHORT_UNIT  64
+#define MANY_SLICES (64 * LONG_UNIT)
+#define USUAL_KEYS  64
+#define PIECES_MOST (1u << 24)
 
 /* --- pieces --- */
 
@@ -105,8 +104,8 @@ static pir_status count_units(pir_plan *plan, const pir_cspace_options *options,
     if (plan->slices_per_unit == 0)
         plan->slices_per_unit = plan->pairs * plan->slices >= MANY_SLICES ? LONG_UNIT : SHORT_UNIT;
     plan->slices_per_key = options->slices_per_key ? options->slices_per_key : USUAL_KEYS;
-    if (plan->slices_per_unit > PIR_UNIT_MOST)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "slices: more than %u slices a unit", PIR_UNIT_MOST);
+    if (plan->slices_per_unit > PIR_CSPACE_UNIT_MAX)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "slices: more than %u slices a unit", PIR_CSPACE_UNIT_MAX);
     plan->units_per_pair = (plan->slices + plan->slices_per_unit - 1) / plan->slices_per_unit;
     plan->units = plan->pairs * plan->units_per_pair;
     return PIR_OK;

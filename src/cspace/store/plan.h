@@ -16,9 +16,6 @@
 /* Of the file and of parts. */
 #define PIR_SLICES_VERSION 1u
 
-/* The most slices in a unit. */
-#define PIR_UNIT_MOST (1u << 20)
-
 /* A piece, as it was given. */
 typedef struct pir_plan_piece {
     pir_polytope *polytope; /* held */

@@ -191,7 +191,7 @@ static pir_status read_sections(pir_store *store, pir_report *report) {
     hid_t slices = store->section[PIR_SECTION_RECORDS].group;
     if (slices < 0 || !pir_h5_get_numbers(slices, "slices_per_unit", PIR_H5_U32, &info->slices_per_unit, 1) ||
         !pir_h5_get_numbers(slices, "slices_per_key", PIR_H5_U32, &info->slices_per_key, 1) ||
-        info->slices_per_unit == 0 || info->slices_per_unit > PIR_UNIT_MOST || info->slices_per_key == 0)
+        info->slices_per_unit == 0 || info->slices_per_unit > PIR_CSPACE_UNIT_MAX || info->slices_per_key == 0)
         return broken(store, report, "group slices", "missing, or units of no length");
     store->units_per_pair = (info->grid.count - 1) / info->slices_per_unit + 1;
     info->has_planes = store->section[PIR_SECTION_PLANES].group >= 0;
