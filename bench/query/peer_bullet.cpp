@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Bullet in double precision: btGjkEpaSolver2 on convex hulls without margin.
-#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 
+#include "bullet_hull.hpp"
 #include "peers.hpp"
 
 namespace {
 
-std::unique_ptr<btConvexHullShape> hull(const pir_polytope *p) {
-    auto shape = std::make_unique<btConvexHullShape>();
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {
-        pir_vec3 c = pir_polytope_vertex(p, v);
-        shape->addPoint(btVector3(c.x, c.y, c.z), false);
-    }
-    shape->setMargin(0);
-    shape->recalcLocalAabb();
-    return shape;
-}
-
 class Bullet : public Peer {
   public:
-    Bullet(const pir_polytope *p, const pir_polytope *q) : p_(hull(p)), q_(hull(q)) {
+    Bullet(const pir_polytope *p, const pir_polytope *q) : p_(bullet_hull(p)), q_(bullet_hull(q)) {
     }
     const char *name() const override {
         return "Bullet";

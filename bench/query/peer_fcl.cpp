@@ -5,6 +5,7 @@
 
 #include <fcl/fcl.h>
 
+#include "fcl_convex.hpp"
 #include "peers.hpp"
 
 namespace {
@@ -17,25 +18,9 @@ void leave_call(int) {
     siglongjmp(before_call, 1);
 }
 
-std::shared_ptr<fcl::Convexd> convex(const pir_polytope *p) {
-    auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {
-        pir_vec3 c = pir_polytope_vertex(p, v);
-        vertices->emplace_back(c.x, c.y, c.z);
-    }
-    auto faces = std::make_shared<std::vector<int>>();
-    for (uint32_t f = 0; f < pir_polytope_facet_count(p); f++) {
-        std::vector<uint32_t> corners(pir_polytope_facet_size(p, f));
-        pir_polytope_facet(p, f, corners.data());
-        faces->push_back((int)corners.size());
-        faces->insert(faces->end(), corners.begin(), corners.end());
-    }
-    return std::make_shared<fcl::Convexd>(vertices, (int)pir_polytope_facet_count(p), faces);
-}
-
 class Fcl : public Peer {
   public:
-    Fcl(const pir_polytope *p, const pir_polytope *q) : p_(convex(p)), q_(convex(q)) {
+    Fcl(const pir_polytope *p, const pir_polytope *q) : p_(fcl_convex(p)), q_(fcl_convex(q)) {
     }
     const char *name() const override {
         return "FCL";

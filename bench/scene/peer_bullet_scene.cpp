@@ -4,20 +4,10 @@
 
 #include <btBulletCollisionCommon.h>
 
+#include "bullet_hull.hpp"
 #include "scene_peers.hpp"
 
 namespace {
-
-std::unique_ptr<btConvexHullShape> hull(const pir_polytope *p) {
-    auto shape = std::make_unique<btConvexHullShape>();
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {
-        pir_vec3 c = pir_polytope_vertex(p, v);
-        shape->addPoint(btVector3(c.x, c.y, c.z), false);
-    }
-    shape->setMargin(0);
-    shape->recalcLocalAabb();
-    return shape;
-}
 
 btTransform transform(const pir_pose &pose) {
     const pir_quat &q = pose.rotation;
@@ -65,7 +55,7 @@ class BulletScene : public ScenePeer {
 
   private:
     void add(const pir_polytope *p, const pir_pose &pose, int group, int mask) {
-        shapes_.push_back(hull(p));
+        shapes_.push_back(bullet_hull(p));
         bodies_.push_back(std::make_unique<btCollisionObject>());
         bodies_.back()->setCollisionShape(shapes_.back().get());
         bodies_.back()->setWorldTransform(transform(pose));

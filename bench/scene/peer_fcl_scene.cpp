@@ -5,25 +5,10 @@
 
 #include <fcl/fcl.h>
 
+#include "fcl_convex.hpp"
 #include "scene_peers.hpp"
 
 namespace {
-
-std::shared_ptr<fcl::Convexd> convex(const pir_polytope *p) {
-    auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {
-        pir_vec3 c = pir_polytope_vertex(p, v);
-        vertices->emplace_back(c.x, c.y, c.z);
-    }
-    auto faces = std::make_shared<std::vector<int>>();
-    for (uint32_t f = 0; f < pir_polytope_facet_count(p); f++) {
-        std::vector<uint32_t> corners(pir_polytope_facet_size(p, f));
-        pir_polytope_facet(p, f, corners.data());
-        faces->push_back((int)corners.size());
-        faces->insert(faces->end(), corners.begin(), corners.end());
-    }
-    return std::make_shared<fcl::Convexd>(vertices, (int)pir_polytope_facet_count(p), faces);
-}
 
 fcl::Transform3d transform(const pir_pose &pose) {
     const pir_quat &q = pose.rotation;
@@ -65,7 +50,7 @@ class FclScene : public ScenePeer {
     explicit FclScene(const Recording &recording) : collected_{recording.statics.size(), {}} {
         std::map<const pir_polytope *, std::shared_ptr<fcl::Convexd>> shapes;
         for (const pir_polytope *p : recording.shapes)
-            shapes[p] = convex(p);
+            shapes[p] = fcl_convex(p);
         for (const RecordedBody &body : recording.statics)
             add(shapes[body.polytope], body.pose);
         for (size_t i = 0; i < recording.bodies.size(); i++)
