@@ -53,6 +53,15 @@ static const struct option decompose_options[] = {
     COMMON_OPTIONS,
 };
 
+static const struct option simplify_options[] = {
+    {"-o", "FILE", "write the polytope inside to FILE: .off, .obj, .stl, .ply or .svg"},
+    {"--outer", "FILE", "write the one around, likewise"},
+    {"--vertices", "N", "at most N vertices, 4 or more"},
+    {"--error", "E", "stop where no point is farther than this length"},
+    {"--exact", NULL, "in .off: integers and a/b instead of doubles, which hold the same numbers"},
+    MODEL_OPTIONS,
+};
+
 static const struct option simulate_options[] = {
     {"-o", "FILE", "write a page that plays the run back to FILE, .html"},
     {"--record", "FILE",
@@ -301,6 +310,18 @@ const struct command command_table[COMMAND_COUNT] = {
                        "facets, and joined where that leaves them convex.",
             .options = decompose_options,
             .examples = {{"decompose shape:cube -o pieces.obj", "one object a piece"}},
+        },
+    [COMMAND_SIMPLIFY] =
+        {
+            .name = "simplify",
+            .positional = {"MODEL"},
+            .required = 1,
+            .summary = "a polytope of fewer vertices inside a model, and one around it",
+            .details = "Both with a proven bound on how far they are from the model. The inner one has vertices of the "
+                       "model, the outer one planes of its facets.",
+            .options = simplify_options,
+            .examples = {{"simplify shape:geodesic --vertices 30 -o inner.off --outer outer.off", "by vertices"},
+                         {"simplify shape:geodesic --error 0.01", "how many vertices an error takes"}},
         },
     [COMMAND_SIMULATE] =
         {

@@ -40,6 +40,7 @@ static int (*const runs[COMMAND_COUNT])(const struct args *) = {
     [COMMAND_CONFIGURATION] = cmd_configuration,
     [COMMAND_VIEW] = cmd_view,
     [COMMAND_DECOMPOSE] = cmd_decompose,
+    [COMMAND_SIMPLIFY] = cmd_simplify,
     [COMMAND_SIMULATE] = cmd_simulate,
 };
 

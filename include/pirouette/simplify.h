@@ -46,7 +46,8 @@ typedef struct pir_simplified {
  * options   when to stop.
  *
  * Either result is the polytope itself, with the error 0, where that has no more vertices than are allowed, or where
- * nothing else is as near as asked for. Errors above 0 are at least 10^-12 of the size: distances are known to that.
+ * nothing of fewer vertices is as near as asked for. Errors above 0 are at least 10^-12 of the size, which is how well
+ * distances are known.
  *
  * Cost: O(r · (n + v) · log n) for n vertices, v of them in the results, and r rounds, about 10 · log v.
  *

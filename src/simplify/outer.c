@@ -186,8 +186,9 @@ pir_status pir_simplify_outer(pir_measure *measure, pir_polytope *body, uint32_t
     c.far = PIR_NEW(a, pir_far_point, c.room);
     c.nearest = PIR_NEW(a, uint32_t, c.room);
     pir_status status = made && c.used && c.far && c.nearest ? run(&c, error) : PIR_ERR_MEMORY;
-    // where doubles have no such polytope the body itself is one
-    bool itself = status == PIR_ERR_EMPTY || (status == PIR_OK && c.error > error && body->vertex_count <= most);
+    // where doubles have no such polytope, or none of fewer vertices, the body itself is one
+    bool itself = status == PIR_ERR_EMPTY || (status == PIR_OK && body->vertex_count <= most &&
+                                              (c.error > error || c.outer->vertex_count >= body->vertex_count));
     if (itself || status == PIR_OK) {
         *ret_outer = pir_polytope_retain(itself ? body : c.outer);
         *ret_error = itself ? 0 : c.error;
