@@ -16,6 +16,7 @@
 #include "pose.h"
 #include "query_batch.h"
 #include "query_picture.h"
+#include "solid.h"
 #include "surface.h"
 #include "target.h"
 
@@ -219,6 +220,8 @@ int cmd_query(const struct args *args) {
     struct request request;
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
+    if (args_has(args, "--solid"))
+        return solid_query(args, request.rotation, &request.input, request.casts ? &request.motion : NULL);
     int result = EXIT_BAD_INPUT;
     pir_sum *sum = NULL;
     pir_query *query = NULL;

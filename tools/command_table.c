@@ -121,6 +121,7 @@ static const struct option track_options[] = {
 static const struct option query_options[] = {
     POSE_OPTIONS,
     {"--translate", "x,y,z", "move P by this, after turning it"},
+    {"--solid", NULL, "P and Q as the solids that they are, by their pieces, not their hulls"},
     {"--direction", "x,y,z", "also how far P moves this way to leave Q, or to touch it"},
     {"--cast", "x,y,z", "also when P touches Q while it moves by this"},
     {"--radius-p", "R", "round P by a ball of this radius"},

@@ -11,6 +11,9 @@
  * hulls. */
 pir_solid *solid_load(const struct args *args, size_t index);
 
+/* query --solid: what is asked, and the motion of a cast or NULL. */
+int solid_query(const struct args *args, pir_quat rotation, const pir_query_input *input, const pir_vec3 *motion);
+
 /* info --solid and sum --solid. */
 int solid_info(const struct args *args);
 int solid_sum(const struct args *args);

@@ -23,6 +23,7 @@
 #include <pirouette/shape.h>
 #include <pirouette/simplify.h>
 #include <pirouette/solid.h>
+#include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
 #include <pirouette/version.h>
 #include <pirouette/workspace.h>

@@ -49,6 +49,16 @@ class Solid(CommandTest):
         self.assertEqual(self.data("sum", model, "shape:box?x=1&y=1&z=1", "--solid")["facets"], 6)
         self.bad("sum", model, model, "--open", says="give --solid as well")
 
+    def test_query_of_solids_is_not_that_of_their_hulls(self):
+        model, cube = self.file("l.off", prism()), "shape:box?x=1&y=1&z=1"
+        told = self.data("query", cube, model, "--solid", "--translate", "2,2,0.5", "--cast=-2,0,0")
+        self.assertEqual((told["state"], told["distance"], told["pieces"]), ("outside", 0.5, [1, 2]))
+        self.assertAlmostEqual(told["cast"]["time"], 0.25, delta=1e-5)
+        self.assertEqual(self.data("query", cube, model, "--translate", "2,2,0.5")["state"], "inside")
+        self.assertEqual(self.data("query", cube, model, "--solid", "--translate", "1.5,1.5,0")["state"], "boundary")
+        self.assertIn("inside", self.good("query", cube, model, "--solid", "--translate", "0.25,0.25,0"))
+        self.bad("query", cube, model, "--solid", "--translate", "1,1,0", "--direction", "1,0,0", says="not for solids")
+
     def test_decompose_writes_a_piece_each(self):
         model = self.file("l.off", prism())
         self.assertEqual(self.data("decompose", model, "-o", self.path / "pieces")["pieces"], 2)

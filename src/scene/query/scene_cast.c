@@ -1,14 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * What a shape that moves meets first, by conservative advancement.
- *
- * With the normal n from Q to P at some time and the distance d, the bodies stay apart along n while P comes nearer
- * along it by less than d: P's points move along −n at most at the rate −way·n + |turn| · reach. So there is no
- * contact for d over that rate, and none at all where it is not positive.
- */
+/* What a shape that moves meets first: the first of the pieces that its way may meet, each by pir_pair_fly. */
+#include "pair/flight.h"
 #include "scene/query/probe.h"
-
-#define MOST_STEPS 256
 
 /* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
 #define DISTANCE_ERROR 1e-11
@@ -46,33 +39,23 @@ static pir_status advance(const struct flight *flight, uint32_t number, double u
                           bool *ret_meets) {
     pir_scene *scene = flight->scene;
     const pir_scene_piece *piece = &scene->bodies.piece[number];
-    double error = DISTANCE_ERROR * size_of(flight, &scene->bodies.body[piece->body]), time = 0;
-    double swing = length(flight->motion->turn) * flight->probe.extent.reach;
+    const pir_flight way = {.from = flight->probe.pose,
+                            .way = flight->motion->way,
+                            .turn = flight->motion->turn,
+                            .reach = flight->probe.extent.reach,
+                            .tolerance = flight->tolerance,
+                            .error = DISTANCE_ERROR * size_of(flight, &scene->bodies.body[piece->body])};
     pir_pair *pair;
     pir_pair_input input;
-    pir_query_result answer;
+    pir_flight_end end;
     pir_status status = pir_probe_pair(&flight->probe, number, &pair, &input);
-    for (int step = 0; status == PIR_OK && step < MOST_STEPS; step++) {
-        input.pose_p = time == 0
-                           ? flight->probe.pose
-                           : pir_pose_integrate(flight->probe.pose, flight->motion->way, flight->motion->turn, time);
-        status = pir_pair_distance(pair, scene->worker[0].workspace, &input, &answer);
-        if (status != PIR_OK)
-            return status;
-        double left = answer.distance - error;
-        if (answer.state != PIR_OUTSIDE || answer.distance <= flight->tolerance || step + 1 == MOST_STEPS)
-            break;
-        double rate = (swing - pir_vec_dot(flight->motion->way, answer.normal)) * (1 + 0x1p-40) +
-                      0x1p-40 * length(flight->motion->way);
-        time += rate > 0 && left > 0 ? left / rate : rate > 0 ? 0x1p-40 : HUGE_VAL;
-        if (time > until)
-            return PIR_OK;
-    }
-    if (status == PIR_OK) {
-        *ret_meets = true;
-        set_impact(flight, piece, time, &answer, impact);
-    }
-    return status;
+    if (status == PIR_OK)
+        status = pir_pair_fly(pair, scene->worker[0].workspace, &input, &way, until, &end);
+    if (status != PIR_OK || !end.meets)
+        return status;
+    *ret_meets = true;
+    set_impact(flight, piece, end.time, &end.answer, impact);
+    return PIR_OK;
 }
 
 /* A box that holds the probe on all its way. */
@@ -122,11 +105,8 @@ static pir_status fly(const struct flight *flight, pir_scene_impact *first) {
 }
 
 static pir_status check(const pir_scene_motion *motion, double tolerance) {
-    if (!pir_vec_is_finite(motion->way) || !pir_vec_is_finite(motion->turn) || isnan(tolerance))
-        return PIR_ERR_NOT_FINITE;
-    if (!(tolerance > 0 && tolerance < HUGE_VAL))
-        return PIR_ERR_ARGUMENT;
-    return length(motion->way) <= PIR_BOX_FARTHEST && length(motion->turn) <= 0x1p20 ? PIR_OK : PIR_ERR_LIMIT;
+    const pir_status status = pir_flight_check(motion->way, motion->turn, tolerance);
+    return status != PIR_OK || length(motion->way) <= PIR_BOX_FARTHEST ? status : PIR_ERR_LIMIT;
 }
 
 static const pir_scene_impact no_impact = {PIR_SCENE_NONE, PIR_SCENE_NONE, 0, 1, {0, 0, 0}, {0, 0, 0}};

@@ -116,7 +116,9 @@ pir_status pir_body_check_crossing(pir_body *body) {
             pir_box_add(&box[p], &body->space->point[corner(body, p, i)]);
     }
     pir_boxes boxes;
-    if (status == PIR_OK && pir_boxes_init(&boxes, body->space, box, body->part_count)) {
+    if (status == PIR_OK && !pir_boxes_init(&boxes, a, box, body->part_count))
+        status = PIR_ERR_MEMORY;
+    else if (status == PIR_OK) {
         status = check(body, &boxes, found);
         pir_boxes_finish(&boxes, a);
     }

@@ -78,9 +78,9 @@ static void list_touches(pir_outline *o) {
         pir_box_add(&box[r], &o->space->point[o->run[r].b]);
     }
     pir_boxes boxes;
-    if (!box || !found) {
+    if (!box || !found || !pir_boxes_init(&boxes, a, box, o->run_count)) {
         o->space->status = PIR_ERR_MEMORY;
-    } else if (pir_boxes_init(&boxes, o->space, box, o->run_count)) {
+    } else {
         for (uint32_t r = 0; r < o->run_count && o->space->status == PIR_OK; r++) {
             // each vertex of a boundary begins one of its runs
             const pir_run run = o->run[r];

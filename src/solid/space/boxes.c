@@ -4,7 +4,7 @@
 
 #include "base/sort.h"
 
-#define LEAF 4
+#define LEAF PIR_BOXES_LEAF
 
 void pir_box_add(pir_box *box, const pir_space_point *point) {
     for (int k = 0; k < 3; k++) {
@@ -51,8 +51,8 @@ static void split(pir_boxes *boxes, const pir_box *box, uint32_t first, uint32_t
     split(boxes, box, first + half, count - half, work);
 }
 
-bool pir_boxes_init(pir_boxes *boxes, pir_space *space, const pir_box *box, uint32_t count) {
-    const pir_allocator *a = &space->allocator;
+bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_box *box, uint32_t count) {
+    const pir_allocator *a = allocator;
     uint32_t leaves = 1;
     while (leaves * LEAF < count)
         leaves *= 2;
@@ -80,11 +80,9 @@ bool pir_boxes_init(pir_boxes *boxes, pir_space *space, const pir_box *box, uint
             boxes->box[i] = box[boxes->order[i]];
     }
     PIR_FREE(a, work, count);
-    if (done)
-        return true;
-    pir_boxes_finish(boxes, a);
-    space->status = PIR_ERR_MEMORY;
-    return false;
+    if (!done)
+        pir_boxes_finish(boxes, a);
+    return done;
 }
 
 void pir_boxes_finish(pir_boxes *boxes, const pir_allocator *allocator) {

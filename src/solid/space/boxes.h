@@ -9,6 +9,8 @@ typedef struct pir_box {
     double low[3], high[3];
 } pir_box;
 
+#define PIR_BOXES_LEAF 4
+
 /* Node k has the box of all below it; its children are 2k + 1 and 2k + 2. A leaf has up to four boxes in a row. */
 typedef struct pir_boxes {
     uint32_t count, leaf_count, node_count;
@@ -29,8 +31,8 @@ static inline bool pir_box_meets(const pir_box *a, const pir_box *b) {
 /* Makes `box` hold a point of the space, wherever it is within its error. */
 void pir_box_add(pir_box *box, const pir_space_point *point);
 
-/* False when out of memory, which the space remembers. */
-bool pir_boxes_init(pir_boxes *boxes, pir_space *space, const pir_box *box, uint32_t count);
+/* False when out of memory. */
+bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_box *box, uint32_t count);
 void pir_boxes_finish(pir_boxes *boxes, const pir_allocator *allocator);
 
 /* Writes the boxes that meet `box` into ret_found, which has room for all; how many they are. */

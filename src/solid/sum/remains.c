@@ -161,7 +161,7 @@ static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
     bool done = box && c->depth && c->order && c->work;
     for (uint32_t i = 0; i < c->pair_count && done; i++)
         box[i] = c->pair[i].box;
-    done = done && pir_boxes_init(&c->boxes, c->space, box, c->pair_count);
+    done = done && pir_boxes_init(&c->boxes, a, box, c->pair_count);
     PIR_FREE(a, box, c->pair_count);
     if (!done && c->space->status == PIR_OK)
         c->space->status = PIR_ERR_MEMORY;

@@ -171,7 +171,7 @@ static bool init(struct tight *t) {
         const pir_polygon p = polygon_of(t, i);
         box[i] = box_of(t, t->facets->polygons->point + p.first, p.count);
     }
-    const bool done = box && t->found && pir_boxes_init(&t->boxes, t->space, box, count);
+    const bool done = box && t->found && pir_boxes_init(&t->boxes, a, box, count);
     PIR_FREE(a, box, count);
     if (!done && t->space->status == PIR_OK)
         t->space->status = PIR_ERR_MEMORY;

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* A body in convex pieces, each a polytope, with a tree over their boxes in the frame of the body. */
+#ifndef PIR_SOLID_QUERY_COMPOUND_H
+#define PIR_SOLID_QUERY_COMPOUND_H
+
+#include <pirouette/solid.h>
+
+#include "solid/space/boxes.h"
+
+typedef struct pir_compound {
+    uint32_t count;
+    pir_polytope **piece;
+    pir_boxes boxes;
+    double reach; /* no point of the body is farther from the origin of its frame */
+} pir_compound;
+
+/* The polytopes of all pieces. Errors as of pir_pieces_polytope; what was made is then freed. */
+pir_status pir_compound_init(pir_compound *compound, const pir_pieces *pieces, const pir_allocator *allocator);
+void pir_compound_finish(pir_compound *compound, const pir_allocator *allocator);
+
+#endif

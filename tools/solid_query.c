@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette query --solid: two models as the solids that they are, in pieces. */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "json.h"
+#include "measure.h"
+#include "message.h"
+#include "solid.h"
+
+struct outcome {
+    pir_solid_distance distance;
+    pir_solid_impact impact;
+    uint32_t pieces[2];
+    double seconds; /* of the answers, pieces being there */
+};
+
+/* A cast ends this near, relative to how far the models reach. */
+#define CAST_TOLERANCE 1e-6
+
+static const char *const state_names[] = {"outside", "boundary", "inside"};
+
+static bool check_options(const struct args *args) {
+    static const char *const others[] = {"--direction", "--batch", "-o"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (args_has(args, others[i])) {
+            complain("query: %s is not for solids: leave it out, or --solid", others[i]);
+            return false;
+        }
+    return true;
+}
+
+static void add_vector(struct json *json, cJSON *parent, const char *name, pir_vec3 v) {
+    json_add_numbers(json, parent, name, (const double[]){v.x + 0.0, v.y + 0.0, v.z + 0.0}, 3);
+}
+
+static bool print_json(const struct args *args, const struct outcome *outcome, bool casts) {
+    const pir_query_result *result = &outcome->distance.result;
+    struct json json = json_new();
+    json_add_text(&json, json.root, "p", args->positional[0]);
+    json_add_text(&json, json.root, "q", args->positional[1]);
+    json_add_flag(&json, json.root, "solid", true);
+    json_add_text(&json, json.root, "state", state_names[result->state]);
+    if (result->state != PIR_INSIDE) {
+        cJSON *closest = json_add_object(&json, json.root, "closest");
+        json_add_number(&json, json.root, "distance", result->distance);
+        add_vector(&json, closest, "p", result->point_p);
+        add_vector(&json, closest, "q", result->point_q);
+        add_vector(&json, json.root, "normal", result->normal);
+    }
+    if (casts) {
+        cJSON *cast = json_add_object(&json, json.root, "cast");
+        json_add_text(&json, cast, "outcome", outcome->impact.meets ? "hit" : "miss");
+        if (outcome->impact.meets)
+            json_add_number(&json, cast, "time", outcome->impact.time);
+    }
+    json_add_numbers(&json, json.root, "pieces", (const double[]){outcome->pieces[0], outcome->pieces[1]}, 2);
+    json_add_number(&json, json.root, "pairs", outcome->distance.pairs);
+    json_add_number(&json, json.root, "seconds", outcome->seconds);
+    return json_print(&json, stdout);
+}
+
+static void print_text(const struct args *args, const struct outcome *outcome, bool casts) {
+    const pir_query_result *result = &outcome->distance.result;
+    printf("%s against %s, as solids: %s\n", args->positional[0], args->positional[1], state_names[result->state]);
+    if (result->state != PIR_INSIDE) {
+        printf("  %-12s %.17g\n", "distance", result->distance);
+        printf("  %-12s %.17g, %.17g, %.17g\n", "normal", result->normal.x, result->normal.y, result->normal.z);
+    }
+    if (casts && outcome->impact.meets)
+        printf("  %-12s hit, time %.17g\n", "cast", outcome->impact.time);
+    else if (casts)
+        printf("  %-12s miss\n", "cast");
+    printf("  %-12s %" PRIu32 " of P, %" PRIu32 " of Q\n", "pieces", outcome->pieces[0], outcome->pieces[1]);
+}
+
+static double reach_of(const pir_solid *solid) {
+    pir_solid_info info;
+    pir_solid_describe(solid, &info);
+    return (info.high.x - info.low.x) + (info.high.y - info.low.y) + (info.high.z - info.low.z);
+}
+
+static pir_status ask(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
+                      const pir_solid_motion *motion, struct outcome *outcome) {
+    const int64_t start = clock_now();
+    pir_status status = pir_solid_query_distance(query, workspace, input, &outcome->distance);
+    if (status == PIR_OK && motion)
+        status = pir_solid_query_cast(query, workspace, input, motion, &outcome->impact);
+    outcome->seconds = (double)(clock_now() - start) / 1e9;
+    return status;
+}
+
+static pir_status run(const pir_solid *const solid[2], const pir_pair_input *input, const pir_vec3 *motion,
+                      struct outcome *outcome) {
+    pir_pieces *pieces[2] = {NULL, NULL};
+    pir_solid_query *query = NULL;
+    pir_workspace *workspace = NULL;
+    const pir_solid_motion way = {.way = motion ? *motion : (pir_vec3){0, 0, 0},
+                                  .tolerance = CAST_TOLERANCE * (reach_of(solid[0]) + reach_of(solid[1]))};
+    pir_status status = pir_workspace_create(NULL, &workspace);
+    for (int k = 0; k < 2 && status == PIR_OK; k++)
+        status = pir_solid_decompose(solid[k], NULL, &pieces[k]);
+    if (status == PIR_OK)
+        status = pir_solid_query_create(pieces[0], pieces[1], NULL, &query);
+    if (status == PIR_OK)
+        status = ask(query, workspace, input, motion ? &way : NULL, outcome);
+    for (int k = 0; k < 2; k++) {
+        outcome->pieces[k] = pieces[k] ? pir_pieces_count(pieces[k]) : 0;
+        pir_pieces_destroy(pieces[k]);
+    }
+    pir_solid_query_destroy(query);
+    pir_workspace_destroy(workspace);
+    return status;
+}
+
+int solid_query(const struct args *args, pir_quat rotation, const pir_query_input *input, const pir_vec3 *motion) {
+    if (!check_options(args))
+        return EXIT_BAD_INPUT;
+    pir_pair_input placed = pir_pair_input_default();
+    placed.pose_p = (pir_pose){rotation, input->translation};
+    placed.radius_p = input->radius_p;
+    placed.radius_q = input->radius_q;
+    struct outcome outcome = {.pieces = {0, 0}};
+    int result = EXIT_BAD_INPUT;
+    pir_solid *p = solid_load(args, 0), *q = p ? solid_load(args, 1) : NULL;
+    if (p && q) {
+        const pir_status status = run((const pir_solid *const[]){p, q}, &placed, motion, &outcome);
+        if (status != PIR_OK)
+            complain_status("query", status, NULL);
+        else if (args_has(args, "--json"))
+            result = print_json(args, &outcome, motion != NULL) ? EXIT_DONE : EXIT_BAD_INPUT;
+        else {
+            print_text(args, &outcome, motion != NULL);
+            result = EXIT_DONE;
+        }
+    }
+    pir_solid_release(q);
+    pir_solid_release(p);
+    return result;
+}
