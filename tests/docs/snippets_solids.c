@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The code of docs/solids.md: an L and a tetrahedron are added. */
+/* The code of docs/solids.md: an L and a tetrahedron are added, and held against each other. */
 #include <stdio.h>
 
 #include <pirouette/pirouette.h>
@@ -21,7 +21,21 @@ int main(void) {
 
     printf("%u vertices, %u facets %s\n", (unsigned)pir_mesh_vertex_count(sum), (unsigned)pir_mesh_facet_count(sum),
            report.text);
-    const int good = pir_mesh_facet_count(sum) > 8;
+    pir_pieces *pieces_p = NULL, *pieces_q = NULL;
+    pir_solid_query *query = NULL;
+    pir_workspace *workspace = NULL;
+    pir_pair_input input = pir_pair_input_default();
+    pir_state state = PIR_OUTSIDE;
+    pir_workspace_create(NULL, &workspace);
+    input.pose_p.translation.x = 0.5;
+
+    /* snippet 2 */
+
+    const int good = pir_mesh_facet_count(sum) > 8 && state == PIR_INSIDE;
+    pir_solid_query_destroy(query);
+    pir_workspace_destroy(workspace);
+    pir_pieces_destroy(pieces_q);
+    pir_pieces_destroy(pieces_p);
     pir_mesh_destroy(sum);
     pir_solid_release(q);
     pir_solid_release(p);
