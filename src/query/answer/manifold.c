@@ -377,7 +377,11 @@ static bool is_lone_within(struct manifold *m, double part, double reach, pir_lo
 
 /* Finds out within what leeway a lone contact stays one. */
 static void find_leeway(struct manifold *m, const pir_manifold_ask *ask, double reach, pir_lone_kind kind) {
-    pir_lone lone = {kind, {0, 0}, ask->input->radius_p, ask->input->radius_q, ask->input->margin};
+    pir_lone lone = {.kind = kind,
+                     .witness = ask->answer->witness,
+                     .radius_p = ask->input->radius_p,
+                     .radius_q = ask->input->radius_q,
+                     .margin = ask->input->margin};
     for (size_t i = 0; i < sizeof LEEWAYS / sizeof *LEEWAYS; i++)
         if (is_lone_within(m, LEEWAYS[i], reach, &lone)) {
             *ask->ret_lone = lone;
@@ -388,6 +392,9 @@ static void find_leeway(struct manifold *m, const pir_manifold_ask *ask, double 
 bool pir_manifold_lone(const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
                        const pir_manifold_ask *ask, const pir_lone *lone, pir_contact *ret_contacts) {
     const pir_query_input *input = ask->input;
+    pir_witness of = ask->answer->witness, had = lone->witness;
+    if (of.p.kind != had.p.kind || of.p.index != had.p.index || of.q.kind != had.q.kind || of.q.index != had.q.index)
+        return false;
     if (input->radius_p != lone->radius_p || input->radius_q != lone->radius_q || input->margin != lone->margin ||
         !is_usable(frame, ask->answer))
         return false;

@@ -17,6 +17,7 @@ typedef enum pir_lone_kind {
 typedef struct pir_lone {
     pir_lone_kind kind;
     pir_leeway leeway; /* the turn of R, the way of x */
+    pir_witness witness;
     double radius_p, radius_q, margin;
 } pir_lone;
 
