@@ -27,13 +27,15 @@ static bool allocate(pir_polytope *p) {
     p->edge_half = PIR_NEW(a, uint32_t, e);
     p->loop_start = PIR_ZEROED(a, uint32_t, (size_t)f + 1);
     p->loop = PIR_NEW(a, uint32_t, h);
+    p->across = PIR_NEW(a, pir_across, h);
+    p->arc_ends = PIR_NEW(a, pir_arc_ends, e);
     p->source = PIR_NEW(a, uint32_t, v);
     p->vertex = PIR_NEW(a, pir_vec3, v);
     // one more of each: vector loads of four doubles may reach past the last
     p->direction = PIR_ZEROED(a, pir_vec3, (size_t)h + 1);
     p->normal = PIR_ZEROED(a, pir_vec3, (size_t)f + 1);
     return p->ring_start && p->origin && p->target && p->twin && p->left && p->edge && p->edge_half && p->loop_start &&
-           p->loop && p->source && p->vertex && p->direction && p->normal;
+           p->loop && p->across && p->arc_ends && p->source && p->vertex && p->direction && p->normal;
 }
 
 static void destroy(pir_polytope *p) {
@@ -49,6 +51,8 @@ static void destroy(pir_polytope *p) {
     PIR_FREE(a, p->edge_half, e);
     PIR_FREE(a, p->loop_start, (size_t)f + 1);
     PIR_FREE(a, p->loop, h);
+    PIR_FREE(a, p->across, h);
+    PIR_FREE(a, p->arc_ends, e);
     PIR_FREE(a, p->source, v);
     PIR_FREE(a, p->vertex, v);
     PIR_FREE(a, p->direction, (size_t)h + 1);
@@ -190,6 +194,14 @@ static void connect_segment(pir_polytope *p) {
     p->edge_half[1] = 1;
     for (uint32_t i = 0; i < 3; i++)
         p->ring_start[i] = p->loop_start[i] = 2 * i;
+}
+
+/* Writes what follows from the halfedges, where traversals read it in order. */
+static void list_neighbours(pir_polytope *p) {
+    for (uint32_t i = 0; i < p->half_count; i++)
+        p->across[i] = (pir_across){pir_right(p, p->loop[i]), p->edge[p->loop[i]]};
+    for (uint32_t e = 0; e < p->edge_count; e++)
+        p->arc_ends[e] = (pir_arc_ends){p->left[p->edge_half[e]], pir_right(p, p->edge_half[e])};
 }
 
 /* --- geometry --- */
@@ -358,6 +370,8 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
         connect_segment(p);
     else if (done && !point)
         done = connect(p, parts);
+    if (done)
+        list_neighbours(p);
     if (!done || !set_vertices(p, parts) || !set_vectors(p) || !set_rings(p)) {
         destroy(p);
         return PIR_ERR_MEMORY;

@@ -35,6 +35,16 @@
 
 typedef struct pir_attachment pir_attachment;
 
+/* What lies across a side of a facet. */
+typedef struct pir_across {
+    uint32_t facet, edge;
+} pir_across;
+
+/* The facets that an edge's arc leads from and to. */
+typedef struct pir_arc_ends {
+    uint32_t from, to;
+} pir_arc_ends;
+
 struct pir_polytope {
     atomic_uint references;
     pir_allocator allocator;
@@ -48,6 +58,8 @@ struct pir_polytope {
     uint32_t *left, *edge;            /* per halfedge: facet, edge */
     uint32_t *edge_half;              /* per edge */
     uint32_t *loop_start, *loop;      /* per facet: its halfedges counter-clockwise */
+    pir_across *across;               /* per entry of `loop`: read in place of left[twin[]] and edge[] */
+    pir_arc_ends *arc_ends;           /* per edge: left of edge_half, and right of it */
     uint32_t *source;                 /* per vertex: index of the input point */
 
     pir_vec3 *vertex;    /* nearest doubles */

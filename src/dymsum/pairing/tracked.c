@@ -165,8 +165,6 @@ static void clear_inactive(pir_certificates *certificates, const pir_facets *fac
 }
 
 void pir_tracked_lay_out_certificates(pir_tracked *tracked) {
-    if (!tracked->certificates.expired_all)
-        return;
     pir_certificates_lay_out(&tracked->certificates, pir_certificate_count(tracked));
     clear_inactive(&tracked->certificates, &tracked->p_facets);
     clear_inactive(&tracked->certificates, &tracked->q_facets);

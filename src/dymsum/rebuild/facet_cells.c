@@ -42,9 +42,9 @@ void pir_locate_facets_of_p(pir_tracked *tracked) {
     queue[tail++] = 0;
     while (head < tail) {
         uint32_t f = queue[head++], cell = fv[f];
-        const uint32_t *half = p->loop + p->loop_start[f], *end = p->loop + p->loop_start[f + 1];
-        for (; half < end; half++) {
-            uint32_t beside = pir_right(p, *half);
+        const pir_across *side = p->across + p->loop_start[f], *end = p->across + p->loop_start[f + 1];
+        for (; side < end; side++) {
+            uint32_t beside = side->facet;
             if (fv[beside] != PIR_NO_PAIR)
                 continue;
             fv[beside] = pir_locate_facet_of_p(tracked, beside, cell);
@@ -80,8 +80,8 @@ static uint32_t spread(pir_tracked *tracked, uint32_t head, uint32_t tail) {
     for (; head < tail; head++) {
         uint32_t g = tracked->work->queue[head];
         for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++)
-            if (tracked->work->mark[q->edge[q->loop[i]]] == 0)
-                set_cell(tracked, pir_right(q, q->loop[i]), tracked->pairing.vf[g], &tail);
+            if (tracked->work->mark[q->across[i].edge] == 0)
+                set_cell(tracked, q->across[i].facet, tracked->pairing.vf[g], &tail);
     }
     return tail;
 }
@@ -91,7 +91,7 @@ static uint32_t cell_beside(const pir_tracked *tracked, uint32_t g) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t cell = PIR_NO_PAIR;
     for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1] && cell == PIR_NO_PAIR; i++)
-        cell = tracked->pairing.vf[pir_right(q, q->loop[i])];
+        cell = tracked->pairing.vf[q->across[i].facet];
     return cell != PIR_NO_PAIR ? cell : 0;
 }
 

@@ -18,9 +18,8 @@ bool pir_walk_arc(pir_tracked *tracked, uint32_t e, uint32_t from, uint32_t to);
  * Lists the crossings of edge e, whose ends have cells, in a store that has been emptied. False when out of memory.
  */
 static inline bool pir_walk_edge(pir_tracked *tracked, uint32_t e) {
-    const pir_polytope *p = tracked->pairing.p;
-    const uint32_t *fv = tracked->pairing.fv;
-    uint32_t half = p->edge_half[e], from = fv[p->left[half]], to = fv[pir_right(p, half)];
+    const pir_arc_ends ends = tracked->pairing.p->arc_ends[e];
+    uint32_t from = tracked->pairing.fv[ends.from], to = tracked->pairing.fv[ends.to];
     // an arc whose ends are in one cell stays in it
     return from == to || pir_walk_arc(tracked, e, from, to);
 }

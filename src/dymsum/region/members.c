@@ -24,7 +24,7 @@ pir_member_place pir_members_of_q(pir_sweep *sweep, pir_tracked *tracked) {
 static uint32_t cell_beside(const pir_member_place *place, uint32_t f) {
     const pir_polytope *own = place->own;
     for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
-        uint32_t v = place->cell[pir_right(own, own->loop[i])];
+        uint32_t v = place->cell[own->across[i].facet];
         if (v != PIR_NO_PAIR)
             return v;
     }
@@ -54,7 +54,7 @@ static void locate_around(const pir_member_place *place, uint32_t from, bool cer
     while (head < tail) {
         uint32_t f = queue[head++], cell = place->cell[f];
         for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
-            uint32_t to = pir_right(own, own->loop[i]);
+            uint32_t to = own->across[i].facet;
             if (seen[to] != place->sweep || place->cell[to] != PIR_NO_PAIR)
                 continue;
             locate(place, to, cell, certify);

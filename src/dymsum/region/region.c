@@ -192,7 +192,8 @@ bool pir_region_admit(pir_region *region, pir_tracked *tracked) {
     if (!region->admits)
         return true;
     const pir_member_place p = pir_members_of_p(region->sweep, tracked), q = pir_members_of_q(region->sweep, tracked);
-    pir_tracked_lay_out_certificates(tracked);
+    if (tracked->certificates.expired_all)
+        pir_tracked_lay_out_certificates(tracked);
     pir_tracked_begin_step(tracked);
     pir_members_locate(&p, true);
     pir_members_locate(&q, true);

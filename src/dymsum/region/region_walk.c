@@ -54,7 +54,7 @@ static void mark_known(const pir_region *region, pir_tracked *tracked) {
         if (pir_vec_dot(axis, q->normal[g]) < reach.cosine + INNER_SLACK)
             continue;
         for (uint32_t k = q->loop_start[g]; k < q->loop_start[g + 1]; k++)
-            mark[q->edge[q->loop[k]]] -= HALF_KNOWN;
+            mark[q->across[k].edge] -= HALF_KNOWN;
     }
 }
 

@@ -53,7 +53,7 @@ static pir_cap cap_of_facet(const pir_polytope *p, uint32_t f) {
 
 /* About the middle of the arc; where that is not certain, the whole sphere. */
 static pir_cap cap_of_edge(const pir_polytope *p, uint32_t e) {
-    pir_vec3 from = p->normal[p->left[p->edge_half[e]]], to = p->normal[pir_right(p, p->edge_half[e])];
+    pir_vec3 from = p->normal[p->arc_ends[e].from], to = p->normal[p->arc_ends[e].to];
     pir_vec3 both = pir_vec_add(from, to);
     double length = sqrt(pir_vec_dot(both, both));
     if (length < 0x1p-10)
@@ -194,9 +194,9 @@ static pir_arc sweep_p(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, p
     uint32_t ends = 0;
     sweep_edges(sweep, p, axis, reach);
     for (uint32_t i = 0; i < sweep->edges.count; i++) {
-        uint32_t half = p->edge_half[sweep->edges.next[i]];
-        count_in(facets, p->left[half], sweep->number, &ends);
-        count_in(facets, pir_right(p, half), sweep->number, &ends);
+        const pir_arc_ends arc = p->arc_ends[sweep->edges.next[i]];
+        count_in(facets, arc.from, sweep->number, &ends);
+        count_in(facets, arc.to, sweep->number, &ends);
     }
     // an arc whose ends are within a quarter turn reaches no farther than they do
     double least = reach.cosine;

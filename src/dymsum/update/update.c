@@ -274,7 +274,8 @@ static uint32_t next_stamp(pir_tracked *tracked) {
 }
 
 pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
-    pir_tracked_lay_out_certificates(tracked);
+    if (tracked->certificates.expired_all)
+        pir_tracked_lay_out_certificates(tracked);
     uint32_t expired = pir_kernels_collect(tracked->kernels, &tracked->certificates, pir_certificate_count(tracked),
                                            pir_turned_angle_of(&tracked->epoch));
     tracked->expired_in_epoch += expired;
