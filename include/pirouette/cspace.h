@@ -340,7 +340,8 @@ typedef struct pir_cspace_motion {
  * one axis; where both ways are half a turn, the way of the quaternions as they are given.
  *
  * Stretches of the motion are halved until what is proven of their middle holds all along them, at most 16 times, and
- * 4096 poses are asked at most. Up to motion.from the motion is proven free.
+ * once less for every 16 stretches that were left unproven; 4096 poses are asked at most. Up to motion.from the motion
+ * is proven free.
  *
  * from, to  the poses at its ends.
  * report    NULL, or filled when the call fails.

@@ -50,6 +50,8 @@ static void make_in_runs(const struct slice_scene *scene, const char *path, pir_
         options.resume = run > 0;
         expect(pir_cspace_job_create(&scene->bodies, scene->grid, path, &options, &report, &job) == PIR_OK, "%s",
                report.text);
+        uint64_t left = pir_cspace_job_left(job);
+        assert_true(run == 0 ? left == pir_cspace_job_units(job) : left < pir_cspace_job_units(job));
         expect(pir_cspace_job_run(job, &report) == PIR_OK, "%s", report.text);
         pir_status status = pir_cspace_job_assemble(job, &report);
         pir_cspace_job_destroy(job);

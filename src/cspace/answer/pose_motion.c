@@ -12,8 +12,10 @@
  * of two rotations of length 1 is their sum, brought to length 1: no angle is computed. Each halving is off by some 8u,
  * so a middle by 2^-46 at the deepest, which the bound is widened by.
  *
- * Stretches are taken from left to right. One that is still open at DEEPEST, or when POSES poses have been asked, is
- * left unproven. A stretch that is blocked all along, by the same bound, is not halved.
+ * Stretches are taken from left to right. One that is still open at the greatest depth, or when POSES poses have been
+ * asked, is left unproven. That depth is DEEPEST at first, and one less for every OPEN stretches that were left: a
+ * motion that slides in contact is then unproven in parts that double, and ends after hundreds of poses, not thousands
+ * in a first small part. A stretch that is blocked all along, by the same bound, is not halved.
  */
 #include "cspace/answer/pose_motion.h"
 
@@ -22,9 +24,11 @@
 #include "base/report.h"
 #include "cspace/grid/angle.h"
 
-#define DEEPEST 16
-#define POSES   4096
-#define WIDER   0x1p-44
+#define DEEPEST  16
+#define COARSEST 4
+#define OPEN     16
+#define POSES    4096
+#define WIDER    0x1p-44
 
 /* The motion as far as it is known. */
 struct motion {
@@ -32,9 +36,10 @@ struct motion {
     pir_report *report;
     double length, angle, reach; /* |t₁ − t₀|, φ, and the greatest reach of the robot's pieces */
     uint32_t asked;
-    bool blocked; /* some pose is */
-    bool open;    /* an unproven stretch has begun, */
-    bool closed;  /* and has ended */
+    uint32_t left; /* stretches that were left unproven, though not all blocked */
+    bool blocked;  /* some pose is */
+    bool open;     /* an unproven stretch has begun, */
+    bool closed;   /* and has ended */
     double from, to;
 };
 
@@ -78,7 +83,9 @@ static void mark_unproven(struct motion *motion, const struct stretch *stretch) 
 
 /* Whether a stretch is left as it is. */
 static bool ends_here(const struct motion *motion, const struct stretch *stretch) {
-    return stretch->depth == DEEPEST || motion->asked >= POSES || (motion->closed && motion->blocked);
+    uint32_t less = motion->left / OPEN;
+    uint32_t deepest = less < DEEPEST - COARSEST ? DEEPEST - less : COARSEST;
+    return stretch->depth >= deepest || motion->asked >= POSES || (motion->closed && motion->blocked);
 }
 
 static pir_status look_at(struct motion *motion, const struct stretch *stretch) {
@@ -97,7 +104,9 @@ static pir_status look_at(struct motion *motion, const struct stretch *stretch) 
         mark_proven(motion, stretch);
         return PIR_OK;
     }
-    if ((configuration.verdict == PIR_VERDICT_BLOCKED && all_along) || ends_here(motion, stretch)) {
+    const bool blocked_all_along = configuration.verdict == PIR_VERDICT_BLOCKED && all_along;
+    if (blocked_all_along || ends_here(motion, stretch)) {
+        motion->left += !blocked_all_along;
         mark_unproven(motion, stretch);
         return PIR_OK;
     }
