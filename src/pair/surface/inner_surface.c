@@ -289,12 +289,16 @@ uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_ver
 
 /* --- taking corners away --- */
 
-/* Bit j of side[i]: some triangle has the side (i, j). */
-static void list_sides(const pir_surface *surface, uint32_t side[PIR_SURFACE_CORNERS]) {
-    memset(side, 0, PIR_SURFACE_CORNERS * sizeof *side);
-    for (uint32_t t = 0; t < surface->count; t++)
-        for (int k = 0; k < 3; k++)
-            side[surface->corner[k][t]] |= 1u << surface->corner[(k + 1) % 3][t];
+/*
+ * Whether some triangle has the side (i, j), of a surface whose sides are noted. Notes of triangles that are gone stay,
+ * so the triangle is looked at.
+ */
+static bool has_side(const pir_surface *surface, const pir_surface_room *room, uint32_t i, uint32_t j) {
+    uint32_t t = room->beside[i][j];
+    if (t >= surface->count)
+        return false;
+    uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
+    return (a == i && b == j) || (b == i && c == j) || (c == i && a == j);
 }
 
 /* How far each corner is from the centre, by the least of its triangles. */
@@ -321,7 +325,7 @@ static uint32_t farthest_of(uint32_t corners, const double distance[PIR_SURFACE_
 }
 
 /* Whether triangles from corner v to all sides of the rim are certain, and have no side that others have. */
-static bool spans(const pir_surface_room *room, const struct rim *rim, uint32_t v, const uint32_t side[]) {
+static bool spans(const pir_surface *surface, const pir_surface_room *room, const struct rim *rim, uint32_t v) {
     uint32_t beside = 0; // the neighbours of v on the rim
     for (uint32_t s = 0; s < rim->count; s++)
         beside |= (rim->from[s] == v ? 1u << rim->to[s] : 0) | (rim->to[s] == v ? 1u << rim->from[s] : 0);
@@ -329,18 +333,16 @@ static bool spans(const pir_surface_room *room, const struct rim *rim, uint32_t 
         uint32_t i = rim->from[s], j = rim->to[s];
         if (i == v || j == v)
             continue;
-        if ((side[v] >> i & 1 & ~(beside >> i)) || (side[v] >> j & 1 & ~(beside >> j)) ||
+        if ((!(beside >> i & 1) && has_side(surface, room, v, i)) ||
+            (!(beside >> j & 1) && has_side(surface, room, v, j)) ||
             !is_certain(room, i, j, pir_surface_corner(room, v)))
             return false;
     }
     return true;
 }
 
-/*
- * Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole.
- * `side` is of the surface as it stands.
- */
-static bool take_corner(pir_surface *surface, uint32_t c, const uint32_t side[], pir_surface_room *room) {
+/* Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole. */
+static bool take_corner(pir_surface *surface, uint32_t c, pir_surface_room *room) {
     struct rim rim;
     uint32_t v = 0;
     uint64_t gone = 0;
@@ -348,7 +350,7 @@ static bool take_corner(pir_surface *surface, uint32_t c, const uint32_t side[],
         gone |= (uint64_t)(corners_of(surface, t) >> c & 1) << t;
     if (!list_rim(surface, room, gone, &rim) || rim.count < 3)
         return false;
-    while (v < rim.count && !spans(room, &rim, rim.from[v], side))
+    while (v < rim.count && !spans(surface, room, &rim, rim.from[v]))
         v++;
     if (v == rim.count)
         return false;
@@ -360,18 +362,22 @@ static bool take_corner(pir_surface *surface, uint32_t c, const uint32_t side[],
 
 bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     double distance[PIR_SURFACE_CORNERS];
-    uint32_t side[PIR_SURFACE_CORNERS], left = surface->used, taken = 0;
+    uint32_t left = surface->used, taken = 0;
     note_all_sides(surface, room);
     list_distances(surface, room, distance);
-    list_sides(surface, side);
     for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
         left &= ~(1u << c);
-        if (take_corner(surface, c, side, room)) {
-            taken++;
-            list_sides(surface, side);
-        }
+        taken += take_corner(surface, c, room);
     }
     return taken > 0;
+}
+
+/* Bit j of side[i]: some triangle has the side (i, j). */
+static void list_sides(const pir_surface *surface, uint32_t side[PIR_SURFACE_CORNERS]) {
+    memset(side, 0, PIR_SURFACE_CORNERS * sizeof *side);
+    for (uint32_t t = 0; t < surface->count; t++)
+        for (int k = 0; k < 3; k++)
+            side[surface->corner[k][t]] |= 1u << surface->corner[(k + 1) % 3][t];
 }
 
 bool pir_surface_is_valid(const pir_surface *surface) {
