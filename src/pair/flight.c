@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * See flight.h. With the normal n from Q to P at some time and the distance d, the bodies stay apart along n while P
- * comes nearer along it by less than d: P's points move along −n at most at the rate −way·n + |turn| · reach. So there
- * is no contact for d over that rate, and none at all where it is not positive (Mirtich 1996).
+ * comes nearer along it by less than d: P's points move along −n at most at the rate −way·n + |turn| · reach. So
+ * there is no contact for d over that rate, and none at all where it is not positive (Mirtich 1996).
  */
 #include "pair/flight.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A polytope of half-spaces, by doubles: the corners of the body n·x ≤ h about a middle inside of it are the facets of
- * the hull of n/h (polar duality). Coordinates are relative to the middle, each axis in units of the body's half extent
- * along it, so that needles and plates are as round as others.
+ * A polytope of half-spaces, by doubles: the corners of the body n·x ≤ h about a middle inside of it are the facets
+ * of the hull of n/h (polar duality). Coordinates are relative to the middle, each axis in units of the body's half
+ * extent along it, so that needles and plates are as round as others.
  *
  * The corners are off by rounding. They are moved outwards from the middle by a part `push` of their distance, and
  * whoever asks proves that the polytope then holds what it must.

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import c_text
 
 MAX_LINES = 500
-MAX_COLUMNS = 120
+MAX_WIDTH = 120  # bytes of UTF-8
 MAX_PARAMETERS = 7
 MAX_DECLARED = 2  # .c files whose functions one header declares
 
@@ -148,8 +148,9 @@ def check_lines(tree):
         if count > MAX_LINES:
             yield Breach("length", name, MAX_LINES + 1, f"{count} lines, more than {MAX_LINES}")
         for number, line in enumerate(lines, 1):
-            if len(line) > MAX_COLUMNS and not (name.endswith(".md") and line.startswith("|")):
-                yield Breach("columns", name, number, f"{len(line)} columns, more than {MAX_COLUMNS}")
+            width = len(line.encode())
+            if width > MAX_WIDTH and not (name.endswith(".md") and line.startswith("|")):
+                yield Breach("width", name, number, f"{width} bytes, more than {MAX_WIDTH}")
 
 
 def check_parameters(tree):

@@ -110,9 +110,9 @@ class Planted(unittest.TestCase):
             with self.subTest(name):
                 before = CLEAN.get(name, "")
                 comment = "# " if name.endswith((".py", ".build")) else "//"
-                widest = before + comment + "é" * (house.MAX_COLUMNS - 2)
+                widest = before + comment + "é" * (house.MAX_WIDTH // 2 - 1)
                 self.planted(name, widest + "\n")
-                self.planted(name, widest + "x\n", f"{name}:{before.count(chr(10)) + 1}: columns")
+                self.planted(name, widest + "x\n", f"{name}:{before.count(chr(10)) + 1}: width")
                 self.write(name, before)
 
     def test_function_of_eight_parameters(self):
@@ -138,7 +138,7 @@ class Planted(unittest.TestCase):
 
     def test_report(self):
         """The program names each breach and fails, and passes without one."""
-        for text, status, said in (("", 0, "0 breaches"), ("x" * 121, 1, "docs/wide.md:1: columns: 121 columns")):
+        for text, status, said in (("", 0, "0 breaches"), ("x" * 121, 1, "docs/wide.md:1: width: 121 bytes")):
             self.write("docs/wide.md", text)
             output = io.StringIO()
             with contextlib.redirect_stdout(output):

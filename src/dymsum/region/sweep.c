@@ -136,8 +136,8 @@ static bool is_within(const pir_polytope *p, uint32_t e, pir_vec3 axis, pir_arc 
 }
 
 /*
- * The same of a cluster of arcs by floats: above FLOAT_SLACK for those that certainly come so near, below −FLOAT_SLACK
- * for those that certainly do not. One plain loop, which compilers vectorise.
+ * The same of a cluster of arcs by floats: above FLOAT_SLACK for those that certainly come so near, below
+ * −FLOAT_SLACK for those that certainly do not. One plain loop, which compilers vectorise.
  */
 static void measure_arcs(const float *restrict arc, pir_vec3 axis, pir_arc reach, float *restrict ret_by) {
     const float ax = (float)axis.x, ay = (float)axis.y, az = (float)axis.z;
