@@ -134,6 +134,7 @@ uint32_t pir_tree_insert(pir_tree *tree, const pir_box *box, uint32_t item) {
         return leaf;
     }
     uint32_t sibling = sibling_for(tree, box), parent = take(tree);
+    tree->node[parent].box = *box; // until its children are there
     replace(tree, tree->node[sibling].parent, sibling, parent);
     set_child(tree, parent, 0, sibling);
     set_child(tree, parent, 1, leaf);
