@@ -87,20 +87,21 @@ static bool seen_before(const struct division *d, const struct node *node, uint3
     return false;
 }
 
-static struct score score_plane(struct division *d, const struct node *node, uint32_t half) {
-    int64_t cut = 0, above = 0, resolved = 0, creases_cut = 0;
-    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count; i++) {
-        const unsigned sides = pir_polygons_sides(&d->polygons, d->list[i], half);
-        cut += sides == 3;
-        above += sides == 2;
-    }
+/* The score of a plane; one that is not above `best` is not counted to its end. */
+static struct score score_plane(struct division *d, const struct node *node, uint32_t half, int64_t best) {
+    struct score score = {0, false};
     for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++) {
         const int a = pir_space_side(d->space, half, d->creases[i].a),
                   b = pir_space_side(d->space, half, d->creases[i].b);
-        resolved += a == 0 && b == 0;
-        creases_cut += a * b < 0;
+        score.value += a == 0 && b == 0 ? 16 : a * b < 0 ? -8 : 0;
     }
-    return (struct score){16 * resolved - 8 * creases_cut - cut, cut + above > 0};
+    // fragments only take away
+    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && score.value > best; i++) {
+        const unsigned sides = pir_polygons_sides(&d->polygons, d->list[i], half);
+        score.value -= sides == 3;
+        score.divides = score.divides || sides >= 2;
+    }
+    return score;
 }
 
 /* The half-space to cut by, or none when every fragment is on or below the plane of every other. */
@@ -110,7 +111,7 @@ static uint32_t choose_plane(struct division *d, const struct node *node) {
     for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && d->space->status == PIR_OK; i++) {
         if (seen_before(d, node, i))
             continue;
-        const struct score score = score_plane(d, node, half_of(d, i));
+        const struct score score = score_plane(d, node, half_of(d, i), value);
         if (score.divides && score.value > value) {
             value = score.value;
             best = half_of(d, i);

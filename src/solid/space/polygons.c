@@ -4,6 +4,7 @@
 #include "solid/space/polygons.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "solid/space/exact.h"
 
@@ -97,6 +98,10 @@ unsigned pir_polygons_sides(pir_polygons *polygons, uint32_t polygon, uint32_t h
     if (!pir_space_grow(polygons->space, (void **)&polygons->sign, &polygons->sign_room, p.count,
                         sizeof *polygons->sign))
         return 0;
+    if (p.half >> 1 == half >> 1) {
+        memset(polygons->sign, 0, p.count);
+        return 0;
+    }
     unsigned sides = 0;
     for (uint32_t i = 0; i < p.count; i++) {
         const int sign = pir_space_side(polygons->space, half, polygons->point[p.first + i]);
