@@ -1,71 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Units packed as HDF5 keeps them: what is deflated comes back from zlib, whatever the bytes; chunks come back from
- * packed bytes as they were put in; packed bytes that were changed are no chunks or others, and never more.
+ * Units packed as HDF5 keeps them: chunks come back from packed bytes as they were put in; packed bytes that were
+ * changed are no chunks or others, and never more.
  */
 #include "support/test.h"
 
 #include <string.h>
 #include <zlib.h>
 
-#include "cspace/store/deflate.h"
 #include "cspace/store/pack.h"
 #include "support/random.h"
 
-#define CASES 600
+/* No chunk is longer. */
+#define CHUNK_MOST (1u << 16)
 
-static uint8_t data[PIR_DEFLATE_MOST], stream[PIR_DEFLATE_MOST + 1024], back[PIR_DEFLATE_MOST];
-static pir_deflate_work work;
-
-/* Weights of symbols that grow as Fibonacci's numbers make the deepest codes. */
-static void fill_deep(test_random *random, size_t size) {
-    size_t at = 0, run = 1, before = 1;
-    for (uint8_t symbol = 0; at < size; symbol++) {
-        for (size_t i = 0; i < run && at < size; i++)
-            data[at++] = symbol;
-        size_t sum = run + before;
-        before = run;
-        run = sum;
-    }
-    for (size_t i = size - 1; i > 0; i--) {
-        size_t other = test_random_below(random, (uint32_t)i + 1);
-        uint8_t moved = data[i];
-        data[i] = data[other];
-        data[other] = moved;
-    }
-}
-
-/* Bytes of many kinds: noise, few symbols, runs, one byte alone, deep codes. */
-static size_t fill(test_random *random, unsigned number) {
-    size_t size = 1 + test_random_below(random, number % 8 == 0 ? PIR_DEFLATE_MOST : 400);
-    uint32_t kind = test_random_below(random, 5), symbols = kind == 0 ? 256 : 1 + test_random_below(random, 20);
-    if (kind == 4) {
-        fill_deep(random, size);
-        return size;
-    }
-    for (size_t i = 0; i < size; i++) {
-        bool again = i > 0 && kind == 2 && test_random_below(random, 40) > 0;
-        data[i] = again ? data[i - 1] : kind == 3 ? 7 : (uint8_t)test_random_below(random, symbols);
-    }
-    return size;
-}
-
-static void zlib_reads_what_is_deflated(void **state) {
-    (void)state;
-    for (unsigned number = 0; number < CASES; number++) {
-        test_random random = test_random_case("deflate", number);
-        size_t size = fill(&random, number), length = pir_deflate(data, size, &work, stream, sizeof stream);
-        uLongf got = sizeof back;
-        expect(length > 0 && uncompress(back, &got, stream, (uLong)length) == Z_OK && got == size &&
-                   memcmp(back, data, size) == 0,
-               "case %u: %zu bytes", number, size);
-        // no more room than it takes is too little, and what is behind the room stays
-        stream[length - 1] = 0xa5;
-        assert_int_equal(pir_deflate(data, size, &work, stream, length - 1), 0);
-        assert_int_equal(stream[length - 1], 0xa5);
-        assert_int_equal(pir_deflate(data, size, &work, stream, length + 1), length);
-    }
-}
+static uint8_t back[CHUNK_MOST];
 
 /* A chunk as HDF5's filters bring it back. */
 static void unpack(pir_section s, const pir_chunk *chunk, uint8_t *ret_data) {
@@ -87,9 +36,12 @@ static void put_random(pir_unit *unit, test_random *random, const pir_allocator 
         size_t size = (size_t)pir_unit_elements(unit, s) * pir_section_element[s];
         unit->data[s].used = 0;
         assert_true(pir_bytes_reserve(&unit->data[s], a, size));
-        uint32_t symbols = 1 + test_random_below(random, 256);
-        for (size_t i = 0; i < size; i++)
-            unit->data[s].data[i] = (uint8_t)test_random_below(random, symbols);
+        // noise, which is stored as it is, few symbols, runs
+        uint32_t symbols = 1 + test_random_below(random, 256), again = test_random_below(random, 3) * 20;
+        for (size_t i = 0; i < size; i++) {
+            bool runs = i > 0 && test_random_below(random, 41) < again;
+            unit->data[s].data[i] = runs ? unit->data[s].data[i - 1] : (uint8_t)test_random_below(random, symbols);
+        }
         unit->data[s].used = size;
     }
 }
@@ -97,7 +49,7 @@ static void put_random(pir_unit *unit, test_random *random, const pir_allocator 
 static void chunks_come_back(void **state) {
     (void)state;
     const pir_allocator a = pir_allocator_or_default(NULL);
-    static uint8_t chunk_data[PIR_DEFLATE_MOST];
+    static uint8_t chunk_data[CHUNK_MOST];
     pir_unit unit;
     assert_true(pir_unit_init(&unit, 2, &a));
     unit.slices = 2;
@@ -149,7 +101,6 @@ static void changed_bytes_are_no_more(void **state) {
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(zlib_reads_what_is_deflated),
         cmocka_unit_test(chunks_come_back),
         cmocka_unit_test(changed_bytes_are_no_more),
     };
