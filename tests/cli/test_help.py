@@ -6,6 +6,7 @@ other: test_help.py COMMAND SOURCES PAGES [CLASS]
 """
 import collections
 import functools
+import json
 import os
 import pty
 import re
@@ -134,6 +135,9 @@ class Help(unittest.TestCase):
                 folder / "slices.h5")
         if "poses.csv" in line:
             (folder / "poses.csv").write_text("0,0,0,1,3,0,0\n1,0,0,1,0,0,0\n")
+        for scene in re.findall(r"simulate (\S+)", line):
+            bodies = [{"shape": "cube", "kind": "static"}, {"shape": "cube", "position": [0, 0, 2.5]}]
+            (folder / scene).write_text(json.dumps({"shapes": {"cube": {"model": "shape:cube"}}, "bodies": bodies}))
 
     def test_the_examples_of_the_help_run(self):
         count = 0
