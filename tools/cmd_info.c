@@ -33,13 +33,6 @@ static bool print_json(const char *model, const pir_polytope *polytope, const pi
     return json_print(&json, stdout);
 }
 
-static void print_range(const char *axis, double low, double high) {
-    char from[TEXT_NUMBER], to[TEXT_NUMBER];
-    text_double(low, from);
-    text_double(high, to);
-    printf("  %-10s %s to %s\n", axis, from, to);
-}
-
 static void print_input(const pir_surface *surface) {
     char text[SURFACE_TEXT], volume[TEXT_NUMBER];
     printf("  %-10s %s, %s\n", "as given", surface_text(surface, text), surface->convex ? "convex" : "not convex");
@@ -59,9 +52,9 @@ static void print_text(const char *model, const pir_polytope *polytope, const pi
     printf("  %-10s %" PRIu32 "\n", "vertices", pir_polytope_vertex_count(polytope));
     printf("  %-10s %" PRIu32 "\n", "edges", pir_polytope_edge_count(polytope));
     printf("  %-10s %" PRIu32 "\n", "facets", pir_polytope_facet_count(polytope));
-    print_range("x", low.x, high.x);
-    print_range("y", low.y, high.y);
-    print_range("z", low.z, high.z);
+    text_print_range("x", low.x, high.x);
+    text_print_range("y", low.y, high.y);
+    text_print_range("z", low.z, high.z);
     printf("  %-10s %s\n", "volume", volume);
     if (merged) {
         text_double(pir_polytope_merge_bound(polytope), volume);

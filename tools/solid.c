@@ -85,13 +85,6 @@ static bool print_json(const char *model, const pir_solid_info *info) {
     return json_print(&json, stdout);
 }
 
-static void print_range(const char *axis, double low, double high) {
-    char from[TEXT_NUMBER], to[TEXT_NUMBER];
-    text_double(low, from);
-    text_double(high, to);
-    printf("  %-10s %s to %s\n", axis, from, to);
-}
-
 static void print_text(const char *model, const pir_solid_info *info) {
     char volume[TEXT_NUMBER];
     text_double(info->volume, volume);
@@ -100,9 +93,9 @@ static void print_text(const char *model, const pir_solid_info *info) {
     printf("  %-10s %" PRIu32 ", %" PRIu32 " of them reflex\n", "edges", info->merged_edges, info->reflex_edges);
     printf("  %-10s %" PRIu32 "\n", "facets", info->merged_facets);
     printf("  %-10s %" PRIu32 ", genus %" PRId64 "\n", "shells", info->shells, info->genus);
-    print_range("x", info->low.x, info->high.x);
-    print_range("y", info->low.y, info->high.y);
-    print_range("z", info->low.z, info->high.z);
+    text_print_range("x", info->low.x, info->high.x);
+    text_print_range("y", info->low.y, info->high.y);
+    text_print_range("z", info->low.z, info->high.z);
     printf("  %-10s %s\n", "volume", volume);
     printf("  %-10s %" PRIu32 " vertices, %" PRIu32 " edges, %" PRIu32 " facets\n", "as given", info->vertices,
            info->edges, info->facets);

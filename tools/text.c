@@ -24,3 +24,10 @@ void text_time(double nanoseconds, char ret_text[TEXT_NUMBER]) {
     int decimals = unit == 0 || nanoseconds >= 99.95 ? 0 : nanoseconds >= 9.995 ? 1 : 2;
     snprintf(ret_text, TEXT_NUMBER, "%.*f %s", decimals, nanoseconds, units[unit]);
 }
+
+void text_print_range(const char *axis, double low, double high) {
+    char from[TEXT_NUMBER], to[TEXT_NUMBER];
+    text_double(low, from);
+    text_double(high, to);
+    printf("  %-10s %s to %s\n", axis, from, to);
+}

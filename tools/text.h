@@ -11,4 +11,7 @@ void text_double(double value, char ret_text[TEXT_NUMBER]);
 /* A time in nanoseconds with three digits and a unit that suits: ns, us, ms, s. */
 void text_time(double nanoseconds, char ret_text[TEXT_NUMBER]);
 
+/* Prints how far something extends along an axis, as a line of a table. */
+void text_print_range(const char *axis, double low, double high);
+
 #endif

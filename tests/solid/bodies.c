@@ -2,9 +2,12 @@
 /* See bodies.h. */
 #include "solid/bodies.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include <pirouette/exact.h>
+
+#include "support/test.h"
 
 void solid_add_facet(solid_facets *facets, const pir_vec3 *corner, uint32_t count) {
     uint32_t at = facets->start[facets->facets];
@@ -110,6 +113,20 @@ void solid_add_cells(solid_facets *facets, const cells *of) {
                     }
                     solid_add_facet(facets, corner, 4);
                 }
+}
+
+pir_solid *solid_of_cells(const cells *of) {
+    static solid_facets facets;
+    facets = (solid_facets){0};
+    solid_add_cells(&facets, of);
+    pir_solid *solid = NULL;
+    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
+    return solid;
+}
+
+uint64_t solid_cases(uint64_t usual) {
+    const char *text = getenv("PIR_TEST_CASES");
+    return text ? strtoull(text, NULL, 10) : usual;
 }
 
 /* --- volumes --- */

@@ -49,6 +49,12 @@ cells cells_random(test_random *random, uint32_t count);
 /* The faces between full and empty cells. */
 void solid_add_cells(solid_facets *facets, const cells *of);
 
+/* A solid of cells that make one; the test fails where they do not. */
+pir_solid *solid_of_cells(const cells *of);
+
+/* How many cases a test tries: what PIR_TEST_CASES says, or `usual`. */
+uint64_t solid_cases(uint64_t usual);
+
 /* Six times the volume within the facets of a mesh with exact coordinates, over 6. */
 void mesh_volume(const pir_mesh *mesh, mpq_t ret_volume);
 

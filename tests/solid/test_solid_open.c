@@ -20,24 +20,10 @@
 
 static const pir_quat no_turn = {0, 0, 0, 1};
 
-static uint64_t case_count(void) {
-    const char *text = getenv("PIR_TEST_CASES");
-    return text ? strtoull(text, NULL, 10) : 40;
-}
-
-static pir_solid *solid_of(const cells *of) {
-    static solid_facets facets;
-    facets = (solid_facets){0};
-    solid_add_cells(&facets, of);
-    pir_solid *solid = NULL;
-    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
-    return solid;
-}
-
 static pir_mesh *open_sum(const cells *p, const cells *q, pir_solid_sum_info *info) {
     pir_solid_sum_options options = pir_solid_sum_options_default();
     pir_mesh *mesh = NULL;
-    pir_solid *of_p = solid_of(p), *of_q = solid_of(q);
+    pir_solid *of_p = solid_of_cells(p), *of_q = solid_of_cells(q);
     options.open = 1;
     assert_int_equal(pir_solid_sum(of_p, of_q, no_turn, &options, info, &mesh), PIR_OK);
     pir_solid_release(of_q);
@@ -244,7 +230,7 @@ static void random_cells_leave_out_what_the_grid_says(void **state) {
     struct grid *sum = malloc(sizeof *sum);
     double seen[3] = {0};
     assert_non_null(sum);
-    for (uint64_t i = 0; i < case_count(); i++) {
+    for (uint64_t i = 0; i < solid_cases(40); i++) {
         test_random random = test_random_case("open", i);
         cells p = cells_random(&random, 2 + test_random_below(&random, i % 2 ? 24 : 50));
         const cells q = cells_random(&random, 1 + test_random_below(&random, 3));

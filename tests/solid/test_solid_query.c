@@ -21,20 +21,6 @@
 
 enum { PLACES = 200 };
 
-static uint64_t case_count(void) {
-    const char *text = getenv("PIR_TEST_CASES");
-    return text ? strtoull(text, NULL, 10) : 10;
-}
-
-static pir_solid *solid_of(const cells *of) {
-    static solid_facets facets;
-    facets = (solid_facets){0};
-    solid_add_cells(&facets, of);
-    pir_solid *solid = NULL;
-    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
-    return solid;
-}
-
 static pir_solid_query *query_of(const pir_solid *p, const pir_solid *q) {
     pir_pieces *of_p = NULL, *of_q = NULL;
     pir_solid_query *query = NULL;
@@ -71,11 +57,11 @@ static void states_of_cubes_are_those_that_are_counted(void **state) {
     pir_workspace *workspace = NULL;
     unsigned seen[3] = {0};
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
-    for (uint64_t i = 0; i < case_count(); i++) {
+    for (uint64_t i = 0; i < solid_cases(10); i++) {
         test_random random = test_random_case("cubes", i);
         const cells p = cells_random(&random, 2 + test_random_below(&random, 30));
         const cells q = cells_random(&random, 1 + test_random_below(&random, 8));
-        pir_solid *of_p = solid_of(&p), *of_q = solid_of(&q);
+        pir_solid *of_p = solid_of_cells(&p), *of_q = solid_of_cells(&q);
         pir_solid_query *query = query_of(of_p, of_q);
         for (int n = 0; n < PLACES; n++) {
             const int t[3] = {test_random_between(&random, -10, 10), test_random_between(&random, -10, 10),
@@ -212,7 +198,7 @@ static void compare_all(const pir_solid *p, const pir_solid *q, const char *name
     pir_solid_query *query = query_of(p, q);
     struct tally tally = {0};
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
-    for (uint64_t i = 0; i < case_count(); i++) {
+    for (uint64_t i = 0; i < solid_cases(10); i++) {
         test_random random = test_random_case(name, i);
         pir_solid_sum_options options = pir_solid_sum_options_default();
         pir_mesh *mesh = NULL;
@@ -252,7 +238,7 @@ static void answers_are_those_of_the_exact_difference(void **state) {
         frame.full[i % 3][i / 3][0] = i != 4;
     for (int i = 0; i < 12; i++)
         clamp.full[i % 3][i / 3][0] = i % 3 == 0 || i / 3 == 0 || i / 3 == 3;
-    pir_solid *solids[] = {star_of(16, 2, 1.25), star_of(10, 2, 0.75), solid_of(&frame), solid_of(&clamp)};
+    pir_solid *solids[] = {star_of(16, 2, 1.25), star_of(10, 2, 0.75), solid_of_cells(&frame), solid_of_cells(&clamp)};
     compare_all(solids[0], solids[1], "stars");
     compare_all(solids[3], solids[2], "clamp and frame");
     compare_all(solids[2], solids[0], "frame and star");
@@ -269,7 +255,7 @@ static void impacts_are_the_first(void **state) {
     pir_solid_query *query = query_of(p, q);
     unsigned met = 0;
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
-    for (uint64_t i = 0; i < 5 * case_count(); i++) {
+    for (uint64_t i = 0; i < 5 * solid_cases(10); i++) {
         test_random random = test_random_case("casts", i);
         pir_pair_input input = pir_pair_input_default();
         const pir_vec3 from = test_random_direction(&random), axis = test_random_direction(&random);
@@ -308,7 +294,7 @@ static void body_in_a_cavity_is_outside_and_one_that_is_swallowed_inside(void **
         block.full[i % 3][i / 3 % 3][i / 9] = i != 13;
     cube.full[0][0][0] = true;
     pir_workspace *workspace = NULL;
-    pir_solid *p = solid_of(&cube), *q = solid_of(&block);
+    pir_solid *p = solid_of_cells(&cube), *q = solid_of_cells(&block);
     pir_solid_query *query = query_of(p, q);
     pir_pair_input input = pir_pair_input_default();
     pir_state found;

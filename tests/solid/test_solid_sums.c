@@ -21,20 +21,6 @@
 
 static const pir_quat no_turn = {0, 0, 0, 1};
 
-static uint64_t case_count(void) {
-    const char *text = getenv("PIR_TEST_CASES");
-    return text ? strtoull(text, NULL, 10) : 12;
-}
-
-static pir_solid *solid_of(const cells *of) {
-    static solid_facets facets;
-    facets = (solid_facets){0};
-    solid_add_cells(&facets, of);
-    pir_solid *solid = NULL;
-    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
-    return solid;
-}
-
 /* How many unit cells the cubes of side 2 from i + j cover, over all full cells i of p and j of q. */
 static unsigned covered(const cells *p, const cells *q) {
     enum { SIDE = 2 * CELLS };
@@ -76,11 +62,11 @@ static void sum_of_cells_covers_what_their_cubes_cover(void **state) {
     const pir_quat quarter = {0, 0, 1, 1}, back = {0, 0, -1, 1};
     mpq_t expected, turned;
     mpq_inits(expected, turned, NULL);
-    for (uint64_t i = 0; i < case_count(); i++) {
+    for (uint64_t i = 0; i < solid_cases(12); i++) {
         test_random random = test_random_case("cells", i);
         const cells a = cells_random(&random, 2 + test_random_below(&random, 14));
         const cells b = cells_random(&random, 1 + test_random_below(&random, 8));
-        pir_solid *p = solid_of(&a), *q = solid_of(&b);
+        pir_solid *p = solid_of_cells(&a), *q = solid_of_cells(&b);
         mpq_set_ui(expected, covered(&a, &b), 1);
         expect_volume(p, q, no_turn, expected, i);
         expect_volume(q, p, no_turn, expected, i);
@@ -101,7 +87,7 @@ static void sum_of_convex_solids_is_the_tracked_sum(void **state) {
     static const char *const shapes[] = {"cube", "octahedron", "gs4", "dodecahedron"};
     mpq_t volume, other;
     mpq_inits(volume, other, NULL);
-    for (uint64_t i = 0; i < case_count(); i++) {
+    for (uint64_t i = 0; i < solid_cases(12); i++) {
         test_random random = test_random_case("convex", i);
         pir_polytope *p = NULL, *q = NULL;
         pir_solid *of_p = NULL, *of_q = NULL;
@@ -163,10 +149,10 @@ static void volumes_of_pieces_add_up(void **state) {
         mpq_init(inertia[k]);
     for (int k = 0; k < 3; k++)
         mpq_init(middle[k]);
-    for (uint64_t i = 0; i < case_count(); i++) {
+    for (uint64_t i = 0; i < solid_cases(12); i++) {
         test_random random = test_random_case("pieces", i);
         const cells of = cells_random(&random, 20);
-        pir_solid *solid = i % 2 ? random_star(&random) : solid_of(&of);
+        pir_solid *solid = i % 2 ? random_star(&random) : solid_of_cells(&of);
         pir_pieces *pieces = NULL;
         pir_solid_info info;
         pir_solid_describe(solid, &info);
