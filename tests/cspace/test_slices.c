@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <hdf5.h>
+
 #include "support/bodies.h"
 #include "support/memory.h"
 
@@ -162,6 +164,8 @@ static void damaged_files_are_refused_or_read(void **state) {
         }
         slice_write_whole(path, bytes, size);
         (void)read_everything(path);
+        // nothing of a file that was refused stays open
+        assert_int_equal(H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
         for (uint32_t j = 0; j < length && at + j < size; j++)
             bytes[at + j] = before[j];
     }
