@@ -3,7 +3,7 @@
  * What threads may do at once: take and give references to polytopes; track sums of the same polytopes, a sum a thread,
  * with its meshes, queries and live mesh; read one mesh and one cubical map; make shapes, and read OFF. Every thread
  * finds what one thread alone finds, bit for bit. Under ThreadSanitizer, as .ci/run builds this program, it also shows
- * that none of it races.
+ * that none of it races. PIR_TEST_UPDATES=1000000 lets eight threads make a million updates each.
  */
 #include "support/test.h"
 
@@ -24,6 +24,10 @@
 
 #define THREADS 4
 #define FRAMES  60
+
+/* Of the threads that only update: how many, and after how many updates each looks at its pairing. */
+#define UPDATERS 8
+#define LOOKS    500
 
 /* What all threads read; nobody writes it while they run. The polytopes are freed by whoever lets go of them last. */
 struct shared {
@@ -212,6 +216,58 @@ static void threads_find_what_one_alone_finds(void **state) {
     }
 }
 
+/* --- many updates at once --- */
+
+/* Updates a thread; the environment may ask for more. */
+static unsigned long updates(void) {
+    const char *text = getenv("PIR_TEST_UPDATES");
+    return text ? strtoul(text, NULL, 10) : 2 * LOOKS;
+}
+
+/* One of many on the same bodies: how often it updates, and the hash of what it saw on the way. */
+struct updater {
+    const struct shared *shared;
+    unsigned long count;
+    uint64_t hash;
+    bool failed;
+};
+
+static void *update(void *context) {
+    struct updater *updater = context;
+    pir_quat rotation = {0.1, 0.2, 0.3, 0.9};
+    pir_sum *sum = NULL;
+    updater->hash = TEST_HASH_START;
+    updater->failed = pir_sum_create(updater->shared->p, updater->shared->q, rotation, NULL, &sum) != PIR_OK;
+    for (unsigned long i = 1; i <= updater->count && !updater->failed; i++) {
+        rotation = test_compose((pir_quat){0.004, -0.003, 0.005, 1}, rotation, 1);
+        updater->failed = pir_sum_rotate(sum, rotation, PIR_METHOD_AUTO) != PIR_OK;
+        if (i % LOOKS == 0)
+            updater->hash = test_hash_pairing(updater->hash, sum);
+    }
+    pir_sum_destroy(sum);
+    return NULL;
+}
+
+static void threads_update_sums_of_the_same_bodies(void **state) {
+    (void)state;
+    test_random random = test_random_case("threads updates", 0);
+    struct shared shared = {.p = test_sphere(&random, 12), .q = test_sphere(&random, 12)};
+    struct updater alone = {&shared, updates(), 0, false}, together[UPDATERS];
+    pthread_t threads[UPDATERS];
+    for (int k = 0; k < UPDATERS; k++) {
+        together[k] = alone;
+        assert_int_equal(pthread_create(&threads[k], NULL, update, &together[k]), 0);
+    }
+    for (int k = 0; k < UPDATERS; k++)
+        assert_int_equal(pthread_join(threads[k], NULL), 0);
+    update(&alone);
+    assert_false(alone.failed);
+    for (int k = 0; k < UPDATERS; k++)
+        expect(!together[k].failed && together[k].hash == alone.hash, "thread %d", k);
+    pir_polytope_release(shared.q);
+    pir_polytope_release(shared.p);
+}
+
 /* --- one sum, from thread to thread --- */
 
 /* A sum that goes round; whoever has the turn rotates it. */
@@ -261,6 +317,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_find_what_one_alone_finds),
+        cmocka_unit_test(threads_update_sums_of_the_same_bodies),
         cmocka_unit_test(a_sum_may_go_from_thread_to_thread),
     };
     return cmocka_run_group_tests_name("threads", tests, NULL, NULL);
