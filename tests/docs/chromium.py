@@ -42,7 +42,7 @@ class Chromium:
 
     session = None
 
-    def receive(self, seconds=30):
+    def receive(self, seconds=240):
         """The next message."""
         end = time.monotonic() + seconds
         while b"\0" not in self.text:
@@ -87,6 +87,21 @@ class Chromium:
             raise RuntimeError(f"{script}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
+    def wait_until(self, condition):
+        """Until a condition of the page's script holds, however slow the machine is."""
+        end = time.monotonic() + 240
+        while not self.evaluate(condition):
+            if time.monotonic() > end:
+                raise TimeoutError(f"never: {condition}")
+            time.sleep(0.02)
+
+    def drag(self, canvas):
+        """Drags a canvas of the page a little way to the lower right."""
+        self.evaluate(f"{canvas}.setPointerCapture = () => {{}}")
+        for kind, x, y in (("pointerdown", 100, 100), ("pointermove", 180, 130), ("pointerup", 180, 130)):
+            self.evaluate(f"{canvas}.dispatchEvent(new PointerEvent('{kind}', "
+                          f"{{clientX: {x}, clientY: {y}, pointerId: 1}}));")
+
     def complaints(self):
         """What pages have complained of since the last time this was asked."""
         told = []
@@ -102,8 +117,8 @@ class Chromium:
         return told
 
     def close(self):
-        self.process.terminate()
-        self.process.wait(timeout=10)
+        self.process.kill()
+        self.process.wait()
         os.close(self.to_write)
         os.close(self.to_read)
         self.folder.cleanup()

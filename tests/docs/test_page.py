@@ -32,7 +32,7 @@ FACETS = """(() => pairs.map(pair => pair.perSlice[slice].map(
     number => cornersOf(pair, pair.facets[number], matrixOf(slice)))))()"""
 PROJECT = """(point => {
     const v = times(viewOf(), ...point.map((x, k) => x - frame.middle[k]));
-    const scale = zoom * 0.48 * Math.min(canvas.width, canvas.height) / frame.radius;
+    const scale = looking.zoom * 0.48 * Math.min(canvas.width, canvas.height) / frame.radius;
     return [canvas.width / 2 + scale * v[0], canvas.height / 2 - scale * v[1]];
 })"""
 
@@ -117,14 +117,11 @@ def main(command):
                 check_slice(browser, exported, k)
                 pictures.add("".join(browser.evaluate(LOOK)))
                 assert f"slice {k} of {STEPS}" in browser.evaluate("document.getElementById('where').textContent")
-            for kind, x, y in (("pointerdown", 100, 100), ("pointermove", 180, 130), ("pointerup", 180, 130)):
-                browser.evaluate("canvas.setPointerCapture = () => {}; canvas.dispatchEvent(new PointerEvent("
-                                 f"'{kind}', {{clientX: {x}, clientY: {y}, pointerId: 1}}));")
+            browser.drag("canvas")
             pictures.add("".join(browser.evaluate(LOOK)))
             assert len(pictures) == 4, "each slice and each view is another picture"
             browser.evaluate("document.getElementById('play').click()")
-            browser.evaluate("new Promise(done => setTimeout(done, 300))")
-            assert browser.evaluate("slice") != STEPS - 1, "playing moves on"
+            browser.wait_until(f"slice != {STEPS - 1}")
             complaints = browser.complaints()
             assert not complaints, complaints
         finally:
