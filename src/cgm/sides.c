@@ -96,44 +96,49 @@ pir_int3 pir_cgm_point_exact(const pir_cgm *cgm, const struct pir_cgm_point *poi
 
 /* --- signs --- */
 
+/* The side that a value by doubles, off by less than the bound, is on of a line; 0 where that is not certain. */
+static int filtered(struct pir_cgm_sides *sides, uint32_t line, double value, double bound) {
+    bool certain = value > bound || value < -bound;
+    sides->by_filter += certain;
+    sides->by_exact += !certain;
+    return !certain ? 0 : (value > 0) != (line & 1) ? 1 : -1;
+}
+
+/* The sign of x·y, by integers; what was taken from the scratch since `mark` goes back. */
+static int sign_of_dot(pir_limbs *scratch, uint32_t mark, const pir_int3 *x, const pir_int3 *y) {
+    pir_int product = pir_limbs_take(scratch, pir_int3_length(x) + pir_int3_length(y) + 1);
+    pir_int3_dot(&product, x, y, scratch);
+    scratch->used = mark;
+    return pir_int_sign(&product);
+}
+
 int pir_cgm_side(struct pir_cgm_sides *sides, const pir_cgm *a, uint32_t line, const pir_cgm *b,
                  const struct pir_cgm_point *point) {
     const struct pir_cgm_line *l = &a->line[line >> 1];
-    double s = pir_vec_dot(l->unit, point->unit), bound = l->error + point->error * (1 + 0x1p-40) + 5 * U;
-    if (s > bound || s < -bound) {
-        sides->by_filter++;
-        return (s > 0) != (line & 1) ? 1 : -1;
-    }
-    sides->by_exact++;
+    double bound = l->error + point->error * (1 + 0x1p-40) + 5 * U;
+    int side = filtered(sides, line, pir_vec_dot(l->unit, point->unit), bound);
+    if (side != 0)
+        return side;
     pir_limbs *scratch = &sides->scratch;
     uint32_t mark = scratch->used;
     pir_int3 x = pir_cgm_line_exact(a, line, scratch), y = pir_cgm_point_exact(b, point, scratch);
-    pir_int product = pir_limbs_take(scratch, pir_int3_length(&x) + pir_int3_length(&y) + 1);
-    pir_int3_dot(&product, &x, &y, scratch);
-    scratch->used = mark;
-    return pir_int_sign(&product);
+    return sign_of_dot(scratch, mark, &x, &y);
 }
 
 int pir_cgm_ahead(struct pir_cgm_sides *sides, const pir_cgm *a, uint32_t line, const pir_cgm *b,
                   const struct pir_cgm_point *x, const pir_cgm *c, const struct pir_cgm_point *y) {
     const struct pir_cgm_line *l = &a->line[line >> 1];
-    double s = pir_vec_dot(l->unit, pir_vec_cross(x->unit, y->unit));
     double bound = (l->error + x->error + y->error) * 2 + 12 * U;
-    if (s > bound || s < -bound) {
-        sides->by_filter++;
-        return (s > 0) != (line & 1) ? 1 : -1;
-    }
-    sides->by_exact++;
+    int side = filtered(sides, line, pir_vec_dot(l->unit, pir_vec_cross(x->unit, y->unit)), bound);
+    if (side != 0)
+        return side;
     pir_limbs *scratch = &sides->scratch;
     uint32_t mark = scratch->used;
     pir_int3 vx = pir_cgm_point_exact(b, x, scratch), vy = pir_cgm_point_exact(c, y, scratch);
     pir_int3 cross = pir_int3_take(scratch, pir_int3_length(&vx) + pir_int3_length(&vy) + 1);
     pir_int3_cross(&cross, &vx, &vy, scratch);
     pir_int3 v = pir_cgm_line_exact(a, line, scratch);
-    pir_int product = pir_limbs_take(scratch, pir_int3_length(&cross) + pir_int3_length(&v) + 1);
-    pir_int3_dot(&product, &cross, &v, scratch);
-    scratch->used = mark;
-    return pir_int_sign(&product);
+    return sign_of_dot(scratch, mark, &cross, &v);
 }
 
 bool pir_cgm_same_way(const pir_cgm *a, uint32_t line, const pir_cgm *b, uint32_t other) {

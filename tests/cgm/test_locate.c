@@ -111,6 +111,41 @@ static pir_vec3 some_point(test_random *random, const pir_mesh *mesh) {
     return a;
 }
 
+/* Two bodies, the map of their sum with its mesh, and what locates points in it. */
+struct located {
+    pir_polytope *p, *q;
+    pir_cgm *a, *b, *sum;
+    pir_mesh *mesh;
+    pir_cgm_locator *locator;
+};
+
+/* Takes the references to both bodies. P is turned by *rotation, where there is one. */
+static struct located located_new(pir_polytope *p, const pir_quat *rotation, pir_polytope *q) {
+    struct located l = {.p = p, .q = q};
+    assert_int_equal(pir_cgm_create(p, rotation, NULL, &l.a), PIR_OK);
+    assert_int_equal(pir_cgm_create(q, NULL, NULL, &l.b), PIR_OK);
+    assert_int_equal(pir_cgm_overlay(l.a, l.b, &l.sum), PIR_OK);
+    assert_int_equal(pir_cgm_mesh(l.sum, PIR_EXACT, &l.mesh), PIR_OK);
+    assert_int_equal(pir_cgm_locator_create(l.sum, &l.locator), PIR_OK);
+    return l;
+}
+
+static void located_free(struct located *l) {
+    pir_cgm_locator_destroy(l->locator);
+    pir_mesh_destroy(l->mesh);
+    pir_cgm_destroy(l->sum);
+    pir_cgm_destroy(l->b);
+    pir_cgm_destroy(l->a);
+    pir_polytope_release(l->q);
+    pir_polytope_release(l->p);
+}
+
+/* How often points were outside, on the boundary and inside. */
+static void expect_seen(const uint32_t seen[3], uint32_t outside, uint32_t boundary, uint32_t inside) {
+    print_message("# %u outside, %u on the boundary, %u inside\n", seen[0], seen[1], seen[2]);
+    assert_true(seen[0] > outside && seen[1] > boundary && seen[2] > inside);
+}
+
 static void positions_are_exact(void **state) {
     (void)state;
     uint32_t seen[3] = {0, 0, 0};
@@ -120,15 +155,8 @@ static void positions_are_exact(void **state) {
         test_random_pose(&random, 4 + test_random_below(&random, 8), &pose);
         if (i % 2)
             pose.rotation = (pir_quat){0, 0, (double)(i % 3), 1};
-        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
-        pir_cgm *a, *b, *sum;
-        pir_mesh *mesh;
-        pir_cgm_locator *locator;
-        assert_int_equal(pir_cgm_create(p, &pose.rotation, NULL, &a), PIR_OK);
-        assert_int_equal(pir_cgm_create(q, NULL, NULL, &b), PIR_OK);
-        assert_int_equal(pir_cgm_overlay(a, b, &sum), PIR_OK);
-        assert_int_equal(pir_cgm_mesh(sum, PIR_EXACT, &mesh), PIR_OK);
-        assert_int_equal(pir_cgm_locator_create(sum, &locator), PIR_OK);
+        struct located l = located_new(test_polytope(&pose.p), &pose.rotation, test_polytope(&pose.q));
+        const pir_mesh *mesh = l.mesh;
         mpq_t *points = exact_vertices(mesh);
         uint32_t witness = PIR_CGM_NONE;
         for (int k = 0; k < 12; k++) {
@@ -136,19 +164,19 @@ static void positions_are_exact(void **state) {
             if (!isfinite(point.x) || !isfinite(point.y) || !isfinite(point.z))
                 continue;
             pir_cgm_location warm, cold;
-            assert_int_equal(pir_cgm_locate(locator, point, witness, &warm), PIR_OK);
-            assert_int_equal(pir_cgm_locate(locator, point, PIR_CGM_NONE, &cold), PIR_OK);
+            assert_int_equal(pir_cgm_locate(l.locator, point, witness, &warm), PIR_OK);
+            assert_int_equal(pir_cgm_locate(l.locator, point, PIR_CGM_NONE, &cold), PIR_OK);
             pir_cgm_position expected = oracle(mesh, points, point);
             expect(warm.position == expected && cold.position == expected, "case %llu point %d, %s: %d %d, not %d",
                    (unsigned long long)i, k, pose.situation, (int)warm.position, (int)cold.position, (int)expected);
             seen[expected]++;
             witness = warm.witness;
             int side = expected == PIR_CGM_OUTSIDE ? 1 : expected == PIR_CGM_BOUNDARY ? 0 : -1;
-            expect(side_of_witness(sum, warm.witness, point) == side &&
-                       side_of_witness(sum, cold.witness, point) == side,
+            expect(side_of_witness(l.sum, warm.witness, point) == side &&
+                       side_of_witness(l.sum, cold.witness, point) == side,
                    "case %llu point %d, %s: the witness is no witness", (unsigned long long)i, k, pose.situation);
             pir_cgm_location again;
-            assert_int_equal(pir_cgm_locate(locator, point, witness, &again), PIR_OK);
+            assert_int_equal(pir_cgm_locate(l.locator, point, witness, &again), PIR_OK);
             // a walk that starts where it must end stays there
             expect(again.witness == witness && again.position == expected, "case %llu point %d", (unsigned long long)i,
                    k);
@@ -156,16 +184,9 @@ static void positions_are_exact(void **state) {
         for (uint32_t k = 0; k < 3 * (pir_mesh_vertex_count(mesh) + 1); k++)
             mpq_clear(points[k]);
         free(points);
-        pir_cgm_locator_destroy(locator);
-        pir_mesh_destroy(mesh);
-        pir_cgm_destroy(sum);
-        pir_cgm_destroy(b);
-        pir_cgm_destroy(a);
-        pir_polytope_release(q);
-        pir_polytope_release(p);
+        located_free(&l);
     }
-    print_message("# %u outside, %u on the boundary, %u inside\n", seen[0], seen[1], seen[2]);
-    assert_true(seen[0] > 300 && seen[1] > 300 && seen[2] > 300);
+    expect_seen(seen, 300, 300, 300);
 }
 
 /* --- points an ulp off facets, edges and vertices --- */
@@ -308,14 +329,8 @@ static void points_an_ulp_off_are_placed_exactly(void **state) {
             shrink(&random, &p);
             shrink(&random, &q);
         }
-        pir_cgm *a, *b, *sum;
-        pir_cgm_locator *locator;
-        pir_mesh *mesh = NULL;
-        assert_int_equal(pir_cgm_create(p, i % 4 ? &rotation : NULL, NULL, &a), PIR_OK);
-        assert_int_equal(pir_cgm_create(q, NULL, NULL, &b), PIR_OK);
-        assert_int_equal(pir_cgm_overlay(a, b, &sum), PIR_OK);
-        assert_int_equal(pir_cgm_mesh(sum, PIR_EXACT, &mesh), PIR_OK);
-        assert_int_equal(pir_cgm_locator_create(sum, &locator), PIR_OK);
+        struct located l = located_new(p, i % 4 ? &rotation : NULL, q);
+        const pir_mesh *mesh = l.mesh;
         struct planes planes = planes_of(mesh);
         uint32_t witness = PIR_CGM_NONE;
         // small bodies may become flat where doubles are far apart
@@ -325,23 +340,16 @@ static void points_an_ulp_off_are_placed_exactly(void **state) {
             pir_vec3 point = point_beside(&random, mesh, f);
             pir_cgm_location location;
             pir_cgm_position expected = by_planes(&planes, point);
-            assert_int_equal(pir_cgm_locate(locator, point, k % 2 ? witness : PIR_CGM_NONE, &location), PIR_OK);
+            assert_int_equal(pir_cgm_locate(l.locator, point, k % 2 ? witness : PIR_CGM_NONE, &location), PIR_OK);
             expect(location.position == expected, "case %llu point %d: %d, not %d", (unsigned long long)i, k,
                    (int)location.position, (int)expected);
             witness = location.witness;
             seen[expected]++;
         }
         free_planes(&planes);
-        pir_cgm_locator_destroy(locator);
-        pir_mesh_destroy(mesh);
-        pir_cgm_destroy(sum);
-        pir_cgm_destroy(b);
-        pir_cgm_destroy(a);
-        pir_polytope_release(q);
-        pir_polytope_release(p);
+        located_free(&l);
     }
-    print_message("# %u outside, %u on the boundary, %u inside\n", seen[0], seen[1], seen[2]);
-    assert_true(seen[0] > 500 && seen[1] > 50 && seen[2] > 500);
+    expect_seen(seen, 500, 50, 500);
 }
 
 static void witnesses_make_walks_short(void **state) {

@@ -26,26 +26,27 @@ static inline int pir_sign_facet_half(pir_pairing *pairing, uint32_t f, pir_vec3
     return pir_sign_perturbed(&pairing->signs, &n, &d);
 }
 
-/* s of halfedge h of P, its direction rotated to `rotated`, and facet g of Q. */
-static inline int pir_sign_half_facet(pir_pairing *pairing, uint32_t h, pir_vec3 rotated, uint32_t g,
-                                      double *ret_value) {
-    *ret_value = pir_vec_dot(rotated, pairing->q->normal[g]);
-    int sign = pir_filtered(pairing, *ret_value);
+/* s of halfedge h of P and facet g of Q, whose value by doubles is known: exact. */
+static inline int pir_sign_half_facet_by(pir_pairing *pairing, uint32_t h, uint32_t g, double value) {
+    int sign = pir_filtered(pairing, value);
     if (sign != 0)
         return sign;
     pir_int3 e = pir_half_exact(pairing->p, h), n = pir_normal_exact(pairing->q, g);
     return pir_sign_perturbed(&pairing->signs, &e, &n);
 }
 
+/* The same with the value, the halfedge's direction rotated to `rotated`. */
+static inline int pir_sign_half_facet(pir_pairing *pairing, uint32_t h, pir_vec3 rotated, uint32_t g,
+                                      double *ret_value) {
+    *ret_value = pir_vec_dot(rotated, pairing->q->normal[g]);
+    return pir_sign_half_facet_by(pairing, h, g, *ret_value);
+}
+
 /* The same, the facet's normal turned back into P's frame instead. */
 static inline int pir_sign_facet_half_back(pir_pairing *pairing, uint32_t g, pir_vec3 turned_back, uint32_t h,
                                            double *ret_value) {
     *ret_value = pir_vec_dot(turned_back, pairing->p->direction[h]);
-    int sign = pir_filtered(pairing, *ret_value);
-    if (sign != 0)
-        return sign;
-    pir_int3 e = pir_half_exact(pairing->p, h), n = pir_normal_exact(pairing->q, g);
-    return pir_sign_perturbed(&pairing->signs, &e, &n);
+    return pir_sign_half_facet_by(pairing, h, g, *ret_value);
 }
 
 static inline uint64_t pir_signs_asked(const pir_signs *signs) {
