@@ -15,9 +15,29 @@
 
 struct outcome {
     pir_pieces *pieces;
+    pir_decompose_info did;
     pir_solid_info info;
     double seconds;
 };
+
+static const char *const method_names[] = {"best", "facets", "walls", NULL};
+
+/* False after a complaint. */
+static bool read_options(const struct args *args, pir_decompose_options *options) {
+    uint64_t pieces = 0;
+    int method = PIR_DECOMPOSE_BEST;
+    *options = pir_decompose_options_default();
+    if (!args_choice(args, "--method", method_names, &method) ||
+        !args_count(args, "--pieces", 1, UINT32_MAX, &pieces) ||
+        !args_numbers(args, "--tolerance", 1, &options->tolerance))
+        return false;
+    options->method = (pir_decompose_method)method;
+    options->pieces = (uint32_t)pieces;
+    if (options->tolerance >= 0)
+        return true;
+    complain("decompose: --tolerance: a length of 0 or more is wanted");
+    return false;
+}
 
 /* A piece's boundary, exact; NULL after a complaint. */
 static pir_mesh *mesh_of(const pir_pieces *pieces, uint32_t number) {
@@ -90,17 +110,25 @@ static bool print_json(const struct args *args, const struct outcome *outcome) {
     struct json json = json_new();
     json_add_text(&json, json.root, "model", args->positional[0]);
     json_add_number(&json, json.root, "reflex_edges", outcome->info.reflex_edges);
+    json_add_text(&json, json.root, "method", method_names[outcome->did.method]);
+    json_add_number(&json, json.root, "exact_pieces", outcome->did.exact_pieces);
     json_add_number(&json, json.root, "pieces", pir_pieces_count(outcome->pieces));
+    json_add_number(&json, json.root, "error", outcome->did.error);
     json_add_number(&json, json.root, "volume", outcome->info.volume);
     json_add_number(&json, json.root, "seconds", outcome->seconds);
     return json_print(&json, stdout);
 }
 
 static void print_text(const struct args *args, const struct outcome *outcome) {
-    char time[TEXT_NUMBER];
+    char time[TEXT_NUMBER], error[TEXT_NUMBER];
     text_time(outcome->seconds * 1e9, time);
+    text_double(outcome->did.error, error);
     printf("%s in convex pieces\n", args->positional[0]);
-    printf("  %-10s %" PRIu32 "\n", "pieces", pir_pieces_count(outcome->pieces));
+    printf("  %-10s %" PRIu32 ", by %s\n", "pieces", pir_pieces_count(outcome->pieces),
+           method_names[outcome->did.method]);
+    if (outcome->did.error > 0)
+        printf("  %-10s within %s of the solid, for %" PRIu32 " exact pieces\n", "error", error,
+               outcome->did.exact_pieces);
     printf("  %-10s %" PRIu32 "\n", "reflex", outcome->info.reflex_edges);
     printf("  %-10s %s\n", "time", time);
     if (args_has(args, "-o"))
@@ -112,12 +140,12 @@ static bool write(const pir_pieces *pieces, const char *path) {
     return one_file ? write_objects(pieces, path) : write_folder(pieces, path);
 }
 
-static int decompose(const struct args *args, const pir_solid *solid) {
+static int decompose(const struct args *args, const pir_solid *solid, const pir_decompose_options *options) {
     struct outcome outcome = {0};
     const char *path = args_value(args, "-o");
     pir_solid_describe(solid, &outcome.info);
     const int64_t start = clock_now();
-    const pir_status status = pir_solid_decompose(solid, NULL, &outcome.pieces);
+    const pir_status status = pir_solid_decompose_with(solid, options, &outcome.did, &outcome.pieces);
     outcome.seconds = (double)(clock_now() - start) / 1e9;
     if (status != PIR_OK)
         return complain_status("decompose", status, NULL);
@@ -131,10 +159,11 @@ static int decompose(const struct args *args, const pir_solid *solid) {
 }
 
 int cmd_decompose(const struct args *args) {
-    if (!target_check(args, "-o", NULL))
+    pir_decompose_options options;
+    if (!target_check(args, "-o", NULL) || !read_options(args, &options))
         return EXIT_BAD_INPUT;
     pir_solid *solid = solid_load(args, 0);
-    const int result = solid ? decompose(args, solid) : EXIT_BAD_INPUT;
+    const int result = solid ? decompose(args, solid, &options) : EXIT_BAD_INPUT;
     pir_solid_release(solid);
     return result;
 }

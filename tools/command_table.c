@@ -50,6 +50,10 @@ static const struct option info_options[] = {
 
 static const struct option decompose_options[] = {
     {"-o", "DIR|FILE.obj", "write the pieces: an OFF file each, exact, or one object each in an OBJ file"},
+    {"--method", "best|facets|walls",
+     "cut by planes of facets, by vertical walls through reflex edges first, or by what gives fewer pieces (best)"},
+    {"--pieces", "N", "at most N pieces, which contain the solid"},
+    {"--tolerance", "T", "fewer pieces, which contain the solid and reach out of it by this length at most"},
     COMMON_OPTIONS,
 };
 
@@ -308,9 +312,12 @@ const struct command command_table[COMMAND_COUNT] = {
             .required = 1,
             .summary = "divide a solid into convex pieces, exactly",
             .details = "The pieces have disjoint insides, and the solid is their union. They are cut along planes of "
-                       "facets, and joined where that leaves them convex.",
+                       "facets, or of vertical walls, and joined where that leaves them convex. With --pieces or "
+                       "--tolerance they contain the solid: pairs are replaced by their hulls, and how far these reach "
+                       "out is proven and printed.",
             .options = decompose_options,
-            .examples = {{"decompose shape:cube -o pieces.obj", "one object a piece"}},
+            .examples = {{"decompose shape:cube -o pieces.obj", "one object a piece"},
+                         {"decompose shape:cube --tolerance 0.01 --json", "fewer, and how far they reach out"}},
         },
     [COMMAND_SIMPLIFY] =
         {

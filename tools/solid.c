@@ -36,16 +36,24 @@ static pir_status make_shape(const char *name, pir_report *report, pir_solid **r
     return status;
 }
 
-/* Refuses options that are about hulls, of those that the subcommand has. */
+static bool has_option(const struct command *command, const char *name) {
+    const struct option *option = command->options;
+    while (option->name && strcmp(option->name, name) != 0)
+        option++;
+    return option->name;
+}
+
+/* Refuses options that are about hulls, of a subcommand that is for hulls without --solid. */
 static bool check_options(const struct args *args) {
     static const char *const of_hulls[] = {"--merge", "--require-convex", "--method"};
-    for (const struct option *option = args->command->options; option->name; option++)
-        for (size_t i = 0; i < sizeof of_hulls / sizeof *of_hulls; i++)
-            if (strcmp(option->name, of_hulls[i]) == 0 && args_has(args, of_hulls[i])) {
-                complain("%s: %s is for hulls; with --solid models are taken as they are", args->command->name,
-                         of_hulls[i]);
-                return false;
-            }
+    if (!has_option(args->command, "--solid"))
+        return true;
+    for (size_t i = 0; i < sizeof of_hulls / sizeof *of_hulls; i++)
+        if (has_option(args->command, of_hulls[i]) && args_has(args, of_hulls[i])) {
+            complain("%s: %s is for hulls; with --solid models are taken as they are", args->command->name,
+                     of_hulls[i]);
+            return false;
+        }
     return true;
 }
 

@@ -125,19 +125,61 @@ PIR_API void pir_solid_release(pir_solid *solid);
 /** What the solid is. */
 PIR_API void pir_solid_describe(const pir_solid *solid, pir_solid_info *ret_info);
 
+/** By which planes a solid is cut. */
+typedef enum pir_decompose_method {
+    PIR_DECOMPOSE_BEST,   /**< both ways; what gives fewer pieces counts, by facets where they give as many */
+    PIR_DECOMPOSE_FACETS, /**< planes of facets: pieces have no planes but the solid's */
+    PIR_DECOMPOSE_WALLS   /**< vertical planes through reflex edges first (Hachenberger 2008) */
+} pir_decompose_method;
+
+/** How a solid is divided. */
+typedef struct pir_decompose_options {
+    pir_solid_options solid;
+    pir_decompose_method method;
+    uint32_t pieces;  /**< the most that there may be; 0 for no bound */
+    double tolerance; /**< pieces may reach this far out of the solid where that makes them fewer, a length; 0: not */
+} pir_decompose_options;
+
+/** pir_solid_options_default, PIR_DECOMPOSE_BEST, exact. */
+PIR_API pir_decompose_options pir_decompose_options_default(void);
+
+/** What a decomposition did. */
+typedef struct pir_decompose_info {
+    pir_decompose_method method; /**< the one that counted: not PIR_DECOMPOSE_BEST */
+    uint32_t exact_pieces;       /**< before any were joined by a hull */
+    double error; /**< no point of a piece is farther than this from the solid, rounded up; 0: the pieces are it */
+} pir_decompose_info;
+
 /**
- * Divides a solid into convex pieces with disjoint insides, whose union it is: space is cut along planes of facets at
- * reflex edges, then pieces are joined while the union of two is convex.
+ * Divides a solid into convex pieces with disjoint insides, whose union it is: space is cut until the solid is convex
+ * in every cell, then pieces are joined while the union of two is convex.
  *
  * options     NULL for the defaults.
  * ret_pieces  to be freed with pir_pieces_destroy.
  *
- * Cost: for r reflex edges and n facets O(r²) pieces and O(r·n) fragments in most models.
+ * Cost: for r reflex edges and n facets O(r²) pieces and O(r·n) fragments in most models, for each of two methods.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_solid_decompose(const pir_solid *solid, const pir_solid_options *options,
                                        pir_pieces **ret_pieces);
+
+/**
+ * The same by a method, and into fewer pieces that may overlap and reach out of the solid, which they always contain:
+ * two pieces at a time are replaced by their convex hull, those first whose hull reaches out least.
+ *
+ * options     NULL for the defaults. Pieces are joined while none reaches farther out than `tolerance`, and however far
+ *             that is while there are more than `pieces`.
+ * ret_info    NULL, or what was done. Its error bounds the Hausdorff distance between the union of the pieces and the
+ *             solid. It is proven pair by pair, so it may be larger than need be.
+ * ret_pieces  to be freed with pir_pieces_destroy.
+ *
+ * Cost: of pir_solid_decompose, and for m exact pieces O(m) hulls and O(m · k) bounds, k pieces being near another.
+ *
+ * Errors: those of pir_solid_decompose; PIR_ERR_ARGUMENT for no method and a tolerance below 0, PIR_ERR_NOT_FINITE.
+ */
+PIR_API pir_status pir_solid_decompose_with(const pir_solid *solid, const pir_decompose_options *options,
+                                            pir_decompose_info *ret_info, pir_pieces **ret_pieces);
 
 /** Frees; NULL is accepted. */
 PIR_API void pir_pieces_destroy(pir_pieces *pieces);

@@ -59,6 +59,21 @@ class Solid(CommandTest):
         self.assertIn("inside", self.good("query", cube, model, "--solid", "--translate", "0.25,0.25,0"))
         self.bad("query", cube, model, "--solid", "--translate", "1,1,0", "--direction", "1,0,0", says="not for solids")
 
+    def test_decompose_makes_fewer_pieces_when_asked(self):
+        model = self.file("l.off", prism())
+        for method in ("facets", "walls"):
+            told = self.data("decompose", model, "--method", method)
+            self.assertEqual((told["method"], told["pieces"], told["exact_pieces"], told["error"]), (method, 2, 2, 0))
+        for option, value in (("--pieces", 1), ("--tolerance", 10)):
+            told = self.data("decompose", model, option, value)
+            self.assertEqual((told["pieces"], told["exact_pieces"]), (1, 2))
+            self.assertGreater(told["error"], 0.1)
+            self.assertIn(" of the solid, for 2 exact pieces", self.good("decompose", model, option, value))
+        self.assertEqual(self.data("decompose", model, "--tolerance", 1e-3)["pieces"], 2)
+        for option, value, says in (("--method", "saw", "saw"), ("--pieces", 0, "--pieces"), ("--pieces", "x", "--pi"),
+                                    ("--tolerance", -1, "a length of 0 or more"), ("--tolerance", "nan", "--tol")):
+            self.bad("decompose", model, option, value, says=says)
+
     def test_decompose_writes_a_piece_each(self):
         model = self.file("l.off", prism())
         self.assertEqual(self.data("decompose", model, "-o", self.path / "pieces")["pieces"], 2)

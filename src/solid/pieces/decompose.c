@@ -10,7 +10,11 @@
  * inside of the cell with no fragment between. Otherwise the cell is cut by the plane of one of its fragments. A
  * cell without fragments is what a side of the cut was: below the fragment whose plane it was, inside.
  *
- * Which plane: one that resolves many creases, which is to hold them, and that cuts few fragments.
+ * Which plane: one that resolves many creases, which is to hold them, and that cuts few fragments. By facets it is the
+ * plane of one. By walls it is, while creases are left, a vertical plane through one, or the plane of a facet at a
+ * vertical one (Hachenberger 2008: walls that points of reflex edges see up and down; here they end where the cell
+ * does). On both sides of a plane that holds a crease some of the body is next to the crease, so a cell without
+ * fragments there is inside.
  */
 #include "solid/pieces/decompose.h"
 
@@ -26,10 +30,13 @@ struct node {
 struct crease {
     uint32_t a, b;     /* points */
     uint32_t plane[2]; /* of its facets */
+    uint32_t wall[2];  /* half-spaces to cut by: twice the same where it is not vertical */
+    bool vertical;
 };
 
 struct division {
     const pir_body *body;
+    pir_decompose_method method;
     pir_space *space;
     pir_cells *cells;
     pir_piece_list *pieces;
@@ -104,6 +111,24 @@ static struct score score_plane(struct division *d, const struct node *node, uin
     return score;
 }
 
+/* The wall to cut by; none where no creases are left. Those of vertical creases come when no others are left. */
+static uint32_t choose_wall(struct division *d, const struct node *node) {
+    uint32_t best = PIR_SPACE_NONE;
+    int64_t value = INT64_MIN;
+    bool vertical = true;
+    for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++)
+        vertical = vertical && d->creases[i].vertical;
+    for (uint32_t i = node->crease; i < node->crease + node->crease_count && d->space->status == PIR_OK; i++) {
+        const struct crease crease = d->creases[i];
+        for (int k = 0; k < 2 && crease.vertical == vertical; k++) {
+            const int64_t own = score_plane(d, node, crease.wall[k], value).value;
+            if (own > value)
+                value = own, best = crease.wall[k];
+        }
+    }
+    return best;
+}
+
 /* The half-space to cut by, or none when every fragment is on or below the plane of every other. */
 static uint32_t choose_plane(struct division *d, const struct node *node) {
     uint32_t best = PIR_SPACE_NONE;
@@ -168,8 +193,9 @@ static void cut_creases(struct division *d, const struct node *node, uint32_t ha
     }
 }
 
-static void cut_node(struct division *d, const struct node *node, uint32_t half) {
-    struct node child[2] = {{.inside = true}, {.inside = false}};
+/* `holds_crease`: the plane does, so that both sides are inside where they have no fragments. */
+static void cut_node(struct division *d, const struct node *node, uint32_t half, bool holds_crease) {
+    struct node child[2] = {{.inside = true}, {.inside = holds_crease}};
     uint32_t parts[2] = {0};
     pir_cells_cut(d->cells, node->cell, half, parts);
     cut_fragments(d, node, half, child);
@@ -198,15 +224,37 @@ static void keep_piece(struct division *d, const struct node *node) {
 static void divide(struct division *d) {
     while (d->node_count > 0 && d->space->status == PIR_OK) {
         const struct node node = d->node[--d->node_count];
-        const uint32_t half = node.fragment_count ? choose_plane(d, &node) : PIR_SPACE_NONE;
+        const bool by_wall = d->method == PIR_DECOMPOSE_WALLS && node.crease_count > 0;
+        const uint32_t half = by_wall               ? choose_wall(d, &node)
+                              : node.fragment_count ? choose_plane(d, &node)
+                                                    : PIR_SPACE_NONE;
         if (half != PIR_SPACE_NONE)
-            cut_node(d, &node, half);
+            cut_node(d, &node, half, by_wall);
         else if (node.fragment_count || node.inside)
             keep_piece(d, &node);
     }
 }
 
 /* --- the whole --- */
+
+/* The walls of a reflex edge. */
+static struct crease crease_at(struct division *d, const pir_body_edge *edge, uint32_t up) {
+    const pir_body *body = d->body;
+    const uint32_t left = body->plane[edge->left], right = body->plane[edge->right];
+    struct crease crease = {.a = edge->a, .b = edge->b, .plane = {left, right}};
+    if (d->method != PIR_DECOMPOSE_WALLS)
+        return crease;
+    const mpz_t *along = (const mpz_t *)d->space->number + d->space->direction[edge->direction].exact;
+    crease.vertical = mpz_sgn(along[0]) == 0 && mpz_sgn(along[1]) == 0;
+    crease.wall[0] = pir_half(left, false);
+    crease.wall[1] = pir_half(right, false);
+    if (!crease.vertical)
+        crease.wall[0] = crease.wall[1] =
+            pir_half(pir_space_add_plane(d->space, (const uint32_t[]){edge->direction, up}, false,
+                                         (const uint32_t[]){edge->a, PIR_SPACE_NONE}),
+                     false);
+    return crease;
+}
 
 static void begin(struct division *d) {
     const pir_body *body = d->body;
@@ -219,16 +267,16 @@ static void begin(struct division *d) {
     for (uint32_t e = 0; e < body->edge_count; e++) {
         const pir_body_edge *edge = &body->edge[e];
         if (edge->bend == PIR_BEND_REFLEX)
-            push_crease(d, (struct crease){edge->a, edge->b, {body->plane[edge->left], body->plane[edge->right]}});
+            push_crease(d, crease_at(d, edge, d->polygons.axis[2]));
     }
     root.fragment_count = d->list_count;
     root.crease_count = d->crease_count;
     push_node(d, root);
 }
 
-pir_status pir_decompose(const pir_body *body, pir_cells *cells, pir_piece_list *pieces) {
+pir_status pir_decompose(const pir_body *body, pir_decompose_method method, pir_cells *cells, pir_piece_list *pieces) {
     pir_space *space = body->space;
-    struct division d = {.body = body, .space = space, .cells = cells, .pieces = pieces};
+    struct division d = {.body = body, .method = method, .space = space, .cells = cells, .pieces = pieces};
     pir_polygons_init(&d.polygons, space);
     begin(&d);
     divide(&d);

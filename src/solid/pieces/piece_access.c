@@ -1,18 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* The pieces of a solid as the caller sees them: their vertices as rationals, in units of the model. */
+/* The pieces of a solid as the caller sees them. */
 #include <pirouette/exact.h>
 #include <pirouette/solid.h>
 
+#include <math.h>
+
 #include "solid/body/solid.h"
+#include "solid/pieces/approximate.h"
 #include "solid/pieces/join_pieces.h"
+#include "solid/pieces/piece_list.h"
 #include "solid/space/exact.h"
 
-struct pir_pieces {
-    pir_allocator allocator;
-    uint32_t count, vertex_count;
-    uint32_t *start; /* count + 1: the first vertex of each */
-    mpq_t *vertex;   /* three a vertex */
-};
+pir_pieces *pir_pieces_new(const pir_allocator *allocator, uint32_t count, uint32_t vertex_count) {
+    pir_pieces *pieces = PIR_ZEROED(allocator, pir_pieces, 1);
+    if (!pieces)
+        return NULL;
+    pieces->allocator = *allocator;
+    pieces->count = count;
+    pieces->vertex_count = vertex_count;
+    pieces->start = PIR_ZEROED(allocator, uint32_t, (size_t)count + 1);
+    pieces->vertex = PIR_NEW(allocator, mpq_t, 3 * (size_t)vertex_count);
+    for (size_t i = 0; i < 3 * (size_t)vertex_count && pieces->vertex; i++)
+        mpq_init(pieces->vertex[i]);
+    if (pieces->start && pieces->vertex)
+        return pieces;
+    pir_pieces_destroy(pieces);
+    return NULL;
+}
 
 void pir_pieces_destroy(pir_pieces *pieces) {
     if (!pieces)
@@ -67,24 +81,22 @@ static void set_vertex(mpq_t *vertex, pir_space *space, uint32_t point, const pi
     }
 }
 
-static pir_status fill(pir_pieces *pieces, const pir_cells *cells, const pir_piece_list *list, const pir_scale *scale) {
-    const pir_allocator *a = &pieces->allocator;
-    pieces->count = list->count;
-    pieces->start = PIR_ZEROED(a, uint32_t, (size_t)list->count + 1);
-    if (!pieces->start)
-        return PIR_ERR_MEMORY;
+static uint32_t vertices_of(const pir_cells *cells, pir_cell cell) {
+    uint32_t count = 0;
+    for (uint32_t c = cells->face[cell.first].first; (c = next_vertex(cells, cell, c)) != PIR_SPACE_NONE; c++)
+        count++;
+    return count;
+}
+
+/* The pieces of a list of cells. */
+static pir_status keep(const pir_cells *cells, const pir_piece_list *list, const pir_scale *scale,
+                       const pir_allocator *allocator, pir_pieces **ret_pieces) {
     uint32_t vertices = 0;
-    for (uint32_t i = 0; i < list->count; i++) {
-        const pir_cell cell = cells->cell[list->cell[i]];
-        for (uint32_t c = cells->face[cell.first].first; (c = next_vertex(cells, cell, c)) != PIR_SPACE_NONE; c++)
-            vertices++;
-    }
-    pieces->vertex = PIR_NEW(a, mpq_t, 3 * (size_t)vertices);
-    pieces->vertex_count = vertices;
-    if (!pieces->vertex)
+    for (uint32_t i = 0; i < list->count; i++)
+        vertices += vertices_of(cells, cells->cell[list->cell[i]]);
+    pir_pieces *pieces = pir_pieces_new(allocator, list->count, vertices);
+    if (!pieces)
         return PIR_ERR_MEMORY;
-    for (size_t i = 0; i < 3 * (size_t)vertices; i++)
-        mpq_init(pieces->vertex[i]);
     uint32_t at = 0;
     for (uint32_t i = 0; i < list->count; i++) {
         const pir_cell cell = cells->cell[list->cell[i]];
@@ -92,46 +104,98 @@ static pir_status fill(pir_pieces *pieces, const pir_cells *cells, const pir_pie
             set_vertex(pieces->vertex + 3 * (size_t)at++, cells->space, cells->corner[c], scale);
         pieces->start[i + 1] = at;
     }
+    *ret_pieces = pieces;
     return cells->space->status;
 }
 
-static pir_status decompose(const pir_solid *solid, pir_space *space, pir_pieces *pieces) {
+/* The exact pieces by one method, not the best. */
+static pir_status decompose(const pir_solid *solid, const pir_solid_options *options, pir_decompose_method method,
+                            pir_pieces **ret_pieces) {
+    pir_space space;
     pir_body body = {0};
     pir_cells cells;
     pir_piece_list list = {0};
-    pir_cells_init(&cells, space);
-    pir_status status = pir_solid_body(solid, space, &body);
+    pir_space_init(&space, options->allocator, options->memory, pir_vectors_bits(&solid->points) + 1);
+    pir_cells_init(&cells, &space);
+    pir_status status = pir_solid_body(solid, &space, &body);
     if (status == PIR_OK)
-        status = pir_decompose(&body, &cells, &list);
+        status = pir_decompose(&body, method, &cells, &list);
     if (status == PIR_OK) {
         pir_merge_pieces(&cells, &list);
-        status = space->status;
+        status = space.status;
     }
     if (status == PIR_OK)
-        status = fill(pieces, &cells, &list, &solid->scale);
-    pir_piece_list_finish(&list, space);
+        status = keep(&cells, &list, &solid->scale, options->allocator, ret_pieces);
+    pir_piece_list_finish(&list, &space);
     pir_cells_finish(&cells);
     pir_body_finish(&body);
+    pir_space_finish(&space);
     return status;
 }
 
-pir_status pir_solid_decompose(const pir_solid *solid, const pir_solid_options *options, pir_pieces **ret_pieces) {
+/* The same by the method asked for; *method becomes the one that it is. */
+static pir_status decompose_by(const pir_solid *solid, const pir_solid_options *options, pir_decompose_method *method,
+                               pir_pieces **ret_pieces) {
+    const bool both = *method == PIR_DECOMPOSE_BEST;
+    *method = both ? PIR_DECOMPOSE_FACETS : *method;
+    pir_status status = decompose(solid, options, *method, ret_pieces);
+    if (status != PIR_OK || !both || (*ret_pieces)->count == 1)
+        return status;
+    pir_pieces *other = NULL;
+    status = decompose(solid, options, PIR_DECOMPOSE_WALLS, &other);
+    // one way that takes too much leaves the other
+    if (status == PIR_OK && other->count < (*ret_pieces)->count) {
+        pir_pieces *kept = other;
+        other = *ret_pieces;
+        *ret_pieces = kept;
+        *method = PIR_DECOMPOSE_WALLS;
+    }
+    pir_pieces_destroy(other);
+    return status == PIR_ERR_LIMIT ? PIR_OK : status;
+}
+
+pir_decompose_options pir_decompose_options_default(void) {
+    return (pir_decompose_options){.solid = pir_solid_options_default(), .method = PIR_DECOMPOSE_BEST};
+}
+
+static pir_status check(const pir_decompose_options *options) {
+    if (options->method != PIR_DECOMPOSE_BEST && options->method != PIR_DECOMPOSE_FACETS &&
+        options->method != PIR_DECOMPOSE_WALLS)
+        return PIR_ERR_ARGUMENT;
+    if (!isfinite(options->tolerance))
+        return PIR_ERR_NOT_FINITE;
+    return options->tolerance < 0 ? PIR_ERR_ARGUMENT : PIR_OK;
+}
+
+pir_status pir_solid_decompose_with(const pir_solid *solid, const pir_decompose_options *options,
+                                    pir_decompose_info *ret_info, pir_pieces **ret_pieces) {
     if (!solid || !ret_pieces)
         return PIR_ERR_ARGUMENT;
     pir_allocator allocator;
-    const pir_solid_options used = pir_solid_options_or_default(options, &allocator);
-    pir_pieces *pieces = PIR_ZEROED(&allocator, pir_pieces, 1);
-    if (!pieces)
-        return PIR_ERR_MEMORY;
-    pieces->allocator = allocator;
-    pir_space space;
-    pir_space_init(&space, &allocator, used.memory, pir_vectors_bits(&solid->points) + 1);
-    const pir_status status = decompose(solid, &space, pieces);
-    pir_space_finish(&space);
+    pir_decompose_options used = options ? *options : pir_decompose_options_default();
+    used.solid = pir_solid_options_or_default(&used.solid, &allocator);
+    pir_status status = check(&used);
+    if (status != PIR_OK)
+        return status;
+    pir_decompose_info info = {.method = used.method};
+    pir_pieces *pieces = NULL;
+    status = decompose_by(solid, &used.solid, &info.method, &pieces);
+    if (status == PIR_OK)
+        info.exact_pieces = pieces->count;
+    if (status == PIR_OK && (used.tolerance > 0 || used.pieces > 0))
+        status = pir_pieces_approximate(&pieces, used.pieces, used.tolerance, &info.error);
     if (status != PIR_OK) {
         pir_pieces_destroy(pieces);
         return status;
     }
+    if (ret_info)
+        *ret_info = info;
     *ret_pieces = pieces;
     return PIR_OK;
+}
+
+pir_status pir_solid_decompose(const pir_solid *solid, const pir_solid_options *options, pir_pieces **ret_pieces) {
+    pir_decompose_options exact = pir_decompose_options_default();
+    exact.solid = options ? *options : exact.solid;
+    return pir_solid_decompose_with(solid, &exact, NULL, ret_pieces);
 }

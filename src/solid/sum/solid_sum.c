@@ -133,7 +133,8 @@ static pir_status compute(struct job *job, bool open) {
     pir_space *space = &job->operands.space;
     for (int k = 0; k < 2; k++) {
         pir_cells_init(&job->cells[k], space);
-        pir_status status = pir_decompose(&job->operands.body[k], &job->cells[k], &job->pieces[k]);
+        pir_status status =
+            pir_decompose(&job->operands.body[k], PIR_DECOMPOSE_FACETS, &job->cells[k], &job->pieces[k]);
         if (status != PIR_OK)
             return status;
         pir_merge_pieces(&job->cells[k], &job->pieces[k]);
