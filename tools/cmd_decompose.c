@@ -9,6 +9,7 @@
 #include "json.h"
 #include "measure.h"
 #include "message.h"
+#include "pixels/solid_picture.h"
 #include "solid.h"
 #include "target.h"
 #include "text.h"
@@ -135,7 +136,31 @@ static void print_text(const struct args *args, const struct outcome *outcome) {
         printf("  %-10s %s\n", "written to", args_value(args, "-o"));
 }
 
+#if PIR_HAVE_PNG
+/* Each piece in a colour of its own. */
+static bool write_picture(const pir_pieces *pieces, const char *path) {
+    const uint32_t count = pir_pieces_count(pieces);
+    struct output_file file = {0};
+    pir_mesh **meshes = calloc(count, sizeof *meshes);
+    bool good = meshes && output_open(&file, path);
+    for (uint32_t k = 0; good && k < count; k++)
+        good = (meshes[k] = mesh_of(pieces, k)) != NULL;
+    good = good && solid_picture_write(&file, meshes, count);
+    if (!meshes)
+        complain_status("decompose", PIR_ERR_MEMORY, NULL);
+    output_discard(&file);
+    for (uint32_t k = 0; k < count && meshes; k++)
+        pir_mesh_destroy(meshes[k]);
+    free(meshes);
+    return good;
+}
+#endif
+
 static bool write(const pir_pieces *pieces, const char *path) {
+#if PIR_HAVE_PNG
+    if (output_ends_in(path, ".png"))
+        return write_picture(pieces, path);
+#endif
     const bool one_file = output_ends_in(path, ".obj") || output_is_stream(path);
     return one_file ? write_objects(pieces, path) : write_folder(pieces, path);
 }

@@ -49,7 +49,8 @@ static const struct option info_options[] = {
 };
 
 static const struct option decompose_options[] = {
-    {"-o", "DIR|FILE.obj", "write the pieces: an OFF file each, exact, or one object each in an OBJ file"},
+    {"-o", "DIR|FILE",
+     "write the pieces: an OFF file each, exact, one object each in FILE.obj, or a picture, FILE.png"},
     {"--method", "best|facets|walls",
      "cut by planes of facets, by vertical walls through reflex edges first, or by what gives fewer pieces (best)"},
     {"--pieces", "N", "at most N pieces, which contain the solid"},
@@ -98,7 +99,7 @@ static const struct option sum_options[] = {
     {"--exact", NULL, "exact coordinates; in .off: integers and a/b instead of doubles"},
     {"--solid", NULL, "P and Q as the solids that they are, not their hulls; -o then takes .off"},
     {"--open", NULL, "with --solid: without their boundaries, so that tight passages are left out"},
-    {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg"},
+    {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg; of solids .off or .png"},
     MODEL_OPTIONS,
 };
 

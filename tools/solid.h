@@ -9,6 +9,13 @@
 
 /* The solid of positional argument `index`, to be released; NULL after a complaint, as about --merge, which takes
  * hulls. */
+/* Where solids and their pieces go as pictures, in this build: the end of a list of endings. */
+#if PIR_HAVE_PNG
+#define SOLID_PICTURE " or .png"
+#else
+#define SOLID_PICTURE ""
+#endif
+
 pir_solid *solid_load(const struct args *args, size_t index);
 
 /* query --solid: what is asked, and the motion of a cast or NULL. */

@@ -6,13 +6,14 @@
 #include "json.h"
 #include "measure.h"
 #include "message.h"
+#include "pixels/solid_picture.h"
 #include "pose.h"
 #include "solid.h"
 #include "target.h"
 #include "text.h"
 
 /* The formats whose readers take facets that are not convex, with slits to their holes. */
-#define TARGET_SOLID ".off"
+#define TARGET_SOLID ".off" SOLID_PICTURE
 
 struct request {
     pir_quat rotation;
@@ -74,6 +75,14 @@ static int report(const struct args *args, const struct request *request, const 
     return EXIT_DONE;
 }
 
+static bool write(struct output_file *file, pir_mesh *mesh, bool exact) {
+#if PIR_HAVE_PNG
+    if (output_ends_in(file->path, ".png"))
+        return solid_picture_write(file, &mesh, 1);
+#endif
+    return target_write_mesh(file, mesh, exact);
+}
+
 int solid_sum(const struct args *args) {
     struct request request = {.options = pir_solid_sum_options_default()};
     request.options.difference = args_has(args, "--difference");
@@ -91,7 +100,7 @@ int solid_sum(const struct args *args) {
         outcome.seconds = (double)(clock_now() - start) / 1e9;
         if (status != PIR_OK)
             complain_status("sum", status, NULL);
-        else if (!path || target_write_mesh(&file, outcome.mesh, args_has(args, "--exact")))
+        else if (!path || write(&file, outcome.mesh, args_has(args, "--exact")))
             result = report(args, &request, &outcome);
     }
     output_discard(&file);
