@@ -49,6 +49,10 @@ static void make_folder(const char *path) {
 struct results results_new(const char *root) {
     struct results results;
     char processor[96], name[128];
+    if (root[0] == '-') {
+        fprintf(stderr, "bench: %s: the folder of the results is wanted, and no options\n", root);
+        exit(2);
+    }
     find_processor(processor, sizeof processor);
     snprintf(results.machine, sizeof results.machine, "%s, %ld cores", processor, sysconf(_SC_NPROCESSORS_ONLN));
     name_folder(results.machine, name, sizeof name);
