@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "narrow_phase.hpp"
+#include "solver.hpp"
 
 extern "C" {
 #include "stage.h"
@@ -41,10 +42,7 @@ class World {
             narrow_.use_in(dispatcher_);
         const pir_vec3 &g = stage.options.gravity;
         world_.setGravity(btVector3(g.x, g.y, g.z));
-        // Bullet begins friction from nothing in every step: what leans needs many passes, and directions that stay
-        world_.getSolverInfo().m_numIterations = 200;
-        world_.getSolverInfo().m_solverMode |=
-            SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+        Solver::set(world_.getSolverInfo());
         for (uint32_t i = 0; i < stage.shape_count; i++)
             shapes_.push_back(make_shape(stage.shape[i]));
         for (uint32_t i = 0; i < stage.body_count; i++)
@@ -87,13 +85,17 @@ class World {
         return count ? sum / count : 0;
     }
 
-    // The deepest overlap of two bodies of one piece each, by pairs made for the question.
-    double deepest() const {
-        double most = 0;
+    // The deepest overlap of two bodies of one piece each, by pairs made for the question, and the deepest in parts of
+    // the size of the smaller body.
+    void deepest(double *ret_depth, double *ret_part) const {
+        *ret_depth = *ret_part = 0;
         for (uint32_t i = 0; i < stage_.body_count; i++)
-            for (uint32_t k = i + 1; k < stage_.body_count; k++)
-                most = std::fmax(most, depth(i, k));
-        return most;
+            for (uint32_t k = i + 1; k < stage_.body_count; k++) {
+                double deep = depth(i, k);
+                double size = 2 * std::fmin(stage_.body[i].body.shape->radius, stage_.body[k].body.shape->radius);
+                *ret_depth = std::fmax(*ret_depth, deep);
+                *ret_part = std::fmax(*ret_part, deep / size);
+            }
     }
 
   private:
@@ -176,7 +178,7 @@ class World {
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;
     btDbvtBroadphase broadphase_;
-    btSequentialImpulseConstraintSolver solver_;
+    Solver solver_;
     btDiscreteDynamicsWorld world_;
     std::vector<std::unique_ptr<btConvexHullShape>> hulls_;
     std::vector<std::unique_ptr<btCompoundShape>> shapes_;
@@ -197,7 +199,10 @@ void run(const stage &stage, double seconds, bool exact) {
         std::printf("stands for %g s", seconds);
     else
         std::printf("moves on at %.2f s", fallen);
-    std::printf(", at the end mean speed %.2g m/s, deepest overlap %.2g m\n", world.mean_speed(), world.deepest());
+    double depth, part;
+    world.deepest(&depth, &part);
+    std::printf(", at the end mean speed %.2g m/s, deepest overlap %.2g m, %.2g %% of a size\n", world.mean_speed(),
+                depth, 100 * part);
 }
 
 } // namespace

@@ -34,7 +34,7 @@ pir_polytope *polytope(const btCollisionObjectWrapper *wrap) {
 }
 
 // Four of many contacts: the deepest, then thrice the one farthest from all that are chosen.
-size_t choose(pir_contact *contact, size_t count) {
+int choose(pir_contact *contact, size_t count) {
     for (size_t chosen = 0; chosen < MANIFOLD_CACHE_SIZE && chosen < count; chosen++) {
         size_t best = chosen;
         double most = -1;
@@ -49,7 +49,7 @@ size_t choose(pir_contact *contact, size_t count) {
         }
         std::swap(contact[chosen], contact[best]);
     }
-    return std::min<size_t>(count, MANIFOLD_CACHE_SIZE);
+    return (int)std::min<size_t>(count, MANIFOLD_CACHE_SIZE);
 }
 
 class Algorithm : public btActivatingCollisionAlgorithm {
@@ -79,14 +79,18 @@ class Algorithm : public btActivatingCollisionAlgorithm {
 
         result->setPersistentManifold(manifold_);
         const btCollisionObject *objects[2] = {a->getCollisionObject(), b->getCollisionObject()};
-        btManifoldPoint old[MANIFOLD_CACHE_SIZE];
+        btManifoldPoint old[MANIFOLD_CACHE_SIZE], made[MANIFOLD_CACHE_SIZE];
         int kept = manifold_->getNumContacts();
         for (int i = 0; i < kept; i++)
             old[i] = manifold_->getContactPoint(i);
+        int chosen = choose(contacts, count);
+        for (int i = 0; i < chosen; i++)
+            made[i] = point(contacts[i], answer.normal, objects);
+        double near = manifold_->getContactBreakingThreshold();
+        go_on(made, chosen, old, kept, near * near);
         manifold_->clearManifold();
-        count = choose(contacts, count);
-        for (size_t i = 0; i < count; i++)
-            manifold_->addManifoldPoint(point(contacts[i], answer.normal, objects, old, kept));
+        for (int i = 0; i < chosen; i++)
+            manifold_->addManifoldPoint(made[i]);
     }
 
     btScalar calculateTimeOfImpact(btCollisionObject *, btCollisionObject *, const btDispatcherInfo &,
@@ -101,17 +105,42 @@ class Algorithm : public btActivatingCollisionAlgorithm {
   private:
     static constexpr size_t CONTACTS = 256;
 
-    // The old point of the same id, or NULL.
-    static const btManifoldPoint *same(const btManifoldPoint &made, const btManifoldPoint *old, int kept) {
-        for (int i = 0; i < kept; i++)
-            if (old[i].m_index0 == made.m_index0 && old[i].m_index1 == made.m_index1)
-                return &old[i];
-        return nullptr;
+    // How unlike two points are: nothing where they have one id, else the square of how far the new one is from where
+    // the old one would be now, in the frame of the body where that is less.
+    static double unlike(const btManifoldPoint &made, const btManifoldPoint &old) {
+        if (made.m_index0 == old.m_index0 && made.m_index1 == old.m_index1)
+            return 0;
+        return std::min((made.m_localPointA - old.m_localPointA).length2(),
+                        (made.m_localPointB - old.m_localPointB).length2());
     }
 
-    // A contact as Bullet has it, with the impulses of the old one of its id.
+    // Impulses of old points go on with the new ones most like them, each with one: a contact whose features change
+    // while it stays where it is keeps what holds the bodies.
+    static void go_on(btManifoldPoint *made, int count, const btManifoldPoint *old, int kept, double near) {
+        bool begun[MANIFOLD_CACHE_SIZE] = {false}, gone_on[MANIFOLD_CACHE_SIZE] = {false};
+        for (int pairs = std::min(count, kept); pairs > 0; pairs--) {
+            int to = -1, from = -1;
+            double least = near;
+            for (int i = 0; i < count; i++)
+                for (int k = 0; k < kept; k++)
+                    if (!begun[i] && !gone_on[k] && unlike(made[i], old[k]) < least) {
+                        least = unlike(made[i], old[k]);
+                        to = i;
+                        from = k;
+                    }
+            if (to < 0)
+                break;
+            begun[to] = gone_on[from] = true;
+            made[to].m_appliedImpulse = old[from].m_appliedImpulse;
+            made[to].m_appliedImpulseLateral1 = old[from].m_appliedImpulseLateral1;
+            made[to].m_appliedImpulseLateral2 = old[from].m_appliedImpulseLateral2;
+            made[to].m_lifeTime = old[from].m_lifeTime + 1;
+        }
+    }
+
+    // A contact as Bullet has it.
     static btManifoldPoint point(const pir_contact &contact, const pir_vec3 &normal,
-                                 const btCollisionObject *const objects[2], const btManifoldPoint *old, int kept) {
+                                 const btCollisionObject *const objects[2]) {
         btVector3 on_a = vec(contact.point_p), on_b = vec(contact.point_q);
         btManifoldPoint made(objects[0]->getWorldTransform().invXform(on_a),
                              objects[1]->getWorldTransform().invXform(on_b), vec(normal), contact.distance);
@@ -121,13 +150,6 @@ class Algorithm : public btActivatingCollisionAlgorithm {
         made.m_index1 = (int)(uint32_t)(contact.id >> 32);
         made.m_combinedFriction = btManifoldResult::calculateCombinedFriction(objects[0], objects[1]);
         made.m_combinedRestitution = btManifoldResult::calculateCombinedRestitution(objects[0], objects[1]);
-        const btManifoldPoint *before = same(made, old, kept);
-        if (before) {
-            made.m_appliedImpulse = before->m_appliedImpulse;
-            made.m_appliedImpulseLateral1 = before->m_appliedImpulseLateral1;
-            made.m_appliedImpulseLateral2 = before->m_appliedImpulseLateral2;
-            made.m_lifeTime = before->m_lifeTime + 1;
-        }
         return made;
     }
 

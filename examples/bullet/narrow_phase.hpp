@@ -3,7 +3,7 @@
 //
 // A hull's user pointer is the pir_polytope that it is made of. Each algorithm object, one for two shapes whose boxes
 // meet, has a pair by need (pair.h). Its manifold is made anew in every step from the exact one; impulses go on with
-// the contacts of the same ids, of which Bullet keeps four.
+// the contacts of the same ids or in the same places, of which Bullet keeps four.
 #ifndef EXAMPLE_BULLET_NARROW_PHASE_HPP
 #define EXAMPLE_BULLET_NARROW_PHASE_HPP
 
