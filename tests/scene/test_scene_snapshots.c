@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Snapshots: after a restore at any frame the events are those that followed it the first time, bit for bit; bytes
- * depend on the state alone; what is refused, and changes nothing; memory that fails.
+ * Snapshots: after a restore at any frame the events are those that followed it the first time, bit for bit, with 1, 2
+ * and 4 threads; bytes depend on the state alone; what is refused, and changes nothing; memory that fails.
  */
 #include "support/test.h"
 
@@ -56,9 +56,11 @@ static void a_restored_scene_goes_on_as_it_did(void **state) {
         pir_scene_options options = pir_scene_options_default();
         options.margin = n % 2 ? 0.125 : 0;
         options.approach = 1;
-        options.threads = 1 + n % 2;
+        static const uint32_t threads[3] = {1, 2, 4};
+        options.threads = threads[n % 3];
         crowd_init(&c, 2000 + n, 12 + 3 * (uint32_t)n, &options);
-        // the same bodies, in a scene with a life of its own
+        // the same bodies, in a scene with a life and with threads of its own
+        options.threads = threads[(n + 1) % 3];
         crowd_init(&other, 2000 + n, 12 + 3 * (uint32_t)n, &options);
         for (int f = 0; f < FRAMES; f++) {
             crowd_move(&c, f % 3 ? 0.4 : 1);
