@@ -2,7 +2,11 @@
 /* The pairs that an update has to look at: see candidates.h. */
 #include "scene/answer/candidates.h"
 
+#include "scene/answer/share.h"
 #include "scene/world/grow.h"
+
+/* How many bodies are worth another thread. */
+#define WORTH_MORE 64
 
 static const pir_box *fat_box(const pir_scene *scene, uint32_t piece) {
     return &scene->tree.node[scene->bodies.piece[piece].node].box;
@@ -50,41 +54,81 @@ static bool stays_apart(const pir_scene *scene, const pir_scene_pair *pair, cons
     return pair->apart > 0 && pair->apart - travelled > scene->margin;
 }
 
-static pir_status look(pir_scene *scene, uint32_t number) {
-    pir_scene_lists *lists = &scene->lists;
-    pir_scene_pair *pair = &scene->pairs.at[number];
+/* What a look at a pair says. A pair whose contact is certain to have ended is noted as well. */
+static pir_status look(pir_scene *scene, pir_scene_worker *worker, uint32_t number) {
+    const pir_scene_pair *pair = &scene->pairs.at[number];
     const pir_scene_piece *p = &scene->bodies.piece[pair->piece[0]], *q = &scene->bodies.piece[pair->piece[1]];
     const pir_scene_body *bodies = scene->bodies.body;
-    scene->looked++;
-    if (!pir_box_meets(&p->tight, &q->tight) || stays_apart(scene, pair, &bodies[p->body], &bodies[q->body])) {
-        if (pair->touching && !PIR_GROW(&scene->allocator, lists->ended, lists->ended_capacity, lists->ended_count + 1))
-            return PIR_ERR_MEMORY;
-        if (pair->touching)
-            lists->ended[lists->ended_count++] = number;
+    bool asks = pir_box_meets(&p->tight, &q->tight) && !stays_apart(scene, pair, &bodies[p->body], &bodies[q->body]);
+    worker->looked++;
+    if (!asks && !pair->touching)
         return PIR_OK;
-    }
-    if (!PIR_GROW(&scene->allocator, lists->asked, lists->asked_capacity, lists->asked_count + 1))
+    if (!PIR_GROW(&scene->allocator, worker->noted, worker->noted_capacity, worker->noted_count + 1))
         return PIR_ERR_MEMORY;
-    lists->asked[lists->asked_count++] = number;
-    return pir_scene_pairs_ready(&scene->pairs, &scene->allocator, number, p->extent.polytope, q->extent.polytope);
+    worker->noted[worker->noted_count++] = (pir_scene_noted){number, asks};
+    return PIR_OK;
+}
+
+/* Looks at the pairs of a piece. Where both bodies have moved, a pair is P's to look at. */
+static pir_status look_at_piece(pir_scene *scene, pir_scene_worker *worker, const pir_scene_piece *piece) {
+    pir_status status = PIR_OK;
+    for (uint32_t end = piece->first; end != PIR_END_NONE && status == PIR_OK;) {
+        const pir_scene_pair *pair = &scene->pairs.at[end / 2];
+        bool is_q = end % 2;
+        if (!is_q || scene->bodies.body[scene->bodies.piece[pair->piece[0]].body].moved != scene->update)
+            status = look(scene, worker, end / 2);
+        end = pair->next[is_q];
+    }
+    return status;
+}
+
+static void look_at_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
+    pir_scene_worker *worker = &scene->worker[task];
+    for (uint32_t i = begin; i < end; i++) {
+        const pir_scene_body *body = &scene->bodies.body[scene->lists.moved[i].body];
+        for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next)
+            pir_scene_worker_note(worker, look_at_piece(scene, worker, &scene->bodies.piece[p]), i);
+    }
+}
+
+/* Puts what a worker has noted on the lists. There is room. */
+static pir_status list_noted(pir_scene *scene, const pir_scene_worker *worker) {
+    pir_scene_lists *lists = &scene->lists;
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; i < worker->noted_count && status == PIR_OK; i++) {
+        const pir_scene_noted noted = worker->noted[i];
+        const uint32_t *piece = scene->pairs.at[noted.pair].piece;
+        if (!noted.asks) {
+            lists->ended[lists->ended_count++] = noted.pair;
+            continue;
+        }
+        lists->asked[lists->asked_count++] = noted.pair;
+        if (!scene->pairs.at[noted.pair].asked)
+            status = pir_scene_pairs_ready(&scene->pairs, &scene->allocator, noted.pair,
+                                           scene->bodies.piece[piece[0]].extent.polytope,
+                                           scene->bodies.piece[piece[1]].extent.polytope);
+    }
+    return status;
 }
 
 pir_status pir_scene_list_questions(pir_scene *scene) {
-    const pir_scene_piece *pieces = scene->bodies.piece;
-    for (uint32_t i = 0; i < scene->lists.moved_count; i++) {
-        const pir_scene_body *body = &scene->bodies.body[scene->lists.moved[i].body];
-        for (uint32_t piece = body->first; piece != PIR_PIECE_NONE; piece = pieces[piece].next)
-            for (uint32_t end = pieces[piece].first; end != PIR_END_NONE;) {
-                pir_scene_pair *pair = &scene->pairs.at[end / 2];
-                bool is_new = pair->seen != scene->update;
-                pir_status status = is_new ? look(scene, end / 2) : PIR_OK;
-                if (status != PIR_OK)
-                    return status;
-                pair->seen = scene->update;
-                end = pair->next[end % 2];
-            }
+    pir_scene_lists *lists = &scene->lists;
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < scene->threads; i++)
+        scene->worker[i].noted_count = scene->worker[i].looked = 0;
+    pir_scene_workers_begin(scene);
+    pir_scene_share(scene, lists->moved_count, WORTH_MORE, look_at_items);
+    pir_status status = pir_scene_workers_status(scene);
+    for (uint32_t i = 0; i < scene->threads; i++) {
+        most += scene->worker[i].noted_count;
+        scene->looked += scene->worker[i].looked;
     }
-    return PIR_OK;
+    if (!PIR_GROW(&scene->allocator, lists->asked, lists->asked_capacity, most) ||
+        !PIR_GROW(&scene->allocator, lists->ended, lists->ended_capacity, most))
+        status = PIR_ERR_MEMORY;
+    for (uint32_t i = 0; i < scene->threads && status == PIR_OK; i++)
+        status = list_noted(scene, &scene->worker[i]);
+    return status;
 }
 
 void pir_scene_drop_pairs(pir_scene *scene) {

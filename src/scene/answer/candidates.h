@@ -10,7 +10,8 @@ pir_status pir_scene_find_pairs(pir_scene *scene);
 
 /*
  * Looks at all pairs of the bodies in scene->lists.moved. Those that have to be asked go to the list `asked`, each with
- * its pir_pair; those that are certain to be no contact any more go to `ended`. Errors as pir_pair_create.
+ * its pir_pair; those that are certain to be no contact any more go to `ended`. Where there are threads the order of
+ * both is not determined. Errors as pir_pair_create.
  */
 pir_status pir_scene_list_questions(pir_scene *scene);
 

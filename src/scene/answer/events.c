@@ -7,7 +7,11 @@
  */
 #include "scene/answer/events.h"
 
+#include "scene/answer/share.h"
 #include "scene/world/grow.h"
+
+/* How many events are worth another thread. */
+#define WORTH_MORE 256
 
 /* Bits of a body's number and of a piece's: see PIR_BODIES_MAX and PIR_PIECES_MAX. */
 #define BODY_BITS  20
@@ -108,17 +112,26 @@ static bool list_ended(pir_scene *scene) {
     uint32_t most = lists->ended_count + lists->asked_count;
     if (!PIR_GROW(&scene->allocator, lists->ended, lists->ended_capacity, most))
         return false;
-    // a pair that was found is marked by a number of `seen` that no update has
+    // what was found is marked for as long as the others are looked for
     for (uint32_t w = 0; w < scene->threads; w++)
         for (uint32_t i = 0; i < scene->worker[w].found_count; i++)
-            scene->pairs.at[scene->worker[w].found[i].pair].seen = UINT64_MAX;
+            scene->pairs.at[scene->worker[w].found[i].pair].found = true;
     for (uint32_t i = 0; i < lists->asked_count; i++) {
         pir_scene_pair *pair = &scene->pairs.at[lists->asked[i]];
-        if (pair->touching && pair->seen != UINT64_MAX)
+        if (pair->touching && !pair->found)
             lists->ended[lists->ended_count++] = lists->asked[i];
-        pair->seen = scene->update;
+        pair->found = false;
     }
     return true;
+}
+
+static void make_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
+    (void)task;
+    for (uint32_t i = begin; i < end; i++) {
+        const pir_scene_item *item = &scene->lists.item[i];
+        scene->event[i] = event_of(scene, item);
+        scene->pairs.at[item->pair].touching = item->found != NULL;
+    }
 }
 
 pir_status pir_scene_make_events(pir_scene *scene) {
@@ -136,10 +149,7 @@ pir_status pir_scene_make_events(pir_scene *scene) {
     uint32_t count = list_items(scene);
     if (count > 1)
         pir_scene_sort_items(lists->item, lists->work, count);
-    for (uint32_t i = 0; i < count; i++) {
-        scene->event[i] = event_of(scene, &lists->item[i]);
-        scene->pairs.at[lists->item[i].pair].touching = lists->item[i].found != NULL;
-    }
+    pir_scene_share(scene, count, WORTH_MORE, make_items);
     scene->event_count = count;
     return PIR_OK;
 }

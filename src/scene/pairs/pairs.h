@@ -20,8 +20,8 @@
 typedef struct pir_scene_pair {
     uint32_t piece[2];
     uint32_t next[2], previous[2]; /* ends in the lists of the two pieces; next[0] of an unused pair: the next one */
-    uint64_t seen;                 /* the update that looked at it last */
     bool touching;                 /* after the last update */
+    bool found;                    /* in contact, while an update makes its events */
     pir_pair *asked;               /* or NULL */
     double apart, travelled;       /* distance that was proven, 0 for none, when both had moved this far together */
 } pir_scene_pair;

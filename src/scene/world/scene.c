@@ -87,6 +87,7 @@ void pir_scene_destroy(pir_scene *scene) {
     pir_task_pool_destroy(scene->pool);
     for (uint32_t i = 0; scene->worker && i < scene->threads; i++) {
         pir_workspace_destroy(scene->worker[i].workspace);
+        PIR_FREE(a, scene->worker[i].noted, scene->worker[i].noted_capacity);
         PIR_FREE(a, scene->worker[i].found, scene->worker[i].found_capacity);
         PIR_FREE(a, scene->worker[i].contact, scene->worker[i].contact_capacity);
     }

@@ -27,9 +27,17 @@ typedef struct pir_scene_found {
     pir_witness witness;
 } pir_scene_found;
 
+/* A pair to be asked, or else one whose contact has ended. */
+typedef struct pir_scene_noted {
+    uint32_t pair;
+    bool asks;
+} pir_scene_noted;
+
 /* What belongs to one task at a time. */
 typedef struct pir_scene_worker {
     pir_workspace *workspace;
+    pir_scene_noted *noted;
+    uint32_t noted_capacity, noted_count, looked;
     pir_scene_found *found;
     uint32_t found_capacity, found_count;
     pir_contact *contact;
