@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The tree of boxes against a list of them: what meets a box, while leaves come and go. */
+/* The tree of boxes against a list of them: what meets a box, while leaves come and go; boxes of turned points. */
 #include "support/test.h"
 
 #include <math.h>
@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene/tree/tree.h"
+#include "scene/world/turned_box.h"
 #include "support/memory.h"
 #include "support/random.h"
 
@@ -118,6 +119,35 @@ static void memory_that_fails_leaves_the_tree(void **state) {
     assert_int_equal(memory.blocks, 0);
 }
 
+/* Every version of the loop gives the bits of the plain one. */
+static void boxes_of_turned_points_have_the_same_bits(void **state) {
+    (void)state;
+    if (!pir_turned_box_version(1))
+        skip();
+    for (uint64_t number = 0; number < 400; number++) {
+        test_random random = test_random_case("turned points", number);
+        pir_vec3 point[40], low[2], high[2];
+        uint32_t count = test_random_below(&random, 41);
+        pir_mat3 r;
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++)
+                r.m[i][k] = number % 4 ? test_random_unit(&random) : (double)test_random_between(&random, -1, 1);
+        for (uint32_t i = 0; i < count; i++) {
+            point[i].x = test_random_scaled(&random, -40, 60);
+            point[i].y = test_random_scaled(&random, -2, 2);
+            point[i].z = number % 3 ? test_random_unit(&random) : 0;
+        }
+        for (unsigned version = 0; pir_turned_box_version(version); version++) {
+            unsigned at = version > 0;
+            pir_turned_box_version(version)(&r, point, count, &low[at], &high[at]);
+            assert_memory_equal(&low[at], &low[0], sizeof low[0]);
+            assert_memory_equal(&high[at], &high[0], sizeof high[0]);
+        }
+        pir_turned_box_best()(&r, point, count, &low[1], &high[1]);
+        assert_memory_equal(low, low + 1, sizeof low[0]);
+    }
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -125,6 +155,7 @@ int main(void) {
         cmocka_unit_test(a_row_of_boxes_makes_no_chain),
         cmocka_unit_test(doubles_are_rounded_outward),
         cmocka_unit_test(memory_that_fails_leaves_the_tree),
+        cmocka_unit_test(boxes_of_turned_points_have_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

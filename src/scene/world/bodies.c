@@ -4,6 +4,7 @@
 
 #include "exact/rotation.h"
 #include "polytope/polytope.h"
+#include "scene/world/turned_box.h"
 
 #define NO_END UINT32_MAX
 
@@ -38,23 +39,6 @@ pir_status pir_place_make(pir_pose pose, pir_place *ret_place) {
     return PIR_OK;
 }
 
-/* The least and the greatest coordinates of a turned polytope. */
-static void turned_bounds(const pir_mat3 *r, const pir_polytope *p, pir_vec3 *ret_low, pir_vec3 *ret_high) {
-    const pir_mat3 m = *r;
-    pir_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (uint32_t v = 0; v < p->vertex_count; v++) {
-        pir_vec3 y = pir_mat_apply(&m, p->vertex[v]);
-        low.x = y.x < low.x ? y.x : low.x;
-        low.y = y.y < low.y ? y.y : low.y;
-        low.z = y.z < low.z ? y.z : low.z;
-        high.x = y.x > high.x ? y.x : high.x;
-        high.y = y.y > high.y ? y.y : high.y;
-        high.z = y.z > high.z ? y.z : high.z;
-    }
-    *ret_low = low;
-    *ret_high = high;
-}
-
 /*
  * A turned vertex is off by 31u |v| by the matrix and by 4u |v| by the product, the vertex itself by u |v|, the sum
  * with the translation by u (|v| + |t|): below 64u (|v| + |t|) with u = 2^-53. Boxes are wider by more than that, and
@@ -63,7 +47,7 @@ static void turned_bounds(const pir_mat3 *r, const pir_polytope *p, pir_vec3 *re
  */
 bool pir_place_box(const pir_place *place, const pir_extent *extent, double around, pir_box *ret_box) {
     pir_vec3 least, most;
-    turned_bounds(&place->r, extent->polytope, &least, &most);
+    pir_turned_box_best()(&place->r, extent->polytope->vertex, extent->polytope->vertex_count, &least, &most);
     double low[3] = {least.x, least.y, least.z}, high[3] = {most.x, most.y, most.z};
     double t[3] = {place->pose.translation.x, place->pose.translation.y, place->pose.translation.z};
     bool near = true;
