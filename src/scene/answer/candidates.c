@@ -5,8 +5,11 @@
 #include "scene/answer/share.h"
 #include "scene/world/grow.h"
 
-/* How many bodies are worth another thread. */
+/* How many bodies or blocks of pairs are worth another thread. */
 #define WORTH_MORE 64
+
+/* Pairs in a block. */
+#define BLOCK 16
 
 static const pir_box *fat_box(const pir_scene *scene, uint32_t piece) {
     return &scene->tree.node[scene->bodies.piece[piece].node].box;
@@ -54,41 +57,58 @@ static bool stays_apart(const pir_scene *scene, const pir_scene_pair *pair, cons
     return pair->apart > 0 && pair->apart - travelled > scene->margin;
 }
 
-/* What a look at a pair says. A pair whose contact is certain to have ended is noted as well. */
-static pir_status look(pir_scene *scene, pir_scene_worker *worker, uint32_t number) {
+static pir_status note(pir_scene *scene, pir_scene_worker *worker, uint32_t pair, bool asks) {
+    if (!PIR_GROW(&scene->allocator, worker->noted, worker->noted_capacity, worker->noted_count + 1))
+        return PIR_ERR_MEMORY;
+    worker->noted[worker->noted_count++] = (pir_scene_noted){pair, asks};
+    return PIR_OK;
+}
+
+/* Looks at a pair, and notes it where it has to be asked, or its contact is certain to have ended. */
+static inline pir_status look(pir_scene *scene, pir_scene_worker *worker, uint32_t number) {
     const pir_scene_pair *pair = &scene->pairs.at[number];
     const pir_scene_piece *p = &scene->bodies.piece[pair->piece[0]], *q = &scene->bodies.piece[pair->piece[1]];
     const pir_scene_body *bodies = scene->bodies.body;
     bool asks = pir_box_meets(&p->tight, &q->tight) && !stays_apart(scene, pair, &bodies[p->body], &bodies[q->body]);
     worker->looked++;
-    if (!asks && !pair->touching)
-        return PIR_OK;
-    if (!PIR_GROW(&scene->allocator, worker->noted, worker->noted_capacity, worker->noted_count + 1))
-        return PIR_ERR_MEMORY;
-    worker->noted[worker->noted_count++] = (pir_scene_noted){number, asks};
-    return PIR_OK;
+    return asks || pair->touching ? note(scene, worker, number, asks) : PIR_OK;
 }
 
-/* Looks at the pairs of a piece. Where both bodies have moved, a pair is P's to look at. */
-static pir_status look_at_piece(pir_scene *scene, pir_scene_worker *worker, const pir_scene_piece *piece) {
-    pir_status status = PIR_OK;
-    for (uint32_t end = piece->first; end != PIR_END_NONE && status == PIR_OK;) {
-        const pir_scene_pair *pair = &scene->pairs.at[end / 2];
-        bool is_q = end % 2;
-        if (!is_q || scene->bodies.body[scene->bodies.piece[pair->piece[0]].body].moved != scene->update)
-            status = look(scene, worker, end / 2);
-        end = pair->next[is_q];
-    }
-    return status;
+/* Whether a piece's body has moved in this update. */
+static inline bool has_moved(const pir_scene *scene, uint32_t piece) {
+    return scene->bodies.body[scene->bodies.piece[piece].body].moved == scene->update;
 }
 
-static void look_at_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
+/* Looks at the pairs of moved bodies, by the lists of their pieces. Where both have moved, a pair is P's to look at. */
+static void look_by_bodies(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
     pir_scene_worker *worker = &scene->worker[task];
-    for (uint32_t i = begin; i < end; i++) {
-        const pir_scene_body *body = &scene->bodies.body[scene->lists.moved[i].body];
-        for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next)
-            pir_scene_worker_note(worker, look_at_piece(scene, worker, &scene->bodies.piece[p]), i);
+    const pir_scene_piece *pieces = scene->bodies.piece;
+    for (uint32_t i = begin; i < end; i++)
+        for (uint32_t k = scene->bodies.body[scene->lists.moved[i].body].first; k != PIR_PIECE_NONE; k = pieces[k].next)
+            for (uint32_t at = pieces[k].first; at != PIR_END_NONE; at = scene->pairs.at[at / 2].next[at % 2])
+                if (at % 2 == 0 || !has_moved(scene, scene->pairs.at[at / 2].piece[0]))
+                    pir_scene_worker_note(worker, look(scene, worker, at / 2), i);
+}
+
+/* The same by the table of pairs, a block at a time: memory is read in order, and a pair once. */
+static void look_by_table(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
+    pir_scene_worker *worker = &scene->worker[task];
+    uint32_t most = scene->pairs.capacity, last = end * BLOCK < most ? end * BLOCK : most;
+    for (uint32_t i = begin * BLOCK; i < last; i++) {
+        const uint32_t *piece = scene->pairs.at[i].piece;
+        // one that is not used has the same piece twice
+        if (piece[0] != piece[1] && (has_moved(scene, piece[0]) || has_moved(scene, piece[1])))
+            pir_scene_worker_note(worker, look(scene, worker, i), i);
     }
+}
+
+static void look_at_all(pir_scene *scene) {
+    uint32_t moved = scene->lists.moved_count, bodies = scene->bodies.body_count, pairs = scene->pairs.capacity;
+    bool most_move = moved >= bodies - bodies / 4, most_used = scene->pairs.count >= pairs / 2;
+    if (most_move && most_used)
+        pir_scene_share(scene, (pairs + BLOCK - 1) / BLOCK, WORTH_MORE, look_by_table);
+    else
+        pir_scene_share(scene, moved, WORTH_MORE, look_by_bodies);
 }
 
 /* Puts what a worker has noted on the lists. There is room. */
@@ -117,7 +137,7 @@ pir_status pir_scene_list_questions(pir_scene *scene) {
     for (uint32_t i = 0; i < scene->threads; i++)
         scene->worker[i].noted_count = scene->worker[i].looked = 0;
     pir_scene_workers_begin(scene);
-    pir_scene_share(scene, lists->moved_count, WORTH_MORE, look_at_items);
+    look_at_all(scene);
     pir_status status = pir_scene_workers_status(scene);
     for (uint32_t i = 0; i < scene->threads; i++) {
         most += scene->worker[i].noted_count;
