@@ -76,7 +76,7 @@ static inline pir_status look(pir_scene *scene, pir_scene_worker *worker, uint32
 
 /* Whether a piece's body has moved in this update. */
 static inline bool has_moved(const pir_scene *scene, uint32_t piece) {
-    return scene->bodies.body[scene->bodies.piece[piece].body].moved == scene->update;
+    return scene->bodies.piece[piece].moved == scene->update;
 }
 
 /* Looks at the pairs of moved bodies, by the lists of their pieces. Where both have moved, a pair is P's to look at. */

@@ -54,6 +54,7 @@ static void place_piece(pir_scene *scene, uint32_t p, const pir_box *tight, pir_
     bool fresh = scene->bodies.body[piece->body].fresh;
     pir_box before = scene->tree.node[piece->node].box;
     piece->tight = *tight;
+    piece->moved = scene->update;
     bool held = pir_box_holds(&before, tight);
     if (!held) {
         pir_box fat = pir_scene_fat_box(tight, way);

@@ -33,6 +33,7 @@ typedef struct pir_scene_piece {
     uint32_t node;         /* its leaf of the tree */
     uint32_t first;        /* end of its list of pairs */
     uint64_t mark;         /* the visit that has seen it */
+    uint64_t moved;        /* the update that moved its body last */
     pir_box tight;         /* holds the piece with its radius and half of the scene's margin */
 } pir_scene_piece;
 
