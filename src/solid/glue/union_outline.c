@@ -66,12 +66,6 @@ static uint32_t line_of(pir_outline *o, uint32_t f, uint32_t g) {
     return o->line_of[g];
 }
 
-static void forget_lines(pir_outline *o, const pir_polygons *polygons, pir_polygon p) {
-    for (uint32_t i = 0; i < p.count; i++)
-        if (polygons->wall[p.first + i] >> 1 < o->line_of_room)
-            o->line_of[polygons->wall[p.first + i] >> 1] = PIR_SPACE_NONE;
-}
-
 void pir_outline_push(pir_outline *o, pir_run run) {
     if (pir_space_grow(o->space, (void **)&o->run, &o->run_room, o->run_count, sizeof *o->run))
         o->run[o->run_count++] = run;
@@ -178,16 +172,6 @@ static void add_side(pir_outline *o, pir_run side, uint32_t p, uint32_t q) {
     pir_outline_push_side(o, side);
 }
 
-static void add_sides(pir_outline *o, uint32_t group, const pir_polygons *polygons, uint32_t polygon) {
-    const pir_polygon p = polygons->polygon[polygon];
-    for (uint32_t i = 0; i < p.count && o->space->status == PIR_OK; i++) {
-        const uint32_t line = line_of(o, p.half >> 1, polygons->wall[p.first + i] >> 1);
-        const uint32_t next = i + 1 < p.count ? i + 1 : 0;
-        add_side(o, (pir_run){.group = group, .half = p.half, .line = line}, polygons->point[p.first + i],
-                 polygons->point[p.first + next]);
-    }
-}
-
 /* The runs of all sides, line by line. */
 static void add_lines(pir_outline *o) {
     const uint32_t points = o->space->point_count;
@@ -203,14 +187,16 @@ static void add_lines(pir_outline *o) {
     PIR_FREE(&o->space->allocator, rank, points);
 }
 
-void pir_outline_add(pir_outline *outline, uint32_t group, const pir_polygons *polygons, const uint32_t *polygon,
-                     uint32_t count) {
+void pir_outline_add(pir_outline *outline, uint32_t group, uint32_t half, const pir_segment *edge, uint32_t count) {
     pir_outline *o = outline;
     o->side_count = 0;
+    for (uint32_t i = 0; i < count && o->space->status == PIR_OK; i++) {
+        const uint32_t line = line_of(o, half >> 1, edge[i].plane[1]);
+        add_side(o, (pir_run){.group = group, .half = half, .line = line}, edge[i].a, edge[i].b);
+    }
     for (uint32_t i = 0; i < count; i++)
-        add_sides(o, group, polygons, polygon[i]);
-    for (uint32_t i = 0; i < count; i++)
-        forget_lines(o, polygons, polygons->polygon[polygon[i]]);
+        if (edge[i].plane[1] < o->line_of_room)
+            o->line_of[edge[i].plane[1]] = PIR_SPACE_NONE;
     add_lines(o);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The boundary of unions of convex polygons that do not overlap, plane by plane: directed edges with the union on their
- * left. And edges that are no side of a polygon. cut_runs.h cuts them at each other.
+ * The boundary of unions of polygons, plane by plane: directed edges with the union on their left. And edges that are
+ * no side of a polygon. cut_runs.h cuts them at each other.
  */
 #ifndef PIR_SOLID_GLUE_OUTLINE_H
 #define PIR_SOLID_GLUE_OUTLINE_H
@@ -55,9 +55,9 @@ void pir_outline_finish(pir_outline *outline);
 /* The line where two planes meet, and its direction. */
 uint32_t pir_outline_line(pir_outline *outline, uint32_t f, uint32_t g);
 
-/* Adds the boundary of the union of polygons in one plane, all on the same side of it, as a group. */
-void pir_outline_add(pir_outline *outline, uint32_t group, const pir_polygons *polygons, const uint32_t *polygon,
-                     uint32_t count);
+/* Adds edges in the plane of `half`, which is the first plane of each, as a group: they lead from a to b with the union
+ * that they bound on their left, and do not overlap. */
+void pir_outline_add(pir_outline *outline, uint32_t group, uint32_t half, const pir_segment *edge, uint32_t count);
 
 /* Adds the union of segments as runs of a group that has no polygons. */
 void pir_outline_add_segments(pir_outline *outline, uint32_t group, const pir_segment *segment, uint32_t count);

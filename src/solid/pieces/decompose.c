@@ -18,6 +18,7 @@
  */
 #include "solid/pieces/decompose.h"
 
+#include "base/sort.h"
 #include "solid/space/polygons.h"
 
 struct node {
@@ -49,6 +50,11 @@ struct division {
     uint32_t above_count, above_room;
     struct crease *creases;
     uint32_t crease_count, crease_room;
+    uint32_t *seen; /* per plane: the last look that came to it */
+    uint32_t seen_room, look;
+    struct choice *choice; /* scratch: the planes of a node */
+    uint32_t *order, *work;
+    uint32_t choice_room, order_room, work_room;
 };
 
 void pir_piece_list_add(pir_piece_list *pieces, pir_space *space, uint32_t cell) {
@@ -82,33 +88,49 @@ static uint32_t half_of(const struct division *d, uint32_t at) {
 
 /* --- the choice of a plane --- */
 
-struct score {
+struct choice {
+    uint32_t half;
     int64_t value;
-    bool divides;
 };
 
-static bool seen_before(const struct division *d, const struct node *node, uint32_t at) {
-    for (uint32_t i = node->fragment; i < at; i++)
-        if (half_of(d, i) >> 1 == half_of(d, at) >> 1)
-            return true;
-    return false;
+/* Begins a look at each plane once. */
+static void forget_planes(struct division *d) {
+    const uint32_t before = d->seen_room, planes = d->space->plane_count;
+    if (planes > before && !pir_space_grow(d->space, (void **)&d->seen, &d->seen_room, planes, sizeof *d->seen))
+        return;
+    for (uint32_t k = before; k < d->seen_room; k++)
+        d->seen[k] = 0;
+    d->look++;
 }
 
-/* The score of a plane; one that is not above `best` is not counted to its end. */
-static struct score score_plane(struct division *d, const struct node *node, uint32_t half, int64_t best) {
-    struct score score = {0, false};
+/* Whether the plane of a half-space comes for the first time since. */
+static bool is_new(struct division *d, uint32_t half) {
+    const bool is = d->space->status == PIR_OK && d->seen[half >> 1] != d->look;
+    if (is)
+        d->seen[half >> 1] = d->look;
+    return is;
+}
+
+/* What a plane's creases count: those that it holds and, against it, those that it cuts. */
+static int64_t value_of_creases(struct division *d, const struct node *node, uint32_t half) {
+    int64_t value = 0;
     for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++) {
         const int a = pir_space_side(d->space, half, d->creases[i].a),
                   b = pir_space_side(d->space, half, d->creases[i].b);
-        score.value += a == 0 && b == 0 ? 16 : a * b < 0 ? -8 : 0;
+        value += a == 0 && b == 0 ? 16 : a * b < 0 ? -8 : 0;
     }
-    // fragments only take away
-    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && score.value > best; i++) {
-        const unsigned sides = pir_polygons_sides(&d->polygons, d->list[i], half);
-        score.value -= sides == 3;
-        score.divides = score.divides || sides >= 2;
+    return value;
+}
+
+/* Takes fragments that a plane cuts from its value; whether it divides them and its value ends above `least`. */
+static bool count_cuts(struct division *d, const struct node *node, struct choice *choice, int64_t least) {
+    bool divides = false;
+    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && choice->value > least; i++) {
+        const unsigned sides = pir_polygons_sides(&d->polygons, d->list[i], choice->half);
+        choice->value -= sides == 3;
+        divides = divides || sides >= 2;
     }
-    return score;
+    return divides && choice->value > least;
 }
 
 /* The wall to cut by; none where no creases are left. Those of vertical creases come when no others are left. */
@@ -121,28 +143,56 @@ static uint32_t choose_wall(struct division *d, const struct node *node) {
     for (uint32_t i = node->crease; i < node->crease + node->crease_count && d->space->status == PIR_OK; i++) {
         const struct crease crease = d->creases[i];
         for (int k = 0; k < 2 && crease.vertical == vertical; k++) {
-            const int64_t own = score_plane(d, node, crease.wall[k], value).value;
-            if (own > value)
-                value = own, best = crease.wall[k];
+            struct choice choice = {crease.wall[k], value_of_creases(d, node, crease.wall[k])};
+            count_cuts(d, node, &choice, value);
+            if (choice.value > value)
+                value = choice.value, best = choice.half;
         }
     }
     return best;
 }
 
-/* The half-space to cut by, or none when every fragment is on or below the plane of every other. */
+static bool is_worth_more(void *context, uint32_t a, uint32_t b) {
+    const struct choice *choice = context;
+    return choice[a].value > choice[b].value;
+}
+
+/* Lists the planes of a node, each once, with what creases count, into `order` the best first. */
+static uint32_t list_choices(struct division *d, const struct node *node) {
+    uint32_t count = 0;
+    forget_planes(d);
+    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && d->space->status == PIR_OK; i++) {
+        const uint32_t half = half_of(d, i);
+        if (!is_new(d, half) ||
+            !pir_space_grow(d->space, (void **)&d->choice, &d->choice_room, count, sizeof *d->choice))
+            continue;
+        d->choice[count++] = (struct choice){half, value_of_creases(d, node, half)};
+    }
+    if (!pir_space_grow(d->space, (void **)&d->order, &d->order_room, count, sizeof *d->order) ||
+        !pir_space_grow(d->space, (void **)&d->work, &d->work_room, count, sizeof *d->work))
+        return 0;
+    for (uint32_t i = 0; i < count; i++)
+        d->order[i] = i;
+    pir_sort(d->order, count, d->work, is_worth_more, d->choice);
+    return count;
+}
+
+/* The half-space to cut by, or none when every fragment is on or below the plane of every other. Of planes with the
+ * best value it is the first. Fragments only take away, so that most planes are not held against them. */
 static uint32_t choose_plane(struct division *d, const struct node *node) {
     uint32_t best = PIR_SPACE_NONE;
     int64_t value = INT64_MIN;
-    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && d->space->status == PIR_OK; i++) {
-        if (seen_before(d, node, i))
-            continue;
-        const struct score score = score_plane(d, node, half_of(d, i), value);
-        if (score.divides && score.value > value) {
-            value = score.value;
-            best = half_of(d, i);
+    for (uint32_t i = 0, count = list_choices(d, node); i < count && d->space->status == PIR_OK; i++) {
+        const uint32_t at = d->order[i];
+        const int64_t least = best == PIR_SPACE_NONE || at > best ? value : value - 1;
+        if (d->choice[at].value < value)
+            break;
+        if (count_cuts(d, node, &d->choice[at], least)) {
+            value = d->choice[at].value;
+            best = at;
         }
     }
-    return best;
+    return best == PIR_SPACE_NONE ? best : d->choice[best].half;
 }
 
 /* --- the cut --- */
@@ -210,9 +260,10 @@ static void cut_node(struct division *d, const struct node *node, uint32_t half,
 /* The cell of a node, cut by the planes of all its fragments. */
 static void keep_piece(struct division *d, const struct node *node) {
     uint32_t cell = node->cell;
+    forget_planes(d);
     for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && cell != PIR_SPACE_NONE; i++) {
         uint32_t parts[2] = {0};
-        if (seen_before(d, node, i))
+        if (!is_new(d, half_of(d, i)))
             continue;
         pir_cells_cut(d->cells, cell, half_of(d, i), parts);
         cell = parts[0];
@@ -284,6 +335,10 @@ pir_status pir_decompose(const pir_body *body, pir_decompose_method method, pir_
     pir_space_shrink(space, d.list, d.list_room, sizeof *d.list);
     pir_space_shrink(space, d.above, d.above_room, sizeof *d.above);
     pir_space_shrink(space, d.creases, d.crease_room, sizeof *d.creases);
+    pir_space_shrink(space, d.seen, d.seen_room, sizeof *d.seen);
+    pir_space_shrink(space, d.choice, d.choice_room, sizeof *d.choice);
+    pir_space_shrink(space, d.order, d.order_room, sizeof *d.order);
+    pir_space_shrink(space, d.work, d.work_room, sizeof *d.work);
     pir_polygons_finish(&d.polygons);
     return space->status;
 }

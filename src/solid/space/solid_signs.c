@@ -11,7 +11,7 @@
 #include "solid/space/exact.h"
 #include "solid/space/space.h"
 
-static int exact_side(pir_space *space, uint32_t plane, uint32_t point) {
+int pir_space_exact_side(pir_space *space, uint32_t plane, uint32_t point) {
     const uint32_t a = pir_space_exact_plane(space, plane), x = pir_space_exact_point(space, point);
     if (space->status != PIR_OK)
         return 0;
@@ -20,19 +20,6 @@ static int exact_side(pir_space *space, uint32_t plane, uint32_t point) {
     pir_numbers_dot(space->t[17], n, p, 3);
     mpz_submul(space->t[17], n[3], p[3]);
     return mpz_sgn(space->t[17]);
-}
-
-int pir_space_side(pir_space *space, uint32_t half, uint32_t point) {
-    const pir_space_plane *f = &space->plane[half >> 1];
-    const pir_space_point *p = &space->point[point];
-    const double s = f->n[0] * p->x[0] + f->n[1] * p->x[1] + f->n[2] * p->x[2] - f->d;
-    const double bound = f->err + p->err + 0x1p-48;
-    const int turn = half & 1 ? -1 : 1;
-    if (s > bound)
-        return turn;
-    if (s < -bound)
-        return -turn;
-    return turn * exact_side(space, half >> 1, point);
 }
 
 static double det_of(const double a[3], const double b[3], const double c[3]) {

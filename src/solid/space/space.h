@@ -97,8 +97,22 @@ static inline uint32_t pir_half(uint32_t plane, bool turned) {
     return plane << 1 | turned;
 }
 
+/* The side of a plane on which a point lies, by exact numbers. */
+int pir_space_exact_side(pir_space *space, uint32_t plane, uint32_t point);
+
 /* The side of a half-space on which a point lies: 1 above, −1 below, 0 in its plane. */
-int pir_space_side(pir_space *space, uint32_t half, uint32_t point);
+static inline int pir_space_side(pir_space *space, uint32_t half, uint32_t point) {
+    const pir_space_plane *f = &space->plane[half >> 1];
+    const pir_space_point *p = &space->point[point];
+    const double s = f->n[0] * p->x[0] + f->n[1] * p->x[1] + f->n[2] * p->x[2] - f->d;
+    const double bound = f->err + p->err + 0x1p-48;
+    const int turn = half & 1 ? -1 : 1;
+    if (s > bound)
+        return turn;
+    if (s < -bound)
+        return -turn;
+    return turn * pir_space_exact_side(space, half >> 1, point);
+}
 
 /* The sign of det(a, b, c) and of a · b for directions. */
 int pir_space_det(pir_space *space, uint32_t a, uint32_t b, uint32_t c);

@@ -14,15 +14,34 @@
  */
 #include "solid/sum/remains.h"
 
+#include <math.h>
+
 #include "base/sort.h"
+#include "solid/space/exact.h"
 #include "solid/space/intern.h"
 #include "solid/sum/convolution.h"
 
-static double depth_of(const pir_space *space, const pir_pair_sum *pair, const double x[3]) {
-    double least = 1e300;
+/* Whether a plane of the space is that of a half-space, with the same side below. */
+static bool is_plane_of(pir_space *space, uint32_t half, uint32_t plane) {
+    const uint32_t a = pir_space_exact_plane(space, half >> 1), b = pir_space_exact_plane(space, plane);
+    const int turn = half & 1 ? -1 : 1;
+    for (uint32_t k = 0; k < 4 && space->status == PIR_OK; k++) {
+        mpz_srcptr x = space->number[a + k], y = space->number[b + k];
+        if (mpz_cmpabs(x, y) != 0 || mpz_sgn(x) != turn * mpz_sgn(y))
+            return false;
+    }
+    return space->status == PIR_OK;
+}
+
+/* How deep in a pair's sum a point in the plane of `half` is, or −HUGE_VAL when all of the sum is below it. */
+static double depth_of(pir_space *space, const pir_pair_sum *pair, uint32_t half, const double x[3]) {
+    double least = HUGE_VAL;
     for (uint32_t k = pair->first; k < pair->first + pair->count; k++) {
         const pir_space_plane *f = &space->plane[k];
         const double depth = f->d - (f->n[0] * x[0] + f->n[1] * x[1] + f->n[2] * x[2]);
+        // another plane through the point costs a look, and one that is missed costs one later
+        if (fabs(depth) < 0x1p-40 && is_plane_of(space, half, k))
+            return -HUGE_VAL;
         least = depth < least ? depth : least;
     }
     return least;
@@ -43,9 +62,18 @@ static uint32_t find_pairs(pir_remains *c, pir_polygon p) {
         for (int k = 0; k < 3; k++)
             middle[k] += x->x[k] / p.count;
     }
-    const uint32_t count = pir_boxes_find(&c->boxes, &box, c->order);
-    for (uint32_t i = 0; i < count; i++)
-        c->depth[c->order[i]] = depth_of(c->space, &c->pair[c->order[i]], middle);
+    const uint32_t found = pir_boxes_find(&c->boxes, &box, c->order);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < found; i++) {
+        const uint32_t pair = c->order[i];
+        if (c->below[pair] == p.half)
+            continue;
+        c->depth[pair] = depth_of(c->space, &c->pair[pair], p.half, middle);
+        if (c->depth[pair] > -HUGE_VAL)
+            c->order[count++] = pair;
+        else
+            c->below[pair] = p.half;
+    }
     pir_sort(c->order, count, c->work, deeper, c->depth);
     return count;
 }
@@ -58,14 +86,16 @@ static bool list_halves(pir_remains *c, const pir_pair_sum *pair) {
     return true;
 }
 
-/* Keeps fragments that are left of a candidate. */
+/* Keeps fragments that are left of a candidate, a polygon of `kept`. */
 static void keep(pir_remains *c, uint32_t candidate, const pir_fragments *left, bool two_sided) {
     if (left->count == 0 ||
         !pir_space_grow(c->space, (void **)&c->survivor, &c->survivor_room, c->survivor_count, sizeof *c->survivor))
         return;
-    pir_survivor s = {.half = c->polygons.polygon[candidate].half, .count = left->count, .two_sided = two_sided};
-    s.polygon = pir_polygons_copy(&c->kept, &c->polygons, candidate);
-    s.first = c->kept.count;
+    const pir_survivor s = {.half = c->kept.polygon[candidate].half,
+                            .count = left->count,
+                            .two_sided = two_sided,
+                            .polygon = candidate,
+                            .first = c->kept.count};
     for (uint32_t i = 0; i < left->count; i++)
         pir_polygons_copy(&c->kept, &c->polygons, left->polygon[i]);
     c->survivor[c->survivor_count++] = s;
@@ -86,10 +116,12 @@ static void clip_touching(pir_remains *c, uint32_t pairs) {
         pir_touching_add_point(&c->left, c->space, t->point[i]);
 }
 
-static void take(void *context, uint32_t polygon) {
-    pir_remains *c = context;
+/* Clips a candidate, a polygon of `kept`. */
+static void clip(pir_remains *c, uint32_t candidate) {
+    const uint32_t polygon = pir_polygons_copy(&c->polygons, &c->kept, candidate);
+    if (c->space->status != PIR_OK)
+        return;
     const uint32_t pairs = find_pairs(c, c->polygons.polygon[polygon]);
-    c->candidates++;
     c->fragments.count = c->covered.count = 0;
     if (c->open) {
         pir_touching_clear(&c->touching);
@@ -105,8 +137,8 @@ static void take(void *context, uint32_t polygon) {
         if (list_halves(c, pair))
             pir_fragments_subtract(&c->fragments, &c->polygons, c->half, pair->count, c->open ? &c->covered : NULL);
     }
-    keep(c, polygon, &c->fragments, false);
-    keep(c, polygon, &c->covered, true);
+    keep(c, candidate, &c->fragments, false);
+    keep(c, candidate, &c->covered, true);
     pir_polygons_truncate(&c->polygons, 0);
 }
 
@@ -158,7 +190,8 @@ static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
     c->depth = PIR_NEW(a, double, c->pair_count);
     c->order = PIR_NEW(a, uint32_t, c->pair_count);
     c->work = PIR_NEW(a, uint32_t, c->pair_count);
-    bool done = box && c->depth && c->order && c->work;
+    c->below = PIR_ZEROED(a, uint32_t, c->pair_count);
+    bool done = box && c->depth && c->order && c->work && c->below;
     for (uint32_t i = 0; i < c->pair_count && done; i++)
         box[i] = c->pair[i].box;
     done = done && pir_boxes_init(&c->boxes, a, box, c->pair_count);
@@ -168,18 +201,42 @@ static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
     return done;
 }
 
-/* Gives all survivors in one plane one half-space. */
+/* Counts a candidate, which stays in `kept`. */
+static void take(void *context, uint32_t polygon) {
+    (void)polygon;
+    ((pir_remains *)context)->candidates++;
+}
+
+/* Gives all candidates in one plane one half-space. */
 static void join_planes(pir_remains *c) {
     pir_intern planes;
     pir_intern_init(&planes, c->space, 4);
-    for (uint32_t s = 0; s < c->survivor_count && c->space->status == PIR_OK; s++) {
-        pir_survivor *survivor = &c->survivor[s];
-        survivor->half = pir_intern_half(&planes, survivor->half);
-        c->kept.polygon[survivor->polygon].half = survivor->half;
-        for (uint32_t i = 0; i < survivor->count; i++)
-            c->kept.polygon[survivor->first + i].half = survivor->half;
-    }
+    for (uint32_t i = 0; i < c->kept.count && c->space->status == PIR_OK; i++)
+        c->kept.polygon[i].half = pir_intern_half(&planes, c->kept.polygon[i].half);
     pir_intern_finish(&planes);
+}
+
+static bool is_in_earlier_plane(void *context, uint32_t a, uint32_t b) {
+    const pir_polygon *polygon = context;
+    return polygon[a].half < polygon[b].half;
+}
+
+/* Clips the candidates plane by plane, so that a pair which is below a plane is found to be so once. */
+static void clip_all(pir_remains *c) {
+    const pir_allocator *a = &c->space->allocator;
+    const uint32_t count = c->kept.count;
+    uint32_t *order = PIR_NEW(a, uint32_t, count), *work = PIR_NEW(a, uint32_t, count);
+    if (order && work) {
+        for (uint32_t i = 0; i < count; i++)
+            order[i] = i;
+        pir_sort(order, count, work, is_in_earlier_plane, c->kept.polygon);
+        for (uint32_t i = 0; i < count && c->space->status == PIR_OK; i++)
+            clip(c, order[i]);
+    } else {
+        c->space->status = PIR_ERR_MEMORY;
+    }
+    PIR_FREE(a, order, count);
+    PIR_FREE(a, work, count);
 }
 
 void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_convexes convexes[2], bool open) {
@@ -187,31 +244,13 @@ void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_co
     remains->touching.polygons = &remains->polygons;
     pir_polygons_init(&remains->polygons, remains->space);
     pir_polygons_init(&remains->kept, remains->space);
-    if (make_pairs(remains, convexes))
-        pir_candidates(&body[0], &body[1], &remains->polygons, take, remains);
+    if (!make_pairs(remains, convexes))
+        return;
+    pir_candidates(&body[0], &body[1], &remains->kept, take, remains);
+    join_planes(remains);
+    clip_all(remains);
     if (open)
         take_reflex_vertices(remains, body);
-    join_planes(remains);
-}
-
-void pir_remains_part(pir_remains *remains, const uint32_t *order, uint32_t count, pir_fragments *fragments) {
-    pir_remains *c = remains;
-    for (uint32_t i = 0; i < count && c->space->status == PIR_OK; i++) {
-        const pir_survivor survivor = c->survivor[order[i]];
-        c->fragments.count = 0;
-        for (uint32_t k = 0; k < survivor.count; k++)
-            pir_fragments_add(&c->fragments, c->space, survivor.first + k);
-        for (uint32_t j = 0; j < i && c->fragments.count > 0; j++) {
-            const pir_polygon earlier = c->kept.polygon[c->survivor[order[j]].polygon];
-            if (!pir_space_grow(c->space, (void **)&c->half, &c->half_room, earlier.count, sizeof *c->half))
-                return;
-            for (uint32_t k = 0; k < earlier.count; k++)
-                c->half[k] = c->kept.wall[earlier.first + k];
-            pir_fragments_subtract(&c->fragments, &c->kept, c->half, earlier.count, NULL);
-        }
-        for (uint32_t k = 0; k < c->fragments.count; k++)
-            pir_fragments_add(fragments, c->space, c->fragments.polygon[k]);
-    }
 }
 
 void pir_remains_finish(pir_remains *remains) {
@@ -223,6 +262,7 @@ void pir_remains_finish(pir_remains *remains) {
     PIR_FREE(a, c->depth, c->pair_count);
     PIR_FREE(a, c->order, c->pair_count);
     PIR_FREE(a, c->work, c->pair_count);
+    PIR_FREE(a, c->below, c->pair_count);
     pir_space_shrink(c->space, c->pair, c->pair_room, sizeof *c->pair);
     pir_space_shrink(c->space, c->half, c->half_room, sizeof *c->half);
     pir_space_shrink(c->space, c->survivor, c->survivor_room, sizeof *c->survivor);

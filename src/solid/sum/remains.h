@@ -25,9 +25,10 @@ typedef struct pir_remains {
     uint32_t *found; /* scratch: pairs whose boxes meet a candidate's */
     double *depth;   /* scratch, per pair: how deep in it the candidate's middle is */
     uint32_t *order, *work;
+    uint32_t *below; /* scratch, per pair: the last half-space that it was found to be in, with its plane touched */
     uint32_t *half, half_room; /* scratch */
     pir_polygons polygons;     /* of the candidate at hand */
-    pir_polygons kept;
+    pir_polygons kept;         /* the candidates, then what is left of them */
     pir_fragments fragments, covered;
     bool open;
     pir_touching touching; /* scratch, of the candidate at hand */
@@ -41,11 +42,5 @@ typedef struct pir_remains {
  * status is the space's. */
 void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_convexes convexes[2], bool open);
 void pir_remains_finish(pir_remains *remains);
-
-/*
- * Of survivors in one plane, order[0 .. count), what the earlier ones among them leave of each: fragments that do not
- * overlap, in `kept`, whose numbers are added to `fragments`.
- */
-void pir_remains_part(pir_remains *remains, const uint32_t *order, uint32_t count, pir_fragments *fragments);
 
 #endif

@@ -11,6 +11,7 @@
 #include "polytope/mesh.h"
 #include "solid/glue/cut_runs.h"
 #include "solid/pieces/join_pieces.h"
+#include "solid/sum/coplanar.h"
 #include "solid/sum/remains.h"
 #include "solid/sum/solid_mesh.h"
 #include "solid/sum/tight.h"
@@ -70,14 +71,18 @@ static void outline_group(struct job *job, const uint32_t *order, uint32_t count
         !pir_space_grow(space, (void **)&job->group, &job->group_room, job->group_count, sizeof *job->group))
         return;
     const uint32_t first = job->fragments.count;
-    pir_remains_part(&job->remains, order, count, &job->fragments);
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < job->remains.survivor[order[i]].count; k++)
+            pir_fragments_add(&job->fragments, space, job->remains.survivor[order[i]].first + k);
+    if (space->status != PIR_OK)
+        return;
     if (!survivor->two_sided) {
         job->outline.loose = job->group_count + 1;
         job->first_loose = job->fragments.count;
     }
     job->group[job->group_count] = (pir_facet_group){.count = job->fragments.count - first};
-    pir_outline_add(&job->outline, job->group_count++, &job->remains.kept, job->fragments.polygon + first,
-                    job->fragments.count - first);
+    pir_coplanar_outline(&job->outline, job->group_count++, &job->remains.kept, job->fragments.polygon + first,
+                         job->fragments.count - first);
 }
 
 /* What of open solids is no boundary, onto the outline before it is cut. */
