@@ -2,9 +2,9 @@
 /*
  * Queries of solids in pieces, against what shares nothing with pieces.
  *
- * Unions of unit cubes at half-integer places: the state by counting cubes, ties and tight passages included. Prisms at
- * any rotations: state and distance by the exact difference of the two, whose boundary is looked at facet by facet.
- * Casts: apart until the time of impact, near at it.
+ * Unions of unit cubes at half-integer places: the state by counting cubes, ties and tight passages included. Prisms,
+ * and bodies of many pieces, at any rotations: state and distance by the exact difference of the two, whose boundary is
+ * looked at facet by facet. Casts: apart until the time of impact, near at it.
  *
  * PIR_TEST_CASES sets how many rotations, or pairs of unions, there are. Two models as arguments take the place of the
  * prisms.
@@ -18,6 +18,7 @@
 #include <pirouette/pirouette.h>
 
 #include "solid/bodies.h"
+#include "solid/models.h"
 
 enum { PLACES = 200 };
 
@@ -193,12 +194,12 @@ static void compare(pir_solid_query *query, pir_workspace *workspace, const pir_
     }
 }
 
-static void compare_all(const pir_solid *p, const pir_solid *q, const char *name) {
+static void compare_all(const pir_solid *p, const pir_solid *q, const char *name, uint64_t rotations) {
     pir_workspace *workspace = NULL;
     pir_solid_query *query = query_of(p, q);
     struct tally tally = {0};
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
-    for (uint64_t i = 0; i < solid_cases(10); i++) {
+    for (uint64_t i = 0; i < rotations; i++) {
         test_random random = test_random_case(name, i);
         pir_solid_sum_options options = pir_solid_sum_options_default();
         pir_mesh *mesh = NULL;
@@ -239,11 +240,23 @@ static void answers_are_those_of_the_exact_difference(void **state) {
     for (int i = 0; i < 12; i++)
         clamp.full[i % 3][i / 3][0] = i % 3 == 0 || i / 3 == 0 || i / 3 == 3;
     pir_solid *solids[] = {star_of(16, 2, 1.25), star_of(10, 2, 0.75), solid_of_cells(&frame), solid_of_cells(&clamp)};
-    compare_all(solids[0], solids[1], "stars");
-    compare_all(solids[3], solids[2], "clamp and frame");
-    compare_all(solids[2], solids[0], "frame and star");
+    compare_all(solids[0], solids[1], "stars", solid_cases(10));
+    compare_all(solids[3], solids[2], "clamp and frame", solid_cases(10));
+    compare_all(solids[2], solids[0], "frame and star", solid_cases(10));
     for (int i = 0; i < 4; i++)
         pir_solid_release(solids[i]);
+}
+
+static void answers_for_bodies_of_many_pieces_are_those_of_the_exact_difference(void **state) {
+    (void)state;
+    static const char *const names[][2] = {{"gear8", "star5"}, {"mushroom", "cup"}, {"spoon", "cup"}};
+    for (int i = 0; i < 3; i++) {
+        pir_solid *p = solid_model_new(names[i][0], 1), *q = solid_model_new(names[i][1], 1);
+        assert_true(p && q);
+        compare_all(p, q, names[i][0], solid_cases(1));
+        pir_solid_release(q);
+        pir_solid_release(p);
+    }
 }
 
 /* --- casts --- */
@@ -308,6 +321,31 @@ static void body_in_a_cavity_is_outside_and_one_that_is_swallowed_inside(void **
     assert_int_equal(pir_solid_query_overlap(NULL, workspace, &input, &found), PIR_ERR_ARGUMENT);
     input.pose_p.translation.x = HUGE_VAL;
     assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), PIR_ERR_NOT_FINITE);
+    // rotations whose squares are beyond doubles, and none at all
+    input.pose_p = (pir_pose){{0, 0, 3e-200, 3e-200}, {4, 1, 1}};
+    input.pose_q.rotation.w = 2e180;
+    assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), PIR_OK);
+    assert_int_equal(found, PIR_BOUNDARY);
+    input.pose_p.translation.x = 2;
+    assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), PIR_OK);
+    assert_int_equal(found, PIR_BOUNDARY);
+    input.pose_p.translation.x = 1.5;
+    assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), PIR_OK);
+    assert_int_equal(found, PIR_INSIDE);
+    input.pose_q.rotation = (pir_quat){0, 0, 0, 0};
+    assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), PIR_ERR_ZERO_QUATERNION);
+    // radii close the gap between far bodies
+    input = pir_pair_input_default();
+    input.pose_p.translation = (pir_vec3){-3, 1, 1};
+    input.radius_p = 1.5;
+    assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), PIR_OK);
+    assert_int_equal(found, PIR_OUTSIDE);
+    input.radius_q = 0.5;
+    assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), PIR_OK);
+    assert_int_equal(found, PIR_BOUNDARY);
+    input.radius_q = 0.75;
+    assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), PIR_OK);
+    assert_int_equal(found, PIR_INSIDE);
     pir_solid_query_destroy(query);
     pir_solid_release(q);
     pir_solid_release(p);
@@ -319,7 +357,7 @@ static int compare_files(char **path) {
     for (int k = 0; k < 2; k++)
         if (pir_solid_read(path[k], NULL, NULL, &solid[k]) != PIR_OK)
             return 2;
-    compare_all(solid[0], solid[1], "files");
+    compare_all(solid[0], solid[1], "files", solid_cases(10));
     pir_solid_release(solid[1]);
     pir_solid_release(solid[0]);
     return 0;
@@ -332,6 +370,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(states_of_cubes_are_those_that_are_counted),
         cmocka_unit_test(answers_are_those_of_the_exact_difference),
+        cmocka_unit_test(answers_for_bodies_of_many_pieces_are_those_of_the_exact_difference),
         cmocka_unit_test(impacts_are_the_first),
         cmocka_unit_test(body_in_a_cavity_is_outside_and_one_that_is_swallowed_inside),
     };

@@ -7,11 +7,20 @@
 
 #include "solid/space/boxes.h"
 
+/* A face of a piece, in the frame of the body: outward normal, and the height of its plane. */
+typedef struct pir_compound_face {
+    double normal[3], offset;
+} pir_compound_face;
+
 typedef struct pir_compound {
     uint32_t count;
     pir_polytope **piece;
     pir_boxes boxes;
-    double reach; /* no point of the body is farther from the origin of its frame */
+    double reach;                        /* no point of the body is farther from the origin of its frame */
+    uint32_t *vertex_start, *face_start; /* per piece, and the end of the last */
+    double (*vertex)[3];
+    pir_compound_face *face;
+    double (*middle)[3]; /* of each piece: the mean of its vertices */
 } pir_compound;
 
 /* The polytopes of all pieces. Errors as of pir_pieces_polytope; what was made is then freed. */

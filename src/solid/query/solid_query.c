@@ -28,6 +28,7 @@ struct call {
     pir_pair_input input;
     pir_status status;
     pir_state state;             /* of overlap */
+    pir_relative relative;       /* likewise */
     pir_solid_distance distance; /* of distance */
     pir_flight flight;           /* of casts */
     double speed;                /* no point of P moves faster */
@@ -99,8 +100,10 @@ static pir_status visit(struct call *call, pir_pair_asker *ask) {
     call->first[0] = query->last[0];
     call->first[1] = query->last[1];
     call->within = ask(call, query->last[0], query->last[1]);
-    if (call->within >= 0 && call->status == PIR_OK)
-        pir_visit_pairs(&query->p, &query->q, &call->input, call->within, ask_once, call);
+    if (call->within >= 0 && call->status == PIR_OK) {
+        const pir_relative relative = pir_relative_of(&query->p, &query->q, &call->input);
+        pir_visit_pairs(&query->p, &query->q, &relative, call->within, ask_once, call);
+    }
     return call->status;
 }
 
@@ -122,12 +125,34 @@ static double ask_state(void *context, uint32_t i, uint32_t j) {
     return call->state == PIR_INSIDE ? -1 : 0;
 }
 
+/* The same where doubles do not tell. */
+static double ask_likely(void *context, uint32_t i, uint32_t j) {
+    struct call *call = context;
+    const pir_likely likely = pir_pieces_look(&call->relative, &call->query->p, i, &call->query->q, j);
+    if (likely == PIR_LIKELY_UNKNOWN)
+        return ask_state(call, i, j);
+    if (likely == PIR_CERTAINLY_APART)
+        return 0;
+    call->state = PIR_INSIDE;
+    call->query->last[0] = i;
+    call->query->last[1] = j;
+    return -1;
+}
+
 pir_status pir_solid_query_overlap(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
                                    pir_state *ret_state) {
     if (!query || !workspace || !input || !ret_state)
         return PIR_ERR_ARGUMENT;
     struct call call = {.query = query, .workspace = workspace, .input = *input, .state = PIR_OUTSIDE};
-    const pir_status status = visit(&call, ask_state);
+    pir_status status = PIR_OK;
+    if (pir_relative_is_plain(input)) {
+        call.relative = pir_relative_of(&query->p, &query->q, input);
+        pir_visit_pairs(&query->p, &query->q, &call.relative, 0, ask_likely, &call);
+        status = call.status;
+    } else {
+        // the first pair finds what is wrong with it, if anything is
+        status = visit(&call, ask_state);
+    }
     if (status == PIR_OK)
         *ret_state = call.state;
     return status;
