@@ -24,7 +24,7 @@ ROOT_FILES = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md",
 # What machines wrote: inputs of fuzzing, models, results of benchmarks.
 MACHINE_MADE = ("tests/fuzz/corpus/", "bench/results/", "examples/models/")
 # A benchmark of internals, which links the static library.
-INTERNAL_BENCHMARKS = ("bench/dymsum/bench_kernels.c",)
+INTERNAL_BENCHMARKS = ("bench/dymsum/bench_kernels.c", "bench/solid/stages.c")
 
 
 class Breach(NamedTuple):
