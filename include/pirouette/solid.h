@@ -27,7 +27,8 @@ typedef struct pir_pieces pir_pieces;
 /** How solids are made and computed with. */
 typedef struct pir_solid_options {
     const pir_allocator *allocator; /**< NULL for malloc's; copied; it outlives what is made */
-    size_t memory; /**< the most bytes that one call may hold beside its result; GMP's numbers come on top */
+    size_t
+        memory; /**< the most bytes that one call may hold beside its result and its solids, GMP's numbers included */
 } pir_solid_options;
 
 /** malloc's allocator, and 4 GiB. */

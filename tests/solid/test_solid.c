@@ -2,11 +2,13 @@
 /* What solids are, and which are refused, with what in the report. */
 #include "support/test.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include <pirouette/pirouette.h>
 
 #include "solid/bodies.h"
+#include "solid/models.h"
 #include "support/memory.h"
 
 static const double l_shape[6][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
@@ -226,6 +228,70 @@ static void every_failing_request_and_a_low_limit_are_survived(void **state) {
     assert_int_equal(solid_make(&facets, &low, NULL, &solid), PIR_ERR_LIMIT);
 }
 
+/* --- the limit --- */
+
+/* What a sum holds: its own memory and GMP's. */
+static size_t held, most_held;
+
+static void hold(size_t old_size, size_t new_size) {
+    held = held - old_size + new_size;
+    most_held = held > most_held ? held : most_held;
+}
+
+static void *count_resize(void *context, void *block, size_t old_size, size_t new_size) {
+    (void)context;
+    hold(old_size, new_size);
+    if (new_size > 0)
+        return realloc(block, new_size);
+    free(block);
+    return NULL;
+}
+
+static void *count_new(size_t size) {
+    hold(0, size);
+    return malloc(size);
+}
+
+static void *count_again(void *block, size_t old_size, size_t new_size) {
+    hold(old_size, new_size);
+    return realloc(block, new_size);
+}
+
+static void count_free(void *block, size_t size) {
+    hold(size, 0);
+    free(block);
+}
+
+/* Beside what the limit counts there are the numbers of both solids on one scale, and one number in the making. */
+static void sum_holds_no_more_than_its_limit_with_gmps_numbers(void **state) {
+    (void)state;
+    const size_t beside = 65536;
+    const pir_allocator counting = {count_resize, NULL};
+    pir_solid *p = solid_model_new("gear8", 1), *q = solid_model_new("star5", 1);
+    pir_solid_sum_options options = pir_solid_sum_options_default();
+    unsigned refused = 0, made = 0;
+    assert_true(p && q);
+    options.solid.allocator = &counting;
+    mp_set_memory_functions(count_new, count_again, count_free);
+    for (options.solid.memory = 16384; made == 0 && options.solid.memory < (size_t)1 << 30;
+         options.solid.memory += options.solid.memory / 4) {
+        pir_mesh *mesh = NULL;
+        held = most_held = 0;
+        const pir_status status = pir_solid_sum(p, q, (pir_quat){1, 2, 3, 4}, &options, NULL, &mesh);
+        expect(status == PIR_OK || status == PIR_ERR_LIMIT, "%zu bytes: status %d", options.solid.memory, (int)status);
+        expect(status == PIR_OK || most_held <= options.solid.memory + beside, "%zu bytes: %zu were held",
+               options.solid.memory, most_held);
+        pir_mesh_destroy(mesh);
+        expect(held == 0, "%zu bytes: %zu are left", options.solid.memory, held);
+        *(status == PIR_OK ? &made : &refused) += 1;
+    }
+    mp_set_memory_functions(NULL, NULL, NULL);
+    printf("%u limits were too low\n", refused);
+    assert_true(made == 1 && refused > 8);
+    pir_solid_release(q);
+    pir_solid_release(p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(prism_has_its_reflex_edge_and_volume),
@@ -240,6 +306,7 @@ int main(void) {
         cmocka_unit_test(inside_out_is_refused),
         cmocka_unit_test(facets_without_volume_or_plane_are_refused),
         cmocka_unit_test(every_failing_request_and_a_low_limit_are_survived),
+        cmocka_unit_test(sum_holds_no_more_than_its_limit_with_gmps_numbers),
     };
     return cmocka_run_group_tests_name("solids", tests, NULL, NULL);
 }

@@ -198,7 +198,7 @@ pir_status pir_solid_make(const pir_solid_parts *parts, const pir_solid_options 
     if (status == PIR_OK) {
         pir_space space;
         pir_space_init(&space, &solid->allocator, options->memory, pir_vectors_bits(&solid->points) + 1);
-        status = check(solid, parts, &space);
+        status = pir_space_outcome(&space, check(solid, parts, &space));
         pir_space_finish(&space);
     }
     if (status == PIR_OK) {

@@ -129,6 +129,7 @@ static pir_status decompose(const pir_solid *solid, const pir_solid_options *opt
     pir_piece_list_finish(&list, &space);
     pir_cells_finish(&cells);
     pir_body_finish(&body);
+    status = pir_space_outcome(&space, status);
     pir_space_finish(&space);
     return status;
 }

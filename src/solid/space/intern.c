@@ -45,17 +45,11 @@ static uint32_t find(const pir_intern *table, uint32_t first) {
 static void widen(pir_intern *table) {
     pir_space *space = table->space;
     const uint32_t room = table->slot_room ? 2 * table->slot_room : 64;
-    const size_t bytes = room * sizeof *table->slot;
-    if (bytes > space->limit - space->bytes) {
-        space->status = PIR_ERR_LIMIT;
-        return;
-    }
     uint32_t *slot = PIR_ZEROED(&space->allocator, uint32_t, room);
     if (!slot) {
-        space->status = PIR_ERR_MEMORY;
+        space->status = pir_space_outcome(space, PIR_ERR_MEMORY);
         return;
     }
-    space->bytes += bytes;
     pir_space_shrink(space, table->slot, table->slot_room, sizeof *table->slot);
     table->slot = slot;
     table->slot_room = room;

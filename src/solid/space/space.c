@@ -8,8 +8,26 @@
 
 #define SCRATCH (sizeof((pir_space *)0)->t / sizeof(mpz_t))
 
+/* Asks the caller's allocator where the limit allows it. */
+static void *limited_resize(void *context, void *block, size_t old_size, size_t new_size) {
+    pir_space *space = context;
+    if (new_size > old_size && new_size - old_size > space->limit - space->bytes) {
+        space->refused = true;
+        return NULL;
+    }
+    void *made = space->given.resize(space->given.context, block, old_size, new_size);
+    if (made || new_size == 0)
+        space->bytes = space->bytes - old_size + new_size;
+    return made;
+}
+
+pir_status pir_space_outcome(const pir_space *space, pir_status status) {
+    return status == PIR_ERR_MEMORY && space->refused ? PIR_ERR_LIMIT : status;
+}
+
 void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t limit, size_t bits) {
-    *space = (pir_space){.allocator = *allocator, .limit = limit, .shift = (int)bits + 1};
+    *space =
+        (pir_space){.allocator = {limited_resize, space}, .given = *allocator, .limit = limit, .shift = (int)bits + 1};
     for (size_t k = 0; k < SCRATCH; k++)
         mpz_init(space->t[k]);
     pir_space_numbers(space, 4);
@@ -38,28 +56,40 @@ bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count
         return false;
     if (count < *room)
         return true;
-    const size_t larger = 2 * count + 16, bytes = (larger - *room) * size;
-    if (larger >= UINT32_MAX / 2 || bytes > space->limit - space->bytes) {
+    const size_t larger = 2 * count + 16;
+    if (larger >= UINT32_MAX / 2) {
         space->status = PIR_ERR_LIMIT;
         return false;
     }
     void *grown = pir_memory_resize(&space->allocator, *array, *room, larger, size);
     if (!grown) {
-        space->status = PIR_ERR_MEMORY;
+        space->status = pir_space_outcome(space, PIR_ERR_MEMORY);
         return false;
     }
     *array = grown;
     *room = (uint32_t)larger;
-    space->bytes += bytes;
     return true;
 }
 
 void pir_space_shrink(pir_space *space, void *array, uint32_t room, size_t size) {
     pir_memory_free(&space->allocator, array, room, size);
-    space->bytes -= room * size;
+}
+
+/* Counts the numbers that are made by now. */
+static void weigh_numbers(pir_space *space) {
+    size_t bytes = 0;
+    for (; space->weighed < space->number_count; space->weighed++)
+        bytes += (size_t)space->number[space->weighed]->_mp_alloc * sizeof(mp_limb_t);
+    if (bytes > space->limit - space->bytes) {
+        space->refused = true;
+        space->status = PIR_ERR_LIMIT;
+        return;
+    }
+    space->bytes += bytes;
 }
 
 uint32_t pir_space_numbers(pir_space *space, uint32_t count) {
+    weigh_numbers(space);
     if (!pir_space_grow(space, (void **)&space->number, &space->number_room, space->number_count + count,
                         sizeof *space->number))
         return 0;

@@ -14,7 +14,8 @@
  * are made from the definition when a filter fails, in lowest terms, and kept.
  *
  * Memory that runs out, or past the limit, is remembered in `status`; calls then return number 0, and the job looks at
- * `status` before it gives a result. Exact numbers are GMP's, in GMP's own memory.
+ * `status` before it gives a result. The job takes all its memory from `allocator`, which counts it. Exact numbers are
+ * in GMP's own memory: they are counted once they are made, when the next are asked for.
  */
 #ifndef PIR_SOLID_SPACE_SPACE_H
 #define PIR_SOLID_SPACE_SPACE_H
@@ -50,9 +51,12 @@ typedef struct pir_space_plane {
 } pir_space_plane;
 
 typedef struct pir_space {
-    pir_allocator allocator;
+    pir_allocator allocator; /* gives what the limit allows, from the caller's */
+    pir_allocator given;
     pir_status status;
-    size_t bytes, limit;
+    size_t bytes, limit; /* of all that the job holds, GMP's numbers counted in */
+    bool refused;        /* the limit did not allow something */
+    uint32_t weighed;    /* numbers that are counted in */
     int shift;
     pir_space_direction *direction;
     pir_space_point *point;
@@ -64,15 +68,19 @@ typedef struct pir_space {
     uint64_t by_exact; /* sides that doubles could not tell */
 } pir_space;
 
-/* `bits` of the longest coordinate of the job, sums included; at most `limit` bytes of memory. */
+/* `bits` of the longest coordinate of the job, sums included; at most `limit` bytes of memory. The space stays where it
+ * is. */
 void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t limit, size_t bits);
 void pir_space_finish(pir_space *space);
+
+/* The status that a job ends with: memory that the limit did not allow had not run out. */
+pir_status pir_space_outcome(const pir_space *space, pir_status status);
 
 /* Grows *array, of *room elements, to hold one more than `count`, within the limit. False once `status` is a failure.
  * */
 bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count, size_t size);
 
-/* Memory of the job that is given back by hand counts for the limit as well. */
+/* Frees an array that has grown. */
 void pir_space_shrink(pir_space *space, void *array, uint32_t room, size_t size);
 
 /* `count` new numbers, all 0; the number of the first. */

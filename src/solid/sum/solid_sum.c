@@ -183,6 +183,7 @@ pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotati
     status = pir_operands_init(&job.operands, solids, &exact, used.difference != 0, &solid_options);
     if (status == PIR_OK)
         status = compute(&job, used.open != 0);
+    status = pir_space_outcome(&job.operands.space, status);
     pir_mesh *mesh = NULL;
     if (status == PIR_OK)
         status = pir_solid_mesh_make(&job.operands, &job.outline, &job.loops, &job.points, &mesh);
