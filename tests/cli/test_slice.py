@@ -65,12 +65,12 @@ def turn(q, v):
 
 
 def numbers_of(data):
-    """The numbers of a record: 7 bits a byte, least significant first."""
+    """The numbers of a record: 3 bits a half byte, least significant first, the lower half of a byte first."""
     numbers, number, shift = [], 0, 0
-    for byte in data.tolist():
-        number |= (byte & 127) << shift
-        shift += 7
-        if byte < 128:
+    for half in (half for byte in data.tolist() for half in (byte & 15, byte >> 4)):
+        number |= (half & 7) << shift
+        shift += 3
+        if half < 8:
             numbers.append(number)
             number = shift = 0
     return numbers
@@ -81,10 +81,20 @@ class Pairing:
 
     def __init__(self, file, robot, obstacle):
         self.p, self.q = file[f"robot/{robot}"], file[f"obstacle/{obstacle}"]
-        self.edges = [self.p["edge"][:].tolist(), self.q["edge"][:].tolist()]
-        self.facet_edges = [self.edges_of_facets(self.p), self.edges_of_facets(self.q)]
+        self.edges = [piece["edge"][:].tolist() for piece in (self.p, self.q)]
+        self.around = [self.edges_of_vertices(edges) for edges in self.edges]
+        self.facet_edges = [self.edges_of_facets(piece) for piece in (self.p, self.q)]
+        self.guides = [self.guides_of(piece) for piece in (self.p, self.q)]
         self.ends = self.p["edge_facet"][:][:, ::-1].tolist()  # of −P
-        self.fv, self.vf, self.crossed = [], [], set()
+        self.cells, self.crossed = [[], []], {}
+
+    @staticmethod
+    def edges_of_vertices(edges):
+        found = {}
+        for e, ends in enumerate(edges):
+            for v in ends:
+                found.setdefault(v, []).append(e)
+        return found
 
     @staticmethod
     def edges_of_facets(piece):
@@ -94,45 +104,73 @@ class Pairing:
                 found.setdefault(f, []).append(e)
         return found
 
+    @staticmethod
+    def guides_of(piece):
+        least = list(range(len(piece["normal"])))
+        for f, g in piece["edge_facet"][:].tolist():
+            least[f], least[g] = min(least[f], g), min(least[g], f)
+        return [None if least[f] == f else least[f] for f in range(len(least))]
+
+    def across(self, side, cell, rank):
+        """The edge of that rank at a vertex, and where it leads."""
+        edge = self.around[side][cell][rank]
+        return edge, sum(self.edges[side][edge]) - cell
+
     def apply(self, record):
         numbers = iter(numbers_of(record))
         take = lambda: next(numbers)
         if take() == 1:
-            self.fv = [take() for _ in range(len(self.p["normal"]))]
-            self.vf = [take() for _ in range(len(self.q["normal"]))]
-            self.crossed = {(e, take()) for e in range(len(self.edges[0])) for _ in range(take())}
+            for side in (0, 1):
+                cells = self.cells[side] = []
+                for guide in self.guides[side]:
+                    cells.append(take() if guide is None else self.cell_from(1 - side, cells[guide], take))
+            for e in range(len(self.ends)):
+                self.crossed[e] = self.way(e, take)
         else:
-            for side, cells in ((0, self.fv), (1, self.vf)):
+            for side in (0, 1):
                 f = 0
                 for _ in range(take()):
                     f += take()
-                    self.step(side, cells, f, take(), take)
+                    self.step(side, f, take(), take)
             e = 0
             for _ in range(take()):
                 e += take()
-                self.crossed ^= {(e, take())}
-        assert next(numbers, None) is None
+                self.crossed[e] = self.way(e, take)
+        assert all(number == 0 for number in numbers)  # half a byte may be left over
 
-    def step(self, side, cells, f, step, take):
+    def cell_from(self, other, near, take):
+        step, ring = take(), self.around[other].get(near, [])
+        return near if step == 0 else take() if step > len(ring) else self.across(other, near, step - 1)[1]
+
+    def way(self, e, take):
+        left, right = self.ends[e]
+        cell, end, crossed = self.cells[0][left], self.cells[0][right], set()
+        while cell != end:
+            step, around = take(), self.around[1][cell]
+            g = around[step - 1] if step else next(g for g in around if end in self.edges[1][g])
+            cell = sum(self.edges[1][g]) - cell
+            crossed.add(g)
+        return crossed
+
+    def step(self, side, f, step, take):
         if step == 0:
-            cells[f] = take()
+            self.cells[side][f] = take()
             return
-        edges, before = self.edges[1 - side], cells[f]
-        beside = sorted({a + b - before for a, b in edges if before in (a, b)})
-        cells[f] = beside[step - 1]
-        passed = edges.index(sorted([before, cells[f]]))
-        self.crossed ^= {(own, passed) if side == 0 else (passed, own) for own in self.facet_edges[side][f]}
+        passed, self.cells[side][f] = self.across(1 - side, self.cells[side][f], step - 1)
+        for own in self.facet_edges[side][f]:
+            e, g = (own, passed) if side == 0 else (passed, own)
+            self.crossed[e] = self.crossed[e] ^ {g}
 
     def ordered(self):
         """The crossings by edge of −P, in order along each arc."""
         for e, (left, right) in enumerate(self.ends):
-            cell, rest = self.fv[left], {g for d, g in self.crossed if d == e}
+            cell, rest = self.cells[0][left], set(self.crossed[e])
             while rest:
                 g = next(g for g in rest if cell in self.edges[1][g])
                 rest.remove(g)
                 cell = sum(self.edges[1][g]) - cell
                 yield e, g
-            assert cell == self.fv[right]
+            assert cell == self.cells[0][right]
 
     def planes(self, q):
         """The planes of all pairs, from pairs, rotation and models alone."""
@@ -147,7 +185,7 @@ class Pairing:
         beside = n_f[np.array(self.ends)[ee[:, 0]]].sum(axis=1)
         n *= np.sign((n * beside).sum(axis=1))[:, None]
         normals = np.vstack([n_f, n_g, n])
-        corners = np.vstack([minus[on_f] + stand[self.fv], minus[self.vf] + stand[on_g],
+        corners = np.vstack([minus[on_f] + stand[self.cells[0]], minus[self.cells[1]] + stand[on_g],
                              minus[ends[:, 0]] + stand[others[:, 0]]])
         return np.hstack([normals, (normals * corners).sum(axis=1)[:, None]])
 
@@ -207,7 +245,7 @@ class Files(InFolder):
         self.make("a.h5", models=(self.path("box.off"), "shape:gs2"))
         with h5py.File(self.path("a.h5")) as file:
             self.assertEqual(file.attrs["format"], b"pirouette slices")
-            self.assertEqual(file.attrs["version"], 1)
+            self.assertEqual(file.attrs["version"], 2)
             self.assertEqual(file["grid"].attrs["kind"], b"axis")
             self.assertEqual(file["grid"].attrs["axis"].tolist(), [1, 2, 3])
             self.assertEqual(file["robot/0/vertex"].shape, (8, 3))

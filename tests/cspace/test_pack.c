@@ -51,12 +51,13 @@ static void chunks_come_back(void **state) {
     const pir_allocator a = pir_allocator_or_default(NULL);
     static uint8_t chunk_data[CHUNK_MOST];
     pir_unit unit;
-    assert_true(pir_unit_init(&unit, 2, &a));
+    pir_packer *packer = pir_packer_new(&a);
+    assert_true(packer && pir_unit_init(&unit, 2, &a));
     unit.slices = 2;
     for (unsigned number = 0; number < 20; number++) {
         test_random random = test_random_case("pack", number);
         put_random(&unit, &random, &a);
-        assert_true(pir_unit_pack(&unit, &a));
+        assert_true(pir_unit_pack(&unit, packer, &a));
         for (pir_section s = 0; s < PIR_SECTION_COUNT; s++) {
             const pir_bytes *given = &unit.data[s];
             assert_true(pir_packed_holds(&unit.packed[s], s, pir_unit_elements(&unit, s)));
@@ -72,17 +73,19 @@ static void chunks_come_back(void **state) {
         }
     }
     pir_unit_finish(&unit, &a);
+    pir_packer_free(packer);
 }
 
 static void changed_bytes_are_no_more(void **state) {
     (void)state;
     const pir_allocator a = pir_allocator_or_default(NULL);
     pir_unit unit;
-    assert_true(pir_unit_init(&unit, 2, &a));
+    pir_packer *packer = pir_packer_new(&a);
+    assert_true(packer && pir_unit_init(&unit, 2, &a));
     unit.slices = 2;
     test_random random = test_random_case("changed", 0);
     put_random(&unit, &random, &a);
-    assert_true(pir_unit_pack(&unit, &a));
+    assert_true(pir_unit_pack(&unit, packer, &a));
     pir_bytes *packed = &unit.packed[PIR_SECTION_RECORDS];
     uint64_t elements = pir_unit_elements(&unit, PIR_SECTION_RECORDS);
     assert_false(pir_packed_holds(packed, PIR_SECTION_RECORDS, elements + 2 * pir_chunk_elements[0]));
@@ -96,6 +99,7 @@ static void changed_bytes_are_no_more(void **state) {
             assert_true(chunk.data + chunk.size <= packed->data + packed->used);
     }
     pir_unit_finish(&unit, &a);
+    pir_packer_free(packer);
 }
 
 int main(void) {

@@ -1,96 +1,84 @@
 /* SPDX-License-Identifier: MIT */
-/* The set of toggled crossings. Its three arrays follow the size of the table. */
+/* The set of toggled crossings. */
 #include "cspace/record/crossing_set.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/layout.h"
 
-#define FIRST_ROOM 1024u
+#define NO_ENTRY   UINT32_MAX
+#define FIRST_ROOM 256u
 
-static pir_layout layout_of(pir_crossing_set *set) {
-    return (pir_layout){
-        {PIR_ROW(set->entry, set->room), PIR_ROW(set->used, set->room / 2), PIR_ROW(set->odd, set->room / 2)}};
+static uint32_t words_of(const pir_crossing_set *set) {
+    return set->edges / 64 + 1;
 }
 
-void pir_crossing_set_init(pir_crossing_set *set, const pir_allocator *allocator) {
-    *set = (pir_crossing_set){.allocator = *allocator, .stamp = 1};
+static pir_layout layout_of(pir_crossing_set *set) {
+    return (pir_layout){{PIR_ROW(set->first, set->edges), PIR_ROW(set->touched, words_of(set))}};
+}
+
+bool pir_crossing_set_init(pir_crossing_set *set, uint32_t edges, const pir_allocator *allocator) {
+    *set = (pir_crossing_set){.allocator = *allocator, .edges = edges, .free = NO_ENTRY};
+    pir_layout layout = layout_of(set);
+    if (!pir_layout_new(allocator, &layout))
+        return false;
+    for (uint32_t e = 0; e < edges; e++)
+        set->first[e] = NO_ENTRY;
+    return true;
 }
 
 void pir_crossing_set_finish(pir_crossing_set *set) {
     pir_layout layout = layout_of(set);
     pir_layout_free(&set->allocator, &layout);
-}
-
-void pir_crossing_set_clear(pir_crossing_set *set) {
-    set->count = 0;
-    if (++set->stamp == 0) {
-        for (uint32_t i = 0; i < set->room; i++)
-            set->entry[i].stamp = 0;
-        set->stamp = 1;
-    }
-}
-
-/* The entry of the key, or the one that it would take. */
-static uint32_t place_of(const pir_crossing_set *set, pir_crossing_key key) {
-    uint32_t mask = set->room - 1, at = (uint32_t)((key * UINT64_C(0x9e3779b97f4a7c15)) >> 32) & mask;
-    while (set->entry[at].stamp == set->stamp && set->entry[at].key != key)
-        at = (at + 1) & mask;
-    return at;
+    PIR_FREE(&set->allocator, set->entry, set->room);
 }
 
 static bool grow(pir_crossing_set *set) {
+    uint32_t room = set->room ? 2 * set->room : FIRST_ROOM;
     if (set->room > UINT32_MAX / 4)
         return false;
-    pir_crossing_set grown = *set;
-    grown.room = set->room ? 2 * set->room : FIRST_ROOM;
-    grown.entry = NULL;
-    grown.used = NULL;
-    grown.odd = NULL;
-    pir_layout fresh = layout_of(&grown), old = layout_of(set);
-    if (!pir_layout_new(&set->allocator, &fresh)) {
-        pir_layout_free(&set->allocator, &fresh);
+    pir_crossing_entry *grown = PIR_RESIZE(&set->allocator, set->entry, set->room, room);
+    if (!grown)
         return false;
-    }
-    for (uint32_t i = 0; i < set->count; i++) {
-        const pir_crossing_entry *entry = &set->entry[set->used[i]];
-        uint32_t at = place_of(&grown, entry->key);
-        grown.entry[at] = *entry;
-        grown.used[i] = at;
-    }
-    pir_layout_free(&set->allocator, &old);
-    *set = grown;
+    set->entry = grown;
+    set->room = room;
     return true;
 }
 
-bool pir_crossing_set_toggle(pir_crossing_set *set, pir_crossing_key key) {
-    if (set->count >= set->room / 2 && !grow(set))
-        return false;
-    uint32_t at = place_of(set, key);
-    pir_crossing_entry *entry = &set->entry[at];
-    if (entry->stamp != set->stamp) {
-        *entry = (pir_crossing_entry){key, set->stamp, 0};
-        set->used[set->count++] = at;
+bool pir_crossing_set_toggle(pir_crossing_set *set, uint32_t e, uint32_t g) {
+    for (uint32_t *link = &set->first[e]; *link != NO_ENTRY; link = &set->entry[*link].next) {
+        uint32_t at = *link;
+        if (set->entry[at].other != g)
+            continue;
+        *link = set->entry[at].next;
+        set->entry[at].next = set->free;
+        set->free = at;
+        return true;
     }
-    entry->odd ^= 1;
+    uint32_t at = set->free;
+    if (at != NO_ENTRY) {
+        set->free = set->entry[at].next;
+    } else {
+        if (set->used == set->room && !grow(set))
+            return false;
+        at = set->used++;
+    }
+    set->entry[at] = (pir_crossing_entry){g, set->first[e]};
+    set->first[e] = at;
+    set->touched[e / 64] |= (uint64_t)1 << e % 64;
     return true;
 }
 
-static int compare_keys(const void *left, const void *right) {
-    pir_crossing_key a, b;
-    memcpy(&a, left, sizeof a);
-    memcpy(&b, right, sizeof b);
-    return (a > b) - (a < b);
-}
-
-const pir_crossing_key *pir_crossing_set_remains(pir_crossing_set *set, uint32_t *ret_count) {
+uint32_t pir_crossing_set_take(pir_crossing_set *set, uint32_t *ret_edges) {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < set->count; i++)
-        if (set->entry[set->used[i]].odd)
-            set->odd[count++] = set->entry[set->used[i]].key;
-    if (count > 1)
-        qsort(set->odd, count, sizeof *set->odd, compare_keys);
-    *ret_count = count;
-    return set->odd;
+    for (uint32_t w = 0; w < words_of(set); w++) {
+        for (uint64_t left = set->touched[w]; left; left &= left - 1) {
+            uint32_t e = 64 * w + (uint32_t)__builtin_ctzll(left);
+            if (set->first[e] != NO_ENTRY)
+                ret_edges[count++] = e;
+            set->first[e] = NO_ENTRY;
+        }
+        set->touched[w] = 0;
+    }
+    set->used = 0;
+    set->free = NO_ENTRY;
+    return count;
 }

@@ -1,46 +1,36 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Crossings that are toggled: those toggled an odd number of times are what remains.
+ * Crossings that are toggled: those toggled an odd number of times are what remains, edge by edge of −P.
  *
- * A table with open addressing, at most half full. An entry counts where it has the table's stamp, so emptying the
- * table takes no time.
+ * The crossings of an edge that remain are a chain. Few do: a toggle looks at a few entries.
  */
 #ifndef PIR_CSPACE_RECORD_CROSSING_SET_H
 #define PIR_CSPACE_RECORD_CROSSING_SET_H
 
 #include "base/memory.h"
 
-/* An edge of −P and an edge of Q whose arcs cross. Pairs compare as numbers: by edge of −P, then by edge of Q. */
-typedef uint64_t pir_crossing_key;
-
-static inline pir_crossing_key pir_crossing_key_of(uint32_t edge_p, uint32_t edge_q) {
-    return (uint64_t)edge_p << 32 | edge_q;
-}
-
+/* A crossing that remains: the edge of Q, and the next entry of its chain. Free entries are chained too. */
 typedef struct pir_crossing_entry {
-    pir_crossing_key key;
-    uint32_t stamp, odd;
+    uint32_t other, next;
 } pir_crossing_entry;
 
 typedef struct pir_crossing_set {
     pir_allocator allocator;
+    uint32_t edges;    /* of −P */
+    uint32_t *first;   /* per edge of −P: an entry, or none */
+    uint64_t *touched; /* a bit for each edge that may have a chain */
     pir_crossing_entry *entry;
-    uint32_t *used;        /* the entries that count, by when they came */
-    pir_crossing_key *odd; /* room for what remains */
-    uint32_t count, room;  /* entries that count; the table's size, a power of two, or 0 */
-    uint32_t stamp;
+    uint32_t used, room, free;
 } pir_crossing_set;
 
-void pir_crossing_set_init(pir_crossing_set *set, const pir_allocator *allocator);
+/* An empty set, for so many edges of −P. False when out of memory; pir_crossing_set_finish releases what is there. */
+bool pir_crossing_set_init(pir_crossing_set *set, uint32_t edges, const pir_allocator *allocator);
 void pir_crossing_set_finish(pir_crossing_set *set);
 
-/* Empties the set. */
-void pir_crossing_set_clear(pir_crossing_set *set);
+/* Toggles the crossing of edge e of −P with edge g of Q. False when out of memory. */
+bool pir_crossing_set_toggle(pir_crossing_set *set, uint32_t e, uint32_t g);
 
-/* False when out of memory. */
-bool pir_crossing_set_toggle(pir_crossing_set *set, pir_crossing_key key);
-
-/* What remains, rising: *ret_count of them, valid until the set changes. */
-const pir_crossing_key *pir_crossing_set_remains(pir_crossing_set *set, uint32_t *ret_count);
+/* Empties the set. The edges of −P with crossings that remained go to ret_edges, rising; returns their number. */
+uint32_t pir_crossing_set_take(pir_crossing_set *set, uint32_t *ret_edges);
 
 #endif

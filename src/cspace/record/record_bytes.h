@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A block of bytes that grows at its end, and unsigned numbers in it: 7 bits a byte, least significant first, 128 added
- * to all but the last byte.
+ * A block of bytes that grows at its end, and unsigned numbers in it: 3 bits a half byte, least significant first, 8
+ * added to all but the last half byte. The lower half of a byte comes first. Most numbers of a record are below 8.
  */
 #ifndef PIR_CSPACE_RECORD_RECORD_BYTES_H
 #define PIR_CSPACE_RECORD_RECORD_BYTES_H
 
 #include "base/memory.h"
 
-/* The most bytes that a number takes. */
-#define PIR_NUMBER_BYTES 10
+/* The most bytes that a number of 32 bits takes. */
+#define PIR_NUMBER_BYTES 6
 
 typedef struct pir_bytes {
     uint8_t *data;
@@ -20,32 +20,52 @@ typedef struct pir_bytes {
 bool pir_bytes_reserve(pir_bytes *bytes, const pir_allocator *allocator, size_t more);
 void pir_bytes_finish(pir_bytes *bytes, const pir_allocator *allocator);
 
-/* Appends, where there is room for PIR_NUMBER_BYTES. */
-static inline void pir_bytes_put(pir_bytes *bytes, uint64_t number) {
-    for (; number >= 128; number >>= 7)
-        bytes->data[bytes->used++] = (uint8_t)(number & 127) | 128;
-    bytes->data[bytes->used++] = (uint8_t)number;
+/* Writes numbers. `at` has room for them; half a byte that is left over at the end is 0. */
+typedef struct pir_pen {
+    uint8_t *at;
+    bool odd; /* the lower half of *at is written */
+} pir_pen;
+
+static inline void pir_pen_put_half(pir_pen *pen, uint32_t half) {
+    if (pen->odd)
+        *pen->at++ |= (uint8_t)(half << 4);
+    else
+        *pen->at = (uint8_t)half;
+    pen->odd = !pen->odd;
+}
+
+static inline void pir_pen_put(pir_pen *pen, uint32_t number) {
+    for (; number >= 8; number >>= 3)
+        pir_pen_put_half(pen, (number & 7) | 8);
+    pir_pen_put_half(pen, number);
 }
 
 /* Bytes that are read; `broken` once a number did not end in them, or was greater than asked for. */
 typedef struct pir_scan {
     const uint8_t *at, *end;
-    bool broken;
+    bool odd, broken;
 } pir_scan;
 
 /* The next number where it is at most `most`; else 0, and the scan is broken. */
-static inline uint64_t pir_scan_number(pir_scan *scan, uint64_t most) {
+static inline uint32_t pir_scan_number(pir_scan *scan, uint32_t most) {
     uint64_t number = 0;
-    for (unsigned shift = 0; scan->at < scan->end && shift < 63; shift += 7) {
-        uint8_t byte = *scan->at++;
-        number |= (uint64_t)(byte & 127) << shift;
-        if (byte < 128) {
+    for (unsigned shift = 0; scan->at < scan->end && shift < 33; shift += 3) {
+        uint32_t half = scan->odd ? *scan->at >> 4 : *scan->at & 15;
+        scan->at += scan->odd;
+        scan->odd = !scan->odd;
+        number |= (uint64_t)(half & 7) << shift;
+        if (half < 8) {
             scan->broken |= number > most;
-            return number > most ? 0 : number;
+            return number > most ? 0 : (uint32_t)number;
         }
     }
     scan->broken = true;
     return 0;
+}
+
+/* Whether everything has been read: at most half a byte is left over, of zeros. */
+static inline bool pir_scan_ended(const pir_scan *scan) {
+    return !scan->broken && (scan->odd ? scan->at + 1 == scan->end && *scan->at >> 4 == 0 : scan->at == scan->end);
 }
 
 /* What a record begins with. */

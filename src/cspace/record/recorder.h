@@ -3,8 +3,8 @@
  * Writes the records of a sum that turns.
  *
  * A recorder holds the pairing of the slice before: the cells of the facets, and what stood in each slot of the sum's
- * crossings. The sum's journal names the slots that have changed since, so a record costs what has changed. Where the
- * journal does not reach back all slots are compared.
+ * crossings. The sum's journal names what may have changed since, so a record costs what has changed. Where the journal
+ * does not reach back everything is compared.
  *
  * A record depends on the pairings before and after alone, not on the way between them or on slots.
  */
@@ -13,6 +13,7 @@
 
 #include "cspace/record/crossing_set.h"
 #include "cspace/record/record_bytes.h"
+#include "cspace/record/ring_ranks.h"
 #include "dymsum/view.h"
 
 /* A facet that is in another cell than before. */
@@ -24,14 +25,16 @@ typedef struct pir_recorder {
     pir_allocator allocator;
     const pir_sum *sum; /* borrowed */
     const pir_pairing *pairing;
-    uint64_t seen;                  /* entries of the journal that have been read */
+    uint64_t seen; /* entries of the journal that have been read */
+    pir_ring_ranks p, q;
     uint32_t *fv, *vf;              /* of the slice before */
-    pir_crossing_key *slot;         /* what stood in each slot of the sum's crossings, or NO_KEY of recorder.c */
-    uint32_t slot_room, slots_seen; /* of `slot`; up to where slots have been in use */
-    uint64_t *dirty;         /* a bit for each facet, then for each slot, by the journal's entries; 0 between calls */
-    pir_cell_change *change; /* room for all facets: those of −P, then those of Q */
+    uint32_t *half, *edge;          /* what stood in each slot of the sum's crossings, as pir_crossings has it */
+    uint32_t slot_room, slots_seen; /* of these; up to where slots have been in use */
+    pir_cell_change *change;        /* room for all facets: those of −P, then those of Q */
     uint32_t change_count[2];
+    uint64_t *noted; /* a bit for each facet, by the journal's entries; 0 between calls */
     pir_crossing_set toggled;
+    uint32_t *unforeseen; /* edges of −P: room for all */
 } pir_recorder;
 
 /* False when out of memory. pir_recorder_finish releases whatever is there. */

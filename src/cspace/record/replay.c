@@ -3,7 +3,6 @@
 #include "cspace/record/replay.h"
 
 #include "base/layout.h"
-#include "cspace/record/neighbours.h"
 
 /* --- memory --- */
 
@@ -24,7 +23,8 @@ bool pir_replay_init(pir_replay *replay, const pir_polytope *minus_p, const pir_
                      const pir_allocator *allocator) {
     *replay = (pir_replay){.allocator = *allocator, .p = minus_p, .q = q};
     pir_layout layout = layout_of(replay);
-    if (!pir_layout_new(allocator, &layout))
+    if (!pir_layout_new(allocator, &layout) || !pir_ring_ranks_init(&replay->ranks_p, minus_p, allocator) ||
+        !pir_ring_ranks_init(&replay->ranks_q, q, allocator))
         return false;
     empty(replay);
     return true;
@@ -35,6 +35,8 @@ void pir_replay_finish(pir_replay *replay) {
         return;
     pir_layout layout = layout_of(replay);
     pir_layout_free(&replay->allocator, &layout);
+    pir_ring_ranks_finish(&replay->ranks_p, &replay->allocator);
+    pir_ring_ranks_finish(&replay->ranks_q, &replay->allocator);
     PIR_FREE(&replay->allocator, replay->slots.next, replay->slots.room);
     PIR_FREE(&replay->allocator, replay->slots.other, replay->slots.room);
     PIR_FREE(&replay->allocator, replay->ordered, replay->ordered_room);
@@ -102,32 +104,80 @@ static pir_status toggle(pir_replay *replay, uint32_t e, uint32_t g) {
 
 /* --- records --- */
 
-/* A count that is followed by at least so many bytes. */
-static uint64_t scan_count(pir_scan *scan, uint64_t most) {
-    uint64_t count = pir_scan_number(scan, most);
-    if (count > (uint64_t)(scan->end - scan->at))
+/* A count that is followed by at least so many numbers. */
+static uint32_t scan_count(pir_scan *scan, uint32_t most) {
+    uint32_t count = pir_scan_number(scan, most);
+    if (count > 2 * (uint64_t)(scan->end - scan->at))
         scan->broken = true;
     return scan->broken ? 0 : count;
 }
 
-static pir_status scan_whole(pir_replay *replay, pir_scan *scan) {
-    const pir_polytope *p = replay->p, *q = replay->q;
-    empty(replay);
-    for (uint32_t f = 0; f < p->facet_count && !scan->broken; f++)
-        replay->fv[f] = (uint32_t)pir_scan_number(scan, q->vertex_count - 1);
-    for (uint32_t g = 0; g < q->facet_count && !scan->broken; g++)
-        replay->vf[g] = (uint32_t)pir_scan_number(scan, p->vertex_count - 1);
-    for (uint32_t e = 0; e < p->edge_count && !scan->broken; e++) {
-        uint64_t count = scan_count(scan, q->edge_count);
-        // the chain takes each at its front: the order is found again from the cells
-        for (uint64_t i = 0; i < count && !scan->broken; i++) {
-            pir_status status = enter(replay, e, (uint32_t)pir_scan_number(scan, q->edge_count - 1));
-            if (status != PIR_OK)
-                return status;
-        }
+/* Takes out all crossings of edge e of −P. */
+static void clear_edge(pir_replay *replay, uint32_t e) {
+    pir_replay_slots *slots = &replay->slots;
+    while (slots->first[e] != PIR_NO_EDGE) {
+        uint32_t slot = slots->first[e];
+        slots->first[e] = slots->next[slot];
+        slots->next[slot] = slots->free;
+        slots->free = slot;
+        slots->count--;
     }
-    replay->begun = true;
+}
+
+/* The crossings of edge e of −P, which has none yet, from cell to cell: at most as many as there are cells. */
+static pir_status scan_way(pir_replay *replay, uint32_t e, pir_scan *scan) {
+    const pir_polytope *p = replay->p, *q = replay->q;
+    uint32_t half = p->edge_half[e], cell = replay->fv[p->left[half]], end = replay->fv[pir_right(p, half)];
+    for (uint32_t steps = 0; cell != end; steps++) {
+        uint32_t step = pir_scan_number(scan, q->vertex_count);
+        uint32_t side = step == 0 ? pir_half_between(&replay->ranks_q, cell, end)
+                                  : pir_half_of_rank(&replay->ranks_q, cell, step - 1);
+        if (scan->broken || side == PIR_NO_HALF || steps == q->vertex_count)
+            return PIR_ERR_FORMAT;
+        // the chain takes each at its front: the order is found again from the cells
+        pir_status status = enter(replay, e, q->edge[side]);
+        if (status != PIR_OK)
+            return status;
+        cell = q->target[side];
+    }
     return PIR_OK;
+}
+
+/* The cell of a facet, as seen from the cell `near`; UINT32_MAX where there is none. */
+static uint32_t scan_cell_from(const pir_ring_ranks *other, uint32_t near, pir_scan *scan) {
+    uint32_t ring = pir_ring_size(other, near);
+    uint32_t step = pir_scan_number(scan, ring + 1);
+    if (step == 0)
+        return near;
+    if (step > ring)
+        return pir_scan_number(scan, other->of->vertex_count - 1);
+    uint32_t half = pir_half_of_rank(other, near, step - 1);
+    return half == PIR_NO_HALF ? UINT32_MAX : other->of->target[half];
+}
+
+/* The cells of all facets of an operand. */
+static pir_status scan_all_cells(pir_replay *replay, bool of_p, pir_scan *scan) {
+    const pir_ring_ranks *own = of_p ? &replay->ranks_p : &replay->ranks_q,
+                         *other = of_p ? &replay->ranks_q : &replay->ranks_p;
+    uint32_t *cell = of_p ? replay->fv : replay->vf;
+    for (uint32_t f = 0; f < own->of->facet_count; f++) {
+        uint32_t guide = own->guide[f];
+        cell[f] = guide == PIR_NO_GUIDE ? pir_scan_number(scan, other->of->vertex_count - 1)
+                                        : scan_cell_from(other, cell[guide], scan);
+        if (scan->broken || cell[f] == UINT32_MAX)
+            return PIR_ERR_FORMAT;
+    }
+    return PIR_OK;
+}
+
+static pir_status scan_whole(pir_replay *replay, pir_scan *scan) {
+    empty(replay);
+    pir_status status = scan_all_cells(replay, true, scan);
+    if (status == PIR_OK)
+        status = scan_all_cells(replay, false, scan);
+    for (uint32_t e = 0; status == PIR_OK && e < replay->p->edge_count; e++)
+        status = scan_way(replay, e, scan);
+    return status;
 }
 
 /* Toggles the crossings that a facet passes with the edge `passed` of the other operand. */
@@ -142,56 +192,56 @@ static pir_status pass(pir_replay *replay, bool of_p, uint32_t f, uint32_t passe
 }
 
 static pir_status scan_cells(pir_replay *replay, bool of_p, pir_scan *scan) {
-    const pir_polytope *of = of_p ? replay->p : replay->q, *other = of_p ? replay->q : replay->p;
+    const pir_polytope *of = of_p ? replay->p : replay->q;
+    const pir_ring_ranks *other = of_p ? &replay->ranks_q : &replay->ranks_p;
     uint32_t *cell = of_p ? replay->fv : replay->vf;
-    uint64_t count = scan_count(scan, of->facet_count), f = 0;
-    for (uint64_t i = 0; i < count; i++) {
+    uint32_t count = scan_count(scan, of->facet_count);
+    uint64_t f = 0;
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; status == PIR_OK && i < count; i++) {
         f += pir_scan_number(scan, of->facet_count);
-        uint64_t step = pir_scan_number(scan, other->vertex_count);
+        uint32_t step = pir_scan_number(scan, other->of->vertex_count);
         if (scan->broken || f >= of->facet_count)
             return PIR_ERR_FORMAT;
-        uint32_t before = cell[f], now;
-        if (step == 0)
-            now = (uint32_t)pir_scan_number(scan, other->vertex_count - 1);
-        else
-            now = pir_neighbour_at(other, before, (uint32_t)step - 1);
-        if (scan->broken || now == UINT32_MAX)
+        if (step == 0) {
+            cell[f] = pir_scan_number(scan, other->of->vertex_count - 1);
+            continue;
+        }
+        uint32_t half = pir_half_of_rank(other, cell[f], step - 1);
+        if (half == PIR_NO_HALF)
             return PIR_ERR_FORMAT;
-        cell[f] = now;
-        pir_status status = step == 0 ? PIR_OK : pass(replay, of_p, (uint32_t)f, pir_edge_between(other, before, now));
-        if (status != PIR_OK)
-            return status;
+        cell[f] = other->of->target[half];
+        status = pass(replay, of_p, (uint32_t)f, other->of->edge[half]);
     }
-    return PIR_OK;
+    return scan->broken ? PIR_ERR_FORMAT : status;
 }
 
 static pir_status scan_changes(pir_replay *replay, pir_scan *scan) {
-    const pir_polytope *p = replay->p, *q = replay->q;
+    const uint32_t edges = replay->p->edge_count;
     pir_status status = scan_cells(replay, true, scan);
     if (status == PIR_OK)
         status = scan_cells(replay, false, scan);
+    uint32_t count = status == PIR_OK ? scan_count(scan, edges) : 0;
     uint64_t e = 0;
-    for (uint64_t left = status == PIR_OK ? scan_count(scan, UINT32_MAX) : 0; left > 0; left--) {
-        e += pir_scan_number(scan, p->edge_count);
-        uint64_t g = pir_scan_number(scan, q->edge_count);
-        if (scan->broken || e >= p->edge_count || g >= q->edge_count)
+    for (uint32_t i = 0; status == PIR_OK && i < count; i++) {
+        e += pir_scan_number(scan, edges);
+        if (scan->broken || e >= edges)
             return PIR_ERR_FORMAT;
-        status = toggle(replay, (uint32_t)e, (uint32_t)g);
-        if (status != PIR_OK)
-            return status;
+        clear_edge(replay, (uint32_t)e);
+        status = scan_way(replay, (uint32_t)e, scan);
     }
     return status;
 }
 
 pir_status pir_replay_record(pir_replay *replay, const uint8_t *bytes, size_t size) {
-    pir_scan scan = {bytes, bytes + size, false};
-    uint64_t kind = pir_scan_number(&scan, PIR_RECORD_WHOLE);
+    pir_scan scan = {bytes, bytes + size, false, false};
+    uint32_t kind = pir_scan_number(&scan, PIR_RECORD_WHOLE);
     pir_status status = PIR_ERR_FORMAT;
     if (!scan.broken && kind == PIR_RECORD_WHOLE)
         status = scan_whole(replay, &scan);
     else if (!scan.broken && replay->begun)
         status = scan_changes(replay, &scan);
-    if (status == PIR_OK && (scan.broken || scan.at != scan.end))
+    if (status == PIR_OK && !pir_scan_ended(&scan))
         status = PIR_ERR_FORMAT;
     replay->begun = status == PIR_OK;
     return status;

@@ -10,6 +10,7 @@
 #define PIR_CSPACE_RECORD_REPLAY_H
 
 #include "cspace/record/record_bytes.h"
+#include "cspace/record/ring_ranks.h"
 #include "polytope/polytope.h"
 
 /* A crossing of an edge of −P with a halfedge of Q, which leaves the cell before it. */
@@ -27,6 +28,7 @@ typedef struct pir_replay_slots {
 typedef struct pir_replay {
     pir_allocator allocator;
     const pir_polytope *p, *q; /* −P and Q; borrowed */
+    pir_ring_ranks ranks_p, ranks_q;
     uint32_t *fv, *vf;
     bool begun; /* a whole record has been applied */
     pir_replay_slots slots;

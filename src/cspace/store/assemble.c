@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <pirouette/version.h>
@@ -21,7 +22,11 @@
 #include "cspace/store/piece_file.h"
 
 #define TABLE_CHUNK 1024
-#define GRID_CHUNK  4096
+#define GRID_CHUNK  2048
+
+/* At most what a file takes before there is anything in it, and a piece beside its model. */
+#define FILE_MOST  65536
+#define PIECE_MOST 32768
 
 /* A section that is written, and the tables beside it. */
 struct section {
@@ -36,14 +41,16 @@ struct output {
     hid_t file;
     struct section section[PIR_SECTION_COUNT];
     pir_unit unit;
+    pir_packer *packer;
 };
 
 /* --- the grid --- */
 
 static bool put_rotations(const struct output *out, hid_t group) {
     const pir_plan *plan = out->plan;
-    const pir_h5_shape rotations = {PIR_H5_F64, 2, {plan->slices, 4}, {GRID_CHUNK, 4}, false};
-    const pir_h5_shape cells = {PIR_H5_U64, 1, {plan->slices, 0}, {GRID_CHUNK, 0}, false};
+    // digits of rotations are as good as random: they are kept as they are
+    const pir_h5_shape rotations = {PIR_H5_F64, 2, {plan->slices, 4}, {GRID_CHUNK, 4}, false, true};
+    const pir_h5_shape cells = {PIR_H5_U64, 1, {plan->slices, 0}, {GRID_CHUNK, 0}, false, false};
     hid_t rotation = pir_h5_make_set(group, "rotation", &rotations), cell = pir_h5_make_set(group, "cell", &cells);
     bool good = rotation >= 0 && cell >= 0;
     for (uint64_t i = 0; good && i < plan->slices; i += GRID_CHUNK) {
@@ -58,7 +65,7 @@ static bool put_rotations(const struct output *out, hid_t group) {
             c[n] = pir_grid_cell(plan->grid, i + n);
         }
         good = pir_h5_write(rotation, PIR_H5_F64, (uint64_t[]){i, 0}, (uint64_t[]){n, 4}, q) &&
-               pir_h5_write(cell, PIR_H5_U64, &i, &n, c);
+               pir_h5_put_rows(cell, &cells, i, c, out->packer);
     }
     good = pir_h5_close(rotation) && good;
     return pir_h5_close(cell) && good;
@@ -95,8 +102,8 @@ static bool put_head(const struct output *out) {
 
 static bool put_pieces(const struct output *out) {
     const pir_plan *plan = out->plan;
-    return pir_pieces_put(out->file, "robot", plan->piece, plan->robot_count, &plan->allocator) &&
-           pir_pieces_put(out->file, "obstacle", plan->piece + plan->robot_count, plan->obstacle_count,
+    return pir_pieces_put(out->file, "robot", plan->piece, plan->robot_count, out->packer, &plan->allocator) &&
+           pir_pieces_put(out->file, "obstacle", plan->piece + plan->robot_count, plan->obstacle_count, out->packer,
                           &plan->allocator);
 }
 
@@ -114,8 +121,8 @@ static bool begin_section(struct output *out, int s) {
     section->shape = (pir_h5_shape){.type = doubles ? PIR_H5_F64 : PIR_H5_U8, .rank = doubles ? 2 : 1, .grows = true};
     section->shape.size[1] = section->shape.chunk[1] = doubles;
     section->shape.chunk[0] = pir_chunk_elements[s];
-    const pir_h5_shape counts = {PIR_H5_U32, 2, {plan->pairs, plan->slices}, {1, TABLE_CHUNK}, false};
-    const pir_h5_shape units = {PIR_H5_U64, 2, {plan->pairs, plan->units_per_pair}, {1, TABLE_CHUNK}, false};
+    const pir_h5_shape counts = {PIR_H5_U32, 2, {plan->pairs, plan->slices}, {1, TABLE_CHUNK}, false, false};
+    const pir_h5_shape units = {PIR_H5_U64, 2, {plan->pairs, plan->units_per_pair}, {1, TABLE_CHUNK}, false, false};
     section->group = pir_h5_make_group(out->file, names->group);
     if (section->group < 0)
         return false;
@@ -210,10 +217,43 @@ static const char *reason(int error) {
     return error ? strerror(error) : "HDF5 could not";
 }
 
+/* At most what the file will take; tables as if they were not compressed. */
+static uint64_t most_bytes(const pir_parts *parts) {
+    const pir_plan *plan = parts->plan;
+    uint64_t sections = 1u + plan->planes + plan->vertices, tables = plan->slices * 5 * sizeof(double);
+    tables += sections * (plan->pairs * plan->slices * sizeof(uint32_t) + 2 * plan->units * sizeof(uint64_t));
+    uint64_t bytes = FILE_MOST + parts->done_bytes + tables + tables / 8;
+    for (uint32_t i = 0; i < plan->robot_count + plan->obstacle_count; i++)
+        bytes += PIECE_MOST + 8 * (uint64_t)plan->piece[i].off.used;
+    return bytes;
+}
+
+/*
+ * Whether the file may become so large. Where HDF5 cannot write to the end, it cannot close the file either, and some
+ * versions of it crash when the process ends. So limits are met before.
+ */
+static bool has_room(const pir_parts *parts, const char *path) {
+    const uint64_t most = most_bytes(parts);
+    struct statvfs disk;
+    int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (descriptor < 0)
+        return false;
+    errno = 0;
+    if (ftruncate(descriptor, (off_t)most) == 0 && ftruncate(descriptor, 0) == 0 && fstatvfs(descriptor, &disk) == 0 &&
+        (uint64_t)disk.f_bavail < most / disk.f_frsize)
+        errno = ENOSPC;
+    int error = errno;
+    close(descriptor);
+    errno = error;
+    return error == 0;
+}
+
 static pir_status write_file(struct output *out, const char *path, pir_report *report) {
     for (int s = 0; s < PIR_SECTION_COUNT; s++)
         out->section[s] = (struct section){-1, -1, -1, -1, -1, {0}, 0};
     errno = 0;
+    if (!has_room(out->parts, path))
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, strerror(errno));
     out->file = create_file(path);
     pir_status status = PIR_OK;
     bool good = out->file >= 0 && put_head(out) && put_grid(out) && put_pieces(out) &&
@@ -232,12 +272,16 @@ static pir_status write_file(struct output *out, const char *path, pir_report *r
 
 static pir_status assemble_as(const pir_parts *parts, const char *path, pir_report *report) {
     struct output out = {.parts = parts, .plan = parts->plan, .file = -1};
-    if (!pir_unit_init(&out.unit, parts->plan->slices_per_unit, &parts->allocator))
+    out.packer = pir_packer_new(&parts->allocator);
+    if (!out.packer || !pir_unit_init(&out.unit, parts->plan->slices_per_unit, &parts->allocator)) {
+        pir_packer_free(out.packer);
         return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", parts->file);
+    }
     pir_h5_reports reports = pir_h5_quiet();
     pir_status status = write_file(&out, path, report);
     pir_h5_loud(reports);
     pir_unit_finish(&out.unit, &parts->allocator);
+    pir_packer_free(out.packer);
     struct stat old;
     if (status == PIR_OK && stat(parts->file, &old) == 0)
         chmod(path, old.st_mode & 07777);

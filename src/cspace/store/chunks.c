@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Packed bytes taken apart. */
-#include <string.h>
+#include "cspace/store/chunks.h"
 
-#include "cspace/store/pack.h"
+#include <string.h>
 
 bool pir_next_chunk(const pir_bytes *packed, size_t *at, pir_chunk *ret_chunk) {
     uint32_t head;
@@ -24,5 +24,5 @@ bool pir_packed_holds(const pir_bytes *packed, pir_section section, uint64_t ele
     for (pir_chunk chunk; pir_next_chunk(packed, &at, &chunk); chunks++)
         if (chunk.stored ? chunk.size != most : chunk.size >= most)
             return false;
-    return at == packed->used && chunks == (elements + pir_chunk_elements[section] - 1) / pir_chunk_elements[section];
+    return at == packed->used && chunks == pir_chunks_of((int)section, elements);
 }

@@ -10,14 +10,13 @@
 
 #include "base/report.h"
 #include "cspace/store/maker.h"
-#include "cspace/store/pack.h"
 
 #define SAMPLES       24
 #define SLICES_SAMPLE 17u
 
 /* Bytes of a slice in the tables, and of a rotation with its number in the grid, compressed as they mostly are. */
 #define TABLE_BYTES    1.5
-#define ROTATION_BYTES 27
+#define ROTATION_BYTES 33
 
 /* Bytes of a unit in the tables, and what a chunk takes beside the records in it. */
 #define UNIT_BYTES  16
@@ -41,7 +40,7 @@ struct sample {
 /* Bytes of the slices of the unit that was made, as the file holds them. */
 static pir_status add_bytes(pir_maker *maker, double *bytes) {
     pir_unit *unit = &maker->unit;
-    if (!pir_unit_pack(unit, &maker->plan->allocator))
+    if (!pir_unit_pack(unit, maker->packer, &maker->plan->allocator))
         return PIR_ERR_MEMORY;
     for (int s = 0; s < PIR_SECTION_COUNT; s++)
         *bytes += fmax(0, (double)unit->packed[s].used - CHUNK_BYTES);

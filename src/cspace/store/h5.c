@@ -82,19 +82,32 @@ static hid_t space_of(const pir_h5_shape *shape) {
     return H5Screate_simple(shape->rank, size, most);
 }
 
-/* How a data set is kept: in chunks that are compressed, without times, so that equal data gives equal files. */
+/* Packed numbers are those of memory, so these have the order of bytes that files have. */
+static const uint16_t byte_order = 1;
+
+static uint32_t element_of(pir_h5_type type) {
+    return type == PIR_H5_U8 ? 1 : type == PIR_H5_U32 ? 4 : 8;
+}
+
+/* The extent of a chunk along a dimension. */
+static uint64_t chunk_of(const pir_h5_shape *shape, int i) {
+    if (shape->grows || shape->chunk[i] < shape->size[i])
+        return shape->chunk[i];
+    return shape->size[i] > 0 ? shape->size[i] : 1;
+}
+
+/* How a data set is kept: in chunks, mostly compressed, without times, so that equal data gives equal files. */
 static hid_t layout_of(const pir_h5_shape *shape) {
     hid_t list = H5Pcreate(H5P_DATASET_CREATE);
     bool good = list >= 0 && H5Pset_obj_track_times(list, false) >= 0;
-    if (good && shape->chunk[0] > 0) {
+    if (good) {
         hsize_t chunk[PIR_H5_RANK];
         for (int i = 0; i < shape->rank; i++)
-            chunk[i] = shape->grows || shape->chunk[i] < shape->size[i] ? shape->chunk[i]
-                       : shape->size[i] > 0                             ? shape->size[i]
-                                                                        : 1;
-        good = H5Pset_chunk(list, shape->rank, chunk) >= 0 && (shape->type == PIR_H5_U8 || H5Pset_shuffle(list) >= 0) &&
-               H5Pset_deflate(list, PIR_DEFLATE_LEVEL) >= 0;
+            chunk[i] = chunk_of(shape, i);
+        good = H5Pset_chunk(list, shape->rank, chunk) >= 0;
     }
+    if (good && !shape->plain)
+        good = (shape->type == PIR_H5_U8 || H5Pset_shuffle(list) >= 0) && H5Pset_deflate(list, PIR_DEFLATE_LEVEL) >= 0;
     if (good)
         return list;
     H5Pclose(list);
@@ -110,14 +123,6 @@ hid_t pir_h5_make_set(hid_t in, const char *name, const pir_h5_shape *shape) {
     if (space >= 0)
         H5Sclose(space);
     return set;
-}
-
-bool pir_h5_put(hid_t in, const char *name, const pir_h5_shape *shape, const void *data) {
-    hid_t set = pir_h5_make_set(in, name, shape);
-    bool empty = shape->size[0] == 0 || (shape->rank > 1 && shape->size[1] == 0);
-    bool good =
-        set >= 0 && (empty || H5Dwrite(set, memory_type(shape->type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
-    return pir_h5_close(set) && good;
 }
 
 bool pir_h5_extend(hid_t set, const pir_h5_shape *shape, uint64_t length) {
@@ -170,6 +175,26 @@ bool pir_h5_write_chunk(hid_t set, const pir_h5_shape *shape, const uint64_t *st
     // a bit for each filter that was left out; deflate is the last one
     uint32_t left_out = !chunk->stored ? 0 : shape->type == PIR_H5_U8 ? 1 : 2;
     return H5Dwrite_chunk(set, H5P_DEFAULT, left_out, first, chunk->size, chunk->data) >= 0;
+}
+
+bool pir_h5_put_rows(hid_t set, const pir_h5_shape *shape, uint64_t first, const void *data, pir_packer *packer) {
+    const uint64_t row = element_of(shape->type) * (shape->rank > 1 ? shape->size[1] : 1), chunk = chunk_of(shape, 0);
+    const uint64_t rows = shape->size[0] - first < chunk ? shape->size[0] - first : chunk, start[2] = {first, 0};
+    if (*(const uint8_t *)&byte_order != 1)
+        return pir_h5_write(set, shape->type, start, (uint64_t[]){rows, shape->size[1]}, data);
+    // bytes that are put so are text
+    const pir_chunk_form form = {(uint32_t)(chunk * row), element_of(shape->type), shape->type == PIR_H5_U8};
+    const pir_chunk packed = pir_pack_chunk(packer, &form, data, (uint32_t)(rows * row));
+    return pir_h5_write_chunk(set, shape, start, &packed);
+}
+
+bool pir_h5_put(hid_t in, const char *name, const pir_h5_shape *shape, const void *data, pir_packer *packer) {
+    const uint64_t row = element_of(shape->type) * (shape->rank > 1 ? shape->size[1] : 1);
+    hid_t set = pir_h5_make_set(in, name, shape);
+    bool good = set >= 0;
+    for (uint64_t i = 0; good && row > 0 && i < shape->size[0]; i += chunk_of(shape, 0))
+        good = pir_h5_put_rows(set, shape, i, (const char *)data + i * row, packer);
+    return pir_h5_close(set) && good;
 }
 
 /* --- opening --- */

@@ -27,13 +27,14 @@ typedef enum pir_h5_type { PIR_H5_U8, PIR_H5_U32, PIR_H5_U64, PIR_H5_F64 } pir_h
 /* The most dimensions here. */
 #define PIR_H5_RANK 2
 
-/* A data set: its dimensions, its type, the elements along each dimension that are compressed together. */
+/* A data set: its dimensions, its type, the elements along each dimension that stand together in a chunk. */
 typedef struct pir_h5_shape {
     pir_h5_type type;
     int rank;
     uint64_t size[PIR_H5_RANK];
-    uint64_t chunk[PIR_H5_RANK]; /* 0 in the first: kept in one piece, not compressed */
-    bool grows;                  /* along its first dimension */
+    uint64_t chunk[PIR_H5_RANK];
+    bool grows; /* along its first dimension */
+    bool plain; /* not compressed */
 } pir_h5_shape;
 
 /* A group or data set in a group, or -1. Closed by pir_h5_close, which accepts -1. */
@@ -42,8 +43,13 @@ hid_t pir_h5_make_set(hid_t in, const char *name, const pir_h5_shape *shape);
 hid_t pir_h5_open_group(hid_t in, const char *name);
 bool pir_h5_close(hid_t id);
 
-/* A data set written whole. `data` may be NULL where it is empty. */
-bool pir_h5_put(hid_t in, const char *name, const pir_h5_shape *shape, const void *data);
+/*
+ * A data set written whole, in chunks of whole rows that the packer packs. `data` may be NULL where it is empty.
+ */
+bool pir_h5_put(hid_t in, const char *name, const pir_h5_shape *shape, const void *data, pir_packer *packer);
+
+/* Writes the rows of one such chunk, which begins at row `first`. */
+bool pir_h5_put_rows(hid_t set, const pir_h5_shape *shape, uint64_t first, const void *data, pir_packer *packer);
 
 /* Writes, or reads, a block of a data set: `count` elements from `start` on, along each dimension. */
 bool pir_h5_write(hid_t set, pir_h5_type type, const uint64_t *start, const uint64_t *count, const void *data);

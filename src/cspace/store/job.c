@@ -18,7 +18,6 @@
 #include "base/report.h"
 #include "cspace/store/assemble.h"
 #include "cspace/store/maker.h"
-#include "cspace/store/pack.h"
 #include "cspace/store/parts.h"
 #include "polytope/file/target.h"
 
@@ -31,6 +30,7 @@ struct pir_cspace_job {
     pir_parts parts;
     char *file;
     size_t file_size;
+    uint64_t left; /* units, when it was created */
     uint64_t next; /* unit, where the job deals them itself */
     bool is_made;  /* the file is there: nothing is left to do but to remove parts */
 };
@@ -44,7 +44,7 @@ uint64_t pir_cspace_job_units(const pir_cspace_job *job) {
 }
 
 uint64_t pir_cspace_job_left(const pir_cspace_job *job) {
-    return job ? job->plan.units - job->parts.done : 0;
+    return job ? job->left : 0;
 }
 
 void pir_cspace_job_destroy(pir_cspace_job *job) {
@@ -127,6 +127,7 @@ pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid
         pir_cspace_job_destroy(job);
         return status;
     }
+    job->left = job->plan.units - job->parts.done;
     *ret_job = job;
     return PIR_OK;
 }
@@ -182,6 +183,17 @@ static void fail(struct run *run, pir_status status, const pir_report *report) {
     run->stopped = true;
 }
 
+/* Appends a unit to the part, and notes where it stands. */
+static pir_status append(struct run *run, const pir_unit *unit, pir_report *report) {
+    const uint64_t at = run->part.end;
+    pir_status status = pir_part_append(&run->part, unit, report);
+    if (status != PIR_OK)
+        return status;
+    pir_parts_note(&run->job->parts, unit, run->job->options.part, at);
+    run->done += unit->slices;
+    return PIR_OK;
+}
+
 static void *work(void *context) {
     struct run *run = context;
     const pir_plan *plan = &run->job->plan;
@@ -194,14 +206,13 @@ static void *work(void *context) {
     for (uint64_t unit; status == PIR_OK && (unit = claim(run)) < plan->units;) {
         pthread_mutex_unlock(&run->lock);
         status = pir_maker_make(&maker, unit, UINT32_MAX);
-        if (status == PIR_OK && !pir_unit_pack(&maker.unit, &plan->allocator))
+        if (status == PIR_OK && !pir_unit_pack(&maker.unit, maker.packer, &plan->allocator))
             status = PIR_ERR_MEMORY;
         if (status != PIR_OK)
             pir_fail(&report, status, "slices: unit %llu: %s", (unsigned long long)unit, pir_status_text(status));
         pthread_mutex_lock(&run->lock);
         if (status == PIR_OK)
-            status = pir_part_append(&run->part, &maker.unit, &report);
-        run->done += status == PIR_OK ? maker.unit.slices : 0;
+            status = append(run, &maker.unit, &report);
         tell_progress(run);
     }
     if (status != PIR_OK)
@@ -248,7 +259,8 @@ pir_status pir_cspace_job_assemble(pir_cspace_job *job, pir_report *report) {
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no job");
     if (job->is_made)
         return pir_parts_remove(&job->parts, report);
-    pir_status status = pir_parts_scan(&job->parts, report);
+    // other processes may have made what this one has not
+    pir_status status = job->parts.done < job->plan.units ? pir_parts_scan(&job->parts, report) : PIR_OK;
     if (status == PIR_OK && job->parts.done < job->plan.units)
         status = pir_fail(report, PIR_ERR_EMPTY, "%s: %llu of %llu units are still to be made", job->file,
                           (unsigned long long)(job->plan.units - job->parts.done), (unsigned long long)job->plan.units);

@@ -8,7 +8,8 @@
 
 bool pir_maker_init(pir_maker *maker, const pir_plan *plan) {
     *maker = (pir_maker){.plan = plan};
-    return pir_unit_init(&maker->unit, plan->slices_per_unit, &plan->allocator);
+    maker->packer = pir_packer_new(&plan->allocator);
+    return maker->packer && pir_unit_init(&maker->unit, plan->slices_per_unit, &plan->allocator);
 }
 
 static void forget_pair(pir_maker *maker) {
@@ -22,6 +23,7 @@ void pir_maker_finish(pir_maker *maker) {
         return;
     forget_pair(maker);
     pir_unit_finish(&maker->unit, &maker->plan->allocator);
+    pir_packer_free(maker->packer);
     *maker = (pir_maker){0};
 }
 

@@ -7,8 +7,8 @@
 #define PIR_CSPACE_STORE_MAKER_H
 
 #include "cspace/record/recorder.h"
+#include "cspace/store/pack.h"
 #include "cspace/store/plan.h"
-#include "cspace/store/unit.h"
 
 typedef struct pir_maker {
     const pir_plan *plan; /* borrowed */
@@ -16,6 +16,7 @@ typedef struct pir_maker {
     uint64_t pair;
     pir_recorder recorder;
     pir_unit unit;
+    pir_packer *packer; /* for whoever packs the unit */
 } pir_maker;
 
 /* False when out of memory. pir_maker_finish releases whatever is there. */

@@ -5,8 +5,27 @@
 #include "cspace/store/pack.h"
 #include "cspace/store/store.h"
 
-bool pir_unit_pack(pir_unit *unit, const pir_allocator *allocator) {
+struct pir_packer {
+    pir_allocator allocator;
+};
+
+pir_packer *pir_packer_new(const pir_allocator *allocator) {
+    pir_packer *packer = PIR_NEW(allocator, pir_packer, 1);
+    if (packer)
+        packer->allocator = *allocator;
+    return packer;
+}
+
+void pir_packer_free(pir_packer *packer) {
+    if (!packer)
+        return;
+    const pir_allocator a = packer->allocator;
+    PIR_FREE(&a, packer, 1);
+}
+
+bool pir_unit_pack(pir_unit *unit, pir_packer *packer, const pir_allocator *allocator) {
     (void)unit;
+    (void)packer;
     (void)allocator;
     return true;
 }

@@ -5,92 +5,102 @@
 #include <string.h>
 #include <zlib.h>
 
-/* The most bytes of a chunk. */
-#define CHUNK_MOST (1u << 16)
+/*
+ * How deflate works. Records are dense, and arrays of numbers are little else once shuffled: to look for more than runs
+ * takes ten times as long and gains an eighth. 8192 symbols share a code, as many as a chunk of records has.
+ */
+enum { FOR_RUNS, FOR_MATCHES, WAYS };
+static const struct { int memory, strategy; } ways[WAYS] = {{7, Z_RLE}, {MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY}};
 
-/* What doubles are shuffled by: the first bytes of all, then the second ones. */
-static void shuffle(const uint8_t *data, size_t size, uint8_t *ret_shuffled) {
-    size_t count = size / sizeof(double);
-    for (size_t byte = 0; byte < sizeof(double); byte++)
-        for (size_t i = 0; i < count; i++)
-            *ret_shuffled++ = data[i * sizeof(double) + byte];
-}
-
-/* What packing works on. */
-struct work {
-    uint8_t filled[CHUNK_MOST], shuffled[CHUNK_MOST];
-    z_stream stream;
+struct pir_packer {
+    pir_allocator allocator;
+    z_stream stream[WAYS];
+    uint32_t begun; /* streams */
+    uint8_t filled[PIR_CHUNK_MOST], shuffled[PIR_CHUNK_MOST], deflated[PIR_CHUNK_MOST];
 };
 
-/* A chunk deflated into as much room as it takes itself; its length, or 0 where that is too little. */
-static uint32_t deflate_chunk(const uint8_t *data, uint32_t size, z_stream *stream, uint8_t *ret_stream) {
+pir_packer *pir_packer_new(const pir_allocator *allocator) {
+    pir_packer *packer = PIR_NEW(allocator, pir_packer, 1);
+    if (!packer)
+        return NULL;
+    packer->allocator = *allocator;
+    for (packer->begun = 0; packer->begun < WAYS; packer->begun++) {
+        z_stream *stream = &packer->stream[packer->begun];
+        *stream = (z_stream){0};
+        if (deflateInit2(stream, PIR_DEFLATE_LEVEL, Z_DEFLATED, MAX_WBITS, ways[packer->begun].memory,
+                         ways[packer->begun].strategy) != Z_OK) {
+            pir_packer_free(packer);
+            return NULL;
+        }
+    }
+    return packer;
+}
+
+void pir_packer_free(pir_packer *packer) {
+    if (!packer)
+        return;
+    const pir_allocator a = packer->allocator;
+    for (uint32_t i = 0; i < packer->begun; i++)
+        deflateEnd(&packer->stream[i]);
+    PIR_FREE(&a, packer, 1);
+}
+
+/* What numbers are shuffled by: the first bytes of all, then the second ones. */
+static void shuffle(const uint8_t *data, uint32_t size, uint32_t element, uint8_t *ret_shuffled) {
+    uint32_t count = size / element;
+    for (uint32_t byte = 0; byte < element; byte++)
+        for (uint32_t i = 0; i < count; i++)
+            *ret_shuffled++ = data[i * element + byte];
+}
+
+pir_chunk pir_pack_chunk(pir_packer *packer, const pir_chunk_form *form, const void *data, uint32_t used) {
+    const uint8_t *bytes = data;
+    if (used < form->size) {
+        memcpy(packer->filled, data, used);
+        memset(packer->filled + used, 0, form->size - used);
+        bytes = packer->filled;
+    }
+    if (form->element > 1) {
+        shuffle(bytes, form->size, form->element, packer->shuffled);
+        bytes = packer->shuffled;
+    }
+    z_stream *stream = &packer->stream[form->again ? FOR_MATCHES : FOR_RUNS];
     deflateReset(stream);
-    stream->next_in = (z_const Bytef *)data;
-    stream->avail_in = size;
-    stream->next_out = ret_stream;
-    stream->avail_out = size - 1;
-    return deflate(stream, Z_FINISH) == Z_STREAM_END ? size - 1 - stream->avail_out : 0;
+    stream->next_in = (z_const Bytef *)bytes;
+    stream->avail_in = form->size;
+    stream->next_out = packer->deflated;
+    // what does not get shorter is stored
+    stream->avail_out = form->size - 1;
+    if (deflate(stream, Z_FINISH) != Z_STREAM_END)
+        return (pir_chunk){bytes, form->size, true};
+    return (pir_chunk){packer->deflated, form->size - 1 - stream->avail_out, false};
 }
 
-/* Appends the chunk behind its size; there is room for both. */
-static void put_chunk(pir_bytes *packed, const uint8_t *data, uint32_t size, z_stream *stream) {
-    uint8_t *head = packed->data + packed->used, *body = head + sizeof size;
-    uint32_t deflated = deflate_chunk(data, size, stream, body);
-    if (deflated == 0)
-        memcpy(body, data, size);
-    const uint32_t value = deflated ? deflated : size | PIR_CHUNK_STORED;
-    memcpy(head, &value, sizeof value);
-    packed->used += sizeof value + (deflated ? deflated : size);
-}
-
-static bool pack_section(pir_unit *unit, int s, struct work *work, const pir_allocator *a) {
+static bool pack_section(pir_unit *unit, int s, pir_packer *packer, const pir_allocator *a) {
     const pir_bytes *data = &unit->data[s];
     const uint32_t size = pir_chunk_elements[s] * pir_section_element[s];
+    // digits of doubles come again in neighbouring numbers
     const bool doubles = pir_section_doubles[s] > 0;
+    const pir_chunk_form form = {size, doubles ? (uint32_t)sizeof(double) : 1, doubles};
     pir_bytes *packed = &unit->packed[s];
     for (size_t at = 0; at < data->used; at += size) {
-        const uint8_t *chunk = data->data + at;
-        if (!pir_bytes_reserve(packed, a, sizeof size + size))
+        if (!pir_bytes_reserve(packed, a, sizeof(uint32_t) + size))
             return false;
-        if (data->used - at < size) {
-            memcpy(work->filled, chunk, data->used - at);
-            memset(work->filled + (data->used - at), 0, size - (data->used - at));
-            chunk = work->filled;
-        }
-        if (doubles) {
-            shuffle(chunk, size, work->shuffled);
-            chunk = work->shuffled;
-        }
-        put_chunk(packed, chunk, size, &work->stream);
+        size_t left = data->used - at;
+        pir_chunk chunk = pir_pack_chunk(packer, &form, data->data + at, left < size ? (uint32_t)left : size);
+        const uint32_t head = chunk.size | (chunk.stored ? PIR_CHUNK_STORED : 0);
+        memcpy(packed->data + packed->used, &head, sizeof head);
+        memcpy(packed->data + packed->used + sizeof head, chunk.data, chunk.size);
+        packed->used += sizeof head + chunk.size;
     }
     return true;
 }
 
-/*
- * Records are dense: to look for more than runs takes ten times as long and gains an eighth. Digits of doubles come
- * again in neighbouring numbers, where matches are worth their time.
- */
-static int strategy_of(int section) {
-    return pir_section_doubles[section] > 0 ? Z_DEFAULT_STRATEGY : Z_RLE;
-}
-
-bool pir_unit_pack(pir_unit *unit, const pir_allocator *allocator) {
-    unit->work.used = 0;
-    if (!pir_bytes_reserve(&unit->work, allocator, sizeof(struct work)))
-        return false;
-    struct work *work = (void *)unit->work.data;
+bool pir_unit_pack(pir_unit *unit, pir_packer *packer, const pir_allocator *allocator) {
     bool packed = true;
     for (int s = 0; packed && s < PIR_SECTION_COUNT; s++) {
         unit->packed[s].used = 0;
-        if (unit->data[s].used == 0)
-            continue;
-        work->stream = (z_stream){0};
-        packed = deflateInit2(&work->stream, PIR_DEFLATE_LEVEL, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, strategy_of(s)) ==
-                 Z_OK;
-        if (!packed)
-            break;
-        packed = pack_section(unit, s, work, allocator);
-        deflateEnd(&work->stream);
+        packed = pack_section(unit, s, packer, allocator);
     }
     return packed;
 }

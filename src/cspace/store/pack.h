@@ -9,31 +9,29 @@
 #ifndef PIR_CSPACE_STORE_PACK_H
 #define PIR_CSPACE_STORE_PACK_H
 
-#include "cspace/store/unit.h"
+#include "cspace/store/chunks.h"
 
 /* How well deflate tries. Fast, and nearly as small as more: records are dense. */
 #define PIR_DEFLATE_LEVEL 1
 
-/* Elements of each section in a chunk: what a reader of one slice has to unpack. */
-static const uint32_t pir_chunk_elements[PIR_SECTION_COUNT] = {1u << 15, 1u << 11, 1u << 11};
+/* The form of chunks: their bytes, at most PIR_CHUNK_MOST, and those of a number in them; 1 where none is shuffled. */
+typedef struct pir_chunk_form {
+    uint32_t size, element;
+    bool again; /* longer stretches come again in them, so that it is worth looking for these */
+} pir_chunk_form;
 
-/* Added to the size of a chunk that is stored. */
-#define PIR_CHUNK_STORED (UINT32_C(1) << 31)
+/* What packing works on; about 500 KB. */
+typedef struct pir_packer pir_packer;
+
+/* NULL when out of memory. */
+pir_packer *pir_packer_new(const pir_allocator *allocator);
+/* NULL is accepted. */
+void pir_packer_free(pir_packer *packer);
+
+/* A chunk of data that fill it up to `used` bytes. It holds until the next call. */
+pir_chunk pir_pack_chunk(pir_packer *packer, const pir_chunk_form *form, const void *data, uint32_t used);
 
 /* Packs the sections of a unit. False when out of memory. */
-bool pir_unit_pack(pir_unit *unit, const pir_allocator *allocator);
-
-/* A chunk, as a data set holds it. */
-typedef struct pir_chunk {
-    const uint8_t *data;
-    uint32_t size;
-    bool stored; /* not deflated, which would have made it longer; shuffled all the same */
-} pir_chunk;
-
-/* The chunk at `*at`, which moves on to the next. False at the end, and where what stands there is no chunk. */
-bool pir_next_chunk(const pir_bytes *packed, size_t *at, pir_chunk *ret_chunk);
-
-/* Whether packed bytes are the chunks of so many elements. */
-bool pir_packed_holds(const pir_bytes *packed, pir_section section, uint64_t elements);
+bool pir_unit_pack(pir_unit *unit, pir_packer *packer, const pir_allocator *allocator);
 
 #endif

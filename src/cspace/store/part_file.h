@@ -5,7 +5,7 @@
 
 #include "cspace/store/parts.h"
 
-#define PIR_PART_MAGIC UINT64_C(0x0a32545241504950) /* "PIPART2\n" where bytes stand with the least first */
+#define PIR_PART_MAGIC UINT64_C(0x0a33545241504950) /* "PIPART3\n" where bytes stand with the least first */
 #define PIR_UNIT_MAGIC UINT64_C(0x54494e5552495031)
 
 typedef struct pir_part_header {
@@ -16,10 +16,10 @@ typedef struct pir_part_header {
 typedef struct pir_unit_header {
     uint64_t magic, number, slices;
     uint64_t size[PIR_SECTION_COUNT];   /* packed bytes, */
-    uint64_t packed[PIR_SECTION_COUNT]; /* and FNV-1a of them */
+    uint64_t packed[PIR_SECTION_COUNT]; /* and a hash of them */
     uint64_t check[PIR_SECTION_COUNT];  /* of the bytes before they were packed */
-    uint64_t counts;                    /* FNV-1a of the counts */
-    uint64_t hash;                      /* FNV-1a of what stands before it */
+    uint64_t counts;                    /* a hash of the counts */
+    uint64_t hash;                      /* a hash of what stands before it */
 } pir_unit_header;
 
 /* The sections that a plan has: a bit for each. */

@@ -12,8 +12,12 @@
 #include <unistd.h>
 
 #include "base/report.h"
+#include "cspace/store/chunks.h"
 #include "cspace/store/part_file.h"
 #include "polytope/file/target.h"
+
+/* At most what a chunk takes in the file's index. */
+#define INDEX_BYTES 96
 
 bool pir_parts_init(pir_parts *parts, const pir_plan *plan, const char *file) {
     *parts = (pir_parts){.allocator = plan->allocator, .plan = plan, .file = file};
@@ -76,13 +80,15 @@ struct scan {
     pir_unit unit;
 };
 
-static void note_unit(pir_parts *parts, const pir_unit *unit, uint32_t number, uint64_t at) {
+void pir_parts_note(pir_parts *parts, const pir_unit *unit, uint32_t number, uint64_t at) {
     pir_unit_place *place = &parts->unit[unit->number];
     if (place->part != 0)
         return;
     *place = (pir_unit_place){number + 1, at};
     parts->done++;
     parts->done_slices += unit->slices;
+    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+        parts->done_bytes += unit->packed[s].used + INDEX_BYTES * pir_chunks_of(s, pir_unit_elements(unit, s));
 }
 
 static pir_status scan_part(void *context, const char *path, uint32_t number, pir_report *report) {
@@ -103,7 +109,7 @@ static pir_status scan_part(void *context, const char *path, uint32_t number, pi
         status = pir_unit_read(descriptor, at, plan, &scan->unit);
         if (status != PIR_OK)
             break;
-        note_unit(scan->parts, &scan->unit, number, at);
+        pir_parts_note(scan->parts, &scan->unit, number, at);
         pir_unit_header whole = pir_unit_header_of(&scan->unit, pir_sections_of(plan));
         at += sizeof whole + pir_unit_body(&whole, pir_sections_of(plan));
     }
@@ -116,7 +122,7 @@ static pir_status scan_part(void *context, const char *path, uint32_t number, pi
 pir_status pir_parts_scan(pir_parts *parts, pir_report *report) {
     struct scan scan = {.parts = parts};
     memset(parts->unit, 0, parts->plan->units * sizeof *parts->unit);
-    parts->done = parts->done_slices = parts->found = 0;
+    parts->done = parts->done_slices = parts->done_bytes = parts->found = 0;
     pir_status status;
     if (pir_unit_init(&scan.unit, parts->plan->slices_per_unit, &parts->allocator))
         status = each_part(parts, report, &scan, scan_part);

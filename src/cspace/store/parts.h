@@ -41,6 +41,7 @@ typedef struct pir_parts {
     uint64_t found;       /* parts, those without a whole unit included */
     uint64_t done;        /* units that stand in some part */
     uint64_t done_slices;
+    uint64_t done_bytes; /* at most what the file will take for these, beside tables */
 } pir_parts;
 
 /* False when out of memory. pir_parts_finish releases whatever is there. */
@@ -67,6 +68,9 @@ pir_status pir_part_append(pir_part *part, const pir_unit *unit, pir_report *rep
 
 /* Closes the part once it is on the disk. PIR_ERR_FILE where that fails. */
 pir_status pir_part_close(pir_part *part, const pir_allocator *allocator, pir_report *report);
+
+/* Notes that a unit stands in part `number`, where none had it. */
+void pir_parts_note(pir_parts *parts, const pir_unit *unit, uint32_t number, uint64_t at);
 
 /*
  * Reads a unit that stands in a part, packed as it is; `unit` has room for its slices. Errors: PIR_ERR_FILE,

@@ -8,8 +8,6 @@
 #include "base/layout.h"
 #include "polytope/polytope.h"
 
-#define CHUNK 4096
-
 /* The arrays of a piece, as they are written. */
 struct arrays {
     double (*vertex)[3], (*normal)[3];
@@ -49,22 +47,31 @@ static void fill(struct arrays *arrays, const pir_polytope *p) {
     }
 }
 
-static bool put_rows(hid_t group, const char *name, pir_h5_type type, uint64_t rows, uint64_t columns,
+/* Where arrays go. */
+struct place {
+    hid_t group;
+    pir_packer *packer;
+};
+
+/* Rows of three columns at most. */
+static bool put_rows(const struct place *at, const char *name, pir_h5_type type, uint64_t rows, uint64_t columns,
                      const void *data) {
-    const pir_h5_shape shape = {type, columns ? 2 : 1, {rows, columns}, {CHUNK, columns}, false};
-    return pir_h5_put(group, name, &shape, data);
+    const uint64_t chunk = PIR_CHUNK_MOST / (3 * sizeof(double));
+    const pir_h5_shape shape = {type, columns ? 2 : 1, {rows, columns}, {chunk, columns}, false, false};
+    return pir_h5_put(at->group, name, &shape, data, at->packer);
 }
 
-static bool put_arrays(hid_t group, const struct arrays *arrays, const pir_polytope *p) {
-    return put_rows(group, "vertex", PIR_H5_F64, p->vertex_count, 3, arrays->vertex) &&
-           put_rows(group, "normal", PIR_H5_F64, p->facet_count, 3, arrays->normal) &&
-           put_rows(group, "edge", PIR_H5_U32, p->edge_count, 2, arrays->edge) &&
-           put_rows(group, "edge_facet", PIR_H5_U32, p->edge_count, 2, arrays->edge_facet) &&
-           put_rows(group, "facet_start", PIR_H5_U32, (uint64_t)p->facet_count + 1, 0, arrays->facet_start) &&
-           put_rows(group, "facet_vertex", PIR_H5_U32, p->facet_count ? p->half_count : 0, 0, arrays->facet_vertex);
+static bool put_arrays(const struct place *at, const struct arrays *arrays, const pir_polytope *p) {
+    return put_rows(at, "vertex", PIR_H5_F64, p->vertex_count, 3, arrays->vertex) &&
+           put_rows(at, "normal", PIR_H5_F64, p->facet_count, 3, arrays->normal) &&
+           put_rows(at, "edge", PIR_H5_U32, p->edge_count, 2, arrays->edge) &&
+           put_rows(at, "edge_facet", PIR_H5_U32, p->edge_count, 2, arrays->edge_facet) &&
+           put_rows(at, "facet_start", PIR_H5_U32, (uint64_t)p->facet_count + 1, 0, arrays->facet_start) &&
+           put_rows(at, "facet_vertex", PIR_H5_U32, p->facet_count ? p->half_count : 0, 0, arrays->facet_vertex);
 }
 
-static bool put_piece(hid_t in, uint32_t number, const pir_plan_piece *piece, const pir_allocator *a) {
+static bool put_piece(hid_t in, uint32_t number, const pir_plan_piece *piece, pir_packer *packer,
+                      const pir_allocator *a) {
     char name[16], hash[17];
     const pir_polytope *p = piece->polytope;
     struct arrays arrays = {0};
@@ -72,21 +79,22 @@ static bool put_piece(hid_t in, uint32_t number, const pir_plan_piece *piece, co
     snprintf(name, sizeof name, "%" PRIu32, number);
     snprintf(hash, sizeof hash, "%016" PRIx64, piece->hash);
     hid_t group = pir_h5_make_group(in, name);
+    const struct place at = {group, packer};
     bool good = group >= 0 && pir_layout_new(a, &layout) && pir_h5_put_text(group, "hash", hash) &&
-                put_rows(group, "off", PIR_H5_U8, piece->off.used, 0, piece->off.data);
+                put_rows(&at, "off", PIR_H5_U8, piece->off.used, 0, piece->off.data);
     if (good) {
         fill(&arrays, p);
-        good = put_arrays(group, &arrays, p);
+        good = put_arrays(&at, &arrays, p);
     }
     pir_layout_free(a, &layout);
     return pir_h5_close(group) && good;
 }
 
-bool pir_pieces_put(hid_t file, const char *name, const pir_plan_piece *piece, uint32_t count,
+bool pir_pieces_put(hid_t file, const char *name, const pir_plan_piece *piece, uint32_t count, pir_packer *packer,
                     const pir_allocator *allocator) {
     hid_t group = pir_h5_make_group(file, name);
     bool good = group >= 0;
     for (uint32_t i = 0; good && i < count; i++)
-        good = put_piece(group, i, &piece[i], allocator);
+        good = put_piece(group, i, &piece[i], packer, allocator);
     return pir_h5_close(group) && good;
 }

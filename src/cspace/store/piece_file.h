@@ -7,7 +7,7 @@
 #include "cspace/store/plan.h"
 
 /* Writes the pieces into a group of that name. False when that fails. */
-bool pir_pieces_put(hid_t file, const char *name, const pir_plan_piece *piece, uint32_t count,
+bool pir_pieces_put(hid_t file, const char *name, const pir_plan_piece *piece, uint32_t count, pir_packer *packer,
                     const pir_allocator *allocator);
 
 #endif

@@ -14,7 +14,7 @@
 #include "cspace/record/record_bytes.h"
 
 /* Of the file and of parts. */
-#define PIR_SLICES_VERSION 1u
+#define PIR_SLICES_VERSION 2u
 
 /* A piece, as it was given. */
 typedef struct pir_plan_piece {

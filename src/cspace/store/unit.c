@@ -25,7 +25,6 @@ void pir_unit_finish(pir_unit *unit, const pir_allocator *allocator) {
         pir_bytes_finish(&unit->data[s], allocator);
         pir_bytes_finish(&unit->packed[s], allocator);
     }
-    pir_bytes_finish(&unit->work, allocator);
     *unit = (pir_unit){0};
 }
 

@@ -26,7 +26,6 @@ typedef struct pir_unit {
     pir_bytes data[PIR_SECTION_COUNT];   /* empty where a job has no such section */
     uint64_t check[PIR_SECTION_COUNT];   /* of the bytes of data */
     pir_bytes packed[PIR_SECTION_COUNT]; /* data as the file keeps it; see pack.h */
-    pir_bytes work;                      /* of packing */
 } pir_unit;
 
 /* Room for so many slices; false when out of memory, and there is nothing to finish then. */
