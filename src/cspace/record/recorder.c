@@ -4,7 +4,8 @@
  *
  * The reader toggles the crossings that facets pass as they go to neighbouring cells. What it gets so is mostly right.
  * To know for which edges of −P it is not, the crossings of before and those of now are toggled here, and those that
- * facets pass: edges for which something remains are written as ways from cell to cell.
+ * facets pass: edges for which something remains are written as ways from cell to cell. Where the sum has gone through
+ * one update, it has done what the reader will do, but for the edges that its journal names: only these are toggled.
  */
 #include "cspace/record/recorder.h"
 
@@ -13,7 +14,7 @@
 #include <string.h>
 
 /* Of so many facets that change more than one, the record is whole: that takes less room. */
-#define FEW_OF 3
+#define FEW_OF 2
 
 /* Numbers that are compared at a time. */
 #define BLOCK 8
@@ -28,7 +29,8 @@ static pir_layout layout_of(pir_recorder *recorder) {
     const pir_polytope *p = recorder->pairing->p, *q = recorder->pairing->q;
     return (pir_layout){{PIR_ROW(recorder->fv, p->facet_count), PIR_ROW(recorder->vf, q->facet_count),
                          PIR_ROW(recorder->change, facets_of(recorder)), PIR_ROW(recorder->unforeseen, p->edge_count),
-                         PIR_ROW(recorder->noted, facets_of(recorder) / 64 + 1)}};
+                         PIR_ROW(recorder->noted, facets_of(recorder) / 64 + 1),
+                         PIR_ROW(recorder->doubtful, p->edge_count / 64 + 1)}};
 }
 
 static pir_layout layout_of_slots(pir_recorder *recorder) {
@@ -139,20 +141,43 @@ static void look_at_noted_facets(pir_recorder *recorder) {
     }
 }
 
+/* Finds the edges of −P for which the reader may be wrong. */
+static void find_doubtful(pir_recorder *recorder) {
+    const pir_journal *journal = pir_sum_journal(recorder->sum);
+    const pir_polytope *p = recorder->pairing->p, *q = recorder->pairing->q;
+    // of two edges between the same vertices the reader takes the first
+    const bool parallel = p->vertex_count == 2 || q->vertex_count == 2;
+    const bool once = journal->steps - recorder->steps <= 1 && !parallel &&
+                      journal->edge_count - recorder->edges_seen <= PIR_JOURNAL_ROOM;
+    memset(recorder->doubtful, once ? 0 : 0xff, (p->edge_count / 64 + 1) * sizeof *recorder->doubtful);
+    for (uint64_t n = recorder->edges_seen; once && n < journal->edge_count; n++) {
+        uint32_t e = journal->edge[n % PIR_JOURNAL_ROOM];
+        recorder->doubtful[e / 64] |= (uint64_t)1 << e % 64;
+    }
+}
+
+/* Toggles a crossing of an edge that is in doubt. */
+static inline bool toggle(pir_recorder *recorder, uint32_t e, uint32_t g) {
+    return !(recorder->doubtful[e / 64] >> e % 64 & 1) || pir_crossing_set_toggle(&recorder->toggled, e, g);
+}
+
 /* Toggles what stood in a slot before, and what stands there now. */
 static bool toggle_slot(pir_recorder *recorder, uint32_t slot, uint32_t edge, uint32_t half) {
     const uint32_t *edge_of = recorder->pairing->q->edge, before = recorder->edge[slot];
-    return (before == PIR_NO_CROSSING ||
-            pir_crossing_set_toggle(&recorder->toggled, before, edge_of[recorder->half[slot]])) &&
-           (edge == PIR_NO_CROSSING || pir_crossing_set_toggle(&recorder->toggled, edge, edge_of[half]));
+    return (before == PIR_NO_CROSSING || toggle(recorder, before, edge_of[recorder->half[slot]])) &&
+           (edge == PIR_NO_CROSSING || toggle(recorder, edge, edge_of[half]));
 }
 
 /* Compares a slot with what stood there, and toggles what has gone and what has come. */
-static bool look_at_slot(pir_recorder *recorder, uint32_t slot) {
+static inline bool look_at_slot(pir_recorder *recorder, uint32_t slot) {
     const pir_crossings *c = &recorder->pairing->crossings;
-    uint32_t edge = slot < c->used ? c->edge[slot] : PIR_NO_CROSSING, half = slot < c->used ? c->half[slot] : 0;
-    bool same = edge == recorder->edge[slot] && (edge == PIR_NO_CROSSING || half == recorder->half[slot]);
-    bool enough = same || toggle_slot(recorder, slot, edge, half);
+    const bool used = slot < c->used;
+    const uint32_t edge = used ? c->edge[slot] : PIR_NO_CROSSING, half = used ? c->half[slot] : 0;
+    if (edge == recorder->edge[slot] && half == recorder->half[slot])
+        return true;
+    // a free slot holds the halfedge of what stood there
+    bool both_free = edge == PIR_NO_CROSSING && recorder->edge[slot] == PIR_NO_CROSSING;
+    bool enough = both_free || toggle_slot(recorder, slot, edge, half);
     recorder->edge[slot] = edge;
     recorder->half[slot] = half;
     return enough;
@@ -218,9 +243,11 @@ static bool toggle_passed(pir_recorder *recorder, pir_operand operand, uint32_t 
     const bool of_p = operand == PIR_OPERAND_P;
     const pir_polytope *of = of_p ? recorder->pairing->p : recorder->pairing->q;
     bool enough = true;
+    if (!of_p && !(recorder->doubtful[passed / 64] >> passed % 64 & 1))
+        return true;
     for (uint32_t i = of->loop_start[f]; i < of->loop_start[f + 1]; i++) {
         uint32_t own = of->across[i].edge;
-        enough &= pir_crossing_set_toggle(&recorder->toggled, of_p ? own : passed, of_p ? passed : own);
+        enough &= toggle(recorder, of_p ? own : passed, of_p ? passed : own);
     }
     return enough;
 }
@@ -333,8 +360,11 @@ bool pir_recorder_write(pir_recorder *recorder, bool key, pir_bytes *bytes) {
         hold_slots(recorder);
         enough = write_whole(recorder, bytes);
     } else {
+        find_doubtful(recorder);
         enough = (few ? look_at_noted_slots(recorder) : compare_slots(recorder)) && write_changes(recorder, bytes);
     }
     recorder->seen = noted;
+    recorder->edges_seen = pir_sum_journal(recorder->sum)->edge_count;
+    recorder->steps = pir_sum_journal(recorder->sum)->steps;
     return enough;
 }

@@ -25,14 +25,15 @@ typedef struct pir_recorder {
     pir_allocator allocator;
     const pir_sum *sum; /* borrowed */
     const pir_pairing *pairing;
-    uint64_t seen; /* entries of the journal that have been read */
+    uint64_t seen, edges_seen, steps; /* of the journal: what has been read */
     pir_ring_ranks p, q;
     uint32_t *fv, *vf;              /* of the slice before */
     uint32_t *half, *edge;          /* what stood in each slot of the sum's crossings, as pir_crossings has it */
     uint32_t slot_room, slots_seen; /* of these; up to where slots have been in use */
     pir_cell_change *change;        /* room for all facets: those of −P, then those of Q */
     uint32_t change_count[2];
-    uint64_t *noted; /* a bit for each facet, by the journal's entries; 0 between calls */
+    uint64_t *noted;    /* a bit for each facet, by the journal's entries; 0 between calls */
+    uint64_t *doubtful; /* a bit for each edge of −P for which the reader may be wrong */
     pir_crossing_set toggled;
     uint32_t *unforeseen; /* edges of −P: room for all */
 } pir_recorder;

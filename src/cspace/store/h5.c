@@ -180,7 +180,7 @@ bool pir_h5_write_chunk(hid_t set, const pir_h5_shape *shape, const uint64_t *st
 bool pir_h5_put_rows(hid_t set, const pir_h5_shape *shape, uint64_t first, const void *data, pir_packer *packer) {
     const uint64_t row = element_of(shape->type) * (shape->rank > 1 ? shape->size[1] : 1), chunk = chunk_of(shape, 0);
     const uint64_t rows = shape->size[0] - first < chunk ? shape->size[0] - first : chunk, start[2] = {first, 0};
-    if (*(const uint8_t *)&byte_order != 1)
+    if (shape->plain || *(const uint8_t *)&byte_order != 1)
         return pir_h5_write(set, shape->type, start, (uint64_t[]){rows, shape->size[1]}, data);
     // bytes that are put so are text
     const pir_chunk_form form = {(uint32_t)(chunk * row), element_of(shape->type), shape->type == PIR_H5_U8};

@@ -7,8 +7,13 @@
  * journal last. When more have been noted since than there is room for, anything may have changed. So a sum does not
  * know who follows it, and a change costs one store. The room is made when somebody first follows.
  *
+ * Beside them stand the edges of P whose crossings have changed otherwise than by single facets: a facet of P that goes
+ * through one side of its cell toggles the crossing of each of its edges with that side, and a facet of Q those of the
+ * side with each of its own edges. `steps` counts updates, and a rebuild for two: whoever has seen all but one of them
+ * knows that each facet has moved in one update, at most.
+ *
  * Invariant: let a follower have read the journal at `count` entries. Each facet whose cell has changed since, and each
- * crossing whose pair has, is among the later entries, or there are more of these than room.
+ * crossing whose pair has, is among the later entries, or there are more of these than room. The same holds for edges.
  */
 #ifndef PIR_DYMSUM_PAIRING_JOURNAL_H
 #define PIR_DYMSUM_PAIRING_JOURNAL_H
@@ -20,25 +25,27 @@
 /* While nobody follows there is room for one entry, so that a change costs no question. */
 typedef struct pir_journal {
     uint64_t count;
-    uint32_t *slot, mask; /* room for mask + 1 entries */
-    uint32_t none;
+    uint64_t edge_count, steps;
+    uint32_t *slot, *edge; /* room for mask + 1 entries each */
+    uint32_t mask, none, no_edge;
 } pir_journal;
 
 static inline void pir_journal_init(pir_journal *journal) {
-    *journal = (pir_journal){.slot = &journal->none};
+    *journal = (pir_journal){.slot = &journal->none, .edge = &journal->no_edge};
 }
 
 static inline void pir_journal_finish(pir_journal *journal, const pir_allocator *allocator) {
     if (journal->mask > 0)
-        PIR_FREE(allocator, journal->slot, PIR_JOURNAL_ROOM);
+        PIR_FREE(allocator, journal->slot, 2 * PIR_JOURNAL_ROOM);
 }
 
 /* Makes the room for those who follow. What has been noted before is lost. False when out of memory. */
 static inline bool pir_journal_keep(pir_journal *journal, const pir_allocator *allocator) {
-    uint32_t *room = journal->mask > 0 ? journal->slot : PIR_NEW(allocator, uint32_t, PIR_JOURNAL_ROOM);
+    uint32_t *room = journal->mask > 0 ? journal->slot : PIR_NEW(allocator, uint32_t, 2 * PIR_JOURNAL_ROOM);
     if (!room)
         return false;
     journal->slot = room;
+    journal->edge = room + PIR_JOURNAL_ROOM;
     journal->mask = PIR_JOURNAL_ROOM - 1;
     return true;
 }
@@ -47,9 +54,19 @@ static inline void pir_journal_note(pir_journal *journal, uint32_t slot) {
     journal->slot[journal->count++ & journal->mask] = slot;
 }
 
+static inline void pir_journal_note_edge(pir_journal *journal, uint32_t edge) {
+    journal->edge[journal->edge_count++ & journal->mask] = edge;
+}
+
+static inline void pir_journal_note_step(pir_journal *journal) {
+    journal->steps++;
+}
+
 /* Anything may have changed. */
 static inline void pir_journal_note_all(pir_journal *journal) {
     journal->count += PIR_JOURNAL_ROOM + 1;
+    journal->edge_count += PIR_JOURNAL_ROOM + 1;
+    journal->steps += 2;
 }
 
 #endif

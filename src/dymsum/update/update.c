@@ -102,6 +102,8 @@ static void settle_of_p(struct update *update, uint32_t f) {
         pairing->fv[f] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             cross_of_p(update, f, trace.crossed[i]);
+        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && trace.count > 1; i++)
+            pir_journal_note_edge(&tracked->journal, p->across[i].edge);
         return;
     }
     pir_expiry expiry;
@@ -147,6 +149,21 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
         }
 }
 
+/* The journal has it that the edge of P between two vertices, if there is one, is not passed by a single facet alone. */
+static void note_side(pir_tracked *tracked, uint32_t from, uint32_t to) {
+    const pir_polytope *p = tracked->pairing.p;
+    for (uint32_t half = p->ring_start[from]; half < p->ring_start[from + 1]; half++)
+        if (p->target[half] == to)
+            pir_journal_note_edge(&tracked->journal, p->edge[half]);
+}
+
+/* The same of the edges that facet g of Q has passed one after another, and of that which would be the shortest way. */
+static void note_way_of_q(pir_tracked *tracked, uint32_t g, const pir_trace *trace) {
+    note_side(tracked, tracked->pairing.vf[g], trace->cell);
+    for (uint32_t i = 0; i < trace->count; i++)
+        pir_journal_note_edge(&tracked->journal, tracked->pairing.p->edge[trace->crossed[i]]);
+}
+
 /* Locates facet g of Q, which may have touched several sides, and notes the edges of P that it may have crossed. */
 static void settle_of_q(struct update *update, uint32_t g) {
     pir_tracked *tracked = update->tracked;
@@ -155,6 +172,8 @@ static void settle_of_q(struct update *update, uint32_t g) {
     if (!update->all && pir_trace_vf(tracked, g, &trace)) {
         pir_tracked_certify(tracked, tracked->q_facets.first_certificate + g, &trace.expiry);
         tracked->statistics.repaired += trace.count;
+        if (trace.count > 1)
+            note_way_of_q(tracked, g, &trace);
         pairing->vf[g] = trace.cell;
         for (uint32_t i = 0; i < trace.count; i++)
             note_crossing_of_q(update, g, trace.crossed[i]);
@@ -164,6 +183,7 @@ static void settle_of_q(struct update *update, uint32_t g) {
     uint32_t v = pir_descend_vf(tracked, g, pairing->vf[g], &expiry);
     pir_tracked_certify(tracked, tracked->q_facets.first_certificate + g, &expiry);
     tracked->statistics.repaired += v != pairing->vf[g];
+    note_side(tracked, pairing->vf[g], v);
     pairing->vf[g] = v;
     if (!update->all)
         follow_back(update, g, v);
@@ -274,6 +294,7 @@ static uint32_t next_stamp(pir_tracked *tracked) {
 }
 
 pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
+    pir_journal_note_step(&tracked->journal);
     if (tracked->certificates.expired_all)
         pir_tracked_lay_out_certificates(tracked);
     uint32_t expired = pir_kernels_collect(tracked->kernels, &tracked->certificates, pir_certificate_count(tracked),
@@ -287,7 +308,9 @@ pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
     review(&update, expired);
     for (uint32_t e = 0; update.all && e < tracked->pairing.p->edge_count; e++)
         note_edge(&update, e);
-    for (uint32_t i = 0; i < update.derive && !update.failed; i++)
+    for (uint32_t i = 0; i < update.derive && !update.failed; i++) {
+        pir_journal_note_edge(&tracked->journal, tracked->work->queue[i]);
         update.failed = !pir_derive_edge(tracked, tracked->work->queue[i]);
+    }
     return update.failed ? PIR_ERR_MEMORY : PIR_OK;
 }
