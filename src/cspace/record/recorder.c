@@ -169,8 +169,7 @@ static bool toggle_slot(pir_recorder *recorder, uint32_t slot, uint32_t edge, ui
 }
 
 /* Compares a slot with what stood there, and toggles what has gone and what has come. */
-static inline bool look_at_slot(pir_recorder *recorder, uint32_t slot) {
-    const pir_crossings *c = &recorder->pairing->crossings;
+static inline bool look_at_slot(pir_recorder *recorder, const pir_crossings *c, uint32_t slot) {
     const bool used = slot < c->used;
     const uint32_t edge = used ? c->edge[slot] : PIR_NO_CROSSING, half = used ? c->half[slot] : 0;
     if (edge == recorder->edge[slot] && half == recorder->half[slot])
@@ -193,7 +192,7 @@ static bool compare_slots(pir_recorder *recorder) {
             !differ(c->edge + at, recorder->edge + at, size))
             continue;
         for (uint32_t slot = at; enough && slot < at + size; slot++)
-            enough = look_at_slot(recorder, slot);
+            enough = look_at_slot(recorder, c, slot);
     }
     return enough;
 }
@@ -201,11 +200,12 @@ static bool compare_slots(pir_recorder *recorder) {
 /* Looks at the slots that the journal names. */
 static bool look_at_noted_slots(pir_recorder *recorder) {
     const pir_journal *journal = pir_sum_journal(recorder->sum);
+    const pir_crossings *c = &recorder->pairing->crossings;
     const uint32_t facets = facets_of(recorder);
     bool enough = true;
     for (uint64_t n = recorder->seen; enough && n < journal->count; n++) {
         uint32_t number = journal->slot[n % PIR_JOURNAL_ROOM];
-        enough = number < facets || look_at_slot(recorder, number - facets);
+        enough = number < facets || look_at_slot(recorder, c, number - facets);
     }
     return enough;
 }

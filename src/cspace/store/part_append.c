@@ -118,9 +118,8 @@ pir_status pir_part_append(pir_part *part, const pir_unit *unit, pir_report *rep
 
 pir_status pir_part_close(pir_part *part, const pir_allocator *allocator, pir_report *report) {
     pir_status status = PIR_OK;
-    if (part->descriptor >= 0 && fsync(part->descriptor) != 0)
-        status = fail_part(part, "write", report);
-    if (part->descriptor >= 0 && close(part->descriptor) != 0 && status == PIR_OK)
+    // what was written last may still have to reach the disk: a loss of power costs no more than it did before
+    if (part->descriptor >= 0 && close(part->descriptor) != 0)
         status = fail_part(part, "close", report);
     if (part->path)
         PIR_FREE(allocator, part->path, part->path_size);

@@ -66,7 +66,7 @@ pir_status pir_part_open(pir_part *part, const pir_parts *parts, uint32_t number
 /* Appends a unit that is sealed and packed, and now and then sees to it that what was written is on the disk. */
 pir_status pir_part_append(pir_part *part, const pir_unit *unit, pir_report *report);
 
-/* Closes the part once it is on the disk. PIR_ERR_FILE where that fails. */
+/* Closes the part. PIR_ERR_FILE where that fails. */
 pir_status pir_part_close(pir_part *part, const pir_allocator *allocator, pir_report *report);
 
 /* Notes that a unit stands in part `number`, where none had it. */

@@ -20,7 +20,7 @@
 
 #include "base/memory.h"
 
-#define PIR_JOURNAL_ROOM 1024u /* a power of two */
+#define PIR_JOURNAL_ROOM 4096u /* a power of two */
 
 /* While nobody follows there is room for one entry, so that a change costs no question. */
 typedef struct pir_journal {
