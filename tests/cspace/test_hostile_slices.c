@@ -193,11 +193,15 @@ static void another_version_or_hash_is_refused(void **state) {
     expect_refused(file, "slices");
 }
 
-/* FNV-1a, 64 bits, as docs/slices.md has it. */
+/* FNV-1a, 64 bits, eight bytes at a time, as docs/slices.md has it. */
 static uint64_t checksum(const uint8_t *bytes, size_t size) {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
+    for (size_t i = 0; i < size; i += 8) {
+        uint64_t word = 0;
+        for (size_t k = i; k < size && k < i + 8; k++)
+            word |= (uint64_t)bytes[k] << 8 * (k - i);
+        hash = (hash ^ word) * UINT64_C(0x100000001b3);
+    }
     return hash;
 }
 

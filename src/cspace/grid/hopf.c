@@ -9,10 +9,16 @@
 #include "cspace/grid/circle.h"
 #include "cspace/grid/pixel_path.h"
 
-pir_circle pir_circle_of(uint32_t level, pir_pixel pixel) {
+/* A circle without the point of φ, which its rotations do not need. */
+static pir_circle rotations_over(uint32_t level, pir_pixel pixel) {
     pir_pixel_centre centre = pir_pixel_centre_of(level, pixel);
-    return (pir_circle){sqrt(centre.upper), sqrt(centre.lower), centre.num, centre.den,
-                        pir_circle_at(centre.num, centre.den)};
+    return (pir_circle){sqrt(centre.upper), sqrt(centre.lower), centre.num, centre.den, {0, 0}};
+}
+
+pir_circle pir_circle_of(uint32_t level, pir_pixel pixel) {
+    pir_circle circle = rotations_over(level, pixel);
+    circle.phi = pir_circle_at(circle.num, circle.den);
+    return circle;
 }
 
 pir_quat pir_circle_rotation(const pir_circle *circle, uint32_t around, uint32_t k) {
@@ -90,7 +96,7 @@ void pir_hopf_finish(pir_hopf *hopf, const pir_allocator *allocator) {
 
 pir_quat pir_hopf_rotation(const pir_hopf *hopf, uint64_t number) {
     uint32_t rank = (uint32_t)(number / hopf->around), step = (uint32_t)(number % hopf->around);
-    pir_circle circle = pir_circle_of(hopf->level, pir_pixel_path_at(hopf->level, rank));
+    pir_circle circle = rotations_over(hopf->level, pir_pixel_path_at(hopf->level, rank));
     return pir_circle_rotation(&circle, hopf->around, on_circle(hopf, hopf->run[rank], step));
 }
 

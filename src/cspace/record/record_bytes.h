@@ -76,4 +76,7 @@ enum { PIR_RECORD_CHANGES = 0, PIR_RECORD_WHOLE = 1 };
 
 uint64_t pir_hash_bytes(uint64_t hash, const void *data, size_t size);
 
+/* The same over numbers of eight bytes, the least significant first; zeros fill the last one up. */
+uint64_t pir_hash_words(uint64_t hash, const void *data, size_t size);
+
 #endif

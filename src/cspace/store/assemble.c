@@ -100,13 +100,6 @@ static bool put_head(const struct output *out) {
            pir_h5_put_text(out->file, "angle_unit", "radian");
 }
 
-static bool put_pieces(const struct output *out) {
-    const pir_plan *plan = out->plan;
-    return pir_pieces_put(out->file, "robot", plan->piece, plan->robot_count, out->packer, &plan->allocator) &&
-           pir_pieces_put(out->file, "obstacle", plan->piece + plan->robot_count, plan->obstacle_count, out->packer,
-                          &plan->allocator);
-}
-
 /* --- sections --- */
 
 static bool has_section(const pir_plan *plan, int s) {
@@ -256,7 +249,7 @@ static pir_status write_file(struct output *out, const char *path, pir_report *r
         return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, strerror(errno));
     out->file = create_file(path);
     pir_status status = PIR_OK;
-    bool good = out->file >= 0 && put_head(out) && put_grid(out) && put_pieces(out) &&
+    bool good = out->file >= 0 && put_head(out) && put_grid(out) && pir_pieces_put(out->file, out->plan, out->packer) &&
                 put_sections(out, &status, report) && H5Fflush(out->file, H5F_SCOPE_GLOBAL) >= 0;
     int error = errno;
     if (!pir_h5_close(out->file))

@@ -4,9 +4,13 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/layout.h"
 #include "polytope/polytope.h"
+
+/* How many pieces before one are compared with it. */
+#define NEAR 256u
 
 /* The arrays of a piece, as they are written. */
 struct arrays {
@@ -71,15 +75,30 @@ static bool put_arrays(const struct place *at, const struct arrays *arrays, cons
            put_rows(at, "facet_vertex", PIR_H5_U32, p->facet_count ? p->half_count : 0, 0, arrays->facet_vertex);
 }
 
-static bool put_piece(hid_t in, uint32_t number, const pir_plan_piece *piece, pir_packer *packer,
+/* Where a piece of the plan stands, by its number among all. */
+static void write_path(const pir_plan *plan, uint32_t number, char path[32]) {
+    bool of_robot = number < plan->robot_count;
+    snprintf(path, 32, "/%s/%" PRIu32, of_robot ? "robot" : "obstacle", of_robot ? number : number - plan->robot_count);
+}
+
+/* The piece shortly before that is the same, or `number`. */
+static uint32_t find_same(const pir_plan_piece *piece, uint32_t number) {
+    const pir_plan_piece *own = &piece[number];
+    for (uint32_t i = number > NEAR ? number - NEAR : 0; i < number; i++)
+        if (piece[i].hash == own->hash && piece[i].off.used == own->off.used &&
+            memcmp(piece[i].off.data, own->off.data, own->off.used) == 0)
+            return i;
+    return number;
+}
+
+static bool put_piece(hid_t file, const char *path, const pir_plan_piece *piece, pir_packer *packer,
                       const pir_allocator *a) {
-    char name[16], hash[17];
+    char hash[17];
     const pir_polytope *p = piece->polytope;
     struct arrays arrays = {0};
     pir_layout layout = layout_of(&arrays, p);
-    snprintf(name, sizeof name, "%" PRIu32, number);
     snprintf(hash, sizeof hash, "%016" PRIx64, piece->hash);
-    hid_t group = pir_h5_make_group(in, name);
+    hid_t group = pir_h5_make_group(file, path);
     const struct place at = {group, packer};
     bool good = group >= 0 && pir_layout_new(a, &layout) && pir_h5_put_text(group, "hash", hash) &&
                 put_rows(&at, "off", PIR_H5_U8, piece->off.used, 0, piece->off.data);
@@ -91,11 +110,19 @@ static bool put_piece(hid_t in, uint32_t number, const pir_plan_piece *piece, pi
     return pir_h5_close(group) && good;
 }
 
-bool pir_pieces_put(hid_t file, const char *name, const pir_plan_piece *piece, uint32_t count, pir_packer *packer,
-                    const pir_allocator *allocator) {
-    hid_t group = pir_h5_make_group(file, name);
-    bool good = group >= 0;
-    for (uint32_t i = 0; good && i < count; i++)
-        good = put_piece(group, i, &piece[i], packer, allocator);
-    return pir_h5_close(group) && good;
+bool pir_pieces_put(hid_t file, const pir_plan *plan, pir_packer *packer) {
+    hid_t robot = pir_h5_make_group(file, "robot"), obstacle = pir_h5_make_group(file, "obstacle");
+    bool good = robot >= 0 && obstacle >= 0;
+    for (uint32_t i = 0; good && i < plan->robot_count + plan->obstacle_count; i++) {
+        char path[32], same[32];
+        uint32_t before = find_same(plan->piece, i);
+        write_path(plan, i, path);
+        write_path(plan, before, same);
+        if (before < i)
+            good = H5Lcreate_hard(file, same, file, path, H5P_DEFAULT, H5P_DEFAULT) >= 0;
+        else
+            good = put_piece(file, path, &plan->piece[i], packer, &plan->allocator);
+    }
+    good = pir_h5_close(robot) && good;
+    return pir_h5_close(obstacle) && good;
 }

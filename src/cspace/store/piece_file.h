@@ -6,8 +6,7 @@
 #include "cspace/store/h5.h"
 #include "cspace/store/plan.h"
 
-/* Writes the pieces into a group of that name. False when that fails. */
-bool pir_pieces_put(hid_t file, const char *name, const pir_plan_piece *piece, uint32_t count, pir_packer *packer,
-                    const pir_allocator *allocator);
+/* Writes the pieces of a plan. One that is the same as one shortly before it shares its group. False when it fails. */
+bool pir_pieces_put(hid_t file, const pir_plan *plan, pir_packer *packer);
 
 #endif

@@ -340,7 +340,7 @@ static pir_status read_unit(pir_store *store, pir_section s, uint64_t number, pi
     for (uint32_t i = 0; i < unit->slices; i++)
         elements += unit->count[s][i];
     pir_status status = read_data(store, s, start, elements, report, &unit->data[s]);
-    if (status == PIR_OK && check != pir_hash_bytes(PIR_HASH_START, unit->data[s].data, unit->data[s].used))
+    if (status == PIR_OK && check != pir_hash_words(PIR_HASH_START, unit->data[s].data, unit->data[s].used))
         return pir_fail(report, PIR_ERR_FORMAT, "%s: %s: unit %" PRIu64 ": the checksum does not match", store->path,
                         pir_names_of_section[s].group, number);
     return status;

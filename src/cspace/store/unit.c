@@ -30,5 +30,5 @@ void pir_unit_finish(pir_unit *unit, const pir_allocator *allocator) {
 
 void pir_unit_seal(pir_unit *unit) {
     for (int s = 0; s < PIR_SECTION_COUNT; s++)
-        unit->check[s] = pir_hash_bytes(PIR_HASH_START, unit->data[s].data, unit->data[s].used);
+        unit->check[s] = pir_hash_words(PIR_HASH_START, unit->data[s].data, unit->data[s].used);
 }

@@ -149,7 +149,7 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
         }
 }
 
-/* The journal has it that the edge of P between two vertices, if there is one, is not passed by a single facet alone. */
+/* The journal has it that the edge of P between two vertices, if there is one, may be passed by no facet alone. */
 static void note_side(pir_tracked *tracked, uint32_t from, uint32_t to) {
     const pir_polytope *p = tracked->pairing.p;
     for (uint32_t half = p->ring_start[from]; half < p->ring_start[from + 1]; half++)
