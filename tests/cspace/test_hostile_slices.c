@@ -227,6 +227,23 @@ static void another_pairing_is_refused(void **state) {
     expect_refused(file, "it is not the pairing at its rotation");
 }
 
+/* The bytes of the records of each unit. */
+static void find_sizes(hid_t file, uint64_t ret_sizes[3]) {
+    uint32_t length[40];
+    hid_t set = H5Dopen2(file, "slices/length", H5P_DEFAULT), group = H5Gopen2(file, "slices", H5P_DEFAULT);
+    hid_t attribute = H5Aopen(group, "slices_per_unit", H5P_DEFAULT);
+    uint32_t per_unit = 0;
+    assert_true(H5Dread(set, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, length) >= 0);
+    assert_true(H5Aread(attribute, H5T_NATIVE_UINT32, &per_unit) >= 0 && (40 + per_unit - 1) / per_unit == 3);
+    H5Aclose(attribute);
+    H5Gclose(group);
+    H5Dclose(set);
+    for (int u = 0; u < 3; u++)
+        ret_sizes[u] = 0;
+    for (uint32_t i = 0; i < 40; i++)
+        ret_sizes[i / per_unit] += length[i];
+}
+
 /* A byte of a record changed, and the checksum with it: refused, wherever it is, or of no slice that is asked. */
 static void changed_records_are_refused(void **state) {
     (void)state;
@@ -236,13 +253,14 @@ static void changed_records_are_refused(void **state) {
         hid_t file = begin(), set = H5Dopen2(file, "slices/bytes", H5P_DEFAULT), space = H5Dget_space(set);
         hssize_t size = H5Sget_simple_extent_npoints(space);
         uint8_t *bytes = malloc((size_t)size);
-        uint64_t unit[3], check[3];
+        uint64_t unit[3], check[3], sizes[3];
+        find_sizes(file, sizes);
         hid_t units = H5Dopen2(file, "slices/unit", H5P_DEFAULT), checks = H5Dopen2(file, "slices/check", H5P_DEFAULT);
         assert_true(H5Dread(set, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0);
         assert_true(H5Dread(units, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, unit) >= 0);
-        bytes[test_random_bits(&random) % (uint64_t)size] = (uint8_t)test_random_below(&random, 12);
+        bytes[unit[i % 3] + test_random_bits(&random) % sizes[i % 3]] = (uint8_t)test_random_bits(&random);
         for (int u = 0; u < 3; u++)
-            check[u] = checksum(bytes + unit[u], (size_t)((u < 2 ? unit[u + 1] : (uint64_t)size) - unit[u]));
+            check[u] = checksum(bytes + unit[u], (size_t)sizes[u]);
         assert_true(H5Dwrite(set, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0);
         assert_true(H5Dwrite(checks, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, check) >= 0);
         free(bytes);
