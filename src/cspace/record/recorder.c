@@ -151,7 +151,7 @@ static void find_doubtful(pir_recorder *recorder) {
                       journal->edge_count - recorder->edges_seen <= PIR_JOURNAL_ROOM;
     memset(recorder->doubtful, once ? 0 : 0xff, (p->edge_count / 64 + 1) * sizeof *recorder->doubtful);
     for (uint64_t n = recorder->edges_seen; once && n < journal->edge_count; n++) {
-        uint32_t e = journal->edge[n % PIR_JOURNAL_ROOM];
+        uint32_t e = *pir_journal_edge_at(journal, n);
         recorder->doubtful[e / 64] |= (uint64_t)1 << e % 64;
     }
 }

@@ -26,12 +26,12 @@
 typedef struct pir_journal {
     uint64_t count;
     uint64_t edge_count, steps;
-    uint32_t *slot, *edge; /* room for mask + 1 entries each */
-    uint32_t mask, none, no_edge;
+    uint32_t *slot; /* room for mask + 1 entries, and behind them for as many edges */
+    uint32_t mask, none[2];
 } pir_journal;
 
 static inline void pir_journal_init(pir_journal *journal) {
-    *journal = (pir_journal){.slot = &journal->none, .edge = &journal->no_edge};
+    *journal = (pir_journal){.slot = journal->none};
 }
 
 static inline void pir_journal_finish(pir_journal *journal, const pir_allocator *allocator) {
@@ -45,7 +45,6 @@ static inline bool pir_journal_keep(pir_journal *journal, const pir_allocator *a
     if (!room)
         return false;
     journal->slot = room;
-    journal->edge = room + PIR_JOURNAL_ROOM;
     journal->mask = PIR_JOURNAL_ROOM - 1;
     return true;
 }
@@ -54,8 +53,13 @@ static inline void pir_journal_note(pir_journal *journal, uint32_t slot) {
     journal->slot[journal->count++ & journal->mask] = slot;
 }
 
+/* Where entry n of the edges stands. */
+static inline uint32_t *pir_journal_edge_at(const pir_journal *journal, uint64_t n) {
+    return &journal->slot[journal->mask + 1 + (n & journal->mask)];
+}
+
 static inline void pir_journal_note_edge(pir_journal *journal, uint32_t edge) {
-    journal->edge[journal->edge_count++ & journal->mask] = edge;
+    *pir_journal_edge_at(journal, journal->edge_count++) = edge;
 }
 
 static inline void pir_journal_note_step(pir_journal *journal) {
