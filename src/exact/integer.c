@@ -273,8 +273,12 @@ void pir_int_set_double(pir_int *dst, double x, int exponent) {
         mantissa >>= -shift;
         shift = 0;
     }
-    mp_limb_t limb = mantissa;
-    pir_int whole = {&limb, x < 0 ? -1 : 1, 0};
+    mp_limb_t limbs[2] = {(mp_limb_t)mantissa, 0};
+#if GMP_NUMB_BITS < 64
+    limbs[1] = (mp_limb_t)(mantissa >> GMP_NUMB_BITS);
+#endif
+    int32_t length = limbs[1] != 0 ? 2 : 1;
+    pir_int whole = {limbs, x < 0 ? -length : length, 0};
     pir_int_shift_left(dst, &whole, (uint32_t)shift);
 }
 
@@ -286,9 +290,13 @@ double pir_int_to_double(const pir_int *a, int *ret_exponent) {
     }
     // the top 64 bits: what is cut off is below 2^-63 of the value
     uint32_t top = bits - (n - 1) * GMP_NUMB_BITS;
-    uint64_t head = (uint64_t)a->limb[n - 1] << (64 - top);
-    if (n > 1 && top < 64)
-        head |= (uint64_t)a->limb[n - 2] >> top;
+    int at = 64 - (int)top;
+    uint64_t head = (uint64_t)a->limb[n - 1] << at;
+    for (uint32_t i = n - 1; i > 0 && at > 0; i--) {
+        uint64_t limb = a->limb[i - 1];
+        at -= GMP_NUMB_BITS;
+        head |= at >= 0 ? limb << at : limb >> -at;
+    }
     // head has its top bit, so m is in [0.5, 1]
     double m = (double)head * 0x1p-64;
     bool rounded_up = m == 1;

@@ -12,7 +12,8 @@
 #include "solid/body/shells.h"
 #include "solid/space/exact.h"
 
-#define MEMORY_DEFAULT ((size_t)1 << 32)
+/* 4 GiB, or all that a size can tell. */
+#define MEMORY_DEFAULT (SIZE_MAX < UINT64_C(1) << 32 ? SIZE_MAX : (size_t)(UINT64_C(1) << 32))
 
 pir_solid_options pir_solid_options_default(void) {
     return (pir_solid_options){NULL, MEMORY_DEFAULT};
