@@ -135,7 +135,8 @@ PIR_API pir_status pir_sum_set_scale(pir_sum *sum, pir_operand operand, double s
  * Lets the pairing stay behind the rotation while that costs no more than `tolerance`, a length. The default is 0:
  * never.
  *
- * With a tolerance a rotation by PIR_METHOD_AUTO or PIR_METHOD_UPDATE may leave the pairing as it is. The hull of its
+ * With a tolerance a rotation by PIR_METHOD_UPDATE leaves the pairing as it is while it may; by PIR_METHOD_AUTO, where
+ * that saves work by the sum's own counters, so that no tolerance takes longer than none. The hull of the pairing's
  * vertices, placed by the rotation asked for, lies inside the true sum, and its support function falls short of the
  * true one by at most `tolerance` in every direction; pir_sum_shortfall_bound gives the bound attained. PIR_METHOD_WALK
  * and PIR_METHOD_CGM always bring the pairing to the rotation. Mesh vertices are placed by the rotation asked for. A

@@ -133,8 +133,9 @@ static pir_status bring(pir_sum *sum, pir_method method) {
 pir_status pir_sum_rotate(pir_sum *sum, pir_quat rotation, pir_method method) {
     if (!sum || method < PIR_METHOD_AUTO || method > PIR_METHOD_CGM)
         return PIR_ERR_ARGUMENT;
-    // with a tolerance, an update is deferred while the pairing may stay behind
-    if (sum->lag.tolerance > 0 && method <= PIR_METHOD_UPDATE) {
+    // with a tolerance, an update is deferred while the pairing may stay behind; by AUTO, where that is the cheaper way
+    if (sum->lag.tolerance > 0 && method <= PIR_METHOD_UPDATE &&
+        (method == PIR_METHOD_UPDATE || pir_pays_to_lag(&sum->cost, pir_lag_reach(&sum->lag)))) {
         bool done;
         pir_status kept = pir_sum_stay_behind(sum, rotation, &done);
         if (kept != PIR_OK || done)

@@ -324,6 +324,44 @@ static void lagging_sum_is_copied_and_kept_in_bytes(void **state) {
     pir_polytope_release(p);
 }
 
+/* Signs that 600 steps of a 2500th of a turn ask for, about an axis that changes every 50. */
+static uint64_t work_of(pir_polytope *p, pir_polytope *q, double tolerance, uint64_t *ret_kept) {
+    test_random random = test_random_case("tolerance and work", 0);
+    pir_quat there = {1, 2, 3, 4}, step = {0, 0, 0, 1};
+    pir_sum *sum;
+    assert_int_equal(pir_sum_create(p, q, there, NULL, &sum), PIR_OK);
+    assert_int_equal(pir_sum_set_tolerance(sum, tolerance), PIR_OK);
+    pir_sum_reset_statistics(sum);
+    for (int frame = 0; frame < 600; frame++) {
+        if (frame % 50 == 0) {
+            pir_vec3 axis = test_random_direction(&random);
+            step = (pir_quat){axis.x / 800, axis.y / 800, axis.z / 800, 1};
+        }
+        there = test_compose(step, there, 1);
+        assert_int_equal(pir_sum_rotate(sum, there, PIR_METHOD_AUTO), PIR_OK);
+    }
+    pir_sum_statistics did = pir_sum_get_statistics(sum);
+    pir_sum_destroy(sum);
+    *ret_kept = did.kept;
+    return did.by_filter + did.by_exact;
+}
+
+static void no_tolerance_takes_more_work_than_none(void **state) {
+    (void)state;
+    test_random random = test_random_case("tolerance and work", 1);
+    pir_polytope *p = test_sphere(&random, 120), *q = test_sphere(&random, 100);
+    uint64_t kept, exact = work_of(p, q, 0, &kept);
+    for (double tolerance = 1e-9; tolerance < 1; tolerance *= 3) {
+        uint64_t work = work_of(p, q, tolerance, &kept);
+        expect(work <= exact + exact / 10, "tolerance %g: %llu signs, %llu without", tolerance,
+               (unsigned long long)work, (unsigned long long)exact);
+    }
+    // the widest saves nearly all
+    assert_true(kept > 500);
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+}
+
 static void tolerance_that_is_no_length_is_refused(void **state) {
     (void)state;
     test_random random = test_random_case("bad tolerance", 0);
@@ -349,6 +387,7 @@ int main(void) {
         cmocka_unit_test(bound_holds_for_tiny_and_huge_bodies),
         cmocka_unit_test(support_falls_short_by_no_more_than_the_bound),
         cmocka_unit_test(lagging_sum_is_copied_and_kept_in_bytes),
+        cmocka_unit_test(no_tolerance_takes_more_work_than_none),
         cmocka_unit_test(tolerance_that_is_no_length_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

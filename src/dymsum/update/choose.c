@@ -14,11 +14,15 @@
  * sum that walks must expect a clear gain before it switches. It tries an update once in a while nevertheless, because
  * its slope may be out of date: the first time soon, since a pose with many ties costs more to leave than any other,
  * then at longer and longer intervals.
+ *
+ * One update over many steps is no cheaper than an update for each of them: what certificates predict is lost. A
+ * tolerance saves work from where the turn that it allows would cost more to follow than a walk does. Steps differ, so
+ * that is judged by many updates together, and a sum that follows its rotation must expect a clear gain before it stays
+ * behind.
  */
 #include "dymsum/update/choose.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 /* The time of a sign asked for in an update, by that of one in a walk: between the ratios above. */
 #define WORK_OF_SIGN 1.35
@@ -42,6 +46,12 @@
  */
 #define LEAST_SLOPE 1
 
+/* What an update adds to the work of recent ones, and to the radians, loses this part with each that comes after. */
+#define FORGETTING 0x1p-7
+
+/* Staying behind begins to pay where following is expected to cost so many walks; it goes on down to one. */
+#define CLEAR_LOSS 1.5
+
 pir_method pir_choose_method(const pir_cost_model *cost, double angle) {
     bool on_trial = cost->updates_in_a_row > 0 && cost->updates_in_a_row < TRIAL_LENGTH;
     if (cost->per_radian == 0 || on_trial || cost->walks_in_a_row >= cost->trial_after)
@@ -51,10 +61,18 @@ pir_method pir_choose_method(const pir_cost_model *cost, double angle) {
     return expected <= allowed ? PIR_METHOD_UPDATE : PIR_METHOD_WALK;
 }
 
+bool pir_pays_to_lag(pir_cost_model *cost, double angle) {
+    if (cost->turned > 0)
+        cost->lags = cost->work * angle >= (cost->lags ? 1 : CLEAR_LOSS) * cost->walk * cost->turned;
+    return cost->lags || cost->turned == 0;
+}
+
 void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double share) {
     if (cost->updates_in_a_row > 0 && angle > 0) {
         double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle / share : 0;
         bool afresh = cost->per_radian == 0 || cost->updates_in_a_row < TRIAL_LENGTH;
+        cost->work += WORK_OF_SIGN * (double)signs / share - FORGETTING * cost->work;
+        cost->turned += angle - FORGETTING * cost->turned;
         cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), LEAST_SLOPE);
     }
     // a trial that leads back to walking makes the next one later; one that lasts makes it early again

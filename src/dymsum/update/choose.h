@@ -6,6 +6,7 @@
 #ifndef PIR_DYMSUM_UPDATE_CHOOSE_H
 #define PIR_DYMSUM_UPDATE_CHOOSE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include <pirouette/sum.h>
@@ -16,10 +17,18 @@ typedef struct pir_cost_model {
     double per_radian; /* work of recent updates per radian turned, 0 while none is known */
     uint32_t walks_in_a_row, updates_in_a_row;
     uint32_t trial_after; /* how many walks in a row before an update is tried */
+    double work, turned;  /* of the last hundred updates or so, and the radians that they went through */
+    bool lags;            /* whether staying behind a rotation was found to pay */
 } pir_cost_model;
 
 /* The method to use for a turn of at most `angle`. */
 pir_method pir_choose_method(const pir_cost_model *cost, double angle);
+
+/*
+ * Whether it costs less to stay behind for a turn of `angle`, and then to bring the pairing there at once, than to
+ * follow the turn step by step.
+ */
+bool pir_pays_to_lag(pir_cost_model *cost, double angle);
 
 /* Notes that an update over `angle`, of a `share` of all features, has asked for so many signs. */
 void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double share);

@@ -35,9 +35,14 @@ void pir_lag_finish(pir_lag *lag, const pir_allocator *allocator);
 /* Measures the operands, whose scale may have changed. */
 void pir_lag_measure(pir_lag *lag, const pir_polytope *p, const pir_polytope *q);
 
+/* How far the rotation may turn before the pairing has to follow; there is a tolerance. */
+static inline double pir_lag_reach(const pir_lag *lag) {
+    return lag->knots->angle[PIR_LAG_KNOTS - 1];
+}
+
 /* Whether a turn by `angle` from the pairing's rotation stays within the tolerance. */
 static inline bool pir_lag_allows(const pir_lag *lag, double angle) {
-    return lag->tolerance > 0 && angle <= lag->knots->angle[PIR_LAG_KNOTS - 1];
+    return lag->tolerance > 0 && angle <= pir_lag_reach(lag);
 }
 
 /* From here on `rotation` is shown: it is valid, and `angle` away from the pairing's, which is allowed. */
