@@ -26,7 +26,8 @@ class PairPeer {
     }
 };
 
-std::unique_ptr<PairPeer> make_coal(const pir_polytope *p, const pir_polytope *q, bool warm);
+// `tolerance`, a length: that of its GJK and EPA, by default as it comes.
+std::unique_ptr<PairPeer> make_coal(const pir_polytope *p, const pir_polytope *q, bool warm, double tolerance = 1e-6);
 
 // The distance up to which contacts are asked for: 2 % of the size.
 inline double contact_cutoff(const pir_polytope *p, const pir_polytope *q) {

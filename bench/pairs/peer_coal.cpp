@@ -39,7 +39,8 @@ std::unique_ptr<Hull> hull(const pir_polytope *p) {
 
 class Coal : public PairPeer {
   public:
-    Coal(const pir_polytope *p, const pir_polytope *q, bool warm) : p_(hull(p)), q_(hull(q)), warm_(warm) {
+    Coal(const pir_polytope *p, const pir_polytope *q, bool warm, double tolerance)
+        : p_(hull(p)), q_(hull(q)), warm_(warm), tolerance_(tolerance) {
         forget();
     }
     const char *name() const override {
@@ -47,7 +48,7 @@ class Coal : public PairPeer {
     }
     void forget() override {
         solver_ = coal::GJKSolver();
-        solver_.gjk_tolerance = solver_.epa_tolerance = 1e-6;
+        solver_.gjk_tolerance = solver_.epa_tolerance = tolerance_;
         solver_.gjk_initial_guess = warm_ ? coal::GJKInitialGuess::CachedGuess : coal::GJKInitialGuess::DefaultGuess;
     }
     double ask(const Pose &pose) override {
@@ -60,11 +61,12 @@ class Coal : public PairPeer {
   private:
     std::unique_ptr<Hull> p_, q_;
     bool warm_;
+    double tolerance_;
     coal::GJKSolver solver_;
 };
 
 } // namespace
 
-std::unique_ptr<PairPeer> make_coal(const pir_polytope *p, const pir_polytope *q, bool warm) {
-    return std::make_unique<Coal>(p, q, warm);
+std::unique_ptr<PairPeer> make_coal(const pir_polytope *p, const pir_polytope *q, bool warm, double tolerance) {
+    return std::make_unique<Coal>(p, q, warm, tolerance);
 }

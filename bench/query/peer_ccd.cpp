@@ -20,13 +20,14 @@ void centre(const void *object, ccd_vec3_t *point) {
 
 class Ccd : public Peer {
   public:
-    Ccd(const pir_polytope *p, const pir_polytope *q) {
+    Ccd(const pir_polytope *p, const pir_polytope *q, double tolerance) {
         p_ = {p, {0, 0, 0, 1}, {0, 0, 0}, 0};
         q_ = {q, {0, 0, 0, 1}, {0, 0, 0}, 0};
         CCD_INIT(&ccd_);
         ccd_.support1 = ccd_.support2 = support;
         ccd_.center1 = ccd_.center2 = centre;
         ccd_.max_iterations = 500;
+        ccd_.mpr_tolerance = tolerance;
     }
     const char *name() const override {
         return "libccd";
@@ -58,6 +59,6 @@ class Ccd : public Peer {
 
 } // namespace
 
-std::unique_ptr<Peer> make_ccd(const pir_polytope *p, const pir_polytope *q) {
-    return std::make_unique<Ccd>(p, q);
+std::unique_ptr<Peer> make_ccd(const pir_polytope *p, const pir_polytope *q, double tolerance) {
+    return std::make_unique<Ccd>(p, q, tolerance);
 }

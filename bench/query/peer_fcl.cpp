@@ -20,7 +20,8 @@ void leave_call(int) {
 
 class Fcl : public Peer {
   public:
-    Fcl(const pir_polytope *p, const pir_polytope *q) : p_(fcl_convex(p)), q_(fcl_convex(q)) {
+    Fcl(const pir_polytope *p, const pir_polytope *q, double tolerance)
+        : p_(fcl_convex(p)), q_(fcl_convex(q)), tolerance_(tolerance) {
     }
     const char *name() const override {
         return "FCL";
@@ -35,6 +36,7 @@ class Fcl : public Peer {
         try {
             fcl::DistanceRequestd request(true, true);
             request.gjk_solver_type = fcl::GJKSolverType::GST_LIBCCD;
+            request.distance_tolerance = tolerance_;
             fcl::DistanceResultd result;
             fcl::distance(p_.get(), pose_, q_.get(), fcl::Transform3d::Identity(), request, result);
             answer.distance = result.min_distance;
@@ -59,11 +61,12 @@ class Fcl : public Peer {
 
   private:
     std::shared_ptr<fcl::Convexd> p_, q_;
+    double tolerance_;
     fcl::Transform3d pose_;
 };
 
 } // namespace
 
-std::unique_ptr<Peer> make_fcl(const pir_polytope *p, const pir_polytope *q) {
-    return std::unique_ptr<Peer>(new Fcl(p, q)); // FCL asks for C++11
+std::unique_ptr<Peer> make_fcl(const pir_polytope *p, const pir_polytope *q, double tolerance) {
+    return std::unique_ptr<Peer>(new Fcl(p, q, tolerance)); // FCL asks for C++11
 }

@@ -28,9 +28,9 @@ class Peer {
 
 std::vector<std::unique_ptr<Peer>> make_peers(const pir_polytope *p, const pir_polytope *q);
 
-// Each null where the build lacks it.
-std::unique_ptr<Peer> make_fcl(const pir_polytope *p, const pir_polytope *q);
+// Each null where the build lacks it. `tolerance`, a length: the engine's own, by default as it comes.
+std::unique_ptr<Peer> make_fcl(const pir_polytope *p, const pir_polytope *q, double tolerance = 1e-6);
 std::unique_ptr<Peer> make_bullet(const pir_polytope *p, const pir_polytope *q);
-std::unique_ptr<Peer> make_ccd(const pir_polytope *p, const pir_polytope *q);
+std::unique_ptr<Peer> make_ccd(const pir_polytope *p, const pir_polytope *q, double tolerance = 1e-4);
 
 #endif

@@ -25,6 +25,7 @@ PAGES = {
     "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps", "docs/slices.md": "Slices",
     "docs/scale.md": "Slices at scale",
     "docs/solids.md": "Solids", "docs/command.md": "The command", "docs/bad-input.md": "Bad input",
+    "docs/accuracy.md": "Accuracy and time",
     "docs/guarantees.md": "Guarantees", "docs/api-tests.md": "What tests each function",
     "docs/building.md": "Building", "ARCHITECTURE.md": "Architecture",
     "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security", "CHANGELOG.md": "Changelog",
