@@ -10,6 +10,7 @@ int cmd_configuration(const struct args *args);
 int cmd_decompose(const struct args *args);
 int cmd_info(const struct args *args);
 int cmd_query(const struct args *args);
+int cmd_replay(const struct args *args);
 int cmd_shape(const struct args *args);
 int cmd_simplify(const struct args *args);
 int cmd_simulate(const struct args *args);

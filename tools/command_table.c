@@ -77,6 +77,10 @@ static const struct option simulate_options[] = {
     COMMON_OPTIONS,
 };
 
+static const struct option replay_options[] = {
+    COMMON_OPTIONS,
+};
+
 static const struct option cgm_options[] = {
     POSE_OPTIONS,
     {"--difference", NULL, "reflect P through the origin before it is turned"},
@@ -344,6 +348,18 @@ const struct command command_table[COMMAND_COUNT] = {
             .options = simulate_options,
             .examples = {{"simulate stack.json -o stack.html", "a page that needs nothing else"},
                          {"simulate pile.json --seconds 5 --record pile.bin", "poses for a replay"}},
+        },
+    [COMMAND_REPLAY] =
+        {
+            .name = "replay",
+            .positional = {"FILE"},
+            .required = 1,
+            .summary = "run a history of calls on a sum, a pair or a scene, with hashes of what they give",
+            .details = "A program writes the file with pir_history_write. The same file gives the same hashes on every "
+                       "machine: where they differ from those of another build, the first line that does tells the "
+                       "call. docs/replay.md has the format.",
+            .options = replay_options,
+            .examples = {{"replay wrong.history", "a line for each call, and a hash of all"}},
         },
     [COMMAND_HELP] =
         {

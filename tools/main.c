@@ -41,6 +41,7 @@ static int (*const runs[COMMAND_COUNT])(const struct args *) = {
     [COMMAND_VIEW] = cmd_view,
     [COMMAND_DECOMPOSE] = cmd_decompose,
     [COMMAND_SIMPLIFY] = cmd_simplify,
+    [COMMAND_REPLAY] = cmd_replay,
     [COMMAND_SIMULATE] = cmd_simulate,
 };
 

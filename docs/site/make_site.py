@@ -26,6 +26,7 @@ PAGES = {
     "docs/scale.md": "Slices at scale",
     "docs/solids.md": "Solids", "docs/command.md": "The command", "docs/bad-input.md": "Bad input",
     "docs/accuracy.md": "Accuracy and time",
+    "docs/replay.md": "Replay",
     "docs/guarantees.md": "Guarantees", "docs/api-tests.md": "What tests each function",
     "docs/building.md": "Building", "ARCHITECTURE.md": "Architecture",
     "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security", "CHANGELOG.md": "Changelog",

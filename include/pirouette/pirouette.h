@@ -8,6 +8,7 @@
 #include <pirouette/cgm.h>
 #include <pirouette/cspace.h>
 #include <pirouette/grid.h>
+#include <pirouette/history.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>
 #include <pirouette/mass.h>

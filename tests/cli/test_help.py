@@ -135,6 +135,8 @@ class Help(unittest.TestCase):
                 folder / "slices.h5")
         if "poses.csv" in line:
             (folder / "poses.csv").write_text("0,0,0,1,3,0,0\n1,0,0,1,0,0,0\n")
+        for history in re.findall(r"replay (\S+)", line):
+            subprocess.run([os.environ["PIR_WRITE_HISTORY"], folder / history], check=True, timeout=60)
         for scene in re.findall(r"simulate (\S+)", line):
             bodies = [{"shape": "cube", "kind": "static"}, {"shape": "cube", "position": [0, 0, 2.5]}]
             (folder / scene).write_text(json.dumps({"shapes": {"cube": {"model": "shape:cube"}}, "bodies": bodies}))

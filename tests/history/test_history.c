@@ -1,0 +1,389 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Histories: what is run again gives the bits of the first run; a file that is cut or changed anywhere is refused;
+ * memory that runs out changes nothing.
+ */
+#include "support/test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <pirouette/history.h>
+
+#include "cspace/record/record_bytes.h"
+#include "history/replay_hash.h"
+#include "support/bodies.h"
+#include "support/memory.h"
+
+#define STEPS_MAX 256
+
+/* What a run told. */
+struct told {
+    uint64_t count, refused, hash[STEPS_MAX];
+    const char *call[STEPS_MAX];
+};
+
+static void tell(void *context, const pir_history_step *step) {
+    struct told *told = context;
+    assert_int_equal(step->index, told->count);
+    assert_true(told->count < STEPS_MAX);
+    told->refused += step->status != PIR_OK;
+    told->call[told->count] = step->call;
+    told->hash[told->count++] = step->hash;
+}
+
+struct bytes {
+    uint8_t *data;
+    size_t size;
+};
+
+/* The file of a history, to be freed. */
+static struct bytes written(const pir_history *history) {
+    struct bytes bytes = {NULL, 0};
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    assert_int_equal(pir_history_write(history, file, NULL), PIR_OK);
+    long size = ftell(file);
+    assert_true(size > 0);
+    bytes.size = (size_t)size;
+    bytes.data = malloc(bytes.size);
+    assert_non_null(bytes.data);
+    rewind(file);
+    assert_int_equal(fread(bytes.data, 1, bytes.size, file), bytes.size);
+    fclose(file);
+    return bytes;
+}
+
+static struct told run_again(const struct bytes *bytes) {
+    struct told told = {0};
+    const pir_history_visitor visitor = {NULL, &told, tell};
+    pir_report report = {PIR_OK, ""};
+    pir_status status = pir_history_replay_bytes(bytes->data, bytes->size, &visitor, &report);
+    expect(status == PIR_OK, "%s", report.text);
+    return told;
+}
+
+/* --- what is noted beside the calls --- */
+
+/* A sum that turns, with a tolerance, a region and questions; what each gave, as a replay hashes it. */
+static void note_sum(pir_history *history, struct told *right) {
+    test_random random = test_random_case("history of a sum", 0);
+    pir_polytope *p = test_sphere(&random, 20), *q = test_random_polytope(&random, TEST_GRID, 20);
+    pir_sum_options options = pir_sum_options_default();
+    pir_sum *sum;
+    pir_query *query;
+    pir_query_cache cache = {0};
+    pir_quat r = {1, 2, 3, 4};
+    uint32_t pairs[4096][2];
+    options.difference = 1;
+    assert_int_equal(pir_sum_create(p, q, r, &options, &sum), PIR_OK);
+    assert_int_equal(pir_query_create(sum, &query), PIR_OK);
+    assert_int_equal(pir_history_sum(history, p, q, r, 1), PIR_OK);
+    right->hash[right->count++] = pir_replay_hash_sum(PIR_HASH_START, sum, pairs);
+    for (int step = 0; step < 12; step++) {
+        pir_status set = PIR_OK, noted = PIR_OK;
+        r = test_compose((pir_quat){0.01, 0.02, -0.03, 1}, r, 1);
+        if (step == 4) {
+            set = pir_sum_set_tolerance(sum, 0.25);
+            noted = pir_history_tolerance(history, 0.25);
+        } else if (step == 8) {
+            set = pir_sum_set_region(sum, (pir_vec3){0, 0, 1}, 1);
+            noted = pir_history_region(history, (pir_vec3){0, 0, 1}, 1);
+        } else {
+            set = pir_sum_rotate(sum, r, PIR_METHOD_UPDATE);
+            noted = pir_history_rotate(history, r, PIR_METHOD_UPDATE);
+        }
+        assert_true(set == PIR_OK && noted == PIR_OK);
+        assert_true(pir_sum_ee_count(sum) <= 4096);
+        right->hash[right->count++] = pir_replay_hash_sum(PIR_HASH_START, sum, pairs);
+        pir_query_input input = pir_query_input_default();
+        pir_query_result answer = {0};
+        pir_contact contacts[64];
+        size_t count = 0;
+        input.translation = test_random_direction(&random);
+        uint64_t hash = 0;
+        if (pir_query_signed_distance(query, &input, &cache, &answer) == PIR_OK) {
+            hash = pir_replay_hash_answer(PIR_HASH_START, &answer);
+            pir_status status = pir_query_manifold(query, &input, &answer, 64, contacts, &count);
+            hash = status == PIR_OK ? pir_replay_hash_contacts(hash, contacts, count) : 0;
+        }
+        assert_int_equal(pir_history_query(history, &input), PIR_OK);
+        right->hash[right->count++] = hash;
+    }
+    pir_query_destroy(query);
+    pir_sum_destroy(sum);
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+}
+
+static void note_pair(pir_history *history, struct told *right) {
+    test_random random = test_random_case("history of a pair", 0);
+    pir_polytope *p = test_sphere(&random, 20), *q = test_random_polytope(&random, TEST_BOX, 8);
+    pir_pair *pair;
+    pir_workspace *workspace;
+    pir_pair_input input = pir_pair_input_default();
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, q, NULL, &pair), PIR_OK);
+    assert_int_equal(pir_history_pair(history, p, q, NULL), PIR_OK);
+    right->hash[right->count++] = PIR_HASH_START;
+    for (int step = 0; step < 20; step++) {
+        pir_query_result answer = {0};
+        pir_contact contacts[64];
+        size_t count = 0;
+        pir_vec3 d = test_random_direction(&random);
+        input.pose_p.rotation = test_general_rotation(&random);
+        input.pose_p.translation = (pir_vec3){2 * d.x, 2 * d.y, 2 * d.z};
+        input.margin = 0.5;
+        assert_int_equal(pir_pair_signed_distance(pair, workspace, &input, &answer), PIR_OK);
+        assert_int_equal(pir_pair_manifold(pair, workspace, &input, &answer, 64, contacts, &count), PIR_OK);
+        uint64_t hash = pir_replay_hash_answer(PIR_HASH_START, &answer);
+        right->hash[right->count++] = pir_replay_hash_contacts(hash, contacts, count);
+        assert_int_equal(pir_history_ask(history, &input), PIR_OK);
+    }
+    // what is refused is a step with a status
+    input.pose_p.rotation = (pir_quat){0, 0, 0, 0};
+    assert_int_equal(pir_history_ask(history, &input), PIR_OK);
+    right->hash[right->count++] = 0;
+    right->refused++;
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+}
+
+#define BODIES 6
+
+static uint64_t hash_of_id(uint32_t id) {
+    const uint8_t bytes[4] = {(uint8_t)id, 0, 0, 0};
+    return pir_hash_bytes(PIR_HASH_START, bytes, 4);
+}
+
+static void note_scene(pir_history *history, struct told *right) {
+    test_random random = test_random_case("history of a scene", 0);
+    pir_scene_options options = pir_scene_options_default();
+    pir_polytope *piece[2] = {test_sphere(&random, 12), test_random_polytope(&random, TEST_OCTAHEDRON, 6)};
+    pir_scene_move moves[BODIES];
+    pir_scene *scene;
+    options.margin = 0.125;
+    assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
+    assert_int_equal(pir_history_scene(history, &options), PIR_OK);
+    right->hash[right->count++] = PIR_HASH_START;
+    for (uint32_t i = 0; i < BODIES; i++) {
+        pir_body_options body = pir_body_options_default();
+        body.pieces = i % 2 ? piece : piece + 1;
+        body.piece_count = i % 2 ? 2 : 1;
+        body.pose.translation = test_random_direction(&random);
+        assert_int_equal(pir_scene_add(scene, &body, &moves[i].body), PIR_OK);
+        assert_int_equal(pir_history_add(history, &body), PIR_OK);
+        right->hash[right->count++] = hash_of_id(moves[i].body);
+        moves[i].pose = body.pose;
+    }
+    for (int step = 0; step < 8; step++) {
+        for (uint32_t i = 0; i < BODIES; i++) {
+            pir_vec3 velocity = test_random_direction(&random), spin = test_random_direction(&random);
+            moves[i].pose = pir_pose_integrate(moves[i].pose, velocity, spin, 0.25);
+        }
+        size_t count = step < 6 ? BODIES : BODIES - 1;
+        if (step == 6) {
+            assert_int_equal(pir_scene_remove(scene, moves[BODIES - 1].body), PIR_OK);
+            assert_int_equal(pir_history_remove(history, moves[BODIES - 1].body), PIR_OK);
+            right->hash[right->count++] = PIR_HASH_START;
+        }
+        assert_int_equal(pir_scene_update(scene, moves, count), PIR_OK);
+        assert_int_equal(pir_history_update(history, moves, count), PIR_OK);
+        right->hash[right->count++] = pir_replay_hash_events(PIR_HASH_START, scene);
+    }
+    pir_scene_destroy(scene);
+    pir_polytope_release(piece[1]);
+    pir_polytope_release(piece[0]);
+}
+
+static void (*const notes[3])(pir_history *history, struct told *right) = {note_sum, note_pair, note_scene};
+
+static struct bytes history_of(int which, struct told *right) {
+    pir_history *history;
+    assert_int_equal(pir_history_create(NULL, &history), PIR_OK);
+    notes[which](history, right);
+    struct bytes bytes = written(history), again = written(history);
+    assert_int_equal(bytes.size, again.size);
+    assert_memory_equal(bytes.data, again.data, bytes.size);
+    free(again.data);
+    pir_history_destroy(history);
+    return bytes;
+}
+
+/* --- tests --- */
+
+static void what_is_run_again_has_the_same_bits(void **state) {
+    (void)state;
+    for (int which = 0; which < 3; which++) {
+        struct told right = {0};
+        struct bytes bytes = history_of(which, &right);
+        struct told told = run_again(&bytes);
+        expect(told.count == right.count, "history %d: %llu steps", which, (unsigned long long)told.count);
+        for (uint64_t i = 0; i < told.count; i++)
+            expect(told.hash[i] == right.hash[i], "history %d, step %d, %s", which, (int)i, told.call[i]);
+        expect(which != 1 || told.refused == right.refused, "history %d: refused", which);
+        free(bytes.data);
+    }
+}
+
+static void what_is_cut_or_changed_is_refused(void **state) {
+    (void)state;
+    for (int which = 0; which < 3; which++) {
+        struct told right = {0}, told = {0};
+        struct bytes bytes = history_of(which, &right);
+        const pir_history_visitor visitor = {NULL, &told, tell};
+        for (size_t size = 0; size < bytes.size; size++)
+            expect(pir_history_replay_bytes(bytes.data, size, &visitor, NULL) == PIR_ERR_FORMAT, "cut at %zu", size);
+        for (size_t at = 0; at < bytes.size; at++) {
+            bytes.data[at] ^= (uint8_t)(1u << at % 8);
+            pir_status status = pir_history_replay_bytes(bytes.data, bytes.size, &visitor, NULL);
+            bytes.data[at] ^= (uint8_t)(1u << at % 8);
+            expect(status == (at >= 8 && at < 12 ? PIR_ERR_UNSUPPORTED : PIR_ERR_FORMAT), "byte %zu changed", at);
+        }
+        assert_int_equal(told.count, 0);
+        free(bytes.data);
+    }
+}
+
+/* Sets size and checksum right, so that what was changed is found by what reads it. */
+static void seal(struct bytes *bytes) {
+    for (int k = 0; k < 8; k++)
+        bytes->data[16 + k] = (uint8_t)((uint64_t)bytes->size >> (8 * k));
+    uint64_t checksum =
+        pir_hash_bytes(pir_hash_bytes(PIR_HASH_START, bytes->data, 24), bytes->data + 32, bytes->size - 32);
+    for (int k = 0; k < 8; k++)
+        bytes->data[24 + k] = (uint8_t)(checksum >> (8 * k));
+}
+
+static void what_lies_with_a_right_checksum_does_no_harm(void **state) {
+    (void)state;
+    for (int which = 0; which < 3; which++) {
+        struct told right = {0};
+        struct bytes bytes = history_of(which, &right);
+        const pir_history_visitor visitor = {NULL, NULL, NULL};
+        uint32_t refused = 0;
+        for (size_t at = 32; at < bytes.size; at += 7) {
+            struct bytes changed = {malloc(bytes.size), bytes.size};
+            assert_non_null(changed.data);
+            memcpy(changed.data, bytes.data, bytes.size);
+            changed.data[at] ^= (uint8_t)(1u << at % 8);
+            changed.size = at % 3 ? bytes.size : at;
+            seal(&changed);
+            pir_status status = pir_history_replay_bytes(changed.data, changed.size, &visitor, NULL);
+            assert_true(status == PIR_OK || status == PIR_ERR_FORMAT);
+            refused += status != PIR_OK;
+            free(changed.data);
+        }
+        assert_true(refused > 0);
+        free(bytes.data);
+    }
+}
+
+static void memory_that_runs_out_changes_nothing(void **state) {
+    (void)state;
+    struct told right = {0};
+    struct bytes bytes = history_of(2, &right);
+    for (uint64_t fail_at = 1;; fail_at += 1 + fail_at / 16) {
+        test_memory memory = {.fail_at = fail_at};
+        pir_allocator allocator = test_allocator(&memory);
+        struct told told = {0};
+        const pir_history_visitor visitor = {&allocator, &told, tell};
+        pir_status status = pir_history_replay_bytes(bytes.data, bytes.size, &visitor, NULL);
+        bool reached = memory.requests >= fail_at;
+        // what a call can do without changes nothing
+        expect(status == PIR_ERR_MEMORY || status == PIR_OK, "request %d", (int)fail_at);
+        expect(reached || status == PIR_OK, "request %d", (int)fail_at);
+        for (uint64_t i = 0; i < told.count; i++)
+            expect(told.hash[i] == right.hash[i], "request %d, step %d", (int)fail_at, (int)i);
+        expect(memory.blocks == 0 && memory.bytes == 0, "request %d: %zu blocks left", (int)fail_at, memory.blocks);
+        if (!reached)
+            break;
+    }
+    free(bytes.data);
+}
+
+/* Notes of a pair with memory that fails at a request: whether all were made. */
+static bool note_with(test_memory *memory, pir_polytope *p, pir_polytope *q) {
+    pir_allocator allocator = test_allocator(memory);
+    pir_history *history = NULL;
+    if (pir_history_create(&allocator, &history) != PIR_OK)
+        return false;
+    pir_pair_input input = pir_pair_input_default();
+    pir_status status = pir_history_pair(history, p, q, NULL);
+    for (int i = 0; i < 20 && status == PIR_OK; i++)
+        status = pir_history_ask(history, &input);
+    assert_true(status == PIR_OK || status == PIR_ERR_MEMORY);
+    // what is there can be written
+    struct bytes bytes = written(history);
+    bool whole = status == PIR_OK;
+    run_again(&bytes);
+    free(bytes.data);
+    pir_history_destroy(history);
+    return whole;
+}
+
+static void notes_without_memory_leave_whole_ones(void **state) {
+    (void)state;
+    test_random random = test_random_case("history without memory", 0);
+    pir_polytope *p = test_sphere(&random, 20), *q = test_sphere(&random, 20);
+    for (uint64_t fail_at = 1;; fail_at++) {
+        test_memory memory = {.fail_at = fail_at};
+        bool whole = note_with(&memory, p, q);
+        expect(memory.blocks == 0 && memory.bytes == 0, "request %d: %zu blocks left", (int)fail_at, memory.blocks);
+        if (whole)
+            break;
+    }
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+}
+
+static void notes_of_another_kind_are_refused(void **state) {
+    (void)state;
+    test_random random = test_random_case("history of another kind", 0);
+    pir_polytope *p = test_sphere(&random, 8);
+    pir_history *history;
+    const pir_quat r = {0, 0, 0, 1};
+    pir_query_input query = pir_query_input_default();
+    pir_pair_input input = pir_pair_input_default();
+    pir_body_options body = pir_body_options_default();
+    assert_int_equal(pir_history_create(NULL, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_create(NULL, &history), PIR_OK);
+    assert_int_equal(pir_history_rotate(history, r, PIR_METHOD_AUTO), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_sum(history, p, NULL, r, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_sum(history, p, p, r, 0), PIR_OK);
+    assert_int_equal(pir_history_sum(history, p, p, r, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_pair(history, p, p, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_scene(history, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_ask(history, &input), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_add(history, &body), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_remove(history, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_update(history, NULL, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_query(history, NULL), PIR_ERR_ARGUMENT);
+    // a sum without a difference takes no queries: that is for the replay to tell
+    assert_int_equal(pir_history_query(history, &query), PIR_OK);
+    struct bytes bytes = written(history);
+    struct told told = run_again(&bytes);
+    assert_true(told.count == 2 && told.refused == 1);
+    assert_int_equal(pir_history_write(history, NULL, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_replay_bytes(bytes.data, bytes.size, NULL, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_replay("/nowhere/at/all", &(pir_history_visitor){0}, NULL), PIR_ERR_FILE);
+    free(bytes.data);
+    pir_history_destroy(history);
+    pir_history_destroy(NULL);
+    pir_polytope_release(p);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_run_again_has_the_same_bits),
+        cmocka_unit_test(what_is_cut_or_changed_is_refused),
+        cmocka_unit_test(what_lies_with_a_right_checksum_does_no_harm),
+        cmocka_unit_test(memory_that_runs_out_changes_nothing),
+        cmocka_unit_test(notes_without_memory_leave_whole_ones),
+        cmocka_unit_test(notes_of_another_kind_are_refused),
+    };
+    return cmocka_run_group_tests_name("histories of calls", tests, NULL, NULL);
+}
