@@ -62,11 +62,18 @@ struct Measured {
 double support_error(const std::vector<pir_vec3> &a, const std::vector<pir_vec3> &b);
 double hausdorff(const std::vector<pir_vec3> &a, const std::vector<pir_vec3> &b);
 
+// The inner polytope of at most so many vertices, a reference of the caller's.
+pir_polytope *fewer_vertices(pir_polytope *p, uint32_t vertices);
+
+// A scene's frames, and in place of the depth the part of the overlapping pairs that is wrong.
+std::vector<Measured> measure_scene(std::string *ret_name);
+
 // The vertices of the exact difference at a rotation.
 std::vector<pir_vec3> exact_difference(const TradePair &pair, pir_quat r);
 
-// Time against the error of depths as SVG, both on logarithmic axes, with the front of ours.
-void write_picture(FILE *file, const std::string &title, const std::vector<Measured> &all);
+// Time against the error of depths as SVG, both on logarithmic axes, with the front of ours. `error` says what stands
+// across.
+void write_picture(FILE *file, const std::string &title, const char *error, const std::vector<Measured> &all);
 
 // Ends the program with a message unless the call succeeded.
 void trade_check(pir_status status);

@@ -50,19 +50,6 @@ class Pair : public Way {
     pir_quat rotation_ = {0, 0, 0, 1};
 };
 
-// The inner polytope of at most so many vertices.
-pir_polytope *fewer(pir_polytope *p, uint32_t vertices) {
-    if (pir_polytope_vertex_count(p) <= vertices)
-        return pir_polytope_retain(p);
-    pir_simplify_options options = pir_simplify_options_default();
-    pir_simplified simplified;
-    options.vertices = vertices;
-    trade_check(pir_polytope_simplify(p, &options, &simplified));
-    pir_polytope *inner = pir_polytope_retain(simplified.inner);
-    pir_simplified_release(&simplified);
-    return inner;
-}
-
 // An engine of the query benchmarks.
 class Engine : public Way {
   public:
@@ -101,6 +88,18 @@ class PairEngine : public Way {
 
 } // namespace
 
+pir_polytope *fewer_vertices(pir_polytope *p, uint32_t vertices) {
+    if (pir_polytope_vertex_count(p) <= vertices)
+        return pir_polytope_retain(p);
+    pir_simplify_options options = pir_simplify_options_default();
+    pir_simplified simplified;
+    options.vertices = vertices;
+    trade_check(pir_polytope_simplify(p, &options, &simplified));
+    pir_polytope *inner = pir_polytope_retain(simplified.inner);
+    pir_simplified_release(&simplified);
+    return inner;
+}
+
 void add_pairs(const TradePair &pair, Ways *ret_ways) {
     ret_ways->push_back(std::make_unique<Pair>("level", "by need", pair.p, pair.q, PIR_LEVEL_NONE));
     ret_ways->push_back(std::make_unique<Pair>("level", "whole", pair.p, pair.q, PIR_LEVEL_WHOLE));
@@ -108,7 +107,7 @@ void add_pairs(const TradePair &pair, Ways *ret_ways) {
     for (uint32_t vertices : {128u, 64u, 32u, 16u, 8u}) {
         if (vertices >= most)
             continue;
-        pir_polytope *p = fewer(pair.p, vertices), *q = fewer(pair.q, vertices);
+        pir_polytope *p = fewer_vertices(pair.p, vertices), *q = fewer_vertices(pair.q, vertices);
         ret_ways->push_back(std::make_unique<Pair>("simplified", std::to_string(vertices), p, q, PIR_LEVEL_NONE));
         pir_polytope_release(q);
         pir_polytope_release(p);

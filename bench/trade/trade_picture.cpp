@@ -78,7 +78,7 @@ void axes(FILE *file, const Up &up) {
 
 } // namespace
 
-void write_picture(FILE *file, const std::string &title, const std::vector<Measured> &all) {
+void write_picture(FILE *file, const std::string &title, const char *error, const std::vector<Measured> &all) {
     std::vector<const Measured *> shown;
     for (const Measured &m : all)
         if (!std::isnan(m.depth))
@@ -87,9 +87,9 @@ void write_picture(FILE *file, const std::string &title, const std::vector<Measu
     std::fprintf(file,
                  "<svg xmlns='http://www.w3.org/2000/svg' width='860' height='500' font-family='sans-serif' "
                  "font-size='12'>\n<rect width='860' height='500' fill='white'/>\n"
-                 "<text x='%g' y='28' font-size='16'>%s</text>\n<text x='%g' y='46' fill='#555'>time of a frame by the "
-                 "greatest error, relative to the size; the line is the front of ours</text>\n",
-                 LEFT, title.c_str(), LEFT);
+                 "<text x='%g' y='28' font-size='16'>%s</text>\n<text x='%g' y='46' fill='#555'>time of a frame by "
+                 "%s; the line is the front of ours</text>\n",
+                 LEFT, title.c_str(), LEFT, error);
     axes(file, up);
     std::string path;
     for (const Measured *m : front_of(shown)) {
