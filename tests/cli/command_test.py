@@ -85,7 +85,7 @@ class CommandTest(unittest.TestCase):
         return path
 
     def run_command(self, *args):
-        return subprocess.run([self.command, *map(str, args)], capture_output=True, text=True, timeout=60)
+        return subprocess.run([self.command, *map(str, args)], capture_output=True, text=True, timeout=600)
 
     def good(self, *args):
         """stdout of a run that must succeed, with nothing on stderr."""
@@ -104,7 +104,7 @@ class CommandTest(unittest.TestCase):
         """The library's own answers: a list of the values of each key, and of each row under "row"."""
         given = [f"{key}={value if isinstance(value, (str, Path)) else numbers(value)}" for key, value in keys.items()]
         done = subprocess.run([self.answers_program, kind, *map(str, args), *given], capture_output=True, text=True,
-                              timeout=60)
+                              timeout=600)
         self.assertEqual((done.returncode, done.stderr), (0, ""), (kind, args, keys))
         told = {"row": []}
         for line in done.stdout.splitlines():
@@ -118,7 +118,7 @@ class CommandTest(unittest.TestCase):
         if not self.faulty:
             self.skipTest("the linker cannot put faults into this build")
         came = self.path / "fault"
-        done = subprocess.run([self.faulty, *map(str, args)], capture_output=True, text=True, timeout=60,
+        done = subprocess.run([self.faulty, *map(str, args)], capture_output=True, text=True, timeout=600,
                               preexec_fn=with_own_signals,
                               env={**os.environ, "PIROUETTE_FAULT": f"{kind}:{number}",
                                    "PIROUETTE_FAULT_CAME": str(came)})

@@ -31,9 +31,9 @@ def main(program, root, seconds, settles=None):
         assert float(speed) < 1e-3 and float(part) < 2, ("pile", speed, part)
     # compounds, and one that does not read
     done = subprocess.run([program, f"{root}/examples/scenes/gears.json", "0.1"], capture_output=True, text=True,
-                          timeout=60)
+                          timeout=600)
     assert done.returncode == 0 and done.stdout.count("\n") == 3, done
-    done = subprocess.run([program, f"{root}/none.json"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([program, f"{root}/none.json"], capture_output=True, text=True, timeout=600)
     assert done.returncode == 2 and "none.json" in done.stderr, done
 
 

@@ -25,7 +25,7 @@ class Configuration(CommandTest):
     def setUp(self):
         super().setUp()
         self.slices = self.path / "map.h5"
-        subprocess.run([os.environ["PIR_WRITE_SLICES"], self.slices], check=True, timeout=60)
+        subprocess.run([os.environ["PIR_WRITE_SLICES"], self.slices], check=True, timeout=600)
         self.pieces = [[self.file(f"{name}{k}.off", box_model(*box)) for k, box in enumerate(boxes)]
                        for name, boxes in (("robot", ROBOT), ("wall", WALLS))]
 
@@ -108,7 +108,7 @@ class Configuration(CommandTest):
         self.assertEqual((counts["poses"], counts["interrupted"]), (6, False))
         self.assertEqual(self.good("configuration", self.slices, "--batch", array, "-o", "-"), out.read_text())
         piped = subprocess.run([self.command, "configuration", self.slices, "--batch", "-", "-o", "-"],
-                               input=rows.read_text(), capture_output=True, text=True, timeout=60)
+                               input=rows.read_text(), capture_output=True, text=True, timeout=600)
         self.assertEqual((piped.returncode, piped.stdout, piped.stderr), (0, out.read_text(), ""))
         self.assertIn("6 poses", self.good("configuration", self.slices, "--batch", rows, "-o", out))
 

@@ -70,7 +70,7 @@ def slacks(p, q, edges, t):
 
 class Examples:
     def __init__(self, name, command):
-        done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
         assert (done.returncode, done.stderr) == (0, ""), done
         self.arguments = command[1:]
         self.lines = done.stdout.splitlines()

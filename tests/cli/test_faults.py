@@ -58,7 +58,7 @@ class Memory(MemoryTest):
             self.skipTest("the linker cannot put faults into this build")
         for number in range(1, 20):
             done = subprocess.run([self.faulty, "info", "-"], input=TETRAHEDRON, capture_output=True, text=True,
-                                  timeout=60,
+                                  timeout=600,
                                   env={**os.environ, "PIROUETTE_FAULT": f"memory:{number}"})
             if done.returncode == 0:
                 break

@@ -26,7 +26,7 @@ PAGES = Path()
 
 @functools.lru_cache(maxsize=None)
 def run(*args):
-    return subprocess.run([COMMAND, *args], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL)
+    return subprocess.run([COMMAND, *args], capture_output=True, text=True, timeout=600, stdin=subprocess.DEVNULL)
 
 
 def subcommands():
@@ -136,7 +136,7 @@ class Help(unittest.TestCase):
         if "poses.csv" in line:
             (folder / "poses.csv").write_text("0,0,0,1,3,0,0\n1,0,0,1,0,0,0\n")
         for history in re.findall(r"replay (\S+)", line):
-            subprocess.run([os.environ["PIR_WRITE_HISTORY"], folder / history], check=True, timeout=60)
+            subprocess.run([os.environ["PIR_WRITE_HISTORY"], folder / history], check=True, timeout=600)
         for scene in re.findall(r"simulate (\S+)", line):
             bodies = [{"shape": "cube", "kind": "static"}, {"shape": "cube", "position": [0, 0, 2.5]}]
             (folder / scene).write_text(json.dumps({"shapes": {"cube": {"model": "shape:cube"}}, "bodies": bodies}))
@@ -149,7 +149,7 @@ class Help(unittest.TestCase):
                 with tempfile.TemporaryDirectory() as folder:
                     self.prepare(line, Path(folder))
                     result = subprocess.run(["/bin/sh", "-c", f'"$0" {line}', COMMAND], cwd=folder, capture_output=True,
-                                            text=True, timeout=60)
+                                            text=True, timeout=600)
                     if ".h5" in line and "no HDF5" in result.stderr:
                         continue  # in this build
                     self.assertEqual((result.returncode, result.stderr), (0, ""), line)
@@ -238,7 +238,7 @@ class Manual(unittest.TestCase):
                 (Path(folder) / "nosuch.bash", good, "cannot write "),
             ):
                 result = subprocess.run([PAGES / "write_pages", files, *names], cwd=folder, capture_output=True,
-                                        text=True, timeout=60)
+                                        text=True, timeout=600)
                 self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1) if says else (0, 0), names)
                 self.assertIn(says, result.stderr)
             for name in good[:2]:
@@ -246,7 +246,7 @@ class Manual(unittest.TestCase):
                 full.mkdir(exist_ok=True)
                 (full / name).symlink_to("/dev/full")
                 result = subprocess.run([PAGES / "write_pages", script, full / name], capture_output=True,
-                                        text=True, timeout=60)
+                                        text=True, timeout=600)
                 self.assertEqual(result.returncode, 1)
                 self.assertIn("cannot write ", result.stderr)
 
@@ -255,7 +255,7 @@ class Manual(unittest.TestCase):
             self.skipTest("groff is not installed")
         for name, _ in self.pages():
             result = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-rLL=78n", PAGES / name], capture_output=True,
-                                    text=True, timeout=60)
+                                    text=True, timeout=600)
             self.assertEqual((result.returncode, result.stderr), (0, ""), name)
             self.assertIn("EXIT STATUS", re.sub("\x1b[^m]*m|.\b", "", result.stdout))
 
@@ -282,7 +282,7 @@ class Completion(unittest.TestCase):
             (Path(folder) / "shelf").mkdir()
             result = subprocess.run(["bash", "--norc", "-c", COMPLETE, "bash", PAGES / "pirouette", COMMAND],
                                     input="".join(line + "\n" for line in lines), cwd=folder, capture_output=True,
-                                    text=True, timeout=60)
+                                    text=True, timeout=600)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         replies = [line.split(" ") if line else [] for line in result.stdout.splitlines()]
         self.assertEqual(len(replies), len(lines))

@@ -92,7 +92,7 @@ class Surfaces(CommandTest):
         self.bad("info", self.l, "--require-convex", says=says)
         self.good("info", self.tetrahedron, "--require-convex")
         done = subprocess.run([self.command, "info", "-", "--require-convex"], input=L, capture_output=True, text=True,
-                              timeout=60)
+                              timeout=600)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertRegex(done.stderr, r"^pirouette: standard input:19: not convex: [^\n]*\n$")
 

@@ -39,7 +39,8 @@ class BadOutputs(CommandTest):
         for args in (["info", "shape:cube"], ["info", "shape:cube", "--json"], ["--help"], ["sum", "--help"],
                      ["track", "shape:cube", "shape:cube", "--frames", "2"]):
             with open("/dev/full", "w") as full:
-                done = subprocess.run([self.command, *args], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                done = subprocess.run([self.command, *args], stdout=full, stderr=subprocess.PIPE,
+                                      text=True, timeout=600)
             self.assertEqual(done.returncode, 2, args)
             self.assertRegex(done.stderr, r"^pirouette: standard output: [^\n]+\n$")
 
@@ -48,7 +49,7 @@ class BadOutputs(CommandTest):
         os.close(reader)
         with os.fdopen(writer, "w") as pipe:
             done = subprocess.run([self.command, "shape", "--list"], stdout=pipe, stderr=subprocess.PIPE, text=True,
-                                  timeout=60)
+                                  timeout=600)
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"^pirouette: standard output: [^\n]+\n$")
 

@@ -55,7 +55,7 @@ def main(program):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder)
         done = subprocess.run([program, path / "slices.h5", path / "path.svg"], capture_output=True, text=True,
-                              timeout=120)
+                              timeout=600)
         assert (done.returncode, done.stderr) == (0, ""), (done.returncode, done.stderr, done.stdout)
         assert "10000 points asked, 0 overlap" in done.stdout, done.stdout
         spots = [tuple(map(float, line.split())) for line in done.stdout.split("\n") if line.startswith("  ")]

@@ -274,12 +274,12 @@ class Batch(CommandTest):
     def test_lines_come_from_standard_input(self):
         done = subprocess.run([self.command, "query", "shape:cube", "shape:cube", "--batch", "-", "-o", "-"],
                               input="x,y,z\n3,0,0\n",
-                              capture_output=True, text=True, timeout=60)
+                              capture_output=True, text=True, timeout=600)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout, "x,y,z,state,distance,nx,ny,nz\n3,0,0,outside,2,1,0,0\n")
         done = subprocess.run([self.command, "query", "shape:cube", "shape:cube", "--batch", "-", "-o",
                                self.path / "a.csv", "--json"],
-                              input="3,0,0\nbad\n", capture_output=True, text=True, timeout=60)
+                              input="3,0,0\nbad\n", capture_output=True, text=True, timeout=600)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertTrue(done.stderr.startswith("pirouette: standard input:2:1: "), done.stderr)
 

@@ -31,7 +31,7 @@ def launch(ranks, *args):
 
 def run(arguments, **keys):
     environment = RANKS if arguments[0] == "mpirun" else ENVIRONMENT
-    return subprocess.run(arguments, capture_output=True, text=True, timeout=300, env=environment, **keys)
+    return subprocess.run(arguments, capture_output=True, text=True, timeout=1800, env=environment, **keys)
 
 
 def digest(path):
@@ -119,7 +119,7 @@ class Killed(Ranks):
                 if ranks:
                     kept = self.parts(path)
                     os.kill(rng.choice(ranks), signal.SIGKILL)
-                self.assertNotEqual(job.wait(timeout=120), 0, "a rank was killed")
+                self.assertNotEqual(job.wait(timeout=600), 0, "a rank was killed")
             self.assertFalse(path.exists())
             self.assertGreater(kept, 0)
             done = run(launch(2, *LONG, "-o", path, "--resume", "--json"))

@@ -69,7 +69,7 @@ def main(command, python):
             return 77
 
     def run(*args):
-        done = subprocess.run([str(arg) for arg in args], check=True, timeout=120, stdout=subprocess.PIPE)
+        done = subprocess.run([str(arg) for arg in args], check=True, timeout=600, stdout=subprocess.PIPE)
         return done.stdout.decode()
 
     with tempfile.TemporaryDirectory() as folder:

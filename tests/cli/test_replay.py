@@ -10,7 +10,7 @@ from command_test import CommandTest, main
 class Replay(CommandTest):
     def history(self):
         path = self.path / "wrong.history"
-        subprocess.run([os.environ["PIR_WRITE_HISTORY"], path], check=True, timeout=60)
+        subprocess.run([os.environ["PIR_WRITE_HISTORY"], path], check=True, timeout=600)
         return path
 
     def test_a_history_is_run(self):

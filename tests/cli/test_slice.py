@@ -51,7 +51,7 @@ f 5 8 7
 
 
 def run(*args, **more):
-    return subprocess.run([COMMAND, "slice", *map(str, args)], capture_output=True, text=True, timeout=300,
+    return subprocess.run([COMMAND, "slice", *map(str, args)], capture_output=True, text=True, timeout=1800,
                           stdin=subprocess.DEVNULL, **more)
 
 
@@ -256,7 +256,7 @@ class Files(InFolder):
         if not shutil.which("h5dump"):
             self.skipTest("no h5dump")
         self.make("a.h5")
-        dump = subprocess.run(["h5dump", self.path("a.h5")], capture_output=True, text=True, timeout=60)
+        dump = subprocess.run(["h5dump", self.path("a.h5")], capture_output=True, text=True, timeout=600)
         self.assertEqual((dump.returncode, dump.stderr), (0, ""))
         self.assertIn('"pirouette slices', dump.stdout)
 

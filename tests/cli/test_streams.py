@@ -140,7 +140,7 @@ class Targets(StreamTest):
             self.assertEqual(self.good(*args, option, "-"), plain.read_text(), args)
             # by another name, where it is a file that must not be replaced under the command's feet
             with open(printed, "w") as file:
-                done = subprocess.run([self.command, *map(str, args), option, "/dev/stdout"], stdout=file, timeout=60,
+                done = subprocess.run([self.command, *map(str, args), option, "/dev/stdout"], stdout=file, timeout=600,
                                       stderr=subprocess.PIPE)
             self.assertEqual((done.returncode, done.stderr), (0, b""))
             self.assertEqual(printed.read_bytes(), plain.read_bytes(), args)
@@ -153,7 +153,7 @@ class Targets(StreamTest):
         for args, option, _ in self.writers:
             with open("/dev/full", "w") as full:
                 done = subprocess.run([self.command, *map(str, args), option, "-"], stdout=full, stderr=subprocess.PIPE,
-                                      text=True, timeout=60)
+                                      text=True, timeout=600)
             self.assertEqual((done.returncode, done.stderr),
                              (2, "pirouette: standard output: cannot write: No space left on device\n"))
 
@@ -168,7 +168,7 @@ class Targets(StreamTest):
             before = self.left()
             done = subprocess.run([self.command, *map(str, args), option, str(target)], stdout=subprocess.PIPE,
                                   text=True,
-                                  stderr=subprocess.PIPE, timeout=60, preexec_fn=least_files,
+                                  stderr=subprocess.PIPE, timeout=600, preexec_fn=least_files,
                                   env={**os.environ, "GCOV_PREFIX": "/dev/null"})
             # a build that measures coverage has files to write, too
             told = [line for line in done.stderr.splitlines() if not line.startswith("profiling:")]
@@ -180,7 +180,7 @@ class Targets(StreamTest):
 
 class StandardInput(StreamTest):
     def feed(self, text, *args):
-        done = subprocess.run([self.command, *map(str, args)], input=text, capture_output=True, text=True, timeout=60)
+        done = subprocess.run([self.command, *map(str, args)], input=text, capture_output=True, text=True, timeout=600)
         return done.returncode, done.stdout, done.stderr
 
     def test_a_dash_is_a_model_in_off(self):
@@ -219,7 +219,7 @@ class StandardInput(StreamTest):
     def test_one_that_cannot_be_read(self):
         folder = os.open(self.path, os.O_RDONLY)
         self.addCleanup(os.close, folder)
-        done = subprocess.run([self.command, "info", "-"], stdin=folder, capture_output=True, text=True, timeout=60)
+        done = subprocess.run([self.command, "info", "-"], stdin=folder, capture_output=True, text=True, timeout=600)
         self.assertEqual((done.returncode,
                           done.stderr), (2, "pirouette: standard input: cannot read: Is a directory\n"))
 
@@ -232,7 +232,7 @@ class Signals(StreamTest):
             running = self.start(*SLOW_SUM, target)
             self.wait_for(running, lambda: self.left() != before)
             running.send_signal(number)
-            out, err = running.communicate(timeout=60)
+            out, err = running.communicate(timeout=600)
             self.assertEqual((running.returncode, out, err), (-number, "", ""))
             self.assertEqual(self.left(), before)
 
@@ -245,7 +245,7 @@ class Signals(StreamTest):
         time.sleep(0.05)
         self.assertIsNone(running.poll())
         running.send_signal(signal.SIGINT)
-        running.communicate(timeout=60)
+        running.communicate(timeout=600)
         self.assertEqual(running.returncode, -signal.SIGINT)
 
     def test_a_tracked_run_that_is_stopped_tells_what_it_measured(self):
@@ -257,7 +257,7 @@ class Signals(StreamTest):
             running = self.start(*args, *extra)
             self.wait_for(running, lambda: (dump / "frame-005000.off").exists())
             running.send_signal(number)
-            out, err = running.communicate(timeout=60)
+            out, err = running.communicate(timeout=600)
             self.assertEqual((running.returncode, err), (-number, ""))
             frames = json.loads((dump / "frames.json").read_text())["frames"]
             self.assertGreaterEqual(len(frames), 6)
@@ -289,7 +289,7 @@ class Signals(StreamTest):
             running.stdin.flush()
             self.wait_for(running, lambda: self.left() != before and waits_for_more(running))
             running.send_signal(signal.SIGINT)
-            out, err = running.communicate(timeout=60)
+            out, err = running.communicate(timeout=600)
             self.assertEqual((running.returncode, err), (-signal.SIGINT, ""))
             if extra:
                 told = json.loads(out)
@@ -305,7 +305,7 @@ class Signals(StreamTest):
         time.sleep(0.1)
         self.assertIsNone(running.poll())
         running.send_signal(signal.SIGINT)
-        running.communicate(timeout=60)
+        running.communicate(timeout=600)
         self.assertEqual(running.returncode, -signal.SIGINT)
         self.assertTrue(stat.S_ISFIFO(os.lstat(self.path / "fifo").st_mode))
 

@@ -378,7 +378,7 @@ class Terminal(CommandTest):
         master, slave = self.open_terminal()
         done = subprocess.run([self.command, "track", "shape:cube", self.pyramid, "--frames", "5"],
                               stdout=subprocess.PIPE,
-                              stderr=slave, timeout=60)
+                              stderr=slave, timeout=600)
         os.close(slave)
         self.assertEqual(done.returncode, 0)
         self.assertEqual(read_terminal(master, 0), b"")

@@ -93,7 +93,7 @@ def main(command):
         path = pathlib.Path(folder)
 
         def run(*args):
-            subprocess.run([command, *map(str, args)], check=True, timeout=60, stdout=subprocess.DEVNULL)
+            subprocess.run([command, *map(str, args)], check=True, timeout=600, stdout=subprocess.DEVNULL)
 
         (path / "p.off").write_text(box((-1, -.25, -.25), (1, .25, .5)))
         (path / "q").mkdir()

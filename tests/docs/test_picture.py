@@ -37,7 +37,7 @@ def main(command, folder):
     kept = (folder / "turning.svg").read_bytes()
     with tempfile.TemporaryDirectory() as out:
         drawn = pathlib.Path(out) / "turning.svg"
-        subprocess.run([sys.executable, "-B", folder / "turning.py", command, drawn], check=True, timeout=60)
+        subprocess.run([sys.executable, "-B", folder / "turning.py", command, drawn], check=True, timeout=600)
         assert drawn.read_bytes() == kept, "the picture is not what turning.py draws: draw it again"
     assert len(kept) < 200_000, len(kept)
     frames = frames_of(kept)

@@ -63,7 +63,7 @@ pir_method pir_choose_method(const pir_cost_model *cost, double angle) {
 
 bool pir_pays_to_lag(pir_cost_model *cost, double angle) {
     if (cost->turned > 0)
-        cost->lags = cost->work * angle >= (cost->lags ? 1 : CLEAR_LOSS) * cost->walk * cost->turned;
+        cost->lags = (double)cost->work * angle >= (cost->lags ? 1 : CLEAR_LOSS) * cost->walk * (double)cost->turned;
     return cost->lags || cost->turned == 0;
 }
 
@@ -71,8 +71,8 @@ void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double
     if (cost->updates_in_a_row > 0 && angle > 0) {
         double slope = signs > 0 ? WORK_OF_SIGN * (double)signs / angle / share : 0;
         bool afresh = cost->per_radian == 0 || cost->updates_in_a_row < TRIAL_LENGTH;
-        cost->work += WORK_OF_SIGN * (double)signs / share - FORGETTING * cost->work;
-        cost->turned += angle - FORGETTING * cost->turned;
+        cost->work += (float)(WORK_OF_SIGN * (double)signs / share - FORGETTING * (double)cost->work);
+        cost->turned += (float)(angle - FORGETTING * (double)cost->turned);
         cost->per_radian = fmax(afresh ? slope : cost->per_radian + MEMORY * (slope - cost->per_radian), LEAST_SLOPE);
     }
     // a trial that leads back to walking makes the next one later; one that lasts makes it early again

@@ -17,8 +17,8 @@ typedef struct pir_cost_model {
     double per_radian; /* work of recent updates per radian turned, 0 while none is known */
     uint32_t walks_in_a_row, updates_in_a_row;
     uint32_t trial_after; /* how many walks in a row before an update is tried */
-    double work, turned;  /* of the last hundred updates or so, and the radians that they went through */
     bool lags;            /* whether staying behind a rotation was found to pay */
+    float work, turned;   /* of the last hundred updates or so, and the radians that they went through */
 } pir_cost_model;
 
 /* The method to use for a turn of at most `angle`. */
