@@ -27,11 +27,11 @@ typedef struct pir_journal {
     uint64_t count;
     uint64_t edge_count, steps;
     uint32_t *slot; /* room for mask + 1 entries, and behind them for as many edges */
-    uint32_t mask, none[2];
+    uint32_t mask, none;
 } pir_journal;
 
 static inline void pir_journal_init(pir_journal *journal) {
-    *journal = (pir_journal){.slot = journal->none};
+    *journal = (pir_journal){.slot = &journal->none};
 }
 
 static inline void pir_journal_finish(pir_journal *journal, const pir_allocator *allocator) {
@@ -53,9 +53,9 @@ static inline void pir_journal_note(pir_journal *journal, uint32_t slot) {
     journal->slot[journal->count++ & journal->mask] = slot;
 }
 
-/* Where entry n of the edges stands. */
+/* Where entry n of the edges stands; while nobody follows that is where every entry does. */
 static inline uint32_t *pir_journal_edge_at(const pir_journal *journal, uint64_t n) {
-    return &journal->slot[journal->mask + 1 + (n & journal->mask)];
+    return &journal->slot[journal->mask + (journal->mask & 1) + (n & journal->mask)];
 }
 
 static inline void pir_journal_note_edge(pir_journal *journal, uint32_t edge) {
