@@ -18,6 +18,8 @@
  */
 #include "solid/pieces/decompose.h"
 
+#include <string.h>
+
 #include "base/sort.h"
 #include "solid/space/polygons.h"
 
@@ -55,7 +57,12 @@ struct division {
     struct choice *choice; /* scratch: the planes of a node */
     uint32_t *order, *work;
     uint32_t choice_room, order_room, work_room;
+    uint8_t *side; /* per plane of a facet and given point: 0, or the side that it is on, and 2 */
+    uint32_t side_room, first_plane, planes, points;
 };
+
+/* Numbers of sides that are kept; a body that has more is asked anew each time. */
+#define MOST_SIDES (1u << 20)
 
 void pir_piece_list_add(pir_piece_list *pieces, pir_space *space, uint32_t cell) {
     if (pir_space_grow(space, (void **)&pieces->cell, &pieces->room, pieces->count, sizeof *pieces->cell))
@@ -111,12 +118,39 @@ static bool is_new(struct division *d, uint32_t half) {
     return is;
 }
 
+/* Makes the table of sides, where it is small enough. */
+static void begin_sides(struct division *d) {
+    const pir_body *body = d->body;
+    uint32_t first = PIR_SPACE_NONE, last = 0;
+    for (uint32_t f = 0; f < body->source.facet_count; f++) {
+        first = body->plane[f] < first ? body->plane[f] : first;
+        last = body->plane[f] > last ? body->plane[f] : last;
+    }
+    const uint64_t sides = (uint64_t)(last - first + 1) * body->source.point_count;
+    if (sides > MOST_SIDES || !pir_space_grow(d->space, (void **)&d->side, &d->side_room, sides, sizeof *d->side))
+        return;
+    memset(d->side, 0, d->side_room);
+    d->first_plane = first;
+    d->planes = last - first + 1;
+    d->points = body->source.point_count;
+}
+
+/* The side of a plane that a point is on. */
+static int side_of(struct division *d, uint32_t plane, uint32_t point) {
+    const uint32_t row = plane - d->first_plane, column = point - d->body->first_point;
+    if (row >= d->planes || column >= d->points)
+        return pir_space_side(d->space, pir_half(plane, false), point);
+    uint8_t *side = &d->side[(size_t)row * d->points + column];
+    if (*side == 0)
+        *side = (uint8_t)(pir_space_side(d->space, pir_half(plane, false), point) + 2);
+    return *side - 2;
+}
+
 /* What a plane's creases count: those that it holds and, against it, those that it cuts. */
 static int64_t value_of_creases(struct division *d, const struct node *node, uint32_t half) {
     int64_t value = 0;
     for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++) {
-        const int a = pir_space_side(d->space, half, d->creases[i].a),
-                  b = pir_space_side(d->space, half, d->creases[i].b);
+        const int a = side_of(d, half >> 1, d->creases[i].a), b = side_of(d, half >> 1, d->creases[i].b);
         value += a == 0 && b == 0 ? 16 : a * b < 0 ? -8 : 0;
     }
     return value;
@@ -329,11 +363,13 @@ pir_status pir_decompose(const pir_body *body, pir_decompose_method method, pir_
     pir_space *space = body->space;
     struct division d = {.body = body, .method = method, .space = space, .cells = cells, .pieces = pieces};
     pir_polygons_init(&d.polygons, space);
+    begin_sides(&d);
     begin(&d);
     divide(&d);
     pir_space_shrink(space, d.node, d.node_room, sizeof *d.node);
     pir_space_shrink(space, d.list, d.list_room, sizeof *d.list);
     pir_space_shrink(space, d.above, d.above_room, sizeof *d.above);
+    pir_space_shrink(space, d.side, d.side_room, sizeof *d.side);
     pir_space_shrink(space, d.creases, d.crease_room, sizeof *d.creases);
     pir_space_shrink(space, d.seen, d.seen_room, sizeof *d.seen);
     pir_space_shrink(space, d.choice, d.choice_room, sizeof *d.choice);
