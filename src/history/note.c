@@ -9,9 +9,10 @@
 
 #include <string.h>
 
+#include "base/byte_block.h"
 #include "base/report.h"
-#include "cspace/store/plan.h"
 #include "history/history_file.h"
+#include "polytope/write/off_text.h"
 
 struct pir_history {
     pir_allocator allocator;
@@ -106,7 +107,7 @@ static pir_status add_body(pir_history *history, pir_polytope *polytope) {
         history->room = room;
     }
     pir_bytes text = {0};
-    pir_status status = pir_plan_write_off(polytope, a, &text);
+    pir_status status = pir_off_text(polytope, a, &text);
     if (status == PIR_OK && text.used > UINT32_MAX)
         status = PIR_ERR_LIMIT;
     if (status == PIR_OK && !pir_bytes_reserve(&history->bytes, a, text.used + NOTE_MOST))

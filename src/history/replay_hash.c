@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cspace/record/record_bytes.h"
+#include "base/byte_block.h"
 
 static uint64_t hash_number(uint64_t hash, uint64_t number) {
     uint8_t bytes[8];

@@ -11,8 +11,8 @@
 
 #include <pirouette/io.h>
 
+#include "base/byte_block.h"
 #include "base/report.h"
-#include "cspace/record/record_bytes.h"
 #include "history/history_file.h"
 #include "history/replay_hash.h"
 #include "polytope/file/file_bytes.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The calls of histories of scenes. */
-#include "cspace/record/record_bytes.h"
+#include "base/byte_block.h"
 #include "history/history_file.h"
 #include "history/replay_hash.h"
 #include "history/run_notes.h"

@@ -14,7 +14,7 @@
  *   - whole: the difference (whole.c).
  */
 #include "pair/apart.h"
-#include "pair/foot.h"
+#include "pair/facet/foot.h"
 #include "pair/overlap.h"
 #include "pair/task.h"
 

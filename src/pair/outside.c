@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Descent from the features of the last answer to the nearest point: see answer.c. */
 #include "pair/apart.h"
-#include "pair/same_facet.h"
+#include "pair/facet/same_facet.h"
 #include "pair/task.h"
 #include "query/decide/witness.h"
 

@@ -15,8 +15,8 @@
 #include <pirouette/pair.h>
 
 #include "base/scratch.h"
-#include "pair/held_proof.h"
-#include "pair/lead.h"
+#include "pair/facet/held_proof.h"
+#include "pair/facet/lead.h"
 #include "pair/surface/inner_surface.h"
 #include "query/contact/patch.h"
 #include "query/decide/nearest.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <zlib.h>
 
-#include "cspace/store/pack.h"
+#include "cspace/parts/pack.h"
 #include "support/random.h"
 
 /* No chunk is longer. */

@@ -10,7 +10,7 @@
 
 #include <pirouette/history.h>
 
-#include "cspace/record/record_bytes.h"
+#include "base/byte_block.h"
 #include "fuzz/input.h"
 #include "history/history_file.h"
 

@@ -13,7 +13,7 @@
 #include <pirouette/simplify.h>
 #include <pirouette/solid.h>
 
-#include "cspace/store/maker.h"
+#include "cspace/parts/maker.h"
 #include "golden/golden.h"
 #include "support/bodies.h"
 #include "support/meshes.h"

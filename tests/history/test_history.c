@@ -10,7 +10,7 @@
 
 #include <pirouette/history.h>
 
-#include "cspace/record/record_bytes.h"
+#include "base/byte_block.h"
 #include "history/replay_hash.h"
 #include "support/bodies.h"
 #include "support/memory.h"

@@ -1,24 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A block of bytes that grows at its end, and unsigned numbers in it: 3 bits a half byte, least significant first, 8
- * added to all but the last half byte. The lower half of a byte comes first. Most numbers of a record are below 8.
+ * Unsigned numbers in bytes: 3 bits a half byte, least significant first, 8 added to all but the last half byte. The
+ * lower half of a byte comes first. Most numbers of a record are below 8.
  */
 #ifndef PIR_CSPACE_RECORD_RECORD_BYTES_H
 #define PIR_CSPACE_RECORD_RECORD_BYTES_H
 
-#include "base/memory.h"
+#include "base/byte_block.h"
 
 /* The most bytes that a number of 32 bits takes. */
 #define PIR_NUMBER_BYTES 6
-
-typedef struct pir_bytes {
-    uint8_t *data;
-    size_t used, room;
-} pir_bytes;
-
-/* Room for `more` bytes behind those in use. False when out of memory; nothing changes then. */
-bool pir_bytes_reserve(pir_bytes *bytes, const pir_allocator *allocator, size_t more);
-void pir_bytes_finish(pir_bytes *bytes, const pir_allocator *allocator);
 
 /* Writes numbers. `at` has room for them; half a byte that is left over at the end is 0. */
 typedef struct pir_pen {
@@ -70,13 +61,5 @@ static inline bool pir_scan_ended(const pir_scan *scan) {
 
 /* What a record begins with. */
 enum { PIR_RECORD_CHANGES = 0, PIR_RECORD_WHOLE = 1 };
-
-/* FNV-1a over more bytes; begin with PIR_HASH_START. */
-#define PIR_HASH_START UINT64_C(0xcbf29ce484222325)
-
-uint64_t pir_hash_bytes(uint64_t hash, const void *data, size_t size);
-
-/* The same over numbers of eight bytes, the least significant first; zeros fill the last one up. */
-uint64_t pir_hash_words(uint64_t hash, const void *data, size_t size);
 
 #endif

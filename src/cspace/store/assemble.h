@@ -3,7 +3,7 @@
 #ifndef PIR_CSPACE_STORE_ASSEMBLE_H
 #define PIR_CSPACE_STORE_ASSEMBLE_H
 
-#include "cspace/store/parts.h"
+#include "cspace/parts/parts.h"
 
 /*
  * Writes the file under another name beside it, sees to it that it is on the disk, and gives it its name. All units

@@ -9,7 +9,7 @@
 #include <pirouette/cspace.h>
 
 #include "base/report.h"
-#include "cspace/store/maker.h"
+#include "cspace/parts/maker.h"
 
 #define SAMPLES       24
 #define SLICES_SAMPLE 17u

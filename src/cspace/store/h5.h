@@ -7,7 +7,7 @@
 
 #include <hdf5.h>
 
-#include "cspace/store/pack.h"
+#include "cspace/parts/pack.h"
 
 /*
  * Between quiet and loud this thread alone is in HDF5, and what HDF5 would print is put aside. All other calls stand

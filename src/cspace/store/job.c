@@ -16,9 +16,9 @@
 #include <pirouette/cspace.h>
 
 #include "base/report.h"
+#include "cspace/parts/maker.h"
+#include "cspace/parts/parts.h"
 #include "cspace/store/assemble.h"
-#include "cspace/store/maker.h"
-#include "cspace/store/parts.h"
 #include "polytope/file/target.h"
 
 #define THREADS_MOST 1024u

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The store of a build without HDF5: no file can be made or opened, so there is nothing to read from one. */
 #include "base/report.h"
+#include "cspace/parts/pack.h"
 #include "cspace/store/assemble.h"
-#include "cspace/store/pack.h"
 #include "cspace/store/store.h"
 
 struct pir_packer {

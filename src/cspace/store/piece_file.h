@@ -3,8 +3,8 @@
 #ifndef PIR_CSPACE_STORE_PIECE_FILE_H
 #define PIR_CSPACE_STORE_PIECE_FILE_H
 
+#include "cspace/parts/plan.h"
 #include "cspace/store/h5.h"
-#include "cspace/store/plan.h"
 
 /* Writes the pieces of a plan. One that is the same as one shortly before it shares its group. False when it fails. */
 bool pir_pieces_put(hid_t file, const pir_plan *plan, pir_packer *packer);

@@ -11,9 +11,9 @@
 #include <pirouette/io.h>
 
 #include "base/report.h"
+#include "cspace/parts/plan.h"
 #include "cspace/store/h5.h"
 #include "cspace/store/names.h"
-#include "cspace/store/plan.h"
 
 /* The longest model that is read, and the most pieces. */
 #define OFF_MOST    ((uint64_t)1 << 31)

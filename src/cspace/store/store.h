@@ -9,7 +9,7 @@
 
 #include <pirouette/cspace.h>
 
-#include "cspace/store/unit.h"
+#include "cspace/parts/unit.h"
 
 typedef struct pir_store pir_store;
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The bytes of a part: its header, and the header of each unit; and reading them back. */
-#ifndef PIR_CSPACE_STORE_PART_FILE_H
-#define PIR_CSPACE_STORE_PART_FILE_H
+#ifndef PIR_CSPACE_PARTS_PART_FILE_H
+#define PIR_CSPACE_PARTS_PART_FILE_H
 
-#include "cspace/store/parts.h"
+#include "cspace/parts/parts.h"
 
 #define PIR_PART_MAGIC UINT64_C(0x0a33545241504950) /* "PIPART3\n" where bytes stand with the least first */
 #define PIR_UNIT_MAGIC UINT64_C(0x54494e5552495031)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The chunks that packed bytes are made of; see pack.h. */
-#ifndef PIR_CSPACE_STORE_CHUNKS_H
-#define PIR_CSPACE_STORE_CHUNKS_H
+#ifndef PIR_CSPACE_PARTS_CHUNKS_H
+#define PIR_CSPACE_PARTS_CHUNKS_H
 
-#include "cspace/store/unit.h"
+#include "cspace/parts/unit.h"
 
 /* The most bytes of a chunk. */
 #define PIR_CHUNK_MOST (1u << 16)

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Plans: see plan.h. */
-#include "cspace/store/plan.h"
+#include "cspace/parts/plan.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <pirouette/io.h>
-#include <pirouette/mesh.h>
-
 #include "base/report.h"
+#include "polytope/write/off_text.h"
 
 /* Where the caller leaves it open: units are shorter where all slices together are few, so that threads share them. */
 #define LONG_UNIT   256
@@ -20,41 +16,13 @@
 
 /* --- pieces --- */
 
-static pir_status write_off(const pir_mesh *mesh, const pir_allocator *a, pir_bytes *bytes) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream)
-        return PIR_ERR_MEMORY;
-    pir_status status = pir_mesh_write_stream(mesh, stream, "piece", "off", 1, NULL);
-    if (fclose(stream) != 0 || (status != PIR_OK && status != PIR_ERR_MEMORY))
-        status = PIR_ERR_MEMORY;
-    if (status == PIR_OK && !pir_bytes_reserve(bytes, a, size))
-        status = PIR_ERR_MEMORY;
-    if (status == PIR_OK) {
-        memcpy(bytes->data + bytes->used, text, size);
-        bytes->used += size;
-    }
-    free(text);
-    return status;
-}
-
-pir_status pir_plan_write_off(const pir_polytope *polytope, const pir_allocator *allocator, pir_bytes *bytes) {
-    pir_mesh *mesh = NULL;
-    pir_status status = pir_mesh_from_polytope(polytope, &mesh);
-    if (status == PIR_OK)
-        status = write_off(mesh, allocator, bytes);
-    pir_mesh_destroy(mesh);
-    return status;
-}
-
 static pir_status add_pieces(pir_plan *plan, uint32_t first, pir_polytope *const *piece, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         if (!piece[i])
             return PIR_ERR_ARGUMENT;
         pir_plan_piece *added = &plan->piece[first + i];
         added->polytope = pir_polytope_retain(piece[i]);
-        pir_status status = pir_plan_write_off(piece[i], &plan->allocator, &added->off);
+        pir_status status = pir_off_text(piece[i], &plan->allocator, &added->off);
         if (status != PIR_OK)
             return status;
         added->hash = pir_hash_bytes(PIR_HASH_START, added->off.data, added->off.used);

@@ -16,10 +16,10 @@
  *
  *     others − δ > s     and     s₀ > (s + δ) (max(k, 0) + c).
  */
-#ifndef PIR_PAIR_LEAD_H
-#define PIR_PAIR_LEAD_H
+#ifndef PIR_PAIR_FACET_LEAD_H
+#define PIR_PAIR_FACET_LEAD_H
 
-#include "pair/same_facet.h"
+#include "pair/facet/same_facet.h"
 
 typedef struct pir_lead {
     double others; /* 0 where there is no lead */

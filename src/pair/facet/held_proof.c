@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What is left of a proof: see held_proof.h. */
-#include "pair/held_proof.h"
+#include "pair/facet/held_proof.h"
 
 pir_leeway pir_held_moved(const pir_held *held, const pir_frame *frame, const pir_placement *placement) {
     pir_vec3 way = pir_vec_sub(placement->x, held->at);

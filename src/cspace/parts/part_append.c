@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/report.h"
-#include "cspace/store/part_file.h"
+#include "cspace/parts/part_file.h"
 
 /* Seconds between the moments when what was written is made to reach the disk. */
 #define SYNC_EVERY 2.0

@@ -11,10 +11,10 @@
  *
  * Decisions alone are held, never numbers: an answer has the bits of one for which all was proven anew.
  */
-#ifndef PIR_PAIR_HELD_PROOF_H
-#define PIR_PAIR_HELD_PROOF_H
+#ifndef PIR_PAIR_FACET_HELD_PROOF_H
+#define PIR_PAIR_FACET_HELD_PROOF_H
 
-#include "pair/same_facet.h"
+#include "pair/facet/same_facet.h"
 #include "query/answer/manifold.h"
 
 typedef struct pir_held {

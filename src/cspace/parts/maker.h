@@ -3,12 +3,12 @@
  * Makes units: follows the difference of a pair through the rotations of a unit. One maker a thread. What it makes is a
  * function of the unit alone: the first slice is whole and made by a walk, and the pairing at every rotation is unique.
  */
-#ifndef PIR_CSPACE_STORE_MAKER_H
-#define PIR_CSPACE_STORE_MAKER_H
+#ifndef PIR_CSPACE_PARTS_MAKER_H
+#define PIR_CSPACE_PARTS_MAKER_H
 
+#include "cspace/parts/pack.h"
+#include "cspace/parts/plan.h"
 #include "cspace/record/recorder.h"
-#include "cspace/store/pack.h"
-#include "cspace/store/plan.h"
 
 typedef struct pir_maker {
     const pir_plan *plan; /* borrowed */

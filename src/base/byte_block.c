@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A block of bytes that grows by doubling, and the hash of bytes. */
-#include "cspace/record/record_bytes.h"
+#include "base/byte_block.h"
 
 /* Of FNV-1a. */
 #define PRIME UINT64_C(0x100000001b3)

@@ -6,8 +6,8 @@
  * Units are numbered pair by pair: unit u of the pair of robot piece k and obstacle piece l is
  * (k·obstacle_count + l)·units_per_pair + u.
  */
-#ifndef PIR_CSPACE_STORE_PLAN_H
-#define PIR_CSPACE_STORE_PLAN_H
+#ifndef PIR_CSPACE_PARTS_PLAN_H
+#define PIR_CSPACE_PARTS_PLAN_H
 
 #include <pirouette/cspace.h>
 
@@ -58,8 +58,5 @@ static inline uint32_t pir_plan_count(const pir_plan *plan, uint64_t unit) {
     uint64_t left = plan->slices - pir_plan_first(plan, unit);
     return left < plan->slices_per_unit ? (uint32_t)left : plan->slices_per_unit;
 }
-
-/* The text of a polytope in exact OFF, in the allocator's memory. */
-pir_status pir_plan_write_off(const pir_polytope *polytope, const pir_allocator *allocator, pir_bytes *bytes);
 
 #endif

@@ -6,10 +6,10 @@
  *
  * The last chunk of a unit is filled up with zeros. Packed bytes are chunk after chunk, each behind its size.
  */
-#ifndef PIR_CSPACE_STORE_PACK_H
-#define PIR_CSPACE_STORE_PACK_H
+#ifndef PIR_CSPACE_PARTS_PACK_H
+#define PIR_CSPACE_PARTS_PACK_H
 
-#include "cspace/store/chunks.h"
+#include "cspace/parts/chunks.h"
 
 /* How well deflate tries. Fast, and nearly as small as more: records are dense. */
 #define PIR_DEFLATE_LEVEL 1

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Chunks shuffled and deflated, as HDF5's filters of these names do. */
-#include "cspace/store/pack.h"
+#include "cspace/parts/pack.h"
 
 #include <string.h>
 #include <zlib.h>

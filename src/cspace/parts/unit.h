@@ -3,8 +3,8 @@
  * A unit of a job that has been made: successive slices of one pair of pieces, in sections. Each section has a number
  * of elements for each slice and the elements of all slices one after another.
  */
-#ifndef PIR_CSPACE_STORE_UNIT_H
-#define PIR_CSPACE_STORE_UNIT_H
+#ifndef PIR_CSPACE_PARTS_UNIT_H
+#define PIR_CSPACE_PARTS_UNIT_H
 
 #include "cspace/record/record_bytes.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Packed bytes taken apart. */
-#include "cspace/store/chunks.h"
+#include "cspace/parts/chunks.h"
 
 #include <string.h>
 

@@ -10,11 +10,11 @@
  *
  * Numbers are in the machine's own order: parts are read by machines of the kind that wrote them.
  */
-#ifndef PIR_CSPACE_STORE_PARTS_H
-#define PIR_CSPACE_STORE_PARTS_H
+#ifndef PIR_CSPACE_PARTS_PARTS_H
+#define PIR_CSPACE_PARTS_PARTS_H
 
-#include "cspace/store/plan.h"
-#include "cspace/store/unit.h"
+#include "cspace/parts/plan.h"
+#include "cspace/parts/unit.h"
 
 /* The part that this process appends to. */
 typedef struct pir_part {

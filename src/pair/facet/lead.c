@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The lead of the least facet: see lead.h. */
-#include "pair/lead.h"
+#include "pair/facet/lead.h"
 
 pir_lead pir_lead_of(const pir_placement *placement, const pir_facet *facet, double others) {
     double slack = facet->h - pir_vec_dot(facet->n, placement->x);

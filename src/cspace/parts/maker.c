@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Units made: see maker.h. */
-#include "cspace/store/maker.h"
+#include "cspace/parts/maker.h"
 
 #include <string.h>
 

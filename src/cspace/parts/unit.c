@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Memory of a unit, and its checks. */
-#include "cspace/store/unit.h"
+#include "cspace/parts/unit.h"
 
 #include "base/layout.h"
 

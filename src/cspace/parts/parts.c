@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* All parts of a job: found in the folder of its file, read, removed. */
-#include "cspace/store/parts.h"
+#include "cspace/parts/parts.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 #include "base/report.h"
-#include "cspace/store/chunks.h"
-#include "cspace/store/part_file.h"
+#include "cspace/parts/chunks.h"
+#include "cspace/parts/part_file.h"
 #include "polytope/file/target.h"
 
 /* At most what a chunk takes in the file's index. */

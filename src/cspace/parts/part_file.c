@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Units in parts, read and checked. */
-#include "cspace/store/part_file.h"
-#include "cspace/store/pack.h"
+#include "cspace/parts/part_file.h"
+#include "cspace/parts/pack.h"
 
 #include <errno.h>
 #include <stddef.h>
