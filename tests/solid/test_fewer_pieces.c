@@ -161,19 +161,22 @@ static void fewer_pieces_contain_the_solid_within_their_error(void **state) {
 /* An L: the middle of its hull's slanted side is as far from one leg as from the other. */
 static const double l_shape[6][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
 
-static pir_solid *l_of(const pir_solid_options *options, pir_status *ret_status) {
+static pir_solid *l_of(const pir_solid_options *options, double scale, pir_status *ret_status) {
     static solid_facets facets;
+    double corner[6][2];
     pir_solid *solid = NULL;
     facets = (solid_facets){0};
-    solid_add_prism(&facets, l_shape, 6, 1);
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 2; k++)
+            corner[i][k] = scale * l_shape[i][k];
+    solid_add_prism(&facets, (const double(*)[2])corner, 6, scale);
     *ret_status = solid_make(&facets, options, NULL, &solid);
     return solid;
 }
 
-static void one_piece_of_an_l_is_its_hull(void **state) {
-    (void)state;
+static void expect_hull_of_an_l(double scale) {
     pir_status status;
-    pir_solid *solid = l_of(NULL, &status);
+    pir_solid *solid = l_of(NULL, scale, &status);
     pir_pieces *pieces;
     pir_decompose_options options = pir_decompose_options_default();
     pir_decompose_info info;
@@ -182,21 +185,28 @@ static void one_piece_of_an_l_is_its_hull(void **state) {
     assert_int_equal(pir_solid_decompose_with(solid, &options, &info, &pieces), PIR_OK);
     assert_int_equal(pir_pieces_count(pieces), 1);
     assert_int_equal(info.exact_pieces, 2);
-    assert_true(info.error >= 1 && info.error < 1.000001);
+    expect(info.error >= scale && info.error <= fmax(1.000001 * scale, scale + 0x1p-1073), "%g at %g", info.error,
+           scale);
     pir_pieces_destroy(pieces);
     options.pieces = 0;
-    options.tolerance = 0.99;
+    options.tolerance = 0.99 * scale;
     assert_int_equal(pir_solid_decompose_with(solid, &options, &info, &pieces), PIR_OK);
-    assert_int_equal(pir_pieces_count(pieces), 2);
-    assert_true(info.error == 0);
+    expect(pir_pieces_count(pieces) == 2 && info.error == 0, "%u pieces at %g", pir_pieces_count(pieces), scale);
     pir_pieces_destroy(pieces);
     pir_solid_release(solid);
+}
+
+static void one_piece_of_an_l_is_its_hull_at_any_scale(void **state) {
+    (void)state;
+    static const double scale[] = {1, 1e-150, 1e150, 1e-300, 1e300, 0x1p-1070};
+    for (size_t i = 0; i < sizeof scale / sizeof *scale; i++)
+        expect_hull_of_an_l(scale[i]);
 }
 
 static void bad_options_are_refused(void **state) {
     (void)state;
     pir_status status;
-    pir_solid *solid = l_of(NULL, &status);
+    pir_solid *solid = l_of(NULL, 1, &status);
     pir_pieces *pieces = NULL;
     pir_decompose_options options = pir_decompose_options_default();
     assert_int_equal(pir_solid_decompose_with(NULL, &options, NULL, &pieces), PIR_ERR_ARGUMENT);
@@ -222,7 +232,7 @@ static void every_failing_request_is_survived(void **state) {
         pir_status status;
         options.solid.allocator = &allocator;
         options.pieces = 1;
-        pir_solid *solid = l_of(&options.solid, &status);
+        pir_solid *solid = l_of(&options.solid, 1, &status);
         if (status == PIR_OK)
             status = pir_solid_decompose_with(solid, &options, NULL, &pieces);
         done = status == PIR_OK;
@@ -238,7 +248,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fewer_pieces_contain_the_solid_within_their_error),
-        cmocka_unit_test(one_piece_of_an_l_is_its_hull),
+        cmocka_unit_test(one_piece_of_an_l_is_its_hull_at_any_scale),
         cmocka_unit_test(bad_options_are_refused),
         cmocka_unit_test(every_failing_request_is_survived),
     };

@@ -5,9 +5,11 @@
  * Invariants: every exact piece is in the hull of the part that it went into; a part's error bounds how far it reaches
  * out of the union of the exact pieces; pairs that may be joined are in the list once, with a bound on the error that
  * comes of it. A part is paired with a few others near it, and when no pairs are left all parts are paired anew.
+ * Doubles, those of lengths too, are scaled by 2^-shift, so that the greatest coordinate is about 1.
  */
 #include "solid/pieces/approximate.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -40,10 +42,41 @@ struct approximation {
     uint32_t part_count, part_room, left;
     struct couple *couple;
     uint32_t couple_count, couple_room;
+    long shift;
     double tolerance;
     uint32_t most;
     pir_status status;
 };
+
+/* --- scale --- */
+
+/* An e with |x| < 2^e, of numbers that are not 0. */
+static long exponent_of(mpq_srcptr x) {
+    return (long)mpz_sizeinbase(mpq_numref(x), 2) - (long)mpz_sizeinbase(mpq_denref(x), 2) + 1;
+}
+
+/* The exponent of the greatest coordinate of all. */
+static long shift_of(const pir_pieces *pieces) {
+    long most = LONG_MIN;
+    for (size_t i = 0; i < 3 * (size_t)pieces->start[pieces->count]; i++)
+        if (mpq_sgn(pieces->vertex[i]) != 0 && exponent_of(pieces->vertex[i]) > most)
+            most = exponent_of(pieces->vertex[i]);
+    return most > LONG_MIN ? most : 0;
+}
+
+/* x · 2^-shift, cut to a double; `room` is used. */
+static double scaled(mpq_t room, mpq_srcptr x, long shift) {
+    if (shift > 0)
+        mpq_div_2exp(room, x, (mp_bitcnt_t)shift);
+    else
+        mpq_mul_2exp(room, x, (mp_bitcnt_t)-shift);
+    return mpq_get_d(room);
+}
+
+/* A length times 2^shift; nothing is lost where the result is representable. */
+static double length_scaled(double length, long shift) {
+    return ldexp(length, shift > 4000 ? 4000 : shift < -4000 ? -4000 : (int)shift);
+}
 
 /* --- parts --- */
 
@@ -80,16 +113,20 @@ static pir_status keep_extreme(struct approximation *job, uint32_t *vertex, uint
 
 /*
  * Adds the hull of `count` vertices, all of them extreme, in an array of `room` that is taken over. Its polytope is of
- * the vertices as doubles, which is what distances are measured with.
+ * the vertices as scaled doubles, which is what distances are measured with.
  */
 static bool add_part(struct approximation *job, uint32_t *vertex, uint32_t count, uint32_t room, double error) {
     struct part *part = &job->part[job->part_count++];
     *part = (struct part){.vertex = vertex, .room = room, .count = count};
     pir_vec3 *point = PIR_NEW(job->allocator, pir_vec3, count);
+    mpq_t room_of_one;
+    mpq_init(room_of_one);
     for (uint32_t i = 0; i < count && point; i++) {
         const mpq_t *x = (const mpq_t *)job->pieces->vertex + 3 * (size_t)vertex[i];
-        point[i] = (pir_vec3){mpq_get_d(x[0]), mpq_get_d(x[1]), mpq_get_d(x[2])};
+        point[i] = (pir_vec3){scaled(room_of_one, x[0], job->shift), scaled(room_of_one, x[1], job->shift),
+                              scaled(room_of_one, x[2], job->shift)};
     }
+    mpq_clear(room_of_one);
     const pir_polytope_options options = {.allocator = job->allocator};
     job->status = point ? pir_polytope_create(point, count, &options, &part->polytope) : PIR_ERR_MEMORY;
     PIR_FREE(job->allocator, point, count);
@@ -283,21 +320,23 @@ static pir_pieces *result_of(const struct approximation *job, double *ret_error)
 
 pir_status pir_pieces_approximate(pir_pieces **pieces, uint32_t most, double tolerance, double *ret_error) {
     const pir_allocator allocator = (*pieces)->allocator;
-    struct approximation job = {.pieces = *pieces,
-                                .allocator = &allocator,
-                                .tolerance = tolerance,
-                                .most = most,
-                                .part_room = 2 * (*pieces)->count};
+    struct approximation job = {
+        .pieces = *pieces, .allocator = &allocator, .most = most, .part_room = 2 * (*pieces)->count};
     *ret_error = 0;
     if ((*pieces)->count < 2)
         return PIR_OK;
+    job.shift = shift_of(*pieces);
+    job.tolerance = length_scaled(tolerance, -job.shift);
     job.part = PIR_ZEROED(job.allocator, struct part, job.part_room);
     job.status = job.part ? PIR_OK : PIR_ERR_MEMORY;
     if (job.status == PIR_OK && add_exact_parts(&job))
         join_all(&job);
     if (job.status == PIR_OK && job.left < job.pieces->count) {
-        pir_pieces *made = result_of(&job, ret_error);
+        double error;
+        pir_pieces *made = result_of(&job, &error);
         if (made) {
+            // up: the least numbers that there are have fewer bits
+            *ret_error = error > 0 ? nextafter(length_scaled(error, job.shift), HUGE_VAL) : 0;
             pir_pieces_destroy(*pieces);
             *pieces = made;
         } else {

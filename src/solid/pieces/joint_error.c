@@ -40,6 +40,14 @@ static pir_vec3 crossing(const struct plane *plane, pir_vec3 from, pir_vec3 to, 
     return pir_vec_add(from, pir_vec_scale(way, share));
 }
 
+/* A bound on how far from a part the segment crosses the plane; HUGE_VAL where it is too flat to tell. */
+static double from_crossing(const struct joint *joint, const pir_joint_part *part, const struct plane *plane,
+                            pir_vec3 from, pir_vec3 to) {
+    double off;
+    const pir_vec3 c = crossing(plane, from, to, &off);
+    return off < HUGE_VAL ? distance_to(joint, part, c) + off : HUGE_VAL;
+}
+
 /* The greatest distances of: c from A and from B, what is in A from B, what B has above and below from A. */
 struct distances {
     double c_a, c_b, a_b, above_a, below_a;
@@ -52,13 +60,11 @@ static void add_above(const struct joint *joint, const struct plane *plane, pir_
     d->above_a = fmax(d->above_a, from_a);
     for (uint32_t i = 0; i < pir_polytope_vertex_count(a); i++) {
         const pir_vec3 from = pir_polytope_vertex(a, i);
-        double off;
         if (from.x == to.x && from.y == to.y && from.z == to.z)
             continue;
-        const pir_vec3 c = crossing(plane, from, to, &off);
-        const bool known = off < HUGE_VAL;
-        d->c_a = fmax(d->c_a, known ? fmin(distance_to(joint, joint->a, c) + off, from_a) : from_a);
-        d->c_b = fmax(d->c_b, known ? distance_to(joint, joint->b, c) + off : distance_to(joint, joint->b, from));
+        const double of_c = from_crossing(joint, joint->b, plane, from, to);
+        d->c_a = fmax(d->c_a, fmin(from_crossing(joint, joint->a, plane, from, to), from_a));
+        d->c_b = fmax(d->c_b, of_c < HUGE_VAL ? of_c : distance_to(joint, joint->b, from));
     }
 }
 
@@ -69,12 +75,11 @@ static void add_below(const struct joint *joint, const struct plane *plane, pir_
     d->below_a = fmax(d->below_a, from_a);
     for (uint32_t j = 0; j < pir_polytope_vertex_count(b); j++) {
         const pir_vec3 to = pir_polytope_vertex(b, j);
-        double off;
         if (height(plane, to) < -plane->margin)
             continue;
-        const pir_vec3 c = crossing(plane, from, to, &off);
-        const double of_c =
-            off < HUGE_VAL ? distance_to(joint, joint->a, c) + off : fmax(distance_to(joint, joint->a, to), from_a);
+        double of_c = from_crossing(joint, joint->a, plane, from, to);
+        if (of_c == HUGE_VAL)
+            of_c = fmax(distance_to(joint, joint->a, to), from_a);
         d->below_a = fmax(d->below_a, of_c);
         d->c_a = fmax(d->c_a, of_c);
     }
