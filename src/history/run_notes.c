@@ -94,36 +94,46 @@ static pir_status call_region(pir_replay *replay) {
     return replay->reader.broken ? PIR_ERR_FORMAT : hash_sum(replay, pir_sum_set_region(replay->sum, axis, half_angle));
 }
 
-/* The hash of an answer and of its contacts, which `status` says whether there are. */
-static pir_status hash_answer(pir_replay *replay, pir_status status, const pir_query_result *answer,
-                              const pir_contact *contacts, size_t count) {
-    replay->hash = pir_replay_hash_answer(replay->hash, answer);
+/* An answer and its contacts, of which `count` were found. */
+struct told {
+    pir_query_result answer;
+    pir_contact contact[PIR_REPLAY_CONTACTS];
+    size_t count;
+};
+
+/* The hash of what a query told; `status` says whether there are contacts. */
+static pir_status hash_told(pir_replay *replay, pir_status status, const struct told *told) {
+    const size_t kept = told->count < PIR_REPLAY_CONTACTS ? told->count : PIR_REPLAY_CONTACTS;
+    replay->hash = pir_replay_hash_answer(replay->hash, &told->answer);
     if (status == PIR_OK)
-        replay->hash =
-            pir_replay_hash_contacts(replay->hash, contacts, count < PIR_REPLAY_CONTACTS ? count : PIR_REPLAY_CONTACTS);
+        replay->hash = pir_replay_hash_contacts(replay->hash, told->contact, kept);
     return status;
+}
+
+/* The lengths that the input of a query ends with. False where the note is broken. */
+static bool take_lengths(pir_history_reader *reader, double *radius_p, double *radius_q, double *cutoff,
+                         double *margin) {
+    *radius_p = pir_history_take_double(reader);
+    *radius_q = pir_history_take_double(reader);
+    *cutoff = pir_history_take_double(reader);
+    *margin = pir_history_take_double(reader);
+    return !reader->broken;
 }
 
 static pir_status call_query(pir_replay *replay) {
     pir_history_reader *reader = &replay->reader;
     pir_query_input input = pir_query_input_default();
-    pir_query_result answer = {0};
-    pir_contact contacts[PIR_REPLAY_CONTACTS];
-    size_t count = 0;
+    struct told told = {.count = 0};
     input.translation = pir_history_take_vec(reader);
-    input.radius_p = pir_history_take_double(reader);
-    input.radius_q = pir_history_take_double(reader);
-    input.cutoff = pir_history_take_double(reader);
-    input.margin = pir_history_take_double(reader);
-    if (reader->broken)
+    if (!take_lengths(reader, &input.radius_p, &input.radius_q, &input.cutoff, &input.margin))
         return PIR_ERR_FORMAT;
     pir_status status = replay->query ? PIR_OK : pir_query_create(replay->sum, &replay->query);
     if (status == PIR_OK)
-        status = pir_query_signed_distance(replay->query, &input, &replay->cache, &answer);
+        status = pir_query_signed_distance(replay->query, &input, &replay->cache, &told.answer);
     if (status != PIR_OK)
         return status;
-    status = pir_query_manifold(replay->query, &input, &answer, PIR_REPLAY_CONTACTS, contacts, &count);
-    return hash_answer(replay, status, &answer, contacts, count);
+    status = pir_query_manifold(replay->query, &input, &told.answer, PIR_REPLAY_CONTACTS, told.contact, &told.count);
+    return hash_told(replay, status, &told);
 }
 
 static pir_status call_pair(pir_replay *replay) {
@@ -144,22 +154,17 @@ static pir_status call_pair(pir_replay *replay) {
 static pir_status call_ask(pir_replay *replay) {
     pir_history_reader *reader = &replay->reader;
     pir_pair_input input = pir_pair_input_default();
-    pir_query_result answer = {0};
-    pir_contact contacts[PIR_REPLAY_CONTACTS];
-    size_t count = 0;
+    struct told told = {.count = 0};
     input.pose_p = pir_history_take_pose(reader);
     input.pose_q = pir_history_take_pose(reader);
-    input.radius_p = pir_history_take_double(reader);
-    input.radius_q = pir_history_take_double(reader);
-    input.cutoff = pir_history_take_double(reader);
-    input.margin = pir_history_take_double(reader);
-    if (reader->broken)
+    if (!take_lengths(reader, &input.radius_p, &input.radius_q, &input.cutoff, &input.margin))
         return PIR_ERR_FORMAT;
-    pir_status status = pir_pair_signed_distance(replay->pair, replay->workspace, &input, &answer);
+    pir_status status = pir_pair_signed_distance(replay->pair, replay->workspace, &input, &told.answer);
     if (status != PIR_OK)
         return status;
-    status = pir_pair_manifold(replay->pair, replay->workspace, &input, &answer, PIR_REPLAY_CONTACTS, contacts, &count);
-    return hash_answer(replay, status, &answer, contacts, count);
+    status = pir_pair_manifold(replay->pair, replay->workspace, &input, &told.answer, PIR_REPLAY_CONTACTS, told.contact,
+                               &told.count);
+    return hash_told(replay, status, &told);
 }
 
 /* --- all of it --- */

@@ -10,30 +10,9 @@
 #include <string.h>
 
 #include "scene/crowd.h"
+#include "scene/scene_bodies.h"
 #include "support/bodies.h"
 #include "support/meshes.h"
-
-static pir_polytope *cube(double half) {
-    test_points points = {.count = 8};
-    for (int i = 0; i < 8; i++)
-        points.at[i] = (pir_vec3){i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half};
-    return test_polytope(&points);
-}
-
-static pir_pose at(double x, double y, double z) {
-    return (pir_pose){{0, 0, 0, 1}, {x, y, z}};
-}
-
-static uint32_t add(pir_scene *scene, pir_polytope *p, pir_pose pose, pir_body_kind kind) {
-    pir_body_options body = pir_body_options_default();
-    uint32_t id = UINT32_MAX;
-    body.pieces = &p;
-    body.piece_count = 1;
-    body.pose = pose;
-    body.kind = kind;
-    assert_int_equal(pir_scene_add(scene, &body, &id), PIR_OK);
-    return id;
-}
 
 static pir_scene *new_scene(uint32_t threads) {
     pir_scene_options options = pir_scene_options_default();
@@ -72,13 +51,13 @@ static size_t check_events(const pir_scene *scene, pir_polytope *const *shape) {
 static void many_bodies_in_one_place(void **state) {
     (void)state;
     enum { COUNT = 32 };
-    pir_polytope *p = cube(1), *shape[COUNT];
+    pir_polytope *p = scene_cube(1), *shape[COUNT];
     uint64_t hash[3] = {0};
     for (uint32_t threads = 1; threads < 4; threads++) {
         pir_scene *scene = new_scene(threads);
         pir_scene_move moves[COUNT];
         for (uint32_t i = 0; i < COUNT; i++) {
-            moves[i] = (pir_scene_move){add(scene, p, at(0, 0, 0), PIR_BODY_MOVING), at(0, 0, 0)};
+            moves[i] = (pir_scene_move){scene_add(scene, p, scene_at(0, 0, 0), PIR_BODY_MOVING), scene_at(0, 0, 0)};
             shape[i] = p;
         }
         assert_int_equal(pir_scene_update(scene, NULL, 0), PIR_OK);
@@ -88,7 +67,7 @@ static void many_bodies_in_one_place(void **state) {
         assert_int_equal(check_events(scene, shape), COUNT * (COUNT - 1) / 2);
         // all in one row, face to face
         for (uint32_t i = 0; i < COUNT; i++)
-            moves[i].pose = at(2. * i, 0, 0);
+            moves[i].pose = scene_at(2. * i, 0, 0);
         assert_int_equal(pir_scene_update(scene, moves, COUNT), PIR_OK);
         size_t count, persisted = 0;
         const pir_scene_event *event = pir_scene_events(scene, &count);
@@ -107,13 +86,13 @@ static void many_bodies_in_one_place(void **state) {
 static void huge_beside_tiny(void **state) {
     (void)state;
     const double big = 0x1p58, small = 0x1p-60;
-    pir_polytope *shape[3] = {cube(big), cube(small), cube(1)};
+    pir_polytope *shape[3] = {scene_cube(big), scene_cube(small), scene_cube(1)};
     pir_scene *scene = new_scene(1);
     uint32_t id[3];
     // a huge one whose face is at z = 0, a tiny one that stands on it, one that is far off
-    id[0] = add(scene, shape[0], at(0, 0, -big), PIR_BODY_STATIC);
-    id[1] = add(scene, shape[1], at(0.25, 0.5, small), PIR_BODY_MOVING);
-    id[2] = add(scene, shape[2], at(big, big, 3), PIR_BODY_MOVING);
+    id[0] = scene_add(scene, shape[0], scene_at(0, 0, -big), PIR_BODY_STATIC);
+    id[1] = scene_add(scene, shape[1], scene_at(0.25, 0.5, small), PIR_BODY_MOVING);
+    id[2] = scene_add(scene, shape[2], scene_at(big, big, 3), PIR_BODY_MOVING);
     assert_int_equal(pir_scene_update(scene, NULL, 0), PIR_OK);
     size_t count;
     const pir_scene_event *event = pir_scene_events(scene, &count);
@@ -123,7 +102,7 @@ static void huge_beside_tiny(void **state) {
     // by the least that can be: apart, and inside
     const double steps[2] = {nextafter(small, 1), nextafter(small, 0)};
     for (int i = 0; i < 2; i++) {
-        pir_scene_move move = {id[1], at(0.25, 0.5, steps[i])};
+        pir_scene_move move = {id[1], scene_at(0.25, 0.5, steps[i])};
         assert_int_equal(pir_scene_update(scene, &move, 1), PIR_OK);
         event = pir_scene_events(scene, &count);
         assert_int_equal(count, 1);
@@ -131,7 +110,7 @@ static void huge_beside_tiny(void **state) {
         assert_true(i == 0 || event->state == PIR_INSIDE);
     }
     // beyond what is allowed nothing changes
-    pir_scene_move far = {id[2], at(0x1p61, 0, 0)};
+    pir_scene_move far = {id[2], scene_at(0x1p61, 0, 0)};
     assert_int_equal(pir_scene_update(scene, &far, 1), PIR_ERR_LIMIT);
     pir_pose pose;
     assert_int_equal(pir_scene_pose(scene, id[2], &pose), PIR_OK);
@@ -143,13 +122,14 @@ static void huge_beside_tiny(void **state) {
 
 static void kinematic_bodies_pass_through_static_ones(void **state) {
     (void)state;
-    pir_polytope *p = cube(1);
+    pir_polytope *p = scene_cube(1);
     pir_scene *scene = new_scene(1);
-    uint32_t lift = add(scene, p, at(0, 0, -4), PIR_BODY_KINEMATIC), box = add(scene, p, at(0, 0, 2), PIR_BODY_MOVING);
-    add(scene, p, at(0, 0, 0), PIR_BODY_STATIC);
-    add(scene, p, at(0.5, 0, 0), PIR_BODY_STATIC);
+    uint32_t lift = scene_add(scene, p, scene_at(0, 0, -4), PIR_BODY_KINEMATIC),
+             box = scene_add(scene, p, scene_at(0, 0, 2), PIR_BODY_MOVING);
+    scene_add(scene, p, scene_at(0, 0, 0), PIR_BODY_STATIC);
+    scene_add(scene, p, scene_at(0.5, 0, 0), PIR_BODY_STATIC);
     for (int i = 0; i < 9; i++) {
-        pir_scene_move move = {lift, at(0, 0, -4 + i)};
+        pir_scene_move move = {lift, scene_at(0, 0, -4 + i)};
         size_t count;
         assert_int_equal(pir_scene_update(scene, &move, 1), PIR_OK);
         const pir_scene_event *event = pir_scene_events(scene, &count);
@@ -166,11 +146,11 @@ static void kinematic_bodies_pass_through_static_ones(void **state) {
 static void bodies_may_go_while_events_are_read(void **state) {
     (void)state;
     enum { COUNT = 12 };
-    pir_polytope *p = cube(1), *shape[COUNT];
+    pir_polytope *p = scene_cube(1), *shape[COUNT];
     pir_scene *scene = new_scene(1);
     bool there[COUNT];
     for (uint32_t i = 0; i < COUNT; i++) {
-        add(scene, p, at(0.5 * i, 0.25 * i, 0), PIR_BODY_MOVING);
+        scene_add(scene, p, scene_at(0.5 * i, 0.25 * i, 0), PIR_BODY_MOVING);
         shape[i] = p;
         there[i] = true;
     }
@@ -190,7 +170,7 @@ static void bodies_may_go_while_events_are_read(void **state) {
     pir_scene_move moves[COUNT];
     size_t moved = 0;
     for (uint32_t i = COUNT; i-- > 0;) {
-        pir_scene_move move = {i, at(0.5 * i, 0.25 * i, 0)};
+        pir_scene_move move = {i, scene_at(0.5 * i, 0.25 * i, 0)};
         assert_int_equal(pir_scene_update(scene, &move, 1), there[i] ? PIR_OK : PIR_ERR_ARGUMENT);
         if (there[i])
             moves[moved++] = move;
@@ -202,7 +182,7 @@ static void bodies_may_go_while_events_are_read(void **state) {
     // numbers that are free are given again, the least first
     for (uint32_t i = 0; i < COUNT; i++)
         if (!there[i])
-            assert_int_equal(add(scene, p, at(0.5 * i, 0.25 * i, 0), PIR_BODY_MOVING), i);
+            assert_int_equal(scene_add(scene, p, scene_at(0.5 * i, 0.25 * i, 0), PIR_BODY_MOVING), i);
     assert_int_equal(pir_scene_update(scene, NULL, 0), PIR_OK);
     assert_true(check_events(scene, shape) > 0 && pir_scene_is_valid(scene));
     pir_scene_destroy(scene);
@@ -214,18 +194,18 @@ static void the_order_of_moves_means_nothing(void **state) {
     (void)state;
     enum { COUNT = 240, PART = 150, ROW = 20 };
     static pir_scene_move moves[2][COUNT];
-    pir_polytope *p = cube(0.7);
+    pir_polytope *p = scene_cube(0.7);
     pir_scene *scene[2] = {new_scene(1), new_scene(4)};
     test_random random = test_random_case("order of moves", 0);
     for (int k = 0; k < 2; k++)
         for (uint32_t i = 0; i < COUNT; i++)
-            add(scene[k], p, at(i % ROW, i / ROW, 0), PIR_BODY_MOVING);
+            scene_add(scene[k], p, scene_at(i % ROW, i / ROW, 0), PIR_BODY_MOVING);
     for (int step = 0; step < 6; step++) {
         uint32_t count = step % 2 ? PART : COUNT;
         uint64_t hash[2];
         for (uint32_t i = 0; i < count; i++) {
             double x = test_random_unit(&random), y = test_random_unit(&random);
-            moves[0][i] = (pir_scene_move){i, at(i % ROW + 0.5 * x, i / ROW + 0.5 * y, 0)};
+            moves[0][i] = (pir_scene_move){i, scene_at(i % ROW + 0.5 * x, i / ROW + 0.5 * y, 0)};
             moves[1][count - 1 - i] = moves[0][i];
         }
         for (int k = 0; k < 2; k++) {

@@ -13,6 +13,7 @@
 #include <pirouette/scene_query.h>
 
 #include "scene/crowd.h"
+#include "scene/scene_bodies.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/vectors.h"
@@ -305,13 +306,6 @@ static void a_cast_ends_at_the_first_contact(void **state) {
     assert_true(met >= 4);
 }
 
-static pir_polytope *cube(double half) {
-    test_points points = {.count = 8};
-    for (int i = 0; i < 8; i++)
-        points.at[i] = (pir_vec3){i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half};
-    return test_polytope(&points);
-}
-
 static uint32_t add(pir_scene *scene, pir_polytope *const *pieces, uint32_t count, pir_vec3 at, int sensor) {
     pir_body_options body = pir_body_options_default();
     uint32_t id;
@@ -325,7 +319,7 @@ static uint32_t add(pir_scene *scene, pir_polytope *const *pieces, uint32_t coun
 
 static void a_fast_body_meets_a_wall_in_time(void **state) {
     (void)state;
-    pir_polytope *pieces[2] = {cube(0.5), NULL};
+    pir_polytope *pieces[2] = {scene_cube(0.5), NULL};
     assert_int_equal(pir_polytope_translate(pieces[0], (pir_vec3){1, 0, 0}, &pieces[1]), PIR_OK);
     pir_scene *scene;
     assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
@@ -355,7 +349,7 @@ static void a_fast_body_meets_a_wall_in_time(void **state) {
 
 static void what_cannot_be_asked_is_refused(void **state) {
     (void)state;
-    pir_polytope *p = cube(1);
+    pir_polytope *p = scene_cube(1);
     pir_scene *scene;
     assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
     uint32_t ghost = add(scene, &p, 1, (pir_vec3){0, 0, 0}, 1);
@@ -415,7 +409,7 @@ static void what_cannot_be_asked_is_refused(void **state) {
 
 static void memory_that_fails_fails_the_query_alone(void **state) {
     (void)state;
-    pir_polytope *p = cube(1), *shape_of = cube(0.75);
+    pir_polytope *p = scene_cube(1), *shape_of = scene_cube(0.75);
     pir_status status = PIR_ERR_MEMORY;
     uint64_t failures = 0;
     for (uint64_t request = 1; status == PIR_ERR_MEMORY; request++) {

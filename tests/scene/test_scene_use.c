@@ -10,31 +10,10 @@
 #include <string.h>
 
 #include "scene/crowd.h"
+#include "scene/scene_bodies.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/meshes.h"
-
-static pir_polytope *cube(double half) {
-    test_points points = {.count = 8};
-    for (int i = 0; i < 8; i++)
-        points.at[i] = (pir_vec3){i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half};
-    return test_polytope(&points);
-}
-
-static pir_pose at(double x, double y, double z) {
-    return (pir_pose){{0, 0, 0, 1}, {x, y, z}};
-}
-
-static uint32_t add(pir_scene *scene, pir_polytope *p, pir_pose pose, pir_body_kind kind) {
-    pir_body_options body = pir_body_options_default();
-    uint32_t id;
-    body.pieces = &p;
-    body.piece_count = 1;
-    body.pose = pose;
-    body.kind = kind;
-    assert_int_equal(pir_scene_add(scene, &body, &id), PIR_OK);
-    return id;
-}
 
 /* --- refusals --- */
 
@@ -74,7 +53,7 @@ static void what_is_no_scene_is_refused(void **state) {
 
 static void what_is_no_body_is_refused(void **state) {
     (void)state;
-    pir_polytope *p = cube(1), *none = NULL;
+    pir_polytope *p = scene_cube(1), *none = NULL;
     pir_scene *scene;
     uint32_t id = 42;
     assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
@@ -116,23 +95,24 @@ static void what_is_no_body_is_refused(void **state) {
 
 static void moves_that_cannot_be_change_nothing(void **state) {
     (void)state;
-    pir_polytope *p = cube(1);
+    pir_polytope *p = scene_cube(1);
     pir_scene *scene;
     assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
-    uint32_t a = add(scene, p, at(0, 0, 0), PIR_BODY_MOVING), wall = add(scene, p, at(1.5, 0, 0), PIR_BODY_STATIC);
+    uint32_t a = scene_add(scene, p, scene_at(0, 0, 0), PIR_BODY_MOVING),
+             wall = scene_add(scene, p, scene_at(1.5, 0, 0), PIR_BODY_STATIC);
     assert_int_equal(pir_scene_update(scene, NULL, 0), PIR_OK);
     pir_pose zero = {{0, 0, 0, 0}, {0, 0, 0}}, pose;
     struct {
         pir_scene_move moves[2];
         size_t count;
         pir_status status;
-    } const cases[7] = {{{{7, at(0, 0, 0)}}, 1, PIR_ERR_ARGUMENT},
-                        {{{wall, at(0, 0, 0)}}, 1, PIR_ERR_ARGUMENT},
-                        {{{a, at(5, 0, 0)}, {a, at(5, 0, 0)}}, 2, PIR_ERR_ARGUMENT},
-                        {{{a, at(5, 0, 0)}, {7, at(5, 0, 0)}}, 2, PIR_ERR_ARGUMENT},
+    } const cases[7] = {{{{7, scene_at(0, 0, 0)}}, 1, PIR_ERR_ARGUMENT},
+                        {{{wall, scene_at(0, 0, 0)}}, 1, PIR_ERR_ARGUMENT},
+                        {{{a, scene_at(5, 0, 0)}, {a, scene_at(5, 0, 0)}}, 2, PIR_ERR_ARGUMENT},
+                        {{{a, scene_at(5, 0, 0)}, {7, scene_at(5, 0, 0)}}, 2, PIR_ERR_ARGUMENT},
                         {{{a, zero}}, 1, PIR_ERR_ZERO_QUATERNION},
-                        {{{a, at(5, NAN, 0)}}, 1, PIR_ERR_NOT_FINITE},
-                        {{{a, at(5, 0x1.8p60, 0)}}, 1, PIR_ERR_LIMIT}};
+                        {{{a, scene_at(5, NAN, 0)}}, 1, PIR_ERR_NOT_FINITE},
+                        {{{a, scene_at(5, 0x1.8p60, 0)}}, 1, PIR_ERR_LIMIT}};
     for (int i = 0; i < 7; i++) {
         size_t count = 42;
         expect(pir_scene_update(scene, cases[i].moves, cases[i].count) == cases[i].status, "case %d", i);
@@ -142,7 +122,7 @@ static void moves_that_cannot_be_change_nothing(void **state) {
         assert_true(pose.translation.x == 0);
     }
     // and the contact persists, as if nothing had been
-    pir_scene_move move = {a, at(0.25, 0, 0)};
+    pir_scene_move move = {a, scene_at(0.25, 0, 0)};
     size_t count;
     assert_int_equal(pir_scene_update(scene, &move, 1), PIR_OK);
     const pir_scene_event *event = pir_scene_events(scene, &count);
@@ -160,18 +140,19 @@ static void moves_that_cannot_be_change_nothing(void **state) {
 
 static void a_contact_begins_persists_and_ends(void **state) {
     (void)state;
-    pir_polytope *p = cube(1);
+    pir_polytope *p = scene_cube(1);
     pir_scene_options options = pir_scene_options_default();
     pir_scene *scene;
     options.approach = 1;
     assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
-    uint32_t floor = add(scene, p, at(0, 0, -1), PIR_BODY_STATIC), box = add(scene, p, at(0.25, 0, 2), PIR_BODY_MOVING);
+    uint32_t floor = scene_add(scene, p, scene_at(0, 0, -1), PIR_BODY_STATIC),
+             box = scene_add(scene, p, scene_at(0.25, 0, 2), PIR_BODY_MOVING);
     static const double heights[6] = {1.5, 1, 0.75, 1, 1.5, 9};
     static const pir_event_kind kinds[6] = {PIR_EVENT_ENDED,     PIR_EVENT_BEGAN, PIR_EVENT_PERSISTED,
                                             PIR_EVENT_PERSISTED, PIR_EVENT_ENDED, PIR_EVENT_ENDED};
     uint64_t ids[4] = {0};
     for (int i = 0; i < 6; i++) {
-        pir_scene_move move = {box, at(0.25, 0, heights[i])};
+        pir_scene_move move = {box, scene_at(0.25, 0, heights[i])};
         size_t count;
         assert_int_equal(pir_scene_update(scene, &move, 1), PIR_OK);
         const pir_scene_event *event = pir_scene_events(scene, &count);
@@ -211,14 +192,14 @@ static pir_status live(const pir_allocator *a, pir_polytope *const p[3], uint64_
         pir_body_options body = pir_body_options_default();
         body.pieces = p + i % 2;
         body.piece_count = 2;
-        body.pose = at(0.75 * i, 0.25 * (i % 3), 0.125 * i);
+        body.pose = scene_at(0.75 * i, 0.25 * (i % 3), 0.125 * i);
         status = pir_scene_add(scene, &body, &id[i]);
     }
     for (int step = 0; step < 5 && status == PIR_OK; step++) {
         pir_scene_move moves[6];
         for (uint32_t i = 0; i < 6; i++)
-            moves[i] =
-                (pir_scene_move){id[i], at(0.75 * i - 0.2 * step * (i % 3), 0.25 * (i % 3), 0.125 * i + 0.1 * step)};
+            moves[i] = (pir_scene_move){
+                id[i], scene_at(0.75 * i - 0.2 * step * (i % 3), 0.25 * (i % 3), 0.125 * i + 0.1 * step)};
         status = pir_scene_update(scene, moves, 6);
         assert_true(pir_scene_is_valid(scene));
         // what failed once works the next time, and gives what it would have given
@@ -232,7 +213,7 @@ static pir_status live(const pir_allocator *a, pir_polytope *const p[3], uint64_
 
 static void memory_that_fails_leaves_the_scene_as_it_was(void **state) {
     (void)state;
-    pir_polytope *p[3] = {cube(0.5), cube(0.6), cube(0.7)};
+    pir_polytope *p[3] = {scene_cube(0.5), scene_cube(0.6), scene_cube(0.7)};
     uint64_t expected, hash;
     assert_int_equal(live(NULL, p, &expected), PIR_OK);
     pir_status status = PIR_ERR_MEMORY;
@@ -254,7 +235,7 @@ static void memory_that_fails_leaves_the_scene_as_it_was(void **state) {
 
 static void a_budget_is_kept(void **state) {
     (void)state;
-    pir_polytope *p = cube(1);
+    pir_polytope *p = scene_cube(1);
     pir_scene_options options = pir_scene_options_default();
     pir_scene *scene;
     options.budget = 1000000;
@@ -265,7 +246,8 @@ static void a_budget_is_kept(void **state) {
     size_t events = 0;
     // more and more boxes in one place
     while (status == PIR_OK && count < 64) {
-        moves[count] = (pir_scene_move){add(scene, p, at(0.01 * count, 0, 0), PIR_BODY_MOVING), at(0.01 * count, 0, 0)};
+        moves[count] = (pir_scene_move){scene_add(scene, p, scene_at(0.01 * count, 0, 0), PIR_BODY_MOVING),
+                                        scene_at(0.01 * count, 0, 0)};
         count++;
         status = pir_scene_update(scene, moves, count);
         size_t now;
@@ -322,18 +304,18 @@ static void a_scene_that_no_longer_grows_allocates_nothing(void **state) {
 
 static void only_moved_bodies_are_looked_at(void **state) {
     (void)state;
-    pir_polytope *p = cube(0.5);
+    pir_polytope *p = scene_cube(0.5);
     pir_scene *scene;
     uint32_t id[900];
     assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
     for (uint32_t i = 0; i < 900; i++)
-        id[i] = add(scene, p, at(i % 30, i / 30, 0), PIR_BODY_MOVING);
+        id[i] = scene_add(scene, p, scene_at(i % 30, i / 30, 0), PIR_BODY_MOVING);
     assert_int_equal(pir_scene_update(scene, NULL, 0), PIR_OK);
     size_t count;
     pir_scene_events(scene, &count);
     // each shares a face, an edge or a corner with up to eight
     assert_int_equal(count, 2 * 29 * 30 + 2 * 29 * 29);
-    pir_scene_move move = {id[435], at(15, 14, 0.5)};
+    pir_scene_move move = {id[435], scene_at(15, 14, 0.5)};
     assert_int_equal(pir_scene_update(scene, &move, 1), PIR_OK);
     const pir_scene_event *event = pir_scene_events(scene, &count);
     assert_int_equal(count, 8);

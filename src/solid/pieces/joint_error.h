@@ -11,11 +11,11 @@
  * plane there is no c between, and b is in the hull of the vertices of what B has below. All this holds whatever the
  * plane; it is one of a facet, of A or of B.
  *
- * Rounding, with u = 2^-53 and R the greatest coordinate: vertices are off by 4 u R, being cut to doubles, a point c by
- * 16 u R, being made of products no greater than 4 R, and a distance by 64 u R (convex_distance.h), which
- * together is less than the 128 u R that are added to each distance. A height over the plane is a sum of three products,
- * off by 8 u R at the most; the plane is 64 u R farther out than it seems, and a height is taken to be off by as much, m.
- * So a share below / (below + above) is off by 4 m / (below + above) at most, where that is no more than a half.
+ * Rounding, with u = 2^-53 and R the greatest coordinate: vertices are off by 4 u R, being cut to doubles, a point c
+ * by 16 u R, being made of products no greater than 4 R, and a distance by 64 u R (convex_distance.h), which together
+ * is less than the 128 u R that are added to each distance. A height over the plane is a sum of three products, off by
+ * 8 u R at the most; the plane is 64 u R farther out than it seems, and a height is taken to be off by as much, m. So a
+ * share below / (below + above) is off by 4 m / (below + above) at most, where that is no more than a half.
  */
 #ifndef PIR_SOLID_PIECES_JOINT_ERROR_H
 #define PIR_SOLID_PIECES_JOINT_ERROR_H
