@@ -87,8 +87,8 @@ static pir_vec3 support(const pir_placed *placed, const pir_polytope *body, pir_
 
 /*
  * Along a unit u from P to Q, let x be the support of P's coarse body along u, and y that of Q's along −u. The coarse
- * bodies are apart by at least u·(y − x) and at most |y − x|. The bodies are apart by at most as much, and by at least
- * that less both errors.
+ * bodies are apart by at least the part of y − x along u, and by at most its length. The bodies are apart by at most
+ * as much, and by at least as much less both errors.
  */
 void pir_bounds_by_supports(pir_bounds *bounds, const pir_placed *p, const pir_placed *q, double error) {
     const pir_coarse_body *of_p = coarsest(p->coarse, error / 4), *of_q = coarsest(q->coarse, error / 4);
