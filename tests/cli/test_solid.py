@@ -64,7 +64,8 @@ class Solid(CommandTest):
     def test_text_says_what_json_does(self):
         model, cube = self.file("l.off", prism()), "shape:box?x=1&y=1&z=1"
         text = self.good("query", cube, model, "--solid", "--translate", "2,2,0.5", "--cast=-2,0,0")
-        for part in ("outside", "distance     0.5", "normal       1, 0, 0", "cast         hit, time 0.2", "1 of P, 2 of Q"):
+        for part in ("outside", "distance     0.5", "normal       1, 0, 0", "cast         hit, time 0.2",
+                     "1 of P, 2 of Q"):
             self.assertIn(part, text)
         text = self.good("query", cube, model, "--solid", "--translate", "2,2,0.5", "--cast=2,0,0")
         self.assertIn("cast         miss", text)
