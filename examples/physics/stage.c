@@ -196,6 +196,13 @@ static bool read_from(const char *path, struct stage *stage, char why[STAGE_WHY]
     return good;
 }
 
+/* Names from the file may hold ends of lines, and what a terminal obeys. */
+static void make_one_line(char *text) {
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 127)
+            *text = '?';
+}
+
 bool stage_read(const char *path, struct stage *ret_stage, char why[STAGE_WHY]) {
     struct stage stage = {.options = world_options_default(), .seconds = 10};
     char what[STAGE_WHY] = "";
@@ -204,6 +211,7 @@ bool stage_read(const char *path, struct stage *ret_stage, char why[STAGE_WHY]) 
         return true;
     }
     stage_clear(&stage);
+    make_one_line(what);
     const int room = STAGE_WHY / 2 - 4;
     snprintf(why, STAGE_WHY, "%.*s: %.*s", room, strcmp(path, "-") == 0 ? "standard input" : path, room, what);
     return false;

@@ -307,13 +307,13 @@ typedef struct pir_configuration {
  * Classifies a pose by the slices of the nearest rotations.
  *
  * At the rotation of a slice (a quaternion that is a multiple of the grid's) the state is exact; where a list has five
- * rotations or more within 1e-15 of each other, it may be taken for another of these. Beside it, four
- * proofs are tried on the four nearest slices: balls around the pieces that are apart; the distance or depth at the
- * slice, where it exceeds what any point of the piece moves by between the two rotations; a direction of the slice that
- * separates at the pose; a facet of the slice that, carried to the pose, covers the translation together with a ball
- * that lies in the difference. What none of them proves is unknown: the pose is nearer to contact than the grid is
- * fine. The share of such poses falls faster than the grid's spacing; docs/slices.md has figures. pair.h answers all
- * poses, without slices.
+ * rotations or more within 1e-7 of each other, the slice may not be found among them, and the pose is answered as one
+ * beside it. There, four proofs are tried on the four nearest slices: balls around the pieces that are apart; the
+ * distance or depth at the slice, where it exceeds what any point of the piece moves by between the two rotations; a
+ * direction of the slice that separates at the pose; a facet of the slice that, carried to the pose, covers the
+ * translation together with a ball that lies in the difference. What none of them proves is unknown: the pose is nearer
+ * to contact than the grid is fine. The share of such poses falls faster than the grid's spacing; docs/slices.md has
+ * figures. pair.h answers all poses, without slices.
  *
  * pose    of the robot.
  * report  NULL, or filled when the call fails.

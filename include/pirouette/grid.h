@@ -144,8 +144,9 @@ PIR_API uint64_t pir_grid_cell(const pir_grid *grid, uint64_t number);
 
 /**
  * Finds the rotations of the grid that are nearest to `rotation`, the nearest first and, of equally near ones, the
- * lower number. Up to `capacity`, at most 64, go to `ret_numbers`; the result is how many. It is 0 where `rotation` is
- * zero or not finite.
+ * lower number. How near they are is compared by cosines in double: those within 1e-7 of `rotation` count as equally
+ * near. Up to `capacity`, at most 64, go to `ret_numbers`; the result is how many. It is 0 where `rotation` is zero or
+ * not finite.
  *
  * rotation  of any length but 0.
  *

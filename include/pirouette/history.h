@@ -140,7 +140,7 @@ PIR_API pir_status pir_history_scene(pir_history *history, const pir_scene_optio
 /**
  * Notes pir_scene_add.
  *
- * body  as it was given.
+ * body  as it was given; its coarse bodies, on which no event depends, are left out.
  *
  * Cost: O(size of its pieces).
  *

@@ -42,6 +42,7 @@
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
+#include <pirouette/simplify.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -107,8 +108,11 @@ typedef struct pir_body_options {
     pir_pose pose;
     pir_polytope *const *pieces; /**< the convex pieces, in the body's frame; of any dimension */
     uint32_t piece_count;        /**< 1 to 4096 */
-    double radius;               /**< the rounding radius, ≥ 0 */
-    uint32_t category, mask;     /**< bits: of what the body is; of what it meets */
+    /** The coarse bodies of each piece's polytope, or NULL for a piece that has none; NULL where none has. Answers that
+        may be inaccurate use them: those of pir_scene_distances. */
+    pir_coarse *const *coarse;
+    double radius;           /**< the rounding radius, ≥ 0 */
+    uint32_t category, mask; /**< bits: of what the body is; of what it meets */
     int sensor;
 } pir_body_options;
 
@@ -119,14 +123,14 @@ PIR_API pir_body_options pir_body_options_default(void);
  * Adds a body, and gives its number: the least that is free. Its contacts begin with the next update. At most 2^20
  * bodies.
  *
- * body  its pieces are referenced; the rest is copied.
+ * body  its pieces and their coarse bodies are referenced; the rest is copied.
  *
  * Cost: O(vertices of the pieces), and O(log n) a piece in a scene of n pieces; O(n) where a number below the greatest
  * is free.
  *
- * Errors: PIR_ERR_ARGUMENT (no piece, a radius below 0 or infinite, a kind out of range), PIR_ERR_NOT_FINITE,
- * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (too many pieces or bodies; a coordinate of the body in the world beyond
- * 2^60), PIR_ERR_MEMORY.
+ * Errors: PIR_ERR_ARGUMENT (no piece, coarse bodies of another polytope, a radius below 0 or infinite, a kind out of
+ * range), PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (too many pieces or bodies; a coordinate of the
+ * body in the world beyond 2^60), PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body);
 

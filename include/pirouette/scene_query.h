@@ -44,9 +44,10 @@ extern "C" {
 typedef struct pir_scene_shape {
     pir_polytope *polytope;
     pir_pose pose;
-    double radius;   /**< its rounding radius, ≥ 0 */
-    uint32_t mask;   /**< the categories of bodies that it meets */
-    uint32_t except; /**< a body that it does not meet, or PIR_SCENE_NONE */
+    double radius;      /**< its rounding radius, ≥ 0 */
+    uint32_t mask;      /**< the categories of bodies that it meets */
+    uint32_t except;    /**< a body that it does not meet, or PIR_SCENE_NONE */
+    pir_coarse *coarse; /**< the coarse bodies of `polytope`, or NULL */
 } pir_scene_shape;
 
 /** `polytope` at the origin, not turned, with all in its mask. */
@@ -105,6 +106,49 @@ PIR_API pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *sh
  */
 PIR_API pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t capacity, pir_scene_near *ret_near,
                                            size_t *ret_count);
+
+/** How accurate a distance has to be: within `length`, or within `part` of the distance, whichever is more. */
+typedef struct pir_accuracy {
+    double length, part; /**< ≥ 0 */
+} pir_accuracy;
+
+/** What settled a distance. */
+typedef enum pir_settled {
+    PIR_SETTLED_BY_BOXES = 0, /**< the boxes around both */
+    PIR_SETTLED_BY_COARSE,    /**< coarse bodies, and balls in and around the bodies */
+    PIR_SETTLED_EXACTLY,      /**< the bodies themselves */
+} pir_settled;
+
+/** A piece, and bounds on how far it is. */
+typedef struct pir_scene_distance {
+    uint32_t body, piece;
+    pir_state state;    /**< exact, as of pir_pair_distance */
+    double least, most; /**< the distance is between these; both 0 where a point is shared */
+    pir_settled settled;
+} pir_scene_distance;
+
+/**
+ * How far a shape is from all pieces that are at most `cutoff` away, as accurately as is asked for. Of a pair that is
+ * far apart only the boxes are looked at; where both have coarse bodies, then balls and a few vertices of these; where
+ * that is not enough, the bodies. By the numbers of body and piece.
+ *
+ * The distance is always between `least` and `most`. These differ by at most the accuracy, with `part` taken of
+ * `least`, and by what a distance in doubles may be off, 1e-11 of the sizes and coordinates at most. Which pieces are
+ * told, and their states, do not depend on the accuracy.
+ *
+ * shape                    borrowed for the call.
+ * cutoff                   a distance, finite or HUGE_VAL.
+ * accuracy                 what is accurate enough.
+ * capacity, ret_distances  room for how many, and that room.
+ * ret_count                how many there are, also beyond the capacity.
+ *
+ * Cost: that of a query of a scene; O(1) for a piece that is settled without the bodies.
+ *
+ * Errors: those of a query of a scene.
+ */
+PIR_API pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, double cutoff,
+                                       pir_accuracy accuracy, size_t capacity, pir_scene_distance *ret_distances,
+                                       size_t *ret_count);
 
 /** What a ray or a motion meets first. */
 typedef struct pir_scene_impact {

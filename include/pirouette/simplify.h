@@ -60,6 +60,44 @@ PIR_API pir_status pir_polytope_simplify(pir_polytope *polytope, const pir_simpl
 /** Gives both references back, and sets them to NULL. NULL is accepted. */
 PIR_API void pir_simplified_release(pir_simplified *simplified);
 
+/* --- coarse bodies --- */
+
+/**
+ * Coarse bodies of a polytope, for questions that need no more accuracy (pir_scene_distances): polytopes inside of it,
+ * of 8 vertices, 32, 128 and so on, as long as those are half of its own at most. Immutable, with a count of references
+ * that threads may change at once.
+ */
+typedef struct pir_coarse pir_coarse;
+
+/** One of them: a polytope, borrowed, and how far the body reaches beyond it at most. */
+typedef struct pir_coarse_body {
+    pir_polytope *polytope;
+    double error; /**< no point of the body is farther than this from `polytope`; rounded up, 0 for the body itself */
+} pir_coarse_body;
+
+/**
+ * Makes the coarse bodies of a polytope, with its allocator.
+ *
+ * polytope  of any dimension; referenced.
+ *
+ * Cost: that of pir_polytope_simplify without the outer polytope, for each coarse body.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_LIMIT (as of pir_polytope_simplify), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_coarse_create(pir_polytope *polytope, pir_coarse **ret_coarse);
+
+/** Takes a reference, and returns its argument; NULL is accepted. */
+PIR_API pir_coarse *pir_coarse_retain(pir_coarse *coarse);
+
+/** Gives a reference back; the last one frees. NULL is accepted. */
+PIR_API void pir_coarse_release(pir_coarse *coarse);
+
+/** How many bodies there are, that of the polytope itself, which is the last one, included: at least 1. */
+PIR_API uint32_t pir_coarse_count(const pir_coarse *coarse);
+
+/** Number `index` of them, which must be below the count; later ones have more vertices. */
+PIR_API pir_coarse_body pir_coarse_get(const pir_coarse *coarse, uint32_t index);
+
 #ifdef __cplusplus
 }
 #endif

@@ -235,6 +235,7 @@ class Simulate(Simulated):
                            ('{"shapes": {}, "bodies": [], "bodies": []}', "twice"), ("\xff\xfe", "line 1")):
             refused(text, says)
         refused(scene(colour=1), "unknown key 'colour'")
+        refused(scene(**{"a\nb\x1b[31m": 1}), "unknown key 'a?b?[31m'")
         refused(scene(gravity=[0, 0]), "gravity", "3 numbers")
         refused('{"shapes": {}, "bodies": [], "gravity": [0, 0, 1e999]}', "gravity", "not finite")
         refused(scene(seconds=-1), "seconds: -1")

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette info --solid, sum --solid and decompose."""
+"""pirouette info --solid, sum --solid, query --solid and decompose."""
+import subprocess
+
 from command_test import CommandTest, main
 
 # an L, 1 thick: 12 vertices, 8 facets, a reflex edge
@@ -58,6 +60,30 @@ class Solid(CommandTest):
         self.assertEqual(self.data("query", cube, model, "--solid", "--translate", "1.5,1.5,0")["state"], "boundary")
         self.assertIn("inside", self.good("query", cube, model, "--solid", "--translate", "0.25,0.25,0"))
         self.bad("query", cube, model, "--solid", "--translate", "1,1,0", "--direction", "1,0,0", says="not for solids")
+
+    def test_text_says_what_json_does(self):
+        model, cube = self.file("l.off", prism()), "shape:box?x=1&y=1&z=1"
+        text = self.good("query", cube, model, "--solid", "--translate", "2,2,0.5", "--cast=-2,0,0")
+        for part in ("outside", "distance     0.5", "normal       1, 0, 0", "cast         hit, time 0.2",
+                     "1 of P, 2 of Q"):
+            self.assertIn(part, text)
+        text = self.good("query", cube, model, "--solid", "--translate", "2,2,0.5", "--cast=2,0,0")
+        self.assertIn("cast         miss", text)
+        text = self.good("sum", model, cube, "--solid", "--open")
+        self.assertIn("left out   0 two-sided facets, 0 segments, 0 points", text)
+
+    def test_a_solid_comes_on_stdin(self):
+        def run(text):
+            return subprocess.run([self.command, "info", "-", "--solid"], input=text, text=True, capture_output=True,
+                                  check=False)
+
+        done = run(prism())
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("1 of them reflex", done.stdout)
+        done = run(prism(lambda f: f[:-1]))
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertRegex(done.stderr, r"^pirouette: standard input:15: the surface is open.*\n$")
+        self.assertEqual(done.stderr.count("\n"), 1)
 
     def test_decompose_makes_fewer_pieces_when_asked(self):
         model = self.file("l.off", prism())

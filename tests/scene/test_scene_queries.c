@@ -255,6 +255,33 @@ static void rays_hit_exactly_what_segments_do(void **state) {
     assert_true(hit > 30 && missed > 30);
 }
 
+static void a_ray_in_the_plane_of_a_flat_piece_shares_points_with_it(void **state) {
+    (void)state;
+    static const pir_vec3 square[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    pir_polytope *flat = NULL;
+    pir_scene *scene = NULL;
+    pir_body_options body = pir_body_options_default();
+    pir_scene_impact impact;
+    uint32_t id;
+    assert_int_equal(pir_polytope_create(square, 4, NULL, &flat), PIR_OK);
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    body.pieces = &flat;
+    body.piece_count = 1;
+    assert_int_equal(pir_scene_add(scene, &body, &id), PIR_OK);
+    const pir_vec3 origin = {-5, 0.5, 0}, beside = {-5, 0.5, 1e-9}, way = {10, 0, 0}, none = {0, 0, 0};
+    assert_int_equal(pir_scene_ray(scene, origin, way, UINT32_MAX, &impact), PIR_OK);
+    assert_true(impact.body == id && impact.time >= 0.4 && impact.time <= 0.6);
+    assert_true(fabs(impact.point.x) <= 1 && fabs(impact.point.y - 0.5) < 1e-12 && impact.point.z == 0);
+    assert_true(impact.normal.x == 0 && impact.normal.y == 0 && impact.normal.z == 0);
+    assert_int_equal(pir_scene_ray(scene, beside, way, UINT32_MAX, &impact), PIR_OK);
+    assert_true(impact.body == PIR_SCENE_NONE);
+    // and a point in it
+    assert_int_equal(pir_scene_ray(scene, none, none, UINT32_MAX, &impact), PIR_OK);
+    assert_true(impact.body == id && impact.time == 0);
+    pir_scene_destroy(scene);
+    pir_polytope_release(flat);
+}
+
 /* --- moving shapes --- */
 
 static pir_pose pose_at(pir_pose begin, const pir_scene_motion *motion, double time) {
@@ -447,10 +474,15 @@ static void memory_that_fails_fails_the_query_alone(void **state) {
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(overlaps_are_those_of_all_pieces),   cmocka_unit_test(the_nearest_are_those_of_all_pieces),
-        cmocka_unit_test(the_closest_pairs_are_those_of_all), cmocka_unit_test(rays_hit_exactly_what_segments_do),
-        cmocka_unit_test(a_cast_ends_at_the_first_contact),   cmocka_unit_test(a_fast_body_meets_a_wall_in_time),
-        cmocka_unit_test(what_cannot_be_asked_is_refused),    cmocka_unit_test(memory_that_fails_fails_the_query_alone),
+        cmocka_unit_test(overlaps_are_those_of_all_pieces),
+        cmocka_unit_test(the_nearest_are_those_of_all_pieces),
+        cmocka_unit_test(the_closest_pairs_are_those_of_all),
+        cmocka_unit_test(rays_hit_exactly_what_segments_do),
+        cmocka_unit_test(a_ray_in_the_plane_of_a_flat_piece_shares_points_with_it),
+        cmocka_unit_test(a_cast_ends_at_the_first_contact),
+        cmocka_unit_test(a_fast_body_meets_a_wall_in_time),
+        cmocka_unit_test(what_cannot_be_asked_is_refused),
+        cmocka_unit_test(memory_that_fails_fails_the_query_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,17 +3,27 @@
 #include "query/decide/nearest.h"
 
 /*
- * Nearer than this, relative to the placement's reach, the direction to a corner or an edge of D comes from integers.
- * Doubles know x to 2^-53 of the reach, hence the direction to 2^-37 at this distance, and worse below it.
+ * Nearer than this, relative to the placement's reach, the faces that hold the nearest point come from integers where
+ * they are a corner or an edge of D.
  */
 #define CLOSE 0x1p-16
+
+/*
+ * Nearer than this, their distance and direction do. Doubles know x and a corner to a few 2^-53 of the reach, hence the
+ * direction to as many 2^-44 at this distance, and worse below it; 10^-12 is what an answer promises.
+ */
+#define BLURRED 0x1p-9
 
 /* Lengths above this have squares that are normal numbers, with room for products of them. */
 #define LEAST_LENGTH 0x1p-400
 
-/* Whether doubles know a distance and its direction well enough to decide by them. */
+/* Whether doubles know a distance and its direction well enough to decide by them, and to answer by them. */
 static bool is_far(const pir_placement *placement, double distance) {
     return distance > CLOSE * placement->reach && distance > placement->error / CLOSE && distance > LEAST_LENGTH;
+}
+
+static bool is_sharp(const pir_placement *placement, double distance) {
+    return distance > BLURRED * placement->reach && is_far(placement, distance);
 }
 
 /* The error of a direction for an error in lengths and a distance, in units of 64·2^-53 (facet.h). */
@@ -105,7 +115,7 @@ static bool answer_line(pir_exact *exact, const pir_placement *placement, pir_wi
     pir_vec3 w = away_from(frame, placement, &line, &along);
     double distance = sqrt(pir_vec_dot(w, w)), error = 4 * placement->error;
     pir_normal normal = {.err = direction_error(error, distance)};
-    if (is_far(placement, distance)) {
+    if (is_sharp(placement, distance)) {
         normal.unit = pir_vec_scale(w, 1 / distance);
     } else {
         distance = exactly_away(exact, placement, &line, &normal.unit);

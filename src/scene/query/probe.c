@@ -3,12 +3,12 @@
 #include "scene/query/probe.h"
 
 pir_scene_shape pir_scene_shape_default(pir_polytope *polytope) {
-    return (pir_scene_shape){polytope, pir_pose_identity(), 0, UINT32_MAX, PIR_SCENE_NONE};
+    return (pir_scene_shape){polytope, pir_pose_identity(), 0, UINT32_MAX, PIR_SCENE_NONE, NULL};
 }
 
 pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pir_probe *ret_probe) {
     pir_place place;
-    if (!shape->polytope)
+    if (!shape->polytope || !pir_is_coarse_of(shape->coarse, shape->polytope))
         return PIR_ERR_ARGUMENT;
     if (isnan(shape->radius))
         return PIR_ERR_NOT_FINITE;

@@ -92,7 +92,7 @@ static pir_status ask(struct ray *ray, uint32_t piece, pir_query_result *ret_ans
         if (made != PIR_OK)
             return made;
     }
-    pir_probe probe = {.scene = scene, .extent = {ray->polytope, 0}, .pose = {{0, 0, 0, 1}, ray->origin}};
+    pir_probe probe = {.scene = scene, .extent = {.polytope = ray->polytope}, .pose = {{0, 0, 0, 1}, ray->origin}};
     pir_pair *pair;
     pir_pair_input input;
     pir_status status = pir_probe_pair(&probe, piece, &pair, &input);

@@ -68,7 +68,7 @@ pir_extent pir_extent_of(pir_polytope *polytope) {
     double most = 0;
     for (uint32_t v = 0; v < polytope->vertex_count; v++)
         most = fmax(most, sqrt(pir_vec_dot(polytope->vertex[v], polytope->vertex[v])));
-    return (pir_extent){polytope, most * (1 + 0x1p-40)};
+    return (pir_extent){polytope, NULL, most * (1 + 0x1p-40)};
 }
 
 /* --- the tables --- */
@@ -108,11 +108,13 @@ pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator
     return PIR_OK;
 }
 
-static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, pir_polytope *polytope) {
+static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, const pir_body_options *options) {
     uint32_t piece = bodies->piece_unused;
     bodies->piece_unused = bodies->piece[piece].next;
     bodies->piece_count++;
-    bodies->piece[piece] = (pir_scene_piece){.extent = pir_extent_of(pir_polytope_retain(polytope)),
+    pir_extent extent = pir_extent_of(pir_polytope_retain(options->pieces[number]));
+    extent.coarse = options->coarse ? pir_coarse_retain(options->coarse[number]) : NULL;
+    bodies->piece[piece] = (pir_scene_piece){.extent = extent,
                                              .body = body,
                                              .number = number,
                                              .next = bodies->body[body].first,
@@ -142,7 +144,7 @@ uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, con
                                           .fresh = true,
                                           .kind = (uint8_t)options->kind};
     for (uint32_t i = options->piece_count; i-- > 0;)
-        add_piece(bodies, body, i, options->pieces[i]);
+        add_piece(bodies, body, i, options);
     return body;
 }
 
@@ -151,6 +153,7 @@ void pir_bodies_remove(pir_bodies *bodies, uint32_t body) {
     while (piece != PIR_PIECE_NONE) {
         uint32_t next = bodies->piece[piece].next;
         pir_polytope_release(bodies->piece[piece].extent.polytope);
+        pir_coarse_release(bodies->piece[piece].extent.coarse);
         bodies->piece[piece] = (pir_scene_piece){.next = bodies->piece_unused};
         bodies->piece_unused = piece;
         bodies->piece_count--;

@@ -20,14 +20,15 @@
 #define PIR_BODIES_MAX ((uint32_t)1 << 20)
 #define PIR_PIECES_MAX 4096u /* of a body */
 
-/* A polytope, and the farthest that a vertex is from its origin, rounded up. */
+/* A polytope, its coarse bodies or NULL, and the farthest that a vertex is from its origin, rounded up. */
 typedef struct pir_extent {
     pir_polytope *polytope;
+    pir_coarse *coarse;
     double reach;
 } pir_extent;
 
 typedef struct pir_scene_piece {
-    pir_extent extent;     /* of its polytope, which is referenced */
+    pir_extent extent;     /* of its polytope; that and the coarse bodies are referenced */
     uint32_t body, number; /* of the body's own */
     uint32_t next;         /* of the body; of an unused piece: the next one */
     uint32_t node;         /* its leaf of the tree */
@@ -70,7 +71,12 @@ void pir_bodies_finish(pir_bodies *bodies, const pir_allocator *allocator);
 /* PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT. */
 pir_status pir_place_make(pir_pose pose, pir_place *ret_place);
 
-/* O(vertices). */
+/* Whether these are the polytope's coarse bodies, or none. */
+static inline bool pir_is_coarse_of(const pir_coarse *coarse, const pir_polytope *polytope) {
+    return !coarse || pir_coarse_get(coarse, pir_coarse_count(coarse) - 1).polytope == polytope;
+}
+
+/* Without coarse bodies. O(vertices). */
 pir_extent pir_extent_of(pir_polytope *polytope);
 
 /* The box of a polytope in a place, `around` wider on each side; false where it is too far away. */

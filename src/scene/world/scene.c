@@ -121,7 +121,7 @@ static pir_status check_body(const pir_body_options *body) {
     if (body->piece_count > PIR_PIECES_MAX)
         return PIR_ERR_LIMIT;
     for (uint32_t i = 0; i < body->piece_count; i++)
-        if (!body->pieces[i])
+        if (!body->pieces[i] || !pir_is_coarse_of(body->coarse ? body->coarse[i] : NULL, body->pieces[i]))
             return PIR_ERR_ARGUMENT;
     return PIR_OK;
 }

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Distances as accurate as is asked for. Of each piece these are tried in turn, until one settles: boxes; balls and
+ * supports, where both bodies have coarse ones (far_bounds.h); a pair of the bodies.
+ *
+ * Settled means: apart, certainly within the cutoff, and known as accurately as is asked for; or certainly beyond the
+ * cutoff. So what is told of which piece, but for the width of the bounds, is what pairs would tell.
+ */
+#include "scene/query/far_bounds.h"
+
+/* What query.h promises of a distance, with a part in a thousand for the roundings here. */
+#define PROMISE 1.001e-12
+
+/* A question about one piece, and what is known. */
+struct gauge {
+    const pir_probe *probe;
+    const pir_placed *placed; /* the probe, or NULL where it has no coarse bodies */
+    uint32_t piece;
+    double cutoff;
+    pir_accuracy accuracy;
+    pir_bounds bounds;
+    pir_scene_distance known; /* its bounds are those above */
+    bool beyond;              /* the cutoff */
+};
+
+/* What is put together of the answers. */
+struct told {
+    pir_scene_distance *at;
+    size_t capacity, count;
+};
+
+static void put(struct told *told, pir_scene_distance distance) {
+    size_t at = told->count < told->capacity ? told->count : told->capacity;
+    told->count++;
+    for (; at > 0; at--) {
+        const pir_scene_distance *before = &told->at[at - 1];
+        if (before->body < distance.body || (before->body == distance.body && before->piece < distance.piece))
+            break;
+        if (at < told->capacity)
+            told->at[at] = *before;
+    }
+    if (at < told->capacity)
+        told->at[at] = distance;
+}
+
+static double wanted(const struct gauge *gauge) {
+    return fmax(gauge->accuracy.length, gauge->accuracy.part * gauge->bounds.least);
+}
+
+/* Whether the bounds that are known settle it. */
+static bool is_settled(struct gauge *gauge, pir_settled by) {
+    const pir_bounds *bounds = &gauge->bounds;
+    gauge->known.settled = by;
+    gauge->beyond = bounds->least > gauge->cutoff + bounds->slack;
+    return gauge->beyond || (bounds->least > 0 && bounds->most <= gauge->cutoff - bounds->slack &&
+                             bounds->most - bounds->least <= wanted(gauge) + 2 * bounds->slack);
+}
+
+static bool is_settled_without_a_pair(struct gauge *gauge, const pir_scene_piece *q) {
+    const pir_scene_body *body = &gauge->probe->scene->bodies.body[q->body];
+    if (is_settled(gauge, PIR_SETTLED_BY_BOXES))
+        return true;
+    // boxes are apart by what squares of doubles hold, or meet
+    if (!gauge->placed || !q->extent.coarse || !(gauge->bounds.least > 0 && wanted(gauge) > 0))
+        return false;
+    const pir_placed placed = pir_placed_of(q->extent.coarse, body->unit, body->pose.translation, body->radius);
+    pir_bounds_by_balls(&gauge->bounds, gauge->placed, &placed);
+    if (is_settled(gauge, PIR_SETTLED_BY_COARSE))
+        return true;
+    pir_bounds_by_supports(&gauge->bounds, gauge->placed, &placed, wanted(gauge));
+    return is_settled(gauge, PIR_SETTLED_BY_COARSE);
+}
+
+static pir_status ask(struct gauge *gauge) {
+    pir_pair *pair;
+    pir_pair_input input;
+    pir_query_result result;
+    pir_status status = pir_probe_pair(gauge->probe, gauge->piece, &pair, &input);
+    input.cutoff = gauge->cutoff * (1 + 0x1p-40);
+    if (status == PIR_OK)
+        status = pir_pair_distance(pair, gauge->probe->scene->worker[0].workspace, &input, &result);
+    if (status != PIR_OK)
+        return status;
+    pir_bounds *bounds = &gauge->bounds;
+    bool apart = result.state == PIR_OUTSIDE;
+    gauge->beyond = result.outcome == PIR_BEYOND_CUTOFF || result.distance > gauge->cutoff;
+    gauge->known.state = result.state;
+    gauge->known.settled = PIR_SETTLED_EXACTLY;
+    // after too many steps a distance is a bound from above alone
+    if (apart && result.outcome != PIR_STEP_LIMIT)
+        bounds->least = fmax(bounds->least, result.distance - bounds->slack);
+    bounds->most = apart ? result.distance + bounds->slack : 0;
+    bounds->least = apart ? bounds->least : 0;
+    return PIR_OK;
+}
+
+static pir_status settle(struct gauge *gauge, const pir_scene_piece *q) {
+    pir_status status = is_settled_without_a_pair(gauge, q) ? PIR_OK : ask(gauge);
+    gauge->known.least = gauge->bounds.least;
+    gauge->known.most = gauge->bounds.most;
+    return status;
+}
+
+/* --- the call --- */
+
+/* What a distance in doubles may be off: relative to sizes and coordinates, generously. */
+static double slack_of(const pir_probe *probe, const pir_scene_piece *q) {
+    const pir_scene_body *body = &probe->scene->bodies.body[q->body];
+    pir_vec3 s = probe->pose.translation, t = body->pose.translation;
+    double far = fabs(s.x) + fabs(s.y) + fabs(s.z) + fabs(t.x) + fabs(t.y) + fabs(t.z);
+    return PROMISE * (2 * (probe->extent.reach + q->extent.reach) + probe->radius + body->radius + far);
+}
+
+static pir_status check(double cutoff, pir_accuracy accuracy) {
+    if (isnan(cutoff) || isnan(accuracy.length) || isnan(accuracy.part))
+        return PIR_ERR_NOT_FINITE;
+    return cutoff < 0 || accuracy.length < 0 || accuracy.part < 0 ? PIR_ERR_ARGUMENT : PIR_OK;
+}
+
+static pir_status hold(const struct gauge *asked, struct told *told) {
+    const pir_scene *scene = asked->probe->scene;
+    const pir_box box = pir_probe_wider(asked->probe, asked->cutoff);
+    for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE;
+         leaf = pir_tree_next(&scene->tree, &box, leaf)) {
+        struct gauge gauge = *asked;
+        gauge.piece = pir_tree_item(&scene->tree, leaf);
+        const pir_scene_piece *q = &scene->bodies.piece[gauge.piece];
+        if (!pir_probe_meets(asked->probe, gauge.piece) || !pir_box_meets(&box, &q->tight))
+            continue;
+        gauge.bounds = pir_bounds_of_boxes(&asked->probe->box, &q->tight, slack_of(asked->probe, q));
+        gauge.known = (pir_scene_distance){.body = q->body, .piece = q->number, .state = PIR_OUTSIDE};
+        pir_status status = settle(&gauge, q);
+        if (status != PIR_OK)
+            return status;
+        if (!gauge.beyond)
+            put(told, gauge.known);
+    }
+    return PIR_OK;
+}
+
+pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, double cutoff, pir_accuracy accuracy,
+                               size_t capacity, pir_scene_distance *ret_distances, size_t *ret_count) {
+    struct told told = {ret_distances, capacity, 0};
+    pir_probe probe;
+    pir_place place;
+    pir_placed placed;
+    if (!scene || !shape || (!ret_distances && capacity > 0) || !ret_count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = check(cutoff, accuracy);
+    if (status == PIR_OK)
+        status = pir_probe_of_shape(scene, shape, &probe);
+    if (status != PIR_OK)
+        return status;
+    struct gauge asked = {.probe = &probe, .cutoff = cutoff, .accuracy = accuracy};
+    if (shape->coarse && pir_place_make(shape->pose, &place) == PIR_OK) {
+        placed = pir_placed_of(shape->coarse, place.unit, place.pose.translation, shape->radius);
+        asked.placed = &placed;
+    }
+    status = hold(&asked, &told);
+    if (status == PIR_OK)
+        *ret_count = told.count;
+    return status;
+}
