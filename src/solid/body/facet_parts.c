@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * A facet that is not convex loses one ear after the other (Meisters 1975), in its halfedges: a diagonal becomes two
- * twins. Then each diagonal and each flat edge between facets goes, when both its ends stay convex without it (Hertel
- * and Mehlhorn 1983). O(n²) for a facet of n corners, O(n) for the joins.
+ * twins. Loops may touch themselves at corners and along slits: then several corners are at one place, and each has its
+ * own wedge of the facet there. Whatever the order of the cuts, the triangles, all counter-clockwise, add up to the
+ * facet that the loop goes round, or the loop is refused. Then each diagonal and each flat edge between facets goes,
+ * when both its ends stay convex without it (Hertel and Mehlhorn 1983). O(n²) for a facet of n corners, O(n) for the
+ * joins.
  */
 #include "solid/body/facet_parts.h"
 
@@ -28,20 +31,39 @@ static bool is_convex(pir_body *body, uint32_t half) {
     return true;
 }
 
+/* Whether a point is strictly left of both lines from p over q to r. */
+static bool is_between(pir_body *body, uint32_t plane, const uint32_t pqr[3], uint32_t x) {
+    return pir_space_turn(body->space, plane, pqr[0], pqr[1], x) > 0 &&
+           pir_space_turn(body->space, plane, pqr[1], pqr[2], x) > 0;
+}
+
+/* Whether the loop's corner at `half` is in the way of a cut from the last to the first of three other corners, which
+ * are those of a triangle. Where it is at the same place as one of them, its sides must not lead into the triangle. */
+static bool is_in_the_way(pir_body *body, uint32_t plane, const uint32_t abc[3], uint32_t half) {
+    const uint32_t x = body->origin[half];
+    for (int k = 0; k < 3; k++) {
+        const uint32_t round[3] = {abc[(k + 2) % 3], abc[k], abc[(k + 1) % 3]};
+        if (x == abc[k])
+            return is_between(body, plane, round, body->origin[body->prev[half]]) ||
+                   is_between(body, plane, round, body->origin[body->next[half]]);
+    }
+    for (int k = 0; k < 3; k++)
+        if (pir_space_turn(body->space, plane, abc[k], abc[(k + 1) % 3], x) < 0)
+            return false;
+    return true;
+}
+
 /* Whether the corner at `half` can go: no other corner of the loop is in the triangle that it makes. A straight
- * corner can. */
+ * corner can, and one that leads back, the end of a slit. */
 static bool is_ear(pir_body *body, uint32_t half) {
     const uint32_t plane = pir_body_half(body, body->facet[half]), *origin = body->origin;
-    const uint32_t a = origin[body->prev[half]], b = origin[half], c = origin[body->next[half]];
-    const int turn = pir_space_turn(body->space, plane, a, b, c);
+    const uint32_t abc[3] = {origin[body->prev[half]], origin[half], origin[body->next[half]]};
+    const int turn = pir_space_turn(body->space, plane, abc[0], abc[1], abc[2]);
     if (turn <= 0)
         return turn == 0;
-    for (uint32_t h = body->next[body->next[half]]; h != body->prev[half]; h = body->next[h]) {
-        const uint32_t x = origin[h];
-        if (pir_space_turn(body->space, plane, a, b, x) >= 0 && pir_space_turn(body->space, plane, b, c, x) >= 0 &&
-            pir_space_turn(body->space, plane, c, a, x) >= 0)
+    for (uint32_t h = body->next[body->next[half]]; h != body->prev[half]; h = body->next[h])
+        if (is_in_the_way(body, plane, abc, h))
             return false;
-    }
     return true;
 }
 
@@ -92,11 +114,21 @@ static bool may_lose(pir_body *body, uint32_t half, uint32_t plane) {
     return from != to && pir_space_turn(body->space, plane, from, body->origin[half], to) >= 0;
 }
 
+/* Whether both sides of a slit are in one loop. */
+static bool is_own_neighbour(const pir_body *body, uint32_t half) {
+    const uint32_t twin = body->twin[half];
+    bool is = false;
+    if (half < body->source.start[body->source.facet_count] && body->facet[half] == body->facet[twin])
+        for (uint32_t h = body->next[half]; h != half && !is; h = body->next[h])
+            is = h == twin;
+    return is;
+}
+
 /* Joins the parts on both sides of `half` if that leaves a convex one. */
 static void join(pir_body *body, uint32_t half) {
     const uint32_t twin = body->twin[half], plane = pir_body_half(body, body->facet[half]);
-    if (body->group[body->facet[half]] != body->group[body->facet[twin]] || !may_lose(body, half, plane) ||
-        !may_lose(body, twin, plane))
+    if (is_own_neighbour(body, half) || body->group[body->facet[half]] != body->group[body->facet[twin]] ||
+        !may_lose(body, half, plane) || !may_lose(body, twin, plane))
         return;
     const uint32_t ends[2][2] = {{body->prev[half], body->next[twin]}, {body->prev[twin], body->next[half]}};
     for (int k = 0; k < 2; k++) {
