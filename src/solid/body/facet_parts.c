@@ -54,15 +54,16 @@ static bool is_in_the_way(pir_body *body, uint32_t plane, const uint32_t abc[3],
 }
 
 /* Whether the corner at `half` can go: no other corner of the loop is in the triangle that it makes. A straight
- * corner can, and one that leads back, the end of a slit. */
-static bool is_ear(pir_body *body, uint32_t half) {
+ * corner can, and one that leads back, the end of a slit. Where corners are in the triangle, the one that is farthest
+ * from the cut is not convex: so those that are, as `convex` says of each halfedge, are passed over. */
+static bool is_ear(pir_body *body, uint32_t half, const bool *convex) {
     const uint32_t plane = pir_body_half(body, body->facet[half]), *origin = body->origin;
     const uint32_t abc[3] = {origin[body->prev[half]], origin[half], origin[body->next[half]]};
     const int turn = pir_space_turn(body->space, plane, abc[0], abc[1], abc[2]);
     if (turn <= 0)
         return turn == 0;
     for (uint32_t h = body->next[body->next[half]]; h != body->prev[half]; h = body->next[h])
-        if (is_in_the_way(body, plane, abc, h))
+        if (!convex[h] && is_in_the_way(body, plane, abc, h))
             return false;
     return true;
 }
@@ -87,13 +88,19 @@ static uint32_t cut_ear(pir_body *body, uint32_t half) {
     return rest;
 }
 
-static bool cut_facet(pir_body *body, uint32_t facet) {
+/* `convex` has room for all halfedges. */
+static bool cut_facet(pir_body *body, uint32_t facet, bool *convex) {
     uint32_t half = body->source.start[facet], left = body->source.start[facet + 1] - half;
     if (is_convex(body, half))
         return true;
+    for (uint32_t i = 0; i < left; i++)
+        convex[half + i] = turn_at(body, half + i) > 0;
     for (uint32_t passed = 0; left > 3;) {
-        if (is_ear(body, half)) {
-            half = body->prev[cut_ear(body, half)];
+        if (is_ear(body, half, convex)) {
+            const uint32_t rest = cut_ear(body, half);
+            half = body->prev[rest];
+            convex[rest] = turn_at(body, rest) > 0;
+            convex[body->next[rest]] = turn_at(body, body->next[rest]) > 0;
             left--;
             passed = 0;
         } else {
@@ -157,19 +164,25 @@ static void keep_part(pir_body *body, uint32_t half, bool *seen) {
 }
 
 bool pir_body_cut_parts(pir_body *body, uint32_t *ret_facet) {
-    for (uint32_t f = 0; f < body->source.facet_count; f++)
-        if (!cut_facet(body, f)) {
-            *ret_facet = f;
-            return false;
-        }
-    for (uint32_t h = 0; h < body->half_count; h++)
-        if (body->next[h] != PIR_SPACE_NONE && h < body->twin[h])
-            join(body, h);
     bool *seen = PIR_ZEROED(&body->space->allocator, bool, body->half_room);
     if (!seen)
         body->space->status = PIR_ERR_MEMORY;
+    bool cut = true;
+    for (uint32_t f = 0; f < body->source.facet_count && seen && cut; f++) {
+        cut = cut_facet(body, f, seen);
+        *ret_facet = f;
+    }
+    for (uint32_t h = 0; h < body->half_room && seen; h++)
+        seen[h] = false;
+    if (!cut || !seen) {
+        PIR_FREE(&body->space->allocator, seen, body->half_room);
+        return cut;
+    }
+    for (uint32_t h = 0; h < body->half_count; h++)
+        if (body->next[h] != PIR_SPACE_NONE && h < body->twin[h])
+            join(body, h);
     body->part_start[0] = 0;
-    for (uint32_t h = 0; seen && h < body->half_count; h++)
+    for (uint32_t h = 0; h < body->half_count; h++)
         if (body->next[h] != PIR_SPACE_NONE && !seen[h])
             keep_part(body, h, seen);
     PIR_FREE(&body->space->allocator, seen, body->half_room);
