@@ -104,6 +104,25 @@ static void facets_with_holes_are_read_again(void **state) {
     pir_solid_release(frame);
 }
 
+static void facet_that_leads_to_no_hole_is_refused(void **state) {
+    (void)state;
+    static const pir_vec3 tips[3] = {{2, 2, 1}, {5, 5, 1}, {6, 0, 1}}; // from a corner of the top, within it and beyond
+    for (int i = 0; i < 3; i++) {
+        static solid_facets facets;
+        pir_report report = {0};
+        pir_solid *solid = NULL;
+        facets = (solid_facets){0};
+        const pir_vec3 low[4] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+        const pir_vec3 top[4] = {{0, 0, 1}, {4, 0, 1}, {4, 4, 1}, {0, 4, 1}};
+        solid_add_facet(&facets, (const pir_vec3[]){low[3], low[2], low[1], low[0]}, 4);
+        solid_add_facet(&facets, (const pir_vec3[]){top[0], top[1], tips[i], top[1], top[2], top[3]}, 6);
+        for (int k = 0; k < 4; k++)
+            solid_add_facet(&facets, (const pir_vec3[]){low[k], low[(k + 1) % 4], top[(k + 1) % 4], top[k]}, 4);
+        assert_int_equal(solid_make(&facets, NULL, &report, &solid), PIR_ERR_NOT_CLOSED);
+        expect(strstr(report.text, "no hole is there"), "'%s'", report.text);
+    }
+}
+
 /* --- solids that touch themselves --- */
 
 static pir_solid *cells_solid(const cells *of) {
@@ -223,6 +242,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(facets_with_holes_are_read_again),
+        cmocka_unit_test(facet_that_leads_to_no_hole_is_refused),
         cmocka_unit_test(cells_that_touch_along_an_edge_are_shells_of_their_own),
         cmocka_unit_test(cell_that_touches_others_at_every_corner_is_a_shell),
         cmocka_unit_test(wedges_round_an_edge_must_not_overlap),

@@ -117,12 +117,24 @@ static pir_status join_around(pir_body *body, uint32_t *order, uint32_t *work, u
 
 /* --- all --- */
 
+/* A side that a facet walks back at once leads to no hole. */
+static pir_status refuse_spur(const pir_body *body, uint32_t half) {
+    char where[PIR_BODY_WHERE], a[PIR_BODY_WHERE], b[PIR_BODY_WHERE];
+    return pir_fail(
+        body->source.report, PIR_ERR_NOT_CLOSED, "%s: this facet walks from %s to %s and back, and no hole is there",
+        pir_body_where(&body->source, body->facet[half], where), pir_body_place(body, body->origin[half], a),
+        pir_body_place(body, body->origin[body->next[half]], b));
+}
+
 /* Joins the halfedges order[0 .. count), which have the same ends. */
 static pir_status join_group(pir_body *body, uint32_t *order, uint32_t *work, uint32_t count) {
     if (count > 2 && count % 2 == 0)
         return join_around(body, order, work, count);
     if (count != 2 || body->origin[order[0]] == body->origin[order[1]])
         return refuse_edge(body, order[0], order[count > 1], count);
+    for (int k = 0; k < 2; k++)
+        if (body->next[order[k]] == order[1 - k])
+            return refuse_spur(body, order[k]);
     join_halves(body, order[0], order[1]);
     return PIR_OK;
 }
