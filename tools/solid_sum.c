@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* pirouette sum --solid: the sum of two models as the solids that they are. */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
+
+#include <pirouette/exact.h>
 
 #include "json.h"
 #include "measure.h"
@@ -75,12 +78,31 @@ static int report(const struct args *args, const struct request *request, const 
     return EXIT_DONE;
 }
 
+/* Whether doubles hold all coordinates. Rounded facets would not be planar, so that they would bound no solid. */
+static bool holds_in_doubles(const pir_mesh *mesh) {
+    const pir_vec3 *vertices = pir_mesh_vertices(mesh);
+    mpq_t point[3], rounded;
+    mpq_inits(point[0], point[1], point[2], rounded, NULL);
+    bool holds = true;
+    for (uint32_t v = 0; v < pir_mesh_vertex_count(mesh) && holds; v++) {
+        const double x[3] = {vertices[v].x, vertices[v].y, vertices[v].z};
+        holds = pir_mesh_vertex_exact(mesh, v, point) == PIR_OK;
+        for (int k = 0; k < 3 && holds; k++) {
+            if ((holds = isfinite(x[k])))
+                mpq_set_d(rounded, x[k]);
+            holds = holds && mpq_equal(rounded, point[k]);
+        }
+    }
+    mpq_clears(point[0], point[1], point[2], rounded, NULL);
+    return holds;
+}
+
 static bool write(struct output_file *file, pir_mesh *mesh, bool exact) {
 #if PIR_HAVE_PNG
     if (output_ends_in(file->path, ".png"))
         return solid_picture_write(file, &mesh, 1);
 #endif
-    return target_write_mesh(file, mesh, exact);
+    return target_write_mesh(file, mesh, exact || !holds_in_doubles(mesh));
 }
 
 int solid_sum(const struct args *args) {

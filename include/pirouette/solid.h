@@ -3,8 +3,9 @@
  * Solids: polyhedral bodies that need not be convex, their division into convex pieces, and the exact sum of two.
  *
  * A solid is bounded by one or more closed surfaces, its shells: facets are planar polygons, counter-clockwise from
- * outside, without holes. A shell inside another that faces inwards is the boundary of a cavity. Whatever is not such a
- * boundary is refused with the place named, and never repaired. Everything is decided exactly.
+ * outside. One with holes is a single loop: a slit, walked both ways, joins each hole to what is round it. A shell
+ * inside another that faces inwards is the boundary of a cavity. Whatever is not such a boundary is refused with the
+ * place named, and never repaired. Everything is decided exactly.
  *
  * A solid is immutable and counts its references; threads may read one together. A call that returns no status takes
  * O(1) unless it frees memory or its comment says otherwise.
@@ -52,16 +53,17 @@ typedef struct pir_solid_info {
  * options  NULL for the defaults.
  * report   NULL, or filled when the call fails: it names the facet by its line, or the edge by its ends.
  *
- * Points at the same place are one vertex. Every edge must be on two facets, which walk it opposite ways; facets
- * must be planar exactly as the file's numbers are, with an area; none may meet another but along edges and at
- * vertices; outer shells face outwards, cavities inwards.
+ * Points at the same place are one vertex. Every edge must be on two facets, which walk it opposite ways, or on an even
+ * number, between which inside and outside take turns around it; facets must be planar exactly as the file's numbers
+ * are, with an area; none may meet another but along edges and at vertices; outer shells face outwards, cavities
+ * inwards.
  *
  * Cost: O(n log n) for n facets of bounded size whose boxes meet few others; exact arithmetic where doubles cannot
  * tell.
  *
- * Errors: those of reading (pir_polytope_read_surface); PIR_ERR_NOT_CLOSED for an edge that is not on two facets or not
- * walked both ways; PIR_ERR_FORMAT for facets that are not planar, have no area, cross or overlap, for shells that are
- * inside out or hold no volume; PIR_ERR_EMPTY without facets; PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ * Errors: those of reading (pir_polytope_read_surface); PIR_ERR_NOT_CLOSED for an edge that is not on such facets;
+ * PIR_ERR_FORMAT for facets that are not planar, have no area, cross or overlap, for shells that are inside out or hold
+ * no volume; PIR_ERR_EMPTY without facets; PIR_ERR_LIMIT, PIR_ERR_MEMORY.
  *
  * ret_solid  the caller owns one reference.
  */

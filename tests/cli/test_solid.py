@@ -51,6 +51,32 @@ class Solid(CommandTest):
         self.assertEqual(self.data("sum", model, "shape:box?x=1&y=1&z=1", "--solid")["facets"], 6)
         self.bad("sum", model, model, "--open", says="give --solid as well")
 
+    def test_what_a_sum_writes_is_a_solid_again(self):
+        # a ring round a hole, of unit cells, and cells that touch along an edge
+        boxes = [(x, y) for x in range(3) for y in range(3) if (x, y) != (1, 1)] + [(3, 3)]
+        lines, loops = [], []
+        for x, y in boxes:
+            at = len(lines)
+            lines += [f"{x + (k & 1)} {y + (k >> 1 & 1)} {k >> 2}" for k in range(8)]
+            for dx, dy, loop in ((-1, 0, (0, 4, 6, 2)), (1, 0, (1, 3, 7, 5)), (0, -1, (0, 1, 5, 4)),
+                                 (0, 1, (2, 6, 7, 3)), (9, 9, (0, 2, 3, 1)), (9, 9, (4, 5, 7, 6))):
+                if (x + dx, y + dy) not in boxes:
+                    loops.append([4, *(at + k for k in loop)])
+        text = [f"OFF\n{len(lines)} {len(loops)} 0", *lines, *(" ".join(map(str, f)) for f in loops)]
+        model, out, more = self.file("ring.off", "\n".join(text) + "\n"), self.path / "a.off", self.path / "b.off"
+        self.assertEqual([self.data("info", model, "--solid")[k] for k in ("volume", "shells")], [9, 2])
+        small = "shape:box?x=0.25&y=0.25&z=0.25"
+        self.assertEqual(self.data("sum", model, small, "--solid", "-o", out)["holes"], 2)
+        told = self.data("info", out, "--solid")
+        self.assertEqual([told[k] for k in ("volume", "genus")], [1.25 * (3.25**2 - 0.75**2 + 1.25**2 - 0.25**2), 1])
+        self.data("sum", out, model, "--solid", "--quat", "1,2,3,4", "-o", more)
+        self.assertIn("/", more.read_text())
+        again = self.data("info", more, "--solid")
+        self.assertEqual(self.data("decompose", more, "-o", self.path / "pieces")["pieces"] > 1, True)
+        volume = sum(self.data("info", p)["volume"] for p in sorted((self.path / "pieces").iterdir()))
+        self.assertAlmostEqual(volume, again["volume"], delta=1e-9)
+        self.data("sum", more, small, "--solid")
+
     def test_query_of_solids_is_not_that_of_their_hulls(self):
         model, cube = self.file("l.off", prism()), "shape:box?x=1&y=1&z=1"
         told = self.data("query", cube, model, "--solid", "--translate", "2,2,0.5", "--cast=-2,0,0")

@@ -4,6 +4,7 @@
 import math
 import struct
 import zlib
+from fractions import Fraction
 
 from command_test import CommandTest, main
 from test_solid import prism
@@ -56,7 +57,7 @@ def unfilter(way, line, above):
 def read_off(text):
     words = iter(text.split()[1:])
     vertices, facets, _ = (int(next(words)) for _ in range(3))
-    points = [tuple(float(next(words)) for _ in range(3)) for _ in range(vertices)]
+    points = [tuple(float(Fraction(next(words))) for _ in range(3)) for _ in range(vertices)]
     return points, [[int(next(words)) for _ in range(int(next(words)))] for _ in range(facets)]
 
 

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * A facet that is not convex loses one ear after the other (Meisters 1975), in its halfedges: a diagonal becomes two
- * twins. Then each diagonal and each flat edge between facets goes, when both its ends stay convex without it (Hertel
- * and Mehlhorn 1983). O(n²) for a facet of n corners, O(n) for the joins.
+ * twins. Loops may touch themselves at corners and along slits: then several corners are at one place, and each has its
+ * own wedge of the facet there. Whatever the order of the cuts, the triangles, all counter-clockwise, add up to the
+ * facet that the loop goes round, or the loop is refused. Then each diagonal and each flat edge between facets goes,
+ * when both its ends stay convex without it (Hertel and Mehlhorn 1983). O(n²) for a facet of n corners, O(n) for the
+ * joins.
  */
 #include "solid/body/facet_parts.h"
 
@@ -28,20 +31,40 @@ static bool is_convex(pir_body *body, uint32_t half) {
     return true;
 }
 
+/* Whether a point is strictly left of both lines from p over q to r. */
+static bool is_between(pir_body *body, uint32_t plane, const uint32_t pqr[3], uint32_t x) {
+    return pir_space_turn(body->space, plane, pqr[0], pqr[1], x) > 0 &&
+           pir_space_turn(body->space, plane, pqr[1], pqr[2], x) > 0;
+}
+
+/* Whether the loop's corner at `half` is in the way of a cut from the last to the first of three other corners, which
+ * are those of a triangle. Where it is at the same place as one of them, its sides must not lead into the triangle. */
+static bool is_in_the_way(pir_body *body, uint32_t plane, const uint32_t abc[3], uint32_t half) {
+    const uint32_t x = body->origin[half];
+    for (int k = 0; k < 3; k++) {
+        const uint32_t round[3] = {abc[(k + 2) % 3], abc[k], abc[(k + 1) % 3]};
+        if (x == abc[k])
+            return is_between(body, plane, round, body->origin[body->prev[half]]) ||
+                   is_between(body, plane, round, body->origin[body->next[half]]);
+    }
+    for (int k = 0; k < 3; k++)
+        if (pir_space_turn(body->space, plane, abc[k], abc[(k + 1) % 3], x) < 0)
+            return false;
+    return true;
+}
+
 /* Whether the corner at `half` can go: no other corner of the loop is in the triangle that it makes. A straight
- * corner can. */
-static bool is_ear(pir_body *body, uint32_t half) {
+ * corner can, and one that leads back, the end of a slit. Where corners are in the triangle, the one that is farthest
+ * from the cut is not convex: so those that are, as `convex` says of each halfedge, are passed over. */
+static bool is_ear(pir_body *body, uint32_t half, const bool *convex) {
     const uint32_t plane = pir_body_half(body, body->facet[half]), *origin = body->origin;
-    const uint32_t a = origin[body->prev[half]], b = origin[half], c = origin[body->next[half]];
-    const int turn = pir_space_turn(body->space, plane, a, b, c);
+    const uint32_t abc[3] = {origin[body->prev[half]], origin[half], origin[body->next[half]]};
+    const int turn = pir_space_turn(body->space, plane, abc[0], abc[1], abc[2]);
     if (turn <= 0)
         return turn == 0;
-    for (uint32_t h = body->next[body->next[half]]; h != body->prev[half]; h = body->next[h]) {
-        const uint32_t x = origin[h];
-        if (pir_space_turn(body->space, plane, a, b, x) >= 0 && pir_space_turn(body->space, plane, b, c, x) >= 0 &&
-            pir_space_turn(body->space, plane, c, a, x) >= 0)
+    for (uint32_t h = body->next[body->next[half]]; h != body->prev[half]; h = body->next[h])
+        if (!convex[h] && is_in_the_way(body, plane, abc, h))
             return false;
-    }
     return true;
 }
 
@@ -65,13 +88,19 @@ static uint32_t cut_ear(pir_body *body, uint32_t half) {
     return rest;
 }
 
-static bool cut_facet(pir_body *body, uint32_t facet) {
+/* `convex` has room for all halfedges. */
+static bool cut_facet(pir_body *body, uint32_t facet, bool *convex) {
     uint32_t half = body->source.start[facet], left = body->source.start[facet + 1] - half;
     if (is_convex(body, half))
         return true;
+    for (uint32_t i = 0; i < left; i++)
+        convex[half + i] = turn_at(body, half + i) > 0;
     for (uint32_t passed = 0; left > 3;) {
-        if (is_ear(body, half)) {
-            half = body->prev[cut_ear(body, half)];
+        if (is_ear(body, half, convex)) {
+            const uint32_t rest = cut_ear(body, half);
+            half = body->prev[rest];
+            convex[rest] = turn_at(body, rest) > 0;
+            convex[body->next[rest]] = turn_at(body, body->next[rest]) > 0;
             left--;
             passed = 0;
         } else {
@@ -92,11 +121,21 @@ static bool may_lose(pir_body *body, uint32_t half, uint32_t plane) {
     return from != to && pir_space_turn(body->space, plane, from, body->origin[half], to) >= 0;
 }
 
+/* Whether both sides of a slit are in one loop. */
+static bool is_own_neighbour(const pir_body *body, uint32_t half) {
+    const uint32_t twin = body->twin[half];
+    bool is = false;
+    if (half < body->source.start[body->source.facet_count] && body->facet[half] == body->facet[twin])
+        for (uint32_t h = body->next[half]; h != half && !is; h = body->next[h])
+            is = h == twin;
+    return is;
+}
+
 /* Joins the parts on both sides of `half` if that leaves a convex one. */
 static void join(pir_body *body, uint32_t half) {
     const uint32_t twin = body->twin[half], plane = pir_body_half(body, body->facet[half]);
-    if (body->group[body->facet[half]] != body->group[body->facet[twin]] || !may_lose(body, half, plane) ||
-        !may_lose(body, twin, plane))
+    if (is_own_neighbour(body, half) || body->group[body->facet[half]] != body->group[body->facet[twin]] ||
+        !may_lose(body, half, plane) || !may_lose(body, twin, plane))
         return;
     const uint32_t ends[2][2] = {{body->prev[half], body->next[twin]}, {body->prev[twin], body->next[half]}};
     for (int k = 0; k < 2; k++) {
@@ -125,19 +164,25 @@ static void keep_part(pir_body *body, uint32_t half, bool *seen) {
 }
 
 bool pir_body_cut_parts(pir_body *body, uint32_t *ret_facet) {
-    for (uint32_t f = 0; f < body->source.facet_count; f++)
-        if (!cut_facet(body, f)) {
-            *ret_facet = f;
-            return false;
-        }
-    for (uint32_t h = 0; h < body->half_count; h++)
-        if (body->next[h] != PIR_SPACE_NONE && h < body->twin[h])
-            join(body, h);
     bool *seen = PIR_ZEROED(&body->space->allocator, bool, body->half_room);
     if (!seen)
         body->space->status = PIR_ERR_MEMORY;
+    bool cut = true;
+    for (uint32_t f = 0; f < body->source.facet_count && seen && cut; f++) {
+        cut = cut_facet(body, f, seen);
+        *ret_facet = f;
+    }
+    for (uint32_t h = 0; h < body->half_room && seen; h++)
+        seen[h] = false;
+    if (!cut || !seen) {
+        PIR_FREE(&body->space->allocator, seen, body->half_room);
+        return cut;
+    }
+    for (uint32_t h = 0; h < body->half_count; h++)
+        if (body->next[h] != PIR_SPACE_NONE && h < body->twin[h])
+            join(body, h);
     body->part_start[0] = 0;
-    for (uint32_t h = 0; seen && h < body->half_count; h++)
+    for (uint32_t h = 0; h < body->half_count; h++)
         if (body->next[h] != PIR_SPACE_NONE && !seen[h])
             keep_part(body, h, seen);
     PIR_FREE(&body->space->allocator, seen, body->half_room);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * A shell is a part of the surface that edges join. Where a shell does not meet another, all of it is inside or outside
- * of that one; so a segment from a corner of it to a point beyond the body counts how often the others are around it,
+ * of that one; so a segment from a point of it to a point beyond the body counts how often the others are around it,
  * +1 where it leaves through the front of a part, −1 through the back. An outer shell, of positive volume, must be
- * within none, a cavity within one. A segment that meets an edge or a corner of a part is replaced by another.
+ * within none, a cavity within one. Shells may touch along edges and at vertices, so the segment begins within a part.
+ * One that meets an edge or a corner of a part is replaced by another.
  */
 #include "solid/body/shells.h"
 
@@ -83,12 +84,31 @@ static int pass(pir_body *body, uint32_t p, uint32_t q, uint32_t part) {
     return on || to == 0 ? UNCLEAR : to > 0 ? THROUGH_FRONT : THROUGH_BACK;
 }
 
+/* A point within a part of the shell: the middle of three corners. */
+static uint32_t point_within(const struct shells *shells, uint32_t shell) {
+    const pir_body *body = shells->body;
+    pir_space *space = body->space;
+    uint32_t part = 0;
+    while (shells->shell[body->part_facet[part]] != shell)
+        part++;
+    mpz_t x[4];
+    for (int k = 0; k < 4; k++) {
+        mpz_init_set_ui(x[k], k < 3 ? 0 : 3);
+        for (uint32_t i = body->part_start[part]; i < body->part_start[part] + 3 && k < 3; i++)
+            mpz_add(x[k], x[k], space->number[space->point[body->part_corner[i]].exact + (uint32_t)k]);
+    }
+    const uint32_t point = pir_space_add_point(space, x[0], x[1], x[2], x[3]);
+    for (int k = 0; k < 4; k++)
+        mpz_clear(x[k]);
+    return point;
+}
+
 /* How often the other shells are around the shell; false where no segment could tell. */
 static bool find_winding(struct shells *shells, uint32_t shell, int *ret_winding) {
     pir_body *body = shells->body;
-    uint32_t half = body->source.start[shell];
+    const uint32_t from = point_within(shells, shell);
     for (int attempt = 0; attempt < 64 && body->space->status == PIR_OK; attempt++) {
-        const uint32_t from = body->origin[half], to = point_beyond(shells);
+        const uint32_t to = point_beyond(shells);
         int winding = 0, how = MISSES;
         for (uint32_t p = 0; p < body->part_count && how != UNCLEAR; p++) {
             if (shells->shell[body->part_facet[p]] == shell)
@@ -100,7 +120,6 @@ static bool find_winding(struct shells *shells, uint32_t shell, int *ret_winding
             *ret_winding = winding;
             return true;
         }
-        half = half + 1 < body->source.start[shell + 1] ? half + 1 : body->source.start[shell];
     }
     return false;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* See solid_body.h. Normals are Newell's, in exact integers; halfedges find their twins in the order of their ends. */
+/* See solid_body.h. Normals are Newell's, in exact integers. */
 #include "solid/body/solid_body.h"
 
 #include <math.h>
@@ -7,8 +7,8 @@
 
 #include "base/layout.h"
 #include "base/report.h"
-#include "base/sort.h"
 #include "solid/body/facet_parts.h"
+#include "solid/body/twins.h"
 #include "solid/space/exact.h"
 #include "solid/space/intern.h"
 
@@ -108,78 +108,7 @@ static void fill_halves(pir_body *body) {
     body->half_count = body->source.start[body->source.facet_count];
 }
 
-/* --- twins and edges --- */
-
-static void ends_of(const pir_body *body, uint32_t half, uint32_t ends[2]) {
-    const uint32_t a = body->origin[half], b = body->origin[body->next[half]];
-    ends[0] = a < b ? a : b;
-    ends[1] = a < b ? b : a;
-}
-
-static bool half_before(void *context, uint32_t a, uint32_t b) {
-    uint32_t x[2], y[2];
-    ends_of(context, a, x);
-    ends_of(context, b, y);
-    return x[0] != y[0] ? x[0] < y[0] : x[1] < y[1];
-}
-
-/* Refuses the edge of `half`, one of `count` with its ends; `other` is another of them, or the same. */
-static pir_status refuse_edge(const pir_body *body, uint32_t half, uint32_t other, uint32_t count) {
-    const pir_body_source *source = &body->source;
-    char where[PIR_BODY_WHERE], beside[PIR_BODY_WHERE], a[PIR_BODY_WHERE], b[PIR_BODY_WHERE];
-    pir_body_where(source, body->facet[half], where);
-    pir_body_place(body, body->origin[half], a);
-    pir_body_place(body, body->origin[body->next[half]], b);
-    if (count == 1)
-        return pir_fail(source->report, PIR_ERR_NOT_CLOSED,
-                        "%s: the surface is open: the edge from %s to %s is on 1 "
-                        "facet",
-                        where, a, b);
-    pir_body_where(source, body->facet[other], beside);
-    if (count == 2)
-        return pir_fail(source->report, PIR_ERR_NOT_CLOSED,
-                        "%s: this facet and %s walk the edge from %s to %s the same "
-                        "way",
-                        where, beside, a, b);
-    return pir_fail(source->report, PIR_ERR_NOT_CLOSED, "%s: the edge from %s to %s is on %u facets, %s among them",
-                    where, a, b, (unsigned)count, beside);
-}
-
-/* Joins the halfedges order[0 .. count), which have the same ends. */
-static pir_status join_halves(pir_body *body, const uint32_t *order, uint32_t count) {
-    const uint32_t a = order[0], b = order[count > 1];
-    if (count != 2 || body->origin[a] == body->origin[b])
-        return refuse_edge(body, a, b, count);
-    body->twin[a] = b;
-    body->twin[b] = a;
-    pir_body_edge *edge = &body->edge[body->edge_count++];
-    *edge = (pir_body_edge){.half = a < b ? a : b};
-    edge->a = body->origin[edge->half];
-    edge->b = body->origin[body->next[edge->half]];
-    edge->left = body->facet[edge->half];
-    edge->right = body->facet[body->twin[edge->half]];
-    return PIR_OK;
-}
-
-static pir_status find_twins(pir_body *body) {
-    const pir_allocator *a = &body->space->allocator;
-    const uint32_t count = body->half_count;
-    uint32_t *order = PIR_NEW(a, uint32_t, count), *work = PIR_NEW(a, uint32_t, count);
-    pir_status status = order && work ? PIR_OK : PIR_ERR_MEMORY;
-    if (status == PIR_OK) {
-        for (uint32_t h = 0; h < count; h++)
-            order[h] = h;
-        pir_sort(order, count, work, half_before, body);
-    }
-    for (uint32_t i = 0, end; i < count && status == PIR_OK; i = end) {
-        for (end = i + 1; end < count && !half_before(body, order[i], order[end]); end++)
-            ;
-        status = join_halves(body, order + i, end - i);
-    }
-    PIR_FREE(a, work, count);
-    PIR_FREE(a, order, count);
-    return status;
-}
+/* --- edges --- */
 
 static uint32_t root_of(const pir_body *body, uint32_t facet) {
     while (body->group[facet] != facet)
@@ -233,7 +162,7 @@ static pir_status make(pir_body *body, uint32_t numbers) {
     for (uint32_t f = 0; f < body->source.facet_count && status == PIR_OK; f++)
         status = add_plane(body, f);
     if (status == PIR_OK)
-        status = find_twins(body);
+        status = pir_body_find_twins(body);
     for (uint32_t e = 0; e < body->edge_count && status == PIR_OK; e++)
         status = bend_edge(body, &body->edge[e]);
     if (status != PIR_OK)

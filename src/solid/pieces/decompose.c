@@ -15,18 +15,20 @@
  * vertical one (Hachenberger 2008: walls that points of reflex edges see up and down; here they end where the cell
  * does). On both sides of a plane that holds a crease some of the body is next to the crease, so a cell without
  * fragments there is inside.
+ *
+ * A node's planes are counted once: a child whose fragments and creases are mostly the node's takes over its counts,
+ * and changes them by what came and went. So O(n²) sides are asked in all where cuts take off little.
  */
 #include "solid/pieces/decompose.h"
 
-#include <string.h>
-
-#include "base/sort.h"
+#include "solid/pieces/plane_sides.h"
 #include "solid/space/polygons.h"
 
 struct node {
     uint32_t cell;
     uint32_t fragment, fragment_count; /* in `list` */
     uint32_t crease, crease_count;     /* in `creases` */
+    uint32_t choice, choice_count;     /* in `choices`; none until they are needed */
     bool inside;                       /* when there are no fragments */
 };
 
@@ -35,6 +37,19 @@ struct crease {
     uint32_t plane[2]; /* of its facets */
     uint32_t wall[2];  /* half-spaces to cut by: twice the same where it is not vertical */
     bool vertical;
+};
+
+/* A plane to cut by: what that does to the node whose choice it is. */
+struct choice {
+    uint32_t half;
+    int32_t side[2], cut; /* fragments with a part below the plane, above it, both */
+    int64_t creases;      /* what those that it holds count and, against it, those that it cuts */
+};
+
+/* A fragment, or a crease of the list, that came or went. */
+struct change {
+    uint32_t fragment, crease; /* no crease where it is a fragment */
+    int sign;
 };
 
 struct division {
@@ -52,17 +67,14 @@ struct division {
     uint32_t above_count, above_room;
     struct crease *creases;
     uint32_t crease_count, crease_room;
-    uint32_t *seen; /* per plane: the last look that came to it */
-    uint32_t seen_room, look;
-    struct choice *choice; /* scratch: the planes of a node */
-    uint32_t *order, *work;
-    uint32_t choice_room, order_room, work_room;
-    uint8_t *side; /* per plane of a facet and given point: 0, or the side that it is on, and 2 */
-    uint32_t side_room, first_plane, planes, points;
+    struct choice *choices;
+    uint32_t choice_count, choice_room;
+    struct change *changes; /* scratch: between a node and a child */
+    uint32_t change_count, change_room;
+    uint32_t *seen, *place; /* per plane: the last look that came to it, and its place among choices then */
+    uint32_t seen_room, place_room, look;
+    pir_sides sides;
 };
-
-/* Numbers of sides that are kept; a body that has more is asked anew each time. */
-#define MOST_SIDES (1u << 20)
 
 void pir_piece_list_add(pir_piece_list *pieces, pir_space *space, uint32_t cell) {
     if (pir_space_grow(space, (void **)&pieces->cell, &pieces->room, pieces->count, sizeof *pieces->cell))
@@ -89,21 +101,22 @@ static void push_node(struct division *d, struct node node) {
         d->node[d->node_count++] = node;
 }
 
+static void push_change(struct division *d, struct change change) {
+    if (pir_space_grow(d->space, (void **)&d->changes, &d->change_room, d->change_count, sizeof *d->changes))
+        d->changes[d->change_count++] = change;
+}
+
 static uint32_t half_of(const struct division *d, uint32_t at) {
     return d->polygons.polygon[d->list[at]].half;
 }
 
 /* --- the choice of a plane --- */
 
-struct choice {
-    uint32_t half;
-    int64_t value;
-};
-
 /* Begins a look at each plane once. */
 static void forget_planes(struct division *d) {
     const uint32_t before = d->seen_room, planes = d->space->plane_count;
-    if (planes > before && !pir_space_grow(d->space, (void **)&d->seen, &d->seen_room, planes, sizeof *d->seen))
+    if (planes > before && (!pir_space_grow(d->space, (void **)&d->place, &d->place_room, planes, sizeof *d->place) ||
+                            !pir_space_grow(d->space, (void **)&d->seen, &d->seen_room, planes, sizeof *d->seen)))
         return;
     for (uint32_t k = before; k < d->seen_room; k++)
         d->seen[k] = 0;
@@ -118,53 +131,37 @@ static bool is_new(struct division *d, uint32_t half) {
     return is;
 }
 
-/* Makes the table of sides, where it is small enough. */
-static void begin_sides(struct division *d) {
-    const pir_body *body = d->body;
-    uint32_t first = PIR_SPACE_NONE, last = 0;
-    for (uint32_t f = 0; f < body->source.facet_count; f++) {
-        first = body->plane[f] < first ? body->plane[f] : first;
-        last = body->plane[f] > last ? body->plane[f] : last;
-    }
-    const uint64_t sides = (uint64_t)(last - first + 1) * body->source.point_count;
-    if (sides > MOST_SIDES || !pir_space_grow(d->space, (void **)&d->side, &d->side_room, sides, sizeof *d->side))
-        return;
-    memset(d->side, 0, d->side_room);
-    d->first_plane = first;
-    d->planes = last - first + 1;
-    d->points = body->source.point_count;
+/* What a crease counts for a plane that holds it, or against one that cuts it. */
+static int worth_of(struct division *d, const struct crease *crease, uint32_t plane) {
+    const unsigned seen = pir_sides_of_points(&d->sides, plane, (const uint32_t[]){crease->a, crease->b}, 2);
+    return seen == PIR_ON_PLANE ? 16 : seen == (PIR_ABOVE | PIR_BELOW) ? -8 : 0;
 }
 
-/* The side of a plane that a point is on. */
-static int side_of(struct division *d, uint32_t plane, uint32_t point) {
-    const uint32_t row = plane - d->first_plane, column = point - d->body->first_point;
-    if (row >= d->planes || column >= d->points)
-        return pir_space_side(d->space, pir_half(plane, false), point);
-    uint8_t *side = &d->side[(size_t)row * d->points + column];
-    if (*side == 0)
-        *side = (uint8_t)(pir_space_side(d->space, pir_half(plane, false), point) + 2);
-    return *side - 2;
+/* Counts a crease, or takes it back. */
+static void count_crease(struct division *d, struct choice *choice, const struct crease *crease, int sign) {
+    choice->creases += sign * worth_of(d, crease, choice->half >> 1);
 }
 
-/* What a plane's creases count: those that it holds and, against it, those that it cuts. */
-static int64_t value_of_creases(struct division *d, const struct node *node, uint32_t half) {
-    int64_t value = 0;
-    for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++) {
-        const int a = side_of(d, half >> 1, d->creases[i].a), b = side_of(d, half >> 1, d->creases[i].b);
-        value += a == 0 && b == 0 ? 16 : a * b < 0 ? -8 : 0;
-    }
-    return value;
+/* Counts a fragment, or takes it back. */
+static void count_fragment(struct division *d, struct choice *choice, uint32_t fragment, int sign) {
+    const unsigned seen = pir_sides_of_polygon(&d->sides, choice->half >> 1, fragment);
+    choice->side[0] += seen & PIR_BELOW ? sign : 0;
+    choice->side[1] += seen & PIR_ABOVE ? sign : 0;
+    choice->cut += (seen & PIR_ABOVE) && (seen & PIR_BELOW) ? sign : 0;
 }
 
-/* Takes fragments that a plane cuts from its value; whether it divides them and its value ends above `least`. */
-static bool count_cuts(struct division *d, const struct node *node, struct choice *choice, int64_t least) {
-    bool divides = false;
-    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && choice->value > least; i++) {
-        const unsigned sides = pir_polygons_sides(&d->polygons, d->list[i], choice->half);
-        choice->value -= sides == 3;
-        divides = divides || sides >= 2;
-    }
-    return divides && choice->value > least;
+static int64_t value_of(const struct choice *choice) {
+    return choice->creases - choice->cut;
+}
+
+/* A wall's value in a node, or one that is not above `least`, as the wall's is not. */
+static int64_t value_of_wall(struct division *d, const struct node *node, uint32_t half, int64_t least) {
+    struct choice choice = {.half = half};
+    for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++)
+        count_crease(d, &choice, &d->creases[i], 1);
+    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && value_of(&choice) > least; i++)
+        count_fragment(d, &choice, d->list[i], 1);
+    return value_of(&choice);
 }
 
 /* The wall to cut by; none where no creases are left. Those of vertical creases come when no others are left. */
@@ -177,56 +174,56 @@ static uint32_t choose_wall(struct division *d, const struct node *node) {
     for (uint32_t i = node->crease; i < node->crease + node->crease_count && d->space->status == PIR_OK; i++) {
         const struct crease crease = d->creases[i];
         for (int k = 0; k < 2 && crease.vertical == vertical; k++) {
-            struct choice choice = {crease.wall[k], value_of_creases(d, node, crease.wall[k])};
-            count_cuts(d, node, &choice, value);
-            if (choice.value > value)
-                value = choice.value, best = choice.half;
+            const int64_t own = value_of_wall(d, node, crease.wall[k], value);
+            if (own > value)
+                value = own, best = crease.wall[k];
         }
     }
     return best;
 }
 
-static bool is_worth_more(void *context, uint32_t a, uint32_t b) {
-    const struct choice *choice = context;
-    return choice[a].value > choice[b].value;
-}
-
-/* Lists the planes of a node, each once, with what creases count, into `order` the best first. */
-static uint32_t list_choices(struct division *d, const struct node *node) {
-    uint32_t count = 0;
-    forget_planes(d);
+/* Lists the planes of a node, each once, as `from` has them, whose planes have been looked at; NULL: not counted. */
+static void list_choices(struct division *d, struct node *node, const struct node *from) {
+    node->choice = d->choice_count;
+    for (uint32_t i = from ? from->choice : 0; from && i < from->choice + from->choice_count; i++)
+        d->place[d->choices[i].half >> 1] = i;
     for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && d->space->status == PIR_OK; i++) {
         const uint32_t half = half_of(d, i);
         if (!is_new(d, half) ||
-            !pir_space_grow(d->space, (void **)&d->choice, &d->choice_room, count, sizeof *d->choice))
+            !pir_space_grow(d->space, (void **)&d->choices, &d->choice_room, d->choice_count, sizeof *d->choices))
             continue;
-        d->choice[count++] = (struct choice){half, value_of_creases(d, node, half)};
+        struct choice *choice = &d->choices[d->choice_count++];
+        *choice = from ? d->choices[d->place[half >> 1]] : (struct choice){0};
+        choice->half = half;
     }
-    if (!pir_space_grow(d->space, (void **)&d->order, &d->order_room, count, sizeof *d->order) ||
-        !pir_space_grow(d->space, (void **)&d->work, &d->work_room, count, sizeof *d->work))
-        return 0;
-    for (uint32_t i = 0; i < count; i++)
-        d->order[i] = i;
-    pir_sort(d->order, count, d->work, is_worth_more, d->choice);
-    return count;
+    node->choice_count = d->choice_count - node->choice;
+}
+
+/* Counts the planes of a node. */
+static void count_choices(struct division *d, struct node *node) {
+    forget_planes(d);
+    list_choices(d, node, NULL);
+    for (uint32_t k = node->choice; k < node->choice + node->choice_count && d->space->status == PIR_OK; k++) {
+        for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++)
+            count_crease(d, &d->choices[k], &d->creases[i], 1);
+        for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count; i++)
+            count_fragment(d, &d->choices[k], d->list[i], 1);
+    }
 }
 
 /* The half-space to cut by, or none when every fragment is on or below the plane of every other. Of planes with the
- * best value it is the first. Fragments only take away, so that most planes are not held against them. */
-static uint32_t choose_plane(struct division *d, const struct node *node) {
+ * best value it is the first. */
+static uint32_t choose_plane(struct division *d, struct node *node) {
     uint32_t best = PIR_SPACE_NONE;
-    int64_t value = INT64_MIN;
-    for (uint32_t i = 0, count = list_choices(d, node); i < count && d->space->status == PIR_OK; i++) {
-        const uint32_t at = d->order[i];
-        const int64_t least = best == PIR_SPACE_NONE || at > best ? value : value - 1;
-        if (d->choice[at].value < value)
-            break;
-        if (count_cuts(d, node, &d->choice[at], least)) {
-            value = d->choice[at].value;
-            best = at;
-        }
+    if (node->choice_count == 0)
+        count_choices(d, node);
+    for (uint32_t k = node->choice; k < node->choice + node->choice_count; k++) {
+        const struct choice *choice = &d->choices[k];
+        if (choice->side[choice->half & 1 ? 0 : 1] > 0 &&
+            (best == PIR_SPACE_NONE || value_of(choice) > value_of(&d->choices[best])))
+            best = k;
     }
-    return best == PIR_SPACE_NONE ? best : d->choice[best].half;
+    return best == PIR_SPACE_NONE || d->space->status != PIR_OK ? PIR_SPACE_NONE : d->choices[best].half;
 }
 
 /* --- the cut --- */
@@ -243,8 +240,11 @@ static void cut_fragments(struct division *d, const struct node *node, uint32_t 
         const uint32_t fragment = d->list[i];
         uint32_t parts[2] = {fragment, fragment};
         const unsigned sides = pir_polygons_sides(&d->polygons, fragment, half);
-        if (sides == 3)
+        if (sides == 3) {
             pir_polygons_cut(&d->polygons, fragment, half, parts);
+            pir_sides_add(&d->sides, parts[0], fragment);
+            pir_sides_add(&d->sides, parts[1], fragment);
+        }
         if (sides & 1)
             push_fragment(d, parts[0]);
         if (sides & 2)
@@ -277,15 +277,65 @@ static void cut_creases(struct division *d, const struct node *node, uint32_t ha
     }
 }
 
+/* What a child of a node has that the node has not, and the reverse: in the order of the node's, parts that the cut
+ * made stand for what they are parts of. Points and polygons from first[0] and first[1] on are such. */
+static void list_changes(struct division *d, const struct node *node, const struct node *child,
+                         const uint32_t first[2]) {
+    d->change_count = 0;
+    for (uint32_t i = 0, at = 0; i < node->fragment_count; i++) {
+        const uint32_t own = d->list[node->fragment + i];
+        const uint32_t next = at < child->fragment_count ? d->list[child->fragment + at] : PIR_SPACE_NONE;
+        const bool made = next != PIR_SPACE_NONE && next >= first[1];
+        at += next == own || made;
+        if (next != own)
+            push_change(d, (struct change){.fragment = own, .crease = PIR_SPACE_NONE, .sign = -1});
+        if (made)
+            push_change(d, (struct change){.fragment = next, .crease = PIR_SPACE_NONE, .sign = 1});
+    }
+    for (uint32_t i = 0, at = 0; i < node->crease_count; i++) {
+        const struct crease *own = &d->creases[node->crease + i];
+        const struct crease *next = at < child->crease_count ? &d->creases[child->crease + at] : NULL;
+        const bool same = next && next->a == own->a && next->b == own->b;
+        const bool made = next && (next->a >= first[0] || next->b >= first[0]) && !same;
+        at += same || made;
+        if (!same)
+            push_change(d, (struct change){.crease = node->crease + i, .sign = -1});
+        if (made)
+            push_change(d, (struct change){.crease = child->crease + at - 1, .sign = 1});
+    }
+}
+
+/* Counts a child's planes by what changes against the node's, where that is less than to count them anew. */
+static void change_choices(struct division *d, const struct node *node, struct node *child, const uint32_t first[2]) {
+    child->choice = d->choice_count;
+    if (node->choice_count == 0 || d->space->status != PIR_OK)
+        return;
+    list_changes(d, node, child, first);
+    if (d->change_count >= child->fragment_count + child->crease_count)
+        return;
+    forget_planes(d);
+    list_choices(d, child, node);
+    for (uint32_t k = child->choice; k < child->choice + child->choice_count && d->space->status == PIR_OK; k++)
+        for (uint32_t i = 0; i < d->change_count; i++) {
+            const struct change *change = &d->changes[i];
+            if (change->crease == PIR_SPACE_NONE)
+                count_fragment(d, &d->choices[k], change->fragment, change->sign);
+            else
+                count_crease(d, &d->choices[k], &d->creases[change->crease], change->sign);
+        }
+}
+
 /* `holds_crease`: the plane does, so that both sides are inside where they have no fragments. */
 static void cut_node(struct division *d, const struct node *node, uint32_t half, bool holds_crease) {
     struct node child[2] = {{.inside = true}, {.inside = holds_crease}};
+    const uint32_t first[2] = {d->space->point_count, d->polygons.count};
     uint32_t parts[2] = {0};
     pir_cells_cut(d->cells, node->cell, half, parts);
     cut_fragments(d, node, half, child);
     cut_creases(d, node, half, child);
     for (int above = 0; above < 2; above++) {
         child[above].cell = parts[above];
+        change_choices(d, node, &child[above], first);
         if (parts[above] != PIR_SPACE_NONE)
             push_node(d, child[above]);
     }
@@ -308,7 +358,11 @@ static void keep_piece(struct division *d, const struct node *node) {
 
 static void divide(struct division *d) {
     while (d->node_count > 0 && d->space->status == PIR_OK) {
-        const struct node node = d->node[--d->node_count];
+        struct node node = d->node[--d->node_count];
+        // what was listed after this node's own is of nodes that are done
+        d->list_count = node.fragment + node.fragment_count;
+        d->crease_count = node.crease + node.crease_count;
+        d->choice_count = node.choice + node.choice_count;
         const bool by_wall = d->method == PIR_DECOMPOSE_WALLS && node.crease_count > 0;
         const uint32_t half = by_wall               ? choose_wall(d, &node)
                               : node.fragment_count ? choose_plane(d, &node)
@@ -344,11 +398,13 @@ static struct crease crease_at(struct division *d, const pir_body_edge *edge, ui
 static void begin(struct division *d) {
     const pir_body *body = d->body;
     struct node root = {.cell = pir_cells_add_box(d->cells)};
-    for (uint32_t p = 0; p < body->part_count; p++)
-        push_fragment(d, pir_polygons_add(&d->polygons, body->half[body->part_facet[p]],
-                                          body->part_corner + body->part_start[p],
-                                          body->part_direction + body->part_start[p],
-                                          body->part_start[p + 1] - body->part_start[p]));
+    for (uint32_t p = 0; p < body->part_count && d->space->status == PIR_OK; p++) {
+        const uint32_t made =
+            pir_polygons_add(&d->polygons, body->half[body->part_facet[p]], body->part_corner + body->part_start[p],
+                             body->part_direction + body->part_start[p], body->part_start[p + 1] - body->part_start[p]);
+        pir_sides_add(&d->sides, made, PIR_SPACE_NONE);
+        push_fragment(d, made);
+    }
     for (uint32_t e = 0; e < body->edge_count; e++) {
         const pir_body_edge *edge = &body->edge[e];
         if (edge->bend == PIR_BEND_REFLEX)
@@ -363,18 +419,18 @@ pir_status pir_decompose(const pir_body *body, pir_decompose_method method, pir_
     pir_space *space = body->space;
     struct division d = {.body = body, .method = method, .space = space, .cells = cells, .pieces = pieces};
     pir_polygons_init(&d.polygons, space);
-    begin_sides(&d);
+    pir_sides_init(&d.sides, body, &d.polygons);
     begin(&d);
     divide(&d);
     pir_space_shrink(space, d.node, d.node_room, sizeof *d.node);
     pir_space_shrink(space, d.list, d.list_room, sizeof *d.list);
     pir_space_shrink(space, d.above, d.above_room, sizeof *d.above);
-    pir_space_shrink(space, d.side, d.side_room, sizeof *d.side);
     pir_space_shrink(space, d.creases, d.crease_room, sizeof *d.creases);
     pir_space_shrink(space, d.seen, d.seen_room, sizeof *d.seen);
-    pir_space_shrink(space, d.choice, d.choice_room, sizeof *d.choice);
-    pir_space_shrink(space, d.order, d.order_room, sizeof *d.order);
-    pir_space_shrink(space, d.work, d.work_room, sizeof *d.work);
+    pir_space_shrink(space, d.place, d.place_room, sizeof *d.place);
+    pir_space_shrink(space, d.choices, d.choice_room, sizeof *d.choices);
+    pir_space_shrink(space, d.changes, d.change_room, sizeof *d.changes);
+    pir_sides_finish(&d.sides);
     pir_polygons_finish(&d.polygons);
     return space->status;
 }

@@ -4,6 +4,8 @@
 #include "solid/space/polygons.h"
 
 #include <math.h>
+
+#include <math.h>
 #include <string.h>
 
 #include "solid/space/exact.h"
@@ -109,6 +111,22 @@ unsigned pir_polygons_sides(pir_polygons *polygons, uint32_t polygon, uint32_t h
         sides |= sign < 0 ? 1u : sign > 0 ? 2u : 0u;
     }
     return sides;
+}
+
+pir_ball pir_polygons_ball(const pir_polygons *polygons, uint32_t polygon) {
+    const pir_polygon p = polygons->polygon[polygon];
+    const uint32_t *point = polygons->point + p.first;
+    pir_ball ball = {{0}, 0};
+    for (uint32_t i = 0; i < p.count; i++)
+        for (int k = 0; k < 3; k++)
+            ball.x[k] += polygons->space->point[point[i]].x[k] / p.count;
+    for (uint32_t i = 0; i < p.count; i++) {
+        const pir_space_point *x = &polygons->space->point[point[i]];
+        const double to[3] = {x->x[0] - ball.x[0], x->x[1] - ball.x[1], x->x[2] - ball.x[2]};
+        const double away = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]) + 2 * x->err;
+        ball.radius = away > ball.radius ? away : ball.radius;
+    }
+    return ball;
 }
 
 void pir_polygons_cut(pir_polygons *polygons, uint32_t polygon, uint32_t half, uint32_t ret_parts[2]) {

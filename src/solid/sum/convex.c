@@ -150,7 +150,7 @@ static void add_crossings(const pir_convexes *p, const pir_convex *a, const pir_
 
 pir_pair_sum pir_pair_sum_make(const pir_convexes *p, uint32_t i, const pir_convexes *q, uint32_t j) {
     const pir_convex *a = &p->convex[i], *b = &q->convex[j];
-    pir_pair_sum sum = {.first = p->space->plane_count};
+    pir_pair_sum sum = {.first = p->space->plane_count, .apart = p->space->plane_count};
     add_faces(p, a, q, b);
     add_faces(q, b, p, a);
     add_crossings(p, a, q, b);

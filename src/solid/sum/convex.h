@@ -42,6 +42,8 @@ void pir_convexes_finish(pir_convexes *convexes);
 
 typedef struct pir_pair_sum {
     uint32_t first, count; /* planes of the space */
+    uint32_t below;        /* a half-space of a candidate that the sum is below, or 0 */
+    uint32_t apart;        /* the plane of its own that a candidate was last found above */
     pir_box box;
 } pir_pair_sum;
 

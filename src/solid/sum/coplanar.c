@@ -12,6 +12,12 @@
 #include "base/sort.h"
 #include "solid/space/boxes.h"
 
+/* A wall of a polygon as doubles, and how far off them its truth may be. */
+struct wall {
+    double n[3], d, err;
+    uint32_t half;
+};
+
 struct plane {
     pir_space *space;
     const pir_polygons *polygons;
@@ -22,8 +28,10 @@ struct plane {
     uint32_t *order, *work;
     pir_segment *left; /* of the sides of the polygon at hand */
     uint32_t left_count, left_room;
-    uint32_t *wall; /* of a polygon that may cover something of them */
+    struct wall *wall; /* of a polygon that may cover something of them */
     uint32_t wall_count, wall_room;
+    uint32_t *near; /* of these, the ones that the segment at hand is not certainly below */
+    uint32_t near_count, near_room;
     pir_segment *edge; /* the boundary of the union */
     uint32_t edge_count, edge_room;
 };
@@ -69,13 +77,36 @@ static bool is_beyond(struct plane *plane, pir_polygon own, uint32_t wall) {
     return side > 0;
 }
 
+/* Lists the walls that a segment may not be wholly below: others neither cut it nor keep it from being covered. */
+static void list_near(struct plane *plane, pir_segment segment) {
+    const pir_space_point *a = &plane->space->point[segment.a], *b = &plane->space->point[segment.b];
+    pir_ball ball = {{0}, 0};
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        ball.x[k] = (a->x[k] + b->x[k]) / 2;
+        square += (a->x[k] - b->x[k]) * (a->x[k] - b->x[k]);
+    }
+    ball.radius = sqrt(square) / 2 + 2 * (a->err + b->err);
+    plane->near_count = 0;
+    if (!pir_space_grow(plane->space, (void **)&plane->near, &plane->near_room, plane->wall_count, sizeof *plane->near))
+        return;
+    for (uint32_t i = 0; i < plane->wall_count; i++) {
+        const struct wall *wall = &plane->wall[i];
+        const double depth = wall->d - (wall->n[0] * ball.x[0] + wall->n[1] * ball.x[1] + wall->n[2] * ball.x[2]);
+        plane->near[plane->near_count] = wall->half;
+        plane->near_count += depth <= ball.radius + wall->err;
+    }
+}
+
 /* Whether the polygon at hand covers a part of a segment of a side of `own`; where they share a side and face one way,
  * only an `earlier` one does. */
 static bool covers(struct plane *plane, pir_segment segment, pir_polygon own, bool earlier) {
-    for (uint32_t i = 0; i < plane->wall_count; i++) {
-        const uint32_t wall = plane->wall[i];
-        const int a = pir_space_side(plane->space, wall, segment.a), b = pir_space_side(plane->space, wall, segment.b);
-        if (a < 0 || b < 0)
+    list_near(plane, segment);
+    for (uint32_t i = 0; i < plane->near_count; i++) {
+        const uint32_t wall = plane->near[i];
+        const int a = pir_space_side(plane->space, wall, segment.a);
+        const int b = a < 0 ? -1 : pir_space_side(plane->space, wall, segment.b);
+        if (b < 0)
             continue;
         if (a > 0 || b > 0 || (!earlier && !is_beyond(plane, own, wall)))
             return false;
@@ -83,13 +114,14 @@ static bool covers(struct plane *plane, pir_segment segment, pir_polygon own, bo
     return true;
 }
 
-/* Takes from a segment what the polygon at hand covers; what is left is added to `left`. */
+/* Takes from a segment what the polygon at hand covers, whose walls near it are listed; what is left is added to
+ * `left`. */
 static void cut(struct plane *plane, pir_segment rest) {
     pir_space *space = plane->space;
     const uint32_t before = plane->left_count;
     const pir_segment whole = rest;
-    for (uint32_t i = 0; i < plane->wall_count && space->status == PIR_OK; i++) {
-        const uint32_t wall = plane->wall[i];
+    for (uint32_t i = 0; i < plane->near_count && space->status == PIR_OK; i++) {
+        const uint32_t wall = plane->near[i];
         const int a = pir_space_side(space, wall, rest.a), b = pir_space_side(space, wall, rest.b);
         if (a <= 0 && b <= 0)
             continue;
@@ -121,22 +153,25 @@ static bool list_walls(struct plane *plane, const pir_box *box, pir_polygon by) 
     plane->wall_count = 0;
     if (!pir_space_grow(plane->space, (void **)&plane->wall, &plane->wall_room, by.count, sizeof *plane->wall))
         return false;
+    double middle[3], half[3];
+    for (int k = 0; k < 3; k++) {
+        middle[k] = (box->low[k] + box->high[k]) / 2;
+        half[k] = (box->high[k] - box->low[k]) / 2;
+    }
     for (uint32_t i = 0; i < by.count; i++) {
         const uint32_t wall = plane->polygons->wall[by.first + i];
         const pir_space_plane *f = &plane->space->plane[wall >> 1];
-        double middle = -f->d, reach = 0;
+        double above = -f->d, reach = f->err + 0x1p-44; // rounding is worth less than 2^-48
         for (int k = 0; k < 3; k++) {
-            middle += f->n[k] * (box->low[k] + box->high[k]) / 2;
-            reach += fabs(f->n[k]) * (box->high[k] - box->low[k]) / 2;
+            above += f->n[k] * middle[k];
+            reach += fabs(f->n[k]) * half[k];
         }
-        // rounding is worth less than 2^-48
-        reach += f->err + 0x1p-44;
-        if (wall & 1)
-            middle = -middle;
-        if (middle > reach)
+        const double turn = wall & 1 ? -1 : 1;
+        if (turn * above > reach)
             return false;
-        if (middle >= -reach)
-            plane->wall[plane->wall_count++] = wall;
+        if (turn * above >= -reach)
+            plane->wall[plane->wall_count++] =
+                (struct wall){{turn * f->n[0], turn * f->n[1], turn * f->n[2]}, turn * f->d, f->err + 0x1p-44, wall};
     }
     return true;
 }
@@ -199,6 +234,7 @@ void pir_coplanar_outline(pir_outline *outline, uint32_t group, const pir_polygo
     }
     pir_space_shrink(space, plane.left, plane.left_room, sizeof *plane.left);
     pir_space_shrink(space, plane.wall, plane.wall_room, sizeof *plane.wall);
+    pir_space_shrink(space, plane.near, plane.near_room, sizeof *plane.near);
     pir_space_shrink(space, plane.edge, plane.edge_room, sizeof *plane.edge);
     PIR_FREE(a, plane.area, count);
     PIR_FREE(a, plane.box, count);

@@ -33,15 +33,25 @@ static bool is_plane_of(pir_space *space, uint32_t half, uint32_t plane) {
     return space->status == PIR_OK;
 }
 
-/* How deep in a pair's sum a point in the plane of `half` is, or −HUGE_VAL when all of the sum is below it. */
-static double depth_of(pir_space *space, const pir_pair_sum *pair, uint32_t half, const double x[3]) {
+/* How deep in a pair's sum the middle of a candidate in the plane of `half` is, or −HUGE_VAL when all of the sum is
+ * below that plane, or the candidate is outside of the sum. */
+static double depth_of(pir_space *space, pir_pair_sum *pair, uint32_t half, const pir_ball *ball) {
+    const pir_space_plane *apart = &space->plane[pair->apart];
     double least = HUGE_VAL;
+    if (pir_ball_side(ball, apart, pir_ball_depth(ball, apart)) > 0)
+        return -HUGE_VAL;
     for (uint32_t k = pair->first; k < pair->first + pair->count; k++) {
         const pir_space_plane *f = &space->plane[k];
-        const double depth = f->d - (f->n[0] * x[0] + f->n[1] * x[1] + f->n[2] * x[2]);
-        // another plane through the point costs a look, and one that is missed costs one later
-        if (fabs(depth) < 0x1p-40 && is_plane_of(space, half, k))
+        const double depth = pir_ball_depth(ball, f);
+        if (pir_ball_side(ball, f, depth) > 0) {
+            pair->apart = k;
             return -HUGE_VAL;
+        }
+        // another plane through the point costs a look, and one that is missed costs one later
+        if (fabs(depth) < 0x1p-40 && is_plane_of(space, half, k)) {
+            pair->below = half;
+            return -HUGE_VAL;
+        }
         least = depth < least ? depth : least;
     }
     return least;
@@ -53,26 +63,21 @@ static bool deeper(void *context, uint32_t a, uint32_t b) {
 }
 
 /* The pairs that may cover a candidate, the deepest first, into `order`. */
-static uint32_t find_pairs(pir_remains *c, pir_polygon p) {
+static uint32_t find_pairs(pir_remains *c, uint32_t polygon) {
+    const pir_polygon p = c->polygons.polygon[polygon];
     pir_box box = PIR_BOX_EMPTY;
-    double middle[3] = {0};
-    for (uint32_t i = 0; i < p.count; i++) {
-        const pir_space_point *x = &c->space->point[c->polygons.point[p.first + i]];
-        pir_box_add(&box, x);
-        for (int k = 0; k < 3; k++)
-            middle[k] += x->x[k] / p.count;
-    }
+    const pir_ball ball = pir_polygons_ball(&c->polygons, polygon);
+    for (uint32_t i = 0; i < p.count; i++)
+        pir_box_add(&box, &c->space->point[c->polygons.point[p.first + i]]);
     const uint32_t found = pir_boxes_find(&c->boxes, &box, c->order);
     uint32_t count = 0;
     for (uint32_t i = 0; i < found; i++) {
         const uint32_t pair = c->order[i];
-        if (c->below[pair] == p.half)
+        if (c->pair[pair].below == p.half)
             continue;
-        c->depth[pair] = depth_of(c->space, &c->pair[pair], p.half, middle);
+        c->depth[pair] = depth_of(c->space, &c->pair[pair], p.half, &ball);
         if (c->depth[pair] > -HUGE_VAL)
             c->order[count++] = pair;
-        else
-            c->below[pair] = p.half;
     }
     pir_sort(c->order, count, c->work, deeper, c->depth);
     return count;
@@ -121,7 +126,7 @@ static void clip(pir_remains *c, uint32_t candidate) {
     const uint32_t polygon = pir_polygons_copy(&c->polygons, &c->kept, candidate);
     if (c->space->status != PIR_OK)
         return;
-    const uint32_t pairs = find_pairs(c, c->polygons.polygon[polygon]);
+    const uint32_t pairs = find_pairs(c, polygon);
     c->fragments.count = c->covered.count = 0;
     if (c->open) {
         pir_touching_clear(&c->touching);
@@ -190,8 +195,7 @@ static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
     c->depth = PIR_NEW(a, double, c->pair_count);
     c->order = PIR_NEW(a, uint32_t, c->pair_count);
     c->work = PIR_NEW(a, uint32_t, c->pair_count);
-    c->below = PIR_ZEROED(a, uint32_t, c->pair_count);
-    bool done = box && c->depth && c->order && c->work && c->below;
+    bool done = box && c->depth && c->order && c->work;
     for (uint32_t i = 0; i < c->pair_count && done; i++)
         box[i] = c->pair[i].box;
     done = done && pir_boxes_init(&c->boxes, a, box, c->pair_count);
@@ -262,7 +266,6 @@ void pir_remains_finish(pir_remains *remains) {
     PIR_FREE(a, c->depth, c->pair_count);
     PIR_FREE(a, c->order, c->pair_count);
     PIR_FREE(a, c->work, c->pair_count);
-    PIR_FREE(a, c->below, c->pair_count);
     pir_space_shrink(c->space, c->pair, c->pair_room, sizeof *c->pair);
     pir_space_shrink(c->space, c->half, c->half_room, sizeof *c->half);
     pir_space_shrink(c->space, c->survivor, c->survivor_room, sizeof *c->survivor);

@@ -25,7 +25,6 @@ typedef struct pir_remains {
     uint32_t *found; /* scratch: pairs whose boxes meet a candidate's */
     double *depth;   /* scratch, per pair: how deep in it the candidate's middle is */
     uint32_t *order, *work;
-    uint32_t *below; /* scratch, per pair: the last half-space that it was found to be in, with its plane touched */
     uint32_t *half, half_room; /* scratch */
     pir_polygons polygons;     /* of the candidate at hand */
     pir_polygons kept;         /* the candidates, then what is left of them */

@@ -48,8 +48,12 @@ enum meeting { MEETS, APART };
 /* Whether a fragment meets the set; the half-spaces that cut it are counted, and stand first in `cutter`. */
 static enum meeting find_cutters(pir_polygons *polygons, uint32_t fragment, const uint32_t *half, uint32_t count,
                                  uint32_t *cutter, uint32_t *ret_cutters) {
+    const pir_ball ball = pir_polygons_ball(polygons, fragment);
     uint32_t cutters = 0;
     for (uint32_t h = 0; h < count; h++) {
+        const pir_space_plane *f = &polygons->space->plane[half[h] >> 1];
+        if (pir_ball_side(&ball, f, pir_ball_depth(&ball, f)) * (half[h] & 1 ? -1 : 1) < 0)
+            continue;
         const unsigned sides = pir_polygons_sides(polygons, fragment, half[h]);
         if (sides == 2 || (sides == 0 && faces_same_way(polygons->space, polygons->polygon[fragment].half, half[h])))
             return APART;
