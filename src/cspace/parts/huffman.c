@@ -18,7 +18,7 @@
 
 struct tree {
     uint32_t leaves;
-    uint16_t symbol[PIR_SYMBOLS_MOST + 1]; /* by rising count, and of the same count by rising number */
+    uint16_t symbol[PIR_SYMBOLS_MOST]; /* by rising count, and of the same count by rising number */
     uint32_t weight[2 * PIR_SYMBOLS_MOST];
     uint32_t parent[2 * PIR_SYMBOLS_MOST]; /* leaves first, then nodes in the order in which they are made */
 };

@@ -28,8 +28,7 @@ static uint32_t facets_of(const pir_recorder *recorder) {
 static pir_layout layout_of(pir_recorder *recorder) {
     const pir_polytope *p = recorder->pairing->p, *q = recorder->pairing->q;
     return (pir_layout){{PIR_ROW(recorder->fv, p->facet_count), PIR_ROW(recorder->vf, q->facet_count),
-                         PIR_ROW(recorder->change, (size_t)facets_of(recorder) + 1),
-                         PIR_ROW(recorder->unforeseen, (size_t)p->edge_count + 1),
+                         PIR_ROW(recorder->change, facets_of(recorder)), PIR_ROW(recorder->unforeseen, p->edge_count),
                          PIR_ROW(recorder->doubtful, p->edge_count / 64 + 1)}};
 }
 

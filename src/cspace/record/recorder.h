@@ -27,11 +27,11 @@ typedef struct pir_recorder {
     uint64_t edges_seen, steps; /* of the journal: what has been read */
     pir_ring_ranks p, q;
     uint32_t *fv, *vf;       /* of the slice before */
-    pir_cell_change *change; /* room for all facets and one more: those of −P, then those of Q */
+    pir_cell_change *change; /* room for all facets: those of −P, then those of Q */
     uint32_t change_count[2];
     uint64_t *doubtful; /* a bit for each edge of −P for which the reader may be wrong */
     pir_held_crossings held;
-    uint32_t *unforeseen; /* edges of −P: room for all and one more */
+    uint32_t *unforeseen; /* edges of −P: room for all */
 } pir_recorder;
 
 /* False when out of memory. pir_recorder_finish releases whatever is there. */
