@@ -11,24 +11,41 @@
 /* The most bytes that a number of 32 bits takes. */
 #define PIR_NUMBER_BYTES 6
 
-/* Writes numbers. `at` has room for them; half a byte that is left over at the end is 0. */
+/* Writes numbers, sixteen half bytes at a time. */
 typedef struct pir_pen {
-    uint8_t *at;
-    bool odd; /* the lower half of *at is written */
+    uint8_t *at;   /* room for eight bytes more than the numbers that are still to come take */
+    uint64_t held; /* half bytes that are still to be written */
+    unsigned bits; /* of these, fewer than 64 */
 } pir_pen;
 
-static inline void pir_pen_put_half(pir_pen *pen, uint32_t half) {
-    if (pen->odd)
-        *pen->at++ |= (uint8_t)(half << 4);
-    else
-        *pen->at = (uint8_t)half;
-    pen->odd = !pen->odd;
+/* What a pen needs beyond the bytes of its numbers. */
+#define PIR_PEN_SLACK 8
+
+/* Writes what is held, in eight bytes, the least significant first. */
+static inline void pir_pen_write(const pir_pen *pen) {
+    for (unsigned i = 0; i < 8; i++)
+        pen->at[i] = (uint8_t)(pen->held >> 8 * i);
+}
+
+static inline void pir_pen_put_half(pir_pen *pen, uint64_t half) {
+    pen->held |= half << pen->bits;
+    pen->bits += 4;
+    if (pen->bits == 64) {
+        pir_pen_write(pen);
+        *pen = (pir_pen){pen->at + 8, 0, 0};
+    }
 }
 
 static inline void pir_pen_put(pir_pen *pen, uint32_t number) {
     for (; number >= 8; number >>= 3)
         pir_pen_put_half(pen, (number & 7) | 8);
     pir_pen_put_half(pen, number);
+}
+
+/* Writes what is held; half a byte that is left over is 0. Returns the end of what has been written. */
+static inline uint8_t *pir_pen_end(const pir_pen *pen) {
+    pir_pen_write(pen);
+    return pen->at + (pen->bits + 4) / 8;
 }
 
 /* Bytes that are read; `broken` once a number did not end in them, or was greater than asked for. */

@@ -2,16 +2,15 @@
 /*
  * Writes the records of a sum that turns.
  *
- * A recorder holds the pairing of the slice before: the cells of the facets, and what stood in each slot of the sum's
- * crossings. The sum's journal names what may have changed since, so a record costs what has changed. Where the journal
- * does not reach back everything is compared.
+ * A recorder holds the pairing of the slice before: the cells of facets, and the crossings. Of edges of −P it looks
+ * at those that the sum's journal names; where the journal does not reach back, at all.
  *
  * A record depends on the pairings before and after alone, not on the way between them or on slots.
  */
 #ifndef PIR_CSPACE_RECORD_RECORDER_H
 #define PIR_CSPACE_RECORD_RECORDER_H
 
-#include "cspace/record/crossing_set.h"
+#include "cspace/record/held_crossings.h"
 #include "cspace/record/record_bytes.h"
 #include "cspace/record/ring_ranks.h"
 #include "dymsum/view.h"
@@ -25,16 +24,13 @@ typedef struct pir_recorder {
     pir_allocator allocator;
     const pir_sum *sum; /* borrowed */
     const pir_pairing *pairing;
-    uint64_t seen, edges_seen, steps; /* of the journal: what has been read */
+    uint64_t edges_seen, steps; /* of the journal: what has been read */
     pir_ring_ranks p, q;
-    uint32_t *fv, *vf;              /* of the slice before */
-    uint32_t *half, *edge;          /* what stood in each slot of the sum's crossings, as pir_crossings has it */
-    uint32_t slot_room, slots_seen; /* of these; up to where slots have been in use */
-    pir_cell_change *change;        /* room for all facets: those of −P, then those of Q */
+    uint32_t *fv, *vf;       /* of the slice before */
+    pir_cell_change *change; /* room for all facets: those of −P, then those of Q */
     uint32_t change_count[2];
-    uint64_t *noted;    /* a bit for each facet, by the journal's entries; 0 between calls */
     uint64_t *doubtful; /* a bit for each edge of −P for which the reader may be wrong */
-    pir_crossing_set toggled;
+    pir_held_crossings held;
     uint32_t *unforeseen; /* edges of −P: room for all */
 } pir_recorder;
 

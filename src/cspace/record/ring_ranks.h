@@ -38,11 +38,14 @@ static inline uint32_t pir_ring_size(const pir_ring_ranks *ranks, uint32_t v) {
 /* The halfedge from one vertex to another, or PIR_NO_HALF. */
 static inline uint32_t pir_half_between(const pir_ring_ranks *ranks, uint32_t from, uint32_t to) {
     const pir_polytope *p = ranks->of;
-    uint32_t end = p->ring_start[from + 1];
+    const uint32_t *target = p->target, end = p->ring_start[from + 1];
+    uint32_t found = PIR_NO_HALF;
+    // a ring is short, and where in it the vertex stands is not foreseen: all of it is read
     for (uint32_t h = p->ring_start[from]; h < end; h++)
-        if (p->target[h] == to && (ranks->rank[h] == 0 || p->vertex_count > 2))
-            return h;
-    return PIR_NO_HALF;
+        found = target[h] == to ? h : found;
+    if (p->vertex_count == 2 && found != PIR_NO_HALF && ranks->rank[found] != 0)
+        found = p->ring_start[from] + (found == p->ring_start[from]);
+    return found;
 }
 
 /* The halfedge of that rank at a vertex, or PIR_NO_HALF where there are fewer. */

@@ -52,32 +52,11 @@ void pir_crossings_forget(pir_tracked *tracked) {
     pir_journal_note_all(&tracked->journal);
 }
 
-uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32_t h) {
+uint32_t pir_crossing_new_slot(pir_tracked *tracked) {
     pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t slot = c->free;
-    if (slot != PIR_NO_CROSSING) {
-        c->free = c->next[slot];
-    } else {
-        if (c->used == c->capacity &&
-            (c->capacity > UINT32_MAX / 4 || !pir_crossings_reserve(tracked, 2 * c->capacity)))
-            return PIR_NO_CROSSING;
-        slot = c->used++;
-    }
-    c->half[slot] = h;
-    c->edge[slot] = e;
-    c->next[slot] = PIR_NO_CROSSING;
-    pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);
-    tracked->pairing.crossings.count++;
-    return slot;
-}
-
-void pir_crossing_free(pir_tracked *tracked, uint32_t slot) {
-    pir_crossings *c = &tracked->pairing.crossings;
-    c->edge[slot] = PIR_NO_CROSSING;
-    c->next[slot] = c->free;
-    c->free = slot;
-    pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);
-    tracked->pairing.crossings.count--;
+    if (c->used == c->capacity && (c->capacity > UINT32_MAX / 4 || !pir_crossings_reserve(tracked, 2 * c->capacity)))
+        return PIR_NO_CROSSING;
+    return c->used++;
 }
 
 bool pir_crossing_append(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last) {

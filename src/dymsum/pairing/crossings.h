@@ -22,9 +22,33 @@ void pir_crossings_clear(pir_tracked *tracked);
 /* Makes every slot unused. The caller empties the lists. */
 void pir_crossings_forget(pir_tracked *tracked);
 
+/* A slot that has never been in use; PIR_NO_CROSSING when out of memory. */
+uint32_t pir_crossing_new_slot(pir_tracked *tracked);
+
 /* A slot for the crossing of edge e with halfedge h, not linked; PIR_NO_CROSSING when out of memory. */
-uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32_t h);
-void pir_crossing_free(pir_tracked *tracked, uint32_t slot);
+static inline uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32_t h) {
+    pir_crossings *c = &tracked->pairing.crossings;
+    uint32_t slot = c->free;
+    if (slot != PIR_NO_CROSSING)
+        c->free = c->next[slot];
+    else if ((slot = pir_crossing_new_slot(tracked)) == PIR_NO_CROSSING)
+        return PIR_NO_CROSSING;
+    c->half[slot] = h;
+    c->edge[slot] = e;
+    c->next[slot] = PIR_NO_CROSSING;
+    pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);
+    c->count++;
+    return slot;
+}
+
+static inline void pir_crossing_free(pir_tracked *tracked, uint32_t slot) {
+    pir_crossings *c = &tracked->pairing.crossings;
+    c->edge[slot] = PIR_NO_CROSSING;
+    c->next[slot] = c->free;
+    c->free = slot;
+    pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);
+    c->count--;
+}
 
 /*
  * Links one more crossing, of edge e with halfedge h, behind *last, the end of the edge's list or PIR_NO_CROSSING, and

@@ -145,11 +145,15 @@ void pir_tracked_turn_facets(pir_tracked *tracked) {
     }
 }
 
+static double least(double a, double b) {
+    return a < b ? a : b;
+}
+
 /* Predictions beyond the farthest are cut, and all are rounded down. How the facet came here is not known. */
 void pir_tracked_certify(pir_tracked *tracked, uint32_t i, const pir_expiry *expiry) {
-    pir_certificate_file(&tracked->step, &tracked->certificates, i, pir_float_below(fmin(expiry->margin, 4)),
-                         pir_float_below(fmin(expiry->ahead, (double)PIR_FARTHEST_PREDICTION)),
-                         pir_float_below(fmin(-expiry->behind, (double)PIR_FARTHEST_PREDICTION)));
+    pir_certificate_file(&tracked->step, &tracked->certificates, i, pir_float_below(least(expiry->margin, 4)),
+                         pir_float_below(least(expiry->ahead, (double)PIR_FARTHEST_PREDICTION)),
+                         pir_float_below(least(-expiry->behind, (double)PIR_FARTHEST_PREDICTION)));
     pir_certificate_forget_previous(&tracked->certificates, i);
 }
 

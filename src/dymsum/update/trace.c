@@ -61,21 +61,52 @@ static void add_exit(struct exit *exit, uint32_t half, double s, double rising, 
     exit->rising = rising;
 }
 
+/* Sides that are compared at a time. */
+#define SIDES 32
+
+/* The values of sides and their derivatives. */
+struct sides {
+    double s[SIDES], rate[SIDES];
+};
+
+/*
+ * Compares `count` sides from halfedge h on, at most SIDES. Returns a bit for each that may have been touched in the
+ * step or that the facet is past; which ones these are is not foreseen, so that nothing branches here.
+ */
+static inline uint32_t compare_sides(const struct tracer *tracer, uint32_t h, uint32_t count, struct sides *ret_sides) {
+    const double stride = fabs(tracer->stride), farthest = 0.5 * stride * stride + 2 * tracer->error;
+    const pir_vec3 *direction = tracer->other->direction + h;
+    uint32_t concerned = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        double s = pir_vec_dot(tracer->turned, direction[i]), rate = pir_vec_dot(tracer->motion, direction[i]);
+        ret_sides->s[i] = s;
+        ret_sides->rate[i] = rate;
+        concerned |= (uint32_t)((fabs(s) <= fabs(rate) * stride + farthest) | (s >= 0)) << i;
+    }
+    return concerned;
+}
+
+/* Adds a side that is concerned to the exit. */
+static inline void see_side(const struct tracer *tracer, uint32_t h, double s, double rate, struct exit *exit) {
+    const double stride = fabs(tracer->stride), error = tracer->error, size = fabs(s), speed = fabs(rate);
+    const double rising = tracer->stride < 0 ? -rate : rate;
+    bool reached = size <= speed * stride + (0.5 * stride * stride + 2 * error);
+    exit->known = reached && size > 2 * error && speed > 2 * stride + 2 * error && (s < 0 || rising > 0);
+    if (exit->known && s > 0)
+        add_exit(exit, h, s, rising, error);
+}
+
 /* Finds the side through which the facet has left the cell of v. */
 static struct exit find_exit(const struct tracer *tracer, uint32_t v) {
-    const pir_polytope *other = tracer->other;
-    const double stride = fabs(tracer->stride), error = tracer->error;
+    const uint32_t end = tracer->other->ring_start[v + 1];
     struct exit exit = {.known = true};
-    for (uint32_t h = other->ring_start[v]; h < other->ring_start[v + 1] && exit.known; h++) {
-        double s = pir_vec_dot(tracer->turned, other->direction[h]),
-               rate = pir_vec_dot(tracer->motion, other->direction[h]), size = fabs(s), speed = fabs(rate);
-        bool reached = size <= speed * stride + 0.5 * stride * stride + 2 * error;
-        if (!reached && s < 0)
-            continue;
-        double rising = tracer->stride < 0 ? -rate : rate;
-        exit.known = reached && size > 2 * error && speed > 2 * stride + 2 * error && (s < 0 || rising > 0);
-        if (exit.known && s > 0)
-            add_exit(&exit, h, s, rising, error);
+    for (uint32_t h = tracer->other->ring_start[v]; h < end && exit.known; h += SIDES) {
+        struct sides sides;
+        uint32_t concerned = compare_sides(tracer, h, end - h < SIDES ? end - h : SIDES, &sides);
+        for (; concerned && exit.known; concerned &= concerned - 1) {
+            uint32_t i = (uint32_t)__builtin_ctz(concerned);
+            see_side(tracer, h + i, sides.s[i], sides.rate[i], &exit);
+        }
     }
     return exit;
 }
