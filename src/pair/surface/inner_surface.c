@@ -11,8 +11,12 @@
 
 #include "pair/surface/surface_loops.h"
 
-/* How often a hole is widened for one vertex; most take none. Beyond that little of the surface would be left. */
-#define MOST_WIDENED 2
+/*
+ * How often a hole is widened for one vertex; most take none. Where the centre has left the surface, more than a few
+ * would leave little of it.
+ */
+#define MOST_WIDENED      9
+#define MOST_WIDENED_LEFT 2
 
 /* --- loops --- */
 
@@ -243,11 +247,12 @@ static uint64_t set_fan(pir_surface_room *room, uint32_t i) {
 
 /*
  * Sets the fan from corner i in place of triangles. Where its rim passes a corner twice, all that is about that corner
- * goes too. Where a triangle of it is not certain, the one across its side of the rim goes, and those
- * of `seen` that are joined to it. False where nothing soon spans the hole. *gone becomes the triangles that go.
+ * goes too. Where a triangle of it is not certain, the one across its side of the rim goes, and those of `seen` that
+ * are joined to it. False where nothing spans the hole in `most` times. *gone becomes the triangles that go.
  */
-static bool span(const pir_surface *surface, pir_surface_room *room, uint32_t i, uint64_t seen, uint64_t *gone) {
-    for (uint32_t times = 0; times < MOST_WIDENED; times++) {
+static bool span(const pir_surface *surface, pir_surface_room *room, uint32_t i, uint64_t seen, uint32_t most,
+                 uint64_t *gone) {
+    for (uint32_t times = 0; times < most; times++) {
         uint32_t twice = list_rim(surface, *gone, &room->fan);
         uint64_t more = about_all(surface, room, twice);
         if (room->fan.count == 0)
@@ -325,13 +330,14 @@ static bool fits(const pir_surface *surface, uint64_t gone, const pir_surface_fa
     return count <= PIR_SURFACE_TRIANGLES;
 }
 
-/* Sets the fan from corner i, which is placed, in place of what it sees. Returns what goes; 0: nothing spans. */
-static uint64_t make_way(const pir_surface *surface, uint64_t least, uint32_t i, pir_surface_room *room) {
+/* Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing. */
+static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least, uint32_t i, pir_surface_room *room) {
     uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, gone = seen;
     if (list_rim(surface, gone, &room->fan) == 0 && is_disk(gone, &room->fan) && set_fan(room, i) == 0)
         return gone;
     gone = joined_to(surface, least, seen);
-    return span(surface, room, i, seen, &gone) ? gone : 0;
+    uint32_t most = room->plane.low[t] > 0 ? MOST_WIDENED : MOST_WIDENED_LEFT;
+    return span(surface, room, i, seen, most, &gone) ? gone : 0;
 }
 
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room) {
@@ -343,7 +349,7 @@ uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_ver
     room->at[i][0] = vertex->at.x;
     room->at[i][1] = vertex->at.y;
     room->at[i][2] = vertex->at.z;
-    uint64_t gone = make_way(surface, least, i, room);
+    uint64_t gone = make_way(surface, t, least, i, room);
     if (gone == 0 || !fits(surface, gone, &room->fan))
         return PIR_SURFACE_CORNERS;
     put_fan(surface, gone, room);
