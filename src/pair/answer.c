@@ -14,9 +14,9 @@
  *   - whole: the difference (whole.c).
  */
 #include "pair/apart.h"
-#include "pair/facet/foot.h"
 #include "pair/overlap.h"
 #include "pair/task.h"
+#include "query/last/foot.h"
 
 /* --- by the certificate --- */
 

@@ -14,8 +14,8 @@
 #ifndef PIR_PAIR_FACET_HELD_PROOF_H
 #define PIR_PAIR_FACET_HELD_PROOF_H
 
-#include "pair/facet/same_facet.h"
 #include "query/answer/manifold.h"
+#include "query/last/same_facet.h"
 
 typedef struct pir_held {
     bool some;

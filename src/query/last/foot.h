@@ -14,8 +14,8 @@
  *
  * So a body that rests on another, or that has sunk into it by less than the foot is from the rim, needs one facet.
  */
-#ifndef PIR_PAIR_FACET_FOOT_H
-#define PIR_PAIR_FACET_FOOT_H
+#ifndef PIR_QUERY_LAST_FOOT_H
+#define PIR_QUERY_LAST_FOOT_H
 
 #include "query/decide/facet.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The least slack from the foot of x: see foot.h. */
-#include "pair/facet/foot.h"
+#include "query/last/foot.h"
 
 /* What a distance in the plane of F is off by, in units of the placement's error and the facet's: see touch.c. */
 #define MARGIN_ERRORS 16
