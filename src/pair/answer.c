@@ -14,9 +14,9 @@
  *   - whole: the difference (whole.c).
  */
 #include "pair/apart.h"
-#include "pair/facet/foot.h"
 #include "pair/overlap.h"
 #include "pair/task.h"
+#include "query/last/foot.h"
 
 /* --- by the certificate --- */
 
@@ -86,11 +86,13 @@ static bool settle_same(pir_task *task, pir_same is) {
 /* The same with what is left of an earlier proof. */
 static bool by_held_facet(pir_task *task) {
     pir_workspace *workspace = task->workspace;
-    const pir_held *held = &task->pair->held;
+    pir_held *held = &task->pair->held;
     pir_same_known known;
     if (!held->some)
         return false;
     workspace->moved = pir_held_moved(held, &workspace->frame, task->placement);
+    held->served++;
+    held->is_short = workspace->moved.turn > held->served * PIR_LONGEST_STEP;
     if (!pir_held_known(held, workspace->moved, task->placement, &known))
         return false;
     return settle_same(

@@ -41,9 +41,7 @@ static pir_status set_frame(pir_pair *pair, pir_workspace *workspace, const pir_
     if (!fits) {
         frame->p = pair->body_p->body;
         frame->q = pair->body_q->body;
-        frame->exponent = pair->exponent;
-        frame->up = pair->up;
-        frame->down = pair->down;
+        pir_frame_set_exponent(frame, pair->exponent);
     }
     frame->is_set = false;
     pir_frame_turn(frame, &workspace->rotation);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Descent from the features of the last answer to the nearest point: see answer.c. */
 #include "pair/apart.h"
-#include "pair/facet/same_facet.h"
 #include "pair/task.h"
 #include "query/decide/witness.h"
+#include "query/last/facet_simplex.h"
+#include "query/last/same_facet.h"
 
 /* An end of a descent that is nearer than this, relative to the reach, is tried for a facet that x touches. */
 #define MAY_TOUCH 0x1p-30
@@ -18,40 +19,12 @@ static void keep_simplex(pir_pair *pair, const pir_simplex *simplex) {
     }
 }
 
-/* Three vertices of a facet, far apart. */
-static void spread(const pir_polytope *p, uint32_t facet, uint32_t v[3]) {
-    uint32_t start = p->loop_start[facet], count = p->loop_start[facet + 1] - start;
-    for (uint32_t i = 0; i < 3; i++)
-        v[i] = p->origin[p->loop[start + i * count / 3]];
-}
-
-/* Three vertices of D at the facet of the last answer. */
-static void recall_facet(const pir_task *task, pir_simplex *simplex) {
-    const pir_frame *frame = &task->workspace->frame;
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    const pir_piece piece = task->pair->facet;
-    simplex->count = 3;
-    if (piece.kind == PIR_FACET_FV) {
-        spread(p, piece.first, simplex->a);
-        simplex->b[0] = simplex->b[1] = simplex->b[2] = piece.second;
-    } else if (piece.kind == PIR_FACET_VF) {
-        simplex->a[0] = simplex->a[1] = simplex->a[2] = piece.first;
-        spread(q, piece.second, simplex->b);
-    } else {
-        uint32_t half = p->edge_half[piece.first];
-        simplex->a[0] = simplex->a[1] = p->origin[half];
-        simplex->a[2] = p->target[half];
-        simplex->b[0] = q->origin[piece.second];
-        simplex->b[1] = simplex->b[2] = q->target[piece.second];
-    }
-}
-
 static void recall_simplex(const pir_task *task, pir_simplex *simplex) {
     const pir_pair *pair = task->pair;
     simplex->tried = 0;
     if (pair->has_facet && !task->workspace->frame.p.polytope->artificial &&
         !task->workspace->frame.q.polytope->artificial) {
-        recall_facet(task, simplex);
+        pir_facet_simplex(&task->workspace->frame, task->pair->facet, simplex);
         return;
     }
     simplex->count = pair->points;

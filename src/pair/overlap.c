@@ -110,7 +110,7 @@ static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *r
     a = pir_climb_above(frame->p.polytope, pir_mat_apply_transposed(&frame->r, n), least, a);
     b = pir_climb_above(frame->q.polytope, n, least, b);
     pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, a, b), overlap->room->centre);
-    if (!(pir_vec_dot(n, w) > overlap->room->det[t] + overlap->room->det_error))
+    if (!(pir_vec_dot(n, w) > overlap->room->plane.det[t] + overlap->room->det_error))
         return NOTHING_BEYOND;
     *ret_corner = PIR_SURFACE_CORNERS;
     // room is made first; the vertex comes when the triangle is met again
@@ -147,7 +147,7 @@ static pir_about facet_at(const pir_overlap *overlap, uint32_t t, pir_facet *ret
 pir_about pir_overlap_repair(const pir_overlap *overlap, pir_facet *ret_facet) {
     for (uint32_t added = 0; added < MOST_REPAIRS; added++) {
         uint32_t t = least_of(overlap), corner;
-        if (overlap->room->low[t] > 0)
+        if (overlap->room->plane.low[t] > 0)
             return PIR_ABOUT_X;
         enum expansion expansion = expand(overlap, t, &corner);
         if (expansion == NOTHING_BEYOND)
@@ -155,7 +155,7 @@ pir_about pir_overlap_repair(const pir_overlap *overlap, pir_facet *ret_facet) {
         if (expansion == STUCK)
             return PIR_ABOUT_NOTHING;
     }
-    return overlap->room->low[least_of(overlap)] > 0 ? PIR_ABOUT_X : PIR_ABOUT_NOTHING;
+    return overlap->room->plane.low[least_of(overlap)] > 0 ? PIR_ABOUT_X : PIR_ABOUT_NOTHING;
 }
 
 /* The tetrahedron of four vertices of D, placed about a point. Returns whether that is certainly inside. */
@@ -170,7 +170,7 @@ static bool begin_about(const pir_overlap *overlap, const pir_simplex *simplex, 
         certain = pir_surface_place(overlap->surface, overlap->exact->frame, centre, placement->error, placement->reach,
                                     overlap->room);
         // the sum is its volume, six times, wherever the centre is
-        const double *det = overlap->room->det;
+        const double *det = overlap->room->plane.det;
         if (certain || det[0] + det[1] + det[2] + det[3] > 0)
             break;
     }
@@ -196,8 +196,8 @@ static uint32_t least_about(const pir_overlap *overlap, pir_vec3 way, double *re
     double low = HUGE_VAL;
     for (uint32_t t = 0; t < overlap->surface->count; t++) {
         pir_vec3 n = pir_surface_normal(room, t);
-        double d =
-            (room->det[t] - pir_vec_dot(n, way) - 2 * room->det_error) / (sqrt(pir_vec_dot(n, n)) + room->normal_error);
+        double d = (room->plane.det[t] - pir_vec_dot(n, way) - 2 * room->det_error) /
+                   (sqrt(pir_vec_dot(n, n)) + room->normal_error);
         if (d < low)
             low = d, least = t;
     }
@@ -298,8 +298,8 @@ static uint32_t next_open(const pir_overlap *overlap, const struct found *found,
         limit = overlap->room->loops->least(overlap->surface, overlap->room);
     for (uint64_t rest = overlap->room->loops->below(overlap->surface, overlap->room, limit); rest; rest &= rest - 1) {
         uint32_t t = (uint32_t)__builtin_ctzll(rest);
-        if (overlap->room->low[t] <= limit && !is_covered(overlap, t, found))
-            limit = overlap->room->low[t], next = t;
+        if (overlap->room->plane.low[t] <= limit && !is_covered(overlap, t, found))
+            limit = overlap->room->plane.low[t], next = t;
     }
     return next;
 }
@@ -320,8 +320,8 @@ static double others_than(const pir_overlap *overlap, uint32_t corners, double b
     double others = 3 * bound;
     for (uint64_t rest = overlap->room->loops->below(overlap->surface, overlap->room, others); rest; rest &= rest - 1) {
         uint32_t t = (uint32_t)__builtin_ctzll(rest);
-        if (overlap->room->low[t] < others && !lies_in(overlap, t, corners))
-            others = overlap->room->low[t];
+        if (overlap->room->plane.low[t] < others && !lies_in(overlap, t, corners))
+            others = overlap->room->plane.low[t];
     }
     return others;
 }

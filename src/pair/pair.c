@@ -59,11 +59,7 @@ static pir_status find_bodies(pir_polytope *p, pir_polytope *q, pir_pair *pair) 
         status = pir_kept_exponent(q, &of_q);
     if (status != PIR_OK)
         return status;
-    pir_frame frame;
     pair->exponent = pir_frame_exponent(of_p, of_q, reflected, q);
-    pir_frame_set_exponent(&frame, pair->exponent);
-    pair->up = frame.up;
-    pair->down = frame.down;
     pair->limbs = pir_exact_limbs(reflected, q);
     status = pir_kept_body_of(reflected, pair->exponent, &pair->body_p);
     return status == PIR_OK ? pir_kept_body_of(q, pair->exponent, &pair->body_q) : status;

@@ -27,7 +27,6 @@ struct pir_pair {
     pir_polytope *p, *q;                  /* as the caller gave them; referenced */
     const pir_kept_body *body_p, *body_q; /* of P reflected, and of Q; they belong to p and q */
     int exponent;                         /* one unit of the frame is 2^exponent */
-    double up, down;                      /* as in pir_frame */
     uint32_t limbs;                       /* that exact signs need */
     uint8_t least, most, level;           /* pir_level */
 

@@ -77,7 +77,7 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
         }
         // the next answer proves all of it again
         pair->held.some = false;
-    } else if (is_held && workspace->moved.way == 0 && workspace->moved.turn == 0) {
+    } else if (is_held && !pair->held.is_short && workspace->moved.way == 0 && workspace->moved.turn == 0) {
         ask.ret_lone = &pair->held.lone;
     }
     workspace->patches.p.shape = pair->shape_p;

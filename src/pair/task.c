@@ -3,7 +3,7 @@
 #include "pair/task.h"
 
 #include "pair/apart.h"
-#include "pair/facet/foot.h"
+#include "query/last/foot.h"
 
 void pir_task_keep_facet(pir_pair *pair, const pir_facet *facet) {
     pair->facet = facet->piece;

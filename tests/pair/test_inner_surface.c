@@ -40,8 +40,8 @@ static void a_surface_stays_closed_as_vertices_are_added(void **state) {
             uint32_t t = 0;
             double most = -HUGE_VAL;
             for (uint32_t each = 0; each < surface.count; each++) {
-                double over = room.nx[each] * vertex[k].x + room.ny[each] * vertex[k].y + room.nz[each] * vertex[k].z -
-                              room.det[each];
+                double over = room.plane.nx[each] * vertex[k].x + room.plane.ny[each] * vertex[k].y +
+                              room.plane.nz[each] * vertex[k].z - room.plane.det[each];
                 if (over > most)
                     most = over, t = each;
             }
@@ -49,7 +49,7 @@ static void a_surface_stays_closed_as_vertices_are_added(void **state) {
             added += pir_surface_add(&surface, t, &next, &room) < PIR_SURFACE_CORNERS;
             expect(pir_surface_is_valid(&surface), "case %llu, vertex %u", (unsigned long long)i, k);
             for (uint32_t s = 0; s < surface.count; s++)
-                expect(room.low[s] > 0, "case %llu, vertex %u: triangle %u", (unsigned long long)i, k, s);
+                expect(room.plane.low[s] > 0, "case %llu, vertex %u: triangle %u", (unsigned long long)i, k, s);
         }
         // what is on a sphere is beyond every surface within, as long as there is room
         assert_true(added >= PIR_SURFACE_CORNERS - 4);
@@ -74,7 +74,7 @@ static void make_surface(test_random *random, pir_surface *surface, pir_vec3 ver
     for (uint32_t k = 4; k < corners && pir_surface_has_room(surface); k++)
         for (uint32_t t = 0; t < surface->count; t++) {
             const pir_surface_vertex next = {k, 0, vertex[k]};
-            if (pir_vec_dot(pir_surface_normal(room, t), vertex[k]) > room->det[t]) {
+            if (pir_vec_dot(pir_surface_normal(room, t), vertex[k]) > room->plane.det[t]) {
                 pir_surface_add(surface, t, &next, room);
                 break;
             }
@@ -91,6 +91,7 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
         pir_frame frame;
         pir_surface surface;
         static pir_surface_room plain, room;
+        memset(&surface, 0, sizeof surface);
         plain.loops = pir_surface_loops_version(0);
         make_surface(&random, &surface, vertex, &frame, &plain);
         pir_quat q = test_general_rotation(&random);
@@ -103,16 +104,26 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
         for (unsigned version = 1; pir_surface_loops_version(version); version++) {
             room.loops = pir_surface_loops_version(version);
             assert_int_equal(pir_surface_place(&surface, &frame, centre, 0x1p-46, 4, &room), certain);
-            double least = room.loops->least(&surface, &room), limits[3] = {least, 0, plain.low[surface.count / 2]};
-            assert_memory_equal(room.nx, plain.nx, surface.count * sizeof *room.nx);
-            assert_memory_equal(room.ny, plain.ny, surface.count * sizeof *room.ny);
-            assert_memory_equal(room.nz, plain.nz, surface.count * sizeof *room.nz);
-            assert_memory_equal(room.det, plain.det, surface.count * sizeof *room.det);
-            assert_memory_equal(room.low, plain.low, surface.count * sizeof *room.low);
+            double least = room.loops->least(&surface, &room),
+                   limits[3] = {least, 0, plain.plane.low[surface.count / 2]};
+            assert_memory_equal(room.plane.nx, plain.plane.nx, surface.count * sizeof *room.plane.nx);
+            assert_memory_equal(room.plane.ny, plain.plane.ny, surface.count * sizeof *room.plane.ny);
+            assert_memory_equal(room.plane.nz, plain.plane.nz, surface.count * sizeof *room.plane.nz);
+            assert_memory_equal(room.plane.det, plain.plane.det, surface.count * sizeof *room.plane.det);
+            assert_memory_equal(room.plane.low, plain.plane.low, surface.count * sizeof *room.plane.low);
             assert_true(least == plain.loops->least(&surface, &plain));
             for (int k = 0; k < 3; k++)
                 assert_true(room.loops->below(&surface, &room, limits[k]) ==
                             plain.loops->below(&surface, &plain, limits[k]));
+            for (uint32_t v = 0; v < 40; v++)
+                assert_true(room.loops->seen(&surface, &room, vertex[v]) ==
+                            plain.loops->seen(&surface, &plain, vertex[v]));
+            for (uint32_t c = 0; c < PIR_SURFACE_CORNERS; c++) {
+                assert_true(room.loops->about(&surface, c) == plain.loops->about(&surface, c));
+                assert_true(room.loops->find(&surface, surface.a[c], 0) ==
+                            plain.loops->find(&surface, surface.a[c], 0));
+            }
+            assert_true(room.loops->find(&surface, surface.a[0], 1) == 0);
         }
     }
 }
@@ -135,7 +146,7 @@ static void a_trimmed_surface_is_closed_about_its_centre(void **state) {
                (unsigned long long)i, before, after);
         taken += before - after;
         for (uint32_t t = 0; t < surface.count; t++)
-            expect(room.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);
+            expect(room.plane.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);
         // placed anew it is the same
         assert_true(pir_surface_place(&surface, &frame, (pir_vec3){0, 0, 0}, 0x1p-46, 4, &room));
     }

@@ -160,6 +160,30 @@ static void memory_that_fails_at_any_request_is_told(void **state) {
     }
 }
 
+static void a_pair_is_half_a_kibibyte_and_its_surface_less(void **state) {
+    (void)state;
+    test_memory memory = {0};
+    pir_allocator a = test_allocator(&memory);
+    pir_pair_options options = {&a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
+    pir_polytope *p = cube(1);
+    pir_workspace *workspace;
+    pir_pair *pair;
+    pir_query_result result;
+    pir_pair_input input = pir_pair_input_default();
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, p, &options, &pair), PIR_OK);
+    // apart, near, then deep
+    const double along[3] = {9, 2.5, 0.3};
+    for (int i = 0; i < 3; i++) {
+        input.pose_p.translation = (pir_vec3){along[i], 0.1, 0.2};
+        assert_int_equal(pir_pair_signed_distance(pair, workspace, &input, &result), PIR_OK);
+        expect(memory.bytes <= (i < 2 ? 512 : 1024), "pose %d: %zu bytes", i, memory.bytes);
+    }
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(p);
+}
+
 static void no_call_allocates_once_warm(void **state) {
     (void)state;
     test_memory memory = {0};
@@ -359,6 +383,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_pair_is_refused),
         cmocka_unit_test(what_is_no_pose_is_refused_and_changes_nothing),
         cmocka_unit_test(memory_that_fails_at_any_request_is_told),
+        cmocka_unit_test(a_pair_is_half_a_kibibyte_and_its_surface_less),
         cmocka_unit_test(no_call_allocates_once_warm),
         cmocka_unit_test(a_common_turn_changes_no_state),
         cmocka_unit_test(posed_pairs_answer_alike_at_all_levels),

@@ -13,6 +13,7 @@ void pir_held_set(pir_held *held, const pir_frame *frame, const pir_placement *p
     const pir_facet *facet = &same->facet;
     uint32_t corner = facet->piece.kind == PIR_FACET_FV ? facet->a : facet->b;
     *held = (pir_held){.some = same->falls > 0,
+                       .is_short = held->is_short,
                        .at = placement->x,
                        .turned = frame->unit,
                        .falls = same->falls,

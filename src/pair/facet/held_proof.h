@@ -14,12 +14,14 @@
 #ifndef PIR_PAIR_FACET_HELD_PROOF_H
 #define PIR_PAIR_FACET_HELD_PROOF_H
 
-#include "pair/facet/same_facet.h"
 #include "query/answer/manifold.h"
+#include "query/last/same_facet.h"
 
 typedef struct pir_held {
     bool some;
-    pir_vec3 at; /* the place of the proof */
+    bool is_short;   /* steps have been too long for the leeway of a lone contact to be of use */
+    uint32_t served; /* the calls that have looked at it */
+    pir_vec3 at;     /* the place of the proof */
     pir_quat turned;
     double falls;         /* as of pir_same_facet */
     pir_same_known known; /* at that place */
@@ -28,6 +30,9 @@ typedef struct pir_held {
 
 /* How far things have moved since. */
 pir_leeway pir_held_moved(const pir_held *held, const pir_frame *frame, const pir_placement *placement);
+
+/* The longest steps, in radians, at which it pays to find out within what leeway a contact stays the only one. */
+#define PIR_LONGEST_STEP 0x1p-7
 
 /* Holds what a proof of a facet at a placement has found. */
 void pir_held_set(pir_held *held, const pir_frame *frame, const pir_placement *placement, const pir_same_facet *same);

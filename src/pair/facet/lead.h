@@ -19,7 +19,7 @@
 #ifndef PIR_PAIR_FACET_LEAD_H
 #define PIR_PAIR_FACET_LEAD_H
 
-#include "pair/facet/same_facet.h"
+#include "query/last/same_facet.h"
 
 typedef struct pir_lead {
     double others; /* 0 where there is no lead */

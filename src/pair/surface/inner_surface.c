@@ -11,31 +11,14 @@
 
 #include "pair/surface/surface_loops.h"
 
-/* --- planes --- */
+/*
+ * How often a hole is widened for one vertex; most take none. Where the centre has left the surface, more than a few
+ * would leave little of it.
+ */
+#define MOST_WIDENED      9
+#define MOST_WIDENED_LEFT 2
 
-/* The plane of triangle t, and a lower bound on its distance from the centre. */
-static inline void make_plane(const pir_surface *surface, uint32_t t, pir_surface_room *room) {
-    const double *a = room->at[surface->corner[0][t]], *b = room->at[surface->corner[1][t]];
-    const double *c = room->at[surface->corner[2][t]];
-    double ex = b[0] - a[0], ey = b[1] - a[1], ez = b[2] - a[2];
-    double fx = c[0] - a[0], fy = c[1] - a[1], fz = c[2] - a[2];
-    double nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
-    double det = nx * a[0] + ny * a[1] + nz * a[2];
-    room->nx[t] = nx;
-    room->ny[t] = ny;
-    room->nz[t] = nz;
-    room->det[t] = det;
-    room->low[t] = (det - room->det_error) / (sqrt(nx * nx + ny * ny + nz * nz) + room->normal_error);
-}
-
-static bool make_planes(const pir_surface *surface, uint32_t from, pir_surface_room *room) {
-    bool certain = true;
-    for (uint32_t t = from; t < surface->count; t++) {
-        make_plane(surface, t, room);
-        certain &= room->low[t] > 0;
-    }
-    return certain;
-}
+/* --- loops --- */
 
 static void place_corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
     for (uint32_t rest = surface->used; rest; rest &= rest - 1) {
@@ -47,21 +30,70 @@ static void place_corners(const pir_surface *surface, const pir_frame *frame, pi
     }
 }
 
+/* The plane of triangle t, and a lower bound on its distance from the centre. */
+static inline void make_plane(const pir_surface_room *room, const uint8_t *corner, uint32_t t,
+                              pir_surface_planes *ret_planes) {
+    const double *a = room->at[corner[t]], *b = room->at[corner[PIR_SURFACE_TRIANGLES + t]];
+    const double *c = room->at[corner[2 * PIR_SURFACE_TRIANGLES + t]];
+    double ex = b[0] - a[0], ey = b[1] - a[1], ez = b[2] - a[2];
+    double fx = c[0] - a[0], fy = c[1] - a[1], fz = c[2] - a[2];
+    double nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
+    double det = nx * a[0] + ny * a[1] + nz * a[2];
+    ret_planes->nx[t] = nx;
+    ret_planes->ny[t] = ny;
+    ret_planes->nz[t] = nz;
+    ret_planes->det[t] = det;
+    ret_planes->low[t] = (det - room->det_error) / (sqrt(nx * nx + ny * ny + nz * nz) + room->normal_error);
+}
+
+static uint64_t make_planes(const pir_surface_room *room, const uint8_t *corner, uint32_t count,
+                            pir_surface_planes *ret_planes) {
+    uint64_t uncertain = 0;
+    for (uint32_t t = 0; t < count; t++) {
+        make_plane(room, corner, t, ret_planes);
+        uncertain |= (uint64_t) !(ret_planes->low[t] > 0) << t;
+    }
+    return uncertain;
+}
+
 static uint64_t find_below(const pir_surface *surface, const pir_surface_room *room, double limit) {
     uint64_t found = 0;
     for (uint32_t t = 0; t < surface->count; t++)
-        found |= (uint64_t)(room->low[t] <= limit) << t;
+        found |= (uint64_t)(room->plane.low[t] <= limit) << t;
     return found;
 }
 
 static double find_least(const pir_surface *surface, const pir_surface_room *room) {
     double least = HUGE_VAL;
     for (uint32_t t = 0; t < surface->count; t++)
-        least = room->low[t] < least ? room->low[t] : least;
+        least = room->plane.low[t] < least ? room->plane.low[t] : least;
     return least;
 }
 
-static const pir_surface_loops plain = {"plain", place_corners, make_planes, find_below, find_least};
+static uint64_t find_seen(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w) {
+    uint64_t found = 0;
+    for (uint32_t t = 0; t < surface->count; t++)
+        found |= (uint64_t)(pir_vec_dot(pir_surface_normal(room, t), w) > room->plane.det[t]) << t;
+    return found;
+}
+
+static uint64_t find_about(const pir_surface *surface, uint32_t corner) {
+    const uint8_t *a = surface->corner[0], *b = surface->corner[1], *c = surface->corner[2];
+    uint64_t found = 0;
+    for (uint32_t t = 0; t < surface->count; t++)
+        found |= (uint64_t)(a[t] == corner || b[t] == corner || c[t] == corner) << t;
+    return found;
+}
+
+static uint32_t find_corner(const pir_surface *surface, uint32_t a, uint32_t b) {
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
+        found |= (uint32_t)(surface->a[i] == a && surface->b[i] == b) << i;
+    return found & surface->used;
+}
+
+static const pir_surface_loops plain = {"plain",    place_corners, make_planes, find_below,
+                                        find_least, find_seen,     find_about,  find_corner};
 
 const pir_surface_loops *pir_surface_loops_version(unsigned index) {
     if (index == 0)
@@ -85,24 +117,11 @@ bool pir_surface_place(const pir_surface *surface, const pir_frame *frame, pir_v
     room->centre = centre;
     room->det_error = 4 * error * reach * reach;
     room->normal_error = 10 * error * reach;
-    room->has_sides = false;
     room->loops->corners(surface, frame, room);
-    return room->loops->planes(surface, 0, room);
+    return room->loops->planes(room, surface->corner[0], surface->count, &room->plane) == 0;
 }
 
-/* Notes which triangle has which directed side. */
-static void note_sides(const pir_surface *surface, uint32_t t, pir_surface_room *room) {
-    uint32_t i = surface->corner[0][t], j = surface->corner[1][t], k = surface->corner[2][t];
-    room->beside[i][j] = room->beside[j][k] = room->beside[k][i] = (uint8_t)t;
-}
-
-static void note_all_sides(const pir_surface *surface, pir_surface_room *room) {
-    for (uint32_t t = 0; t < surface->count && !room->has_sides; t++)
-        note_sides(surface, t, room);
-    room->has_sides = true;
-}
-
-/* --- making and changing --- */
+/* --- holes --- */
 
 static void put(pir_surface *surface, uint32_t t, uint32_t i, uint32_t j, uint32_t k) {
     surface->corner[0][t] = (uint8_t)i;
@@ -125,181 +144,222 @@ void pir_surface_begin(pir_surface *surface, const uint32_t a[4], const uint32_t
     put(surface, 3, 1, 3, 2);
 }
 
-/* Whether the triangle (i, j, w) has a det that is certain to be positive. */
-static bool is_certain(const pir_surface_room *room, uint32_t i, uint32_t j, pir_vec3 w) {
-    return pir_vec_dot(pir_vec_cross(pir_surface_corner(room, i), pir_surface_corner(room, j)), w) > room->det_error;
+/* The triangle that has the directed side (i, j). */
+static uint32_t beside(const pir_surface *surface, uint32_t i, uint32_t j) {
+    for (uint32_t t = 0; t < surface->count; t++) {
+        uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
+        if ((a == i && b == j) || (b == i && c == j) || (c == i && a == j))
+            return t;
+    }
+    return 0;
 }
 
-/* Triangles that make way for a new corner, in the order in which their neighbours are looked at. */
-struct cut {
-    uint64_t gone;
-    uint32_t count;
-    uint8_t open[PIR_SURFACE_TRIANGLES];
-};
-
-static void cut_triangle(struct cut *cut, uint32_t t) {
-    if (cut->gone >> t & 1)
-        return;
-    cut->gone |= 1ull << t;
-    cut->open[cut->count++] = (uint8_t)t;
+/* Bit j of side[i]: one of these triangles has the side (i, j). Returns their corners, a bit for each. */
+static uint32_t list_sides(const pir_surface *surface, uint64_t triangles, uint32_t side[PIR_SURFACE_CORNERS]) {
+    uint32_t corners = 0;
+    memset(side, 0, PIR_SURFACE_CORNERS * sizeof *side);
+    for (uint64_t rest = triangles; rest; rest &= rest - 1) {
+        uint32_t t = (uint32_t)__builtin_ctzll(rest);
+        uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
+        side[a] |= 1u << b;
+        side[b] |= 1u << c;
+        side[c] |= 1u << a;
+        corners |= 1u << a | 1u << b | 1u << c;
+    }
+    return corners;
 }
 
 /*
- * The triangles that make way for w: `t`, those that have corner `same` already, and from there across their sides
- * those with which w makes no certain triangle, and where `wide` those that w is beyond.
+ * The rim of the hole that triangles leave, as the first two corners of a fan: the sides that they do not share.
+ * Returns the corners that it passes twice. Nothing branches on what a side is, for nothing would foresee it.
  */
-static uint64_t find_cut(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w, uint32_t t,
-                         uint32_t same, bool wide) {
-    struct cut cut = {.gone = 0, .count = 0};
-    cut_triangle(&cut, t);
-    for (uint32_t each = 0; same < PIR_SURFACE_CORNERS && each < surface->count; each++)
-        if (surface->corner[0][each] == same || surface->corner[1][each] == same || surface->corner[2][each] == same)
-            cut_triangle(&cut, each);
-    for (uint32_t k = 0; k < cut.count; k++)
-        for (int side = 0; side < 3; side++) {
-            uint32_t i = surface->corner[side][cut.open[k]], j = surface->corner[side < 2 ? side + 1 : 0][cut.open[k]];
-            uint32_t next = room->beside[j][i];
-            if (cut.gone >> next & 1)
-                continue;
-            bool sees = wide && pir_vec_dot(pir_surface_normal(room, next), w) > room->det[next];
-            if (sees || !is_certain(room, i, j, w))
-                cut_triangle(&cut, next);
-        }
-    return cut.gone;
-}
-
-/* The sides between what goes and what stays. */
-struct rim {
-    uint32_t count, corners; /* a bit for each corner on it */
-    uint8_t from[PIR_SURFACE_TRIANGLES], to[PIR_SURFACE_TRIANGLES];
-};
-
-/* False where there are none, or they pass a corner twice. */
-static bool list_rim(const pir_surface *surface, const pir_surface_room *room, uint64_t gone, struct rim *rim) {
-    rim->count = rim->corners = 0;
+static uint32_t list_rim(const pir_surface *surface, uint64_t gone, pir_surface_fan *fan) {
+    uint32_t side[PIR_SURFACE_CORNERS], count = 0, rim = 0, twice = 0;
+    uint32_t corners = list_sides(surface, gone, side);
     for (uint64_t rest = gone; rest; rest &= rest - 1) {
         uint32_t t = (uint32_t)__builtin_ctzll(rest);
-        for (int side = 0; side < 3; side++) {
-            uint32_t i = surface->corner[side][t], j = surface->corner[side < 2 ? side + 1 : 0][t];
-            if (gone >> room->beside[j][i] & 1)
-                continue;
-            if (rim->corners >> i & 1)
-                return false;
-            rim->corners |= 1u << i;
-            rim->from[rim->count] = (uint8_t)i;
-            rim->to[rim->count++] = (uint8_t)j;
+        for (int k = 0; k < 3; k++) {
+            uint32_t i = surface->corner[k][t], j = surface->corner[k < 2 ? k + 1 : 0][t];
+            uint32_t out = ~side[j] >> i & 1, at = count % PIR_SURFACE_TRIANGLES;
+            fan->corner[0][at] = (uint8_t)i;
+            fan->corner[1][at] = (uint8_t)j;
+            count += out;
+            twice |= rim & out << i;
+            rim |= out << i;
         }
     }
-    return rim->count > 0;
+    fan->count = count;
+    fan->rim = rim;
+    fan->lost = corners & ~rim;
+    return twice;
 }
 
-/* The corner that is vertex (a, b) of D; PIR_SURFACE_CORNERS where there is none. */
-static uint32_t find_corner(const pir_surface *surface, uint32_t a, uint32_t b) {
-    for (uint32_t rest = surface->used; rest; rest &= rest - 1) {
-        uint32_t i = (uint32_t)__builtin_ctz(rest);
-        if (surface->a[i] == a && surface->b[i] == b)
-            return i;
+/* Whether these triangles and the rim around them are one disk, by Euler's formula. */
+static bool is_disk(uint64_t gone, const pir_surface_fan *fan) {
+    uint32_t twice = fan->count;
+    for (uint32_t rest = fan->lost; rest; rest &= rest - 1)
+        twice += 2;
+    for (; gone; gone &= gone - 1)
+        twice--;
+    return twice == 2;
+}
+
+/* Of these triangles, those that sides join to the ones of `part`. */
+static uint64_t joined_to(const pir_surface *surface, uint64_t part, uint64_t triangles) {
+    uint64_t before = 0;
+    while (part != before) {
+        uint32_t side[PIR_SURFACE_CORNERS];
+        before = part;
+        list_sides(surface, part, side);
+        for (uint64_t rest = triangles & ~part; rest; rest &= rest - 1) {
+            uint32_t t = (uint32_t)__builtin_ctzll(rest);
+            uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
+            part |= (uint64_t)((side[b] >> a | side[c] >> b | side[a] >> c) & 1) << t;
+        }
     }
-    return PIR_SURFACE_CORNERS;
+    return part;
 }
 
-/* The corners of a triangle: a bit for each. */
-static uint32_t corners_of(const pir_surface *surface, uint32_t t) {
-    return 1u << surface->corner[0][t] | 1u << surface->corner[1][t] | 1u << surface->corner[2][t];
+/* The triangles at any of these corners. */
+static uint64_t about_all(const pir_surface *surface, const pir_surface_room *room, uint32_t corners) {
+    uint64_t found = 0;
+    for (; corners; corners &= corners - 1)
+        found |= room->loops->about(surface, (uint32_t)__builtin_ctz(corners));
+    return found;
 }
 
-/* Moves triangle `from` to a place that is free. */
-static void move_triangle(pir_surface *surface, uint32_t from, uint32_t to, pir_surface_room *room) {
-    put(surface, to, surface->corner[0][from], surface->corner[1][from], surface->corner[2][from]);
-    note_sides(surface, to, room);
-    room->nx[to] = room->nx[from];
-    room->ny[to] = room->ny[from];
-    room->nz[to] = room->nz[from];
-    room->det[to] = room->det[from];
-    room->low[to] = room->low[from];
+/* The triangles across the sides of the rim at which a fan is not certain. */
+static uint64_t across(const pir_surface *surface, const pir_surface_fan *fan, uint64_t uncertain) {
+    uint64_t found = 0;
+    for (; uncertain; uncertain &= uncertain - 1) {
+        uint32_t s = (uint32_t)__builtin_ctzll(uncertain);
+        found |= 1ull << beside(surface, fan->corner[1][s], fan->corner[0][s]);
+    }
+    return found;
 }
 
-/* Whether the surface is a sphere at which no two parts touch at a corner: it has the fewest triangles then. */
-static bool is_simple(const pir_surface *surface) {
-    uint32_t corners = 0;
-    for (uint32_t rest = surface->used; rest; rest &= rest - 1)
-        corners++;
-    return surface->count + 4 == 2 * corners;
+/* Sets the fan from corner i, which is placed, to the rim that it has. Returns its triangles that are not certain. */
+static uint64_t set_fan(pir_surface_room *room, uint32_t i) {
+    pir_surface_fan *fan = &room->fan;
+    memset(fan->corner[2], (int)i, fan->count);
+    return room->loops->planes(room, fan->corner[0], fan->count, &fan->plane);
 }
 
 /*
- * Takes triangles away. The last of those that stay move to the places that become free. A corner that is not on the
- * rim of what goes is lost, unless some other part of the surface touches there.
+ * Sets the fan from corner i in place of triangles. Where its rim passes a corner twice, all that is about that corner
+ * goes too. Where a triangle of it is not certain, the one across its side of the rim goes, and those of `seen` that
+ * are joined to it. False where nothing spans the hole in `most` times. *gone becomes the triangles that go.
  */
-static void take_away(pir_surface *surface, uint64_t gone, uint32_t rim, pir_surface_room *room) {
-    uint32_t kept = surface->count, lost = 0;
-    bool simple = is_simple(surface);
-    for (; gone; gone &= gone - 1) {
-        uint32_t free = (uint32_t)__builtin_ctzll(gone);
-        lost |= free < kept ? corners_of(surface, free) : 0;
-        while (kept > free && gone >> (kept - 1) & 1)
-            lost |= corners_of(surface, --kept);
-        if (kept > free)
-            move_triangle(surface, --kept, free, room);
+static bool span(const pir_surface *surface, pir_surface_room *room, uint32_t i, uint64_t seen, uint32_t most,
+                 uint64_t *gone) {
+    for (uint32_t times = 0; times < most; times++) {
+        uint32_t twice = list_rim(surface, *gone, &room->fan);
+        uint64_t more = about_all(surface, room, twice);
+        if (room->fan.count == 0)
+            return false;
+        if (more == 0) {
+            uint64_t uncertain = set_fan(room, i);
+            if (uncertain == 0)
+                return true;
+            more = across(surface, &room->fan, uncertain);
+        }
+        *gone = joined_to(surface, *gone | more, seen);
     }
-    surface->count = kept;
-    lost &= ~rim;
-    for (uint32_t t = 0; !simple && lost && t < kept; t++)
-        lost &= ~corners_of(surface, t);
-    surface->used &= ~lost;
+    return false;
 }
 
-/* Adds the triangles from corner i to all sides of the rim that are not its own. */
-static void add_fan(pir_surface *surface, uint32_t i, const struct rim *rim, pir_surface_room *room) {
-    uint32_t first = surface->count;
-    for (uint32_t s = 0; s < rim->count; s++) {
-        if (rim->from[s] == i || rim->to[s] == i)
-            continue;
-        put(surface, surface->count, rim->from[s], rim->to[s], i);
-        note_sides(surface, surface->count++, room);
+/* --- changing --- */
+
+/* Puts triangle `from` of a fan, or of the surface, in place of triangle t. */
+static inline void put_plane(const pir_surface_planes *planes, uint32_t from, uint32_t t, pir_surface_room *room) {
+    room->plane.nx[t] = planes->nx[from];
+    room->plane.ny[t] = planes->ny[from];
+    room->plane.nz[t] = planes->nz[from];
+    room->plane.det[t] = planes->det[from];
+    room->plane.low[t] = planes->low[from];
+}
+
+static inline void put_of_fan(pir_surface *surface, uint32_t from, uint32_t t, pir_surface_room *room) {
+    const pir_surface_fan *fan = &room->fan;
+    put(surface, t, fan->corner[0][from], fan->corner[1][from], fan->corner[2][from]);
+    put_plane(&fan->plane, from, t, room);
+}
+
+static inline void move_triangle(pir_surface *surface, uint32_t from, uint32_t t, pir_surface_room *room) {
+    put(surface, t, surface->corner[0][from], surface->corner[1][from], surface->corner[2][from]);
+    put_plane(&room->plane, from, t, room);
+}
+
+/* Of corners that no triangle of a hole has any more, those that are not part of the surface elsewhere. */
+static uint32_t really_lost(const pir_surface *surface, const pir_surface_room *room, uint32_t lost) {
+    uint32_t gone = 0;
+    for (uint32_t rest = lost; rest; rest &= rest - 1) {
+        uint32_t i = (uint32_t)__builtin_ctz(rest);
+        gone |= (uint32_t)(room->loops->about(surface, i) == 0) << i;
     }
-    room->loops->planes(surface, first, room);
+    return gone;
+}
+
+/*
+ * Puts the fan in place of triangles: first where those were, then at the end. Where it has fewer, the last ones of the
+ * surface move to the places that are left.
+ */
+static void put_fan(pir_surface *surface, uint64_t gone, pir_surface_room *room) {
+    uint32_t from = 0, count = surface->count;
+    for (; gone && from < room->fan.count; gone &= gone - 1)
+        put_of_fan(surface, from++, (uint32_t)__builtin_ctzll(gone), room);
+    while (from < room->fan.count)
+        put_of_fan(surface, from++, count++, room);
+    while (gone) {
+        // the last of them first: what is after it stays
+        uint32_t t = 63 - (uint32_t)__builtin_clzll(gone);
+        gone &= ~(1ull << t);
+        if (t != --count)
+            move_triangle(surface, count, t, room);
+    }
+    surface->count = count;
+    surface->used &= ~really_lost(surface, room, room->fan.lost);
     PIR_ASSERT(pir_surface_is_valid(surface));
 }
 
+/* Whether there is room for the fan in place of triangles. */
+static bool fits(const pir_surface *surface, uint64_t gone, const pir_surface_fan *fan) {
+    uint32_t count = surface->count + fan->count;
+    for (; gone; gone &= gone - 1)
+        count--;
+    return count <= PIR_SURFACE_TRIANGLES;
+}
+
+/* Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing. */
+static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least, uint32_t i, pir_surface_room *room) {
+    uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, gone = seen;
+    if (list_rim(surface, gone, &room->fan) == 0 && is_disk(gone, &room->fan) && set_fan(room, i) == 0)
+        return gone;
+    gone = joined_to(surface, least, seen);
+    uint32_t most = room->plane.low[t] > 0 ? MOST_WIDENED : MOST_WIDENED_LEFT;
+    return span(surface, room, i, seen, most, &gone) ? gone : 0;
+}
+
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room) {
-    struct rim rim;
-    uint32_t i = find_corner(surface, vertex->a, vertex->b);
-    note_all_sides(surface, room);
-    uint64_t gone = find_cut(surface, room, vertex->at, t, i, true);
-    if (!list_rim(surface, room, gone, &rim)) {
-        gone = find_cut(surface, room, vertex->at, t, i, false);
-        if (!list_rim(surface, room, gone, &rim))
-            return PIR_SURFACE_CORNERS;
-    }
-    uint32_t stay = surface->count - (uint32_t)__builtin_popcountll(gone);
-    if (stay + rim.count > PIR_SURFACE_TRIANGLES || (i == PIR_SURFACE_CORNERS && surface->used == UINT32_MAX))
+    uint32_t same = room->loops->find(surface, vertex->a, vertex->b);
+    if (same == 0 && surface->used == UINT32_MAX)
         return PIR_SURFACE_CORNERS;
-    i = i == PIR_SURFACE_CORNERS ? (uint32_t)__builtin_ctz(~surface->used) : i;
-    take_away(surface, gone, rim.corners, room);
-    surface->used |= 1u << i;
-    surface->a[i] = vertex->a;
-    surface->b[i] = vertex->b;
+    uint32_t i = (uint32_t)__builtin_ctz(same != 0 ? same : ~surface->used);
+    uint64_t least = 1ull << t | (same != 0 ? room->loops->about(surface, i) : 0);
     room->at[i][0] = vertex->at.x;
     room->at[i][1] = vertex->at.y;
     room->at[i][2] = vertex->at.z;
-    add_fan(surface, i, &rim, room);
+    uint64_t gone = make_way(surface, t, least, i, room);
+    if (gone == 0 || !fits(surface, gone, &room->fan))
+        return PIR_SURFACE_CORNERS;
+    put_fan(surface, gone, room);
+    surface->used |= 1u << i;
+    surface->a[i] = vertex->a;
+    surface->b[i] = vertex->b;
     return i;
 }
 
 /* --- taking corners away --- */
-
-/*
- * Whether some triangle has the side (i, j), of a surface whose sides are noted. Notes of triangles that are gone stay,
- * so the triangle is looked at.
- */
-static bool has_side(const pir_surface *surface, const pir_surface_room *room, uint32_t i, uint32_t j) {
-    uint32_t t = room->beside[i][j];
-    if (t >= surface->count)
-        return false;
-    uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
-    return (a == i && b == j) || (b == i && c == j) || (c == i && a == j);
-}
 
 /* How far each corner is from the centre, by the least of its triangles. */
 static void list_distances(const pir_surface *surface, const pir_surface_room *room,
@@ -309,7 +369,7 @@ static void list_distances(const pir_surface *surface, const pir_surface_room *r
     for (uint32_t t = 0; t < surface->count; t++)
         for (int k = 0; k < 3; k++) {
             double *of = &distance[surface->corner[k][t]];
-            *of = room->low[t] < *of ? room->low[t] : *of;
+            *of = room->plane.low[t] < *of ? room->plane.low[t] : *of;
         }
 }
 
@@ -324,46 +384,47 @@ static uint32_t farthest_of(uint32_t corners, const double distance[PIR_SURFACE_
     return farthest;
 }
 
-/* Whether triangles from corner v to all sides of the rim are certain, and have no side that others have. */
-static bool spans(const pir_surface *surface, const pir_surface_room *room, const struct rim *rim, uint32_t v) {
-    uint32_t beside = 0; // the neighbours of v on the rim
-    for (uint32_t s = 0; s < rim->count; s++)
-        beside |= (rim->from[s] == v ? 1u << rim->to[s] : 0) | (rim->to[s] == v ? 1u << rim->from[s] : 0);
+/*
+ * Sets the fan from corner v of the rim of a hole to its other sides. False where it is not certain, or has a side that
+ * triangles have which stay: `side` are those of all.
+ */
+static bool span_from(pir_surface_room *room, const pir_surface_fan *rim, uint32_t v, const uint32_t *side) {
+    pir_surface_fan *fan = &room->fan;
+    uint32_t near = 1u << v;
+    fan->count = 0;
     for (uint32_t s = 0; s < rim->count; s++) {
-        uint32_t i = rim->from[s], j = rim->to[s];
-        if (i == v || j == v)
+        uint32_t i = rim->corner[0][s], j = rim->corner[1][s];
+        if (i == v || j == v) {
+            near |= 1u << i | 1u << j;
             continue;
-        if ((!(beside >> i & 1) && has_side(surface, room, v, i)) ||
-            (!(beside >> j & 1) && has_side(surface, room, v, j)) ||
-            !is_certain(room, i, j, pir_surface_corner(room, v)))
-            return false;
+        }
+        fan->corner[0][fan->count] = (uint8_t)i;
+        fan->corner[1][fan->count] = (uint8_t)j;
+        fan->corner[2][fan->count++] = (uint8_t)v;
     }
-    return true;
+    return (side[v] & rim->rim & ~near) == 0 && room->loops->planes(room, fan->corner[0], fan->count, &fan->plane) == 0;
 }
 
 /* Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole. */
 static bool take_corner(pir_surface *surface, uint32_t c, pir_surface_room *room) {
-    struct rim rim;
-    uint32_t v = 0;
-    uint64_t gone = 0;
-    for (uint32_t t = 0; t < surface->count; t++)
-        gone |= (uint64_t)(corners_of(surface, t) >> c & 1) << t;
-    if (!list_rim(surface, room, gone, &rim) || rim.count < 3)
+    uint32_t side[PIR_SURFACE_CORNERS], s = 0;
+    uint64_t gone = room->loops->about(surface, c);
+    pir_surface_fan rim;
+    if (list_rim(surface, gone, &rim) != 0 || rim.count < 3)
         return false;
-    while (v < rim.count && !spans(surface, room, &rim, rim.from[v]))
-        v++;
-    if (v == rim.count)
+    list_sides(surface, pir_surface_first(surface->count), side);
+    while (s < rim.count && !span_from(room, &rim, rim.corner[0][s], side))
+        s++;
+    if (s == rim.count)
         return false;
-    v = rim.from[v];
-    take_away(surface, gone, rim.corners, room);
-    add_fan(surface, v, &rim, room);
+    room->fan.lost = rim.lost;
+    put_fan(surface, gone, room);
     return true;
 }
 
 bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     double distance[PIR_SURFACE_CORNERS];
     uint32_t left = surface->used, taken = 0;
-    note_all_sides(surface, room);
     list_distances(surface, room, distance);
     for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
         left &= ~(1u << c);
@@ -372,17 +433,9 @@ bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     return taken > 0;
 }
 
-/* Bit j of side[i]: some triangle has the side (i, j). */
-static void list_sides(const pir_surface *surface, uint32_t side[PIR_SURFACE_CORNERS]) {
-    memset(side, 0, PIR_SURFACE_CORNERS * sizeof *side);
-    for (uint32_t t = 0; t < surface->count; t++)
-        for (int k = 0; k < 3; k++)
-            side[surface->corner[k][t]] |= 1u << surface->corner[(k + 1) % 3][t];
-}
-
 bool pir_surface_is_valid(const pir_surface *surface) {
     uint32_t side[PIR_SURFACE_CORNERS], sides = 0;
-    list_sides(surface, side);
+    list_sides(surface, pir_surface_first(surface->count), side);
     for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
         sides += (uint32_t)__builtin_popcount(side[i]);
     for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)

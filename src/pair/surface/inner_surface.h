@@ -31,34 +31,59 @@ typedef struct pir_surface {
     uint8_t corner[3][PIR_SURFACE_TRIANGLES];
 } pir_surface;
 
-/* The surface at a placement: in the workspace. Loops over triangles take whole lanes of them. */
+/* Planes of triangles. */
+typedef struct pir_surface_planes {
+    double nx[PIR_SURFACE_TRIANGLES], ny[PIR_SURFACE_TRIANGLES], nz[PIR_SURFACE_TRIANGLES]; /* (b − a) × (c − a) */
+    double det[PIR_SURFACE_TRIANGLES];                                                      /* n · a */
+    double low[PIR_SURFACE_TRIANGLES]; /* the plane is at least this far from the centre */
+} pir_surface_planes;
+
+/* Triangles from one corner to the rim of a hole. */
+typedef struct pir_surface_fan {
+    uint32_t count;
+    uint32_t rim, lost; /* corners on the rim, and within the hole: a bit for each */
+    uint8_t corner[3][PIR_SURFACE_TRIANGLES];
+    pir_surface_planes plane;
+} pir_surface_fan;
+
+/* The surface at a placement: in the workspace. Zeros at first. Loops over triangles take whole lanes of them. */
 typedef struct pir_surface_room {
     const struct pir_surface_loops *loops;
     pir_vec3 centre;
     double det_error, normal_error;    /* of a det, and of a normal's length: see inner_surface.c */
     double at[PIR_SURFACE_CORNERS][4]; /* corners less the centre; the fourth counts for nothing */
-    double nx[PIR_SURFACE_TRIANGLES], ny[PIR_SURFACE_TRIANGLES], nz[PIR_SURFACE_TRIANGLES]; /* (b − a) × (c − a) */
-    double det[PIR_SURFACE_TRIANGLES];                                                      /* n · a */
-    double low[PIR_SURFACE_TRIANGLES];                        /* the plane is at least this far from the centre */
-    bool has_sides;                                           /* the next is set */
-    uint8_t beside[PIR_SURFACE_CORNERS][PIR_SURFACE_CORNERS]; /* the triangle that has the directed side (i, j) */
+    pir_surface_planes plane;
+    pir_surface_fan fan; /* what is about to be put in place of triangles */
 } pir_surface_room;
 
-/* The loops of pir_surface_place, in versions for processors that give the same bits. */
+/* The loops over a surface, in versions for processors that give the same bits. Sets have a bit for each triangle. */
 typedef struct pir_surface_loops {
     const char *name;
 
     /* Places the corners that are used. */
     void (*corners)(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room);
 
-    /* The planes of the triangles from `from` on. Returns whether `low` is positive there. */
-    bool (*planes)(const pir_surface *surface, uint32_t from, pir_surface_room *room);
+    /*
+     * The planes of triangles, whose corners are in three rows of PIR_SURFACE_TRIANGLES. Returns those whose `low` is
+     * not positive.
+     */
+    uint64_t (*planes)(const pir_surface_room *room, const uint8_t *corner, uint32_t count,
+                       pir_surface_planes *ret_planes);
 
-    /* The triangles whose `low` is at most this: a bit for each. */
+    /* The triangles whose `low` is at most this. */
     uint64_t (*below)(const pir_surface *surface, const pir_surface_room *room, double limit);
 
     /* The least `low`. */
     double (*least)(const pir_surface *surface, const pir_surface_room *room);
+
+    /* The triangles whose planes a point is beyond. */
+    uint64_t (*seen)(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w);
+
+    /* The triangles at a corner. */
+    uint64_t (*about)(const pir_surface *surface, uint32_t corner);
+
+    /* The corners that are vertex (a, b) of D: a bit for each. */
+    uint32_t (*find)(const pir_surface *surface, uint32_t a, uint32_t b);
 } pir_surface_loops;
 
 /* Version `index` of those that this build has and this processor runs, the plain one first. NULL past the last. */
@@ -101,9 +126,9 @@ static inline bool pir_surface_has_room(const pir_surface *surface) {
  */
 bool pir_surface_trim(pir_surface *surface, pir_surface_room *room);
 
-/* A bit for each triangle from `from` on. */
-static inline uint64_t pir_surface_from(const pir_surface *surface, uint32_t from) {
-    return UINT64_MAX >> (PIR_SURFACE_TRIANGLES - surface->count) & UINT64_MAX << from;
+/* The first `count` triangles: a bit for each. */
+static inline uint64_t pir_surface_first(uint32_t count) {
+    return count > 0 ? UINT64_MAX >> (PIR_SURFACE_TRIANGLES - count) : 0;
 }
 
 /* Corner i, and the normal of triangle t. */
@@ -112,7 +137,7 @@ static inline pir_vec3 pir_surface_corner(const pir_surface_room *room, uint32_t
 }
 
 static inline pir_vec3 pir_surface_normal(const pir_surface_room *room, uint32_t t) {
-    return (pir_vec3){room->nx[t], room->ny[t], room->nz[t]};
+    return (pir_vec3){room->plane.nx[t], room->plane.ny[t], room->plane.nz[t]};
 }
 
 /* Whether every directed side has its counterpart: for tests. */

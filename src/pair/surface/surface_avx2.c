@@ -59,50 +59,89 @@ AVX2 static inline __m256d minor(__m256d a, __m256d b, __m256d c, __m256d d) {
     return _mm256_sub_pd(_mm256_mul_pd(a, b), _mm256_mul_pd(c, d));
 }
 
-AVX2 static bool planes(const pir_surface *surface, uint32_t from, pir_surface_room *room) {
+AVX2 static uint64_t planes(const pir_surface_room *room, const uint8_t *corner, uint32_t count,
+                            pir_surface_planes *ret_planes) {
     const __m256d det_error = _mm256_set1_pd(room->det_error), normal_error = _mm256_set1_pd(room->normal_error);
     uint64_t above = 0;
-    for (uint32_t t = from & ~3u; t < surface->count; t += 4) {
-        struct lanes a = corner_of(room, &surface->corner[0][t]);
-        struct lanes e = less(corner_of(room, &surface->corner[1][t]), a);
-        struct lanes f = less(corner_of(room, &surface->corner[2][t]), a);
+    for (uint32_t t = 0; t < count; t += 4) {
+        struct lanes a = corner_of(room, &corner[t]);
+        struct lanes e = less(corner_of(room, &corner[PIR_SURFACE_TRIANGLES + t]), a);
+        struct lanes f = less(corner_of(room, &corner[2 * PIR_SURFACE_TRIANGLES + t]), a);
         struct lanes n = {minor(e.y, f.z, e.z, f.y), minor(e.z, f.x, e.x, f.z), minor(e.x, f.y, e.y, f.x)};
         __m256d det = dot(n, a), length = _mm256_sqrt_pd(dot(n, n));
         __m256d low = _mm256_div_pd(_mm256_sub_pd(det, det_error), _mm256_add_pd(length, normal_error));
-        _mm256_storeu_pd(&room->nx[t], n.x);
-        _mm256_storeu_pd(&room->ny[t], n.y);
-        _mm256_storeu_pd(&room->nz[t], n.z);
-        _mm256_storeu_pd(&room->det[t], det);
-        _mm256_storeu_pd(&room->low[t], low);
+        _mm256_storeu_pd(&ret_planes->nx[t], n.x);
+        _mm256_storeu_pd(&ret_planes->ny[t], n.y);
+        _mm256_storeu_pd(&ret_planes->nz[t], n.z);
+        _mm256_storeu_pd(&ret_planes->det[t], det);
+        _mm256_storeu_pd(&ret_planes->low[t], low);
         above |= (uint64_t)_mm256_movemask_pd(_mm256_cmp_pd(low, _mm256_setzero_pd(), _CMP_GT_OQ)) << t;
     }
     // past the count there are corners of triangles that are gone
-    return (~above & pir_surface_from(surface, from)) == 0;
+    return ~above & pir_surface_first(count);
 }
 
 AVX2 static uint64_t below(const pir_surface *surface, const pir_surface_room *room, double limit) {
     const __m256d most = _mm256_set1_pd(limit);
     uint64_t found = 0;
     for (uint32_t t = 0; t < surface->count; t += 4)
-        found |= (uint64_t)_mm256_movemask_pd(_mm256_cmp_pd(_mm256_loadu_pd(&room->low[t]), most, _CMP_LE_OQ)) << t;
-    return found & pir_surface_from(surface, 0);
+        found |= (uint64_t)_mm256_movemask_pd(_mm256_cmp_pd(_mm256_loadu_pd(&room->plane.low[t]), most, _CMP_LE_OQ))
+                 << t;
+    return found & pir_surface_first(surface->count);
 }
 
 AVX2 static double least(const pir_surface *surface, const pir_surface_room *room) {
     uint32_t t = 0;
     __m256d low = _mm256_set1_pd(HUGE_VAL);
     for (; t + 4 <= surface->count; t += 4)
-        low = _mm256_min_pd(_mm256_loadu_pd(&room->low[t]), low);
+        low = _mm256_min_pd(_mm256_loadu_pd(&room->plane.low[t]), low);
     double of[4], least = HUGE_VAL;
     _mm256_storeu_pd(of, low);
     for (int k = 0; k < 4; k++)
         least = of[k] < least ? of[k] : least;
     for (; t < surface->count; t++)
-        least = room->low[t] < least ? room->low[t] : least;
+        least = room->plane.low[t] < least ? room->plane.low[t] : least;
     return least;
 }
 
-const pir_surface_loops pir_surface_avx2 = {"AVX2", corners, planes, below, least};
+AVX2 static uint64_t seen(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w) {
+    const __m256d x = _mm256_set1_pd(w.x), y = _mm256_set1_pd(w.y), z = _mm256_set1_pd(w.z);
+    const pir_surface_planes *plane = &room->plane;
+    uint64_t found = 0;
+    for (uint32_t t = 0; t < surface->count; t += 4) {
+        struct lanes n = {_mm256_loadu_pd(&plane->nx[t]), _mm256_loadu_pd(&plane->ny[t]),
+                          _mm256_loadu_pd(&plane->nz[t])};
+        __m256d beyond = _mm256_cmp_pd(dot(n, (struct lanes){x, y, z}), _mm256_loadu_pd(&plane->det[t]), _CMP_GT_OQ);
+        found |= (uint64_t)_mm256_movemask_pd(beyond) << t;
+    }
+    return found & pir_surface_first(surface->count);
+}
+
+AVX2 static uint64_t about(const pir_surface *surface, uint32_t corner) {
+    const __m256i c = _mm256_set1_epi8((char)corner);
+    uint64_t found = 0;
+    for (int half = 0; half < 2; half++) {
+        __m256i is = _mm256_setzero_si256();
+        for (int k = 0; k < 3; k++)
+            is = _mm256_or_si256(
+                is, _mm256_cmpeq_epi8(c, _mm256_loadu_si256((const __m256i *)&surface->corner[k][32 * half])));
+        found |= (uint64_t)(uint32_t)_mm256_movemask_epi8(is) << 32 * half;
+    }
+    return found & pir_surface_first(surface->count);
+}
+
+AVX2 static uint32_t find(const pir_surface *surface, uint32_t a, uint32_t b) {
+    const __m256i of_p = _mm256_set1_epi32((int)a), of_q = _mm256_set1_epi32((int)b);
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i += 8) {
+        __m256i same_p = _mm256_cmpeq_epi32(of_p, _mm256_loadu_si256((const __m256i *)&surface->a[i]));
+        __m256i same_q = _mm256_cmpeq_epi32(of_q, _mm256_loadu_si256((const __m256i *)&surface->b[i]));
+        found |= (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_and_si256(same_p, same_q))) << i;
+    }
+    return found & surface->used;
+}
+
+const pir_surface_loops pir_surface_avx2 = {"AVX2", corners, planes, below, least, seen, about, find};
 #else
 typedef int pir_no_avx2_surface; // a file holds at least a declaration
 #endif

@@ -7,6 +7,9 @@
 #include "query/answer/result.h"
 #include "query/decide/flat.h"
 #include "query/decide/witness.h"
+#include "query/last/facet_simplex.h"
+#include "query/last/foot.h"
+#include "query/last/same_facet.h"
 #include "query/search/closest.h"
 #include "query/search/depth.h"
 #include "query/search/proof.h"
@@ -16,7 +19,7 @@ pir_query_input pir_query_input_default(void) {
     return (pir_query_input){{0, 0, 0}, 0, 0, HUGE_VAL, 0};
 }
 
-/* --- separation --- */
+/* --- what a cache keeps --- */
 
 static void recall_simplex(const pir_query *query, const pir_query_cache *cache, pir_simplex *simplex) {
     simplex->count = 0;
@@ -33,6 +36,13 @@ static void recall_simplex(const pir_query *query, const pir_query_cache *cache,
     simplex->count = cache->points;
 }
 
+/* The result of a nearest point, no farther than the limit. */
+static void put_separation(const pir_frame *frame, const pir_nearest *nearest, double limit, pir_query_result *result) {
+    pir_result_separation(frame, nearest, result);
+    if (result->distance > pir_frame_length(frame, limit))
+        pir_result_beyond(result);
+}
+
 /* Keeps a simplex in a cache: three vertices, 0 past the count. */
 static void keep_simplex(pir_query_cache *cache, const pir_simplex *simplex) {
     if (!cache)
@@ -43,6 +53,43 @@ static void keep_simplex(pir_query_cache *cache, const pir_simplex *simplex) {
         cache->q[i] = simplex->b[i];
     }
 }
+
+/* --- by the facet of the last answer --- */
+
+/* Whether the last answer was by a facet: inside, or from a simplex of three vertices. */
+static bool was_by_facet(const pir_query_cache *cache) {
+    return cache && cache->pieces == 1 && (cache->points == 0 || cache->points == 3);
+}
+
+/* The answer of the facet of the last one, where doubles prove that it still is the one. False where they do not. */
+static bool by_last_facet(pir_query *query, const pir_placement *placement, double limit, int want,
+                          pir_query_cache *cache, pir_query_result *result) {
+    const pir_frame *frame = &query->frame;
+    pir_piece piece;
+    pir_same_facet same;
+    if (!was_by_facet(cache) || !pir_piece_cached(&query->search.groups, cache, &piece) ||
+        pir_same_facet_prove(frame, placement, piece, NULL, &same) != PIR_SAME_PROVEN)
+        return false;
+    if (same.slack > 0 && !pir_foot_settles_within(frame, placement, &same.facet, same.slack, same.margin))
+        return false;
+    pir_simplex simplex = {.count = 0};
+    ++result->steps;
+    if (same.slack > 0) {
+        pir_result_set_state(result, PIR_INSIDE);
+        if (want & PIR_WANT_DEPTH)
+            pir_result_depth_at(frame, same.facet.n, same.slack, &same.touch, result);
+    } else {
+        pir_result_set_state(result, PIR_OUTSIDE);
+        if (want & PIR_WANT_SEPARATION)
+            put_separation(frame, &(pir_nearest){-same.slack, same.facet.n, same.touch}, limit, result);
+        pir_facet_simplex(frame, same.facet.piece, &simplex);
+    }
+    keep_simplex(cache, &simplex);
+    pir_piece_keep(cache, same.facet.piece);
+    return true;
+}
+
+/* --- separation --- */
 
 /*
  * The separation, or only the state where there is none. Returns the state; on the boundary *ret_touching is as
@@ -74,9 +121,10 @@ static pir_state separation(pir_query *query, const pir_placement *placement, do
         pir_result_unfinished(&query->frame, &simplex, result);
         return PIR_OUTSIDE;
     }
-    pir_result_separation(&query->frame, &nearest, result);
-    if (result->distance > pir_frame_length(&query->frame, limit))
-        pir_result_beyond(result);
+    put_separation(&query->frame, &nearest, limit, result);
+    pir_piece facet;
+    if (cache && pir_closest_piece(&query->search.groups, nearest.touch.witness, &facet))
+        pir_piece_keep(cache, facet);
     return PIR_OUTSIDE;
 }
 
@@ -180,7 +228,11 @@ void pir_query_answer(pir_query *query, const pir_placement *placement, const pi
            limit = pir_frame_from(&query->frame, fmax(input->cutoff, 0) + radii);
     // rounded bodies overlap where the polytopes are apart
     if (radii > 0)
-        want |= PIR_WANT_SEPARATION;
+        want |= PIR_WANT_SEPARATION | PIR_WANT_DEPTH;
+    if (by_last_facet(query, placement, limit, want, cache, result)) {
+        pir_result_add_radii(input, result);
+        return;
+    }
     bool depth_first = (want & PIR_WANT_DEPTH) &&
                        (!(want & PIR_WANT_SEPARATION) || (cache && cache->points == 0 && cache->pieces == 1));
     pir_least least = {.some = false};
@@ -192,7 +244,7 @@ void pir_query_answer(pir_query *query, const pir_placement *placement, const pi
         pir_result_set_state(result, state);
     if (state == PIR_BOUNDARY) {
         answer_touching(query, placement, &least, cache, result);
-    } else if (state == PIR_INSIDE && ((want & PIR_WANT_DEPTH) || radii > 0)) {
+    } else if (state == PIR_INSIDE && (want & PIR_WANT_DEPTH)) {
         if (!depth_first)
             least.some = pir_depth_find(&query->search, placement, cache, &least.facet, &result->steps);
         answer_depth(query, placement, &least.facet, cache, result);

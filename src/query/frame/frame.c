@@ -10,6 +10,7 @@
 
 #include <limits.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "query/frame/dd_rotation.h"
 
@@ -148,12 +149,20 @@ int pir_frame_exponent(int exponent_p, int exponent_q, const pir_polytope *p, co
     return exponent == INT_MIN ? exponent_of_points(p->vertex[0], q->vertex[0]) : exponent;
 }
 
+/* 2^exponent, a normal number, as its bits: ldexp takes a part of a query. */
+static double power_of_two(int exponent) {
+    uint64_t bits = (uint64_t)(exponent + 1023) << 52;
+    double power;
+    memcpy(&power, &bits, sizeof power);
+    return power;
+}
+
 void pir_frame_set_exponent(pir_frame *frame, int exponent) {
     // within these bounds both powers are normal numbers
     bool normal = exponent > -1000 && exponent < 1000;
     frame->exponent = exponent;
-    frame->up = normal ? ldexp(1, exponent) : 0;
-    frame->down = normal ? ldexp(1, -exponent) : 0;
+    frame->up = normal ? power_of_two(exponent) : 0;
+    frame->down = normal ? power_of_two(-exponent) : 0;
 }
 
 pir_status pir_body_fill(pir_body *body, int exponent, mp_limb_t *room) {

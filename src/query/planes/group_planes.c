@@ -100,7 +100,7 @@ void pir_piece_keep(pir_query_cache *cache, pir_piece piece) {
     cache->second = piece.second;
 }
 
-bool pir_piece_recall(const pir_groups *groups, const pir_query_cache *cache, pir_plane *ret_plane) {
+bool pir_piece_cached(const pir_groups *groups, const pir_query_cache *cache, pir_piece *ret_piece) {
     const pir_polytope *p = groups->frame->p.polytope, *q = groups->frame->q.polytope;
     if (!cache || cache->pieces != 1)
         return false;
@@ -126,5 +126,11 @@ bool pir_piece_recall(const pir_groups *groups, const pir_query_cache *cache, pi
     default:
         return false;
     }
-    return pir_plane_of(groups->exact, piece, ret_plane);
+    *ret_piece = piece;
+    return true;
+}
+
+bool pir_piece_recall(const pir_groups *groups, const pir_query_cache *cache, pir_plane *ret_plane) {
+    pir_piece piece;
+    return pir_piece_cached(groups, cache, &piece) && pir_plane_of(groups->exact, piece, ret_plane);
 }

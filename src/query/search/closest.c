@@ -4,8 +4,7 @@
 
 #include "query/decide/witness.h"
 
-/* The piece that consists of two features. False where the pairing has none. */
-static bool piece_of(const pir_groups *groups, pir_witness faces, pir_piece *ret_piece) {
+bool pir_closest_piece(const pir_groups *groups, pir_witness faces, pir_piece *ret_piece) {
     const pir_polytope *q = groups->frame->q.polytope;
     const pir_pairing *pairing = groups->pairing;
     if (faces.p.kind == PIR_FEATURE_FACET)
@@ -31,7 +30,7 @@ bool pir_closest_prove(const pir_groups *groups, const pir_placement *placement,
     pir_witness faces = {pir_feature_of(frame->p.polytope, simplex->a, simplex->count),
                          pir_feature_of(frame->q.polytope, simplex->b, simplex->count)};
     pir_piece piece;
-    bool some = piece_of(groups, faces, &piece);
+    bool some = pir_closest_piece(groups, faces, &piece);
     return pir_nearest_prove(groups->exact, placement, faces, some ? &piece : NULL, ret_nearest);
 }
 

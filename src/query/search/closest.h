@@ -6,6 +6,9 @@
 #include "query/decide/nearest.h"
 #include "query/planes/groups.h"
 
+/* The piece that consists of two features. False where the pairing has none. */
+bool pir_closest_piece(const pir_groups *groups, pir_witness faces, pir_piece *ret_piece);
+
 /*
  * The nearest point, where doubles and filtered signs prove that the features of the simplex hold it. That proves as
  * well that x is outside of D. False where there is no such proof.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Facets by doubles alone: see same_facet.h. */
-#include "pair/facet/same_facet.h"
+#include "query/last/same_facet.h"
 
 /*
  * The foot's distance from a side is known to PIR_SIDE_ERRORS of the errors that it is compared with in touch.c. This

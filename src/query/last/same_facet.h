@@ -8,8 +8,8 @@
  *
  * Numbers come from the operations of decide/facet.c and decide/touch.c in their order, so they have the same bits.
  */
-#ifndef PIR_PAIR_FACET_SAME_FACET_H
-#define PIR_PAIR_FACET_SAME_FACET_H
+#ifndef PIR_QUERY_LAST_SAME_FACET_H
+#define PIR_QUERY_LAST_SAME_FACET_H
 
 #include "query/decide/touch.h"
 

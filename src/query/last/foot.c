@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The least slack from the foot of x: see foot.h. */
-#include "pair/facet/foot.h"
+#include "query/last/foot.h"
 
 /* What a distance in the plane of F is off by, in units of the placement's error and the facet's: see touch.c. */
 #define MARGIN_ERRORS 16
@@ -71,20 +71,28 @@ static double margin_of(const pir_frame *frame, const pir_facet *facet, pir_vec3
     return of_p < of_q ? of_p : of_q;
 }
 
-/* How far below F a vertex of D on the other side is. */
-static double depth_below(const pir_frame *frame, const pir_facet *facet) {
-    pir_vec3 back = pir_vec_scale(facet->n, -1), turned = pir_mat_apply_transposed(&frame->r, back);
-    uint32_t a = frame->p.landmarks[pir_landmark_of(turned)], b = frame->q.landmarks[pir_landmark_of(back)];
-    return facet->h - pir_vec_dot(facet->n, pir_frame_vertex(frame, a, b));
+/*
+ * Whether all facets at a great angle from this one have more slack than `most`, as the vertex of D at the landmarks
+ * along a direction tells: see foot.h.
+ */
+static bool is_enough(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet, pir_vec3 along,
+                      double most, double kappa) {
+    pir_vec3 turned = pir_mat_apply_transposed(&frame->r, along);
+    uint32_t a = frame->p.landmarks[pir_landmark_of(turned)], b = frame->q.landmarks[pir_landmark_of(along)];
+    pir_vec3 z = pir_frame_vertex(frame, a, b), way = pir_vec_sub(z, placement->x);
+    double below = facet->h - pir_vec_dot(facet->n, z) - 2 * most, down = pir_vec_dot(facet->n, way);
+    // y is over x along the normal, so z is as far from the line through both
+    double beside = sqrt(fmax(0, pir_vec_dot(way, way) - down * down) + 0x1p-40 * placement->reach * placement->reach);
+    return (below - most) * (1 - kappa * kappa) - 2 * kappa * beside > 3 * most;
 }
 
 bool pir_foot_settles_within(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet,
                              double slack, double margin) {
-    double off = placement->error * facet->err, most = (slack > 0 ? slack : 0) + off, reach = 2 * placement->reach;
-    if (margin <= 4 * most)
+    double most = (slack > 0 ? slack : 0) + placement->error * facet->err, kappa = most / margin * (1 + 0x1p-40);
+    if (!(margin > most))
         return false;
-    double below = depth_below(frame, facet) - 2 * off, sine = 2 * most / margin * (1 + 0x1p-40);
-    return below > 2 * most && (below - most) * (1 - sine) - reach * sine > 2 * most;
+    return is_enough(frame, placement, facet, pir_vec_scale(facet->n, -1), most, kappa) ||
+           is_enough(frame, placement, facet, pir_vec_scale(placement->x, -1), most, kappa);
 }
 
 bool pir_foot_settles(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack) {
