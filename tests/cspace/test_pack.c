@@ -8,7 +8,6 @@
 #include <string.h>
 #include <zlib.h>
 
-#include "cspace/parts/deflate.h"
 #include "cspace/parts/pack.h"
 #include "support/random.h"
 
@@ -103,76 +102,11 @@ static void changed_bytes_are_no_more(void **state) {
     pir_packer_free(packer);
 }
 
-/* Bytes of a kind: as many symbols as drawn, each half as likely as the one before, in runs or like Fibonacci's. */
-static void fill(test_random *random, unsigned kind, uint8_t *data, uint32_t size) {
-    const uint32_t symbols = 1 + test_random_below(random, 256), first = test_random_below(random, 256);
-    uint32_t next = 1, before = 1, symbol = 0, left = 1;
-    for (uint32_t i = 0; i < size; i++) {
-        uint32_t drawn = test_random_below(random, symbols);
-        if (kind == 1)
-            drawn = (uint32_t)__builtin_ctz(test_random_below(random, 1u << 30) | 1u << 29);
-        if (kind == 2 && i > 0 && test_random_below(random, 300) > 0)
-            drawn = data[i - 1] - first;
-        if (kind == 3) {
-            // as many of each symbol as of the two before together: the longest words that there can be
-            drawn = symbol % 256;
-            if (--left == 0) {
-                symbol++;
-                left = next;
-                next += before;
-                before = left;
-            }
-        }
-        data[i] = (uint8_t)(first + drawn);
-    }
-}
-
-/* The bytes that zlib makes of it, looking for runs alone. */
-static uint32_t by_zlib(const uint8_t *data, uint32_t size, uint8_t *room, uint32_t most) {
-    z_stream stream = {0};
-    assert_int_equal(deflateInit2(&stream, 1, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_RLE), Z_OK);
-    stream.next_in = (z_const Bytef *)data;
-    stream.avail_in = size;
-    stream.next_out = room;
-    stream.avail_out = most;
-    assert_int_equal(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    deflateEnd(&stream);
-    return most - stream.avail_out;
-}
-
-/* Whatever is deflated comes back through zlib; and it is no longer than what zlib makes of a block. */
-static void deflated_runs_come_back(void **state) {
-    (void)state;
-    static uint8_t data[PIR_DEFLATE_MOST], deflated[PIR_DEFLATE_MOST + PIR_DEFLATE_SLACK];
-    static uint8_t room[2 * PIR_DEFLATE_MOST];
-    static pir_byte_run run[PIR_RUNS_MOST];
-    unsigned shorter = 0;
-    for (unsigned number = 0; number < 400; number++) {
-        test_random random = test_random_case("deflate", number);
-        const uint32_t most = number % 3 ? 1u << test_random_below(&random, 17) : PIR_DEFLATE_MOST;
-        const uint32_t size = number % 5 ? 1 + test_random_below(&random, most) : most;
-        fill(&random, number % 4, data, size);
-        const uint32_t bytes = pir_deflate_runs(data, size, run, deflated);
-        assert_true(bytes < size);
-        if (bytes == 0)
-            continue;
-        uLongf got = sizeof back;
-        assert_int_equal(uncompress(back, &got, deflated, bytes), Z_OK);
-        assert_int_equal(got, size);
-        assert_memory_equal(back, data, size);
-        shorter++;
-        if (size <= 1u << 14)
-            assert_true(bytes <= by_zlib(data, size, room, sizeof room) + 200);
-    }
-    assert_true(shorter > 200);
-}
-
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(chunks_come_back),
         cmocka_unit_test(changed_bytes_are_no_more),
-        cmocka_unit_test(deflated_runs_come_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,7 +20,7 @@ typedef struct pir_chunk_form {
     bool again; /* longer stretches come again in them, so that it is worth looking for these */
 } pir_chunk_form;
 
-/* What packing works on; about 350 KB. */
+/* What packing works on; about 500 KB. */
 typedef struct pir_packer pir_packer;
 
 /* NULL when out of memory. */
@@ -28,7 +28,7 @@ pir_packer *pir_packer_new(const pir_allocator *allocator);
 /* NULL is accepted. */
 void pir_packer_free(pir_packer *packer);
 
-/* A chunk of data that fill it up to `used` bytes; it holds until the next call. Without data when out of memory. */
+/* A chunk of data that fill it up to `used` bytes. It holds until the next call. */
 pir_chunk pir_pack_chunk(pir_packer *packer, const pir_chunk_form *form, const void *data, uint32_t used);
 
 /* Packs the sections of a unit. False when out of memory. */

@@ -185,7 +185,7 @@ bool pir_h5_put_rows(hid_t set, const pir_h5_shape *shape, uint64_t first, const
     // bytes that are put so are text
     const pir_chunk_form form = {(uint32_t)(chunk * row), element_of(shape->type), shape->type == PIR_H5_U8};
     const pir_chunk packed = pir_pack_chunk(packer, &form, data, (uint32_t)(rows * row));
-    return packed.data && pir_h5_write_chunk(set, shape, start, &packed);
+    return pir_h5_write_chunk(set, shape, start, &packed);
 }
 
 bool pir_h5_put(hid_t in, const char *name, const pir_h5_shape *shape, const void *data, pir_packer *packer) {
