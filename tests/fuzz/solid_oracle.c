@@ -36,7 +36,7 @@ static void dot(mpq_t ret, place a, place b) {
     mpq_clear(product);
 }
 
-static void add_cross(place ret, place a, place b) {
+static void add_cross(mpq_t *ret, mpq_t *a, mpq_t *b) {
     mpq_t product;
     mpq_init(product);
     for (int k = 0; k < 3; k++) {
