@@ -46,7 +46,9 @@ static void read_scene(const char *path) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    char path[] = "/tmp/pirouette-stage-XXXXXX";
+    const char *folder = getenv("TMPDIR");
+    char path[256];
+    snprintf(path, sizeof path, "%s/pirouette-stage-XXXXXX", folder && strlen(folder) < 200 ? folder : "/tmp");
     if (size > SIZE_LIMIT || memchr(data, '/', size) || memchr(data, '\\', size) || memchr(data, '?', size))
         return 0;
     int file = mkstemp(path);

@@ -119,8 +119,10 @@ pir_solid *solid_of_cells(const cells *of) {
     static solid_facets facets;
     facets = (solid_facets){0};
     solid_add_cells(&facets, of);
+    pir_report report = {0};
     pir_solid *solid = NULL;
-    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
+    const pir_status status = solid_make(&facets, NULL, &report, &solid);
+    expect(status == PIR_OK, "%s", report.text);
     return solid;
 }
 
@@ -158,4 +160,22 @@ void mesh_volume(const pir_mesh *mesh, mpq_t ret_volume) {
     mpq_clears(a, b, NULL);
     for (int i = 0; i < 3; i++)
         mpq_clears(v[i][0], v[i][1], v[i][2], NULL);
+}
+
+void pieces_volume(const pir_pieces *pieces, mpq_t ret_volume) {
+    mpq_t volume, moment[9]; // the middle and the inertia, which nobody asks for
+    mpq_init(volume);
+    for (int k = 0; k < 9; k++)
+        mpq_init(moment[k]);
+    mpq_set_ui(ret_volume, 0, 1);
+    for (uint32_t k = 0; k < pir_pieces_count(pieces); k++) {
+        pir_polytope *piece = NULL;
+        assert_int_equal(pir_pieces_polytope(pieces, k, &piece), PIR_OK);
+        assert_int_equal(pir_polytope_mass_exact(piece, volume, moment, moment + 3), PIR_OK);
+        mpq_add(ret_volume, ret_volume, volume);
+        pir_polytope_release(piece);
+    }
+    mpq_clear(volume);
+    for (int k = 0; k < 9; k++)
+        mpq_clear(moment[k]);
 }

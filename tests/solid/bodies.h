@@ -58,4 +58,7 @@ uint64_t solid_cases(uint64_t usual);
 /* Six times the volume within the facets of a mesh with exact coordinates, over 6. */
 void mesh_volume(const pir_mesh *mesh, mpq_t ret_volume);
 
+/* The exact volumes of pieces, added up. */
+void pieces_volume(const pir_pieces *pieces, mpq_t ret_volume);
+
 #endif

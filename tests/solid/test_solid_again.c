@@ -39,35 +39,10 @@ static pir_solid *read_again(const pir_mesh *mesh) {
     return solid;
 }
 
-/* The exact volumes of a solid's pieces, added up. */
-static void pieces_volume(const pir_solid *solid, mpq_t ret_volume) {
-    pir_pieces *pieces = NULL;
-    mpq_t volume, middle[3], inertia[6];
-    mpq_init(volume);
-    for (int k = 0; k < 6; k++)
-        mpq_init(inertia[k]);
-    for (int k = 0; k < 3; k++)
-        mpq_init(middle[k]);
-    assert_int_equal(pir_solid_decompose(solid, NULL, &pieces), PIR_OK);
-    mpq_set_ui(ret_volume, 0, 1);
-    for (uint32_t k = 0; k < pir_pieces_count(pieces); k++) {
-        pir_polytope *piece = NULL;
-        assert_int_equal(pir_pieces_polytope(pieces, k, &piece), PIR_OK);
-        assert_int_equal(pir_polytope_mass_exact(piece, volume, middle, inertia), PIR_OK);
-        mpq_add(ret_volume, ret_volume, volume);
-        pir_polytope_release(piece);
-    }
-    pir_pieces_destroy(pieces);
-    mpq_clear(volume);
-    for (int k = 0; k < 6; k++)
-        mpq_clear(inertia[k]);
-    for (int k = 0; k < 3; k++)
-        mpq_clear(middle[k]);
-}
-
 /* P ⊕ Q as a solid, whose volume is that of its mesh, and of its pieces. */
 static pir_solid *sum_of(const pir_solid *p, const pir_solid *q, pir_quat turn, pir_solid_sum_info *ret_info) {
     pir_mesh *mesh = NULL;
+    pir_pieces *pieces = NULL;
     mpq_t within, volume;
     mpq_inits(within, volume, NULL);
     assert_int_equal(pir_solid_sum(p, q, turn, NULL, ret_info, &mesh), PIR_OK);
@@ -75,7 +50,9 @@ static pir_solid *sum_of(const pir_solid *p, const pir_solid *q, pir_quat turn, 
     mesh_volume(mesh, within);
     assert_int_equal(pir_solid_volume_exact(solid, volume), PIR_OK);
     expect(mpq_equal(within, volume), "the volume is %g, not %g", mpq_get_d(volume), mpq_get_d(within));
-    pieces_volume(solid, volume);
+    assert_int_equal(pir_solid_decompose(solid, NULL, &pieces), PIR_OK);
+    pieces_volume(pieces, volume);
+    pir_pieces_destroy(pieces);
     expect(mpq_equal(within, volume), "pieces have the volume %g, not %g", mpq_get_d(volume), mpq_get_d(within));
     mpq_clears(within, volume, NULL);
     pir_mesh_destroy(mesh);
@@ -125,22 +102,11 @@ static void facet_that_leads_to_no_hole_is_refused(void **state) {
 
 /* --- solids that touch themselves --- */
 
-static pir_solid *cells_solid(const cells *of) {
-    static solid_facets facets;
-    facets = (solid_facets){0};
-    solid_add_cells(&facets, of);
-    pir_report report = {0};
-    pir_solid *solid = NULL;
-    const pir_status status = solid_make(&facets, NULL, &report, &solid);
-    expect(status == PIR_OK, "%s", report.text);
-    return solid;
-}
-
 static void cells_that_touch_along_an_edge_are_shells_of_their_own(void **state) {
     (void)state;
     cells two = {0};
     two.full[0][0][0] = two.full[1][1][0] = true;
-    pir_solid *solid = cells_solid(&two);
+    pir_solid *solid = solid_of_cells(&two);
     pir_solid_info info;
     pir_solid_describe(solid, &info);
     assert_int_equal(info.shells, 2);
@@ -157,7 +123,7 @@ static void cell_that_touches_others_at_every_corner_is_a_shell(void **state) {
     for (int i = 0; i < 8; i++)
         corners.full[2 * (i & 1)][i & 2][2 * (i >> 2)] = true;
     corners.full[1][1][1] = true;
-    pir_solid *solid = cells_solid(&corners);
+    pir_solid *solid = solid_of_cells(&corners);
     pir_solid_info info;
     pir_solid_describe(solid, &info);
     assert_int_equal(info.shells, 9);
@@ -167,7 +133,7 @@ static void cell_that_touches_others_at_every_corner_is_a_shell(void **state) {
     cells block = {0};
     for (int i = 0; i < 27; i++)
         block.full[i % 3][i / 3 % 3][i / 9] = !corners.full[i % 3][i / 3 % 3][i / 9];
-    solid = cells_solid(&block);
+    solid = solid_of_cells(&block);
     pir_solid_describe(solid, &info);
     assert_int_equal(info.shells, 2);
     assert_true(info.volume == 18);
@@ -219,7 +185,7 @@ static void cells_at_random_are_solids_and_so_are_their_sums(void **state) {
             count += a.full[k % 3][k / 3 % 3][k / 9] = test_random_below(&random, 5) < 1 + i % 4;
         for (int k = 1; k < 8; k++)
             b.full[k % 2][k / 2 % 2][k / 4] = test_random_below(&random, 2);
-        pir_solid *p = cells_solid(&a), *q = cells_solid(&b);
+        pir_solid *p = solid_of_cells(&a), *q = solid_of_cells(&b);
         assert_int_equal(pir_solid_volume_exact(p, volume), PIR_OK);
         expect(mpq_cmp_ui(volume, count, 1) == 0, "case %llu: %g cells, not %u", (unsigned long long)i,
                mpq_get_d(volume), count);
