@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Files of slices that were made to do harm: each is whole HDF5 under a seal that matches, but says something that a
- * file of slices may not. All are refused with the place named, without much memory, and without a look at another file.
+ * file of slices may not. All are refused with the place named, without much memory, and without a look at another
+ * file.
  */
 #include "support/test.h"
 

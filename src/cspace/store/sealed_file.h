@@ -14,7 +14,8 @@ typedef struct pir_sealed_file {
 } pir_sealed_file;
 
 /* Not open. */
-#define PIR_NO_SEALED_FILE {{.descriptor = -1}, -1, -1}
+#define PIR_NO_SEALED_FILE                                                                                             \
+    { {.descriptor = -1}, -1, -1 }
 
 /*
  * Opens a file for reading. pir_sealed_file_close releases whatever is there, whatever the outcome. Errors:
