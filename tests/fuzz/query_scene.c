@@ -16,8 +16,8 @@ static void measure(const pir_polytope *p, double *far, double *extent) {
 }
 
 /*
- * The limit is 2^400 times the size; 2^397 leaves room for the errors of the measure. Two points count as bodies of size
- * 1, or of their largest coordinate where that is beyond 2^300 or below 2^-300.
+ * The limit is 2^400 times the size; 2^397 leaves room for the errors of the measure. Two points count as bodies of
+ * size 1, or of their largest coordinate where that is beyond 2^300 or below 2^-300.
  */
 int query_may_be_far(const struct query_scene *scene, pir_vec3 t) {
     double far = 0, extent = 0;
