@@ -2,8 +2,8 @@
 /* Chunks shuffled and deflated, as HDF5's filters of these names do. */
 #include "cspace/parts/pack.h"
 
-#include <string.h>
 #include <libdeflate.h>
+#include <string.h>
 
 /*
  * How well deflate tries. Records are dense, and tables of numbers are little else once shuffled: to look for more than
