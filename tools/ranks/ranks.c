@@ -7,8 +7,9 @@
  *     REST    a late unit, once there is one; ENDED when all are done, or when rank 0 has failed
  *     FAILED  no answer: the rank has ended, by an error or a signal, and its unit is lost
  *
- * On rank 0 one thread answers while another makes units. Messages are few, one a unit, so it looks for them and
- * sleeps in between. A thread tells that its unit is done when it claims the next one.
+ * On rank 0 one thread answers while another makes units. Messages are few, two a unit, so it looks for them and sleeps
+ * in between, the longer the longer none has come: units are asked for ahead, so an answer that takes half as long as a
+ * unit holds no one up. A thread tells that its unit is done when it claims the next one.
  */
 #include "ranks.h"
 
@@ -29,6 +30,10 @@ enum want { WANT_CLAIM, WANT_NOTE, WANT_REST, WANT_FAILED };
 
 /* A unit that is done sooner than this was found made already, by an earlier run. */
 #define FOUND_SECONDS 2e-4
+
+/* For how long, in nanoseconds, the thread that answers sleeps at least and at most. */
+#define NAP_LEAST 100000
+#define NAP_MOST  5000000
 
 /* Tags of messages. */
 #define TAG_ASK    1
@@ -95,11 +100,12 @@ static void note_done(struct ranks_shared *shared, uint64_t unit, uint64_t is_ne
         dealer_done(&shared->dealer, unit, is_new != 0, now());
 }
 
-/* Answers all that ask; the lock is held. */
-static void serve(const struct ranks *ranks) {
+/* Answers all that ask; whether any did. The lock is held. */
+static bool serve(const struct ranks *ranks) {
     struct ranks_shared *shared = ranks->shared;
     MPI_Status from;
-    for (int there = 1; there;) {
+    bool any = false;
+    for (int there = 1; there; any |= there) {
         MPI_Iprobe(MPI_ANY_SOURCE, TAG_ASK, MPI_COMM_WORLD, &there, &from);
         if (!there)
             break;
@@ -121,6 +127,7 @@ static void serve(const struct ranks *ranks) {
         if (unit != NONE)
             answer(shared, rank, unit);
     }
+    return any;
 }
 
 /* --- any rank --- */
@@ -227,9 +234,11 @@ static void *work_beside(void *context) {
 
 /* Serves until the own thread has ended, or, with `all`, until all ranks have been told the end. */
 static void serve_until(const struct ranks *ranks, bool all) {
-    for (bool ended = false; !ended; nap(200000)) {
+    long wait = NAP_LEAST;
+    for (bool ended = false; !ended; nap(wait)) {
         pthread_mutex_lock(&ranks->shared->lock);
-        serve(ranks);
+        const bool any = serve(ranks);
+        wait = any ? NAP_LEAST : 2 * wait < NAP_MOST ? 2 * wait : NAP_MOST;
         ended = ranks->shared->own_ended;
         for (uint32_t rank = 1; all && rank < ranks->count; rank++)
             ended &= ranks->shared->told[rank];
