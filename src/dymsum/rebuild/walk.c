@@ -19,25 +19,38 @@
 /* Cells with more sides than this are bisected. */
 #define MANY_SIDES 12
 
-static int corner_sign(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t corner_half) {
+/* An arc of P: its halfedge, and that rotated. */
+struct arc {
+    uint32_t half;
+    pir_vec3 direction;
+    float x, y, z;
+};
+
+static inline struct arc arc_of(uint32_t half, pir_vec3 direction) {
+    return (struct arc){half, direction, (float)direction.x, (float)direction.y, (float)direction.z};
+}
+
+/* The sign of the arc and a facet of Q: by floats, and where those are not certain as every other. */
+static inline int corner_sign(pir_tracked *tracked, const struct arc *arc, uint32_t corner_half) {
     uint32_t g = tracked->pairing.q->left[corner_half];
     const float *n = tracked->pairing.q->normal4 + (size_t)4 * g;
-    float s = (float)direction.x * n[0] + (float)direction.y * n[1] + (float)direction.z * n[2];
+    float s = arc->x * n[0] + arc->y * n[1] + arc->z * n[2];
     double unused;
     if (!(fabsf(s) > PIR_FLOAT_BOUND))
-        return pir_sign_half_facet(&tracked->pairing, h, direction, g, &unused);
+        return pir_sign_half_facet(&tracked->pairing, arc->half, arc->direction, g, &unused);
     tracked->pairing.signs.by_filter++;
     return s > 0 ? 1 : -1;
 }
 
 uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
     const pir_polytope *q = tracked->pairing.q;
+    const struct arc arc = arc_of(h, direction);
     uint32_t start = q->ring_start[v], n = q->ring_start[v + 1] - start;
     if (entered == PIR_NO_CROSSING) {
         // the corner before side i is that of side i − 1
-        int before = corner_sign(tracked, h, direction, start + n - 1);
+        int before = corner_sign(tracked, &arc, start + n - 1);
         for (uint32_t i = 0; i < n; i++) {
-            int sign = corner_sign(tracked, h, direction, start + i);
+            int sign = corner_sign(tracked, &arc, start + i);
             if (before < 0 && sign > 0)
                 return start + i;
             before = sign;
@@ -48,14 +61,14 @@ uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, ui
     uint32_t first = q->twin[entered] - start, low = 0, high = n - 1;
     while (high - low > MANY_SIDES) {
         uint32_t middle = low + (high - low) / 2;
-        if (corner_sign(tracked, h, direction, start + (first + middle) % n) < 0)
+        if (corner_sign(tracked, &arc, start + (first + middle) % n) < 0)
             low = middle;
         else
             high = middle;
     }
     for (uint32_t i = low + 1; i < high; i++) {
         uint32_t side = first + i < n ? first + i : first + i - n;
-        if (corner_sign(tracked, h, direction, start + side) > 0)
+        if (corner_sign(tracked, &arc, start + side) > 0)
             return start + side;
     }
     return start + (first + high) % n;
@@ -128,22 +141,8 @@ static inline bool crosses_once(pir_tracked *tracked, const pir_arcs *arcs, uint
     return crosses_once_surely(tracked, arcs, k);
 }
 
-/* Crossings of arcs that cross several sides, until they are noted: what they are noted in is fetched meanwhile. */
-struct crossed {
-    uint32_t count, half[PIR_ARCS], side[PIR_ARCS];
-};
-
-static void note_crossed(pir_tracked *tracked, struct crossed *crossed) {
-    const pir_polytope *q = tracked->pairing.q;
-    for (uint32_t i = 0; i < crossed->count; i++) {
-        uint32_t side = crossed->side[i];
-        pir_note_met(tracked, crossed->half[i], q->edge[side], pir_right(q, side), q->left[side]);
-    }
-    crossed->count = 0;
-}
-
 /* Walks arc k from cell to cell. */
-static bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k, struct crossed *crossed) {
+static bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t h = arcs->half[k], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
     pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
@@ -151,23 +150,19 @@ static bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k, str
         entered = pir_leave_cell(tracked, h, direction, v, entered);
         if (!pir_crossing_push(tracked, arcs->edge[k], entered, &last))
             return false;
-        if (crossed->count == PIR_ARCS)
-            note_crossed(tracked, crossed);
-        __builtin_prefetch(&tracked->work->met[q->edge[entered]], 1);
-        __builtin_prefetch(&q->twin[entered]);
-        crossed->half[crossed->count] = h;
-        crossed->side[crossed->count++] = entered;
+        // the facet right of a side is left of the side before it
+        uint32_t before = (entered > q->ring_start[v] ? entered : q->ring_start[v + 1]) - 1;
+        pir_note_met(tracked, h, q->edge[entered], q->left[before], q->left[entered]);
     }
     return true;
 }
 
 /* Lists the crossings of the arcs, whose sides have been measured. */
 static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs) {
-    struct crossed crossed = {.count = 0};
     for (uint32_t k = 0; k < arcs->count; k++) {
         uint32_t last = PIR_NO_CROSSING;
         if (!crosses_once(tracked, arcs, k)) {
-            if (!walk_arc(tracked, arcs, k, &crossed))
+            if (!walk_arc(tracked, arcs, k))
                 return false;
             continue;
         }
@@ -175,7 +170,6 @@ static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs) {
             return false;
         pir_note_met(tracked, arcs->half[k], arcs->met[k], arcs->right[k], arcs->left[k]);
     }
-    note_crossed(tracked, &crossed);
     return true;
 }
 
