@@ -217,6 +217,35 @@ typedef struct pir_halfspace {
 PIR_API pir_status pir_cspace_open(const char *path, const pir_allocator *allocator, pir_report *report,
                                    pir_cspace **ret_cspace);
 
+/**
+ * Checks every byte of a file of slices against the seal at its end. Not needed before reading: pir_cspace_open reads
+ * no byte that has not been checked, and checks those that it reads.
+ *
+ * path       of the file.
+ * allocator  NULL for malloc.
+ * report     NULL, or filled with what, where and why when the call fails.
+ *
+ * Cost: the time to read the file.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_FORMAT (damaged, or no sealed file), PIR_ERR_MEMORY,
+ * PIR_ERR_UNSUPPORTED (no HDF5 in this build).
+ */
+PIR_API pir_status pir_cspace_check(const char *path, const pir_allocator *allocator, pir_report *report);
+
+/**
+ * Seals a file of slices anew, to which something was added through HDF5: writes hashes of all its bytes at its end.
+ * They vouch for what the file holds then, whatever it is, so it should have been checked before something was added.
+ *
+ * path       of the file.
+ * allocator  NULL for malloc.
+ * report     NULL, or filled when the call fails.
+ *
+ * Cost: the time to read the file.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no HDF5 in this build).
+ */
+PIR_API pir_status pir_cspace_seal(const char *path, const pir_allocator *allocator, pir_report *report);
+
 /** Closes and frees; NULL is accepted. */
 PIR_API void pir_cspace_close(pir_cspace *cspace);
 

@@ -45,8 +45,9 @@
  * descent, and a depth looks at a few groups of facets. `steps` counts both.
  *
  * Errors of a query: PIR_ERR_ARGUMENT (NULL, a radius below 0 or infinite), PIR_ERR_NOT_FINITE (a translation, radius
- * or cutoff), PIR_ERR_LIMIT (a translation farther than 2^400 times the size of the bodies), PIR_ERR_UNSUPPORTED (on
- * a sum with a region, as said above), PIR_ERR_MEMORY (room for a sum that has grown). `cache` may be NULL.
+ * or cutoff), PIR_ERR_LIMIT (a translation farther than 2^400 times the size of the bodies; of two points that is 1, or
+ * their largest coordinate where that is beyond 2^300 or below 2^-300), PIR_ERR_UNSUPPORTED (on a sum with a region, as
+ * said above), PIR_ERR_MEMORY (room for a sum that has grown). `cache` may be NULL.
  *
  * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */

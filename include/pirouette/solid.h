@@ -55,8 +55,8 @@ typedef struct pir_solid_info {
  *
  * Points at the same place are one vertex. Every edge must be on two facets, which walk it opposite ways, or on an even
  * number, between which inside and outside take turns around it; facets must be planar exactly as the file's numbers
- * are, with an area; none may meet another but along edges and at vertices; outer shells face outwards, cavities
- * inwards.
+ * are, with an area; none may cross another or share an area with it, though they may touch; outer shells face
+ * outwards, cavities inwards.
  *
  * Cost: O(n log n) for n facets of bounded size whose boxes meet few others; exact arithmetic where doubles cannot
  * tell.

@@ -65,6 +65,22 @@ def slacks(p, q, edges, t):
     return [(support(q, n) + support(minus_p, n) - dot(n, t), n) for n in normals(edges)]
 
 
+def between_segments(a, b):
+    """How far two segments, each of two points that differ, are apart at most where they are nearest."""
+    u, v, w = add(a[1], a[0], -1), add(b[1], b[0], -1), add(a[0], b[0], -1)
+    uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w)
+    area = uu * vv - uv * uv
+    s = min(1, max(0, (uv * vw - vv * uw) / area)) if area > 1e-12 else 0
+    t = min(1, max(0, (uv * s + vw) / vv))
+    s = min(1, max(0, (uv * t - uw) / uu))
+    return math.hypot(*add(add(w, u, s), v, -t))
+
+
+def beside_box(point, sizes):
+    """How far a point is from a box about the origin."""
+    return math.hypot(*(max(0, abs(c) - s / 2) for c, s in zip(point, sizes)))
+
+
 # ---- What the examples print ----------------------------------------------------------------------------------------
 
 
@@ -220,6 +236,40 @@ class Examples:
             assert place == ("outside" if slack < 0 else "boundary" if slack == 0 else "inside"), (line, float(slack))
             said.add(place)
         assert len(self.lines) == 6 and said == {"outside", "boundary", "inside"}, self.lines
+
+    def two_bodies(self):
+        """Boxes are as far apart as a corner from the other, or two edges; as deep as their least slack."""
+        form = re.compile(r"frame +(\d+): (?:distance (\S+), normal (\S+) (\S+) (\S+), (\d+) contacts|farther.* 1.25)")
+        sizes = ((1, 0.6, 0.4), (2, 2, 0.5))
+        sides = [[(a, b) for a, b in itertools.combinations(box(*s), 2) if sum(x != y for x, y in zip(a, b)) == 1]
+                 for s in sizes]
+        seen = set()
+        for line in self.lines[:-1]:
+            frame, distance, *normal, contacts = form.fullmatch(line).groups()
+            time = int(frame) / 60
+            quat_p, at = (math.sin(time / 2), 0, 0, math.cos(time / 2)), (3 - 2 * time, 0.25, 0.6)
+            quat_q = (0, 0, math.sin(time), math.cos(time))
+            back = [(-q[0], -q[1], -q[2], q[3]) for q in (quat_p, quat_q)]
+            p, q = turned(quat_p, box(*sizes[0])), turned(quat_q, box(*sizes[1]))
+            edges = turned(quat_p, box_edges(*sizes[0])) + turned(quat_q, box_edges(*sizes[1]))
+            true = -min(slack / math.hypot(*n) for slack, n in slacks(p, q, edges, at) if math.hypot(*n) > 1e-9)
+            if true > 0:
+                corners = [beside_box(c, sizes[1]) for c in turned(back[1], [add(c, at) for c in p])]
+                corners += [beside_box(c, sizes[0]) for c in turned(back[0], [add(c, at, -1) for c in q])]
+                true = min(corners + [between_segments([add(c, at) for c in turned(quat_p, a)], turned(quat_q, b))
+                                      for a in sides[0] for b in sides[1]])
+            if distance is None:
+                assert true > 1.25, (line, true)
+                seen.add("far")
+                continue
+            assert abs(float(distance) - true) < 2e-9 and int(contacts) > 0, (line, true)
+            n = tuple(map(float, normal))  # along it the bodies are as far apart as that, so it proves the distance
+            gap = dot(n, at) - support(q, n) - support([tuple(-c for c in corner) for corner in p], n)
+            assert abs(gap - true) < 1e-8, (line, gap)
+            seen.add("apart" if true > 0 else "overlapping")
+        assert len(self.lines) == 22 and seen == {"far", "apart", "overlapping"}, self.lines
+        counts = [int(number) for number in re.findall(r"\d+", self.lines[-1])]
+        assert counts[0] == 201 and counts[1] > 0 and counts[2] > 0, counts
 
     def grid_of_states(self):
         """Every mark by the exact slack of its translation."""

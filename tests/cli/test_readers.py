@@ -83,7 +83,7 @@ def main(command, python):
 
         seen = json.loads(run(python, "-c", LOOK, slices))
         names = dict(seen["names"])
-        assert (seen["format"], seen["version"]) == ("pirouette slices", 2), seen
+        assert (seen["format"], seen["version"]) == ("pirouette slices", 3), seen
         assert names["grid/rotation"] == [STEPS, 4] and names["obstacle/1/vertex"] == [12, 3], names
         assert len(names["slices/bytes"]) == 1 and names["slices/length"] == [2, STEPS], names
         dump = run("h5dump", "-H", slices)

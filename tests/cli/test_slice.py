@@ -245,7 +245,7 @@ class Files(InFolder):
         self.make("a.h5", models=(self.path("box.off"), "shape:gs2"))
         with h5py.File(self.path("a.h5")) as file:
             self.assertEqual(file.attrs["format"], b"pirouette slices")
-            self.assertEqual(file.attrs["version"], 2)
+            self.assertEqual(file.attrs["version"], 3)
             self.assertEqual(file["grid"].attrs["kind"], b"axis")
             self.assertEqual(file["grid"].attrs["axis"].tolist(), [1, 2, 3])
             self.assertEqual(file["robot/0/vertex"].shape, (8, 3))

@@ -15,14 +15,17 @@ static void measure(const pir_polytope *p, double *far, double *extent) {
     *extent = fmax(*extent, query_largest(query_add(high, low, -1)));
 }
 
-/* The limit is 2^400 times the size; 2^397 leaves room for the errors of the measure. */
+/*
+ * The limit is 2^400 times the size; 2^397 leaves room for the errors of the measure. Two points count as bodies of
+ * size 1, or of their largest coordinate where that is beyond 2^300 or below 2^-300.
+ */
 int query_may_be_far(const struct query_scene *scene, pir_vec3 t) {
-    double far = query_largest(t), extent = 0;
+    double far = 0, extent = 0;
     measure(scene->p, &far, &extent);
     measure(scene->q, &far, &extent);
     if (extent == 0)
-        extent = 1;
-    return ldexp(far, -397) > extent || !isfinite(extent) || extent < 0x1p-600;
+        extent = far > 0x1p299 || (far > 0 && far < 0x1p-299) ? far : 1;
+    return ldexp(fmax(far, query_largest(t)), -397) > extent || !isfinite(extent) || extent < 0x1p-600;
 }
 
 struct query_scene query_scene_make(pir_polytope *p, pir_polytope *q, pir_quat rotation) {

@@ -2,10 +2,12 @@
 /* See bodies.h. */
 #include "solid/bodies.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <pirouette/exact.h>
+#include <pirouette/io.h>
 
 #include "support/test.h"
 
@@ -126,6 +128,22 @@ pir_solid *solid_of_cells(const cells *of) {
     return solid;
 }
 
+pir_solid *solid_read_again(const pir_mesh *mesh) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    pir_report report = {0};
+    pir_solid *solid = NULL;
+    assert_non_null(file);
+    assert_int_equal(pir_mesh_write_stream(mesh, file, "again", "off", 1, NULL), PIR_OK);
+    fclose(file);
+    const pir_status status =
+        pir_solid_read_bytes(&(pir_file_bytes){text, size, "again", "off"}, NULL, &report, &solid);
+    expect(status == PIR_OK, "%s", report.text);
+    free(text);
+    return solid;
+}
+
 uint64_t solid_cases(uint64_t usual) {
     const char *text = getenv("PIR_TEST_CASES");
     return text ? strtoull(text, NULL, 10) : usual;
@@ -178,4 +196,19 @@ void pieces_volume(const pir_pieces *pieces, mpq_t ret_volume) {
     mpq_clear(volume);
     for (int k = 0; k < 9; k++)
         mpq_clear(moment[k]);
+}
+
+void solid_check_volume(const pir_solid *solid, const mpq_t right, uint64_t number) {
+    pir_pieces *pieces = NULL;
+    mpq_t volume;
+    mpq_init(volume);
+    assert_int_equal(pir_solid_volume_exact(solid, volume), PIR_OK);
+    expect(mpq_equal(volume, right), "case %llu: the volume is %g, not %g", (unsigned long long)number,
+           mpq_get_d(volume), mpq_get_d(right));
+    assert_int_equal(pir_solid_decompose(solid, NULL, &pieces), PIR_OK);
+    pieces_volume(pieces, volume);
+    expect(mpq_equal(volume, right), "case %llu: pieces have the volume %g, not %g", (unsigned long long)number,
+           mpq_get_d(volume), mpq_get_d(right));
+    pir_pieces_destroy(pieces);
+    mpq_clear(volume);
 }

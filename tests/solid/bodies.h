@@ -52,6 +52,9 @@ void solid_add_cells(solid_facets *facets, const cells *of);
 /* A solid of cells that make one; the test fails where they do not. */
 pir_solid *solid_of_cells(const cells *of);
 
+/* A mesh in exact OFF, read as a solid; the test fails where it is none. */
+pir_solid *solid_read_again(const pir_mesh *mesh);
+
 /* How many cases a test tries: what PIR_TEST_CASES says, or `usual`. */
 uint64_t solid_cases(uint64_t usual);
 
@@ -60,5 +63,8 @@ void mesh_volume(const pir_mesh *mesh, mpq_t ret_volume);
 
 /* The exact volumes of pieces, added up. */
 void pieces_volume(const pir_pieces *pieces, mpq_t ret_volume);
+
+/* The volume of a solid is this, and its pieces have it too; the number is that of a case. */
+void solid_check_volume(const pir_solid *solid, const mpq_t right, uint64_t number);
 
 #endif

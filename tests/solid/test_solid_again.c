@@ -10,7 +10,6 @@
  */
 #include "support/test.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,23 +21,6 @@
 
 static const pir_quat no_turn = {0, 0, 0, 1};
 
-/* The mesh in exact OFF, read as a solid. */
-static pir_solid *read_again(const pir_mesh *mesh) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    pir_report report = {0};
-    pir_solid *solid = NULL;
-    assert_non_null(file);
-    assert_int_equal(pir_mesh_write_stream(mesh, file, "again", "off", 1, NULL), PIR_OK);
-    fclose(file);
-    const pir_status status =
-        pir_solid_read_bytes(&(pir_file_bytes){text, size, "again", "off"}, NULL, &report, &solid);
-    expect(status == PIR_OK, "%s", report.text);
-    free(text);
-    return solid;
-}
-
 /* P ⊕ Q as a solid, whose volume is that of its mesh, and of its pieces. */
 static pir_solid *sum_of(const pir_solid *p, const pir_solid *q, pir_quat turn, pir_solid_sum_info *ret_info) {
     pir_mesh *mesh = NULL;
@@ -46,7 +28,7 @@ static pir_solid *sum_of(const pir_solid *p, const pir_solid *q, pir_quat turn, 
     mpq_t within, volume;
     mpq_inits(within, volume, NULL);
     assert_int_equal(pir_solid_sum(p, q, turn, NULL, ret_info, &mesh), PIR_OK);
-    pir_solid *solid = read_again(mesh);
+    pir_solid *solid = solid_read_again(mesh);
     mesh_volume(mesh, within);
     assert_int_equal(pir_solid_volume_exact(solid, volume), PIR_OK);
     expect(mpq_equal(within, volume), "the volume is %g, not %g", mpq_get_d(volume), mpq_get_d(within));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The file is copied, the copy gets the group and then the file's name. */
+/* The file is checked and copied, the copy gets the group, a seal and then the file's name. */
 #include "planar_file.h"
 
 #include "../file.h"
@@ -78,6 +78,16 @@ static bool put_sections(struct planar_group *group, const struct slices *slices
     return true;
 }
 
+/* Calls what checks or seals a file; false after a complaint. */
+static bool ask_seal(pir_status (*ask)(const char *path, const pir_allocator *allocator, pir_report *report),
+                     const char *path) {
+    pir_report report;
+    if (ask(path, NULL, &report) == PIR_OK)
+        return true;
+    complain("%s", report.text);
+    return false;
+}
+
 bool planar_file_write(const char *path, const struct planar *planar) {
     struct slices slices;
     struct output_file out = {0};
@@ -86,12 +96,13 @@ bool planar_file_write(const char *path, const struct planar *planar) {
     columns_quiet();
     if (!slices_open(&slices, path, 1, 1))
         return false;
-    bool copied = output_open(&out, path) && copy_file(path, &out);
+    // HDF5 reads the copy as it is
+    bool copied = ask_seal(pir_cspace_check, path) && output_open(&out, path) && copy_file(path, &out);
     bool done = copied && group_open(&group, out.temporary, planar) && put_sections(&group, &slices, planar, &told);
     done &= group_close(&group);
     if (copied && !done && !told)
         complain("%s: HDF5 cannot add the sections; is the disk full?", path);
-    done = done && output_commit(&out);
+    done = done && ask_seal(pir_cspace_seal, out.temporary) && output_commit(&out);
     output_discard(&out);
     slices_close(&slices);
     return done;

@@ -2,20 +2,19 @@
 /* Chunks shuffled and deflated, as HDF5's filters of these names do. */
 #include "cspace/parts/pack.h"
 
+#include <libdeflate.h>
 #include <string.h>
-#include <zlib.h>
 
 /*
- * How deflate works. Records are dense, and arrays of numbers are little else once shuffled: to look for more than runs
- * takes ten times as long and gains an eighth. 8192 symbols share a code, as many as a chunk of records has.
+ * How well deflate tries. Records are dense, and tables of numbers are little else once shuffled: to look for more than
+ * their code and runs takes longer and gains nothing.
  */
 enum { FOR_RUNS, FOR_MATCHES, WAYS };
-static const struct { int memory, strategy; } ways[WAYS] = {{7, Z_RLE}, {MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY}};
+static const int levels[WAYS] = {1, 4};
 
 struct pir_packer {
     pir_allocator allocator;
-    z_stream stream[WAYS];
-    uint32_t begun; /* streams */
+    struct libdeflate_compressor *compressor[WAYS];
     uint8_t filled[PIR_CHUNK_MOST], shuffled[PIR_CHUNK_MOST], deflated[PIR_CHUNK_MOST];
 };
 
@@ -24,24 +23,23 @@ pir_packer *pir_packer_new(const pir_allocator *allocator) {
     if (!packer)
         return NULL;
     packer->allocator = *allocator;
-    for (packer->begun = 0; packer->begun < WAYS; packer->begun++) {
-        z_stream *stream = &packer->stream[packer->begun];
-        *stream = (z_stream){0};
-        if (deflateInit2(stream, PIR_DEFLATE_LEVEL, Z_DEFLATED, MAX_WBITS, ways[packer->begun].memory,
-                         ways[packer->begun].strategy) != Z_OK) {
-            pir_packer_free(packer);
-            return NULL;
-        }
+    bool made = true;
+    for (int i = 0; i < WAYS; i++) {
+        packer->compressor[i] = libdeflate_alloc_compressor(levels[i]);
+        made = made && packer->compressor[i];
     }
-    return packer;
+    if (made)
+        return packer;
+    pir_packer_free(packer);
+    return NULL;
 }
 
 void pir_packer_free(pir_packer *packer) {
     if (!packer)
         return;
     const pir_allocator a = packer->allocator;
-    for (uint32_t i = 0; i < packer->begun; i++)
-        deflateEnd(&packer->stream[i]);
+    for (int i = 0; i < WAYS; i++)
+        libdeflate_free_compressor(packer->compressor[i]);
     PIR_FREE(&a, packer, 1);
 }
 
@@ -64,16 +62,10 @@ pir_chunk pir_pack_chunk(pir_packer *packer, const pir_chunk_form *form, const v
         shuffle(bytes, form->size, form->element, packer->shuffled);
         bytes = packer->shuffled;
     }
-    z_stream *stream = &packer->stream[form->again ? FOR_MATCHES : FOR_RUNS];
-    deflateReset(stream);
-    stream->next_in = (z_const Bytef *)bytes;
-    stream->avail_in = form->size;
-    stream->next_out = packer->deflated;
+    struct libdeflate_compressor *compressor = packer->compressor[form->again ? FOR_MATCHES : FOR_RUNS];
     // what does not get shorter is stored
-    stream->avail_out = form->size - 1;
-    if (deflate(stream, Z_FINISH) != Z_STREAM_END)
-        return (pir_chunk){bytes, form->size, true};
-    return (pir_chunk){packer->deflated, form->size - 1 - stream->avail_out, false};
+    const size_t size = libdeflate_zlib_compress(compressor, bytes, form->size, packer->deflated, form->size - 1);
+    return size ? (pir_chunk){packer->deflated, (uint32_t)size, false} : (pir_chunk){bytes, form->size, true};
 }
 
 static bool pack_section(pir_unit *unit, int s, pir_packer *packer, const pir_allocator *a) {

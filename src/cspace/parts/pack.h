@@ -20,7 +20,7 @@ typedef struct pir_chunk_form {
     bool again; /* longer stretches come again in them, so that it is worth looking for these */
 } pir_chunk_form;
 
-/* What packing works on; about 500 KB. */
+/* What packing works on; about 1 MB. */
 typedef struct pir_packer pir_packer;
 
 /* NULL when out of memory. */

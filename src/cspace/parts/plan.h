@@ -14,7 +14,7 @@
 #include "cspace/record/record_bytes.h"
 
 /* Of the file and of parts. */
-#define PIR_SLICES_VERSION 2u
+#define PIR_SLICES_VERSION 3u
 
 /* A piece, as it was given. */
 typedef struct pir_plan_piece {

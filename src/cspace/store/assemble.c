@@ -20,6 +20,7 @@
 #include "cspace/store/h5.h"
 #include "cspace/store/names.h"
 #include "cspace/store/piece_file.h"
+#include "cspace/store/sealed_file.h"
 
 #define TABLE_CHUNK 1024
 #define GRID_CHUNK  2048
@@ -198,13 +199,6 @@ static hid_t create_file(const char *path) {
     return file;
 }
 
-/* Makes what was written to a file or folder reach the disk. */
-static bool reach_disk(const char *path) {
-    int descriptor = open(path, O_RDONLY);
-    bool good = descriptor >= 0 && fsync(descriptor) == 0;
-    return (descriptor < 0 || close(descriptor) == 0) && good;
-}
-
 /* What HDF5 left of the reason. */
 static const char *reason(int error) {
     return error ? strerror(error) : "HDF5 could not";
@@ -218,7 +212,7 @@ static uint64_t most_bytes(const pir_parts *parts) {
     uint64_t bytes = FILE_MOST + parts->done_bytes + tables + tables / 8;
     for (uint32_t i = 0; i < plan->robot_count + plan->obstacle_count; i++)
         bytes += PIECE_MOST + 8 * (uint64_t)plan->piece[i].off.used;
-    return bytes;
+    return bytes + pir_seal_size(bytes);
 }
 
 /*
@@ -256,10 +250,6 @@ static pir_status write_file(struct output *out, const char *path, pir_report *r
         good = false;
     if (status != PIR_OK)
         return status;
-    if (good && !reach_disk(path)) {
-        good = false;
-        error = errno;
-    }
     return good ? PIR_OK : pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, reason(error));
 }
 
@@ -273,6 +263,8 @@ static pir_status assemble_as(const pir_parts *parts, const char *path, pir_repo
     pir_h5_reports reports = pir_h5_quiet();
     pir_status status = write_file(&out, path, report);
     pir_h5_loud(reports);
+    if (status == PIR_OK)
+        status = pir_seal(path, &parts->allocator, report);
     pir_unit_finish(&out.unit, &parts->allocator);
     pir_packer_free(out.packer);
     struct stat old;
@@ -300,9 +292,10 @@ bool pir_assembled(const pir_parts *parts) {
     char hash[17], found[17];
     write_hash(parts->plan, hash);
     pir_h5_reports reports = pir_h5_quiet();
-    hid_t file = access(parts->file, R_OK) == 0 ? H5Fopen(parts->file, H5F_ACC_RDONLY, H5P_DEFAULT) : -1;
-    bool same = file >= 0 && pir_h5_get_text(file, "hash", found, sizeof found) && strcmp(hash, found) == 0;
-    pir_h5_close(file);
+    pir_sealed_file file;
+    bool same = pir_sealed_file_open(&file, parts->file, &parts->allocator, NULL) == PIR_OK &&
+                pir_h5_get_text(file.file, "hash", found, sizeof found) && strcmp(hash, found) == 0;
+    pir_sealed_file_close(&file);
     pir_h5_loud(reports);
     return same;
 }

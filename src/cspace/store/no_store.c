@@ -75,3 +75,15 @@ pir_status pir_store_unit(pir_store *store, pir_section section, uint64_t number
     (void)unit;
     return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
 }
+
+pir_status pir_cspace_check(const char *path, const pir_allocator *allocator, pir_report *report) {
+    (void)path;
+    (void)allocator;
+    return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
+}
+
+pir_status pir_cspace_seal(const char *path, const pir_allocator *allocator, pir_report *report) {
+    (void)path;
+    (void)allocator;
+    return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
+}

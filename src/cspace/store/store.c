@@ -14,6 +14,7 @@
 #include "cspace/parts/plan.h"
 #include "cspace/store/h5.h"
 #include "cspace/store/names.h"
+#include "cspace/store/sealed_file.h"
 
 /* The longest model that is read, and the most pieces. */
 #define OFF_MOST    ((uint64_t)1 << 31)
@@ -29,7 +30,8 @@ struct pir_store {
     pir_allocator allocator;
     char *path;
     size_t path_size;
-    hid_t file, rotation;
+    pir_sealed_file sealed;
+    hid_t file, rotation; /* the file is that of `sealed` */
     pir_cspace_info info;
     uint64_t units_per_pair;
     pir_polytope **piece;
@@ -38,6 +40,9 @@ struct pir_store {
 };
 
 static pir_status broken(const pir_store *store, pir_report *report, const char *where, const char *why) {
+    pir_status damaged = pir_sealed_tell(&store->sealed.sealed, store->path, report);
+    if (damaged != PIR_OK)
+        return damaged;
     return pir_fail(report, PIR_ERR_FORMAT, "%s: %s: %s", store->path, where, why);
 }
 
@@ -213,7 +218,7 @@ static void close_store(pir_store *store) {
         pir_h5_close(store->section[s].group);
     }
     pir_h5_close(store->rotation);
-    pir_h5_close(store->file);
+    pir_sealed_file_close(&store->sealed);
 }
 
 void pir_store_close(pir_store *store) {
@@ -233,14 +238,11 @@ void pir_store_close(pir_store *store) {
 }
 
 static pir_status read_all(pir_store *store, pir_report *report) {
-    FILE *there = fopen(store->path, "rb");
-    if (!there)
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open: %s", store->path, strerror(errno));
-    fclose(there);
-    store->file = H5Fopen(store->path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (store->file < 0)
-        return broken(store, report, "the file", "it is no HDF5, or truncated");
-    pir_status status = read_head(store, report);
+    pir_status status = pir_sealed_file_open(&store->sealed, store->path, &store->allocator, report);
+    if (status != PIR_OK)
+        return status;
+    store->file = store->sealed.file;
+    status = read_head(store, report);
     if (status == PIR_OK)
         status = read_grid(store, report);
     if (status == PIR_OK)
@@ -253,7 +255,8 @@ pir_status pir_store_open(const char *path, const pir_allocator *allocator, pir_
     pir_store *store = PIR_ZEROED(&a, pir_store, 1);
     if (!store)
         return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", path);
-    *store = (pir_store){.allocator = a, .file = -1, .rotation = -1, .path_size = strlen(path) + 1};
+    *store = (pir_store){
+        .allocator = a, .sealed = PIR_NO_SEALED_FILE, .file = -1, .rotation = -1, .path_size = strlen(path) + 1};
     for (int s = 0; s < PIR_SECTION_COUNT; s++)
         store->section[s] = (struct sets){-1, -1, -1, -1, -1, 0};
     store->path = PIR_NEW(&a, char, store->path_size);

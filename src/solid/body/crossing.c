@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two facets that meet where they should not have an edge of one in the other. So each edge is held against the
- * parts whose boxes it meets. An edge may end in a corner of a facet; it may lie along the boundary of a part of
- * its plane, and not in its interior, unless it is a flat edge between facets that the part covers. Everything is
- * decided by signs of determinants.
+ * A surface may touch itself: then it could be moved apart by as little as one likes. It crosses itself where the
+ * insides of two facets share a segment, or an area; or where sheets of it that meet in a segment (seams.h) have each
+ * other's on both sides. What shares single points beside that is apart once those are.
+ *
+ * So each two convex parts in different planes are held against each other. Both are on both sides of the other's
+ * plane, or what they share is in the boundary of one, and seams tell. An edge through the inside of a part is looked
+ * for first, since it is the plainer thing to report. Everything is decided by signs of determinants.
  */
 #include "solid/body/crossing.h"
 
 #include "base/report.h"
+#include "solid/body/seams.h"
 #include "solid/space/boxes.h"
 
 static uint32_t corner_count(const pir_body *body, uint32_t part) {
@@ -27,83 +31,110 @@ bool pir_body_part_holds(pir_body *body, uint32_t part, uint32_t point) {
     return true;
 }
 
-/* Whether the point is a corner of a facet in the part's group. */
-static bool is_corner(const pir_body *body, uint32_t part, uint32_t point) {
-    for (uint32_t i = 0; i < corner_count(body, part); i++)
-        if (corner(body, part, i) == point)
-            return true;
-    const uint32_t group = body->group[body->part_facet[part]];
-    for (uint32_t h = 0; h < body->source.start[body->source.facet_count]; h++)
-        if (body->origin[h] == point && body->group[body->facet[h]] == group)
+bool pir_body_part_has(const pir_body *body, uint32_t part, uint32_t point) {
+    for (uint32_t i = body->part_start[part]; i < body->part_start[part + 1]; i++)
+        if (body->part_corner[i] == point)
             return true;
     return false;
 }
 
-/* Whether an edge in the plane of the part passes through its interior: no side of the part and not the edge itself
- * separates them. */
-static bool passes_within(pir_body *body, const pir_body_edge *edge, uint32_t part) {
-    const uint32_t half = pir_body_half(body, body->part_facet[part]);
-    bool left = false, right = false;
-    for (uint32_t i = 0; i < corner_count(body, part); i++) {
-        const uint32_t p = corner(body, part, i), q = corner(body, part, i + 1);
-        if (pir_space_turn(body->space, half, p, q, edge->a) <= 0 &&
-            pir_space_turn(body->space, half, p, q, edge->b) <= 0)
-            return false;
-        const int side = pir_space_turn(body->space, half, edge->a, edge->b, p);
-        left = left || side > 0;
-        right = right || side < 0;
-    }
-    return left && right;
+int pir_body_part_side(pir_body *body, uint32_t part, uint32_t point) {
+    return pir_body_part_has(body, part, point)
+               ? 0
+               : pir_space_side(body->space, pir_body_half(body, body->part_facet[part]), point);
 }
 
-/* Whether an edge whose ends are on either side of the part's plane passes through it, its boundary included. */
+/* --- edges --- */
+
+/* Whether an edge passes through the inside of a part. */
 static bool passes_through(pir_body *body, const pir_body_edge *edge, uint32_t part) {
-    bool left = false, right = false;
-    for (uint32_t i = 0; i < corner_count(body, part) && !(left && right); i++) {
-        const int side =
-            pir_space_orient(body->space, edge->a, edge->b, corner(body, part, i), corner(body, part, i + 1));
-        left = left || side > 0;
-        right = right || side < 0;
-    }
-    return !(left && right);
-}
-
-static bool touches(pir_body *body, uint32_t point, uint32_t part) {
-    return !is_corner(body, part, point) && pir_body_part_holds(body, part, point);
-}
-
-static bool meet_badly(pir_body *body, const pir_body_edge *edge, uint32_t part) {
-    const uint32_t half = pir_body_half(body, body->part_facet[part]);
-    if (edge->bend == PIR_BEND_FLAT && body->group[edge->left] == body->group[body->part_facet[part]])
+    const int a = pir_body_part_side(body, part, edge->a);
+    if (a == 0 || a * pir_body_part_side(body, part, edge->b) >= 0)
         return false;
-    const int a = pir_space_side(body->space, half, edge->a), b = pir_space_side(body->space, half, edge->b);
-    if (a == 0 && b == 0 && passes_within(body, edge, part))
-        return true;
-    if ((a == 0 && touches(body, edge->a, part)) || (b == 0 && touches(body, edge->b, part)))
-        return true;
-    return a * b < 0 && passes_through(body, edge, part);
+    for (uint32_t i = 0; i < corner_count(body, part); i++)
+        if (a * pir_space_orient(body->space, edge->a, edge->b, corner(body, part, i), corner(body, part, i + 1)) >= 0)
+            return false;
+    return true;
 }
 
-static pir_status refuse(const pir_body *body, const pir_body_edge *edge, uint32_t part) {
-    char where[PIR_BODY_WHERE], beside[PIR_BODY_WHERE], a[PIR_BODY_WHERE], b[PIR_BODY_WHERE];
-    return pir_fail(body->source.report, PIR_ERR_FORMAT,
-                    "%s: the surface meets itself: the edge from %s to %s of this facet meets %s",
-                    pir_body_where(&body->source, edge->left, where), pir_body_place(body, edge->a, a),
-                    pir_body_place(body, edge->b, b), pir_body_where(&body->source, body->part_facet[part], beside));
-}
-
-static pir_status check(pir_body *body, const pir_boxes *boxes, uint32_t *found) {
+static pir_status check_edges(pir_body *body, const pir_boxes *boxes, uint32_t *found) {
     for (uint32_t e = 0; e < body->edge_count && body->space->status == PIR_OK; e++) {
         const pir_body_edge *edge = &body->edge[e];
+        const pir_seam seam = {edge->a, edge->b, edge->left, edge->right, edge->direction, true};
         pir_box box = PIR_BOX_EMPTY;
         pir_box_add(&box, &body->space->point[edge->a]);
         pir_box_add(&box, &body->space->point[edge->b]);
         for (uint32_t i = 0, count = pir_boxes_find(boxes, &box, found); i < count; i++)
-            if (meet_badly(body, edge, found[i]) && body->space->status == PIR_OK)
-                return refuse(body, edge, found[i]);
+            if (passes_through(body, edge, found[i]) && body->space->status == PIR_OK)
+                return pir_seam_refuse(body, &seam, body->part_facet[found[i]]);
     }
     return body->space->status;
 }
+
+/* --- parts --- */
+
+/* Where the line of two planes leaves what of a part is above the other's plane, and where it comes to it: sides of the
+ * part, each from a corner above to one that is not. */
+struct passage {
+    uint32_t leave[2], enter[2];
+};
+
+/* False where the part is not on both sides of the plane of `other`. */
+static bool find_passage(pir_body *body, uint32_t part, uint32_t other, struct passage *ret_passage) {
+    const uint32_t count = corner_count(body, part);
+    const int first = pir_body_part_side(body, other, corner(body, part, 0));
+    bool above = false, below = false;
+    int from = first;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t p = corner(body, part, i), q = corner(body, part, i + 1);
+        const int to = i + 1 < count ? pir_body_part_side(body, other, q) : first;
+        if (from > 0 && to <= 0) {
+            ret_passage->leave[0] = p;
+            ret_passage->leave[1] = q;
+        } else if (from <= 0 && to > 0) {
+            ret_passage->enter[0] = q;
+            ret_passage->enter[1] = p;
+        }
+        above = above || from > 0;
+        below = below || from < 0;
+        from = to;
+    }
+    return above && below;
+}
+
+/*
+ * Whether the insides of two parts share a segment. Let n and m be the normals of p and q, and the line of their
+ * planes lead along n × m. What of q is above p is left of the line, so q is on it from `leave` to `enter`; and p from
+ * `enter` to `leave`. The determinant of two of these sides is negative where the one of p is farther along the line.
+ */
+static bool cross(pir_body *body, uint32_t p, uint32_t q) {
+    struct passage of_p = {{0}, {0}}, of_q = {{0}, {0}};
+    if (!find_passage(body, q, p, &of_q) || !find_passage(body, p, q, &of_p))
+        return false;
+    return pir_space_orient(body->space, of_q.leave[0], of_q.leave[1], of_p.leave[0], of_p.leave[1]) < 0 &&
+           pir_space_orient(body->space, of_q.enter[0], of_q.enter[1], of_p.enter[0], of_p.enter[1]) > 0;
+}
+
+static pir_status refuse_facets(const pir_body *body, uint32_t facet, uint32_t other) {
+    char where[PIR_BODY_WHERE], beside[PIR_BODY_WHERE];
+    return pir_fail(body->source.report, PIR_ERR_FORMAT, "%s: the surface meets itself: this facet crosses %s",
+                    pir_body_where(&body->source, facet, where), pir_body_where(&body->source, other, beside));
+}
+
+static pir_status check_parts(pir_body *body, const pir_boxes *boxes, const pir_box *box, uint32_t *found) {
+    for (uint32_t p = 0; p < body->part_count && body->space->status == PIR_OK; p++) {
+        const uint32_t facet = body->part_facet[p];
+        for (uint32_t i = 0, count = pir_boxes_find(boxes, &box[p], found); i < count; i++) {
+            const uint32_t q = found[i], other = body->part_facet[q];
+            if (q > p && body->half[facet] >> 1 != body->half[other] >> 1 && cross(body, p, q) &&
+                body->space->status == PIR_OK)
+                return refuse_facets(body, facet, other);
+        }
+    }
+    return body->space->status;
+}
+
+/* --- all --- */
 
 pir_status pir_body_check_crossing(pir_body *body) {
     const pir_allocator *a = &body->space->allocator;
@@ -119,7 +150,11 @@ pir_status pir_body_check_crossing(pir_body *body) {
     if (status == PIR_OK && !pir_boxes_init(&boxes, a, box, body->part_count))
         status = PIR_ERR_MEMORY;
     else if (status == PIR_OK) {
-        status = check(body, &boxes, found);
+        status = check_edges(body, &boxes, found);
+        if (status == PIR_OK)
+            status = pir_seams_check(body, &boxes, found);
+        if (status == PIR_OK)
+            status = check_parts(body, &boxes, box, found);
         pir_boxes_finish(&boxes, a);
     }
     PIR_FREE(a, found, body->part_count);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A shell is a part of the surface that edges join. Where a shell does not meet another, all of it is inside or outside
- * of that one; so a segment from a point of it to a point beyond the body counts how often the others are around it,
- * +1 where it leaves through the front of a part, −1 through the back. An outer shell, of positive volume, must be
- * within none, a cavity within one. Shells may touch along edges and at vertices, so the segment begins within a part.
- * One that meets an edge or a corner of a part is replaced by another.
+ * A shell is a part of the surface that edges join. Where a shell does not cross another, all of it is inside or
+ * outside of that one; so a segment from a point of it to a point beyond the body counts how often the others are
+ * around it, +1 where it leaves through the front of a part, −1 through the back. An outer shell, of positive volume,
+ * must be within none, a cavity within one. Shells may touch, but share no area, so the segment begins within a part.
+ * One that begins on another shell, or meets an edge or a corner of a part, is replaced by another.
  */
 #include "solid/body/shells.h"
 
@@ -41,13 +41,16 @@ static void add_volume(const pir_body *body, uint32_t facet, mpz_ptr sum) {
 
 /* --- how shells lie in each other --- */
 
+static uint64_t next_random(struct shells *shells) {
+    return shells->random = shells->random * 6364136223846793005u + 1442695040888963407u;
+}
+
 /* A point beyond the body: its coordinates are above all of the body's, in the cube of the space. */
 static uint32_t point_beyond(struct shells *shells) {
     pir_space *space = shells->body->space;
     mpz_t x[4];
     for (int k = 0; k < 4; k++) {
-        shells->random = shells->random * 6364136223846793005u + 1442695040888963407u;
-        mpz_init_set_ui(x[k], k < 3 ? (shells->random >> 40 | 1u << 24) : 1);
+        mpz_init_set_ui(x[k], k < 3 ? (next_random(shells) >> 40 | 1u << 24) : 1);
         if (k < 3 && space->shift >= 25)
             mpz_mul_2exp(x[k], x[k], (mp_bitcnt_t)(space->shift - 25));
     }
@@ -84,18 +87,21 @@ static int pass(pir_body *body, uint32_t p, uint32_t q, uint32_t part) {
     return on || to == 0 ? UNCLEAR : to > 0 ? THROUGH_FRONT : THROUGH_BACK;
 }
 
-/* A point within a part of the shell: the middle of three corners. */
-static uint32_t point_within(const struct shells *shells, uint32_t shell) {
+/* A point within the first part of the shell: the middle of three corners, or another where the shells' `random` has
+ * chosen weights. */
+static uint32_t point_within(struct shells *shells, uint32_t shell, bool middle) {
     const pir_body *body = shells->body;
     pir_space *space = body->space;
     uint32_t part = 0;
     while (shells->shell[body->part_facet[part]] != shell)
         part++;
     mpz_t x[4];
-    for (int k = 0; k < 4; k++) {
-        mpz_init_set_ui(x[k], k < 3 ? 0 : 3);
-        for (uint32_t i = body->part_start[part]; i < body->part_start[part] + 3 && k < 3; i++)
-            mpz_add(x[k], x[k], space->number[space->point[body->part_corner[i]].exact + (uint32_t)k]);
+    for (int k = 0; k < 4; k++)
+        mpz_init(x[k]);
+    for (uint32_t i = body->part_start[part]; i < body->part_start[part] + 3; i++) {
+        const unsigned long weight = middle ? 1 : (unsigned long)(next_random(shells) >> 48 | 1);
+        for (uint32_t k = 0; k < 4; k++)
+            mpz_addmul_ui(x[k], space->number[space->point[body->part_corner[i]].exact + k], weight);
     }
     const uint32_t point = pir_space_add_point(space, x[0], x[1], x[2], x[3]);
     for (int k = 0; k < 4; k++)
@@ -106,7 +112,7 @@ static uint32_t point_within(const struct shells *shells, uint32_t shell) {
 /* How often the other shells are around the shell; false where no segment could tell. */
 static bool find_winding(struct shells *shells, uint32_t shell, int *ret_winding) {
     pir_body *body = shells->body;
-    const uint32_t from = point_within(shells, shell);
+    uint32_t from = point_within(shells, shell, true);
     for (int attempt = 0; attempt < 64 && body->space->status == PIR_OK; attempt++) {
         const uint32_t to = point_beyond(shells);
         int winding = 0, how = MISSES;
@@ -120,6 +126,7 @@ static bool find_winding(struct shells *shells, uint32_t shell, int *ret_winding
             *ret_winding = winding;
             return true;
         }
+        from = point_within(shells, shell, false);
     }
     return false;
 }
