@@ -25,7 +25,7 @@ pir_status pir_sum_walk(pir_sum *sum) {
     if (region->cone.set && !region->cover.whole) {
         status = pir_region_walk(region, tracked) ? PIR_OK : PIR_ERR_MEMORY;
     } else {
-        pir_crossings_clear(tracked);
+        pir_crossings_forget(tracked);
         pir_region_open(region, tracked);
         status = pir_walk_rebuild(tracked);
     }

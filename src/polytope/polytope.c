@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "polytope/facet_order.h"
 #include "polytope/hull/hull.h"
 
 /* --- memory --- */
@@ -20,7 +21,6 @@ static bool allocate(pir_polytope *p) {
     uint32_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
     p->ring_start = PIR_ZEROED(a, uint32_t, (size_t)v + 1);
     p->origin = PIR_NEW(a, uint32_t, h);
-    p->target = PIR_NEW(a, uint32_t, h);
     p->twin = PIR_NEW(a, uint32_t, h);
     p->left = PIR_NEW(a, uint32_t, h);
     p->edge = PIR_NEW(a, uint32_t, h);
@@ -31,7 +31,8 @@ static bool allocate(pir_polytope *p) {
     p->arc_ends = PIR_NEW(a, pir_arc_ends, e);
     p->source = PIR_NEW(a, uint32_t, v);
     p->vertex = PIR_NEW(a, pir_vec3, v);
-    // one more of each: vector loads of four doubles may reach past the last
+    // a few more of each: vector loads of four doubles, or eight integers, may reach past the last
+    p->target = PIR_ZEROED(a, uint32_t, (size_t)h + PIR_LANES);
     p->direction = PIR_ZEROED(a, pir_vec3, (size_t)h + 1);
     p->normal = PIR_ZEROED(a, pir_vec3, (size_t)f + 1);
     return p->ring_start && p->origin && p->target && p->twin && p->left && p->edge && p->edge_half && p->loop_start &&
@@ -44,7 +45,7 @@ static void destroy(pir_polytope *p) {
     uint32_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
     PIR_FREE(a, p->ring_start, (size_t)v + 1);
     PIR_FREE(a, p->origin, h);
-    PIR_FREE(a, p->target, h);
+    PIR_FREE(a, p->target, (size_t)h + PIR_LANES);
     PIR_FREE(a, p->twin, h);
     PIR_FREE(a, p->left, h);
     PIR_FREE(a, p->edge, h);
@@ -53,6 +54,7 @@ static void destroy(pir_polytope *p) {
     PIR_FREE(a, p->loop, h);
     PIR_FREE(a, p->across, h);
     PIR_FREE(a, p->arc_ends, e);
+    PIR_FREE(a, p->visit, f);
     PIR_FREE(a, p->source, v);
     PIR_FREE(a, p->vertex, v);
     PIR_FREE(a, p->direction, (size_t)h + 1);
@@ -372,7 +374,7 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
         done = connect(p, parts);
     if (done)
         list_neighbours(p);
-    if (!done || !set_vertices(p, parts) || !set_vectors(p) || !set_rings(p)) {
+    if (!done || !pir_order_facets(p) || !set_vertices(p, parts) || !set_vectors(p) || !set_rings(p)) {
         destroy(p);
         return PIR_ERR_MEMORY;
     }

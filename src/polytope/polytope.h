@@ -45,6 +45,11 @@ typedef struct pir_arc_ends {
     uint32_t from, to;
 } pir_arc_ends;
 
+/* A facet, and one beside it that is visited before it: itself for the first. */
+typedef struct pir_visit {
+    uint32_t facet, beside;
+} pir_visit;
+
 struct pir_polytope {
     atomic_uint references;
     pir_allocator allocator;
@@ -60,6 +65,7 @@ struct pir_polytope {
     uint32_t *loop_start, *loop;      /* per facet: its halfedges counter-clockwise */
     pir_across *across;               /* per entry of `loop`: read in place of left[twin[]] and edge[] */
     pir_arc_ends *arc_ends;           /* per edge: left of edge_half, and right of it */
+    pir_visit *visit;                 /* every facet once, in the order of facet_order.c */
     uint32_t *source;                 /* per vertex: index of the input point */
 
     pir_vec3 *vertex;    /* nearest doubles */

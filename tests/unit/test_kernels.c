@@ -42,6 +42,7 @@ static void move(test_random *random, pir_facets *facets, uint32_t vertices, pir
 static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_facets *facets, pir_step step) {
     uint32_t count = facets->count, certificates = pir_certificate_count(&sum->tracked);
     uint32_t *cells = malloc((count + 1) * sizeof *cells), *expired = malloc((count + 1) * sizeof *expired);
+    uint32_t *uncertain = malloc((count + 1) * sizeof *uncertain);
     pir_suspect *suspects = malloc((count + 1) * sizeof *suspects);
     memcpy(cells, facets->cell, count * sizeof *cells);
     for (uint32_t f = 0; f < count; f++)
@@ -58,14 +59,15 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     hash = mix(hash, sum->tracked.certificates.ahead, certificates * sizeof *sum->tracked.certificates.ahead);
     hash = mix(hash, sum->tracked.certificates.behind, certificates * sizeof *sum->tracked.certificates.behind);
     hash = mix(hash, &sides, sizeof sides);
+    memcpy(facets->cell, cells, count * sizeof *cells);
+    for (uint32_t f = 0; f < count; f++)
+        expired[f] = f;
+    uint32_t open = kernels->descend(facets, expired, cells, count, uncertain, &sides);
+    hash = mix(hash, uncertain, open * sizeof *uncertain);
+    hash = mix(hash, facets->cell, count * sizeof *cells);
+    hash = mix(hash, &sides, sizeof sides);
     for (uint32_t f = 0; f < count; f++) {
         pir_probe seen;
-        uint32_t cell = cells[f];
-        uint64_t compared = 0;
-        bool certain = kernels->descend(facets, f, &cell, &compared);
-        hash = mix(hash, &certain, sizeof certain);
-        hash = mix(hash, &cell, sizeof cell);
-        hash = mix(hash, &compared, sizeof compared);
         kernels->probe(facets, &step, cells[f], facets->turn[f % 3], &seen);
         const float spans[4] = {seen.highest, seen.check.margin, seen.check.ahead, seen.check.behind};
         hash = mix(hash, &seen.check.touched, sizeof seen.check.touched);
@@ -75,6 +77,7 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     }
     memcpy(facets->cell, cells, count * sizeof *cells);
     free(suspects);
+    free(uncertain);
     free(expired);
     free(cells);
     return hash;

@@ -52,17 +52,53 @@ static inline void check_in(const pir_facets *facets, const pir_step *step, uint
     *ret_check = seen.check;
 }
 
-static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
+static inline float value(const float *ring, uint32_t i, const float turned[8]) {
+    const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
+    return turned[0] * at[0] + turned[1] * at[PIR_LANES] + turned[2] * at[2 * PIR_LANES];
+}
+
+static inline bool compare(const float *ring, uint32_t blocks, const float turned[8], float s[PIR_LANES]) {
+    bool past = false;
+    for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
+        s[i % PIR_LANES] = value(ring, i, turned);
+        past |= s[i % PIR_LANES] >= -PIR_FLOAT_BOUND;
+    }
+    return past;
+}
+
+static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], const float s[PIR_LANES],
+                             uint32_t *ret_which) {
     float highest = -HUGE_VALF;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
-        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-        float s = turned[0] * at[0] + turned[1] * at[PIR_LANES] + turned[2] * at[2 * PIR_LANES];
-        if (s > highest) {
-            highest = s;
+        float here = blocks == 1 ? s[i] : value(ring, i, turned);
+        if (here > highest) {
+            highest = here;
             *ret_which = i;
         }
     }
     return highest;
+}
+
+void pir_arcs_find_sides(const pir_polytope *q, pir_arcs *arcs) {
+    for (uint32_t k = 0; k < arcs->count; k++) {
+        uint32_t start = q->ring_start[arcs->from[k]], end = q->ring_start[arcs->from[k] + 1], found = PIR_NO_SIDE;
+        for (uint32_t side = end; side-- > start;)
+            found = q->target[side] == arcs->to[k] ? side : found;
+        pir_arcs_take_side(q, arcs, k, start, end, found);
+    }
+}
+
+void pir_arcs_measure_sides(const pir_facets *facets, const pir_polytope *p, const pir_polytope *q, pir_arcs *arcs) {
+    for (uint32_t k = 0; k < arcs->count; k++) {
+        const pir_vec3 d = p->direction[arcs->half[k]];
+        const float x = (float)d.x, y = (float)d.y, z = (float)d.z;
+        const float *right = q->normal4 + 4 * (size_t)arcs->right[k], *left = q->normal4 + 4 * (size_t)arcs->left[k];
+        float turned[3];
+        for (int i = 0; i < 3; i++)
+            turned[i] = facets->turn[0][i] * x + facets->turn[1][i] * y + facets->turn[2][i] * z;
+        arcs->value[k][0] = turned[0] * right[0] + turned[1] * right[1] + turned[2] * right[2];
+        arcs->value[k][1] = turned[0] * left[0] + turned[1] * left[1] + turned[2] * left[2];
+    }
 }
 
 #define DESCEND_TARGET
@@ -108,7 +144,8 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
     return count;
 }
 
-static const pir_kernels scalar = {"scalar", review, probe, descend, collect};
+static const pir_kernels scalar = {"scalar", review, probe, descend, pir_arcs_find_sides, pir_arcs_measure_sides,
+                                   collect};
 
 const pir_kernels *pir_kernels_version(unsigned index) {
     const pir_kernels *versions[4] = {&scalar};

@@ -24,6 +24,7 @@
 #include "base/vec.h"
 #include "dymsum/certificate/certificates.h"
 #include "dymsum/certificate/expiry.h"
+#include "polytope/polytope.h"
 
 #define PIR_FLOAT_BOUND 0x1p-20f
 #define PIR_FLOAT_SLACK 0x1p-18f
@@ -60,6 +61,20 @@ typedef struct pir_suspect {
     /* the one side that it has crossed, having touched no other: its cell is the next one now; or PIR_NO_SIDE */
     uint32_t crossed;
 } pir_suspect;
+
+/* How many arcs of P are walked at a time. */
+#define PIR_ARCS 32
+
+/* Arcs of P whose ends are in different cells of Q. */
+typedef struct pir_arcs {
+    uint32_t count;
+    uint32_t edge[PIR_ARCS], half[PIR_ARCS];  /* of P: the edge, and its halfedge */
+    uint32_t from[PIR_ARCS], to[PIR_ARCS];    /* the cells of its ends */
+    uint32_t side[PIR_ARCS];                  /* the side of the first cell that leads to the last, or PIR_NO_SIDE */
+    uint32_t met[PIR_ARCS];                   /* the edge of that side; where there is none, of some other */
+    uint32_t right[PIR_ARCS], left[PIR_ARCS]; /* the facets of Q at its ends */
+    float value[PIR_ARCS][2];                 /* s of the halfedge and those two */
+} pir_arcs;
 
 /* The facets of one operand over the cells of the other, which is laid out in rings (polytope.h). */
 typedef struct pir_facets {
@@ -98,10 +113,18 @@ typedef struct pir_kernels {
                   pir_probe *ret_probe);
 
     /*
-     * Moves *cell uphill, always along the steepest direction, to the cell that facet f is in. False where floats are
-     * not certain of the next step: *cell is as far as they led. Adds to *sides how many directions were compared.
+     * Finds the cell of each of `count` facets, from vertex `from` uphill, always along the steepest direction.
+     * Where floats are not certain of the next step the facet is listed: its cell is as far as they led. Returns how
+     * many are listed; adds to *sides how many directions were compared.
      */
-    bool (*descend)(const pir_facets *facets, uint32_t f, uint32_t *cell, uint64_t *sides);
+    uint32_t (*descend)(const pir_facets *facets, const uint32_t *facet, const uint32_t *from, uint32_t count,
+                        uint32_t *ret_open, uint64_t *sides);
+
+    /* Finds side, met, right and left of arcs. */
+    void (*find_sides)(const pir_polytope *q, pir_arcs *arcs);
+
+    /* Finds the values of arcs. */
+    void (*measure_sides)(const pir_facets *facets_of_p, const pir_polytope *p, const pir_polytope *q, pir_arcs *arcs);
 
     /*
      * Lists in certificates->expired those of the first `blocks` blocks that do not hold. Makes the bounds of their
@@ -151,6 +174,21 @@ static inline void pir_pack_turned(pir_vec3 u, pir_vec3 w, float ret_turned[8]) 
     for (int k = 0; k < 8; k++)
         ret_turned[k] = (float)from[k];
 }
+
+/* The side of arc k's first cell, of the halfedges from `start` up to `end`, has been found. */
+static inline void pir_arcs_take_side(const pir_polytope *q, pir_arcs *arcs, uint32_t k, uint32_t start, uint32_t end,
+                                      uint32_t found) {
+    uint32_t side = found != PIR_NO_SIDE ? found : start;
+    arcs->side[k] = found;
+    arcs->met[k] = q->edge[side];
+    arcs->right[k] = q->left[(side > start ? side : end) - 1];
+    arcs->left[k] = q->left[side];
+}
+
+/* The scalar reference of two kernels, where a version has none of its own. */
+void pir_arcs_find_sides(const pir_polytope *q, pir_arcs *arcs);
+void pir_arcs_measure_sides(const pir_facets *facets_of_p, const pir_polytope *p, const pir_polytope *q,
+                            pir_arcs *arcs);
 
 /* The versions that this build has and this processor runs, the scalar reference first; NULL past the last. */
 const pir_kernels *pir_kernels_version(unsigned index);

@@ -14,6 +14,9 @@
 /* The lanes in which a and b are equal. */
 #define EQUAL(a, b) ((uint32_t)_mm256_cmp_ps_mask((a), (b), _CMP_EQ_OQ))
 
+/* The same of integers. */
+#define SAME(a, b) ((uint32_t)_mm256_cmpeq_epi32_mask((a), (b)))
+
 /* The lanes in which a is at least b. */
 #define NOT_BELOW(a, b) ((uint32_t)_mm256_cmp_ps_mask((a), (b), _CMP_GE_OQ))
 
@@ -100,6 +103,6 @@ TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, 
                        : collect_at(certificates, blocks, (struct turned_now){ahead, behind, false});
 }
 
-const pir_kernels pir_kernels_avx512 = {"avx512", review, probe, descend, collect};
+const pir_kernels pir_kernels_avx512 = {"avx512", review, probe, descend, find_sides, measure_sides, collect};
 
 #endif

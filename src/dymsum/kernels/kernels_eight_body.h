@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The text that the kernels for AVX2 and AVX-512 share: a block of eight floats at a time. The file that includes this
- * says for which processor by TARGET, compares by EQUAL(a, b) and NOT_BELOW(a, b), masks of the lanes in which a = b
- * and a ≥ b, and defines see_block().
+ * says for which processor by TARGET, and defines see_block(). It compares by EQUAL(a, b), of integers SAME(a, b), and
+ * NOT_BELOW(a, b): masks of the lanes in which a = b, and in which a ≥ b.
  */
 
 #include "polytope/polytope.h"
@@ -103,22 +103,67 @@ TARGET static inline void check_in(const pir_facets *facets, const pir_step *ste
     check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
 
-TARGET static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
-    __m256 x = _mm256_broadcast_ss(turned), y = _mm256_broadcast_ss(turned + 1), z = _mm256_broadcast_ss(turned + 2);
-    float highest = -HUGE_VALF;
+TARGET static inline __m256 values(const float *ring, const float turned[8]) {
+    return dot(_mm256_broadcast_ss(turned), _mm256_broadcast_ss(turned + 1), _mm256_broadcast_ss(turned + 2),
+               _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES), _mm256_loadu_ps(ring + 2 * PIR_LANES));
+}
+
+TARGET static inline bool compare(const float *ring, uint32_t blocks, const float turned[8], float s[PIR_LANES]) {
+    uint32_t past = 0;
     for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
-        __m256 s = dot(x, y, z, _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES),
-                       _mm256_loadu_ps(ring + 2 * PIR_LANES));
-        // most facets are in the cell from which they descend
-        if (!NOT_BELOW(s, _mm256_set1_ps(-PIR_FLOAT_BOUND)))
-            continue;
-        float here = greatest_of(s);
-        if (here > highest) {
-            highest = here;
-            *ret_which = b * PIR_LANES + (uint32_t)__builtin_ctz(EQUAL(s, _mm256_set1_ps(here)));
+        __m256 here = values(ring, turned);
+        _mm256_storeu_ps(s, here);
+        past |= NOT_BELOW(here, _mm256_set1_ps(-PIR_FLOAT_BOUND));
+    }
+    return past != 0;
+}
+
+TARGET static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], const float s[PIR_LANES],
+                                    uint32_t *ret_which) {
+    __m256 here = _mm256_loadu_ps(s);
+    float highest = greatest_of(here);
+    *ret_which = (uint32_t)__builtin_ctz(EQUAL(here, _mm256_set1_ps(highest)));
+    if (blocks == 1)
+        return highest;
+    highest = -HUGE_VALF;
+    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
+        here = values(ring, turned);
+        float most = greatest_of(here);
+        if (most > highest) {
+            highest = most;
+            *ret_which = b * PIR_LANES + (uint32_t)__builtin_ctz(EQUAL(here, _mm256_set1_ps(most)));
         }
     }
     return highest;
+}
+
+TARGET static void find_sides(const pir_polytope *q, pir_arcs *arcs) {
+    for (uint32_t k = 0; k < arcs->count; k++) {
+        uint32_t start = q->ring_start[arcs->from[k]], end = q->ring_start[arcs->from[k] + 1], found = PIR_NO_SIDE;
+        __m256i to = _mm256_set1_epi32((int)arcs->to[k]);
+        for (uint32_t i = start; i < end; i += PIR_LANES) {
+            // there are as many targets more behind the last
+            uint32_t is = SAME(to, _mm256_loadu_si256((const __m256i *)(const void *)(q->target + i)));
+            is &= (uint32_t)pir_side_mask(end - i);
+            found = is ? i + (uint32_t)__builtin_ctz(is) : found;
+        }
+        pir_arcs_take_side(q, arcs, k, start, end, found);
+    }
+}
+
+TARGET static void measure_sides(const pir_facets *facets, const pir_polytope *p, const pir_polytope *q,
+                                 pir_arcs *arcs) {
+    const __m128 t0 = _mm_loadu_ps(facets->turn[0]), t1 = _mm_loadu_ps(facets->turn[1]);
+    const __m128 t2 = _mm_loadu_ps(facets->turn[2]);
+    for (uint32_t k = 0; k < arcs->count; k++) {
+        __m128 d = _mm256_cvtpd_ps(_mm256_loadu_pd(&p->direction[arcs->half[k]].x));
+        __m128 x = _mm_mul_ps(t0, _mm_shuffle_ps(d, d, 0x00)), y = _mm_mul_ps(t1, _mm_shuffle_ps(d, d, 0x55));
+        __m128 turned = _mm_add_ps(_mm_add_ps(x, y), _mm_mul_ps(t2, _mm_shuffle_ps(d, d, 0xAA)));
+        __m128 right = _mm_mul_ps(turned, _mm_loadu_ps(q->normal4 + 4 * (size_t)arcs->right[k]));
+        __m128 left = _mm_mul_ps(turned, _mm_loadu_ps(q->normal4 + 4 * (size_t)arcs->left[k]));
+        __m128 sums = _mm_hadd_ps(right, left);
+        _mm_storel_pi((__m64 *)(void *)arcs->value[k], _mm_hadd_ps(sums, sums));
+    }
 }
 
 #define DESCEND_TARGET TARGET

@@ -87,19 +87,33 @@ static inline void check_in(const pir_facets *facets, const pir_step *step, uint
     check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
 
-static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
-    const float32x4_t u = vld1q_f32(turned);
+static inline float32x4_t values(const float *ring, uint32_t i, const float turned[8]) {
+    const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
+    return dot(vld1q_f32(turned), vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES));
+}
+
+static inline bool compare(const float *ring, uint32_t blocks, const float turned[8], float s[PIR_LANES]) {
+    uint32x4_t past = vdupq_n_u32(0);
+    for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
+        float32x4_t here = values(ring, i, turned);
+        vst1q_f32(s + i % PIR_LANES, here);
+        past = vorrq_u32(past, vcgeq_f32(here, vdupq_n_f32(-PIR_FLOAT_BOUND)));
+    }
+    return vmaxvq_u32(past) != 0;
+}
+
+static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], const float s[PIR_LANES],
+                             uint32_t *ret_which) {
     float highest = -HUGE_VALF;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
-        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-        float32x4_t s = dot(u, vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES));
-        float here = vmaxvq_f32(s), lane[4];
-        if (!(here > highest))
+        float32x4_t here = blocks == 1 ? vld1q_f32(s + i) : values(ring, i, turned);
+        float most = vmaxvq_f32(here), lane[4];
+        if (!(most > highest))
             continue;
-        highest = here;
-        vst1q_f32(lane, s);
+        highest = most;
+        vst1q_f32(lane, here);
         for (uint32_t k = 4; k-- > 0;)
-            *ret_which = lane[k] == here ? i + k : *ret_which;
+            *ret_which = lane[k] == most ? i + k : *ret_which;
     }
     return highest;
 }
@@ -161,6 +175,7 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
     return count;
 }
 
-const pir_kernels pir_kernels_neon = {"neon", review, probe, descend, collect};
+const pir_kernels pir_kernels_neon = {"neon", review, probe, descend, pir_arcs_find_sides, pir_arcs_measure_sides,
+                                      collect};
 
 #endif

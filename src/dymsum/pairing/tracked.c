@@ -13,7 +13,7 @@ static uint32_t most(uint32_t a, uint32_t b) {
 static pir_layout layout_of_work(pir_pairing_work *work) {
     uint32_t queue = most(most(work->facets_p, work->facets_q), work->edges);
     return (pir_layout){
-        {PIR_ROW(work->queue, queue), PIR_ROW(work->mark, queue), PIR_ROW(work->rotated, work->facets_p),
+        {PIR_ROW(work->queue, queue), PIR_ROW(work->met, work->edges), PIR_ROW(work->rotated, work->facets_p),
          PIR_ROW(work->suspects, work->facets_p + work->facets_q), PIR_ROW(work->passes, work->facets_q)}};
 }
 

@@ -30,10 +30,18 @@
  */
 #define PIR_INACTIVE UINT32_MAX
 
+/* The cells of P that the ends of an arc of Q are in, as far as a rebuild knows them from its crossings. */
+typedef struct pir_arc_cells {
+    uint32_t of_less, of_greater; /* of the facet with the smaller number, and of the other; or one of these in both: */
+} pir_arc_cells;
+
+#define PIR_MANY_CELLS UINT32_MAX /* the arc has several crossings, or some that are not known: it tells nothing */
+#define PIR_ONE_CELL   (UINT32_MAX - 1) /* it has none: the two are in one cell */
+
 /* What rebuilds and updates work in: nothing of it lasts from call to call. */
 typedef struct pir_pairing_work {
     uint32_t *queue;       /* facets to visit, or edges */
-    uint8_t *mark;         /* flags of facets or edges */
+    pir_arc_cells *met;    /* per edge of Q, see pir_arc_cells */
     pir_vec3 *rotated;     /* normals of P, rotated */
     pir_suspect *suspects; /* facets of Q that are back in an earlier cell, behind them what a review has listed */
     pir_suspect *passes;   /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */

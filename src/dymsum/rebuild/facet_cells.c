@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Locating facets. Those of P breadth first, each by descent from the cell of a facet beside it.
+ * Locating facets.
+ *
+ * Those of P by descent from the cell of a facet beside each, in the order of visits (polytope/facet_order.c), many at
+ * a time, so that memory is fetched for all of them at once.
  *
  * Those of Q follow from the crossings without a sign. Along the arc of an edge of Q that has no crossing, both ends
  * are in one cell of P. Where it has one crossing, with edge e of P, its right end is in the cell of e's origin and
@@ -10,117 +13,119 @@
  */
 #include "dymsum/rebuild/facet_cells.h"
 
-#include <string.h>
-
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/descent.h"
 
-uint32_t pir_locate_facet_of_p(pir_tracked *tracked, uint32_t f, uint32_t from) {
-    uint32_t cell = from;
+void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, const uint32_t *from, uint32_t count) {
+    const pir_facets *facets = of_p ? &tracked->p_facets : &tracked->q_facets;
+    uint32_t open[PIR_SETTLED_MOST];
+    uint32_t left = tracked->kernels->descend(facets, facet, from, count, open, &tracked->pairing.signs.by_filter);
     pir_expiry unused;
-    if (!tracked->kernels->descend(&tracked->p_facets, f, &cell, &tracked->pairing.signs.by_filter))
-        cell = pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), cell, &unused);
-    return cell;
+    for (uint32_t i = 0; i < left; i++) {
+        uint32_t f = open[i], *cell = &facets->cell[f];
+        *cell = of_p ? pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), *cell, &unused)
+                     : pir_descend_vf(tracked, f, *cell, &unused);
+    }
 }
 
-uint32_t pir_locate_facet_of_q(pir_tracked *tracked, uint32_t g, uint32_t from) {
-    uint32_t cell = from;
-    pir_expiry unused;
-    if (!tracked->kernels->descend(&tracked->q_facets, g, &cell, &tracked->pairing.signs.by_filter))
-        cell = pir_descend_vf(tracked, g, cell, &unused);
-    return cell;
-}
+/* --- facets of P --- */
 
 void pir_locate_facets_of_p(pir_tracked *tracked) {
     const pir_polytope *p = tracked->pairing.p;
-    uint32_t *fv = tracked->pairing.fv, *queue = tracked->work->queue, head = 0, tail = 0;
-    if (p->facet_count == 0)
-        return;
-    for (uint32_t f = 1; f < p->facet_count; f++)
+    uint32_t *fv = tracked->pairing.fv;
+    for (uint32_t f = 0; f < p->facet_count; f++)
         fv[f] = PIR_NO_PAIR;
-    fv[0] = pir_locate_facet_of_p(tracked, 0, 0);
-    queue[tail++] = 0;
-    while (head < tail) {
-        uint32_t f = queue[head++], cell = fv[f];
-        const pir_across *side = p->across + p->loop_start[f], *end = p->across + p->loop_start[f + 1];
-        for (; side < end; side++) {
-            uint32_t beside = side->facet;
-            if (fv[beside] != PIR_NO_PAIR)
+    for (uint32_t i = 0; i < p->facet_count;) {
+        uint32_t facet[PIR_SETTLED_MOST], from[PIR_SETTLED_MOST], count = 0;
+        // as far as the facet beside each has its cell
+        for (; i < p->facet_count && count < PIR_SETTLED_MOST; i++) {
+            const pir_visit visit = p->visit[i];
+            if (fv[visit.beside] == PIR_NO_PAIR && i > 0)
+                break;
+            facet[count] = visit.facet;
+            from[count++] = i > 0 ? fv[visit.beside] : 0;
+        }
+        pir_settle_facets(tracked, true, facet, from, count);
+    }
+}
+
+/* --- facets of Q --- */
+
+void pir_forget_met(pir_tracked *tracked) {
+    pir_arc_cells *met = tracked->work->met;
+    for (uint32_t e = 0; e < tracked->pairing.q->edge_count; e++)
+        met[e] = (pir_arc_cells){PIR_ONE_CELL, PIR_ONE_CELL};
+}
+
+/* The cell of facet g of Q that its sides tell, or PIR_NO_PAIR. Those that tell one tell the same, less than that. */
+static inline uint32_t noted_cell(const pir_tracked *tracked, uint32_t g) {
+    const pir_polytope *q = tracked->pairing.q;
+    const pir_arc_cells *met = tracked->work->met;
+    const uint32_t *vf = tracked->pairing.vf;
+    uint32_t cell = PIR_NO_PAIR;
+    for (const pir_across *side = q->across + q->loop_start[g], *end = q->across + q->loop_start[g + 1]; side < end;
+         side++) {
+        uint32_t beside = vf[side->facet];
+        uint32_t told = g < side->facet ? met[side->edge].of_less : met[side->edge].of_greater;
+        told = told == PIR_ONE_CELL ? beside : told;
+        cell = told < cell ? told : cell;
+    }
+    return cell;
+}
+
+/* Facets beside g along arcs without a crossing are in its cell, and those beside them. */
+static void spread(pir_tracked *tracked, uint32_t g) {
+    const pir_polytope *q = tracked->pairing.q;
+    pir_suspect *list = tracked->work->passes;
+    uint32_t *vf = tracked->pairing.vf, left = 0;
+    list[left++].facet = g;
+    while (left > 0) {
+        uint32_t from = list[--left].facet;
+        for (uint32_t i = q->loop_start[from]; i < q->loop_start[from + 1]; i++) {
+            const pir_across side = q->across[i];
+            if (tracked->work->met[side.edge].of_less != PIR_ONE_CELL || vf[side.facet] != PIR_NO_PAIR)
                 continue;
-            fv[beside] = pir_locate_facet_of_p(tracked, beside, cell);
-            queue[tail++] = beside;
+            vf[side.facet] = vf[g];
+            list[left++].facet = side.facet;
         }
     }
 }
 
-/* Facet g of Q is in the cell of v: it is listed, once. */
-static inline void set_cell(pir_tracked *tracked, uint32_t g, uint32_t v, uint32_t *tail) {
-    if (tracked->pairing.vf[g] != PIR_NO_PAIR)
-        return;
-    tracked->pairing.vf[g] = v;
-    tracked->work->queue[(*tail)++] = g;
-}
-
-/* Counts the crossings of each edge of Q whose mark is 0: afterwards 0, 1, or 2 for more. Other marks stay. */
-static void count_crossings(pir_tracked *tracked) {
-    const pir_polytope *q = tracked->pairing.q;
-    const pir_crossings *c = &tracked->pairing.crossings;
-    uint8_t *mark = tracked->work->mark;
-    for (uint32_t i = 0; i < c->used; i++) {
-        uint8_t *of_edge = &mark[q->edge[c->half[i]]];
-        *of_edge += *of_edge < 2;
+uint32_t pir_take_noted_cells(pir_tracked *tracked, const uint32_t *facet, uint32_t count) {
+    uint32_t *vf = tracked->pairing.vf, open = 0, left = 0;
+    pir_suspect *list = tracked->work->suspects;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t g = facet ? facet[i] : i;
+        vf[g] = noted_cell(tracked, g);
+        list[open].facet = g;
+        open += vf[g] == PIR_NO_PAIR;
     }
-}
-
-/*
- * Cells spread from the facets listed from `head` on, along edges that have no crossing. Returns the end of the list.
- */
-static uint32_t spread(pir_tracked *tracked, uint32_t head, uint32_t tail) {
-    const pir_polytope *q = tracked->pairing.q;
-    for (; head < tail; head++) {
-        uint32_t g = tracked->work->queue[head];
-        for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++)
-            if (tracked->work->mark[q->across[i].edge] == 0)
-                set_cell(tracked, q->across[i].facet, tracked->pairing.vf[g], &tail);
+    // what a facet is told by one that comes later
+    for (uint32_t i = 0; i < open; i++) {
+        uint32_t g = list[i].facet;
+        if (vf[g] == PIR_NO_PAIR && (vf[g] = noted_cell(tracked, g)) != PIR_NO_PAIR)
+            spread(tracked, g);
     }
-    return tail;
-}
-
-/* The cell of a facet beside g that has one, or any. */
-static uint32_t cell_beside(const pir_tracked *tracked, uint32_t g) {
-    const pir_polytope *q = tracked->pairing.q;
-    uint32_t cell = PIR_NO_PAIR;
-    for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1] && cell == PIR_NO_PAIR; i++)
-        cell = tracked->pairing.vf[q->across[i].facet];
-    return cell != PIR_NO_PAIR ? cell : 0;
-}
-
-uint32_t pir_spread_cells_of_q(pir_tracked *tracked) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    const pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t tail = 0;
-    count_crossings(tracked);
-    for (uint32_t i = 0; i < c->used; i++) {
-        uint32_t h = c->half[i], half = p->edge_half[c->edge[i]];
-        if (tracked->work->mark[q->edge[h]] != 1)
-            continue;
-        set_cell(tracked, pir_right(q, h), p->origin[half], &tail);
-        set_cell(tracked, q->left[h], p->target[half], &tail);
+    for (uint32_t i = 0; i < open; i++) {
+        list[left].facet = list[i].facet;
+        left += vf[list[i].facet] == PIR_NO_PAIR;
     }
-    return spread(tracked, 0, tail);
+    return left;
 }
 
 void pir_locate_facets_of_q(pir_tracked *tracked) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t *vf = tracked->pairing.vf;
-    memset(tracked->work->mark, 0, q->edge_count);
     for (uint32_t g = 0; g < q->facet_count; g++)
         vf[g] = PIR_NO_PAIR;
-    uint32_t tail = pir_spread_cells_of_q(tracked);
-    for (uint32_t g = 0; g < q->facet_count && tail < q->facet_count; g++) {
-        uint32_t head = tail;
-        if (vf[g] == PIR_NO_PAIR)
-            set_cell(tracked, g, pir_locate_facet_of_q(tracked, g, cell_beside(tracked, g)), &tail);
-        tail = spread(tracked, head, tail);
+    uint32_t open = pir_take_noted_cells(tracked, NULL, q->facet_count);
+    for (uint32_t i = 0; i < open; i++) {
+        uint32_t g = tracked->work->suspects[i].facet, cell = vf[g];
+        if (cell != PIR_NO_PAIR)
+            continue;
+        cell = pir_cell_beside(q, vf, g);
+        cell = cell != PIR_NO_PAIR ? cell : 0;
+        pir_settle_facets(tracked, false, &g, &cell, 1);
+        spread(tracked, g);
     }
 }

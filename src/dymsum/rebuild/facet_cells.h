@@ -5,21 +5,47 @@
 
 #include "dymsum/pairing/tracked.h"
 
-/* The cell of a facet, from that of vertex `from`. */
-uint32_t pir_locate_facet_of_p(pir_tracked *tracked, uint32_t f, uint32_t from);
-uint32_t pir_locate_facet_of_q(pir_tracked *tracked, uint32_t g, uint32_t from);
+/* How many facets are settled at a time, at most. */
+#define PIR_SETTLED_MOST 32
+
+/*
+ * Gives facets of P, or of Q, their cells, each from that of vertex `from`. They are PIR_SETTLED_MOST or fewer.
+ */
+void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, const uint32_t *from, uint32_t count);
+
+/* The cell of a facet beside f of `own` that has one, or PIR_NO_PAIR. */
+static inline uint32_t pir_cell_beside(const pir_polytope *own, const uint32_t *cell, uint32_t f) {
+    uint32_t found = PIR_NO_PAIR;
+    for (const pir_across *side = own->across + own->loop_start[f], *end = own->across + own->loop_start[f + 1];
+         side < end; side++)
+        found = cell[side->facet] < found ? cell[side->facet] : found;
+    return found;
+}
 
 /* Fills fv. */
 void pir_locate_facets_of_p(pir_tracked *tracked);
 
-/* Fills vf from the crossings, which are all there, in slots without a gap. */
+/* No arc of Q has a crossing: before those of P are walked. */
+void pir_forget_met(pir_tracked *tracked);
+
+/* Edge e of P, its halfedge h, crosses the arc of an edge of Q between two facets, from one to the other. */
+static inline void pir_note_met(pir_tracked *tracked, uint32_t h, uint32_t edge, uint32_t right, uint32_t left) {
+    const pir_polytope *p = tracked->pairing.p;
+    pir_arc_cells *met = &tracked->work->met[edge];
+    // by masks: neither is foreseen
+    uint32_t before = p->origin[h], after = p->target[h], swapped = (before ^ after) & -(uint32_t)(right < left);
+    uint32_t many = -(uint32_t)(met->of_less != PIR_ONE_CELL) & PIR_MANY_CELLS;
+    met->of_less = (after ^ swapped) | many;
+    met->of_greater = (before ^ swapped) | many;
+}
+
+/* Fills vf from what has been noted. */
 void pir_locate_facets_of_q(pir_tracked *tracked);
 
 /*
- * Gives facets of Q cells as far as crossings tell, which are in slots without a gap. In work.mark an edge of Q has 0
- * where all of its crossings are known, otherwise 3 or more. The facets, which had no cells, are in work.queue; returns
- * how many they are.
+ * Gives `count` facets of Q, listed or all, the cells that noted crossings tell; they have none before. The numbers of
+ * those that get none are the first of work.suspects; returns how many these are.
  */
-uint32_t pir_spread_cells_of_q(pir_tracked *tracked);
+uint32_t pir_take_noted_cells(pir_tracked *tracked, const uint32_t *facet, uint32_t count);
 
 #endif

@@ -11,21 +11,14 @@
  */
 uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered);
 
-/* Walks the arc of edge e between two different cells, and lists its crossings. False when out of memory. */
-bool pir_walk_arc(pir_tracked *tracked, uint32_t e, uint32_t from, uint32_t to);
-
 /*
- * Lists the crossings of edge e, whose ends have cells, in a store that has been emptied. False when out of memory.
+ * Lists the crossings of `count` edges of P, listed or all, whose ends have cells, in a store that has been forgotten,
+ * and notes them (pir_note_met). False when out of memory.
  */
-static inline bool pir_walk_edge(pir_tracked *tracked, uint32_t e) {
-    const pir_arc_ends ends = tracked->pairing.p->arc_ends[e];
-    uint32_t from = tracked->pairing.fv[ends.from], to = tracked->pairing.fv[ends.to];
-    // an arc whose ends are in one cell stays in it
-    return from == to || pir_walk_arc(tracked, e, from, to);
-}
+bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count);
 
 /*
- * Makes the whole pairing from nothing and leaves its certificates expired. There are no crossings before. On
+ * Makes the whole pairing from nothing and leaves its certificates expired. Crossings have been forgotten. On
  * PIR_ERR_MEMORY the pairing is not usable.
  */
 pir_status pir_walk_rebuild(pir_tracked *tracked);

@@ -20,24 +20,8 @@ pir_member_place pir_members_of_q(pir_sweep *sweep, pir_tracked *tracked) {
     return (pir_member_place){tracked, &sweep->q, pairing->q, pairing->vf, first, sweep->number, false};
 }
 
-/* A facet's neighbour that has a cell, or PIR_NO_PAIR. */
-static uint32_t cell_beside(const pir_member_place *place, uint32_t f) {
-    const pir_polytope *own = place->own;
-    for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
-        uint32_t v = place->cell[own->across[i].facet];
-        if (v != PIR_NO_PAIR)
-            return v;
-    }
-    return PIR_NO_PAIR;
-}
-
-static void locate(const pir_member_place *place, uint32_t f, uint32_t from, bool certify) {
+static void locate(const pir_member_place *place, uint32_t f, uint32_t from) {
     pir_tracked *tracked = place->tracked;
-    if (!certify) {
-        place->cell[f] =
-            place->of_p ? pir_locate_facet_of_p(tracked, f, from) : pir_locate_facet_of_q(tracked, f, from);
-        return;
-    }
     pir_expiry expiry;
     place->cell[f] = place->of_p ? pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), from, &expiry)
                                  : pir_descend_vf(tracked, f, from, &expiry);
@@ -46,7 +30,7 @@ static void locate(const pir_member_place *place, uint32_t f, uint32_t from, boo
 }
 
 /* Locates members without a cell from facet `from`, which has one: breadth first. */
-static void locate_around(const pir_member_place *place, uint32_t from, bool certify) {
+static void locate_around(const pir_member_place *place, uint32_t from) {
     const pir_polytope *own = place->own;
     const uint32_t *seen = place->facets->members.seen;
     uint32_t *queue = place->tracked->work->queue, head = 0, tail = 0;
@@ -57,20 +41,82 @@ static void locate_around(const pir_member_place *place, uint32_t from, bool cer
             uint32_t to = own->across[i].facet;
             if (seen[to] != place->sweep || place->cell[to] != PIR_NO_PAIR)
                 continue;
-            locate(place, to, cell, certify);
+            locate(place, to, cell);
             queue[tail++] = to;
         }
     }
 }
 
-void pir_members_locate(const pir_member_place *place, bool certify) {
+void pir_members_admit(const pir_member_place *place) {
     const pir_members *members = &place->facets->members;
     for (uint32_t i = 0; i < members->count; i++) {
         uint32_t f = members->at[i];
         if (place->cell[f] != PIR_NO_PAIR)
             continue;
-        uint32_t beside = cell_beside(place, f);
-        locate(place, f, beside != PIR_NO_PAIR ? beside : place->facets->hint[f], certify);
-        locate_around(place, f, certify);
+        uint32_t beside = pir_cell_beside(place->own, place->cell, f);
+        locate(place, f, beside != PIR_NO_PAIR ? beside : place->facets->hint[f]);
+        locate_around(place, f);
+    }
+}
+
+/* As locate_around, many at a time, in a walk. */
+static void settle_around(const pir_member_place *place, uint32_t from) {
+    const pir_polytope *own = place->own;
+    const uint32_t *seen = place->facets->members.seen;
+    uint32_t *queue = place->tracked->work->queue, head = 0, tail = 0, settled = 1, count = 0;
+    uint32_t facet[PIR_SETTLED_MOST], start[PIR_SETTLED_MOST];
+    queue[tail++] = from;
+    while (head < tail) {
+        uint32_t f = queue[head++], cell = place->cell[f];
+        for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
+            uint32_t to = own->across[i].facet;
+            if (seen[to] != place->sweep || place->cell[to] != PIR_NO_PAIR)
+                continue;
+            place->cell[to] = cell;
+            facet[count] = queue[tail++] = to;
+            start[count++] = cell;
+            if (count == PIR_SETTLED_MOST) {
+                pir_settle_facets(place->tracked, place->of_p, facet, start, count);
+                settled = tail;
+                count = 0;
+            }
+        }
+        // those that follow have no cells of their own yet
+        if (head == settled) {
+            pir_settle_facets(place->tracked, place->of_p, facet, start, count);
+            settled = tail;
+            count = 0;
+        }
+    }
+}
+
+void pir_members_locate_beside(const pir_member_place *place) {
+    const pir_members *members = &place->facets->members;
+    uint32_t facet[PIR_SETTLED_MOST], from[PIR_SETTLED_MOST], count = 0;
+    for (uint32_t i = 0; i < members->count; i++) {
+        uint32_t f = members->at[i];
+        if (place->cell[f] != PIR_NO_PAIR)
+            continue;
+        facet[count] = f;
+        from[count] = pir_cell_beside(place->own, place->cell, f);
+        count += from[count] != PIR_NO_PAIR;
+        if (count == PIR_SETTLED_MOST) {
+            pir_settle_facets(place->tracked, place->of_p, facet, from, count);
+            count = 0;
+        }
+    }
+    pir_settle_facets(place->tracked, place->of_p, facet, from, count);
+}
+
+void pir_members_locate(const pir_member_place *place) {
+    const pir_members *members = &place->facets->members;
+    for (uint32_t i = 0; i < members->count; i++) {
+        uint32_t f = members->at[i];
+        if (place->cell[f] != PIR_NO_PAIR)
+            continue;
+        uint32_t from = pir_cell_beside(place->own, place->cell, f);
+        from = from != PIR_NO_PAIR ? from : place->facets->hint[f];
+        pir_settle_facets(place->tracked, place->of_p, &f, &from, 1);
+        settle_around(place, f);
     }
 }

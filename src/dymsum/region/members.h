@@ -26,10 +26,14 @@ static inline void pir_member_drop(const pir_member_place *place, uint32_t f) {
     place->cell[f] = PIR_NO_PAIR;
 }
 
+/* Locates the members without a cell. Each gets a certificate and is noted in the journal. */
+void pir_members_admit(const pir_member_place *place);
+
 /*
- * Locates the members without a cell. `certify`: each gets a certificate and is noted in the journal. Otherwise the
- * caller says afterwards that all certificates have expired, and that anything may have changed.
+ * Locates them in a walk: the caller says afterwards that all certificates have expired, and that anything may have
+ * changed. The first call leaves out those that are not beside a facet with a cell.
  */
-void pir_members_locate(const pir_member_place *place, bool certify);
+void pir_members_locate_beside(const pir_member_place *place);
+void pir_members_locate(const pir_member_place *place);
 
 #endif

@@ -195,8 +195,8 @@ bool pir_region_admit(pir_region *region, pir_tracked *tracked) {
     if (tracked->certificates.expired_all)
         pir_tracked_lay_out_certificates(tracked);
     pir_tracked_begin_step(tracked);
-    pir_members_locate(&p, true);
-    pir_members_locate(&q, true);
+    pir_members_admit(&p);
+    pir_members_admit(&q);
     for (uint32_t i = 0; i < region->sweep->edges.count; i++) {
         uint32_t e = region->sweep->edges.at[i];
         if (tracked->touched[e] != PIR_INACTIVE)

@@ -10,8 +10,6 @@
  *
  * It costs what is in the region and its skins, and a pass over bounds of blocks of facets (sweep.c).
  */
-#include <string.h>
-
 #include "dymsum/pairing/crossings.h"
 #include "dymsum/rebuild/facet_cells.h"
 #include "dymsum/rebuild/walk.h"
@@ -20,10 +18,6 @@
 
 /* By which inner facets of Q are nearer than the reach, in the cosine: far more than rounding. */
 #define INNER_SLACK 0x1p-30
-
-/* A mark of an edge of Q of which no end is inner; each end that is takes HALF_KNOWN off. */
-#define NOT_KNOWN  (2 * HALF_KNOWN)
-#define HALF_KNOWN 3
 
 /* All features become inactive, in whatever state a failed call has left them. */
 static void drop_all(const pir_region *region, pir_tracked *tracked) {
@@ -39,23 +33,32 @@ static void drop_all(const pir_region *region, pir_tracked *tracked) {
             pir_member_drop(&of[k], of[k].facets->members.at[i]);
 }
 
-/* Marks edges of Q: 0 where all crossings are known. */
-static void mark_known(const pir_region *region, pir_tracked *tracked) {
+/*
+ * Lists inner facets of Q in work.queue, and begins to note what their sides cross: nothing, or not all of it is known.
+ * Returns how many they are.
+ */
+static uint32_t begin_notes(const pir_region *region, pir_tracked *tracked) {
     const pir_polytope *q = tracked->pairing.q;
     const pir_members *facets = &region->sweep->q.members;
-    uint8_t *mark = tracked->work->mark;
+    uint32_t *vf = tracked->pairing.vf, *inner = tracked->work->queue, count = 0;
     pir_arc reach = pir_cover_reach(&region->cover);
     pir_vec3 axis = pir_mat_apply(&tracked->pairing.signs.rotation.r, region->cover.axis_p);
-    memset(mark, NOT_KNOWN, q->edge_count);
-    if (!(reach.cosine > INNER_SLACK))
-        return;
+    double least = reach.cosine > INNER_SLACK ? reach.cosine + INNER_SLACK : HUGE_VAL;
     for (uint32_t i = 0; i < facets->count; i++) {
-        uint32_t g = facets->at[i];
-        if (pir_vec_dot(axis, q->normal[g]) < reach.cosine + INNER_SLACK)
-            continue;
-        for (uint32_t k = q->loop_start[g]; k < q->loop_start[g + 1]; k++)
-            mark[q->across[k].edge] -= HALF_KNOWN;
+        inner[count] = facets->at[i];
+        count += pir_vec_dot(axis, q->normal[facets->at[i]]) >= least;
     }
+    // for a while, they have some cell
+    for (uint32_t i = 0; i < count; i++)
+        vf[inner[i]] = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = q->loop_start[inner[i]]; k < q->loop_start[inner[i] + 1]; k++) {
+            uint32_t noted = vf[q->across[k].facet] == 0 ? PIR_ONE_CELL : PIR_MANY_CELLS;
+            tracked->work->met[q->across[k].edge] = (pir_arc_cells){noted, noted};
+        }
+    for (uint32_t i = 0; i < count; i++)
+        vf[inner[i]] = PIR_NO_PAIR;
+    return count;
 }
 
 bool pir_region_walk(pir_region *region, pir_tracked *tracked) {
@@ -65,15 +68,15 @@ bool pir_region_walk(pir_region *region, pir_tracked *tracked) {
     const pir_members *edges = &region->sweep->edges;
     const pir_member_place p = pir_members_of_p(region->sweep, tracked), q = pir_members_of_q(region->sweep, tracked);
     pir_tracked_turn_facets(tracked);
-    pir_members_locate(&p, false);
-    for (uint32_t i = 0; i < edges->count; i++) {
+    pir_members_locate(&p);
+    for (uint32_t i = 0; i < edges->count; i++)
         tracked->touched[edges->at[i]] = 0;
-        if (!pir_walk_edge(tracked, edges->at[i]))
-            return false;
-    }
-    mark_known(region, tracked);
-    pir_spread_cells_of_q(tracked);
-    pir_members_locate(&q, false);
+    uint32_t inner = begin_notes(region, tracked);
+    if (!pir_walk_edges(tracked, edges->at, edges->count))
+        return false;
+    pir_take_noted_cells(tracked, tracked->work->queue, inner);
+    pir_members_locate_beside(&q);
+    pir_members_locate(&q);
     pir_tracked_expire_all(tracked);
     region->admits = false;
     return true;

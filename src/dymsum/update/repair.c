@@ -130,7 +130,7 @@ bool pir_derive_edge(pir_tracked *tracked, uint32_t e) {
     pir_pairing *pairing = &tracked->pairing;
     const pir_polytope *p = pairing->p, *q = pairing->q;
     pir_crossings *c = &pairing->crossings;
-    uint32_t half = p->edge_half[e], end = pairing->fv[pir_right(p, half)], v = pairing->fv[p->left[half]];
+    uint32_t half = p->edge_half[e], end = pairing->fv[p->arc_ends[e].to], v = pairing->fv[p->arc_ends[e].from];
     pir_vec3 direction = pir_rotated_direction(pairing, half);
     uint32_t old = pairing->crossings.first[e], last = PIR_NO_CROSSING, entered = PIR_NO_CROSSING;
     pairing->crossings.first[e] = PIR_NO_CROSSING;

@@ -20,6 +20,7 @@
 
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/descent.h"
+#include "dymsum/update/fetch_ahead.h"
 #include "dymsum/update/repair.h"
 #include "dymsum/update/trace.h"
 
@@ -39,6 +40,7 @@ struct update {
     uint32_t passes; /* in work.passes */
     bool all;        /* every edge is to be derived anew */
     bool failed;     /* out of memory */
+    bool fetches;    /* ahead */
 };
 
 /* Edge e is to be derived again. */
@@ -57,10 +59,10 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     const pir_polytope *p = tracked->pairing.p;
     bool done = true;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
-        uint32_t half = p->loop[i], e = p->edge[half];
+        uint32_t e = p->across[i].edge;
         if (tracked->touched[e] == PIR_INACTIVE)
             continue;
-        done &= p->edge_half[e] == half ? pir_move_start(tracked, e, h) : pir_move_end(tracked, e, h);
+        done &= p->arc_ends[e].from == f ? pir_move_start(tracked, e, h) : pir_move_end(tracked, e, h);
         if (tracked->touched[e] < update->stamp)
             tracked->touched[e] = update->stamp;
     }
@@ -79,10 +81,23 @@ static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half)
     }
 }
 
+/* Fetches for the passes that follow number i. */
+static void fetch_pass(const struct update *update, uint32_t i) {
+    const pir_tracked *tracked = update->tracked;
+    const uint32_t *edge = tracked->pairing.p->edge;
+    const pir_suspect *pass = tracked->work->passes + i;
+    if (i + PIR_FETCHED_AHEAD < update->passes)
+        pir_fetch_edge(tracked, edge[pass[PIR_FETCHED_AHEAD].crossed]);
+    if (i + PIR_FETCHED_AHEAD / 2 < update->passes)
+        pir_fetch_crossing(tracked, edge[pass[PIR_FETCHED_AHEAD / 2].crossed]);
+}
+
 /* Repairs the edges that one facet of Q has crossed and no other event has touched. */
 static void pass_facets(struct update *update) {
     pir_tracked *tracked = update->tracked;
     for (uint32_t i = 0; i < update->passes && !update->all; i++) {
+        if (update->fetches)
+            fetch_pass(update, i);
         uint32_t g = tracked->work->passes[i].facet, half = tracked->work->passes[i].crossed,
                  e = tracked->pairing.p->edge[half];
         if (tracked->touched[e] == update->stamp)
@@ -230,12 +245,39 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
     return left;
 }
 
+/* Fetches for the suspects of P that follow one, with `left` of them behind it. */
+static void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    if (left > PIR_FETCHED_AHEAD)
+        pir_fetch_sides(tracked, suspect[PIR_FETCHED_AHEAD].facet, false);
+    if (left <= PIR_FETCHED_AHEAD / 2)
+        return;
+    const pir_suspect *next = suspect + PIR_FETCHED_AHEAD / 2;
+    pir_fetch_sides(tracked, next->facet, true);
+    if (next->crossed == PIR_NO_SIDE)
+        pir_fetch_trace(&tracked->p_facets, p, q, next->facet);
+}
+
+/* The same of Q. */
+static void fetch_suspect_of_q(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
+    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    if (left <= PIR_FETCHED_AHEAD / 2)
+        return;
+    const pir_suspect *next = suspect + PIR_FETCHED_AHEAD / 2;
+    if (next->crossed == PIR_NO_SIDE)
+        pir_fetch_trace(&tracked->q_facets, q, p, next->facet);
+    else
+        __builtin_prefetch(&tracked->touched[p->edge[next->crossed]], 1);
+}
+
 /*
  * Applies what a review has found of facets of Q. All of P come first, so that each edge shows whether another event
  * has touched it.
  */
 static void apply_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
+        if (update->fetches)
+            fetch_suspect_of_q(update->tracked, suspects + i, count - i);
         pir_journal_note(&update->tracked->journal, update->tracked->q_facets.first_certificate + suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_q(update, suspects[i].facet);
@@ -248,6 +290,8 @@ static void apply_of_q(struct update *update, const pir_suspect *suspects, uint3
 
 static void apply_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
+        if (update->fetches)
+            fetch_suspect_of_p(update->tracked, suspects + i, count - i);
         pir_journal_note(&update->tracked->journal, suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_p(update, suspects[i].facet);
@@ -283,6 +327,23 @@ static void review(struct update *update, uint32_t expired) {
     pass_facets(update);
 }
 
+/* Fetches for the edges to be derived anew that follow number i. */
+static void fetch_derived(const struct update *update, uint32_t i) {
+    const pir_tracked *tracked = update->tracked;
+    const uint32_t *edge = tracked->work->queue + i;
+    if (i + PIR_FETCHED_AHEAD < update->derive) {
+        pir_fetch_edge(tracked, edge[PIR_FETCHED_AHEAD]);
+        __builtin_prefetch(&tracked->pairing.p->edge_half[edge[PIR_FETCHED_AHEAD]]);
+    }
+    if (i + PIR_FETCHED_AHEAD / 2 < update->derive) {
+        uint32_t e = edge[PIR_FETCHED_AHEAD / 2];
+        pir_fetch_crossing(tracked, e);
+        __builtin_prefetch(&tracked->pairing.p->direction[tracked->pairing.p->edge_half[e]]);
+        __builtin_prefetch(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].from]);
+        __builtin_prefetch(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].to]);
+    }
+}
+
 /* A stamp greater than all in `touched`. */
 static uint32_t next_stamp(pir_tracked *tracked) {
     if (tracked->stamp >= UINT32_MAX - 3) {
@@ -303,12 +364,14 @@ pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
     if (expired == 0 && !jumped)
         return PIR_OK;
     tracked->statistics.checked += expired;
-    struct update update = {.tracked = tracked, .stamp = next_stamp(tracked)};
+    struct update update = {.tracked = tracked, .stamp = next_stamp(tracked), .fetches = pir_fetches_ahead(tracked)};
     update.all = jumped || !(pir_epoch_reach(&tracked->epoch) < HUGE_VALF);
     review(&update, expired);
     for (uint32_t e = 0; update.all && e < tracked->pairing.p->edge_count; e++)
         note_edge(&update, e);
     for (uint32_t i = 0; i < update.derive && !update.failed; i++) {
+        if (update.fetches)
+            fetch_derived(&update, i);
         pir_journal_note_edge(&tracked->journal, tracked->work->queue[i]);
         update.failed = !pir_derive_edge(tracked, tracked->work->queue[i]);
     }

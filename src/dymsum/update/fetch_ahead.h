@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Memory that repairs will read, fetched while others are under way. On large bodies it is in no cache near the
+ * processor, and what is to be repaired is known well ahead. Nothing depends on these calls but time.
+ *
+ * An edge is fetched in two turns: first what has its number, then its first crossing.
+ */
+#ifndef PIR_DYMSUM_UPDATE_FETCH_AHEAD_H
+#define PIR_DYMSUM_UPDATE_FETCH_AHEAD_H
+
+#include "dymsum/pairing/tracked.h"
+
+/* Sums with so many facets fetch ahead, by so many items for an edge, and half of that for its crossings. */
+#define PIR_FETCHING_FACETS 32768
+#define PIR_FETCHED_AHEAD   16
+
+static inline bool pir_fetches_ahead(const pir_tracked *tracked) {
+    return pir_certificate_count(tracked) >= PIR_FETCHING_FACETS;
+}
+
+static inline void pir_fetch_edge(const pir_tracked *tracked, uint32_t e) {
+    __builtin_prefetch(&tracked->pairing.crossings.first[e], 1);
+    __builtin_prefetch(&tracked->touched[e], 1);
+    __builtin_prefetch(&tracked->pairing.p->arc_ends[e]);
+}
+
+static inline void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
+    const pir_crossings *c = &tracked->pairing.crossings;
+    uint32_t slot = c->first[e] != PIR_NO_CROSSING ? c->first[e] : 0;
+    __builtin_prefetch(&c->half[slot], 1);
+    __builtin_prefetch(&c->next[slot], 1);
+    __builtin_prefetch(&c->edge[slot], 1);
+}
+
+/* Fetches the sides of facet f of P in either turn. */
+static inline void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, bool crossings) {
+    const pir_polytope *p = tracked->pairing.p;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
+        if (crossings)
+            pir_fetch_crossing(tracked, p->across[i].edge);
+        else
+            pir_fetch_edge(tracked, p->across[i].edge);
+    }
+}
+
+/* Fetches what a trace of facet f of `own` begins with. */
+static inline void pir_fetch_trace(const pir_facets *facets, const pir_polytope *own, const pir_polytope *other,
+                                   uint32_t f) {
+    uint32_t start = other->ring_start[facets->cell[f]];
+    for (uint32_t line = 0; line < 3; line++)
+        __builtin_prefetch((const char *)(other->direction + start) + 64 * (size_t)line);
+    __builtin_prefetch(other->target + start);
+    __builtin_prefetch(&own->normal[f]);
+}
+
+#endif
