@@ -14,9 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is far below u·n. */
-#define NEAR_ONE 0x1p-400
-
 /* The greatest binary exponent among the components, as frexp gives it. */
 static int top_exponent(const double c[4]) {
     double most = fmax(fmax(fabs(c[0]), fabs(c[1])), fmax(fabs(c[2]), fabs(c[3])));
@@ -27,31 +24,17 @@ static int top_exponent(const double c[4]) {
 }
 
 pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
-    double x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
-    if (!(n >= NEAR_ONE && n <= 1 / NEAR_ONE)) {
-        const double c[4] = {q.x, q.y, q.z, q.w};
-        for (int k = 0; k < 4; k++)
-            if (!isfinite(c[k]))
-                return PIR_ERR_NOT_FINITE;
-        if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
-            return PIR_ERR_ZERO_QUATERNION;
-        int top = top_exponent(c);
-        x = ldexp(x, -top);
-        y = ldexp(y, -top);
-        z = ldexp(z, -top);
-        w = ldexp(w, -top);
-    }
-    double xx = x * x, yy = y * y, zz = z * z, ww = w * w;
-    n = xx + yy + zz + ww;
-    double by = 1 / n, shrink = 1 / sqrt(n);
-    rotation->given = q;
-    rotation->rest = (pir_quat){0, 0, 0, 0};
-    rotation->relative = false;
-    rotation->unit = (pir_quat){x * shrink, y * shrink, z * shrink, w * shrink};
-    rotation->r = (pir_mat3){{{(ww + xx - yy - zz) * by, 2 * (x * y - w * z) * by, 2 * (x * z + w * y) * by},
-                              {2 * (x * y + w * z) * by, (ww - xx + yy - zz) * by, 2 * (y * z - w * x) * by},
-                              {2 * (x * z - w * y) * by, 2 * (y * z + w * x) * by, (ww - xx - yy + zz) * by}}};
-    rotation->has_exact = false;
+    if (pir_rotation_set_near_one(rotation, q))
+        return PIR_OK;
+    const double c[4] = {q.x, q.y, q.z, q.w};
+    for (int k = 0; k < 4; k++)
+        if (!isfinite(c[k]))
+            return PIR_ERR_NOT_FINITE;
+    if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
+        return PIR_ERR_ZERO_QUATERNION;
+    int top = top_exponent(c);
+    pir_rotation_set_scaled(rotation, q,
+                            (pir_quat){ldexp(q.x, -top), ldexp(q.y, -top), ldexp(q.z, -top), ldexp(q.w, -top)});
     return PIR_OK;
 }
 
@@ -305,20 +288,4 @@ void pir_rotation_apply_transposed(const pir_rotation *rotation, pir_int3 *dst, 
             {rotation->integers->m[0][i], rotation->integers->m[1][i], rotation->integers->m[2][i]}};
         pir_int3_dot(&dst->c[i], &column, v, scratch);
     }
-}
-
-/* The distance between unit quaternions a and b·sign. */
-static double chord(pir_quat a, pir_quat b, double sign) {
-    double x = a.x - sign * b.x, y = a.y - sign * b.y, z = a.z - sign * b.z, w = a.w - sign * b.w;
-    return sqrt(x * x + y * y + z * z + w * w);
-}
-
-double pir_rotation_angle_bound(pir_quat a, pir_quat b) {
-    /*
-     * Unit quaternions at distance c (up to sign) turn by θ = 4 asin(c/2), c ≤ √2. (asin(y) − y)/y³ rises with
-     * y and is below 0.2215 at y = √2/2, so θ ≤ 4 (y + 0.2215 y³). Rounding: each unit quaternion is off by at
-     * most 8u, the chord so by 16u and, relatively, by 5u; 2^-48 = 32u on c and 1 + 2^-48 on the result hold all of it.
-     */
-    double y = 0.5 * (chord(a, b, a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1 : 1) + 0x1p-48);
-    return 4 * (y + 0.2215 * (y * y * y)) * (1 + 0x1p-48);
 }

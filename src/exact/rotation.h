@@ -42,6 +42,32 @@ struct pir_rotation {
     pir_rotation_integers *integers; /* set by whoever asks for integers; pir_rotation_set leaves it as it is */
 };
 
+/* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is far below u·n. */
+#define PIR_NORM_NEAR_ONE 0x1p-400
+
+/* Sets a rotation to the quaternion `given`; `c` is that times a power of two. */
+static inline void pir_rotation_set_scaled(pir_rotation *rotation, pir_quat given, pir_quat c) {
+    double x = c.x, y = c.y, z = c.z, w = c.w, xx = x * x, yy = y * y, zz = z * z, ww = w * w;
+    double n = xx + yy + zz + ww, by = 1 / n, shrink = 1 / sqrt(n);
+    rotation->given = given;
+    rotation->rest = (pir_quat){0, 0, 0, 0};
+    rotation->relative = false;
+    rotation->unit = (pir_quat){x * shrink, y * shrink, z * shrink, w * shrink};
+    rotation->r = (pir_mat3){{{(ww + xx - yy - zz) * by, 2 * (x * y - w * z) * by, 2 * (x * z + w * y) * by},
+                              {2 * (x * y + w * z) * by, (ww - xx + yy - zz) * by, 2 * (y * z - w * x) * by},
+                              {2 * (x * z - w * y) * by, 2 * (y * z + w * x) * by, (ww - xx - yy + zz) * by}}};
+    rotation->has_exact = false;
+}
+
+/* Takes `q` where it needs no scaling, as most do. */
+static inline bool pir_rotation_set_near_one(pir_rotation *rotation, pir_quat q) {
+    double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    if (!(n >= PIR_NORM_NEAR_ONE && n <= 1 / PIR_NORM_NEAR_ONE))
+        return false;
+    pir_rotation_set_scaled(rotation, q, q);
+    return true;
+}
+
 /* Takes `q`: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, or PIR_OK. On failure *rotation is as it was. */
 pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q);
 
@@ -64,8 +90,28 @@ void pir_rotation_make_exact(pir_rotation *rotation);
 void pir_rotation_apply_transposed(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch);
 void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_int3 *v, pir_limbs *scratch);
 
-/* An upper bound, tight to a few parts in 10^15 for small turns, on the angle between two rotations in
- * radians, given by their `unit` quaternions. */
-double pir_rotation_angle_bound(pir_quat a, pir_quat b);
+/* --- angles --- */
+
+/*
+ * An upper bound on the angle between two rotations in radians, given by quaternions that are near their `unit`
+ * ones; `error` is by how much, both together.
+ */
+static inline double pir_rotation_angle_bound_within(pir_quat a, pir_quat b, double error) {
+    /*
+     * Unit quaternions at distance 2y ≤ √2 (up to sign) turn by θ = 4 asin(y). (asin(y) − y)/y³ rises with y,
+     * and is below 0.2215 at y = √2/2. So θ ≤ 4 (y + 0.2215 y³), which is above π from there on. The chord is
+     * off by 5u, relatively; 1 + 2^-48 on the result holds that.
+     */
+    double sign = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1 : 1;
+    double x = a.x - sign * b.x, y = a.y - sign * b.y, z = a.z - sign * b.z, w = a.w - sign * b.w;
+    double half = 0.5 * (sqrt(x * x + y * y + z * z + w * w) + error);
+    return 4 * (half + 0.2215 * (half * half * half)) * (1 + 0x1p-48);
+}
+
+/* The same for `unit` quaternions; tight to a few parts in 10^15 for small turns. */
+static inline double pir_rotation_angle_bound(pir_quat a, pir_quat b) {
+    // each unit quaternion is off by at most 8u, the chord so by 16u, which with the 5u is below 2^-48 = 32u
+    return pir_rotation_angle_bound_within(a, b, 0x1p-48);
+}
 
 #endif

@@ -3,7 +3,8 @@
  * Queries on a pair. Ways to an answer are tried in the order in which the last answer makes them likely; each ends
  * with a proof at this placement, or leaves the question open for the next.
  *
- *   - certificate: the proven distance of an earlier answer, less the motion since;
+ *   - certificate: the proven distance of an earlier answer, less the motion since; after the last one without a
+ *     frame (still_apart.h);
  *   - axis: the direction in which the last answer was apart by more than the cutoff (apart.c);
  *   - same facet: the facet of the last answer, proven again by doubles (same_facet.h). Where it separates, it is the
  *     nearest; where x is within it, foot.h or lead.h tell whether it is the least;
@@ -15,6 +16,7 @@
  */
 #include "pair/apart.h"
 #include "pair/overlap.h"
+#include "pair/still_apart.h"
 #include "pair/task.h"
 #include "query/last/foot.h"
 
@@ -38,6 +40,7 @@ static bool by_certificate(pir_task *task) {
     if (!(left > 0))
         return false;
     task->is_outside = true;
+    pir_pair_keep_left(task->pair, left);
     if (!(task->want & PIR_WANT_SEPARATION))
         return true;
     if (!(left > task->limit + PIR_DISTANCE_ERROR * placement->reach))
@@ -59,7 +62,7 @@ static int measure_same(pir_task *task, pir_same is) {
 }
 
 /* The answer from the same facet, where that is enough. */
-static bool settle_same(pir_task *task, pir_same is) {
+static inline bool settle_same(pir_task *task, pir_same is) {
     const pir_same_facet *same = &task->same;
     const pir_frame *frame = &task->workspace->frame;
     task->has_same = is >= PIR_SAME_NEAR;
@@ -147,15 +150,15 @@ static bool by_facet(pir_task *task) {
 
 /* --- by a surface --- */
 
-static pir_overlap overlap_of(pir_task *task) {
+static pir_overlap overlap_of(pir_task *task, bool is_new) {
     pir_pair *pair = task->pair;
     pir_workspace *workspace = task->workspace;
     if (!pair->surface)
         pair->surface = PIR_ZEROED(&pair->allocator, pir_surface, 1);
     // without memory, one that is not kept
     return (pir_overlap){task->exact,      task->placement,   pair->surface ? pair->surface : &workspace->spare,
-                         &workspace->room, &pair->statistics, &task->has_same,
-                         &task->same};
+                         &workspace->room, &pair->statistics, is_new,
+                         &task->has_same,  &task->same};
 }
 
 /* The answer from a surface about x. */
@@ -195,14 +198,14 @@ static bool by_surface(pir_task *task) {
     pir_facet facet;
     if (!surface || surface->count == 0)
         return false;
-    pir_overlap overlap = overlap_of(task);
+    pir_overlap overlap = overlap_of(task, false);
     return finish(task, &overlap, pir_overlap_place(&overlap) ? PIR_ABOUT_X : pir_overlap_repair(&overlap, &facet),
                   &facet);
 }
 
 static bool by_new_surface(pir_task *task) {
     const pir_frame *frame = &task->workspace->frame;
-    pir_overlap overlap = overlap_of(task);
+    pir_overlap overlap = overlap_of(task, true);
     pir_facet facet;
     bool done = finish(task, &overlap, pir_overlap_begin(&overlap, &task->simplex, &facet), &facet);
     if (!done) {
@@ -223,7 +226,7 @@ static bool allows(const pir_pair *pair, pir_level level) {
 
 static bool by_need(pir_task *task) {
     pir_pair *pair = task->pair;
-    if (allows(pair, PIR_LEVEL_APART) && (by_certificate(task) || pir_task_apart(task))) {
+    if (allows(pair, PIR_LEVEL_APART) && (by_certificate(task) || (pair->has_axis && pir_task_apart(task)))) {
         pair->statistics.by_certificate++;
         pir_task_end(task, PIR_LEVEL_APART);
         return true;
@@ -244,44 +247,64 @@ static void add_radii(const pir_pair_input *input, pir_query_result *result) {
     pir_result_add_radii(&radii, result);
 }
 
-static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want,
-                         pir_query_result *ret_result) {
-    pir_placement placement;
-    if (!ret_result)
-        return PIR_ERR_ARGUMENT;
-    pir_status status = pir_pair_begin(pair, workspace, input, &placement);
-    if (status != PIR_OK)
-        return status;
-    pir_query_result result;
-    pir_result_clear(&result);
+/* The answer where it takes no frame. */
+static bool is_still_apart(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want) {
+    if (!(want & PIR_WANT_SEPARATION) || !allows(pair, PIR_LEVEL_APART) ||
+        !pir_pair_still_apart(pair, workspace, input))
+        return false;
+    pir_result_clear(&workspace->answer);
+    workspace->answer.outcome = PIR_BEYOND_CUTOFF;
+    workspace->answer.distance = input->cutoff > 0 ? input->cutoff : 0;
+    pair->statistics.queries++;
+    pair->statistics.by_certificate++;
+    pair->level = PIR_LEVEL_APART;
+    return true;
+}
+
+/* The answer in the workspace, the frame being set. */
+static pir_status find_answer(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want) {
+    pir_query_result *result = &workspace->answer;
+    pir_result_clear(result);
     double radii = input->radius_p + input->radius_q;
     pir_task task;
     task.pair = pair;
     task.workspace = workspace;
-    task.placement = &placement;
+    task.placement = &workspace->placement;
     task.exact = &workspace->exact;
     task.is_outside = task.has_same = task.in_doubt = false;
     task.simplex.count = task.simplex.tried = 0;
     task.want = want | (radii > 0 ? PIR_WANT_SEPARATION | PIR_WANT_DEPTH : 0);
     task.limit = pir_frame_from(&workspace->frame, (input->cutoff > 0 ? input->cutoff : 0) + radii);
-    task.result = &result;
+    task.result = result;
     pair->statistics.queries++;
     if (!by_need(&task)) {
         if (!allows(pair, PIR_LEVEL_WHOLE))
             return PIR_ERR_UNSUPPORTED;
-        status = pir_pair_whole(pair, workspace, input, want, &result);
+        pir_status status = pir_pair_whole(pair, workspace, input, want, result);
         if (status != PIR_OK)
             return status;
         pair->statistics.by_whole++;
         pir_task_end(&task, PIR_LEVEL_WHOLE);
-    } else {
-        if (radii > 0 || result.outcome == PIR_BEYOND_CUTOFF)
-            add_radii(input, &result);
+    } else if (radii > 0 || result->outcome == PIR_BEYOND_CUTOFF) {
+        add_radii(input, result);
     }
-    pir_pair_to_world(workspace, &result);
-    if (pair->held.some)
-        workspace->answer = result;
-    *ret_result = result;
+    if (workspace->posed)
+        pir_pair_to_world(workspace, result);
+    return PIR_OK;
+}
+
+static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want,
+                         pir_query_result *ret_result) {
+    if (!pair || !workspace || !input || !ret_result)
+        return PIR_ERR_ARGUMENT;
+    if (!is_still_apart(pair, workspace, input, want)) {
+        pir_status status = pir_pair_begin(pair, workspace, input);
+        if (status == PIR_OK)
+            status = find_answer(pair, workspace, input, want);
+        if (status != PIR_OK)
+            return status;
+    }
+    *ret_result = workspace->answer;
     return PIR_OK;
 }
 

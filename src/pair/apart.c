@@ -47,7 +47,7 @@ void pir_task_keep_axis(const pir_task *task, pir_vec3 n) {
 bool pir_task_apart(pir_task *task) {
     const pir_frame *frame = &task->workspace->frame;
     pir_pair *pair = task->pair;
-    if (!pair->has_axis || !(task->want & PIR_WANT_SEPARATION))
+    if (!(task->want & PIR_WANT_SEPARATION))
         return false;
     pir_vec3 n = pair->axis, back = pir_mat_apply_transposed(&frame->r, n);
     pair->axis_a = pir_climb(frame->p.polytope, back, pair->axis_a);

@@ -98,6 +98,19 @@ static bool piece_at(const pir_overlap *overlap, uint32_t t, pir_piece *ret_piec
 /* What came of an expansion: nothing is beyond the triangle, the surface has changed, or it could not. */
 enum expansion { NOTHING_BEYOND, CHANGED, STUCK };
 
+/* Bodies of more vertices than this have corners of large triangles that are far from what is beyond those. */
+#define FEW_VERTICES 32
+
+/* The vertex of a body farthest along a direction, uphill from a vertex, or from a landmark that is farther. */
+static inline uint32_t climb(const pir_overlap *overlap, const pir_body *body, pir_vec3 n, double least,
+                             uint32_t from) {
+    if (overlap->is_new && body->polytope->vertex_count > FEW_VERTICES) {
+        uint32_t mark = body->landmarks[pir_landmark_of(n)];
+        from = pir_vec_dot(n, body->vertex[mark]) > pir_vec_dot(n, body->vertex[from]) ? mark : from;
+    }
+    return pir_climb_above(body->polytope, n, least, from);
+}
+
 /*
  * Adds the vertex of D farthest along the normal of triangle t, where it is beyond the triangle by more than
  * rounding, or makes room for it. *ret_corner is its number, PIR_SURFACE_CORNERS where it was no new one.
@@ -107,8 +120,8 @@ static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *r
     pir_vec3 n = pir_surface_normal(overlap->room, t);
     double least = PIR_LEAST_SLOPE * sqrt(pir_vec_dot(n, n));
     uint32_t first = corner_of(overlap, t, 0), a = overlap->surface->a[first], b = overlap->surface->b[first];
-    a = pir_climb_above(frame->p.polytope, pir_mat_apply_transposed(&frame->r, n), least, a);
-    b = pir_climb_above(frame->q.polytope, n, least, b);
+    a = climb(overlap, &frame->p, pir_mat_apply_transposed(&frame->r, n), least, a);
+    b = climb(overlap, &frame->q, n, least, b);
     pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, a, b), overlap->room->centre);
     if (!(pir_vec_dot(n, w) > overlap->room->plane.det[t] + overlap->room->det_error))
         return NOTHING_BEYOND;

@@ -35,6 +35,7 @@ struct pir_pair {
     uint8_t points;                 /* of the simplex below */
     uint32_t a[3], b[3];
     pir_piece facet;         /* of the last answer; its corner may have changed */
+    float left;              /* a proof at the poses of the last call: see still_apart.h; 0 where there is none */
     pir_vec3 axis;           /* unit; x was apart along it by more than the cutoff */
     uint32_t axis_a, axis_b; /* the supports there */
     pir_surface *surface;    /* made when first needed; used where `deep` */
@@ -73,8 +74,9 @@ struct pir_workspace {
      */
     const pir_pair *pair; /* never followed */
     pir_pose pose[2];     /* of P and of Q */
+    bool is_framed;       /* whether the frame is at these poses: still_apart.h needs none */
     pir_placement placement;
-    pir_query_result answer; /* that it gave, where the pair holds its facet */
+    pir_query_result answer; /* that it gave */
     pir_leeway moved;        /* since the proof that is held; no numbers where the call did not look */
 
     /* the level `whole`: for the bodies of the pair that took it last */
@@ -84,14 +86,26 @@ struct pir_workspace {
 
 /* --- begin.c --- */
 
-/* What every call begins with: checks, the frame at the relative pose, the placement. */
-pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
-                          pir_placement *ret_placement);
+/* Whether radii, cutoff and margin are numbers that mean something. */
+static inline pir_status pir_pair_check(const pir_pair_input *input) {
+    const double p = input->radius_p, q = input->radius_q;
+    // NaN is equal to nothing
+    if (p >= 0 && p < HUGE_VAL && q >= 0 && q < HUGE_VAL && input->cutoff == input->cutoff &&
+        input->margin == input->margin)
+        return PIR_OK;
+    bool some = isnan(p) || isnan(q) || isnan(input->cutoff) || isnan(input->margin);
+    return some ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
+}
 
-/* The same for a call that follows one on this pair in this workspace: at the same poses it uses what that one made. */
-pir_status pir_pair_resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input);
+/* Whether the last call in this workspace was on this pair, and this pair's last call was in this workspace. */
+static inline bool pir_pair_is_at(const pir_pair *pair, const pir_workspace *workspace) {
+    return workspace->pair == pair && pair->workspace == workspace;
+}
 
-/* A point in Q's frame, and a result, brought to the world. */
+/* What every call begins with: checks, the frame at the relative pose, the workspace's placement. */
+pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input);
+
+/* A point in Q's frame, and a result, brought to the world: where Q is not at the origin, or turned. */
 pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y);
 void pir_pair_to_world(const pir_workspace *workspace, pir_query_result *result);
 

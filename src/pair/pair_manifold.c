@@ -31,6 +31,21 @@ static void to_world(const pir_workspace *workspace, const pir_query_result *ans
     }
 }
 
+/*
+ * What a call begins with that may follow one on this pair in this workspace: at the same poses it uses what that one
+ * made. Where it needs no frame none is made.
+ */
+static pir_status resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, bool needs_frame) {
+    if (!pair || !workspace || !input)
+        return PIR_ERR_ARGUMENT;
+    const pir_pose *pose = workspace->pose;
+    // bits may differ where numbers do not: then it begins anew
+    if (!pir_pair_is_at(pair, workspace) || (needs_frame && !workspace->is_framed) ||
+        memcmp(&input->pose_p, &pose[0], sizeof *pose) != 0 || memcmp(&input->pose_q, &pose[1], sizeof *pose) != 0)
+        return pir_pair_begin(pair, workspace, input);
+    return pir_pair_check(input);
+}
+
 /* Whether an answer is what the last call gave. */
 static bool is_answer(const pir_workspace *workspace, const pir_query_result *answer) {
     const pir_query_result *given = &workspace->answer;
@@ -54,9 +69,14 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
                              size_t *ret_count) {
     if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
         return PIR_ERR_ARGUMENT;
-    pir_status status = pir_pair_resume(pair, workspace, input);
+    bool has_points = answer->outcome != PIR_BEYOND_CUTOFF && answer->outcome != PIR_NO_HIT;
+    pir_status status = resume(pair, workspace, input, has_points);
     if (status != PIR_OK)
         return status;
+    if (!has_points) {
+        *ret_count = 0;
+        return input->margin >= 0 ? PIR_OK : PIR_ERR_ARGUMENT;
+    }
     if (!pir_patch_room_reserve(&workspace->patches, &workspace->allocator, pair->p->vertex_count,
                                 pair->q->vertex_count))
         return PIR_ERR_MEMORY;

@@ -3,16 +3,13 @@
 #include "pair/task.h"
 
 #include "pair/apart.h"
+#include "pair/still_apart.h"
 #include "query/last/foot.h"
-
-void pir_task_keep_facet(pir_pair *pair, const pir_facet *facet) {
-    pair->facet = facet->piece;
-    pair->has_facet = true;
-}
 
 void pir_task_keep_apart(const pir_task *task, double distance) {
     pir_pair *pair = task->pair;
     pair->apart = distance;
+    pir_pair_keep_left(pair, distance);
     pair->lead.others = 0;
     pair->at = task->placement->x;
     pair->turned = task->workspace->rotation.unit;

@@ -80,15 +80,14 @@ static void run_scene(uint64_t number, pir_workspace *workspace, struct count *c
     assert_int_equal(pir_pair_create(p, q, NULL, &pair), PIR_OK);
     pir_pair_input input = pir_pair_input_default();
     for (int pose = 0; pose < POSES; pose++) {
-        pir_placement placement;
         pir_vec3 d = test_random_direction(&random);
         double far = scene.scale * test_random_between(&random, 0, 3);
         // where P touches a vertex of Q with one of its own, and anywhere
         pir_vec3 at = q->vertex[test_random_below(&random, q->vertex_count)];
         input.pose_p.rotation = exact_rotation(&random, &scene);
         input.pose_p.translation = pose % 2 ? at : (pir_vec3){far * d.x, far * d.y, far * d.z};
-        if (p->facet_count > 0 && q->facet_count > 0 && pir_pair_begin(pair, workspace, &input, &placement) == PIR_OK)
-            check_pose(&random, workspace, &placement, number, count);
+        if (p->facet_count > 0 && q->facet_count > 0 && pir_pair_begin(pair, workspace, &input) == PIR_OK)
+            check_pose(&random, workspace, &workspace->placement, number, count);
     }
     pir_pair_destroy(pair);
     pir_polytope_release(p);

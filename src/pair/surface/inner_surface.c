@@ -154,17 +154,30 @@ static uint32_t beside(const pir_surface *surface, uint32_t i, uint32_t j) {
     return 0;
 }
 
+/* The corners of a triangle. */
+struct three {
+    uint32_t a, b, c;
+};
+
+static inline struct three corners_of(const pir_surface *surface, uint32_t t) {
+    return (struct three){surface->corner[0][t], surface->corner[1][t], surface->corner[2][t]};
+}
+
+/* Lists the sides of a triangle: bit j of side[i] for (i, j). */
+static inline void list_side(struct three of, uint32_t side[PIR_SURFACE_CORNERS]) {
+    side[of.a] |= 1u << of.b;
+    side[of.b] |= 1u << of.c;
+    side[of.c] |= 1u << of.a;
+}
+
 /* Bit j of side[i]: one of these triangles has the side (i, j). Returns their corners, a bit for each. */
 static uint32_t list_sides(const pir_surface *surface, uint64_t triangles, uint32_t side[PIR_SURFACE_CORNERS]) {
     uint32_t corners = 0;
     memset(side, 0, PIR_SURFACE_CORNERS * sizeof *side);
     for (uint64_t rest = triangles; rest; rest &= rest - 1) {
-        uint32_t t = (uint32_t)__builtin_ctzll(rest);
-        uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
-        side[a] |= 1u << b;
-        side[b] |= 1u << c;
-        side[c] |= 1u << a;
-        corners |= 1u << a | 1u << b | 1u << c;
+        struct three of = corners_of(surface, (uint32_t)__builtin_ctzll(rest));
+        list_side(of, side);
+        corners |= 1u << of.a | 1u << of.b | 1u << of.c;
     }
     return corners;
 }
@@ -207,14 +220,17 @@ static bool is_disk(uint64_t gone, const pir_surface_fan *fan) {
 /* Of these triangles, those that sides join to the ones of `part`. */
 static uint64_t joined_to(const pir_surface *surface, uint64_t part, uint64_t triangles) {
     uint64_t before = 0;
+    uint32_t side[PIR_SURFACE_CORNERS];
+    list_sides(surface, part, side);
     while (part != before) {
-        uint32_t side[PIR_SURFACE_CORNERS];
         before = part;
-        list_sides(surface, part, side);
         for (uint64_t rest = triangles & ~part; rest; rest &= rest - 1) {
             uint32_t t = (uint32_t)__builtin_ctzll(rest);
-            uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
-            part |= (uint64_t)((side[b] >> a | side[c] >> b | side[a] >> c) & 1) << t;
+            struct three of = corners_of(surface, t);
+            if ((side[of.b] >> of.a | side[of.c] >> of.b | side[of.a] >> of.c) & 1) {
+                part |= 1ull << t;
+                list_side(of, side);
+            }
         }
     }
     return part;

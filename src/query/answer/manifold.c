@@ -42,14 +42,14 @@ struct manifold {
 
 /* --- the caller's answer --- */
 
-static bool is_feature(const pir_polytope *p, pir_feature feature) {
+static inline bool is_feature(const pir_polytope *p, pir_feature feature) {
     return (feature.kind == PIR_FEATURE_VERTEX && feature.index < p->vertex_count) ||
            (feature.kind == PIR_FEATURE_EDGE && feature.index < p->edge_count) ||
            (feature.kind == PIR_FEATURE_FACET && feature.index < p->facet_count);
 }
 
 /* Whether an answer can be one about these bodies. */
-static bool is_usable(const pir_frame *frame, const pir_query_result *answer) {
+static inline bool is_usable(const pir_frame *frame, const pir_query_result *answer) {
     double square = pir_vec_dot(answer->normal, answer->normal);
     // ours are unit vectors within a few 2^-53; a caller may keep them in single precision
     return fabs(square - 1) < 0x1p-20 && is_feature(frame->p.polytope, answer->witness.p) &&
@@ -59,7 +59,7 @@ static bool is_usable(const pir_frame *frame, const pir_query_result *answer) {
 
 /* --- setting up --- */
 
-static void set_patch(pir_patch *patch, const pir_polytope *polytope, const pir_vec3 *vertex, pir_vec3 out) {
+static inline void set_patch(pir_patch *patch, const pir_polytope *polytope, const pir_vec3 *vertex, pir_vec3 out) {
     patch->polytope = polytope;
     patch->vertex = vertex;
     patch->r = NULL;
@@ -69,7 +69,7 @@ static void set_patch(pir_patch *patch, const pir_polytope *polytope, const pir_
 }
 
 /* Sets two unit vectors across n, from the coordinate axis that is least along n. */
-static void set_axes(struct manifold *m) {
+static inline void set_axes(struct manifold *m) {
     double x = fabs(m->n.x), y = fabs(m->n.y), z = fabs(m->n.z);
     pir_vec3 least = {x <= y && x <= z, y < x && y <= z, z < x && z < y};
     pir_vec3 across = pir_vec_cross(m->n, least);
@@ -79,15 +79,15 @@ static void set_axes(struct manifold *m) {
 }
 
 /* The answer's point on Q's polytope, in the frame. */
-static pir_vec3 point_of_answer(const struct manifold *m, double radius_q) {
+static inline pir_vec3 point_of_answer(const struct manifold *m, double radius_q) {
     const pir_frame *frame = m->frame;
     pir_vec3 w = pir_vec_sub(m->answer->point_q, pir_vec_scale(m->n, radius_q)), c = pir_dd3_round(frame->q.centre);
     pir_vec3 y = {pir_frame_from(frame, w.x), pir_frame_from(frame, w.y), pir_frame_from(frame, w.z)};
     return pir_vec_sub(y, c);
 }
 
-static void begin(struct manifold *m, const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
-                  const pir_query_result *answer) {
+static inline void begin(struct manifold *m, const pir_frame *frame, const pir_placement *placement,
+                         pir_patch_room *room, const pir_query_result *answer) {
     m->frame = frame;
     m->room = room;
     m->is_lone = false;
@@ -104,20 +104,25 @@ static void begin(struct manifold *m, const pir_frame *frame, const pir_placemen
     m->p->snap = m->q->snap = PIR_SNAP * placement->reach;
 }
 
+/* fmax of numbers, in place. */
+static inline double greater(double a, double b) {
+    return a > b ? a : b;
+}
+
 /* What corners are measured by. */
-static void set_measures(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
+static inline void set_measures(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
     const pir_query_result *answer = m->answer;
     double error = pir_frame_length(m->frame, 4 * placement->error);
     m->radius_p = input->radius_p;
     m->radii = input->radius_p + input->radius_q;
-    m->limit = fmax(fmax(input->margin, answer->distance), 0) + error;
+    m->limit = greater(greater(input->margin, answer->distance), 0) + error;
     m->point = point_of_answer(m, input->radius_q);
     // the rounding of points in world coordinates grows with those
     double far = fabs(answer->point_q.x) + fabs(answer->point_q.y) + fabs(answer->point_q.z);
     m->coarse = 4 * m->p->snap + 0x1p-50 * pir_frame_from(m->frame, far);
 }
 
-static void set_plane(struct manifold *m) {
+static inline void set_plane(struct manifold *m) {
     set_axes(m);
     m->of_answer = (pir_corner){.u = pir_vec_dot(m->axis[0], m->point), .v = pir_vec_dot(m->axis[1], m->point)};
 }
@@ -125,7 +130,7 @@ static void set_plane(struct manifold *m) {
 /* --- overlaps --- */
 
 /* Whether the patches are a vertex or an edge each that share nothing; of two edges that they do while `out` turns. */
-static bool is_alone(const struct manifold *m, double turn, double *ret_sine) {
+static inline bool is_alone(const struct manifold *m, double turn, double *ret_sine) {
     pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
     *ret_sine = 0;
     if (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET || !pir_patch_is_sharp(m->p, p, turn) ||
@@ -146,13 +151,13 @@ struct ends {
     pir_vec3 on_p, on_q;
 };
 
-static struct ends ends_of(const struct manifold *m) {
+static inline struct ends ends_of(const struct manifold *m) {
     double distance = pir_frame_from(m->frame, m->answer->distance + m->radii);
     return (struct ends){pir_vec_add(m->point, pir_vec_scale(m->n, distance)), m->point};
 }
 
 /* Whether a vertex of P or of Q is the answer's point. */
-static bool is_at_vertex(const struct manifold *m, const struct ends *ends, bool of_p) {
+static inline bool is_at_vertex(const struct manifold *m, const struct ends *ends, bool of_p) {
     const pir_patch *vertex = of_p ? m->p : m->q;
     uint32_t v = of_p ? m->answer->witness.p.index : m->answer->witness.q.index;
     pir_vec3 off = pir_vec_sub(pir_patch_vertex(vertex, v), of_p ? ends->on_p : ends->on_q);
@@ -160,7 +165,8 @@ static bool is_at_vertex(const struct manifold *m, const struct ends *ends, bool
 }
 
 /* Whether a vertex is the answer's point, carried by a facet of the other body, and no other corner is near. */
-static bool is_lone_vertex(const struct manifold *m, const pir_single *p, const pir_single *q, pir_leeway leeway) {
+static inline bool is_lone_vertex(const struct manifold *m, const pir_single *p, const pir_single *q,
+                                  pir_leeway leeway) {
     bool is_p = p->half != UINT32_MAX;
     if (!is_p && q->half == UINT32_MAX)
         return false;
@@ -173,7 +179,7 @@ static bool is_lone_vertex(const struct manifold *m, const pir_single *p, const 
 }
 
 /* The single facets of both patches, where at least one has an area. */
-static bool find_singles(const struct manifold *m, double turn, pir_single *ret_p, pir_single *ret_q) {
+static inline bool find_singles(const struct manifold *m, double turn, pir_single *ret_p, pir_single *ret_q) {
     pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
     return (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET) && pir_patch_single(m->p, p, turn, ret_p) &&
            pir_patch_single(m->q, q, turn, ret_q);
@@ -233,7 +239,7 @@ static uint64_t make_id(uint64_t kind, uint64_t first, uint64_t second) {
     return kind << 62 | first << 31 | second;
 }
 
-static uint64_t corner_id(const struct manifold *m, const pir_corner *corner) {
+static inline uint64_t corner_id(const struct manifold *m, const pir_corner *corner) {
     switch (corner->kind) {
     case PIR_CORNER_P:
         return make_id(PIR_CORNER_P, m->p->outline.at[corner->p].p, 0);
@@ -251,7 +257,7 @@ static pir_vec3 beside(const pir_patch *patch, const pir_corner *corner, pir_vec
 }
 
 /* A contact between a point of Q's polytope, in the frame, and the one over it. */
-static pir_contact contact_at(const struct manifold *m, const pir_corner *corner, pir_vec3 q, double distance) {
+static inline pir_contact contact_at(const struct manifold *m, const pir_corner *corner, pir_vec3 q, double distance) {
     pir_vec3 from = pir_vec_add(pir_frame_world(m->frame, q), pir_vec_scale(m->n, m->radii - m->radius_p));
     return (pir_contact){pir_vec_add(from, pir_vec_scale(m->n, distance)), from, distance, corner_id(m, corner)};
 }
@@ -290,7 +296,7 @@ static uint64_t answer_id(const struct manifold *m, bool is_corner) {
 }
 
 /* The corner that is the answer's own point, or `count` where none is. */
-static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
+static inline uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
     const pir_corner *corner = m->room->shared;
     for (uint32_t i = 0; i < count; i++)
         if (pir_outline_distance(&corner[i], &m->of_answer) <= m->coarse)
@@ -299,7 +305,7 @@ static uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
 }
 
 /* Whether a corner is near enough to be a contact. */
-static bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
+static inline bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
     if (distance <= m->limit)
         return true;
     double way = pir_frame_length(m->frame, pir_outline_distance(corner, &m->of_answer));
@@ -307,7 +313,7 @@ static bool is_near(const struct manifold *m, const pir_corner *corner, double d
 }
 
 /* The contact at a corner; false where it is too far apart. */
-static bool make_contact(const struct manifold *m, const pir_corner *corner, pir_contact *ret_contact) {
+static inline bool make_contact(const struct manifold *m, const pir_corner *corner, pir_contact *ret_contact) {
     if (!m->is_single) {
         *ret_contact = contact_of_patches(m, corner);
         return is_near(m, corner, ret_contact->distance);
@@ -322,8 +328,8 @@ static bool make_contact(const struct manifold *m, const pir_corner *corner, pir
 }
 
 /* Puts the answer as the first contact. `own` of `corners` is its corner, where there is one. */
-static size_t put_answer(const struct manifold *m, const pir_manifold_ask *ask, uint32_t own, uint32_t corners,
-                         pir_contact *ret_contacts) {
+static inline size_t put_answer(const struct manifold *m, const pir_manifold_ask *ask, uint32_t own, uint32_t corners,
+                                pir_contact *ret_contacts) {
     const pir_query_result *answer = m->answer;
     if (ask->capacity > 0) {
         uint64_t id = own < corners ? corner_id(m, &m->room->shared[own]) : answer_id(m, corners == 0);

@@ -5,25 +5,6 @@
 #include "query/decide/flat.h"
 #include "query/decide/witness.h"
 
-static const pir_outcome outcome_of[] = {
-    [PIR_OUTSIDE] = PIR_SEPARATED, [PIR_BOUNDARY] = PIR_TOUCHING, [PIR_INSIDE] = PIR_OVERLAPPING};
-
-/* Member by member: a compiler's way of clearing the whole takes a fifth of a query. */
-void pir_result_clear(pir_query_result *result) {
-    const pir_vec3 none = {0, 0, 0};
-    result->state = PIR_OUTSIDE;
-    result->outcome = PIR_SEPARATED;
-    result->distance = 0;
-    result->normal = result->point_p = result->point_q = none;
-    result->witness.p = result->witness.q = (pir_feature){PIR_FEATURE_NONE, 0};
-    result->steps = 0;
-}
-
-void pir_result_set_state(pir_query_result *result, pir_state state) {
-    result->state = state;
-    result->outcome = outcome_of[state];
-}
-
 /* The end of P's normal: point_p = point_q + distance · normal. */
 static void set_points(pir_query_result *result, pir_vec3 point_q) {
     result->point_q = point_q;

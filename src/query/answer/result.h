@@ -20,8 +20,21 @@
 /* What a call wants to know. */
 enum { PIR_WANT_SEPARATION = 1, PIR_WANT_DEPTH = 2 };
 
-void pir_result_clear(pir_query_result *result);
-void pir_result_set_state(pir_query_result *result, pir_state state);
+/* Member by member: a compiler's way of clearing the whole takes a fifth of a query. */
+static inline void pir_result_clear(pir_query_result *result) {
+    const pir_vec3 none = {0, 0, 0};
+    result->state = PIR_OUTSIDE;
+    result->outcome = PIR_SEPARATED;
+    result->distance = 0;
+    result->normal = result->point_p = result->point_q = none;
+    result->witness.p = result->witness.q = (pir_feature){PIR_FEATURE_NONE, 0};
+    result->steps = 0;
+}
+
+static inline void pir_result_set_state(pir_query_result *result, pir_state state) {
+    result->state = state;
+    result->outcome = state == PIR_OUTSIDE ? PIR_SEPARATED : state == PIR_BOUNDARY ? PIR_TOUCHING : PIR_OVERLAPPING;
+}
 
 /* Where t lies on the boundary: `touching` is the first true facet that it is on. */
 void pir_result_touching(pir_exact *exact, const pir_placement *placement, const pir_least *touching,

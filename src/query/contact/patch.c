@@ -22,9 +22,7 @@ static pir_layout layout_of(pir_patch_room *room) {
                          PIR_ROW(room->shared, shared), PIR_ROW(room->hull, shared + 1)}};
 }
 
-bool pir_patch_room_reserve(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
-    if (of_p <= room->of_p && of_q <= room->of_q)
-        return true;
+bool pir_patch_room_grow(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
     pir_patch_room grown = {.of_p = of_p > room->of_p ? of_p : room->of_p,
                             .of_q = of_q > room->of_q ? of_q : room->of_q};
     pir_layout layout = layout_of(&grown);

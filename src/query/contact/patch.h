@@ -77,7 +77,13 @@ typedef struct pir_patch_room {
 } pir_patch_room;
 
 /* Makes room for bodies of so many vertices; it never shrinks. False when out of memory: the room is as it was. */
-bool pir_patch_room_reserve(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
+bool pir_patch_room_grow(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
+
+/* The same where there may be room already. */
+static inline bool pir_patch_room_reserve(pir_patch_room *room, const pir_allocator *allocator, size_t of_p,
+                                          size_t of_q) {
+    return (of_p <= room->of_p && of_q <= room->of_q) || pir_patch_room_grow(room, allocator, of_p, of_q);
+}
 void pir_patch_room_finish(pir_patch_room *room, const pir_allocator *allocator);
 
 /* A direction of the queries' frame in the body's own frame. */

@@ -27,19 +27,29 @@
 
 /* --- vertices and edges --- */
 
-/* Whether all edges from v but one to `except` fall or rise steeply. m is a direction of the body. */
-static bool is_sharp_at(const pir_polytope *p, uint32_t v, uint32_t except, pir_vec3 m, double turn) {
-    bool sharp = true;
-    for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++)
-        sharp &= fabs(pir_vec_dot(m, p->direction[h])) > PIR_FLAT + turn || p->target[h] == except;
-    return sharp;
+/* The least sine by which halfedges `from` up to `to` fall or rise along a direction of the body, or `least`. */
+static inline double least_slope(const pir_polytope *p, uint32_t from, uint32_t to, pir_vec3 m, double least) {
+    for (uint32_t h = from; h < to; h++) {
+        double slope = fabs(pir_vec_dot(m, p->direction[h]));
+        least = slope < least ? slope : least;
+    }
+    return least;
 }
 
-static bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3 m, double turn) {
+/* Whether all edges from the origin of a halfedge, but its own, fall or rise by more than a sine. */
+static inline bool is_sharp_beside(const pir_polytope *p, uint32_t half, pir_vec3 m, double sine) {
+    uint32_t v = p->origin[half];
+    return least_slope(p, half + 1, p->ring_start[v + 1], m, least_slope(p, p->ring_start[v], half, m, 1)) > sine;
+}
+
+/* Whether all edges that leave a vertex or an edge fall or rise steeply. */
+static inline bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3 m, double turn) {
+    const double sine = PIR_FLAT + turn;
     if (feature.kind == PIR_FEATURE_VERTEX)
-        return is_sharp_at(p, feature.index, UINT32_MAX, m, turn);
-    uint32_t half = p->edge_half[feature.index], a = p->origin[half], b = p->target[half];
-    return is_sharp_at(p, a, b, m, turn) && is_sharp_at(p, b, a, m, turn);
+        return least_slope(p, p->ring_start[feature.index], p->ring_start[feature.index + 1], m, 1) > sine;
+    uint32_t half = p->edge_half[feature.index];
+    // a segment's other edge is the same one
+    return p->artificial || (is_sharp_beside(p, half, m, sine) && is_sharp_beside(p, p->twin[half], m, sine));
 }
 
 bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn) {
@@ -212,34 +222,61 @@ static pir_vec3 carry(const pir_patch *from, const pir_patch *to, pir_vec3 d) {
     return pir_patch_to_body(to, pir_vec_scale(d, from->sign));
 }
 
+/* What rises from a vertex, as its carrier sees it. */
+struct rising {
+    pir_vec3 at, edge[2]; /* the point under the vertex, and the two edges of the facet there */
+    double rise[2];       /* what those rise by at least */
+    double room, clear;   /* how far up counts, and how clear of a side is clear enough */
+    pir_leeway leeway;
+};
+
+/* Whether all of that is over the inside of side h of the carrier. */
+static inline bool is_within_side(const struct rising *rising, const pir_patch *carrier, pir_vec3 n, uint32_t h,
+                                  bool moves) {
+    const pir_polytope *q = carrier->polytope;
+    pir_vec3 in = pir_vec_cross(n, q->direction[h]);
+    double from = pir_vec_dot(in, pir_vec_sub(rising->at, carrier->vertex[q->origin[h]])) - rising->clear;
+    bool inside = from > 0;
+    for (int k = 0; k < 2; k++) {
+        double along = pir_vec_dot(in, rising->edge[k]);
+        if (moves)
+            along -= rising->leeway.turn;
+        // `room` may shrink as well, and with it what is gained
+        inside &= from * rising->rise[k] + (moves && along > 0 ? 0 : along * rising->room) > 0;
+    }
+    return inside;
+}
+
+/* The same for all sides of a facet of the carrier with normal n. */
+static inline bool is_within(const struct rising *rising, const pir_patch *carrier, uint32_t facet, pir_vec3 n,
+                             bool moves) {
+    const pir_polytope *q = carrier->polytope;
+    for (uint32_t i = q->loop_start[facet]; i < q->loop_start[facet + 1]; i++)
+        if (!is_within_side(rising, carrier, n, q->loop[i], moves))
+            return false;
+    return true;
+}
+
 bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_patch *carrier, const pir_single *by,
                        const pir_lone_place *place) {
     if (of->half == UINT32_MAX || !(by->cosine > LEVEL_COSINE))
         return false;
-    const pir_polytope *p = vertex->polytope, *q = carrier->polytope;
+    const pir_polytope *p = vertex->polytope;
     const pir_leeway leeway = place->leeway;
-    pir_vec3 n = q->normal[by->facet], y = pir_patch_to_body(carrier, pir_vec_sub(place->at, carrier->at)), edge[2];
-    double rise[2], room = place->room + leeway.way;
+    pir_vec3 n = carrier->polytope->normal[by->facet];
+    struct rising rising;
+    rising.room = place->room + leeway.way;
     for (int k = 0; k < 2; k++) {
         uint32_t half = k == 0 ? of->half : pir_ring_next(p, of->half);
-        edge[k] = carry(vertex, carrier, p->direction[half]);
-        rise[k] = pir_vec_dot(n, edge[k]) - LEVEL - leeway.turn;
-        if (!(rise[k] > PIR_FLUSH && rise[k] * vertex->shape.apart * (1 - COARSE) > room))
+        rising.edge[k] = carry(vertex, carrier, p->direction[half]);
+        double rise = rising.rise[k] = pir_vec_dot(n, rising.edge[k]) - LEVEL - leeway.turn;
+        if (!(rise > PIR_FLUSH && rise * vertex->shape.apart * (1 - COARSE) > rising.room))
             return false;
     }
+    rising.at = pir_patch_to_body(carrier, pir_vec_sub(place->at, carrier->at));
     // the terms grow with the reach, of which the way is a part
-    double clear = (leeway.way > 0 ? 2 : 1) * (place->coarse + PIR_CLIP_CLEAR * carrier->snap) + leeway.way;
-    bool inside = true;
-    for (uint32_t i = q->loop_start[by->facet]; i < q->loop_start[by->facet + 1]; i++) {
-        uint32_t h = q->loop[i];
-        pir_vec3 in = pir_vec_cross(n, q->direction[h]);
-        double from = pir_vec_dot(in, pir_vec_sub(y, carrier->vertex[q->origin[h]])) - clear;
-        inside &= from > 0;
-        for (int k = 0; k < 2; k++) {
-            double along = pir_vec_dot(in, edge[k]) - leeway.turn;
-            // `room` may shrink as well, and with it what is gained
-            inside &= from * rise[k] + (leeway.way > 0 && along > 0 ? 0 : along * room) > 0;
-        }
-    }
-    return inside;
+    bool moves = leeway.way > 0;
+    rising.clear = (moves ? 2 : 1) * (place->coarse + PIR_CLIP_CLEAR * carrier->snap) + leeway.way;
+    rising.leeway = leeway;
+    return moves ? is_within(&rising, carrier, by->facet, n, true) : is_within(&rising, carrier, by->facet, n, false);
 }

@@ -291,14 +291,6 @@ bool pir_facet_prove(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
 
 /* --- order --- */
 
-static bool same_feature(pir_feature a, pir_feature b) {
-    return a.kind == b.kind && a.index == b.index;
-}
-
-bool pir_facet_same(const pir_facet *a, const pir_facet *b) {
-    return same_feature(a->faces.p, b->faces.p) && same_feature(a->faces.q, b->faces.q);
-}
-
 bool pir_facet_before(const pir_facet *a, const pir_facet *b) {
     if (a->piece.kind != b->piece.kind)
         return a->piece.kind < b->piece.kind;

@@ -86,7 +86,10 @@ bool pir_facet_prove(pir_exact *exact, pir_piece piece, pir_facet *ret_facet);
 /* The true facet of two faces that a direction exposes. False as above. */
 bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet);
 
-bool pir_facet_same(const pir_facet *a, const pir_facet *b);
+static inline bool pir_facet_same(const pir_facet *a, const pir_facet *b) {
+    const pir_witness f = a->faces, g = b->faces;
+    return f.p.kind == g.p.kind && f.p.index == g.p.index && f.q.kind == g.q.kind && f.q.index == g.q.index;
+}
 
 /* Whether a comes before b in the order that settles ties. */
 bool pir_facet_before(const pir_facet *a, const pir_facet *b);

@@ -281,8 +281,3 @@ pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *wor
         ret_placement->error += TURN_ERROR * taxicab(near);
     return PIR_OK;
 }
-
-pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y) {
-    pir_vec3 w = pir_dd3_round(pir_dd3_add_vec(frame->q.centre, y));
-    return (pir_vec3){pir_frame_length(frame, w.x), pir_frame_length(frame, w.y), pir_frame_length(frame, w.z)};
-}

@@ -111,15 +111,18 @@ pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_pla
  */
 pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *world, pir_placement *ret_placement);
 
-/* A point y in the frame of Q's body, relative to Q's middle, in world coordinates. */
-pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y);
-
 static inline double pir_frame_length(const pir_frame *frame, double length) {
     return frame->up != 0 ? length * frame->up : ldexp(length, frame->exponent);
 }
 
 static inline double pir_frame_from(const pir_frame *frame, double length) {
     return frame->up != 0 ? length * frame->down : ldexp(length, -frame->exponent);
+}
+
+/* A point y in the frame of Q's body, relative to Q's middle, in world coordinates. */
+static inline pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y) {
+    pir_vec3 w = pir_dd3_round(pir_dd3_add_vec(frame->q.centre, y));
+    return (pir_vec3){pir_frame_length(frame, w.x), pir_frame_length(frame, w.y), pir_frame_length(frame, w.z)};
 }
 
 /* Vertex (a, b) of D. */

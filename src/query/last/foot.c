@@ -71,15 +71,25 @@ static double margin_of(const pir_frame *frame, const pir_facet *facet, pir_vec3
     return of_p < of_q ? of_p : of_q;
 }
 
-/*
- * Whether all facets at a great angle from this one have more slack than `most`, as the vertex of D at the landmarks
- * along a direction tells: see foot.h.
- */
-static bool is_enough(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet, pir_vec3 along,
-                      double most, double kappa) {
+/* The vertex of D at the landmarks along a direction. */
+static pir_vec3 landmark(const pir_frame *frame, pir_vec3 along) {
     pir_vec3 turned = pir_mat_apply_transposed(&frame->r, along);
     uint32_t a = frame->p.landmarks[pir_landmark_of(turned)], b = frame->q.landmarks[pir_landmark_of(along)];
-    pir_vec3 z = pir_frame_vertex(frame, a, b), way = pir_vec_sub(z, placement->x);
+    return pir_frame_vertex(frame, a, b);
+}
+
+/* Whether the middle of a body's bounds is inside of it: its swing is greater where that is not known. */
+static bool holds_middle(const pir_body *body) {
+    return body->swing < body->size;
+}
+
+/*
+ * Whether all facets at a great angle from this one have more slack than `most`, as the point z of D tells: see
+ * foot.h.
+ */
+static inline bool is_enough(const pir_placement *placement, const pir_facet *facet, pir_vec3 z, double most,
+                             double kappa) {
+    pir_vec3 way = pir_vec_sub(z, placement->x);
     double below = facet->h - pir_vec_dot(facet->n, z) - 2 * most, down = pir_vec_dot(facet->n, way);
     // y is over x along the normal, so z is as far from the line through both
     double beside = sqrt(fmax(0, pir_vec_dot(way, way) - down * down) + 0x1p-40 * placement->reach * placement->reach);
@@ -91,8 +101,12 @@ bool pir_foot_settles_within(const pir_frame *frame, const pir_placement *placem
     double most = (slack > 0 ? slack : 0) + placement->error * facet->err, kappa = most / margin * (1 + 0x1p-40);
     if (!(margin > most))
         return false;
-    return is_enough(frame, placement, facet, pir_vec_scale(facet->n, -1), most, kappa) ||
-           is_enough(frame, placement, facet, pir_vec_scale(placement->x, -1), most, kappa);
+    // D's middle is at hand; vertices are farther below
+    if (holds_middle(&frame->p) && holds_middle(&frame->q) &&
+        is_enough(placement, facet, (pir_vec3){0, 0, 0}, most, kappa))
+        return true;
+    return is_enough(placement, facet, landmark(frame, pir_vec_scale(facet->n, -1)), most, kappa) ||
+           is_enough(placement, facet, landmark(frame, pir_vec_scale(placement->x, -1)), most, kappa);
 }
 
 bool pir_foot_settles(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack) {

@@ -8,14 +8,20 @@
  */
 #define MARGIN_ERRORS 16
 
-/* Whether all edges of a vertex, but `except`, certainly fall along n, and by what sine at least. */
-static inline pir_same all_fall(const pir_polytope *p, uint32_t vertex, uint32_t except, pir_vec3 n, double off,
-                                double *ret_falls) {
-    double most = -HUGE_VAL;
-    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++) {
+/* The steepest of halfedges `from` up to `to`, or `most`. */
+static inline double steepest(const pir_polytope *p, uint32_t from, uint32_t to, pir_vec3 n, double most) {
+    for (uint32_t h = from; h < to; h++) {
         double slope = pir_vec_dot(n, p->direction[h]);
-        most = h != except && slope > most ? slope : most;
+        most = slope > most ? slope : most;
     }
+    return most;
+}
+
+/* Whether all edges from the origin of a halfedge, but its own, certainly fall along n, and by what sine at least. */
+static inline pir_same all_fall(const pir_polytope *p, uint32_t half, pir_vec3 n, double off, double *ret_falls) {
+    uint32_t vertex = p->origin[half];
+    double most = steepest(p, p->ring_start[vertex], half, n, -HUGE_VAL);
+    most = steepest(p, half + 1, p->ring_start[vertex + 1], n, most);
     *ret_falls = -off - most;
     return most < -off ? PIR_SAME_PROVEN : most > off ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
 }
@@ -53,8 +59,55 @@ static double within_facet(const pir_body *body, uint32_t facet, pir_vec3 n, pir
     return least;
 }
 
-/* Sets slack and margin, and tells whether the foot is inside of the rim and x clearly on a side. */
-static inline pir_same measure(const pir_placement *placement, double within, pir_same_facet *same) {
+/* What the touch of a facet depends on besides: its corner of P, turned, and the direction of an edge of P, turned. */
+struct of_p {
+    pir_vec3 corner, along;
+};
+
+/*
+ * The point of Q where y is attained by two edges that cross. The edge of Q is taken from its vertex of lower number,
+ * whichever way its halfedge leads.
+ */
+static inline pir_vec3 crossing(const pir_frame *frame, const pir_facet *facet, pir_vec3 y, const struct of_p *p) {
+    const pir_polytope *q = frame->q.polytope;
+    uint32_t half = q->edge_half[facet->faces.q.index];
+    pir_vec3 from = frame->q.vertex[q->origin[half]], d = pir_vec_sub(frame->q.vertex[q->target[half]], from);
+    double part = pir_touch_part(pir_vec_sub(y, pir_vec_add(p->corner, from)), d, pir_vec_cross(p->along, facet->n));
+    return pir_touch_along(from, d, part);
+}
+
+static inline void set_touch(const pir_frame *frame, const pir_placement *placement, int kind, const struct of_p *p,
+                             pir_same_facet *same) {
+    const pir_facet *facet = &same->facet;
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, same->slack));
+    same->touch.witness = facet->faces;
+    if (kind == PIR_FACET_FV)
+        same->touch.point_q = frame->q.vertex[facet->b];
+    else if (kind == PIR_FACET_VF)
+        same->touch.point_q = pir_vec_sub(y, p->corner);
+    else
+        same->touch.point_q = crossing(frame, facet, y, p);
+}
+
+void pir_same_facet_set_slack(const pir_frame *frame, const pir_placement *placement, double slack,
+                              pir_same_facet *same) {
+    const pir_facet *facet = &same->facet;
+    const pir_polytope *p = frame->p.polytope;
+    struct of_p of_p = {{0, 0, 0}, {0, 0, 0}};
+    same->slack = slack;
+    if (facet->piece.kind != PIR_FACET_FV)
+        of_p.corner = pir_mat_apply(&frame->r, frame->p.vertex[facet->a]);
+    if (facet->piece.kind == PIR_FACET_EE)
+        of_p.along = pir_mat_apply(&frame->r, p->direction[p->edge_half[facet->piece.first]]);
+    set_touch(frame, placement, facet->piece.kind, &of_p, same);
+}
+
+/*
+ * Sets slack and margin, and tells whether the foot is inside of the rim and x clearly on a side: then the touch is set
+ * too.
+ */
+static inline pir_same measure(const pir_frame *frame, const pir_placement *placement, double within, int kind,
+                               const struct of_p *p, pir_same_facet *same) {
     const pir_facet *facet = &same->facet;
     double error = placement->error * facet->err, off = MARGIN_ERRORS * error;
     same->slack = facet->h - pir_vec_dot(facet->n, placement->x);
@@ -62,7 +115,10 @@ static inline pir_same measure(const pir_placement *placement, double within, pi
     if (within < -off)
         return PIR_SAME_NOT;
     bool clear = fabs(same->slack) > PIR_NEXT_TO_NOTHING * placement->reach && fabs(same->slack) > 2 * error;
-    return !(within > off) ? PIR_SAME_IN_DOUBT : clear ? PIR_SAME_PROVEN : PIR_SAME_NEAR;
+    if (!(within > off) || !clear)
+        return within > off ? PIR_SAME_NEAR : PIR_SAME_IN_DOUBT;
+    set_touch(frame, placement, kind, p, same);
+    return PIR_SAME_PROVEN;
 }
 
 /*
@@ -104,17 +160,18 @@ static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement,
     same->facet.n = n;
     same->facet.err = 1;
     same->facet.h = frame->p.offset[f] + pir_vec_dot(n, frame->q.vertex[b]);
-    return measure(placement, within, same);
+    return measure(frame, placement, within, PIR_FACET_FV, NULL, same);
 }
 
 static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
                          pir_same_facet *same) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t a = same->facet.piece.first, g = same->facet.piece.second, corner;
-    pir_vec3 n = q->normal[g], turned;
+    pir_vec3 n = q->normal[g];
+    struct of_p of_p;
     double within;
     if (known) {
-        turned = pir_mat_apply(&frame->r, frame->p.vertex[a]);
+        of_p.corner = pir_mat_apply(&frame->r, frame->p.vertex[a]);
         within = known->margin;
         corner = known->corner;
     } else {
@@ -122,8 +179,8 @@ static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement,
         pir_same exposed = find_top(p, pir_mat_apply_transposed(&frame->r, n), &a, &falls);
         if (exposed != PIR_SAME_PROVEN)
             return exposed;
-        turned = pir_mat_apply(&frame->r, frame->p.vertex[a]);
-        within = within_facet(&frame->q, g, n, pir_vec_sub(placement->x, turned));
+        of_p.corner = pir_mat_apply(&frame->r, frame->p.vertex[a]);
+        within = within_facet(&frame->q, g, n, pir_vec_sub(placement->x, of_p.corner));
         corner = q->origin[q->loop[q->loop_start[g]]];
         same->falls = turn_of_facet(falls);
     }
@@ -133,8 +190,8 @@ static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement,
     same->facet.b = corner;
     same->facet.n = n;
     same->facet.err = 1;
-    same->facet.h = frame->q.offset[g] + pir_vec_dot(n, turned);
-    return measure(placement, within, same);
+    same->facet.h = frame->q.offset[g] + pir_vec_dot(n, of_p.corner);
+    return measure(frame, placement, within, PIR_FACET_VF, &of_p, same);
 }
 
 static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
@@ -149,56 +206,30 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     uint32_t a = p->origin[half], b = q->origin[other];
     if (!known) {
         double falls_q, falls_p = 0;
-        pir_same exposed = all_fall(q, b, other, n, PIR_SLOPE_BOUND * err, &falls_q);
+        pir_same exposed = all_fall(q, other, n, PIR_SLOPE_BOUND * err, &falls_q);
         if (exposed == PIR_SAME_PROVEN)
-            exposed = all_fall(p, a, half, pir_mat_apply_transposed(&frame->r, n), PIR_SLOPE_BOUND * err, &falls_p);
+            exposed = all_fall(p, half, pir_mat_apply_transposed(&frame->r, n), PIR_SLOPE_BOUND * err, &falls_p);
         if (exposed != PIR_SAME_PROVEN)
             return exposed;
         same->falls = turn_of_edges(falls_p < falls_q ? falls_p : falls_q, err);
     }
-    pir_vec3 from = pir_mat_apply(&frame->r, frame->p.vertex[a]), corner = pir_vec_add(from, frame->q.vertex[b]);
+    const struct of_p of_p = {pir_mat_apply(&frame->r, frame->p.vertex[a]), e};
+    pir_vec3 corner = pir_vec_add(of_p.corner, frame->q.vertex[b]);
     // how far the foot is from the sides along d, at either end of P's edge, and from those along e
     pir_vec3 by_d = pir_vec_cross(n, d), by_e = pir_vec_cross(e, n), w = pir_vec_sub(placement->x, corner);
     pir_vec3 along_p = pir_mat_apply(&frame->r, pir_vec_sub(frame->p.vertex[p->target[half]], frame->p.vertex[a]));
     pir_vec3 along_q = pir_vec_sub(frame->q.vertex[q->target[other]], frame->q.vertex[b]);
     double in_p = pir_vec_dot(by_d, w), in_q = pir_vec_dot(by_e, w);
     double left_p = pir_vec_dot(by_d, along_p) - in_p, left_q = pir_vec_dot(by_e, along_q) - in_q;
-    double of_p = in_p < left_p ? in_p : left_p, of_q = in_q < left_q ? in_q : left_q;
+    in_p = in_p < left_p ? in_p : left_p;
+    in_q = in_q < left_q ? in_q : left_q;
     same->facet.faces = (pir_witness){{PIR_FEATURE_EDGE, edge}, {PIR_FEATURE_EDGE, q->edge[other]}};
     same->facet.a = a;
     same->facet.b = b;
     same->facet.n = n;
     same->facet.err = err;
     same->facet.h = pir_vec_dot(n, corner);
-    return measure(placement, of_p < of_q ? of_p : of_q, same);
-}
-
-/*
- * The point of Q where y is attained by two edges that cross. The edge of Q is taken from its vertex of lower number,
- * whichever way its halfedge leads.
- */
-static pir_vec3 crossing(const pir_frame *frame, const pir_facet *facet, pir_vec3 y) {
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    uint32_t half_p = p->edge_half[facet->piece.first], half = q->edge_half[facet->faces.q.index];
-    pir_vec3 a = pir_mat_apply(&frame->r, frame->p.vertex[facet->a]);
-    pir_vec3 e = pir_mat_apply(&frame->r, p->direction[half_p]);
-    pir_vec3 from = frame->q.vertex[q->origin[half]], d = pir_vec_sub(frame->q.vertex[q->target[half]], from);
-    double part = pir_touch_part(pir_vec_sub(y, pir_vec_add(a, from)), d, pir_vec_cross(e, facet->n));
-    return pir_touch_along(from, d, part);
-}
-
-void pir_same_facet_set_slack(const pir_frame *frame, const pir_placement *placement, double slack,
-                              pir_same_facet *same) {
-    const pir_facet *facet = &same->facet;
-    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
-    same->slack = slack;
-    same->touch.witness = facet->faces;
-    if (facet->piece.kind == PIR_FACET_FV)
-        same->touch.point_q = frame->q.vertex[facet->b];
-    else if (facet->piece.kind == PIR_FACET_VF)
-        same->touch.point_q = pir_vec_sub(y, pir_mat_apply(&frame->r, frame->p.vertex[facet->a]));
-    else
-        same->touch.point_q = crossing(frame, facet, y);
+    return measure(frame, placement, in_p < in_q ? in_p : in_q, PIR_FACET_EE, &of_p, same);
 }
 
 pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
@@ -207,10 +238,7 @@ pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *place
         return PIR_SAME_IN_DOUBT;
     ret_same->facet.piece = piece;
     ret_same->falls = 0;
-    pir_same same = piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, known, ret_same)
-                    : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, known, ret_same)
-                                                 : prove_ee(frame, placement, known, ret_same);
-    if (same == PIR_SAME_PROVEN)
-        pir_same_facet_set_slack(frame, placement, ret_same->slack, ret_same);
-    return same;
+    return piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, known, ret_same)
+           : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, known, ret_same)
+                                        : prove_ee(frame, placement, known, ret_same);
 }
