@@ -194,7 +194,7 @@ static pir_note object_of(const pir_replay *replay) {
 }
 
 static pir_status fail_at(const pir_replay *replay, pir_status status, pir_report *report) {
-    return pir_fail(report, status, "history: byte %zu: %s", replay->reader.at,
+    return pir_fail(report, status, "%s: byte %zu: %s", replay->name, replay->reader.at,
                     status == PIR_ERR_MEMORY ? "out of memory" : "not a note that may stand here");
 }
 
@@ -224,20 +224,20 @@ static pir_status run_notes(pir_replay *replay, const pir_history_visitor *visit
 }
 
 /* Magic, version, size and checksum. */
-static pir_status check_header(const uint8_t *data, size_t size, pir_report *report) {
+static pir_status check_header(const char *name, const uint8_t *data, size_t size, pir_report *report) {
     pir_history_reader reader = {data, size, 8, false};
     if (size < PIR_HISTORY_HEADER || memcmp(data, PIR_HISTORY_MAGIC, 8) != 0)
-        return pir_fail(report, PIR_ERR_FORMAT, "history: not a history, or cut");
+        return pir_fail(report, PIR_ERR_FORMAT, "%s: not a history, or cut", name);
     uint64_t version = pir_history_take(&reader, 4);
     if (version != PIR_HISTORY_VERSION)
-        return pir_fail(report, PIR_ERR_UNSUPPORTED, "history: version %u, not %u", (unsigned)version,
+        return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: version %u, not %u", name, (unsigned)version,
                         PIR_HISTORY_VERSION);
     bool zero = pir_history_take(&reader, 4) == 0, whole = pir_history_take(&reader, 8) == size;
     uint64_t checksum = pir_history_take(&reader, 8),
              right = pir_hash_bytes(PIR_HASH_START, data, PIR_HISTORY_CHECKSUM_AT);
     right = pir_hash_bytes(right, data + PIR_HISTORY_HEADER, size - PIR_HISTORY_HEADER);
     if (!zero || !whole || checksum != right)
-        return pir_fail(report, PIR_ERR_FORMAT, "history: cut, or changed since it was written");
+        return pir_fail(report, PIR_ERR_FORMAT, "%s: cut, or changed since it was written", name);
     return PIR_OK;
 }
 
@@ -252,20 +252,26 @@ static void finish(pir_replay *replay) {
     PIR_FREE(&replay->allocator, replay->body, replay->room);
 }
 
-pir_status pir_history_replay_bytes(const void *data, size_t size, const pir_history_visitor *visitor,
-                                    pir_report *report) {
-    if (!data || !visitor)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "history: no bytes, or nobody to tell");
-    pir_status status = check_header(data, size, report);
+static pir_status replay_named(const char *name, const void *data, size_t size, const pir_history_visitor *visitor,
+                               pir_report *report) {
+    pir_status status = check_header(name, data, size, report);
     if (status != PIR_OK)
         return status;
     pir_replay replay = {
         .allocator = pir_allocator_or_default(visitor->allocator),
+        .name = name,
         .reader = {data, size, PIR_HISTORY_HEADER, false},
     };
     status = run_notes(&replay, visitor, report);
     finish(&replay);
     return status;
+}
+
+pir_status pir_history_replay_bytes(const void *data, size_t size, const pir_history_visitor *visitor,
+                                    pir_report *report) {
+    if (!data || !visitor)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "history: no bytes, or nobody to tell");
+    return replay_named("history", data, size, visitor, report);
 }
 
 pir_status pir_history_replay(const char *path, const pir_history_visitor *visitor, pir_report *report) {
@@ -275,7 +281,7 @@ pir_status pir_history_replay(const char *path, const pir_history_visitor *visit
     struct pir_read_bytes bytes = {0};
     pir_status status = pir_file_read(path, &a, report, &bytes);
     if (status == PIR_OK)
-        status = pir_history_replay_bytes(bytes.data ? bytes.data : "", bytes.size, visitor, report);
+        status = replay_named(path, bytes.data ? bytes.data : "", bytes.size, visitor, report);
     PIR_FREE(&a, bytes.data, bytes.capacity);
     return status;
 }

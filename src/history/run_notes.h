@@ -13,6 +13,7 @@
 
 typedef struct pir_replay {
     pir_allocator allocator;
+    const char *name; /* in reports */
     pir_history_reader reader;
     pir_polytope **body;
     uint32_t bodies, room; /* held; what `body` has room for */

@@ -33,7 +33,7 @@ class Replay(CommandTest):
         path.write_bytes(whole[:8] + b"\x02" + whole[9:])
         self.bad("replay", path, says="version 2")
         path.write_bytes(b"OFF\n")
-        self.bad("replay", path, says="not a history")
+        self.bad("replay", path, says=f"{path}: not a history")
         self.bad("replay", self.path / "none", says="none")
         self.bad("replay", says="FILE")
 
