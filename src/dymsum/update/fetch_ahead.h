@@ -3,14 +3,14 @@
  * Memory that repairs will read, fetched while others are under way. On large bodies it is in no cache near the
  * processor, and what is to be repaired is known well ahead. Nothing depends on these calls but time.
  *
- * An edge is fetched in two turns: first what has its number, then its first crossing.
+ * An edge is fetched in turns: first what has its number, then its first crossing, then what that crosses.
  */
 #ifndef PIR_DYMSUM_UPDATE_FETCH_AHEAD_H
 #define PIR_DYMSUM_UPDATE_FETCH_AHEAD_H
 
 #include "dymsum/pairing/tracked.h"
 
-/* Sums with so many facets fetch ahead, by so many items for an edge, and half of that for its crossings. */
+/* Sums with so many facets fetch ahead: edges by so many items, crossings by half, and what is crossed by a quarter. */
 #define PIR_FETCHING_FACETS 32768
 #define PIR_FETCHED_AHEAD   16
 
@@ -30,6 +30,15 @@ static inline void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
     __builtin_prefetch(&c->half[slot], 1);
     __builtin_prefetch(&c->next[slot], 1);
     __builtin_prefetch(&c->edge[slot], 1);
+}
+
+static inline void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
+    const pir_pairing *pairing = &tracked->pairing;
+    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.half[slot] : 0;
+    __builtin_prefetch(&pairing->q->origin[half]);
+    __builtin_prefetch(&pairing->q->target[half]);
+    __builtin_prefetch(&pairing->q->left[half]);
+    __builtin_prefetch(&pairing->q->twin[half]);
 }
 
 /* Fetches the sides of facet f of P in either turn. */

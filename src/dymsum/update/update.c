@@ -90,6 +90,8 @@ static void fetch_pass(const struct update *update, uint32_t i) {
         pir_fetch_edge(tracked, edge[pass[PIR_FETCHED_AHEAD].crossed]);
     if (i + PIR_FETCHED_AHEAD / 2 < update->passes)
         pir_fetch_crossing(tracked, edge[pass[PIR_FETCHED_AHEAD / 2].crossed]);
+    if (i + PIR_FETCHED_AHEAD / 4 < update->passes)
+        pir_fetch_crossed(tracked, edge[pass[PIR_FETCHED_AHEAD / 4].crossed]);
 }
 
 /* Repairs the edges that one facet of Q has crossed and no other event has touched. */
@@ -342,6 +344,8 @@ static void fetch_derived(const struct update *update, uint32_t i) {
         __builtin_prefetch(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].from]);
         __builtin_prefetch(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].to]);
     }
+    if (i + PIR_FETCHED_AHEAD / 4 < update->derive)
+        pir_fetch_crossed(tracked, edge[PIR_FETCHED_AHEAD / 4]);
 }
 
 /* A stamp greater than all in `touched`. */
