@@ -18,7 +18,9 @@
 
 void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, const uint32_t *from, uint32_t count) {
     const pir_facets *facets = of_p ? &tracked->p_facets : &tracked->q_facets;
-    uint32_t open[PIR_SETTLED_MOST];
+    uint32_t open[PIR_DESCENT_MOST];
+    if (count == 0)
+        return;
     uint32_t left = tracked->kernels->descend(facets, facet, from, count, open, &tracked->pairing.signs.by_filter);
     pir_expiry unused;
     for (uint32_t i = 0; i < left; i++) {
@@ -36,9 +38,9 @@ void pir_locate_facets_of_p(pir_tracked *tracked) {
     for (uint32_t f = 0; f < p->facet_count; f++)
         fv[f] = PIR_NO_PAIR;
     for (uint32_t i = 0; i < p->facet_count;) {
-        uint32_t facet[PIR_SETTLED_MOST], from[PIR_SETTLED_MOST], count = 0;
+        uint32_t facet[PIR_DESCENT_MOST], from[PIR_DESCENT_MOST], count = 0;
         // as far as the facet beside each has its cell
-        for (; i < p->facet_count && count < PIR_SETTLED_MOST; i++) {
+        for (; i < p->facet_count && count < PIR_DESCENT_MOST; i++) {
             const pir_visit visit = p->visit[i];
             if (fv[visit.beside] == PIR_NO_PAIR && i > 0)
                 break;

@@ -5,11 +5,8 @@
 
 #include "dymsum/pairing/tracked.h"
 
-/* How many facets are settled at a time, at most. */
-#define PIR_SETTLED_MOST 32
-
 /*
- * Gives facets of P, or of Q, their cells, each from that of vertex `from`. They are PIR_SETTLED_MOST or fewer.
+ * Gives facets of P, or of Q, their cells, each from that of vertex `from`. They are PIR_DESCENT_MOST or fewer.
  */
 void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, const uint32_t *from, uint32_t count);
 

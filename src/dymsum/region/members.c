@@ -64,7 +64,7 @@ static void settle_around(const pir_member_place *place, uint32_t from) {
     const pir_polytope *own = place->own;
     const uint32_t *seen = place->facets->members.seen;
     uint32_t *queue = place->tracked->work->queue, head = 0, tail = 0, settled = 1, count = 0;
-    uint32_t facet[PIR_SETTLED_MOST], start[PIR_SETTLED_MOST];
+    uint32_t facet[PIR_DESCENT_MOST], start[PIR_DESCENT_MOST];
     queue[tail++] = from;
     while (head < tail) {
         uint32_t f = queue[head++], cell = place->cell[f];
@@ -75,7 +75,7 @@ static void settle_around(const pir_member_place *place, uint32_t from) {
             place->cell[to] = cell;
             facet[count] = queue[tail++] = to;
             start[count++] = cell;
-            if (count == PIR_SETTLED_MOST) {
+            if (count == PIR_DESCENT_MOST) {
                 pir_settle_facets(place->tracked, place->of_p, facet, start, count);
                 settled = tail;
                 count = 0;
@@ -92,7 +92,7 @@ static void settle_around(const pir_member_place *place, uint32_t from) {
 
 void pir_members_locate_beside(const pir_member_place *place) {
     const pir_members *members = &place->facets->members;
-    uint32_t facet[PIR_SETTLED_MOST], from[PIR_SETTLED_MOST], count = 0;
+    uint32_t facet[PIR_DESCENT_MOST], from[PIR_DESCENT_MOST], count = 0;
     for (uint32_t i = 0; i < members->count; i++) {
         uint32_t f = members->at[i];
         if (place->cell[f] != PIR_NO_PAIR)
@@ -100,7 +100,7 @@ void pir_members_locate_beside(const pir_member_place *place) {
         facet[count] = f;
         from[count] = pir_cell_beside(place->own, place->cell, f);
         count += from[count] != PIR_NO_PAIR;
-        if (count == PIR_SETTLED_MOST) {
+        if (count == PIR_DESCENT_MOST) {
             pir_settle_facets(place->tracked, place->of_p, facet, from, count);
             count = 0;
         }
