@@ -62,8 +62,11 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     memcpy(facets->cell, cells, count * sizeof *cells);
     for (uint32_t f = 0; f < count; f++)
         expired[f] = f;
-    uint32_t open = kernels->descend(facets, expired, cells, count, uncertain, &sides);
-    hash = mix(hash, uncertain, open * sizeof *uncertain);
+    for (uint32_t f = 0; f < count; f += PIR_DESCENT_MOST) {
+        uint32_t some = count - f < PIR_DESCENT_MOST ? count - f : PIR_DESCENT_MOST;
+        uint32_t open = kernels->descend(facets, expired + f, cells + f, some, uncertain, &sides);
+        hash = mix(hash, uncertain, open * sizeof *uncertain);
+    }
     hash = mix(hash, facets->cell, count * sizeof *cells);
     hash = mix(hash, &sides, sizeof sides);
     for (uint32_t f = 0; f < count; f++) {

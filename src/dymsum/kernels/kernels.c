@@ -57,20 +57,10 @@ static inline float value(const float *ring, uint32_t i, const float turned[8]) 
     return turned[0] * at[0] + turned[1] * at[PIR_LANES] + turned[2] * at[2 * PIR_LANES];
 }
 
-static inline bool compare(const float *ring, uint32_t blocks, const float turned[8], float s[PIR_LANES]) {
-    bool past = false;
-    for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
-        s[i % PIR_LANES] = value(ring, i, turned);
-        past |= s[i % PIR_LANES] >= -PIR_FLOAT_BOUND;
-    }
-    return past;
-}
-
-static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], const float s[PIR_LANES],
-                             uint32_t *ret_which) {
+static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
     float highest = -HUGE_VALF;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
-        float here = blocks == 1 ? s[i] : value(ring, i, turned);
+        float here = value(ring, i, turned);
         if (here > highest) {
             highest = here;
             *ret_which = i;

@@ -62,6 +62,9 @@ typedef struct pir_suspect {
     uint32_t crossed;
 } pir_suspect;
 
+/* How many facets descend at a time, at most. */
+#define PIR_DESCENT_MOST 32
+
 /* How many arcs of P are walked at a time. */
 #define PIR_ARCS 32
 
@@ -113,7 +116,8 @@ typedef struct pir_kernels {
                   pir_probe *ret_probe);
 
     /*
-     * Finds the cell of each of `count` facets, from vertex `from` uphill, always along the steepest direction.
+     * Finds the cell of each of `count` facets, 1 to PIR_DESCENT_MOST, from vertex `from` uphill, always along the
+     * steepest direction.
      * Where floats are not certain of the next step the facet is listed: its cell is as far as they led. Returns how
      * many are listed; adds to *sides how many directions were compared.
      */

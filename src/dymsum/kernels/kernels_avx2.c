@@ -14,9 +14,6 @@
 /* The same of integers. */
 #define SAME(a, b) ((uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32((a), (b)))))
 
-/* The lanes in which a is at least b. */
-#define NOT_BELOW(a, b) ((uint32_t)_mm256_movemask_ps(_mm256_cmp_ps((a), (b), _CMP_GE_OQ)))
-
 #include "dymsum/kernels/kernels_eight_body.h"
 
 TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,

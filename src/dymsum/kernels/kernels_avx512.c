@@ -17,9 +17,6 @@
 /* The same of integers. */
 #define SAME(a, b) ((uint32_t)_mm256_cmpeq_epi32_mask((a), (b)))
 
-/* The lanes in which a is at least b. */
-#define NOT_BELOW(a, b) ((uint32_t)_mm256_cmp_ps_mask((a), (b), _CMP_GE_OQ))
-
 #include "dymsum/kernels/kernels_eight_body.h"
 
 TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The text that the kernels for AVX2 and AVX-512 share: a block of eight floats at a time. The file that includes this
- * says for which processor by TARGET, and defines see_block(). It compares by EQUAL(a, b), of integers SAME(a, b), and
- * NOT_BELOW(a, b): masks of the lanes in which a = b, and in which a ≥ b.
+ * says for which processor by TARGET, and defines see_block(). It compares by EQUAL(a, b), of integers SAME(a, b):
+ * masks of the lanes in which a = b.
  */
 
 #include "polytope/polytope.h"
@@ -108,32 +108,22 @@ TARGET static inline __m256 values(const float *ring, const float turned[8]) {
                _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES), _mm256_loadu_ps(ring + 2 * PIR_LANES));
 }
 
-TARGET static inline bool compare(const float *ring, uint32_t blocks, const float turned[8], float s[PIR_LANES]) {
-    uint32_t past = 0;
-    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
-        __m256 here = values(ring, turned);
-        _mm256_storeu_ps(s, here);
-        past |= NOT_BELOW(here, _mm256_set1_ps(-PIR_FLOAT_BOUND));
-    }
-    return past != 0;
-}
-
-TARGET static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], const float s[PIR_LANES],
-                                    uint32_t *ret_which) {
-    __m256 here = _mm256_loadu_ps(s);
+TARGET static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
+    // a point has no directions
+    if (blocks == 0)
+        return -HUGE_VALF;
+    __m256 here = values(ring, turned);
     float highest = greatest_of(here);
-    *ret_which = (uint32_t)__builtin_ctz(EQUAL(here, _mm256_set1_ps(highest)));
-    if (blocks == 1)
-        return highest;
-    highest = -HUGE_VALF;
-    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
-        here = values(ring, turned);
+    uint32_t which = (uint32_t)__builtin_ctz(EQUAL(here, _mm256_set1_ps(highest)));
+    for (uint32_t b = 1; b < blocks; b++) {
+        here = values(ring + (size_t)b * 3 * PIR_LANES, turned);
         float most = greatest_of(here);
         if (most > highest) {
             highest = most;
-            *ret_which = b * PIR_LANES + (uint32_t)__builtin_ctz(EQUAL(here, _mm256_set1_ps(most)));
+            which = b * PIR_LANES + (uint32_t)__builtin_ctz(EQUAL(here, _mm256_set1_ps(most)));
         }
     }
+    *ret_which = which;
     return highest;
 }
 

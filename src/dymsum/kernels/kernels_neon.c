@@ -92,21 +92,10 @@ static inline float32x4_t values(const float *ring, uint32_t i, const float turn
     return dot(vld1q_f32(turned), vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES));
 }
 
-static inline bool compare(const float *ring, uint32_t blocks, const float turned[8], float s[PIR_LANES]) {
-    uint32x4_t past = vdupq_n_u32(0);
-    for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
-        float32x4_t here = values(ring, i, turned);
-        vst1q_f32(s + i % PIR_LANES, here);
-        past = vorrq_u32(past, vcgeq_f32(here, vdupq_n_f32(-PIR_FLOAT_BOUND)));
-    }
-    return vmaxvq_u32(past) != 0;
-}
-
-static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], const float s[PIR_LANES],
-                             uint32_t *ret_which) {
+static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
     float highest = -HUGE_VALF;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
-        float32x4_t here = blocks == 1 ? vld1q_f32(s + i) : values(ring, i, turned);
+        float32x4_t here = values(ring, i, turned);
         float most = vmaxvq_f32(here), lane[4];
         if (!(most > highest))
             continue;

@@ -32,7 +32,7 @@
 
 /* The cells of P that the ends of an arc of Q are in, as far as a rebuild knows them from its crossings. */
 typedef struct pir_arc_cells {
-    uint32_t of_less, of_greater; /* of the facet with the smaller number, and of the other; or one of these in both: */
+    uint32_t of[2]; /* of the facet with the smaller number, and of the other; or one of these in both: */
 } pir_arc_cells;
 
 #define PIR_MANY_CELLS UINT32_MAX /* the arc has several crossings, or some that are not known: it tells nothing */

@@ -18,7 +18,9 @@
 
 void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, const uint32_t *from, uint32_t count) {
     const pir_facets *facets = of_p ? &tracked->p_facets : &tracked->q_facets;
-    uint32_t open[PIR_SETTLED_MOST];
+    uint32_t open[PIR_DESCENT_MOST];
+    if (count == 0)
+        return;
     uint32_t left = tracked->kernels->descend(facets, facet, from, count, open, &tracked->pairing.signs.by_filter);
     pir_expiry unused;
     for (uint32_t i = 0; i < left; i++) {
@@ -36,9 +38,9 @@ void pir_locate_facets_of_p(pir_tracked *tracked) {
     for (uint32_t f = 0; f < p->facet_count; f++)
         fv[f] = PIR_NO_PAIR;
     for (uint32_t i = 0; i < p->facet_count;) {
-        uint32_t facet[PIR_SETTLED_MOST], from[PIR_SETTLED_MOST], count = 0;
+        uint32_t facet[PIR_DESCENT_MOST], from[PIR_DESCENT_MOST], count = 0;
         // as far as the facet beside each has its cell
-        for (; i < p->facet_count && count < PIR_SETTLED_MOST; i++) {
+        for (; i < p->facet_count && count < PIR_DESCENT_MOST; i++) {
             const pir_visit visit = p->visit[i];
             if (fv[visit.beside] == PIR_NO_PAIR && i > 0)
                 break;
@@ -54,7 +56,7 @@ void pir_locate_facets_of_p(pir_tracked *tracked) {
 void pir_forget_met(pir_tracked *tracked) {
     pir_arc_cells *met = tracked->work->met;
     for (uint32_t e = 0; e < tracked->pairing.q->edge_count; e++)
-        met[e] = (pir_arc_cells){PIR_ONE_CELL, PIR_ONE_CELL};
+        met[e] = (pir_arc_cells){{PIR_ONE_CELL, PIR_ONE_CELL}};
 }
 
 /* The cell of facet g of Q that its sides tell, or PIR_NO_PAIR. Those that tell one tell the same, less than that. */
@@ -66,7 +68,7 @@ static inline uint32_t noted_cell(const pir_tracked *tracked, uint32_t g) {
     for (const pir_across *side = q->across + q->loop_start[g], *end = q->across + q->loop_start[g + 1]; side < end;
          side++) {
         uint32_t beside = vf[side->facet];
-        uint32_t told = g < side->facet ? met[side->edge].of_less : met[side->edge].of_greater;
+        uint32_t told = met[side->edge].of[g > side->facet];
         told = told == PIR_ONE_CELL ? beside : told;
         cell = told < cell ? told : cell;
     }
@@ -83,7 +85,7 @@ static void spread(pir_tracked *tracked, uint32_t g) {
         uint32_t from = list[--left].facet;
         for (uint32_t i = q->loop_start[from]; i < q->loop_start[from + 1]; i++) {
             const pir_across side = q->across[i];
-            if (tracked->work->met[side.edge].of_less != PIR_ONE_CELL || vf[side.facet] != PIR_NO_PAIR)
+            if (tracked->work->met[side.edge].of[0] != PIR_ONE_CELL || vf[side.facet] != PIR_NO_PAIR)
                 continue;
             vf[side.facet] = vf[g];
             list[left++].facet = side.facet;

@@ -5,11 +5,8 @@
 
 #include "dymsum/pairing/tracked.h"
 
-/* How many facets are settled at a time, at most. */
-#define PIR_SETTLED_MOST 32
-
 /*
- * Gives facets of P, or of Q, their cells, each from that of vertex `from`. They are PIR_SETTLED_MOST or fewer.
+ * Gives facets of P, or of Q, their cells, each from that of vertex `from`. They are PIR_DESCENT_MOST or fewer.
  */
 void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, const uint32_t *from, uint32_t count);
 
@@ -31,12 +28,10 @@ void pir_forget_met(pir_tracked *tracked);
 /* Edge e of P, its halfedge h, crosses the arc of an edge of Q between two facets, from one to the other. */
 static inline void pir_note_met(pir_tracked *tracked, uint32_t h, uint32_t edge, uint32_t right, uint32_t left) {
     const pir_polytope *p = tracked->pairing.p;
-    pir_arc_cells *met = &tracked->work->met[edge];
-    // by masks: neither is foreseen
-    uint32_t before = p->origin[h], after = p->target[h], swapped = (before ^ after) & -(uint32_t)(right < left);
-    uint32_t many = -(uint32_t)(met->of_less != PIR_ONE_CELL) & PIR_MANY_CELLS;
-    met->of_less = (after ^ swapped) | many;
-    met->of_greater = (before ^ swapped) | many;
+    uint32_t *cell = tracked->work->met[edge].of, many = -(uint32_t)(cell[0] != PIR_ONE_CELL) & PIR_MANY_CELLS;
+    // by masks and an index: neither is foreseen
+    cell[right < left] = p->target[h] | many;
+    cell[right >= left] = p->origin[h] | many;
 }
 
 /* Fills vf from what has been noted. */

@@ -59,14 +59,13 @@ void pir_members_admit(const pir_member_place *place) {
     }
 }
 
-/* As locate_around, many at a time, in a walk. */
-static void settle_around(const pir_member_place *place, uint32_t from) {
+/* As locate_around, many at a time, in a walk: from the `tail` facets listed in work.queue. */
+static void settle_around(const pir_member_place *place, uint32_t tail) {
     const pir_polytope *own = place->own;
     const uint32_t *seen = place->facets->members.seen;
-    uint32_t *queue = place->tracked->work->queue, head = 0, tail = 0, settled = 1, count = 0;
-    uint32_t facet[PIR_SETTLED_MOST], start[PIR_SETTLED_MOST];
-    queue[tail++] = from;
-    while (head < tail) {
+    uint32_t *queue = place->tracked->work->queue, settled = tail, count = 0;
+    uint32_t facet[PIR_DESCENT_MOST], start[PIR_DESCENT_MOST];
+    for (uint32_t head = 0; head < tail;) {
         uint32_t f = queue[head++], cell = place->cell[f];
         for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
             uint32_t to = own->across[i].facet;
@@ -75,7 +74,7 @@ static void settle_around(const pir_member_place *place, uint32_t from) {
             place->cell[to] = cell;
             facet[count] = queue[tail++] = to;
             start[count++] = cell;
-            if (count == PIR_SETTLED_MOST) {
+            if (count == PIR_DESCENT_MOST) {
                 pir_settle_facets(place->tracked, place->of_p, facet, start, count);
                 settled = tail;
                 count = 0;
@@ -90,26 +89,33 @@ static void settle_around(const pir_member_place *place, uint32_t from) {
     }
 }
 
-void pir_members_locate_beside(const pir_member_place *place) {
+/* Locates the members without a cell that are beside a facet with one; lists them in work.queue. Returns how many. */
+static uint32_t settle_beside(const pir_member_place *place) {
     const pir_members *members = &place->facets->members;
-    uint32_t facet[PIR_SETTLED_MOST], from[PIR_SETTLED_MOST], count = 0;
+    uint32_t *queue = place->tracked->work->queue, from[PIR_DESCENT_MOST], settled = 0, tail = 0;
     for (uint32_t i = 0; i < members->count; i++) {
         uint32_t f = members->at[i];
         if (place->cell[f] != PIR_NO_PAIR)
             continue;
-        facet[count] = f;
-        from[count] = pir_cell_beside(place->own, place->cell, f);
-        count += from[count] != PIR_NO_PAIR;
-        if (count == PIR_SETTLED_MOST) {
-            pir_settle_facets(place->tracked, place->of_p, facet, from, count);
-            count = 0;
+        queue[tail] = f;
+        from[tail - settled] = pir_cell_beside(place->own, place->cell, f);
+        tail += from[tail - settled] != PIR_NO_PAIR;
+        if (tail - settled == PIR_DESCENT_MOST) {
+            pir_settle_facets(place->tracked, place->of_p, queue + settled, from, PIR_DESCENT_MOST);
+            settled = tail;
         }
     }
-    pir_settle_facets(place->tracked, place->of_p, facet, from, count);
+    pir_settle_facets(place->tracked, place->of_p, queue + settled, from, tail - settled);
+    return tail;
+}
+
+void pir_members_locate_beside(const pir_member_place *place) {
+    settle_around(place, settle_beside(place));
 }
 
 void pir_members_locate(const pir_member_place *place) {
     const pir_members *members = &place->facets->members;
+    uint32_t *queue = place->tracked->work->queue;
     for (uint32_t i = 0; i < members->count; i++) {
         uint32_t f = members->at[i];
         if (place->cell[f] != PIR_NO_PAIR)
@@ -117,6 +123,7 @@ void pir_members_locate(const pir_member_place *place) {
         uint32_t from = pir_cell_beside(place->own, place->cell, f);
         from = from != PIR_NO_PAIR ? from : place->facets->hint[f];
         pir_settle_facets(place->tracked, place->of_p, &f, &from, 1);
-        settle_around(place, f);
+        queue[0] = f;
+        settle_around(place, 1);
     }
 }

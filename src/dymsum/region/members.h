@@ -31,7 +31,7 @@ void pir_members_admit(const pir_member_place *place);
 
 /*
  * Locates them in a walk: the caller says afterwards that all certificates have expired, and that anything may have
- * changed. The first call leaves out those that are not beside a facet with a cell.
+ * changed. The first call leaves out those that no chain of members leads to from a facet with a cell.
  */
 void pir_members_locate_beside(const pir_member_place *place);
 void pir_members_locate(const pir_member_place *place);

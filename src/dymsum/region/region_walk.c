@@ -54,7 +54,7 @@ static uint32_t begin_notes(const pir_region *region, pir_tracked *tracked) {
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = q->loop_start[inner[i]]; k < q->loop_start[inner[i] + 1]; k++) {
             uint32_t noted = vf[q->across[k].facet] == 0 ? PIR_ONE_CELL : PIR_MANY_CELLS;
-            tracked->work->met[q->across[k].edge] = (pir_arc_cells){noted, noted};
+            tracked->work->met[q->across[k].edge] = (pir_arc_cells){{noted, noted}};
         }
     for (uint32_t i = 0; i < count; i++)
         vf[inner[i]] = PIR_NO_PAIR;
