@@ -72,8 +72,11 @@ pir_status pir_compound_init(pir_compound *compound, const pir_pieces *pieces, c
     }
     if (status == PIR_OK && !pir_boxes_init(&compound->boxes, allocator, box, count))
         status = PIR_ERR_MEMORY;
-    if (status == PIR_OK && !reserve_faces(compound, allocator))
-        status = PIR_ERR_MEMORY;
+    if (status == PIR_OK) {
+        compound->turned = PIR_ZEROED(allocator, pir_turned_box, (size_t)compound->boxes.node_count + count);
+        if (!compound->turned || !reserve_faces(compound, allocator))
+            status = PIR_ERR_MEMORY;
+    }
     for (uint32_t i = 0; i < count && status == PIR_OK; i++)
         fill_faces(compound, i);
     PIR_FREE(allocator, box, count);
@@ -89,6 +92,8 @@ void pir_compound_finish(pir_compound *compound, const pir_allocator *allocator)
         PIR_FREE(allocator, compound->face, compound->face_start[compound->count]);
         PIR_FREE(allocator, (double *)compound->middle, 3 * (size_t)compound->count);
     }
+    if (compound->turned)
+        PIR_FREE(allocator, compound->turned, (size_t)compound->boxes.node_count + compound->count);
     PIR_FREE(allocator, compound->vertex_start, ends);
     PIR_FREE(allocator, compound->face_start, ends);
     for (uint32_t i = 0; i < compound->count && compound->piece; i++)

@@ -12,6 +12,12 @@ typedef struct pir_compound_face {
     double normal[3], offset;
 } pir_compound_face;
 
+/* A box as it is seen from the other body's frame in a visit: its middle, and half of the box round it. */
+typedef struct pir_turned_box {
+    uint64_t visit;
+    double middle[3], half[3];
+} pir_turned_box;
+
 typedef struct pir_compound {
     uint32_t count;
     pir_polytope **piece;
@@ -20,7 +26,8 @@ typedef struct pir_compound {
     uint32_t *vertex_start, *face_start; /* per piece, and the end of the last */
     double (*vertex)[3];
     pir_compound_face *face;
-    double (*middle)[3]; /* of each piece: the mean of its vertices */
+    double (*middle)[3];    /* of each piece: the mean of its vertices */
+    pir_turned_box *turned; /* of the nodes of `boxes`, then of its boxes: what a visit has turned */
 } pir_compound;
 
 /* The polytopes of all pieces. Errors as of pir_pieces_polytope; what was made is then freed. */

@@ -20,6 +20,7 @@ struct pir_solid_query {
     pir_compound p, q;
     pir_piece_pairs pairs;
     uint32_t last[2]; /* the pieces of the last answer */
+    uint64_t visits;
 };
 
 struct call {
@@ -102,7 +103,7 @@ static pir_status visit(struct call *call, pir_pair_asker *ask) {
     call->within = ask(call, query->last[0], query->last[1]);
     if (call->within >= 0 && call->status == PIR_OK) {
         const pir_relative relative = pir_relative_of(&query->p, &query->q, &call->input);
-        pir_visit_pairs(&query->p, &query->q, &relative, call->within, ask_once, call);
+        pir_visit_pairs(&query->p, &query->q, &relative, ++query->visits, call->within, ask_once, call);
     }
     return call->status;
 }
@@ -147,7 +148,7 @@ pir_status pir_solid_query_overlap(pir_solid_query *query, pir_workspace *worksp
     pir_status status = PIR_OK;
     if (pir_relative_is_plain(input)) {
         call.relative = pir_relative_of(&query->p, &query->q, input);
-        pir_visit_pairs(&query->p, &query->q, &call.relative, 0, ask_likely, &call);
+        pir_visit_pairs(&query->p, &query->q, &call.relative, ++query->visits, 0, ask_likely, &call);
         status = call.status;
     } else {
         // the first pair finds what is wrong with it, if anything is

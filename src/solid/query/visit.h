@@ -9,8 +9,8 @@
  * said before, or below 0 when none is. */
 typedef double pir_pair_asker(void *context, uint32_t i, uint32_t j);
 
-/* Nothing is asked where no pairs of boxes are within the distance. */
-void pir_visit_pairs(const pir_compound *p, const pir_compound *q, const pir_relative *relative, double within,
-                     pir_pair_asker *ask, void *context);
+/* Nothing is asked where no pairs of boxes are within the distance. `number` is another, not 0, for each visit. */
+void pir_visit_pairs(const pir_compound *p, const pir_compound *q, const pir_relative *relative, uint64_t number,
+                     double within, pir_pair_asker *ask, void *context);
 
 #endif
