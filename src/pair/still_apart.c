@@ -7,7 +7,10 @@
 /* What |q|² of a quaternion may differ from 1 by, so that none has to be brought to length 1. */
 #define NEAR_UNIT 0x1p-20
 
-/* What two such quaternions, brought to length 1, may be farther from one another. */
+/*
+ * What two such quaternions, brought to length 1, may be farther from one another: |q| is within 2^-21 and some
+ * rounding of 1, so each moves by less than 2^-20, and both by less than 2^-19.
+ */
 #define BESIDE_UNIT 0x1p-18
 
 /* Distances are known this well, relative to a bound on the reach: more than PIR_DISTANCE_ERROR of the reach. */

@@ -42,6 +42,21 @@ pir_status solid_make(const solid_facets *facets, const pir_solid_options *optio
     return pir_solid_create(&all, options, report, ret_solid);
 }
 
+pir_solid *solid_of_facets(const solid_facets *facets) {
+    pir_report report = {0};
+    pir_solid *solid = NULL;
+    const pir_status status = solid_make(facets, NULL, &report, &solid);
+    expect(status == PIR_OK, "%s", report.text);
+    return solid;
+}
+
+pir_solid_info solid_info_of(pir_solid *solid) {
+    pir_solid_info info;
+    pir_solid_describe(solid, &info);
+    pir_solid_release(solid);
+    return info;
+}
+
 /* --- cells --- */
 
 bool cells_full(const cells *of, int x, int y, int z) {
@@ -121,11 +136,7 @@ pir_solid *solid_of_cells(const cells *of) {
     static solid_facets facets;
     facets = (solid_facets){0};
     solid_add_cells(&facets, of);
-    pir_report report = {0};
-    pir_solid *solid = NULL;
-    const pir_status status = solid_make(&facets, NULL, &report, &solid);
-    expect(status == PIR_OK, "%s", report.text);
-    return solid;
+    return solid_of_facets(&facets);
 }
 
 pir_solid *solid_read_again(const pir_mesh *mesh) {

@@ -31,6 +31,12 @@ void solid_add_prism(solid_facets *facets, const double (*corner)[2], uint32_t c
 pir_status solid_make(const solid_facets *facets, const pir_solid_options *options, pir_report *report,
                       pir_solid **ret_solid);
 
+/* The solid that facets make; the test fails where they make none. */
+pir_solid *solid_of_facets(const solid_facets *facets);
+
+/* What pir_solid_describe tells of a solid, which is released. */
+pir_solid_info solid_info_of(pir_solid *solid);
+
 /* A cube of this many cells a side, each a unit cube or empty. */
 #define CELLS 4
 typedef struct cells {

@@ -52,17 +52,11 @@ static void prism_has_its_reflex_edge_and_volume(void **state) {
 
 static void cells_are_counted_once_coplanar_ones_are_merged(void **state) {
     (void)state;
-    static solid_facets facets;
-    facets = (solid_facets){0};
     cells ring = {0};
     for (int x = 0; x < 3; x++)
         for (int y = 0; y < 3; y++)
             ring.full[x][y][0] = x != 1 || y != 1;
-    solid_add_cells(&facets, &ring);
-    pir_solid *solid = NULL;
-    pir_solid_info info;
-    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
-    pir_solid_describe(solid, &info);
+    const pir_solid_info info = solid_info_of(solid_of_cells(&ring));
     assert_int_equal(info.facets, 32);
     assert_int_equal(info.merged_vertices, 16);
     assert_int_equal(info.merged_edges, 24);
@@ -70,7 +64,6 @@ static void cells_are_counted_once_coplanar_ones_are_merged(void **state) {
     assert_int_equal(info.reflex_edges, 4);
     assert_int_equal(info.genus, 1);
     assert_true(info.volume == 8);
-    pir_solid_release(solid);
 }
 
 static void cavity_is_a_second_shell(void **state) {
@@ -79,14 +72,10 @@ static void cavity_is_a_second_shell(void **state) {
     facets = (solid_facets){0};
     add_box(&facets, 0, 3, false);
     add_box(&facets, 1, 2, true);
-    pir_solid *solid = NULL;
-    pir_solid_info info;
-    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
-    pir_solid_describe(solid, &info);
+    const pir_solid_info info = solid_info_of(solid_of_facets(&facets));
     assert_int_equal(info.shells, 2);
     assert_int_equal(info.reflex_edges, 12);
     assert_true(info.volume == 26);
-    pir_solid_release(solid);
 }
 
 static void polytope_becomes_a_solid_unless_it_is_flat(void **state) {
@@ -98,11 +87,9 @@ static void polytope_becomes_a_solid_unless_it_is_flat(void **state) {
     assert_int_equal(pir_polytope_create(square, 4, NULL, &flat), PIR_OK);
     assert_int_equal(pir_solid_from_polytope(flat, NULL, &solid), PIR_ERR_EMPTY);
     assert_int_equal(pir_solid_from_polytope(cube, NULL, &solid), PIR_OK);
-    pir_solid_info info;
-    pir_solid_describe(solid, &info);
+    const pir_solid_info info = solid_info_of(solid);
     assert_int_equal(info.facets, 6);
     assert_true(info.volume == pir_polytope_volume(cube));
-    pir_solid_release(solid);
     pir_polytope_release(flat);
     pir_polytope_release(cube);
 }

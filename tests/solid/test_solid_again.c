@@ -88,15 +88,12 @@ static void cells_that_touch_along_an_edge_are_shells_of_their_own(void **state)
     (void)state;
     cells two = {0};
     two.full[0][0][0] = two.full[1][1][0] = true;
-    pir_solid *solid = solid_of_cells(&two);
-    pir_solid_info info;
-    pir_solid_describe(solid, &info);
+    const pir_solid_info info = solid_info_of(solid_of_cells(&two));
     assert_int_equal(info.shells, 2);
     assert_int_equal(info.edges, 24);
     assert_int_equal(info.reflex_edges, 0);
     assert_int_equal(info.genus, 0);
     assert_true(info.volume == 2);
-    pir_solid_release(solid);
 }
 
 static void cell_that_touches_others_at_every_corner_is_a_shell(void **state) {
@@ -105,21 +102,16 @@ static void cell_that_touches_others_at_every_corner_is_a_shell(void **state) {
     for (int i = 0; i < 8; i++)
         corners.full[2 * (i & 1)][i & 2][2 * (i >> 2)] = true;
     corners.full[1][1][1] = true;
-    pir_solid *solid = solid_of_cells(&corners);
-    pir_solid_info info;
-    pir_solid_describe(solid, &info);
+    pir_solid_info info = solid_info_of(solid_of_cells(&corners));
     assert_int_equal(info.shells, 9);
     assert_true(info.volume == 9);
-    pir_solid_release(solid);
     // and a cavity that touches the outside at every corner
     cells block = {0};
     for (int i = 0; i < 27; i++)
         block.full[i % 3][i / 3 % 3][i / 9] = !corners.full[i % 3][i / 3 % 3][i / 9];
-    solid = solid_of_cells(&block);
-    pir_solid_describe(solid, &info);
+    info = solid_info_of(solid_of_cells(&block));
     assert_int_equal(info.shells, 2);
     assert_true(info.volume == 18);
-    pir_solid_release(solid);
 }
 
 /* A prism over a triangle beside the edge from (0,0,0) to (0,0,1), between two directions. */
@@ -135,13 +127,10 @@ static void wedges_round_an_edge_must_not_overlap(void **state) {
     add_wedge(&facets, 1, 0, 1, 1);
     add_wedge(&facets, 0, 2, -1, 1);
     add_wedge(&facets, -1, -1, 0, -1);
-    pir_solid *solid = NULL;
-    pir_solid_info info;
-    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
-    pir_solid_describe(solid, &info);
+    const pir_solid_info info = solid_info_of(solid_of_facets(&facets));
     assert_int_equal(info.shells, 3);
     assert_int_equal(info.reflex_edges, 0);
-    pir_solid_release(solid);
+    pir_solid *solid = NULL;
     static const double overlaps[3][4] = {{4, 2, -1, 3}, {3, 0, 3, 3}, {2, 2, 0, 3}};
     for (int i = 0; i < 3; i++) {
         pir_report report = {0};

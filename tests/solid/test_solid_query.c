@@ -227,9 +227,7 @@ static pir_solid *star_of(uint32_t corners, double radius, double other) {
     }
     facets = (solid_facets){0};
     solid_add_prism(&facets, (const double(*)[2])corner, corners, 1);
-    pir_solid *solid = NULL;
-    assert_int_equal(solid_make(&facets, NULL, NULL, &solid), PIR_OK);
-    return solid;
+    return solid_of_facets(&facets);
 }
 
 static void answers_are_those_of_the_exact_difference(void **state) {

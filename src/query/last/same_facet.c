@@ -134,6 +134,21 @@ static double turn_of_edges(double falls, double err) {
     return turn_of_facet(falls / (2 * err + 1));
 }
 
+/* A plane of D: its normal, how wrong that is, and its height, as in pir_facet. */
+struct unit_plane {
+    pir_vec3 n;
+    double err, h;
+};
+
+static inline void set_facet(pir_facet *facet, pir_witness faces, uint32_t a, uint32_t b, struct unit_plane plane) {
+    facet->faces = faces;
+    facet->a = a;
+    facet->b = b;
+    facet->n = plane.n;
+    facet->err = plane.err;
+    facet->h = plane.h;
+}
+
 static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
                          pir_same_facet *same) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
@@ -153,13 +168,9 @@ static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement,
         corner = p->origin[p->loop[p->loop_start[f]]];
         same->falls = turn_of_facet(falls);
     }
-    same->facet.faces = (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}};
     same->facet.piece.second = b;
-    same->facet.a = corner;
-    same->facet.b = b;
-    same->facet.n = n;
-    same->facet.err = 1;
-    same->facet.h = frame->p.offset[f] + pir_vec_dot(n, frame->q.vertex[b]);
+    set_facet(&same->facet, (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}}, corner, b,
+              (struct unit_plane){n, 1, frame->p.offset[f] + pir_vec_dot(n, frame->q.vertex[b])});
     return measure(frame, placement, within, PIR_FACET_FV, NULL, same);
 }
 
@@ -184,13 +195,9 @@ static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement,
         corner = q->origin[q->loop[q->loop_start[g]]];
         same->falls = turn_of_facet(falls);
     }
-    same->facet.faces = (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}};
     same->facet.piece.first = a;
-    same->facet.a = a;
-    same->facet.b = corner;
-    same->facet.n = n;
-    same->facet.err = 1;
-    same->facet.h = frame->q.offset[g] + pir_vec_dot(n, of_p.corner);
+    set_facet(&same->facet, (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}}, a, corner,
+              (struct unit_plane){n, 1, frame->q.offset[g] + pir_vec_dot(n, of_p.corner)});
     return measure(frame, placement, within, PIR_FACET_VF, &of_p, same);
 }
 
@@ -223,12 +230,8 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     double left_p = pir_vec_dot(by_d, along_p) - in_p, left_q = pir_vec_dot(by_e, along_q) - in_q;
     in_p = in_p < left_p ? in_p : left_p;
     in_q = in_q < left_q ? in_q : left_q;
-    same->facet.faces = (pir_witness){{PIR_FEATURE_EDGE, edge}, {PIR_FEATURE_EDGE, q->edge[other]}};
-    same->facet.a = a;
-    same->facet.b = b;
-    same->facet.n = n;
-    same->facet.err = err;
-    same->facet.h = pir_vec_dot(n, corner);
+    set_facet(&same->facet, (pir_witness){{PIR_FEATURE_EDGE, edge}, {PIR_FEATURE_EDGE, q->edge[other]}}, a, b,
+              (struct unit_plane){n, err, pir_vec_dot(n, corner)});
     return measure(frame, placement, in_p < in_q ? in_p : in_q, PIR_FACET_EE, &of_p, same);
 }
 

@@ -207,7 +207,11 @@ static bool cross_part(pir_body *body, pir_seam *seam, uint32_t part) {
 
 /* --- two seams --- */
 
-/* Whether the cross product of u and v, whose coordinates are each wrong by `error` at most, is certainly not zero. */
+/*
+ * Whether the cross product of u and v, whose coordinates are each wrong by `error` at most, is certainly not zero. Of
+ * its two products each is wrong by error · (|u| + |v| + error); both and their difference round by 4 · 2^-53 of
+ * |u| · |v|. The bound is twice that.
+ */
 static bool is_certain(const double u[3], const double v[3], double error) {
     double size[2] = {0, 0};
     for (int k = 0; k < 3; k++) {
@@ -225,6 +229,7 @@ static bool is_certain(const double u[3], const double v[3], double error) {
 static bool is_apart(const pir_body *body, const pir_seam *seam, const pir_seam *other) {
     const pir_space_point *point = body->space->point, *a = &point[seam->a], *b = &point[seam->b];
     const pir_space_point *end[2] = {&point[other->a], &point[other->b]};
+    // coordinates are at most 1, so differences round by 2^-53
     const double error = 2 * (a->err + b->err + end[0]->err + end[1]->err) + 0x1p-52;
     double u[3], v[2][3];
     for (int k = 0; k < 3; k++) {
@@ -232,9 +237,7 @@ static bool is_apart(const pir_body *body, const pir_seam *seam, const pir_seam 
         v[0][k] = end[0]->x[k] - a->x[k];
         v[1][k] = end[1]->x[k] - a->x[k];
     }
-    if (is_certain(u, v[0], error) || is_certain(u, v[1], error))
-        return true;
-    return false;
+    return is_certain(u, v[0], error) || is_certain(u, v[1], error);
 }
 
 /* Whether two seams that begin at one point certainly lead to different sides of it. */
@@ -246,7 +249,7 @@ static bool lead_apart(const pir_body *body, const pir_seam *seam, const pir_sea
     const uint32_t shared = at_a ? seam->a : seam->b;
     const pir_space_point *from = &point[shared], *to = &point[at_a ? seam->b : seam->a];
     const pir_space_point *beside = &point[other->a == shared ? other->b : other->a];
-    const double error = from->err + to->err + beside->err;
+    const double error = 2 * (from->err + to->err + beside->err) + 0x1p-52;
     for (int k = 0; k < 3; k++) {
         const double x = to->x[k] - from->x[k], y = beside->x[k] - from->x[k];
         if (fabs(x) > error && fabs(y) > error && (x > 0) != (y > 0))
@@ -301,31 +304,24 @@ static pir_box box_of(const pir_body *body, const pir_seam *seam) {
     return box;
 }
 
-static pir_status check_parts(struct seams *seams, const pir_boxes *boxes, uint32_t *found) {
+/* Refuses a seam that crosses what is near it: parts, or seams that come after it. */
+static pir_status check(struct seams *seams, const pir_boxes *boxes, bool of_parts, uint32_t *found) {
     pir_body *body = seams->body;
     for (uint32_t s = 0; s < seams->count && body->space->status == PIR_OK; s++) {
         pir_seam *seam = &seams->seam[s];
         const pir_box box = box_of(body, seam);
-        for (uint32_t i = 0, count = pir_boxes_find(boxes, &box, found); i < count; i++)
-            if (cross_part(body, seam, found[i]) && body->space->status == PIR_OK)
-                return pir_seam_refuse(body, seam, body->part_facet[found[i]]);
+        for (uint32_t i = 0, count = pir_boxes_find(boxes, &box, found); i < count; i++) {
+            const uint32_t o = found[i];
+            const bool crosses =
+                of_parts ? cross_part(body, seam, o) : o > s && cross_seam(body, seam, &seams->seam[o]);
+            if (crosses && body->space->status == PIR_OK)
+                return pir_seam_refuse(body, seam, of_parts ? body->part_facet[o] : seams->seam[o].left);
+        }
     }
     return body->space->status;
 }
 
-static pir_status check_pairs(struct seams *seams, const pir_boxes *boxes, uint32_t *found) {
-    pir_body *body = seams->body;
-    for (uint32_t s = 0; s < seams->count && body->space->status == PIR_OK; s++) {
-        pir_seam *seam = &seams->seam[s];
-        const pir_box box = box_of(body, seam);
-        for (uint32_t i = 0, count = pir_boxes_find(boxes, &box, found); i < count; i++)
-            if (found[i] > s && cross_seam(body, seam, &seams->seam[found[i]]) && body->space->status == PIR_OK)
-                return pir_seam_refuse(body, seam, seams->seam[found[i]].left);
-    }
-    return body->space->status;
-}
-
-static pir_status check_all_pairs(struct seams *seams) {
+static pir_status check_pairs(struct seams *seams) {
     const pir_allocator *a = &seams->body->space->allocator;
     pir_box *box = PIR_NEW(a, pir_box, seams->count);
     uint32_t *found = PIR_NEW(a, uint32_t, seams->count);
@@ -336,7 +332,7 @@ static pir_status check_all_pairs(struct seams *seams) {
     if (status == PIR_OK && !pir_boxes_init(&boxes, a, box, seams->count))
         status = PIR_ERR_MEMORY;
     else if (status == PIR_OK) {
-        status = check_pairs(seams, &boxes, found);
+        status = check(seams, &boxes, false, found);
         pir_boxes_finish(&boxes, a);
     }
     PIR_FREE(a, found, seams->count);
@@ -349,9 +345,9 @@ pir_status pir_seams_check(pir_body *body, const pir_boxes *boxes, uint32_t *fou
     list_seams(&seams);
     pir_status status = body->space->status;
     if (status == PIR_OK)
-        status = check_parts(&seams, boxes, found);
+        status = check(&seams, boxes, true, found);
     if (status == PIR_OK)
-        status = check_all_pairs(&seams);
+        status = check_pairs(&seams);
     pir_space_shrink(body->space, seams.seam, seams.room, sizeof *seams.seam);
     pir_space_shrink(body->space, seams.place, seams.place_room, sizeof *seams.place);
     return status;
