@@ -101,7 +101,8 @@ typedef struct pir_solid_facets {
  *
  * Cost: as of pir_solid_read.
  *
- * Errors as of pir_solid_read, PIR_ERR_NOT_FINITE, and PIR_ERR_ARGUMENT for corners that are no points.
+ * Errors as of pir_solid_read, PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT for corners that are no points, and PIR_ERR_LIMIT
+ * for counts of 2^30 or more, before anything is read.
  */
 PIR_API pir_status pir_solid_create(const pir_solid_facets *facets, const pir_solid_options *options,
                                     pir_report *report, pir_solid **ret_solid);

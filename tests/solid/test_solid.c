@@ -182,6 +182,22 @@ static void facets_without_volume_or_plane_are_refused(void **state) {
     expect_refusal(&facets, PIR_ERR_EMPTY, "no facets");
 }
 
+static void counts_beyond_the_limit_are_refused_before_anything_is_read(void **state) {
+    (void)state;
+    const size_t counts[] = {(size_t)1 << 30, SIZE_MAX / sizeof(pir_vec3) + 1, SIZE_MAX / 2, SIZE_MAX};
+    const uint32_t starts[] = {0, 3}, corners[] = {0, 1, 2};
+    const pir_vec3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    for (size_t i = 0; i < 2 * sizeof counts / sizeof *counts; i++) {
+        const size_t many = counts[i / 2];
+        const pir_solid_facets facets = {points, i % 2 ? many : 3, starts, corners, i % 2 ? 1 : many};
+        pir_report report;
+        pir_solid *solid = NULL;
+        assert_int_equal(pir_solid_create(&facets, NULL, &report, &solid), PIR_ERR_LIMIT);
+        assert_non_null(strstr(report.text, i % 2 ? "2^30 points or more" : "2^30 facets or more"));
+        assert_null(solid);
+    }
+}
+
 static void every_failing_request_and_a_low_limit_are_survived(void **state) {
     (void)state;
     static solid_facets facets;
@@ -292,6 +308,7 @@ int main(void) {
         cmocka_unit_test(facet_that_crosses_itself_is_refused),
         cmocka_unit_test(inside_out_is_refused),
         cmocka_unit_test(facets_without_volume_or_plane_are_refused),
+        cmocka_unit_test(counts_beyond_the_limit_are_refused_before_anything_is_read),
         cmocka_unit_test(every_failing_request_and_a_low_limit_are_survived),
         cmocka_unit_test(sum_holds_no_more_than_its_limit_with_gmps_numbers),
     };

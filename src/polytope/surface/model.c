@@ -30,6 +30,14 @@ static uint32_t more_room(uint32_t room) {
     return room < 32 ? 64 : room < UINT32_MAX / 2 ? 2 * room : UINT32_MAX;
 }
 
+pir_status pir_model_check_counts(const struct pir_model *model, size_t points, size_t facets) {
+    if (points >= COUNT_MAX)
+        return pir_fail(model->report, PIR_ERR_LIMIT, "%s: 2^30 points or more", model->name);
+    if (facets >= COUNT_MAX)
+        return pir_fail(model->report, PIR_ERR_LIMIT, "%s: 2^30 facets or more", model->name);
+    return PIR_OK;
+}
+
 pir_status pir_model_reserve_points(struct pir_model *model, uint32_t count) {
     if (count <= model->point_room)
         return PIR_OK;
@@ -42,20 +50,19 @@ pir_status pir_model_reserve_points(struct pir_model *model, uint32_t count) {
 }
 
 pir_status pir_model_add_point(struct pir_model *model, pir_vec3 point) {
-    if (model->point_count >= COUNT_MAX - 1)
-        return pir_fail(model->report, PIR_ERR_LIMIT, "%s: 2^30 points or more", model->name);
-    if (model->point_count == model->point_room) {
-        pir_status status = pir_model_reserve_points(model, more_room(model->point_room));
-        if (status != PIR_OK)
-            return status;
-    }
+    pir_status status = pir_model_check_counts(model, (size_t)model->point_count + 1, 0);
+    if (status == PIR_OK && model->point_count == model->point_room)
+        status = pir_model_reserve_points(model, more_room(model->point_room));
+    if (status != PIR_OK)
+        return status;
     model->points[model->point_count++] = point;
     return PIR_OK;
 }
 
 pir_status pir_model_begin_facet(struct pir_model *model, size_t line) {
-    if (model->facet_count >= COUNT_MAX - 1)
-        return pir_fail(model->report, PIR_ERR_LIMIT, "%s: 2^30 facets or more", model->name);
+    pir_status status = pir_model_check_counts(model, 0, (size_t)model->facet_count + 1);
+    if (status != PIR_OK)
+        return status;
     if (model->facet_count == model->facet_room) {
         uint32_t room = more_room(model->facet_room);
         struct pir_model_facet *facet = PIR_RESIZE(&model->allocator, model->facet, model->facet_room, room);

@@ -48,6 +48,9 @@ void pir_model_finish(struct pir_model *model);
 /* Reports that memory ran out. */
 pir_status pir_model_fail_memory(const struct pir_model *model);
 
+/* PIR_ERR_LIMIT where there are 2^30 points or facets, or more. For counts that are given before what they count. */
+pir_status pir_model_check_counts(const struct pir_model *model, size_t points, size_t facets);
+
 /* Room for `count` points in all, so that adding up to that many cannot fail. The caller has checked that the bytes of
    the file can hold so many. */
 pir_status pir_model_reserve_points(struct pir_model *model, uint32_t count);

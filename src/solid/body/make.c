@@ -77,7 +77,7 @@ pir_status pir_solid_read_bytes(const pir_file_bytes *file, const pir_solid_opti
 
 /* The points and facets in memory as a reader would leave them. */
 static pir_status fill_model(struct pir_model *model, const pir_solid_facets *facets) {
-    pir_status status = PIR_OK;
+    pir_status status = pir_model_check_counts(model, facets->point_count, facets->facet_count);
     model->binary = true;
     for (size_t i = 0; i < facets->point_count && status == PIR_OK; i++)
         status = pir_vec_is_finite(facets->points[i])
