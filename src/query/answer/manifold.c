@@ -59,9 +59,10 @@ static inline bool is_usable(const pir_frame *frame, const pir_query_result *ans
 
 /* --- setting up --- */
 
-static inline void set_patch(pir_patch *patch, const pir_polytope *polytope, const pir_vec3 *vertex, pir_vec3 out) {
-    patch->polytope = polytope;
-    patch->vertex = vertex;
+static inline void set_patch(pir_patch *patch, const pir_body *body, pir_vec3 out) {
+    patch->polytope = body->polytope;
+    patch->vertex = body->vertex;
+    patch->kept = pir_body_shapes(body);
     patch->r = NULL;
     patch->sign = 1;
     patch->at = (pir_vec3){0, 0, 0};
@@ -95,8 +96,8 @@ static inline void begin(struct manifold *m, const pir_frame *frame, const pir_p
     m->p = &room->p;
     m->q = &room->q;
     m->n = answer->normal;
-    set_patch(m->q, frame->q.polytope, frame->q.vertex, m->n);
-    set_patch(m->p, frame->p.polytope, frame->p.vertex, pir_vec_scale(m->n, -1));
+    set_patch(m->q, &frame->q, m->n);
+    set_patch(m->p, &frame->p, pir_vec_scale(m->n, -1));
     // P is stored reflected
     m->p->r = &frame->r;
     m->p->sign = -1;

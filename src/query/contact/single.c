@@ -89,7 +89,7 @@ static double least_apart(const pir_vec3 *at, uint32_t count) {
 static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
     const pir_polytope *p = patch->polytope;
     uint32_t start = p->loop_start[f], count = p->loop_start[f + 1] - start;
-    pir_facet_shape shape = {f + 1, 0, 0, 0, 0};
+    pir_facet_shape shape = {0, 0, 0, 0};
     pir_vec3 at[PIR_CLIP_MOST];
     if (count > PIR_CLIP_MOST)
         return shape;
@@ -111,6 +111,15 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
     return shape;
 }
 
+/* Sets the shape of the patch to that of a facet. */
+static inline void set_shape(pir_patch *patch, uint32_t f) {
+    if (patch->kept && pir_kept_shape_get(&patch->kept[f], &patch->shape))
+        return;
+    patch->shape = shape_of(patch, f);
+    if (patch->kept)
+        pir_kept_shape_set(&patch->kept[f], &patch->shape);
+}
+
 /* --- facets --- */
 
 /*
@@ -118,8 +127,7 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
  * and the least cosine is given; what is asked for besides is then more than what rounding may change.
  */
 static bool stands_alone(pir_patch *patch, uint32_t f, pir_vec3 out, double cosine, bool leeway) {
-    if (patch->shape.facet != f + 1)
-        patch->shape = shape_of(patch, f);
+    set_shape(patch, f);
     const pir_facet_shape *shape = &patch->shape;
     pir_vec3 off = pir_vec_sub(out, patch->polytope->normal[f]);
     double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING, seen = cosine * (1 - COARSE);
