@@ -82,10 +82,7 @@ static bool place_q(struct clip *clip) {
 
 /* The side of Q in a set of one. */
 static inline uint32_t only(uint32_t set) {
-    uint32_t j = 0;
-    while (!(set >> j & 1))
-        j++;
-    return j;
+    return (uint32_t)__builtin_ctz(set);
 }
 
 static inline void put_corner(struct clip *clip, pir_corner_kind kind, uint32_t i) {
