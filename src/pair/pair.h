@@ -48,8 +48,7 @@ struct pir_pair {
 
     pir_held held; /* what is left of the last proof of `facet` */
 
-    const pir_workspace *workspace;   /* of the last call; never followed */
-    pir_facet_shape shape_p, shape_q; /* of the facets of the last manifold */
+    const pir_workspace *workspace; /* of the last call; never followed */
 
     pir_pair_statistics statistics;
 };

@@ -100,12 +100,8 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
     } else if (is_held && !pair->held.is_short && workspace->moved.way == 0 && workspace->moved.turn == 0) {
         ask.ret_lone = &pair->held.lone;
     }
-    workspace->patches.p.shape = pair->shape_p;
-    workspace->patches.q.shape = pair->shape_q;
     status =
         pir_manifold_find(&workspace->frame, &workspace->placement, &workspace->patches, &ask, ret_contacts, ret_count);
-    pair->shape_p = workspace->patches.p.shape;
-    pair->shape_q = workspace->patches.q.shape;
     if (workspace->posed && (status == PIR_OK || status == PIR_ERR_LIMIT))
         to_world(workspace, answer, ret_contacts, *ret_count < capacity ? *ret_count : capacity);
     return status;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What other parts keep of a polytope: made when first needed, never changed, freed with the polytope.
+ * What other parts keep of a polytope: made when first needed, never changed but for numbers that an item learns
+ * atomically (query/frame/facet_shape.h), freed with the polytope.
  *
  * A polytope is shared by threads, so the list only ever grows at its head, by one atomic exchange. Where two
  * threads make the same item at once, the first that is added stands and the other is destroyed.

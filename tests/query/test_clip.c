@@ -6,6 +6,7 @@
 #include "support/test.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "query/contact/clip.h"
 #include "query/contact/single.h"
@@ -195,8 +196,16 @@ static bool check_feature(pir_patch *patch, test_random *random, pir_feature fea
     pir_vec3 out = pir_vec_add(pir_vec_add(pir_vec_scale(n, part), pir_vec_scale(m, 1 - part)), pir_vec_scale(d, tilt));
     out = pir_vec_scale(out, 1 / sqrt(pir_vec_dot(out, out)));
     patch->out = pir_vec_scale(patch->r ? pir_mat_apply(patch->r, out) : out, patch->sign);
-    pir_single single;
+    pir_single single, again;
+    pir_kept_shape *kept = patch->kept;
+    patch->kept = NULL;
     bool is_single = pir_patch_single(patch, feature, 0, &single);
+    pir_facet_shape shape = patch->shape;
+    patch->kept = kept;
+    // with shapes that are kept, whether this one is known or not
+    expect(pir_patch_single(patch, feature, 0, &again) == is_single, "case %d: kept", (int)number);
+    expect(!is_single || (again.facet == single.facet && memcmp(&patch->shape, &shape, sizeof shape) == 0),
+           "case %d: the kept shape of facet %u", (int)number, single.facet);
     if (is_single) {
         expect(grows_to(patch, feature, single.facet), "case %d: feature %d %u grows beyond facet %u", (int)number,
                (int)feature.kind, feature.index, single.facet);
@@ -216,6 +225,7 @@ static void single_facets_are_what_growing_ends_at(void **state) {
     static uint32_t member[TEST_POINTS_MAX];
     static bool is_member[TEST_POINTS_MAX];
     static pir_corner corner[TEST_POINTS_MAX];
+    static pir_kept_shape kept[2 * TEST_POINTS_MAX];
     int single = 0, asked = 0;
     for (uint64_t number = 0; number < 600; number++) {
         test_random random = test_random_case("single facets", number);
@@ -226,6 +236,9 @@ static void single_facets_are_what_growing_ends_at(void **state) {
         pir_polytope *p = test_polytope(&at);
         pir_mat3 r = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
         pir_patch patch = patch_of(p, (pir_vec3){0, 0, 1}, number % 2 ? &r : NULL, member, is_member, corner);
+        for (uint32_t f = 0; f < p->facet_count; f++)
+            pir_kept_shape_clear(&kept[f]);
+        patch.kept = kept;
         const uint32_t counts[3] = {p->vertex_count, p->edge_count, p->facet_count};
         for (int i = 0; i < 60 && p->dimension > 1; i++) {
             pir_feature feature = {(pir_feature_kind)(PIR_FEATURE_VERTEX + i % 3), 0};

@@ -166,7 +166,6 @@ static inline void take_room(pir_query *query) {
     room->owner = query;
     query->exact.scratch = room->limbs;
     query->exact.made = false;
-    room->patches.p.shape.facet = room->patches.q.shape.facet = 0;
     pir_groups_forget(&query->search.groups);
 }
 

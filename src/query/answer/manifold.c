@@ -59,9 +59,10 @@ static inline bool is_usable(const pir_frame *frame, const pir_query_result *ans
 
 /* --- setting up --- */
 
-static inline void set_patch(pir_patch *patch, const pir_polytope *polytope, const pir_vec3 *vertex, pir_vec3 out) {
-    patch->polytope = polytope;
-    patch->vertex = vertex;
+static inline void set_patch(pir_patch *patch, const pir_body *body, pir_vec3 out) {
+    patch->polytope = body->polytope;
+    patch->vertex = body->vertex;
+    patch->kept = pir_body_shapes(body);
     patch->r = NULL;
     patch->sign = 1;
     patch->at = (pir_vec3){0, 0, 0};
@@ -95,8 +96,8 @@ static inline void begin(struct manifold *m, const pir_frame *frame, const pir_p
     m->p = &room->p;
     m->q = &room->q;
     m->n = answer->normal;
-    set_patch(m->q, frame->q.polytope, frame->q.vertex, m->n);
-    set_patch(m->p, frame->p.polytope, frame->p.vertex, pir_vec_scale(m->n, -1));
+    set_patch(m->q, &frame->q, m->n);
+    set_patch(m->p, &frame->p, pir_vec_scale(m->n, -1));
     // P is stored reflected
     m->p->r = &frame->r;
     m->p->sign = -1;
@@ -297,10 +298,13 @@ static uint64_t answer_id(const struct manifold *m, bool is_corner) {
 
 /* The corner that is the answer's own point, or `count` where none is. */
 static inline uint32_t corner_of_answer(const struct manifold *m, uint32_t count) {
-    const pir_corner *corner = m->room->shared;
-    for (uint32_t i = 0; i < count; i++)
-        if (pir_outline_distance(&corner[i], &m->of_answer) <= m->coarse)
+    const pir_corner *corner = m->room->shared, *a = &m->of_answer;
+    for (uint32_t i = 0; i < count; i++) {
+        // most are so far that one coordinate tells
+        bool near = fabs(corner[i].u - a->u) <= 2 * m->coarse && fabs(corner[i].v - a->v) <= 2 * m->coarse;
+        if (near && pir_outline_distance(&corner[i], a) <= m->coarse)
             return i;
+    }
     return count;
 }
 
@@ -349,7 +353,8 @@ static size_t put_contacts(struct manifold *m, const pir_placement *placement, c
     size_t count = put_answer(m, ask, own, corners, ret_contacts);
     for (uint32_t i = own < corners; i < corners; i++) {
         pir_contact contact;
-        uint32_t k = own == corners ? i : (own + i) % corners;
+        uint32_t k = own < corners ? own + i : i;
+        k -= k < corners ? 0 : corners;
         if (!make_contact(m, &m->room->shared[k], &contact))
             continue;
         if (count < ask->capacity)

@@ -21,6 +21,7 @@ struct clip {
     uint32_t outside[PIR_CLIP_MOST];             /* per corner of P: the set of lines of Q that it is outside of */
     uint32_t beyond[PIR_CLIP_MOST];              /* per line of P: the set of corners of Q that are outside of it */
     uint32_t crossed[PIR_CLIP_MOST];             /* per side of P: the set of sides of Q that it crosses */
+    uint32_t entering, leaving;                  /* the sets of sides of P that enter Q, and that leave it */
     double snap;
     pir_corner *corners;
     uint32_t count;
@@ -59,10 +60,15 @@ static bool place_p(struct clip *clip) {
     return clear;
 }
 
+static inline bool is_at_most_one(uint32_t set) {
+    return (set & (set - 1)) == 0;
+}
+
 /* Where the corners of Q are, and which sides cross. False where one is not clear, or more sides cross than can. */
 static bool place_q(struct clip *clip) {
     uint32_t p = clip->p.count, q = clip->q.count;
     bool clear = true;
+    clip->entering = clip->leaving = 0;
     for (uint32_t i = 0; i < p; i++) {
         struct line line = line_along(clip->p, i, clip->snap);
         uint32_t beyond = 0, start = clip->outside[i], end = clip->outside[i + 1 < p ? i + 1 : 0];
@@ -73,19 +79,18 @@ static bool place_q(struct clip *clip) {
         }
         uint32_t next = beyond >> 1 | (beyond & 1) << (q - 1), crossed = (beyond ^ next) & (start ^ end);
         uint32_t enters = crossed & start, leaves = crossed & end;
-        clear &= (enters & (enters - 1)) == 0 && (leaves & (leaves - 1)) == 0;
+        clear &= is_at_most_one(enters) && is_at_most_one(leaves);
         clip->beyond[i] = beyond;
         clip->crossed[i] = crossed;
+        clip->entering |= (uint32_t)(enters != 0) << i;
+        clip->leaving |= (uint32_t)(leaves != 0) << i;
     }
     return clear;
 }
 
-/* The side of Q in a set of one. */
+/* The side in a set of one. */
 static inline uint32_t only(uint32_t set) {
-    uint32_t j = 0;
-    while (!(set >> j & 1))
-        j++;
-    return j;
+    return (uint32_t)__builtin_ctz(set);
 }
 
 static inline void put_corner(struct clip *clip, pir_corner_kind kind, uint32_t i) {
@@ -136,6 +141,23 @@ static void walk(struct clip *clip, uint32_t first) {
     }
 }
 
+/* The same walk where P enters Q once, so that all corners after that, up to where it leaves, are in Q. */
+static void walk_once(struct clip *clip) {
+    uint32_t p = clip->p.count, q = clip->q.count, first = only(clip->leaving), i = only(clip->entering);
+    uint32_t left = only(clip->crossed[first] & ~clip->outside[first]);
+    uint32_t entered = only(clip->crossed[i] & clip->outside[i]);
+    put_crossing(clip, first, left);
+    while (left != entered) {
+        left = left + 1 < q ? left + 1 : 0;
+        put_corner(clip, PIR_CORNER_Q, left);
+    }
+    put_crossing(clip, i, entered);
+    while (i != first) {
+        i = i + 1 < p ? i + 1 : 0;
+        put_corner(clip, PIR_CORNER_P, i);
+    }
+}
+
 /* Whether each corner turns left, and is clear of the line through its neighbours. */
 static bool is_hull(const pir_corner *at, uint32_t count, double snap) {
     bool clear = count > 2;
@@ -162,12 +184,11 @@ uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_corner 
     clip.count = 0;
     if (!place_p(&clip) || !place_q(&clip))
         return PIR_CLIP_UNCLEAR;
-    uint32_t first = 0;
-    while (first < p.count && !(clip.crossed[first] & ~clip.outside[first]))
-        first++;
-    if (first == p.count)
+    if (clip.leaving == 0)
         put_all(&clip);
+    else if (clip.entering != 0 && is_at_most_one(clip.leaving) && is_at_most_one(clip.entering))
+        walk_once(&clip);
     else
-        walk(&clip, first);
+        walk(&clip, (uint32_t)__builtin_ctz(clip.leaving));
     return clip.count == 0 || is_hull(ret_corners, clip.count, snap) ? clip.count : PIR_CLIP_UNCLEAR;
 }

@@ -15,6 +15,7 @@
 #include "base/vec.h"
 #include "polytope/polytope.h"
 #include "query/contact/outline.h"
+#include "query/frame/facet_shape.h"
 
 /*
  * Tolerances. Contact manifolds are floating answers, and which corners belong together is a question of scale.
@@ -40,19 +41,11 @@
 
 #define PIR_NO_FACET UINT32_MAX
 
-/* What single.c has to know of a facet, in the frame. It depends on the body alone, so a caller may keep it. */
-typedef struct pir_facet_shape {
-    uint32_t facet; /* its number and 1; 0 where nothing is known */
-    float fall;     /* the least sine by which an edge that leaves it falls from its plane */
-    float thick;    /* a corner stands out from the line through its neighbours by more */
-    float wide;     /* it is wider than this part of its length */
-    float apart;    /* two corners are farther apart */
-} pir_facet_shape;
-
 typedef struct pir_patch {
     /* the body in its place. P is stored reflected, so its sign is −1. Q is not rotated: its r is NULL. */
     const pir_polytope *polytope;
     const pir_vec3 *vertex;
+    pir_kept_shape *kept; /* per facet, or NULL */
     const pir_mat3 *r;
     double sign;
     pir_vec3 at;
@@ -65,7 +58,7 @@ typedef struct pir_patch {
     uint32_t facet; /* the facet that faces `out` most, from which a search for the surface starts; or PIR_NO_FACET */
     pir_corner *corner;
     pir_outline outline;
-    pir_facet_shape shape;           /* of the last single facet: see single.h */
+    pir_facet_shape shape;           /* of the last facet that was asked for as a single one */
     double height, along_u, along_v; /* of a single facet's plane over the contact plane's origin, and its slopes */
 } pir_patch;
 

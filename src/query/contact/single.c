@@ -89,7 +89,7 @@ static double least_apart(const pir_vec3 *at, uint32_t count) {
 static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
     const pir_polytope *p = patch->polytope;
     uint32_t start = p->loop_start[f], count = p->loop_start[f + 1] - start;
-    pir_facet_shape shape = {f + 1, 0, 0, 0, 0};
+    pir_facet_shape shape = {0, 0, 0, 0};
     pir_vec3 at[PIR_CLIP_MOST];
     if (count > PIR_CLIP_MOST)
         return shape;
@@ -111,6 +111,15 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
     return shape;
 }
 
+/* Sets the shape of the patch to that of a facet. */
+static inline void set_shape(pir_patch *patch, uint32_t f) {
+    if (patch->kept && pir_kept_shape_get(&patch->kept[f], &patch->shape))
+        return;
+    patch->shape = shape_of(patch, f);
+    if (patch->kept)
+        pir_kept_shape_set(&patch->kept[f], &patch->shape);
+}
+
 /* --- facets --- */
 
 /*
@@ -118,8 +127,7 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
  * and the least cosine is given; what is asked for besides is then more than what rounding may change.
  */
 static bool stands_alone(pir_patch *patch, uint32_t f, pir_vec3 out, double cosine, bool leeway) {
-    if (patch->shape.facet != f + 1)
-        patch->shape = shape_of(patch, f);
+    set_shape(patch, f);
     const pir_facet_shape *shape = &patch->shape;
     pir_vec3 off = pir_vec_sub(out, patch->polytope->normal[f]);
     double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING, seen = cosine * (1 - COARSE);
@@ -137,30 +145,26 @@ struct facing {
     double cosine, next;
 };
 
-/* Looks at the halfedges at v; `out` is a direction of the body. */
-static void find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, struct facing *most) {
+/* Looks at the halfedges at v; `out` is a direction of the body. Which of them leads is a guess, so no branch asks. */
+static inline struct facing find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, struct facing most) {
     for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
         double along = pir_vec_dot(p->normal[p->left[h]], out);
-        if (along > most->cosine) {
-            most->next = most->cosine;
-            most->cosine = along;
-            most->half = h;
-        } else if (along > most->next) {
-            most->next = along;
-        }
+        double second = along < most.cosine ? along : most.cosine;
+        most.half = along > most.cosine ? h : most.half;
+        most.cosine = along > most.cosine ? along : most.cosine;
+        most.next = second > most.next ? second : most.next;
     }
+    return most;
 }
 
 /* The facet that a vertex or an edge grows by, as the halfedge before which it lies. */
 static struct facing grown_by(const pir_polytope *p, pir_feature feature, pir_vec3 out) {
     struct facing found = {UINT32_MAX, LEAST_COSINE, LEAST_COSINE};
-    if (feature.kind == PIR_FEATURE_VERTEX) {
-        find_facing(p, feature.index, out, &found);
-        return found;
-    }
+    if (feature.kind == PIR_FEATURE_VERTEX)
+        return find_facing(p, feature.index, out, found);
     uint32_t half = p->edge_half[feature.index];
-    find_facing(p, p->origin[half], out, &found);
-    find_facing(p, p->target[half], out, &found);
+    found = find_facing(p, p->origin[half], out, found);
+    found = find_facing(p, p->target[half], out, found);
     // one at a single end of the edge leaves the other end beside it
     uint32_t facet = found.half != UINT32_MAX ? p->left[found.half] : UINT32_MAX;
     if (facet != p->left[half] && facet != pir_right(p, half))

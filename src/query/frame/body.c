@@ -2,6 +2,7 @@
 /* Operands in the frame of an exponent, kept by their polytopes: see body.h. */
 #include "query/frame/body.h"
 
+#include <assert.h>
 #include <limits.h>
 
 /* Kinds of what is attachment. */
@@ -17,10 +18,16 @@ static void destroy_size(pir_attachment *attachment, const pir_allocator *a) {
     PIR_FREE(a, size, 1);
 }
 
+/* The offsets and the shapes behind them, in doubles. */
+static size_t offsets_and_shapes(const pir_polytope *p) {
+    static_assert(sizeof(pir_kept_shape) == 2 * sizeof(double), "shapes take whole doubles");
+    return (size_t)p->facet_count * 3;
+}
+
 static void destroy_body(pir_attachment *attachment, const pir_allocator *a) {
     pir_kept_body *body = (pir_kept_body *)attachment;
     PIR_FREE(a, body->body.vertex, body->body.polytope->vertex_count);
-    PIR_FREE(a, body->body.offset, body->body.polytope->facet_count);
+    PIR_FREE(a, body->body.offset, offsets_and_shapes(body->body.polytope));
     PIR_FREE(a, body, 1);
 }
 
@@ -89,7 +96,7 @@ static pir_status make_body(pir_polytope *p, int exponent, pir_kept_body **ret_b
     made->attachment = (pir_attachment){.kind = &a_body, .key = exponent, .destroy = destroy_body};
     made->body.polytope = p;
     made->body.vertex = PIR_NEW(a, pir_vec3, p->vertex_count);
-    made->body.offset = PIR_NEW(a, double, p->facet_count);
+    made->body.offset = PIR_NEW(a, double, offsets_and_shapes(p));
     mp_limb_t *room = room_new(p);
     pir_status status = PIR_ERR_MEMORY;
     if (made->body.vertex && made->body.offset && room)
@@ -99,6 +106,8 @@ static pir_status make_body(pir_polytope *p, int exponent, pir_kept_body **ret_b
         destroy_body(&made->attachment, a);
         return status;
     }
+    for (uint32_t f = 0; f < p->facet_count; f++)
+        pir_kept_shape_clear(&pir_body_shapes(&made->body)[f]);
     made->inner = inner_of(&made->body);
     made->point = point_of(p);
     *ret_body = made;

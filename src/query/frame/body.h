@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Operands in the frame of an exponent. Such a body depends on one polytope alone, is made when it is first asked for,
- * stays with the polytope (polytope/attachment.h), and is shared by all pairs, queries and threads.
+ * stays with the polytope (polytope/attachment.h), and is shared by all pairs, queries and threads. Only the shapes of
+ * its facets become known later, one by one (facet_shape.h).
  */
 #ifndef PIR_QUERY_FRAME_BODY_H
 #define PIR_QUERY_FRAME_BODY_H

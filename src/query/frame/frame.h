@@ -20,6 +20,7 @@
 #include "polytope/polytope.h"
 #include "query/frame/climb.h"
 #include "query/frame/dd.h"
+#include "query/frame/facet_shape.h"
 
 /*
  * The error of a slack in doubles is at most err · PIR_SLACK_BOUND · (size_p + size_q + |x|).
@@ -39,13 +40,18 @@
 typedef struct pir_body {
     const pir_polytope *polytope;
     pir_vec3 *vertex; /* relative to the middle of its bounds */
-    double *offset;   /* per facet: normal · vertex */
+    double *offset;   /* per facet: normal · vertex; behind them lie the facets' shapes */
     double size;      /* the length of the farthest vertex, rounded up */
     double swing;     /* how fast its support changes as directions turn: see planes/bounds.c */
     pir_dd3 centre;   /* the middle of its bounds, in units of the frame */
     double far;       /* an upper bound on the distance of the middle from the origin */
     uint32_t landmarks[PIR_LANDMARKS];
 } pir_body;
+
+/* What is known of the shapes of its facets. */
+static inline pir_kept_shape *pir_body_shapes(const pir_body *body) {
+    return (pir_kept_shape *)(body->offset + body->polytope->facet_count);
+}
 
 typedef struct pir_frame {
     pir_body p, q;
