@@ -18,6 +18,9 @@
 #define MOST_WIDENED      9
 #define MOST_WIDENED_LEFT 2
 
+/* Corners that one trim takes: more would cost one frame more and the others no less. */
+#define MOST_TAKEN 6
+
 /* --- loops --- */
 
 static void place_corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
@@ -460,7 +463,7 @@ bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     uint32_t left = surface->used, side[PIR_SURFACE_CORNERS], taken = 0;
     list_distances(surface, room, distance);
     list_sides(surface, pir_surface_first(surface->count), side);
-    for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
+    for (uint32_t c; taken < MOST_TAKEN && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
         left &= ~(1u << c);
         taken += take_corner(surface, c, side, room);
     }
