@@ -18,9 +18,6 @@
 #define MOST_WIDENED      9
 #define MOST_WIDENED_LEFT 2
 
-/* Corners that one trim takes: more would cost one frame more and the others no less. */
-#define MOST_TAKEN 6
-
 /* --- loops --- */
 
 static void place_corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
@@ -270,19 +267,23 @@ static uint64_t set_fan(pir_surface_room *room, uint32_t i) {
  * Sets the fan from corner i in place of triangles. Where its rim passes a corner twice, all that is about that corner
  * goes too. Where a triangle of it is not certain, the one across its side of the rim goes, and those of `seen` that
  * are joined to it. False where nothing spans the hole in `most` times. *gone becomes the triangles that go.
+ * `uncertain` are the fan's triangles that are not certain where it is in place of them already, else 0.
  */
 static bool span(const pir_surface *surface, pir_surface_room *room, uint32_t i, uint64_t seen, uint32_t most,
-                 uint64_t *gone) {
+                 uint64_t uncertain, uint64_t *gone) {
     for (uint32_t times = 0; times < most; times++) {
-        uint32_t twice = list_rim(surface, *gone, &room->fan);
-        uint64_t more = about_all(surface, room, twice);
-        if (room->fan.count == 0)
-            return false;
+        uint64_t more = 0;
+        if (uncertain == 0) {
+            more = about_all(surface, room, list_rim(surface, *gone, &room->fan));
+            if (room->fan.count == 0)
+                return false;
+        }
         if (more == 0) {
-            uint64_t uncertain = set_fan(room, i);
+            uncertain = uncertain != 0 ? uncertain : set_fan(room, i);
             if (uncertain == 0)
                 return true;
             more = across(surface, room, uncertain);
+            uncertain = 0;
         }
         *gone = joined_to(surface, *gone | more, seen);
     }
@@ -353,12 +354,15 @@ static bool fits(const pir_surface *surface, uint64_t gone, const pir_surface_fa
 
 /* Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing. */
 static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least, uint32_t i, pir_surface_room *room) {
-    uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, gone = seen;
-    if (list_rim(surface, gone, &room->fan) == 0 && is_disk(gone, &room->fan) && set_fan(room, i) == 0)
-        return gone;
-    gone = joined_to(surface, least, seen);
+    uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, uncertain = 0;
+    if (list_rim(surface, seen, &room->fan) == 0 && is_disk(seen, &room->fan)) {
+        uncertain = set_fan(room, i);
+        if (uncertain == 0)
+            return seen;
+    }
+    uint64_t gone = joined_to(surface, least, seen);
     uint32_t most = room->plane.low[t] > 0 ? MOST_WIDENED : MOST_WIDENED_LEFT;
-    return span(surface, room, i, seen, most, &gone) ? gone : 0;
+    return span(surface, room, i, seen, most, gone == seen ? uncertain : 0, &gone) ? gone : 0;
 }
 
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room) {
@@ -463,7 +467,7 @@ bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     uint32_t left = surface->used, side[PIR_SURFACE_CORNERS], taken = 0;
     list_distances(surface, room, distance);
     list_sides(surface, pir_surface_first(surface->count), side);
-    for (uint32_t c; taken < MOST_TAKEN && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
+    for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
         left &= ~(1u << c);
         taken += take_corner(surface, c, side, room);
     }
