@@ -150,15 +150,15 @@ static bool by_facet(pir_task *task) {
 
 /* --- by a surface --- */
 
-static pir_overlap overlap_of(pir_task *task, bool is_new) {
+static pir_overlap overlap_of(pir_task *task) {
     pir_pair *pair = task->pair;
     pir_workspace *workspace = task->workspace;
     if (!pair->surface)
         pair->surface = PIR_ZEROED(&pair->allocator, pir_surface, 1);
     // without memory, one that is not kept
     return (pir_overlap){task->exact,      task->placement,   pair->surface ? pair->surface : &workspace->spare,
-                         &workspace->room, &pair->statistics, is_new,
-                         &task->has_same,  &task->same};
+                         &workspace->room, &pair->statistics, &task->has_same,
+                         &task->same};
 }
 
 /* The answer from a surface about x. */
@@ -198,14 +198,14 @@ static bool by_surface(pir_task *task) {
     pir_facet facet;
     if (!surface || surface->count == 0)
         return false;
-    pir_overlap overlap = overlap_of(task, false);
+    pir_overlap overlap = overlap_of(task);
     return finish(task, &overlap, pir_overlap_place(&overlap) ? PIR_ABOUT_X : pir_overlap_repair(&overlap, &facet),
                   &facet);
 }
 
 static bool by_new_surface(pir_task *task) {
     const pir_frame *frame = &task->workspace->frame;
-    pir_overlap overlap = overlap_of(task, true);
+    pir_overlap overlap = overlap_of(task);
     pir_facet facet;
     bool done = finish(task, &overlap, pir_overlap_begin(&overlap, &task->simplex, &facet), &facet);
     if (!done) {

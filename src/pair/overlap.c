@@ -98,15 +98,25 @@ static bool piece_at(const pir_overlap *overlap, uint32_t t, pir_piece *ret_piec
 /* What came of an expansion: nothing is beyond the triangle, the surface has changed, or it could not. */
 enum expansion { NOTHING_BEYOND, CHANGED, STUCK };
 
-/* Bodies of more vertices than this have corners of large triangles that are far from what is beyond those. */
+/* Bodies of more vertices than this have corners of triangles that are far from what is beyond those. */
 #define FEW_VERTICES 32
 
-/* The vertex of a body farthest along a direction, uphill from a vertex, or from a landmark that is farther. */
-static inline uint32_t climb(const pir_overlap *overlap, const pir_body *body, pir_vec3 n, double least,
-                             uint32_t from) {
-    if (overlap->is_new && body->polytope->vertex_count > FEW_VERTICES) {
-        uint32_t mark = body->landmarks[pir_landmark_of(n)];
-        from = pir_vec_dot(n, body->vertex[mark]) > pir_vec_dot(n, body->vertex[from]) ? mark : from;
+/*
+ * The vertex of a body farthest along a direction: uphill from the first corner of triangle t, or from another or a
+ * landmark where those are farther. `at` are the vertices at corners.
+ */
+static inline uint32_t climb(const pir_overlap *overlap, const pir_body *body, const uint32_t *at, uint32_t t,
+                             pir_vec3 n, double least) {
+    uint32_t from = at[corner_of(overlap, t, 0)];
+    if (body->polytope->vertex_count > FEW_VERTICES) {
+        const uint32_t others[3] = {at[corner_of(overlap, t, 1)], at[corner_of(overlap, t, 2)],
+                                    body->landmarks[pir_landmark_of(n)]};
+        double far = pir_vec_dot(n, body->vertex[from]);
+        for (int k = 0; k < 3; k++) {
+            double other = pir_vec_dot(n, body->vertex[others[k]]);
+            from = other > far ? others[k] : from;
+            far = other > far ? other : far;
+        }
     }
     return pir_climb_above(body->polytope, n, least, from);
 }
@@ -119,9 +129,9 @@ static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *r
     const pir_frame *frame = overlap->exact->frame;
     pir_vec3 n = pir_surface_normal(overlap->room, t);
     double least = PIR_LEAST_SLOPE * sqrt(pir_vec_dot(n, n));
-    uint32_t first = corner_of(overlap, t, 0), a = overlap->surface->a[first], b = overlap->surface->b[first];
-    a = climb(overlap, &frame->p, pir_mat_apply_transposed(&frame->r, n), least, a);
-    b = climb(overlap, &frame->q, n, least, b);
+    pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
+    uint32_t a = climb(overlap, &frame->p, overlap->surface->a, t, back, least);
+    uint32_t b = climb(overlap, &frame->q, overlap->surface->b, t, n, least);
     pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, a, b), overlap->room->centre);
     if (!(pir_vec_dot(n, w) > overlap->room->plane.det[t] + overlap->room->det_error))
         return NOTHING_BEYOND;

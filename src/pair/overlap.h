@@ -18,7 +18,6 @@ typedef struct pir_overlap {
     pir_surface *surface;
     pir_surface_room *room;
     pir_pair_statistics *statistics;
-    bool is_new;    /* the surface is begun here, so that its triangles are large */
     bool *has_same; /* whether `same` is proven here, with x on its inner side */
     pir_same_facet *same;
 } pir_overlap;

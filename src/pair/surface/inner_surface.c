@@ -144,9 +144,10 @@ void pir_surface_begin(pir_surface *surface, const uint32_t a[4], const uint32_t
     put(surface, 3, 1, 3, 2);
 }
 
-/* The triangle that has the directed side (i, j). */
-static uint32_t beside(const pir_surface *surface, uint32_t i, uint32_t j) {
-    for (uint32_t t = 0; t < surface->count; t++) {
+/* The triangle that has the directed side (i, j): one of the few at both corners. */
+static uint32_t beside(const pir_surface *surface, const pir_surface_room *room, uint32_t i, uint32_t j) {
+    for (uint64_t rest = room->loops->about(surface, i) & room->loops->about(surface, j); rest; rest &= rest - 1) {
+        uint32_t t = (uint32_t)__builtin_ctzll(rest);
         uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
         if ((a == i && b == j) || (b == i && c == j) || (c == i && a == j))
             return t;
@@ -245,11 +246,12 @@ static uint64_t about_all(const pir_surface *surface, const pir_surface_room *ro
 }
 
 /* The triangles across the sides of the rim at which a fan is not certain. */
-static uint64_t across(const pir_surface *surface, const pir_surface_fan *fan, uint64_t uncertain) {
+static uint64_t across(const pir_surface *surface, const pir_surface_room *room, uint64_t uncertain) {
+    const pir_surface_fan *fan = &room->fan;
     uint64_t found = 0;
     for (; uncertain; uncertain &= uncertain - 1) {
         uint32_t s = (uint32_t)__builtin_ctzll(uncertain);
-        found |= 1ull << beside(surface, fan->corner[1][s], fan->corner[0][s]);
+        found |= 1ull << beside(surface, room, fan->corner[1][s], fan->corner[0][s]);
     }
     return found;
 }
@@ -265,19 +267,23 @@ static uint64_t set_fan(pir_surface_room *room, uint32_t i) {
  * Sets the fan from corner i in place of triangles. Where its rim passes a corner twice, all that is about that corner
  * goes too. Where a triangle of it is not certain, the one across its side of the rim goes, and those of `seen` that
  * are joined to it. False where nothing spans the hole in `most` times. *gone becomes the triangles that go.
+ * `uncertain` are the fan's triangles that are not certain where it is in place of them already, else 0.
  */
 static bool span(const pir_surface *surface, pir_surface_room *room, uint32_t i, uint64_t seen, uint32_t most,
-                 uint64_t *gone) {
+                 uint64_t uncertain, uint64_t *gone) {
     for (uint32_t times = 0; times < most; times++) {
-        uint32_t twice = list_rim(surface, *gone, &room->fan);
-        uint64_t more = about_all(surface, room, twice);
-        if (room->fan.count == 0)
-            return false;
+        uint64_t more = 0;
+        if (uncertain == 0) {
+            more = about_all(surface, room, list_rim(surface, *gone, &room->fan));
+            if (room->fan.count == 0)
+                return false;
+        }
         if (more == 0) {
-            uint64_t uncertain = set_fan(room, i);
+            uncertain = uncertain != 0 ? uncertain : set_fan(room, i);
             if (uncertain == 0)
                 return true;
-            more = across(surface, &room->fan, uncertain);
+            more = across(surface, room, uncertain);
+            uncertain = 0;
         }
         *gone = joined_to(surface, *gone | more, seen);
     }
@@ -348,12 +354,15 @@ static bool fits(const pir_surface *surface, uint64_t gone, const pir_surface_fa
 
 /* Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing. */
 static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least, uint32_t i, pir_surface_room *room) {
-    uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, gone = seen;
-    if (list_rim(surface, gone, &room->fan) == 0 && is_disk(gone, &room->fan) && set_fan(room, i) == 0)
-        return gone;
-    gone = joined_to(surface, least, seen);
+    uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, uncertain = 0;
+    if (list_rim(surface, seen, &room->fan) == 0 && is_disk(seen, &room->fan)) {
+        uncertain = set_fan(room, i);
+        if (uncertain == 0)
+            return seen;
+    }
+    uint64_t gone = joined_to(surface, least, seen);
     uint32_t most = room->plane.low[t] > 0 ? MOST_WIDENED : MOST_WIDENED_LEFT;
-    return span(surface, room, i, seen, most, &gone) ? gone : 0;
+    return span(surface, room, i, seen, most, gone == seen ? uncertain : 0, &gone) ? gone : 0;
 }
 
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room) {
@@ -421,30 +430,46 @@ static bool span_from(pir_surface_room *room, const pir_surface_fan *rim, uint32
     return (side[v] & rim->rim & ~near) == 0 && room->loops->planes(room, fan->corner[0], fan->count, &fan->plane) == 0;
 }
 
-/* Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole. */
-static bool take_corner(pir_surface *surface, uint32_t c, pir_surface_room *room) {
-    uint32_t side[PIR_SURFACE_CORNERS], s = 0;
+/* Brings the sides of a surface to what they are once the fan is in place of triangles. */
+static void change_sides(const pir_surface *surface, uint64_t gone, const pir_surface_fan *fan, uint32_t *side) {
+    for (uint64_t rest = gone; rest; rest &= rest - 1) {
+        struct three of = corners_of(surface, (uint32_t)__builtin_ctzll(rest));
+        side[of.a] &= ~(1u << of.b);
+        side[of.b] &= ~(1u << of.c);
+        side[of.c] &= ~(1u << of.a);
+    }
+    for (uint32_t t = 0; t < fan->count; t++)
+        list_side((struct three){fan->corner[0][t], fan->corner[1][t], fan->corner[2][t]}, side);
+}
+
+/*
+ * Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole.
+ * `side` are the sides of all triangles, before and after.
+ */
+static bool take_corner(pir_surface *surface, uint32_t c, uint32_t *side, pir_surface_room *room) {
+    uint32_t s = 0;
     uint64_t gone = room->loops->about(surface, c);
     pir_surface_fan rim;
     if (list_rim(surface, gone, &rim) != 0 || rim.count < 3)
         return false;
-    list_sides(surface, pir_surface_first(surface->count), side);
     while (s < rim.count && !span_from(room, &rim, rim.corner[0][s], side))
         s++;
     if (s == rim.count)
         return false;
     room->fan.lost = rim.lost;
+    change_sides(surface, gone, &room->fan, side);
     put_fan(surface, gone, room);
     return true;
 }
 
 bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     double distance[PIR_SURFACE_CORNERS];
-    uint32_t left = surface->used, taken = 0;
+    uint32_t left = surface->used, side[PIR_SURFACE_CORNERS], taken = 0;
     list_distances(surface, room, distance);
+    list_sides(surface, pir_surface_first(surface->count), side);
     for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
         left &= ~(1u << c);
-        taken += take_corner(surface, c, room);
+        taken += take_corner(surface, c, side, room);
     }
     return taken > 0;
 }
