@@ -41,6 +41,31 @@ static inline void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
     __builtin_prefetch(&pairing->q->twin[half]);
 }
 
+/* Fetches the facets of Q on either side of what the first crossing of edge e crosses. */
+static inline void pir_fetch_corners(const pir_tracked *tracked, uint32_t e) {
+    const pir_pairing *pairing = &tracked->pairing;
+    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.half[slot] : 0;
+    __builtin_prefetch(&pairing->q->normal[pairing->q->left[half]]);
+    __builtin_prefetch(&pairing->q->normal[pir_right(pairing->q, half)]);
+}
+
+/* Fetches the halfedges round facet g of Q. */
+static inline void pir_fetch_round(const pir_polytope *q, uint32_t g) {
+    for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
+        uint32_t half = q->loop[i];
+        __builtin_prefetch(&q->origin[half]);
+        __builtin_prefetch(&q->target[half]);
+        __builtin_prefetch(&q->left[half]);
+        __builtin_prefetch(&q->twin[half]);
+    }
+}
+
+/* Fetches where the rings of its corners begin. */
+static inline void pir_fetch_rings(const pir_polytope *q, uint32_t g) {
+    for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++)
+        __builtin_prefetch(&q->ring_start[q->origin[q->loop[i]]]);
+}
+
 /* Fetches the sides of facet f of P in either turn. */
 static inline void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, bool crossings) {
     const pir_polytope *p = tracked->pairing.p;
