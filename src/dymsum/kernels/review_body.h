@@ -17,15 +17,15 @@
 #define REVIEW_FETCHES 16384
 
 /* Fetches the ring of a cell. */
-REVIEW_TARGET static inline void fetch_ring(const pir_facets *facets, uint32_t cell) {
+REVIEW_TARGET PIR_FETCHING void fetch_ring(const pir_facets *facets, uint32_t cell) {
     const float *ring = facets->ring + (size_t)facets->ring_block[cell] * 3 * PIR_LANES;
     __builtin_prefetch(ring);
     __builtin_prefetch(ring + 2 * PIR_LANES);
 }
 
 /* Fetches what facets are turned by, and what their certificates are filed in. */
-REVIEW_TARGET static inline void fetch_facets(const pir_facets *facets, const pir_certificates *certificates,
-                                              const uint32_t *expired, uint32_t count) {
+REVIEW_TARGET PIR_FETCHING void fetch_facets(const pir_facets *facets, const pir_certificates *certificates,
+                                             const uint32_t *expired, uint32_t count) {
     for (uint32_t k = 0; k < count; k++) {
         uint32_t i = expired[k], f = i - facets->first_certificate;
         __builtin_prefetch(facets->cell + f);

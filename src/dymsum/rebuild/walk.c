@@ -12,6 +12,7 @@
  */
 #include "dymsum/rebuild/walk.h"
 
+#include "base/fetching.h"
 #include "dymsum/pairing/crossings.h"
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/facet_cells.h"
@@ -102,7 +103,7 @@ static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first
 }
 
 /* Fetches what the sides of the arcs' first cells are found by. */
-static void fetch_cells(const pir_polytope *q, const pir_arcs *arcs) {
+PIR_FETCHING void fetch_cells(const pir_polytope *q, const pir_arcs *arcs) {
     for (uint32_t k = 0; k < arcs->count; k++) {
         uint32_t start = q->ring_start[arcs->from[k]];
         __builtin_prefetch(q->target + start);
@@ -112,7 +113,7 @@ static void fetch_cells(const pir_polytope *q, const pir_arcs *arcs) {
 }
 
 /* Fetches what crossings of the sides that have been found are noted in. */
-static void fetch_sides(const pir_tracked *tracked, const pir_arcs *arcs) {
+PIR_FETCHING void fetch_sides(const pir_tracked *tracked, const pir_arcs *arcs) {
     for (uint32_t k = 0; k < arcs->count; k++)
         __builtin_prefetch(&tracked->work->met[arcs->met[k]], 1);
 }

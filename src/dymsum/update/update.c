@@ -82,7 +82,7 @@ static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half)
 }
 
 /* Fetches for the passes that follow number i. */
-static void fetch_pass(const struct update *update, uint32_t i) {
+PIR_FETCHING void fetch_pass(const struct update *update, uint32_t i) {
     const pir_tracked *tracked = update->tracked;
     const pir_polytope *q = tracked->pairing.q;
     const uint32_t *edge = tracked->pairing.p->edge;
@@ -263,7 +263,7 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
 }
 
 /* Fetches for the suspects of P that follow one, with `left` of them behind it. */
-static void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
+PIR_FETCHING void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     if (left > 3 * PIR_FETCHED_AHEAD) {
         __builtin_prefetch(&p->loop_start[suspect[3 * PIR_FETCHED_AHEAD].facet]);
@@ -285,7 +285,7 @@ static void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *su
 }
 
 /* The same of Q. */
-static void fetch_suspect_of_q(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
+PIR_FETCHING void fetch_suspect_of_q(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     if (left > 2 * PIR_FETCHED_AHEAD)
         __builtin_prefetch(&tracked->pairing.vf[suspect[2 * PIR_FETCHED_AHEAD].facet]);
@@ -361,7 +361,7 @@ static void review(struct update *update, uint32_t expired) {
 }
 
 /* Fetches for the edges to be derived anew that follow number i. */
-static void fetch_derived(const struct update *update, uint32_t i) {
+PIR_FETCHING void fetch_derived(const struct update *update, uint32_t i) {
     const pir_tracked *tracked = update->tracked;
     const uint32_t *edge = tracked->work->queue + i;
     if (i + 2 * PIR_FETCHED_AHEAD < update->derive) {
