@@ -95,6 +95,7 @@ PIR_FETCHING void fetch_pass(const struct update *update, uint32_t i) {
     if (i + PIR_FETCHED_AHEAD < update->passes) {
         const pir_suspect *next = pass + PIR_FETCHED_AHEAD;
         pir_fetch_edge(tracked, edge[next->crossed]);
+        __builtin_prefetch(&tracked->pairing.p->edge_half[edge[next->crossed]]);
         __builtin_prefetch(&q->loop[q->loop_start[next->facet]]);
     }
     if (i + PIR_FETCHED_AHEAD / 2 < update->passes) {
@@ -282,6 +283,8 @@ PIR_FETCHING void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspe
     pir_fetch_sides(tracked, next->facet, true);
     if (next->crossed == PIR_NO_SIDE)
         pir_fetch_trace(&tracked->p_facets, p, q, next->facet);
+    else
+        __builtin_prefetch(&q->twin[next->crossed]);
 }
 
 /* The same of Q. */
