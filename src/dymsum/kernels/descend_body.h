@@ -10,6 +10,20 @@
  * what is found: so a processor can fetch many rings at a time.
  */
 
+/* With so many facets, what is compared is not in a cache near the processor. */
+#define DESCENT_FETCHES 4096
+
+/* Fetches the rings of some cells, and where their directions lead. */
+DESCEND_TARGET PIR_FETCHING void fetch_cells(const pir_facets *facets, const uint32_t *at, uint32_t which) {
+    for (; which; which &= which - 1) {
+        uint32_t v = at[__builtin_ctz(which)];
+        const float *ring = facets->ring + (size_t)facets->ring_block[v] * 3 * PIR_LANES;
+        __builtin_prefetch(ring);
+        __builtin_prefetch(ring + 2 * PIR_LANES);
+        __builtin_prefetch(facets->target + facets->ring_start[v]);
+    }
+}
+
 DESCEND_TARGET static uint32_t descend(const pir_facets *facets, const uint32_t *facet, const uint32_t *from,
                                        uint32_t count, uint32_t *ret_open, uint64_t *sides) {
     float turned[PIR_DESCENT_MOST][8];
@@ -19,9 +33,12 @@ DESCEND_TARGET static uint32_t descend(const pir_facets *facets, const uint32_t 
         turn_facet(facets, facet[k], turned[k]);
         at[k] = from[k];
     }
+    const bool fetches = facets->count >= DESCENT_FETCHES;
     // each step rises for certain, so the descent ends
     for (uint32_t moving = UINT32_MAX >> (PIR_DESCENT_MOST - count), rising; moving; moving = rising) {
         rising = 0;
+        if (fetches)
+            fetch_cells(facets, at, moving);
         for (; moving; moving &= moving - 1) {
             uint32_t k = (uint32_t)__builtin_ctz(moving), v = at[k], which = 0;
             uint32_t block = facets->ring_block[v], start = facets->ring_start[v];
@@ -42,3 +59,5 @@ DESCEND_TARGET static uint32_t descend(const pir_facets *facets, const uint32_t 
     *sides += compared;
     return open;
 }
+
+#undef DESCENT_FETCHES

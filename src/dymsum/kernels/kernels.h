@@ -21,6 +21,7 @@
 
 #include <pirouette/base.h>
 
+#include "base/fetching.h"
 #include "base/vec.h"
 #include "dymsum/certificate/certificates.h"
 #include "dymsum/certificate/expiry.h"

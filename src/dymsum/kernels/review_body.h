@@ -17,10 +17,23 @@
 #define REVIEW_FETCHES 16384
 
 /* Fetches the ring of a cell. */
-REVIEW_TARGET static inline void fetch_ring(const pir_facets *facets, uint32_t cell) {
+REVIEW_TARGET PIR_FETCHING void fetch_ring(const pir_facets *facets, uint32_t cell) {
     const float *ring = facets->ring + (size_t)facets->ring_block[cell] * 3 * PIR_LANES;
     __builtin_prefetch(ring);
     __builtin_prefetch(ring + 2 * PIR_LANES);
+}
+
+/* Fetches what facets are turned by, and what their certificates are filed in. */
+REVIEW_TARGET PIR_FETCHING void fetch_facets(const pir_facets *facets, const pir_certificates *certificates,
+                                             const uint32_t *expired, uint32_t count) {
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t i = expired[k], f = i - facets->first_certificate;
+        __builtin_prefetch(facets->cell + f);
+        __builtin_prefetch(facets->normal + (size_t)4 * f);
+        __builtin_prefetch(certificates->at + i, 1);
+        __builtin_prefetch(certificates->margin + i, 1);
+        __builtin_prefetch(certificates->previous + i, 1);
+    }
 }
 
 /* The one side of its cell that facet f has touched and is past, as a halfedge; or PIR_NO_SIDE. */
@@ -101,7 +114,9 @@ REVIEW_TARGET static uint32_t review(const pir_facets *facets, const pir_step *s
                                      uint64_t *sides) {
     uint32_t suspects = 0;
     for (uint32_t k = 0; k < count; k += REVIEW_CHUNK) {
-        uint32_t n = count - k < REVIEW_CHUNK ? count - k : REVIEW_CHUNK;
+        uint32_t n = count - k < REVIEW_CHUNK ? count - k : REVIEW_CHUNK, behind = count - k - n;
+        if (facets->count >= REVIEW_FETCHES)
+            fetch_facets(facets, certificates, expired + k + n, behind < REVIEW_CHUNK ? behind : REVIEW_CHUNK);
         suspects += review_chunk(facets, step, certificates, expired + k, n, ret_suspects + suspects, sides);
     }
     return suspects;

@@ -12,6 +12,7 @@
  */
 #include "dymsum/rebuild/walk.h"
 
+#include "base/fetching.h"
 #include "dymsum/pairing/crossings.h"
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/facet_cells.h"
@@ -101,20 +102,25 @@ static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first
     arcs->count = listed;
 }
 
-/* Fetches what the sides of the arcs' first cells are found by. */
-static void fetch_cells(const pir_polytope *q, const pir_arcs *arcs) {
+/* Fetches what the sides of the arcs' first cells are found and measured by. */
+PIR_FETCHING void fetch_cells(const pir_polytope *p, const pir_polytope *q, const pir_arcs *arcs) {
     for (uint32_t k = 0; k < arcs->count; k++) {
         uint32_t start = q->ring_start[arcs->from[k]];
         __builtin_prefetch(q->target + start);
         __builtin_prefetch(q->left + start);
         __builtin_prefetch(q->edge + start);
+        __builtin_prefetch(p->direction + arcs->half[k]);
     }
 }
 
-/* Fetches what crossings of the sides that have been found are noted in. */
-static void fetch_sides(const pir_tracked *tracked, const pir_arcs *arcs) {
-    for (uint32_t k = 0; k < arcs->count; k++)
+/* Fetches the corners of the sides that have been found, and what crossings of them are noted in. */
+PIR_FETCHING void fetch_sides(const pir_tracked *tracked, const pir_arcs *arcs) {
+    const float *normal = tracked->pairing.q->normal4;
+    for (uint32_t k = 0; k < arcs->count; k++) {
         __builtin_prefetch(&tracked->work->met[arcs->met[k]], 1);
+        __builtin_prefetch(normal + 4 * (size_t)arcs->right[k]);
+        __builtin_prefetch(normal + 4 * (size_t)arcs->left[k]);
+    }
 }
 
 /* As crosses_once, where floats are not certain. */
@@ -185,7 +191,7 @@ bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) 
             list_arcs(tracked, edge, c * PIR_ARCS, count - c * PIR_ARCS < PIR_ARCS ? count - c * PIR_ARCS : PIR_ARCS,
                       next);
             if (many)
-                fetch_cells(q, next);
+                fetch_cells(p, q, next);
         }
         if (c >= 1 && c <= chunks) {
             tracked->kernels->find_sides(q, &arcs[(c - 1) % STAGES]);

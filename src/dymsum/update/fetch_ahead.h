@@ -8,6 +8,7 @@
 #ifndef PIR_DYMSUM_UPDATE_FETCH_AHEAD_H
 #define PIR_DYMSUM_UPDATE_FETCH_AHEAD_H
 
+#include "base/fetching.h"
 #include "dymsum/pairing/tracked.h"
 
 /* Sums with so many facets fetch ahead: edges by so many items, crossings by half, and what is crossed by a quarter. */
@@ -18,13 +19,13 @@ static inline bool pir_fetches_ahead(const pir_tracked *tracked) {
     return pir_certificate_count(tracked) >= PIR_FETCHING_FACETS;
 }
 
-static inline void pir_fetch_edge(const pir_tracked *tracked, uint32_t e) {
+PIR_FETCHING void pir_fetch_edge(const pir_tracked *tracked, uint32_t e) {
     __builtin_prefetch(&tracked->pairing.crossings.first[e], 1);
     __builtin_prefetch(&tracked->touched[e], 1);
     __builtin_prefetch(&tracked->pairing.p->arc_ends[e]);
 }
 
-static inline void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
+PIR_FETCHING void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
     const pir_crossings *c = &tracked->pairing.crossings;
     uint32_t slot = c->first[e] != PIR_NO_CROSSING ? c->first[e] : 0;
     __builtin_prefetch(&c->half[slot], 1);
@@ -32,7 +33,7 @@ static inline void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
     __builtin_prefetch(&c->edge[slot], 1);
 }
 
-static inline void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
+PIR_FETCHING void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
     const pir_pairing *pairing = &tracked->pairing;
     uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.half[slot] : 0;
     __builtin_prefetch(&pairing->q->origin[half]);
@@ -41,8 +42,33 @@ static inline void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
     __builtin_prefetch(&pairing->q->twin[half]);
 }
 
+/* Fetches the facets of Q on either side of what the first crossing of edge e crosses. */
+PIR_FETCHING void pir_fetch_corners(const pir_tracked *tracked, uint32_t e) {
+    const pir_pairing *pairing = &tracked->pairing;
+    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.half[slot] : 0;
+    __builtin_prefetch(&pairing->q->normal[pairing->q->left[half]]);
+    __builtin_prefetch(&pairing->q->normal[pir_right(pairing->q, half)]);
+}
+
+/* Fetches the halfedges round facet g of Q. */
+PIR_FETCHING void pir_fetch_round(const pir_polytope *q, uint32_t g) {
+    for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
+        uint32_t half = q->loop[i];
+        __builtin_prefetch(&q->origin[half]);
+        __builtin_prefetch(&q->target[half]);
+        __builtin_prefetch(&q->left[half]);
+        __builtin_prefetch(&q->twin[half]);
+    }
+}
+
+/* Fetches where the rings of its corners begin. */
+PIR_FETCHING void pir_fetch_rings(const pir_polytope *q, uint32_t g) {
+    for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++)
+        __builtin_prefetch(&q->ring_start[q->origin[q->loop[i]]]);
+}
+
 /* Fetches the sides of facet f of P in either turn. */
-static inline void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, bool crossings) {
+PIR_FETCHING void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, bool crossings) {
     const pir_polytope *p = tracked->pairing.p;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         if (crossings)
@@ -53,8 +79,8 @@ static inline void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, bool 
 }
 
 /* Fetches what a trace of facet f of `own` begins with. */
-static inline void pir_fetch_trace(const pir_facets *facets, const pir_polytope *own, const pir_polytope *other,
-                                   uint32_t f) {
+PIR_FETCHING void pir_fetch_trace(const pir_facets *facets, const pir_polytope *own, const pir_polytope *other,
+                                  uint32_t f) {
     uint32_t start = other->ring_start[facets->cell[f]];
     for (uint32_t line = 0; line < 3; line++)
         __builtin_prefetch((const char *)(other->direction + start) + 64 * (size_t)line);

@@ -82,16 +82,32 @@ static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half)
 }
 
 /* Fetches for the passes that follow number i. */
-static void fetch_pass(const struct update *update, uint32_t i) {
+PIR_FETCHING void fetch_pass(const struct update *update, uint32_t i) {
     const pir_tracked *tracked = update->tracked;
+    const pir_polytope *q = tracked->pairing.q;
     const uint32_t *edge = tracked->pairing.p->edge;
     const pir_suspect *pass = tracked->work->passes + i;
-    if (i + PIR_FETCHED_AHEAD < update->passes)
-        pir_fetch_edge(tracked, edge[pass[PIR_FETCHED_AHEAD].crossed]);
-    if (i + PIR_FETCHED_AHEAD / 2 < update->passes)
-        pir_fetch_crossing(tracked, edge[pass[PIR_FETCHED_AHEAD / 2].crossed]);
-    if (i + PIR_FETCHED_AHEAD / 4 < update->passes)
-        pir_fetch_crossed(tracked, edge[pass[PIR_FETCHED_AHEAD / 4].crossed]);
+    if (i + 2 * PIR_FETCHED_AHEAD < update->passes) {
+        const pir_suspect *next = pass + 2 * PIR_FETCHED_AHEAD;
+        __builtin_prefetch(&edge[next->crossed]);
+        __builtin_prefetch(&q->loop_start[next->facet]);
+    }
+    if (i + PIR_FETCHED_AHEAD < update->passes) {
+        const pir_suspect *next = pass + PIR_FETCHED_AHEAD;
+        pir_fetch_edge(tracked, edge[next->crossed]);
+        __builtin_prefetch(&tracked->pairing.p->edge_half[edge[next->crossed]]);
+        __builtin_prefetch(&q->loop[q->loop_start[next->facet]]);
+    }
+    if (i + PIR_FETCHED_AHEAD / 2 < update->passes) {
+        const pir_suspect *next = pass + PIR_FETCHED_AHEAD / 2;
+        pir_fetch_crossing(tracked, edge[next->crossed]);
+        pir_fetch_round(q, next->facet);
+    }
+    if (i + PIR_FETCHED_AHEAD / 4 < update->passes) {
+        const pir_suspect *next = pass + PIR_FETCHED_AHEAD / 4;
+        pir_fetch_crossed(tracked, edge[next->crossed]);
+        pir_fetch_rings(q, next->facet);
+    }
 }
 
 /* Repairs the edges that one facet of Q has crossed and no other event has touched. */
@@ -248,8 +264,17 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
 }
 
 /* Fetches for the suspects of P that follow one, with `left` of them behind it. */
-static void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
+PIR_FETCHING void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    if (left > 3 * PIR_FETCHED_AHEAD) {
+        __builtin_prefetch(&p->loop_start[suspect[3 * PIR_FETCHED_AHEAD].facet]);
+        __builtin_prefetch(&tracked->pairing.fv[suspect[3 * PIR_FETCHED_AHEAD].facet]);
+    }
+    if (left > 2 * PIR_FETCHED_AHEAD) {
+        uint32_t f = suspect[2 * PIR_FETCHED_AHEAD].facet;
+        __builtin_prefetch(&p->across[p->loop_start[f]]);
+        __builtin_prefetch(&q->ring_start[tracked->pairing.fv[f]]);
+    }
     if (left > PIR_FETCHED_AHEAD)
         pir_fetch_sides(tracked, suspect[PIR_FETCHED_AHEAD].facet, false);
     if (left <= PIR_FETCHED_AHEAD / 2)
@@ -258,11 +283,20 @@ static void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *su
     pir_fetch_sides(tracked, next->facet, true);
     if (next->crossed == PIR_NO_SIDE)
         pir_fetch_trace(&tracked->p_facets, p, q, next->facet);
+    else
+        __builtin_prefetch(&q->twin[next->crossed]);
 }
 
 /* The same of Q. */
-static void fetch_suspect_of_q(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
+PIR_FETCHING void fetch_suspect_of_q(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+    if (left > 2 * PIR_FETCHED_AHEAD)
+        __builtin_prefetch(&tracked->pairing.vf[suspect[2 * PIR_FETCHED_AHEAD].facet]);
+    if (left > PIR_FETCHED_AHEAD) {
+        const pir_suspect *next = suspect + PIR_FETCHED_AHEAD;
+        __builtin_prefetch(next->crossed == PIR_NO_SIDE ? &p->ring_start[tracked->pairing.vf[next->facet]]
+                                                        : &p->edge[next->crossed]);
+    }
     if (left <= PIR_FETCHED_AHEAD / 2)
         return;
     const pir_suspect *next = suspect + PIR_FETCHED_AHEAD / 2;
@@ -330,22 +364,26 @@ static void review(struct update *update, uint32_t expired) {
 }
 
 /* Fetches for the edges to be derived anew that follow number i. */
-static void fetch_derived(const struct update *update, uint32_t i) {
+PIR_FETCHING void fetch_derived(const struct update *update, uint32_t i) {
     const pir_tracked *tracked = update->tracked;
     const uint32_t *edge = tracked->work->queue + i;
-    if (i + PIR_FETCHED_AHEAD < update->derive) {
-        pir_fetch_edge(tracked, edge[PIR_FETCHED_AHEAD]);
-        __builtin_prefetch(&tracked->pairing.p->edge_half[edge[PIR_FETCHED_AHEAD]]);
+    if (i + 2 * PIR_FETCHED_AHEAD < update->derive) {
+        __builtin_prefetch(&tracked->pairing.p->edge_half[edge[2 * PIR_FETCHED_AHEAD]]);
+        __builtin_prefetch(&tracked->pairing.p->arc_ends[edge[2 * PIR_FETCHED_AHEAD]]);
     }
-    if (i + PIR_FETCHED_AHEAD / 2 < update->derive) {
-        uint32_t e = edge[PIR_FETCHED_AHEAD / 2];
-        pir_fetch_crossing(tracked, e);
+    if (i + PIR_FETCHED_AHEAD < update->derive) {
+        uint32_t e = edge[PIR_FETCHED_AHEAD];
+        pir_fetch_edge(tracked, e);
         __builtin_prefetch(&tracked->pairing.p->direction[tracked->pairing.p->edge_half[e]]);
         __builtin_prefetch(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].from]);
         __builtin_prefetch(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].to]);
     }
+    if (i + PIR_FETCHED_AHEAD / 2 < update->derive)
+        pir_fetch_crossing(tracked, edge[PIR_FETCHED_AHEAD / 2]);
     if (i + PIR_FETCHED_AHEAD / 4 < update->derive)
         pir_fetch_crossed(tracked, edge[PIR_FETCHED_AHEAD / 4]);
+    if (i + PIR_FETCHED_AHEAD / 8 < update->derive)
+        pir_fetch_corners(tracked, edge[PIR_FETCHED_AHEAD / 8]);
 }
 
 /* A stamp greater than all in `touched`. */
