@@ -59,7 +59,10 @@ void pir_members_admit(const pir_member_place *place) {
     }
 }
 
-/* As locate_around, many at a time, in a walk: from the `tail` facets listed in work.queue. */
+/*
+ * As locate_around, many at a time, in a walk: from the `tail` facets listed in work.queue. That has room for one more
+ * than either operand has facets: P has inside, so it has more edges than facets, and so has Q or it has two facets.
+ */
 static void settle_around(const pir_member_place *place, uint32_t tail) {
     const pir_polytope *own = place->own;
     const uint32_t *seen = place->facets->members.seen;
@@ -68,12 +71,14 @@ static void settle_around(const pir_member_place *place, uint32_t tail) {
     for (uint32_t head = 0; head < tail;) {
         uint32_t f = queue[head++], cell = place->cell[f];
         for (uint32_t i = own->loop_start[f]; i < own->loop_start[f + 1]; i++) {
-            uint32_t to = own->across[i].facet;
-            if (seen[to] != place->sweep || place->cell[to] != PIR_NO_PAIR)
-                continue;
-            place->cell[to] = cell;
-            facet[count] = queue[tail++] = to;
-            start[count++] = cell;
+            // by masks: that it is a member without a cell is not foreseen
+            uint32_t to = own->across[i].facet, beside = place->cell[to];
+            uint32_t is_new = (uint32_t)(seen[to] == place->sweep) & (uint32_t)(beside == PIR_NO_PAIR);
+            place->cell[to] = beside ^ ((beside ^ cell) & -is_new);
+            facet[count] = queue[tail] = to;
+            start[count] = cell;
+            tail += is_new;
+            count += is_new;
             if (count == PIR_DESCENT_MOST) {
                 pir_settle_facets(place->tracked, place->of_p, facet, start, count);
                 settled = tail;
@@ -92,11 +97,14 @@ static void settle_around(const pir_member_place *place, uint32_t tail) {
 /* Locates the members without a cell that are beside a facet with one; lists them in work.queue. Returns how many. */
 static uint32_t settle_beside(const pir_member_place *place) {
     const pir_members *members = &place->facets->members;
-    uint32_t *queue = place->tracked->work->queue, from[PIR_DESCENT_MOST], settled = 0, tail = 0;
+    uint32_t *queue = place->tracked->work->queue, from[PIR_DESCENT_MOST], open = 0, settled = 0, tail = 0;
+    // those without a cell are listed first, without branches, and those that are located stay listed
     for (uint32_t i = 0; i < members->count; i++) {
-        uint32_t f = members->at[i];
-        if (place->cell[f] != PIR_NO_PAIR)
-            continue;
+        queue[open] = members->at[i];
+        open += place->cell[members->at[i]] == PIR_NO_PAIR;
+    }
+    for (uint32_t i = 0; i < open; i++) {
+        uint32_t f = queue[i];
         queue[tail] = f;
         from[tail - settled] = pir_cell_beside(place->own, place->cell, f);
         tail += from[tail - settled] != PIR_NO_PAIR;

@@ -32,7 +32,7 @@ static pir_layout layout_of(pir_sweep *sweep) {
     uint32_t arcs = pir_cluster_count(&sweep->arcs) * PIR_CLUSTER * ARC_ROWS,
              points = pir_cluster_count(&sweep->points) * PIR_CLUSTER * POINT_ROWS;
     return (pir_layout){
-        {PIR_ROW(sweep->p.hint, p->capacity), PIR_ROW(p->at, p->capacity), PIR_ROW(p->next, p->capacity),
+        {PIR_ROW(sweep->p.hint, p->capacity), PIR_ROW(p->at, p->capacity + 1), PIR_ROW(p->next, p->capacity + 1),
          PIR_ROW(p->seen, p->capacity), PIR_ROW(sweep->q.hint, q->capacity), PIR_ROW(q->at, q->capacity),
          PIR_ROW(q->next, q->capacity), PIR_ROW(q->seen, q->capacity), PIR_ROW(edges->at, edges->capacity),
          PIR_ROW(edges->next, edges->capacity), PIR_ROW(edges->seen, edges->capacity), PIR_ROW(sweep->arc, arcs),
@@ -109,11 +109,11 @@ bool pir_sweep_init(pir_sweep *sweep, const pir_polytope *p, const pir_polytope 
 
 /* --- the sweep --- */
 
+/* Feature i is one of them, perhaps again: without a branch, since nothing foresees that. */
 static inline void count_in(pir_members *members, uint32_t i, uint32_t number, uint32_t *count) {
-    if (members->seen[i] == number)
-        return;
+    members->next[*count] = i;
+    *count += members->seen[i] != number;
     members->seen[i] = number;
-    members->next[(*count)++] = i;
 }
 
 /* Whether the arc of halfedge h of P comes within `reach` of the axis between its ends. */
@@ -161,7 +161,17 @@ static void mark_seen(pir_members *members, uint32_t number, uint32_t count) {
     members->count = count;
 }
 
-/* Counts in the edges of P within `reach`. */
+/* Those of `found` edges listed that are within `reach` stay. Returns how many they are. */
+static uint32_t sift_edges(const pir_polytope *p, pir_vec3 axis, pir_arc reach, uint32_t *edge, uint32_t found) {
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < found; i++)
+        if (is_within(p, edge[i], axis, reach))
+            edge[left++] = edge[i];
+    return left;
+}
+
+/* Counts in the edges of P within `reach`. How many of a cluster are is not foreseen: they are listed without branches.
+ */
 static void sweep_edges(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
     uint32_t count = 0, clusters = pir_clusters_search(&sweep->arcs, axis, reach);
     for (uint32_t j = 0; j < clusters; j++) {
@@ -169,10 +179,13 @@ static void sweep_edges(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, 
         float by[PIR_CLUSTER];
         const uint32_t *edge = sweep->arcs.item + k * PIR_CLUSTER;
         measure_arcs(rows_of(sweep->arc, k, ARC_ROWS), axis, reach, by);
-        uint32_t near[PIR_CLUSTER], found = pir_list_from(by, -FLOAT_SLACK, pir_cluster_size(&sweep->arcs, k), near);
-        for (uint32_t i = 0; i < found; i++)
-            if (by[near[i]] > FLOAT_SLACK || is_within(p, edge[near[i]], axis, reach))
-                sweep->edges.next[count++] = edge[near[i]];
+        uint32_t size = pir_cluster_size(&sweep->arcs, k), found = 0, unsure = 0, *listed = sweep->edges.next + count;
+        for (uint32_t i = 0; i < size; i++) {
+            listed[found] = edge[i];
+            found += by[i] >= -FLOAT_SLACK;
+            unsure += fabsf(by[i]) <= FLOAT_SLACK;
+        }
+        count += unsure == 0 ? found : sift_edges(p, axis, reach, listed, found);
     }
     mark_seen(&sweep->edges, sweep->number, count);
 }
@@ -222,9 +235,10 @@ static void sweep_q(pir_sweep *sweep, pir_vec3 axis, pir_arc reach) {
         float by[PIR_CLUSTER];
         for (uint32_t i = 0; i < PIR_CLUSTER; i++)
             by[i] = (x[i] * ax + y[i] * ay + z[i] * az) - rc + FLOAT_SLACK;
-        uint32_t near[PIR_CLUSTER], found = pir_list_from(by, 0, pir_cluster_size(&sweep->points, k), near);
-        for (uint32_t i = 0; i < found; i++)
-            facets->next[count++] = sweep->points.item[k * PIR_CLUSTER + near[i]];
+        for (uint32_t i = 0, size = pir_cluster_size(&sweep->points, k); i < size; i++) {
+            facets->next[count] = sweep->points.item[k * PIR_CLUSTER + i];
+            count += by[i] >= 0;
+        }
     }
     mark_seen(facets, sweep->number, count);
 }

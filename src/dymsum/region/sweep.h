@@ -9,7 +9,7 @@
 /* Features of one kind. */
 typedef struct pir_members {
     uint32_t *at, count; /* the active ones */
-    uint32_t *next;      /* room for those of the next sweep */
+    uint32_t *next;      /* room for those of the next sweep; of facets of P, these and `at` have room for one more */
     uint32_t *seen;      /* per feature: the last sweep that counted it in */
     uint32_t capacity;   /* how many features there are */
 } pir_members;
