@@ -5,7 +5,7 @@
  *
  *   - certificate: the proven distance of an earlier answer, less the motion since; after the last one without a
  *     frame (still_apart.h);
- *   - axis: the direction in which the last answer was apart by more than the cutoff (apart.c);
+ *   - axis: the direction in which the last answer was apart by more than the cutoff, with Q or with P (apart.c);
  *   - same facet: the facet of the last answer, proven again by doubles (same_facet.h). Where it separates, it is the
  *     nearest; where x is within it, foot.h or lead.h tell whether it is the least;
  *   - surface: that of the last answer, placed again and mended (overlap.h);

@@ -7,6 +7,9 @@
  * is in the cone of these edges. Where all of them fall by the sine c along some other direction, a point at the
  * distance r from v is v and a sum of edges of at most r / c in all. So the body rises above v by ε · 2 · size / c
  * at most.
+ *
+ * A direction that is kept is tried as it stood with Q, then as it has turned with P: the nearest features are often a
+ * facet of either.
  */
 #include "pair/apart.h"
 
@@ -41,23 +44,37 @@ bool pir_task_is_beyond(const pir_task *task, double distance) {
 
 void pir_task_keep_axis(const pir_task *task, pir_vec3 n) {
     task->pair->axis = n;
+    task->pair->axis_of_p = pir_mat_apply_transposed(&task->workspace->frame.r, n);
     task->pair->has_axis = true;
 }
 
-bool pir_task_apart(pir_task *task) {
+/* Whether x is apart by more than the cutoff along the unit vector n: then it is the direction that is kept. */
+static bool is_apart_along(pir_task *task, pir_vec3 n) {
     const pir_frame *frame = &task->workspace->frame;
     pir_pair *pair = task->pair;
-    if (!(task->want & PIR_WANT_SEPARATION))
-        return false;
-    pir_vec3 n = pair->axis, back = pir_mat_apply_transposed(&frame->r, n);
+    pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
     pair->axis_a = pir_climb(frame->p.polytope, back, pair->axis_a);
     pair->axis_b = pir_climb(frame->q.polytope, n, pair->axis_b);
     pir_vec3 way = pir_vec_sub(task->placement->x, pir_frame_vertex(frame, pair->axis_a, pair->axis_b));
     double distance = pir_task_certain(task, n, pir_vec_dot(n, way));
-    pair->has_axis = pir_task_is_beyond(task, distance);
-    if (!pair->has_axis)
+    if (!pir_task_is_beyond(task, distance))
         return false;
+    pir_task_keep_axis(task, n);
     pir_task_keep_apart(task, distance);
     pir_result_beyond(task->result);
     return true;
+}
+
+bool pir_task_apart(pir_task *task) {
+    pir_pair *pair = task->pair;
+    if (!(task->want & PIR_WANT_SEPARATION))
+        return false;
+    if (is_apart_along(task, pair->axis))
+        return true;
+    // brought to length 1 each time, so that rounding does not add up from turn to turn
+    pir_vec3 n = pir_mat_apply(&task->workspace->frame.r, pair->axis_of_p);
+    if (is_apart_along(task, pir_vec_scale(n, 1 / sqrt(pir_vec_dot(n, n)))))
+        return true;
+    pair->has_axis = false;
+    return false;
 }

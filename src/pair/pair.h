@@ -37,6 +37,7 @@ struct pir_pair {
     pir_piece facet;         /* of the last answer; its corner may have changed */
     float left;              /* a proof at the poses of the last call: see still_apart.h; 0 where there is none */
     pir_vec3 axis;           /* unit; x was apart along it by more than the cutoff */
+    pir_vec3 axis_of_p;      /* the same in the frame of P */
     uint32_t axis_a, axis_b; /* the supports there */
     pir_surface *surface;    /* made when first needed; used where `deep` */
 

@@ -377,6 +377,33 @@ static void a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike(
     pir_polytope_release(p);
 }
 
+/* P goes round Q with the same facet towards it: the direction that parts them turns with P, and is tried so. */
+static void a_direction_that_turns_with_p_still_parts(void **state) {
+    (void)state;
+    pir_polytope *p = cube(1);
+    pir_workspace *workspace;
+    pir_pair *pair;
+    pir_pair_input input = pir_pair_input_default();
+    pir_query_result result;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, p, NULL, &pair), PIR_OK);
+    input.cutoff = 0.5;
+    for (int i = 0; i < 24; i++) {
+        // 30 degrees a frame: along the direction as it was, the cubes overlap
+        const double angle = i * 0.52359877559829887;
+        input.pose_p.rotation = (pir_quat){0, 0, sin(angle / 2), cos(angle / 2)};
+        input.pose_p.translation = (pir_vec3){3 * cos(angle), 3 * sin(angle), 0};
+        assert_int_equal(pir_pair_distance(pair, workspace, &input, &result), PIR_OK);
+        assert_int_equal(result.outcome, PIR_BEYOND_CUTOFF);
+    }
+    pir_pair_statistics statistics = pir_pair_get_statistics(pair);
+    assert_int_equal(statistics.by_descent, 1);
+    assert_int_equal(statistics.by_certificate, 23);
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(p);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -387,6 +414,7 @@ int main(void) {
         cmocka_unit_test(no_call_allocates_once_warm),
         cmocka_unit_test(a_common_turn_changes_no_state),
         cmocka_unit_test(posed_pairs_answer_alike_at_all_levels),
+        cmocka_unit_test(a_direction_that_turns_with_p_still_parts),
         cmocka_unit_test(a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike),
     };
     return cmocka_run_group_tests_name("pairs in use", tests, NULL, NULL);
