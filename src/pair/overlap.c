@@ -40,11 +40,15 @@ static bool has_vertex(const pir_polytope *p, pir_feature face, uint32_t v) {
     return false;
 }
 
-/* Whether corner i of the surface is in a true facet of D. */
+/*
+ * Whether corner i of the surface is in a true facet of D. A vertex is asked for before a facet, which takes longer.
+ */
 static inline bool is_in(const pir_overlap *overlap, uint32_t i, const pir_facet *facet) {
     const pir_frame *frame = overlap->exact->frame;
-    return has_vertex(frame->p.polytope, facet->faces.p, overlap->surface->a[i]) &&
-           has_vertex(frame->q.polytope, facet->faces.q, overlap->surface->b[i]);
+    uint32_t a = overlap->surface->a[i], b = overlap->surface->b[i];
+    if (facet->faces.p.kind == PIR_FEATURE_FACET)
+        return has_vertex(frame->q.polytope, facet->faces.q, b) && has_vertex(frame->p.polytope, facet->faces.p, a);
+    return has_vertex(frame->p.polytope, facet->faces.p, a) && has_vertex(frame->q.polytope, facet->faces.q, b);
 }
 
 /* The corners that are: bit i for corner i. */
