@@ -12,6 +12,13 @@
 #include "pair/surface/inner_surface.h"
 #include "support/bodies.h"
 
+/* What is noted of sides is what the triangles tell. */
+static void check_sides(const pir_surface *surface, const pir_surface_room *room) {
+    for (uint32_t t = 0; t < surface->count; t++)
+        for (int k = 0; k < 3; k++)
+            expect(room->triangle[surface->corner[k][t]][surface->corner[(k + 1) % 3][t]] == t, "side %d of %u", k, t);
+}
+
 static void a_surface_stays_closed_as_vertices_are_added(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 40; i++) {
@@ -48,6 +55,7 @@ static void a_surface_stays_closed_as_vertices_are_added(void **state) {
             const pir_surface_vertex next = {k, 0, vertex[k]};
             added += pir_surface_add(&surface, t, &next, &room) < PIR_SURFACE_CORNERS;
             expect(pir_surface_is_valid(&surface), "case %llu, vertex %u", (unsigned long long)i, k);
+            check_sides(&surface, &room);
             for (uint32_t s = 0; s < surface.count; s++)
                 expect(room.plane.low[s] > 0, "case %llu, vertex %u: triangle %u", (unsigned long long)i, k, s);
         }
@@ -144,6 +152,7 @@ static void a_trimmed_surface_is_closed_about_its_centre(void **state) {
         uint32_t after = (uint32_t)__builtin_popcount(surface.used);
         expect(done == (after < before) && pir_surface_is_valid(&surface), "case %llu: %u corners, then %u",
                (unsigned long long)i, before, after);
+        check_sides(&surface, &room);
         taken += before - after;
         for (uint32_t t = 0; t < surface.count; t++)
             expect(room.plane.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);

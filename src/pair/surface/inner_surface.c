@@ -117,6 +117,7 @@ bool pir_surface_place(const pir_surface *surface, const pir_frame *frame, pir_v
     room->centre = centre;
     room->det_error = 4 * error * reach * reach;
     room->normal_error = 10 * error * reach;
+    room->has_sides = false;
     room->loops->corners(surface, frame, room);
     return room->loops->planes(room, surface->corner[0], surface->count, &room->plane) == 0;
 }
@@ -144,17 +145,6 @@ void pir_surface_begin(pir_surface *surface, const uint32_t a[4], const uint32_t
     put(surface, 3, 1, 3, 2);
 }
 
-/* The triangle that has the directed side (i, j): one of the few at both corners. */
-static uint32_t beside(const pir_surface *surface, const pir_surface_room *room, uint32_t i, uint32_t j) {
-    for (uint64_t rest = room->loops->about(surface, i) & room->loops->about(surface, j); rest; rest &= rest - 1) {
-        uint32_t t = (uint32_t)__builtin_ctzll(rest);
-        uint32_t a = surface->corner[0][t], b = surface->corner[1][t], c = surface->corner[2][t];
-        if ((a == i && b == j) || (b == i && c == j) || (c == i && a == j))
-            return t;
-    }
-    return 0;
-}
-
 /* The corners of a triangle. */
 struct three {
     uint32_t a, b, c;
@@ -171,35 +161,50 @@ static inline void list_side(struct three of, uint32_t side[PIR_SURFACE_CORNERS]
     side[of.c] |= 1u << of.a;
 }
 
-/* Bit j of side[i]: one of these triangles has the side (i, j). Returns their corners, a bit for each. */
-static uint32_t list_sides(const pir_surface *surface, uint64_t triangles, uint32_t side[PIR_SURFACE_CORNERS]) {
-    uint32_t corners = 0;
+/* Bit j of side[i]: a triangle has the side (i, j). */
+static void list_sides(const pir_surface *surface, uint32_t side[PIR_SURFACE_CORNERS]) {
     memset(side, 0, PIR_SURFACE_CORNERS * sizeof *side);
-    for (uint64_t rest = triangles; rest; rest &= rest - 1) {
-        struct three of = corners_of(surface, (uint32_t)__builtin_ctzll(rest));
-        list_side(of, side);
-        corners |= 1u << of.a | 1u << of.b | 1u << of.c;
-    }
-    return corners;
+    for (uint32_t t = 0; t < surface->count; t++)
+        list_side(corners_of(surface, t), side);
+}
+
+/* Notes that triangle t has these corners. */
+static inline void note_sides(pir_surface_room *room, struct three of, uint32_t t) {
+    room->triangle[of.a][of.b] = room->triangle[of.b][of.c] = room->triangle[of.c][of.a] = (uint8_t)t;
+}
+
+/* Notes all triangles, where that has not been done at this placement. */
+static void need_sides(const pir_surface *surface, pir_surface_room *room) {
+    if (room->has_sides)
+        return;
+    for (uint32_t t = 0; t < surface->count; t++)
+        note_sides(room, corners_of(surface, t), t);
+    room->has_sides = true;
+}
+
+/* The triangle beside the one that has the directed side (i, j). */
+static inline uint32_t beside(const pir_surface_room *room, uint32_t i, uint32_t j) {
+    return room->triangle[j][i];
 }
 
 /*
  * The rim of the hole that triangles leave, as the first two corners of a fan: the sides that they do not share.
  * Returns the corners that it passes twice. Nothing branches on what a side is, for nothing would foresee it.
  */
-static uint32_t list_rim(const pir_surface *surface, uint64_t gone, pir_surface_fan *fan) {
-    uint32_t side[PIR_SURFACE_CORNERS], count = 0, rim = 0, twice = 0;
-    uint32_t corners = list_sides(surface, gone, side);
+static uint32_t list_rim(const pir_surface *surface, const pir_surface_room *room, uint64_t gone,
+                         pir_surface_fan *fan) {
+    uint32_t count = 0, rim = 0, twice = 0, corners = 0;
     for (uint64_t rest = gone; rest; rest &= rest - 1) {
         uint32_t t = (uint32_t)__builtin_ctzll(rest);
         for (int k = 0; k < 3; k++) {
             uint32_t i = surface->corner[k][t], j = surface->corner[k < 2 ? k + 1 : 0][t];
-            uint32_t out = ~side[j] >> i & 1, at = count % PIR_SURFACE_TRIANGLES;
+            uint32_t out = (uint32_t)(~gone >> beside(room, i, j)) & 1, at = count % PIR_SURFACE_TRIANGLES;
             fan->corner[0][at] = (uint8_t)i;
             fan->corner[1][at] = (uint8_t)j;
             count += out;
             twice |= rim & out << i;
             rim |= out << i;
+            corners |= 1u << i;
         }
     }
     fan->count = count;
@@ -218,21 +223,16 @@ static bool is_disk(uint64_t gone, const pir_surface_fan *fan) {
     return twice == 2;
 }
 
-/* Of these triangles, those that sides join to the ones of `part`. */
-static uint64_t joined_to(const pir_surface *surface, uint64_t part, uint64_t triangles) {
-    uint64_t before = 0;
-    uint32_t side[PIR_SURFACE_CORNERS];
-    list_sides(surface, part, side);
-    while (part != before) {
-        before = part;
-        for (uint64_t rest = triangles & ~part; rest; rest &= rest - 1) {
-            uint32_t t = (uint32_t)__builtin_ctzll(rest);
-            struct three of = corners_of(surface, t);
-            if ((side[of.b] >> of.a | side[of.c] >> of.b | side[of.a] >> of.c) & 1) {
-                part |= 1ull << t;
-                list_side(of, side);
-            }
-        }
+/* The ones of `part`, and of these triangles those that sides join to them. */
+static uint64_t joined_to(const pir_surface *surface, const pir_surface_room *room, uint64_t part, uint64_t triangles) {
+    for (uint64_t rest = part; rest;) {
+        struct three of = corners_of(surface, (uint32_t)__builtin_ctzll(rest));
+        uint64_t near =
+            1ull << beside(room, of.a, of.b) | 1ull << beside(room, of.b, of.c) | 1ull << beside(room, of.c, of.a);
+        rest &= rest - 1;
+        near &= triangles & ~part;
+        part |= near;
+        rest |= near;
     }
     return part;
 }
@@ -246,12 +246,12 @@ static uint64_t about_all(const pir_surface *surface, const pir_surface_room *ro
 }
 
 /* The triangles across the sides of the rim at which a fan is not certain. */
-static uint64_t across(const pir_surface *surface, const pir_surface_room *room, uint64_t uncertain) {
+static uint64_t across(const pir_surface_room *room, uint64_t uncertain) {
     const pir_surface_fan *fan = &room->fan;
     uint64_t found = 0;
     for (; uncertain; uncertain &= uncertain - 1) {
         uint32_t s = (uint32_t)__builtin_ctzll(uncertain);
-        found |= 1ull << beside(surface, room, fan->corner[1][s], fan->corner[0][s]);
+        found |= 1ull << beside(room, fan->corner[0][s], fan->corner[1][s]);
     }
     return found;
 }
@@ -274,7 +274,7 @@ static bool span(const pir_surface *surface, pir_surface_room *room, uint32_t i,
     for (uint32_t times = 0; times < most; times++) {
         uint64_t more = 0;
         if (uncertain == 0) {
-            more = about_all(surface, room, list_rim(surface, *gone, &room->fan));
+            more = about_all(surface, room, list_rim(surface, room, *gone, &room->fan));
             if (room->fan.count == 0)
                 return false;
         }
@@ -282,10 +282,10 @@ static bool span(const pir_surface *surface, pir_surface_room *room, uint32_t i,
             uncertain = uncertain != 0 ? uncertain : set_fan(room, i);
             if (uncertain == 0)
                 return true;
-            more = across(surface, room, uncertain);
+            more = across(room, uncertain);
             uncertain = 0;
         }
-        *gone = joined_to(surface, *gone | more, seen);
+        *gone = joined_to(surface, room, *gone | more, seen);
     }
     return false;
 }
@@ -304,11 +304,13 @@ static inline void put_plane(const pir_surface_planes *planes, uint32_t from, ui
 static inline void put_of_fan(pir_surface *surface, uint32_t from, uint32_t t, pir_surface_room *room) {
     const pir_surface_fan *fan = &room->fan;
     put(surface, t, fan->corner[0][from], fan->corner[1][from], fan->corner[2][from]);
+    note_sides(room, corners_of(surface, t), t);
     put_plane(&fan->plane, from, t, room);
 }
 
 static inline void move_triangle(pir_surface *surface, uint32_t from, uint32_t t, pir_surface_room *room) {
     put(surface, t, surface->corner[0][from], surface->corner[1][from], surface->corner[2][from]);
+    note_sides(room, corners_of(surface, t), t);
     put_plane(&room->plane, from, t, room);
 }
 
@@ -355,12 +357,12 @@ static bool fits(const pir_surface *surface, uint64_t gone, const pir_surface_fa
 /* Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing. */
 static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least, uint32_t i, pir_surface_room *room) {
     uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, uncertain = 0;
-    if (list_rim(surface, seen, &room->fan) == 0 && is_disk(seen, &room->fan)) {
+    if (list_rim(surface, room, seen, &room->fan) == 0 && is_disk(seen, &room->fan)) {
         uncertain = set_fan(room, i);
         if (uncertain == 0)
             return seen;
     }
-    uint64_t gone = joined_to(surface, least, seen);
+    uint64_t gone = joined_to(surface, room, least, seen);
     uint32_t most = room->plane.low[t] > 0 ? MOST_WIDENED : MOST_WIDENED_LEFT;
     return span(surface, room, i, seen, most, gone == seen ? uncertain : 0, &gone) ? gone : 0;
 }
@@ -371,6 +373,7 @@ uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_ver
         return PIR_SURFACE_CORNERS;
     uint32_t i = (uint32_t)__builtin_ctz(same != 0 ? same : ~surface->used);
     uint64_t least = 1ull << t | (same != 0 ? room->loops->about(surface, i) : 0);
+    need_sides(surface, room);
     room->at[i][0] = vertex->at.x;
     room->at[i][1] = vertex->at.y;
     room->at[i][2] = vertex->at.z;
@@ -450,7 +453,7 @@ static bool take_corner(pir_surface *surface, uint32_t c, uint32_t *side, pir_su
     uint32_t s = 0;
     uint64_t gone = room->loops->about(surface, c);
     pir_surface_fan rim;
-    if (list_rim(surface, gone, &rim) != 0 || rim.count < 3)
+    if (list_rim(surface, room, gone, &rim) != 0 || rim.count < 3)
         return false;
     while (s < rim.count && !span_from(room, &rim, rim.corner[0][s], side))
         s++;
@@ -465,8 +468,9 @@ static bool take_corner(pir_surface *surface, uint32_t c, uint32_t *side, pir_su
 bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     double distance[PIR_SURFACE_CORNERS];
     uint32_t left = surface->used, side[PIR_SURFACE_CORNERS], taken = 0;
+    need_sides(surface, room);
     list_distances(surface, room, distance);
-    list_sides(surface, pir_surface_first(surface->count), side);
+    list_sides(surface, side);
     for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
         left &= ~(1u << c);
         taken += take_corner(surface, c, side, room);
@@ -476,7 +480,7 @@ bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
 
 bool pir_surface_is_valid(const pir_surface *surface) {
     uint32_t side[PIR_SURFACE_CORNERS], sides = 0;
-    list_sides(surface, pir_surface_first(surface->count), side);
+    list_sides(surface, side);
     for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
         sides += (uint32_t)__builtin_popcount(side[i]);
     for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)

@@ -54,6 +54,8 @@ typedef struct pir_surface_room {
     double at[PIR_SURFACE_CORNERS][4]; /* corners less the centre; the fourth counts for nothing */
     pir_surface_planes plane;
     pir_surface_fan fan; /* what is about to be put in place of triangles */
+    bool has_sides;      /* whether `triangle` is that of the surface as it is placed */
+    uint8_t triangle[PIR_SURFACE_CORNERS][PIR_SURFACE_CORNERS]; /* the one that has the directed side (i, j), if any */
 } pir_surface_room;
 
 /* The loops over a surface, in versions for processors that give the same bits. Sets have a bit for each triangle. */
