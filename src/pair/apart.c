@@ -42,10 +42,15 @@ bool pir_task_is_beyond(const pir_task *task, double distance) {
     return (task->want & PIR_WANT_SEPARATION) && distance > task->limit + error;
 }
 
+/* Keeps n, which is `back` in the frame of P. */
+static inline void keep(pir_pair *pair, pir_vec3 n, pir_vec3 back) {
+    pair->axis = n;
+    pair->axis_of_p = back;
+    pair->has_axis = true;
+}
+
 void pir_task_keep_axis(const pir_task *task, pir_vec3 n) {
-    task->pair->axis = n;
-    task->pair->axis_of_p = pir_mat_apply_transposed(&task->workspace->frame.r, n);
-    task->pair->has_axis = true;
+    keep(task->pair, n, pir_mat_apply_transposed(&task->workspace->frame.r, n));
 }
 
 /* Whether x is apart by more than the cutoff along the unit vector n: then it is the direction that is kept. */
@@ -59,7 +64,7 @@ static bool is_apart_along(pir_task *task, pir_vec3 n) {
     double distance = pir_task_certain(task, n, pir_vec_dot(n, way));
     if (!pir_task_is_beyond(task, distance))
         return false;
-    pir_task_keep_axis(task, n);
+    keep(pair, n, back);
     pir_task_keep_apart(task, distance);
     pir_result_beyond(task->result);
     return true;
