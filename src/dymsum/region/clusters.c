@@ -119,6 +119,16 @@ bool pir_clusters_init(pir_clusters *clusters, const pir_polytope *p, uint32_t c
 
 /* --- searching --- */
 
+/* Lists which of `count` numbers are at least 0, without branches. Returns how many are. */
+static uint32_t list_within(const float *by, uint32_t count, uint32_t *ret_which) {
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        ret_which[found] = i;
+        found += by[i] >= 0;
+    }
+    return found;
+}
+
 /* The first loop is a plain one, which compilers vectorise. */
 uint32_t pir_clusters_search(pir_clusters *clusters, pir_vec3 axis, pir_arc reach) {
     const float *restrict x = clusters->x, *restrict y = clusters->y, *restrict z = clusters->z;
@@ -132,5 +142,5 @@ uint32_t pir_clusters_search(pir_clusters *clusters, pir_vec3 axis, pir_arc reac
         // a reach beyond π includes all
         by[k] = (beyond > past ? beyond : past) + FLOAT_SLACK;
     }
-    return pir_list_from(by, 0, count, clusters->near);
+    return list_within(by, count, clusters->near);
 }

@@ -51,14 +51,4 @@ static inline uint32_t pir_cluster_size(const pir_clusters *clusters, uint32_t k
  */
 uint32_t pir_clusters_search(pir_clusters *clusters, pir_vec3 axis, pir_arc reach);
 
-/* Lists which of `count` numbers are at least `least`, without branches. Returns how many are. */
-static inline uint32_t pir_list_from(const float *by, float least, uint32_t count, uint32_t *ret_which) {
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        ret_which[found] = i;
-        found += by[i] >= least;
-    }
-    return found;
-}
-
 #endif

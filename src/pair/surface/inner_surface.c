@@ -267,23 +267,18 @@ static uint64_t set_fan(pir_surface_room *room, uint32_t i) {
  * Sets the fan from corner i in place of triangles. Where its rim passes a corner twice, all that is about that corner
  * goes too. Where a triangle of it is not certain, the one across its side of the rim goes, and those of `seen` that
  * are joined to it. False where nothing spans the hole in `most` times. *gone becomes the triangles that go.
- * `uncertain` are the fan's triangles that are not certain where it is in place of them already, else 0.
  */
 static bool span(const pir_surface *surface, pir_surface_room *room, uint32_t i, uint64_t seen, uint32_t most,
-                 uint64_t uncertain, uint64_t *gone) {
+                 uint64_t *gone) {
     for (uint32_t times = 0; times < most; times++) {
-        uint64_t more = 0;
-        if (uncertain == 0) {
-            more = about_all(surface, room, list_rim(surface, room, *gone, &room->fan));
-            if (room->fan.count == 0)
-                return false;
-        }
+        uint64_t more = about_all(surface, room, list_rim(surface, room, *gone, &room->fan));
+        if (room->fan.count == 0)
+            return false;
         if (more == 0) {
-            uncertain = uncertain != 0 ? uncertain : set_fan(room, i);
+            uint64_t uncertain = set_fan(room, i);
             if (uncertain == 0)
                 return true;
             more = across(room, uncertain);
-            uncertain = 0;
         }
         *gone = joined_to(surface, room, *gone | more, seen);
     }
@@ -364,7 +359,12 @@ static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least,
     }
     uint64_t gone = joined_to(surface, room, least, seen);
     uint32_t most = room->plane.low[t] > 0 ? MOST_WIDENED : MOST_WIDENED_LEFT;
-    return span(surface, room, i, seen, most, gone == seen ? uncertain : 0, &gone) ? gone : 0;
+    // what is seen is one hole whose fan is set already, which is the first time
+    if (uncertain != 0 && gone == seen) {
+        gone = joined_to(surface, room, gone | across(room, uncertain), seen);
+        most--;
+    }
+    return span(surface, room, i, seen, most, &gone) ? gone : 0;
 }
 
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room) {
