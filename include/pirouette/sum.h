@@ -177,7 +177,8 @@ PIR_API pir_status pir_sum_settle(pir_sum *sum);
 /**
  * Keeps only the part of the sum whose outward normals are within `half_angle` radians of `axis`, in the frame of Q.
  * Without a call the whole sum is kept; pir_sum_clear_region returns to that. Updates then cost in proportion to what
- * the cone holds, with a skin around it of 1 to 7 degrees, five steps of the motion.
+ * the cone holds, with a skin around it of 1 to 7 degrees, five steps of the motion. So do walks, which keep next to no
+ * skin while the axis rests.
  *
  * All pairs in the cone are there and right; rounding errs towards keeping a pair. Some other pairs may be there,
  * depending on the history of the sum, and are right too. A facet that is left out has PIR_NO_PAIR for its vertex, an

@@ -22,7 +22,8 @@ pir_status pir_sum_walk(pir_sum *sum) {
     const pir_signs *signs = &tracked->pairing.signs;
     uint64_t asked = pir_signs_asked(signs);
     pir_status status;
-    if (region->cone.set && !region->cover.whole) {
+    bool in_region = region->cone.set && !region->cover.whole;
+    if (in_region) {
         status = pir_region_walk(region, tracked) ? PIR_OK : PIR_ERR_MEMORY;
     } else {
         pir_crossings_forget(tracked);
@@ -30,7 +31,7 @@ pir_status pir_sum_walk(pir_sum *sum) {
         status = pir_walk_rebuild(tracked);
     }
     if (status == PIR_OK)
-        sum->cost.walk = (double)(pir_signs_asked(signs) - asked) / pir_region_share(region, tracked);
+        pir_learn_walk_work(&sum->cost, pir_signs_asked(signs) - asked, in_region, pir_region_share(region, tracked));
     return status;
 }
 
@@ -123,7 +124,7 @@ static pir_status bring(pir_sum *sum, pir_method method) {
         status = rebuild_all(sum, true);
     } else {
         if (sum->region.cone.set)
-            pir_region_centre(&sum->region, tracked, true);
+            pir_region_centre_walk(&sum->region, tracked);
         status = pir_sum_walk(sum);
     }
     pir_learn_walk(&sum->cost);

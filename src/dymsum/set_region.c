@@ -8,7 +8,10 @@ static pir_status change_cone(pir_sum *sum, const pir_cone *cone) {
     const pir_cone cone_before = region->cone;
     const pir_cover cover_before = region->cover;
     region->cone = *cone;
-    pir_region_centre(region, &sum->tracked, !cone_before.set || !cone->set);
+    if (cone_before.set && cone->set)
+        pir_region_centre(region, &sum->tracked);
+    else
+        pir_region_centre_afresh(region, &sum->tracked);
     pir_region_choose(region, &sum->tracked);
     if (pir_region_admit(region, &sum->tracked))
         return PIR_OK;

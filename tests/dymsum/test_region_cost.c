@@ -94,6 +94,23 @@ static void what_is_kept_is_what_comes_near_the_cone(void **state) {
     }
 }
 
+/* Expects that the sum keeps the facets of Q within `reach` of the axis, and of P those with an arc within it. */
+static void expect_kept(const struct sums *s, pir_quat r, pir_vec3 axis, double reach, const char *what, uint64_t i) {
+    const uint32_t *fv = pir_sum_fv(s->tracked), *vf = pir_sum_vf(s->tracked);
+    pir_vec3 axis_p = test_turn(r, axis, -1);
+    for (uint32_t f = 0; f < s->p->facet_count; f++) {
+        double near = nearest_arc(s->p, f, axis_p);
+        expect(fabs(near - reach) < SLACK || (fv[f] != PIR_NO_PAIR) == (near < reach), "case %llu, %s: facet %u of P",
+               (unsigned long long)i, what, f);
+    }
+    for (uint32_t g = 0; g < s->q->facet_count; g++) {
+        double near = angle_between(axis, s->q->normal[g]);
+        expect(fabs(near - reach) < SLACK || (vf[g] != PIR_NO_PAIR) == (near < reach), "case %llu, %s: facet %u of Q",
+               (unsigned long long)i, what, g);
+    }
+    expect(pir_sum_is_valid(s->tracked), "case %llu, %s", (unsigned long long)i, what);
+}
+
 static uint64_t signs_asked(const pir_sum *sum) {
     const pir_sum_statistics did = pir_sum_get_statistics(sum);
     return did.by_filter + did.by_exact + did.by_perturbation;
@@ -102,6 +119,45 @@ static uint64_t signs_asked(const pir_sum *sum) {
 static pir_quat turn(pir_quat from, pir_vec3 axis, double angle) {
     double s = sin(angle / 2);
     return test_compose((pir_quat){axis.x * s, axis.y * s, axis.z * s, cos(angle / 2)}, from, 1);
+}
+
+/*
+ * A walk keeps the cone with the least skin where the axis has moved since the walk before, and alone where it has
+ * rested. What it keeps is no ground for an update, however small the step.
+ */
+static void walks_keep_no_more_than_the_cone(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 40; i++) {
+        test_random random = test_random_case("region walks", i);
+        struct sums s;
+        pir_vec3 about = test_random_direction(&random), axis = test_random_direction(&random);
+        pir_quat r = turn((pir_quat){0, 0, 0, 1}, test_random_direction(&random), 1);
+        sums_init(&s, test_sphere(&random, 60 + 20 * (i % 5)), test_sphere(&random, 150), r);
+        // beyond a quarter turn too
+        double half_angle = 0.1 + 0.45 * (double)(i % 4);
+        assert_int_equal(pir_sum_set_region(s.tracked, axis, half_angle), PIR_OK);
+        for (int round = 0; round < 3; round++) {
+            assert_int_equal(pir_sum_rotate(s.tracked, r = turn(r, about, 0.1), PIR_METHOD_WALK), PIR_OK);
+            expect_kept(&s, r, axis, half_angle + PIR_LEAST_SKIN, "a walk after a choice", i);
+            // within the skin nothing is chosen
+            axis = test_turn(turn((pir_quat){0, 0, 0, 1}, about, 0x1p-7), axis, 1);
+            assert_int_equal(pir_sum_set_region(s.tracked, axis, half_angle), PIR_OK);
+            assert_true(s.tracked->region.cover.stride == PIR_NO_STRIDE);
+            assert_int_equal(pir_sum_rotate(s.tracked, r = turn(r, about, 0.1), PIR_METHOD_WALK), PIR_OK);
+            expect_kept(&s, r, axis, half_angle + PIR_LEAST_SKIN, "a walk after the axis has moved", i);
+            for (int k = 0; k < 2; k++) {
+                assert_int_equal(pir_sum_rotate(s.tracked, r = turn(r, about, 0.1), PIR_METHOD_WALK), PIR_OK);
+                expect_kept(&s, r, axis, half_angle + PIR_RESTING_SKIN, "a walk after a walk", i);
+            }
+            r = turn(r, about, round == 0 ? 0 : 0x1p-20 * test_random_unit(&random));
+            assert_int_equal(pir_sum_rotate(s.tracked, r, PIR_METHOD_UPDATE), PIR_OK);
+            assert_true(s.tracked->region.cover.stride >= PIR_LEAST_STRIDE);
+            assert_int_equal(pir_sum_rotate(s.whole, r, PIR_METHOD_WALK), PIR_OK);
+            expect(pir_sum_is_valid(s.tracked) && pir_sum_same_pairing(s.tracked, s.whole), "case %llu, round %d",
+                   (unsigned long long)i, round);
+        }
+        sums_clear(&s);
+    }
 }
 
 static void small_steps_ask_for_less_in_a_cone(void **state) {
@@ -155,6 +211,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_kept_is_what_comes_near_the_cone),
+        cmocka_unit_test(walks_keep_no_more_than_the_cone),
         cmocka_unit_test(numbers_of_sweeps_begin_again),
         cmocka_unit_test(small_steps_ask_for_less_in_a_cone),
     };

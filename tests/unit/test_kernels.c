@@ -159,6 +159,73 @@ static void collections_list_the_same_certificates(void **state) {
     assert_true(total > 1000);
 }
 
+/* A hash of what a sweep finds by `kernels`, and of where descents start; *listed grows by how many are found. */
+static uint64_t sweep_hash(const pir_sum *sum, const pir_kernels *kernels, const pir_sight *sight, uint64_t *listed) {
+    const pir_sweep *sweep = sum->region.sweep;
+    const pir_clusters *of[2] = {&sweep->arcs, &sweep->points};
+    uint32_t most = (sweep->edges.capacity + sweep->q.members.capacity + 1) * PIR_LANES;
+    uint32_t *which = malloc(most * sizeof *which), *item = malloc(most * sizeof *item);
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (int k = 0; k < 2; k++) {
+        uint32_t near = kernels->list_caps(&of[k]->caps, sight, which), found = 0;
+        const float *row = k ? sweep->point : sweep->arc;
+        const pir_clustered clustered = {row, of[k]->item, of[k]->count, which, near};
+        hash = mix(hash, which, near * sizeof *which);
+        if (k == 1)
+            found = kernels->list_points(&clustered, sight, item);
+        for (uint32_t at = 0; k == 0 && at < near; at++) {
+            found += kernels->list_arcs(&clustered, sight, &at, item + found);
+            hash = mix(hash, &at, sizeof at);
+        }
+        hash = mix(hash, item, found * sizeof *item);
+        *listed += found;
+    }
+    const pir_facets *facets[2] = {&sum->tracked.p_facets, &sum->tracked.q_facets};
+    const pir_starts *starts[2] = {&sweep->p.starts, &sweep->q.starts};
+    for (int k = 0; k < 2; k++)
+        for (uint32_t f = 0; f < facets[k]->count; f += PIR_DESCENT_MOST) {
+            uint32_t count = facets[k]->count - f < PIR_DESCENT_MOST ? facets[k]->count - f : PIR_DESCENT_MOST;
+            for (uint32_t i = 0; i < count; i++)
+                which[i] = f + i;
+            kernels->find_starts(facets[k], starts[k], which, count, item);
+            hash = mix(hash, item, count * sizeof *item);
+        }
+    free(item);
+    free(which);
+    return hash;
+}
+
+static void sweeps_find_the_same(void **state) {
+    (void)state;
+    uint64_t listed = 0;
+    for (uint64_t i = 0; i < 300; i++) {
+        test_random random = test_random_case("kernels sweep", i);
+        test_pose pose;
+        test_random_pose(&random, 60, &pose);
+        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
+        pir_sum *sum = NULL;
+        assert_int_equal(pir_sum_create(p, q, pose.rotation, NULL, &sum), PIR_OK);
+        assert_int_equal(pir_sum_set_region(sum, (pir_vec3){0, 0, 1}, 0.5), PIR_OK);
+        for (int round = 0; round < 8; round++) {
+            // along a normal there are ties
+            uint32_t facets = q->facet_count;
+            pir_vec3 axis = facets > 0 && round % 2 ? q->normal[test_random_below(&random, facets)]
+                                                    : test_random_direction(&random);
+            const pir_arc reach = pir_arc_of(round < 2 ? 0 : 3.2 * test_random_unit(&random));
+            const pir_sight sight = {(float)axis.x,       (float)axis.y,     (float)axis.z,
+                                     (float)reach.cosine, (float)reach.sine, round % 3 ? 0x1p-18f : 0x1p-4f};
+            uint64_t expected = sweep_hash(sum, pir_kernels_version(0), &sight, &listed);
+            for (unsigned k = 1; pir_kernels_version(k); k++)
+                expect(sweep_hash(sum, pir_kernels_version(k), &sight, &listed) == expected, "%s, case %llu, round %d",
+                       pir_kernels_version(k)->name, (unsigned long long)i, round);
+        }
+        pir_sum_destroy(sum);
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+    assert_true(listed > 10000);
+}
+
 int main(void) {
     test_print_seed();
     for (unsigned k = 0; pir_kernels_version(k); k++)
@@ -170,6 +237,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reviews_have_the_bits_of_the_reference),
         cmocka_unit_test(collections_list_the_same_certificates),
+        cmocka_unit_test(sweeps_find_the_same),
     };
     return cmocka_run_group_tests_name("kernels", tests, NULL, NULL);
 }

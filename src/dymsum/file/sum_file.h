@@ -21,8 +21,8 @@
  *                u32       1 when another rotation is shown within the tolerance, and then 4 u64, its quaternion;
  *                          else 0
  *     region     where there is one, doubles as above: the axis, three; the half-angle; the axis as P saw it and as Q
- *                did when what is kept was chosen, three each; the skins of P and of Q; the stride; then u32 the
- *                updates since, and the last step: see cover.h
+ *                did when what is kept was chosen, three each; the skins of P and of Q; the stride, 0 after a walk;
+ *                then u32 the updates since, and the last step: see cover.h
  *     pairing    u32 each  fv; vf; the number of crossings of each edge of P; then, edge by edge, 2·(edge of Q), plus
  *                          1 when it is crossed against its direction from the smaller vertex to the larger
  *

@@ -134,8 +134,17 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
     return count;
 }
 
-static const pir_kernels scalar = {"scalar", review, probe, descend, pir_arcs_find_sides, pir_arcs_measure_sides,
-                                   collect};
+static const pir_kernels scalar = {"scalar",
+                                   review,
+                                   probe,
+                                   descend,
+                                   pir_find_starts,
+                                   pir_arcs_find_sides,
+                                   pir_arcs_measure_sides,
+                                   collect,
+                                   pir_list_caps,
+                                   pir_list_points,
+                                   pir_list_arcs};
 
 const pir_kernels *pir_kernels_version(unsigned index) {
     const pir_kernels *versions[4] = {&scalar};

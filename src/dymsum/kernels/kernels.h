@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The inner loops of an update, behind one dispatch struct: a scalar reference, and AVX2, AVX-512 and NEON versions
- * chosen when a sum is made. Every version performs the same roundings, lane by lane, and minima and maxima do not
- * round. So all versions give the same bits.
+ * The inner loops of updates and walks, behind one dispatch struct: a scalar reference, and AVX2, AVX-512 and NEON
+ * versions chosen when a sum is made. Every version performs the same roundings, lane by lane, and minima and maxima do
+ * not round. So all versions give the same bits.
  *
  * They check facets, points of one Gaussian map, in cells of the other, by floats: a facet of unit normal n in the cell
  * of vertex v is compared with every direction d of v's ring. Where floats are not certain, callers use doubles, and
@@ -100,6 +100,46 @@ typedef struct pir_step {
     bool axial;
 } pir_step;
 
+/* Where descents start: a grid over the sphere, see region/starts.c. */
+typedef struct pir_starts {
+    uint32_t side;  /* squares along a side of the grid */
+    uint32_t *cell; /* per square: a vertex in whose cell its middle is, but for rounding */
+} pir_starts;
+
+/* A direction, and how far from it a region's sweep looks, by floats. */
+typedef struct pir_sight {
+    float x, y, z;      /* unit */
+    float cosine, sine; /* of the reach */
+    float slack;        /* what is beyond the reach by no more, in the cosine, counts as within */
+} pir_sight;
+
+/* Caps on the sphere, so many; there is room for whole blocks of PIR_LANES. */
+typedef struct pir_caps {
+    float *x, *y, *z, *cosine, *sine;
+    uint32_t count;
+} pir_caps;
+
+/* Points or arcs in clusters of PIR_LANES, the last perhaps with fewer, and which clusters are looked at. */
+typedef struct pir_clustered {
+    const float *row;     /* cluster by cluster, as many rows as an item has numbers */
+    const uint32_t *item; /* numbers, with room for whole clusters */
+    uint32_t count;       /* of items */
+    const uint32_t *cluster;
+    uint32_t clusters;
+} pir_clustered;
+
+/* What is kept of an arc: the normals at its ends, the direction of its edge, the cosine of its length. */
+enum {
+    PIR_ARC_FROM = 0,
+    PIR_ARC_TO = 3,
+    PIR_ARC_ALONG = 6,
+    PIR_ARC_COSINE = 9,
+    PIR_ARC_ROWS = 10,
+};
+
+/* What is kept of a point: its unit vector. */
+enum { PIR_POINT_ROWS = 3 };
+
 typedef struct pir_kernels {
     const char *name;
 
@@ -125,6 +165,10 @@ typedef struct pir_kernels {
     uint32_t (*descend)(const pir_facets *facets, const uint32_t *facet, const uint32_t *from, uint32_t count,
                         uint32_t *ret_open, uint64_t *sides);
 
+    /* Finds where each of `count` facets, at most PIR_DESCENT_MOST, starts a descent. */
+    void (*find_starts)(const pir_facets *facets, const pir_starts *starts, const uint32_t *facet, uint32_t count,
+                        uint32_t *ret_from);
+
     /* Finds side, met, right and left of arcs. */
     void (*find_sides)(const pir_polytope *q, pir_arcs *arcs);
 
@@ -136,6 +180,18 @@ typedef struct pir_kernels {
      * blocks from the others, since each that has expired is filed again. Returns how many are listed.
      */
     uint32_t (*collect)(pir_certificates *certificates, uint32_t blocks, pir_turned_angle turned);
+
+    /* Lists, rising, the caps that come within reach. Returns how many. All lists have room for whole blocks. */
+    uint32_t (*list_caps)(const pir_caps *caps, const pir_sight *sight, uint32_t *ret_which);
+
+    /* Lists the points within reach. Returns how many. */
+    uint32_t (*list_points)(const pir_clustered *points, const pir_sight *sight, uint32_t *ret_item);
+
+    /*
+     * Lists the arcs that come within reach, from the place *at in the list of clusters on. Stops where a cluster has
+     * one of which floats, off by less than the slack, are not certain: *at is its place then, else past the last.
+     */
+    uint32_t (*list_arcs)(const pir_clustered *arcs, const pir_sight *sight, uint32_t *at, uint32_t *ret_item);
 } pir_kernels;
 
 /*
@@ -190,10 +246,20 @@ static inline void pir_arcs_take_side(const pir_polytope *q, pir_arcs *arcs, uin
     arcs->left[k] = q->left[side];
 }
 
-/* The scalar reference of two kernels, where a version has none of its own. */
+/* The scalar reference of some kernels, where a version has none of its own. */
 void pir_arcs_find_sides(const pir_polytope *q, pir_arcs *arcs);
 void pir_arcs_measure_sides(const pir_facets *facets_of_p, const pir_polytope *p, const pir_polytope *q,
                             pir_arcs *arcs);
+void pir_find_starts(const pir_facets *facets, const pir_starts *starts, const uint32_t *facet, uint32_t count,
+                     uint32_t *ret_from);
+uint32_t pir_list_caps(const pir_caps *caps, const pir_sight *sight, uint32_t *ret_which);
+uint32_t pir_list_points(const pir_clustered *points, const pir_sight *sight, uint32_t *ret_item);
+uint32_t pir_list_arcs(const pir_clustered *arcs, const pir_sight *sight, uint32_t *at, uint32_t *ret_item);
+
+/* The lanes of block b that are in use where there are `count` in all. */
+static inline uint32_t pir_lanes_used(uint32_t count, uint32_t b) {
+    return (uint32_t)pir_side_mask(count - b * PIR_LANES) & ((1u << PIR_LANES) - 1);
+}
 
 /* The versions that this build has and this processor runs, the scalar reference first; NULL past the last. */
 const pir_kernels *pir_kernels_version(unsigned index);

@@ -14,6 +14,19 @@
 /* The same of integers. */
 #define SAME(a, b) ((uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32((a), (b)))))
 
+#define AT_LEAST(a, b) ((uint32_t)_mm256_movemask_ps(_mm256_cmp_ps((a), (b), _CMP_GE_OQ)))
+
+/* Without branches: which lanes are listed is not foreseen. */
+TARGET static inline uint32_t list_lanes(uint32_t lanes, __m256i number, uint32_t *ret_number) {
+    uint32_t from[PIR_LANES], count = 0;
+    _mm256_storeu_si256((__m256i *)(void *)from, number);
+    for (uint32_t i = 0; i < PIR_LANES; i++) {
+        ret_number[count] = from[i];
+        count += lanes >> i & 1;
+    }
+    return count;
+}
+
 #include "dymsum/kernels/kernels_eight_body.h"
 
 TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
@@ -90,6 +103,7 @@ TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, 
                        : collect_at(certificates, blocks, (struct turned_now){ahead, behind, false});
 }
 
-const pir_kernels pir_kernels_avx2 = {"avx2", review, probe, descend, find_sides, measure_sides, collect};
+const pir_kernels pir_kernels_avx2 = {"avx2",        review,  probe,     descend,     find_starts, find_sides,
+                                      measure_sides, collect, list_caps, list_points, list_arcs};
 
 #endif

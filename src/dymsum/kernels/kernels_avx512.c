@@ -17,6 +17,14 @@
 /* The same of integers. */
 #define SAME(a, b) ((uint32_t)_mm256_cmpeq_epi32_mask((a), (b)))
 
+#define AT_LEAST(a, b) ((uint32_t)_mm256_cmp_ps_mask((a), (b), _CMP_GE_OQ))
+
+/* All eight lanes are written. */
+TARGET static inline uint32_t list_lanes(uint32_t lanes, __m256i number, uint32_t *ret_number) {
+    _mm256_storeu_si256((__m256i *)(void *)ret_number, _mm256_maskz_compress_epi32((__mmask8)lanes, number));
+    return (uint32_t)__builtin_popcount(lanes);
+}
+
 #include "dymsum/kernels/kernels_eight_body.h"
 
 TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
@@ -100,6 +108,7 @@ TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, 
                        : collect_at(certificates, blocks, (struct turned_now){ahead, behind, false});
 }
 
-const pir_kernels pir_kernels_avx512 = {"avx512", review, probe, descend, find_sides, measure_sides, collect};
+const pir_kernels pir_kernels_avx512 = {"avx512",      review,  probe,     descend,     find_starts, find_sides,
+                                        measure_sides, collect, list_caps, list_points, list_arcs};
 
 #endif

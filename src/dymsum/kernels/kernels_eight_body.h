@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The text that the kernels for AVX2 and AVX-512 share: a block of eight floats at a time. The file that includes this
- * says for which processor by TARGET, and defines see_block(). It compares by EQUAL(a, b), of integers SAME(a, b):
- * masks of the lanes in which a = b.
+ * says for which processor by TARGET, and defines see_block(). It compares by EQUAL(a, b), of integers SAME(a, b), and
+ * AT_LEAST(a, b): masks of the lanes in which a = b, a ≥ b. By list_lanes(lanes, number, ret) it lists those of eight
+ * numbers whose lanes are in a mask.
  */
 
 #include "polytope/polytope.h"
@@ -160,3 +161,135 @@ TARGET static void measure_sides(const pir_facets *facets, const pir_polytope *p
 #include "dymsum/kernels/descend_body.h"
 #define REVIEW_TARGET TARGET
 #include "dymsum/kernels/review_body.h"
+
+/* --- what a region's sweep finds --- */
+
+struct sight {
+    __m256 x, y, z, cosine, sine, slack;
+};
+
+TARGET static inline struct sight spread_sight(const pir_sight *sight) {
+    return (struct sight){_mm256_set1_ps(sight->x),      _mm256_set1_ps(sight->y),    _mm256_set1_ps(sight->z),
+                          _mm256_set1_ps(sight->cosine), _mm256_set1_ps(sight->sine), _mm256_set1_ps(sight->slack)};
+}
+
+TARGET static inline __m256i numbers_at(const uint32_t *number) {
+    return _mm256_loadu_si256((const __m256i *)(const void *)number);
+}
+
+/* The cosines of eight vectors, x, y, z, to what is in sight. */
+TARGET static inline __m256 cosines(const float *row, const struct sight *t) {
+    return dot(_mm256_loadu_ps(row), _mm256_loadu_ps(row + PIR_LANES), _mm256_loadu_ps(row + 2 * PIR_LANES), t->x, t->y,
+               t->z);
+}
+
+TARGET static uint32_t list_caps(const pir_caps *caps, const pir_sight *sight, uint32_t *ret_which) {
+    const struct sight t = spread_sight(sight);
+    const __m256 zero = _mm256_setzero_ps(), sign = _mm256_set1_ps(-0.0f);
+    __m256i number = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    uint32_t found = 0;
+    for (uint32_t b = 0; b * PIR_LANES < caps->count; b++) {
+        uint32_t k = b * PIR_LANES;
+        __m256 c = _mm256_loadu_ps(caps->cosine + k), s = _mm256_loadu_ps(caps->sine + k);
+        __m256 near = dot(_mm256_loadu_ps(caps->x + k), _mm256_loadu_ps(caps->y + k), _mm256_loadu_ps(caps->z + k), t.x,
+                          t.y, t.z);
+        __m256 beyond = _mm256_sub_ps(near, _mm256_sub_ps(_mm256_mul_ps(t.cosine, c), _mm256_mul_ps(t.sine, s)));
+        __m256 past = _mm256_xor_ps(sign, _mm256_add_ps(_mm256_mul_ps(t.sine, c), _mm256_mul_ps(t.cosine, s)));
+        // a reach beyond π includes all
+        uint32_t lanes = AT_LEAST(_mm256_add_ps(_mm256_max_ps(beyond, past), t.slack), zero);
+        found += list_lanes(lanes & pir_lanes_used(caps->count, b), number, ret_which + found);
+        number = _mm256_add_epi32(number, _mm256_set1_epi32(PIR_LANES));
+    }
+    return found;
+}
+
+TARGET static uint32_t list_points(const pir_clustered *points, const pir_sight *sight, uint32_t *ret_item) {
+    const struct sight t = spread_sight(sight);
+    uint32_t found = 0;
+    for (uint32_t j = 0; j < points->clusters; j++) {
+        uint32_t k = points->cluster[j];
+        __m256 near = cosines(points->row + (size_t)k * PIR_POINT_ROWS * PIR_LANES, &t);
+        __m256 by = _mm256_add_ps(_mm256_sub_ps(near, t.cosine), t.slack);
+        uint32_t lanes = AT_LEAST(by, _mm256_setzero_ps()) & pir_lanes_used(points->count, k);
+        found += list_lanes(lanes, numbers_at(points->item + (size_t)k * PIR_LANES), ret_item + found);
+    }
+    return found;
+}
+
+TARGET static uint32_t list_arcs(const pir_clustered *arcs, const pir_sight *sight, uint32_t *at, uint32_t *ret_item) {
+    const struct sight t = spread_sight(sight);
+    const __m256 sign = _mm256_set1_ps(-0.0f), least = _mm256_xor_ps(sign, t.slack);
+    uint32_t found = 0, j = *at;
+    for (; j < arcs->clusters; j++) {
+        uint32_t k = arcs->cluster[j], used = pir_lanes_used(arcs->count, k);
+        const float *row = arcs->row + (size_t)k * PIR_ARC_ROWS * PIR_LANES;
+        __m256 x = cosines(row + PIR_ARC_FROM * PIR_LANES, &t), y = cosines(row + PIR_ARC_TO * PIR_LANES, &t);
+        __m256 d = cosines(row + PIR_ARC_ALONG * PIR_LANES, &t), c = _mm256_loadu_ps(row + PIR_ARC_COSINE * PIR_LANES);
+        __m256 one = _mm256_sub_ps(x, _mm256_mul_ps(c, y)), other = _mm256_sub_ps(y, _mm256_mul_ps(c, x));
+        __m256 beside = _mm256_sub_ps(t.sine, _mm256_andnot_ps(sign, d));
+        __m256 passing = _mm256_min_ps(_mm256_min_ps(one, other), beside);
+        __m256 by = _mm256_max_ps(_mm256_sub_ps(_mm256_max_ps(x, y), t.cosine), passing);
+        if (AT_LEAST(t.slack, _mm256_andnot_ps(sign, by)) & used)
+            break;
+        found +=
+            list_lanes(AT_LEAST(by, least) & used, numbers_at(arcs->item + (size_t)k * PIR_LANES), ret_item + found);
+    }
+    *at = j;
+    return found;
+}
+
+/* --- where descents start --- */
+
+/* The normals of eight facets, component by component. */
+TARGET static inline void gather_normals(const float *normal, const uint32_t *facet, __m256 ret_component[3]) {
+    __m256 row[4];
+    for (int k = 0; k < 4; k++)
+        row[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(normal + (size_t)4 * facet[k])),
+                                      _mm_loadu_ps(normal + (size_t)4 * facet[k + 4]), 1);
+    __m256 a = _mm256_unpacklo_ps(row[0], row[1]), b = _mm256_unpacklo_ps(row[2], row[3]);
+    __m256 c = _mm256_unpackhi_ps(row[0], row[1]), d = _mm256_unpackhi_ps(row[2], row[3]);
+    ret_component[0] = _mm256_shuffle_ps(a, b, 0x44);
+    ret_component[1] = _mm256_shuffle_ps(a, b, 0xEE);
+    ret_component[2] = _mm256_shuffle_ps(c, d, 0x44);
+}
+
+/* The coordinates, from 0, of the squares that x is in, from −1 to 1. */
+TARGET static inline __m256i along(__m256 x, uint32_t side) {
+    __m256 at = _mm256_mul_ps(_mm256_add_ps(x, _mm256_set1_ps(1)), _mm256_set1_ps(0.5f * (float)side));
+    return _mm256_min_epi32(_mm256_cvttps_epi32(at), _mm256_set1_epi32((int)side - 1));
+}
+
+/* The squares of eight unit vectors. */
+TARGET static inline __m256i squares_of(uint32_t side, __m256 x, __m256 y, __m256 z) {
+    const __m256 sign = _mm256_set1_ps(-0.0f), one = _mm256_set1_ps(1);
+    __m256 size =
+        _mm256_add_ps(_mm256_add_ps(_mm256_andnot_ps(sign, x), _mm256_andnot_ps(sign, y)), _mm256_andnot_ps(sign, z));
+    __m256 scale = _mm256_div_ps(one, size), u = _mm256_mul_ps(x, scale), v = _mm256_mul_ps(y, scale);
+    __m256 over_u = _mm256_sub_ps(one, _mm256_andnot_ps(sign, v)),
+           over_v = _mm256_sub_ps(one, _mm256_andnot_ps(sign, u));
+    over_u = _mm256_or_ps(_mm256_andnot_ps(sign, over_u), _mm256_and_ps(sign, u));
+    over_v = _mm256_or_ps(_mm256_andnot_ps(sign, over_v), _mm256_and_ps(sign, v));
+    __m256 below = _mm256_cmp_ps(z, _mm256_setzero_ps(), _CMP_LT_OQ);
+    __m256i i = along(_mm256_blendv_ps(u, over_u, below), side), j = along(_mm256_blendv_ps(v, over_v, below), side);
+    return _mm256_add_epi32(_mm256_mullo_epi32(j, _mm256_set1_epi32((int)side)), i);
+}
+
+TARGET static void find_starts(const pir_facets *facets, const pir_starts *starts, const uint32_t *facet,
+                               uint32_t count, uint32_t *ret_from) {
+    __m256 turn[3][3];
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            turn[k][i] = _mm256_set1_ps(facets->turn[k][i]);
+    for (uint32_t first = 0; first < count; first += PIR_LANES) {
+        uint32_t some = count - first < PIR_LANES ? count - first : PIR_LANES, square[PIR_LANES], number[PIR_LANES];
+        for (uint32_t i = 0; i < PIR_LANES; i++)
+            number[i] = facet[first + (i < some ? i : 0)];
+        __m256 n[3], turned[3];
+        gather_normals(facets->normal, number, n);
+        for (int i = 0; i < 3; i++)
+            turned[i] = dot(turn[0][i], turn[1][i], turn[2][i], n[0], n[1], n[2]);
+        _mm256_storeu_si256((__m256i *)(void *)square, squares_of(starts->side, turned[0], turned[1], turned[2]));
+        for (uint32_t i = 0; i < some; i++)
+            ret_from[first + i] = starts->cell[square[i]];
+    }
+}

@@ -164,7 +164,8 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
     return count;
 }
 
-const pir_kernels pir_kernels_neon = {"neon", review, probe, descend, pir_arcs_find_sides, pir_arcs_measure_sides,
-                                      collect};
+const pir_kernels pir_kernels_neon = {
+    "neon",  review,        probe,           descend,      pir_find_starts, pir_arcs_find_sides, pir_arcs_measure_sides,
+    collect, pir_list_caps, pir_list_points, pir_list_arcs};
 
 #endif

@@ -35,7 +35,7 @@ typedef struct pir_arc_cells {
     uint32_t of[2]; /* of the facet with the smaller number, and of the other; or one of these in both: */
 } pir_arc_cells;
 
-#define PIR_MANY_CELLS UINT32_MAX /* the arc has several crossings, or some that are not known: it tells nothing */
+#define PIR_MANY_CELLS UINT32_MAX       /* the arc has several crossings: it tells nothing */
 #define PIR_ONE_CELL   (UINT32_MAX - 1) /* it has none: the two are in one cell */
 
 /* What rebuilds and updates work in: nothing of it lasts from call to call. */

@@ -93,11 +93,14 @@ static void spread(pir_tracked *tracked, uint32_t g) {
     }
 }
 
-uint32_t pir_take_noted_cells(pir_tracked *tracked, const uint32_t *facet, uint32_t count) {
+/*
+ * Gives facets the cells that noted crossings tell; they have none before. The numbers of those that get none are the
+ * first of work.suspects; returns how many these are.
+ */
+static uint32_t take_noted_cells(pir_tracked *tracked) {
     uint32_t *vf = tracked->pairing.vf, open = 0, left = 0;
     pir_suspect *list = tracked->work->suspects;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t g = facet ? facet[i] : i;
+    for (uint32_t g = 0; g < tracked->pairing.q->facet_count; g++) {
         vf[g] = noted_cell(tracked, g);
         list[open].facet = g;
         open += vf[g] == PIR_NO_PAIR;
@@ -120,7 +123,7 @@ void pir_locate_facets_of_q(pir_tracked *tracked) {
     uint32_t *vf = tracked->pairing.vf;
     for (uint32_t g = 0; g < q->facet_count; g++)
         vf[g] = PIR_NO_PAIR;
-    uint32_t open = pir_take_noted_cells(tracked, NULL, q->facet_count);
+    uint32_t open = take_noted_cells(tracked);
     for (uint32_t i = 0; i < open; i++) {
         uint32_t g = tracked->work->suspects[i].facet, cell = vf[g];
         if (cell != PIR_NO_PAIR)

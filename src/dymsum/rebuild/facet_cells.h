@@ -37,10 +37,4 @@ static inline void pir_note_met(pir_tracked *tracked, uint32_t h, uint32_t edge,
 /* Fills vf from what has been noted. */
 void pir_locate_facets_of_q(pir_tracked *tracked);
 
-/*
- * Gives `count` facets of Q, listed or all, the cells that noted crossings tell; they have none before. The numbers of
- * those that get none are the first of work.suspects; returns how many these are.
- */
-uint32_t pir_take_noted_cells(pir_tracked *tracked, const uint32_t *facet, uint32_t count);
-
 #endif

@@ -147,8 +147,8 @@ static inline bool crosses_once(pir_tracked *tracked, const pir_arcs *arcs, uint
     return crosses_once_surely(tracked, arcs, k);
 }
 
-/* Walks arc k from cell to cell. */
-static bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k) {
+/* Walks arc k from cell to cell; `notes` crossings for the facets of Q, as do all that follow. */
+static bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k, bool notes) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t h = arcs->half[k], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
     pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
@@ -156,6 +156,8 @@ static bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k) {
         entered = pir_leave_cell(tracked, h, direction, v, entered);
         if (!pir_crossing_push(tracked, arcs->edge[k], entered, &last))
             return false;
+        if (!notes)
+            continue;
         // the facet right of a side is left of the side before it
         uint32_t before = (entered > q->ring_start[v] ? entered : q->ring_start[v + 1]) - 1;
         pir_note_met(tracked, h, q->edge[entered], q->left[before], q->left[entered]);
@@ -164,17 +166,18 @@ static bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k) {
 }
 
 /* Lists the crossings of the arcs, whose sides have been measured. */
-static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs) {
+static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, bool notes) {
     for (uint32_t k = 0; k < arcs->count; k++) {
         uint32_t last = PIR_NO_CROSSING;
         if (!crosses_once(tracked, arcs, k)) {
-            if (!walk_arc(tracked, arcs, k))
+            if (!walk_arc(tracked, arcs, k, notes))
                 return false;
             continue;
         }
         if (!pir_crossing_push(tracked, arcs->edge[k], arcs->side[k], &last))
             return false;
-        pir_note_met(tracked, arcs->half[k], arcs->met[k], arcs->right[k], arcs->left[k]);
+        if (notes)
+            pir_note_met(tracked, arcs->half[k], arcs->met[k], arcs->right[k], arcs->left[k]);
     }
     return true;
 }
@@ -200,7 +203,7 @@ bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) 
         }
         if (c >= 2) {
             tracked->kernels->measure_sides(&tracked->p_facets, p, q, &arcs[(c - 2) % STAGES]);
-            if (!cross_arcs(tracked, &arcs[(c - 2) % STAGES]))
+            if (!cross_arcs(tracked, &arcs[(c - 2) % STAGES], !edge))
                 return false;
         }
     }

@@ -12,8 +12,8 @@
 uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered);
 
 /*
- * Lists the crossings of `count` edges of P, listed or all, whose ends have cells, in a store that has been forgotten,
- * and notes them (pir_note_met). False when out of memory.
+ * Lists the crossings of `count` edges of P, listed or all, whose ends have cells, in a store that has been forgotten.
+ * Notes those of all edges (pir_note_met). False when out of memory.
  */
 bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count);
 

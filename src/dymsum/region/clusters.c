@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Clusters: items of a Gaussian map that lie near each other stand together, with a cap around each cluster. A search
- * compares the caps, and its caller the items of those that are near.
+ * compares the caps, and its caller the items of those that are near, by kernels.
  *
  * Items are sorted by the squares of a grid on the faces of a cube, and these in Morton's order: the bits of the two
  * coordinates alternate. So an item's place depends on the polytope alone.
@@ -25,10 +25,11 @@
 /* --- memory --- */
 
 static pir_layout layout_of(pir_clusters *clusters) {
-    uint32_t count = pir_cluster_count(clusters);
-    return (pir_layout){{PIR_ROW(clusters->item, clusters->count), PIR_ROW(clusters->x, count),
-                         PIR_ROW(clusters->y, count), PIR_ROW(clusters->z, count), PIR_ROW(clusters->cosine, count),
-                         PIR_ROW(clusters->sine, count), PIR_ROW(clusters->by, count), PIR_ROW(clusters->near, count)}};
+    uint32_t count = pir_cluster_count(clusters), lanes = pir_whole_lanes(count);
+    pir_caps *caps = &clusters->caps;
+    return (pir_layout){{PIR_ROW(clusters->item, count * PIR_CLUSTER), PIR_ROW(caps->x, lanes), PIR_ROW(caps->y, lanes),
+                         PIR_ROW(caps->z, lanes), PIR_ROW(caps->cosine, lanes), PIR_ROW(caps->sine, lanes),
+                         PIR_ROW(clusters->near, lanes)}};
 }
 
 void pir_clusters_finish(pir_clusters *clusters, const pir_allocator *allocator) {
@@ -94,16 +95,17 @@ static void bound_cluster(pir_clusters *clusters, const pir_polytope *p, pir_cap
         radius = to.cosine < radius.cosine ? to : radius;
     }
     radius = pir_arc_add(radius, pir_arc_of(CAP_SLACK));
-    clusters->x[k] = (float)middle.x;
-    clusters->y[k] = (float)middle.y;
-    clusters->z[k] = (float)middle.z;
-    clusters->cosine[k] = (float)radius.cosine;
-    clusters->sine[k] = (float)radius.sine;
+    clusters->caps.x[k] = (float)middle.x;
+    clusters->caps.y[k] = (float)middle.y;
+    clusters->caps.z[k] = (float)middle.z;
+    clusters->caps.cosine[k] = (float)radius.cosine;
+    clusters->caps.sine[k] = (float)radius.sine;
 }
 
 bool pir_clusters_init(pir_clusters *clusters, const pir_polytope *p, uint32_t count, pir_cap_of *cap_of,
                        const pir_allocator *a) {
     *clusters = (pir_clusters){.count = count};
+    clusters->caps.count = pir_cluster_count(clusters);
     unsigned bits = grid_bits(count);
     uint32_t starts = (6u << 2 * bits) + 1, *start = PIR_ZEROED(a, uint32_t, starts);
     pir_layout layout = layout_of(clusters);
@@ -119,28 +121,8 @@ bool pir_clusters_init(pir_clusters *clusters, const pir_polytope *p, uint32_t c
 
 /* --- searching --- */
 
-/* Lists which of `count` numbers are at least 0, without branches. Returns how many are. */
-static uint32_t list_within(const float *by, uint32_t count, uint32_t *ret_which) {
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        ret_which[found] = i;
-        found += by[i] >= 0;
-    }
-    return found;
-}
-
-/* The first loop is a plain one, which compilers vectorise. */
-uint32_t pir_clusters_search(pir_clusters *clusters, pir_vec3 axis, pir_arc reach) {
-    const float *restrict x = clusters->x, *restrict y = clusters->y, *restrict z = clusters->z;
-    const float *restrict c = clusters->cosine, *restrict s = clusters->sine;
-    float *restrict by = clusters->by;
-    const float ax = (float)axis.x, ay = (float)axis.y, az = (float)axis.z;
-    const float rc = (float)reach.cosine, rs = (float)reach.sine;
-    uint32_t count = pir_cluster_count(clusters);
-    for (uint32_t k = 0; k < count; k++) {
-        float beyond = (x[k] * ax + y[k] * ay + z[k] * az) - (rc * c[k] - rs * s[k]), past = -(rs * c[k] + rc * s[k]);
-        // a reach beyond π includes all
-        by[k] = (beyond > past ? beyond : past) + FLOAT_SLACK;
-    }
-    return list_within(by, count, clusters->near);
+uint32_t pir_clusters_search(pir_clusters *clusters, const pir_kernels *kernels, pir_vec3 axis, pir_arc reach) {
+    const pir_sight sight = {(float)axis.x,       (float)axis.y,     (float)axis.z,
+                             (float)reach.cosine, (float)reach.sine, FLOAT_SLACK};
+    return kernels->list_caps(&clusters->caps, &sight, clusters->near);
 }

@@ -54,9 +54,9 @@ pir_cover pir_cover_make(const pir_cone *cone, bool whole, pir_vec3 axis_p, pir_
                        .axis_p = axis_p,
                        .axis_q = axis_q,
                        .half_angle = pir_arc_of(cone->half_angle),
-                       .skin_p = clamp(skin_p, PIR_LEAST_SKIN, PIR_MOST_SKIN),
-                       .skin_q = clamp(skin_q, PIR_LEAST_SKIN, PIR_MOST_SKIN),
-                       .stride = clamp(stride, PIR_LEAST_STRIDE, PIR_MOST_SKIN)};
+                       .skin_p = clamp(skin_p, PIR_RESTING_SKIN, PIR_MOST_SKIN),
+                       .skin_q = clamp(skin_q, PIR_RESTING_SKIN, PIR_MOST_SKIN),
+                       .stride = stride == PIR_NO_STRIDE ? stride : clamp(stride, PIR_LEAST_STRIDE, PIR_MOST_SKIN)};
     cover.cosine_p = pir_arc_of(cover.skin_p).cosine;
     cover.cosine_q = pir_arc_of(cover.skin_q).cosine;
     return cover;

@@ -54,8 +54,12 @@ pir_status pir_cone_make(pir_vec3 axis, double half_angle, pir_cone *ret_cone);
 
 /* Bounds of skins and of the stride, in radians. */
 #define PIR_LEAST_SKIN   0x1p-6
+#define PIR_RESTING_SKIN 0x1p-12 /* of a walk that follows a walk, while the axis rests in Q */
 #define PIR_MOST_SKIN    0x1p-3
 #define PIR_LEAST_STRIDE 0x1p-7
+
+/* In place of a stride, in the cover of a walk: an update chooses anew whatever its step. */
+#define PIR_NO_STRIDE 0.0
 
 /*
  * The axis that a region had when its features were chosen, and how far it may move from there. What is kept is a
@@ -67,22 +71,17 @@ typedef struct pir_cover {
     pir_arc half_angle;      /* of the region */
     double skin_p, skin_q;   /* radians: how far the axis may move in either frame */
     double cosine_p, cosine_q;
-    double stride; /* radians: the longest step that may lead out of the cover or into it */
+    double stride; /* radians: the longest step that may lead out of the cover or into it; or PIR_NO_STRIDE */
 
     /* the motion since, from which the next cover is made; what is kept does not depend on it */
     uint32_t steps; /* updates */
     double step;    /* radians: the last step, at most */
 } pir_cover;
 
-/* Within what of axis_p the arcs of active edges come: the half-angle and the skin of P. */
-static inline pir_arc pir_cover_reach(const pir_cover *cover) {
-    return pir_arc_add(cover->half_angle, pir_arc_of(cover->skin_p));
-}
-
 /* The greatest that `step` can be. */
 #define PIR_MOST_STEP 4.0
 
-/* A cover of the cone, with no motion yet. Skins and stride are clamped to their bounds. */
+/* A cover of the cone, with no motion yet. Skins are clamped to their bounds, and so is a stride where there is one. */
 pir_cover pir_cover_make(const pir_cone *cone, bool whole, pir_vec3 axis_p, pir_vec3 axis_q, double skin_p,
                          double skin_q, double stride);
 

@@ -12,6 +12,8 @@
  *   - a facet g of Q is active when [g, a_Q] ≤ ρ + σ_P + σ_Q + τ, where ρ is the greatest distance from a_P of a
  *     point of an active arc, and at least α + σ_P.
  *
+ * A cover that a walk has made has no stride. In it a facet g of Q is active when [g, a_Q] ≤ α + σ_Q.
+ *
  * Rounding errs towards active. The cover holds while [Rᵀ·axis, a_P] ≤ σ_P and [axis, a_Q] ≤ σ_Q. It holds
  * after every call that succeeds. Invariants while it holds:
  *
@@ -23,13 +25,13 @@
  *     and within ρ + σ_P + σ_Q + τ of a_Q. The same is true of any step of at most one radian between two rotations
  *     at which the cover holds: the axis moves along an arc of a circle whose ends are within σ_P of a_P, and is
  *     farther from a_P than σ_P by less than σ_P·(√(1 + tan² ¼) − 1) < σ_P/30, which is less than any τ. So
- *     the events of active facets are all that concern active edges.
+ *     the events of active facets are all that concern active edges. Without a stride no step is within it.
  *
- * An update in which the cover ceases to hold first drops what a new cover leaves out, then repairs what stays, and
- * last adds what is new: a facet by descent from a neighbour's cell, an edge from cell to cell. What stays is in both
- * covers. A facet of Q that was inactive in the old cover is beyond the reach of the edges that stay when the step is
- * within the old stride, and one that becomes inactive in the new cover when it is within the new stride. After a
- * longer step, a jump, every edge that stays is derived again.
+ * An update in which the cover ceases to hold, or has no stride, first drops what a new cover leaves out, then repairs
+ * what stays, and last adds what is new: a facet by descent from a neighbour's cell, an edge from cell to cell. What
+ * stays is in both covers. A facet of Q that was inactive in the old cover is beyond the reach of the edges that stay
+ * when the step is within the old stride, and one that becomes inactive in the new cover when it is within the new
+ * stride. After a longer step, a jump, every edge that stays is derived again.
  *
  * What is kept is a function of the cover alone, whatever the history. The members (sweep.h) are the active features.
  * What is no member has no cell and no crossings at any time, within a call as well:
@@ -48,8 +50,9 @@
  * continue to agree as long as the same methods update them. PIR_METHOD_AUTO chooses from counted work, which depends
  * on the history.
  *
- * Skins grow with the speed of the axis in the frames of P and of Q, so that a choice lasts for some frames. A flat P
- * has arcs of half a turn and is kept whole.
+ * Skins grow with the speed of the axis in the frames of P and of Q, so that a choice lasts for some frames. A walk is
+ * likely to be followed by a walk, which chooses anew in any case: its cover has the least skins, and next to none
+ * where the axis has rested in Q since the walk before. A flat P has arcs of half a turn and is kept whole.
  */
 #include "dymsum/region/region.h"
 
@@ -80,7 +83,8 @@ bool pir_region_reserve(pir_region *region, pir_tracked *tracked) {
         return true;
     const pir_allocator *a = &pairing->allocator;
     pir_sweep *sweep = PIR_ZEROED(a, pir_sweep, 1);
-    if (!sweep || !pir_sweep_init(sweep, pairing->p, pairing->q, a)) {
+    const pir_sweep_parts parts = {tracked->kernels, pairing->p, pairing->q, &tracked->p_facets, &tracked->q_facets};
+    if (!sweep || !pir_sweep_init(sweep, &parts, a)) {
         PIR_FREE(a, sweep, 1);
         return false;
     }
@@ -109,21 +113,48 @@ static bool is_whole(const pir_region *region, const pir_tracked *tracked) {
     return !region->cone.set || tracked->pairing.p->dimension < 3;
 }
 
-/*
- * Centres the cover on the region of now. In each frame the axis is expected to move on as it did, or to rest where
- * `afresh`.
- */
-void pir_region_centre(pir_region *region, const pir_tracked *tracked, bool afresh) {
-    const pir_cover before = region->cover;
+/* Centres the cover on the region of now. */
+static void make_cover(pir_region *region, const pir_tracked *tracked, double skin_p, double skin_q, double stride) {
     pir_vec3 axis_q = region->cone.axis, axis_p = pir_mat_apply_transposed(&tracked->pairing.signs.rotation.r, axis_q);
-    pir_vec3 off_p = pir_vec_sub(axis_p, before.axis_p), off_q = pir_vec_sub(axis_q, before.axis_q);
-    double steps = afresh ? HUGE_VAL : fmax(1, before.steps) / SKIN_STEPS;
+    region->cover = pir_cover_make(&region->cone, is_whole(region, tracked), axis_p, axis_q, skin_p, skin_q, stride);
+}
+
+void pir_region_centre_afresh(pir_region *region, const pir_tracked *tracked) {
+    make_cover(region, tracked, PIR_LEAST_SKIN, PIR_LEAST_SKIN, PIR_LEAST_STRIDE);
+}
+
+/* In each frame the axis is expected to move on as it did. */
+void pir_region_centre(pir_region *region, const pir_tracked *tracked) {
+    const pir_cover before = region->cover;
+    pir_vec3 axis_p = pir_mat_apply_transposed(&tracked->pairing.signs.rotation.r, region->cone.axis);
+    pir_vec3 off_p = pir_vec_sub(axis_p, before.axis_p), off_q = pir_vec_sub(region->cone.axis, before.axis_q);
+    double steps = fmax(1, before.steps) / SKIN_STEPS;
     // whatever its motion in P, the axis may move with Q once: when it is set before the rotation that it is set for
-    double stride = afresh ? 0 : STRIDE_STEPS * before.step;
+    double stride = fmax(PIR_LEAST_STRIDE, STRIDE_STEPS * before.step);
     double skin_p = fmax(sqrt(pir_vec_dot(off_p, off_p)) / steps, stride);
     double skin_q = sqrt(pir_vec_dot(off_q, off_q)) / steps;
-    region->cover = pir_cover_make(&region->cone, is_whole(region, tracked), axis_p, axis_q, skin_p, skin_q, stride);
-    region->cover.step = afresh ? 0 : before.step;
+    make_cover(region, tracked, fmax(PIR_LEAST_SKIN, skin_p), fmax(PIR_LEAST_SKIN, skin_q), stride);
+    region->cover.step = before.step;
+}
+
+void pir_region_centre_walk(pir_region *region, const pir_tracked *tracked) {
+    const pir_vec3 off = pir_vec_sub(region->cone.axis, region->cover.axis_q);
+    // an axis that has been set since the walk before is likely to be set again before the next
+    bool rests = region->cover.stride == PIR_NO_STRIDE && pir_vec_dot(off, off) == 0;
+    if (rests && region->cover.skin_p == PIR_RESTING_SKIN) {
+        // all else is as it was
+        region->cover.axis_p = pir_mat_apply_transposed(&tracked->pairing.signs.rotation.r, region->cone.axis);
+        region->cover.step = 0;
+        return;
+    }
+    double skin = rests ? PIR_RESTING_SKIN : PIR_LEAST_SKIN;
+    make_cover(region, tracked, skin, skin, PIR_NO_STRIDE);
+}
+
+/* Whether what is kept is right after a step to the rotation of now, and includes all that the region needs there. */
+static bool lasts(const pir_region *region, const pir_tracked *tracked) {
+    return pir_region_holds(region, &tracked->pairing.signs.rotation) &&
+           (!region->cone.set || region->cover.whole || region->cover.stride != PIR_NO_STRIDE);
 }
 
 void pir_region_step(pir_region *region, const pir_tracked *tracked, pir_quat before) {
@@ -135,7 +166,7 @@ void pir_region_step(pir_region *region, const pir_tracked *tracked, pir_quat be
 
 static void drop_facet(const pir_member_place *place, uint32_t f) {
     uint32_t certificate = place->first_certificate + f;
-    pir_member_drop(place, f);
+    place->cell[f] = PIR_NO_PAIR;
     pir_certificate_clear(&place->tracked->certificates, certificate);
     pir_journal_note(&place->tracked->journal, certificate);
 }
@@ -165,6 +196,7 @@ void pir_region_choose(pir_region *region, pir_tracked *tracked) {
     uint32_t facets_p = p->count, facets_q = q->count, of_edges = edges->count;
     region->admits = true;
     pir_sweep_run(region->sweep, &region->cover, tracked->pairing.p);
+    pir_sweep_mark(region->sweep);
     for (uint32_t i = 0; i < of_edges; i++)
         if (edges->seen[edges->at[i]] != region->sweep->number)
             drop_edge(tracked, edges->at[i]);
@@ -179,9 +211,9 @@ void pir_region_follow(pir_region *region, pir_tracked *tracked) {
     double angle = region->cover.step, allowed = region->cover.stride;
     region->cover.steps += region->cover.steps < UINT32_MAX;
     region->jumped = region->cone.set && !region->cover.whole && !(angle <= LONGEST_STEP);
-    if (pir_region_holds(region, &tracked->pairing.signs.rotation))
+    if (lasts(region, tracked))
         return;
-    pir_region_centre(region, tracked, false);
+    pir_region_centre(region, tracked);
     pir_region_choose(region, tracked);
     region->jumped = region->jumped || !(angle <= fmin(allowed, region->cover.stride));
 }
@@ -232,7 +264,7 @@ void pir_region_open(pir_region *region, pir_tracked *tracked) {
 void pir_region_close(pir_region *region, pir_tracked *tracked) {
     if (!region->cone.set)
         return;
-    pir_region_centre(region, tracked, true);
+    pir_region_centre_afresh(region, tracked);
     pir_region_choose(region, tracked);
     region->admits = false;
 }

@@ -49,8 +49,12 @@ bool pir_region_admit(pir_region *region, pir_tracked *tracked);
 
 /* --- around a rebuild --- */
 
-/* Centres the cover on the rotation of now. `afresh`: the motion so far is forgotten. */
-void pir_region_centre(pir_region *region, const pir_tracked *tracked, bool afresh);
+/* Centres the cover on the rotation of now, by the motion since the cover before. Afresh: that is forgotten. */
+void pir_region_centre(pir_region *region, const pir_tracked *tracked);
+void pir_region_centre_afresh(pir_region *region, const pir_tracked *tracked);
+
+/* Centres it for a walk, with no more than the cone needs: another walk is likely to follow. */
+void pir_region_centre_walk(pir_region *region, const pir_tracked *tracked);
 
 /* Chooses the features that the cover asks for, and drops the others. */
 void pir_region_choose(pir_region *region, pir_tracked *tracked);

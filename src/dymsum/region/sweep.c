@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The sweep: which features a cover asks for. region.c has the two rules. Edges of P and facets of Q stand in clusters;
- * those in clusters that may be near enough are compared by floats, a few operations each, and where floats are not
+ * those in clusters that may be near enough are compared by floats, eight at a time (kernels), and where floats are not
  * certain by doubles. It reads the cover and what neither rotation nor scale changes: normals, directions of edges, and
  * adjacency.
  */
@@ -19,24 +19,16 @@
 #define EDGE_SLACK  0x1p-40
 #define ANGLE_SLACK 0x1p-13
 
-/* What is kept of an arc: the normals at its ends, the direction of its edge, the cosine of its length. */
-enum arc_row { FROM_X, FROM_Y, FROM_Z, TO_X, TO_Y, TO_Z, ALONG_X, ALONG_Y, ALONG_Z, COSINE, ARC_ROWS };
-
-/* What is kept of a facet of Q: its normal. */
-enum { POINT_ROWS = 3 };
-
 /* --- memory --- */
 
 static pir_layout layout_of(pir_sweep *sweep) {
     pir_members *p = &sweep->p.members, *q = &sweep->q.members, *edges = &sweep->edges;
-    uint32_t arcs = pir_cluster_count(&sweep->arcs) * PIR_CLUSTER * ARC_ROWS,
-             points = pir_cluster_count(&sweep->points) * PIR_CLUSTER * POINT_ROWS;
-    return (pir_layout){
-        {PIR_ROW(sweep->p.hint, p->capacity), PIR_ROW(p->at, p->capacity + 1), PIR_ROW(p->next, p->capacity + 1),
-         PIR_ROW(p->seen, p->capacity), PIR_ROW(sweep->q.hint, q->capacity), PIR_ROW(q->at, q->capacity),
-         PIR_ROW(q->next, q->capacity), PIR_ROW(q->seen, q->capacity), PIR_ROW(edges->at, edges->capacity),
-         PIR_ROW(edges->next, edges->capacity), PIR_ROW(edges->seen, edges->capacity), PIR_ROW(sweep->arc, arcs),
-         PIR_ROW(sweep->point, points)}};
+    uint32_t arcs = pir_whole_lanes(edges->capacity), points = pir_whole_lanes(q->capacity);
+    return (pir_layout){{PIR_ROW(p->at, p->capacity + 1), PIR_ROW(p->next, p->capacity + 1),
+                         PIR_ROW(p->seen, p->capacity), PIR_ROW(q->at, points), PIR_ROW(q->next, points),
+                         PIR_ROW(q->seen, q->capacity), PIR_ROW(edges->at, arcs), PIR_ROW(edges->next, arcs),
+                         PIR_ROW(edges->seen, edges->capacity), PIR_ROW(sweep->arc, (size_t)arcs * PIR_ARC_ROWS),
+                         PIR_ROW(sweep->point, (size_t)points * PIR_POINT_ROWS)}};
 }
 
 void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *a) {
@@ -44,6 +36,8 @@ void pir_sweep_finish(pir_sweep *sweep, const pir_allocator *a) {
     pir_layout_free(a, &layout);
     pir_clusters_finish(&sweep->arcs, a);
     pir_clusters_finish(&sweep->points, a);
+    pir_starts_finish(&sweep->p.starts, a);
+    pir_starts_finish(&sweep->q.starts, a);
     *sweep = (pir_sweep){0};
 }
 
@@ -76,27 +70,31 @@ static void keep_vec(float *row, uint32_t i, pir_vec3 v) {
 static void fill_arcs(pir_sweep *sweep, const pir_polytope *p) {
     for (uint32_t i = 0; i < sweep->arcs.count; i++) {
         uint32_t half = p->edge_half[sweep->arcs.item[i]], at = i % PIR_CLUSTER;
-        float *rows = rows_of(sweep->arc, i / PIR_CLUSTER, ARC_ROWS);
+        float *rows = rows_of(sweep->arc, i / PIR_CLUSTER, PIR_ARC_ROWS);
         pir_vec3 from = p->normal[p->left[half]], to = p->normal[pir_right(p, half)];
-        keep_vec(rows + FROM_X * PIR_CLUSTER, at, from);
-        keep_vec(rows + TO_X * PIR_CLUSTER, at, to);
-        keep_vec(rows + ALONG_X * PIR_CLUSTER, at, p->direction[half]);
-        rows[COSINE * PIR_CLUSTER + at] = (float)pir_vec_dot(from, to);
+        keep_vec(rows + PIR_ARC_FROM * PIR_CLUSTER, at, from);
+        keep_vec(rows + PIR_ARC_TO * PIR_CLUSTER, at, to);
+        keep_vec(rows + PIR_ARC_ALONG * PIR_CLUSTER, at, p->direction[half]);
+        rows[PIR_ARC_COSINE * PIR_CLUSTER + at] = (float)pir_vec_dot(from, to);
     }
 }
 
 static void fill_points(pir_sweep *sweep, const pir_polytope *q) {
     for (uint32_t i = 0; i < sweep->points.count; i++)
-        keep_vec(rows_of(sweep->point, i / PIR_CLUSTER, POINT_ROWS), i % PIR_CLUSTER, q->normal[sweep->points.item[i]]);
+        keep_vec(rows_of(sweep->point, i / PIR_CLUSTER, PIR_POINT_ROWS), i % PIR_CLUSTER,
+                 q->normal[sweep->points.item[i]]);
 }
 
-bool pir_sweep_init(pir_sweep *sweep, const pir_polytope *p, const pir_polytope *q, const pir_allocator *a) {
-    *sweep = (pir_sweep){0};
+bool pir_sweep_init(pir_sweep *sweep, const pir_sweep_parts *parts, const pir_allocator *a) {
+    const pir_polytope *p = parts->p, *q = parts->q;
+    *sweep = (pir_sweep){.kernels = parts->kernels};
     sweep->p.members.capacity = p->facet_count;
     sweep->q.members.capacity = q->facet_count;
     sweep->edges.capacity = p->edge_count;
     bool done = pir_clusters_init(&sweep->arcs, p, p->edge_count, cap_of_edge, a) &&
-                pir_clusters_init(&sweep->points, q, q->facet_count, cap_of_facet, a);
+                pir_clusters_init(&sweep->points, q, q->facet_count, cap_of_facet, a) &&
+                pir_starts_init(&sweep->p.starts, parts->kernels, parts->p_facets, q->vertex_count, a) &&
+                pir_starts_init(&sweep->q.starts, parts->kernels, parts->q_facets, p->vertex_count, a);
     pir_layout layout = layout_of(sweep);
     if (!done || !pir_layout_new(a, &layout)) {
         pir_sweep_finish(sweep, a);
@@ -135,59 +133,38 @@ static bool is_within(const pir_polytope *p, uint32_t e, pir_vec3 axis, pir_arc 
            pir_vec_dot(axis, p->normal[pir_right(p, h)]) >= inner || passes(p, h, axis, reach);
 }
 
-/*
- * The same of a cluster of arcs by floats: above FLOAT_SLACK for those that certainly come so near, below
- * −FLOAT_SLACK for those that certainly do not. One plain loop, which compilers vectorise.
- */
-static void measure_arcs(const float *restrict arc, pir_vec3 axis, pir_arc reach, float *restrict ret_by) {
-    const float ax = (float)axis.x, ay = (float)axis.y, az = (float)axis.z;
-    const float inner = (float)(reach.cosine - (double)FLOAT_SLACK), sine = reach.cosine > 0 ? (float)reach.sine : 4;
-    for (uint32_t i = 0; i < PIR_CLUSTER; i++) {
-        const float *at = arc + i;
-        float x = at[FROM_X * PIR_CLUSTER] * ax + at[FROM_Y * PIR_CLUSTER] * ay + at[FROM_Z * PIR_CLUSTER] * az;
-        float y = at[TO_X * PIR_CLUSTER] * ax + at[TO_Y * PIR_CLUSTER] * ay + at[TO_Z * PIR_CLUSTER] * az;
-        float d = at[ALONG_X * PIR_CLUSTER] * ax + at[ALONG_Y * PIR_CLUSTER] * ay + at[ALONG_Z * PIR_CLUSTER] * az;
-        float c = at[COSINE * PIR_CLUSTER], one = x - c * y, other = y - c * x;
-        float foot = one < other ? one : other, near = sine - fabsf(d), end = (x > y ? x : y) - inner;
-        float passing = foot < near ? foot : near;
-        ret_by[i] = end > passing ? end : passing;
+/* Lists those of cluster k that are within `reach`. Returns how many. */
+static uint32_t list_cluster(const pir_clusters *arcs, uint32_t k, const pir_polytope *p, pir_vec3 axis, pir_arc reach,
+                             uint32_t *ret_edge) {
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < pir_cluster_size(arcs, k); i++) {
+        ret_edge[found] = arcs->item[k * PIR_CLUSTER + i];
+        found += is_within(p, ret_edge[found], axis, reach);
     }
+    return found;
 }
 
-/* The first `count` of members->next are all of them, each once. */
-static void mark_seen(pir_members *members, uint32_t number, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++)
-        members->seen[members->next[i]] = number;
-    members->count = count;
+/* The clusters that the last search has found. */
+static pir_clustered found_in(const pir_clusters *clusters, const float *row, uint32_t found) {
+    return (pir_clustered){row, clusters->item, clusters->count, clusters->near, found};
 }
 
-/* Those of `found` edges listed that are within `reach` stay. Returns how many they are. */
-static uint32_t sift_edges(const pir_polytope *p, pir_vec3 axis, pir_arc reach, uint32_t *edge, uint32_t found) {
-    uint32_t left = 0;
-    for (uint32_t i = 0; i < found; i++)
-        if (is_within(p, edge[i], axis, reach))
-            edge[left++] = edge[i];
-    return left;
-}
-
-/* Counts in the edges of P within `reach`. How many of a cluster are is not foreseen: they are listed without branches.
- */
+/* Counts in the edges of P within `reach`. */
 static void sweep_edges(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
-    uint32_t count = 0, clusters = pir_clusters_search(&sweep->arcs, axis, reach);
-    for (uint32_t j = 0; j < clusters; j++) {
-        uint32_t k = sweep->arcs.near[j];
-        float by[PIR_CLUSTER];
-        const uint32_t *edge = sweep->arcs.item + k * PIR_CLUSTER;
-        measure_arcs(rows_of(sweep->arc, k, ARC_ROWS), axis, reach, by);
-        uint32_t size = pir_cluster_size(&sweep->arcs, k), found = 0, unsure = 0, *listed = sweep->edges.next + count;
-        for (uint32_t i = 0; i < size; i++) {
-            listed[found] = edge[i];
-            found += by[i] >= -FLOAT_SLACK;
-            unsure += fabsf(by[i]) <= FLOAT_SLACK;
-        }
-        count += unsure == 0 ? found : sift_edges(p, axis, reach, listed, found);
+    const pir_sight sight = {(float)axis.x,
+                             (float)axis.y,
+                             (float)axis.z,
+                             (float)(reach.cosine - (double)FLOAT_SLACK),
+                             reach.cosine > 0 ? (float)reach.sine : 4,
+                             FLOAT_SLACK};
+    uint32_t count = 0, near = pir_clusters_search(&sweep->arcs, sweep->kernels, axis, reach);
+    const pir_clustered arcs = found_in(&sweep->arcs, sweep->arc, near);
+    for (uint32_t at = 0; at < near; at++) {
+        count += sweep->kernels->list_arcs(&arcs, &sight, &at, sweep->edges.next + count);
+        if (at < near)
+            count += list_cluster(&sweep->arcs, arcs.cluster[at], p, axis, reach, sweep->edges.next + count);
     }
-    mark_seen(&sweep->edges, sweep->number, count);
+    sweep->edges.count = count;
 }
 
 /* Half of the longest arc at facet f. */
@@ -199,10 +176,8 @@ static pir_arc half_longest(const pir_polytope *p, uint32_t f) {
     return (pir_arc){sqrt((1 + least) / 2), sqrt((1 - least) / 2)};
 }
 
-/*
- * Counts in the edges of P within `reach` and the facets at their ends; returns how far their arcs reach from the axis.
- */
-static pir_arc sweep_p(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
+/* Counts in the edges of P within `reach` and the facets at their ends. */
+static void sweep_p(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
     pir_members *facets = &sweep->p.members;
     uint32_t ends = 0;
     sweep_edges(sweep, p, axis, reach);
@@ -211,36 +186,30 @@ static pir_arc sweep_p(pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, p
         count_in(facets, arc.from, sweep->number, &ends);
         count_in(facets, arc.to, sweep->number, &ends);
     }
+    facets->count = ends;
+}
+
+/* How far the arcs reach from the axis whose ends have been counted in. */
+static pir_arc farthest_of(const pir_sweep *sweep, const pir_polytope *p, pir_vec3 axis, pir_arc reach) {
+    const pir_members *facets = &sweep->p.members;
     // an arc whose ends are within a quarter turn reaches no farther than they do
     double least = reach.cosine;
-    for (uint32_t i = 0; i < ends; i++) {
+    for (uint32_t i = 0; i < facets->count; i++) {
         uint32_t f = facets->next[i];
         double x = pir_vec_dot(axis, p->normal[f]);
         if (x < 0)
             x = pir_arc_add(pir_arc_from_cosine(x), half_longest(p, f)).cosine;
         least = x < least ? x : least;
     }
-    facets->count = ends;
     return pir_arc_from_cosine(least);
 }
 
 /* Counts in the facets of Q within `reach`. */
 static void sweep_q(pir_sweep *sweep, pir_vec3 axis, pir_arc reach) {
-    const float ax = (float)axis.x, ay = (float)axis.y, az = (float)axis.z, rc = (float)reach.cosine;
-    pir_members *facets = &sweep->q.members;
-    uint32_t count = 0, clusters = pir_clusters_search(&sweep->points, axis, reach);
-    for (uint32_t j = 0; j < clusters; j++) {
-        uint32_t k = sweep->points.near[j];
-        const float *x = rows_of(sweep->point, k, POINT_ROWS), *y = x + PIR_CLUSTER, *z = y + PIR_CLUSTER;
-        float by[PIR_CLUSTER];
-        for (uint32_t i = 0; i < PIR_CLUSTER; i++)
-            by[i] = (x[i] * ax + y[i] * ay + z[i] * az) - rc + FLOAT_SLACK;
-        for (uint32_t i = 0, size = pir_cluster_size(&sweep->points, k); i < size; i++) {
-            facets->next[count] = sweep->points.item[k * PIR_CLUSTER + i];
-            count += by[i] >= 0;
-        }
-    }
-    mark_seen(facets, sweep->number, count);
+    const pir_sight sight = {(float)axis.x, (float)axis.y, (float)axis.z, (float)reach.cosine, 0, FLOAT_SLACK};
+    uint32_t near = pir_clusters_search(&sweep->points, sweep->kernels, axis, reach);
+    const pir_clustered points = found_in(&sweep->points, sweep->point, near);
+    sweep->q.members.count = sweep->kernels->list_points(&points, &sight, sweep->q.members.next);
 }
 
 static void sweep_all(pir_members *members, uint32_t number) {
@@ -259,6 +228,15 @@ static void next_number(pir_sweep *sweep) {
     sweep->number = 1;
 }
 
+/* Walks have the same skin again and again. */
+static pir_arc arc_of_skin(pir_sweep *sweep, double skin) {
+    if (sweep->skin != skin) {
+        sweep->skin = skin;
+        sweep->skin_arc = pir_arc_of(skin);
+    }
+    return sweep->skin_arc;
+}
+
 void pir_sweep_run(pir_sweep *sweep, const pir_cover *cover, const pir_polytope *p) {
     next_number(sweep);
     if (cover->whole) {
@@ -267,10 +245,26 @@ void pir_sweep_run(pir_sweep *sweep, const pir_cover *cover, const pir_polytope 
         sweep_all(&sweep->edges, sweep->number);
         return;
     }
-    pir_arc reach = pir_cover_reach(cover);
-    pir_arc farthest = sweep_p(sweep, p, cover->axis_p, reach);
+    pir_arc reach = pir_arc_add(cover->half_angle, arc_of_skin(sweep, cover->skin_p));
+    sweep_p(sweep, p, cover->axis_p, reach);
+    if (cover->stride == PIR_NO_STRIDE) {
+        sweep_q(sweep, cover->axis_q, pir_arc_add(cover->half_angle, arc_of_skin(sweep, cover->skin_q)));
+        return;
+    }
+    pir_arc farthest = farthest_of(sweep, p, cover->axis_p, reach);
     double around = cover->skin_p + cover->skin_q + cover->stride + ANGLE_SLACK;
     sweep_q(sweep, cover->axis_q, pir_arc_add(farthest, pir_arc_of(around)));
+}
+
+static void mark(const pir_members *members, uint32_t number) {
+    for (uint32_t i = 0; i < members->count; i++)
+        members->seen[members->next[i]] = number;
+}
+
+void pir_sweep_mark(const pir_sweep *sweep) {
+    mark(&sweep->p.members, sweep->number);
+    mark(&sweep->q.members, sweep->number);
+    mark(&sweep->edges, sweep->number);
 }
 
 static void take(pir_members *members) {

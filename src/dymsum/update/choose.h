@@ -33,7 +33,10 @@ bool pir_pays_to_lag(pir_cost_model *cost, double angle);
 /* Notes that an update over `angle`, of a `share` of all features, has asked for so many signs. */
 void pir_learn_update(pir_cost_model *cost, double angle, uint64_t signs, double share);
 
-/* Notes a walk. */
+/* Notes that a walk of a `share` of all features has asked for so many signs. in_region: of those of a region. */
+void pir_learn_walk_work(pir_cost_model *cost, uint64_t signs, bool in_region, double share);
+
+/* Notes a walk that was chosen or asked for. */
 void pir_learn_walk(pir_cost_model *cost);
 
 #endif
