@@ -128,9 +128,15 @@ static inline uint32_t climb(const pir_overlap *overlap, const pir_body *body, c
 /*
  * Adds the vertex of D farthest along the normal of triangle t, where it is beyond the triangle by more than
  * rounding, or makes room for it. *ret_corner is its number, PIR_SURFACE_CORNERS where it was no new one.
+ *
+ * A corner of the surface that is beyond goes first: as the bodies turn the surface does not stay convex, and what sees
+ * a vertex from within a dent is seldom a disk.
  */
 static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *ret_corner) {
     const pir_frame *frame = overlap->exact->frame;
+    *ret_corner = PIR_SURFACE_CORNERS;
+    if (pir_surface_turn(overlap->surface, t, overlap->room))
+        return CHANGED;
     pir_vec3 n = pir_surface_normal(overlap->room, t);
     double least = PIR_LEAST_SLOPE * sqrt(pir_vec_dot(n, n));
     pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
@@ -139,7 +145,6 @@ static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *r
     pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, a, b), overlap->room->centre);
     if (!(pir_vec_dot(n, w) > overlap->room->plane.det[t] + overlap->room->det_error))
         return NOTHING_BEYOND;
-    *ret_corner = PIR_SURFACE_CORNERS;
     // room is made first; the vertex comes when the triangle is met again
     if (!pir_surface_has_room(overlap->surface))
         return pir_surface_trim(overlap->surface, overlap->room) ? CHANGED : STUCK;

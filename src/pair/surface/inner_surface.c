@@ -9,7 +9,7 @@
  */
 #include <string.h>
 
-#include "pair/surface/surface_loops.h"
+#include "pair/surface/inner_surface.h"
 
 /*
  * How often a hole is widened for one vertex; most take none. Where the centre has left the surface, more than a few
@@ -17,100 +17,6 @@
  */
 #define MOST_WIDENED      9
 #define MOST_WIDENED_LEFT 2
-
-/* --- loops --- */
-
-static void place_corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
-    for (uint32_t rest = surface->used; rest; rest &= rest - 1) {
-        uint32_t i = (uint32_t)__builtin_ctz(rest);
-        pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, surface->a[i], surface->b[i]), room->centre);
-        room->at[i][0] = w.x;
-        room->at[i][1] = w.y;
-        room->at[i][2] = w.z;
-    }
-}
-
-/* The plane of triangle t, and a lower bound on its distance from the centre. */
-static inline void make_plane(const pir_surface_room *room, const uint8_t *corner, uint32_t t,
-                              pir_surface_planes *ret_planes) {
-    const double *a = room->at[corner[t]], *b = room->at[corner[PIR_SURFACE_TRIANGLES + t]];
-    const double *c = room->at[corner[2 * PIR_SURFACE_TRIANGLES + t]];
-    double ex = b[0] - a[0], ey = b[1] - a[1], ez = b[2] - a[2];
-    double fx = c[0] - a[0], fy = c[1] - a[1], fz = c[2] - a[2];
-    double nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
-    double det = nx * a[0] + ny * a[1] + nz * a[2];
-    ret_planes->nx[t] = nx;
-    ret_planes->ny[t] = ny;
-    ret_planes->nz[t] = nz;
-    ret_planes->det[t] = det;
-    ret_planes->low[t] = (det - room->det_error) / (sqrt(nx * nx + ny * ny + nz * nz) + room->normal_error);
-}
-
-static uint64_t make_planes(const pir_surface_room *room, const uint8_t *corner, uint32_t count,
-                            pir_surface_planes *ret_planes) {
-    uint64_t uncertain = 0;
-    for (uint32_t t = 0; t < count; t++) {
-        make_plane(room, corner, t, ret_planes);
-        uncertain |= (uint64_t) !(ret_planes->low[t] > 0) << t;
-    }
-    return uncertain;
-}
-
-static uint64_t find_below(const pir_surface *surface, const pir_surface_room *room, double limit) {
-    uint64_t found = 0;
-    for (uint32_t t = 0; t < surface->count; t++)
-        found |= (uint64_t)(room->plane.low[t] <= limit) << t;
-    return found;
-}
-
-static double find_least(const pir_surface *surface, const pir_surface_room *room) {
-    double least = HUGE_VAL;
-    for (uint32_t t = 0; t < surface->count; t++)
-        least = room->plane.low[t] < least ? room->plane.low[t] : least;
-    return least;
-}
-
-static uint64_t find_seen(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w) {
-    uint64_t found = 0;
-    for (uint32_t t = 0; t < surface->count; t++)
-        found |= (uint64_t)(pir_vec_dot(pir_surface_normal(room, t), w) > room->plane.det[t]) << t;
-    return found;
-}
-
-static uint64_t find_about(const pir_surface *surface, uint32_t corner) {
-    const uint8_t *a = surface->corner[0], *b = surface->corner[1], *c = surface->corner[2];
-    uint64_t found = 0;
-    for (uint32_t t = 0; t < surface->count; t++)
-        found |= (uint64_t)(a[t] == corner || b[t] == corner || c[t] == corner) << t;
-    return found;
-}
-
-static uint32_t find_corner(const pir_surface *surface, uint32_t a, uint32_t b) {
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
-        found |= (uint32_t)(surface->a[i] == a && surface->b[i] == b) << i;
-    return found & surface->used;
-}
-
-static const pir_surface_loops plain = {"plain",    place_corners, make_planes, find_below,
-                                        find_least, find_seen,     find_about,  find_corner};
-
-const pir_surface_loops *pir_surface_loops_version(unsigned index) {
-    if (index == 0)
-        return &plain;
-#if PIR_HAVE_X86_SURFACE
-    if (index == 1 && __builtin_cpu_supports("avx2"))
-        return &pir_surface_avx2;
-#endif
-    return NULL;
-}
-
-const pir_surface_loops *pir_surface_loops_best(void) {
-    unsigned index = 0;
-    while (pir_surface_loops_version(index + 1))
-        index++;
-    return pir_surface_loops_version(index);
-}
 
 bool pir_surface_place(const pir_surface *surface, const pir_frame *frame, pir_vec3 centre, double error, double reach,
                        pir_surface_room *room) {
@@ -385,6 +291,82 @@ uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_ver
     surface->a[i] = vertex->a;
     surface->b[i] = vertex->b;
     return i;
+}
+
+/* --- turning sides --- */
+
+/* The triangles on either side of a side: (i, j, near) and (j, i, far). */
+struct beside {
+    uint32_t of, other;
+    uint32_t i, j, near, far;
+};
+
+/* The third corner of triangle t, which has these two. */
+static inline uint32_t third_of(const pir_surface *surface, uint32_t t, uint32_t i, uint32_t j) {
+    struct three of = corners_of(surface, t);
+    return of.a ^ of.b ^ of.c ^ i ^ j;
+}
+
+/* Whether a triangle has the directed side (i, j). */
+static bool has_side(const pir_surface *surface, const pir_surface_room *room, uint32_t i, uint32_t j) {
+    uint32_t t = room->triangle[i][j];
+    if (t >= surface->count)
+        return false;
+    struct three of = corners_of(surface, t);
+    return (of.a == i && of.b == j) || (of.b == i && of.c == j) || (of.c == i && of.a == j);
+}
+
+/* Sets the fan from corner i to the sides between the corners of a path. Returns its triangles that are not certain. */
+static uint64_t set_fan_to(pir_surface_room *room, uint32_t i, const uint32_t *path, uint32_t sides) {
+    pir_surface_fan *fan = &room->fan;
+    for (uint32_t s = 0; s < sides; s++) {
+        fan->corner[0][s] = (uint8_t)path[s];
+        fan->corner[1][s] = (uint8_t)path[s + 1];
+    }
+    fan->count = sides;
+    return set_fan(room, i);
+}
+
+/*
+ * Sets the fan in place of two triangles: the two on the other diagonal of what they span. Where that is not certain
+ * because an end of the side that they share is within the triangle of the other corners, it is that triangle, and a
+ * third one goes with the corner. Returns what goes, 0 where none of that is certain.
+ */
+static uint64_t set_turned(const pir_surface *surface, const struct beside *at, pir_surface_room *room) {
+    const uint32_t path[3] = {at->j, at->near, at->i};
+    uint64_t uncertain = set_fan_to(room, at->far, path, 2), gone = 1ull << at->of | 1ull << at->other;
+    room->fan.lost = 0;
+    if (uncertain == 0)
+        return has_side(surface, room, at->near, at->far) ? 0 : gone;
+    if (uncertain == 3 || surface->count == 4)
+        return 0;
+    uint32_t within = uncertain == 1 ? at->j : at->i;
+    uint32_t third = within == at->j ? beside(room, within, at->near) : beside(room, at->near, within);
+    if (third_of(surface, third, within, at->near) != at->far)
+        return 0;
+    set_fan_to(room, at->far, within == at->j ? &path[1] : path, 1);
+    room->fan.lost = 1u << within;
+    return gone | 1ull << third;
+}
+
+bool pir_surface_turn(pir_surface *surface, uint32_t t, pir_surface_room *room) {
+    pir_vec3 n = pir_surface_normal(room, t);
+    const double beyond = room->plane.det[t] + room->det_error;
+    need_sides(surface, room);
+    for (int k = 0; k < 3; k++) {
+        struct beside at = {.of = t, .i = surface->corner[k][t], .j = surface->corner[k < 2 ? k + 1 : 0][t]};
+        at.near = surface->corner[k > 0 ? k - 1 : 2][t];
+        at.other = beside(room, at.i, at.j);
+        at.far = third_of(surface, at.other, at.i, at.j);
+        if (!(pir_vec_dot(n, pir_surface_corner(room, at.far)) > beyond))
+            continue;
+        uint64_t gone = set_turned(surface, &at, room);
+        if (gone != 0) {
+            put_fan(surface, gone, room);
+            return true;
+        }
+    }
+    return false;
 }
 
 /* --- taking corners away --- */
