@@ -112,14 +112,14 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
         for (unsigned version = 1; pir_surface_loops_version(version); version++) {
             room.loops = pir_surface_loops_version(version);
             assert_int_equal(pir_surface_place(&surface, &frame, centre, 0x1p-46, 4, &room), certain);
-            double least = room.loops->least(&surface, &room),
+            double least = room.loops->least(&surface, &room, UINT64_MAX),
                    limits[3] = {least, 0, plain.plane.low[surface.count / 2]};
             assert_memory_equal(room.plane.nx, plain.plane.nx, surface.count * sizeof *room.plane.nx);
             assert_memory_equal(room.plane.ny, plain.plane.ny, surface.count * sizeof *room.plane.ny);
             assert_memory_equal(room.plane.nz, plain.plane.nz, surface.count * sizeof *room.plane.nz);
             assert_memory_equal(room.plane.det, plain.plane.det, surface.count * sizeof *room.plane.det);
             assert_memory_equal(room.plane.low, plain.plane.low, surface.count * sizeof *room.plane.low);
-            assert_true(least == plain.loops->least(&surface, &plain));
+            assert_true(least == plain.loops->least(&surface, &plain, UINT64_MAX));
             for (int k = 0; k < 3; k++)
                 assert_true(room.loops->below(&surface, &room, limits[k]) ==
                             plain.loops->below(&surface, &plain, limits[k]));
@@ -128,10 +128,17 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
                             plain.loops->seen(&surface, &plain, vertex[v]));
             for (uint32_t c = 0; c < PIR_SURFACE_CORNERS; c++) {
                 assert_true(room.loops->about(&surface, c) == plain.loops->about(&surface, c));
-                assert_true(room.loops->find(&surface, surface.a[c], 0) ==
-                            plain.loops->find(&surface, surface.a[c], 0));
+                uint32_t other = surface.a[test_random_below(&random, PIR_SURFACE_CORNERS)];
+                assert_true(room.loops->either(surface.a, surface.a[c], other) ==
+                            plain.loops->either(surface.a, surface.a[c], other));
             }
-            assert_true(room.loops->find(&surface, surface.a[0], 1) == 0);
+            assert_true(room.loops->either(surface.a, 40, 41) == 0);
+            for (int k = 0; k < 40; k++) {
+                uint32_t corners = (uint32_t)test_random_bits(&random) | (uint32_t)test_random_bits(&random);
+                uint64_t within = room.loops->within(&surface, corners);
+                assert_true(within == plain.loops->within(&surface, corners));
+                assert_true(room.loops->least(&surface, &room, within) == plain.loops->least(&surface, &plain, within));
+            }
         }
     }
 }

@@ -274,7 +274,8 @@ static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least,
 }
 
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room) {
-    uint32_t same = room->loops->find(surface, vertex->a, vertex->b);
+    uint32_t same = room->loops->either(surface->a, vertex->a, vertex->a) &
+                    room->loops->either(surface->b, vertex->b, vertex->b) & surface->used;
     if (same == 0 && surface->used == UINT32_MAX)
         return PIR_SURFACE_CORNERS;
     uint32_t i = (uint32_t)__builtin_ctz(same != 0 ? same : ~surface->used);

@@ -75,8 +75,8 @@ typedef struct pir_surface_loops {
     /* The triangles whose `low` is at most this. */
     uint64_t (*below)(const pir_surface *surface, const pir_surface_room *room, double limit);
 
-    /* The least `low`. */
-    double (*least)(const pir_surface *surface, const pir_surface_room *room);
+    /* The least `low` of some triangles; HUGE_VAL where there are none. */
+    double (*least)(const pir_surface *surface, const pir_surface_room *room, uint64_t triangles);
 
     /* The triangles whose planes a point is beyond. */
     uint64_t (*seen)(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w);
@@ -84,8 +84,11 @@ typedef struct pir_surface_loops {
     /* The triangles at a corner. */
     uint64_t (*about)(const pir_surface *surface, uint32_t corner);
 
-    /* The corners that are vertex (a, b) of D: a bit for each. */
-    uint32_t (*find)(const pir_surface *surface, uint32_t a, uint32_t b);
+    /* The triangles that have no corners but these. */
+    uint64_t (*within)(const pir_surface *surface, uint32_t corners);
+
+    /* Which of the vertices that corners have, all those of P or all those of Q, are one of two: a bit for each. */
+    uint32_t (*either)(const uint32_t vertex[PIR_SURFACE_CORNERS], uint32_t u, uint32_t v);
 } pir_surface_loops;
 
 /* Version `index` of those that this build has and this processor runs, the plain one first. NULL past the last. */

@@ -45,10 +45,12 @@ static uint64_t find_below(const pir_surface *surface, const pir_surface_room *r
     return found;
 }
 
-static double find_least(const pir_surface *surface, const pir_surface_room *room) {
+static double find_least(const pir_surface *surface, const pir_surface_room *room, uint64_t triangles) {
     double least = HUGE_VAL;
-    for (uint32_t t = 0; t < surface->count; t++)
+    for (uint64_t rest = triangles & pir_surface_first(surface->count); rest; rest &= rest - 1) {
+        uint32_t t = (uint32_t)__builtin_ctzll(rest);
         least = room->plane.low[t] < least ? room->plane.low[t] : least;
+    }
     return least;
 }
 
@@ -67,15 +69,23 @@ static uint64_t find_about(const pir_surface *surface, uint32_t corner) {
     return found;
 }
 
-static uint32_t find_corner(const pir_surface *surface, uint32_t a, uint32_t b) {
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
-        found |= (uint32_t)(surface->a[i] == a && surface->b[i] == b) << i;
-    return found & surface->used;
+static uint64_t find_within(const pir_surface *surface, uint32_t corners) {
+    const uint8_t *a = surface->corner[0], *b = surface->corner[1], *c = surface->corner[2];
+    uint64_t found = 0;
+    for (uint32_t t = 0; t < surface->count; t++)
+        found |= (uint64_t)(corners >> a[t] & corners >> b[t] & corners >> c[t] & 1) << t;
+    return found;
 }
 
-static const pir_surface_loops plain = {"plain",    place_corners, make_planes, find_below,
-                                        find_least, find_seen,     find_about,  find_corner};
+static uint32_t find_either(const uint32_t vertex[PIR_SURFACE_CORNERS], uint32_t u, uint32_t v) {
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
+        found |= (uint32_t)(vertex[i] == u || vertex[i] == v) << i;
+    return found;
+}
+
+static const pir_surface_loops plain = {"plain",   place_corners, make_planes, find_below, find_least,
+                                        find_seen, find_about,    find_within, find_either};
 
 const pir_surface_loops *pir_surface_loops_version(unsigned index) {
     if (index == 0)
