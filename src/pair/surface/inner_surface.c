@@ -11,12 +11,8 @@
 
 #include "pair/surface/inner_surface.h"
 
-/*
- * How often a hole is widened for one vertex; most take none. Where the centre has left the surface, more than a few
- * would leave little of it.
- */
-#define MOST_WIDENED      9
-#define MOST_WIDENED_LEFT 2
+/* How often a hole is widened for one vertex; most take none. */
+#define MOST_WIDENED 9
 
 bool pir_surface_place(const pir_surface *surface, const pir_frame *frame, pir_vec3 centre, double error, double reach,
                        pir_surface_room *room) {
@@ -255,16 +251,23 @@ static bool fits(const pir_surface *surface, uint64_t gone, const pir_surface_fa
     return count <= PIR_SURFACE_TRIANGLES;
 }
 
-/* Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing. */
+/*
+ * Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing.
+ * Where the centre has left the surface through t, the vertex may be too near for a certain fan, and others come. But
+ * what is not one disk there seldom comes to anything.
+ */
 static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least, uint32_t i, pir_surface_room *room) {
     uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, uncertain = 0;
+    const bool left = !(room->plane.low[t] > 0);
     if (list_rim(surface, room, seen, &room->fan) == 0 && is_disk(seen, &room->fan)) {
         uncertain = set_fan(room, i);
-        if (uncertain == 0)
+        if (uncertain == 0 || left)
             return seen;
     }
+    if (left)
+        return 0;
     uint64_t gone = joined_to(surface, room, least, seen);
-    uint32_t most = room->plane.low[t] > 0 ? MOST_WIDENED : MOST_WIDENED_LEFT;
+    uint32_t most = MOST_WIDENED;
     // what is seen is one hole whose fan is set already, which is the first time
     if (uncertain != 0 && gone == seen) {
         gone = joined_to(surface, room, gone | across(room, uncertain), seen);

@@ -116,7 +116,8 @@ typedef struct pir_surface_vertex {
 /*
  * Adds a vertex of D, in place of triangle t, which it lies beyond, and of others beside that. A vertex that is a
  * corner already is joined to what is about t. Returns the number of its corner; PIR_SURFACE_CORNERS where no surface
- * about the centre with certain dets comes of that, or it has no room: then the surface is as it was.
+ * about the centre with certain dets comes of that, or it has no room: then the surface is as it was. Where the det of
+ * t is not certain, the new ones need not be.
  */
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room);
 
