@@ -387,80 +387,78 @@ static void list_distances(const pir_surface *surface, const pir_surface_room *r
         }
 }
 
-/* The farthest of these corners; PIR_SURFACE_CORNERS where there are none. */
-static uint32_t farthest_of(uint32_t corners, const double distance[PIR_SURFACE_CORNERS]) {
-    uint32_t farthest = PIR_SURFACE_CORNERS;
+/* The corners that are farther than the mean. */
+static uint32_t far_corners(uint32_t corners, const double distance[PIR_SURFACE_CORNERS]) {
+    double sum = 0;
+    uint32_t count = 0, found = 0;
     for (uint32_t rest = corners; rest; rest &= rest - 1) {
-        uint32_t i = (uint32_t)__builtin_ctz(rest);
-        if (farthest == PIR_SURFACE_CORNERS || distance[i] > distance[farthest])
-            farthest = i;
+        sum += distance[__builtin_ctz(rest)];
+        count++;
     }
-    return farthest;
+    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
+        found |= (uint32_t)(distance[i] * count > sum) << i;
+    return found & corners;
 }
 
 /*
- * Sets the fan from corner v of the rim of a hole to its other sides. False where it is not certain, or has a side that
- * triangles have which stay: `side` are those of all.
+ * Lists the corners about corner c in the order in which the rim of the hole without it passes them. Returns how many
+ * there are; 0 where they are no single ring.
  */
-static bool span_from(pir_surface_room *room, const pir_surface_fan *rim, uint32_t v, const uint32_t *side) {
-    pir_surface_fan *fan = &room->fan;
-    uint32_t near = 1u << v;
-    fan->count = 0;
-    for (uint32_t s = 0; s < rim->count; s++) {
-        uint32_t i = rim->corner[0][s], j = rim->corner[1][s];
-        if (i == v || j == v) {
-            near |= 1u << i | 1u << j;
-            continue;
-        }
-        fan->corner[0][fan->count] = (uint8_t)i;
-        fan->corner[1][fan->count] = (uint8_t)j;
-        fan->corner[2][fan->count++] = (uint8_t)v;
-    }
-    return (side[v] & rim->rim & ~near) == 0 && room->loops->planes(room, fan->corner[0], fan->count, &fan->plane) == 0;
-}
-
-/* Brings the sides of a surface to what they are once the fan is in place of triangles. */
-static void change_sides(const pir_surface *surface, uint64_t gone, const pir_surface_fan *fan, uint32_t *side) {
-    for (uint64_t rest = gone; rest; rest &= rest - 1) {
-        struct three of = corners_of(surface, (uint32_t)__builtin_ctzll(rest));
-        side[of.a] &= ~(1u << of.b);
-        side[of.b] &= ~(1u << of.c);
-        side[of.c] &= ~(1u << of.a);
-    }
-    for (uint32_t t = 0; t < fan->count; t++)
-        list_side((struct three){fan->corner[0][t], fan->corner[1][t], fan->corner[2][t]}, side);
+static uint32_t list_around(const pir_surface *surface, const pir_surface_room *room, uint32_t c, uint64_t about,
+                            uint8_t around[PIR_SURFACE_CORNERS]) {
+    struct three of = corners_of(surface, (uint32_t)__builtin_ctzll(about));
+    const uint32_t first = of.a == c ? of.b : of.b == c ? of.c : of.a;
+    uint32_t i = first, count = 0;
+    do {
+        around[count++] = (uint8_t)i;
+        uint32_t t = room->triangle[c][i];
+        about &= ~(1ull << t);
+        i = third_of(surface, t, c, i);
+    } while (i != first && count < PIR_SURFACE_CORNERS);
+    return about == 0 && i == first ? count : 0;
 }
 
 /*
- * Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole.
- * `side` are the sides of all triangles, before and after.
+ * Sets the fan from the corner at place v of a ring in place of what is about the corner within. False where it is not
+ * certain, or has a side that triangles have which stay.
  */
-static bool take_corner(pir_surface *surface, uint32_t c, uint32_t *side, pir_surface_room *room) {
-    uint32_t s = 0;
+static bool span_from(const pir_surface *surface, pir_surface_room *room, const uint8_t *ring, uint32_t count,
+                      uint32_t v) {
+    uint32_t path[PIR_SURFACE_CORNERS];
+    for (uint32_t s = 1; s < count; s++)
+        path[s - 1] = ring[v + s < count ? v + s : v + s - count];
+    if (set_fan_to(room, ring[v], path, count - 2) != 0)
+        return false;
+    for (uint32_t s = 1; s + 2 < count; s++)
+        if (has_side(surface, room, ring[v], path[s]))
+            return false;
+    return true;
+}
+
+/* Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole. */
+static bool take_corner(pir_surface *surface, uint32_t c, pir_surface_room *room) {
+    uint8_t ring[PIR_SURFACE_CORNERS];
     uint64_t gone = room->loops->about(surface, c);
-    pir_surface_fan rim;
-    if (list_rim(surface, room, gone, &rim) != 0 || rim.count < 3)
+    uint32_t v = 0, count = list_around(surface, room, c, gone, ring);
+    if (count < 3 || surface->count == 4)
         return false;
-    while (s < rim.count && !span_from(room, &rim, rim.corner[0][s], side))
-        s++;
-    if (s == rim.count)
+    while (v < count && !span_from(surface, room, ring, count, v))
+        v++;
+    if (v == count)
         return false;
-    room->fan.lost = rim.lost;
-    change_sides(surface, gone, &room->fan, side);
+    room->fan.lost = 1u << c;
     put_fan(surface, gone, room);
     return true;
 }
 
 bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     double distance[PIR_SURFACE_CORNERS];
-    uint32_t left = surface->used, side[PIR_SURFACE_CORNERS], taken = 0;
+    uint32_t taken = 0;
     need_sides(surface, room);
     list_distances(surface, room, distance);
-    list_sides(surface, side);
-    for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
-        left &= ~(1u << c);
-        taken += take_corner(surface, c, side, room);
-    }
+    for (uint32_t rest = far_corners(surface->used, distance); rest && taken < PIR_SURFACE_CORNERS / 4;
+         rest &= rest - 1)
+        taken += take_corner(surface, (uint32_t)__builtin_ctz(rest), room);
     return taken > 0;
 }
 

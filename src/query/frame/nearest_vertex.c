@@ -215,8 +215,9 @@ static uint32_t farther(const pir_vec3 *vertices, pir_vec3 n, uint32_t a, uint32
  * where x has come inside of D since.
  */
 static inline uint32_t start_of(const pir_body *body, pir_vec3 n, uint32_t vertex) {
-    return pir_vec_dot(n, body->vertex[vertex]) < 0 ? farther(body->vertex, n, vertex, body->landmarks[pir_landmark_of(n)])
-                                                    : vertex;
+    return pir_vec_dot(n, body->vertex[vertex]) < 0
+               ? farther(body->vertex, n, vertex, body->landmarks[pir_landmark_of(n)])
+               : vertex;
 }
 
 /* Gives a simplex without vertices the vertex farthest towards x. */
