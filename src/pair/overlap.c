@@ -143,12 +143,12 @@ static inline uint32_t climb(const pir_overlap *overlap, const pir_body *body, c
  * rounding, or makes room for it. *ret_corner is its number, PIR_SURFACE_CORNERS where it was no new one.
  *
  * A corner of the surface that is beyond goes first: as the bodies turn the surface does not stay convex, and what sees
- * a vertex from within a dent is seldom a disk.
+ * a vertex from within a dent is seldom a disk. Where the centre has left the surface that seldom helps.
  */
 static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *ret_corner) {
     const pir_frame *frame = overlap->exact->frame;
     *ret_corner = PIR_SURFACE_CORNERS;
-    if (pir_surface_turn(overlap->surface, t, overlap->room))
+    if (overlap->room->plane.low[t] > 0 && pir_surface_turn(overlap->surface, t, overlap->room))
         return CHANGED;
     pir_vec3 n = pir_surface_normal(overlap->room, t);
     double least = PIR_LEAST_SLOPE * sqrt(pir_vec_dot(n, n));

@@ -355,22 +355,24 @@ static uint64_t set_turned(const pir_surface *surface, const struct beside *at, 
 
 bool pir_surface_turn(pir_surface *surface, uint32_t t, pir_surface_room *room) {
     pir_vec3 n = pir_surface_normal(room, t);
-    const double beyond = room->plane.det[t] + room->det_error;
+    struct beside most = {.of = t};
+    double along = room->plane.det[t] + room->det_error;
+    bool some = false;
     need_sides(surface, room);
     for (int k = 0; k < 3; k++) {
         struct beside at = {.of = t, .i = surface->corner[k][t], .j = surface->corner[k < 2 ? k + 1 : 0][t]};
         at.near = surface->corner[k > 0 ? k - 1 : 2][t];
         at.other = beside(room, at.i, at.j);
         at.far = third_of(surface, at.other, at.i, at.j);
-        if (!(pir_vec_dot(n, pir_surface_corner(room, at.far)) > beyond))
-            continue;
-        uint64_t gone = set_turned(surface, &at, room);
-        if (gone != 0) {
-            put_fan(surface, gone, room);
-            return true;
-        }
+        double far = pir_vec_dot(n, pir_surface_corner(room, at.far));
+        if (far > along)
+            along = far, most = at, some = true;
     }
-    return false;
+    uint64_t gone = some ? set_turned(surface, &most, room) : 0;
+    if (gone == 0)
+        return false;
+    put_fan(surface, gone, room);
+    return true;
 }
 
 /* --- taking corners away --- */

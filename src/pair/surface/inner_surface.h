@@ -122,9 +122,9 @@ typedef struct pir_surface_vertex {
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room);
 
 /*
- * Where a corner across a side of triangle t is beyond that, the surface has a dent: turns the side, so that it joins
- * the two corners across it, or takes away the end of it that is within. False where no corner is beyond, or no
- * triangles with certain dets come of that.
+ * Where a corner across a side of triangle t is beyond that, the surface has a dent: turns the side across which the
+ * farthest is, so that it joins the two corners across it, or takes away the end of it that is within. False where no
+ * corner is beyond, or no triangles with certain dets come of that.
  */
 bool pir_surface_turn(pir_surface *surface, uint32_t t, pir_surface_room *room);
 
