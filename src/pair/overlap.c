@@ -51,20 +51,33 @@ static inline bool is_in(const pir_overlap *overlap, uint32_t i, const pir_facet
     return has_vertex(frame->p.polytope, facet->faces.p, a) && has_vertex(frame->q.polytope, facet->faces.q, b);
 }
 
-/* The corners that are: bit i for corner i. */
-static uint32_t corners_in(const pir_overlap *overlap, const pir_facet *facet) {
+/* Those of the corners whose vertices of a body, `at`, a face of it has. */
+static uint32_t corners_at(const pir_overlap *overlap, const pir_polytope *p, pir_feature face, const uint32_t *at,
+                           uint32_t corners) {
     uint32_t in = 0;
-    for (uint32_t rest = overlap->surface->used; rest; rest &= rest - 1) {
+    if (face.kind == PIR_FEATURE_VERTEX)
+        return corners & overlap->room->loops->either(at, face.index, face.index);
+    if (face.kind == PIR_FEATURE_EDGE) {
+        uint32_t half = p->edge_half[face.index];
+        return corners & overlap->room->loops->either(at, p->origin[half], p->target[half]);
+    }
+    for (uint32_t rest = corners; rest; rest &= rest - 1) {
         uint32_t i = (uint32_t)__builtin_ctz(rest);
-        in |= (uint32_t)is_in(overlap, i, facet) << i;
+        in |= (uint32_t)has_vertex(p, face, at[i]) << i;
     }
     return in;
 }
 
-/* Whether all corners of a triangle are among these. */
-static bool lies_in(const pir_overlap *overlap, uint32_t t, uint32_t corners) {
-    uint32_t of = 1u << corner_of(overlap, t, 0) | 1u << corner_of(overlap, t, 1) | 1u << corner_of(overlap, t, 2);
-    return (of & ~corners) == 0;
+/* The corners that are: bit i for corner i. */
+static uint32_t corners_in(const pir_overlap *overlap, const pir_facet *facet) {
+    const pir_frame *frame = overlap->exact->frame;
+    const pir_surface *surface = overlap->surface;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    if (facet->faces.p.kind == PIR_FEATURE_FACET)
+        return corners_at(overlap, p, facet->faces.p, surface->a,
+                          corners_at(overlap, q, facet->faces.q, surface->b, surface->used));
+    return corners_at(overlap, q, facet->faces.q, surface->b,
+                      corners_at(overlap, p, facet->faces.p, surface->a, surface->used));
 }
 
 /* The piece that the features at a triangle's corners make, with its normal on the triangle's outer side. */
@@ -128,9 +141,15 @@ static inline uint32_t climb(const pir_overlap *overlap, const pir_body *body, c
 /*
  * Adds the vertex of D farthest along the normal of triangle t, where it is beyond the triangle by more than
  * rounding, or makes room for it. *ret_corner is its number, PIR_SURFACE_CORNERS where it was no new one.
+ *
+ * A corner of the surface that is beyond goes first: as the bodies turn the surface does not stay convex, and what sees
+ * a vertex from within a dent is seldom a disk. Where the centre has left the surface that seldom helps.
  */
 static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *ret_corner) {
     const pir_frame *frame = overlap->exact->frame;
+    *ret_corner = PIR_SURFACE_CORNERS;
+    if (overlap->room->plane.low[t] > 0 && pir_surface_turn(overlap->surface, t, overlap->room))
+        return CHANGED;
     pir_vec3 n = pir_surface_normal(overlap->room, t);
     double least = PIR_LEAST_SLOPE * sqrt(pir_vec_dot(n, n));
     pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
@@ -139,7 +158,6 @@ static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *r
     pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, a, b), overlap->room->centre);
     if (!(pir_vec_dot(n, w) > overlap->room->plane.det[t] + overlap->room->det_error))
         return NOTHING_BEYOND;
-    *ret_corner = PIR_SURFACE_CORNERS;
     // room is made first; the vertex comes when the triangle is met again
     if (!pir_surface_has_room(overlap->surface))
         return pir_surface_trim(overlap->surface, overlap->room) ? CHANGED : STUCK;
@@ -160,7 +178,8 @@ bool pir_overlap_place(const pir_overlap *overlap) {
 /* The triangle that is least far from x. */
 static uint32_t least_of(const pir_overlap *overlap) {
     const pir_surface_loops *loops = overlap->room->loops;
-    uint64_t least = loops->below(overlap->surface, overlap->room, loops->least(overlap->surface, overlap->room));
+    double low = loops->least(overlap->surface, overlap->room, UINT64_MAX);
+    uint64_t least = loops->below(overlap->surface, overlap->room, low);
     return least != 0 ? (uint32_t)__builtin_ctzll(least) : 0;
 }
 
@@ -290,7 +309,7 @@ static bool take_facet(const pir_overlap *overlap, uint32_t t, struct found *fou
     else if (!pir_facet_prove(overlap->exact, piece, facet))
         return false;
     uint32_t corners = corners_in(overlap, facet);
-    if (!lies_in(overlap, t, corners))
+    if (!(overlap->room->loops->within(overlap->surface, corners) >> t & 1))
         return false;
     if (add_facet(overlap, corners, found) && has_same) {
         *overlap->same = same;
@@ -307,28 +326,20 @@ static void find_corner(const pir_overlap *overlap, uint32_t corner, struct foun
     }
 }
 
-/* Whether triangle t lies in a facet that is proven. */
-static bool is_covered(const pir_overlap *overlap, uint32_t t, const struct found *found) {
-    for (uint32_t i = found->count; i-- > 0;)
-        if (lies_in(overlap, t, found->corners[i]))
-            return true;
-    return false;
-}
-
 /*
  * The triangle of least distance that is in no facet that is proven; the count where none is, or that is farther than
  * `limit`.
  */
 static uint32_t next_open(const pir_overlap *overlap, const struct found *found, double limit) {
-    uint32_t next = overlap->surface->count;
-    if (found->count == 0)
-        limit = overlap->room->loops->least(overlap->surface, overlap->room);
-    for (uint64_t rest = overlap->room->loops->below(overlap->surface, overlap->room, limit); rest; rest &= rest - 1) {
-        uint32_t t = (uint32_t)__builtin_ctzll(rest);
-        if (overlap->room->plane.low[t] <= limit && !is_covered(overlap, t, found))
-            limit = overlap->room->plane.low[t], next = t;
-    }
-    return next;
+    const pir_surface_loops *loops = overlap->room->loops;
+    const pir_surface *surface = overlap->surface;
+    uint64_t open = pir_surface_first(surface->count);
+    for (uint32_t i = 0; i < found->count; i++)
+        open &= ~loops->within(surface, found->corners[i]);
+    double least = loops->least(surface, overlap->room, open);
+    if (open == 0 || !(least <= limit))
+        return surface->count;
+    return (uint32_t)__builtin_ctzll(open & loops->below(surface, overlap->room, least));
 }
 
 /* What the least slack is not above. */
@@ -344,13 +355,9 @@ static double bound_of(const pir_overlap *overlap, const pir_least *least) {
  * bound on the least slack, which few frames notice: what has moved that far mostly needs another proof anyway.
  */
 static double others_than(const pir_overlap *overlap, uint32_t corners, double bound) {
-    double others = 3 * bound;
-    for (uint64_t rest = overlap->room->loops->below(overlap->surface, overlap->room, others); rest; rest &= rest - 1) {
-        uint32_t t = (uint32_t)__builtin_ctzll(rest);
-        if (overlap->room->plane.low[t] < others && !lies_in(overlap, t, corners))
-            others = overlap->room->plane.low[t];
-    }
-    return others;
+    const pir_surface_loops *loops = overlap->room->loops;
+    double others = loops->least(overlap->surface, overlap->room, ~loops->within(overlap->surface, corners));
+    return others < 3 * bound ? others : 3 * bound;
 }
 
 bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet, double *ret_others) {

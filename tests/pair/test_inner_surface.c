@@ -112,14 +112,14 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
         for (unsigned version = 1; pir_surface_loops_version(version); version++) {
             room.loops = pir_surface_loops_version(version);
             assert_int_equal(pir_surface_place(&surface, &frame, centre, 0x1p-46, 4, &room), certain);
-            double least = room.loops->least(&surface, &room),
+            double least = room.loops->least(&surface, &room, UINT64_MAX),
                    limits[3] = {least, 0, plain.plane.low[surface.count / 2]};
             assert_memory_equal(room.plane.nx, plain.plane.nx, surface.count * sizeof *room.plane.nx);
             assert_memory_equal(room.plane.ny, plain.plane.ny, surface.count * sizeof *room.plane.ny);
             assert_memory_equal(room.plane.nz, plain.plane.nz, surface.count * sizeof *room.plane.nz);
             assert_memory_equal(room.plane.det, plain.plane.det, surface.count * sizeof *room.plane.det);
             assert_memory_equal(room.plane.low, plain.plane.low, surface.count * sizeof *room.plane.low);
-            assert_true(least == plain.loops->least(&surface, &plain));
+            assert_true(least == plain.loops->least(&surface, &plain, UINT64_MAX));
             for (int k = 0; k < 3; k++)
                 assert_true(room.loops->below(&surface, &room, limits[k]) ==
                             plain.loops->below(&surface, &plain, limits[k]));
@@ -128,10 +128,17 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
                             plain.loops->seen(&surface, &plain, vertex[v]));
             for (uint32_t c = 0; c < PIR_SURFACE_CORNERS; c++) {
                 assert_true(room.loops->about(&surface, c) == plain.loops->about(&surface, c));
-                assert_true(room.loops->find(&surface, surface.a[c], 0) ==
-                            plain.loops->find(&surface, surface.a[c], 0));
+                uint32_t other = surface.a[test_random_below(&random, PIR_SURFACE_CORNERS)];
+                assert_true(room.loops->either(surface.a, surface.a[c], other) ==
+                            plain.loops->either(surface.a, surface.a[c], other));
             }
-            assert_true(room.loops->find(&surface, surface.a[0], 1) == 0);
+            assert_true(room.loops->either(surface.a, 40, 41) == 0);
+            for (int k = 0; k < 40; k++) {
+                uint32_t corners = (uint32_t)test_random_bits(&random) | (uint32_t)test_random_bits(&random);
+                uint64_t within = room.loops->within(&surface, corners);
+                assert_true(within == plain.loops->within(&surface, corners));
+                assert_true(room.loops->least(&surface, &room, within) == plain.loops->least(&surface, &plain, within));
+            }
         }
     }
 }
@@ -162,12 +169,58 @@ static void a_trimmed_surface_is_closed_about_its_centre(void **state) {
     assert_true(taken > 200);
 }
 
+/* Six times what a surface encloses. */
+static double volume_of(const pir_surface *surface, const pir_surface_room *room) {
+    double volume = 0;
+    for (uint32_t t = 0; t < surface->count; t++)
+        volume += room->plane.det[t];
+    return volume;
+}
+
+static void a_dented_surface_grows_as_its_sides_are_turned(void **state) {
+    (void)state;
+    uint32_t turned = 0, lost = 0;
+    for (uint64_t i = 0; i < 60; i++) {
+        test_random random = test_random_case("dented surfaces", i);
+        pir_vec3 vertex[40];
+        pir_frame frame;
+        pir_surface surface;
+        static pir_surface_room room;
+        room.loops = pir_surface_loops_best();
+        make_surface(&random, &surface, vertex, &frame, &room);
+        // along its own ray a corner may be anywhere
+        for (uint32_t k = 0; k < 40; k++) {
+            double by = (double)test_random_between(&random, 20, 100) / 100;
+            vertex[k] = (pir_vec3){vertex[k].x * by, vertex[k].y * by, vertex[k].z * by};
+        }
+        assert_true(pir_surface_place(&surface, &frame, (pir_vec3){0, 0, 0}, 0x1p-46, 4, &room));
+        double volume = volume_of(&surface, &room);
+        uint32_t used = surface.used;
+        for (uint32_t t = 0; t < surface.count; t++)
+            for (int times = 0; t < surface.count && pir_surface_turn(&surface, t, &room); times++) {
+                double grown = volume_of(&surface, &room);
+                expect(grown > volume && times < 100, "case %llu, triangle %u: %a, then %a", (unsigned long long)i, t,
+                       volume, grown);
+                assert_true(pir_surface_is_valid(&surface));
+                check_sides(&surface, &room);
+                volume = grown;
+                turned++;
+            }
+        for (uint32_t t = 0; t < surface.count; t++)
+            expect(room.plane.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);
+        lost += (uint32_t)__builtin_popcount(used & ~surface.used);
+        assert_true((surface.used & ~used) == 0);
+    }
+    assert_true(turned > 300 && lost > 50);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_surface_stays_closed_as_vertices_are_added),
         cmocka_unit_test(every_version_of_the_loops_gives_the_bits_of_the_plain_one),
         cmocka_unit_test(a_trimmed_surface_is_closed_about_its_centre),
+        cmocka_unit_test(a_dented_surface_grows_as_its_sides_are_turned),
     };
     return cmocka_run_group_tests_name("inner surfaces", tests, NULL, NULL);
 }

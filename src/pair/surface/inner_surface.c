@@ -9,108 +9,10 @@
  */
 #include <string.h>
 
-#include "pair/surface/surface_loops.h"
+#include "pair/surface/inner_surface.h"
 
-/*
- * How often a hole is widened for one vertex; most take none. Where the centre has left the surface, more than a few
- * would leave little of it.
- */
-#define MOST_WIDENED      9
-#define MOST_WIDENED_LEFT 2
-
-/* --- loops --- */
-
-static void place_corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
-    for (uint32_t rest = surface->used; rest; rest &= rest - 1) {
-        uint32_t i = (uint32_t)__builtin_ctz(rest);
-        pir_vec3 w = pir_vec_sub(pir_frame_vertex(frame, surface->a[i], surface->b[i]), room->centre);
-        room->at[i][0] = w.x;
-        room->at[i][1] = w.y;
-        room->at[i][2] = w.z;
-    }
-}
-
-/* The plane of triangle t, and a lower bound on its distance from the centre. */
-static inline void make_plane(const pir_surface_room *room, const uint8_t *corner, uint32_t t,
-                              pir_surface_planes *ret_planes) {
-    const double *a = room->at[corner[t]], *b = room->at[corner[PIR_SURFACE_TRIANGLES + t]];
-    const double *c = room->at[corner[2 * PIR_SURFACE_TRIANGLES + t]];
-    double ex = b[0] - a[0], ey = b[1] - a[1], ez = b[2] - a[2];
-    double fx = c[0] - a[0], fy = c[1] - a[1], fz = c[2] - a[2];
-    double nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
-    double det = nx * a[0] + ny * a[1] + nz * a[2];
-    ret_planes->nx[t] = nx;
-    ret_planes->ny[t] = ny;
-    ret_planes->nz[t] = nz;
-    ret_planes->det[t] = det;
-    ret_planes->low[t] = (det - room->det_error) / (sqrt(nx * nx + ny * ny + nz * nz) + room->normal_error);
-}
-
-static uint64_t make_planes(const pir_surface_room *room, const uint8_t *corner, uint32_t count,
-                            pir_surface_planes *ret_planes) {
-    uint64_t uncertain = 0;
-    for (uint32_t t = 0; t < count; t++) {
-        make_plane(room, corner, t, ret_planes);
-        uncertain |= (uint64_t) !(ret_planes->low[t] > 0) << t;
-    }
-    return uncertain;
-}
-
-static uint64_t find_below(const pir_surface *surface, const pir_surface_room *room, double limit) {
-    uint64_t found = 0;
-    for (uint32_t t = 0; t < surface->count; t++)
-        found |= (uint64_t)(room->plane.low[t] <= limit) << t;
-    return found;
-}
-
-static double find_least(const pir_surface *surface, const pir_surface_room *room) {
-    double least = HUGE_VAL;
-    for (uint32_t t = 0; t < surface->count; t++)
-        least = room->plane.low[t] < least ? room->plane.low[t] : least;
-    return least;
-}
-
-static uint64_t find_seen(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w) {
-    uint64_t found = 0;
-    for (uint32_t t = 0; t < surface->count; t++)
-        found |= (uint64_t)(pir_vec_dot(pir_surface_normal(room, t), w) > room->plane.det[t]) << t;
-    return found;
-}
-
-static uint64_t find_about(const pir_surface *surface, uint32_t corner) {
-    const uint8_t *a = surface->corner[0], *b = surface->corner[1], *c = surface->corner[2];
-    uint64_t found = 0;
-    for (uint32_t t = 0; t < surface->count; t++)
-        found |= (uint64_t)(a[t] == corner || b[t] == corner || c[t] == corner) << t;
-    return found;
-}
-
-static uint32_t find_corner(const pir_surface *surface, uint32_t a, uint32_t b) {
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
-        found |= (uint32_t)(surface->a[i] == a && surface->b[i] == b) << i;
-    return found & surface->used;
-}
-
-static const pir_surface_loops plain = {"plain",    place_corners, make_planes, find_below,
-                                        find_least, find_seen,     find_about,  find_corner};
-
-const pir_surface_loops *pir_surface_loops_version(unsigned index) {
-    if (index == 0)
-        return &plain;
-#if PIR_HAVE_X86_SURFACE
-    if (index == 1 && __builtin_cpu_supports("avx2"))
-        return &pir_surface_avx2;
-#endif
-    return NULL;
-}
-
-const pir_surface_loops *pir_surface_loops_best(void) {
-    unsigned index = 0;
-    while (pir_surface_loops_version(index + 1))
-        index++;
-    return pir_surface_loops_version(index);
-}
+/* How often a hole is widened for one vertex; most take none. */
+#define MOST_WIDENED 9
 
 bool pir_surface_place(const pir_surface *surface, const pir_frame *frame, pir_vec3 centre, double error, double reach,
                        pir_surface_room *room) {
@@ -349,16 +251,23 @@ static bool fits(const pir_surface *surface, uint64_t gone, const pir_surface_fa
     return count <= PIR_SURFACE_TRIANGLES;
 }
 
-/* Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing. */
+/*
+ * Sets the fan from corner i, which is placed, in place of what it sees about t. Returns what goes, 0 for nothing.
+ * Where the centre has left the surface through t, the vertex may be too near for a certain fan, and others come. But
+ * what is not one disk there seldom comes to anything.
+ */
 static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least, uint32_t i, pir_surface_room *room) {
     uint64_t seen = room->loops->seen(surface, room, pir_surface_corner(room, i)) | least, uncertain = 0;
+    const bool left = !(room->plane.low[t] > 0);
     if (list_rim(surface, room, seen, &room->fan) == 0 && is_disk(seen, &room->fan)) {
         uncertain = set_fan(room, i);
-        if (uncertain == 0)
+        if (uncertain == 0 || left)
             return seen;
     }
+    if (left)
+        return 0;
     uint64_t gone = joined_to(surface, room, least, seen);
-    uint32_t most = room->plane.low[t] > 0 ? MOST_WIDENED : MOST_WIDENED_LEFT;
+    uint32_t most = MOST_WIDENED;
     // what is seen is one hole whose fan is set already, which is the first time
     if (uncertain != 0 && gone == seen) {
         gone = joined_to(surface, room, gone | across(room, uncertain), seen);
@@ -368,7 +277,8 @@ static uint64_t make_way(const pir_surface *surface, uint32_t t, uint64_t least,
 }
 
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room) {
-    uint32_t same = room->loops->find(surface, vertex->a, vertex->b);
+    uint32_t same = room->loops->either(surface->a, vertex->a, vertex->a) &
+                    room->loops->either(surface->b, vertex->b, vertex->b) & surface->used;
     if (same == 0 && surface->used == UINT32_MAX)
         return PIR_SURFACE_CORNERS;
     uint32_t i = (uint32_t)__builtin_ctz(same != 0 ? same : ~surface->used);
@@ -387,6 +297,84 @@ uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_ver
     return i;
 }
 
+/* --- turning sides --- */
+
+/* The triangles on either side of a side: (i, j, near) and (j, i, far). */
+struct beside {
+    uint32_t of, other;
+    uint32_t i, j, near, far;
+};
+
+/* The third corner of triangle t, which has these two. */
+static inline uint32_t third_of(const pir_surface *surface, uint32_t t, uint32_t i, uint32_t j) {
+    struct three of = corners_of(surface, t);
+    return of.a ^ of.b ^ of.c ^ i ^ j;
+}
+
+/* Whether a triangle has the directed side (i, j). */
+static bool has_side(const pir_surface *surface, const pir_surface_room *room, uint32_t i, uint32_t j) {
+    uint32_t t = room->triangle[i][j];
+    if (t >= surface->count)
+        return false;
+    struct three of = corners_of(surface, t);
+    return (of.a == i && of.b == j) || (of.b == i && of.c == j) || (of.c == i && of.a == j);
+}
+
+/* Sets the fan from corner i to the sides between the corners of a path. Returns its triangles that are not certain. */
+static uint64_t set_fan_to(pir_surface_room *room, uint32_t i, const uint32_t *path, uint32_t sides) {
+    pir_surface_fan *fan = &room->fan;
+    for (uint32_t s = 0; s < sides; s++) {
+        fan->corner[0][s] = (uint8_t)path[s];
+        fan->corner[1][s] = (uint8_t)path[s + 1];
+    }
+    fan->count = sides;
+    return set_fan(room, i);
+}
+
+/*
+ * Sets the fan in place of two triangles: the two on the other diagonal of what they span. Where that is not certain
+ * because an end of the side that they share is within the triangle of the other corners, it is that triangle, and a
+ * third one goes with the corner. Returns what goes, 0 where none of that is certain.
+ */
+static uint64_t set_turned(const pir_surface *surface, const struct beside *at, pir_surface_room *room) {
+    const uint32_t path[3] = {at->j, at->near, at->i};
+    uint64_t uncertain = set_fan_to(room, at->far, path, 2), gone = 1ull << at->of | 1ull << at->other;
+    room->fan.lost = 0;
+    if (uncertain == 0)
+        return has_side(surface, room, at->near, at->far) ? 0 : gone;
+    if (uncertain == 3 || surface->count == 4)
+        return 0;
+    uint32_t within = uncertain == 1 ? at->j : at->i;
+    uint32_t third = within == at->j ? beside(room, within, at->near) : beside(room, at->near, within);
+    if (third_of(surface, third, within, at->near) != at->far)
+        return 0;
+    set_fan_to(room, at->far, within == at->j ? &path[1] : path, 1);
+    room->fan.lost = 1u << within;
+    return gone | 1ull << third;
+}
+
+bool pir_surface_turn(pir_surface *surface, uint32_t t, pir_surface_room *room) {
+    pir_vec3 n = pir_surface_normal(room, t);
+    struct beside most = {.of = t};
+    double along = room->plane.det[t] + room->det_error;
+    bool some = false;
+    need_sides(surface, room);
+    for (int k = 0; k < 3; k++) {
+        struct beside at = {.of = t, .i = surface->corner[k][t], .j = surface->corner[k < 2 ? k + 1 : 0][t]};
+        at.near = surface->corner[k > 0 ? k - 1 : 2][t];
+        at.other = beside(room, at.i, at.j);
+        at.far = third_of(surface, at.other, at.i, at.j);
+        double far = pir_vec_dot(n, pir_surface_corner(room, at.far));
+        if (far > along)
+            along = far, most = at, some = true;
+    }
+    uint64_t gone = some ? set_turned(surface, &most, room) : 0;
+    if (gone == 0)
+        return false;
+    put_fan(surface, gone, room);
+    return true;
+}
+
 /* --- taking corners away --- */
 
 /* How far each corner is from the centre, by the least of its triangles. */
@@ -401,80 +389,78 @@ static void list_distances(const pir_surface *surface, const pir_surface_room *r
         }
 }
 
-/* The farthest of these corners; PIR_SURFACE_CORNERS where there are none. */
-static uint32_t farthest_of(uint32_t corners, const double distance[PIR_SURFACE_CORNERS]) {
-    uint32_t farthest = PIR_SURFACE_CORNERS;
+/* The corners that are farther than the mean. */
+static uint32_t far_corners(uint32_t corners, const double distance[PIR_SURFACE_CORNERS]) {
+    double sum = 0;
+    uint32_t count = 0, found = 0;
     for (uint32_t rest = corners; rest; rest &= rest - 1) {
-        uint32_t i = (uint32_t)__builtin_ctz(rest);
-        if (farthest == PIR_SURFACE_CORNERS || distance[i] > distance[farthest])
-            farthest = i;
+        sum += distance[__builtin_ctz(rest)];
+        count++;
     }
-    return farthest;
+    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i++)
+        found |= (uint32_t)(distance[i] * count > sum) << i;
+    return found & corners;
 }
 
 /*
- * Sets the fan from corner v of the rim of a hole to its other sides. False where it is not certain, or has a side that
- * triangles have which stay: `side` are those of all.
+ * Lists the corners about corner c in the order in which the rim of the hole without it passes them. Returns how many
+ * there are; 0 where they are no single ring.
  */
-static bool span_from(pir_surface_room *room, const pir_surface_fan *rim, uint32_t v, const uint32_t *side) {
-    pir_surface_fan *fan = &room->fan;
-    uint32_t near = 1u << v;
-    fan->count = 0;
-    for (uint32_t s = 0; s < rim->count; s++) {
-        uint32_t i = rim->corner[0][s], j = rim->corner[1][s];
-        if (i == v || j == v) {
-            near |= 1u << i | 1u << j;
-            continue;
-        }
-        fan->corner[0][fan->count] = (uint8_t)i;
-        fan->corner[1][fan->count] = (uint8_t)j;
-        fan->corner[2][fan->count++] = (uint8_t)v;
-    }
-    return (side[v] & rim->rim & ~near) == 0 && room->loops->planes(room, fan->corner[0], fan->count, &fan->plane) == 0;
-}
-
-/* Brings the sides of a surface to what they are once the fan is in place of triangles. */
-static void change_sides(const pir_surface *surface, uint64_t gone, const pir_surface_fan *fan, uint32_t *side) {
-    for (uint64_t rest = gone; rest; rest &= rest - 1) {
-        struct three of = corners_of(surface, (uint32_t)__builtin_ctzll(rest));
-        side[of.a] &= ~(1u << of.b);
-        side[of.b] &= ~(1u << of.c);
-        side[of.c] &= ~(1u << of.a);
-    }
-    for (uint32_t t = 0; t < fan->count; t++)
-        list_side((struct three){fan->corner[0][t], fan->corner[1][t], fan->corner[2][t]}, side);
+static uint32_t list_around(const pir_surface *surface, const pir_surface_room *room, uint32_t c, uint64_t about,
+                            uint8_t around[PIR_SURFACE_CORNERS]) {
+    struct three of = corners_of(surface, (uint32_t)__builtin_ctzll(about));
+    const uint32_t first = of.a == c ? of.b : of.b == c ? of.c : of.a;
+    uint32_t i = first, count = 0;
+    do {
+        around[count++] = (uint8_t)i;
+        uint32_t t = room->triangle[c][i];
+        about &= ~(1ull << t);
+        i = third_of(surface, t, c, i);
+    } while (i != first && count < PIR_SURFACE_CORNERS);
+    return about == 0 && i == first ? count : 0;
 }
 
 /*
- * Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole.
- * `side` are the sides of all triangles, before and after.
+ * Sets the fan from the corner at place v of a ring in place of what is about the corner within. False where it is not
+ * certain, or has a side that triangles have which stay.
  */
-static bool take_corner(pir_surface *surface, uint32_t c, uint32_t *side, pir_surface_room *room) {
-    uint32_t s = 0;
+static bool span_from(const pir_surface *surface, pir_surface_room *room, const uint8_t *ring, uint32_t count,
+                      uint32_t v) {
+    uint32_t path[PIR_SURFACE_CORNERS];
+    for (uint32_t s = 1; s < count; s++)
+        path[s - 1] = ring[v + s < count ? v + s : v + s - count];
+    if (set_fan_to(room, ring[v], path, count - 2) != 0)
+        return false;
+    for (uint32_t s = 1; s + 2 < count; s++)
+        if (has_side(surface, room, ring[v], path[s]))
+            return false;
+    return true;
+}
+
+/* Takes corner c away and closes the surface by triangles from a corner beside it. False where none spans the hole. */
+static bool take_corner(pir_surface *surface, uint32_t c, pir_surface_room *room) {
+    uint8_t ring[PIR_SURFACE_CORNERS];
     uint64_t gone = room->loops->about(surface, c);
-    pir_surface_fan rim;
-    if (list_rim(surface, room, gone, &rim) != 0 || rim.count < 3)
+    uint32_t v = 0, count = list_around(surface, room, c, gone, ring);
+    if (count < 3 || surface->count == 4)
         return false;
-    while (s < rim.count && !span_from(room, &rim, rim.corner[0][s], side))
-        s++;
-    if (s == rim.count)
+    while (v < count && !span_from(surface, room, ring, count, v))
+        v++;
+    if (v == count)
         return false;
-    room->fan.lost = rim.lost;
-    change_sides(surface, gone, &room->fan, side);
+    room->fan.lost = 1u << c;
     put_fan(surface, gone, room);
     return true;
 }
 
 bool pir_surface_trim(pir_surface *surface, pir_surface_room *room) {
     double distance[PIR_SURFACE_CORNERS];
-    uint32_t left = surface->used, side[PIR_SURFACE_CORNERS], taken = 0;
+    uint32_t taken = 0;
     need_sides(surface, room);
     list_distances(surface, room, distance);
-    list_sides(surface, side);
-    for (uint32_t c; taken < PIR_SURFACE_CORNERS / 4 && (c = farthest_of(left, distance)) < PIR_SURFACE_CORNERS;) {
-        left &= ~(1u << c);
-        taken += take_corner(surface, c, side, room);
-    }
+    for (uint32_t rest = far_corners(surface->used, distance); rest && taken < PIR_SURFACE_CORNERS / 4;
+         rest &= rest - 1)
+        taken += take_corner(surface, (uint32_t)__builtin_ctz(rest), room);
     return taken > 0;
 }
 

@@ -75,8 +75,8 @@ typedef struct pir_surface_loops {
     /* The triangles whose `low` is at most this. */
     uint64_t (*below)(const pir_surface *surface, const pir_surface_room *room, double limit);
 
-    /* The least `low`. */
-    double (*least)(const pir_surface *surface, const pir_surface_room *room);
+    /* The least `low` of some triangles; HUGE_VAL where there are none. */
+    double (*least)(const pir_surface *surface, const pir_surface_room *room, uint64_t triangles);
 
     /* The triangles whose planes a point is beyond. */
     uint64_t (*seen)(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w);
@@ -84,8 +84,11 @@ typedef struct pir_surface_loops {
     /* The triangles at a corner. */
     uint64_t (*about)(const pir_surface *surface, uint32_t corner);
 
-    /* The corners that are vertex (a, b) of D: a bit for each. */
-    uint32_t (*find)(const pir_surface *surface, uint32_t a, uint32_t b);
+    /* The triangles that have no corners but these. */
+    uint64_t (*within)(const pir_surface *surface, uint32_t corners);
+
+    /* Which of the vertices that corners have, all those of P or all those of Q, are one of two: a bit for each. */
+    uint32_t (*either)(const uint32_t vertex[PIR_SURFACE_CORNERS], uint32_t u, uint32_t v);
 } pir_surface_loops;
 
 /* Version `index` of those that this build has and this processor runs, the plain one first. NULL past the last. */
@@ -113,9 +116,17 @@ typedef struct pir_surface_vertex {
 /*
  * Adds a vertex of D, in place of triangle t, which it lies beyond, and of others beside that. A vertex that is a
  * corner already is joined to what is about t. Returns the number of its corner; PIR_SURFACE_CORNERS where no surface
- * about the centre with certain dets comes of that, or it has no room: then the surface is as it was.
+ * about the centre with certain dets comes of that, or it has no room: then the surface is as it was. Where the det of
+ * t is not certain, the new ones need not be.
  */
 uint32_t pir_surface_add(pir_surface *surface, uint32_t t, const pir_surface_vertex *vertex, pir_surface_room *room);
+
+/*
+ * Where a corner across a side of triangle t is beyond that, the surface has a dent: turns the side across which the
+ * farthest is, so that it joins the two corners across it, or takes away the end of it that is within. False where no
+ * corner is beyond, or no triangles with certain dets come of that.
+ */
+bool pir_surface_turn(pir_surface *surface, uint32_t t, pir_surface_room *room);
 
 /* Whether a surface that is placed has room for any vertex that may be added. */
 static inline bool pir_surface_has_room(const pir_surface *surface) {

@@ -90,18 +90,18 @@ AVX2 static uint64_t below(const pir_surface *surface, const pir_surface_room *r
     return found & pir_surface_first(surface->count);
 }
 
-AVX2 static double least(const pir_surface *surface, const pir_surface_room *room) {
-    uint32_t t = 0;
-    __m256d low = _mm256_set1_pd(HUGE_VAL);
-    for (; t + 4 <= surface->count; t += 4)
-        low = _mm256_min_pd(_mm256_loadu_pd(&room->plane.low[t]), low);
-    double of[4], least = HUGE_VAL;
-    _mm256_storeu_pd(of, low);
-    for (int k = 0; k < 4; k++)
-        least = of[k] < least ? of[k] : least;
-    for (; t < surface->count; t++)
-        least = room->plane.low[t] < least ? room->plane.low[t] : least;
-    return least;
+AVX2 static double least(const pir_surface *surface, const pir_surface_room *room, uint64_t triangles) {
+    const __m256i bit = _mm256_set_epi64x(8, 4, 2, 1);
+    const __m256d none = _mm256_set1_pd(HUGE_VAL);
+    __m256d low = none;
+    triangles &= pir_surface_first(surface->count);
+    for (uint32_t t = 0; t < surface->count; t += 4) {
+        __m256i some = _mm256_and_si256(_mm256_set1_epi64x((long long)(triangles >> t)), bit);
+        __m256d is = _mm256_castsi256_pd(_mm256_cmpeq_epi64(some, bit));
+        low = _mm256_min_pd(_mm256_blendv_pd(none, _mm256_loadu_pd(&room->plane.low[t]), is), low);
+    }
+    __m128d of = _mm_min_pd(_mm256_castpd256_pd128(low), _mm256_extractf128_pd(low, 1));
+    return _mm_cvtsd_f64(_mm_min_sd(of, _mm_unpackhi_pd(of, of)));
 }
 
 AVX2 static uint64_t seen(const pir_surface *surface, const pir_surface_room *room, pir_vec3 w) {
@@ -130,18 +130,39 @@ AVX2 static uint64_t about(const pir_surface *surface, uint32_t corner) {
     return found & pir_surface_first(surface->count);
 }
 
-AVX2 static uint32_t find(const pir_surface *surface, uint32_t a, uint32_t b) {
-    const __m256i of_p = _mm256_set1_epi32((int)a), of_q = _mm256_set1_epi32((int)b);
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i += 8) {
-        __m256i same_p = _mm256_cmpeq_epi32(of_p, _mm256_loadu_si256((const __m256i *)&surface->a[i]));
-        __m256i same_q = _mm256_cmpeq_epi32(of_q, _mm256_loadu_si256((const __m256i *)&surface->b[i]));
-        found |= (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_and_si256(same_p, same_q))) << i;
-    }
-    return found & surface->used;
+/* Which of these corners are in a set: of each, its byte of the set and in that its bit. */
+AVX2 static inline __m256i are_in(__m256i set, const uint8_t *corner) {
+    const __m256i bits = _mm256_set1_epi64x((long long)0x8040201008040201), low = _mm256_set1_epi8(7);
+    __m256i c = _mm256_loadu_si256((const __m256i *)corner);
+    __m256i bit = _mm256_shuffle_epi8(bits, _mm256_and_si256(c, low));
+    __m256i byte = _mm256_shuffle_epi8(set, _mm256_and_si256(_mm256_srli_epi16(c, 3), low));
+    return _mm256_cmpeq_epi8(_mm256_and_si256(byte, bit), bit);
 }
 
-const pir_surface_loops pir_surface_avx2 = {"AVX2", corners, planes, below, least, seen, about, find};
+AVX2 static uint64_t within(const pir_surface *surface, uint32_t corners) {
+    const __m256i set = _mm256_set1_epi32((int)corners);
+    uint64_t found = 0;
+    for (int half = 0; half < 2; half++) {
+        __m256i all = are_in(set, &surface->corner[0][32 * half]);
+        for (int k = 1; k < 3; k++)
+            all = _mm256_and_si256(all, are_in(set, &surface->corner[k][32 * half]));
+        found |= (uint64_t)(uint32_t)_mm256_movemask_epi8(all) << 32 * half;
+    }
+    return found & pir_surface_first(surface->count);
+}
+
+AVX2 static uint32_t either(const uint32_t vertex[PIR_SURFACE_CORNERS], uint32_t u, uint32_t v) {
+    const __m256i first = _mm256_set1_epi32((int)u), second = _mm256_set1_epi32((int)v);
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < PIR_SURFACE_CORNERS; i += 8) {
+        __m256i of = _mm256_loadu_si256((const __m256i *)&vertex[i]);
+        __m256i is = _mm256_or_si256(_mm256_cmpeq_epi32(of, first), _mm256_cmpeq_epi32(of, second));
+        found |= (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(is)) << i;
+    }
+    return found;
+}
+
+const pir_surface_loops pir_surface_avx2 = {"AVX2", corners, planes, below, least, seen, about, within, either};
 #else
 typedef int pir_no_avx2_surface; // a file holds at least a declaration
 #endif

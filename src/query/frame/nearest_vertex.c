@@ -210,6 +210,16 @@ static uint32_t farther(const pir_vec3 *vertices, pir_vec3 n, uint32_t a, uint32
     return pir_vec_dot(n, vertices[b]) > pir_vec_dot(n, vertices[a]) ? b : a;
 }
 
+/*
+ * Where a climb along n starts: at a vertex, or at a landmark where the vertex is on the far side of the body, which is
+ * where x has come inside of D since.
+ */
+static inline uint32_t start_of(const pir_body *body, pir_vec3 n, uint32_t vertex) {
+    return pir_vec_dot(n, body->vertex[vertex]) < 0
+               ? farther(body->vertex, n, vertex, body->landmarks[pir_landmark_of(n)])
+               : vertex;
+}
+
 /* Gives a simplex without vertices the vertex farthest towards x. */
 void pir_simplex_start(const pir_frame *frame, const pir_placement *placement, pir_simplex *simplex) {
     if (simplex->count > 0)
@@ -261,6 +271,9 @@ void pir_descend_to_point(const pir_frame *frame, const pir_placement *placement
         if (far) {
             a = farther(frame->p.vertex, back, a, frame->p.landmarks[pir_landmark_of(back)]);
             b = farther(frame->q.vertex, minus, b, frame->q.landmarks[pir_landmark_of(minus)]);
+        } else {
+            a = start_of(&frame->p, back, a);
+            b = start_of(&frame->q, minus, b);
         }
         a = pir_climb_above(frame->p.polytope, back, least, a);
         b = pir_climb_above(frame->q.polytope, minus, least, b);
