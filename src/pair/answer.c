@@ -95,7 +95,7 @@ static bool by_held_facet(pir_task *task) {
         return false;
     workspace->moved = pir_held_moved(held, &workspace->frame, task->placement);
     held->served++;
-    held->is_short = workspace->moved.turn > held->served * PIR_LONGEST_STEP;
+    held->pace = workspace->moved.turn / held->served;
     if (!pir_held_known(held, workspace->moved, task->placement, &known))
         return false;
     return settle_same(

@@ -19,7 +19,7 @@
 
 typedef struct pir_held {
     bool some;
-    bool is_short;   /* steps have been too long for the leeway of a lone contact to be of use */
+    double pace;     /* how far R turned from call to call of late */
     uint32_t served; /* the calls that have looked at it */
     pir_vec3 at;     /* the place of the proof */
     pir_quat turned;
@@ -36,20 +36,19 @@ static inline pir_leeway pir_held_moved(const pir_held *held, const pir_frame *f
                         sqrt(pir_vec_dot(way, way)) * (1 + 0x1p-40) + 4 * placement->error};
 }
 
-/* The longest steps, in radians, at which it pays to find out within what leeway a contact stays the only one. */
-#define PIR_LONGEST_STEP 0x1p-7
-
 /* Holds what a proof of a facet at a placement has found. */
 static inline void pir_held_set(pir_held *held, const pir_frame *frame, const pir_placement *placement,
                                 const pir_same_facet *same) {
     const pir_facet *facet = &same->facet;
     uint32_t corner = facet->piece.kind == PIR_FACET_FV ? facet->a : facet->b;
-    *held = (pir_held){.some = same->falls > 0,
-                       .is_short = held->is_short,
-                       .at = placement->x,
-                       .turned = frame->unit,
-                       .falls = same->falls,
-                       .known = {same->margin, corner}};
+    // member by member: of the lone contact only its kind says that there is none
+    held->some = same->falls > 0;
+    held->served = 0;
+    held->at = placement->x;
+    held->turned = frame->unit;
+    held->falls = same->falls;
+    held->known = (pir_same_known){same->margin, corner};
+    held->lone.kind = PIR_LONE_UNKNOWN;
 }
 
 /* What is left of that after the bodies have moved; false where nothing is. */
