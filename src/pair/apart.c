@@ -53,8 +53,7 @@ void pir_task_keep_axis(const pir_task *task, pir_vec3 n) {
     keep(task->pair, n, pir_mat_apply_transposed(&task->workspace->frame.r, n));
 }
 
-/* Whether x is apart by more than the cutoff along the unit vector n: then it is the direction that is kept. */
-static bool is_apart_along(pir_task *task, pir_vec3 n) {
+bool pir_task_apart_along(pir_task *task, pir_vec3 n) {
     const pir_frame *frame = &task->workspace->frame;
     pir_pair *pair = task->pair;
     pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
@@ -74,11 +73,11 @@ bool pir_task_apart(pir_task *task) {
     pir_pair *pair = task->pair;
     if (!(task->want & PIR_WANT_SEPARATION))
         return false;
-    if (is_apart_along(task, pair->axis))
+    if (pir_task_apart_along(task, pair->axis))
         return true;
     // brought to length 1 each time, so that rounding does not add up from turn to turn
     pir_vec3 n = pir_mat_apply(&task->workspace->frame.r, pair->axis_of_p);
-    if (is_apart_along(task, pir_vec_scale(n, 1 / sqrt(pir_vec_dot(n, n)))))
+    if (pir_task_apart_along(task, pir_vec_scale(n, 1 / sqrt(pir_vec_dot(n, n)))))
         return true;
     pair->has_axis = false;
     return false;

@@ -19,14 +19,27 @@
 
 typedef struct pir_held {
     bool some;
-    double pace;     /* how far R turned from call to call of late */
-    uint32_t served; /* the calls that have looked at it */
+    uint16_t served; /* the calls that have looked at it, up to the most that it holds */
+    float pace;      /* how far R turned from call to call of late */
     pir_vec3 at;     /* the place of the proof */
     pir_quat turned;
     double falls;         /* as of pir_same_facet */
     pir_same_known known; /* at that place */
     pir_lone lone;
 } pir_held;
+
+/*
+ * Whether R has certainly turned by too much, which most that is too long is told by: half of the angle of two unit
+ * quaternions is no less than their distance. Then so much is noted as the pace.
+ */
+static inline bool pir_held_is_past(pir_held *held, const pir_frame *frame) {
+    pir_quat a = held->turned, b = frame->unit;
+    double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z, w = a.w - b.w;
+    if (4 * (x * x + y * y + z * z + w * w) < held->falls * held->falls)
+        return false;
+    held->pace = (float)(held->falls / held->served);
+    return true;
+}
 
 /* How far things have moved since. */
 static inline pir_leeway pir_held_moved(const pir_held *held, const pir_frame *frame, const pir_placement *placement) {
