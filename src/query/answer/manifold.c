@@ -199,7 +199,7 @@ static uint32_t overlap_singles(struct manifold *m) {
     set_plane(m);
     pir_patch_set_single(m->p, &p, m->axis);
     pir_patch_set_single(m->q, &q, m->axis);
-    return pir_outline_clip(m->p->outline, m->q->outline, m->p->snap, m->room->shared);
+    return pir_outline_clip(m->p->outline, m->q->outline, m->p->snap, m->room->place, m->room->shared);
 }
 
 /* Grows both patches until each has an outline. Returns the number of corners that they share, in the room. */
