@@ -114,8 +114,8 @@ static void fill(const pir_body *body, mp_limb_t *room, pir_axes *axes) {
     lanes->facets = p->facet_count;
     for (uint32_t i = 0; i < PIR_AXES_PADDED; i++)
         lanes->offset[i] = lanes->far[i] = HUGE_VAL;
-    for (uint32_t v = 0; v < p->vertex_count; v++)
-        put(lanes->vertex, v, body->vertex[v]);
+    for (uint32_t v = 0; v < PIR_AXES_PADDED; v++)
+        put(lanes->vertex, v, body->vertex[v < p->vertex_count ? v : 0]);
     for (uint32_t f = 0; f < p->facet_count; f++) {
         put(lanes->normal, f, p->normal[f]);
         lanes->offset[f] = body->offset[f];

@@ -25,7 +25,7 @@
 /* What the loops read of a body: vectors in parallel arrays. */
 typedef struct pir_axes_lanes {
     uint32_t vertices, facets, along;
-    double vertex[3][PIR_AXES_PADDED];
+    double vertex[3][PIR_AXES_PADDED];                          /* padded by the first */
     double normal[3][PIR_AXES_PADDED], offset[PIR_AXES_PADDED]; /* padded by facets that are infinitely far */
     double edge[3][PIR_AXES_PADDED], far[PIR_AXES_PADDED];      /* unit vectors along edges; 0, infinite where padded */
 } pir_axes_lanes;

@@ -60,7 +60,7 @@ AXES_TARGET static inline lane along(lane x, lane y, lane z, const double v[3][P
     return v[0][i] * x + v[1][i] * y + v[2][i] * z;
 }
 
-/* The vertices of one body, as all look from the other. */
+/* The vertices of one body, as all look from the other; taken by four, which is no loop. */
 struct corners {
     const double (*vertex)[PIR_AXES_PADDED];
     uint32_t count;
@@ -71,8 +71,9 @@ AXES_TARGET static inline void facets(const double n[3][PIR_AXES_PADDED], const 
                                       struct corners others, pir_vec3 at, double error, double *low) {
     for (uint32_t i = 0; i < padded(of->facets); i += AXES_WIDTH) {
         lane x = load(&n[0][i]), y = load(&n[1][i]), z = load(&n[2][i]), most = along(x, y, z, others.vertex, 0);
-        for (uint32_t k = 1; k < others.count; k++)
-            most = AXES_GREATER(along(x, y, z, others.vertex, k), most);
+        for (uint32_t k = 0; k < others.count; k += 4)
+            for (uint32_t j = k; j < k + 4; j++)
+                most = AXES_GREATER(along(x, y, z, others.vertex, j), most);
         store(&low[i], load(&of->offset[i]) + most - (x * at.x + y * at.y + z * at.z) - error);
     }
 }
@@ -85,11 +86,12 @@ struct range {
 AXES_TARGET static inline struct range range_along(lane x, lane y, lane z, struct corners of) {
     struct range range;
     range.least = range.most = along(x, y, z, of.vertex, 0);
-    for (uint32_t k = 1; k < of.count; k++) {
-        lane to = along(x, y, z, of.vertex, k);
-        range.least = AXES_LESSER(to, range.least);
-        range.most = AXES_GREATER(to, range.most);
-    }
+    for (uint32_t k = 0; k < of.count; k += 4)
+        for (uint32_t j = k; j < k + 4; j++) {
+            lane to = along(x, y, z, of.vertex, j);
+            range.least = AXES_LESSER(to, range.least);
+            range.most = AXES_GREATER(to, range.most);
+        }
     return range;
 }
 
