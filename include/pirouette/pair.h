@@ -53,7 +53,7 @@ typedef enum pir_level {
     PIR_LEVEL_NONE = 0,    /**< nothing has been asked yet */
     PIR_LEVEL_APART,       /**< by the distance of an earlier answer and the motion since */
     PIR_LEVEL_NEAR,        /**< by descent on supports, or by the facet of the answer before */
-    PIR_LEVEL_OVERLAPPING, /**< by a surface inside the difference */
+    PIR_LEVEL_OVERLAPPING, /**< by a surface inside the difference, or by all its facets where it can have few */
     PIR_LEVEL_WHOLE,       /**< by the difference */
 } pir_level;
 
@@ -177,7 +177,7 @@ typedef struct pir_pair_statistics {
     uint64_t by_certificate; /**< answers at the level `apart` */
     uint64_t by_facet;       /**< answers by the facet of the one before */
     uint64_t by_descent;     /**< other answers at the level `near` */
-    uint64_t by_surface;     /**< answers at the level `overlapping` */
+    uint64_t by_surface;     /**< answers at the level `overlapping`; for small bodies it needs no surface */
     uint64_t by_whole;       /**< answers at the level `whole` */
     uint64_t supports;       /**< vertices added to surfaces */
     uint64_t begun;          /**< surfaces begun anew */

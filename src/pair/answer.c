@@ -8,6 +8,7 @@
  *   - axis: the direction in which the last answer was apart by more than the cutoff, with Q or with P (apart.c);
  *   - same facet: the facet of the last answer, proven again by doubles (same_facet.h). Where it separates, it is the
  *     nearest; where x is within it, foot.h or lead.h tell whether it is the least;
+ *   - axes: the facet of least slack among all that D can have, where both bodies have few (axes.h);
  *   - surface: that of the last answer, placed again and mended (overlap.h);
  *   - facet: that of the last answer with another corner, or proven by integers;
  *   - descent: to the nearest point, proven by doubles, else by integers where a separating direction is certain;
@@ -35,6 +36,10 @@ static bool by_certificate(pir_task *task) {
     const pir_placement *placement = task->placement;
     // where there is no cutoff, numbers are wanted
     if (!(pair->apart > 0) || ((task->want & PIR_WANT_SEPARATION) && !(task->limit < pair->apart)))
+        return false;
+    // most that is too far is so by the way alone
+    pir_vec3 way = pir_vec_sub(placement->x, pair->at);
+    if (!(pir_vec_dot(way, way) < pair->apart * pair->apart))
         return false;
     double left = pair->apart - moved_since(task) - 4 * placement->error;
     if (!(left > 0))
@@ -77,7 +82,8 @@ static inline bool settle_same(pir_task *task, pir_same is) {
         return true;
     }
     if (!pir_foot_settles_within(frame, task->placement, &same->facet, same->slack, same->margin) &&
-        !pir_lead_lasts(&task->pair->lead, task->placement, same, moved_since(task)))
+        !(task->pair->lead.others > same->slack &&
+          pir_lead_lasts(&task->pair->lead, task->placement, same, moved_since(task))))
         return false;
     if (side == 0)
         pir_task_touching(task, &same->facet);
@@ -93,9 +99,11 @@ static bool by_held_facet(pir_task *task) {
     pir_same_known known;
     if (!held->some)
         return false;
+    held->served += held->served < UINT16_MAX;
+    if (pir_held_is_past(held, &workspace->frame))
+        return false;
     workspace->moved = pir_held_moved(held, &workspace->frame, task->placement);
-    held->served++;
-    held->is_short = workspace->moved.turn > held->served * PIR_LONGEST_STEP;
+    held->pace = (float)(workspace->moved.turn / held->served);
     if (!pir_held_known(held, workspace->moved, task->placement, &known))
         return false;
     return settle_same(
@@ -121,6 +129,72 @@ static bool by_same_facet(pir_task *task) {
     if (!pair->has_facet || !(by_held_facet(task) || by_fresh_facet(task)))
         return false;
     pair->statistics.by_facet++;
+    pir_task_end(task, PIR_LEVEL_NEAR);
+    return true;
+}
+
+/* --- by all axes --- */
+
+/* Whether all facets but task->same, of which x is inside, have more slack; then it is the answer. */
+static bool is_ahead(pir_task *task, const pir_axes_slack *least) {
+    pir_pair *pair = task->pair;
+    const pir_same_facet *same = &task->same;
+    if (!(same->slack > 0 && same->slack + task->placement->error * same->facet.err < least->next))
+        return false;
+    pir_task_inside(task, &same->facet, same->slack);
+    pair->lead = pir_lead_of(task->placement, &same->facet, least->next);
+    pair->at = task->placement->x;
+    pair->turned = task->workspace->rotation.unit;
+    pair->statistics.by_surface++;
+    pir_task_end(task, PIR_LEVEL_OVERLAPPING);
+    return true;
+}
+
+/* The answer from task->same, which separates and holds the foot of x. */
+static void finish_outside(pir_task *task) {
+    const pir_same_facet *same = &task->same;
+    pir_nearest nearest = {-same->slack, same->facet.n, same->touch};
+    task->is_outside = true;
+    pir_task_keep_facet(task->pair, &same->facet);
+    pir_task_near(task, &nearest);
+    task->pair->statistics.by_descent++;
+    pir_task_end(task, PIR_LEVEL_NEAR);
+}
+
+/* The answer from task->same, a facet that doubles have proven. */
+static bool settle_least(pir_task *task, const pir_axes_slack *least) {
+    pir_workspace *workspace = task->workspace;
+    if (task->same.slack < 0)
+        finish_outside(task);
+    else if (!is_ahead(task, least))
+        return false;
+    pir_held_set(&task->pair->held, &workspace->frame, task->placement, &task->same);
+    workspace->moved = (pir_leeway){0, 0};
+    return true;
+}
+
+static bool by_axes(pir_task *task) {
+    pir_pair *pair = task->pair;
+    const pir_frame *frame = &task->workspace->frame;
+    pir_axes_slack least;
+    pir_same_facet same;
+    pir_vec3 n;
+    if (!pair->few)
+        return false;
+    const pir_axes *p = pir_axes_of(frame->p.polytope, pair->exponent);
+    const pir_axes *q = pir_axes_of(frame->q.polytope, pair->exponent);
+    pir_axes_least(task->workspace->axes, p, q, frame, task->placement, &least);
+    if (task->has_same && settle_least(task, &least))
+        return true;
+    pir_piece piece = pir_axes_piece(p, q, frame, least.at, &n);
+    if (pir_same_facet_prove(frame, task->placement, piece, NULL, &same) == PIR_SAME_PROVEN) {
+        task->same = same;
+        task->has_same = true;
+        return settle_least(task, &least);
+    }
+    if (!(least.low < 0) || !(task->want & PIR_WANT_SEPARATION) || !pir_task_apart_along(task, n))
+        return false;
+    pair->statistics.by_descent++;
     pir_task_end(task, PIR_LEVEL_NEAR);
     return true;
 }
@@ -235,6 +309,8 @@ static bool by_need(pir_task *task) {
     if (near && by_same_facet(task))
         return true;
     pair->deep = pair->held.some = false;
+    if (near && deep && by_axes(task))
+        return true;
     if (was_deep && deep && by_surface(task))
         return true;
     if (near && (by_facet(task) || pir_task_descend(task)))

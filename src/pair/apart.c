@@ -9,7 +9,7 @@
  * at most.
  *
  * A direction that is kept is tried as it stood with Q, then as it has turned with P: the nearest features are often a
- * facet of either.
+ * facet of either. Round bodies that have moved far are apart from middle to middle, or between all three.
  */
 #include "pair/apart.h"
 
@@ -53,8 +53,7 @@ void pir_task_keep_axis(const pir_task *task, pir_vec3 n) {
     keep(task->pair, n, pir_mat_apply_transposed(&task->workspace->frame.r, n));
 }
 
-/* Whether x is apart by more than the cutoff along the unit vector n: then it is the direction that is kept. */
-static bool is_apart_along(pir_task *task, pir_vec3 n) {
+bool pir_task_apart_along(pir_task *task, pir_vec3 n) {
     const pir_frame *frame = &task->workspace->frame;
     pir_pair *pair = task->pair;
     pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
@@ -70,15 +69,23 @@ static bool is_apart_along(pir_task *task, pir_vec3 n) {
     return true;
 }
 
+/* The unit vector along d; 0 where d is too short to tell one, and nothing is apart along that. */
+static pir_vec3 unit_along(pir_vec3 d) {
+    double square = pir_vec_dot(d, d);
+    return pir_vec_scale(d, square > 0x1p-200 ? 1 / sqrt(square) : 0);
+}
+
 bool pir_task_apart(pir_task *task) {
     pir_pair *pair = task->pair;
     if (!(task->want & PIR_WANT_SEPARATION))
         return false;
-    if (is_apart_along(task, pair->axis))
+    if (pir_task_apart_along(task, pair->axis))
         return true;
     // brought to length 1 each time, so that rounding does not add up from turn to turn
-    pir_vec3 n = pir_mat_apply(&task->workspace->frame.r, pair->axis_of_p);
-    if (is_apart_along(task, pir_vec_scale(n, 1 / sqrt(pir_vec_dot(n, n)))))
+    pir_vec3 n = unit_along(pir_mat_apply(&task->workspace->frame.r, pair->axis_of_p));
+    pir_vec3 middle = unit_along(task->placement->x);
+    if (pir_task_apart_along(task, n) || pir_task_apart_along(task, middle) ||
+        pir_task_apart_along(task, unit_along(pir_vec_add(middle, pir_vec_add(n, pair->axis)))))
         return true;
     pair->has_axis = false;
     return false;

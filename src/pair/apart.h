@@ -14,6 +14,9 @@ bool pir_task_is_beyond(const pir_task *task, double distance);
 /* Keeps the direction of such an answer as a hint. */
 void pir_task_keep_axis(const pir_task *task, pir_vec3 n);
 
+/* The answer, where x is apart by more than the cutoff along the unit vector n: then that is the direction kept. */
+bool pir_task_apart_along(pir_task *task, pir_vec3 n);
+
 /* The answer, where x is apart by more than the cutoff along the direction that is kept. */
 bool pir_task_apart(pir_task *task);
 

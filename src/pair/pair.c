@@ -23,6 +23,7 @@ pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **
     workspace->exact.rotation = &workspace->rotation;
     workspace->world.rotation_q = &workspace->rotation_q;
     workspace->room.loops = pir_surface_loops_best();
+    workspace->axes = pir_axes_loops_best();
     *ret_workspace = workspace;
     return PIR_OK;
 }
@@ -45,6 +46,14 @@ pir_pair_options pir_pair_options_default(void) {
     return (pir_pair_options){NULL, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
 }
 
+/* Whether both bodies have few axes. */
+static pir_status find_axes(pir_polytope *p, pir_polytope *q, pir_pair *pair) {
+    pir_status status = pir_axes_find(p, pair->exponent, &pair->body_p->body, &pair->few);
+    if (status == PIR_OK && pair->few)
+        status = pir_axes_find(q, pair->exponent, &pair->body_q->body, &pair->few);
+    return status;
+}
+
 /* What a pair needs to know of its bodies. */
 static pir_status find_bodies(pir_polytope *p, pir_polytope *q, pir_pair *pair) {
     pir_polytope *reflected;
@@ -62,7 +71,9 @@ static pir_status find_bodies(pir_polytope *p, pir_polytope *q, pir_pair *pair) 
     pair->exponent = pir_frame_exponent(of_p, of_q, reflected, q);
     pair->limbs = pir_exact_limbs(reflected, q);
     status = pir_kept_body_of(reflected, pair->exponent, &pair->body_p);
-    return status == PIR_OK ? pir_kept_body_of(q, pair->exponent, &pair->body_q) : status;
+    if (status == PIR_OK)
+        status = pir_kept_body_of(q, pair->exponent, &pair->body_q);
+    return status == PIR_OK ? find_axes(reflected, q, pair) : status;
 }
 
 static bool are_levels(pir_level least, pir_level most) {

@@ -15,6 +15,7 @@
 #include <pirouette/pair.h>
 
 #include "base/scratch.h"
+#include "pair/axes/axes.h"
 #include "pair/facet/held_proof.h"
 #include "pair/facet/lead.h"
 #include "pair/surface/inner_surface.h"
@@ -29,6 +30,7 @@ struct pir_pair {
     int exponent;                         /* one unit of the frame is 2^exponent */
     uint32_t limbs;                       /* that exact signs need */
     uint8_t least, most, level;           /* pir_level */
+    bool few;                             /* both bodies have few axes */
 
     /* hints */
     bool has_facet, has_axis, deep; /* the facet, the axis below; the surface */
@@ -65,6 +67,7 @@ struct pir_workspace {
     pir_world world;
     pir_exact exact;
     pir_surface_room room;
+    const pir_axes_loops *axes;
     pir_surface spare; /* where a pair has none */
     pir_patch_room patches;
 

@@ -86,9 +86,12 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
         see_by_q(workspace, &seen);
     }
     const pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .margin = input->margin};
-    bool is_held = pair->held.some && is_answer(workspace, answer);
-    pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity, NULL};
-    if (is_held && pair->held.lone.kind != PIR_LONE_UNKNOWN) {
+    pir_held *held = &pair->held;
+    pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity, NULL, held->pace};
+    bool is_lone_known = held->some && held->lone.kind != PIR_LONE_UNKNOWN;
+    bool is_fresh =
+        held->some && held->pace <= PIR_LONE_PACE && workspace->moved.way == 0 && workspace->moved.turn == 0;
+    if (is_lone_known && is_answer(workspace, answer)) {
         if (is_lone(pair, workspace, &ask, ret_contacts)) {
             *ret_count = 1;
             if (workspace->posed)
@@ -96,9 +99,9 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
             return capacity > 0 ? PIR_OK : PIR_ERR_LIMIT;
         }
         // the next answer proves all of it again
-        pair->held.some = false;
-    } else if (is_held && !pair->held.is_short && workspace->moved.way == 0 && workspace->moved.turn == 0) {
-        ask.ret_lone = &pair->held.lone;
+        held->some = false;
+    } else if (is_fresh && is_answer(workspace, answer)) {
+        ask.ret_lone = &held->lone;
     }
     status =
         pir_manifold_find(&workspace->frame, &workspace->placement, &workspace->patches, &ask, ret_contacts, ret_count);

@@ -75,6 +75,19 @@ static bool same_cycle(const points *a, const points *b) {
     return a->count == 0 && b->count == 0;
 }
 
+/* Every version places corners with the bits of the plain one. */
+static void check_places(pir_outline p, pir_outline q) {
+    static pir_clip_places plain, places;
+    bool clear = pir_clip_place_version(0)(p, q, SNAP, &plain);
+    for (unsigned version = 1; pir_clip_place_version(version); version++) {
+        assert_int_equal(pir_clip_place_version(version)(p, q, SNAP, &places), clear);
+        assert_memory_equal(places.outside, plain.outside, p.count * sizeof *plain.outside);
+        assert_memory_equal(places.beyond, plain.beyond, p.count * sizeof *plain.beyond);
+        for (uint32_t i = 0; i < p.count; i++)
+            assert_memory_equal(places.inside[i], plain.inside[i], q.count * sizeof plain.inside[i][0]);
+    }
+}
+
 static void clipping_finds_what_merging_finds(void **state) {
     (void)state;
     int told = 0, parted = 0, asked = 0;
@@ -86,7 +99,8 @@ static void clipping_finds_what_merging_finds(void **state) {
         if (!is_clear(&p) || !is_clear(&q))
             continue;
         asked += (int)(number % 2);
-        clipped.count = pir_outline_clip(of_p, of_q, SNAP, clipped.at);
+        clipped.count = pir_outline_clip(of_p, of_q, SNAP, pir_clip_place_best(), clipped.at);
+        check_places(of_p, of_q);
         if (clipped.count == PIR_CLIP_UNCLEAR)
             continue;
         merged.count = pir_outline_overlap(of_p, of_q, SNAP, PART, merged.at);
@@ -108,15 +122,15 @@ static void flush_outlines_are_unclear(void **state) {
         for (int k = 0; k < 4; k++)
             moved[k] = (pir_corner){.u = square[k].u + (i > 0), .v = square[k].v + (i > 1 ? 1 : 0.25 * i)};
         pir_outline p = {square, 4}, q = {moved, 4};
-        assert_true(pir_outline_clip(p, q, SNAP, shared) == PIR_CLIP_UNCLEAR);
+        assert_true(pir_outline_clip(p, q, SNAP, pir_clip_place_best(), shared) == PIR_CLIP_UNCLEAR);
     }
     // too many corners
     pir_corner many[PIR_CLIP_MOST + 1], shared[2 * PIR_CLIP_MOST + 1];
     for (int i = 0; i <= PIR_CLIP_MOST; i++)
         many[i] = (pir_corner){.u = cos(2 * pi * i / (PIR_CLIP_MOST + 1)), .v = sin(2 * pi * i / (PIR_CLIP_MOST + 1))};
     pir_outline all = {many, PIR_CLIP_MOST + 1}, far = {square, 4};
-    assert_true(pir_outline_clip(all, far, SNAP, shared) == PIR_CLIP_UNCLEAR);
-    assert_true(pir_outline_clip(far, all, SNAP, shared) == PIR_CLIP_UNCLEAR);
+    assert_true(pir_outline_clip(all, far, SNAP, pir_clip_place_best(), shared) == PIR_CLIP_UNCLEAR);
+    assert_true(pir_outline_clip(far, all, SNAP, pir_clip_place_best(), shared) == PIR_CLIP_UNCLEAR);
 }
 
 /* --- single facets --- */

@@ -19,14 +19,27 @@
 
 typedef struct pir_held {
     bool some;
-    bool is_short;   /* steps have been too long for the leeway of a lone contact to be of use */
-    uint32_t served; /* the calls that have looked at it */
+    uint16_t served; /* the calls that have looked at it, up to the most that it holds */
+    float pace;      /* how far R turned from call to call of late */
     pir_vec3 at;     /* the place of the proof */
     pir_quat turned;
     double falls;         /* as of pir_same_facet */
     pir_same_known known; /* at that place */
     pir_lone lone;
 } pir_held;
+
+/*
+ * Whether R has certainly turned by too much, which most that is too long is told by: half of the angle of two unit
+ * quaternions is no less than their distance. Then so much is noted as the pace.
+ */
+static inline bool pir_held_is_past(pir_held *held, const pir_frame *frame) {
+    pir_quat a = held->turned, b = frame->unit;
+    double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z, w = a.w - b.w;
+    if (4 * (x * x + y * y + z * z + w * w) < held->falls * held->falls)
+        return false;
+    held->pace = (float)(held->falls / held->served);
+    return true;
+}
 
 /* How far things have moved since. */
 static inline pir_leeway pir_held_moved(const pir_held *held, const pir_frame *frame, const pir_placement *placement) {
@@ -36,20 +49,19 @@ static inline pir_leeway pir_held_moved(const pir_held *held, const pir_frame *f
                         sqrt(pir_vec_dot(way, way)) * (1 + 0x1p-40) + 4 * placement->error};
 }
 
-/* The longest steps, in radians, at which it pays to find out within what leeway a contact stays the only one. */
-#define PIR_LONGEST_STEP 0x1p-7
-
 /* Holds what a proof of a facet at a placement has found. */
 static inline void pir_held_set(pir_held *held, const pir_frame *frame, const pir_placement *placement,
                                 const pir_same_facet *same) {
     const pir_facet *facet = &same->facet;
     uint32_t corner = facet->piece.kind == PIR_FACET_FV ? facet->a : facet->b;
-    *held = (pir_held){.some = same->falls > 0,
-                       .is_short = held->is_short,
-                       .at = placement->x,
-                       .turned = frame->unit,
-                       .falls = same->falls,
-                       .known = {same->margin, corner}};
+    // member by member: of the lone contact only its kind says that there is none
+    held->some = same->falls > 0;
+    held->served = 0;
+    held->at = placement->x;
+    held->turned = frame->unit;
+    held->falls = same->falls;
+    held->known = (pir_same_known){same->margin, corner};
+    held->lone.kind = PIR_LONE_UNKNOWN;
 }
 
 /* What is left of that after the bodies have moved; false where nothing is. */

@@ -199,7 +199,7 @@ static uint32_t overlap_singles(struct manifold *m) {
     set_plane(m);
     pir_patch_set_single(m->p, &p, m->axis);
     pir_patch_set_single(m->q, &q, m->axis);
-    return pir_outline_clip(m->p->outline, m->q->outline, m->p->snap, m->room->shared);
+    return pir_outline_clip(m->p->outline, m->q->outline, m->p->snap, m->room->place, m->room->shared);
 }
 
 /* Grows both patches until each has an outline. Returns the number of corners that they share, in the room. */
@@ -366,8 +366,9 @@ static size_t put_contacts(struct manifold *m, const pir_placement *placement, c
 
 /* --- lone contacts --- */
 
-/* Parts of a right angle's radian and of the reach that leeways are tried with. */
+/* Parts of a right angle's radian and of the reach that leeways are tried with, and for how many calls they last. */
 static const double LEEWAYS[] = {0x1p-6, 0x1p-9, 0x1p-12};
+#define LEAST_CALLS 8
 
 /* What is left of a leeway, so that rounding is no part of it. */
 #define KEPT (1 - 0x1p-10)
@@ -393,7 +394,7 @@ static void find_leeway(struct manifold *m, const pir_manifold_ask *ask, double 
                      .radius_p = ask->input->radius_p,
                      .radius_q = ask->input->radius_q,
                      .margin = ask->input->margin};
-    for (size_t i = 0; i < sizeof LEEWAYS / sizeof *LEEWAYS; i++)
+    for (size_t i = 0; i < sizeof LEEWAYS / sizeof *LEEWAYS && LEEWAYS[i] > LEAST_CALLS * ask->pace; i++)
         if (is_lone_within(m, LEEWAYS[i], reach, &lone)) {
             *ask->ret_lone = lone;
             return;
@@ -453,7 +454,7 @@ pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, co
     pir_status status = pir_query_begin(query, input, &placement);
     if (status != PIR_OK)
         return status;
-    pir_manifold_ask ask = {input, answer, capacity, NULL};
+    pir_manifold_ask ask = {input, answer, capacity, NULL, 0};
     pir_patch_room *room = &query->room->patches;
     if (!pir_patch_room_reserve(room, &pir_sum_scratch(query->sum)->allocator, query->p->vertex_count,
                                 query->q->vertex_count))

@@ -21,11 +21,15 @@ typedef struct pir_lone {
     double radius_p, radius_q, margin;
 } pir_lone;
 
+/* Calls from one to the next of which R turns by more than this, in radians, gain nothing from such a leeway. */
+#define PIR_LONE_PACE 0x1p-9
+
 typedef struct pir_manifold_ask {
     const pir_query_input *input; /* its radii and margin */
     const pir_query_result *answer;
     size_t capacity;
     pir_lone *ret_lone; /* or NULL; else the answer's normal is that of a facet of D */
+    double pace;        /* then: how far R turns from call to call */
 } pir_manifold_ask;
 
 /* As pir_query_manifold, at a placement, in Q's frame; `room` is for the two bodies of the frame. */

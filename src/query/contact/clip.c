@@ -11,21 +11,21 @@
  *
  * So walking once around P meets the corners of the overlap in order.
  */
-#include "query/contact/clip.h"
+#include "query/contact/clip_versions.h"
 
 #include <math.h>
+#include <stddef.h>
 
 struct clip {
     pir_outline p, q;
-    double inside[PIR_CLIP_MOST][PIR_CLIP_MOST]; /* corner i of P inside of line j of Q, times the side's length */
-    uint32_t outside[PIR_CLIP_MOST];             /* per corner of P: the set of lines of Q that it is outside of */
-    uint32_t beyond[PIR_CLIP_MOST];              /* per line of P: the set of corners of Q that are outside of it */
-    uint32_t crossed[PIR_CLIP_MOST];             /* per side of P: the set of sides of Q that it crosses */
-    uint32_t entering, leaving;                  /* the sets of sides of P that enter Q, and that leave it */
-    double snap;
+    pir_clip_places places;
+    uint32_t crossed[PIR_CLIP_MOST]; /* per side of P: the set of sides of Q that it crosses */
+    uint32_t entering, leaving;      /* the sets of sides of P that enter Q, and that leave it */
     pir_corner *corners;
     uint32_t count;
 };
+
+/* --- where corners are --- */
 
 /* A line along a side: how far a point is inside, times the side's length, is u · v' − v · u' − at. */
 struct line {
@@ -42,51 +42,73 @@ static inline double inside_of(const struct line *line, const pir_corner *x) {
     return line->u * x->v - line->v * x->u - line->at;
 }
 
-/* Where the corners of P are. False where one is not clear. */
-static bool place_p(struct clip *clip) {
-    uint32_t p = clip->p.count;
+static bool place_plain(pir_outline p, pir_outline q, double snap, pir_clip_places *places) {
     bool clear = true;
-    for (uint32_t i = 0; i < p; i++)
-        clip->outside[i] = 0;
-    for (uint32_t j = 0; j < clip->q.count; j++) {
-        struct line line = line_along(clip->q, j, clip->snap);
-        for (uint32_t i = 0; i < p; i++) {
-            double inside = inside_of(&line, &clip->p.at[i]);
-            clip->inside[i][j] = inside;
+    for (uint32_t i = 0; i < p.count; i++)
+        places->outside[i] = 0;
+    for (uint32_t j = 0; j < q.count; j++) {
+        struct line line = line_along(q, j, snap);
+        for (uint32_t i = 0; i < p.count; i++) {
+            double inside = inside_of(&line, &p.at[i]);
+            places->inside[i][j] = inside;
             clear &= fabs(inside) > line.clear;
-            clip->outside[i] |= (uint32_t)(inside < 0) << j;
+            places->outside[i] |= (uint32_t)(inside < 0) << j;
+        }
+    }
+    for (uint32_t i = 0; i < p.count; i++) {
+        struct line line = line_along(p, i, snap);
+        places->beyond[i] = 0;
+        for (uint32_t j = 0; j < q.count; j++) {
+            double inside = inside_of(&line, &q.at[j]);
+            clear &= fabs(inside) > line.clear;
+            places->beyond[i] |= (uint32_t)(inside < 0) << j;
         }
     }
     return clear;
 }
+
+pir_clip_place *pir_clip_place_version(unsigned index) {
+    if (index == 0)
+        return place_plain;
+#if PIR_HAVE_X86_CLIP
+    if (index == 1 && __builtin_cpu_supports("avx2"))
+        return pir_clip_place_avx2;
+#endif
+    return NULL;
+}
+
+pir_clip_place *pir_clip_place_best(void) {
+    unsigned index = 0;
+    while (pir_clip_place_version(index + 1))
+        index++;
+    return pir_clip_place_version(index);
+}
+
+/* --- which sides cross --- */
 
 static inline bool is_at_most_one(uint32_t set) {
     return (set & (set - 1)) == 0;
 }
 
-/* Where the corners of Q are, and which sides cross. False where one is not clear, or more sides cross than can. */
-static bool place_q(struct clip *clip) {
+/* False where more sides cross than can. */
+static bool find_crossings(struct clip *clip) {
+    const pir_clip_places *places = &clip->places;
     uint32_t p = clip->p.count, q = clip->q.count;
-    bool clear = true;
+    bool can = true;
     clip->entering = clip->leaving = 0;
     for (uint32_t i = 0; i < p; i++) {
-        struct line line = line_along(clip->p, i, clip->snap);
-        uint32_t beyond = 0, start = clip->outside[i], end = clip->outside[i + 1 < p ? i + 1 : 0];
-        for (uint32_t j = 0; j < q; j++) {
-            double inside = inside_of(&line, &clip->q.at[j]);
-            clear &= fabs(inside) > line.clear;
-            beyond |= (uint32_t)(inside < 0) << j;
-        }
+        uint32_t beyond = places->beyond[i], start = places->outside[i], end = places->outside[i + 1 < p ? i + 1 : 0];
         uint32_t next = beyond >> 1 | (beyond & 1) << (q - 1), crossed = (beyond ^ next) & (start ^ end);
         uint32_t enters = crossed & start, leaves = crossed & end;
-        clear &= is_at_most_one(enters) && is_at_most_one(leaves);
-        clip->beyond[i] = beyond;
+        can &= is_at_most_one(enters) && is_at_most_one(leaves);
         clip->crossed[i] = crossed;
         clip->entering |= (uint32_t)(enters != 0) << i;
         clip->leaving |= (uint32_t)(leaves != 0) << i;
     }
-    return clear;
+    return can;
 }
+
+/* --- corners --- */
 
 /* The side in a set of one. */
 static inline uint32_t only(uint32_t set) {
@@ -100,7 +122,7 @@ static inline void put_corner(struct clip *clip, pir_corner_kind kind, uint32_t 
 
 static inline void put_crossing(struct clip *clip, uint32_t i, uint32_t j) {
     uint32_t end = i + 1 < clip->p.count ? i + 1 : 0;
-    double part = clip->inside[i][j] / (clip->inside[i][j] - clip->inside[end][j]);
+    double from = clip->places.inside[i][j], part = from / (from - clip->places.inside[end][j]);
     const pir_corner *a = &clip->p.at[i], *b = &clip->p.at[end];
     clip->corners[clip->count++] =
         (pir_corner){a->u + part * (b->u - a->u), a->v + part * (b->v - a->v), PIR_CORNER_CROSSING, i, j};
@@ -110,8 +132,8 @@ static inline void put_crossing(struct clip *clip, uint32_t i, uint32_t j) {
 static void put_all(struct clip *clip) {
     uint32_t beyond = 0;
     for (uint32_t i = 0; i < clip->p.count; i++)
-        beyond |= clip->beyond[i];
-    bool of_p = clip->outside[0] == 0;
+        beyond |= clip->places.beyond[i];
+    bool of_p = clip->places.outside[0] == 0;
     uint32_t count = of_p ? clip->p.count : beyond == 0 ? clip->q.count : 0;
     for (uint32_t i = 0; i < count; i++)
         put_corner(clip, of_p ? PIR_CORNER_P : PIR_CORNER_Q, i);
@@ -119,11 +141,12 @@ static void put_all(struct clip *clip) {
 
 /* Walks around P, from the end of side `first`, by which P leaves Q. */
 static void walk(struct clip *clip, uint32_t first) {
-    uint32_t p = clip->p.count, q = clip->q.count, left = only(clip->crossed[first] & ~clip->outside[first]);
+    uint32_t p = clip->p.count, q = clip->q.count, left = only(clip->crossed[first] & ~clip->places.outside[first]);
     put_crossing(clip, first, left);
     for (uint32_t k = 1, i = first; k <= p; k++) {
         i = i + 1 < p ? i + 1 : 0;
-        uint32_t enters = clip->crossed[i] & clip->outside[i], leaves = clip->crossed[i] & ~clip->outside[i];
+        uint32_t enters = clip->crossed[i] & clip->places.outside[i],
+                 leaves = clip->crossed[i] & ~clip->places.outside[i];
         if (enters) {
             uint32_t entered = only(enters);
             while (left != entered) {
@@ -131,7 +154,7 @@ static void walk(struct clip *clip, uint32_t first) {
                 put_corner(clip, PIR_CORNER_Q, left);
             }
             put_crossing(clip, i, entered);
-        } else if (clip->outside[i] == 0) {
+        } else if (clip->places.outside[i] == 0) {
             put_corner(clip, PIR_CORNER_P, i);
         }
         if (leaves && k < p) {
@@ -144,8 +167,8 @@ static void walk(struct clip *clip, uint32_t first) {
 /* The same walk where P enters Q once, so that all corners after that, up to where it leaves, are in Q. */
 static void walk_once(struct clip *clip) {
     uint32_t p = clip->p.count, q = clip->q.count, first = only(clip->leaving), i = only(clip->entering);
-    uint32_t left = only(clip->crossed[first] & ~clip->outside[first]);
-    uint32_t entered = only(clip->crossed[i] & clip->outside[i]);
+    uint32_t left = only(clip->crossed[first] & ~clip->places.outside[first]);
+    uint32_t entered = only(clip->crossed[i] & clip->places.outside[i]);
     put_crossing(clip, first, left);
     while (left != entered) {
         left = left + 1 < q ? left + 1 : 0;
@@ -173,16 +196,15 @@ static bool is_hull(const pir_corner *at, uint32_t count, double snap) {
     return clear;
 }
 
-uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_corner *ret_corners) {
+uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_clip_place *place, pir_corner *ret_corners) {
     if (p.count > PIR_CLIP_MOST || q.count > PIR_CLIP_MOST)
         return PIR_CLIP_UNCLEAR;
     struct clip clip;
     clip.p = p;
     clip.q = q;
-    clip.snap = snap;
     clip.corners = ret_corners;
     clip.count = 0;
-    if (!place_p(&clip) || !place_q(&clip))
+    if (!place(p, q, snap, &clip.places) || !find_crossings(&clip))
         return PIR_CLIP_UNCLEAR;
     if (clip.leaving == 0)
         put_all(&clip);

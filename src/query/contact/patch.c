@@ -23,7 +23,8 @@ static pir_layout layout_of(pir_patch_room *room) {
 }
 
 bool pir_patch_room_grow(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
-    pir_patch_room grown = {.of_p = of_p > room->of_p ? of_p : room->of_p,
+    pir_patch_room grown = {.place = pir_clip_place_best(),
+                            .of_p = of_p > room->of_p ? of_p : room->of_p,
                             .of_q = of_q > room->of_q ? of_q : room->of_q};
     pir_layout layout = layout_of(&grown);
     if (!pir_layout_new(allocator, &layout))

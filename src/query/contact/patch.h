@@ -14,7 +14,7 @@
 #include "base/layout.h"
 #include "base/vec.h"
 #include "polytope/polytope.h"
-#include "query/contact/outline.h"
+#include "query/contact/clip.h"
 #include "query/frame/facet_shape.h"
 
 /*
@@ -66,6 +66,7 @@ typedef struct pir_patch {
 typedef struct pir_patch_room {
     pir_patch p, q;
     pir_corner *shared, *hull;
+    pir_clip_place *place;
     size_t of_p, of_q; /* for bodies of so many vertices */
 } pir_patch_room;
 

@@ -33,16 +33,20 @@ static inline void pir_kept_shape_clear(pir_kept_shape *kept) {
         atomic_init(&kept->bits[i], 0);
 }
 
-/* False where a number is not known. */
+/* One number; 0 where it is not known. */
+static inline float pir_kept_number(pir_kept_shape *kept, int i) {
+    uint32_t bits = atomic_load_explicit(&kept->bits[i], memory_order_relaxed);
+    float number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+/* False where a number is not known. Numbers go one by one: all at once would wait until the four are in memory. */
 static inline bool pir_kept_shape_get(pir_kept_shape *kept, pir_facet_shape *ret_shape) {
-    uint32_t bits[PIR_SHAPE_NUMBERS];
-    bool known = true;
-    for (int i = 0; i < PIR_SHAPE_NUMBERS; i++) {
-        bits[i] = atomic_load_explicit(&kept->bits[i], memory_order_relaxed);
-        known &= bits[i] != 0;
-    }
-    memcpy(ret_shape, bits, sizeof *ret_shape);
-    return known;
+    pir_facet_shape shape = {pir_kept_number(kept, 0), pir_kept_number(kept, 1), pir_kept_number(kept, 2),
+                             pir_kept_number(kept, 3)};
+    *ret_shape = shape;
+    return (shape.fall != 0) & (shape.thick != 0) & (shape.wide != 0) & (shape.apart != 0);
 }
 
 static inline void pir_kept_shape_set(pir_kept_shape *kept, const pir_facet_shape *shape) {

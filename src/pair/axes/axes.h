@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Every facet of D has the normal of a facet of P, that of a facet of Q, or one across an edge of each. Bodies such as
+ * boxes have few of these: two boxes have 6, 6 and, their edges having three directions each, 18. So the slack along
+ * each of them is computed, of which the least is D's, however P stood before.
+ */
+#ifndef PIR_PAIR_AXES_AXES_H
+#define PIR_PAIR_AXES_AXES_H
+
+#include "polytope/attachment.h"
+#include "query/decide/piece_plane.h"
+
+/* Bodies of more are not looked at. Lists are padded to whole lanes of four. */
+#define PIR_AXES_VERTICES 8
+#define PIR_AXES_FACETS   8
+#define PIR_AXES_ALONG    6
+#define PIR_AXES_PADDED   8
+
+/* By Euler's formula. */
+#define PIR_AXES_EDGES (PIR_AXES_VERTICES + PIR_AXES_FACETS - 2)
+
+/* Slacks of two bodies: of the facets of both, and of each two directions of edges either way. */
+#define PIR_AXES_SLACKS (2 * PIR_AXES_PADDED + 2 * PIR_AXES_ALONG * PIR_AXES_PADDED)
+
+/* What the loops read of a body: vectors in parallel arrays. */
+typedef struct pir_axes_lanes {
+    uint32_t vertices, facets, along;
+    double vertex[3][PIR_AXES_PADDED];                          /* padded by the first */
+    double normal[3][PIR_AXES_PADDED], offset[PIR_AXES_PADDED]; /* padded by facets that are infinitely far */
+    double edge[3][PIR_AXES_PADDED], far[PIR_AXES_PADDED];      /* unit vectors along edges; 0, infinite where padded */
+} pir_axes_lanes;
+
+/* A body with few facets and directions, in the frame of one exponent. Its polytope keeps it. */
+typedef struct pir_axes {
+    pir_attachment attachment;
+    bool is_few; /* whether it is one: else nothing below is set */
+    pir_axes_lanes lanes;
+    uint32_t first[PIR_AXES_ALONG + 1], edges[PIR_AXES_EDGES]; /* per direction, the edges along it */
+} pir_axes;
+
+/* The loops, in versions for processors. */
+typedef struct pir_axes_loops {
+    const char *name;
+    /*
+     * Sets what all slacks of x are not below, `error` being the placement's, in this order, each part padded to
+     * whole lanes: P's facets, Q's, and for each direction of P's edges those of Q's, one way, then the other. Returns
+     * their number.
+     */
+    uint32_t (*slacks)(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 x, double error,
+                       double low[PIR_AXES_SLACKS]);
+    /* The least number, the first of its kind, and the least but for that one. `count` is of whole lanes. */
+    uint32_t (*least)(const double *low, uint32_t count, double *ret_next);
+} pir_axes_loops;
+
+/* Version `index`, the plain one first; NULL past those that this machine can run. */
+const pir_axes_loops *pir_axes_loops_version(unsigned index);
+
+/* The last of them. */
+const pir_axes_loops *pir_axes_loops_best(void);
+
+/* Finds the axes of a body in its frame, and whether they are few. PIR_ERR_MEMORY. */
+pir_status pir_axes_find(pir_polytope *p, int exponent, const pir_body *body, bool *ret_few);
+
+/* The axes that were found. */
+const pir_axes *pir_axes_of(const pir_polytope *p, int exponent);
+
+/* The least slack, and its place in the order of the loops. */
+typedef struct pir_axes_slack {
+    uint32_t at;
+    double low;  /* it is not below this */
+    double next; /* those along all other axes are not below this */
+} pir_axes_slack;
+
+/* Finds it for the bodies of the frame, whose axes these are. */
+void pir_axes_least(const pir_axes_loops *loops, const pir_axes *p, const pir_axes *q, const pir_frame *frame,
+                    const pir_placement *placement, pir_axes_slack *ret_least);
+
+/* The piece that has that slack if any has, and the unit normal there. */
+pir_piece pir_axes_piece(const pir_axes *p, const pir_axes *q, const pir_frame *frame, uint32_t at,
+                         pir_vec3 *ret_normal);
+
+#endif

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * All facets that a difference of two small bodies can have: every version of the loops gives the same bits, the least
+ * slack is the depth that a query on the sum finds, and its piece is the facet of that depth.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <pirouette/query.h>
+#include <pirouette/sum.h>
+
+#include "pair/axes/axes.h"
+#include "query/frame/body.h"
+#include "support/bodies.h"
+
+/* A body that may have few axes, turned or not. */
+static pir_polytope *small_body(test_random *random) {
+    static const test_body kinds[4] = {TEST_BOX, TEST_BOX, TEST_OCTAHEDRON, TEST_SPHERE};
+    test_points points;
+    test_body kind = kinds[test_random_below(random, 4)];
+    test_body_points(random, kind, 4, &points);
+    if (test_random_below(random, 8) == 0)
+        test_bake(&points, test_general_rotation(random));
+    return test_polytope(&points);
+}
+
+/* A difference, and its bodies as pairs look at them. */
+struct scene {
+    pir_polytope *p, *q, *reflected;
+    pir_frame frame;
+    pir_placement placement;
+    bool few;
+};
+
+static void make_scene(test_random *random, struct scene *scene) {
+    static pir_rotation_integers integers;
+    pir_rotation rotation = {.integers = &integers};
+    bool few_p, few_q = false;
+    memset(scene, 0, sizeof *scene);
+    scene->p = small_body(random);
+    scene->q = small_body(random);
+    assert_int_equal(pir_polytope_reflect(scene->p, &scene->reflected), PIR_OK);
+    assert_int_equal(pir_frame_set_bodies(&scene->frame, scene->reflected, scene->q), PIR_OK);
+    assert_int_equal(pir_rotation_set(&rotation, test_rotation(random)), PIR_OK);
+    pir_frame_turn(&scene->frame, &rotation);
+    int exponent = scene->frame.exponent;
+    assert_int_equal(pir_axes_find(scene->reflected, exponent, &scene->frame.p, &few_p), PIR_OK);
+    assert_int_equal(pir_axes_find(scene->q, exponent, &scene->frame.q, &few_q), PIR_OK);
+    scene->few = few_p && few_q;
+    pir_vec3 d = test_random_direction(random);
+    double far = ldexp(test_random_unit(random), exponent);
+    assert_int_equal(pir_frame_place(&scene->frame, (pir_vec3){far * d.x, far * d.y, far * d.z}, &scene->placement),
+                     PIR_OK);
+}
+
+static void free_scene(struct scene *scene) {
+    pir_polytope_release(scene->reflected);
+    pir_polytope_release(scene->p);
+    pir_polytope_release(scene->q);
+}
+
+/* The answer of a query on the sum. */
+static pir_query_result ask_sum(const struct scene *scene) {
+    pir_sum_options options = pir_sum_options_default();
+    pir_sum *sum;
+    pir_query *query;
+    pir_query_result result;
+    options.difference = 1;
+    assert_int_equal(pir_sum_create(scene->p, scene->q, scene->frame.given, &options, &sum), PIR_OK);
+    assert_int_equal(pir_query_create(sum, &query), PIR_OK);
+    pir_query_input input = pir_query_input_default();
+    input.translation = scene->placement.translation;
+    assert_int_equal(pir_query_signed_distance(query, &input, NULL, &result), PIR_OK);
+    pir_query_destroy(query);
+    pir_sum_destroy(sum);
+    return result;
+}
+
+static void check_versions(const struct scene *scene, const pir_axes *p, const pir_axes *q) {
+    double low[2][PIR_AXES_SLACKS], next[2];
+    uint32_t count[2], at[2];
+    for (unsigned version = 0; pir_axes_loops_version(version); version++) {
+        const pir_axes_loops *loops = pir_axes_loops_version(version);
+        int i = version > 0;
+        count[i] =
+            loops->slacks(&p->lanes, &q->lanes, &scene->frame.r, scene->placement.x, scene->placement.error, low[i]);
+        at[i] = loops->least(low[i], count[i], &next[i]);
+        assert_true(count[i] == count[0] && at[i] == at[0] && next[i] == next[0]);
+        assert_memory_equal(low[i], low[0], count[0] * sizeof low[0][0]);
+        for (uint32_t k = 0; k < count[0]; k++)
+            assert_true(low[0][k] >= low[0][at[0]] && (k == at[0] || low[0][k] >= next[0]));
+    }
+}
+
+static void the_least_slack_is_the_depth(void **state) {
+    (void)state;
+    uint32_t few = 0, ahead = 0, cases = 2000;
+    for (uint64_t i = 0; i < cases; i++) {
+        test_random random = test_random_case("axes", i);
+        struct scene scene;
+        make_scene(&random, &scene);
+        if (scene.few) {
+            const pir_axes *p = pir_axes_of(scene.reflected, scene.frame.exponent);
+            const pir_axes *q = pir_axes_of(scene.q, scene.frame.exponent);
+            pir_axes_slack least;
+            few++;
+            check_versions(&scene, p, q);
+            pir_axes_least(pir_axes_loops_best(), p, q, &scene.frame, &scene.placement, &least);
+            pir_query_result right = ask_sum(&scene);
+            double depth = pir_frame_from(&scene.frame, -right.distance), error = scene.placement.error;
+            if (right.state == PIR_INSIDE) {
+                pir_vec3 n;
+                pir_axes_piece(p, q, &scene.frame, least.at, &n);
+                expect(least.low <= depth + error, "case %llu: %g, not %g", (unsigned long long)i, least.low, depth);
+                if (least.next > depth + error) {
+                    // the one axis that is not proven to be farther
+                    ahead++;
+                    pir_vec3 off = pir_vec_sub(n, right.normal);
+                    expect(pir_vec_dot(off, off) < 1e-16, "case %llu: another normal", (unsigned long long)i);
+                    expect(least.low > depth - 1e-9 * scene.placement.reach, "case %llu", (unsigned long long)i);
+                }
+            } else {
+                expect(least.low <= error, "case %llu: outside", (unsigned long long)i);
+            }
+        }
+        free_scene(&scene);
+    }
+    print_message("%u of %u have few axes, %u one facet ahead\n", few, cases, ahead);
+    assert_true(few > cases / 5 && ahead > few / 4);
+}
+
+static void a_body_with_many_axes_has_none(void **state) {
+    (void)state;
+    test_random random = test_random_case("many axes", 0);
+    pir_polytope *ball = test_sphere(&random, 12);
+    const pir_kept_body *body;
+    int exponent;
+    bool few = true;
+    assert_int_equal(pir_kept_exponent(ball, &exponent), PIR_OK);
+    assert_int_equal(pir_kept_body_of(ball, exponent, &body), PIR_OK);
+    assert_int_equal(pir_axes_find(ball, exponent, &body->body, &few), PIR_OK);
+    assert_false(few);
+    pir_polytope_release(ball);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_least_slack_is_the_depth),
+        cmocka_unit_test(a_body_with_many_axes_has_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
