@@ -33,7 +33,7 @@ static void destroy(pir_polytope *p) {
     const pir_allocator allocator = p->allocator, *a = &allocator;
     pir_polytope_free_attachments(p);
     if (p->ring)
-        PIR_FREE(a, p->ring, (size_t)p->ring_block[p->vertex_count] * 3 * PIR_LANES);
+        PIR_FREE(a, p->ring, p->ring_block[p->vertex_count]);
     pir_layout layout = layout_of(p);
     pir_layout_free(a, &layout);
     pir_vectors_finish(&p->exact_vertex, a);
@@ -304,18 +304,18 @@ static bool set_rings(pir_polytope *p) {
         uint32_t degree = p->ring_start[v + 1] - p->ring_start[v];
         p->ring_block[v + 1] = p->ring_block[v] + (degree + PIR_LANES - 1) / PIR_LANES;
     }
-    p->ring = PIR_NEW(a, float, (size_t)p->ring_block[p->vertex_count] * 3 * PIR_LANES);
+    p->ring = PIR_ZEROED(a, pir_ring, p->ring_block[p->vertex_count]);
     if (!p->ring)
         return false;
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         uint32_t lanes = (p->ring_block[v + 1] - p->ring_block[v]) * PIR_LANES;
         for (uint32_t i = 0; i < lanes; i++) {
-            uint32_t h = p->ring_start[v] + i;
-            pir_vec3 d = p->direction[h < p->ring_start[v + 1] ? h : p->ring_start[v]];
-            float *lane = p->ring + ((size_t)p->ring_block[v] + i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-            lane[0] = (float)d.x;
-            lane[PIR_LANES] = (float)d.y;
-            lane[2 * PIR_LANES] = (float)d.z;
+            uint32_t h = p->ring_start[v] + i < p->ring_start[v + 1] ? p->ring_start[v] + i : p->ring_start[v];
+            pir_ring *block = &p->ring[p->ring_block[v] + i / PIR_LANES];
+            block->x[i % PIR_LANES] = (float)p->direction[h].x;
+            block->y[i % PIR_LANES] = (float)p->direction[h].y;
+            block->z[i % PIR_LANES] = (float)p->direction[h].z;
+            block->target[i % PIR_LANES] = p->target[h];
         }
     }
     return true;
