@@ -68,6 +68,9 @@ typedef struct pir_quat {
  *     resize(context, p, old, n)     p grown or shrunk, or NULL with p left as it was
  *     resize(context, p, old, 0)     p released; the result is ignored
  *
+ * Where NULL stands for an allocator it is malloc's. On Linux that one asks the kernel for huge pages within blocks of
+ * 4 MiB and more, a hint.
+ *
  * An allocator given to an object must outlive it. It is called only from the thread that called Pirouette. GMP's own
  * memory is used only where exact.h shows GMP types, where exact text is read or written, where facets are merged
  * (pir_polytope_options), where a mass or an exact motion is computed (mass.h), and in work on solids (solid.h); the

@@ -84,10 +84,11 @@ static bool crossings_are_valid(pir_sum *sum) {
         }
         if (v == PIR_NO_PAIR)
             return false;
-        for (uint32_t slot = sum->tracked.pairing.crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot]) {
-            if (slot >= c->used || c->edge[slot] != e || ++count > sum->tracked.pairing.crossings.count)
+        for (uint32_t slot = sum->tracked.pairing.crossings.first[e]; slot != PIR_NO_CROSSING;
+             slot = c->at[slot].next) {
+            if (slot >= c->used || c->at[slot].edge != e || ++count > sum->tracked.pairing.crossings.count)
                 return false;
-            uint32_t h = c->half[slot];
+            uint32_t h = c->at[slot].half;
             if (q->origin[h] != v || !crosses(sum, half, h))
                 return false;
             v = q->target[h];
@@ -96,8 +97,8 @@ static bool crossings_are_valid(pir_sum *sum) {
             return false;
     }
     // the other slots are free
-    for (uint32_t slot = c->free; slot != PIR_NO_CROSSING; slot = c->next[slot])
-        if (slot >= c->used || c->edge[slot] != PIR_NO_CROSSING || ++count > c->used)
+    for (uint32_t slot = c->free; slot != PIR_NO_CROSSING; slot = c->at[slot].next)
+        if (slot >= c->used || c->at[slot].edge != PIR_NO_CROSSING || ++count > c->used)
             return false;
     return count == c->used;
 }

@@ -49,10 +49,8 @@ static void order(pir_polytope *p, struct seen *seen) {
 bool pir_order_facets(pir_polytope *p) {
     const pir_allocator *a = &p->allocator;
     struct seen seen = {PIR_ZEROED(a, bool, p->facet_count), 0};
-    p->visit = PIR_NEW(a, pir_visit, p->facet_count);
-    bool done = seen.is && p->visit;
-    if (done && p->facet_count > 0)
+    if (seen.is && p->facet_count > 0)
         order(p, &seen);
     PIR_FREE(a, seen.is, p->facet_count);
-    return done;
+    return seen.is != NULL;
 }

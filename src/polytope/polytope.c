@@ -11,58 +11,31 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/layout.h"
 #include "polytope/facet_order.h"
 #include "polytope/hull/hull.h"
 
 /* --- memory --- */
 
-static bool allocate(pir_polytope *p) {
-    const pir_allocator *a = &p->allocator;
-    uint32_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
-    p->ring_start = PIR_ZEROED(a, uint32_t, (size_t)v + 1);
-    p->origin = PIR_NEW(a, uint32_t, h);
-    p->twin = PIR_NEW(a, uint32_t, h);
-    p->left = PIR_NEW(a, uint32_t, h);
-    p->edge = PIR_NEW(a, uint32_t, h);
-    p->edge_half = PIR_NEW(a, uint32_t, e);
-    p->loop_start = PIR_ZEROED(a, uint32_t, (size_t)f + 1);
-    p->loop = PIR_NEW(a, uint32_t, h);
-    p->across = PIR_NEW(a, pir_across, h);
-    p->arc_ends = PIR_NEW(a, pir_arc_ends, e);
-    p->source = PIR_NEW(a, uint32_t, v);
-    p->vertex = PIR_NEW(a, pir_vec3, v);
-    // a few more of each: vector loads of four doubles, or eight integers, may reach past the last
-    p->target = PIR_ZEROED(a, uint32_t, (size_t)h + PIR_LANES);
-    p->direction = PIR_ZEROED(a, pir_vec3, (size_t)h + 1);
-    p->normal = PIR_ZEROED(a, pir_vec3, (size_t)f + 1);
-    return p->ring_start && p->origin && p->target && p->twin && p->left && p->edge && p->edge_half && p->loop_start &&
-           p->loop && p->across && p->arc_ends && p->source && p->vertex && p->direction && p->normal;
+/* The arrays, but that of rings, whose size follows from them. */
+static pir_layout layout_of(pir_polytope *p) {
+    const size_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
+    // a few more of some: vector loads of four doubles, or eight integers, may reach past the last
+    return (pir_layout){{PIR_ROW(p->ring_start, v + 1), PIR_ROW(p->origin, h), PIR_ROW(p->target, h + PIR_LANES),
+                         PIR_ROW(p->twin, h), PIR_ROW(p->left, h), PIR_ROW(p->edge, h), PIR_ROW(p->edge_half, e),
+                         PIR_ROW(p->loop_start, f + 1), PIR_ROW(p->loop, h), PIR_ROW(p->across, h),
+                         PIR_ROW(p->arc_ends, e), PIR_ROW(p->visit, f), PIR_ROW(p->source, v), PIR_ROW(p->vertex, v),
+                         PIR_ROW(p->direction, h + 1), PIR_ROW(p->normal, f + 1), PIR_ROW(p->ring_block, v + 1),
+                         PIR_ROW(p->normal4, 4 * f)}};
 }
 
 static void destroy(pir_polytope *p) {
     const pir_allocator allocator = p->allocator, *a = &allocator;
     pir_polytope_free_attachments(p);
-    uint32_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
-    PIR_FREE(a, p->ring_start, (size_t)v + 1);
-    PIR_FREE(a, p->origin, h);
-    PIR_FREE(a, p->target, (size_t)h + PIR_LANES);
-    PIR_FREE(a, p->twin, h);
-    PIR_FREE(a, p->left, h);
-    PIR_FREE(a, p->edge, h);
-    PIR_FREE(a, p->edge_half, e);
-    PIR_FREE(a, p->loop_start, (size_t)f + 1);
-    PIR_FREE(a, p->loop, h);
-    PIR_FREE(a, p->across, h);
-    PIR_FREE(a, p->arc_ends, e);
-    PIR_FREE(a, p->visit, f);
-    PIR_FREE(a, p->source, v);
-    PIR_FREE(a, p->vertex, v);
-    PIR_FREE(a, p->direction, (size_t)h + 1);
-    PIR_FREE(a, p->normal, (size_t)f + 1);
-    if (p->ring_block)
-        PIR_FREE(a, p->ring, (size_t)p->ring_block[v] * 3 * PIR_LANES);
-    PIR_FREE(a, p->ring_block, (size_t)v + 1);
-    PIR_FREE(a, p->normal4, 4 * (size_t)f);
+    if (p->ring)
+        PIR_FREE(a, p->ring, p->ring_block[p->vertex_count]);
+    pir_layout layout = layout_of(p);
+    pir_layout_free(a, &layout);
     pir_vectors_finish(&p->exact_vertex, a);
     pir_vectors_finish(&p->exact_edge, a);
     pir_vectors_finish(&p->exact_normal, a);
@@ -322,10 +295,6 @@ static bool set_vectors(pir_polytope *p) {
 /* Lays the directions of each ring and the normals out for vector loops, as floats. */
 static bool set_rings(pir_polytope *p) {
     const pir_allocator *a = &p->allocator;
-    p->ring_block = PIR_ZEROED(a, uint32_t, (size_t)p->vertex_count + 1);
-    p->normal4 = PIR_NEW(a, float, 4 * (size_t)p->facet_count);
-    if (!p->ring_block || !p->normal4)
-        return false;
     for (uint32_t f = 0; f < p->facet_count; f++) {
         const pir_vec3 n = p->normal[f];
         const float lanes[4] = {(float)n.x, (float)n.y, (float)n.z, 0};
@@ -335,18 +304,18 @@ static bool set_rings(pir_polytope *p) {
         uint32_t degree = p->ring_start[v + 1] - p->ring_start[v];
         p->ring_block[v + 1] = p->ring_block[v] + (degree + PIR_LANES - 1) / PIR_LANES;
     }
-    p->ring = PIR_NEW(a, float, (size_t)p->ring_block[p->vertex_count] * 3 * PIR_LANES);
+    p->ring = PIR_ZEROED(a, pir_ring, p->ring_block[p->vertex_count]);
     if (!p->ring)
         return false;
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         uint32_t lanes = (p->ring_block[v + 1] - p->ring_block[v]) * PIR_LANES;
         for (uint32_t i = 0; i < lanes; i++) {
-            uint32_t h = p->ring_start[v] + i;
-            pir_vec3 d = p->direction[h < p->ring_start[v + 1] ? h : p->ring_start[v]];
-            float *lane = p->ring + ((size_t)p->ring_block[v] + i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-            lane[0] = (float)d.x;
-            lane[PIR_LANES] = (float)d.y;
-            lane[2 * PIR_LANES] = (float)d.z;
+            uint32_t h = p->ring_start[v] + i < p->ring_start[v + 1] ? p->ring_start[v] + i : p->ring_start[v];
+            pir_ring *block = &p->ring[p->ring_block[v] + i / PIR_LANES];
+            block->x[i % PIR_LANES] = (float)p->direction[h].x;
+            block->y[i % PIR_LANES] = (float)p->direction[h].y;
+            block->z[i % PIR_LANES] = (float)p->direction[h].z;
+            block->target[i % PIR_LANES] = p->target[h];
         }
     }
     return true;
@@ -367,7 +336,8 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
     p->half_count = segment ? 4 : point ? 0 : pir_loops_corners(parts->facets);
     p->edge_count = p->half_count / 2;
     p->facet_count = segment ? 2 : point ? 0 : parts->facets->count;
-    bool done = allocate(p);
+    pir_layout layout = layout_of(p);
+    bool done = pir_layout_new(allocator, &layout);
     if (done && segment)
         connect_segment(p);
     else if (done && !point)

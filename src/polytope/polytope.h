@@ -45,6 +45,15 @@ typedef struct pir_arc_ends {
     uint32_t from, to;
 } pir_arc_ends;
 
+/*
+ * Directions of a vertex's ring, for vector loops, as floats, and where they lead: two lines of a cache, all that is
+ * read of a cell to go on to the next.
+ */
+typedef struct pir_ring {
+    float x[PIR_LANES], y[PIR_LANES], z[PIR_LANES];
+    uint32_t target[PIR_LANES];
+} pir_ring;
+
 /* A facet, and one beside it that is visited before it: itself for the first. */
 typedef struct pir_visit {
     uint32_t facet, beside;
@@ -73,12 +82,11 @@ struct pir_polytope {
     pir_vec3 *normal;    /* per facet: outward unit normal */
 
     /*
-     * The directions of each vertex's ring again, for vector loops, as floats: from block ring_block[v] up to
-     * ring_block[v + 1], each block PIR_LANES x, as many y, as many z. The last block is filled up with the ring's
-     * first direction, which changes no minimum or maximum.
+     * Each vertex's ring again: from block ring_block[v] up to ring_block[v + 1]. The last block is filled up with the
+     * ring's first direction, which changes no minimum or maximum.
      */
     uint32_t *ring_block;
-    float *ring;
+    pir_ring *ring;
     float *normal4; /* the normals too, each with a fourth float of 0 */
 
     pir_vectors exact_vertex; /* times scale */

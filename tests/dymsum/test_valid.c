@@ -71,12 +71,12 @@ static void damage_inactive_edges(pir_sum *sum, uint32_t told[2]) {
 static void damage_crossings(test_random *random, pir_sum *sum, uint32_t told[2]) {
     pir_crossings *c = &sum->tracked.pairing.crossings;
     for (uint32_t slot = 0; slot < c->used; slot++) {
-        uint32_t before = c->half[slot], other = test_random_below(random, sum->tracked.pairing.q->half_count);
-        if (c->edge[slot] == PIR_NO_CROSSING || other == before)
+        uint32_t before = c->at[slot].half, other = test_random_below(random, sum->tracked.pairing.q->half_count);
+        if (c->at[slot].edge == PIR_NO_CROSSING || other == before)
             continue;
-        c->half[slot] = other;
+        c->at[slot].half = other;
         expect(!pir_sum_is_valid(sum), "crossing %u", slot);
-        c->half[slot] = before;
+        c->at[slot].half = before;
         told[SEEN]++;
     }
 }
@@ -86,7 +86,7 @@ static void damage_free_slots(pir_sum *sum, uint32_t *told) {
     pir_crossings *c = &sum->tracked.pairing.crossings;
     uint32_t before = c->free;
     for (uint32_t slot = 0; slot <= c->used; slot++) {
-        if (slot < c->used && c->edge[slot] == PIR_NO_CROSSING)
+        if (slot < c->used && c->at[slot].edge == PIR_NO_CROSSING)
             continue;
         c->free = slot;
         expect(!pir_sum_is_valid(sum), "slot %u of %u is free and in use", slot, c->used);

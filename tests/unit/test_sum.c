@@ -274,14 +274,14 @@ static void check_of_a_sum_sees_every_kind_of_damage(void **state) {
     }
     // a crossing turned round, one left out, one lost
     uint32_t slot = 0;
-    while (sum->tracked.pairing.crossings.edge[slot] == PIR_NO_CROSSING)
+    while (sum->tracked.pairing.crossings.at[slot].edge == PIR_NO_CROSSING)
         slot++;
-    uint32_t half = sum->tracked.pairing.crossings.half[slot], edge = sum->tracked.pairing.crossings.edge[slot],
+    uint32_t half = sum->tracked.pairing.crossings.at[slot].half, edge = sum->tracked.pairing.crossings.at[slot].edge,
              first = sum->tracked.pairing.crossings.first[edge];
-    sum->tracked.pairing.crossings.half[slot] = sum->tracked.pairing.q->twin[half];
+    sum->tracked.pairing.crossings.at[slot].half = sum->tracked.pairing.q->twin[half];
     assert_false(pir_sum_is_valid(sum));
-    sum->tracked.pairing.crossings.half[slot] = half;
-    sum->tracked.pairing.crossings.first[edge] = sum->tracked.pairing.crossings.next[first];
+    sum->tracked.pairing.crossings.at[slot].half = half;
+    sum->tracked.pairing.crossings.first[edge] = sum->tracked.pairing.crossings.at[first].next;
     assert_false(pir_sum_is_valid(sum));
     sum->tracked.pairing.crossings.first[edge] = first;
     sum->tracked.pairing.crossings.used++;
@@ -311,9 +311,9 @@ static void comparison_of_pairings_sees_each_part(void **state) {
     assert_false(pir_sum_same_pairing(a, b));
     b->tracked.pairing.vf[3]--;
     uint32_t last = b->tracked.pairing.crossings.used - 1;
-    b->tracked.pairing.crossings.half[last] = q->twin[b->tracked.pairing.crossings.half[last]];
+    b->tracked.pairing.crossings.at[last].half = q->twin[b->tracked.pairing.crossings.at[last].half];
     assert_false(pir_sum_same_pairing(a, b));
-    b->tracked.pairing.crossings.half[last] = q->twin[b->tracked.pairing.crossings.half[last]];
+    b->tracked.pairing.crossings.at[last].half = q->twin[b->tracked.pairing.crossings.at[last].half];
     assert_true(pir_sum_same_pairing(a, b));
     assert_false(pir_sum_same_pairing(a, c));
     assert_int_equal(pir_sum_rotate(b, (pir_quat){1, -1, 0.5, 0}, PIR_METHOD_WALK), PIR_OK);

@@ -17,7 +17,7 @@ static pir_layout layout_of(pir_held_crossings *held) {
 }
 
 static pir_layout layout_of_slots(pir_held_crossings *held) {
-    return (pir_layout){{PIR_ROW(held->half, held->slot_room), PIR_ROW(held->next, held->slot_room)}};
+    return (pir_layout){{PIR_ROW(held->slot, held->slot_room)}};
 }
 
 bool pir_held_crossings_init(pir_held_crossings *held, const pir_pairing *pairing, const pir_allocator *allocator) {
@@ -40,18 +40,16 @@ void pir_held_crossings_finish(pir_held_crossings *held) {
 
 bool pir_held_crossings_reserve(pir_held_crossings *held) {
     const uint32_t room = held->pairing->crossings.capacity;
-    if (held->half && room <= held->slot_room)
+    if (held->slot && room <= held->slot_room)
         return true;
     pir_held_crossings grown = *held;
-    grown.half = grown.next = NULL;
+    grown.slot = NULL;
     grown.slot_room = room;
     pir_layout fresh = layout_of_slots(&grown), old = layout_of_slots(held);
     if (!pir_layout_new(&held->allocator, &fresh))
         return false;
-    if (held->slot_room > 0) {
-        memcpy(grown.half, held->half, held->slot_room * sizeof *held->half);
-        memcpy(grown.next, held->next, held->slot_room * sizeof *held->next);
-    }
+    if (held->slot_room > 0)
+        memcpy(grown.slot, held->slot, held->slot_room * sizeof *held->slot);
     pir_layout_free(&held->allocator, &old);
     *held = grown;
     return true;
@@ -64,8 +62,7 @@ void pir_held_crossings_take(pir_held_crossings *held) {
     if (edges == 0)
         return;
     memcpy(held->first, c->first, edges * sizeof *c->first);
-    memcpy(held->half, c->half, c->used * sizeof *c->half);
-    memcpy(held->next, c->next, c->used * sizeof *c->next);
+    memcpy(held->slot, c->at, c->used * sizeof *c->at);
 }
 
 /* Counts an edge of Q once more: how many edges have been found an odd number of times changes by what it returns. */
@@ -79,10 +76,10 @@ static uint32_t count_edges(pir_held_crossings *held, uint32_t e) {
     const pir_crossings *c = &held->pairing->crossings;
     const uint32_t *edge = held->pairing->q->edge;
     uint32_t odd = 0;
-    for (uint32_t at = held->first[e]; at != PIR_NO_CROSSING; at = held->next[at])
-        odd += count_edge(held, edge[held->half[at]]);
-    for (uint32_t at = c->first[e]; at != PIR_NO_CROSSING; at = c->next[at])
-        odd += count_edge(held, edge[c->half[at]]);
+    for (uint32_t at = held->first[e]; at != PIR_NO_CROSSING; at = held->slot[at].next)
+        odd += count_edge(held, edge[held->slot[at].half]);
+    for (uint32_t at = c->first[e]; at != PIR_NO_CROSSING; at = c->at[at].next)
+        odd += count_edge(held, edge[c->at[at].half]);
     for (uint32_t at = held->first_passed[e]; at != PIR_NO_CROSSING; at = held->passed[at].next)
         odd += count_edge(held, held->passed[at].other);
     return odd;

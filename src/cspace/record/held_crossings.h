@@ -20,7 +20,7 @@ typedef struct pir_held_crossings {
     pir_allocator allocator;
     const pir_pairing *pairing; /* borrowed; its crossings are those of now */
     uint32_t *first;            /* per edge of −P: a slot, or PIR_NO_CROSSING */
-    uint32_t *half, *next;      /* per slot, as pir_crossings has it */
+    pir_crossing *slot;         /* as pir_crossings has them */
     uint32_t slot_room;
     uint32_t *first_passed; /* per edge of −P: an entry of `passed`, or PIR_NO_CROSSING */
     pir_passed_edge *passed;

@@ -13,19 +13,19 @@
 /* With so many facets, what is compared is not in a cache near the processor. */
 #define DESCENT_FETCHES 4096
 
-/* Fetches the rings of some cells, and where their directions lead. */
+/* Fetches the rings of some cells. */
 DESCEND_TARGET PIR_FETCHING void fetch_cells(const pir_facets *facets, const uint32_t *at, uint32_t which) {
     for (; which; which &= which - 1) {
         uint32_t v = at[__builtin_ctz(which)];
-        const float *ring = facets->ring + (size_t)facets->ring_block[v] * 3 * PIR_LANES;
-        __builtin_prefetch(ring);
-        __builtin_prefetch(ring + 2 * PIR_LANES);
-        __builtin_prefetch(facets->target + facets->ring_start[v]);
+        const pir_ring *ring = facets->ring + facets->ring_block[v];
+        __builtin_prefetch(ring->x);
+        __builtin_prefetch(ring->z);
     }
 }
 
-DESCEND_TARGET static uint32_t descend(const pir_facets *facets, const uint32_t *facet, const uint32_t *from,
-                                       uint32_t count, uint32_t *ret_open, uint64_t *sides) {
+DESCEND_TARGET static inline __attribute__((always_inline)) uint32_t
+descend_all(const pir_facets *facets, const uint32_t *facet, const uint32_t *from, uint32_t count, bool fetches,
+            uint32_t *ret_open, uint64_t *sides) {
     float turned[PIR_DESCENT_MOST][8];
     uint32_t at[PIR_DESCENT_MOST], unsure = 0, open = 0;
     uint64_t compared = 0;
@@ -33,7 +33,6 @@ DESCEND_TARGET static uint32_t descend(const pir_facets *facets, const uint32_t 
         turn_facet(facets, facet[k], turned[k]);
         at[k] = from[k];
     }
-    const bool fetches = facets->count >= DESCENT_FETCHES;
     // each step rises for certain, so the descent ends
     for (uint32_t moving = UINT32_MAX >> (PIR_DESCENT_MOST - count), rising; moving; moving = rising) {
         rising = 0;
@@ -42,9 +41,10 @@ DESCEND_TARGET static uint32_t descend(const pir_facets *facets, const uint32_t 
         for (; moving; moving &= moving - 1) {
             uint32_t k = (uint32_t)__builtin_ctz(moving), v = at[k], which = 0;
             uint32_t block = facets->ring_block[v], start = facets->ring_start[v];
-            float highest = steepest(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[v + 1] - block,
-                                     turned[k], &which);
-            uint32_t rises = highest > PIR_FLOAT_BOUND, next = facets->target[start + which];
+            float highest = steepest(facets->ring + block, facets->ring_block[v + 1] - block, turned[k], &which);
+            uint32_t rises = highest > PIR_FLOAT_BOUND,
+                     next = fetches ? facets->ring[block + which / PIR_LANES].target[which % PIR_LANES]
+                                    : facets->target[start + which];
             compared += facets->ring_start[v + 1] - start;
             // by masks: neither is foreseen
             at[k] = v ^ ((v ^ next) & -rises);
@@ -58,6 +58,12 @@ DESCEND_TARGET static uint32_t descend(const pir_facets *facets, const uint32_t 
         ret_open[open++] = facet[(uint32_t)__builtin_ctz(unsure)];
     *sides += compared;
     return open;
+}
+
+DESCEND_TARGET static uint32_t descend(const pir_facets *facets, const uint32_t *facet, const uint32_t *from,
+                                       uint32_t count, uint32_t *ret_open, uint64_t *sides) {
+    return facets->count >= DESCENT_FETCHES ? descend_all(facets, facet, from, count, true, ret_open, sides)
+                                            : descend_all(facets, facet, from, count, false, ret_open, sides);
 }
 
 #undef DESCENT_FETCHES

@@ -6,13 +6,13 @@
 #include "polytope/polytope.h"
 
 /* Checks a facet in the cell whose ring fills `blocks` blocks. */
-static pir_probe see(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8]) {
+static pir_probe see(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8]) {
     float highest = -HUGE_VALF, least = 4, ahead = PIR_FARTHEST_PREDICTION, behind = PIR_FARTHEST_PREDICTION;
     uint64_t touched = 0, above = 0;
     uint32_t which = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
-        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-        float x = at[0], y = at[PIR_LANES], z = at[2 * PIR_LANES];
+        const pir_ring *at = ring + i / PIR_LANES;
+        float x = at->x[i % PIR_LANES], y = at->y[i % PIR_LANES], z = at->z[i % PIR_LANES];
         float s = turned[0] * x + turned[1] * y + turned[2] * z;
         float rate = turned[4] * x + turned[5] * y + turned[6] * z;
         if (s > highest) {
@@ -36,7 +36,7 @@ static pir_probe see(const float *ring, uint32_t blocks, const pir_step *step, c
 static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                   pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell];
-    *ret_probe = see(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned);
+    *ret_probe = see(facets->ring + block, facets->ring_block[cell + 1] - block, step, turned);
 }
 
 static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_turned[8]) {
@@ -52,12 +52,13 @@ static inline void check_in(const pir_facets *facets, const pir_step *step, uint
     *ret_check = seen.check;
 }
 
-static inline float value(const float *ring, uint32_t i, const float turned[8]) {
-    const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-    return turned[0] * at[0] + turned[1] * at[PIR_LANES] + turned[2] * at[2 * PIR_LANES];
+static inline float value(const pir_ring *ring, uint32_t i, const float turned[8]) {
+    const pir_ring *at = ring + i / PIR_LANES;
+    uint32_t lane = i % PIR_LANES;
+    return turned[0] * at->x[lane] + turned[1] * at->y[lane] + turned[2] * at->z[lane];
 }
 
-static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
+static inline float steepest(const pir_ring *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
     float highest = -HUGE_VALF;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i++) {
         float here = value(ring, i, turned);

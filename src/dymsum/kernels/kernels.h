@@ -86,7 +86,7 @@ typedef struct pir_facets {
     const float *normal;                     /* four floats a facet, the last 0 */
     const uint32_t *ring_start, *ring_block; /* of the other operand, as are the four that follow */
     const uint32_t *target, *twin;
-    const float *ring;
+    const pir_ring *ring;
     uint32_t *cell; /* per facet */
     /* column k of the matrix that rotates normals to the other operand, 0, column k of that of their motion, 0 */
     float turn[3][8];

@@ -29,10 +29,10 @@ TARGET static inline uint32_t list_lanes(uint32_t lanes, __m256i number, uint32_
 
 #include "dymsum/kernels/kernels_eight_body.h"
 
-TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
-                                    uint32_t *ret_touched, uint32_t *ret_above) {
+TARGET static inline void see_block(const pir_ring *ring, const struct turned *t, const pir_step *step,
+                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above) {
     const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
-    __m256 x = _mm256_loadu_ps(ring), y = _mm256_loadu_ps(ring + PIR_LANES), z = _mm256_loadu_ps(ring + 2 * PIR_LANES);
+    __m256 x = _mm256_loadu_ps(ring->x), y = _mm256_loadu_ps(ring->y), z = _mm256_loadu_ps(ring->z);
     __m256 s = dot(t->x, t->y, t->z, x, y, z), rate = dot(t->dx, t->dy, t->dz, x, y, z);
     __m256 size = _mm256_andnot_ps(sign, s), rising = _mm256_xor_ps(rate, _mm256_andnot_ps(s, sign));
     __m256 sure = _mm256_sub_ps(size, _mm256_set1_ps(PIR_FLOAT_SLACK)), is_sure = _mm256_cmp_ps(sure, zero, _CMP_GT_OQ);

@@ -46,14 +46,14 @@ struct seen {
 };
 
 /* Checks one block; gives the masks of its sides that were touched, and that the facet is past. */
-TARGET static inline void see_block(const float *ring, const struct turned *t, const pir_step *step, struct seen *seen,
-                                    uint32_t *ret_touched, uint32_t *ret_above);
+TARGET static inline void see_block(const pir_ring *ring, const struct turned *t, const pir_step *step,
+                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above);
 
 /*
  * Checks a facet in the cell whose ring fills `blocks` blocks, most often one. Returns the greatest values of s, lane
  * by lane.
  */
-TARGET static inline __m256 check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
+TARGET static inline __m256 check(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                                   pir_check *ret_check) {
     const struct turned t = spread(turned);
     struct seen seen = {_mm256_set1_ps(-HUGE_VALF), _mm256_set1_ps(4), _mm256_set1_ps(PIR_FARTHEST_PREDICTION),
@@ -61,7 +61,7 @@ TARGET static inline __m256 check(const float *ring, uint32_t blocks, const pir_
     uint64_t touched = 0, above = 0;
     for (uint32_t b = 0; b < blocks; b++) {
         uint32_t touched_here, above_here;
-        see_block(ring + (size_t)b * 3 * PIR_LANES, &t, step, &seen, &touched_here, &above_here);
+        see_block(ring + b, &t, step, &seen, &touched_here, &above_here);
         touched = b == 0 ? touched_here : pir_side_mask_add(touched, b, touched_here);
         above = b == 0 ? above_here : pir_side_mask_add(above, b, above_here);
     }
@@ -75,14 +75,13 @@ TARGET static inline __m256 check(const float *ring, uint32_t blocks, const pir_
 TARGET static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                          pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
-    const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
+    const pir_ring *ring = facets->ring + block;
     const struct turned t = spread(turned);
     float highest = greatest_of(check(ring, blocks, step, turned, &ret_probe->check));
     ret_probe->highest = highest + 0.0f;
     ret_probe->which = 0;
-    for (uint32_t b = 0; b < blocks; b++, ring += 3 * PIR_LANES) {
-        __m256 s = dot(t.x, t.y, t.z, _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES),
-                       _mm256_loadu_ps(ring + 2 * PIR_LANES));
+    for (uint32_t b = 0; b < blocks; b++, ring++) {
+        __m256 s = dot(t.x, t.y, t.z, _mm256_loadu_ps(ring->x), _mm256_loadu_ps(ring->y), _mm256_loadu_ps(ring->z));
         uint32_t is = EQUAL(s, _mm256_set1_ps(highest));
         if (is) {
             ret_probe->which = b * PIR_LANES + (uint32_t)__builtin_ctz(is);
@@ -101,15 +100,15 @@ TARGET static inline void turn_facet(const pir_facets *facets, uint32_t f, float
 TARGET static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                                    pir_check *ret_check) {
     uint32_t block = facets->ring_block[cell];
-    check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
+    check(facets->ring + block, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
 
-TARGET static inline __m256 values(const float *ring, const float turned[8]) {
+TARGET static inline __m256 values(const pir_ring *ring, const float turned[8]) {
     return dot(_mm256_broadcast_ss(turned), _mm256_broadcast_ss(turned + 1), _mm256_broadcast_ss(turned + 2),
-               _mm256_loadu_ps(ring), _mm256_loadu_ps(ring + PIR_LANES), _mm256_loadu_ps(ring + 2 * PIR_LANES));
+               _mm256_loadu_ps(ring->x), _mm256_loadu_ps(ring->y), _mm256_loadu_ps(ring->z));
 }
 
-TARGET static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
+TARGET static inline float steepest(const pir_ring *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
     // a point has no directions
     if (blocks == 0)
         return -HUGE_VALF;
@@ -117,7 +116,7 @@ TARGET static inline float steepest(const float *ring, uint32_t blocks, const fl
     float highest = greatest_of(here);
     uint32_t which = (uint32_t)__builtin_ctz(EQUAL(here, _mm256_set1_ps(highest)));
     for (uint32_t b = 1; b < blocks; b++) {
-        here = values(ring + (size_t)b * 3 * PIR_LANES, turned);
+        here = values(ring + b, turned);
         float most = greatest_of(here);
         if (most > highest) {
             highest = most;

@@ -19,7 +19,7 @@ static inline float32x4_t masked(uint32x4_t mask, float32x4_t v) {
 }
 
 /* Checks a facet in a cell; returns the greatest value of s. */
-static inline float check(const float *ring, uint32_t blocks, const pir_step *step, const float turned[8],
+static inline float check(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                           pir_check *ret_check) {
     const uint32_t bits[4] = {1, 2, 4, 8};
     const uint32x4_t bit = vld1q_u32(bits), sign = vdupq_n_u32(0x80000000);
@@ -29,8 +29,9 @@ static inline float check(const float *ring, uint32_t blocks, const pir_step *st
                 behind = ahead;
     uint64_t touched = 0, above = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
-        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-        float32x4_t x = vld1q_f32(at), y = vld1q_f32(at + PIR_LANES), z = vld1q_f32(at + 2 * PIR_LANES);
+        const pir_ring *at = ring + i / PIR_LANES;
+        float32x4_t x = vld1q_f32(at->x + i % PIR_LANES), y = vld1q_f32(at->y + i % PIR_LANES),
+                    z = vld1q_f32(at->z + i % PIR_LANES);
         float32x4_t s = dot(u, x, y, z), rate = dot(w, x, y, z);
         high = vmaxq_f32(high, s);
         // taken as a negative value that rises at `rising`
@@ -58,14 +59,15 @@ static inline float check(const float *ring, uint32_t blocks, const pir_step *st
 static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                   pir_probe *ret_probe) {
     uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
-    const float *ring = facets->ring + (size_t)block * 3 * PIR_LANES;
+    const pir_ring *ring = facets->ring + block;
     const float highest = check(ring, blocks, step, turned, &ret_probe->check);
     ret_probe->highest = highest + 0.0f;
     ret_probe->which = 0;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
-        const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
+        const pir_ring *at = ring + i / PIR_LANES;
         float s[4];
-        vst1q_f32(s, dot(vld1q_f32(turned), vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES)));
+        vst1q_f32(s, dot(vld1q_f32(turned), vld1q_f32(at->x + i % PIR_LANES), vld1q_f32(at->y + i % PIR_LANES),
+                         vld1q_f32(at->z + i % PIR_LANES)));
         for (uint32_t k = 0; k < 4; k++)
             if (s[k] == highest) {
                 ret_probe->which = i + k;
@@ -84,15 +86,16 @@ static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_tu
 static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                             pir_check *ret_check) {
     uint32_t block = facets->ring_block[cell];
-    check(facets->ring + (size_t)block * 3 * PIR_LANES, facets->ring_block[cell + 1] - block, step, turned, ret_check);
+    check(facets->ring + block, facets->ring_block[cell + 1] - block, step, turned, ret_check);
 }
 
-static inline float32x4_t values(const float *ring, uint32_t i, const float turned[8]) {
-    const float *at = ring + (size_t)(i / PIR_LANES) * 3 * PIR_LANES + i % PIR_LANES;
-    return dot(vld1q_f32(turned), vld1q_f32(at), vld1q_f32(at + PIR_LANES), vld1q_f32(at + 2 * PIR_LANES));
+static inline float32x4_t values(const pir_ring *ring, uint32_t i, const float turned[8]) {
+    const pir_ring *at = ring + i / PIR_LANES;
+    return dot(vld1q_f32(turned), vld1q_f32(at->x + i % PIR_LANES), vld1q_f32(at->y + i % PIR_LANES),
+               vld1q_f32(at->z + i % PIR_LANES));
 }
 
-static inline float steepest(const float *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
+static inline float steepest(const pir_ring *ring, uint32_t blocks, const float turned[8], uint32_t *ret_which) {
     float highest = -HUGE_VALF;
     for (uint32_t i = 0; i < blocks * PIR_LANES; i += 4) {
         float32x4_t here = values(ring, i, turned);

@@ -13,27 +13,36 @@
 
 #define REVIEW_CHUNK 64
 
-/* With so many facets, what is checked is not in a cache near the processor: it is fetched for a chunk at a time. */
+/*
+ * With so many facets, what is checked is not in a cache near the processor. It is fetched ahead: facets by two chunks,
+ * their cells by one, each between two checks. A processor that is to fetch many lines at once does nothing else
+ * meanwhile.
+ */
 #define REVIEW_FETCHES 16384
 
 /* Fetches the ring of a cell. */
 REVIEW_TARGET PIR_FETCHING void fetch_ring(const pir_facets *facets, uint32_t cell) {
-    const float *ring = facets->ring + (size_t)facets->ring_block[cell] * 3 * PIR_LANES;
-    __builtin_prefetch(ring);
-    __builtin_prefetch(ring + 2 * PIR_LANES);
+    const pir_ring *ring = facets->ring + facets->ring_block[cell];
+    __builtin_prefetch(ring->x);
+    __builtin_prefetch(ring->z);
+    __builtin_prefetch(facets->ring_start + cell);
 }
 
-/* Fetches what facets are turned by, and what their certificates are filed in. */
-REVIEW_TARGET PIR_FETCHING void fetch_facets(const pir_facets *facets, const pir_certificates *certificates,
-                                             const uint32_t *expired, uint32_t count) {
-    for (uint32_t k = 0; k < count; k++) {
-        uint32_t i = expired[k], f = i - facets->first_certificate;
-        __builtin_prefetch(facets->cell + f);
-        __builtin_prefetch(facets->normal + (size_t)4 * f);
-        __builtin_prefetch(certificates->at + i, 1);
-        __builtin_prefetch(certificates->margin + i, 1);
-        __builtin_prefetch(certificates->previous + i, 1);
-    }
+/* Fetches what a facet is turned by, where it is, and what its certificate is filed in. */
+REVIEW_TARGET PIR_FETCHING void fetch_facet(const pir_facets *facets, const pir_certificates *certificates,
+                                            uint32_t i) {
+    uint32_t f = i - facets->first_certificate;
+    __builtin_prefetch(facets->cell + f);
+    __builtin_prefetch(facets->normal + (size_t)4 * f);
+    __builtin_prefetch(certificates->at + i, 1);
+    __builtin_prefetch(certificates->margin + i, 1);
+    __builtin_prefetch(certificates->previous + i, 1);
+}
+
+/* Fetches what it is compared with. */
+REVIEW_TARGET PIR_FETCHING void fetch_cell(const pir_facets *facets, uint32_t i) {
+    uint32_t cell = facets->cell[i - facets->first_certificate];
+    fetch_ring(facets, cell);
 }
 
 /* The one side of its cell that facet f has touched and is past, as a halfedge; or PIR_NO_SIDE. */
@@ -44,65 +53,97 @@ REVIEW_TARGET static inline uint32_t side_crossed(const pir_facets *facets, uint
     return one ? start + (uint32_t)__builtin_ctzll(touched | (uint64_t)1 << 63) : PIR_NO_SIDE;
 }
 
+/* The cell beyond side `half` of one. Where there is fetching, the ring is what has been fetched. */
+REVIEW_TARGET static inline uint32_t cell_beyond(const pir_facets *facets, uint32_t cell, uint32_t half, bool fetches) {
+    uint32_t side = half - facets->ring_start[cell];
+    return fetches ? facets->ring[facets->ring_block[cell] + side / PIR_LANES].target[side % PIR_LANES]
+                   : facets->target[half];
+}
+
+/* The side of the cell beyond, of so many sides, that leads back. */
+REVIEW_TARGET static inline uint32_t side_back(const pir_facets *facets, uint32_t cell, uint32_t half, uint32_t next,
+                                               uint32_t sides, bool fetches) {
+    uint32_t start = facets->ring_start[next], i = 0;
+    // a segment has two edges between its corners
+    if (!fetches || sides <= 2 || sides > PIR_LANES)
+        return facets->twin[half] - start;
+    while (facets->ring[facets->ring_block[next]].target[i] != cell)
+        i++;
+    return i;
+}
+
 /*
  * Whether a facet that is past side `half` is in the next cell, having touched no side of it but the same one. Then it
  * is certified there.
  */
 REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const pir_step *step,
                                                pir_certificates *certificates, uint32_t f, uint32_t half,
-                                               const float turned[8]) {
-    uint32_t next = facets->target[half], start = facets->ring_start[next],
-             sides = facets->ring_start[next + 1] - start;
+                                               const float turned[8], bool fetches) {
+    uint32_t cell = facets->cell[f], next = cell_beyond(facets, cell, half, fetches);
+    uint32_t start = facets->ring_start[next], sides = facets->ring_start[next + 1] - start;
     pir_check there;
     check_in(facets, step, next, turned, &there);
-    uint64_t mask = pir_side_mask(sides), back = (uint64_t)1 << (facets->twin[half] - start) % PIR_SIDE_BITS;
-    if (sides > PIR_SIDE_BITS || (there.touched & mask) != back || (there.above & mask) != 0)
+    uint32_t by = side_back(facets, cell, half, next, sides, fetches);
+    uint64_t mask = pir_side_mask(sides);
+    if (sides > PIR_SIDE_BITS || (there.touched & mask) != (uint64_t)1 << by % PIR_SIDE_BITS ||
+        (there.above & mask) != 0)
         return false;
     facets->cell[f] = next;
-    pir_certificate_keep_previous(certificates, facets->first_certificate + f, facets->twin[half]);
+    pir_certificate_keep_previous(certificates, facets->first_certificate + f, start + by);
     pir_certificate_file_check(facets, step, certificates, f, &there);
     return true;
 }
 
-REVIEW_TARGET static uint32_t review_chunk(const pir_facets *facets, const pir_step *step,
-                                           pir_certificates *certificates, const uint32_t *expired, uint32_t count,
-                                           pir_suspect *ret_suspects, uint64_t *sides) {
+/* The facets that are listed from a chunk on. */
+struct listed {
+    const uint32_t *expired;
+    uint32_t left;
+};
+
+/* Reviews a chunk, the first of those listed. */
+REVIEW_TARGET static inline __attribute__((always_inline)) uint32_t
+review_chunk(const pir_facets *facets, const pir_step *step, pir_certificates *certificates, struct listed listed,
+             pir_suspect *ret_suspects, uint64_t *sides, const bool fetches) {
+    const uint32_t *expired = listed.expired;
+    const uint32_t left = listed.left, count = left < REVIEW_CHUNK ? left : REVIEW_CHUNK;
     pir_check check[REVIEW_CHUNK];
     float turned[REVIEW_CHUNK][8];
     uint8_t moved[REVIEW_CHUNK], crossing[REVIEW_CHUNK];
     uint32_t moved_count = 0, crossing_count = 0;
     uint64_t checked_sides = 0, not_calm = 0;
-    const bool fetches = facets->count >= REVIEW_FETCHES;
-    for (uint32_t k = 0; k < count && fetches; k++) {
-        uint32_t cell = facets->cell[expired[k] - facets->first_certificate];
-        fetch_ring(facets, cell);
-        __builtin_prefetch(facets->target + facets->ring_start[cell]);
-        __builtin_prefetch(facets->twin + facets->ring_start[cell]);
-    }
     for (uint32_t k = 0; k < count; k++) {
         uint32_t f = expired[k] - facets->first_certificate, cell = facets->cell[f];
         checked_sides += facets->ring_start[cell + 1] - facets->ring_start[cell];
+        if (fetches) {
+            if (k + 2 * REVIEW_CHUNK < left)
+                fetch_facet(facets, certificates, expired[k + 2 * REVIEW_CHUNK]);
+            if (k + REVIEW_CHUNK < left)
+                fetch_cell(facets, expired[k + REVIEW_CHUNK]);
+        }
         turn_facet(facets, f, turned[k]);
         check_in(facets, step, cell, turned[k], &check[k]);
         not_calm |= (uint64_t)((check[k].touched | check[k].above) != 0) << k;
     }
-    for (uint64_t left = ~not_calm & pir_side_mask(count); left; left &= left - 1) {
-        uint32_t k = (uint32_t)__builtin_ctzll(left);
+    for (uint64_t calm = ~not_calm & pir_side_mask(count); calm; calm &= calm - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(calm);
         pir_certificate_file_check(facets, step, certificates, expired[k] - facets->first_certificate, &check[k]);
     }
-    for (uint64_t left = not_calm; left; left &= left - 1) {
-        uint32_t k = (uint32_t)__builtin_ctzll(left), f = expired[k] - facets->first_certificate;
+    for (; not_calm; not_calm &= not_calm - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(not_calm), f = expired[k] - facets->first_certificate;
         uint32_t half = side_crossed(facets, f, &check[k]);
         ret_suspects[moved_count] = (pir_suspect){f, half};
         crossing[crossing_count] = (uint8_t)moved_count;
         crossing_count += half != PIR_NO_SIDE;
         moved[moved_count++] = (uint8_t)k;
     }
-    for (uint32_t i = 0; i < crossing_count && fetches; i++)
-        fetch_ring(facets, facets->target[ret_suspects[crossing[i]].crossed]);
+    for (uint32_t i = 0; i < crossing_count && fetches; i++) {
+        const pir_suspect *suspect = &ret_suspects[crossing[i]];
+        fetch_ring(facets, cell_beyond(facets, facets->cell[suspect->facet], suspect->crossed, true));
+    }
     for (uint32_t i = 0; i < crossing_count; i++) {
         pir_suspect *suspect = &ret_suspects[crossing[i]];
-        if (!settle_across(facets, step, certificates, suspect->facet, suspect->crossed, turned[moved[crossing[i]]]))
+        if (!settle_across(facets, step, certificates, suspect->facet, suspect->crossed, turned[moved[crossing[i]]],
+                           fetches))
             suspect->crossed = PIR_NO_SIDE;
     }
     *sides += checked_sides;
@@ -113,11 +154,16 @@ REVIEW_TARGET static uint32_t review(const pir_facets *facets, const pir_step *s
                                      const uint32_t *expired, uint32_t count, pir_suspect *ret_suspects,
                                      uint64_t *sides) {
     uint32_t suspects = 0;
+    const bool fetches = facets->count >= REVIEW_FETCHES;
+    for (uint32_t k = 0; fetches && k < count && k < 2 * REVIEW_CHUNK; k++)
+        fetch_facet(facets, certificates, expired[k]);
+    for (uint32_t k = 0; fetches && k < count && k < REVIEW_CHUNK; k++)
+        fetch_cell(facets, expired[k]);
     for (uint32_t k = 0; k < count; k += REVIEW_CHUNK) {
-        uint32_t n = count - k < REVIEW_CHUNK ? count - k : REVIEW_CHUNK, behind = count - k - n;
-        if (facets->count >= REVIEW_FETCHES)
-            fetch_facets(facets, certificates, expired + k + n, behind < REVIEW_CHUNK ? behind : REVIEW_CHUNK);
-        suspects += review_chunk(facets, step, certificates, expired + k, n, ret_suspects + suspects, sides);
+        const struct listed listed = {expired + k, count - k};
+        pir_suspect *to = ret_suspects + suspects;
+        suspects += fetches ? review_chunk(facets, step, certificates, listed, to, sides, true)
+                            : review_chunk(facets, step, certificates, listed, to, sides, false);
     }
     return suspects;
 }

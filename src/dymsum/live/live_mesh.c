@@ -188,20 +188,21 @@ static void write_crossing(pir_live_mesh *live, uint32_t slot) {
 static uint32_t edge_now(const pir_live_mesh *live, uint32_t slot) {
     const pir_pairing *pairing = live->pairing;
     const pir_crossings *c = &pairing->crossings;
-    if (slot >= c->used || c->edge[slot] == PIR_NO_CROSSING)
+    if (slot >= c->used || c->at[slot].edge == PIR_NO_CROSSING)
         return PIR_NO_CROSSING;
     if (live->cone.set) {
-        pir_vec3 e = pir_mat_apply(pir_live_matrix(live), pairing->p->direction[pairing->p->edge_half[c->edge[slot]]]);
-        if (!pir_cone_has(&live->cone, pir_vec_cross(pairing->q->direction[c->half[slot]], e)))
+        pir_vec3 e =
+            pir_mat_apply(pir_live_matrix(live), pairing->p->direction[pairing->p->edge_half[c->at[slot].edge]]);
+        if (!pir_cone_has(&live->cone, pir_vec_cross(pairing->q->direction[c->at[slot].half], e)))
             return PIR_NO_CROSSING;
     }
-    return c->edge[slot];
+    return c->at[slot].edge;
 }
 
 static void refresh_crossing(pir_live_mesh *live, uint32_t slot) {
     const pir_crossings *c = &live->pairing->crossings;
     uint32_t edge = edge_now(live, slot), held = live->slots.edge[slot];
-    if (edge == held && (edge == PIR_NO_CROSSING || c->half[slot] == live->slots.half[slot]))
+    if (edge == held && (edge == PIR_NO_CROSSING || c->at[slot].half == live->slots.half[slot]))
         return;
     if (held != PIR_NO_CROSSING) {
         note_ee(live, &live->disappeared, held, live->slots.half[slot]);
@@ -210,8 +211,8 @@ static void refresh_crossing(pir_live_mesh *live, uint32_t slot) {
     }
     live->slots.edge[slot] = edge;
     if (edge != PIR_NO_CROSSING) {
-        live->slots.half[slot] = c->half[slot];
-        note_ee(live, &live->appeared, edge, c->half[slot]);
+        live->slots.half[slot] = c->at[slot].half;
+        note_ee(live, &live->appeared, edge, c->at[slot].half);
         write_crossing(live, slot);
     }
     live->slots.rewritten[live->rewritten_count++] = live->sizes.facets_p + live->sizes.facets_q + slot;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 static pir_layout layout_of(pir_crossings *c) {
-    return (pir_layout){{PIR_ROW(c->half, c->capacity), PIR_ROW(c->edge, c->capacity), PIR_ROW(c->next, c->capacity)}};
+    return (pir_layout){{PIR_ROW(c->at, c->capacity)}};
 }
 
 bool pir_crossings_reserve(pir_tracked *tracked, uint32_t capacity) {
@@ -21,11 +21,8 @@ bool pir_crossings_reserve(pir_tracked *tracked, uint32_t capacity) {
         pir_layout_free(a, &fresh);
         return false;
     }
-    if (c->used > 0) {
-        memcpy(grown.half, c->half, c->used * sizeof *c->half);
-        memcpy(grown.edge, c->edge, c->used * sizeof *c->edge);
-        memcpy(grown.next, c->next, c->used * sizeof *c->next);
-    }
+    if (c->used > 0)
+        memcpy(grown.at, c->at, c->used * sizeof *c->at);
     pir_layout_free(a, &old);
     *c = grown;
     tracked->statistics.allocations++;
@@ -66,7 +63,7 @@ bool pir_crossing_append(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t 
     if (*last == PIR_NO_CROSSING)
         tracked->pairing.crossings.first[e] = slot;
     else
-        tracked->pairing.crossings.next[*last] = slot;
+        tracked->pairing.crossings.at[*last].next = slot;
     *last = slot;
     return true;
 }
@@ -76,11 +73,9 @@ bool pir_crossing_push(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *l
     if (c->used == c->capacity)
         return pir_crossing_append(tracked, e, h, last);
     uint32_t slot = c->used++;
-    c->half[slot] = h;
-    c->edge[slot] = e;
-    c->next[slot] = PIR_NO_CROSSING;
+    c->at[slot] = (pir_crossing){h, e, PIR_NO_CROSSING};
     c->count++;
-    *(*last == PIR_NO_CROSSING ? &c->first[e] : &c->next[*last]) = slot;
+    *(*last == PIR_NO_CROSSING ? &c->first[e] : &c->at[*last].next) = slot;
     *last = slot;
     return true;
 }

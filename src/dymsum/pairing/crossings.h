@@ -30,12 +30,10 @@ static inline uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32
     pir_crossings *c = &tracked->pairing.crossings;
     uint32_t slot = c->free;
     if (slot != PIR_NO_CROSSING)
-        c->free = c->next[slot];
+        c->free = c->at[slot].next;
     else if ((slot = pir_crossing_new_slot(tracked)) == PIR_NO_CROSSING)
         return PIR_NO_CROSSING;
-    c->half[slot] = h;
-    c->edge[slot] = e;
-    c->next[slot] = PIR_NO_CROSSING;
+    c->at[slot] = (pir_crossing){h, e, PIR_NO_CROSSING};
     pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);
     c->count++;
     return slot;
@@ -43,8 +41,8 @@ static inline uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32
 
 static inline void pir_crossing_free(pir_tracked *tracked, uint32_t slot) {
     pir_crossings *c = &tracked->pairing.crossings;
-    c->edge[slot] = PIR_NO_CROSSING;
-    c->next[slot] = c->free;
+    c->at[slot].edge = PIR_NO_CROSSING;
+    c->at[slot].next = c->free;
     c->free = slot;
     pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);
     c->count--;

@@ -35,12 +35,16 @@ typedef struct pir_sum_parts {
 /* In place of a crossing's slot: there is none. */
 #define PIR_NO_CROSSING UINT32_MAX
 
-/* Crossings are stored in slots of parallel arrays. Free slots are chained through `next`. */
+/* A slot of a crossing. */
+typedef struct pir_crossing {
+    uint32_t half; /* the halfedge of Q that is crossed, from the cell before to the cell after */
+    uint32_t edge; /* the edge of P, or PIR_NO_CROSSING in a free slot */
+    uint32_t next; /* the next crossing along the arc, or PIR_NO_CROSSING; of free slots, the next one free */
+} pir_crossing;
+
 typedef struct pir_crossings {
     uint32_t *first;               /* per edge of P: the slot of its first crossing, or PIR_NO_CROSSING */
-    uint32_t *half;                /* the halfedge of Q that is crossed, from the cell before to the cell after */
-    uint32_t *edge;                /* the edge of P, or PIR_NO_CROSSING in a free slot */
-    uint32_t *next;                /* the next crossing along the arc, or PIR_NO_CROSSING */
+    pir_crossing *at;              /* per slot */
     uint32_t capacity, used, free; /* slots [0, used) have been used; `free` is the first free one of them */
     uint32_t count;                /* crossings over all edges */
 } pir_crossings;
@@ -77,17 +81,17 @@ static inline uint32_t pir_crossing_first(const pir_pairing *pairing, uint32_t e
 }
 
 static inline uint32_t pir_crossing_next(const pir_pairing *pairing, uint32_t at) {
-    return pairing->crossings.next[at];
+    return pairing->crossings.at[at].next;
 }
 
 /* The halfedge of Q that is crossed. */
 static inline uint32_t pir_crossing_half(const pir_pairing *pairing, uint32_t at) {
-    return pairing->crossings.half[at];
+    return pairing->crossings.at[at].half;
 }
 
 /* The edge of P in a slot below pairing->crossings.used, or PIR_NO_CROSSING where the slot is free. */
 static inline uint32_t pir_crossing_edge(const pir_pairing *pairing, uint32_t at) {
-    return pairing->crossings.edge[at];
+    return pairing->crossings.at[at].edge;
 }
 
 /* The crossing of edge e of P with halfedge h of Q, or PIR_NO_CROSSING. O(crossings of e). */

@@ -51,12 +51,12 @@ static void chain_crossings(pir_tracked *tracked, uint32_t e, uint32_t from) {
     uint32_t v = pairing->fv[pairing->p->left[pairing->p->edge_half[e]]], *link = &pairing->crossings.first[e];
     for (uint32_t n = c->used - from; n > 0; n--) {
         uint32_t slot = from;
-        while (slot < c->used && pairing->q->origin[c->half[slot]] != v)
+        while (slot < c->used && pairing->q->origin[c->at[slot].half] != v)
             slot++;
         PIR_ASSERT(slot < c->used);
         *link = slot;
-        link = &c->next[slot];
-        v = pairing->q->target[c->half[slot]];
+        link = &c->at[slot].next;
+        v = pairing->q->target[c->at[slot].half];
     }
     *link = PIR_NO_CROSSING;
 }

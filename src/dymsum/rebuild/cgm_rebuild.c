@@ -115,7 +115,7 @@ static bool read_crossing(struct reading *reading, uint32_t v) {
     uint32_t slot = pir_crossing_new(tracked, e, end == cell ? of_q : q->twin[of_q]);
     if (slot == PIR_NO_CROSSING)
         return false;
-    pairing->crossings.next[slot] = pairing->crossings.first[e];
+    pairing->crossings.at[slot].next = pairing->crossings.first[e];
     pairing->crossings.first[e] = slot;
     return true;
 }
@@ -127,13 +127,13 @@ static void link_crossings(struct reading *reading, uint32_t e) {
     pir_crossings *c = &pairing->crossings;
     uint32_t count = 0, v = pairing->fv[pairing->p->left[pairing->p->edge_half[e]]],
              *link = &pairing->crossings.first[e];
-    for (uint32_t slot = pairing->crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->next[slot], count++)
-        reading->slot_at[pairing->q->origin[c->half[slot]]] = slot;
+    for (uint32_t slot = pairing->crossings.first[e]; slot != PIR_NO_CROSSING; slot = c->at[slot].next, count++)
+        reading->slot_at[pairing->q->origin[c->at[slot].half]] = slot;
     for (; count > 0; count--) {
         uint32_t slot = reading->slot_at[v];
         *link = slot;
-        link = &c->next[slot];
-        v = pairing->q->target[c->half[slot]];
+        link = &c->at[slot].next;
+        v = pairing->q->target[c->at[slot].half];
     }
     *link = PIR_NO_CROSSING;
 }
@@ -149,7 +149,7 @@ static bool walk_edge(pir_tracked *tracked, uint32_t e) {
         uint32_t side = pir_leave_cell(tracked, h, direction, v, entered), slot = pir_crossing_new(tracked, e, side);
         if (slot == PIR_NO_CROSSING)
             return false;
-        *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &pairing->crossings.next[last]) = slot;
+        *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &pairing->crossings.at[last].next) = slot;
         last = slot;
         entered = side;
         v = q->target[side];

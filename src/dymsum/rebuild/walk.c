@@ -43,11 +43,12 @@ static inline int corner_sign(pir_tracked *tracked, const struct arc *arc, uint3
     return s > 0 ? 1 : -1;
 }
 
-uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
+/* As pir_leave_cell, with `by` the halfedge of v by which the arc came, or PIR_NO_SIDE. */
+static uint32_t leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t by) {
     const pir_polytope *q = tracked->pairing.q;
     const struct arc arc = arc_of(h, direction);
     uint32_t start = q->ring_start[v], n = q->ring_start[v + 1] - start;
-    if (entered == PIR_NO_CROSSING) {
+    if (by == PIR_NO_SIDE) {
         // the corner before side i is that of side i − 1
         int before = corner_sign(tracked, &arc, start + n - 1);
         for (uint32_t i = 0; i < n; i++) {
@@ -59,7 +60,7 @@ uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, ui
         PIR_ASSERT(false);
     }
     // sides in order from the one by which the arc entered; corner `low` is negative, corner `high` positive
-    uint32_t first = q->twin[entered] - start, low = 0, high = n - 1;
+    uint32_t first = by - start, low = 0, high = n - 1;
     while (high - low > MANY_SIDES) {
         uint32_t middle = low + (high - low) / 2;
         if (corner_sign(tracked, &arc, start + (first + middle) % n) < 0)
@@ -75,13 +76,42 @@ uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, ui
     return start + (first + high) % n;
 }
 
+uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
+    return leave_cell(tracked, h, direction, v,
+                      entered == PIR_NO_CROSSING ? PIR_NO_SIDE : tracked->pairing.q->twin[entered]);
+}
+
+/*
+ * The halfedge of v by which an arc came from vertex `from` through `side` of its cell: the twin of that, which on a
+ * large body is far from all else that is read.
+ */
+static uint32_t entered_by(const pir_polytope *q, uint32_t v, uint32_t from, uint32_t side) {
+    uint32_t by = q->ring_start[v], sides = q->ring_start[v + 1] - by;
+    if (sides <= 2 || sides > MANY_SIDES)
+        return q->twin[side];
+    while (q->target[by] != from)
+        by++;
+    return by;
+}
+
 /* --- arcs of P --- */
 
-/* Listed and fetched, sides found, crossed: each in a turn of its own. */
-#define STAGES 3
+/* Bodies with so many halfedges are larger than a cache of the second level. */
+#define MANY_HALVES 49152
 
-/* Bodies with so many halfedges are larger than a cache of the first level by far. */
-#define MANY_HALVES 12288
+/*
+ * Arcs, and the first steps of those that no one side leads to the end. On large bodies each of these is a turn of its
+ * own: arcs are listed; their sides are found; they leave their first cells; the next cells' corners are fetched; they
+ * are crossed.
+ */
+struct chunk {
+    pir_arcs arcs;
+    uint32_t led;                            /* arcs without a side */
+    uint32_t arc[PIR_ARCS];                  /* which those are */
+    uint32_t side[PIR_ARCS], cell[PIR_ARCS]; /* the side by which each leaves its first cell, and the cell beyond */
+};
+
+#define TURNS 5
 
 /* Lists those of `count` edges from `first` on, as pir_walk_edges, whose arcs leave a cell. Crossings begin empty. */
 static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first, uint32_t count, pir_arcs *arcs) {
@@ -102,25 +132,61 @@ static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first
     arcs->count = listed;
 }
 
-/* Fetches what the sides of the arcs' first cells are found and measured by. */
-PIR_FETCHING void fetch_cells(const pir_polytope *p, const pir_polytope *q, const pir_arcs *arcs) {
-    for (uint32_t k = 0; k < arcs->count; k++) {
-        uint32_t start = q->ring_start[arcs->from[k]];
+/* Fetches the corners of the side found of arc k, and what a crossing of it is noted in. */
+PIR_FETCHING void fetch_side(const pir_tracked *tracked, const pir_arcs *arcs, uint32_t k) {
+    const float *normal = tracked->pairing.q->normal4;
+    __builtin_prefetch(&tracked->work->met[arcs->met[k]], 1);
+    __builtin_prefetch(normal + 4 * (size_t)arcs->right[k]);
+    __builtin_prefetch(normal + 4 * (size_t)arcs->left[k]);
+}
+
+/* Fetches what the side of arc k's first cell is found and measured by. */
+PIR_FETCHING void fetch_cell(const pir_polytope *p, const pir_polytope *q, const pir_arcs *arcs, uint32_t k) {
+    uint32_t start = q->ring_start[arcs->from[k]];
+    __builtin_prefetch(q->target + start);
+    __builtin_prefetch(q->left + start);
+    __builtin_prefetch(q->edge + start);
+    __builtin_prefetch(p->direction + arcs->half[k]);
+}
+
+/* Fetches the corners of a cell. */
+PIR_FETCHING void fetch_corners(const pir_polytope *q, uint32_t v) {
+    for (uint32_t h = q->ring_start[v]; h < q->ring_start[v + 1]; h++)
+        __builtin_prefetch(q->normal4 + 4 * (size_t)q->left[h]);
+}
+
+/* Lists the arcs without a side, and fetches what they leave their first cells by. */
+static void list_led(const pir_polytope *q, struct chunk *chunk) {
+    uint32_t led = 0;
+    for (uint32_t k = 0; k < chunk->arcs.count; k++) {
+        chunk->arc[led] = k;
+        led += chunk->arcs.side[k] == PIR_NO_SIDE;
+    }
+    for (uint32_t i = 0; i < led; i++)
+        fetch_corners(q, chunk->arcs.from[chunk->arc[i]]);
+    chunk->led = led;
+}
+
+/* Leads them out of their first cells, and fetches the sides of the next. */
+static void leave_first_cells(pir_tracked *tracked, struct chunk *chunk) {
+    const pir_polytope *q = tracked->pairing.q;
+    for (uint32_t i = 0; i < chunk->led; i++) {
+        uint32_t k = chunk->arc[i], h = chunk->arcs.half[k];
+        uint32_t side =
+            leave_cell(tracked, h, pir_rotated_direction(&tracked->pairing, h), chunk->arcs.from[k], PIR_NO_SIDE);
+        uint32_t start = q->ring_start[q->target[side]];
+        chunk->side[i] = side;
+        chunk->cell[i] = q->target[side];
+        __builtin_prefetch(&tracked->work->met[q->edge[side]], 1);
         __builtin_prefetch(q->target + start);
         __builtin_prefetch(q->left + start);
         __builtin_prefetch(q->edge + start);
-        __builtin_prefetch(p->direction + arcs->half[k]);
     }
 }
 
-/* Fetches the corners of the sides that have been found, and what crossings of them are noted in. */
-PIR_FETCHING void fetch_sides(const pir_tracked *tracked, const pir_arcs *arcs) {
-    const float *normal = tracked->pairing.q->normal4;
-    for (uint32_t k = 0; k < arcs->count; k++) {
-        __builtin_prefetch(&tracked->work->met[arcs->met[k]], 1);
-        __builtin_prefetch(normal + 4 * (size_t)arcs->right[k]);
-        __builtin_prefetch(normal + 4 * (size_t)arcs->left[k]);
-    }
+static void fetch_next_cells(const pir_polytope *q, const struct chunk *chunk) {
+    for (uint32_t i = 0; i < chunk->led; i++)
+        fetch_corners(q, chunk->cell[i]);
 }
 
 /* As crosses_once, where floats are not certain. */
@@ -147,65 +213,94 @@ static inline bool crosses_once(pir_tracked *tracked, const pir_arcs *arcs, uint
     return crosses_once_surely(tracked, arcs, k);
 }
 
-/* Walks arc k from cell to cell; `notes` crossings for the facets of Q, as do all that follow. */
-static bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k, bool notes) {
+/*
+ * Walks arc k from cell to cell; `side` is the one by which it leaves the first, or PIR_NO_SIDE. many: Q is a large
+ * body. notes: crossings are noted for the facets of Q.
+ */
+static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
+                                                           uint32_t side, bool many, bool notes) {
     const pir_polytope *q = tracked->pairing.q;
-    uint32_t h = arcs->half[k], entered = PIR_NO_CROSSING, last = PIR_NO_CROSSING;
+    uint32_t h = arcs->half[k], v = arcs->from[k], by = PIR_NO_SIDE, last = PIR_NO_CROSSING;
     pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
-    for (uint32_t v = arcs->from[k]; v != arcs->to[k]; v = q->target[entered]) {
-        entered = pir_leave_cell(tracked, h, direction, v, entered);
-        if (!pir_crossing_push(tracked, arcs->edge[k], entered, &last))
+    while (v != arcs->to[k]) {
+        if (!many || by != PIR_NO_SIDE || side == PIR_NO_SIDE)
+            side = leave_cell(tracked, h, direction, v, by);
+        if (!pir_crossing_push(tracked, arcs->edge[k], side, &last))
             return false;
-        if (!notes)
-            continue;
-        // the facet right of a side is left of the side before it
-        uint32_t before = (entered > q->ring_start[v] ? entered : q->ring_start[v + 1]) - 1;
-        pir_note_met(tracked, h, q->edge[entered], q->left[before], q->left[entered]);
-    }
-    return true;
-}
-
-/* Lists the crossings of the arcs, whose sides have been measured. */
-static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, bool notes) {
-    for (uint32_t k = 0; k < arcs->count; k++) {
-        uint32_t last = PIR_NO_CROSSING;
-        if (!crosses_once(tracked, arcs, k)) {
-            if (!walk_arc(tracked, arcs, k, notes))
-                return false;
-            continue;
+        uint32_t from = v;
+        if (notes) {
+            // the facet right of a side is left of the side before it
+            uint32_t before = (side > q->ring_start[v] ? side : q->ring_start[v + 1]) - 1;
+            pir_note_met(tracked, h, q->edge[side], q->left[before], q->left[side]);
         }
-        if (!pir_crossing_push(tracked, arcs->edge[k], arcs->side[k], &last))
-            return false;
-        if (notes)
-            pir_note_met(tracked, arcs->half[k], arcs->met[k], arcs->right[k], arcs->left[k]);
+        v = q->target[side];
+        by = many ? v != arcs->to[k] ? entered_by(q, v, from, side) : PIR_NO_SIDE : q->twin[side];
     }
     return true;
 }
 
-/* While some arcs are walked, what the next ones are walked by is fetched. */
+/* Lists the crossings of arc k, whose side has been measured; where it has none, `side` is as in walk_arc. */
+static inline __attribute__((always_inline)) bool cross_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
+                                                            uint32_t side, bool many, bool notes) {
+    uint32_t last = PIR_NO_CROSSING;
+    if (!crosses_once(tracked, arcs, k))
+        return walk_arc(tracked, arcs, k, side, many, notes);
+    if (!pir_crossing_push(tracked, arcs->edge[k], arcs->side[k], &last))
+        return false;
+    if (notes)
+        pir_note_met(tracked, arcs->half[k], arcs->met[k], arcs->right[k], arcs->left[k]);
+    return true;
+}
+
+static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, bool notes) {
+    for (uint32_t k = 0; k < arcs->count; k++)
+        if (!cross_arc(tracked, arcs, k, PIR_NO_SIDE, false, notes))
+            return false;
+    return true;
+}
+
+/*
+ * The same of a large body. In between, what the arcs in the next two turns read is fetched: one after another, since a
+ * processor that is to fetch many lines at once does nothing else meanwhile.
+ */
+static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, const pir_arcs *found,
+                            const pir_arcs *listed, bool notes) {
+    for (uint32_t k = 0, i = 0; k < PIR_ARCS; k++) {
+        if (k < found->count)
+            fetch_side(tracked, found, k);
+        if (k < listed->count)
+            fetch_cell(tracked->pairing.p, tracked->pairing.q, listed, k);
+        bool leads = i < chunk->led && chunk->arc[i] == k;
+        if (k < chunk->arcs.count &&
+            !cross_arc(tracked, &chunk->arcs, k, leads ? chunk->side[i] : PIR_NO_SIDE, true, notes))
+            return false;
+        i += leads;
+    }
+    return true;
+}
+
 bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    bool many = q->half_count >= MANY_HALVES;
-    uint32_t chunks = count / PIR_ARCS + (count % PIR_ARCS != 0);
-    pir_arcs arcs[STAGES];
-    for (uint32_t c = 0; c < chunks + STAGES - 1; c++) {
-        if (c < chunks) {
-            pir_arcs *next = &arcs[c % STAGES];
-            list_arcs(tracked, edge, c * PIR_ARCS, count - c * PIR_ARCS < PIR_ARCS ? count - c * PIR_ARCS : PIR_ARCS,
-                      next);
-            if (many)
-                fetch_cells(p, q, next);
+    const bool many = q->half_count >= MANY_HALVES;
+    const uint32_t turns = many ? TURNS : 3, chunks = count / PIR_ARCS + (count % PIR_ARCS != 0);
+    struct chunk chunk[TURNS];
+    for (uint32_t i = 0; i < turns; i++)
+        chunk[i].led = chunk[i].arcs.count = 0;
+    for (uint32_t c = 0; c < chunks + turns - 1; c++) {
+        struct chunk *listed = &chunk[c % turns], *found = &chunk[(c + turns - 1) % turns],
+                     *crossed = &chunk[(c + 1) % turns];
+        uint32_t left = c < chunks ? count - c * PIR_ARCS : 0;
+        list_arcs(tracked, edge, c * PIR_ARCS, left < PIR_ARCS ? left : PIR_ARCS, &listed->arcs);
+        tracked->kernels->find_sides(q, &found->arcs);
+        tracked->kernels->measure_sides(&tracked->p_facets, p, q, &crossed->arcs);
+        if (many) {
+            list_led(q, found);
+            leave_first_cells(tracked, &chunk[(c + turns - 2) % turns]);
+            fetch_next_cells(q, &chunk[(c + turns - 3) % turns]);
         }
-        if (c >= 1 && c <= chunks) {
-            tracked->kernels->find_sides(q, &arcs[(c - 1) % STAGES]);
-            if (many)
-                fetch_sides(tracked, &arcs[(c - 1) % STAGES]);
-        }
-        if (c >= 2) {
-            tracked->kernels->measure_sides(&tracked->p_facets, p, q, &arcs[(c - 2) % STAGES]);
-            if (!cross_arcs(tracked, &arcs[(c - 2) % STAGES], !edge))
-                return false;
-        }
+        if (!(many ? cross_and_fetch(tracked, crossed, &found->arcs, &listed->arcs, !edge)
+                   : cross_arcs(tracked, &crossed->arcs, !edge)))
+            return false;
     }
     return true;
 }

@@ -183,7 +183,7 @@ static void drop_edge(pir_tracked *tracked, uint32_t e) {
     pir_pairing *pairing = &tracked->pairing;
     uint32_t slot = pairing->crossings.first[e];
     while (slot != PIR_NO_CROSSING) {
-        uint32_t next = pairing->crossings.next[slot];
+        uint32_t next = pairing->crossings.at[slot].next;
         pir_crossing_free(tracked, slot);
         slot = next;
     }

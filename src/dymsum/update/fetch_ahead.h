@@ -28,14 +28,12 @@ PIR_FETCHING void pir_fetch_edge(const pir_tracked *tracked, uint32_t e) {
 PIR_FETCHING void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
     const pir_crossings *c = &tracked->pairing.crossings;
     uint32_t slot = c->first[e] != PIR_NO_CROSSING ? c->first[e] : 0;
-    __builtin_prefetch(&c->half[slot], 1);
-    __builtin_prefetch(&c->next[slot], 1);
-    __builtin_prefetch(&c->edge[slot], 1);
+    __builtin_prefetch(&c->at[slot], 1);
 }
 
 PIR_FETCHING void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
     const pir_pairing *pairing = &tracked->pairing;
-    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.half[slot] : 0;
+    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.at[slot].half : 0;
     __builtin_prefetch(&pairing->q->origin[half]);
     __builtin_prefetch(&pairing->q->target[half]);
     __builtin_prefetch(&pairing->q->left[half]);
@@ -45,7 +43,7 @@ PIR_FETCHING void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
 /* Fetches the facets of Q on either side of what the first crossing of edge e crosses. */
 PIR_FETCHING void pir_fetch_corners(const pir_tracked *tracked, uint32_t e) {
     const pir_pairing *pairing = &tracked->pairing;
-    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.half[slot] : 0;
+    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.at[slot].half : 0;
     __builtin_prefetch(&pairing->q->normal[pairing->q->left[half]]);
     __builtin_prefetch(&pairing->q->normal[pir_right(pairing->q, half)]);
 }

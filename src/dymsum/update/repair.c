@@ -24,8 +24,8 @@ bool pir_move_start(pir_tracked *tracked, uint32_t e, uint32_t h) {
     pir_pairing *pairing = &tracked->pairing;
     pir_crossings *c = &pairing->crossings;
     uint32_t first = pairing->crossings.first[e];
-    if (first != PIR_NO_CROSSING && c->half[first] == h) {
-        pairing->crossings.first[e] = c->next[first];
+    if (first != PIR_NO_CROSSING && c->at[first].half == h) {
+        pairing->crossings.first[e] = c->at[first].next;
         pir_crossing_free(tracked, first);
         tracked->statistics.repaired++;
         return true;
@@ -33,7 +33,7 @@ bool pir_move_start(pir_tracked *tracked, uint32_t e, uint32_t h) {
     uint32_t slot = pir_crossing_new(tracked, e, pairing->q->twin[h]);
     if (slot == PIR_NO_CROSSING)
         return false;
-    c->next[slot] = first;
+    c->at[slot].next = first;
     pairing->crossings.first[e] = slot;
     return true;
 }
@@ -42,9 +42,9 @@ bool pir_move_end(pir_tracked *tracked, uint32_t e, uint32_t h) {
     pir_pairing *pairing = &tracked->pairing;
     pir_crossings *c = &pairing->crossings;
     uint32_t *link = &pairing->crossings.first[e], back = pairing->q->twin[h];
-    while (*link != PIR_NO_CROSSING && c->next[*link] != PIR_NO_CROSSING)
-        link = &c->next[*link];
-    if (*link != PIR_NO_CROSSING && c->half[*link] == back) {
+    while (*link != PIR_NO_CROSSING && c->at[*link].next != PIR_NO_CROSSING)
+        link = &c->at[*link].next;
+    if (*link != PIR_NO_CROSSING && c->at[*link].half == back) {
         pir_crossing_free(tracked, *link);
         *link = PIR_NO_CROSSING;
         tracked->statistics.repaired++;
@@ -54,7 +54,7 @@ bool pir_move_end(pir_tracked *tracked, uint32_t e, uint32_t h) {
     uint32_t last = *link, slot = pir_crossing_new(tracked, e, h);
     if (slot == PIR_NO_CROSSING)
         return false;
-    *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->next[last]) = slot;
+    *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->at[last].next) = slot;
     return true;
 }
 
@@ -69,16 +69,16 @@ bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) 
     pir_crossings *c = &pairing->crossings;
     // the first crossing of an arc of g, on the side where g was
     uint32_t before = PIR_NO_CROSSING, at = pairing->crossings.first[e];
-    while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) != g) {
+    while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->at[at].half) : q->left[c->at[at].half]) != g) {
         before = at;
-        at = c->next[at];
+        at = c->at[at].next;
     }
     PIR_ASSERT(at != PIR_NO_CROSSING);
-    uint32_t from = c->half[at], to = q->origin[from];
+    uint32_t from = c->at[at].half, to = q->origin[from];
     // remove all consecutive crossings of g's arcs
-    while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->half[at]) : q->left[c->half[at]]) == g) {
-        uint32_t next = c->next[at];
-        to = q->target[c->half[at]];
+    while (at != PIR_NO_CROSSING && (to_left ? pir_right(q, c->at[at].half) : q->left[c->at[at].half]) == g) {
+        uint32_t next = c->at[at].next;
+        to = q->target[c->at[at].half];
         pir_crossing_free(tracked, at);
         tracked->statistics.repaired++;
         at = next;
@@ -89,8 +89,8 @@ bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left) 
         uint32_t slot = pir_crossing_new(tracked, e, half);
         if (slot == PIR_NO_CROSSING)
             return false;
-        c->next[slot] = at;
-        *(before == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->next[before]) = slot;
+        c->at[slot].next = at;
+        *(before == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->at[before].next) = slot;
         before = slot;
         if (q->target[half] == to)
             return true;
@@ -114,13 +114,13 @@ static bool leaves_through(pir_tracked *tracked, uint32_t half, pir_vec3 directi
  */
 static uint32_t take_crossing(pir_tracked *tracked, uint32_t *list, uint32_t half, pir_vec3 direction, uint32_t v) {
     pir_crossings *c = &tracked->pairing.crossings;
-    for (uint32_t *at = list; *at != PIR_NO_CROSSING; at = &c->next[*at]) {
+    for (uint32_t *at = list; *at != PIR_NO_CROSSING; at = &c->at[*at].next) {
         uint32_t slot = *at;
-        if (tracked->pairing.q->origin[c->half[slot]] != v)
+        if (tracked->pairing.q->origin[c->at[slot].half] != v)
             continue;
-        if (!leaves_through(tracked, half, direction, c->half[slot]))
+        if (!leaves_through(tracked, half, direction, c->at[slot].half))
             break;
-        *at = c->next[slot];
+        *at = c->at[slot].next;
         return slot;
     }
     return PIR_NO_CROSSING;
@@ -140,15 +140,15 @@ bool pir_derive_edge(pir_tracked *tracked, uint32_t e) {
             slot = pir_crossing_new(tracked, e, pir_leave_cell(tracked, half, direction, v, entered));
         if (slot == PIR_NO_CROSSING)
             return false;
-        c->next[slot] = PIR_NO_CROSSING;
-        *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->next[last]) = slot;
+        c->at[slot].next = PIR_NO_CROSSING;
+        *(last == PIR_NO_CROSSING ? &pairing->crossings.first[e] : &c->at[last].next) = slot;
         last = slot;
-        entered = c->half[slot];
+        entered = c->at[slot].half;
         v = q->target[entered];
     }
     // what is left of the old list is crossed no more
     while (old != PIR_NO_CROSSING) {
-        uint32_t next = c->next[old];
+        uint32_t next = c->at[old].next;
         pir_crossing_free(tracked, old);
         tracked->statistics.repaired++;
         old = next;
