@@ -173,30 +173,55 @@ static bool settle_least(pir_task *task, const pir_axes_slack *least) {
     return true;
 }
 
-static bool by_axes(pir_task *task) {
-    pir_pair *pair = task->pair;
+/* The answer by the axes of both bodies. Where they leave it open, tells whether they are likely to do so again. */
+static bool ask_axes(pir_task *task, bool *ret_open) {
+    const pir_pair *pair = task->pair;
     const pir_frame *frame = &task->workspace->frame;
     pir_axes_slack least;
     pir_same_facet same;
     pir_vec3 n;
-    if (!pair->few)
-        return false;
     const pir_axes *p = pir_axes_of(frame->p.polytope, pair->exponent);
     const pir_axes *q = pir_axes_of(frame->q.polytope, pair->exponent);
     pir_axes_least(task->workspace->axes, p, q, frame, task->placement, &least);
+    // along edges that are parallel there is no axis, and less than any slack is said
+    const bool is_none = least.low < -task->placement->reach;
+    *ret_open = is_none || !(least.low < 0);
     if (task->has_same && settle_least(task, &least))
         return true;
+    if (is_none)
+        return false;
     pir_piece piece = pir_axes_piece(p, q, frame, least.at, &n);
     if (pir_same_facet_prove(frame, task->placement, piece, NULL, &same) == PIR_SAME_PROVEN) {
         task->same = same;
         task->has_same = true;
         return settle_least(task, &least);
     }
-    if (!(least.low < 0) || !(task->want & PIR_WANT_SEPARATION) || !pir_task_apart_along(task, n))
+    if (*ret_open || !(task->want & PIR_WANT_SEPARATION) || !pir_task_apart_along(task, n))
         return false;
-    pair->statistics.by_descent++;
+    task->pair->statistics.by_descent++;
     pir_task_end(task, PIR_LEVEL_NEAR);
     return true;
+}
+
+/*
+ * What two facets of one slack, or an edge of P along one of Q, leave open lasts where bodies rest on each other. So
+ * the next calls do not ask.
+ */
+#define AXES_REST 15
+
+static bool by_axes(pir_task *task) {
+    pir_pair *pair = task->pair;
+    bool open;
+    if (!pair->few)
+        return false;
+    if (pair->resting > 0) {
+        pair->resting--;
+        return false;
+    }
+    if (ask_axes(task, &open))
+        return true;
+    pair->resting = open ? AXES_REST : 0;
+    return false;
 }
 
 /* --- by a facet --- */

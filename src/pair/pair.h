@@ -31,6 +31,7 @@ struct pir_pair {
     uint32_t limbs;                       /* that exact signs need */
     uint8_t least, most, level;           /* pir_level */
     bool few;                             /* both bodies have few axes */
+    uint8_t resting;                      /* how many more calls leave those out, since they told nothing */
 
     /* hints */
     bool has_facet, has_axis, deep; /* the facet, the axis below; the surface */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * All facets that a difference of two small bodies can have: every version of the loops gives the same bits, the least
- * slack is the depth that a query on the sum finds, and its piece is the facet of that depth.
+ * slack is the depth that a query on the sum finds, and its piece is the facet of that depth. What they leave open is
+ * not asked again at once.
  */
 #include "support/test.h"
 
@@ -9,9 +10,11 @@
 #include <string.h>
 
 #include <pirouette/query.h>
+#include <pirouette/shape.h>
 #include <pirouette/sum.h>
 
 #include "pair/axes/axes.h"
+#include "pair/pair.h"
 #include "query/frame/body.h"
 #include "support/bodies.h"
 
@@ -145,8 +148,41 @@ static void a_body_with_many_axes_has_none(void **state) {
     pir_polytope_release(ball);
 }
 
+/* Two boxes that rest on each other have facets of one slack, and edges that are parallel however one of them spins. */
+static void what_axes_leave_open_is_not_asked_again_at_once(void **state) {
+    (void)state;
+    pir_polytope *box;
+    pir_pair *pair;
+    pir_workspace *workspace;
+    pir_query_result result;
+    pir_pair_input input = pir_pair_input_default();
+    assert_int_equal(pir_shape_create("cube", NULL, NULL, &box), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (int spins = 0; spins < 2; spins++) {
+        uint8_t last = 0, asked = 0;
+        assert_int_equal(pir_pair_create(box, box, NULL, &pair), PIR_OK);
+        assert_true(pair->few);
+        for (int i = 0; i < 100; i++) {
+            double angle = 0.3 * spins * i, depth = 0.01 * (1 + i % 3);
+            pir_vec3 low, high;
+            pir_polytope_bounds(box, &low, &high);
+            input.pose_p.rotation = (pir_quat){0, 0, sin(angle / 2), cos(angle / 2)};
+            input.pose_p.translation = (pir_vec3){0, 0, high.z - low.z - depth};
+            assert_int_equal(pir_pair_signed_distance(pair, workspace, &input, &result), PIR_OK);
+            assert_true(fabs(result.distance + depth) < 1e-12);
+            asked += pair->resting > last;
+            last = pair->resting;
+        }
+        expect(asked > 0 && asked <= 100 / 8, "spins %d: asked %d times", spins, asked);
+        pir_pair_destroy(pair);
+    }
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(box);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_axes_leave_open_is_not_asked_again_at_once),
         cmocka_unit_test(the_least_slack_is_the_depth),
         cmocka_unit_test(a_body_with_many_axes_has_none),
     };
