@@ -68,8 +68,8 @@ typedef struct pir_quat {
  *     resize(context, p, old, n)     p grown or shrunk, or NULL with p left as it was
  *     resize(context, p, old, 0)     p released; the result is ignored
  *
- * Where NULL stands for an allocator it is malloc's. On Linux that one asks the kernel for huge pages within blocks of
- * 4 MiB and more, a hint.
+ * Where NULL stands for an allocator it is malloc's. On Linux the kernel is then asked for huge pages where the arrays
+ * of a polytope or a sum take 4 MiB and more, a hint.
  *
  * An allocator given to an object must outlive it. It is called only from the thread that called Pirouette. GMP's own
  * memory is used only where exact.h shows GMP types, where exact text is read or written, where facets are merged

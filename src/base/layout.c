@@ -60,7 +60,7 @@ void pir_layout_add(pir_layout *layout, pir_layout_row row) {
 
 bool pir_layout_new(const pir_allocator *allocator, const pir_layout *layout) {
     size_t bytes = pir_layout_bytes(layout), offset = 0;
-    unsigned char *block = bytes == SIZE_MAX ? NULL : pir_memory_zeroed(allocator, bytes, 1);
+    unsigned char *block = bytes == SIZE_MAX ? NULL : pir_memory_lasting(allocator, bytes);
     for (const pir_layout_row *row = layout->row; row->size != 0; row++) {
         void *at = block ? block + offset : NULL;
         // object pointers of all types have one representation here, but not one type: their bytes are copied

@@ -17,42 +17,6 @@
 #include <sys/mman.h>
 #endif
 
-#ifdef MADV_HUGEPAGE
-
-#define HUGE_PAGE ((size_t)2 << 20)
-/* Blocks of so many bytes are worth it; what they take beyond what is used of them is at most one huge page. */
-#define HUGE_FROM (2 * HUGE_PAGE)
-
-/* Asks for huge pages inside of a large block: reads of it all over miss the tables of pages less often. A hint. */
-static void *in_huge_pages(void *block, size_t size) {
-    if (block && size >= HUGE_FROM) {
-        size_t before = (HUGE_PAGE - (uintptr_t)block % HUGE_PAGE) % HUGE_PAGE;
-        (void)madvise((unsigned char *)block + before, (size - before) / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);
-    }
-    return block;
-}
-
-/* A block that begins with a huge page where it is large. */
-static void *new_block(size_t size) {
-    void *aligned = NULL;
-    if (size < HUGE_FROM || posix_memalign(&aligned, HUGE_PAGE, size) != 0)
-        return malloc(size);
-    return in_huge_pages(aligned, size);
-}
-
-#else
-
-static void *in_huge_pages(void *block, size_t size) {
-    (void)size;
-    return block;
-}
-
-static void *new_block(size_t size) {
-    return malloc(size);
-}
-
-#endif
-
 static void *malloc_resize(void *context, void *block, size_t old_size, size_t new_size) {
     (void)context;
     (void)old_size;
@@ -60,7 +24,7 @@ static void *malloc_resize(void *context, void *block, size_t old_size, size_t n
         free(block);
         return NULL;
     }
-    return block ? in_huge_pages(realloc(block, new_size), new_size) : new_block(new_size);
+    return realloc(block, new_size);
 }
 
 pir_allocator pir_allocator_or_default(const pir_allocator *allocator) {
@@ -84,6 +48,39 @@ void *pir_memory_zeroed(const pir_allocator *allocator, size_t count, size_t siz
     if (block)
         memset(block, 0, block_size(count, size));
     return block;
+}
+
+#ifdef MADV_HUGEPAGE
+
+#define HUGE_PAGE ((size_t)2 << 20)
+/* Blocks of so many bytes are worth it; what they take beyond what is used of them is at most one huge page. */
+#define HUGE_FROM (2 * HUGE_PAGE)
+
+/* A block of malloc's that begins with a huge page and asks for more. NULL where there is none. */
+static void *huge_block(const pir_allocator *allocator, size_t bytes) {
+    void *block = NULL;
+    if (allocator->resize != malloc_resize || bytes < HUGE_FROM || posix_memalign(&block, HUGE_PAGE, bytes) != 0)
+        return NULL;
+    // a hint: where it fails, pages are small
+    (void)madvise(block, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);
+    return block;
+}
+
+#else
+
+static void *huge_block(const pir_allocator *allocator, size_t bytes) {
+    (void)allocator;
+    (void)bytes;
+    return NULL;
+}
+
+#endif
+
+void *pir_memory_lasting(const pir_allocator *allocator, size_t bytes) {
+    void *block = huge_block(allocator, bytes);
+    if (!block)
+        return pir_memory_zeroed(allocator, bytes, 1);
+    return memset(block, 0, bytes);
 }
 
 void *pir_memory_resize(const pir_allocator *allocator, void *block, size_t old_count, size_t count, size_t size) {

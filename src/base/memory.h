@@ -21,6 +21,13 @@ void *pir_memory_new(const pir_allocator *allocator, size_t count, size_t size);
 /* The same, zeroed. */
 void *pir_memory_zeroed(const pir_allocator *allocator, size_t count, size_t size);
 
+/*
+ * A zeroed block of bytes that lasts and is read all over. On Linux a large one of malloc's lies in huge pages where
+ * the kernel has them, so that reads miss the tables of pages less often. They take longer to be had: what is soon
+ * freed is better made above.
+ */
+void *pir_memory_lasting(const pir_allocator *allocator, size_t bytes);
+
 /* Grows or shrinks a block made above from `old_count` to `count` elements; NULL leaves it as it
    was. `block` may be NULL. */
 void *pir_memory_resize(const pir_allocator *allocator, void *block, size_t old_count, size_t count, size_t size);
