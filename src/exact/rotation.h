@@ -92,6 +92,13 @@ void pir_rotation_apply(const pir_rotation *rotation, pir_int3 *dst, const pir_i
 
 /* --- angles --- */
 
+/* The square of the distance of two quaternions, up to sign. */
+static inline double pir_rotation_chord_square(pir_quat a, pir_quat b) {
+    double sign = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1 : 1;
+    double x = a.x - sign * b.x, y = a.y - sign * b.y, z = a.z - sign * b.z, w = a.w - sign * b.w;
+    return x * x + y * y + z * z + w * w;
+}
+
 /*
  * An upper bound on the angle between two rotations in radians, given by quaternions that are near their `unit`
  * ones; `error` is by how much, both together.
@@ -102,9 +109,7 @@ static inline double pir_rotation_angle_bound_within(pir_quat a, pir_quat b, dou
      * and is below 0.2215 at y = √2/2. So θ ≤ 4 (y + 0.2215 y³), which is above π from there on. The chord is
      * off by 5u, relatively; 1 + 2^-48 on the result holds that.
      */
-    double sign = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1 : 1;
-    double x = a.x - sign * b.x, y = a.y - sign * b.y, z = a.z - sign * b.z, w = a.w - sign * b.w;
-    double half = 0.5 * (sqrt(x * x + y * y + z * z + w * w) + error);
+    double half = 0.5 * (sqrt(pir_rotation_chord_square(a, b)) + error);
     return 4 * (half + 0.2215 * (half * half * half)) * (1 + 0x1p-48);
 }
 

@@ -23,12 +23,16 @@
 
 /* --- by the certificate --- */
 
-/* How far vertices of D may have moved against x since the place of the pair's proof. */
-static double moved_since(const pir_task *task) {
-    const pir_pair *pair = task->pair;
-    pir_vec3 way = pir_vec_sub(task->placement->x, pair->at);
-    double turn = pir_rotation_angle_bound(pair->turned, task->workspace->rotation.unit);
-    return (sqrt(pir_vec_dot(way, way)) + turn * task->workspace->frame.p.size) * (1 + 0x1p-40);
+/* The square of x's way from the place of the pair's proof. */
+static inline double way_since(const pir_task *task) {
+    pir_vec3 way = pir_vec_sub(task->placement->x, task->pair->at);
+    return pir_vec_dot(way, way);
+}
+
+/* How far vertices of D may have moved against x since then, the square of x's way being known. */
+static double moved_since(const pir_task *task, double way) {
+    double turn = pir_rotation_angle_bound(task->pair->turned, task->workspace->rotation.unit);
+    return (sqrt(way) + turn * task->workspace->frame.p.size) * (1 + 0x1p-40);
 }
 
 static bool by_certificate(pir_task *task) {
@@ -38,10 +42,10 @@ static bool by_certificate(pir_task *task) {
     if (!(pair->apart > 0) || ((task->want & PIR_WANT_SEPARATION) && !(task->limit < pair->apart)))
         return false;
     // most that is too far is so by the way alone
-    pir_vec3 way = pir_vec_sub(placement->x, pair->at);
-    if (!(pir_vec_dot(way, way) < pair->apart * pair->apart))
+    double way = way_since(task);
+    if (!(way < pair->apart * pair->apart))
         return false;
-    double left = pair->apart - moved_since(task) - 4 * placement->error;
+    double left = pair->apart - moved_since(task, way) - 4 * placement->error;
     if (!(left > 0))
         return false;
     task->is_outside = true;
@@ -83,7 +87,7 @@ static inline bool settle_same(pir_task *task, pir_same is) {
     }
     if (!pir_foot_settles_within(frame, task->placement, &same->facet, same->slack, same->margin) &&
         !(task->pair->lead.others > same->slack &&
-          pir_lead_lasts(&task->pair->lead, task->placement, same, moved_since(task))))
+          pir_lead_lasts(&task->pair->lead, task->placement, same, moved_since(task, way_since(task)))))
         return false;
     if (side == 0)
         pir_task_touching(task, &same->facet);
@@ -180,8 +184,7 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
     pir_axes_slack least;
     pir_same_facet same;
     pir_vec3 n;
-    const pir_axes *p = pir_axes_of(frame->p.polytope, pair->exponent);
-    const pir_axes *q = pir_axes_of(frame->q.polytope, pair->exponent);
+    const pir_axes *p = pair->axes_p, *q = pair->axes_q;
     pir_axes_least(task->workspace->axes, p, q, frame, task->placement, &least);
     // along edges that are parallel there is no axis, and less than any slack is said
     const bool is_none = least.low < -task->placement->reach;
@@ -212,7 +215,7 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
 static bool by_axes(pir_task *task) {
     pir_pair *pair = task->pair;
     bool open;
-    if (!pair->few)
+    if (!pair->axes_p)
         return false;
     if (pair->resting > 0) {
         pair->resting--;

@@ -46,11 +46,12 @@ pir_pair_options pir_pair_options_default(void) {
     return (pir_pair_options){NULL, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
 }
 
-/* Whether both bodies have few axes. */
+/* Finds the axes of both bodies, where both have few. */
 static pir_status find_axes(pir_polytope *p, pir_polytope *q, pir_pair *pair) {
-    pir_status status = pir_axes_find(p, pair->exponent, &pair->body_p->body, &pair->few);
-    if (status == PIR_OK && pair->few)
-        status = pir_axes_find(q, pair->exponent, &pair->body_q->body, &pair->few);
+    pir_status status = pir_axes_find(p, pair->exponent, &pair->body_p->body, &pair->axes_p);
+    if (status == PIR_OK && pair->axes_p)
+        status = pir_axes_find(q, pair->exponent, &pair->body_q->body, &pair->axes_q);
+    pair->axes_p = pair->axes_q ? pair->axes_p : NULL;
     return status;
 }
 

@@ -27,11 +27,11 @@ struct pir_pair {
     pir_allocator allocator;
     pir_polytope *p, *q;                  /* as the caller gave them; referenced */
     const pir_kept_body *body_p, *body_q; /* of P reflected, and of Q; they belong to p and q */
+    const pir_axes *axes_p, *axes_q;      /* likewise; NULL where either has many */
     int exponent;                         /* one unit of the frame is 2^exponent */
     uint32_t limbs;                       /* that exact signs need */
     uint8_t least, most, level;           /* pir_level */
-    bool few;                             /* both bodies have few axes */
-    uint8_t resting;                      /* how many more calls leave those out, since they told nothing */
+    uint8_t resting;                      /* how many more calls leave out the axes, since they told nothing */
 
     /* hints */
     bool has_facet, has_axis, deep; /* the facet, the axis below; the surface */

@@ -143,28 +143,39 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
     }
 }
 
+struct made {
+    pir_vec3 vertex[40];
+    pir_frame frame;
+    pir_surface surface;
+    pir_surface_room room;
+};
+
+static struct made *make_with_best_loops(test_random *random) {
+    static struct made made;
+    made.room.loops = pir_surface_loops_best();
+    make_surface(random, &made.surface, made.vertex, &made.frame, &made.room);
+    return &made;
+}
+
 static void a_trimmed_surface_is_closed_about_its_centre(void **state) {
     (void)state;
     uint32_t taken = 0;
     for (uint64_t i = 0; i < 60; i++) {
         test_random random = test_random_case("trimmed surfaces", i);
-        pir_vec3 vertex[40];
-        pir_frame frame;
-        pir_surface surface;
-        static pir_surface_room room;
-        room.loops = pir_surface_loops_best();
-        make_surface(&random, &surface, vertex, &frame, &room);
-        uint32_t before = (uint32_t)__builtin_popcount(surface.used);
-        bool done = pir_surface_trim(&surface, &room);
-        uint32_t after = (uint32_t)__builtin_popcount(surface.used);
-        expect(done == (after < before) && pir_surface_is_valid(&surface), "case %llu: %u corners, then %u",
+        struct made *made = make_with_best_loops(&random);
+        pir_surface *surface = &made->surface;
+        pir_surface_room *room = &made->room;
+        uint32_t before = (uint32_t)__builtin_popcount(surface->used);
+        bool done = pir_surface_trim(surface, room);
+        uint32_t after = (uint32_t)__builtin_popcount(surface->used);
+        expect(done == (after < before) && pir_surface_is_valid(surface), "case %llu: %u corners, then %u",
                (unsigned long long)i, before, after);
-        check_sides(&surface, &room);
+        check_sides(surface, room);
         taken += before - after;
-        for (uint32_t t = 0; t < surface.count; t++)
-            expect(room.plane.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);
+        for (uint32_t t = 0; t < surface->count; t++)
+            expect(room->plane.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);
         // placed anew it is the same
-        assert_true(pir_surface_place(&surface, &frame, (pir_vec3){0, 0, 0}, 0x1p-46, 4, &room));
+        assert_true(pir_surface_place(surface, &made->frame, (pir_vec3){0, 0, 0}, 0x1p-46, 4, room));
     }
     assert_true(taken > 200);
 }
@@ -182,34 +193,31 @@ static void a_dented_surface_grows_as_its_sides_are_turned(void **state) {
     uint32_t turned = 0, lost = 0;
     for (uint64_t i = 0; i < 60; i++) {
         test_random random = test_random_case("dented surfaces", i);
-        pir_vec3 vertex[40];
-        pir_frame frame;
-        pir_surface surface;
-        static pir_surface_room room;
-        room.loops = pir_surface_loops_best();
-        make_surface(&random, &surface, vertex, &frame, &room);
+        struct made *made = make_with_best_loops(&random);
+        pir_surface *surface = &made->surface;
+        pir_surface_room *room = &made->room;
         // along its own ray a corner may be anywhere
         for (uint32_t k = 0; k < 40; k++) {
             double by = (double)test_random_between(&random, 20, 100) / 100;
-            vertex[k] = (pir_vec3){vertex[k].x * by, vertex[k].y * by, vertex[k].z * by};
+            made->vertex[k] = (pir_vec3){made->vertex[k].x * by, made->vertex[k].y * by, made->vertex[k].z * by};
         }
-        assert_true(pir_surface_place(&surface, &frame, (pir_vec3){0, 0, 0}, 0x1p-46, 4, &room));
-        double volume = volume_of(&surface, &room);
-        uint32_t used = surface.used;
-        for (uint32_t t = 0; t < surface.count; t++)
-            for (int times = 0; t < surface.count && pir_surface_turn(&surface, t, &room); times++) {
-                double grown = volume_of(&surface, &room);
+        assert_true(pir_surface_place(surface, &made->frame, (pir_vec3){0, 0, 0}, 0x1p-46, 4, room));
+        double volume = volume_of(surface, room);
+        uint32_t used = surface->used;
+        for (uint32_t t = 0; t < surface->count; t++)
+            for (int times = 0; t < surface->count && pir_surface_turn(surface, t, room); times++) {
+                double grown = volume_of(surface, room);
                 expect(grown > volume && times < 100, "case %llu, triangle %u: %a, then %a", (unsigned long long)i, t,
                        volume, grown);
-                assert_true(pir_surface_is_valid(&surface));
-                check_sides(&surface, &room);
+                assert_true(pir_surface_is_valid(surface));
+                check_sides(surface, room);
                 volume = grown;
                 turned++;
             }
-        for (uint32_t t = 0; t < surface.count; t++)
-            expect(room.plane.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);
-        lost += (uint32_t)__builtin_popcount(used & ~surface.used);
-        assert_true((surface.used & ~used) == 0);
+        for (uint32_t t = 0; t < surface->count; t++)
+            expect(room->plane.low[t] > 0, "case %llu: triangle %u", (unsigned long long)i, t);
+        lost += (uint32_t)__builtin_popcount(used & ~surface->used);
+        assert_true((surface->used & ~used) == 0);
     }
     assert_true(turned > 300 && lost > 50);
 }

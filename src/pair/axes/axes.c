@@ -140,8 +140,8 @@ static pir_axes *make(const pir_polytope *p, int exponent, const pir_body *body)
     return made;
 }
 
-pir_status pir_axes_find(pir_polytope *p, int exponent, const pir_body *body, bool *ret_few) {
-    *ret_few = false;
+pir_status pir_axes_find(pir_polytope *p, int exponent, const pir_body *body, const pir_axes **ret_axes) {
+    *ret_axes = NULL;
     if (p->dimension < 3 || p->vertex_count > PIR_AXES_VERTICES || p->facet_count > PIR_AXES_FACETS)
         return PIR_OK;
     pir_attachment *attachment = pir_polytope_attachment(p, &an_axes, exponent);
@@ -151,12 +151,9 @@ pir_status pir_axes_find(pir_polytope *p, int exponent, const pir_body *body, bo
             return PIR_ERR_MEMORY;
         attachment = pir_polytope_attach(p, &made->attachment);
     }
-    *ret_few = ((const pir_axes *)attachment)->is_few;
+    const pir_axes *axes = (const pir_axes *)attachment;
+    *ret_axes = axes->is_few ? axes : NULL;
     return PIR_OK;
-}
-
-const pir_axes *pir_axes_of(const pir_polytope *p, int exponent) {
-    return (const pir_axes *)pir_polytope_attachment(p, &an_axes, exponent);
 }
 
 /* --- the least --- */

@@ -58,11 +58,8 @@ const pir_axes_loops *pir_axes_loops_version(unsigned index);
 /* The last of them. */
 const pir_axes_loops *pir_axes_loops_best(void);
 
-/* Finds the axes of a body in its frame, and whether they are few. PIR_ERR_MEMORY. */
-pir_status pir_axes_find(pir_polytope *p, int exponent, const pir_body *body, bool *ret_few);
-
-/* The axes that were found. */
-const pir_axes *pir_axes_of(const pir_polytope *p, int exponent);
+/* Finds the axes of a body in its frame, which belong to its polytope; NULL where they are many. PIR_ERR_MEMORY. */
+pir_status pir_axes_find(pir_polytope *p, int exponent, const pir_body *body, const pir_axes **ret_axes);
 
 /* The least slack, and its place in the order of the loops. */
 typedef struct pir_axes_slack {

@@ -29,13 +29,11 @@ typedef struct pir_held {
 } pir_held;
 
 /*
- * Whether R has certainly turned by too much, which most that is too long is told by: half of the angle of two unit
- * quaternions is no less than their distance. Then so much is noted as the pace.
+ * Whether R has certainly turned by too much, which most that is too long is told by: half of the angle between two
+ * rotations is no less than the distance of their unit quaternions, up to sign. Then so much is noted as the pace.
  */
 static inline bool pir_held_is_past(pir_held *held, const pir_frame *frame) {
-    pir_quat a = held->turned, b = frame->unit;
-    double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z, w = a.w - b.w;
-    if (4 * (x * x + y * y + z * z + w * w) < held->falls * held->falls)
+    if (4 * pir_rotation_chord_square(held->turned, frame->unit) < held->falls * held->falls)
         return false;
     held->pace = (float)(held->falls / held->served);
     return true;
