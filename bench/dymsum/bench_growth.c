@@ -2,11 +2,16 @@
 /*
  * How the cost of a walk and of an update grows with the bodies. Usage: bench_growth FOLDER
  *
- * growth.csv: geodesic spheres and themselves, of 700 facets each to 400,000, in CPU time: the fastest walk, and the
- * median update at a fixed step, 5,000 to a turn, with the certificates that it checks and the pairs that it repairs.
- * The exponents are those of all sizes up to the row's, by least squares. A facet passes arcs in proportion to the step
- * over their length, so what the motion itself changes grows by the power 1.5 of the facets; checks that come before
- * their time hide some of that on small bodies.
+ * growth.csv: geodesic spheres and themselves, of 700 facets each to 400,000: the fastest walk, and the median update
+ * at a fixed step, 5,000 to a turn, with the certificates that it checks and the pairs that it repairs. The exponents
+ * are those of all sizes up to the row's, by least squares. A facet passes arcs in proportion to the step over their
+ * length, so what the motion itself changes grows by the power 1.5 of the facets; checks that come before their time
+ * hide some of that on small bodies.
+ *
+ * All sizes are there at once and are visited in turn, several times, so that a clock that changes meanwhile changes
+ * for all. A visit goes through the same motion twice, first by walks and then by updates: a caller does one or the
+ * other, and the two, frame by frame, would drive each other out of the caches. Each begins with frames that are not
+ * timed.
  *
  * growth_region.csv: a region of 30 degrees at 50 steps to a turn, with the axis resting, beside the walk of the whole;
  * the fastest of many frames by the clock, since asking for CPU time takes a sixth of the shortest.
@@ -14,7 +19,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <pirouette/pirouette.h>
 
@@ -22,51 +26,70 @@
 #include "spin.h"
 #include "trial.h"
 
-static double cpu_now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
+/* Frames at the beginning of a motion that are not timed: the first updates after a rebuild check everything. */
+#define WARM_UP 3
 
-/* The fastest walk and the median update of a body and itself, and events a frame of updates. */
-struct cost {
-    double walk, update, events;
-};
+/* The motion: its steps to a full turn, and its seed. */
+#define STEPS 5000
+#define SEED  3
 
-static struct cost cost_of(pir_polytope *p, uint32_t frames, double steps) {
+/* A body and itself, and what has been measured so far. */
+struct growing {
+    pir_polytope *p;
     pir_sum *walked, *updated;
-    struct spin spin = spin_new(steps, 3, 0);
-    double *walk = malloc(frames * sizeof *walk), *update = malloc(frames * sizeof *update);
-    trial_need(walk && update ? PIR_OK : PIR_ERR_MEMORY, "times");
-    trial_need(pir_sum_create(p, p, spin.now, NULL, &walked), "sum");
-    trial_need(pir_sum_create(p, p, spin.now, NULL, &updated), "sum");
-    // the first updates after a rebuild check everything
-    for (int i = 0; i < 3; i++)
-        trial_need(pir_sum_rotate(updated, spin_next(&spin), PIR_METHOD_UPDATE), "update");
-    pir_sum_reset_statistics(updated);
-    for (uint32_t i = 0; i < frames; i++) {
-        pir_quat rotation = spin_next(&spin);
-        double start = cpu_now();
-        trial_need(pir_sum_rotate(walked, rotation, PIR_METHOD_WALK), "walk");
-        double between = cpu_now();
-        trial_need(pir_sum_rotate(updated, rotation, PIR_METHOD_UPDATE), "update");
-        walk[i] = between - start;
-        update[i] = cpu_now() - between;
-    }
-    pir_sum_statistics did = pir_sum_get_statistics(updated);
-    trial_median(walk, frames);
-    struct cost cost = {walk[0], trial_median(update, frames), (double)(did.checked + did.repaired) / frames};
-    pir_sum_destroy(updated);
-    pir_sum_destroy(walked);
-    free(update);
-    free(walk);
-    return cost;
-}
+    uint32_t frames, facets;
+    uint32_t visits;
+    double walk;    /* the fastest */
+    double *update; /* all of them */
+};
 
 static pir_polytope *geodesic(int level) {
     char name[32];
     snprintf(name, sizeof name, "geodesic?level=%d", level);
     return trial_model(name);
+}
+
+static struct growing growing_new(int level, uint32_t visits) {
+    struct growing body = {.p = geodesic(level), .walk = HUGE_VAL};
+    const struct spin spin = spin_new(STEPS, SEED, 0);
+    body.facets = pir_polytope_facet_count(body.p);
+    body.frames = results_count(body.facets > 50000 ? 15 : 60);
+    body.update = malloc((size_t)visits * body.frames * sizeof *body.update);
+    trial_need(body.update ? PIR_OK : PIR_ERR_MEMORY, "times");
+    trial_need(pir_sum_create(body.p, body.p, spin.now, NULL, &body.walked), "sum");
+    trial_need(pir_sum_create(body.p, body.p, spin.now, NULL, &body.updated), "sum");
+    return body;
+}
+
+static void growing_free(struct growing *body) {
+    pir_sum_destroy(body->updated);
+    pir_sum_destroy(body->walked);
+    pir_polytope_release(body->p);
+    free(body->update);
+}
+
+static void visit(struct growing *body) {
+    struct spin spin = spin_new(STEPS, SEED, 0);
+    for (uint32_t i = 0; i < WARM_UP + body->frames; i++) {
+        pir_quat rotation = spin_next(&spin);
+        double start = trial_now();
+        trial_need(pir_sum_rotate(body->walked, rotation, PIR_METHOD_WALK), "walk");
+        double took = trial_now() - start;
+        if (i >= WARM_UP)
+            body->walk = took < body->walk ? took : body->walk;
+    }
+    spin = spin_new(STEPS, SEED, 0);
+    double *update = body->update + (size_t)body->visits++ * body->frames;
+    trial_need(pir_sum_reset(body->updated, spin.now), "sum");
+    for (uint32_t i = 0; i < WARM_UP + body->frames; i++) {
+        pir_quat rotation = spin_next(&spin);
+        if (i == WARM_UP)
+            pir_sum_reset_statistics(body->updated);
+        double start = trial_now();
+        trial_need(pir_sum_rotate(body->updated, rotation, PIR_METHOD_UPDATE), "update");
+        if (i >= WARM_UP)
+            update[i - WARM_UP] = trial_now() - start;
+    }
 }
 
 /* The slope of y over x, both logarithms, by least squares. */
@@ -90,22 +113,29 @@ static void write_growth(const struct results *results) {
     FILE *csv = results_open(results, "growth.csv");
     fprintf(csv, "level,facets,walk_ns,update_ns,events_per_frame,walk_exponent,update_exponent,events_exponent,"
                  "ns_per_event\n");
+    struct growing body[COUNT];
     int count = (int)results_count(COUNT);
+    uint32_t visits = results_count(5);
+    for (int i = 0; i < count; i++)
+        body[i] = growing_new(levels[i], visits);
+    for (uint32_t v = 0; v < visits; v++)
+        for (int i = 0; i < count; i++)
+            visit(&body[i]);
     for (int i = 0; i < count; i++) {
-        pir_polytope *p = geodesic(levels[i]);
-        uint32_t facets = pir_polytope_facet_count(p);
-        struct cost c = cost_of(p, results_count(facets > 50000 ? 15 : 60), 5000);
-        x[i] = log(facets);
-        walk[i] = log(c.walk);
-        update[i] = log(c.update);
-        events[i] = log(c.events);
+        struct growing *b = &body[i];
+        pir_sum_statistics did = pir_sum_get_statistics(b->updated);
+        double median = trial_median(b->update, visits * b->frames);
+        double changed = (double)(did.checked + did.repaired) / b->frames;
+        x[i] = log(b->facets);
+        walk[i] = log(b->walk);
+        update[i] = log(median);
+        events[i] = log(changed);
         // of everything up to here
-        fprintf(csv, "%d,%u,%.0f,%.0f,%.1f,%.2f,%.2f,%.2f,%.2f\n", levels[i], facets, c.walk, c.update, c.events,
-                slope(x, walk, i + 1), slope(x, update, i + 1), slope(x, events, i + 1), c.update / c.events);
-        printf("%7u facets: walk %9.0f ns, update %9.0f ns, %8.1f events; exponents %.2f %.2f %.2f\n", facets, c.walk,
-               c.update, c.events, slope(x, walk, i + 1), slope(x, update, i + 1), slope(x, events, i + 1));
-        fflush(stdout);
-        pir_polytope_release(p);
+        fprintf(csv, "%d,%u,%.0f,%.0f,%.1f,%.3f,%.3f,%.3f,%.2f\n", levels[i], b->facets, b->walk, median, changed,
+                slope(x, walk, i + 1), slope(x, update, i + 1), slope(x, events, i + 1), median / changed);
+        printf("%7u facets: walk %9.0f ns, update %9.0f ns, %8.1f events; exponents %.3f %.3f %.3f\n", b->facets,
+               b->walk, median, changed, slope(x, walk, i + 1), slope(x, update, i + 1), slope(x, events, i + 1));
+        growing_free(b);
     }
     results_close(csv, "growth.csv");
 }
