@@ -17,6 +17,7 @@ struct seen {
 
 static void see(pir_polytope *p, struct seen *seen, uint32_t f, uint32_t beside) {
     p->visit[seen->count++] = (pir_visit){f, beside};
+    p->beside[f] = beside;
     seen->is[f] = true;
 }
 

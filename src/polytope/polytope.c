@@ -21,19 +21,27 @@
 static pir_layout layout_of(pir_polytope *p) {
     const size_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
     // a few more of some: vector loads of four doubles, or eight integers, may reach past the last
-    return (pir_layout){{PIR_ROW(p->ring_start, v + 1), PIR_ROW(p->origin, h), PIR_ROW(p->target, h + PIR_LANES),
-                         PIR_ROW(p->twin, h), PIR_ROW(p->left, h), PIR_ROW(p->edge, h), PIR_ROW(p->edge_half, e),
-                         PIR_ROW(p->loop_start, f + 1), PIR_ROW(p->loop, h), PIR_ROW(p->across, h),
-                         PIR_ROW(p->arc_ends, e), PIR_ROW(p->visit, f), PIR_ROW(p->source, v), PIR_ROW(p->vertex, v),
-                         PIR_ROW(p->direction, h + 1), PIR_ROW(p->normal, f + 1), PIR_ROW(p->ring_block, v + 1),
-                         PIR_ROW(p->normal4, 4 * f)}};
+    return (pir_layout){
+        {PIR_ROW(p->ring_start, v + 1), PIR_ROW(p->origin, h),         PIR_ROW(p->target, h + PIR_LANES),
+         PIR_ROW(p->twin, h),           PIR_ROW(p->left, h),           PIR_ROW(p->edge, h),
+         PIR_ROW(p->edge_half, e),      PIR_ROW(p->loop_start, f + 1), PIR_ROW(p->loop, h),
+         PIR_ROW(p->across, h),         PIR_ROW(p->arc_ends, e),       PIR_ROW(p->edge_arc, e),
+         PIR_ROW(p->visit, f),          PIR_ROW(p->beside, f),         PIR_ROW(p->source, v),
+         PIR_ROW(p->vertex, v),         PIR_ROW(p->direction, h + 1),  PIR_ROW(p->normal, f + 1),
+         PIR_ROW(p->ring_block, v + 1), PIR_ROW(p->normal4, 4 * f)}};
+}
+
+/* A point has room for one block, which descents read without need. */
+static size_t ring_bytes(const pir_polytope *p) {
+    size_t blocks = p->ring_block[p->vertex_count];
+    return (blocks > 0 ? blocks : 1) * sizeof *p->ring;
 }
 
 static void destroy(pir_polytope *p) {
     const pir_allocator allocator = p->allocator, *a = &allocator;
     pir_polytope_free_attachments(p);
     if (p->ring)
-        PIR_FREE(a, p->ring, p->ring_block[p->vertex_count]);
+        pir_memory_free(a, p->ring, ring_bytes(p), 1);
     pir_layout layout = layout_of(p);
     pir_layout_free(a, &layout);
     pir_vectors_finish(&p->exact_vertex, a);
@@ -292,9 +300,15 @@ static bool set_vectors(pir_polytope *p) {
     return done;
 }
 
-/* Lays the directions of each ring and the normals out for vector loops, as floats. */
-static bool set_rings(pir_polytope *p) {
+/* Lays the directions of each ring and edge and the normals out for vector loops and walks, as floats. */
+static bool set_floats(pir_polytope *p) {
     const pir_allocator *a = &p->allocator;
+    for (uint32_t e = 0; e < p->edge_count; e++) {
+        const uint32_t h = p->edge_half[e];
+        const pir_vec3 d = p->direction[h];
+        p->edge_arc[e] =
+            (pir_edge_arc){(float)d.x, (float)d.y, (float)d.z, h, p->arc_ends[e], p->origin[h], p->target[h]};
+    }
     for (uint32_t f = 0; f < p->facet_count; f++) {
         const pir_vec3 n = p->normal[f];
         const float lanes[4] = {(float)n.x, (float)n.y, (float)n.z, 0};
@@ -304,7 +318,7 @@ static bool set_rings(pir_polytope *p) {
         uint32_t degree = p->ring_start[v + 1] - p->ring_start[v];
         p->ring_block[v + 1] = p->ring_block[v] + (degree + PIR_LANES - 1) / PIR_LANES;
     }
-    p->ring = PIR_ZEROED(a, pir_ring, p->ring_block[p->vertex_count]);
+    p->ring = pir_memory_lasting(a, ring_bytes(p));
     if (!p->ring)
         return false;
     for (uint32_t v = 0; v < p->vertex_count; v++) {
@@ -344,7 +358,7 @@ pir_status pir_polytope_build(const pir_polytope_parts *parts, const pir_allocat
         done = connect(p, parts);
     if (done)
         list_neighbours(p);
-    if (!done || !pir_order_facets(p) || !set_vertices(p, parts) || !set_vectors(p) || !set_rings(p)) {
+    if (!done || !pir_order_facets(p) || !set_vertices(p, parts) || !set_vectors(p) || !set_floats(p)) {
         destroy(p);
         return PIR_ERR_MEMORY;
     }

@@ -45,6 +45,14 @@ typedef struct pir_arc_ends {
     uint32_t from, to;
 } pir_arc_ends;
 
+/* An edge's arc as walks read it, one after another: half a line of a cache. */
+typedef struct pir_edge_arc {
+    float x, y, z; /* the direction of its halfedge */
+    uint32_t half; /* edge_half */
+    pir_arc_ends ends;
+    uint32_t origin, target; /* of the halfedge */
+} pir_edge_arc;
+
 /*
  * Directions of a vertex's ring, for vector loops, as floats, and where they lead: two lines of a cache, all that is
  * read of a cell to go on to the next.
@@ -74,7 +82,9 @@ struct pir_polytope {
     uint32_t *loop_start, *loop;      /* per facet: its halfedges counter-clockwise */
     pir_across *across;               /* per entry of `loop`: read in place of left[twin[]] and edge[] */
     pir_arc_ends *arc_ends;           /* per edge: left of edge_half, and right of it */
+    pir_edge_arc *edge_arc;           /* per edge */
     pir_visit *visit;                 /* every facet once, in the order of facet_order.c */
+    uint32_t *beside;                 /* per facet: as in its visit */
     uint32_t *source;                 /* per vertex: index of the input point */
 
     pir_vec3 *vertex;    /* nearest doubles */
