@@ -81,12 +81,11 @@ void pir_arcs_find_sides(const pir_polytope *q, pir_arcs *arcs) {
 
 void pir_arcs_measure_sides(const pir_facets *facets, const pir_polytope *p, const pir_polytope *q, pir_arcs *arcs) {
     for (uint32_t k = 0; k < arcs->count; k++) {
-        const pir_vec3 d = p->direction[arcs->half[k]];
-        const float x = (float)d.x, y = (float)d.y, z = (float)d.z;
+        const pir_edge_arc *arc = &p->edge_arc[arcs->edge[k]];
         const float *right = q->normal4 + 4 * (size_t)arcs->right[k], *left = q->normal4 + 4 * (size_t)arcs->left[k];
         float turned[3];
         for (int i = 0; i < 3; i++)
-            turned[i] = facets->turn[0][i] * x + facets->turn[1][i] * y + facets->turn[2][i] * z;
+            turned[i] = facets->turn[0][i] * arc->x + facets->turn[1][i] * arc->y + facets->turn[2][i] * arc->z;
         arcs->value[k][0] = turned[0] * right[0] + turned[1] * right[1] + turned[2] * right[2];
         arcs->value[k][1] = turned[0] * left[0] + turned[1] * left[1] + turned[2] * left[2];
     }

@@ -72,12 +72,11 @@ typedef struct pir_suspect {
 /* Arcs of P whose ends are in different cells of Q. */
 typedef struct pir_arcs {
     uint32_t count;
-    uint32_t edge[PIR_ARCS], half[PIR_ARCS];  /* of P: the edge, and its halfedge */
+    uint32_t edge[PIR_ARCS];                  /* of P */
     uint32_t from[PIR_ARCS], to[PIR_ARCS];    /* the cells of its ends */
     uint32_t side[PIR_ARCS];                  /* the side of the first cell that leads to the last, or PIR_NO_SIDE */
-    uint32_t met[PIR_ARCS];                   /* the edge of that side; where there is none, of some other */
-    uint32_t right[PIR_ARCS], left[PIR_ARCS]; /* the facets of Q at its ends */
-    float value[PIR_ARCS][2];                 /* s of the halfedge and those two */
+    uint32_t right[PIR_ARCS], left[PIR_ARCS]; /* the facets of Q at that side's ends; or at those of some other */
+    float value[PIR_ARCS][2];                 /* s of the edge and those two */
 } pir_arcs;
 
 /* The facets of one operand over the cells of the other, which is laid out in rings (polytope.h). */
@@ -169,7 +168,7 @@ typedef struct pir_kernels {
     void (*find_starts)(const pir_facets *facets, const pir_starts *starts, const uint32_t *facet, uint32_t count,
                         uint32_t *ret_from);
 
-    /* Finds side, met, right and left of arcs. */
+    /* Finds side, right and left of arcs. */
     void (*find_sides)(const pir_polytope *q, pir_arcs *arcs);
 
     /* Finds the values of arcs. */
@@ -241,7 +240,6 @@ static inline void pir_arcs_take_side(const pir_polytope *q, pir_arcs *arcs, uin
                                       uint32_t found) {
     uint32_t side = found != PIR_NO_SIDE ? found : start;
     arcs->side[k] = found;
-    arcs->met[k] = q->edge[side];
     arcs->right[k] = q->left[(side > start ? side : end) - 1];
     arcs->left[k] = q->left[side];
 }

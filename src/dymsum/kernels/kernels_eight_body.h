@@ -146,7 +146,7 @@ TARGET static void measure_sides(const pir_facets *facets, const pir_polytope *p
     const __m128 t0 = _mm_loadu_ps(facets->turn[0]), t1 = _mm_loadu_ps(facets->turn[1]);
     const __m128 t2 = _mm_loadu_ps(facets->turn[2]);
     for (uint32_t k = 0; k < arcs->count; k++) {
-        __m128 d = _mm256_cvtpd_ps(_mm256_loadu_pd(&p->direction[arcs->half[k]].x));
+        __m128 d = _mm_loadu_ps(&p->edge_arc[arcs->edge[k]].x);
         __m128 x = _mm_mul_ps(t0, _mm_shuffle_ps(d, d, 0x00)), y = _mm_mul_ps(t1, _mm_shuffle_ps(d, d, 0x55));
         __m128 turned = _mm_add_ps(_mm_add_ps(x, y), _mm_mul_ps(t2, _mm_shuffle_ps(d, d, 0xAA)));
         __m128 right = _mm_mul_ps(turned, _mm_loadu_ps(q->normal4 + 4 * (size_t)arcs->right[k]));

@@ -19,19 +19,39 @@ static inline uint32_t pir_cell_beside(const pir_polytope *own, const uint32_t *
     return found;
 }
 
+/* Bodies with so many halfedges are larger than a cache of the second level. */
+#define PIR_MANY_HALVES 49152
+
+/* Whether walks through a body fetch ahead. */
+static inline bool pir_is_large(const pir_polytope *q) {
+    return q->half_count >= PIR_MANY_HALVES && q->dimension == 3;
+}
+
 /* Fills fv. */
 void pir_locate_facets_of_p(pir_tracked *tracked);
 
 /* No arc of Q has a crossing: before those of P are walked. */
 void pir_forget_met(pir_tracked *tracked);
 
-/* Edge e of P, its halfedge h, crosses the arc of an edge of Q between two facets, from one to the other. */
-static inline void pir_note_met(pir_tracked *tracked, uint32_t h, uint32_t edge, uint32_t right, uint32_t left) {
-    const pir_polytope *p = tracked->pairing.p;
+/* Edge e of P crosses the arc of an edge of Q between two facets, from one to the other. */
+static inline void pir_note_met(pir_tracked *tracked, uint32_t e, uint32_t edge, uint32_t right, uint32_t left) {
+    const pir_edge_arc *arc = &tracked->pairing.p->edge_arc[e];
     uint32_t *cell = tracked->work->met[edge].of, many = -(uint32_t)(cell[0] != PIR_ONE_CELL) & PIR_MANY_CELLS;
     // by masks and an index: neither is foreseen
-    cell[right < left] = p->target[h] | many;
-    cell[right >= left] = p->origin[h] | many;
+    cell[right < left] = arc->target | many;
+    cell[right >= left] = arc->origin | many;
+}
+
+/*
+ * The same where Q is large. Each crossing of an arc of Q leads from one cell of P to the next, so that what all of
+ * them add to a cell's number is the difference of its two ends'. It is noted for the facet that is visited from the
+ * other.
+ */
+static inline void pir_note_passed(pir_tracked *tracked, uint32_t e, uint32_t right, uint32_t left) {
+    const pir_edge_arc *arc = &tracked->pairing.p->edge_arc[e];
+    const uint32_t *beside = tracked->pairing.q->beside;
+    uint32_t passed = arc->target - arc->origin, forth = beside[left] == right, back = beside[right] == left;
+    tracked->pairing.vf[forth ? left : right] += (passed & -forth) - (passed & -back);
 }
 
 /* Fills vf from what has been noted. */

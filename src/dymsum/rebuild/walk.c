@@ -23,12 +23,17 @@
 /* An arc of P: its halfedge, and that rotated. */
 struct arc {
     uint32_t half;
-    pir_vec3 direction;
     float x, y, z;
 };
 
-static inline struct arc arc_of(uint32_t half, pir_vec3 direction) {
-    return (struct arc){half, direction, (float)direction.x, (float)direction.y, (float)direction.z};
+static inline struct arc arc_of_edge(const pir_tracked *tracked, uint32_t e) {
+    const pir_edge_arc *d = &tracked->pairing.p->edge_arc[e];
+    const float(*turn)[8] = tracked->p_facets.turn;
+    struct arc arc = {.half = d->half};
+    arc.x = turn[0][0] * d->x + turn[1][0] * d->y + turn[2][0] * d->z;
+    arc.y = turn[0][1] * d->x + turn[1][1] * d->y + turn[2][1] * d->z;
+    arc.z = turn[0][2] * d->x + turn[1][2] * d->y + turn[2][2] * d->z;
+    return arc;
 }
 
 /* The sign of the arc and a facet of Q: by floats, and where those are not certain as every other. */
@@ -38,21 +43,21 @@ static inline int corner_sign(pir_tracked *tracked, const struct arc *arc, uint3
     float s = arc->x * n[0] + arc->y * n[1] + arc->z * n[2];
     double unused;
     if (!(fabsf(s) > PIR_FLOAT_BOUND))
-        return pir_sign_half_facet(&tracked->pairing, arc->half, arc->direction, g, &unused);
+        return pir_sign_half_facet(&tracked->pairing, arc->half, pir_rotated_direction(&tracked->pairing, arc->half), g,
+                                   &unused);
     tracked->pairing.signs.by_filter++;
     return s > 0 ? 1 : -1;
 }
 
 /* As pir_leave_cell, with `by` the halfedge of v by which the arc came, or PIR_NO_SIDE. */
-static uint32_t leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t by) {
+static uint32_t leave_cell(pir_tracked *tracked, const struct arc *arc, uint32_t v, uint32_t by) {
     const pir_polytope *q = tracked->pairing.q;
-    const struct arc arc = arc_of(h, direction);
     uint32_t start = q->ring_start[v], n = q->ring_start[v + 1] - start;
     if (by == PIR_NO_SIDE) {
         // the corner before side i is that of side i − 1
-        int before = corner_sign(tracked, &arc, start + n - 1);
+        int before = corner_sign(tracked, arc, start + n - 1);
         for (uint32_t i = 0; i < n; i++) {
-            int sign = corner_sign(tracked, &arc, start + i);
+            int sign = corner_sign(tracked, arc, start + i);
             if (before < 0 && sign > 0)
                 return start + i;
             before = sign;
@@ -63,22 +68,22 @@ static uint32_t leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction,
     uint32_t first = by - start, low = 0, high = n - 1;
     while (high - low > MANY_SIDES) {
         uint32_t middle = low + (high - low) / 2;
-        if (corner_sign(tracked, &arc, start + (first + middle) % n) < 0)
+        if (corner_sign(tracked, arc, start + (first + middle) % n) < 0)
             low = middle;
         else
             high = middle;
     }
     for (uint32_t i = low + 1; i < high; i++) {
         uint32_t side = first + i < n ? first + i : first + i - n;
-        if (corner_sign(tracked, &arc, start + side) > 0)
+        if (corner_sign(tracked, arc, start + side) > 0)
             return start + side;
     }
     return start + (first + high) % n;
 }
 
 uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
-    return leave_cell(tracked, h, direction, v,
-                      entered == PIR_NO_CROSSING ? PIR_NO_SIDE : tracked->pairing.q->twin[entered]);
+    const struct arc arc = {h, (float)direction.x, (float)direction.y, (float)direction.z};
+    return leave_cell(tracked, &arc, v, entered == PIR_NO_CROSSING ? PIR_NO_SIDE : tracked->pairing.q->twin[entered]);
 }
 
 /*
@@ -96,9 +101,6 @@ static uint32_t entered_by(const pir_polytope *q, uint32_t v, uint32_t from, uin
 
 /* --- arcs of P --- */
 
-/* Bodies with so many halfedges are larger than a cache of the second level. */
-#define MANY_HALVES 49152
-
 /*
  * Arcs, and the first steps of those that no one side leads to the end. On large bodies each of these is a turn of its
  * own: arcs are listed; their sides are found; they leave their first cells; the next cells' corners are fetched; they
@@ -113,6 +115,9 @@ struct chunk {
 
 #define TURNS 5
 
+/* Edges are fetched so many arcs before they are listed. */
+#define FETCHED_BEFORE (3 * PIR_ARCS)
+
 /* Lists those of `count` edges from `first` on, as pir_walk_edges, whose arcs leave a cell. Crossings begin empty. */
 static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first, uint32_t count, pir_arcs *arcs) {
     const pir_polytope *p = tracked->pairing.p;
@@ -120,10 +125,9 @@ static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first
     uint32_t listed = 0;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t e = edge ? edge[first + i] : first + i;
-        const pir_arc_ends ends = p->arc_ends[e];
+        const pir_arc_ends ends = p->edge_arc[e].ends;
         tracked->pairing.crossings.first[e] = PIR_NO_CROSSING;
         arcs->edge[listed] = e;
-        arcs->half[listed] = p->edge_half[e];
         arcs->from[listed] = fv[ends.from];
         arcs->to[listed] = fv[ends.to];
         // an arc whose ends are in one cell stays in it
@@ -135,18 +139,30 @@ static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first
 /* Fetches the corners of the side found of arc k, and what a crossing of it is noted in. */
 PIR_FETCHING void fetch_side(const pir_tracked *tracked, const pir_arcs *arcs, uint32_t k) {
     const float *normal = tracked->pairing.q->normal4;
-    __builtin_prefetch(&tracked->work->met[arcs->met[k]], 1);
+    __builtin_prefetch(&tracked->pairing.vf[arcs->left[k]], 1);
+    __builtin_prefetch(&tracked->pairing.q->beside[arcs->left[k]]);
     __builtin_prefetch(normal + 4 * (size_t)arcs->right[k]);
     __builtin_prefetch(normal + 4 * (size_t)arcs->left[k]);
 }
 
-/* Fetches what the side of arc k's first cell is found and measured by. */
-PIR_FETCHING void fetch_cell(const pir_polytope *p, const pir_polytope *q, const pir_arcs *arcs, uint32_t k) {
+/* Edges of P, listed or all, from a place on. */
+struct edges {
+    const uint32_t *edge; /* NULL: all */
+    uint32_t count, first;
+};
+
+/* Fetches what is read of an edge, into a cache of the second level: that takes more requests at a time. */
+PIR_FETCHING void fetch_edge(const pir_polytope *p, const struct edges *edges, uint32_t k) {
+    uint32_t i = edges->first + k;
+    if (i < edges->count)
+        __builtin_prefetch(&p->edge_arc[edges->edge ? edges->edge[i] : i], 0, 2);
+}
+
+/* Fetches what the side of arc k's first cell is found by. */
+PIR_FETCHING void fetch_cell(const pir_polytope *q, const pir_arcs *arcs, uint32_t k) {
     uint32_t start = q->ring_start[arcs->from[k]];
     __builtin_prefetch(q->target + start);
     __builtin_prefetch(q->left + start);
-    __builtin_prefetch(q->edge + start);
-    __builtin_prefetch(p->direction + arcs->half[k]);
 }
 
 /* Fetches the corners of a cell. */
@@ -171,16 +187,15 @@ static void list_led(const pir_polytope *q, struct chunk *chunk) {
 static void leave_first_cells(pir_tracked *tracked, struct chunk *chunk) {
     const pir_polytope *q = tracked->pairing.q;
     for (uint32_t i = 0; i < chunk->led; i++) {
-        uint32_t k = chunk->arc[i], h = chunk->arcs.half[k];
-        uint32_t side =
-            leave_cell(tracked, h, pir_rotated_direction(&tracked->pairing, h), chunk->arcs.from[k], PIR_NO_SIDE);
+        uint32_t k = chunk->arc[i];
+        const struct arc arc = arc_of_edge(tracked, chunk->arcs.edge[k]);
+        uint32_t side = leave_cell(tracked, &arc, chunk->arcs.from[k], PIR_NO_SIDE);
         uint32_t start = q->ring_start[q->target[side]];
         chunk->side[i] = side;
         chunk->cell[i] = q->target[side];
-        __builtin_prefetch(&tracked->work->met[q->edge[side]], 1);
+        __builtin_prefetch(&tracked->pairing.vf[q->left[side]], 1);
         __builtin_prefetch(q->target + start);
         __builtin_prefetch(q->left + start);
-        __builtin_prefetch(q->edge + start);
     }
 }
 
@@ -191,7 +206,7 @@ static void fetch_next_cells(const pir_polytope *q, const struct chunk *chunk) {
 
 /* As crosses_once, where floats are not certain. */
 static bool crosses_once_surely(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k) {
-    uint32_t h = arcs->half[k];
+    uint32_t h = tracked->pairing.p->edge_arc[arcs->edge[k]].half;
     pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
     double unused;
     return pir_sign_half_facet(&tracked->pairing, h, direction, arcs->right[k], &unused) < 0 &&
@@ -220,18 +235,21 @@ static inline bool crosses_once(pir_tracked *tracked, const pir_arcs *arcs, uint
 static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
                                                            uint32_t side, bool many, bool notes) {
     const pir_polytope *q = tracked->pairing.q;
-    uint32_t h = arcs->half[k], v = arcs->from[k], by = PIR_NO_SIDE, last = PIR_NO_CROSSING;
-    pir_vec3 direction = pir_rotated_direction(&tracked->pairing, h);
+    uint32_t v = arcs->from[k], by = PIR_NO_SIDE, last = PIR_NO_CROSSING;
+    const struct arc arc = arc_of_edge(tracked, arcs->edge[k]);
     while (v != arcs->to[k]) {
         if (!many || by != PIR_NO_SIDE || side == PIR_NO_SIDE)
-            side = leave_cell(tracked, h, direction, v, by);
+            side = leave_cell(tracked, &arc, v, by);
         if (!pir_crossing_push(tracked, arcs->edge[k], side, &last))
             return false;
         uint32_t from = v;
         if (notes) {
             // the facet right of a side is left of the side before it
             uint32_t before = (side > q->ring_start[v] ? side : q->ring_start[v + 1]) - 1;
-            pir_note_met(tracked, h, q->edge[side], q->left[before], q->left[side]);
+            if (many)
+                pir_note_passed(tracked, arcs->edge[k], q->left[before], q->left[side]);
+            else
+                pir_note_met(tracked, arcs->edge[k], q->edge[side], q->left[before], q->left[side]);
         }
         v = q->target[side];
         by = many ? v != arcs->to[k] ? entered_by(q, v, from, side) : PIR_NO_SIDE : q->twin[side];
@@ -247,8 +265,10 @@ static inline __attribute__((always_inline)) bool cross_arc(pir_tracked *tracked
         return walk_arc(tracked, arcs, k, side, many, notes);
     if (!pir_crossing_push(tracked, arcs->edge[k], arcs->side[k], &last))
         return false;
-    if (notes)
-        pir_note_met(tracked, arcs->half[k], arcs->met[k], arcs->right[k], arcs->left[k]);
+    if (notes && many)
+        pir_note_passed(tracked, arcs->edge[k], arcs->right[k], arcs->left[k]);
+    else if (notes)
+        pir_note_met(tracked, arcs->edge[k], tracked->pairing.q->edge[arcs->side[k]], arcs->right[k], arcs->left[k]);
     return true;
 }
 
@@ -264,12 +284,13 @@ static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, bool notes) {
  * processor that is to fetch many lines at once does nothing else meanwhile.
  */
 static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, const pir_arcs *found,
-                            const pir_arcs *listed, bool notes) {
+                            const pir_arcs *listed, const struct edges *next, bool notes) {
     for (uint32_t k = 0, i = 0; k < PIR_ARCS; k++) {
+        fetch_edge(tracked->pairing.p, next, k);
         if (k < found->count)
             fetch_side(tracked, found, k);
         if (k < listed->count)
-            fetch_cell(tracked->pairing.p, tracked->pairing.q, listed, k);
+            fetch_cell(tracked->pairing.q, listed, k);
         bool leads = i < chunk->led && chunk->arc[i] == k;
         if (k < chunk->arcs.count &&
             !cross_arc(tracked, &chunk->arcs, k, leads ? chunk->side[i] : PIR_NO_SIDE, true, notes))
@@ -281,7 +302,7 @@ static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, con
 
 bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    const bool many = q->half_count >= MANY_HALVES;
+    const bool many = pir_is_large(q);
     const uint32_t turns = many ? TURNS : 3, chunks = count / PIR_ARCS + (count % PIR_ARCS != 0);
     struct chunk chunk[TURNS];
     for (uint32_t i = 0; i < turns; i++)
@@ -298,7 +319,8 @@ bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) 
             leave_first_cells(tracked, &chunk[(c + turns - 2) % turns]);
             fetch_next_cells(q, &chunk[(c + turns - 3) % turns]);
         }
-        if (!(many ? cross_and_fetch(tracked, crossed, &found->arcs, &listed->arcs, !edge)
+        const struct edges next = {edge, count, c * PIR_ARCS + FETCHED_BEFORE};
+        if (!(many ? cross_and_fetch(tracked, crossed, &found->arcs, &listed->arcs, &next, !edge)
                    : cross_arcs(tracked, &crossed->arcs, !edge)))
             return false;
     }
