@@ -14,9 +14,9 @@
 #define DESCENT_FETCHES 4096
 
 /* Fetches the rings of some cells. */
-DESCEND_TARGET PIR_FETCHING void fetch_cells(const pir_facets *facets, const uint32_t *at, uint32_t which) {
+DESCEND_TARGET PIR_FETCHING void fetch_cells(const pir_facets *facets, const uint32_t *at, uint64_t which) {
     for (; which; which &= which - 1) {
-        uint32_t v = at[__builtin_ctz(which)];
+        uint32_t v = at[__builtin_ctzll(which)];
         const pir_ring *ring = facets->ring + facets->ring_block[v];
         __builtin_prefetch(ring->x, 0, 2);
         __builtin_prefetch(ring->z, 0, 2);
@@ -27,35 +27,35 @@ DESCEND_TARGET static inline __attribute__((always_inline)) uint32_t
 descend_all(const pir_facets *facets, const uint32_t *facet, const uint32_t *from, uint32_t count, bool fetches,
             uint32_t *ret_open, uint64_t *sides) {
     float turned[PIR_DESCENT_MOST][8];
-    uint32_t at[PIR_DESCENT_MOST], unsure = 0, open = 0;
-    uint64_t compared = 0;
+    uint32_t at[PIR_DESCENT_MOST], open = 0;
+    uint64_t unsure = 0, compared = 0;
     for (uint32_t k = 0; k < count; k++) {
         turn_facet(facets, facet[k], turned[k]);
         at[k] = from[k];
     }
     // each step rises for certain, so the descent ends
-    for (uint32_t moving = UINT32_MAX >> (PIR_DESCENT_MOST - count), rising; moving; moving = rising) {
+    for (uint64_t moving = UINT64_MAX >> (PIR_DESCENT_MOST - count), rising; moving; moving = rising) {
         rising = 0;
         if (fetches)
             fetch_cells(facets, at, moving);
         for (; moving; moving &= moving - 1) {
-            uint32_t k = (uint32_t)__builtin_ctz(moving), v = at[k], which = 0;
+            uint32_t k = (uint32_t)__builtin_ctzll(moving), v = at[k], which = 0;
             uint32_t block = facets->ring_block[v], start = facets->ring_start[v];
             float highest = steepest(facets->ring + block, facets->ring_block[v + 1] - block, turned[k], &which);
-            uint32_t rises = highest > PIR_FLOAT_BOUND,
-                     next = fetches ? facets->ring[block + which / PIR_LANES].target[which % PIR_LANES]
+            uint64_t rises = highest > PIR_FLOAT_BOUND;
+            uint32_t next = fetches ? facets->ring[block + which / PIR_LANES].target[which % PIR_LANES]
                                     : facets->target[start + which];
             compared += facets->ring_start[v + 1] - start;
             // by masks: neither is foreseen
-            at[k] = v ^ ((v ^ next) & -rises);
+            at[k] = v ^ ((v ^ next) & -(uint32_t)rises);
             rising |= rises << k;
-            unsure |= ((uint32_t)(highest >= -PIR_FLOAT_BOUND) ^ rises) << k;
+            unsure |= ((uint64_t)(highest >= -PIR_FLOAT_BOUND) ^ rises) << k;
         }
     }
     for (uint32_t k = 0; k < count; k++)
         facets->cell[facet[k]] = at[k];
     for (; unsure; unsure &= unsure - 1)
-        ret_open[open++] = facet[(uint32_t)__builtin_ctz(unsure)];
+        ret_open[open++] = facet[(uint32_t)__builtin_ctzll(unsure)];
     *sides += compared;
     return open;
 }

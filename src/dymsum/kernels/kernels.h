@@ -64,7 +64,7 @@ typedef struct pir_suspect {
 } pir_suspect;
 
 /* How many facets descend at a time, at most. */
-#define PIR_DESCENT_MOST 32
+#define PIR_DESCENT_MOST 64
 
 /* How many arcs of P are walked at a time. */
 #define PIR_ARCS 32

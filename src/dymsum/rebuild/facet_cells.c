@@ -10,6 +10,11 @@
  * its left end in that of e's target: an arc of P separates the cells of its edge's vertices. Where it has several,
  * their order along the arc is not known, and the edge tells nothing. So cells spread from single crossings along
  * edges that have none. What they do not reach is located by descent.
+ *
+ * Where Q is large, all crossings tell: each leads from one cell of P to the next, so the difference of the cells'
+ * numbers at the two ends of an arc is the sum over its crossings, in whatever order they come. One facet is located by
+ * descent, and the others follow in the order of visits. That reads far less memory, and what it does next does not
+ * depend on what it finds. Signs are asked for that one facet alone.
  */
 #include "dymsum/rebuild/facet_cells.h"
 
@@ -39,14 +44,16 @@ void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, c
 #define FETCHED_BEFORE 160
 
 /*
- * Fetches the cells that are likely to be next beyond those of some facets: what numbers do from the cell of a facet
- * before to a facet's own, they often do once more. All goes to the second level, which takes more requests at a time.
+ * Fetches the cells that are likely to come after those of some facets: by what the number of a facet's cell differs
+ * from that of the one before it, the next one often does again. All goes to a cache of the second level, which takes
+ * more requests at a time than the first.
  */
-PIR_FETCHING void fetch_onward(const pir_tracked *tracked, const uint32_t *facet, uint32_t count) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
+PIR_FETCHING void fetch_onward(const pir_tracked *tracked, const uint32_t *facet, const uint32_t *from,
+                               uint32_t count) {
+    const pir_polytope *q = tracked->pairing.q;
     const uint32_t *fv = tracked->pairing.fv;
     for (uint32_t k = 0; k < count; k++) {
-        uint32_t onward = 2 * fv[facet[k]] - fv[p->beside[p->beside[facet[k]]]];
+        uint32_t onward = 2 * fv[facet[k]] - from[k];
         const pir_ring *ring = q->ring + q->ring_block[onward < q->vertex_count ? onward : 0];
         __builtin_prefetch(ring->x, 0, 2);
         __builtin_prefetch(ring->z, 0, 2);
@@ -80,7 +87,7 @@ void pir_locate_facets_of_p(pir_tracked *tracked) {
         }
         pir_settle_facets(tracked, true, facet, from, count);
         if (many) {
-            fetch_onward(tracked, facet, count);
+            fetch_onward(tracked, facet, from, count);
             fetch_visits(tracked, i + FETCHED_BEFORE, count);
         }
     }
@@ -157,7 +164,7 @@ static uint32_t take_noted_cells(pir_tracked *tracked) {
     return left;
 }
 
-/* Sums what has been noted from facet to facet. */
+/* Adds up what arcs have passed, from facet to facet. */
 static void sum_passed(pir_tracked *tracked) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t *vf = tracked->pairing.vf, first = q->visit[0].facet, from = 0;

@@ -158,11 +158,16 @@ PIR_FETCHING void fetch_edge(const pir_polytope *p, const struct edges *edges, u
         __builtin_prefetch(&p->edge_arc[edges->edge ? edges->edge[i] : i], 0, 2);
 }
 
+/* The ring of a cell of so many sides often begins in one line of a cache and ends in the next. */
+#define USUAL_SIDES 6
+
 /* Fetches what the side of arc k's first cell is found by. */
 PIR_FETCHING void fetch_cell(const pir_polytope *q, const pir_arcs *arcs, uint32_t k) {
     uint32_t start = q->ring_start[arcs->from[k]];
     __builtin_prefetch(q->target + start);
+    __builtin_prefetch(q->target + start + USUAL_SIDES - 1);
     __builtin_prefetch(q->left + start);
+    __builtin_prefetch(q->left + start + USUAL_SIDES - 1);
 }
 
 /* Fetches the corners of a cell. */

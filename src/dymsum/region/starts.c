@@ -11,6 +11,9 @@
 /* A grid has about so many squares for a vertex. */
 #define SQUARES 4
 
+/* Squares that are filled in at a time. */
+#define FILLED 32
+
 static pir_layout layout_of(pir_starts *starts) {
     return (pir_layout){{PIR_ROW(starts->cell, starts->side * starts->side)}};
 }
@@ -31,11 +34,11 @@ static void middle_of(const pir_starts *starts, uint32_t square, float ret_norma
     ret_normal[3] = 0;
 }
 
-/* Fills in squares from `first` on, at most PIR_DESCENT_MOST, each from the one beside it in the row before. */
+/* Fills in squares from `first` on, at most FILLED, each from the one beside it in the row before. */
 static void fill(pir_starts *starts, const pir_kernels *kernels, const pir_facets *facets, uint32_t first,
                  uint32_t count) {
-    float normal[PIR_DESCENT_MOST][4];
-    uint32_t which[PIR_DESCENT_MOST], from[PIR_DESCENT_MOST], unsure[PIR_DESCENT_MOST];
+    float normal[FILLED][4];
+    uint32_t which[FILLED], from[FILLED], unsure[FILLED];
     uint64_t unused = 0;
     pir_facets middles = *facets;
     middles.normal = normal[0];
@@ -59,7 +62,7 @@ bool pir_starts_init(pir_starts *starts, const pir_kernels *kernels, const pir_f
     if (!pir_layout_new(allocator, &layout))
         return false;
     uint32_t squares = starts->side * starts->side;
-    for (uint32_t i = 0; i < squares; i += PIR_DESCENT_MOST)
-        fill(starts, kernels, facets, i, squares - i < PIR_DESCENT_MOST ? squares - i : PIR_DESCENT_MOST);
+    for (uint32_t i = 0; i < squares; i += FILLED)
+        fill(starts, kernels, facets, i, squares - i < FILLED ? squares - i : FILLED);
     return true;
 }
