@@ -31,17 +31,16 @@ static pir_layout layout_of(pir_polytope *p) {
          PIR_ROW(p->ring_block, v + 1), PIR_ROW(p->normal4, 4 * f)}};
 }
 
-/* A point has room for one block, which descents read without need. */
+/* With room to begin at a multiple of a block. A point has room for one that is read without need. */
 static size_t ring_bytes(const pir_polytope *p) {
-    size_t blocks = p->ring_block[p->vertex_count];
-    return (blocks > 0 ? blocks : 1) * sizeof *p->ring;
+    return ((size_t)p->ring_block[p->vertex_count] + 2) * sizeof *p->ring;
 }
 
 static void destroy(pir_polytope *p) {
     const pir_allocator allocator = p->allocator, *a = &allocator;
     pir_polytope_free_attachments(p);
-    if (p->ring)
-        pir_memory_free(a, p->ring, ring_bytes(p), 1);
+    if (p->ring_memory)
+        pir_memory_free(a, p->ring_memory, ring_bytes(p), 1);
     pir_layout layout = layout_of(p);
     pir_layout_free(a, &layout);
     pir_vectors_finish(&p->exact_vertex, a);
@@ -318,9 +317,11 @@ static bool set_floats(pir_polytope *p) {
         uint32_t degree = p->ring_start[v + 1] - p->ring_start[v];
         p->ring_block[v + 1] = p->ring_block[v] + (degree + PIR_LANES - 1) / PIR_LANES;
     }
-    p->ring = pir_memory_lasting(a, ring_bytes(p));
-    if (!p->ring)
+    p->ring_memory = pir_memory_lasting(a, ring_bytes(p));
+    if (!p->ring_memory)
         return false;
+    // a block is two lines of a cache, not parts of three
+    p->ring = (pir_ring *)(void *)(p->ring_memory + -(uintptr_t)p->ring_memory % sizeof *p->ring);
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         uint32_t lanes = (p->ring_block[v + 1] - p->ring_block[v]) * PIR_LANES;
         for (uint32_t i = 0; i < lanes; i++) {

@@ -97,7 +97,8 @@ struct pir_polytope {
      */
     uint32_t *ring_block;
     pir_ring *ring;
-    float *normal4; /* the normals too, each with a fourth float of 0 */
+    unsigned char *ring_memory; /* what ring is in */
+    float *normal4;             /* the normals too, each with a fourth float of 0 */
 
     pir_vectors exact_vertex; /* times scale */
     pir_vectors exact_edge;   /* per edge, along edge_half */
