@@ -23,20 +23,20 @@
 /* Fetches the ring of a cell. */
 REVIEW_TARGET PIR_FETCHING void fetch_ring(const pir_facets *facets, uint32_t cell) {
     const pir_ring *ring = facets->ring + facets->ring_block[cell];
-    __builtin_prefetch(ring->x);
-    __builtin_prefetch(ring->z);
-    __builtin_prefetch(facets->ring_start + cell);
+    PIR_FETCH(ring->x);
+    PIR_FETCH(ring->z);
+    PIR_FETCH(facets->ring_start + cell);
 }
 
 /* Fetches what a facet is turned by, where it is, and what its certificate is filed in. */
 REVIEW_TARGET PIR_FETCHING void fetch_facet(const pir_facets *facets, const pir_certificates *certificates,
                                             uint32_t i) {
     uint32_t f = i - facets->first_certificate;
-    __builtin_prefetch(facets->cell + f);
-    __builtin_prefetch(facets->normal + (size_t)4 * f);
-    __builtin_prefetch(certificates->at + i, 1);
-    __builtin_prefetch(certificates->margin + i, 1);
-    __builtin_prefetch(certificates->previous + i, 1);
+    PIR_FETCH(facets->cell + f);
+    PIR_FETCH(facets->normal + (size_t)4 * f);
+    PIR_FETCH(certificates->at + i);
+    PIR_FETCH(certificates->margin + i);
+    PIR_FETCH(certificates->previous + i);
 }
 
 /* Fetches what it is compared with. */

@@ -20,49 +20,49 @@ static inline bool pir_fetches_ahead(const pir_tracked *tracked) {
 }
 
 PIR_FETCHING void pir_fetch_edge(const pir_tracked *tracked, uint32_t e) {
-    __builtin_prefetch(&tracked->pairing.crossings.first[e], 1);
-    __builtin_prefetch(&tracked->touched[e], 1);
-    __builtin_prefetch(&tracked->pairing.p->arc_ends[e]);
+    PIR_FETCH(&tracked->pairing.crossings.first[e]);
+    PIR_FETCH(&tracked->touched[e]);
+    PIR_FETCH(&tracked->pairing.p->arc_ends[e]);
 }
 
 PIR_FETCHING void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
     const pir_crossings *c = &tracked->pairing.crossings;
     uint32_t slot = c->first[e] != PIR_NO_CROSSING ? c->first[e] : 0;
-    __builtin_prefetch(&c->at[slot], 1);
+    PIR_FETCH(&c->at[slot]);
 }
 
 PIR_FETCHING void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
     const pir_pairing *pairing = &tracked->pairing;
     uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.at[slot].half : 0;
-    __builtin_prefetch(&pairing->q->origin[half]);
-    __builtin_prefetch(&pairing->q->target[half]);
-    __builtin_prefetch(&pairing->q->left[half]);
-    __builtin_prefetch(&pairing->q->twin[half]);
+    PIR_FETCH(&pairing->q->origin[half]);
+    PIR_FETCH(&pairing->q->target[half]);
+    PIR_FETCH(&pairing->q->left[half]);
+    PIR_FETCH(&pairing->q->twin[half]);
 }
 
 /* Fetches the facets of Q on either side of what the first crossing of edge e crosses. */
 PIR_FETCHING void pir_fetch_corners(const pir_tracked *tracked, uint32_t e) {
     const pir_pairing *pairing = &tracked->pairing;
     uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.at[slot].half : 0;
-    __builtin_prefetch(&pairing->q->normal[pairing->q->left[half]]);
-    __builtin_prefetch(&pairing->q->normal[pir_right(pairing->q, half)]);
+    PIR_FETCH(&pairing->q->normal[pairing->q->left[half]]);
+    PIR_FETCH(&pairing->q->normal[pir_right(pairing->q, half)]);
 }
 
 /* Fetches the halfedges round facet g of Q. */
 PIR_FETCHING void pir_fetch_round(const pir_polytope *q, uint32_t g) {
     for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++) {
         uint32_t half = q->loop[i];
-        __builtin_prefetch(&q->origin[half]);
-        __builtin_prefetch(&q->target[half]);
-        __builtin_prefetch(&q->left[half]);
-        __builtin_prefetch(&q->twin[half]);
+        PIR_FETCH(&q->origin[half]);
+        PIR_FETCH(&q->target[half]);
+        PIR_FETCH(&q->left[half]);
+        PIR_FETCH(&q->twin[half]);
     }
 }
 
 /* Fetches where the rings of its corners begin. */
 PIR_FETCHING void pir_fetch_rings(const pir_polytope *q, uint32_t g) {
     for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++)
-        __builtin_prefetch(&q->ring_start[q->origin[q->loop[i]]]);
+        PIR_FETCH(&q->ring_start[q->origin[q->loop[i]]]);
 }
 
 /* Fetches the sides of facet f of P in either turn. */
@@ -81,9 +81,9 @@ PIR_FETCHING void pir_fetch_trace(const pir_facets *facets, const pir_polytope *
                                   uint32_t f) {
     uint32_t start = other->ring_start[facets->cell[f]];
     for (uint32_t line = 0; line < 3; line++)
-        __builtin_prefetch((const char *)(other->direction + start) + 64 * (size_t)line);
-    __builtin_prefetch(other->target + start);
-    __builtin_prefetch(&own->normal[f]);
+        PIR_FETCH((const char *)(other->direction + start) + 64 * (size_t)line);
+    PIR_FETCH(other->target + start);
+    PIR_FETCH(&own->normal[f]);
 }
 
 #endif

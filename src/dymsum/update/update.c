@@ -89,14 +89,14 @@ PIR_FETCHING void fetch_pass(const struct update *update, uint32_t i) {
     const pir_suspect *pass = tracked->work->passes + i;
     if (i + 2 * PIR_FETCHED_AHEAD < update->passes) {
         const pir_suspect *next = pass + 2 * PIR_FETCHED_AHEAD;
-        __builtin_prefetch(&edge[next->crossed]);
-        __builtin_prefetch(&q->loop_start[next->facet]);
+        PIR_FETCH(&edge[next->crossed]);
+        PIR_FETCH(&q->loop_start[next->facet]);
     }
     if (i + PIR_FETCHED_AHEAD < update->passes) {
         const pir_suspect *next = pass + PIR_FETCHED_AHEAD;
         pir_fetch_edge(tracked, edge[next->crossed]);
-        __builtin_prefetch(&tracked->pairing.p->edge_half[edge[next->crossed]]);
-        __builtin_prefetch(&q->loop[q->loop_start[next->facet]]);
+        PIR_FETCH(&tracked->pairing.p->edge_half[edge[next->crossed]]);
+        PIR_FETCH(&q->loop[q->loop_start[next->facet]]);
     }
     if (i + PIR_FETCHED_AHEAD / 2 < update->passes) {
         const pir_suspect *next = pass + PIR_FETCHED_AHEAD / 2;
@@ -267,13 +267,13 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
 PIR_FETCHING void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     if (left > 3 * PIR_FETCHED_AHEAD) {
-        __builtin_prefetch(&p->loop_start[suspect[3 * PIR_FETCHED_AHEAD].facet]);
-        __builtin_prefetch(&tracked->pairing.fv[suspect[3 * PIR_FETCHED_AHEAD].facet]);
+        PIR_FETCH(&p->loop_start[suspect[3 * PIR_FETCHED_AHEAD].facet]);
+        PIR_FETCH(&tracked->pairing.fv[suspect[3 * PIR_FETCHED_AHEAD].facet]);
     }
     if (left > 2 * PIR_FETCHED_AHEAD) {
         uint32_t f = suspect[2 * PIR_FETCHED_AHEAD].facet;
-        __builtin_prefetch(&p->across[p->loop_start[f]]);
-        __builtin_prefetch(&q->ring_start[tracked->pairing.fv[f]]);
+        PIR_FETCH(&p->across[p->loop_start[f]]);
+        PIR_FETCH(&q->ring_start[tracked->pairing.fv[f]]);
     }
     if (left > PIR_FETCHED_AHEAD)
         pir_fetch_sides(tracked, suspect[PIR_FETCHED_AHEAD].facet, false);
@@ -284,18 +284,18 @@ PIR_FETCHING void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspe
     if (next->crossed == PIR_NO_SIDE)
         pir_fetch_trace(&tracked->p_facets, p, q, next->facet);
     else
-        __builtin_prefetch(&q->twin[next->crossed]);
+        PIR_FETCH(&q->twin[next->crossed]);
 }
 
 /* The same of Q. */
 PIR_FETCHING void fetch_suspect_of_q(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     if (left > 2 * PIR_FETCHED_AHEAD)
-        __builtin_prefetch(&tracked->pairing.vf[suspect[2 * PIR_FETCHED_AHEAD].facet]);
+        PIR_FETCH(&tracked->pairing.vf[suspect[2 * PIR_FETCHED_AHEAD].facet]);
     if (left > PIR_FETCHED_AHEAD) {
         const pir_suspect *next = suspect + PIR_FETCHED_AHEAD;
-        __builtin_prefetch(next->crossed == PIR_NO_SIDE ? &p->ring_start[tracked->pairing.vf[next->facet]]
-                                                        : &p->edge[next->crossed]);
+        PIR_FETCH(next->crossed == PIR_NO_SIDE ? &p->ring_start[tracked->pairing.vf[next->facet]]
+                                               : &p->edge[next->crossed]);
     }
     if (left <= PIR_FETCHED_AHEAD / 2)
         return;
@@ -303,7 +303,7 @@ PIR_FETCHING void fetch_suspect_of_q(const pir_tracked *tracked, const pir_suspe
     if (next->crossed == PIR_NO_SIDE)
         pir_fetch_trace(&tracked->q_facets, q, p, next->facet);
     else
-        __builtin_prefetch(&tracked->touched[p->edge[next->crossed]], 1);
+        PIR_FETCH(&tracked->touched[p->edge[next->crossed]]);
 }
 
 /*
@@ -368,15 +368,15 @@ PIR_FETCHING void fetch_derived(const struct update *update, uint32_t i) {
     const pir_tracked *tracked = update->tracked;
     const uint32_t *edge = tracked->work->queue + i;
     if (i + 2 * PIR_FETCHED_AHEAD < update->derive) {
-        __builtin_prefetch(&tracked->pairing.p->edge_half[edge[2 * PIR_FETCHED_AHEAD]]);
-        __builtin_prefetch(&tracked->pairing.p->arc_ends[edge[2 * PIR_FETCHED_AHEAD]]);
+        PIR_FETCH(&tracked->pairing.p->edge_half[edge[2 * PIR_FETCHED_AHEAD]]);
+        PIR_FETCH(&tracked->pairing.p->arc_ends[edge[2 * PIR_FETCHED_AHEAD]]);
     }
     if (i + PIR_FETCHED_AHEAD < update->derive) {
         uint32_t e = edge[PIR_FETCHED_AHEAD];
         pir_fetch_edge(tracked, e);
-        __builtin_prefetch(&tracked->pairing.p->direction[tracked->pairing.p->edge_half[e]]);
-        __builtin_prefetch(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].from]);
-        __builtin_prefetch(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].to]);
+        PIR_FETCH(&tracked->pairing.p->direction[tracked->pairing.p->edge_half[e]]);
+        PIR_FETCH(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].from]);
+        PIR_FETCH(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].to]);
     }
     if (i + PIR_FETCHED_AHEAD / 2 < update->derive)
         pir_fetch_crossing(tracked, edge[PIR_FETCHED_AHEAD / 2]);
