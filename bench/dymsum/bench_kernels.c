@@ -119,10 +119,11 @@ static void scene_free(struct scene *scene) {
 static double run_review(void *context, unsigned index) {
     struct scene *scene = context;
     const pir_facets *facets = &scene->sum->tracked.p_facets;
+    const pir_due due = {scene->expired, facets->count, 0, false};
     uint64_t sides = 0;
     double start = trial_now();
-    pir_kernels_version(index)->review(facets, &scene->sum->tracked.step, &scene->sum->tracked.certificates,
-                                       scene->expired, facets->count, scene->suspects, &sides);
+    pir_kernels_version(index)->review(facets, &scene->sum->tracked.step, &scene->sum->tracked.certificates, &due,
+                                       scene->suspects, &sides);
     double taken = trial_now() - start;
     memcpy(facets->cell, scene->cells, facets->count * sizeof *scene->cells);
     return taken;

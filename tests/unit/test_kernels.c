@@ -49,7 +49,11 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
         expired[f] = facets->first_certificate + f;
     pir_certificates_lay_out(&sum->tracked.certificates, certificates);
     uint64_t sides = 0, hash = 0xcbf29ce484222325u;
-    uint32_t found = kernels->review(facets, &step, &sum->tracked.certificates, expired, count, suspects, &sides);
+    // in two parts
+    const pir_due first = {expired, count / 2, count - count / 2, false};
+    const pir_due rest = {expired + first.count, first.behind, 0, true};
+    uint32_t found = kernels->review(facets, &step, &sum->tracked.certificates, &first, suspects, &sides);
+    found += kernels->review(facets, &step, &sum->tracked.certificates, &rest, suspects + found, &sides);
     for (uint32_t i = 0; i < found; i++) {
         hash = mix(hash, &suspects[i].facet, sizeof suspects[i].facet);
         hash = mix(hash, &suspects[i].crossed, sizeof suspects[i].crossed);

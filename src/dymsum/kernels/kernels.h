@@ -56,6 +56,13 @@ typedef struct pir_probe {
     pir_check check;
 } pir_probe;
 
+/* A part of a list of expired certificates, by numbers. Parts are reviewed one after another. */
+typedef struct pir_due {
+    const uint32_t *expired;
+    uint32_t count, behind; /* as many follow in the list behind this part */
+    bool begun;             /* the part before has been reviewed */
+} pir_due;
+
 /* A facet that may have left its cell, perhaps only within the last step. */
 typedef struct pir_suspect {
     uint32_t facet;
@@ -143,13 +150,13 @@ typedef struct pir_kernels {
     const char *name;
 
     /*
-     * Checks `count` facets, given by the numbers of their expired certificates. Facets that are in their cells, and
-     * certainly have been all through the last step, are certified anew. So are those that have crossed one side and
-     * touched no other. Their previous certificates are kept (certificates.h), and they are listed, as are all others.
-     * Returns how many are listed; adds to *sides how many directions were compared.
+     * Checks the facets of a part of the expired certificates. Facets that are in their cells, and certainly have been
+     * all through the last step, are certified anew. So are those that have crossed one side and touched no other.
+     * Their previous certificates are kept (certificates.h), and they are listed, as are all others. Returns how many
+     * are listed; adds to *sides how many directions were compared.
      */
     uint32_t (*review)(const pir_facets *facets, const pir_step *step, pir_certificates *certificates,
-                       const uint32_t *expired, uint32_t count, pir_suspect *ret_suspects, uint64_t *sides);
+                       const pir_due *due, pir_suspect *ret_suspects, uint64_t *sides);
 
     /* Probes a facet in the cell of vertex `cell`; turned: its normal rotated, 0, the motion of that, 0. */
     void (*probe)(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],

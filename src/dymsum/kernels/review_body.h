@@ -94,18 +94,12 @@ REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const p
     return true;
 }
 
-/* The facets that are listed from a chunk on. */
-struct listed {
-    const uint32_t *expired;
-    uint32_t left;
-};
-
-/* Reviews a chunk, the first of those listed. */
+/* Reviews a chunk, `count` facets. As many as are behind them in the list are fetched for. */
 REVIEW_TARGET static inline __attribute__((always_inline)) uint32_t
-review_chunk(const pir_facets *facets, const pir_step *step, pir_certificates *certificates, struct listed listed,
+review_chunk(const pir_facets *facets, const pir_step *step, pir_certificates *certificates, pir_due due,
              pir_suspect *ret_suspects, uint64_t *sides, const bool fetches) {
-    const uint32_t *expired = listed.expired;
-    const uint32_t left = listed.left, count = left < REVIEW_CHUNK ? left : REVIEW_CHUNK;
+    const uint32_t *expired = due.expired;
+    const uint32_t count = due.count, left = count + due.behind;
     pir_check check[REVIEW_CHUNK];
     float turned[REVIEW_CHUNK][8];
     uint8_t moved[REVIEW_CHUNK], crossing[REVIEW_CHUNK];
@@ -151,19 +145,20 @@ review_chunk(const pir_facets *facets, const pir_step *step, pir_certificates *c
 }
 
 REVIEW_TARGET static uint32_t review(const pir_facets *facets, const pir_step *step, pir_certificates *certificates,
-                                     const uint32_t *expired, uint32_t count, pir_suspect *ret_suspects,
-                                     uint64_t *sides) {
+                                     const pir_due *due, pir_suspect *ret_suspects, uint64_t *sides) {
     uint32_t suspects = 0;
     const bool fetches = facets->count >= REVIEW_FETCHES;
-    for (uint32_t k = 0; fetches && k < count && k < 2 * REVIEW_CHUNK; k++)
-        fetch_facet(facets, certificates, expired[k]);
-    for (uint32_t k = 0; fetches && k < count && k < REVIEW_CHUNK; k++)
-        fetch_cell(facets, expired[k]);
-    for (uint32_t k = 0; k < count; k += REVIEW_CHUNK) {
-        const struct listed listed = {expired + k, count - k};
+    const uint32_t left = due->count + due->behind;
+    for (uint32_t k = 0; fetches && !due->begun && k < left && k < 2 * REVIEW_CHUNK; k++)
+        fetch_facet(facets, certificates, due->expired[k]);
+    for (uint32_t k = 0; fetches && !due->begun && k < left && k < REVIEW_CHUNK; k++)
+        fetch_cell(facets, due->expired[k]);
+    for (uint32_t k = 0; k < due->count; k += REVIEW_CHUNK) {
+        const uint32_t count = due->count - k < REVIEW_CHUNK ? due->count - k : REVIEW_CHUNK;
+        const pir_due chunk = {due->expired + k, count, left - k - count, true};
         pir_suspect *to = ret_suspects + suspects;
-        suspects += fetches ? review_chunk(facets, step, certificates, listed, to, sides, true)
-                            : review_chunk(facets, step, certificates, listed, to, sides, false);
+        suspects += fetches ? review_chunk(facets, step, certificates, chunk, to, sides, true)
+                            : review_chunk(facets, step, certificates, chunk, to, sides, false);
     }
     return suspects;
 }

@@ -14,7 +14,8 @@ static pir_layout layout_of_work(pir_pairing_work *work) {
     uint32_t queue = most(most(work->facets_p, work->facets_q), work->edges);
     return (pir_layout){
         {PIR_ROW(work->queue, queue), PIR_ROW(work->met, work->edges), PIR_ROW(work->rotated, work->facets_p),
-         PIR_ROW(work->suspects, work->facets_p + work->facets_q), PIR_ROW(work->passes, work->facets_q)}};
+         PIR_ROW(work->suspects, work->facets_p + work->facets_q), PIR_ROW(work->passes, work->facets_q),
+         PIR_ROW(work->traces, pir_traces_most(work->facets_p + work->facets_q))}};
 }
 
 static void destroy_room(void *at, const pir_allocator *allocator) {

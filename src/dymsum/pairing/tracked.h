@@ -38,6 +38,29 @@ typedef struct pir_arc_cells {
 #define PIR_MANY_CELLS UINT32_MAX       /* the arc has several crossings: it tells nothing */
 #define PIR_ONE_CELL   (UINT32_MAX - 1) /* it has none: the two are in one cell */
 
+/* The longest trace of a facet, and what stands in place of its length where its way is not certain. */
+#define PIR_TRACE_LONGEST 8
+#define PIR_TRACE_UNKNOWN UINT32_MAX
+
+/* The sides that a facet has crossed in the last step, in order. */
+typedef struct pir_trace {
+    uint32_t from, cell; /* where it was before, and where it is */
+    uint32_t count;      /* of sides, or PIR_TRACE_UNKNOWN */
+    uint32_t signs;      /* compared for this */
+    uint32_t crossed[PIR_TRACE_LONGEST];
+} pir_trace;
+
+/*
+ * When more than one facet in so many has to be followed or located by descent, an update derives all edges: that is
+ * less work than finding out which.
+ */
+#define PIR_MANY_OPEN 8
+
+/* How many traces are made, at most, where there are so many certificates. */
+static inline uint32_t pir_traces_most(uint32_t certificates) {
+    return certificates / PIR_MANY_OPEN + 1;
+}
+
 /* What rebuilds and updates work in: nothing of it lasts from call to call. */
 typedef struct pir_pairing_work {
     uint32_t *queue;       /* facets to visit, or edges */
@@ -45,6 +68,7 @@ typedef struct pir_pairing_work {
     pir_vec3 *rotated;     /* normals of P, rotated */
     pir_suspect *suspects; /* facets of Q that are back in an earlier cell, behind them what a review has listed */
     pir_suspect *passes;   /* facets of Q that have crossed arcs of P: as many as Q has facets, at most */
+    pir_trace *traces;     /* of suspects */
     uint32_t facets_p, facets_q, edges; /* what there is room for */
 } pir_pairing_work;
 

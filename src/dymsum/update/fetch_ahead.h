@@ -76,14 +76,4 @@ PIR_FETCHING void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, bool c
     }
 }
 
-/* Fetches what a trace of facet f of `own` begins with. */
-PIR_FETCHING void pir_fetch_trace(const pir_facets *facets, const pir_polytope *own, const pir_polytope *other,
-                                  uint32_t f) {
-    uint32_t start = other->ring_start[facets->cell[f]];
-    for (uint32_t line = 0; line < 3; line++)
-        PIR_FETCH((const char *)(other->direction + start) + 64 * (size_t)line);
-    PIR_FETCH(other->target + start);
-    PIR_FETCH(&own->normal[f]);
-}
-
 #endif

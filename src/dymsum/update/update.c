@@ -27,20 +27,18 @@
 /* A facet is followed back through at most so many cells. Beyond that all edges are derived again. */
 #define FOLLOWED_CELLS 16
 
-/*
- * When more than one facet in so many has to be located by descent, deriving all edges is less work than finding out
- * which.
- */
-#define MANY_OPEN 8
+/* So many expired certificates are reviewed at a time. What that has read is near the processor when it is traced. */
+#define REVIEWED 256
 
 struct update {
     pir_tracked *tracked;
     uint32_t stamp; /* in tracked->touched: of an edge that an event has changed; one more: of one to be derived anew */
-    uint32_t derive; /* edges in work.queue, to be derived anew */
-    uint32_t passes; /* in work.passes */
-    bool all;        /* every edge is to be derived anew */
-    bool failed;     /* out of memory */
-    bool fetches;    /* ahead */
+    uint32_t derive;         /* edges in work.queue, to be derived anew */
+    uint32_t passes;         /* in work.passes */
+    uint32_t traces, traced; /* in work.traces, and how many of them have been applied */
+    bool all;                /* every edge is to be derived anew */
+    bool failed;             /* out of memory */
+    bool fetches;            /* ahead */
 };
 
 /* Edge e is to be derived again. */
@@ -123,19 +121,39 @@ static void pass_facets(struct update *update) {
     }
 }
 
-/* Locates facet f of P, which may have touched several sides, and repairs or notes its edges. */
+/*
+ * The trace of facet f of P or of Q, the next that may have touched several sides. NULL where it is to be located by
+ * descent from the cell where it was before the step. *made: where there is room for a trace.
+ */
+static const pir_trace *next_trace(struct update *update, bool of_p, uint32_t f, pir_trace *made) {
+    pir_tracked *tracked = update->tracked;
+    const pir_trace *trace = made;
+    if (update->traced < update->traces)
+        trace = &tracked->work->traces[update->traced++];
+    else if (!update->all)
+        pir_trace_one(tracked, of_p, f, made);
+    else
+        return NULL;
+    if (update->all) {
+        *(of_p ? &tracked->pairing.fv[f] : &tracked->pairing.vf[f]) = trace->from;
+        return NULL;
+    }
+    tracked->pairing.signs.by_filter += trace->signs;
+    return trace->count != PIR_TRACE_UNKNOWN ? trace : NULL;
+}
+
+/* Repairs or notes the edges of facet f of P, which may have touched several sides. */
 static void settle_of_p(struct update *update, uint32_t f) {
     pir_tracked *tracked = update->tracked;
     pir_pairing *pairing = &tracked->pairing;
     const pir_polytope *p = pairing->p;
-    pir_trace trace;
-    if (!update->all && pir_trace_fv(tracked, f, &trace)) {
-        pir_tracked_certify(tracked, f, &trace.expiry);
-        tracked->statistics.repaired += trace.count;
-        pairing->fv[f] = trace.cell;
-        for (uint32_t i = 0; i < trace.count; i++)
-            cross_of_p(update, f, trace.crossed[i]);
-        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && trace.count > 1; i++)
+    pir_trace made;
+    const pir_trace *trace = next_trace(update, true, f, &made);
+    if (trace) {
+        tracked->statistics.repaired += trace->count;
+        for (uint32_t i = 0; i < trace->count; i++)
+            cross_of_p(update, f, trace->crossed[i]);
+        for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1] && trace->count > 1; i++)
             pir_journal_note_edge(&tracked->journal, p->across[i].edge);
         return;
     }
@@ -190,26 +208,25 @@ static void note_side(pir_tracked *tracked, uint32_t from, uint32_t to) {
             pir_journal_note_edge(&tracked->journal, p->edge[half]);
 }
 
-/* The same of the edges that facet g of Q has passed one after another, and of that which would be the shortest way. */
-static void note_way_of_q(pir_tracked *tracked, uint32_t g, const pir_trace *trace) {
-    note_side(tracked, tracked->pairing.vf[g], trace->cell);
+/* The same of the edges that a facet of Q has passed one after another, and of that which would be the shortest way. */
+static void note_way_of_q(pir_tracked *tracked, const pir_trace *trace) {
+    note_side(tracked, trace->from, trace->cell);
     for (uint32_t i = 0; i < trace->count; i++)
         pir_journal_note_edge(&tracked->journal, tracked->pairing.p->edge[trace->crossed[i]]);
 }
 
-/* Locates facet g of Q, which may have touched several sides, and notes the edges of P that it may have crossed. */
+/* Notes the edges of P that facet g of Q, which may have touched several sides, may have crossed. */
 static void settle_of_q(struct update *update, uint32_t g) {
     pir_tracked *tracked = update->tracked;
     pir_pairing *pairing = &tracked->pairing;
-    pir_trace trace;
-    if (!update->all && pir_trace_vf(tracked, g, &trace)) {
-        pir_tracked_certify(tracked, tracked->q_facets.first_certificate + g, &trace.expiry);
-        tracked->statistics.repaired += trace.count;
-        if (trace.count > 1)
-            note_way_of_q(tracked, g, &trace);
-        pairing->vf[g] = trace.cell;
-        for (uint32_t i = 0; i < trace.count; i++)
-            note_crossing_of_q(update, g, trace.crossed[i]);
+    pir_trace made;
+    const pir_trace *trace = next_trace(update, false, g, &made);
+    if (trace) {
+        tracked->statistics.repaired += trace->count;
+        if (trace->count > 1)
+            note_way_of_q(tracked, trace);
+        for (uint32_t i = 0; i < trace->count; i++)
+            note_crossing_of_q(update, g, trace->crossed[i]);
         return;
     }
     pir_expiry expiry;
@@ -220,14 +237,6 @@ static void settle_of_q(struct update *update, uint32_t g) {
     pairing->vf[g] = v;
     if (!update->all)
         follow_back(update, g, v);
-}
-
-/* Whether so many of the suspects are still to be located that all edges are derived again. */
-static bool are_many_open(const pir_tracked *tracked, const pir_suspect *suspects, uint32_t count) {
-    uint32_t open = 0;
-    for (uint32_t i = 0; i < count; i++)
-        open += suspects[i].crossed == PIR_NO_SIDE;
-    return open > pir_certificate_count(tracked) / MANY_OPEN;
 }
 
 /*
@@ -281,39 +290,58 @@ PIR_FETCHING void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspe
         return;
     const pir_suspect *next = suspect + PIR_FETCHED_AHEAD / 2;
     pir_fetch_sides(tracked, next->facet, true);
-    if (next->crossed == PIR_NO_SIDE)
-        pir_fetch_trace(&tracked->p_facets, p, q, next->facet);
-    else
+    if (next->crossed != PIR_NO_SIDE)
         PIR_FETCH(&q->twin[next->crossed]);
 }
 
-/* The same of Q. */
-PIR_FETCHING void fetch_suspect_of_q(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    if (left > 2 * PIR_FETCHED_AHEAD)
-        PIR_FETCH(&tracked->pairing.vf[suspect[2 * PIR_FETCHED_AHEAD].facet]);
+/* The sides that the facet of a suspect has crossed. *at: how many traces there were before it in the list. */
+static inline const uint32_t *sides_crossed(const struct update *update, const pir_suspect *suspect, uint32_t *at,
+                                            uint32_t *ret_count) {
+    *ret_count = 1;
+    if (suspect->crossed != PIR_NO_SIDE)
+        return &suspect->crossed;
+    const pir_trace *trace = update->tracked->work->traces + (*at < update->traces ? (*at)++ : 0);
+    *ret_count = trace->count <= PIR_TRACE_LONGEST ? trace->count : 0;
+    return trace->crossed;
+}
+
+/* Fetches for the suspects of Q that follow one. ahead: how many traces there were before those in either turn. */
+PIR_FETCHING void fetch_suspect_of_q(const struct update *update, const pir_suspect *suspect, uint32_t left,
+                                     uint32_t ahead[2]) {
+    const uint32_t *edge = update->tracked->pairing.p->edge;
+    uint32_t count;
     if (left > PIR_FETCHED_AHEAD) {
-        const pir_suspect *next = suspect + PIR_FETCHED_AHEAD;
-        PIR_FETCH(next->crossed == PIR_NO_SIDE ? &p->ring_start[tracked->pairing.vf[next->facet]]
-                                               : &p->edge[next->crossed]);
+        const uint32_t *side = sides_crossed(update, suspect + PIR_FETCHED_AHEAD, &ahead[0], &count);
+        for (uint32_t i = 0; i < count; i++)
+            PIR_FETCH(&edge[side[i]]);
     }
-    if (left <= PIR_FETCHED_AHEAD / 2)
-        return;
-    const pir_suspect *next = suspect + PIR_FETCHED_AHEAD / 2;
-    if (next->crossed == PIR_NO_SIDE)
-        pir_fetch_trace(&tracked->q_facets, q, p, next->facet);
-    else
-        PIR_FETCH(&tracked->touched[p->edge[next->crossed]]);
+    if (left > PIR_FETCHED_AHEAD / 2) {
+        const uint32_t *side = sides_crossed(update, suspect + PIR_FETCHED_AHEAD / 2, &ahead[1], &count);
+        for (uint32_t i = 0; i < count; i++)
+            PIR_FETCH(&update->tracked->touched[edge[side[i]]]);
+    }
+}
+
+/* Counts the traces before those that are fetched for first. */
+static void skip_traces(const pir_suspect *suspects, uint32_t count, uint32_t ahead[2]) {
+    for (uint32_t i = 0; i < PIR_FETCHED_AHEAD && i < count; i++) {
+        ahead[0] += suspects[i].crossed == PIR_NO_SIDE;
+        ahead[1] += i < PIR_FETCHED_AHEAD / 2 && suspects[i].crossed == PIR_NO_SIDE;
+    }
 }
 
 /*
  * Applies what a review has found of facets of Q. All of P come first, so that each edge shows whether another event
  * has touched it.
  */
-static void apply_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
+static inline __attribute__((always_inline)) void apply_some_of_q(struct update *update, const pir_suspect *suspects,
+                                                                  uint32_t count, const bool fetches) {
+    uint32_t ahead[2] = {update->traced, update->traced};
+    if (fetches)
+        skip_traces(suspects, count, ahead);
     for (uint32_t i = 0; i < count; i++) {
-        if (update->fetches)
-            fetch_suspect_of_q(update->tracked, suspects + i, count - i);
+        if (fetches)
+            fetch_suspect_of_q(update, suspects + i, count - i, ahead);
         pir_journal_note(&update->tracked->journal, update->tracked->q_facets.first_certificate + suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_q(update, suspects[i].facet);
@@ -322,6 +350,13 @@ static void apply_of_q(struct update *update, const pir_suspect *suspects, uint3
             update->tracked->statistics.repaired++;
         }
     }
+}
+
+static void apply_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
+    if (update->fetches)
+        apply_some_of_q(update, suspects, count, true);
+    else
+        apply_some_of_q(update, suspects, count, false);
 }
 
 static void apply_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
@@ -338,6 +373,46 @@ static void apply_of_p(struct update *update, const pir_suspect *suspects, uint3
     }
 }
 
+/* Whether so many of the suspects are still to be followed or located that all edges are derived again. */
+static bool are_many_open(const pir_tracked *tracked, const pir_suspect *suspects, uint32_t count) {
+    uint32_t open = 0;
+    for (uint32_t i = 0; i < count; i++)
+        open += suspects[i].crossed == PIR_NO_SIDE;
+    return open > pir_certificate_count(tracked) / PIR_MANY_OPEN;
+}
+
+/* Reviews expired certificates, of P or of Q. Returns how many suspects it has listed. */
+static inline uint32_t review_part(const struct update *update, bool of_p, pir_due due, pir_suspect *ret_suspects) {
+    pir_tracked *tracked = update->tracked;
+    // all checks come before anything that depends on their results, so that a processor can overlap them
+    return tracked->kernels->review(of_p ? &tracked->p_facets : &tracked->q_facets, &tracked->step,
+                                    &tracked->certificates, &due, ret_suspects, &tracked->pairing.signs.by_filter);
+}
+
+/* The same of all of P or of Q, where memory is fetched ahead. Traces are made of what a part has just read. */
+static uint32_t review_and_trace(struct update *update, bool of_p, const uint32_t *expired, uint32_t count,
+                                 pir_suspect *ret_suspects) {
+    pir_tracked *tracked = update->tracked;
+    const uint32_t most = pir_traces_most(pir_certificate_count(tracked));
+    uint32_t listed = 0;
+    for (uint32_t k = 0; k < count; k += REVIEWED) {
+        const uint32_t some = count - k < REVIEWED ? count - k : REVIEWED;
+        pir_suspect *suspects = ret_suspects + listed;
+        uint32_t found = review_part(update, of_p, (pir_due){expired + k, some, count - k - some, k > 0}, suspects);
+        listed += found;
+        if (!update->all)
+            update->traces += pir_trace_open(tracked, of_p, suspects, found, most - update->traces,
+                                             tracked->work->traces + update->traces);
+    }
+    return listed;
+}
+
+static inline uint32_t review_all(struct update *update, bool of_p, const uint32_t *expired, uint32_t count,
+                                  pir_suspect *ret_suspects) {
+    return update->fetches ? review_and_trace(update, of_p, expired, count, ret_suspects)
+                           : review_part(update, of_p, (pir_due){expired, count, 0, false}, ret_suspects);
+}
+
 /* Locates the facets whose certificates have expired, and repairs or notes the edges that they have touched. */
 static void review(struct update *update, uint32_t expired) {
     pir_tracked *tracked = update->tracked;
@@ -349,12 +424,8 @@ static void review(struct update *update, uint32_t expired) {
         while (left_of_p < left && certificate[left_of_p] < tracked->q_facets.first_certificate)
             left_of_p++;
         pir_tracked_begin_step(tracked);
-        // all checks come before anything that depends on their results, so that a processor can overlap them
-        of_p = tracked->kernels->review(&tracked->p_facets, &tracked->step, &tracked->certificates, certificate,
-                                        left_of_p, seen, &tracked->pairing.signs.by_filter);
-        of_q = tracked->kernels->review(&tracked->q_facets, &tracked->step, &tracked->certificates,
-                                        certificate + left_of_p, left - left_of_p, seen + of_p,
-                                        &tracked->pairing.signs.by_filter);
+        of_p = review_all(update, true, certificate, left_of_p, seen);
+        of_q = review_all(update, false, certificate + left_of_p, left - left_of_p, seen + of_p);
         update->all |= are_many_open(tracked, seen, of_p + of_q);
     }
     apply_of_p(update, seen, of_p);
