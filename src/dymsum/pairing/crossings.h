@@ -7,6 +7,7 @@
 #ifndef PIR_DYMSUM_PAIRING_CROSSINGS_H
 #define PIR_DYMSUM_PAIRING_CROSSINGS_H
 
+#include "base/fetching.h"
 #include "dymsum/pairing/tracked.h"
 
 /*
@@ -29,9 +30,10 @@ uint32_t pir_crossing_new_slot(pir_tracked *tracked);
 static inline uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32_t h) {
     pir_crossings *c = &tracked->pairing.crossings;
     uint32_t slot = c->free;
-    if (slot != PIR_NO_CROSSING)
+    if (slot != PIR_NO_CROSSING) {
         c->free = c->at[slot].next;
-    else if ((slot = pir_crossing_new_slot(tracked)) == PIR_NO_CROSSING)
+        PIR_FETCH(&c->at[c->free != PIR_NO_CROSSING ? c->free : 0]);
+    } else if ((slot = pir_crossing_new_slot(tracked)) == PIR_NO_CROSSING)
         return PIR_NO_CROSSING;
     c->at[slot] = (pir_crossing){h, e, PIR_NO_CROSSING};
     pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);

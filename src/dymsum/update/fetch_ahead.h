@@ -31,6 +31,13 @@ PIR_FETCHING void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
     PIR_FETCH(&c->at[slot]);
 }
 
+/* Fetches the second crossing of edge e. */
+PIR_FETCHING void pir_fetch_next_crossing(const pir_tracked *tracked, uint32_t e) {
+    const pir_crossings *c = &tracked->pairing.crossings;
+    uint32_t slot = c->first[e] != PIR_NO_CROSSING ? c->at[c->first[e]].next : 0;
+    PIR_FETCH(&c->at[slot != PIR_NO_CROSSING ? slot : 0]);
+}
+
 PIR_FETCHING void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
     const pir_pairing *pairing = &tracked->pairing;
     uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.at[slot].half : 0;
@@ -65,14 +72,16 @@ PIR_FETCHING void pir_fetch_rings(const pir_polytope *q, uint32_t g) {
         PIR_FETCH(&q->ring_start[q->origin[q->loop[i]]]);
 }
 
-/* Fetches the sides of facet f of P in either turn. */
-PIR_FETCHING void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, bool crossings) {
+/* Fetches the sides of facet f of P in turn 0, 1 or 2. */
+PIR_FETCHING void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, int turn) {
     const pir_polytope *p = tracked->pairing.p;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
-        if (crossings)
+        if (turn == 0)
+            pir_fetch_edge(tracked, p->across[i].edge);
+        else if (turn == 1)
             pir_fetch_crossing(tracked, p->across[i].edge);
         else
-            pir_fetch_edge(tracked, p->across[i].edge);
+            pir_fetch_next_crossing(tracked, p->across[i].edge);
     }
 }
 

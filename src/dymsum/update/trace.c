@@ -148,7 +148,8 @@ static void follow_by_doubles(struct tracer *tracer) {
 
 /* --- by floats --- */
 
-#define SLACK ((double)PIR_FLOAT_SLACK)
+/* Both values are off by less, and so is what this file makes of them by floats. */
+#define SLACK ((double)PIR_FLOAT_BOUND)
 
 /* Returns a bit for each of the directions of a block that floats are not certain to be left as it is. */
 static inline uint32_t compare_block(const struct tracer *tracer, const pir_ring *ring, float *ret_s, float *ret_rate) {

@@ -104,6 +104,7 @@ PIR_FETCHING void fetch_pass(const struct update *update, uint32_t i) {
     if (i + PIR_FETCHED_AHEAD / 4 < update->passes) {
         const pir_suspect *next = pass + PIR_FETCHED_AHEAD / 4;
         pir_fetch_crossed(tracked, edge[next->crossed]);
+        pir_fetch_next_crossing(tracked, edge[next->crossed]);
         pir_fetch_rings(q, next->facet);
     }
 }
@@ -285,11 +286,12 @@ PIR_FETCHING void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspe
         PIR_FETCH(&q->ring_start[tracked->pairing.fv[f]]);
     }
     if (left > PIR_FETCHED_AHEAD)
-        pir_fetch_sides(tracked, suspect[PIR_FETCHED_AHEAD].facet, false);
+        pir_fetch_sides(tracked, suspect[PIR_FETCHED_AHEAD].facet, 0);
     if (left <= PIR_FETCHED_AHEAD / 2)
         return;
     const pir_suspect *next = suspect + PIR_FETCHED_AHEAD / 2;
-    pir_fetch_sides(tracked, next->facet, true);
+    pir_fetch_sides(tracked, next->facet, 1);
+    pir_fetch_sides(tracked, suspect[PIR_FETCHED_AHEAD / 4].facet, 2);
     if (next->crossed != PIR_NO_SIDE)
         PIR_FETCH(&q->twin[next->crossed]);
 }
@@ -451,8 +453,10 @@ PIR_FETCHING void fetch_derived(const struct update *update, uint32_t i) {
     }
     if (i + PIR_FETCHED_AHEAD / 2 < update->derive)
         pir_fetch_crossing(tracked, edge[PIR_FETCHED_AHEAD / 2]);
-    if (i + PIR_FETCHED_AHEAD / 4 < update->derive)
+    if (i + PIR_FETCHED_AHEAD / 4 < update->derive) {
         pir_fetch_crossed(tracked, edge[PIR_FETCHED_AHEAD / 4]);
+        pir_fetch_next_crossing(tracked, edge[PIR_FETCHED_AHEAD / 4]);
+    }
     if (i + PIR_FETCHED_AHEAD / 8 < update->derive)
         pir_fetch_corners(tracked, edge[PIR_FETCHED_AHEAD / 8]);
 }
