@@ -35,8 +35,9 @@ static pir_probe see(const pir_ring *ring, uint32_t blocks, const pir_step *step
 
 static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                   pir_probe *ret_probe) {
-    uint32_t block = facets->ring_block[cell];
-    *ret_probe = see(facets->ring + block, facets->ring_block[cell + 1] - block, step, turned);
+    uint32_t blocks;
+    const pir_ring *ring = pir_rings_of(facets, cell, &blocks);
+    *ret_probe = see(ring, blocks, step, turned);
 }
 
 static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_turned[8]) {
@@ -45,11 +46,9 @@ static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_tu
         ret_turned[i] = facets->turn[0][i] * n[0] + facets->turn[1][i] * n[1] + facets->turn[2][i] * n[2];
 }
 
-static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+static inline void check_in(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                             pir_check *ret_check) {
-    pir_probe seen;
-    probe(facets, step, cell, turned, &seen);
-    *ret_check = seen.check;
+    *ret_check = see(ring, blocks, step, turned).check;
 }
 
 static inline float value(const pir_ring *ring, uint32_t i, const float turned[8]) {

@@ -93,6 +93,7 @@ typedef struct pir_facets {
     const uint32_t *ring_start, *ring_block; /* of the other operand, as are the four that follow */
     const uint32_t *target, *twin;
     const pir_ring *ring;
+    bool single;    /* each ring fills one block: ring_block[v] = v, and need not be read */
     uint32_t *cell; /* per facet */
     /* column k of the matrix that rotates normals to the other operand, 0, column k of that of their motion, 0 */
     float turn[3][8];
@@ -207,6 +208,22 @@ typedef struct pir_kernels {
 static inline uint32_t pir_kernels_collect(const pir_kernels *kernels, pir_certificates *certificates, uint32_t used,
                                            pir_turned_angle turned) {
     return kernels->collect(certificates, (used + PIR_CERTIFICATE_BLOCK - 1) / PIR_CERTIFICATE_BLOCK, turned);
+}
+
+/* The first block of the ring of a cell. */
+static inline const pir_ring *pir_ring_of(const pir_facets *facets, uint32_t cell) {
+    return facets->ring + (facets->single ? cell : facets->ring_block[cell]);
+}
+
+/* The same, and how many blocks there are. */
+static inline const pir_ring *pir_rings_of(const pir_facets *facets, uint32_t cell, uint32_t *ret_blocks) {
+    if (facets->single) {
+        *ret_blocks = 1;
+        return facets->ring + cell;
+    }
+    uint32_t block = facets->ring_block[cell];
+    *ret_blocks = facets->ring_block[cell + 1] - block;
+    return facets->ring + block;
 }
 
 /* The mask of the sides of a ring of so many sides, without the bits that only fill its last block. */

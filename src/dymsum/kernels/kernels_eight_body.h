@@ -74,8 +74,8 @@ TARGET static inline __m256 check(const pir_ring *ring, uint32_t blocks, const p
 
 TARGET static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                          pir_probe *ret_probe) {
-    uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
-    const pir_ring *ring = facets->ring + block;
+    uint32_t blocks;
+    const pir_ring *ring = pir_rings_of(facets, cell, &blocks);
     const struct turned t = spread(turned);
     float highest = greatest_of(check(ring, blocks, step, turned, &ret_probe->check));
     ret_probe->highest = highest + 0.0f;
@@ -97,10 +97,9 @@ TARGET static inline void turn_facet(const pir_facets *facets, uint32_t f, float
     _mm256_storeu_ps(ret_turned, dot(t0, t1, t2, _mm256_set1_ps(n[0]), _mm256_set1_ps(n[1]), _mm256_set1_ps(n[2])));
 }
 
-TARGET static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+TARGET static inline void check_in(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                                    pir_check *ret_check) {
-    uint32_t block = facets->ring_block[cell];
-    check(facets->ring + block, facets->ring_block[cell + 1] - block, step, turned, ret_check);
+    check(ring, blocks, step, turned, ret_check);
 }
 
 TARGET static inline __m256 values(const pir_ring *ring, const float turned[8]) {

@@ -58,8 +58,8 @@ static inline float check(const pir_ring *ring, uint32_t blocks, const pir_step 
 
 static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
                   pir_probe *ret_probe) {
-    uint32_t block = facets->ring_block[cell], blocks = facets->ring_block[cell + 1] - block;
-    const pir_ring *ring = facets->ring + block;
+    uint32_t blocks;
+    const pir_ring *ring = pir_rings_of(facets, cell, &blocks);
     const float highest = check(ring, blocks, step, turned, &ret_probe->check);
     ret_probe->highest = highest + 0.0f;
     ret_probe->which = 0;
@@ -83,10 +83,9 @@ static inline void turn_facet(const pir_facets *facets, uint32_t f, float ret_tu
     vst1q_f32(ret_turned + 4, dot(n, vld1q_f32(t[0] + 4), vld1q_f32(t[1] + 4), vld1q_f32(t[2] + 4)));
 }
 
-static inline void check_in(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
+static inline void check_in(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                             pir_check *ret_check) {
-    uint32_t block = facets->ring_block[cell];
-    check(facets->ring + block, facets->ring_block[cell + 1] - block, step, turned, ret_check);
+    check(ring, blocks, step, turned, ret_check);
 }
 
 static inline float32x4_t values(const pir_ring *ring, uint32_t i, const float turned[8]) {

@@ -4,7 +4,7 @@
  * includes this defines
  *
  *     turn_facet(facets, f, turned)                      the normal of facet f rotated, 0, and its motion, 0
- *     check_in(facets, step, cell, turned, ret_check)    the check of it in a cell
+ *     check_in(ring, blocks, step, turned, ret_check)    the check of it in a cell of that ring
  *
  * Facets are taken by chunks, and a chunk in three passes without branches that depend on what is found: checking all;
  * certifying those that have stayed; checking the others in the cell that each may have crossed into. So a processor
@@ -22,7 +22,7 @@
 
 /* Fetches the ring of a cell. */
 REVIEW_TARGET PIR_FETCHING void fetch_ring(const pir_facets *facets, uint32_t cell) {
-    const pir_ring *ring = facets->ring + facets->ring_block[cell];
+    const pir_ring *ring = pir_ring_of(facets, cell);
     PIR_FETCH(ring->x);
     PIR_FETCH(ring->z);
     PIR_FETCH(facets->ring_start + cell);
@@ -45,6 +45,16 @@ REVIEW_TARGET PIR_FETCHING void fetch_cell(const pir_facets *facets, uint32_t i)
     fetch_ring(facets, cell);
 }
 
+/* The ring of a cell. Where there is no fetching, what it takes to know of single blocks is not worth it. */
+REVIEW_TARGET static inline const pir_ring *ring_of(const pir_facets *facets, uint32_t cell, bool fetches,
+                                                    uint32_t *ret_blocks) {
+    if (fetches)
+        return pir_rings_of(facets, cell, ret_blocks);
+    uint32_t block = facets->ring_block[cell];
+    *ret_blocks = facets->ring_block[cell + 1] - block;
+    return facets->ring + block;
+}
+
 /* The one side of its cell that facet f has touched and is past, as a halfedge; or PIR_NO_SIDE. */
 REVIEW_TARGET static inline uint32_t side_crossed(const pir_facets *facets, uint32_t f, const pir_check *check) {
     uint32_t cell = facets->cell[f], start = facets->ring_start[cell], sides = facets->ring_start[cell + 1] - start;
@@ -56,8 +66,7 @@ REVIEW_TARGET static inline uint32_t side_crossed(const pir_facets *facets, uint
 /* The cell beyond side `half` of one. Where there is fetching, the ring is what has been fetched. */
 REVIEW_TARGET static inline uint32_t cell_beyond(const pir_facets *facets, uint32_t cell, uint32_t half, bool fetches) {
     uint32_t side = half - facets->ring_start[cell];
-    return fetches ? facets->ring[facets->ring_block[cell] + side / PIR_LANES].target[side % PIR_LANES]
-                   : facets->target[half];
+    return fetches ? pir_ring_of(facets, cell)[side / PIR_LANES].target[side % PIR_LANES] : facets->target[half];
 }
 
 /* The side of the cell beyond, of so many sides, that leads back. */
@@ -67,7 +76,8 @@ REVIEW_TARGET static inline uint32_t side_back(const pir_facets *facets, uint32_
     // a segment has two edges between its corners
     if (!fetches || sides <= 2 || sides > PIR_LANES)
         return facets->twin[half] - start;
-    while (facets->ring[facets->ring_block[next]].target[i] != cell)
+    const pir_ring *ring = pir_ring_of(facets, next);
+    while (ring->target[i] != cell)
         i++;
     return i;
 }
@@ -82,7 +92,9 @@ REVIEW_TARGET static inline bool settle_across(const pir_facets *facets, const p
     uint32_t cell = facets->cell[f], next = cell_beyond(facets, cell, half, fetches);
     uint32_t start = facets->ring_start[next], sides = facets->ring_start[next + 1] - start;
     pir_check there;
-    check_in(facets, step, next, turned, &there);
+    uint32_t blocks;
+    const pir_ring *ring = ring_of(facets, next, fetches, &blocks);
+    check_in(ring, blocks, step, turned, &there);
     uint32_t by = side_back(facets, cell, half, next, sides, fetches);
     uint64_t mask = pir_side_mask(sides);
     if (sides > PIR_SIDE_BITS || (there.touched & mask) != (uint64_t)1 << by % PIR_SIDE_BITS ||
@@ -115,7 +127,9 @@ review_chunk(const pir_facets *facets, const pir_step *step, pir_certificates *c
                 fetch_cell(facets, expired[k + REVIEW_CHUNK]);
         }
         turn_facet(facets, f, turned[k]);
-        check_in(facets, step, cell, turned[k], &check[k]);
+        uint32_t blocks;
+        const pir_ring *ring = ring_of(facets, cell, fetches, &blocks);
+        check_in(ring, blocks, step, turned[k], &check[k]);
         not_calm |= (uint64_t)((check[k].touched | check[k].above) != 0) << k;
     }
     for (uint64_t calm = ~not_calm & pir_side_mask(count); calm; calm &= calm - 1) {

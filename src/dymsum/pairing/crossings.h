@@ -26,17 +26,24 @@ void pir_crossings_forget(pir_tracked *tracked);
 /* A slot that has never been in use; PIR_NO_CROSSING when out of memory. */
 uint32_t pir_crossing_new_slot(pir_tracked *tracked);
 
+/* The journal has it that a slot has changed. */
+static inline void pir_note_slot(pir_tracked *tracked, uint32_t slot) {
+    const pir_facets *q_facets = &tracked->q_facets;
+    pir_journal_note(&tracked->journal, q_facets->first_certificate + q_facets->count + slot);
+}
+
 /* A slot for the crossing of edge e with halfedge h, not linked; PIR_NO_CROSSING when out of memory. */
 static inline uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32_t h) {
     pir_crossings *c = &tracked->pairing.crossings;
     uint32_t slot = c->free;
     if (slot != PIR_NO_CROSSING) {
         c->free = c->at[slot].next;
-        PIR_FETCH(&c->at[c->free != PIR_NO_CROSSING ? c->free : 0]);
+        // nothing is read there: it may be none
+        PIR_FETCH((const void *)((uintptr_t)c->at + (uintptr_t)c->free * sizeof *c->at));
     } else if ((slot = pir_crossing_new_slot(tracked)) == PIR_NO_CROSSING)
         return PIR_NO_CROSSING;
     c->at[slot] = (pir_crossing){h, e, PIR_NO_CROSSING};
-    pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);
+    pir_note_slot(tracked, slot);
     c->count++;
     return slot;
 }
@@ -46,7 +53,7 @@ static inline void pir_crossing_free(pir_tracked *tracked, uint32_t slot) {
     c->at[slot].edge = PIR_NO_CROSSING;
     c->at[slot].next = c->free;
     c->free = slot;
-    pir_journal_note(&tracked->journal, pir_certificate_count(tracked) + slot);
+    pir_note_slot(tracked, slot);
     c->count--;
 }
 

@@ -68,6 +68,7 @@ static void link_facets(pir_facets *facets, const pir_polytope *p, const pir_pol
     facets->normal = p->normal4;
     facets->ring_start = q->ring_start;
     facets->ring_block = q->ring_block;
+    facets->single = q->half_count > 0 && q->ring_block[q->vertex_count] == q->vertex_count;
     facets->target = q->target;
     facets->twin = q->twin;
     facets->ring = q->ring;

@@ -178,7 +178,7 @@ static inline void see_side_by_floats(const struct tracer *tracer, uint32_t h, d
 
 /* The exit from the cell, which has so many sides. Its halfedge is counted from the first of the ring. */
 static struct exit find_exit_by_floats(const struct tracer *tracer, uint32_t cell, uint32_t sides) {
-    const pir_ring *ring = tracer->step->facets->ring + tracer->step->facets->ring_block[cell];
+    const pir_ring *ring = pir_ring_of(tracer->step->facets, cell);
     struct exit exit = {.known = true};
     for (uint32_t h = 0; h < sides && exit.known; h += PIR_LANES, ring++) {
         float s[PIR_LANES], rate[PIR_LANES];
@@ -202,10 +202,10 @@ static bool follow_on(const struct tracer *tracer, bool *ret_sure) {
     if (!*ret_sure || exit.count == 0)
         return false;
     trace->crossed[trace->count++] = start + exit.half;
-    const pir_ring *ring = facets->ring + facets->ring_block[trace->cell] + exit.half / PIR_LANES;
+    const pir_ring *ring = pir_ring_of(facets, trace->cell) + exit.half / PIR_LANES;
     trace->cell = ring->target[exit.half % PIR_LANES];
     PIR_FETCH(&facets->ring_start[trace->cell]);
-    ring = facets->ring + facets->ring_block[trace->cell];
+    ring = pir_ring_of(facets, trace->cell);
     PIR_FETCH(ring->x);
     PIR_FETCH(ring->z);
     return true;
