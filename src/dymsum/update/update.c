@@ -436,31 +436,6 @@ static void review(struct update *update, uint32_t expired) {
     pass_facets(update);
 }
 
-/* Fetches for the edges to be derived anew that follow number i. */
-PIR_FETCHING void fetch_derived(const struct update *update, uint32_t i) {
-    const pir_tracked *tracked = update->tracked;
-    const uint32_t *edge = tracked->work->queue + i;
-    if (i + 2 * PIR_FETCHED_AHEAD < update->derive) {
-        PIR_FETCH(&tracked->pairing.p->edge_half[edge[2 * PIR_FETCHED_AHEAD]]);
-        PIR_FETCH(&tracked->pairing.p->arc_ends[edge[2 * PIR_FETCHED_AHEAD]]);
-    }
-    if (i + PIR_FETCHED_AHEAD < update->derive) {
-        uint32_t e = edge[PIR_FETCHED_AHEAD];
-        pir_fetch_edge(tracked, e);
-        PIR_FETCH(&tracked->pairing.p->direction[tracked->pairing.p->edge_half[e]]);
-        PIR_FETCH(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].from]);
-        PIR_FETCH(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].to]);
-    }
-    if (i + PIR_FETCHED_AHEAD / 2 < update->derive)
-        pir_fetch_crossing(tracked, edge[PIR_FETCHED_AHEAD / 2]);
-    if (i + PIR_FETCHED_AHEAD / 4 < update->derive) {
-        pir_fetch_crossed(tracked, edge[PIR_FETCHED_AHEAD / 4]);
-        pir_fetch_next_crossing(tracked, edge[PIR_FETCHED_AHEAD / 4]);
-    }
-    if (i + PIR_FETCHED_AHEAD / 8 < update->derive)
-        pir_fetch_corners(tracked, edge[PIR_FETCHED_AHEAD / 8]);
-}
-
 /* A stamp greater than all in `touched`. */
 static uint32_t next_stamp(pir_tracked *tracked) {
     if (tracked->stamp >= UINT32_MAX - 3) {
@@ -488,7 +463,7 @@ pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
         note_edge(&update, e);
     for (uint32_t i = 0; i < update.derive && !update.failed; i++) {
         if (update.fetches)
-            fetch_derived(&update, i);
+            pir_fetch_derived(tracked, tracked->work->queue + i, update.derive - i);
         pir_journal_note_edge(&tracked->journal, tracked->work->queue[i]);
         update.failed = !pir_derive_edge(tracked, tracked->work->queue[i]);
     }
