@@ -24,8 +24,11 @@ static int top_exponent(const double c[4]) {
 }
 
 pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
-    if (pir_rotation_set_near_one(rotation, q))
+    if (pir_quat_is_near_one(q)) {
+        const pir_rotation_doubles doubles = pir_doubles_of(q);
+        pir_rotation_set_doubles(rotation, q, &doubles);
         return PIR_OK;
+    }
     const double c[4] = {q.x, q.y, q.z, q.w};
     for (int k = 0; k < 4; k++)
         if (!isfinite(c[k]))
@@ -33,8 +36,9 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
     if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
         return PIR_ERR_ZERO_QUATERNION;
     int top = top_exponent(c);
-    pir_rotation_set_scaled(rotation, q,
-                            (pir_quat){ldexp(q.x, -top), ldexp(q.y, -top), ldexp(q.z, -top), ldexp(q.w, -top)});
+    const pir_rotation_doubles doubles =
+        pir_doubles_of((pir_quat){ldexp(q.x, -top), ldexp(q.y, -top), ldexp(q.z, -top), ldexp(q.w, -top)});
+    pir_rotation_set_doubles(rotation, q, &doubles);
     return PIR_OK;
 }
 

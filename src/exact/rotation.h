@@ -45,27 +45,38 @@ struct pir_rotation {
 /* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is far below u·n. */
 #define PIR_NORM_NEAR_ONE 0x1p-400
 
-/* Sets a rotation to the quaternion `given`; `c` is that times a power of two. */
-static inline void pir_rotation_set_scaled(pir_rotation *rotation, pir_quat given, pir_quat c) {
+/* What a rotation is in doubles: see pir_rotation. */
+typedef struct pir_rotation_doubles {
+    pir_quat unit;
+    pir_mat3 r;
+} pir_rotation_doubles;
+
+/* That of a quaternion near length 1. */
+static inline pir_rotation_doubles pir_doubles_of(pir_quat c) {
     double x = c.x, y = c.y, z = c.z, w = c.w, xx = x * x, yy = y * y, zz = z * z, ww = w * w;
     double n = xx + yy + zz + ww, by = 1 / n, shrink = 1 / sqrt(n);
+    return (pir_rotation_doubles){
+        .unit = {x * shrink, y * shrink, z * shrink, w * shrink},
+        .r = {{{(ww + xx - yy - zz) * by, 2 * (x * y - w * z) * by, 2 * (x * z + w * y) * by},
+               {2 * (x * y + w * z) * by, (ww - xx + yy - zz) * by, 2 * (y * z - w * x) * by},
+               {2 * (x * z - w * y) * by, 2 * (y * z + w * x) * by, (ww - xx - yy + zz) * by}}}};
+}
+
+/* Sets a rotation to the quaternion `given`, whose turn is known. */
+static inline void pir_rotation_set_doubles(pir_rotation *rotation, pir_quat given,
+                                            const pir_rotation_doubles *doubles) {
     rotation->given = given;
     rotation->rest = (pir_quat){0, 0, 0, 0};
     rotation->relative = false;
-    rotation->unit = (pir_quat){x * shrink, y * shrink, z * shrink, w * shrink};
-    rotation->r = (pir_mat3){{{(ww + xx - yy - zz) * by, 2 * (x * y - w * z) * by, 2 * (x * z + w * y) * by},
-                              {2 * (x * y + w * z) * by, (ww - xx + yy - zz) * by, 2 * (y * z - w * x) * by},
-                              {2 * (x * z - w * y) * by, 2 * (y * z + w * x) * by, (ww - xx - yy + zz) * by}}};
+    rotation->unit = doubles->unit;
+    rotation->r = doubles->r;
     rotation->has_exact = false;
 }
 
-/* Takes `q` where it needs no scaling, as most do. */
-static inline bool pir_rotation_set_near_one(pir_rotation *rotation, pir_quat q) {
+/* Whether a quaternion needs no scaling, as most do not. */
+static inline bool pir_quat_is_near_one(pir_quat q) {
     double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    if (!(n >= PIR_NORM_NEAR_ONE && n <= 1 / PIR_NORM_NEAR_ONE))
-        return false;
-    pir_rotation_set_scaled(rotation, q, q);
-    return true;
+    return n >= PIR_NORM_NEAR_ONE && n <= 1 / PIR_NORM_NEAR_ONE;
 }
 
 /* Takes `q`: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, or PIR_OK. On failure *rotation is as it was. */

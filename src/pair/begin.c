@@ -7,62 +7,80 @@ pir_pair_input pir_pair_input_default(void) {
     return (pir_pair_input){.pose_p = origin, .pose_q = origin, .cutoff = HUGE_VAL};
 }
 
-/* Both rotations, and P's relative to Q. */
-static pir_status set_rotations(pir_workspace *workspace, const pir_pair_input *input) {
-    pir_quat q = input->pose_q.rotation, before = workspace->rotation_q.given;
-    pir_status status = PIR_OK;
-    if (!workspace->has_rotation_q || q.x != before.x || q.y != before.y || q.z != before.z || q.w != before.w)
-        status = pir_rotation_set(&workspace->rotation_q, q);
+/* Q's place, which is mostly that of the call before. */
+static pir_status set_q(pir_workspace *workspace, const pir_pair_input *input) {
+    const pir_pose *q = &input->pose_q;
+    if (workspace->has_q && pir_pose_is_same(q, &workspace->pose[1]))
+        return PIR_OK;
+    workspace->has_q = false;
+    pir_status status = pir_rotation_set(&workspace->rotation_q, q->rotation);
     if (status != PIR_OK)
         return status;
-    workspace->has_rotation_q = true;
-    bool is_turned = q.x != 0 || q.y != 0 || q.z != 0 || q.w != 1;
-    if (!is_turned && pir_rotation_set_near_one(&workspace->rotation, input->pose_p.rotation))
-        return PIR_OK;
-    return pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
-}
-
-/* The frame and the placement, the rotations being set. The bodies may be there already. */
-static pir_status set_frame(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, bool fits) {
-    pir_frame *frame = &workspace->frame;
-    if (!fits) {
-        frame->p = pair->body_p->body;
-        frame->q = pair->body_q->body;
-        pir_frame_set_exponent(frame, pair->exponent);
-    }
-    frame->is_set = false;
-    pir_frame_turn(frame, &workspace->rotation);
-    workspace->world.translation_p = input->pose_p.translation;
-    workspace->world.translation_q = input->pose_q.translation;
+    workspace->world.translation_q = q->translation;
     workspace->posed = !pir_world_is_plain(&workspace->world);
     workspace->exact.world = workspace->posed ? &workspace->world : NULL;
+    workspace->pose[1] = *q;
+    workspace->has_q = true;
+    return PIR_OK;
+}
+
+/* P's rotation as Q sees it. */
+static pir_status set_rotation(pir_workspace *workspace, const pir_pair_input *input) {
+    const pir_quat p = input->pose_p.rotation, q = input->pose_q.rotation;
+    bool is_turned = workspace->posed && (q.x != 0 || q.y != 0 || q.z != 0 || q.w != 1);
+    if (is_turned || !pir_quat_is_near_one(p)) {
+        pir_status status = pir_rotation_set_relative(&workspace->rotation, q, p);
+        workspace->frame.is_set = false;
+        if (status == PIR_OK)
+            pir_frame_turn(&workspace->frame, &workspace->rotation);
+        return status;
+    }
+    // both from registers: what one has stored is slow to load for the other
+    const pir_rotation_doubles doubles = pir_doubles_of(p);
+    pir_rotation_set_doubles(&workspace->rotation, p, &doubles);
+    pir_frame_set_doubles(&workspace->frame, p, &doubles);
+    return PIR_OK;
+}
+
+/* x, and what exact signs need, the rotations being set. */
+static pir_status set_place(const pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
     pir_exact_forget(&workspace->exact);
     if (!pir_exact_has_limbs(&workspace->exact, pair->limbs) &&
         !pir_exact_reserve_limbs(&workspace->exact, &workspace->allocator, pair->limbs))
         return PIR_ERR_MEMORY;
-    if (workspace->posed)
-        return pir_frame_place_relative(frame, &workspace->world, &workspace->placement);
-    return pir_frame_place(frame, input->pose_p.translation, &workspace->placement);
+    workspace->world.translation_p = input->pose_p.translation;
+    if (!workspace->posed)
+        return pir_frame_place(&workspace->frame, input->pose_p.translation, &workspace->placement);
+    return pir_frame_place_relative(&workspace->frame, &workspace->world, &workspace->placement);
+}
+
+/* Makes the frame one of the bodies of this pair. */
+static void set_bodies(const pir_pair *pair, pir_frame *frame) {
+    frame->p = pair->body_p->body;
+    frame->q = pair->body_q->body;
+    pir_frame_set_exponent(frame, pair->exponent);
 }
 
 pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
     if (!pair || !workspace || !input)
         return PIR_ERR_ARGUMENT;
-    bool fits = pir_pair_is_at(pair, workspace);
+    if (!pir_pair_is_at(pair, workspace))
+        set_bodies(pair, &workspace->frame);
     workspace->pair = NULL;
     workspace->moved = (pir_leeway){HUGE_VAL, HUGE_VAL};
     pair->left = 0;
     pir_status status = pir_pair_check(input);
     if (status == PIR_OK)
-        status = set_rotations(workspace, input);
+        status = set_q(workspace, input);
     if (status == PIR_OK)
-        status = set_frame(pair, workspace, input, fits);
+        status = set_rotation(workspace, input);
+    if (status == PIR_OK)
+        status = set_place(pair, workspace, input);
     if (status != PIR_OK)
         return status;
     workspace->pair = pair;
     workspace->is_framed = true;
     workspace->pose[0] = input->pose_p;
-    workspace->pose[1] = input->pose_q;
     pair->workspace = workspace;
     return PIR_OK;
 }

@@ -12,6 +12,9 @@
 #ifndef PIR_PAIR_PAIR_H
 #define PIR_PAIR_PAIR_H
 
+#include <assert.h>
+#include <string.h>
+
 #include <pirouette/pair.h>
 
 #include "base/scratch.h"
@@ -62,9 +65,10 @@ struct pir_workspace {
     pir_allocator allocator;
     pir_frame frame;
     pir_rotation rotation;   /* of P relative to Q */
-    pir_rotation rotation_q; /* of Q, where `posed` */
+    pir_rotation rotation_q; /* of Q */
     pir_rotation_integers integers[2];
-    bool posed, has_rotation_q;
+    bool has_q;      /* whether Q's rotation and what else depends on Q's pose alone are those of pose[1] below */
+    bool posed;      /* Q is not at the origin, or turned */
     pir_world world;
     pir_exact exact;
     pir_surface_room room;
@@ -93,12 +97,21 @@ struct pir_workspace {
 /* Whether radii, cutoff and margin are numbers that mean something. */
 static inline pir_status pir_pair_check(const pir_pair_input *input) {
     const double p = input->radius_p, q = input->radius_q;
-    // NaN is equal to nothing
-    if (p >= 0 && p < HUGE_VAL && q >= 0 && q < HUGE_VAL && input->cutoff == input->cutoff &&
-        input->margin == input->margin)
+    if (p >= 0 && p < HUGE_VAL && q >= 0 && q < HUGE_VAL && !isunordered(input->cutoff, input->margin))
         return PIR_OK;
     bool some = isnan(p) || isnan(q) || isnan(input->cutoff) || isnan(input->margin);
     return some ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
+}
+
+/* Whether two poses are the same: bits may differ where numbers do not. */
+static inline bool pir_pose_is_same(const pir_pose *a, const pir_pose *b) {
+    uint64_t of_a[7], of_b[7], differ = 0;
+    static_assert(sizeof of_a == sizeof *a, "a pose is seven doubles");
+    memcpy(of_a, a, sizeof of_a);
+    memcpy(of_b, b, sizeof of_b);
+    for (int i = 0; i < 7; i++)
+        differ |= of_a[i] ^ of_b[i];
+    return differ == 0;
 }
 
 /* Whether the last call in this workspace was on this pair, and this pair's last call was in this workspace. */

@@ -41,7 +41,7 @@ static pir_status resume(pir_pair *pair, pir_workspace *workspace, const pir_pai
     const pir_pose *pose = workspace->pose;
     // bits may differ where numbers do not: then it begins anew
     if (!pir_pair_is_at(pair, workspace) || (needs_frame && !workspace->is_framed) ||
-        memcmp(&input->pose_p, &pose[0], sizeof *pose) != 0 || memcmp(&input->pose_q, &pose[1], sizeof *pose) != 0)
+        !pir_pose_is_same(&input->pose_p, &pose[0]) || !pir_pose_is_same(&input->pose_q, &pose[1]))
         return pir_pair_begin(pair, workspace, input);
     return pir_pair_check(input);
 }

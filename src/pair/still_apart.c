@@ -2,8 +2,6 @@
 /* Apart still by more than the cutoff: see still_apart.h. */
 #include "pair/still_apart.h"
 
-#include <string.h>
-
 /* What |q|² of a quaternion may differ from 1 by, so that none has to be brought to length 1. */
 #define NEAR_UNIT 0x1p-20
 
@@ -65,7 +63,7 @@ bool pir_pair_still_apart(pir_pair *pair, pir_workspace *workspace, const pir_pa
     // `down` is 0 where units are no normal numbers
     if (!(room > 0 && frame->down > 0 && reach < FARTHEST) || !leaves_some(frame, &last[0], p, &room))
         return false;
-    if (memcmp(q, &last[1], sizeof *q) != 0 || pir_pair_check(input) != PIR_OK || !is_near_unit(last[0].rotation) ||
+    if (!pir_pose_is_same(q, &last[1]) || pir_pair_check(input) != PIR_OK || !is_near_unit(last[0].rotation) ||
         !is_near_unit(p->rotation) || (workspace->posed && has_tiny(p->rotation)))
         return false;
     pir_pair_keep_left(pair, room + least);

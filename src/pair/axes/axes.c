@@ -106,21 +106,59 @@ static bool find_along(const pir_polytope *p, mp_limb_t *room, pir_axes *axes) {
     return true;
 }
 
-/* Lists what the loops read of a body. */
-static void fill(const pir_body *body, mp_limb_t *room, pir_axes *axes) {
+static bool are_opposite(pir_vec3 a, pir_vec3 b) {
+    return a.x == -b.x && a.y == -b.y && a.z == -b.z;
+}
+
+/* The vector opposite to vector i, of so many; `count` where there is none. */
+static uint32_t opposite_of(const pir_vec3 *vectors, uint32_t count, uint32_t i) {
+    uint32_t k = 0;
+    while (k < count && !are_opposite(vectors[k], vectors[i]))
+        k++;
+    return k;
+}
+
+/* Lists vertices: of opposite ones the first, where all have one and four are left. */
+static void list_vertices(const pir_body *body, pir_axes_lanes *lanes) {
+    const uint32_t count = body->polytope->vertex_count;
+    lanes->is_central = count == 8;
+    for (uint32_t v = 0; v < count; v++)
+        lanes->is_central = lanes->is_central && opposite_of(body->vertex, count, v) < count;
+    lanes->vertices = 0;
+    for (uint32_t v = 0; v < count; v++)
+        if (!lanes->is_central || opposite_of(body->vertex, count, v) > v)
+            put(lanes->vertex, lanes->vertices++, body->vertex[v]);
+    for (uint32_t v = lanes->vertices; v < PIR_AXES_PADDED; v++)
+        put(lanes->vertex, v, body->vertex[0]);
+}
+
+/* Lists facets by the lines along which they look. */
+static void list_lines(const pir_body *body, pir_axes *axes) {
     const pir_polytope *p = body->polytope;
     pir_axes_lanes *lanes = &axes->lanes;
-    lanes->vertices = p->vertex_count;
-    lanes->facets = p->facet_count;
     for (uint32_t i = 0; i < PIR_AXES_PADDED; i++)
-        lanes->offset[i] = lanes->far[i] = HUGE_VAL;
-    for (uint32_t v = 0; v < PIR_AXES_PADDED; v++)
-        put(lanes->vertex, v, body->vertex[v < p->vertex_count ? v : 0]);
+        lanes->offset[0][i] = lanes->offset[1][i] = lanes->far[i] = HUGE_VAL;
+    lanes->lines = 0;
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        put(lanes->normal, f, p->normal[f]);
-        lanes->offset[f] = body->offset[f];
+        uint32_t back = opposite_of(p->normal, p->facet_count, f);
+        if (back < f)
+            continue;
+        uint32_t line = lanes->lines++;
+        put(lanes->normal, line, p->normal[f]);
+        lanes->offset[0][line] = body->offset[f];
+        axes->facet[0][line] = f;
+        if (back < p->facet_count) {
+            lanes->offset[1][line] = body->offset[back];
+            axes->facet[1][line] = back;
+        }
     }
-    axes->is_few = find_along(p, room, axes);
+}
+
+/* Lists what the loops read of a body. */
+static void fill(const pir_body *body, mp_limb_t *room, pir_axes *axes) {
+    list_vertices(body, &axes->lanes);
+    list_lines(body, axes);
+    axes->is_few = find_along(body->polytope, room, axes);
 }
 
 /* Makes the axes of a body; NULL when out of memory. */
@@ -189,16 +227,18 @@ static pir_piece piece_of_edges(const pir_axes *p, const pir_axes *q, const pir_
 
 pir_piece pir_axes_piece(const pir_axes *p, const pir_axes *q, const pir_frame *frame, uint32_t at,
                          pir_vec3 *ret_normal) {
-    uint32_t of_p = padded(p->lanes.facets), of_both = of_p + padded(q->lanes.facets);
-    uint32_t of_edge = 2 * padded(q->lanes.along);
+    uint32_t line_p = padded(p->lanes.lines), line_q = padded(q->lanes.lines), of_p = 2 * line_p;
+    uint32_t of_both = of_p + 2 * line_q, of_edge = 2 * padded(q->lanes.along);
     if (at < of_p) {
-        *ret_normal = pir_mat_apply(&frame->r, frame->p.polytope->normal[at]);
-        return (pir_piece){PIR_FACET_FV, at, frame->q.landmarks[pir_landmark_of(*ret_normal)]};
+        uint32_t f = p->facet[at / line_p][at % line_p];
+        *ret_normal = pir_mat_apply(&frame->r, frame->p.polytope->normal[f]);
+        return (pir_piece){PIR_FACET_FV, f, frame->q.landmarks[pir_landmark_of(*ret_normal)]};
     }
     if (at < of_both) {
-        *ret_normal = frame->q.polytope->normal[at - of_p];
+        uint32_t f = q->facet[(at - of_p) / line_q][(at - of_p) % line_q];
+        *ret_normal = frame->q.polytope->normal[f];
         pir_vec3 back = pir_mat_apply_transposed(&frame->r, *ret_normal);
-        return (pir_piece){PIR_FACET_VF, frame->p.landmarks[pir_landmark_of(back)], at - of_p};
+        return (pir_piece){PIR_FACET_VF, frame->p.landmarks[pir_landmark_of(back)], f};
     }
     return piece_of_edges(p, q, frame, (at - of_both) / of_edge, (at - of_both) % of_edge, ret_normal);
 }

@@ -19,15 +19,20 @@
 /* By Euler's formula. */
 #define PIR_AXES_EDGES (PIR_AXES_VERTICES + PIR_AXES_FACETS - 2)
 
-/* Slacks of two bodies: of the facets of both, and of each two directions of edges either way. */
-#define PIR_AXES_SLACKS (2 * PIR_AXES_PADDED + 2 * PIR_AXES_ALONG * PIR_AXES_PADDED)
+/* Slacks of two bodies: along the lines of both, and along each two directions of edges, either way. */
+#define PIR_AXES_SLACKS (4 * PIR_AXES_PADDED + 2 * PIR_AXES_ALONG * PIR_AXES_PADDED)
 
-/* What the loops read of a body: vectors in parallel arrays. */
+/*
+ * What the loops read of a body: vectors in parallel arrays. Two facets with opposite normals are on one line, and of
+ * two opposite vertices one is enough where all have one, as boxes do: so there is half as much to compute.
+ */
 typedef struct pir_axes_lanes {
-    uint32_t vertices, facets, along;
-    double vertex[3][PIR_AXES_PADDED];                          /* padded by the first */
-    double normal[3][PIR_AXES_PADDED], offset[PIR_AXES_PADDED]; /* padded by facets that are infinitely far */
-    double edge[3][PIR_AXES_PADDED], far[PIR_AXES_PADDED];      /* unit vectors along edges; 0, infinite where padded */
+    uint32_t vertices, lines, along;
+    bool is_central;                   /* all vertices come in opposite pairs: then one of each is listed */
+    double vertex[3][PIR_AXES_PADDED]; /* padded by the first */
+    double normal[3][PIR_AXES_PADDED]; /* of the first facet on each line */
+    double offset[2][PIR_AXES_PADDED]; /* of that and of the one against it; infinite where there is none */
+    double edge[3][PIR_AXES_PADDED], far[PIR_AXES_PADDED]; /* unit vectors along edges; 0, infinite where padded */
 } pir_axes_lanes;
 
 /* A body with few facets and directions, in the frame of one exponent. Its polytope keeps it. */
@@ -35,6 +40,7 @@ typedef struct pir_axes {
     pir_attachment attachment;
     bool is_few; /* whether it is one: else nothing below is set */
     pir_axes_lanes lanes;
+    uint32_t facet[2][PIR_AXES_PADDED];                        /* per line, either way */
     uint32_t first[PIR_AXES_ALONG + 1], edges[PIR_AXES_EDGES]; /* per direction, the edges along it */
 } pir_axes;
 
@@ -43,8 +49,8 @@ typedef struct pir_axes_loops {
     const char *name;
     /*
      * Sets what all slacks of x are not below, `error` being the placement's, in this order, each part padded to
-     * whole lanes: P's facets, Q's, and for each direction of P's edges those of Q's, one way, then the other. Returns
-     * their number.
+     * whole lanes and one way, then the other: P's lines, Q's, and for each direction of P's edges those of Q's.
+     * Returns their number.
      */
     uint32_t (*slacks)(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 x, double error,
                        double low[PIR_AXES_SLACKS]);

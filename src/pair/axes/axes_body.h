@@ -9,6 +9,9 @@
 /* A vector of doubles: the compiler's own, loaded from and stored to any address. */
 typedef double lane __attribute__((vector_size(8 * AXES_WIDTH), aligned(8), may_alias));
 
+/* As many integers: places, and what comparing gives. */
+typedef int64_t places __attribute__((vector_size(8 * AXES_WIDTH)));
+
 AXES_TARGET static inline lane load(const double *from) {
     return *(const lane *)from;
 }
@@ -64,35 +67,46 @@ AXES_TARGET static inline lane along(lane x, lane y, lane z, const double v[3][P
 struct corners {
     const double (*vertex)[PIR_AXES_PADDED];
     uint32_t count;
+    bool is_central;
 };
-
-/* Slacks of facets with these normals, where the other body has these vertices. */
-AXES_TARGET static inline void facets(const double n[3][PIR_AXES_PADDED], const pir_axes_lanes *of,
-                                      struct corners others, pir_vec3 at, double error, double *low) {
-    for (uint32_t i = 0; i < padded(of->facets); i += AXES_WIDTH) {
-        lane x = load(&n[0][i]), y = load(&n[1][i]), z = load(&n[2][i]), most = along(x, y, z, others.vertex, 0);
-        for (uint32_t k = 0; k < others.count; k += 4)
-            for (uint32_t j = k; j < k + 4; j++)
-                most = AXES_GREATER(along(x, y, z, others.vertex, j), most);
-        store(&low[i], load(&of->offset[i]) + most - (x * at.x + y * at.y + z * at.z) - error);
-    }
-}
 
 /* The bounds of a body's vertices along vectors. */
 struct range {
     lane least, most;
 };
 
-AXES_TARGET static inline struct range range_along(lane x, lane y, lane z, struct corners of) {
-    struct range range;
-    range.least = range.most = along(x, y, z, of.vertex, 0);
-    for (uint32_t k = 0; k < of.count; k += 4)
+AXES_TARGET static inline struct range range_along(lane x, lane y, lane z, const struct corners *of) {
+    lane to = along(x, y, z, of->vertex, 0);
+    struct range range = {to, to};
+    if (of->is_central) {
+        range.most = AXES_GREATER(to, -to);
+        for (uint32_t j = 1; j < 4; j++) {
+            to = along(x, y, z, of->vertex, j);
+            range.most = AXES_GREATER(AXES_GREATER(to, -to), range.most);
+        }
+        range.least = -range.most;
+        return range;
+    }
+    for (uint32_t k = 0; k < of->count; k += 4)
         for (uint32_t j = k; j < k + 4; j++) {
-            lane to = along(x, y, z, of.vertex, j);
+            to = along(x, y, z, of->vertex, j);
             range.least = AXES_LESSER(to, range.least);
             range.most = AXES_GREATER(to, range.most);
         }
     return range;
+}
+
+/* Slacks along lines, one way and the other, where the other body has these vertices. Returns their number. */
+AXES_TARGET static inline uint32_t lines(const double n[3][PIR_AXES_PADDED], const pir_axes_lanes *of,
+                                         const struct corners *others, pir_vec3 at, double error, double *low) {
+    const uint32_t count = padded(of->lines);
+    for (uint32_t i = 0; i < count; i += AXES_WIDTH) {
+        lane x = load(&n[0][i]), y = load(&n[1][i]), z = load(&n[2][i]), to = x * at.x + y * at.y + z * at.z;
+        struct range range = range_along(x, y, z, others);
+        store(&low[i], load(&of->offset[0][i]) + range.most - to - error);
+        store(&low[count + i], load(&of->offset[1][i]) - range.least + to - error);
+    }
+    return 2 * count;
 }
 
 AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 at,
@@ -100,19 +114,18 @@ AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes
     typedef const double(*lanes)[PIR_AXES_PADDED];
     double vertex[3][PIR_AXES_PADDED], normal[3][PIR_AXES_PADDED], edge[3][PIR_AXES_PADDED];
     turn(r, p->vertex, p->vertices, vertex);
-    turn(r, p->normal, p->facets, normal);
+    turn(r, p->normal, p->lines, normal);
     turn(r, p->edge, p->along, edge);
-    const struct corners in_p = {(lanes)vertex, p->vertices}, in_q = {q->vertex, q->vertices};
-    uint32_t count = padded(p->facets), wide = padded(q->along);
-    facets((lanes)normal, p, in_q, at, error, low);
-    facets(q->normal, q, in_p, at, error, &low[count]);
-    count += padded(q->facets);
+    const struct corners in_p = {(lanes)vertex, p->vertices, p->is_central};
+    const struct corners in_q = {q->vertex, q->vertices, q->is_central};
+    uint32_t wide = padded(q->along), count = lines((lanes)normal, p, &in_q, at, error, low);
+    count += lines(q->normal, q, &in_p, at, error, &low[count]);
     for (uint32_t i = 0; i < p->along; i++, count += 2 * wide)
         for (uint32_t k = 0; k < wide; k += AXES_WIDTH) {
             lane dx = load(&q->edge[0][k]), dy = load(&q->edge[1][k]), dz = load(&q->edge[2][k]);
             lane x = dy * edge[2][i] - dz * edge[1][i], y = dz * edge[0][i] - dx * edge[2][i];
             lane z = dx * edge[1][i] - dy * edge[0][i], length = AXES_ROOTS(x * x + y * y + z * z);
-            struct range of_p = range_along(x, y, z, in_p), of_q = range_along(x, y, z, in_q);
+            struct range of_p = range_along(x, y, z, &in_p), of_q = range_along(x, y, z, &in_q);
             lane to = x * at.x + y * at.y + z * at.z, off = load(&q->far[k]) - 4 * error;
             store(&low[count + k], (of_p.most + of_q.most - to + off) / length);
             store(&low[count + wide + k], (to - of_p.least - of_q.least + off) / length);
@@ -122,23 +135,27 @@ AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes
 
 AXES_TARGET static uint32_t least(const double *low, uint32_t count, double *ret_next) {
     lane most = (lane){0} + HUGE_VAL, first = most, second = most;
+    places at = {0}, here = {0};
     for (uint32_t i = 0; i < count; i += AXES_WIDTH) {
         lane v = load(&low[i]);
+        places less = v < first;
         second = AXES_LESSER(AXES_GREATER(v, first), second);
         first = AXES_LESSER(v, first);
+        at = (at & ~less) | (here & less);
+        here += AXES_WIDTH;
     }
-    double best = HUGE_VAL, next = HUGE_VAL;
-    for (int k = 0; k < AXES_WIDTH; k++) {
-        next = first[k] < best ? best : first[k] < next ? first[k] : next;
+    double best = first[0], next = second[0];
+    int64_t place = at[0];
+    for (int k = 1; k < AXES_WIDTH; k++) {
+        double greater = first[k] < best ? best : first[k];
+        bool is_less = first[k] < best || (first[k] == best && at[k] + k < place);
+        place = is_less ? at[k] + k : place;
         best = first[k] < best ? first[k] : best;
-    }
-    for (int k = 0; k < AXES_WIDTH; k++)
+        next = greater < next ? greater : next;
         next = second[k] < next ? second[k] : next;
+    }
     *ret_next = next;
-    uint32_t at = 0;
-    while (at + 1 < count && low[at] != best)
-        at++;
-    return at;
+    return (uint32_t)place;
 }
 
 const pir_axes_loops AXES_NAME = {AXES_TEXT, slacks, least};

@@ -15,18 +15,6 @@
 #include "query/frame/dd_rotation.h"
 
 /*
- * The limit on the distance of bodies and translations from their origins, in units of the frame. Beyond it squares
- * of squares could overflow.
- */
-#define FARTHEST 0x1p400
-
-/*
- * The error of a placement in double-double, relative to the distances of the bodies and of the translation from
- * their origins. It is sixteen times the proven one.
- */
-#define FAR_ERROR 0x1p-96
-
-/*
  * The error of a translation that is turned in doubles, relative to its length: u = 2^-53 for its rounding, 31u for the
  * matrix, 6u for the product and the sum, together below 64u.
  */
@@ -111,7 +99,7 @@ static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
     pir_int3 first = pir_vertex_exact(p, 0);
     for (int k = 0; k < 3; k++) {
         double nearest = component(p->vertex[0], k), away = ldexp(nearest, -exponent);
-        if (!(fabs(away) < FARTHEST))
+        if (!(fabs(away) < PIR_FARTHEST))
             return false;
         double rest = ldexp(remainder_of(p, &first.c[k], nearest), -exponent);
         body->centre.c[k] = pir_dd_add((pir_dd){away, rest}, (pir_dd){component(middle, k), 0});
@@ -179,28 +167,13 @@ static bool same(pir_quat a, pir_quat b) {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
 }
 
-/*
- * Sets the offset of the frame: Q's middle plus P's rotated middle. Doubles suffice where P's middle is near its
- * origin.
- */
-static void set_offset(pir_frame *frame) {
-    const pir_dd3 *centre = &frame->p.centre;
-    pir_vec3 near = pir_dd3_round(*centre);
-    double far = fabs(near.x) + fabs(near.y) + fabs(near.z);
-    if (far == 0) {
-        frame->offset = frame->q.centre;
-        return;
-    }
-    if (far <= 4 * (frame->p.size + frame->q.size)) {
-        frame->offset = pir_dd3_add_vec(frame->q.centre, pir_mat_apply(&frame->r, near));
-        return;
-    }
+void pir_frame_set_far_offset(pir_frame *frame) {
     pir_dd3 row[3];
     pir_dd_rotation(frame->given, frame->rest, row);
     for (int i = 0; i < 3; i++) {
         pir_dd sum = frame->q.centre.c[i];
         for (int j = 0; j < 3; j++)
-            sum = pir_dd_add(sum, pir_dd_mul(row[i].c[j], centre->c[j]));
+            sum = pir_dd_add(sum, pir_dd_mul(row[i].c[j], frame->p.centre.c[j]));
         frame->offset.c[i] = sum;
     }
 }
@@ -214,37 +187,8 @@ bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation) {
     frame->unit = rotation->unit;
     frame->rest = rotation->rest;
     frame->r = rotation->r;
-    set_offset(frame);
+    pir_frame_set_offset(frame);
     return true;
-}
-
-/* A translation in units of the frame. */
-static pir_vec3 in_units(const pir_frame *frame, pir_vec3 t) {
-    if (frame->down != 0)
-        return pir_vec_scale(t, frame->down);
-    return (pir_vec3){ldexp(t.x, -frame->exponent), ldexp(t.y, -frame->exponent), ldexp(t.z, -frame->exponent)};
-}
-
-static bool is_near(pir_vec3 t) {
-    return fabs(t.x) < FARTHEST && fabs(t.y) < FARTHEST && fabs(t.z) < FARTHEST;
-}
-
-/* What follows from x, for translations of so much. */
-static void set_reach(const pir_frame *frame, double far, pir_placement *placement) {
-    placement->reach = frame->p.size + frame->q.size + sqrt(pir_vec_dot(placement->x, placement->x));
-    placement->error = PIR_SLACK_BOUND * placement->reach + FAR_ERROR * (far + frame->p.far + frame->q.far);
-}
-
-pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_placement *ret_placement) {
-    if (!pir_vec_is_finite(translation))
-        return PIR_ERR_NOT_FINITE;
-    pir_vec3 t = in_units(frame, translation);
-    if (!is_near(t))
-        return PIR_ERR_LIMIT;
-    ret_placement->translation = translation;
-    ret_placement->x = pir_dd3_round(pir_dd3_add_vec(pir_dd3_negate(frame->offset), t));
-    set_reach(frame, taxicab(t), ret_placement);
-    return PIR_OK;
 }
 
 /* x for a difference t of translations that is not much longer than the bodies. */
@@ -268,15 +212,15 @@ pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *wor
         return PIR_ERR_NOT_FINITE;
     if (pir_world_is_plain(world))
         return pir_frame_place(frame, world->translation_p, ret_placement);
-    pir_vec3 to = in_units(frame, world->translation_p), from = in_units(frame, world->translation_q);
-    if (!is_near(to) || !is_near(from))
+    pir_vec3 to = pir_frame_units(frame, world->translation_p), from = pir_frame_units(frame, world->translation_q);
+    if (!pir_frame_is_near(to) || !pir_frame_is_near(from))
         return PIR_ERR_LIMIT;
     pir_dd3 t = {{pir_dd_two_sum(to.x, -from.x), pir_dd_two_sum(to.y, -from.y), pir_dd_two_sum(to.z, -from.z)}};
     pir_vec3 near = pir_dd3_round(t);
     bool turns_by_doubles = taxicab(near) <= 4 * (frame->p.size + frame->q.size);
     ret_placement->translation = world->translation_p;
     ret_placement->x = turns_by_doubles ? turn_near(frame, world, near) : turn_far(frame, world, &t);
-    set_reach(frame, taxicab(to) + taxicab(from), ret_placement);
+    pir_frame_set_reach(frame, taxicab(to) + taxicab(from), ret_placement);
     if (turns_by_doubles)
         ret_placement->error += TURN_ERROR * taxicab(near);
     return PIR_OK;

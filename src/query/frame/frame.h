@@ -36,6 +36,18 @@
  */
 #define PIR_SLACK_BOUND 0x1p-46
 
+/*
+ * The limit on the distance of bodies and translations from their origins, in units of the frame. Beyond it squares
+ * of squares could overflow.
+ */
+#define PIR_FARTHEST 0x1p400
+
+/*
+ * The error of a placement in double-double, relative to the distances of the bodies and of the translation from
+ * their origins. It is sixteen times the proven one.
+ */
+#define PIR_FAR_ERROR 0x1p-96
+
 /* An operand in the frame: P reflected, not turned, or Q. */
 typedef struct pir_body {
     const pir_polytope *polytope;
@@ -108,8 +120,64 @@ void pir_frame_set_exponent(pir_frame *frame, int exponent);
 /* Sets the rotation. False where the frame has it already. */
 bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation);
 
+/* Sets the offset where P's middle is far from its origin. */
+void pir_frame_set_far_offset(pir_frame *frame);
+
+/*
+ * Sets the offset of the frame: Q's middle plus P's rotated middle. Doubles suffice where P's middle is near its
+ * origin.
+ */
+static inline void pir_frame_set_offset(pir_frame *frame) {
+    if (frame->p.far == 0)
+        frame->offset = frame->q.centre;
+    else if (frame->p.far <= 4 * (frame->p.size + frame->q.size))
+        frame->offset = pir_dd3_add_vec(frame->q.centre, pir_mat_apply(&frame->r, pir_dd3_round(frame->p.centre)));
+    else
+        pir_frame_set_far_offset(frame);
+}
+
+/* Sets a rotation that the frame may be at already. It is not relative. */
+static inline void pir_frame_set_doubles(pir_frame *frame, pir_quat given, const pir_rotation_doubles *doubles) {
+    frame->is_set = true;
+    frame->given = given;
+    frame->unit = doubles->unit;
+    frame->rest = (pir_quat){0, 0, 0, 0};
+    frame->r = doubles->r;
+    pir_frame_set_offset(frame);
+}
+
+/* A translation in units of the frame. */
+static inline pir_vec3 pir_frame_units(const pir_frame *frame, pir_vec3 t) {
+    if (frame->down != 0)
+        return pir_vec_scale(t, frame->down);
+    return (pir_vec3){ldexp(t.x, -frame->exponent), ldexp(t.y, -frame->exponent), ldexp(t.z, -frame->exponent)};
+}
+
+/* Whether such a translation is finite and not too far. */
+static inline bool pir_frame_is_near(pir_vec3 t) {
+    return fabs(t.x) < PIR_FARTHEST && fabs(t.y) < PIR_FARTHEST && fabs(t.z) < PIR_FARTHEST;
+}
+
+/* What follows from x, for translations of so much. */
+static inline void pir_frame_set_reach(const pir_frame *frame, double far, pir_placement *placement) {
+    placement->reach = frame->p.size + frame->q.size + sqrt(pir_vec_dot(placement->x, placement->x));
+    placement->error = PIR_SLACK_BOUND * placement->reach + PIR_FAR_ERROR * (far + frame->p.far + frame->q.far);
+}
+
 /* Checks a translation and converts it: PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT. */
-pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_placement *ret_placement);
+static inline pir_status pir_frame_place(const pir_frame *frame, pir_vec3 translation, pir_placement *ret_placement) {
+    const pir_vec3 t = pir_frame_units(frame, translation);
+    if (!pir_frame_is_near(t))
+        return pir_vec_is_finite(translation) ? PIR_ERR_LIMIT : PIR_ERR_NOT_FINITE;
+    ret_placement->translation = translation;
+    // about an offset of 0 the sum below is t, and 0 where that is -0
+    if (frame->p.far + frame->q.far == 0)
+        ret_placement->x = (pir_vec3){t.x + 0.0, t.y + 0.0, t.z + 0.0};
+    else
+        ret_placement->x = pir_dd3_round(pir_dd3_add_vec(pir_dd3_negate(frame->offset), t));
+    pir_frame_set_reach(frame, fabs(t.x) + fabs(t.y) + fabs(t.z), ret_placement);
+    return PIR_OK;
+}
 
 /*
  * The same for a body Q that stands in the world with a rotation and a translation: P's translation as Q sees it.
