@@ -56,11 +56,19 @@ void pir_task_keep_axis(const pir_task *task, pir_vec3 n) {
 bool pir_task_apart_along(pir_task *task, pir_vec3 n) {
     const pir_frame *frame = &task->workspace->frame;
     pir_pair *pair = task->pair;
-    pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
-    pair->axis_a = pir_climb(frame->p.polytope, back, pair->axis_a);
-    pair->axis_b = pir_climb(frame->q.polytope, n, pair->axis_b);
     pir_vec3 way = pir_vec_sub(task->placement->x, pir_frame_vertex(frame, pair->axis_a, pair->axis_b));
-    double distance = pir_task_certain(task, n, pir_vec_dot(n, way));
+    double distance = pir_vec_dot(n, way);
+    // supports are no nearer to x than any vertices
+    if (!pir_task_is_beyond(task, distance))
+        return false;
+    pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
+    uint32_t a = pir_climb(frame->p.polytope, back, pair->axis_a), b = pir_climb(frame->q.polytope, n, pair->axis_b);
+    if (a != pair->axis_a || b != pair->axis_b) {
+        pair->axis_a = a;
+        pair->axis_b = b;
+        distance = pir_vec_dot(n, pir_vec_sub(task->placement->x, pir_frame_vertex(frame, a, b)));
+    }
+    distance = pir_task_certain(task, n, distance);
     if (!pir_task_is_beyond(task, distance))
         return false;
     keep(pair, n, back);

@@ -7,38 +7,37 @@ pir_pair_input pir_pair_input_default(void) {
     return (pir_pair_input){.pose_p = origin, .pose_q = origin, .cutoff = HUGE_VAL};
 }
 
-/* Q's place, which is mostly that of the call before. */
-static pir_status set_q(pir_workspace *workspace, const pir_pair_input *input) {
-    const pir_pose *q = &input->pose_q;
-    if (workspace->has_q && pir_pose_is_same(q, &workspace->pose[1]))
-        return PIR_OK;
+/* Q's place. */
+static pir_status set_q(pir_workspace *workspace, const pir_pose *q) {
     workspace->has_q = false;
     pir_status status = pir_rotation_set(&workspace->rotation_q, q->rotation);
     if (status != PIR_OK)
         return status;
     workspace->world.translation_q = q->translation;
     workspace->posed = !pir_world_is_plain(&workspace->world);
+    workspace->is_turned = q->rotation.x != 0 || q->rotation.y != 0 || q->rotation.z != 0 || q->rotation.w != 1;
     workspace->exact.world = workspace->posed ? &workspace->world : NULL;
     workspace->pose[1] = *q;
     workspace->has_q = true;
     return PIR_OK;
 }
 
-/* P's rotation as Q sees it. */
-static pir_status set_rotation(pir_workspace *workspace, const pir_pair_input *input) {
-    const pir_quat p = input->pose_p.rotation, q = input->pose_q.rotation;
-    bool is_turned = workspace->posed && (q.x != 0 || q.y != 0 || q.z != 0 || q.w != 1);
-    if (is_turned || !pir_quat_is_near_one(p)) {
-        pir_status status = pir_rotation_set_relative(&workspace->rotation, q, p);
-        workspace->frame.is_set = false;
-        if (status == PIR_OK)
-            pir_frame_turn(&workspace->frame, &workspace->rotation);
-        return status;
-    }
+/* P's rotation as Q sees it, where Q is turned or P's quaternion has to be scaled. */
+static pir_status set_any_rotation(pir_workspace *workspace, const pir_pair_input *input) {
+    pir_status status = pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
+    workspace->frame.is_set = false;
+    if (status == PIR_OK)
+        pir_frame_turn(&workspace->frame, &workspace->rotation);
+    return status;
+}
+
+static inline pir_status set_rotation(pir_workspace *workspace, const pir_pair_input *input) {
+    if (workspace->is_turned || !pir_quat_is_near_one(input->pose_p.rotation))
+        return set_any_rotation(workspace, input);
     // both from registers: what one has stored is slow to load for the other
-    const pir_rotation_doubles doubles = pir_doubles_of(p);
-    pir_rotation_set_doubles(&workspace->rotation, p, &doubles);
-    pir_frame_set_doubles(&workspace->frame, p, &doubles);
+    const pir_rotation_doubles doubles = pir_doubles_of(input->pose_p.rotation);
+    pir_rotation_set_doubles(&workspace->rotation, input->pose_p.rotation, &doubles);
+    pir_frame_set_doubles(&workspace->frame, input->pose_p.rotation, &doubles);
     return PIR_OK;
 }
 
@@ -70,8 +69,9 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
     workspace->moved = (pir_leeway){HUGE_VAL, HUGE_VAL};
     pair->left = 0;
     pir_status status = pir_pair_check(input);
-    if (status == PIR_OK)
-        status = set_q(workspace, input);
+    // mostly it is where it was in the call before
+    if (status == PIR_OK && !(workspace->has_q && pir_pose_is_same(&input->pose_q, &workspace->pose[1])))
+        status = set_q(workspace, &input->pose_q);
     if (status == PIR_OK)
         status = set_rotation(workspace, input);
     if (status == PIR_OK)

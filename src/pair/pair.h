@@ -12,7 +12,6 @@
 #ifndef PIR_PAIR_PAIR_H
 #define PIR_PAIR_PAIR_H
 
-#include <assert.h>
 #include <string.h>
 
 #include <pirouette/pair.h>
@@ -67,8 +66,8 @@ struct pir_workspace {
     pir_rotation rotation;   /* of P relative to Q */
     pir_rotation rotation_q; /* of Q */
     pir_rotation_integers integers[2];
-    bool has_q;      /* whether Q's rotation and what else depends on Q's pose alone are those of pose[1] below */
-    bool posed;      /* Q is not at the origin, or turned */
+    bool has_q;            /* whether what depends on Q's pose alone is that of pose[1] below */
+    bool posed, is_turned; /* Q is not at the origin, or turned; it is turned */
     pir_world world;
     pir_exact exact;
     pir_surface_room room;
@@ -103,15 +102,21 @@ static inline pir_status pir_pair_check(const pir_pair_input *input) {
     return some ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
 }
 
-/* Whether two poses are the same: bits may differ where numbers do not. */
+/* The bits in which two numbers differ. */
+static inline uint64_t pir_bits_apart(double a, double b) {
+    uint64_t of_a, of_b;
+    memcpy(&of_a, &a, sizeof a);
+    memcpy(&of_b, &b, sizeof b);
+    return of_a ^ of_b;
+}
+
+/* Whether two poses are the same to the bit. */
 static inline bool pir_pose_is_same(const pir_pose *a, const pir_pose *b) {
-    uint64_t of_a[7], of_b[7], differ = 0;
-    static_assert(sizeof of_a == sizeof *a, "a pose is seven doubles");
-    memcpy(of_a, a, sizeof of_a);
-    memcpy(of_b, b, sizeof of_b);
-    for (int i = 0; i < 7; i++)
-        differ |= of_a[i] ^ of_b[i];
-    return differ == 0;
+    const pir_quat *r = &a->rotation, *s = &b->rotation;
+    const pir_vec3 *t = &a->translation, *u = &b->translation;
+    return (pir_bits_apart(r->x, s->x) | pir_bits_apart(r->y, s->y) | pir_bits_apart(r->z, s->z) |
+            pir_bits_apart(r->w, s->w) | pir_bits_apart(t->x, u->x) | pir_bits_apart(t->y, u->y) |
+            pir_bits_apart(t->z, u->z)) == 0;
 }
 
 /* Whether the last call in this workspace was on this pair, and this pair's last call was in this workspace. */

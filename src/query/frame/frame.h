@@ -195,7 +195,11 @@ static inline double pir_frame_from(const pir_frame *frame, double length) {
 
 /* A point y in the frame of Q's body, relative to Q's middle, in world coordinates. */
 static inline pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y) {
-    pir_vec3 w = pir_dd3_round(pir_dd3_add_vec(frame->q.centre, y));
+    // about a middle at the origin the sum is y, and 0 where that is -0
+    pir_vec3 w = frame->q.far == 0 ? (pir_vec3){y.x + 0.0, y.y + 0.0, y.z + 0.0}
+                                   : pir_dd3_round(pir_dd3_add_vec(frame->q.centre, y));
+    if (frame->up != 0)
+        return pir_vec_scale(w, frame->up);
     return (pir_vec3){pir_frame_length(frame, w.x), pir_frame_length(frame, w.y), pir_frame_length(frame, w.z)};
 }
 

@@ -92,7 +92,8 @@ static inline bool is_enough(const pir_placement *placement, const pir_facet *fa
     pir_vec3 way = pir_vec_sub(z, placement->x);
     double below = facet->h - pir_vec_dot(facet->n, z) - 2 * most, down = pir_vec_dot(facet->n, way);
     // y is over x along the normal, so z is as far from the line through both
-    double beside = sqrt(fmax(0, pir_vec_dot(way, way) - down * down) + 0x1p-40 * placement->reach * placement->reach);
+    double square = pir_vec_dot(way, way) - down * down;
+    double beside = sqrt((square > 0 ? square : 0) + 0x1p-40 * placement->reach * placement->reach);
     return (below - most) * (1 - kappa * kappa) - 2 * kappa * beside > 3 * most;
 }
 
