@@ -17,13 +17,16 @@ static inline double steepest(const pir_polytope *p, uint32_t from, uint32_t to,
     return most;
 }
 
-/* Whether all edges from the origin of a halfedge, but its own, certainly fall along n, and by what sine at least. */
-static inline pir_same all_fall(const pir_polytope *p, uint32_t half, pir_vec3 n, double off, double *ret_falls) {
+/*
+ * Whether all edges from the origin of a halfedge, but its own, certainly fall along n, and how steeply at least. n and
+ * PIR_SLOPE_BOUND are those of a unit normal, both times one factor: the sine of two edges' angle.
+ */
+static inline pir_same all_fall(const pir_polytope *p, uint32_t half, pir_vec3 n, double *ret_falls) {
     uint32_t vertex = p->origin[half];
     double most = steepest(p, p->ring_start[vertex], half, n, -HUGE_VAL);
     most = steepest(p, half + 1, p->ring_start[vertex + 1], n, most);
-    *ret_falls = -off - most;
-    return most < -off ? PIR_SAME_PROVEN : most > off ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
+    *ret_falls = -PIR_SLOPE_BOUND - most;
+    return most < -PIR_SLOPE_BOUND ? PIR_SAME_PROVEN : most > PIR_SLOPE_BOUND ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
 }
 
 /* The vertex uphill from *vertex of which that holds. */
@@ -209,17 +212,17 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     double square = pir_vec_dot(n, n), err = 1 / sqrt(square);
     if (square < 4 * PIR_SIN_REFINED * PIR_SIN_REFINED)
         return PIR_SAME_IN_DOUBT;
-    n = pir_vec_scale(n, err);
     uint32_t a = p->origin[half], b = q->origin[other];
     if (!known) {
         double falls_q, falls_p = 0;
-        pir_same exposed = all_fall(q, other, n, PIR_SLOPE_BOUND * err, &falls_q);
+        pir_same exposed = all_fall(q, other, n, &falls_q);
         if (exposed == PIR_SAME_PROVEN)
-            exposed = all_fall(p, half, pir_mat_apply_transposed(&frame->r, n), PIR_SLOPE_BOUND * err, &falls_p);
+            exposed = all_fall(p, half, pir_mat_apply_transposed(&frame->r, n), &falls_p);
         if (exposed != PIR_SAME_PROVEN)
             return exposed;
-        same->falls = turn_of_edges(falls_p < falls_q ? falls_p : falls_q, err);
+        same->falls = turn_of_edges((falls_p < falls_q ? falls_p : falls_q) * err, err);
     }
+    n = pir_vec_scale(n, err);
     const struct of_p of_p = {pir_mat_apply(&frame->r, frame->p.vertex[a]), e};
     pir_vec3 corner = pir_vec_add(of_p.corner, frame->q.vertex[b]);
     // how far the foot is from the sides along d, at either end of P's edge, and from those along e
