@@ -16,6 +16,7 @@
  *   - whole: the difference (whole.c).
  */
 #include "pair/apart.h"
+#include "pair/give.h"
 #include "pair/overlap.h"
 #include "pair/still_apart.h"
 #include "pair/task.h"
@@ -408,7 +409,7 @@ static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pai
         if (status != PIR_OK)
             return status;
     }
-    *ret_result = workspace->answer;
+    pir_result_give(&workspace->answer, ret_result);
     return PIR_OK;
 }
 

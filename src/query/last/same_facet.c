@@ -83,7 +83,6 @@ static inline void set_touch(const pir_frame *frame, const pir_placement *placem
                              pir_same_facet *same) {
     const pir_facet *facet = &same->facet;
     pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, same->slack));
-    same->touch.witness = facet->faces;
     if (kind == PIR_FACET_FV)
         same->touch.point_q = frame->q.vertex[facet->b];
     else if (kind == PIR_FACET_VF)
@@ -143,8 +142,11 @@ struct unit_plane {
     double err, h;
 };
 
-static inline void set_facet(pir_facet *facet, pir_witness faces, uint32_t a, uint32_t b, struct unit_plane plane) {
+/* Sets the facet, and what would touch there: loading the faces anew would wait for their parts to be stored. */
+static inline void set_facet(pir_same_facet *same, pir_witness faces, uint32_t a, uint32_t b, struct unit_plane plane) {
+    pir_facet *facet = &same->facet;
     facet->faces = faces;
+    same->touch.witness = faces;
     facet->a = a;
     facet->b = b;
     facet->n = plane.n;
@@ -172,7 +174,7 @@ static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement,
         same->falls = turn_of_facet(falls);
     }
     same->facet.piece.second = b;
-    set_facet(&same->facet, (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}}, corner, b,
+    set_facet(same, (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}}, corner, b,
               (struct unit_plane){n, 1, frame->p.offset[f] + pir_vec_dot(n, frame->q.vertex[b])});
     return measure(frame, placement, within, PIR_FACET_FV, NULL, same);
 }
@@ -199,7 +201,7 @@ static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement,
         same->falls = turn_of_facet(falls);
     }
     same->facet.piece.first = a;
-    set_facet(&same->facet, (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}}, a, corner,
+    set_facet(same, (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}}, a, corner,
               (struct unit_plane){n, 1, frame->q.offset[g] + pir_vec_dot(n, of_p.corner)});
     return measure(frame, placement, within, PIR_FACET_VF, &of_p, same);
 }
@@ -233,7 +235,7 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     double left_p = pir_vec_dot(by_d, along_p) - in_p, left_q = pir_vec_dot(by_e, along_q) - in_q;
     in_p = in_p < left_p ? in_p : left_p;
     in_q = in_q < left_q ? in_q : left_q;
-    set_facet(&same->facet, (pir_witness){{PIR_FEATURE_EDGE, edge}, {PIR_FEATURE_EDGE, q->edge[other]}}, a, b,
+    set_facet(same, (pir_witness){{PIR_FEATURE_EDGE, edge}, {PIR_FEATURE_EDGE, q->edge[other]}}, a, b,
               (struct unit_plane){n, err, pir_vec_dot(n, corner)});
     return measure(frame, placement, in_p < in_q ? in_p : in_q, PIR_FACET_EE, &of_p, same);
 }
