@@ -12,7 +12,7 @@
  * computed one: the loops say (a' − 4 E) / σ'. No slack is above the reach in absolute value.
  *
  *   - Where σ' is above 128u, |a (σ' − σ) / σ| is at most 64u · reach, less than E. So a' − 4 E is less than
- *     a + a (σ' − σ) / σ = a σ' / σ, and they say less than a / σ.
+ *     a + a (σ' − σ) / σ = a σ' / σ, and they say less than a / σ. That they multiply by 1 / σ' adds 2u to it.
  *   - Where σ' is less, a' is at most 140u · reach, less than 2 E. So they say less than −reach, which no slack is
  *     below.
  */

@@ -124,11 +124,11 @@ AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes
         for (uint32_t k = 0; k < wide; k += AXES_WIDTH) {
             lane dx = load(&q->edge[0][k]), dy = load(&q->edge[1][k]), dz = load(&q->edge[2][k]);
             lane x = dy * edge[2][i] - dz * edge[1][i], y = dz * edge[0][i] - dx * edge[2][i];
-            lane z = dx * edge[1][i] - dy * edge[0][i], length = AXES_ROOTS(x * x + y * y + z * z);
+            lane z = dx * edge[1][i] - dy * edge[0][i], by = 1 / AXES_ROOTS(x * x + y * y + z * z);
             struct range of_p = range_along(x, y, z, &in_p), of_q = range_along(x, y, z, &in_q);
             lane to = x * at.x + y * at.y + z * at.z, off = load(&q->far[k]) - 4 * error;
-            store(&low[count + k], (of_p.most + of_q.most - to + off) / length);
-            store(&low[count + wide + k], (to - of_p.least - of_q.least + off) / length);
+            store(&low[count + k], (of_p.most + of_q.most - to + off) * by);
+            store(&low[count + wide + k], (to - of_p.least - of_q.least + off) * by);
         }
     return count;
 }

@@ -125,15 +125,15 @@ static inline pir_same measure(const pir_frame *frame, const pir_placement *plac
 
 /*
  * How far R may turn while edges that fall by `falls` along a unit normal do: of a facet that moves by the angle
- * itself. The normal of two edges that cross at the sine 1/err moves by 2 err times that at most, and P's edges by it
- * as well.
+ * itself. The normal of two edges that cross at a sine moves by 2 / sine times that at most, and P's edges by it as
+ * well; there `falls` is that times the sine.
  */
 static double turn_of_facet(double falls) {
     return falls * (1 - 0x1p-20) - 0x1p-40;
 }
 
-static double turn_of_edges(double falls, double err) {
-    return turn_of_facet(falls / (2 * err + 1));
+static double turn_of_edges(double falls, double sine) {
+    return turn_of_facet(falls / (2 + sine));
 }
 
 /* A plane of D: its normal, how wrong that is, and its height, as in pir_facet. */
@@ -211,7 +211,7 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t edge = same->facet.piece.first, half = p->edge_half[edge], other = same->facet.piece.second;
     pir_vec3 d = q->direction[other], e = pir_mat_apply(&frame->r, p->direction[half]), n = pir_vec_cross(d, e);
-    double square = pir_vec_dot(n, n), err = 1 / sqrt(square);
+    double square = pir_vec_dot(n, n), sine = sqrt(square), err = 1 / sine;
     if (square < 4 * PIR_SIN_REFINED * PIR_SIN_REFINED)
         return PIR_SAME_IN_DOUBT;
     uint32_t a = p->origin[half], b = q->origin[other];
@@ -222,7 +222,7 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
             exposed = all_fall(p, half, pir_mat_apply_transposed(&frame->r, n), &falls_p);
         if (exposed != PIR_SAME_PROVEN)
             return exposed;
-        same->falls = turn_of_edges((falls_p < falls_q ? falls_p : falls_q) * err, err);
+        same->falls = turn_of_edges(falls_p < falls_q ? falls_p : falls_q, sine);
     }
     n = pir_vec_scale(n, err);
     const struct of_p of_p = {pir_mat_apply(&frame->r, frame->p.vertex[a]), e};
