@@ -105,14 +105,17 @@ static bool by_held_facet(pir_task *task) {
     if (!held->some)
         return false;
     held->served += held->served < UINT16_MAX;
-    if (pir_held_is_past(held, &workspace->frame))
+    if (pir_held_is_past(held, &workspace->frame)) {
+        pir_held_end(held, held->falls);
         return false;
+    }
     workspace->moved = pir_held_moved(held, &workspace->frame, task->placement);
-    held->pace = (float)(workspace->moved.turn / held->served);
-    if (!pir_held_known(held, workspace->moved, task->placement, &known))
-        return false;
-    return settle_same(
-        task, pir_same_facet_prove(&workspace->frame, task->placement, task->pair->facet, &known, &task->same));
+    if (pir_held_known(held, workspace->moved, task->placement, &known) &&
+        settle_same(task,
+                    pir_same_facet_prove(&workspace->frame, task->placement, task->pair->facet, &known, &task->same)))
+        return true;
+    pir_held_end(held, workspace->moved.turn);
+    return false;
 }
 
 static bool by_fresh_facet(pir_task *task) {
@@ -183,7 +186,7 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
     const pir_pair *pair = task->pair;
     const pir_frame *frame = &task->workspace->frame;
     pir_axes_slack least;
-    pir_same_facet same;
+    pir_same_facet other;
     pir_vec3 n;
     const pir_axes *p = pair->axes_p, *q = pair->axes_q;
     pir_axes_least(task->workspace->axes, p, q, frame, task->placement, &least);
@@ -195,8 +198,11 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
     if (is_none)
         return false;
     pir_piece piece = pir_axes_piece(p, q, frame, least.at, &n);
-    if (pir_same_facet_prove(frame, task->placement, piece, NULL, &same) == PIR_SAME_PROVEN) {
-        task->same = same;
+    // in place where nothing is there: copying takes a while
+    pir_same_facet *same = task->has_same ? &other : &task->same;
+    if (pir_same_facet_prove(frame, task->placement, piece, NULL, same) == PIR_SAME_PROVEN) {
+        if (task->has_same)
+            task->same = other;
         task->has_same = true;
         return settle_least(task, &least);
     }

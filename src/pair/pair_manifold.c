@@ -99,7 +99,7 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
             return capacity > 0 ? PIR_OK : PIR_ERR_LIMIT;
         }
         // the next answer proves all of it again
-        held->some = false;
+        pir_held_end(held, workspace->moved.turn);
     } else if (is_fresh && is_answer(workspace, answer)) {
         ask.ret_lone = &held->lone;
     }

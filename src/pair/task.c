@@ -9,7 +9,9 @@
 void pir_task_keep_apart(const pir_task *task, double distance) {
     pir_pair *pair = task->pair;
     pair->apart = distance;
-    pir_pair_keep_left(pair, distance);
+    // what is no farther than the cutoff takes a frame
+    if (distance > task->limit)
+        pir_pair_keep_left(pair, distance);
     pair->lead.others = 0;
     pair->at = task->placement->x;
     pair->turned = task->workspace->rotation.unit;

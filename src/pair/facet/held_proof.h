@@ -20,7 +20,7 @@
 typedef struct pir_held {
     bool some;
     uint16_t served; /* the calls that have looked at it, up to the most that it holds */
-    float pace;      /* how far R turned from call to call of late */
+    float pace;      /* how far R turned from call to call while the last one lasted */
     pir_vec3 at;     /* the place of the proof */
     pir_quat turned;
     double falls;         /* as of pir_same_facet */
@@ -30,13 +30,17 @@ typedef struct pir_held {
 
 /*
  * Whether R has certainly turned by too much, which most that is too long is told by: half of the angle between two
- * rotations is no less than the distance of their unit quaternions, up to sign. Then so much is noted as the pace.
+ * rotations is no less than the distance of their unit quaternions, up to sign.
  */
-static inline bool pir_held_is_past(pir_held *held, const pir_frame *frame) {
-    if (4 * pir_rotation_chord_square(held->turned, frame->unit) < held->falls * held->falls)
-        return false;
-    held->pace = (float)(held->falls / held->served);
-    return true;
+static inline bool pir_held_is_past(const pir_held *held, const pir_frame *frame) {
+    return !(4 * pir_rotation_chord_square(held->turned, frame->unit) < held->falls * held->falls);
+}
+
+/* Ends it, R having turned by so much or more since. It may have served no call. */
+static inline void pir_held_end(pir_held *held, double turn) {
+    if (held->served > 0)
+        held->pace = (float)(turn / held->served);
+    held->some = false;
 }
 
 /* How far things have moved since. */
