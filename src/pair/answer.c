@@ -30,10 +30,10 @@ static inline double way_since(const pir_task *task) {
     return pir_vec_dot(way, way);
 }
 
-/* How far vertices of D may have moved against x since then, the square of x's way being known. */
+/* How much supports of D may have changed against x since then, the square of x's way being known. */
 static double moved_since(const pir_task *task, double way) {
     double turn = pir_rotation_angle_bound(task->pair->turned, task->workspace->rotation.unit);
-    return (sqrt(way) + turn * task->workspace->frame.p.size) * (1 + 0x1p-40);
+    return (sqrt(way) + turn * task->workspace->frame.p.swing) * (1 + 0x1p-40);
 }
 
 static bool by_certificate(pir_task *task) {
@@ -50,7 +50,6 @@ static bool by_certificate(pir_task *task) {
     if (!(left > 0))
         return false;
     task->is_outside = true;
-    pir_pair_keep_left(task->pair, left);
     if (!(task->want & PIR_WANT_SEPARATION))
         return true;
     if (!(left > task->limit + PIR_DISTANCE_ERROR * placement->reach))

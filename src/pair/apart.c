@@ -13,6 +13,8 @@
  */
 #include "pair/apart.h"
 
+#include "pair/still_apart.h"
+
 /* What a climb may have missed of a body's support: see above. */
 static double missed(const pir_kept_body *body) {
     return 4 * PIR_SLOPE_BOUND * body->body.size / body->point;
@@ -42,15 +44,16 @@ bool pir_task_is_beyond(const pir_task *task, double distance) {
     return (task->want & PIR_WANT_SEPARATION) && distance > task->limit + error;
 }
 
-/* Keeps n, which is `back` in the frame of P. */
-static inline void keep(pir_pair *pair, pir_vec3 n, pir_vec3 back) {
+/* Keeps n, which is `back` in the frame of P, and a distance along it. */
+static inline void keep(pir_pair *pair, pir_vec3 n, pir_vec3 back, double distance) {
     pair->axis = n;
     pair->axis_of_p = back;
     pair->has_axis = true;
+    pir_pair_keep_left(pair, distance);
 }
 
-void pir_task_keep_axis(const pir_task *task, pir_vec3 n) {
-    keep(task->pair, n, pir_mat_apply_transposed(&task->workspace->frame.r, n));
+void pir_task_keep_axis(const pir_task *task, pir_vec3 n, double distance) {
+    keep(task->pair, n, pir_mat_apply_transposed(&task->workspace->frame.r, n), distance);
 }
 
 bool pir_task_apart_along(pir_task *task, pir_vec3 n) {
@@ -71,7 +74,7 @@ bool pir_task_apart_along(pir_task *task, pir_vec3 n) {
     distance = pir_task_certain(task, n, distance);
     if (!pir_task_is_beyond(task, distance))
         return false;
-    keep(pair, n, back);
+    keep(pair, n, back, distance);
     pir_task_keep_apart(task, distance);
     pir_result_beyond(task->result);
     return true;

@@ -11,8 +11,8 @@ double pir_task_certain(const pir_task *task, pir_vec3 n, double distance);
 /* Whether a certain distance is an answer: more than the cutoff. */
 bool pir_task_is_beyond(const pir_task *task, double distance);
 
-/* Keeps the direction of such an answer as a hint. */
-void pir_task_keep_axis(const pir_task *task, pir_vec3 n);
+/* Keeps the direction of such an answer as a hint, and the distance along it that is certain. */
+void pir_task_keep_axis(const pir_task *task, pir_vec3 n, double distance);
 
 /* The answer, where x is apart by more than the cutoff along the unit vector n: then that is the direction kept. */
 bool pir_task_apart_along(pir_task *task, pir_vec3 n);

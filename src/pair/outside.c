@@ -140,7 +140,7 @@ bool pir_task_descend(pir_task *task) {
             pir_task_keep_apart(task, distance);
         if (pir_task_is_beyond(task, distance)) {
             pir_result_beyond(task->result);
-            pir_task_keep_axis(task, simplex->direction);
+            pir_task_keep_axis(task, simplex->direction, distance);
             task->pair->has_facet = false;
         } else {
             finish_outside(task);

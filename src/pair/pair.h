@@ -6,8 +6,8 @@
  * answer follows from proofs at its own placement, so it has the same bits whatever the hints were.
  *
  * The one exception are proofs with the place that they were made at: the distance `apart`, or the lead of the least
- * facet (lead.h). D moved since by no more than the way of x and the turn times the size of P, so the distance is at
- * least what is left.
+ * facet (lead.h). Supports of D have changed against x since by no more than the way of x and the turn times the swing
+ * of P (frame.h), so the distance is at least what is left.
  */
 #ifndef PIR_PAIR_PAIR_H
 #define PIR_PAIR_PAIR_H
@@ -39,10 +39,10 @@ struct pir_pair {
     bool has_facet, has_axis, deep; /* the facet, the axis below; the surface */
     uint8_t points;                 /* of the simplex below */
     uint32_t a[3], b[3];
-    pir_piece facet;         /* of the last answer; its corner may have changed */
-    float left;              /* a proof at the poses of the last call: see still_apart.h; 0 where there is none */
-    pir_vec3 axis;           /* unit; x was apart along it by more than the cutoff */
-    pir_vec3 axis_of_p;      /* the same in the frame of P */
+    pir_piece facet;    /* of the last answer; its corner may have changed */
+    float left;         /* a distance along the axis at the poses of the last call: see still_apart.h; 0 for none */
+    pir_vec3 axis;      /* unit; x was apart along it by more than the cutoff */
+    pir_vec3 axis_of_p; /* the same in the frame of P */
     uint32_t axis_a, axis_b; /* the supports there */
     pir_surface *surface;    /* made when first needed; used where `deep` */
 

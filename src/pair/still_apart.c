@@ -38,16 +38,24 @@ static double square_chord(pir_quat a, pir_quat b) {
     return x * x + y * y + z * z + w * w;
 }
 
-/* Whether points of P have moved by less than `room`, in units of the frame; sets *room to what they leave of it. */
+/* How much farther P has gone along n, a unit vector in Q's frame, less errors. */
+static double gone_along(const pir_workspace *workspace, pir_vec3 n, const pir_pose *from, const pir_pose *to) {
+    pir_vec3 way = pir_vec_scale(pir_vec_sub(to->translation, from->translation), workspace->frame.down);
+    if (workspace->is_turned)
+        way = pir_mat_apply_transposed(&workspace->rotation_q.r, way);
+    return pir_vec_dot(n, way) - taxicab(way) * ERROR;
+}
+
+/*
+ * Whether P's support has changed by less than `room`, in units of the frame, as P turned about its origin; sets *room
+ * to what that leaves of it.
+ */
 static bool leaves_some(const pir_frame *frame, const pir_pose *from, const pir_pose *to, double *room) {
-    const double size = frame->p.size + frame->p.far;
-    pir_vec3 way = pir_vec_scale(pir_vec_sub(to->translation, from->translation), frame->down);
-    double square = pir_vec_dot(way, way);
-    // most steps that are too long are so by either of the two
-    if (!(square < *room * *room) || !(4 * square_chord(from->rotation, to->rotation) * size * size < *room * *room))
+    const double swing = frame->p.swing + frame->p.far;
+    // most turns that are too great are so by their chord
+    if (!(*room > 0 && 4 * square_chord(from->rotation, to->rotation) * swing * swing < *room * *room))
         return false;
-    double turn = pir_rotation_angle_bound_within(from->rotation, to->rotation, BESIDE_UNIT);
-    *room -= (sqrt(square) + turn * size) * (1 + 0x1p-40);
+    *room -= pir_rotation_angle_bound_within(from->rotation, to->rotation, BESIDE_UNIT) * swing * (1 + 0x1p-40);
     return *room > 0;
 }
 
@@ -59,9 +67,9 @@ bool pir_pair_still_apart(pir_pair *pair, pir_workspace *workspace, const pir_pa
     double cutoff = (input->cutoff > 0 ? input->cutoff : 0) + input->radius_p + input->radius_q;
     double far = (taxicab(p->translation) + taxicab(q->translation)) * frame->down + frame->p.far + frame->q.far;
     double reach = frame->p.size + frame->q.size + far, least = cutoff * frame->down * (1 + 0x1p-40) + ERROR * reach;
-    double room = pair->left - least;
+    double room = pair->left - least + gone_along(workspace, pair->axis, &last[0], p);
     // `down` is 0 where units are no normal numbers
-    if (!(room > 0 && frame->down > 0 && reach < FARTHEST) || !leaves_some(frame, &last[0], p, &room))
+    if (!(frame->down > 0 && reach < FARTHEST) || !leaves_some(frame, &last[0], p, &room))
         return false;
     if (!pir_pose_is_same(q, &last[1]) || pir_pair_check(input) != PIR_OK || !is_near_unit(last[0].rotation) ||
         !is_near_unit(p->rotation) || (workspace->posed && has_tiny(p->rotation)))

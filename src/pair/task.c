@@ -3,15 +3,11 @@
 #include "pair/task.h"
 
 #include "pair/apart.h"
-#include "pair/still_apart.h"
 #include "query/last/foot.h"
 
 void pir_task_keep_apart(const pir_task *task, double distance) {
     pir_pair *pair = task->pair;
     pair->apart = distance;
-    // what is no farther than the cutoff takes a frame
-    if (distance > task->limit)
-        pir_pair_keep_left(pair, distance);
     pair->lead.others = 0;
     pair->at = task->placement->x;
     pair->turned = task->workspace->rotation.unit;
@@ -19,13 +15,14 @@ void pir_task_keep_apart(const pir_task *task, double distance) {
 
 void pir_task_near(pir_task *task, const pir_nearest *nearest) {
     pir_query_result *result = task->result;
-    pir_task_keep_apart(task, nearest->distance - PIR_DISTANCE_ERROR * task->placement->reach);
+    const double distance = nearest->distance - PIR_DISTANCE_ERROR * task->placement->reach;
+    pir_task_keep_apart(task, distance);
     if (!(task->want & PIR_WANT_SEPARATION))
         return;
     pir_result_separation(&task->workspace->frame, nearest, result);
     if (result->distance > pir_frame_length(&task->workspace->frame, task->limit)) {
         pir_result_beyond(result);
-        pir_task_keep_axis(task, nearest->normal);
+        pir_task_keep_axis(task, nearest->normal, distance);
     }
 }
 

@@ -6,8 +6,8 @@
  * Let f(n) be the distance from x at which a plane with unit normal n touches D. When the lead was proven, a closed
  * surface in D about x (inner_surface.h) had its triangles either in the facet F, of slack s₀ and normal n₀, or at
  * least `others` away. The ray from x along any n leaves the surface through a triangle, so f(n) was at least `others`,
- * or at least s₀ / (n·n₀), where it left through F. Since then no vertex of D has moved against x by more than δ,
- * so f has fallen by δ at most.
+ * or at least s₀ / (n·n₀), where it left through F. Since then no support of D has changed against x by more than
+ * δ, so f has fallen by δ at most.
  *
  * Now F has the slack s and the normal n₁, with |n₁ − n₀| ≤ c, and holds the disc of radius m about the foot
  * of x. Let G be another facet of D with normal n, at the angle θ from n₁. The plane of G is beyond the disc, so its
