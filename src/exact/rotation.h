@@ -51,15 +51,34 @@ typedef struct pir_rotation_doubles {
     pir_mat3 r;
 } pir_rotation_doubles;
 
-/* That of a quaternion near length 1. */
-static inline pir_rotation_doubles pir_doubles_of(pir_quat c) {
-    double x = c.x, y = c.y, z = c.z, w = c.w, xx = x * x, yy = y * y, zz = z * z, ww = w * w;
-    double n = xx + yy + zz + ww, by = 1 / n, shrink = 1 / sqrt(n);
+/* That of a quaternion of the length √n near 1, which `shrink` brings to 1. */
+static inline pir_rotation_doubles pir_doubles_at(pir_quat c, double n, double shrink) {
+    double x = c.x, y = c.y, z = c.z, w = c.w, xx = x * x, yy = y * y, zz = z * z, ww = w * w, by = 1 / n;
     return (pir_rotation_doubles){
         .unit = {x * shrink, y * shrink, z * shrink, w * shrink},
         .r = {{{(ww + xx - yy - zz) * by, 2 * (x * y - w * z) * by, 2 * (x * z + w * y) * by},
                {2 * (x * y + w * z) * by, (ww - xx + yy - zz) * by, 2 * (y * z - w * x) * by},
                {2 * (x * z - w * y) * by, 2 * (y * z + w * x) * by, (ww - xx - yy + zz) * by}}}};
+}
+
+/* |q|². */
+static inline double pir_quat_norm(pir_quat q) {
+    return q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+}
+
+static inline pir_rotation_doubles pir_doubles_of(pir_quat c) {
+    double n = pir_quat_norm(c);
+    return pir_doubles_at(c, n, 1 / sqrt(n));
+}
+
+/*
+ * The same but for the last bits of `unit`: a quaternion that has length 1 but for rounding, as most have, is taken as
+ * it is, for a root and a division take as long as all else here. Its norm is within 8u of 1 and off by 4u, so its
+ * length is within 6u.
+ */
+static inline pir_rotation_doubles pir_doubles_as_given(pir_quat c) {
+    double n = pir_quat_norm(c);
+    return pir_doubles_at(c, n, fabs(n - 1) <= 0x1p-50 ? 1 : 1 / sqrt(n));
 }
 
 /* Sets a rotation to the quaternion `given`, whose turn is known. */
@@ -75,7 +94,7 @@ static inline void pir_rotation_set_doubles(pir_rotation *rotation, pir_quat giv
 
 /* Whether a quaternion needs no scaling, as most do not. */
 static inline bool pir_quat_is_near_one(pir_quat q) {
-    double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    double n = pir_quat_norm(q);
     return n >= PIR_NORM_NEAR_ONE && n <= 1 / PIR_NORM_NEAR_ONE;
 }
 

@@ -35,7 +35,7 @@ static inline pir_status set_rotation(pir_workspace *workspace, const pir_pair_i
     if (workspace->is_turned || !pir_quat_is_near_one(input->pose_p.rotation))
         return set_any_rotation(workspace, input);
     // both from registers: what one has stored is slow to load for the other
-    const pir_rotation_doubles doubles = pir_doubles_of(input->pose_p.rotation);
+    const pir_rotation_doubles doubles = pir_doubles_as_given(input->pose_p.rotation);
     pir_rotation_set_doubles(&workspace->rotation, input->pose_p.rotation, &doubles);
     pir_frame_set_doubles(&workspace->frame, input->pose_p.rotation, &doubles);
     return PIR_OK;
