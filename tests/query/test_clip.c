@@ -75,19 +75,6 @@ static bool same_cycle(const points *a, const points *b) {
     return a->count == 0 && b->count == 0;
 }
 
-/* Every version places corners with the bits of the plain one. */
-static void check_places(pir_outline p, pir_outline q) {
-    static pir_clip_places plain, places;
-    bool clear = pir_clip_place_version(0)(p, q, SNAP, &plain);
-    for (unsigned version = 1; pir_clip_place_version(version); version++) {
-        assert_int_equal(pir_clip_place_version(version)(p, q, SNAP, &places), clear);
-        assert_memory_equal(places.outside, plain.outside, p.count * sizeof *plain.outside);
-        assert_memory_equal(places.beyond, plain.beyond, p.count * sizeof *plain.beyond);
-        for (uint32_t i = 0; i < p.count; i++)
-            assert_memory_equal(places.inside[i], plain.inside[i], q.count * sizeof plain.inside[i][0]);
-    }
-}
-
 static void clipping_finds_what_merging_finds(void **state) {
     (void)state;
     int told = 0, parted = 0, asked = 0;
@@ -99,8 +86,7 @@ static void clipping_finds_what_merging_finds(void **state) {
         if (!is_clear(&p) || !is_clear(&q))
             continue;
         asked += (int)(number % 2);
-        clipped.count = pir_outline_clip(of_p, of_q, SNAP, pir_clip_place_best(), clipped.at);
-        check_places(of_p, of_q);
+        clipped.count = pir_outline_clip(of_p, of_q, SNAP, clipped.at);
         if (clipped.count == PIR_CLIP_UNCLEAR)
             continue;
         merged.count = pir_outline_overlap(of_p, of_q, SNAP, PART, merged.at);
@@ -122,15 +108,15 @@ static void flush_outlines_are_unclear(void **state) {
         for (int k = 0; k < 4; k++)
             moved[k] = (pir_corner){.u = square[k].u + (i > 0), .v = square[k].v + (i > 1 ? 1 : 0.25 * i)};
         pir_outline p = {square, 4}, q = {moved, 4};
-        assert_true(pir_outline_clip(p, q, SNAP, pir_clip_place_best(), shared) == PIR_CLIP_UNCLEAR);
+        assert_true(pir_outline_clip(p, q, SNAP, shared) == PIR_CLIP_UNCLEAR);
     }
     // too many corners
     pir_corner many[PIR_CLIP_MOST + 1], shared[2 * PIR_CLIP_MOST + 1];
     for (int i = 0; i <= PIR_CLIP_MOST; i++)
         many[i] = (pir_corner){.u = cos(2 * pi * i / (PIR_CLIP_MOST + 1)), .v = sin(2 * pi * i / (PIR_CLIP_MOST + 1))};
     pir_outline all = {many, PIR_CLIP_MOST + 1}, far = {square, 4};
-    assert_true(pir_outline_clip(all, far, SNAP, pir_clip_place_best(), shared) == PIR_CLIP_UNCLEAR);
-    assert_true(pir_outline_clip(far, all, SNAP, pir_clip_place_best(), shared) == PIR_CLIP_UNCLEAR);
+    assert_true(pir_outline_clip(all, far, SNAP, shared) == PIR_CLIP_UNCLEAR);
+    assert_true(pir_outline_clip(far, all, SNAP, shared) == PIR_CLIP_UNCLEAR);
 }
 
 /* --- single facets --- */
@@ -266,10 +252,75 @@ static void single_facets_are_what_growing_ends_at(void **state) {
     assert_true(3 * single > asked);
 }
 
+/* A patch whose every bit is known, with corners of its own. */
+static pir_patch singled(const pir_patch *patch, pir_corner corner[PIR_CLIP_MOST]) {
+    pir_patch copy;
+    memcpy(&copy, patch, sizeof copy);
+    copy.corner = corner;
+    memset(corner, 0, PIR_CLIP_MOST * sizeof *corner);
+    return copy;
+}
+
+static void check_same_single(const pir_patch *a, const pir_patch *b) {
+    const double of_a[3] = {a->height, a->along_u, a->along_v}, of_b[3] = {b->height, b->along_u, b->along_v};
+    assert_memory_equal(of_a, of_b, sizeof of_a);
+    assert_int_equal(a->outline.count, b->outline.count);
+    assert_memory_equal(a->corner, b->corner, PIR_CLIP_MOST * sizeof *a->corner);
+}
+
+/* Every version sets outlines, planes and places of single facets with the bits of the plain one. */
+static void versions_place_singles_alike(void **state) {
+    (void)state;
+    int clear = 0;
+    for (uint64_t number = 0; number < 4000; number++) {
+        test_random random = test_random_case("singles", number);
+        test_points at;
+        test_body_points(&random, (test_body)(number % TEST_BODY_COUNT), 4 + number % 20, &at);
+        pir_polytope *body = test_polytope(&at);
+        pir_mat3 r = {{{0, -0.6, 0.8}, {1, 0, 0}, {0, 0.8, 0.6}}};
+        pir_vec3 n = test_random_direction(&random), side = {fabs(n.x) < 0.6, fabs(n.x) >= 0.6, 0};
+        pir_vec3 u = pir_vec_cross(n, side), axis[3] = {pir_vec_scale(u, 1 / sqrt(pir_vec_dot(u, u)))};
+        axis[1] = pir_vec_cross(n, axis[0]);
+        axis[2] = n;
+        pir_patch p = patch_of(body, pir_vec_scale(n, -1), &r, NULL, NULL, NULL), q = p;
+        q.r = NULL;
+        q.sign = 1;
+        p.at = pir_vec_scale(test_random_direction(&random), 0.2 * size_of(body));
+        p.at.z = number % 3 ? p.at.z : 0;
+        for (int i = 0; i < 10 && body->dimension > 1; i++) {
+            static pir_clip_places plain, places;
+            pir_corner corner[4][PIR_CLIP_MOST];
+            const pir_single of_p = {test_random_below(&random, body->facet_count), UINT32_MAX, 1},
+                             of_q = {test_random_below(&random, body->facet_count), UINT32_MAX, 1};
+            pir_patch p0 = singled(&p, corner[0]), q0 = singled(&q, corner[1]);
+            // more corners than the plain version looks at have no room here
+            if (body->loop_start[of_p.facet + 1] - body->loop_start[of_p.facet] > PIR_CLIP_MOST ||
+                body->loop_start[of_q.facet + 1] - body->loop_start[of_q.facet] > PIR_CLIP_MOST)
+                continue;
+            bool is_clear = pir_singles_place_version(0)(&p0, &of_p, &q0, &of_q, axis, &plain);
+            clear += is_clear;
+            for (unsigned version = 1; pir_singles_place_version(version); version++) {
+                pir_patch p1 = singled(&p, corner[2]), q1 = singled(&q, corner[3]);
+                assert_int_equal(pir_singles_place_version(version)(&p1, &of_p, &q1, &of_q, axis, &places), is_clear);
+                check_same_single(&p0, &p1);
+                check_same_single(&q0, &q1);
+                for (uint32_t j = 0; j < q0.outline.count; j++)
+                    assert_memory_equal(places.inside[j], plain.inside[j],
+                                        p0.outline.count * sizeof plain.inside[j][0]);
+                assert_int_equal(places.entering, plain.entering);
+                assert_int_equal(places.leaving, plain.leaving);
+            }
+        }
+        pir_polytope_release(body);
+    }
+    print_message("# %d pairs of facets are clear\n", clear);
+    assert_true(clear > 1000);
+}
+
 int main(void) {
     test_print_seed();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(clipping_finds_what_merging_finds),
-                                       cmocka_unit_test(flush_outlines_are_unclear),
-                                       cmocka_unit_test(single_facets_are_what_growing_ends_at)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clipping_finds_what_merging_finds), cmocka_unit_test(flush_outlines_are_unclear),
+        cmocka_unit_test(single_facets_are_what_growing_ends_at), cmocka_unit_test(versions_place_singles_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

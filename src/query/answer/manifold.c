@@ -52,9 +52,11 @@ static inline bool is_feature(const pir_polytope *p, pir_feature feature) {
 static inline bool is_usable(const pir_frame *frame, const pir_query_result *answer) {
     double square = pir_vec_dot(answer->normal, answer->normal);
     // ours are unit vectors within a few 2^-53; a caller may keep them in single precision
-    return fabs(square - 1) < 0x1p-20 && is_feature(frame->p.polytope, answer->witness.p) &&
-           is_feature(frame->q.polytope, answer->witness.q) && isfinite(answer->distance) &&
-           pir_vec_is_finite(answer->point_p) && pir_vec_is_finite(answer->point_q);
+    const pir_vec3 *p = &answer->point_p, *q = &answer->point_q;
+    // of a number that is not finite the product with 0 is no number
+    double none = p->x * 0 + p->y * 0 + p->z * 0 + q->x * 0 + q->y * 0 + q->z * 0 + answer->distance * 0;
+    return fabs(square - 1) < 0x1p-20 && none == 0 && is_feature(frame->p.polytope, answer->witness.p) &&
+           is_feature(frame->q.polytope, answer->witness.q);
 }
 
 /* --- setting up --- */
@@ -197,9 +199,10 @@ static uint32_t overlap_singles(struct manifold *m) {
     if (m->is_lone)
         return 0;
     set_plane(m);
-    pir_patch_set_single(m->p, &p, m->axis);
-    pir_patch_set_single(m->q, &q, m->axis);
-    return pir_outline_clip(m->p->outline, m->q->outline, m->p->snap, m->room->place, m->room->shared);
+    pir_clip_places places;
+    if (!m->room->place(m->p, &p, m->q, &q, m->axis, &places))
+        return PIR_CLIP_UNCLEAR;
+    return pir_clip_corners(m->p->outline, m->q->outline, m->p->snap, &places, m->room->shared);
 }
 
 /* Grows both patches until each has an outline. Returns the number of corners that they share, in the room. */
@@ -312,8 +315,12 @@ static inline uint32_t corner_of_answer(const struct manifold *m, uint32_t count
 static inline bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
     if (distance <= m->limit)
         return true;
-    double way = pir_frame_length(m->frame, pir_outline_distance(corner, &m->of_answer));
-    return distance - m->answer->distance <= PIR_FLUSH * way;
+    const pir_corner *a = &m->of_answer;
+    double more = distance - m->answer->distance;
+    // the way is no longer than both its parts: most that are too far are so by that
+    if (more > 2 * PIR_FLUSH * pir_frame_length(m->frame, fabs(corner->u - a->u) + fabs(corner->v - a->v)))
+        return false;
+    return more <= PIR_FLUSH * pir_frame_length(m->frame, pir_outline_distance(corner, a));
 }
 
 /* The contact at a corner; false where it is too far apart. */

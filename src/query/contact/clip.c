@@ -11,16 +11,14 @@
  *
  * So walking once around P meets the corners of the overlap in order.
  */
-#include "query/contact/clip_versions.h"
+#include "query/contact/clip.h"
 
 #include <math.h>
 #include <stddef.h>
 
 struct clip {
     pir_outline p, q;
-    pir_clip_places places;
-    uint32_t crossed[PIR_CLIP_MOST]; /* per side of P: the set of sides of Q that it crosses */
-    uint32_t entering, leaving;      /* the sets of sides of P that enter Q, and that leave it */
+    const pir_clip_places *places;
     pir_corner *corners;
     uint32_t count;
 };
@@ -42,70 +40,54 @@ static inline double inside_of(const struct line *line, const pir_corner *x) {
     return line->u * x->v - line->v * x->u - line->at;
 }
 
-static bool place_plain(pir_outline p, pir_outline q, double snap, pir_clip_places *places) {
+static inline bool is_at_most_one(uint32_t set) {
+    return (set & (set - 1)) == 0;
+}
+
+/* Sets which sides cross, from where the corners are. False where more do than can. */
+static bool find_crossings(uint32_t p, uint32_t q, const uint32_t beyond[], pir_clip_places *places) {
+    bool can = true;
+    places->entering = places->leaving = 0;
+    for (uint32_t i = 0; i < p; i++) {
+        uint32_t start = places->outside[i], end = places->outside[i + 1 < p ? i + 1 : 0];
+        uint32_t next = beyond[i] >> 1 | (beyond[i] & 1) << (q - 1), crossed = (beyond[i] ^ next) & (start ^ end);
+        uint32_t enters = crossed & start, leaves = crossed & end;
+        can &= is_at_most_one(enters) && is_at_most_one(leaves);
+        places->crossed[i] = crossed;
+        places->entering |= (uint32_t)(enters != 0) << i;
+        places->leaving |= (uint32_t)(leaves != 0) << i;
+    }
+    return can;
+}
+
+bool pir_clip_place(pir_outline p, pir_outline q, double snap, pir_clip_places *places) {
+    uint32_t beyond[PIR_CLIP_MOST];
     bool clear = true;
+    if (p.count > PIR_CLIP_MOST || q.count > PIR_CLIP_MOST)
+        return false;
     for (uint32_t i = 0; i < p.count; i++)
         places->outside[i] = 0;
     for (uint32_t j = 0; j < q.count; j++) {
         struct line line = line_along(q, j, snap);
         for (uint32_t i = 0; i < p.count; i++) {
             double inside = inside_of(&line, &p.at[i]);
-            places->inside[i][j] = inside;
+            places->inside[j][i] = inside;
             clear &= fabs(inside) > line.clear;
             places->outside[i] |= (uint32_t)(inside < 0) << j;
         }
     }
+    places->all_beyond = 0;
     for (uint32_t i = 0; i < p.count; i++) {
         struct line line = line_along(p, i, snap);
-        places->beyond[i] = 0;
+        beyond[i] = 0;
         for (uint32_t j = 0; j < q.count; j++) {
             double inside = inside_of(&line, &q.at[j]);
             clear &= fabs(inside) > line.clear;
-            places->beyond[i] |= (uint32_t)(inside < 0) << j;
+            beyond[i] |= (uint32_t)(inside < 0) << j;
         }
+        places->all_beyond |= beyond[i];
     }
-    return clear;
-}
-
-pir_clip_place *pir_clip_place_version(unsigned index) {
-    if (index == 0)
-        return place_plain;
-#if PIR_HAVE_X86_CLIP
-    if (index == 1 && __builtin_cpu_supports("avx2"))
-        return pir_clip_place_avx2;
-#endif
-    return NULL;
-}
-
-pir_clip_place *pir_clip_place_best(void) {
-    unsigned index = 0;
-    while (pir_clip_place_version(index + 1))
-        index++;
-    return pir_clip_place_version(index);
-}
-
-/* --- which sides cross --- */
-
-static inline bool is_at_most_one(uint32_t set) {
-    return (set & (set - 1)) == 0;
-}
-
-/* False where more sides cross than can. */
-static bool find_crossings(struct clip *clip) {
-    const pir_clip_places *places = &clip->places;
-    uint32_t p = clip->p.count, q = clip->q.count;
-    bool can = true;
-    clip->entering = clip->leaving = 0;
-    for (uint32_t i = 0; i < p; i++) {
-        uint32_t beyond = places->beyond[i], start = places->outside[i], end = places->outside[i + 1 < p ? i + 1 : 0];
-        uint32_t next = beyond >> 1 | (beyond & 1) << (q - 1), crossed = (beyond ^ next) & (start ^ end);
-        uint32_t enters = crossed & start, leaves = crossed & end;
-        can &= is_at_most_one(enters) && is_at_most_one(leaves);
-        clip->crossed[i] = crossed;
-        clip->entering |= (uint32_t)(enters != 0) << i;
-        clip->leaving |= (uint32_t)(leaves != 0) << i;
-    }
-    return can;
+    return find_crossings(p.count, q.count, beyond, places) && clear;
 }
 
 /* --- corners --- */
@@ -122,7 +104,7 @@ static inline void put_corner(struct clip *clip, pir_corner_kind kind, uint32_t 
 
 static inline void put_crossing(struct clip *clip, uint32_t i, uint32_t j) {
     uint32_t end = i + 1 < clip->p.count ? i + 1 : 0;
-    double from = clip->places.inside[i][j], part = from / (from - clip->places.inside[end][j]);
+    double from = clip->places->inside[j][i], part = from / (from - clip->places->inside[j][end]);
     const pir_corner *a = &clip->p.at[i], *b = &clip->p.at[end];
     clip->corners[clip->count++] =
         (pir_corner){a->u + part * (b->u - a->u), a->v + part * (b->v - a->v), PIR_CORNER_CROSSING, i, j};
@@ -130,23 +112,21 @@ static inline void put_crossing(struct clip *clip, uint32_t i, uint32_t j) {
 
 /* The corners of the outline that lies in the other, where their rims do not cross. */
 static void put_all(struct clip *clip) {
-    uint32_t beyond = 0;
-    for (uint32_t i = 0; i < clip->p.count; i++)
-        beyond |= clip->places.beyond[i];
-    bool of_p = clip->places.outside[0] == 0;
-    uint32_t count = of_p ? clip->p.count : beyond == 0 ? clip->q.count : 0;
+    bool of_p = clip->places->outside[0] == 0;
+    uint32_t count = of_p ? clip->p.count : clip->places->all_beyond == 0 ? clip->q.count : 0;
     for (uint32_t i = 0; i < count; i++)
         put_corner(clip, of_p ? PIR_CORNER_P : PIR_CORNER_Q, i);
 }
 
 /* Walks around P, from the end of side `first`, by which P leaves Q. */
 static void walk(struct clip *clip, uint32_t first) {
-    uint32_t p = clip->p.count, q = clip->q.count, left = only(clip->crossed[first] & ~clip->places.outside[first]);
+    uint32_t p = clip->p.count, q = clip->q.count,
+             left = only(clip->places->crossed[first] & ~clip->places->outside[first]);
     put_crossing(clip, first, left);
     for (uint32_t k = 1, i = first; k <= p; k++) {
         i = i + 1 < p ? i + 1 : 0;
-        uint32_t enters = clip->crossed[i] & clip->places.outside[i],
-                 leaves = clip->crossed[i] & ~clip->places.outside[i];
+        uint32_t enters = clip->places->crossed[i] & clip->places->outside[i],
+                 leaves = clip->places->crossed[i] & ~clip->places->outside[i];
         if (enters) {
             uint32_t entered = only(enters);
             while (left != entered) {
@@ -154,7 +134,7 @@ static void walk(struct clip *clip, uint32_t first) {
                 put_corner(clip, PIR_CORNER_Q, left);
             }
             put_crossing(clip, i, entered);
-        } else if (clip->places.outside[i] == 0) {
+        } else if (clip->places->outside[i] == 0) {
             put_corner(clip, PIR_CORNER_P, i);
         }
         if (leaves && k < p) {
@@ -166,9 +146,10 @@ static void walk(struct clip *clip, uint32_t first) {
 
 /* The same walk where P enters Q once, so that all corners after that, up to where it leaves, are in Q. */
 static void walk_once(struct clip *clip) {
-    uint32_t p = clip->p.count, q = clip->q.count, first = only(clip->leaving), i = only(clip->entering);
-    uint32_t left = only(clip->crossed[first] & ~clip->places.outside[first]);
-    uint32_t entered = only(clip->crossed[i] & clip->places.outside[i]);
+    uint32_t p = clip->p.count, q = clip->q.count, first = only(clip->places->leaving),
+             i = only(clip->places->entering);
+    uint32_t left = only(clip->places->crossed[first] & ~clip->places->outside[first]);
+    uint32_t entered = only(clip->places->crossed[i] & clip->places->outside[i]);
     put_crossing(clip, first, left);
     while (left != entered) {
         left = left + 1 < q ? left + 1 : 0;
@@ -196,21 +177,19 @@ static bool is_hull(const pir_corner *at, uint32_t count, double snap) {
     return clear;
 }
 
-uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_clip_place *place, pir_corner *ret_corners) {
-    if (p.count > PIR_CLIP_MOST || q.count > PIR_CLIP_MOST)
-        return PIR_CLIP_UNCLEAR;
-    struct clip clip;
-    clip.p = p;
-    clip.q = q;
-    clip.corners = ret_corners;
-    clip.count = 0;
-    if (!place(p, q, snap, &clip.places) || !find_crossings(&clip))
-        return PIR_CLIP_UNCLEAR;
-    if (clip.leaving == 0)
+uint32_t pir_clip_corners(pir_outline p, pir_outline q, double snap, const pir_clip_places *places,
+                          pir_corner *ret_corners) {
+    struct clip clip = {p, q, places, ret_corners, 0};
+    if (places->leaving == 0)
         put_all(&clip);
-    else if (clip.entering != 0 && is_at_most_one(clip.leaving) && is_at_most_one(clip.entering))
+    else if (places->entering != 0 && is_at_most_one(places->leaving) && is_at_most_one(places->entering))
         walk_once(&clip);
     else
-        walk(&clip, (uint32_t)__builtin_ctz(clip.leaving));
+        walk(&clip, (uint32_t)__builtin_ctz(places->leaving));
     return clip.count == 0 || is_hull(ret_corners, clip.count, snap) ? clip.count : PIR_CLIP_UNCLEAR;
+}
+
+uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_corner *ret_corners) {
+    pir_clip_places places;
+    return pir_clip_place(p, q, snap, &places) ? pir_clip_corners(p, q, snap, &places, ret_corners) : PIR_CLIP_UNCLEAR;
 }

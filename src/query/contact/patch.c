@@ -6,7 +6,7 @@
  * finely faceted body. Along any line across a patch the surface is concave: it rises and falls by no more than
  * PIR_FLAT of the way from vertex to vertex.
  */
-#include "query/contact/patch.h"
+#include "query/contact/single.h"
 
 /* --- room --- */
 
@@ -23,7 +23,7 @@ static pir_layout layout_of(pir_patch_room *room) {
 }
 
 bool pir_patch_room_grow(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
-    pir_patch_room grown = {.place = pir_clip_place_best(),
+    pir_patch_room grown = {.place = pir_singles_place_best(),
                             .of_p = of_p > room->of_p ? of_p : room->of_p,
                             .of_q = of_q > room->of_q ? of_q : room->of_q};
     pir_layout layout = layout_of(&grown);

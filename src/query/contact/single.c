@@ -14,7 +14,7 @@
  */
 #include "query/contact/single.h"
 
-#include "query/contact/clip.h"
+#include "query/contact/single_versions.h"
 
 /* A facet at a smaller cosine with the contact normal is not taken: heights on its plane would lose digits. */
 #define LEAST_COSINE 0x1p-4
@@ -111,32 +111,32 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
     return shape;
 }
 
-/* Sets the shape of the patch to that of a facet. */
-static inline void set_shape(pir_patch *patch, uint32_t f) {
-    if (patch->kept && pir_kept_shape_get(&patch->kept[f], &patch->shape))
-        return;
+/* --- facets --- */
+
+/*
+ * Whether a shape says that its facet is the patch that grows from it. `off` is the square of how far its normal is
+ * from `out`. With a leeway `out` is the normal, and the least cosine is given; what is asked for besides is then more
+ * than what rounding may change.
+ */
+static inline bool is_alone(const pir_facet_shape *shape, double off, double cosine, double snap, bool leeway) {
+    double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING - (leeway ? COARSE : 0);
+    double seen = cosine * (1 - COARSE) * (leeway ? 0.5 : 1);
+    return (room > 0) & (off < room * room) & (seen * shape->thick > PIR_CLIP_CLEAR * snap) &
+           (seen * shape->wide > PIR_FLUSH);
+}
+
+/* Sets the shape of the patch to that of a facet, which is not known. */
+static void find_shape(pir_patch *patch, uint32_t f) {
     patch->shape = shape_of(patch, f);
     if (patch->kept)
         pir_kept_shape_set(&patch->kept[f], &patch->shape);
 }
 
-/* --- facets --- */
-
-/*
- * Whether f is the patch that grows from it across `out`, a direction of the body. With a leeway `out` is f's normal,
- * and the least cosine is given; what is asked for besides is then more than what rounding may change.
- */
-static bool stands_alone(pir_patch *patch, uint32_t f, pir_vec3 out, double cosine, bool leeway) {
-    set_shape(patch, f);
-    const pir_facet_shape *shape = &patch->shape;
-    pir_vec3 off = pir_vec_sub(out, patch->polytope->normal[f]);
-    double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING, seen = cosine * (1 - COARSE);
-    if (leeway) {
-        room -= COARSE;
-        seen *= 0.5;
-    }
-    return room > 0 && pir_vec_dot(off, off) < room * room && seen * shape->thick > PIR_CLIP_CLEAR * patch->snap &&
-           seen * shape->wide > PIR_FLUSH;
+/* Whether f is the patch that grows from it; sets the patch's shape to that of f. */
+static inline bool stands_alone(pir_patch *patch, uint32_t f, double off, double cosine, bool leeway) {
+    if (!patch->kept || !pir_kept_shape_get(&patch->kept[f], &patch->shape))
+        find_shape(patch, f);
+    return is_alone(&patch->shape, off, cosine, patch->snap, leeway);
 }
 
 /* Of halfedges, the one whose facet faces a direction most, by a cosine above the least; the cosine of the next one. */
@@ -178,8 +178,9 @@ bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_si
     if (p->artificial)
         return false;
     if (feature.kind == PIR_FEATURE_FACET) {
-        *ret_single = (pir_single){feature.index, UINT32_MAX, pir_vec_dot(out, p->normal[feature.index])};
-        return stands_alone(patch, feature.index, out, ret_single->cosine, turn > 0);
+        pir_vec3 n = p->normal[feature.index], off = pir_vec_sub(out, n);
+        *ret_single = (pir_single){feature.index, UINT32_MAX, pir_vec_dot(out, n)};
+        return stands_alone(patch, feature.index, pir_vec_dot(off, off), ret_single->cosine, turn > 0);
     }
     if (!is_sharp(p, feature, out, turn))
         return false;
@@ -188,7 +189,8 @@ bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_si
         return false;
     uint32_t half = found.half;
     *ret_single = (pir_single){p->left[half], feature.kind == PIR_FEATURE_VERTEX ? half : UINT32_MAX, found.cosine};
-    return stands_alone(patch, ret_single->facet, p->normal[ret_single->facet], found.cosine - turn, turn > 0);
+    // one that a vertex or an edge grows by is looked at across its own normal
+    return stands_alone(patch, ret_single->facet, 0, found.cosine - turn, turn > 0);
 }
 
 void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]) {
@@ -213,6 +215,30 @@ void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_
     patch->outline = (pir_outline){patch->corner, count};
 }
 
+static bool place_plain(pir_patch *p, const pir_single *of_p, pir_patch *q, const pir_single *of_q,
+                        const pir_vec3 axis[3], pir_clip_places *places) {
+    pir_patch_set_single(p, of_p, axis);
+    pir_patch_set_single(q, of_q, axis);
+    return pir_clip_place(p->outline, q->outline, p->snap, places);
+}
+
+pir_singles_place *pir_singles_place_version(unsigned index) {
+    if (index == 0)
+        return place_plain;
+#if PIR_HAVE_X86_SINGLES
+    if (index == 1 && __builtin_cpu_supports("avx2"))
+        return pir_singles_place_avx2;
+#endif
+    return NULL;
+}
+
+pir_singles_place *pir_singles_place_best(void) {
+    unsigned index = 0;
+    while (pir_singles_place_version(index + 1))
+        index++;
+    return pir_singles_place_version(index);
+}
+
 /* --- lone vertices --- */
 
 /* What a carrier's normal may be off by from the direction in which things rise, and the square of that over two. */
@@ -231,6 +257,7 @@ struct rising {
     pir_vec3 at, edge[2]; /* the point under the vertex, and the two edges of the facet there */
     double rise[2];       /* what those rise by at least */
     double room, clear;   /* how far up counts, and how clear of a side is clear enough */
+    double least, wide;   /* what either edge rises by; all of it is nearer to the vertex than `wide` over that */
     pir_leeway leeway;
 };
 
@@ -240,6 +267,8 @@ static inline bool is_within_side(const struct rising *rising, const pir_patch *
     const pir_polytope *q = carrier->polytope;
     pir_vec3 in = pir_vec_cross(n, q->direction[h]);
     double from = pir_vec_dot(in, pir_vec_sub(rising->at, carrier->vertex[q->origin[h]])) - rising->clear;
+    if (from * rising->least > rising->wide)
+        return true;
     bool inside = from > 0;
     for (int k = 0; k < 2; k++) {
         double along = pir_vec_dot(in, rising->edge[k]);
@@ -282,5 +311,7 @@ bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_
     bool moves = leeway.way > 0;
     rising.clear = (moves ? 2 : 1) * (place->coarse + PIR_CLIP_CLEAR * carrier->snap) + leeway.way;
     rising.leeway = leeway;
+    rising.least = rising.rise[0] < rising.rise[1] ? rising.rise[0] : rising.rise[1];
+    rising.wide = (1 + leeway.turn) * (1 + COARSE) * rising.room;
     return moves ? is_within(&rising, carrier, by->facet, n, true) : is_within(&rising, carrier, by->facet, n, false);
 }

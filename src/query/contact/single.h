@@ -20,11 +20,11 @@ typedef struct pir_leeway {
 bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn);
 
 /* A facet that is the whole patch. */
-typedef struct pir_single {
+struct pir_single {
     uint32_t facet;
     uint32_t half; /* of a vertex: the facet lies between this halfedge from it and the next; else UINT32_MAX */
     double cosine; /* of its normal and `out` */
-} pir_single;
+};
 
 /*
  * Finds the facet that is the whole patch, where the other body's patch has an area: the feature itself, or the facet
@@ -36,6 +36,15 @@ bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_si
 
 /* Sets outline and plane of a single facet. axis[2] = axis[0] × axis[1] is the normal from Q to P. */
 void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]);
+
+/*
+ * A version of pir_singles_place, all of which give the same bits: the plain one first; NULL past those that this
+ * machine can run.
+ */
+pir_singles_place *pir_singles_place_version(unsigned index);
+
+/* The last of them. */
+pir_singles_place *pir_singles_place_best(void);
 
 /* How far the plane of a single facet is along axis[2] over a point of the contact plane. */
 static inline double pir_patch_height(const pir_patch *patch, const pir_corner *at) {
