@@ -8,6 +8,7 @@
 #ifndef PIR_QUERY_FRAME_FACET_SHAPE_H
 #define PIR_QUERY_FRAME_FACET_SHAPE_H
 
+#include <math.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -46,8 +47,8 @@ static inline bool pir_kept_shape_get(pir_kept_shape *kept, pir_facet_shape *ret
     pir_facet_shape shape = {pir_kept_number(kept, 0), pir_kept_number(kept, 1), pir_kept_number(kept, 2),
                              pir_kept_number(kept, 3)};
     *ret_shape = shape;
-    // none is so small that the product of all were 0
-    return (double)shape.fall * shape.thick * ((double)shape.wide * shape.apart) != 0;
+    // none is so small that the product of all were 0; one that is infinite makes no number of another that is 0
+    return islessgreater((double)shape.fall * shape.thick * ((double)shape.wide * shape.apart), 0);
 }
 
 static inline void pir_kept_shape_set(pir_kept_shape *kept, const pir_facet_shape *shape) {
