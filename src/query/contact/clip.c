@@ -188,8 +188,3 @@ uint32_t pir_clip_corners(pir_outline p, pir_outline q, double snap, const pir_c
         walk(&clip, (uint32_t)__builtin_ctz(places->leaving));
     return clip.count == 0 || is_hull(ret_corners, clip.count, snap) ? clip.count : PIR_CLIP_UNCLEAR;
 }
-
-uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_corner *ret_corners) {
-    pir_clip_places places;
-    return pir_clip_place(p, q, snap, &places) ? pir_clip_corners(p, q, snap, &places, ret_corners) : PIR_CLIP_UNCLEAR;
-}

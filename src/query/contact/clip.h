@@ -38,7 +38,4 @@ bool pir_clip_place(pir_outline p, pir_outline q, double snap, pir_clip_places *
 uint32_t pir_clip_corners(pir_outline p, pir_outline q, double snap, const pir_clip_places *places,
                           pir_corner *ret_corners);
 
-/* The same, with places that it finds; PIR_CLIP_UNCLEAR where those are none. O(p · q). */
-uint32_t pir_outline_clip(pir_outline p, pir_outline q, double snap, pir_corner *ret_corners);
-
 #endif
