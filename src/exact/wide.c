@@ -41,9 +41,13 @@ static inline mp_limb_t mask_of(const pir_int256 *a) {
     return 0 - (a->limb[3] >> 63);
 }
 
+static inline pir_two_limbs_unsigned size_of(pir_two_limbs a) {
+    return a < 0 ? 0 - (pir_two_limbs_unsigned)a : (pir_two_limbs_unsigned)a;
+}
+
 void pir_int256_add_product(pir_int256 *sum, pir_two_limbs a, pir_two_limbs b) {
     mp_limb_t of_a = a < 0 ? ~(mp_limb_t)0 : 0, of_b = b < 0 ? ~(mp_limb_t)0 : 0, product[4];
-    pir_two_limbs_unsigned x = (pir_two_limbs_unsigned)(a < 0 ? -a : a), y = (pir_two_limbs_unsigned)(b < 0 ? -b : b);
+    pir_two_limbs_unsigned x = size_of(a), y = size_of(b);
     const mp_limb_t size[2] = {(mp_limb_t)x, (mp_limb_t)(x >> 64)};
     multiply_row(product, size, 2, (mp_limb_t)y, false);
     multiply_row(product + 1, size, 2, (mp_limb_t)(y >> 64), true);
@@ -73,6 +77,32 @@ pir_int512 pir_int256_dot(const pir_int256 a[3], const pir_int256 b[3]) {
     pir_int512 sum = {{0}};
     for (int k = 0; k < 3; k++)
         add_long_product(&sum, &a[k], &b[k]);
+    return sum;
+}
+
+pir_int512 pir_int256_dot_two(const pir_int256 a[3], const pir_two_limbs b[3]) {
+    pir_int512 sum = {{0}};
+    for (int k = 0; k < 3; k++) {
+        mp_limb_t of_a = mask_of(&a[k]), of_b = b[k] < 0 ? ~(mp_limb_t)0 : 0, x[4], product[8] = {0};
+        pir_two_limbs_unsigned y = size_of(b[k]);
+        negate_if(x, a[k].limb, 4, of_a);
+        multiply_row(product, x, 4, (mp_limb_t)y, false);
+        multiply_row(product + 1, x, 4, (mp_limb_t)(y >> 64), true);
+        add_if(sum.limb, product, 8, of_a ^ of_b);
+    }
+    return sum;
+}
+
+pir_int512 pir_two_square(const pir_two_limbs a[3]) {
+    pir_int512 sum = {{0}};
+    for (int k = 0; k < 3; k++) {
+        pir_two_limbs_unsigned x = size_of(a[k]);
+        const mp_limb_t size[2] = {(mp_limb_t)x, (mp_limb_t)(x >> 64)};
+        mp_limb_t product[4];
+        multiply_row(product, size, 2, size[0], false);
+        multiply_row(product + 1, size, 2, size[1], true);
+        add_if(sum.limb, product, 4, 0);
+    }
     return sum;
 }
 

@@ -94,8 +94,39 @@ static void sums_of_products_are_exact(void **state) {
     mpz_clears(a, b, NULL);
 }
 
+static void products_with_two_limbs_are_exact(void **state) {
+    (void)state;
+    test_random random = test_random_case("wide integers", 1);
+    mpz_t z[3], a, b, c;
+    mpz_inits(a, b, c, NULL);
+    for (int k = 0; k < 3; k++)
+        mpz_init(z[k]);
+    for (int i = 0; i < CASES; i++) {
+        pir_int256 v[3];
+        pir_two_limbs two[3];
+        check_case(&random, v, z, a, b);
+        mpz_set_ui(b, 0);
+        mpz_set_ui(c, 0);
+        for (int k = 0; k < 3; k++) {
+            two[k] = random_two(&random, 126);
+            set_two(a, two[k]);
+            mpz_addmul(b, z[k], a);
+            mpz_addmul(c, a, a);
+        }
+        pir_int512 dot = pir_int256_dot_two(v, two), square = pir_two_square(two);
+        set_wide(a, dot.limb, 8);
+        assert_int_equal(mpz_cmp(a, b), 0);
+        set_wide(a, square.limb, 8);
+        assert_int_equal(mpz_cmp(a, c), 0);
+    }
+    for (int k = 0; k < 3; k++)
+        mpz_clear(z[k]);
+    mpz_clears(a, b, c, NULL);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_of_products_are_exact)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_of_products_are_exact),
+                                       cmocka_unit_test(products_with_two_limbs_are_exact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
 #else

@@ -11,6 +11,10 @@
  *     n = e' × M e           below 2 · 2^62 · √3 · 2^186 < 2^250 for edges e, e' below 2^62,
  *
  * and n·W and n·n are below 3 · 2^500.
+ *
+ * Where coordinates are small integers, as those of boxes are, n and M p take two limbs. With N, v, e and e' of b, c,
+ * d and d' bits, M v is below 3 · 2^(b + c), and e' × M e below 3 · 2^(b + d + d'), and so is every sum on the way.
+ * These are brief where that is at most BRIEF_BITS bits: below 2^126, and n·n below 2^254.
  */
 #include "query/decide/short_slack.h"
 
@@ -20,15 +24,26 @@
 
 #define VECTOR_BITS 122
 #define EDGE_BITS   62
+#define BRIEF_BITS  124
 
 typedef struct two3 {
     pir_two_limbs c[3];
 } two3;
 
-/* M and N. */
+/* M and N, and the bits of N. */
 typedef struct turning {
     pir_two_limbs m[3][3], norm;
+    uint32_t bits;
 } turning;
+
+/* The bits of the largest of three integers. */
+static inline uint32_t bits_of(const pir_two_limbs c[3]) {
+    pir_two_limbs_unsigned any = 0;
+    for (int k = 0; k < 3; k++)
+        any |= (pir_two_limbs_unsigned)(c[k] < 0 ? -c[k] : c[k]);
+    uint64_t high = (uint64_t)(any >> 64), low = (uint64_t)any;
+    return high ? 128 - (uint32_t)__builtin_clzll(high) : low ? 64 - (uint32_t)__builtin_clzll(low) : 0;
+}
 
 /* A double as an integer in units of 2^exponent, where that is below 2^bits. */
 static inline bool get_double(double x, int exponent, uint32_t bits, pir_two_limbs *ret_value) {
@@ -67,6 +82,7 @@ static inline bool get_turning(const pir_rotation *rotation, turning *to) {
         square[k] = q[k] * q[k];
     }
     to->norm = square[0] + square[1] + square[2] + square[3];
+    to->bits = bits_of((const pir_two_limbs[3]){to->norm, 0, 0});
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         pir_two_limbs of_v = q[i] * q[j], of_w = q[3] * q[k];
@@ -89,19 +105,41 @@ static inline bool get_exponent(const pir_scale *scale, int *ret_exponent) {
     return num + 1 == pir_int_bits(&scale->num) && den + 1 == pir_int_bits(&scale->den);
 }
 
-/* The same shifted to the left, where the components stay below 2^bits. */
-static inline bool get_shifted(const pir_int3 *v, int shift, int bits, two3 *ret_v) {
-    if (shift >= bits || !get_vector(v, (uint32_t)(bits - shift), ret_v))
-        return false;
+/* The same of one that stays below 2^bits when it is shifted to the left. */
+static inline bool get_unshifted(const pir_int3 *v, int shift, int bits, two3 *ret_v) {
+    return shift < bits && get_vector(v, (uint32_t)(bits - shift), ret_v);
+}
+
+static inline void shift_vector(two3 *v, int shift) {
     for (int k = 0; k < 3; k++)
-        ret_v->c[k] *= (pir_two_limbs)1 << shift;
-    return true;
+        v->c[k] *= (pir_two_limbs)1 << shift;
 }
 
 static inline void turn(const turning *by, const two3 *v, pir_int256 to[3]) {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             pir_int256_add_product(&to[i], by->m[i][j], v->c[j]);
+}
+
+/* M v, where that is brief when multiplied by so many bits more. */
+static inline bool turn_briefly(const turning *by, const two3 *v, uint32_t more, two3 *to) {
+    if (by->bits + bits_of(v->c) + more > BRIEF_BITS)
+        return false;
+    for (int i = 0; i < 3; i++)
+        to->c[i] = by->m[i][0] * v->c[0] + by->m[i][1] * v->c[1] + by->m[i][2] * v->c[2];
+    return true;
+}
+
+/* to += M v · 2^shift. */
+static inline void turn_shifted(const turning *by, two3 *v, int shift, pir_int256 to[3]) {
+    two3 turned;
+    if (turn_briefly(by, v, 0, &turned)) {
+        for (int k = 0; k < 3; k++)
+            pir_int256_add_product(&to[k], turned.c[k], (pir_two_limbs)1 << shift);
+    } else {
+        shift_vector(v, shift);
+        turn(by, v, to);
+    }
 }
 
 /* W, in units of 2^*ret_exponent / N. */
@@ -116,15 +154,16 @@ static bool get_corner(const pir_frame *frame, const turning *by, pir_vec3 trans
     pir_int3 va = pir_vertex_exact(frame->p.polytope, facet->a), vb = pir_vertex_exact(frame->q.polytope, facet->b);
     two3 p, d;
     // a bit less for those that are subtracted
-    if (!get_shifted(&va, of_p - low, VECTOR_BITS, &p) || !get_shifted(&vb, of_q - low, VECTOR_BITS - 1, &d))
+    if (!get_unshifted(&va, of_p - low, VECTOR_BITS, &p) || !get_unshifted(&vb, of_q - low, VECTOR_BITS - 1, &d))
         return false;
+    shift_vector(&d, of_q - low);
     for (int k = 0; k < 3; k++) {
         pir_two_limbs moved;
         if (!get_double(t[k], low, VECTOR_BITS - 1, &moved))
             return false;
         d.c[k] -= moved;
     }
-    turn(by, &p, corner);
+    turn_shifted(by, &p, of_p - low, corner);
     for (int k = 0; k < 3; k++)
         pir_int256_add_product(&corner[k], by->norm, d.c[k]);
     *ret_exponent = low;
@@ -165,6 +204,46 @@ static bool get_normal(const pir_frame *frame, const turning *by, pir_piece piec
     return true;
 }
 
+/* The normal, where it is brief. */
+static bool get_brief_normal(const pir_frame *frame, const turning *by, pir_piece piece, two3 *n) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    if (piece.kind == PIR_FACET_EE) {
+        pir_int3 of_p = pir_half_exact(p, p->edge_half[piece.first]), of_q = pir_half_exact(q, piece.second);
+        two3 e, d, turned;
+        if (!get_vector(&of_p, EDGE_BITS, &e) || !get_vector(&of_q, EDGE_BITS, &d) ||
+            !turn_briefly(by, &e, bits_of(d.c), &turned))
+            return false;
+        for (int k = 0; k < 3; k++) {
+            int i = (k + 1) % 3, j = (k + 2) % 3;
+            n->c[k] = d.c[i] * turned.c[j] - d.c[j] * turned.c[i];
+        }
+        return true;
+    }
+    bool of_p = piece.kind == PIR_FACET_FV;
+    pir_int3 own = of_p ? pir_normal_exact(p, piece.first) : pir_normal_exact(q, piece.second);
+    two3 m;
+    if (!get_vector(&own, VECTOR_BITS, of_p ? &m : n))
+        return false;
+    return !of_p || turn_briefly(by, &m, 0, n);
+}
+
+/* n·W and n·n. */
+static bool get_products(const pir_frame *frame, const turning *by, pir_piece piece, const pir_int256 corner[3],
+                         pir_int512 *ret_dot, pir_int512 *ret_square) {
+    two3 brief;
+    pir_int256 n[3] = {{{0}}, {{0}}, {{0}}};
+    if (get_brief_normal(frame, by, piece, &brief)) {
+        *ret_dot = pir_int256_dot_two(corner, brief.c);
+        *ret_square = pir_two_square(brief.c);
+        return true;
+    }
+    if (!get_normal(frame, by, piece, n))
+        return false;
+    *ret_dot = pir_int256_dot(n, corner);
+    *ret_square = pir_int256_dot(n, n);
+    return true;
+}
+
 /* The steps of facet.c from integers to a number: the slack in lengths of the frame. */
 static double number_of(const pir_frame *frame, const pir_int512 *dot, const pir_int512 *square, pir_two_limbs norm,
                         int exponent) {
@@ -183,11 +262,12 @@ bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_fac
     const pir_frame *frame = exact->frame;
     turning by;
     int exponent;
-    pir_int256 corner[3] = {{{0}}, {{0}}, {{0}}}, n[3] = {{{0}}, {{0}}, {{0}}};
+    pir_int256 corner[3] = {{{0}}, {{0}}, {{0}}};
+    pir_int512 dot, square;
     if (exact->world || exact->rotation->relative || !get_turning(exact->rotation, &by) ||
-        !get_normal(frame, &by, facet->piece, n) || !get_corner(frame, &by, translation, facet, corner, &exponent))
+        !get_corner(frame, &by, translation, facet, corner, &exponent) ||
+        !get_products(frame, &by, facet->piece, corner, &dot, &square))
         return false;
-    pir_int512 dot = pir_int256_dot(n, corner), square = pir_int256_dot(n, n);
     *ret_sign = pir_int512_sign(&dot);
     *ret_slack = number_of(frame, &dot, &square, by.norm, exponent);
     return true;
