@@ -6,6 +6,8 @@
  * Every operation is one on lanes, in one order and never fused, so all versions have the same bits.
  */
 
+#define AXES_INLINE inline __attribute__((always_inline))
+
 /* A vector of doubles: the compiler's own, loaded from and stored to any address. */
 typedef double lane __attribute__((vector_size(8 * AXES_WIDTH), aligned(8), may_alias));
 
@@ -18,6 +20,10 @@ AXES_TARGET static inline lane load(const double *from) {
 
 AXES_TARGET static inline void store(double *to, lane v) {
     *(lane *)to = v;
+}
+
+AXES_TARGET static inline lane size_of(lane a) {
+    return (lane)((places)a & INT64_MAX);
 }
 
 #ifndef AXES_LESSER
@@ -50,8 +56,8 @@ static inline uint32_t padded(uint32_t count) {
 }
 
 /* Turns vectors from P's frame to Q's. */
-AXES_TARGET static inline void turn(const pir_mat3 *r, const double from[3][PIR_AXES_PADDED], uint32_t count,
-                                    double to[3][PIR_AXES_PADDED]) {
+AXES_TARGET static AXES_INLINE void turn(const pir_mat3 *r, const double from[3][PIR_AXES_PADDED], uint32_t count,
+                                         double to[3][PIR_AXES_PADDED]) {
     for (uint32_t i = 0; i < padded(count); i += AXES_WIDTH) {
         lane x = load(&from[0][i]), y = load(&from[1][i]), z = load(&from[2][i]);
         for (int k = 0; k < 3; k++)
@@ -63,11 +69,20 @@ AXES_TARGET static inline lane along(lane x, lane y, lane z, const double v[3][P
     return v[0][i] * x + v[1][i] * y + v[2][i] * z;
 }
 
+/* How much there is of a body. Of boxes it is known beforehand: then no loop counts. */
+struct counts {
+    uint32_t vertices, lines, along;
+    bool is_central;
+};
+
+static inline bool is_box(const pir_axes_lanes *of) {
+    return of->is_central && of->vertices == 4 && of->lines == 3 && of->along == 3;
+}
+
 /* The vertices of one body, as all look from the other; taken by four, which is no loop. */
 struct corners {
     const double (*vertex)[PIR_AXES_PADDED];
-    uint32_t count;
-    bool is_central;
+    struct counts of;
 };
 
 /* The bounds of a body's vertices along vectors. */
@@ -75,19 +90,17 @@ struct range {
     lane least, most;
 };
 
-AXES_TARGET static inline struct range range_along(lane x, lane y, lane z, const struct corners *of) {
+AXES_TARGET static AXES_INLINE struct range range_along(lane x, lane y, lane z, const struct corners *of) {
     lane to = along(x, y, z, of->vertex, 0);
     struct range range = {to, to};
-    if (of->is_central) {
-        range.most = AXES_GREATER(to, -to);
-        for (uint32_t j = 1; j < 4; j++) {
-            to = along(x, y, z, of->vertex, j);
-            range.most = AXES_GREATER(AXES_GREATER(to, -to), range.most);
-        }
+    if (of->of.is_central) {
+        range.most = size_of(to);
+        for (uint32_t j = 1; j < 4; j++)
+            range.most = AXES_GREATER(size_of(along(x, y, z, of->vertex, j)), range.most);
         range.least = -range.most;
         return range;
     }
-    for (uint32_t k = 0; k < of->count; k += 4)
+    for (uint32_t k = 0; k < of->of.vertices; k += 4)
         for (uint32_t j = k; j < k + 4; j++) {
             to = along(x, y, z, of->vertex, j);
             range.least = AXES_LESSER(to, range.least);
@@ -97,9 +110,10 @@ AXES_TARGET static inline struct range range_along(lane x, lane y, lane z, const
 }
 
 /* Slacks along lines, one way and the other, where the other body has these vertices. Returns their number. */
-AXES_TARGET static inline uint32_t lines(const double n[3][PIR_AXES_PADDED], const pir_axes_lanes *of,
-                                         const struct corners *others, pir_vec3 at, double error, double *low) {
-    const uint32_t count = padded(of->lines);
+AXES_TARGET static AXES_INLINE uint32_t lines(const double n[3][PIR_AXES_PADDED], const pir_axes_lanes *of,
+                                              uint32_t count, const struct corners *others, pir_vec3 at, double error,
+                                              double *low) {
+    count = padded(count);
     for (uint32_t i = 0; i < count; i += AXES_WIDTH) {
         lane x = load(&n[0][i]), y = load(&n[1][i]), z = load(&n[2][i]), to = x * at.x + y * at.y + z * at.z;
         struct range range = range_along(x, y, z, others);
@@ -109,28 +123,45 @@ AXES_TARGET static inline uint32_t lines(const double n[3][PIR_AXES_PADDED], con
     return 2 * count;
 }
 
-AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 at,
-                                   double error, double low[PIR_AXES_SLACKS]) {
+/* A body, and how much there is of it. */
+struct side {
+    const pir_axes_lanes *lanes;
+    struct counts of;
+};
+
+AXES_TARGET static AXES_INLINE uint32_t slacks_of(struct side side_p, struct side side_q, const pir_mat3 *r,
+                                                  pir_vec3 at, double error, double low[PIR_AXES_SLACKS]) {
+    const pir_axes_lanes *p = side_p.lanes, *q = side_q.lanes;
+    const struct counts of_p = side_p.of, of_q = side_q.of;
     typedef const double(*lanes)[PIR_AXES_PADDED];
     double vertex[3][PIR_AXES_PADDED], normal[3][PIR_AXES_PADDED], edge[3][PIR_AXES_PADDED];
-    turn(r, p->vertex, p->vertices, vertex);
-    turn(r, p->normal, p->lines, normal);
-    turn(r, p->edge, p->along, edge);
-    const struct corners in_p = {(lanes)vertex, p->vertices, p->is_central};
-    const struct corners in_q = {q->vertex, q->vertices, q->is_central};
-    uint32_t wide = padded(q->along), count = lines((lanes)normal, p, &in_q, at, error, low);
-    count += lines(q->normal, q, &in_p, at, error, &low[count]);
-    for (uint32_t i = 0; i < p->along; i++, count += 2 * wide)
+    turn(r, p->vertex, of_p.vertices, vertex);
+    turn(r, p->normal, of_p.lines, normal);
+    turn(r, p->edge, of_p.along, edge);
+    const struct corners in_p = {(lanes)vertex, of_p}, in_q = {q->vertex, of_q};
+    uint32_t wide = padded(of_q.along), count = lines((lanes)normal, p, of_p.lines, &in_q, at, error, low);
+    count += lines(q->normal, q, of_q.lines, &in_p, at, error, &low[count]);
+    for (uint32_t i = 0; i < of_p.along; i++, count += 2 * wide)
         for (uint32_t k = 0; k < wide; k += AXES_WIDTH) {
             lane dx = load(&q->edge[0][k]), dy = load(&q->edge[1][k]), dz = load(&q->edge[2][k]);
             lane x = dy * edge[2][i] - dz * edge[1][i], y = dz * edge[0][i] - dx * edge[2][i];
             lane z = dx * edge[1][i] - dy * edge[0][i], by = 1 / AXES_ROOTS(x * x + y * y + z * z);
-            struct range of_p = range_along(x, y, z, &in_p), of_q = range_along(x, y, z, &in_q);
+            struct range to_p = range_along(x, y, z, &in_p), to_q = range_along(x, y, z, &in_q);
             lane to = x * at.x + y * at.y + z * at.z, off = load(&q->far[k]) - 4 * error;
-            store(&low[count + k], (of_p.most + of_q.most - to + off) * by);
-            store(&low[count + wide + k], (to - of_p.least - of_q.least + off) * by);
+            store(&low[count + k], (to_p.most + to_q.most - to + off) * by);
+            store(&low[count + wide + k], (to - to_p.least - to_q.least + off) * by);
         }
     return count;
+}
+
+AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 at,
+                                   double error, double low[PIR_AXES_SLACKS]) {
+    const struct counts box = {4, 3, 3, true};
+    if (is_box(p) && is_box(q))
+        return slacks_of((struct side){p, box}, (struct side){q, box}, r, at, error, low);
+    const struct side side_p = {p, {p->vertices, p->lines, p->along, p->is_central}};
+    const struct side side_q = {q, {q->vertices, q->lines, q->along, q->is_central}};
+    return slacks_of(side_p, side_q, r, at, error, low);
 }
 
 AXES_TARGET static uint32_t least(const double *low, uint32_t count, double *ret_next) {
