@@ -258,6 +258,70 @@ static void single_facets_are_what_growing_ends_at(void **state) {
     assert_true(3 * single > asked);
 }
 
+/* Whether one facet is told to be what grows; then growing gives it with the same outline, to the bit. */
+static bool check_flat(pir_patch *patch, test_random *random, pir_feature feature, uint64_t number) {
+    const pir_polytope *p = patch->polytope;
+    uint32_t half = feature.kind == PIR_FEATURE_EDGE     ? p->edge_half[feature.index]
+                    : feature.kind == PIR_FEATURE_VERTEX ? p->ring_start[feature.index]
+                                                         : p->loop[p->loop_start[feature.index]];
+    pir_vec3 d = test_random_direction(random), axis[2] = {{1, 0, 0}, {0, 1, 0}};
+    double tilt = test_random_below(random, 3) ? ldexp(1, -test_random_between(random, 18, 50)) : 0;
+    pir_vec3 out = pir_vec_add(p->normal[p->left[half]], pir_vec_scale(d, tilt));
+    out = pir_vec_scale(out, 1 / sqrt(pir_vec_dot(out, out)));
+    patch->out = pir_vec_scale(patch->r ? pir_mat_apply(patch->r, out) : out, patch->sign);
+    // where the facet's sides are along the axes, two corners are first but for rounding
+    pir_vec3 n = pir_vec_scale(patch->out, patch->sign), side = p->direction[half];
+    axis[0] = pir_vec_scale(patch->r ? pir_mat_apply(patch->r, side) : side, patch->sign);
+    axis[1] = pir_vec_cross(n, axis[0]);
+    static pir_corner room[TEST_POINTS_MAX + 1];
+    pir_corner flat[PIR_CLIP_MOST];
+    uint32_t facet = pir_patch_flat(patch, feature);
+    if (facet == PIR_NO_FACET)
+        return false;
+    pir_patch_set_flat(patch, facet, axis, room);
+    uint32_t count = patch->outline.count;
+    memcpy(flat, patch->outline.at, count * sizeof *flat);
+    pir_patch_grow(patch, feature);
+    pir_patch_set_outline(patch, axis, room);
+    pir_patch_clear(patch);
+    bool same = patch->facet == facet && patch->outline.count == count;
+    for (uint32_t i = 0; i < count && same; i++)
+        same = memcmp(&flat[i].u, &patch->outline.at[i].u, sizeof flat[i].u) == 0 &&
+               memcmp(&flat[i].v, &patch->outline.at[i].v, sizeof flat[i].v) == 0 &&
+               flat[i].p == patch->outline.at[i].p;
+    expect(same, "case %d: feature %d %u does not grow to facet %u", (int)number, (int)feature.kind, feature.index,
+           facet);
+    return true;
+}
+
+static void flat_facets_are_what_grows(void **state) {
+    (void)state;
+    static uint32_t member[TEST_POINTS_MAX];
+    static bool is_member[TEST_POINTS_MAX];
+    static pir_corner corner[TEST_POINTS_MAX];
+    int flat = 0, asked = 0;
+    for (uint64_t number = 0; number < 600; number++) {
+        test_random random = test_random_case("flat facets", number);
+        test_points at;
+        test_body_points(&random, (test_body)(number % TEST_BODY_COUNT), 4 + number % 20, &at);
+        if (number % 3 == 0)
+            test_bake(&at, test_general_rotation(&random));
+        pir_polytope *p = test_polytope(&at);
+        pir_mat3 r = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+        pir_patch patch = patch_of(p, (pir_vec3){0, 0, 1}, number % 2 ? &r : NULL, member, is_member, corner);
+        const uint32_t counts[3] = {p->vertex_count, p->edge_count, p->facet_count};
+        for (int i = 0; i < 60 && p->dimension > 1; i++) {
+            pir_feature feature = {(pir_feature_kind)(PIR_FEATURE_VERTEX + i % 3), 0};
+            feature.index = test_random_below(&random, counts[i % 3]);
+            flat += check_flat(&patch, &random, feature, number);
+            asked++;
+        }
+        pir_polytope_release(p);
+    }
+    print_message("# %d of %d patches are flat facets\n", flat, asked);
+    assert_true(3 * flat > asked);
+}
+
 /* A patch whose every bit is known, with corners of its own. */
 static pir_patch singled(const pir_patch *patch, pir_corner corner[PIR_CLIP_MOST]) {
     pir_patch copy;
@@ -327,6 +391,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clipping_finds_what_merging_finds), cmocka_unit_test(flush_outlines_are_unclear),
-        cmocka_unit_test(single_facets_are_what_growing_ends_at), cmocka_unit_test(versions_place_singles_alike)};
+        cmocka_unit_test(single_facets_are_what_growing_ends_at), cmocka_unit_test(flat_facets_are_what_grows),
+        cmocka_unit_test(versions_place_singles_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,8 @@
  * the normal, and the corners of their overlap (outline.h) are lifted onto the surfaces of both bodies. So every
  * contact lies on both bodies, however the patches are made.
  *
- * Most answers need less, and each of these is used where it is certain to be the same but for rounding:
+ * A patch that is one facet across the normal, as of boxes that rest, has its outline without growing, to the bit. Most
+ * answers need less, and each of these is used where it is certain to be the same but for rounding:
  *
  *   - two features without an area, from which nothing grows and which are not parallel, share nothing: the answer is
  *     the one contact;
@@ -205,14 +206,23 @@ static uint32_t overlap_singles(struct manifold *m) {
     return pir_clip_corners(m->p->outline, m->q->outline, m->p->snap, &places, m->room->shared);
 }
 
+/* Grows a patch from a feature, and sets its outline. */
+static void grow(pir_patch *patch, pir_feature feature, const pir_vec3 axis[2], pir_corner *room) {
+    uint32_t facet = pir_patch_flat(patch, feature);
+    if (facet != PIR_NO_FACET) {
+        pir_patch_set_flat(patch, facet, axis, room);
+        return;
+    }
+    pir_patch_grow(patch, feature);
+    pir_patch_set_outline(patch, axis, room);
+}
+
 /* Grows both patches until each has an outline. Returns the number of corners that they share, in the room. */
 static uint32_t overlap(struct manifold *m) {
     pir_patch_room *room = m->room;
     pir_patch *both[2] = {m->p, m->q};
-    pir_patch_grow(m->p, m->answer->witness.p);
-    pir_patch_grow(m->q, m->answer->witness.q);
-    for (int k = 0; k < 2; k++)
-        pir_patch_set_outline(both[k], m->axis, room->hull);
+    grow(m->p, m->answer->witness.p, m->axis, room->hull);
+    grow(m->q, m->answer->witness.q, m->axis, room->hull);
     // a body without an area is tilted where it meets the other's area
     for (int k = 0; k < 2; k++)
         if (both[1 - k]->outline.count > 2)

@@ -19,16 +19,12 @@ double pir_outline_distance(const pir_corner *a, const pir_corner *b) {
 
 /* --- hulls --- */
 
-static bool before(const pir_corner *a, const pir_corner *b) {
-    return a->u != b->u ? a->u < b->u : a->v < b->v;
-}
-
 static void sift(pir_corner *points, uint32_t from, uint32_t count) {
     pir_corner moved = points[from];
     for (uint32_t child; (child = 2 * from + 1) < count; from = child) {
-        if (child + 1 < count && before(&points[child], &points[child + 1]))
+        if (child + 1 < count && pir_corner_before(&points[child], &points[child + 1]))
             child++;
-        if (!before(&moved, &points[child]))
+        if (!pir_corner_before(&moved, &points[child]))
             break;
         points[from] = points[child];
     }

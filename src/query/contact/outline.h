@@ -31,6 +31,11 @@ typedef struct pir_outline {
     uint32_t count; /* 1: a point, 2: a segment */
 } pir_outline;
 
+/* The order in which hulls take points: that of u, then of v. A hull's first corner is the first of all. */
+static inline bool pir_corner_before(const pir_corner *a, const pir_corner *b) {
+    return a->u != b->u ? a->u < b->u : a->v < b->v;
+}
+
 /* The distance of two points. */
 double pir_outline_distance(const pir_corner *a, const pir_corner *b);
 

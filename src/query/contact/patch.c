@@ -168,11 +168,8 @@ void pir_patch_clear(pir_patch *patch) {
 /* --- the outline --- */
 
 void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner *room) {
-    for (uint32_t i = 0; i < patch->members; i++) {
-        pir_vec3 x = pir_patch_vertex(patch, patch->member[i]);
-        patch->corner[i] =
-            (pir_corner){.u = pir_vec_dot(axis[0], x), .v = pir_vec_dot(axis[1], x), .p = patch->member[i]};
-    }
+    for (uint32_t i = 0; i < patch->members; i++)
+        patch->corner[i] = pir_patch_corner(patch, patch->member[i], axis);
     uint32_t count = pir_outline_hull(patch->corner, patch->members, patch->snap, room);
     patch->outline = (pir_outline){patch->corner, pir_outline_slim(patch->corner, count, PIR_FLUSH)};
 }

@@ -104,6 +104,12 @@ static inline pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v) {
     return pir_vec_add(pir_vec_scale(x, patch->sign), patch->at);
 }
 
+/* The same in coordinates along two axes. */
+static inline pir_corner pir_patch_corner(const pir_patch *patch, uint32_t v, const pir_vec3 axis[2]) {
+    pir_vec3 x = pir_patch_vertex(patch, v);
+    return (pir_corner){.u = pir_vec_dot(axis[0], x), .v = pir_vec_dot(axis[1], x), .p = v};
+}
+
 /*
  * Grows the patch from a feature of the body, whose index must be in range, along edges that are nearly across `out`.
  */

@@ -215,6 +215,47 @@ void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_
     patch->outline = (pir_outline){patch->corner, count};
 }
 
+/* The foremost facet at a feature. */
+static uint32_t foremost(const pir_polytope *p, pir_feature feature, pir_vec3 out) {
+    if (feature.kind == PIR_FEATURE_FACET)
+        return feature.index;
+    if (feature.kind == PIR_FEATURE_VERTEX) {
+        struct facing found = find_facing(p, feature.index, out, (struct facing){UINT32_MAX, 0, 0});
+        return found.half != UINT32_MAX ? p->left[found.half] : PIR_NO_FACET;
+    }
+    uint32_t left = p->left[p->edge_half[feature.index]], right = pir_right(p, p->edge_half[feature.index]);
+    return pir_vec_dot(p->normal[left], out) > pir_vec_dot(p->normal[right], out) ? left : right;
+}
+
+/* All edges of such a facet are flat, so the patch that grows from one of its vertices has all of them. */
+uint32_t pir_patch_flat(pir_patch *patch, pir_feature feature) {
+    const pir_polytope *p = patch->polytope;
+    if (p->artificial)
+        return PIR_NO_FACET;
+    pir_vec3 out = pir_patch_to_body(patch, patch->out);
+    uint32_t f = foremost(p, feature, out);
+    if (f == PIR_NO_FACET)
+        return f;
+    pir_vec3 off = pir_vec_sub(out, p->normal[f]);
+    double cosine = pir_vec_dot(out, p->normal[f]);
+    bool flat = cosine > PIR_LEVEL_COSINE && stands_alone(patch, f, pir_vec_dot(off, off), cosine, false);
+    return flat ? f : PIR_NO_FACET;
+}
+
+void pir_patch_set_flat(pir_patch *patch, uint32_t facet, const pir_vec3 axis[2], pir_corner *room) {
+    const pir_polytope *p = patch->polytope;
+    uint32_t start = p->loop_start[facet], count = p->loop_start[facet + 1] - start, least = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        room[i] = pir_patch_corner(patch, p->origin[p->loop[start + i]], axis);
+        least = pir_corner_before(&room[i], &room[least]) ? i : least;
+    }
+    // hulls begin there
+    for (uint32_t i = 0; i < count; i++)
+        patch->corner[i] = room[least + i < count ? least + i : least + i - count];
+    patch->outline = (pir_outline){patch->corner, count};
+    patch->facet = facet;
+}
+
 static bool place_plain(pir_patch *p, const pir_single *of_p, pir_patch *q, const pir_single *of_q,
                         const pir_vec3 axis[3], pir_clip_places *places) {
     pir_patch_set_single(p, of_p, axis);
@@ -240,10 +281,6 @@ pir_singles_place *pir_singles_place_best(void) {
 }
 
 /* --- lone vertices --- */
-
-/* What a carrier's normal may be off by from the direction in which things rise, and the square of that over two. */
-#define LEVEL        0x1p-20
-#define LEVEL_COSINE (1 - 0x1p-45)
 
 /* A direction of one body, in its own frame, in the other's. */
 static pir_vec3 carry(const pir_patch *from, const pir_patch *to, pir_vec3 d) {
@@ -292,7 +329,7 @@ static inline bool is_within(const struct rising *rising, const pir_patch *carri
 
 bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_patch *carrier, const pir_single *by,
                        const pir_lone_place *place) {
-    if (of->half == UINT32_MAX || !(by->cosine > LEVEL_COSINE))
+    if (of->half == UINT32_MAX || !(by->cosine > PIR_LEVEL_COSINE))
         return false;
     const pir_polytope *p = vertex->polytope;
     const pir_leeway leeway = place->leeway;
@@ -302,7 +339,7 @@ bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_
     for (int k = 0; k < 2; k++) {
         uint32_t half = k == 0 ? of->half : pir_ring_next(p, of->half);
         rising.edge[k] = carry(vertex, carrier, p->direction[half]);
-        double rise = rising.rise[k] = pir_vec_dot(n, rising.edge[k]) - LEVEL - leeway.turn;
+        double rise = rising.rise[k] = pir_vec_dot(n, rising.edge[k]) - PIR_LEVEL - leeway.turn;
         if (!(rise > PIR_FLUSH && rise * vertex->shape.apart * (1 - COARSE) > rising.room))
             return false;
     }

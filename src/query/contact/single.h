@@ -34,6 +34,22 @@ struct pir_single {
  */
 bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_single *ret_single);
 
+/*
+ * What a facet's normal may be off by from a direction that is taken for it, and the cosine of that: half its square
+ * below 1. All that falls from a single facet's plane does so by far more.
+ */
+#define PIR_LEVEL        0x1p-20
+#define PIR_LEVEL_COSINE (1 - 0x1p-45)
+
+/*
+ * The facet that is the whole patch as pir_patch_grow finds it, where that faces `out` by more than PIR_LEVEL_COSINE:
+ * the feature itself, or one that a vertex or an edge has. PIR_NO_FACET where there is none.
+ */
+uint32_t pir_patch_flat(pir_patch *patch, pir_feature feature);
+
+/* Sets that facet, and the outline to the bits of pir_patch_set_outline. `room` is for its corners. */
+void pir_patch_set_flat(pir_patch *patch, uint32_t facet, const pir_vec3 axis[2], pir_corner *room);
+
 /* Sets outline and plane of a single facet. axis[2] = axis[0] × axis[1] is the normal from Q to P. */
 void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]);
 
