@@ -81,6 +81,13 @@ static inline pir_dd3 pir_dd3_negate(pir_dd3 a) {
     return (pir_dd3){{pir_dd_negate(a.c[0]), pir_dd_negate(a.c[1]), pir_dd_negate(a.c[2])}};
 }
 
+/* a + b, rounded: pir_dd3_round of pir_dd3_add_vec, whose last step changes the sum by no bit. */
+static inline pir_vec3 pir_dd3_add_rounded(pir_dd3 a, pir_vec3 b) {
+    const pir_dd x = pir_dd_two_sum(a.c[0].hi, b.x), y = pir_dd_two_sum(a.c[1].hi, b.y),
+                 z = pir_dd_two_sum(a.c[2].hi, b.z);
+    return (pir_vec3){x.hi + (x.lo + a.c[0].lo), y.hi + (y.lo + a.c[1].lo), z.hi + (z.lo + a.c[2].lo)};
+}
+
 static inline pir_vec3 pir_dd3_round(pir_dd3 a) {
     return (pir_vec3){a.c[0].hi + a.c[0].lo, a.c[1].hi + a.c[1].lo, a.c[2].hi + a.c[2].lo};
 }

@@ -194,7 +194,7 @@ bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation) {
 /* x for a difference t of translations that is not much longer than the bodies. */
 static pir_vec3 turn_near(const pir_frame *frame, const pir_world *world, pir_vec3 t) {
     pir_vec3 turned = pir_mat_apply_transposed(&world->rotation_q->r, t);
-    return pir_dd3_round(pir_dd3_add_vec(pir_dd3_negate(frame->offset), turned));
+    return pir_dd3_add_rounded(pir_dd3_negate(frame->offset), turned);
 }
 
 /* x for any t. */

@@ -174,7 +174,7 @@ static inline pir_status pir_frame_place(const pir_frame *frame, pir_vec3 transl
     if (frame->p.far + frame->q.far == 0)
         ret_placement->x = (pir_vec3){t.x + 0.0, t.y + 0.0, t.z + 0.0};
     else
-        ret_placement->x = pir_dd3_round(pir_dd3_add_vec(pir_dd3_negate(frame->offset), t));
+        ret_placement->x = pir_dd3_add_rounded(pir_dd3_negate(frame->offset), t);
     pir_frame_set_reach(frame, fabs(t.x) + fabs(t.y) + fabs(t.z), ret_placement);
     return PIR_OK;
 }
@@ -196,8 +196,8 @@ static inline double pir_frame_from(const pir_frame *frame, double length) {
 /* A point y in the frame of Q's body, relative to Q's middle, in world coordinates. */
 static inline pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y) {
     // about a middle at the origin the sum is y, and 0 where that is -0
-    pir_vec3 w = frame->q.far == 0 ? (pir_vec3){y.x + 0.0, y.y + 0.0, y.z + 0.0}
-                                   : pir_dd3_round(pir_dd3_add_vec(frame->q.centre, y));
+    pir_vec3 w =
+        frame->q.far == 0 ? (pir_vec3){y.x + 0.0, y.y + 0.0, y.z + 0.0} : pir_dd3_add_rounded(frame->q.centre, y);
     if (frame->up != 0)
         return pir_vec_scale(w, frame->up);
     return (pir_vec3){pir_frame_length(frame, w.x), pir_frame_length(frame, w.y), pir_frame_length(frame, w.z)};
