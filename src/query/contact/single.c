@@ -27,29 +27,36 @@
 
 /* --- vertices and edges --- */
 
-/* The least sine by which halfedges `from` up to `to` fall or rise along a direction of the body, or `least`. */
-static inline double least_slope(const pir_polytope *p, uint32_t from, uint32_t to, pir_vec3 m, double least) {
-    for (uint32_t h = from; h < to; h++) {
+/* The least sine by which the edges from a vertex fall or rise along a direction of the body, or 1. */
+static inline double least_slope(const pir_polytope *p, uint32_t v, pir_vec3 m) {
+    double least = 1;
+    for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
         double slope = fabs(pir_vec_dot(m, p->direction[h]));
         least = slope < least ? slope : least;
     }
     return least;
 }
 
-/* Whether all edges from the origin of a halfedge, but its own, fall or rise by more than a sine. */
-static inline bool is_sharp_beside(const pir_polytope *p, uint32_t half, pir_vec3 m, double sine) {
-    uint32_t v = p->origin[half];
-    return least_slope(p, half + 1, p->ring_start[v + 1], m, least_slope(p, p->ring_start[v], half, m, 1)) > sine;
+/* The same of those from the origin of a halfedge, but its own: from the one after it, all around. */
+static inline double least_slope_beside(const pir_polytope *p, uint32_t half, pir_vec3 m) {
+    const uint32_t *ring = &p->ring_start[p->origin[half]], start = ring[0], end = ring[1];
+    double least = 1;
+    for (uint32_t h = half, left = end - start - 1; left > 0; left--) {
+        h = h + 1 < end ? h + 1 : start;
+        double slope = fabs(pir_vec_dot(m, p->direction[h]));
+        least = slope < least ? slope : least;
+    }
+    return least;
 }
 
 /* Whether all edges that leave a vertex or an edge fall or rise steeply. */
 static inline bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3 m, double turn) {
     const double sine = PIR_FLAT + turn;
     if (feature.kind == PIR_FEATURE_VERTEX)
-        return least_slope(p, p->ring_start[feature.index], p->ring_start[feature.index + 1], m, 1) > sine;
+        return least_slope(p, feature.index, m) > sine;
     uint32_t half = p->edge_half[feature.index];
     // a segment's other edge is the same one
-    return p->artificial || (is_sharp_beside(p, half, m, sine) && is_sharp_beside(p, p->twin[half], m, sine));
+    return p->artificial || (least_slope_beside(p, half, m) > sine && least_slope_beside(p, p->twin[half], m) > sine);
 }
 
 bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn) {

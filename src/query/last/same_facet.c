@@ -8,9 +8,15 @@
  */
 #define MARGIN_ERRORS 16
 
-/* The steepest of halfedges `from` up to `to`, or `most`. */
-static inline double steepest(const pir_polytope *p, uint32_t from, uint32_t to, pir_vec3 n, double most) {
-    for (uint32_t h = from; h < to; h++) {
+/*
+ * The steepest of the halfedges from the origin of one, but that itself. They are taken from the one after it, all
+ * around: two loops over what lies before and behind it would end at different lengths from frame to frame.
+ */
+static inline double steepest_beside(const pir_polytope *p, uint32_t half, pir_vec3 n) {
+    const uint32_t *ring = &p->ring_start[p->origin[half]], start = ring[0], end = ring[1];
+    double most = -HUGE_VAL;
+    for (uint32_t h = half, left = end - start - 1; left > 0; left--) {
+        h = h + 1 < end ? h + 1 : start;
         double slope = pir_vec_dot(n, p->direction[h]);
         most = slope > most ? slope : most;
     }
@@ -22,9 +28,7 @@ static inline double steepest(const pir_polytope *p, uint32_t from, uint32_t to,
  * PIR_SLOPE_BOUND are those of a unit normal, both times one factor: the sine of two edges' angle.
  */
 static inline pir_same all_fall(const pir_polytope *p, uint32_t half, pir_vec3 n, double *ret_falls) {
-    uint32_t vertex = p->origin[half];
-    double most = steepest(p, p->ring_start[vertex], half, n, -HUGE_VAL);
-    most = steepest(p, half + 1, p->ring_start[vertex + 1], n, most);
+    double most = steepest_beside(p, half, n);
     *ret_falls = -PIR_SLOPE_BOUND - most;
     return most < -PIR_SLOPE_BOUND ? PIR_SAME_PROVEN : most > PIR_SLOPE_BOUND ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
 }
