@@ -152,9 +152,15 @@ struct facing {
     double cosine, next;
 };
 
-/* Looks at the halfedges at v; `out` is a direction of the body. Which of them leads is a guess, so no branch asks. */
-static inline struct facing find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, struct facing most) {
+/*
+ * Looks at the halfedges at v; `out` is a direction of the body. Which of them leads is a guess, so no branch asks.
+ * *least becomes the least sine by which an edge there falls or rises, if that is less.
+ */
+static inline struct facing find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, struct facing most,
+                                        double *least) {
     for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
+        double slope = fabs(pir_vec_dot(out, p->direction[h]));
+        *least = slope < *least ? slope : *least;
         double along = pir_vec_dot(p->normal[p->left[h]], out);
         double second = along < most.cosine ? along : most.cosine;
         most.half = along > most.cosine ? h : most.half;
@@ -164,18 +170,27 @@ static inline struct facing find_facing(const pir_polytope *p, uint32_t v, pir_v
     return most;
 }
 
-/* The facet that a vertex or an edge grows by, as the halfedge before which it lies. */
-static struct facing grown_by(const pir_polytope *p, pir_feature feature, pir_vec3 out) {
-    struct facing found = {UINT32_MAX, LEAST_COSINE, LEAST_COSINE};
-    if (feature.kind == PIR_FEATURE_VERTEX)
-        return find_facing(p, feature.index, out, found);
-    uint32_t half = p->edge_half[feature.index];
-    found = find_facing(p, p->origin[half], out, found);
-    found = find_facing(p, p->target[half], out, found);
+/* The facet that an edge grows by, as the halfedge before which it lies. */
+static struct facing grown_by_edge(const pir_polytope *p, uint32_t half, pir_vec3 out, struct facing found) {
+    double least = 1;
+    found = find_facing(p, p->origin[half], out, found, &least);
+    found = find_facing(p, p->target[half], out, found, &least);
     // one at a single end of the edge leaves the other end beside it
     uint32_t facet = found.half != UINT32_MAX ? p->left[found.half] : UINT32_MAX;
     if (facet != p->left[half] && facet != pir_right(p, half))
         found.half = UINT32_MAX;
+    return found;
+}
+
+/* The facet that a vertex or an edge grows by; none where either is not sharp. */
+static inline struct facing grown_by(const pir_polytope *p, pir_feature feature, pir_vec3 out, double turn) {
+    struct facing found = {UINT32_MAX, LEAST_COSINE, LEAST_COSINE};
+    if (feature.kind != PIR_FEATURE_VERTEX)
+        return is_sharp(p, feature, out, turn) ? grown_by_edge(p, p->edge_half[feature.index], out, found) : found;
+    // one loop tells both
+    double least = 1;
+    found = find_facing(p, feature.index, out, found, &least);
+    found.half = least > PIR_FLAT + turn ? found.half : UINT32_MAX;
     return found;
 }
 
@@ -189,9 +204,7 @@ bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_si
         *ret_single = (pir_single){feature.index, UINT32_MAX, pir_vec_dot(out, n)};
         return stands_alone(patch, feature.index, pir_vec_dot(off, off), ret_single->cosine, turn > 0);
     }
-    if (!is_sharp(p, feature, out, turn))
-        return false;
-    struct facing found = grown_by(p, feature, out);
+    struct facing found = grown_by(p, feature, out, turn);
     if (found.half == UINT32_MAX || (turn > 0 && !(found.cosine - found.next > 2 * turn)))
         return false;
     uint32_t half = found.half;
