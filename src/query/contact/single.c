@@ -240,7 +240,8 @@ static uint32_t foremost(const pir_polytope *p, pir_feature feature, pir_vec3 ou
     if (feature.kind == PIR_FEATURE_FACET)
         return feature.index;
     if (feature.kind == PIR_FEATURE_VERTEX) {
-        struct facing found = find_facing(p, feature.index, out, (struct facing){UINT32_MAX, 0, 0});
+        double unused = 1;
+        struct facing found = find_facing(p, feature.index, out, (struct facing){UINT32_MAX, 0, 0}, &unused);
         return found.half != UINT32_MAX ? p->left[found.half] : PIR_NO_FACET;
     }
     uint32_t left = p->left[p->edge_half[feature.index]], right = pir_right(p, p->edge_half[feature.index]);
