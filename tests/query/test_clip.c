@@ -226,15 +226,17 @@ static bool check_feature(pir_patch *patch, test_random *random, pir_feature fea
     return is_single;
 }
 
-static void single_facets_are_what_growing_ends_at(void **state) {
-    (void)state;
+typedef bool check_patch(pir_patch *patch, test_random *random, pir_feature feature, uint64_t number);
+
+/* Checks patches of features of bodies, of which more than a third are to be what the check looks for. */
+static void check_patches(const char *what, check_patch *check) {
     static uint32_t member[TEST_POINTS_MAX];
     static bool is_member[TEST_POINTS_MAX];
     static pir_corner corner[TEST_POINTS_MAX];
     static pir_kept_shape kept[2 * TEST_POINTS_MAX];
-    int single = 0, asked = 0;
+    int found = 0, asked = 0;
     for (uint64_t number = 0; number < 600; number++) {
-        test_random random = test_random_case("single facets", number);
+        test_random random = test_random_case(what, number);
         test_points at;
         test_body_points(&random, (test_body)(number % TEST_BODY_COUNT), 4 + number % 20, &at);
         if (number % 3 == 0)
@@ -249,13 +251,18 @@ static void single_facets_are_what_growing_ends_at(void **state) {
         for (int i = 0; i < 60 && p->dimension > 1; i++) {
             pir_feature feature = {(pir_feature_kind)(PIR_FEATURE_VERTEX + i % 3), 0};
             feature.index = test_random_below(&random, counts[i % 3]);
-            single += check_feature(&patch, &random, feature, number);
+            found += check(&patch, &random, feature, number);
             asked++;
         }
         pir_polytope_release(p);
     }
-    print_message("# %d of %d patches are single facets\n", single, asked);
-    assert_true(3 * single > asked);
+    print_message("# %d of %d patches are %s\n", found, asked, what);
+    assert_true(3 * found > asked);
+}
+
+static void single_facets_are_what_growing_ends_at(void **state) {
+    (void)state;
+    check_patches("single facets", check_feature);
 }
 
 /* Whether one facet is told to be what grows; then growing gives it with the same outline, to the bit. */
@@ -296,30 +303,7 @@ static bool check_flat(pir_patch *patch, test_random *random, pir_feature featur
 
 static void flat_facets_are_what_grows(void **state) {
     (void)state;
-    static uint32_t member[TEST_POINTS_MAX];
-    static bool is_member[TEST_POINTS_MAX];
-    static pir_corner corner[TEST_POINTS_MAX];
-    int flat = 0, asked = 0;
-    for (uint64_t number = 0; number < 600; number++) {
-        test_random random = test_random_case("flat facets", number);
-        test_points at;
-        test_body_points(&random, (test_body)(number % TEST_BODY_COUNT), 4 + number % 20, &at);
-        if (number % 3 == 0)
-            test_bake(&at, test_general_rotation(&random));
-        pir_polytope *p = test_polytope(&at);
-        pir_mat3 r = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
-        pir_patch patch = patch_of(p, (pir_vec3){0, 0, 1}, number % 2 ? &r : NULL, member, is_member, corner);
-        const uint32_t counts[3] = {p->vertex_count, p->edge_count, p->facet_count};
-        for (int i = 0; i < 60 && p->dimension > 1; i++) {
-            pir_feature feature = {(pir_feature_kind)(PIR_FEATURE_VERTEX + i % 3), 0};
-            feature.index = test_random_below(&random, counts[i % 3]);
-            flat += check_flat(&patch, &random, feature, number);
-            asked++;
-        }
-        pir_polytope_release(p);
-    }
-    print_message("# %d of %d patches are flat facets\n", flat, asked);
-    assert_true(3 * flat > asked);
+    check_patches("flat facets", check_flat);
 }
 
 /* A patch whose every bit is known, with corners of its own. */
