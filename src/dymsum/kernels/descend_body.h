@@ -18,8 +18,8 @@ DESCEND_TARGET PIR_FETCHING void fetch_cells(const pir_facets *facets, const uin
     for (; which; which &= which - 1) {
         uint32_t v = at[__builtin_ctzll(which)];
         const pir_ring *ring = facets->ring + facets->ring_block[v];
-        __builtin_prefetch(ring->x, 0, 2);
-        __builtin_prefetch(ring->z, 0, 2);
+        PIR_FETCH(ring->x);
+        PIR_FETCH(ring->z);
     }
 }
 

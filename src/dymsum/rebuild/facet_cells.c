@@ -45,8 +45,7 @@ void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, c
 
 /*
  * Fetches the cells that are likely to come after those of some facets: by what the number of a facet's cell differs
- * from that of the one before it, the next one often does again. All goes to a cache of the second level, which takes
- * more requests at a time than the first.
+ * from that of the one before it, the next one often does again.
  */
 PIR_FETCHING void fetch_onward(const pir_tracked *tracked, const uint32_t *facet, const uint32_t *from,
                                uint32_t count) {
@@ -55,8 +54,8 @@ PIR_FETCHING void fetch_onward(const pir_tracked *tracked, const uint32_t *facet
     for (uint32_t k = 0; k < count; k++) {
         uint32_t onward = 2 * fv[facet[k]] - from[k];
         const pir_ring *ring = q->ring + q->ring_block[onward < q->vertex_count ? onward : 0];
-        __builtin_prefetch(ring->x, 0, 2);
-        __builtin_prefetch(ring->z, 0, 2);
+        PIR_FETCH(ring->x);
+        PIR_FETCH(ring->z);
     }
 }
 
@@ -64,8 +63,8 @@ PIR_FETCHING void fetch_onward(const pir_tracked *tracked, const uint32_t *facet
 PIR_FETCHING void fetch_visits(const pir_tracked *tracked, uint32_t first, uint32_t count) {
     const pir_polytope *p = tracked->pairing.p;
     for (uint32_t i = first; i < first + count && i < p->facet_count; i++) {
-        __builtin_prefetch(p->normal4 + 4 * (size_t)p->visit[i].facet, 0, 2);
-        __builtin_prefetch(&tracked->pairing.fv[p->visit[i].facet], 0, 2);
+        PIR_FETCH(p->normal4 + 4 * (size_t)p->visit[i].facet);
+        PIR_FETCH(&tracked->pairing.fv[p->visit[i].facet]);
     }
 }
 

@@ -151,11 +151,11 @@ struct edges {
     uint32_t count, first;
 };
 
-/* Fetches what is read of an edge, into a cache of the second level: that takes more requests at a time. */
+/* Fetches what is read of an edge. */
 PIR_FETCHING void fetch_edge(const pir_polytope *p, const struct edges *edges, uint32_t k) {
     uint32_t i = edges->first + k;
     if (i < edges->count)
-        __builtin_prefetch(&p->edge_arc[edges->edge ? edges->edge[i] : i], 0, 2);
+        PIR_FETCH(&p->edge_arc[edges->edge ? edges->edge[i] : i]);
 }
 
 /* The ring of a cell of so many sides often begins in one line of a cache and ends in the next. */
