@@ -233,22 +233,29 @@ static inline bool crosses_once(pir_tracked *tracked, const pir_arcs *arcs, uint
     return crosses_once_surely(tracked, arcs, k);
 }
 
+/* What crossings are listed in: a store that has been forgotten, noted for the facets of Q or not; or one in use. */
+enum listing { NOTED, UNNOTED, IN_USE };
+
+static inline bool list_crossing(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last, enum listing listing) {
+    return listing == IN_USE ? pir_crossing_append(tracked, e, h, last) : pir_crossing_push(tracked, e, h, last);
+}
+
 /*
  * Walks arc k from cell to cell; `side` is the one by which it leaves the first, or PIR_NO_SIDE. many: Q is a large
- * body. notes: crossings are noted for the facets of Q.
+ * body.
  */
 static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
-                                                           uint32_t side, bool many, bool notes) {
+                                                           uint32_t side, bool many, enum listing listing) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t v = arcs->from[k], by = PIR_NO_SIDE, last = PIR_NO_CROSSING;
     const struct arc arc = arc_of_edge(tracked, arcs->edge[k]);
     while (v != arcs->to[k]) {
         if (!many || by != PIR_NO_SIDE || side == PIR_NO_SIDE)
             side = leave_cell(tracked, &arc, v, by);
-        if (!pir_crossing_push(tracked, arcs->edge[k], side, &last))
+        if (!list_crossing(tracked, arcs->edge[k], side, &last, listing))
             return false;
         uint32_t from = v;
-        if (notes) {
+        if (listing == NOTED) {
             // the facet right of a side is left of the side before it
             uint32_t before = (side > q->ring_start[v] ? side : q->ring_start[v + 1]) - 1;
             if (many)
@@ -264,22 +271,22 @@ static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked,
 
 /* Lists the crossings of arc k, whose side has been measured; where it has none, `side` is as in walk_arc. */
 static inline __attribute__((always_inline)) bool cross_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
-                                                            uint32_t side, bool many, bool notes) {
+                                                            uint32_t side, bool many, enum listing listing) {
     uint32_t last = PIR_NO_CROSSING;
     if (!crosses_once(tracked, arcs, k))
-        return walk_arc(tracked, arcs, k, side, many, notes);
-    if (!pir_crossing_push(tracked, arcs->edge[k], arcs->side[k], &last))
+        return walk_arc(tracked, arcs, k, side, many, listing);
+    if (!list_crossing(tracked, arcs->edge[k], arcs->side[k], &last, listing))
         return false;
-    if (notes && many)
+    if (listing == NOTED && many)
         pir_note_passed(tracked, arcs->edge[k], arcs->right[k], arcs->left[k]);
-    else if (notes)
+    else if (listing == NOTED)
         pir_note_met(tracked, arcs->edge[k], tracked->pairing.q->edge[arcs->side[k]], arcs->right[k], arcs->left[k]);
     return true;
 }
 
-static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, bool notes) {
+static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, enum listing listing) {
     for (uint32_t k = 0; k < arcs->count; k++)
-        if (!cross_arc(tracked, arcs, k, PIR_NO_SIDE, false, notes))
+        if (!cross_arc(tracked, arcs, k, PIR_NO_SIDE, false, listing))
             return false;
     return true;
 }
@@ -289,7 +296,7 @@ static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, bool notes) {
  * processor that is to fetch many lines at once does nothing else meanwhile.
  */
 static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, const pir_arcs *found,
-                            const pir_arcs *listed, const struct edges *next, bool notes) {
+                            const pir_arcs *listed, const struct edges *next, enum listing listing) {
     for (uint32_t k = 0, i = 0; k < PIR_ARCS; k++) {
         fetch_edge(tracked->pairing.p, next, k);
         if (k < found->count)
@@ -298,14 +305,14 @@ static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, con
             fetch_cell(tracked->pairing.q, listed, k);
         bool leads = i < chunk->led && chunk->arc[i] == k;
         if (k < chunk->arcs.count &&
-            !cross_arc(tracked, &chunk->arcs, k, leads ? chunk->side[i] : PIR_NO_SIDE, true, notes))
+            !cross_arc(tracked, &chunk->arcs, k, leads ? chunk->side[i] : PIR_NO_SIDE, true, listing))
             return false;
         i += leads;
     }
     return true;
 }
 
-bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
+static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count, enum listing listing) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     const bool many = pir_is_large(q);
     const uint32_t turns = many ? TURNS : 3, chunks = count / PIR_ARCS + (count % PIR_ARCS != 0);
@@ -325,11 +332,19 @@ bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) 
             fetch_next_cells(q, &chunk[(c + turns - 3) % turns]);
         }
         const struct edges next = {edge, count, c * PIR_ARCS + FETCHED_BEFORE};
-        if (!(many ? cross_and_fetch(tracked, crossed, &found->arcs, &listed->arcs, &next, !edge)
-                   : cross_arcs(tracked, &crossed->arcs, !edge)))
+        if (!(many ? cross_and_fetch(tracked, crossed, &found->arcs, &listed->arcs, &next, listing)
+                   : cross_arcs(tracked, &crossed->arcs, listing)))
             return false;
     }
     return true;
+}
+
+bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
+    return walk_edges(tracked, edge, count, edge ? UNNOTED : NOTED);
+}
+
+bool pir_walk_edges_again(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
+    return walk_edges(tracked, edge, count, IN_USE);
 }
 
 pir_status pir_walk_rebuild(pir_tracked *tracked) {

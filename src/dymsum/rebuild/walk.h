@@ -18,6 +18,12 @@ uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, ui
 bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count);
 
 /*
+ * The same of listed edges in a store in use, as it is with the sum's kernels told of the rotation. What the edges had
+ * before is not looked at: the caller frees it.
+ */
+bool pir_walk_edges_again(pir_tracked *tracked, const uint32_t *edge, uint32_t count);
+
+/*
  * Makes the whole pairing from nothing and leaves its certificates expired. Crossings have been forgotten. On
  * PIR_ERR_MEMORY the pairing is not usable.
  */

@@ -25,17 +25,19 @@ PIR_FETCHING void pir_fetch_edge(const pir_tracked *tracked, uint32_t e) {
     PIR_FETCH(&tracked->pairing.p->arc_ends[e]);
 }
 
+/* Fetches a slot, if it is one. */
+PIR_FETCHING void pir_fetch_slot(const pir_tracked *tracked, uint32_t slot) {
+    PIR_FETCH(&tracked->pairing.crossings.at[slot != PIR_NO_CROSSING ? slot : 0]);
+}
+
 PIR_FETCHING void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
-    const pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t slot = c->first[e] != PIR_NO_CROSSING ? c->first[e] : 0;
-    PIR_FETCH(&c->at[slot]);
+    pir_fetch_slot(tracked, tracked->pairing.crossings.first[e]);
 }
 
 /* Fetches the second crossing of edge e. */
 PIR_FETCHING void pir_fetch_next_crossing(const pir_tracked *tracked, uint32_t e) {
     const pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t slot = c->first[e] != PIR_NO_CROSSING ? c->at[c->first[e]].next : 0;
-    PIR_FETCH(&c->at[slot != PIR_NO_CROSSING ? slot : 0]);
+    pir_fetch_slot(tracked, c->first[e] != PIR_NO_CROSSING ? c->at[c->first[e]].next : PIR_NO_CROSSING);
 }
 
 PIR_FETCHING void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
@@ -45,27 +47,6 @@ PIR_FETCHING void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
     PIR_FETCH(&pairing->q->target[half]);
     PIR_FETCH(&pairing->q->left[half]);
     PIR_FETCH(&pairing->q->twin[half]);
-}
-
-/* Fetches the facets of Q on either side of what the first crossing of edge e crosses. */
-PIR_FETCHING void pir_fetch_corners(const pir_tracked *tracked, uint32_t e) {
-    const pir_pairing *pairing = &tracked->pairing;
-    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.at[slot].half : 0;
-    PIR_FETCH(&pairing->q->normal[pairing->q->left[half]]);
-    PIR_FETCH(&pairing->q->normal[pir_right(pairing->q, half)]);
-}
-
-/* Fetches the corners of the cell of Q in which the arc of edge e begins, in turn 0, 1 or 2. */
-PIR_FETCHING void pir_fetch_first_cell(const pir_tracked *tracked, uint32_t e, int turn) {
-    const pir_polytope *q = tracked->pairing.q;
-    const uint32_t *ring = &q->ring_start[tracked->pairing.fv[tracked->pairing.p->arc_ends[e].from]];
-    if (turn == 0)
-        PIR_FETCH(ring);
-    else if (turn == 1)
-        PIR_FETCH(&q->left[ring[0]]);
-    else
-        for (uint32_t h = ring[0]; h < ring[1]; h++)
-            PIR_FETCH(q->normal4 + (size_t)4 * q->left[h]);
 }
 
 /* Fetches the halfedges round facet g of Q. */
@@ -95,34 +76,6 @@ PIR_FETCHING void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, int tu
             pir_fetch_crossing(tracked, p->across[i].edge);
         else
             pir_fetch_next_crossing(tracked, p->across[i].edge);
-    }
-}
-
-/* Fetches for edges that are to be derived anew, of which so many are left. */
-PIR_FETCHING void pir_fetch_derived(const pir_tracked *tracked, const uint32_t *edge, uint32_t left) {
-    if (left > 2 * PIR_FETCHED_AHEAD) {
-        PIR_FETCH(&tracked->pairing.p->edge_half[edge[2 * PIR_FETCHED_AHEAD]]);
-        PIR_FETCH(&tracked->pairing.p->arc_ends[edge[2 * PIR_FETCHED_AHEAD]]);
-    }
-    if (left > PIR_FETCHED_AHEAD) {
-        uint32_t e = edge[PIR_FETCHED_AHEAD];
-        pir_fetch_edge(tracked, e);
-        PIR_FETCH(&tracked->pairing.p->direction[tracked->pairing.p->edge_half[e]]);
-        PIR_FETCH(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].from]);
-        PIR_FETCH(&tracked->pairing.fv[tracked->pairing.p->arc_ends[e].to]);
-    }
-    if (left > PIR_FETCHED_AHEAD / 2) {
-        pir_fetch_crossing(tracked, edge[PIR_FETCHED_AHEAD / 2]);
-        pir_fetch_first_cell(tracked, edge[PIR_FETCHED_AHEAD / 2], 0);
-    }
-    if (left > PIR_FETCHED_AHEAD / 4) {
-        pir_fetch_crossed(tracked, edge[PIR_FETCHED_AHEAD / 4]);
-        pir_fetch_next_crossing(tracked, edge[PIR_FETCHED_AHEAD / 4]);
-        pir_fetch_first_cell(tracked, edge[PIR_FETCHED_AHEAD / 4], 1);
-    }
-    if (left > PIR_FETCHED_AHEAD / 8) {
-        pir_fetch_corners(tracked, edge[PIR_FETCHED_AHEAD / 8]);
-        pir_fetch_first_cell(tracked, edge[PIR_FETCHED_AHEAD / 8], 2);
     }
 }
 

@@ -20,6 +20,7 @@
 
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/descent.h"
+#include "dymsum/update/derive.h"
 #include "dymsum/update/fetch_ahead.h"
 #include "dymsum/update/repair.h"
 #include "dymsum/update/trace.h"
@@ -446,6 +447,18 @@ static uint32_t next_stamp(pir_tracked *tracked) {
     return tracked->stamp += 2;
 }
 
+/* Derives the edges anew that are to be. */
+static void derive(struct update *update) {
+    pir_tracked *tracked = update->tracked;
+    const uint32_t *edge = tracked->work->queue;
+    for (uint32_t i = 0; i < update->derive; i++)
+        pir_journal_note_edge(&tracked->journal, edge[i]);
+    if (update->fetches)
+        update->failed = !pir_derive_edges(tracked, edge, update->derive);
+    for (uint32_t i = 0; i < update->derive && !update->fetches && !update->failed; i++)
+        update->failed = !pir_derive_edge(tracked, edge[i]);
+}
+
 pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
     pir_journal_note_step(&tracked->journal);
     if (tracked->certificates.expired_all)
@@ -461,11 +474,7 @@ pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
     review(&update, expired);
     for (uint32_t e = 0; update.all && e < tracked->pairing.p->edge_count; e++)
         note_edge(&update, e);
-    for (uint32_t i = 0; i < update.derive && !update.failed; i++) {
-        if (update.fetches)
-            pir_fetch_derived(tracked, tracked->work->queue + i, update.derive - i);
-        pir_journal_note_edge(&tracked->journal, tracked->work->queue[i]);
-        update.failed = !pir_derive_edge(tracked, tracked->work->queue[i]);
-    }
+    if (!update.failed)
+        derive(&update);
     return update.failed ? PIR_ERR_MEMORY : PIR_OK;
 }
