@@ -180,8 +180,10 @@ static void connect_segment(pir_polytope *p) {
 
 /* Writes what follows from the halfedges, where traversals read it in order. */
 static void list_neighbours(pir_polytope *p) {
-    for (uint32_t i = 0; i < p->half_count; i++)
-        p->across[i] = (pir_across){pir_right(p, p->loop[i]), p->edge[p->loop[i]]};
+    for (uint32_t i = 0; i < p->half_count; i++) {
+        uint32_t half = p->loop[i], edge = p->edge[half];
+        p->across[i] = (pir_across){pir_right(p, half), edge & INT32_MAX, p->edge_half[edge] == half};
+    }
     for (uint32_t e = 0; e < p->edge_count; e++)
         p->arc_ends[e] = (pir_arc_ends){p->left[p->edge_half[e]], pir_right(p, p->edge_half[e])};
 }

@@ -37,7 +37,9 @@ typedef struct pir_attachment pir_attachment;
 
 /* What lies across a side of a facet. */
 typedef struct pir_across {
-    uint32_t facet, edge;
+    uint32_t facet;
+    uint32_t edge : 31;
+    uint32_t leaves : 1; /* the edge's arc leads from the facet that has the side to this one */
 } pir_across;
 
 /* The facets that an edge's arc leads from and to. */

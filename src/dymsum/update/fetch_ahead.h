@@ -22,7 +22,6 @@ static inline bool pir_fetches_ahead(const pir_tracked *tracked) {
 PIR_FETCHING void pir_fetch_edge(const pir_tracked *tracked, uint32_t e) {
     PIR_FETCH(&tracked->pairing.crossings.first[e]);
     PIR_FETCH(&tracked->touched[e]);
-    PIR_FETCH(&tracked->pairing.p->arc_ends[e]);
 }
 
 /* Fetches a slot, if it is one. */

@@ -58,10 +58,11 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     const pir_polytope *p = tracked->pairing.p;
     bool done = true;
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
-        uint32_t e = p->across[i].edge;
+        const pir_across side = p->across[i];
+        uint32_t e = side.edge;
         if (tracked->touched[e] == PIR_INACTIVE)
             continue;
-        done &= p->arc_ends[e].from == f ? pir_move_start(tracked, e, h) : pir_move_end(tracked, e, h);
+        done &= side.leaves ? pir_move_start(tracked, e, h) : pir_move_end(tracked, e, h);
         if (tracked->touched[e] < update->stamp)
             tracked->touched[e] = update->stamp;
     }
