@@ -39,7 +39,7 @@ static inline uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32
     if (slot != PIR_NO_CROSSING) {
         c->free = c->at[slot].next;
         // nothing is read there: it may be none
-        PIR_FETCH((const void *)((uintptr_t)c->at + (uintptr_t)c->free * sizeof *c->at));
+        PIR_FETCH((const void *)((uintptr_t)c->at + (uintptr_t)c->at[slot].half * sizeof *c->at));
     } else if ((slot = pir_crossing_new_slot(tracked)) == PIR_NO_CROSSING)
         return PIR_NO_CROSSING;
     c->at[slot] = (pir_crossing){h, e, PIR_NO_CROSSING};
@@ -48,13 +48,20 @@ static inline uint32_t pir_crossing_new(pir_tracked *tracked, uint32_t e, uint32
     return slot;
 }
 
-static inline void pir_crossing_free(pir_tracked *tracked, uint32_t slot) {
+/*
+ * Frees a slot. A slot that will be taken after it, or none, stands in place of its halfedge, and is fetched when it is
+ * taken.
+ */
+static inline void pir_crossing_free_before(pir_tracked *tracked, uint32_t slot, uint32_t later) {
     pir_crossings *c = &tracked->pairing.crossings;
-    c->at[slot].edge = PIR_NO_CROSSING;
-    c->at[slot].next = c->free;
+    c->at[slot] = (pir_crossing){later, PIR_NO_CROSSING, c->free};
     c->free = slot;
     pir_note_slot(tracked, slot);
     c->count--;
+}
+
+static inline void pir_crossing_free(pir_tracked *tracked, uint32_t slot) {
+    pir_crossing_free_before(tracked, slot, tracked->pairing.crossings.free);
 }
 
 /*

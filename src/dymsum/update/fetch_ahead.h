@@ -24,9 +24,14 @@ PIR_FETCHING void pir_fetch_edge(const pir_tracked *tracked, uint32_t e) {
     PIR_FETCH(&tracked->touched[e]);
 }
 
+/* The slot, or any where there is none: by a mask, since which it is is not foreseen. */
+static inline uint32_t pir_some_slot(uint32_t slot) {
+    return slot & -(uint32_t)(slot != PIR_NO_CROSSING);
+}
+
 /* Fetches a slot, if it is one. */
 PIR_FETCHING void pir_fetch_slot(const pir_tracked *tracked, uint32_t slot) {
-    PIR_FETCH(&tracked->pairing.crossings.at[slot != PIR_NO_CROSSING ? slot : 0]);
+    PIR_FETCH(&tracked->pairing.crossings.at[pir_some_slot(slot)]);
 }
 
 PIR_FETCHING void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
@@ -36,12 +41,12 @@ PIR_FETCHING void pir_fetch_crossing(const pir_tracked *tracked, uint32_t e) {
 /* Fetches the second crossing of edge e. */
 PIR_FETCHING void pir_fetch_next_crossing(const pir_tracked *tracked, uint32_t e) {
     const pir_crossings *c = &tracked->pairing.crossings;
-    pir_fetch_slot(tracked, c->first[e] != PIR_NO_CROSSING ? c->at[c->first[e]].next : PIR_NO_CROSSING);
+    pir_fetch_slot(tracked, c->at[pir_some_slot(c->first[e])].next);
 }
 
 PIR_FETCHING void pir_fetch_crossed(const pir_tracked *tracked, uint32_t e) {
     const pir_pairing *pairing = &tracked->pairing;
-    uint32_t slot = pairing->crossings.first[e], half = slot != PIR_NO_CROSSING ? pairing->crossings.at[slot].half : 0;
+    uint32_t half = pairing->crossings.at[pir_some_slot(pairing->crossings.first[e])].half;
     PIR_FETCH(&pairing->q->origin[half]);
     PIR_FETCH(&pairing->q->target[half]);
     PIR_FETCH(&pairing->q->left[half]);
@@ -63,19 +68,6 @@ PIR_FETCHING void pir_fetch_round(const pir_polytope *q, uint32_t g) {
 PIR_FETCHING void pir_fetch_rings(const pir_polytope *q, uint32_t g) {
     for (uint32_t i = q->loop_start[g]; i < q->loop_start[g + 1]; i++)
         PIR_FETCH(&q->ring_start[q->origin[q->loop[i]]]);
-}
-
-/* Fetches the sides of facet f of P in turn 0, 1 or 2. */
-PIR_FETCHING void pir_fetch_sides(const pir_tracked *tracked, uint32_t f, int turn) {
-    const pir_polytope *p = tracked->pairing.p;
-    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
-        if (turn == 0)
-            pir_fetch_edge(tracked, p->across[i].edge);
-        else if (turn == 1)
-            pir_fetch_crossing(tracked, p->across[i].edge);
-        else
-            pir_fetch_next_crossing(tracked, p->across[i].edge);
-    }
 }
 
 #endif

@@ -58,6 +58,37 @@ bool pir_move_end(pir_tracked *tracked, uint32_t e, uint32_t h) {
     return true;
 }
 
+/* a where the mask is all ones, b where it is 0. Which it is is not foreseen. */
+static inline uint32_t choose(uint32_t mask, uint32_t a, uint32_t b) {
+    return b ^ ((a ^ b) & mask);
+}
+
+bool pir_move_either(pir_tracked *tracked, uint32_t e, bool start, uint32_t h) {
+    pir_crossings *c = &tracked->pairing.crossings;
+    const uint32_t back = tracked->pairing.q->twin[h], at_start = -(uint32_t)start;
+    uint32_t *link = &c->first[e], slot = *link;
+    const uint32_t is = -(uint32_t)(slot != PIR_NO_CROSSING);
+    uint32_t here = slot & is;
+    // to the last, unless it is about the first, or there is none
+    while ((c->at[here].next | at_start | ~is) != PIR_NO_CROSSING) {
+        link = &c->at[here].next;
+        here = slot = *link;
+    }
+    if (slot != PIR_NO_CROSSING && c->at[slot].half == choose(at_start, h, back)) {
+        *link = c->at[slot].next;
+        pir_crossing_free(tracked, slot);
+        tracked->statistics.repaired++;
+        return true;
+    }
+    uint32_t taken = pir_crossing_new(tracked, e, choose(at_start, back, h));
+    if (taken == PIR_NO_CROSSING)
+        return false;
+    // the slots may have been reallocated
+    c->at[taken].next = choose(at_start, slot, PIR_NO_CROSSING);
+    *(is & ~at_start ? &c->at[here].next : &c->first[e]) = taken;
+    return true;
+}
+
 static uint32_t ring_before(const pir_polytope *p, uint32_t half) {
     uint32_t v = p->origin[half];
     return half == p->ring_start[v] ? p->ring_start[v + 1] - 1 : half - 1;

@@ -9,6 +9,9 @@
 bool pir_move_start(pir_tracked *tracked, uint32_t e, uint32_t h);
 bool pir_move_end(pir_tracked *tracked, uint32_t e, uint32_t h);
 
+/* Either of the two. It is the faster one among many edges, where a processor does not foresee what the next one is. */
+bool pir_move_either(pir_tracked *tracked, uint32_t e, bool start, uint32_t h);
+
 /* Facet g of Q has crossed the arc and is now left of it, or right. */
 bool pir_pass_facet(pir_tracked *tracked, uint32_t e, uint32_t g, bool to_left);
 

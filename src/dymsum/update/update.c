@@ -20,8 +20,8 @@
 
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/descent.h"
-#include "dymsum/update/derive.h"
 #include "dymsum/update/fetch_ahead.h"
+#include "dymsum/update/large.h"
 #include "dymsum/update/repair.h"
 #include "dymsum/update/trace.h"
 
@@ -33,6 +33,7 @@
 
 struct update {
     pir_tracked *tracked;
+    pir_moves *moves; /* NULL: ends of arcs are moved at once */
     uint32_t stamp; /* in tracked->touched: of an edge that an event has changed; one more: of one to be derived anew */
     uint32_t derive;         /* edges in work.queue, to be derived anew */
     uint32_t passes;         /* in work.passes */
@@ -57,6 +58,10 @@ static void cross_of_p(struct update *update, uint32_t f, uint32_t h) {
     pir_tracked *tracked = update->tracked;
     const pir_polytope *p = tracked->pairing.p;
     bool done = true;
+    if (update->moves) {
+        pir_moves_queue(update->moves, f, h);
+        return;
+    }
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         const pir_across side = p->across[i];
         uint32_t e = side.edge;
@@ -276,26 +281,11 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
 }
 
 /* Fetches for the suspects of P that follow one, with `left` of them behind it. */
-PIR_FETCHING void fetch_suspect_of_p(const pir_tracked *tracked, const pir_suspect *suspect, uint32_t left) {
-    const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    if (left > 3 * PIR_FETCHED_AHEAD) {
-        PIR_FETCH(&p->loop_start[suspect[3 * PIR_FETCHED_AHEAD].facet]);
-        PIR_FETCH(&tracked->pairing.fv[suspect[3 * PIR_FETCHED_AHEAD].facet]);
-    }
-    if (left > 2 * PIR_FETCHED_AHEAD) {
-        uint32_t f = suspect[2 * PIR_FETCHED_AHEAD].facet;
-        PIR_FETCH(&p->across[p->loop_start[f]]);
-        PIR_FETCH(&q->ring_start[tracked->pairing.fv[f]]);
-    }
+PIR_FETCHING void fetch_suspect_of_p(const pir_polytope *p, const pir_suspect *suspect, uint32_t left) {
+    if (left > 2 * PIR_FETCHED_AHEAD)
+        PIR_FETCH(&p->loop_start[suspect[2 * PIR_FETCHED_AHEAD].facet]);
     if (left > PIR_FETCHED_AHEAD)
-        pir_fetch_sides(tracked, suspect[PIR_FETCHED_AHEAD].facet, 0);
-    if (left <= PIR_FETCHED_AHEAD / 2)
-        return;
-    const pir_suspect *next = suspect + PIR_FETCHED_AHEAD / 2;
-    pir_fetch_sides(tracked, next->facet, 1);
-    pir_fetch_sides(tracked, suspect[PIR_FETCHED_AHEAD / 4].facet, 2);
-    if (next->crossed != PIR_NO_SIDE)
-        PIR_FETCH(&q->twin[next->crossed]);
+        PIR_FETCH(&p->across[p->loop_start[suspect[PIR_FETCHED_AHEAD].facet]]);
 }
 
 /* The sides that the facet of a suspect has crossed. *at: how many traces there were before it in the list. */
@@ -363,18 +353,34 @@ static void apply_of_q(struct update *update, const pir_suspect *suspects, uint3
         apply_some_of_q(update, suspects, count, false);
 }
 
-static void apply_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++) {
-        if (update->fetches)
-            fetch_suspect_of_p(update->tracked, suspects + i, count - i);
-        pir_journal_note(&update->tracked->journal, suspects[i].facet);
-        if (suspects[i].crossed == PIR_NO_SIDE) {
-            settle_of_p(update, suspects[i].facet);
-        } else {
-            cross_of_p(update, suspects[i].facet, suspects[i].crossed);
-            update->tracked->statistics.repaired++;
-        }
+static inline void apply_one_of_p(struct update *update, const pir_suspect *suspect) {
+    pir_journal_note(&update->tracked->journal, suspect->facet);
+    if (suspect->crossed == PIR_NO_SIDE) {
+        settle_of_p(update, suspect->facet);
+    } else {
+        cross_of_p(update, suspect->facet, suspect->crossed);
+        update->tracked->statistics.repaired++;
     }
+}
+
+static __attribute__((noinline)) void apply_many_of_p(struct update *update, const pir_suspect *suspects,
+                                                      uint32_t count) {
+    pir_moves moves;
+    pir_moves_begin(&moves, update->tracked, update->stamp);
+    update->moves = &moves;
+    for (uint32_t i = 0; i < count; i++) {
+        fetch_suspect_of_p(update->tracked->pairing.p, suspects + i, count - i);
+        apply_one_of_p(update, suspects + i);
+    }
+    update->failed |= !pir_moves_finish(&moves);
+    update->moves = NULL;
+}
+
+static void apply_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
+    if (update->fetches)
+        apply_many_of_p(update, suspects, count);
+    for (uint32_t i = 0; i < count && !update->fetches; i++)
+        apply_one_of_p(update, suspects + i);
 }
 
 /* Whether so many of the suspects are still to be followed or located that all edges are derived again. */
