@@ -294,9 +294,10 @@ static inline const uint32_t *sides_crossed(const struct update *update, const p
     *ret_count = 1;
     if (suspect->crossed != PIR_NO_SIDE)
         return &suspect->crossed;
-    const pir_trace *trace = update->tracked->work->traces + (*at < update->traces ? (*at)++ : 0);
-    *ret_count = trace->count <= PIR_TRACE_LONGEST ? trace->count : 0;
-    return trace->crossed;
+    // where there is no trace, what stands in its place may be of another sum
+    const pir_trace *trace = *at < update->traces ? update->tracked->work->traces + (*at)++ : NULL;
+    *ret_count = trace && trace->count <= PIR_TRACE_LONGEST ? trace->count : 0;
+    return trace ? trace->crossed : NULL;
 }
 
 /* Fetches for the suspects of Q that follow one. ahead: how many traces there were before those in either turn. */
