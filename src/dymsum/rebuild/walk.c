@@ -118,15 +118,20 @@ struct chunk {
 /* Edges are fetched so many arcs before they are listed. */
 #define FETCHED_BEFORE (3 * PIR_ARCS)
 
-/* Lists those of `count` edges from `first` on, as pir_walk_edges, whose arcs leave a cell. Crossings begin empty. */
-static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first, uint32_t count, pir_arcs *arcs) {
+/*
+ * Lists those of `count` edges from `first` on, as pir_walk_edges, whose arcs leave a cell. fresh: crossings begin
+ * empty.
+ */
+static void list_arcs(pir_tracked *tracked, const uint32_t *edge, uint32_t first, uint32_t count, bool fresh,
+                      pir_arcs *arcs) {
     const pir_polytope *p = tracked->pairing.p;
     const uint32_t *fv = tracked->pairing.fv;
     uint32_t listed = 0;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t e = edge ? edge[first + i] : first + i;
         const pir_arc_ends ends = p->edge_arc[e].ends;
-        tracked->pairing.crossings.first[e] = PIR_NO_CROSSING;
+        if (fresh)
+            tracked->pairing.crossings.first[e] = PIR_NO_CROSSING;
         arcs->edge[listed] = e;
         arcs->from[listed] = fv[ends.from];
         arcs->to[listed] = fv[ends.to];
@@ -233,11 +238,21 @@ static inline bool crosses_once(pir_tracked *tracked, const pir_arcs *arcs, uint
     return crosses_once_surely(tracked, arcs, k);
 }
 
-/* What crossings are listed in: a store that has been forgotten, noted for the facets of Q or not; or one in use. */
-enum listing { NOTED, UNNOTED, IN_USE };
+/* Where crossings are listed. */
+struct listing {
+    bool notes;         /* they are noted for the facets of Q */
+    pir_walked *walked; /* NULL: in the sum's store, which has been forgotten */
+};
 
-static inline bool list_crossing(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last, enum listing listing) {
-    return listing == IN_USE ? pir_crossing_append(tracked, e, h, last) : pir_crossing_push(tracked, e, h, last);
+static inline bool list_crossing(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last,
+                                 const struct listing *listing) {
+    pir_walked *walked = listing->walked;
+    if (!walked)
+        return pir_crossing_push(tracked, e, h, last);
+    if (walked->count == PIR_WALKED_MOST)
+        return false;
+    walked->at[walked->count++] = (pir_walked_crossing){e, h};
+    return true;
 }
 
 /*
@@ -245,7 +260,7 @@ static inline bool list_crossing(pir_tracked *tracked, uint32_t e, uint32_t h, u
  * body.
  */
 static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
-                                                           uint32_t side, bool many, enum listing listing) {
+                                                           uint32_t side, bool many, const struct listing *listing) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t v = arcs->from[k], by = PIR_NO_SIDE, last = PIR_NO_CROSSING;
     const struct arc arc = arc_of_edge(tracked, arcs->edge[k]);
@@ -255,7 +270,7 @@ static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked,
         if (!list_crossing(tracked, arcs->edge[k], side, &last, listing))
             return false;
         uint32_t from = v;
-        if (listing == NOTED) {
+        if (listing->notes) {
             // the facet right of a side is left of the side before it
             uint32_t before = (side > q->ring_start[v] ? side : q->ring_start[v + 1]) - 1;
             if (many)
@@ -271,20 +286,20 @@ static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked,
 
 /* Lists the crossings of arc k, whose side has been measured; where it has none, `side` is as in walk_arc. */
 static inline __attribute__((always_inline)) bool cross_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
-                                                            uint32_t side, bool many, enum listing listing) {
+                                                            uint32_t side, bool many, const struct listing *listing) {
     uint32_t last = PIR_NO_CROSSING;
     if (!crosses_once(tracked, arcs, k))
         return walk_arc(tracked, arcs, k, side, many, listing);
     if (!list_crossing(tracked, arcs->edge[k], arcs->side[k], &last, listing))
         return false;
-    if (listing == NOTED && many)
+    if (listing->notes && many)
         pir_note_passed(tracked, arcs->edge[k], arcs->right[k], arcs->left[k]);
-    else if (listing == NOTED)
+    else if (listing->notes)
         pir_note_met(tracked, arcs->edge[k], tracked->pairing.q->edge[arcs->side[k]], arcs->right[k], arcs->left[k]);
     return true;
 }
 
-static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, enum listing listing) {
+static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, const struct listing *listing) {
     for (uint32_t k = 0; k < arcs->count; k++)
         if (!cross_arc(tracked, arcs, k, PIR_NO_SIDE, false, listing))
             return false;
@@ -296,7 +311,7 @@ static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, enum listing 
  * processor that is to fetch many lines at once does nothing else meanwhile.
  */
 static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, const pir_arcs *found,
-                            const pir_arcs *listed, const struct edges *next, enum listing listing) {
+                            const pir_arcs *listed, const struct edges *next, const struct listing *listing) {
     for (uint32_t k = 0, i = 0; k < PIR_ARCS; k++) {
         fetch_edge(tracked->pairing.p, next, k);
         if (k < found->count)
@@ -312,7 +327,7 @@ static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, con
     return true;
 }
 
-static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count, enum listing listing) {
+static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count, const struct listing *listing) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     const bool many = pir_is_large(q);
     const uint32_t turns = many ? TURNS : 3, chunks = count / PIR_ARCS + (count % PIR_ARCS != 0);
@@ -323,7 +338,7 @@ static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t coun
         struct chunk *listed = &chunk[c % turns], *found = &chunk[(c + turns - 1) % turns],
                      *crossed = &chunk[(c + 1) % turns];
         uint32_t left = c < chunks ? count - c * PIR_ARCS : 0;
-        list_arcs(tracked, edge, c * PIR_ARCS, left < PIR_ARCS ? left : PIR_ARCS, &listed->arcs);
+        list_arcs(tracked, edge, c * PIR_ARCS, left < PIR_ARCS ? left : PIR_ARCS, !listing->walked, &listed->arcs);
         tracked->kernels->find_sides(q, &found->arcs);
         tracked->kernels->measure_sides(&tracked->p_facets, p, q, &crossed->arcs);
         if (many) {
@@ -340,11 +355,12 @@ static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t coun
 }
 
 bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
-    return walk_edges(tracked, edge, count, edge ? UNNOTED : NOTED);
+    return walk_edges(tracked, edge, count, &(struct listing){.notes = !edge});
 }
 
-bool pir_walk_edges_again(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
-    return walk_edges(tracked, edge, count, IN_USE);
+bool pir_walk_aside(pir_tracked *tracked, const uint32_t *edge, uint32_t count, pir_walked *ret_walked) {
+    ret_walked->count = 0;
+    return walk_edges(tracked, edge, count, &(struct listing){.walked = ret_walked});
 }
 
 pir_status pir_walk_rebuild(pir_tracked *tracked) {

@@ -17,11 +17,23 @@ uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, ui
  */
 bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count);
 
+/* Crossings found aside of a sum's store: those of an edge stand together, in order. */
+#define PIR_WALKED_MOST 2048
+
+typedef struct pir_walked_crossing {
+    uint32_t edge, half;
+} pir_walked_crossing;
+
+typedef struct pir_walked {
+    uint32_t count;
+    pir_walked_crossing at[PIR_WALKED_MOST];
+} pir_walked;
+
 /*
- * The same of listed edges in a store in use, as it is with the sum's kernels told of the rotation. What the edges had
- * before is not looked at: the caller frees it.
+ * Finds the crossings of `count` edges of P, which stand in the order of the edges then, and changes nothing. False
+ * where there are too many.
  */
-bool pir_walk_edges_again(pir_tracked *tracked, const uint32_t *edge, uint32_t count);
+bool pir_walk_aside(pir_tracked *tracked, const uint32_t *edge, uint32_t count, pir_walked *ret_walked);
 
 /*
  * Makes the whole pairing from nothing and leaves its certificates expired. Crossings have been forgotten. On

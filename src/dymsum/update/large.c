@@ -4,8 +4,7 @@
  *
  * Ends of arcs are moved some turns after they have been queued: first the edge is fetched, then its first crossing,
  * then the next. Edges to be derived anew are walked from nothing, side by side, as in a rebuild: that is faster than
- * finding again what is still crossed. What was crossed before is compared with the result, and crossings that are no
- * more count as repaired.
+ * trying first what was crossed before. Then the result is compared with that: slots and counts become the same.
  */
 #include "dymsum/update/large.h"
 
@@ -61,7 +60,7 @@ bool pir_moves_finish(pir_moves *moves) {
 
 /* --- edges derived anew --- */
 
-/* So many edges are walked at a time: what is fetched for them stays near the processor. */
+/* So many edges are walked at a time, at most: what is fetched for them stays near the processor. */
 #define TOGETHER 512
 
 /* Second crossings are fetched by so many edges ahead. */
@@ -72,22 +71,6 @@ bool pir_moves_finish(pir_moves *moves) {
  * another, when they are far from the processor. Each has fetched then the one that is taken so many later.
  */
 #define TAKEN_AHEAD 16
-
-/* Fetches what a walk begins with, for `count` edges, and gives their first crossings. */
-static void begin(const pir_tracked *tracked, const uint32_t *edge, uint32_t count, uint32_t *ret_first) {
-    const pir_edge_arc *arc = tracked->pairing.p->edge_arc;
-    const uint32_t *first = tracked->pairing.crossings.first, *fv = tracked->pairing.fv;
-    for (uint32_t i = 0; i < count; i++) {
-        PIR_FETCH(&arc[edge[i]]);
-        PIR_FETCH(&first[edge[i]]);
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        ret_first[i] = first[edge[i]];
-        pir_fetch_slot(tracked, ret_first[i]);
-        PIR_FETCH(&fv[arc[edge[i]].ends.from]);
-        PIR_FETCH(&fv[arc[edge[i]].ends.to]);
-    }
-}
 
 /* The slots that have been freed last, in a ring. */
 struct freed {
@@ -100,6 +83,20 @@ static inline void free_slot(pir_tracked *tracked, uint32_t slot, struct freed *
     pir_crossing_free_before(tracked, slot, later);
 }
 
+/* Fetches what a walk of `count` edges begins with, and their first crossings. */
+PIR_FETCHING void fetch_edges(const pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
+    const pir_edge_arc *arc = tracked->pairing.p->edge_arc;
+    for (uint32_t i = 0; i < count; i++) {
+        PIR_FETCH(&arc[edge[i]]);
+        PIR_FETCH(&tracked->pairing.crossings.first[edge[i]]);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        pir_fetch_crossing(tracked, edge[i]);
+        PIR_FETCH(&tracked->pairing.fv[arc[edge[i]].ends.from]);
+        PIR_FETCH(&tracked->pairing.fv[arc[edge[i]].ends.to]);
+    }
+}
+
 /* Whether a crossing of the list from slot `at` to slot `end` leaves the cell that halfedge h of Q leaves. */
 static bool is_left_before(const pir_pairing *pairing, uint32_t at, uint32_t end, uint32_t h) {
     const uint32_t *origin = pairing->q->origin;
@@ -109,49 +106,87 @@ static bool is_left_before(const pir_pairing *pairing, uint32_t at, uint32_t end
 }
 
 /*
- * Frees, of the list at *old, which the arc had before, the crossing of halfedge h of Q that it has now: unless it had
- * left that cell by another side first.
+ * Takes the crossing of halfedge h of Q out of the list at *list, as pir_derive_edge would: PIR_NO_CROSSING where there
+ * is none, or the list has left that cell by another side first.
  */
-static void free_kept(pir_tracked *tracked, uint32_t *old, uint32_t h, struct freed *freed) {
+static uint32_t take_kept(pir_tracked *tracked, uint32_t *list, uint32_t h) {
     pir_crossings *c = &tracked->pairing.crossings;
-    uint32_t *at = old;
+    uint32_t *at = list;
     while (*at != PIR_NO_CROSSING && c->at[*at].half != h)
         at = &c->at[*at].next;
     uint32_t slot = *at;
-    if (slot == PIR_NO_CROSSING || is_left_before(&tracked->pairing, *old, slot, h))
-        return;
+    if (slot == PIR_NO_CROSSING || is_left_before(&tracked->pairing, *list, slot, h))
+        return PIR_NO_CROSSING;
     *at = c->at[slot].next;
-    free_slot(tracked, slot, freed);
+    return slot;
 }
 
-/* Frees the crossings that edge e had before, from slot `old` on. */
-static void free_old(pir_tracked *tracked, uint32_t e, uint32_t old, struct freed *freed) {
-    const pir_pairing *pairing = &tracked->pairing;
-    for (uint32_t at = pir_crossing_first(pairing, e); at != PIR_NO_CROSSING && old != PIR_NO_CROSSING;
-         at = pir_crossing_next(pairing, at))
-        free_kept(tracked, &old, pir_crossing_half(pairing, at), freed);
+/* Lists the crossings of edge e that a walk has found. What stays keeps its slot. False when out of memory. */
+static bool list_found(pir_tracked *tracked, uint32_t e, const pir_walked_crossing *found, uint32_t count,
+                       struct freed *freed) {
+    pir_crossings *c = &tracked->pairing.crossings;
+    uint32_t old = c->first[e], last = PIR_NO_CROSSING;
+    c->first[e] = PIR_NO_CROSSING;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t slot = take_kept(tracked, &old, found[i].half);
+        if (slot == PIR_NO_CROSSING)
+            slot = pir_crossing_new(tracked, e, found[i].half);
+        if (slot == PIR_NO_CROSSING)
+            return false;
+        c->at[slot].next = PIR_NO_CROSSING;
+        *(last == PIR_NO_CROSSING ? &c->first[e] : &c->at[last].next) = slot;
+        last = slot;
+    }
     while (old != PIR_NO_CROSSING) {
-        uint32_t next = pir_crossing_next(pairing, old);
+        uint32_t next = c->at[old].next;
         free_slot(tracked, old, freed);
         tracked->statistics.repaired++;
         old = next;
     }
+    return true;
+}
+
+/* Lists what a walk of `count` edges has found. */
+static bool list_walked(pir_tracked *tracked, const uint32_t *edge, uint32_t count, const pir_walked *walked,
+                        struct freed *freed) {
+    uint32_t from = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t to = from;
+        if (i + NEXT_AHEAD < count)
+            pir_fetch_next_crossing(tracked, edge[i + NEXT_AHEAD]);
+        while (to < walked->count && walked->at[to].edge == edge[i])
+            to++;
+        if (!list_found(tracked, edge[i], walked->at + from, to - from, freed))
+            return false;
+        from = to;
+    }
+    return true;
+}
+
+static bool derive_one_by_one(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
+    bool done = true;
+    for (uint32_t i = 0; i < count && done; i++)
+        done = pir_derive_edge(tracked, edge[i]);
+    return done;
+}
+
+/* So many edges as are likely to have no more crossings than there is room for. */
+static uint32_t edges_together(const pir_pairing *pairing) {
+    uint32_t each = 2 * (pairing->crossings.count / pairing->p->edge_count + 1), most = PIR_WALKED_MOST / each;
+    return most > TOGETHER ? TOGETHER : most > 0 ? most : 1;
 }
 
 bool pir_derive_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
+    pir_walked walked;
     struct freed freed = {.count = 0};
+    bool done = true;
     pir_tracked_turn_facets(tracked);
-    for (uint32_t k = 0; k < count; k += TOGETHER) {
-        uint32_t old[TOGETHER], some = count - k < TOGETHER ? count - k : TOGETHER;
-        begin(tracked, edge + k, some, old);
-        if (!pir_walk_edges_again(tracked, edge + k, some))
-            return false;
-        for (uint32_t i = 0; i < some; i++) {
-            uint32_t next = i + NEXT_AHEAD < some ? old[i + NEXT_AHEAD] : PIR_NO_CROSSING;
-            if (next != PIR_NO_CROSSING)
-                pir_fetch_slot(tracked, pir_crossing_next(&tracked->pairing, next));
-            free_old(tracked, edge[k + i], old[i], &freed);
-        }
+    for (uint32_t k = 0, some; k < count && done; k += some) {
+        const uint32_t most = edges_together(&tracked->pairing);
+        some = count - k < most ? count - k : most;
+        fetch_edges(tracked, edge + k, some);
+        done = pir_walk_aside(tracked, edge + k, some, &walked) ? list_walked(tracked, edge + k, some, &walked, &freed)
+                                                                : derive_one_by_one(tracked, edge + k, some);
     }
-    return true;
+    return done;
 }
