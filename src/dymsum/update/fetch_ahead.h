@@ -12,7 +12,7 @@
 #include "dymsum/pairing/tracked.h"
 
 /* Sums with so many facets fetch ahead: edges by so many items, crossings by half, and what is crossed by a quarter. */
-#define PIR_FETCHING_FACETS 32768
+#define PIR_FETCHING_FACETS 16384
 #define PIR_FETCHED_AHEAD   24
 
 static inline bool pir_fetches_ahead(const pir_tracked *tracked) {
