@@ -238,16 +238,12 @@ static inline bool crosses_once(pir_tracked *tracked, const pir_arcs *arcs, uint
     return crosses_once_surely(tracked, arcs, k);
 }
 
-/* Where crossings are listed. */
-struct listing {
-    bool notes;         /* they are noted for the facets of Q */
-    pir_walked *walked; /* NULL: in the sum's store, which has been forgotten */
-};
+/* Where crossings are listed: in the sum's store, which has been forgotten, noted for the facets of Q or not; aside. */
+enum listing { NOTED, UNNOTED, ASIDE };
 
-static inline bool list_crossing(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last,
-                                 const struct listing *listing) {
-    pir_walked *walked = listing->walked;
-    if (!walked)
+static inline bool list_crossing(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last, enum listing listing,
+                                 pir_walked *walked) {
+    if (listing != ASIDE)
         return pir_crossing_push(tracked, e, h, last);
     if (walked->count == PIR_WALKED_MOST)
         return false;
@@ -260,17 +256,18 @@ static inline bool list_crossing(pir_tracked *tracked, uint32_t e, uint32_t h, u
  * body.
  */
 static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
-                                                           uint32_t side, bool many, const struct listing *listing) {
+                                                           uint32_t side, bool many, enum listing listing,
+                                                           pir_walked *walked) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t v = arcs->from[k], by = PIR_NO_SIDE, last = PIR_NO_CROSSING;
     const struct arc arc = arc_of_edge(tracked, arcs->edge[k]);
     while (v != arcs->to[k]) {
         if (!many || by != PIR_NO_SIDE || side == PIR_NO_SIDE)
             side = leave_cell(tracked, &arc, v, by);
-        if (!list_crossing(tracked, arcs->edge[k], side, &last, listing))
+        if (!list_crossing(tracked, arcs->edge[k], side, &last, listing, walked))
             return false;
         uint32_t from = v;
-        if (listing->notes) {
+        if (listing == NOTED) {
             // the facet right of a side is left of the side before it
             uint32_t before = (side > q->ring_start[v] ? side : q->ring_start[v + 1]) - 1;
             if (many)
@@ -286,22 +283,23 @@ static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked,
 
 /* Lists the crossings of arc k, whose side has been measured; where it has none, `side` is as in walk_arc. */
 static inline __attribute__((always_inline)) bool cross_arc(pir_tracked *tracked, const pir_arcs *arcs, uint32_t k,
-                                                            uint32_t side, bool many, const struct listing *listing) {
+                                                            uint32_t side, bool many, enum listing listing,
+                                                            pir_walked *walked) {
     uint32_t last = PIR_NO_CROSSING;
     if (!crosses_once(tracked, arcs, k))
-        return walk_arc(tracked, arcs, k, side, many, listing);
-    if (!list_crossing(tracked, arcs->edge[k], arcs->side[k], &last, listing))
+        return walk_arc(tracked, arcs, k, side, many, listing, walked);
+    if (!list_crossing(tracked, arcs->edge[k], arcs->side[k], &last, listing, walked))
         return false;
-    if (listing->notes && many)
+    if (listing == NOTED && many)
         pir_note_passed(tracked, arcs->edge[k], arcs->right[k], arcs->left[k]);
-    else if (listing->notes)
+    else if (listing == NOTED)
         pir_note_met(tracked, arcs->edge[k], tracked->pairing.q->edge[arcs->side[k]], arcs->right[k], arcs->left[k]);
     return true;
 }
 
-static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, const struct listing *listing) {
+static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, enum listing listing, pir_walked *walked) {
     for (uint32_t k = 0; k < arcs->count; k++)
-        if (!cross_arc(tracked, arcs, k, PIR_NO_SIDE, false, listing))
+        if (!cross_arc(tracked, arcs, k, PIR_NO_SIDE, false, listing, walked))
             return false;
     return true;
 }
@@ -311,7 +309,8 @@ static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, const struct 
  * processor that is to fetch many lines at once does nothing else meanwhile.
  */
 static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, const pir_arcs *found,
-                            const pir_arcs *listed, const struct edges *next, const struct listing *listing) {
+                            const pir_arcs *listed, const struct edges *next, enum listing listing,
+                            pir_walked *walked) {
     for (uint32_t k = 0, i = 0; k < PIR_ARCS; k++) {
         fetch_edge(tracked->pairing.p, next, k);
         if (k < found->count)
@@ -320,14 +319,15 @@ static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, con
             fetch_cell(tracked->pairing.q, listed, k);
         bool leads = i < chunk->led && chunk->arc[i] == k;
         if (k < chunk->arcs.count &&
-            !cross_arc(tracked, &chunk->arcs, k, leads ? chunk->side[i] : PIR_NO_SIDE, true, listing))
+            !cross_arc(tracked, &chunk->arcs, k, leads ? chunk->side[i] : PIR_NO_SIDE, true, listing, walked))
             return false;
         i += leads;
     }
     return true;
 }
 
-static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count, const struct listing *listing) {
+static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count, enum listing listing,
+                       pir_walked *walked) {
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
     const bool many = pir_is_large(q);
     const uint32_t turns = many ? TURNS : 3, chunks = count / PIR_ARCS + (count % PIR_ARCS != 0);
@@ -338,7 +338,7 @@ static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t coun
         struct chunk *listed = &chunk[c % turns], *found = &chunk[(c + turns - 1) % turns],
                      *crossed = &chunk[(c + 1) % turns];
         uint32_t left = c < chunks ? count - c * PIR_ARCS : 0;
-        list_arcs(tracked, edge, c * PIR_ARCS, left < PIR_ARCS ? left : PIR_ARCS, !listing->walked, &listed->arcs);
+        list_arcs(tracked, edge, c * PIR_ARCS, left < PIR_ARCS ? left : PIR_ARCS, listing != ASIDE, &listed->arcs);
         tracked->kernels->find_sides(q, &found->arcs);
         tracked->kernels->measure_sides(&tracked->p_facets, p, q, &crossed->arcs);
         if (many) {
@@ -347,20 +347,20 @@ static bool walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t coun
             fetch_next_cells(q, &chunk[(c + turns - 3) % turns]);
         }
         const struct edges next = {edge, count, c * PIR_ARCS + FETCHED_BEFORE};
-        if (!(many ? cross_and_fetch(tracked, crossed, &found->arcs, &listed->arcs, &next, listing)
-                   : cross_arcs(tracked, &crossed->arcs, listing)))
+        if (!(many ? cross_and_fetch(tracked, crossed, &found->arcs, &listed->arcs, &next, listing, walked)
+                   : cross_arcs(tracked, &crossed->arcs, listing, walked)))
             return false;
     }
     return true;
 }
 
 bool pir_walk_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count) {
-    return walk_edges(tracked, edge, count, &(struct listing){.notes = !edge});
+    return walk_edges(tracked, edge, count, edge ? UNNOTED : NOTED, NULL);
 }
 
 bool pir_walk_aside(pir_tracked *tracked, const uint32_t *edge, uint32_t count, pir_walked *ret_walked) {
     ret_walked->count = 0;
-    return walk_edges(tracked, edge, count, &(struct listing){.walked = ret_walked});
+    return walk_edges(tracked, edge, count, ASIDE, ret_walked);
 }
 
 pir_status pir_walk_rebuild(pir_tracked *tracked) {
