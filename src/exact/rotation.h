@@ -92,6 +92,13 @@ static inline void pir_rotation_set_doubles(pir_rotation *rotation, pir_quat giv
     rotation->has_exact = false;
 }
 
+/* The same where the doubles are kept elsewhere: only integers may be asked for. */
+static inline void pir_rotation_set_given(pir_rotation *rotation, pir_quat given) {
+    rotation->given = given;
+    rotation->relative = false;
+    rotation->has_exact = false;
+}
+
 /* Whether a quaternion needs no scaling, as most do not. */
 static inline bool pir_quat_is_near_one(pir_quat q) {
     double n = pir_quat_norm(q);

@@ -32,7 +32,7 @@ static inline double way_since(const pir_task *task) {
 
 /* How much supports of D may have changed against x since then, the square of x's way being known. */
 static double moved_since(const pir_task *task, double way) {
-    double turn = pir_rotation_angle_bound(task->pair->turned, task->workspace->rotation.unit);
+    double turn = pir_rotation_angle_bound(task->pair->turned, task->workspace->frame.unit);
     return (sqrt(way) + turn * task->workspace->frame.p.swing) * (1 + 0x1p-40);
 }
 
@@ -111,7 +111,7 @@ static bool by_held_facet(pir_task *task) {
     workspace->moved = pir_held_moved(held, &workspace->frame, task->placement);
     if (pir_held_known(held, workspace->moved, task->placement, &known) &&
         settle_same(task,
-                    pir_same_facet_prove(&workspace->frame, task->placement, task->pair->facet, &known, &task->same)))
+                    workspace->prove_same(&workspace->frame, task->placement, task->pair->facet, &known, &task->same)))
         return true;
     pir_held_end(held, workspace->moved.turn);
     return false;
@@ -120,7 +120,7 @@ static bool by_held_facet(pir_task *task) {
 static bool by_fresh_facet(pir_task *task) {
     pir_workspace *workspace = task->workspace;
     pir_pair *pair = task->pair;
-    pir_same is = pir_same_facet_prove(&workspace->frame, task->placement, pair->facet, NULL, &task->same);
+    pir_same is = workspace->prove_same(&workspace->frame, task->placement, pair->facet, NULL, &task->same);
     task->in_doubt = is == PIR_SAME_IN_DOUBT;
     if (!settle_same(task, is))
         return false;
@@ -151,7 +151,7 @@ static bool is_ahead(pir_task *task, const pir_axes_slack *least) {
     pir_task_inside(task, &same->facet, same->slack);
     pair->lead = pir_lead_of(task->placement, &same->facet, least->next);
     pair->at = task->placement->x;
-    pair->turned = task->workspace->rotation.unit;
+    pair->turned = task->workspace->frame.unit;
     pair->statistics.by_surface++;
     pir_task_end(task, PIR_LEVEL_OVERLAPPING);
     return true;
@@ -199,7 +199,7 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
     pir_piece piece = pir_axes_piece(p, q, frame, least.at, &n);
     // in place where nothing is there: copying takes a while
     pir_same_facet *same = task->has_same ? &other : &task->same;
-    if (pir_same_facet_prove(frame, task->placement, piece, NULL, same) == PIR_SAME_PROVEN) {
+    if (task->workspace->prove_same(frame, task->placement, piece, NULL, same) == PIR_SAME_PROVEN) {
         if (task->has_same)
             task->same = other;
         task->has_same = true;
@@ -264,9 +264,14 @@ static pir_overlap overlap_of(pir_task *task) {
     if (!pair->surface)
         pair->surface = PIR_ZEROED(&pair->allocator, pir_surface, 1);
     // without memory, one that is not kept
-    return (pir_overlap){task->exact,      task->placement,   pair->surface ? pair->surface : &workspace->spare,
-                         &workspace->room, &pair->statistics, &task->has_same,
-                         &task->same};
+    return (pir_overlap){.exact = task->exact,
+                         .placement = task->placement,
+                         .surface = pair->surface ? pair->surface : &workspace->spare,
+                         .room = &workspace->room,
+                         .prove_same = workspace->prove_same,
+                         .statistics = &pair->statistics,
+                         .has_same = &task->has_same,
+                         .same = &task->same};
 }
 
 /* The answer from a surface about x. */
@@ -282,7 +287,7 @@ static bool finish_inside(pir_task *task, const pir_overlap *overlap) {
         pir_task_inside(task, &facet, pir_facet_slack(task->exact, task->placement, &facet));
         task->pair->lead = pir_lead_of(task->placement, &facet, others);
         task->pair->at = task->placement->x;
-        task->pair->turned = task->workspace->rotation.unit;
+        task->pair->turned = task->workspace->frame.unit;
     }
     task->pair->deep = true;
     task->pair->statistics.by_surface++;
@@ -329,7 +334,7 @@ static bool by_new_surface(pir_task *task) {
 
 /* Which ways the option allows. */
 static bool allows(const pir_pair *pair, pir_level level) {
-    return pair->least <= (uint8_t)level && (uint8_t)level <= pair->most;
+    return (pair->levels >> level & 1) != 0;
 }
 
 static bool by_need(pir_task *task) {
@@ -395,8 +400,10 @@ static pir_status find_answer(pir_pair *pair, pir_workspace *workspace, const pi
             return status;
         pair->statistics.by_whole++;
         pir_task_end(&task, PIR_LEVEL_WHOLE);
-    } else if (radii > 0 || result->outcome == PIR_BEYOND_CUTOFF) {
+    } else if (radii > 0) {
         add_radii(input, result);
+    } else if (result->outcome == PIR_BEYOND_CUTOFF) {
+        result->distance = input->cutoff > 0 ? input->cutoff : 0;
     }
     if (workspace->posed)
         pir_pair_to_world(workspace, result);

@@ -16,8 +16,8 @@
 #include "pair/still_apart.h"
 
 /* What a climb may have missed of a body's support: see above. */
-static double missed(const pir_kept_body *body) {
-    return 4 * PIR_SLOPE_BOUND * body->body.size / body->point;
+static inline double missed(const pir_kept_body *body) {
+    return 4 * PIR_SLOPE_BOUND * body->slip;
 }
 
 /* The farthest of all vertices along n. */
@@ -33,15 +33,19 @@ static double farthest(const pir_body *body, pir_vec3 n) {
 double pir_task_certain(const pir_task *task, pir_vec3 n, double distance) {
     const pir_kept_body *p = task->pair->body_p, *q = task->pair->body_q;
     const double error = 2 * task->placement->error;
-    if (p->point > 0 && q->point > 0)
+    if ((p->slip >= 0) & (q->slip >= 0))
         return distance - error - missed(p) - missed(q);
     double support = farthest(&p->body, pir_mat_apply_transposed(&task->workspace->frame.r, n)) + farthest(&q->body, n);
     return pir_vec_dot(n, task->placement->x) - support - error;
 }
 
+/* What a distance has to be above to be an answer. */
+static inline double least_beyond(const pir_task *task) {
+    return task->limit + PIR_DISTANCE_ERROR * task->placement->reach;
+}
+
 bool pir_task_is_beyond(const pir_task *task, double distance) {
-    double error = PIR_DISTANCE_ERROR * task->placement->reach;
-    return (task->want & PIR_WANT_SEPARATION) && distance > task->limit + error;
+    return (task->want & PIR_WANT_SEPARATION) && distance > least_beyond(task);
 }
 
 /* Keeps n, which is `back` in the frame of P, and a distance along it. */
@@ -56,47 +60,76 @@ void pir_task_keep_axis(const pir_task *task, pir_vec3 n, double distance) {
     keep(task->pair, n, pir_mat_apply_transposed(&task->workspace->frame.r, n), distance);
 }
 
-bool pir_task_apart_along(pir_task *task, pir_vec3 n) {
-    const pir_frame *frame = &task->workspace->frame;
+/* What all directions have in common. */
+struct probe {
+    pir_vec3 way; /* to x, from the vertex of D at the supports that were kept */
+    double least; /* a distance has to be above this to be an answer */
+};
+
+static inline pir_vec3 way_from_kept(const pir_task *task) {
+    const pir_pair *pair = task->pair;
+    return pir_vec_sub(task->placement->x, pir_frame_vertex(&task->workspace->frame, pair->axis_a, pair->axis_b));
+}
+
+static inline struct probe begin_probe(const pir_task *task) {
+    return (struct probe){way_from_kept(task), least_beyond(task)};
+}
+
+/* The answer along n, where x is `distance` along it from that vertex. */
+static bool settle_along(pir_task *task, pir_vec3 n, double distance, struct probe *probe) {
     pir_pair *pair = task->pair;
-    pir_vec3 way = pir_vec_sub(task->placement->x, pir_frame_vertex(frame, pair->axis_a, pair->axis_b));
-    double distance = pir_vec_dot(n, way);
-    // supports are no nearer to x than any vertices
-    if (!pir_task_is_beyond(task, distance))
-        return false;
-    pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
-    uint32_t a = pir_climb(frame->p.polytope, back, pair->axis_a), b = pir_climb(frame->q.polytope, n, pair->axis_b);
-    if (a != pair->axis_a || b != pair->axis_b) {
+    pir_vec3 back;
+    uint32_t a = pair->axis_a, b = pair->axis_b;
+    task->workspace->find_supports(&task->workspace->frame, n, &a, &b, &back);
+    if (((a ^ pair->axis_a) | (b ^ pair->axis_b)) != 0) {
         pair->axis_a = a;
         pair->axis_b = b;
-        distance = pir_vec_dot(n, pir_vec_sub(task->placement->x, pir_frame_vertex(frame, a, b)));
+        probe->way = way_from_kept(task);
+        distance = pir_vec_dot(n, probe->way);
     }
     distance = pir_task_certain(task, n, distance);
-    if (!pir_task_is_beyond(task, distance))
+    if (!(distance > probe->least))
         return false;
     keep(pair, n, back, distance);
     pir_task_keep_apart(task, distance);
-    pir_result_beyond(task->result);
+    // nothing else has been written yet
+    task->result->outcome = PIR_BEYOND_CUTOFF;
     return true;
 }
 
+/* Supports are no nearer to x than any vertices, so most directions need none. */
+static inline bool is_apart_along(pir_task *task, pir_vec3 n, struct probe *probe) {
+    double distance = pir_vec_dot(n, probe->way);
+    return distance > probe->least && settle_along(task, n, distance, probe);
+}
+
+bool pir_task_apart_along(pir_task *task, pir_vec3 n) {
+    struct probe probe = begin_probe(task);
+    return (task->want & PIR_WANT_SEPARATION) && is_apart_along(task, n, &probe);
+}
+
 /* The unit vector along d; 0 where d is too short to tell one, and nothing is apart along that. */
-static pir_vec3 unit_along(pir_vec3 d) {
+static inline pir_vec3 unit_along(pir_vec3 d) {
     double square = pir_vec_dot(d, d);
     return pir_vec_scale(d, square > 0x1p-200 ? 1 / sqrt(square) : 0);
+}
+
+/* By the other directions: see above. */
+static bool is_apart_elsewhere(pir_task *task, struct probe *probe) {
+    const pir_pair *pair = task->pair;
+    // brought to length 1 each time, so that rounding does not add up from turn to turn
+    pir_vec3 n = unit_along(pir_mat_apply(&task->workspace->frame.r, pair->axis_of_p));
+    pir_vec3 middle = unit_along(task->placement->x);
+    return is_apart_along(task, n, probe) || is_apart_along(task, middle, probe) ||
+           is_apart_along(task, unit_along(pir_vec_add(middle, pir_vec_add(n, pair->axis))), probe);
 }
 
 bool pir_task_apart(pir_task *task) {
     pir_pair *pair = task->pair;
     if (!(task->want & PIR_WANT_SEPARATION))
         return false;
-    if (pir_task_apart_along(task, pair->axis))
-        return true;
-    // brought to length 1 each time, so that rounding does not add up from turn to turn
-    pir_vec3 n = unit_along(pir_mat_apply(&task->workspace->frame.r, pair->axis_of_p));
-    pir_vec3 middle = unit_along(task->placement->x);
-    if (pir_task_apart_along(task, n) || pir_task_apart_along(task, middle) ||
-        pir_task_apart_along(task, unit_along(pir_vec_add(middle, pir_vec_add(n, pair->axis)))))
+    struct probe probe = begin_probe(task);
+    if (is_apart_along(task, pair->axis, &probe) || is_apart_elsewhere(task, &probe))
         return true;
     pair->has_axis = false;
     return false;

@@ -1,43 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* What a call on a pair begins and ends with: the relative pose, and the way back to the world. */
-#include "pair/pair.h"
+#include "pair/begin.h"
 
 pir_pair_input pir_pair_input_default(void) {
     const pir_pose origin = {{0, 0, 0, 1}, {0, 0, 0}};
     return (pir_pair_input){.pose_p = origin, .pose_q = origin, .cutoff = HUGE_VAL};
 }
 
-/* Q's place. */
-static pir_status set_q(pir_workspace *workspace, const pir_pose *q) {
-    workspace->has_q = false;
-    pir_status status = pir_rotation_set(&workspace->rotation_q, q->rotation);
-    if (status != PIR_OK)
-        return status;
-    workspace->world.translation_q = q->translation;
-    workspace->posed = !pir_world_is_plain(&workspace->world);
-    workspace->is_turned = q->rotation.x != 0 || q->rotation.y != 0 || q->rotation.z != 0 || q->rotation.w != 1;
-    workspace->exact.world = workspace->posed ? &workspace->world : NULL;
-    workspace->pose[1] = *q;
-    workspace->has_q = true;
-    return PIR_OK;
-}
-
-/* P's rotation as Q sees it, where Q is turned or P's quaternion has to be scaled. */
-static pir_status set_any_rotation(pir_workspace *workspace, const pir_pair_input *input) {
-    pir_status status = pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
-    workspace->frame.is_set = false;
-    if (status == PIR_OK)
-        pir_frame_turn(&workspace->frame, &workspace->rotation);
-    return status;
-}
-
+/* P's rotation as Q sees it. */
 static inline pir_status set_rotation(pir_workspace *workspace, const pir_pair_input *input) {
-    if (workspace->is_turned || !pir_quat_is_near_one(input->pose_p.rotation))
-        return set_any_rotation(workspace, input);
-    // both from registers: what one has stored is slow to load for the other
-    const pir_rotation_doubles doubles = pir_doubles_as_given(input->pose_p.rotation);
-    pir_rotation_set_doubles(&workspace->rotation, input->pose_p.rotation, &doubles);
-    pir_frame_set_doubles(&workspace->frame, input->pose_p.rotation, &doubles);
+    const pir_quat given = input->pose_p.rotation;
+    if (workspace->is_turned || !pir_quat_is_near_one(given))
+        return pir_pair_set_any_rotation(workspace, input);
+    const pir_rotation_doubles doubles = pir_doubles_as_given(given);
+    pir_rotation_set_given(&workspace->rotation, given);
+    pir_frame_set_doubles(&workspace->frame, given, &doubles);
     return PIR_OK;
 }
 
@@ -47,35 +24,31 @@ static pir_status set_place(const pir_pair *pair, pir_workspace *workspace, cons
     if (!pir_exact_has_limbs(&workspace->exact, pair->limbs) &&
         !pir_exact_reserve_limbs(&workspace->exact, &workspace->allocator, pair->limbs))
         return PIR_ERR_MEMORY;
-    workspace->world.translation_p = input->pose_p.translation;
     if (!workspace->posed)
         return pir_frame_place(&workspace->frame, input->pose_p.translation, &workspace->placement);
+    workspace->world.translation_p = input->pose_p.translation;
     return pir_frame_place_relative(&workspace->frame, &workspace->world, &workspace->placement);
 }
 
-/* Makes the frame one of the bodies of this pair. */
-static void set_bodies(const pir_pair *pair, pir_frame *frame) {
-    frame->p = pair->body_p->body;
-    frame->q = pair->body_q->body;
-    pir_frame_set_exponent(frame, pair->exponent);
-}
-
 pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
-    if (!pair || !workspace || !input)
-        return PIR_ERR_ARGUMENT;
     if (!pir_pair_is_at(pair, workspace))
-        set_bodies(pair, &workspace->frame);
+        pir_pair_set_bodies(pair, workspace);
     workspace->pair = NULL;
     workspace->moved = (pir_leeway){HUGE_VAL, HUGE_VAL};
     pair->left = 0;
     pir_status status = pir_pair_check(input);
+    if (status != PIR_OK)
+        return status;
     // mostly it is where it was in the call before
-    if (status == PIR_OK && !(workspace->has_q && pir_pose_is_same(&input->pose_q, &workspace->pose[1])))
-        status = set_q(workspace, &input->pose_q);
-    if (status == PIR_OK)
-        status = set_rotation(workspace, input);
-    if (status == PIR_OK)
-        status = set_place(pair, workspace, input);
+    if (!(workspace->has_q && pir_pose_is_same(&input->pose_q, &workspace->pose[1]))) {
+        status = pir_pair_set_q(workspace, &input->pose_q);
+        if (status != PIR_OK)
+            return status;
+    }
+    status = set_rotation(workspace, input);
+    if (status != PIR_OK)
+        return status;
+    status = set_place(pair, workspace, input);
     if (status != PIR_OK)
         return status;
     workspace->pair = pair;

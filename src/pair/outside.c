@@ -72,7 +72,7 @@ static bool prove(pir_task *task, pir_nearest *ret_nearest) {
     }
     pir_facet facet;
     pir_same_facet same;
-    if (pir_same_facet_prove(frame, task->placement, piece, NULL, &same) == PIR_SAME_PROVEN && same.slack < 0) {
+    if (task->workspace->prove_same(frame, task->placement, piece, NULL, &same) == PIR_SAME_PROVEN && same.slack < 0) {
         *ret_nearest = (pir_nearest){-same.slack, same.facet.n, same.touch};
         pir_task_keep_facet(task->pair, &same.facet);
         return true;

@@ -303,7 +303,7 @@ static bool take_facet(const pir_overlap *overlap, uint32_t t, struct found *fou
     if (found->count == MOST_FACETS || !piece_at(overlap, t, &piece))
         return false;
     bool has_same =
-        pir_same_facet_prove(overlap->exact->frame, overlap->placement, piece, NULL, &same) == PIR_SAME_PROVEN;
+        overlap->prove_same(overlap->exact->frame, overlap->placement, piece, NULL, &same) == PIR_SAME_PROVEN;
     if (has_same)
         *facet = same.facet;
     else if (!pir_facet_prove(overlap->exact, piece, facet))

@@ -17,6 +17,7 @@ typedef struct pir_overlap {
     const pir_placement *placement;
     pir_surface *surface;
     pir_surface_room *room;
+    pir_same_prover *prove_same;
     pir_pair_statistics *statistics;
     bool *has_same; /* whether `same` is proven here, with x on its inner side */
     pir_same_facet *same;

@@ -24,6 +24,8 @@ pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **
     workspace->world.rotation_q = &workspace->rotation_q;
     workspace->room.loops = pir_surface_loops_best();
     workspace->axes = pir_axes_loops_best();
+    workspace->prove_same = pir_same_facet_best();
+    workspace->find_supports = pir_supports_best();
     *ret_workspace = workspace;
     return PIR_OK;
 }
@@ -81,6 +83,10 @@ static bool are_levels(pir_level least, pir_level most) {
     return least >= PIR_LEVEL_NONE && most >= PIR_LEVEL_APART && most <= PIR_LEVEL_WHOLE && least <= most;
 }
 
+static uint8_t levels_between(pir_level least, pir_level most) {
+    return (uint8_t)((1u << (most + 1)) - (1u << least));
+}
+
 pir_status pir_pair_create(pir_polytope *p, pir_polytope *q, const pir_pair_options *options, pir_pair **ret_pair) {
     const pir_pair_options used = options ? *options : pir_pair_options_default();
     if (!p || !q || !ret_pair || !are_levels(used.least, used.most))
@@ -90,8 +96,7 @@ pir_status pir_pair_create(pir_polytope *p, pir_polytope *q, const pir_pair_opti
     if (!pair)
         return PIR_ERR_MEMORY;
     pair->allocator = a;
-    pair->least = (uint8_t)used.least;
-    pair->most = (uint8_t)used.most;
+    pair->levels = levels_between(used.least, used.most);
     pir_status status = find_bodies(p, q, pair);
     if (status != PIR_OK) {
         PIR_FREE(&a, pair, 1);
@@ -116,7 +121,7 @@ void pir_pair_destroy(pir_pair *pair) {
 pir_status pir_pair_reset(pir_pair *pair, pir_polytope *p, pir_polytope *q) {
     if (!pair || !p || !q)
         return PIR_ERR_ARGUMENT;
-    pir_pair fresh = {.allocator = pair->allocator, .least = pair->least, .most = pair->most, .surface = pair->surface};
+    pir_pair fresh = {.allocator = pair->allocator, .levels = pair->levels, .surface = pair->surface};
     pir_status status = find_bodies(p, q, &fresh);
     if (status != PIR_OK)
         return status;

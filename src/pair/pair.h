@@ -24,6 +24,7 @@
 #include "query/contact/patch.h"
 #include "query/decide/nearest.h"
 #include "query/frame/body.h"
+#include "query/frame/supports.h"
 
 struct pir_pair {
     pir_allocator allocator;
@@ -32,7 +33,7 @@ struct pir_pair {
     const pir_axes *axes_p, *axes_q;      /* likewise; NULL where either has many */
     int exponent;                         /* one unit of the frame is 2^exponent */
     uint32_t limbs;                       /* that exact signs need */
-    uint8_t least, most, level;           /* pir_level */
+    uint8_t levels, level;                /* those that the option allows, as a set; that of the last answer */
     uint8_t resting;                      /* how many more calls leave out the axes, since they told nothing */
 
     /* hints */
@@ -63,7 +64,7 @@ struct pir_workspace {
     pir_workspace_head head; /* first, see base/scratch.h */
     pir_allocator allocator;
     pir_frame frame;
-    pir_rotation rotation;   /* of P relative to Q */
+    pir_rotation rotation;   /* of P relative to Q; its doubles are those of the frame alone */
     pir_rotation rotation_q; /* of Q */
     pir_rotation_integers integers[2];
     bool has_q;            /* whether what depends on Q's pose alone is that of pose[1] below */
@@ -72,6 +73,8 @@ struct pir_workspace {
     pir_exact exact;
     pir_surface_room room;
     const pir_axes_loops *axes;
+    pir_same_prover *prove_same;
+    pir_supports *find_supports;
     pir_surface spare; /* where a pair has none */
     pir_patch_room patches;
 
@@ -96,7 +99,8 @@ struct pir_workspace {
 /* Whether radii, cutoff and margin are numbers that mean something. */
 static inline pir_status pir_pair_check(const pir_pair_input *input) {
     const double p = input->radius_p, q = input->radius_q;
-    if (p >= 0 && p < HUGE_VAL && q >= 0 && q < HUGE_VAL && !isunordered(input->cutoff, input->margin))
+    // mostly all hold
+    if ((p >= 0) & (p < HUGE_VAL) & (q >= 0) & (q < HUGE_VAL) & !isunordered(input->cutoff, input->margin))
         return PIR_OK;
     bool some = isnan(p) || isnan(q) || isnan(input->cutoff) || isnan(input->margin);
     return some ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
@@ -124,7 +128,7 @@ static inline bool pir_pair_is_at(const pir_pair *pair, const pir_workspace *wor
     return workspace->pair == pair && pair->workspace == workspace;
 }
 
-/* What every call begins with: checks, the frame at the relative pose, the workspace's placement. */
+/* What every call begins with: checks but for NULL, the frame at the relative pose, the workspace's placement. */
 pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input);
 
 /* A point in Q's frame, and a result, brought to the world: where Q is not at the origin, or turned. */

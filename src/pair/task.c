@@ -10,7 +10,7 @@ void pir_task_keep_apart(const pir_task *task, double distance) {
     pair->apart = distance;
     pair->lead.others = 0;
     pair->at = task->placement->x;
-    pair->turned = task->workspace->rotation.unit;
+    pair->turned = task->workspace->frame.unit;
 }
 
 void pir_task_near(pir_task *task, const pir_nearest *nearest) {

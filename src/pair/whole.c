@@ -34,6 +34,7 @@ pir_status pir_pair_whole(pir_pair *pair, pir_workspace *workspace, const pir_pa
     pir_status status = make(pair, workspace);
     if (status == PIR_OK)
         status = pir_sum_turn_relative(workspace->sum, input->pose_q.rotation, input->pose_p.rotation);
+    workspace->world.translation_p = input->pose_p.translation;
     if (status == PIR_OK)
         status = pir_query_place_relative(workspace->query, &workspace->world, &placement);
     if (status != PIR_OK) {

@@ -26,7 +26,8 @@ static size_t offsets_and_shapes(const pir_polytope *p) {
 
 static void destroy_body(pir_attachment *attachment, const pir_allocator *a) {
     pir_kept_body *body = (pir_kept_body *)attachment;
-    PIR_FREE(a, body->body.vertex, body->body.polytope->vertex_count);
+    PIR_FREE(a, body->body.vertex, (size_t)body->body.polytope->vertex_count + 1);
+    pir_around_free(body->body.polytope, &body->around);
     PIR_FREE(a, body->body.offset, offsets_and_shapes(body->body.polytope));
     PIR_FREE(a, body, 1);
 }
@@ -73,7 +74,7 @@ static pir_vec3 inner_of(const pir_body *body) {
     return pir_vec_scale(sum, 1 / all);
 }
 
-/* The least sine by which an edge falls along the mean of the normals at its vertex. */
+/* The least sine by which an edge falls along the mean of the normals at its vertex; 0 where that is not known. */
 static double point_of(const pir_polytope *p) {
     double least = 1;
     for (uint32_t v = 0; v < p->vertex_count && p->dimension == 3; v++) {
@@ -95,13 +96,18 @@ static pir_status make_body(pir_polytope *p, int exponent, pir_kept_body **ret_b
         return PIR_ERR_MEMORY;
     made->attachment = (pir_attachment){.kind = &a_body, .key = exponent, .destroy = destroy_body};
     made->body.polytope = p;
-    made->body.vertex = PIR_NEW(a, pir_vec3, p->vertex_count);
+    // vector loads of four doubles may reach past the last
+    made->body.vertex = PIR_ZEROED(a, pir_vec3, (size_t)p->vertex_count + 1);
     made->body.offset = PIR_NEW(a, double, offsets_and_shapes(p));
     mp_limb_t *room = room_new(p);
     pir_status status = PIR_ERR_MEMORY;
     if (made->body.vertex && made->body.offset && room)
         status = pir_body_fill(&made->body, exponent, room);
     room_free(p, room);
+    if (status == PIR_OK && pir_around_has(p)) {
+        made->body.around = &made->around;
+        status = pir_around_make(p, made->body.vertex, &made->around) ? PIR_OK : PIR_ERR_MEMORY;
+    }
     if (status != PIR_OK) {
         destroy_body(&made->attachment, a);
         return status;
@@ -109,7 +115,8 @@ static pir_status make_body(pir_polytope *p, int exponent, pir_kept_body **ret_b
     for (uint32_t f = 0; f < p->facet_count; f++)
         pir_kept_shape_clear(&pir_body_shapes(&made->body)[f]);
     made->inner = inner_of(&made->body);
-    made->point = point_of(p);
+    double point = point_of(p);
+    made->slip = point > 0 ? made->body.size / point : -1;
     *ret_body = made;
     return PIR_OK;
 }

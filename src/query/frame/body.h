@@ -14,8 +14,9 @@
 typedef struct pir_kept_body {
     pir_attachment attachment;
     pir_body body;
-    pir_vec3 inner; /* a point of it, inside where it has an inside, and of no symmetry */
-    double point;   /* along some direction all edges of a vertex fall by this sine at least; 0 where not known */
+    pir_around around; /* what body.around points to */
+    pir_vec3 inner;    /* a point of it, inside where it has an inside, and of no symmetry */
+    double slip;       /* how far its support may be above where a climb ends, per slope; negative where not known */
 } pir_kept_body;
 
 /* The exponent of its size; INT_MIN for a point. PIR_ERR_MEMORY. */

@@ -18,6 +18,7 @@
 #include "base/memory.h"
 #include "exact/rotation.h"
 #include "polytope/polytope.h"
+#include "query/frame/around.h"
 #include "query/frame/climb.h"
 #include "query/frame/dd.h"
 #include "query/frame/facet_shape.h"
@@ -58,6 +59,7 @@ typedef struct pir_body {
     pir_dd3 centre;   /* the middle of its bounds, in units of the frame */
     double far;       /* an upper bound on the distance of the middle from the origin */
     uint32_t landmarks[PIR_LANDMARKS];
+    const pir_around *around; /* NULL where there is none */
 } pir_body;
 
 /* What is known of the shapes of its facets. */
@@ -136,14 +138,18 @@ static inline void pir_frame_set_offset(pir_frame *frame) {
         pir_frame_set_far_offset(frame);
 }
 
-/* Sets a rotation that the frame may be at already. It is not relative. */
+/*
+ * Sets a rotation that the frame may be at already. It is not relative. Where P's middle is at its origin the offset
+ * is that of the bodies.
+ */
 static inline void pir_frame_set_doubles(pir_frame *frame, pir_quat given, const pir_rotation_doubles *doubles) {
     frame->is_set = true;
     frame->given = given;
     frame->unit = doubles->unit;
     frame->rest = (pir_quat){0, 0, 0, 0};
     frame->r = doubles->r;
-    pir_frame_set_offset(frame);
+    if (frame->p.far != 0)
+        pir_frame_set_offset(frame);
 }
 
 /* A translation in units of the frame. */
@@ -155,7 +161,7 @@ static inline pir_vec3 pir_frame_units(const pir_frame *frame, pir_vec3 t) {
 
 /* Whether such a translation is finite and not too far. */
 static inline bool pir_frame_is_near(pir_vec3 t) {
-    return fabs(t.x) < PIR_FARTHEST && fabs(t.y) < PIR_FARTHEST && fabs(t.z) < PIR_FARTHEST;
+    return (fabs(t.x) < PIR_FARTHEST) & (fabs(t.y) < PIR_FARTHEST) & (fabs(t.z) < PIR_FARTHEST);
 }
 
 /* What follows from x, for translations of so much. */

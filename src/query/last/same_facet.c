@@ -1,56 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* Facets by doubles alone: see same_facet.h. */
-#include "query/last/same_facet.h"
+#include "query/last/same_facet_versions.h"
 
-/*
- * The foot's distance from a side is known to PIR_SIDE_ERRORS of the errors that it is compared with in touch.c. This
- * many hold as well that a side's unit vector is off.
- */
-#define MARGIN_ERRORS 16
+/* --- proofs --- */
 
-/*
- * The steepest of the halfedges from the origin of one, but that itself. They are taken from the one after it, all
- * around: two loops over what lies before and behind it would end at different lengths from frame to frame.
- */
-static inline double steepest_beside(const pir_polytope *p, uint32_t half, pir_vec3 n) {
-    const uint32_t *ring = &p->ring_start[p->origin[half]], start = ring[0], end = ring[1];
+static inline double steepest_at(const pir_body *body, uint32_t vertex, pir_vec3 n) {
+    const pir_polytope *p = body->polytope;
     double most = -HUGE_VAL;
-    for (uint32_t h = half, left = end - start - 1; left > 0; left--) {
-        h = h + 1 < end ? h + 1 : start;
+    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++) {
         double slope = pir_vec_dot(n, p->direction[h]);
         most = slope > most ? slope : most;
     }
     return most;
-}
-
-/*
- * Whether all edges from the origin of a halfedge, but its own, certainly fall along n, and how steeply at least. n and
- * PIR_SLOPE_BOUND are those of a unit normal, both times one factor: the sine of two edges' angle.
- */
-static inline pir_same all_fall(const pir_polytope *p, uint32_t half, pir_vec3 n, double *ret_falls) {
-    double most = steepest_beside(p, half, n);
-    *ret_falls = -PIR_SLOPE_BOUND - most;
-    return most < -PIR_SLOPE_BOUND ? PIR_SAME_PROVEN : most > PIR_SLOPE_BOUND ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
-}
-
-/* The vertex uphill from *vertex of which that holds. */
-static inline pir_same find_top(const pir_polytope *p, pir_vec3 n, uint32_t *vertex, double *ret_falls) {
-    for (uint32_t left = p->vertex_count; left > 0; left--) {
-        double most = -HUGE_VAL;
-        uint32_t best = 0;
-        for (uint32_t h = p->ring_start[*vertex]; h < p->ring_start[*vertex + 1]; h++) {
-            double slope = pir_vec_dot(n, p->direction[h]);
-            best = slope > most ? h : best;
-            most = slope > most ? slope : most;
-        }
-        *ret_falls = -PIR_SLOPE_BOUND - most;
-        if (most < -PIR_SLOPE_BOUND)
-            return PIR_SAME_PROVEN;
-        if (!(most > PIR_SLOPE_BOUND))
-            return PIR_SAME_IN_DOUBT;
-        *vertex = p->target[best];
-    }
-    return PIR_SAME_IN_DOUBT;
 }
 
 /* How far `at` is from the nearest side of a body's facet with normal n; negative outside. */
@@ -65,6 +26,9 @@ static double within_facet(const pir_body *body, uint32_t facet, pir_vec3 n, pir
     }
     return least;
 }
+
+#define SAME_TARGET
+#include "query/last/same_facet_body.h"
 
 /* What the touch of a facet depends on besides: its corner of P, turned, and the direction of an edge of P, turned. */
 struct of_p {
@@ -83,131 +47,24 @@ static inline pir_vec3 crossing(const pir_frame *frame, const pir_facet *facet, 
     return pir_touch_along(from, d, part);
 }
 
-static inline void set_touch(const pir_frame *frame, const pir_placement *placement, int kind, const struct of_p *p,
-                             pir_same_facet *same) {
-    const pir_facet *facet = &same->facet;
-    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, same->slack));
-    if (kind == PIR_FACET_FV)
-        same->touch.point_q = frame->q.vertex[facet->b];
-    else if (kind == PIR_FACET_VF)
-        same->touch.point_q = pir_vec_sub(y, p->corner);
-    else
-        same->touch.point_q = crossing(frame, facet, y, p);
-}
-
-void pir_same_facet_set_slack(const pir_frame *frame, const pir_placement *placement, double slack,
-                              pir_same_facet *same) {
-    const pir_facet *facet = &same->facet;
-    const pir_polytope *p = frame->p.polytope;
-    struct of_p of_p = {{0, 0, 0}, {0, 0, 0}};
-    same->slack = slack;
-    if (facet->piece.kind != PIR_FACET_FV)
-        of_p.corner = pir_mat_apply(&frame->r, frame->p.vertex[facet->a]);
-    if (facet->piece.kind == PIR_FACET_EE)
-        of_p.along = pir_mat_apply(&frame->r, p->direction[p->edge_half[facet->piece.first]]);
-    set_touch(frame, placement, facet->piece.kind, &of_p, same);
+/* The foot of x on a plane with normal n. */
+static inline pir_vec3 foot(const pir_placement *placement, pir_vec3 n, double slack) {
+    return pir_vec_add(placement->x, pir_vec_scale(n, slack));
 }
 
 /*
- * Sets slack and margin, and tells whether the foot is inside of the rim and x clearly on a side: then the touch is set
- * too.
+ * The steepest of the halfedges from the origin of one, but that itself. They are taken from the one after it, all
+ * around: two loops over what lies before and behind it would end at different lengths from frame to frame.
  */
-static inline pir_same measure(const pir_frame *frame, const pir_placement *placement, double within, int kind,
-                               const struct of_p *p, pir_same_facet *same) {
-    const pir_facet *facet = &same->facet;
-    double error = placement->error * facet->err, off = MARGIN_ERRORS * error;
-    same->slack = facet->h - pir_vec_dot(facet->n, placement->x);
-    same->margin = within - off;
-    if (within < -off)
-        return PIR_SAME_NOT;
-    bool clear = fabs(same->slack) > PIR_NEXT_TO_NOTHING * placement->reach && fabs(same->slack) > 2 * error;
-    if (!(within > off) || !clear)
-        return within > off ? PIR_SAME_NEAR : PIR_SAME_IN_DOUBT;
-    set_touch(frame, placement, kind, p, same);
-    return PIR_SAME_PROVEN;
-}
-
-/*
- * How far R may turn while edges that fall by `falls` along a unit normal do: of a facet that moves by the angle
- * itself. The normal of two edges that cross at a sine moves by 2 / sine times that at most, and P's edges by it as
- * well; there `falls` is that times the sine.
- */
-static double turn_of_facet(double falls) {
-    return falls * (1 - 0x1p-20) - 0x1p-40;
-}
-
-static double turn_of_edges(double falls, double sine) {
-    return turn_of_facet(falls / (2 + sine));
-}
-
-/* A plane of D: its normal, how wrong that is, and its height, as in pir_facet. */
-struct unit_plane {
-    pir_vec3 n;
-    double err, h;
-};
-
-/* Sets the facet, and what would touch there: loading the faces anew would wait for their parts to be stored. */
-static inline void set_facet(pir_same_facet *same, pir_witness faces, uint32_t a, uint32_t b, struct unit_plane plane) {
-    pir_facet *facet = &same->facet;
-    facet->faces = faces;
-    same->touch.witness = faces;
-    facet->a = a;
-    facet->b = b;
-    facet->n = plane.n;
-    facet->err = plane.err;
-    facet->h = plane.h;
-}
-
-static pir_same prove_fv(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
-                         pir_same_facet *same) {
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    uint32_t f = same->facet.piece.first, b = same->facet.piece.second, corner;
-    pir_vec3 n = pir_mat_apply(&frame->r, p->normal[f]);
-    double within;
-    if (known) {
-        within = known->margin;
-        corner = known->corner;
-    } else {
-        double falls;
-        pir_same exposed = find_top(q, n, &b, &falls);
-        if (exposed != PIR_SAME_PROVEN)
-            return exposed;
-        pir_vec3 at = pir_mat_apply_transposed(&frame->r, pir_vec_sub(placement->x, frame->q.vertex[b]));
-        within = within_facet(&frame->p, f, p->normal[f], at);
-        corner = p->origin[p->loop[p->loop_start[f]]];
-        same->falls = turn_of_facet(falls);
+static inline double steepest_beside(const pir_polytope *p, uint32_t half, pir_vec3 n) {
+    const uint32_t *ring = &p->ring_start[p->origin[half]], start = ring[0], end = ring[1];
+    double most = -HUGE_VAL;
+    for (uint32_t h = half, left = end - start - 1; left > 0; left--) {
+        h = h + 1 < end ? h + 1 : start;
+        double slope = pir_vec_dot(n, p->direction[h]);
+        most = slope > most ? slope : most;
     }
-    same->facet.piece.second = b;
-    set_facet(same, (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}}, corner, b,
-              (struct unit_plane){n, 1, frame->p.offset[f] + pir_vec_dot(n, frame->q.vertex[b])});
-    return measure(frame, placement, within, PIR_FACET_FV, NULL, same);
-}
-
-static pir_same prove_vf(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
-                         pir_same_facet *same) {
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    uint32_t a = same->facet.piece.first, g = same->facet.piece.second, corner;
-    pir_vec3 n = q->normal[g];
-    struct of_p of_p;
-    double within;
-    if (known) {
-        of_p.corner = pir_mat_apply(&frame->r, frame->p.vertex[a]);
-        within = known->margin;
-        corner = known->corner;
-    } else {
-        double falls;
-        pir_same exposed = find_top(p, pir_mat_apply_transposed(&frame->r, n), &a, &falls);
-        if (exposed != PIR_SAME_PROVEN)
-            return exposed;
-        of_p.corner = pir_mat_apply(&frame->r, frame->p.vertex[a]);
-        within = within_facet(&frame->q, g, n, pir_vec_sub(placement->x, of_p.corner));
-        corner = q->origin[q->loop[q->loop_start[g]]];
-        same->falls = turn_of_facet(falls);
-    }
-    same->facet.piece.first = a;
-    set_facet(same, (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}}, a, corner,
-              (struct unit_plane){n, 1, frame->q.offset[g] + pir_vec_dot(n, of_p.corner)});
-    return measure(frame, placement, within, PIR_FACET_VF, &of_p, same);
+    return most;
 }
 
 static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
@@ -221,9 +78,9 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     uint32_t a = p->origin[half], b = q->origin[other];
     if (!known) {
         double falls_q, falls_p = 0;
-        pir_same exposed = all_fall(q, other, n, &falls_q);
+        pir_same exposed = all_fall(steepest_beside(q, other, n), &falls_q);
         if (exposed == PIR_SAME_PROVEN)
-            exposed = all_fall(p, half, pir_mat_apply_transposed(&frame->r, n), &falls_p);
+            exposed = all_fall(steepest_beside(p, half, pir_mat_apply_transposed(&frame->r, n)), &falls_p);
         if (exposed != PIR_SAME_PROVEN)
             return exposed;
         same->falls = turn_of_edges(falls_p < falls_q ? falls_p : falls_q, sine);
@@ -237,20 +94,58 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     pir_vec3 along_q = pir_vec_sub(frame->q.vertex[q->target[other]], frame->q.vertex[b]);
     double in_p = pir_vec_dot(by_d, w), in_q = pir_vec_dot(by_e, w);
     double left_p = pir_vec_dot(by_d, along_p) - in_p, left_q = pir_vec_dot(by_e, along_q) - in_q;
+    const double h = pir_vec_dot(n, corner);
     in_p = in_p < left_p ? in_p : left_p;
     in_q = in_q < left_q ? in_q : left_q;
     set_facet(same, (pir_witness){{PIR_FEATURE_EDGE, edge}, {PIR_FEATURE_EDGE, q->edge[other]}}, a, b,
-              (struct unit_plane){n, err, pir_vec_dot(n, corner)});
-    return measure(frame, placement, in_p < in_q ? in_p : in_q, PIR_FACET_EE, &of_p, same);
+              (struct unit_plane){n, err, h});
+    pir_same is = measure(placement, in_p < in_q ? in_p : in_q, h - pir_vec_dot(n, placement->x), same);
+    if (is == PIR_SAME_PROVEN)
+        same->touch.point_q = crossing(frame, &same->facet, foot(placement, n, same->slack), &of_p);
+    return is;
 }
 
 pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
                               const pir_same_known *known, pir_same_facet *ret_same) {
     if (frame->p.polytope->artificial || frame->q.polytope->artificial)
         return PIR_SAME_IN_DOUBT;
-    ret_same->facet.piece = piece;
-    ret_same->falls = 0;
-    return piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, known, ret_same)
-           : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, known, ret_same)
-                                        : prove_ee(frame, placement, known, ret_same);
+    return prove(frame, placement, piece, known, ret_same);
+}
+
+pir_same_prover *pir_same_facet_version(unsigned index) {
+    if (index == 0)
+        return pir_same_facet_prove;
+#if PIR_HAVE_X86_SAME
+    if (index == 1 && __builtin_cpu_supports("avx2"))
+        return pir_same_facet_prove_avx2;
+#endif
+    return NULL;
+}
+
+pir_same_prover *pir_same_facet_best(void) {
+    unsigned index = 0;
+    while (pir_same_facet_version(index + 1))
+        index++;
+    return pir_same_facet_version(index);
+}
+
+/* --- what touches --- */
+
+void pir_same_facet_set_slack(const pir_frame *frame, const pir_placement *placement, double slack,
+                              pir_same_facet *same) {
+    const pir_facet *facet = &same->facet;
+    const pir_polytope *p = frame->p.polytope;
+    const pir_vec3 y = foot(placement, facet->n, slack);
+    same->slack = slack;
+    if (facet->piece.kind == PIR_FACET_FV) {
+        same->touch.point_q = frame->q.vertex[facet->b];
+        return;
+    }
+    struct of_p of_p = {pir_mat_apply(&frame->r, frame->p.vertex[facet->a]), {0, 0, 0}};
+    if (facet->piece.kind == PIR_FACET_VF) {
+        same->touch.point_q = pir_vec_sub(y, of_p.corner);
+        return;
+    }
+    of_p.along = pir_mat_apply(&frame->r, p->direction[p->edge_half[facet->piece.first]]);
+    same->touch.point_q = crossing(frame, facet, y, &of_p);
 }

@@ -36,8 +36,17 @@ typedef enum pir_same { PIR_SAME_NOT, PIR_SAME_IN_DOUBT, PIR_SAME_NEAR, PIR_SAME
  * far the foot is inside. Where the slack is next to nothing, facet and margin are proven, the slack is off and
  * there is no touch.
  */
-pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
-                              const pir_same_known *known, pir_same_facet *ret_same);
+typedef pir_same pir_same_prover(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
+                                 const pir_same_known *known, pir_same_facet *ret_same);
+pir_same_prover pir_same_facet_prove;
+
+/*
+ * A version of it, all of which give the same bits: the plain one first; NULL past those that this machine can run.
+ */
+pir_same_prover *pir_same_facet_version(unsigned index);
+
+/* The last of them. */
+pir_same_prover *pir_same_facet_best(void);
 
 /* Sets the slack, as pir_facet_measure gives it, and the touch. */
 void pir_same_facet_set_slack(const pir_frame *frame, const pir_placement *placement, double slack,

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* What a call on a pair begins with where that is not as it was in the call before: see begin.h. */
+#include "pair/begin.h"
+
+void pir_pair_set_bodies(const pir_pair *pair, pir_workspace *workspace) {
+    pir_frame *frame = &workspace->frame;
+    frame->p = pair->body_p->body;
+    frame->q = pair->body_q->body;
+    frame->offset = frame->q.centre;
+    pir_frame_set_exponent(frame, pair->exponent);
+}
+
+pir_status pir_pair_set_q(pir_workspace *workspace, const pir_pose *q) {
+    workspace->has_q = false;
+    pir_status status = pir_rotation_set(&workspace->rotation_q, q->rotation);
+    if (status != PIR_OK)
+        return status;
+    workspace->world.translation_q = q->translation;
+    workspace->posed = !pir_world_is_plain(&workspace->world);
+    workspace->is_turned = q->rotation.x != 0 || q->rotation.y != 0 || q->rotation.z != 0 || q->rotation.w != 1;
+    workspace->exact.world = workspace->posed ? &workspace->world : NULL;
+    workspace->pose[1] = *q;
+    workspace->has_q = true;
+    return PIR_OK;
+}
+
+pir_status pir_pair_set_any_rotation(pir_workspace *workspace, const pir_pair_input *input) {
+    pir_status status = pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
+    workspace->frame.is_set = false;
+    if (status == PIR_OK)
+        pir_frame_turn(&workspace->frame, &workspace->rotation);
+    return status;
+}

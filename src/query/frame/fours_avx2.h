@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Loops over what is around a vertex or a facet (around.h), and vectors of three in a register each, by AVX2. Every
+ * operation is that of plain code, never fused, so the bits are the same.
+ */
+#ifndef PIR_QUERY_FRAME_FOURS_AVX2_H
+#define PIR_QUERY_FRAME_FOURS_AVX2_H
+
+#include <immintrin.h>
+
+#include "query/frame/frame.h"
+
+#define PIR_AVX2 __attribute__((target("avx2")))
+
+/* --- one coordinate of four vectors in each register --- */
+
+typedef struct pir_four {
+    __m256d x, y, z;
+} pir_four;
+
+/* One vector four times. */
+PIR_AVX2 static inline pir_four pir_four_of(pir_vec3 v) {
+    return (pir_four){_mm256_set1_pd(v.x), _mm256_set1_pd(v.y), _mm256_set1_pd(v.z)};
+}
+
+PIR_AVX2 static inline pir_four pir_four_at(const pir_fours *v) {
+    return (pir_four){_mm256_loadu_pd(v->x), _mm256_loadu_pd(v->y), _mm256_loadu_pd(v->z)};
+}
+
+PIR_AVX2 static inline pir_four pir_four_sub(pir_four a, pir_four b) {
+    return (pir_four){_mm256_sub_pd(a.x, b.x), _mm256_sub_pd(a.y, b.y), _mm256_sub_pd(a.z, b.z)};
+}
+
+PIR_AVX2 static inline __m256d pir_four_dot(pir_four a, pir_four b) {
+    return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y)), _mm256_mul_pd(a.z, b.z));
+}
+
+/* The greatest and the least of four. */
+PIR_AVX2 static inline double pir_four_most(__m256d v) {
+    __m128d two = _mm_max_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
+    return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
+}
+
+PIR_AVX2 static inline double pir_four_least(__m256d v) {
+    __m128d two = _mm_min_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
+    return _mm_cvtsd_f64(_mm_min_sd(two, _mm_unpackhi_pd(two, two)));
+}
+
+/* --- around --- */
+
+/* The steepest of the edges of a vertex along n. */
+PIR_AVX2 static inline double pir_ring_most(const pir_around *around, uint32_t vertex, pir_four n) {
+    const uint32_t blocks = around->ring_blocks;
+    const pir_fours *ring = &around->rings[vertex * blocks];
+    // what is no number is taken for the second operand
+    __m256d most = _mm256_max_pd(pir_four_dot(n, pir_four_at(ring)), _mm256_set1_pd(-HUGE_VAL));
+    for (uint32_t k = 1; k < blocks; k++)
+        most = _mm256_max_pd(pir_four_dot(n, pir_four_at(&ring[k])), most);
+    return pir_four_most(most);
+}
+
+/* Read from 16 − i on it is a mask of place i. */
+static const uint64_t pir_one_of[32] = {[16] = UINT64_MAX};
+
+/* The same of all edges but the one in place `own`. */
+PIR_AVX2 static inline double pir_ring_most_but(const pir_around *around, uint32_t vertex, uint32_t own, pir_four n) {
+    const uint32_t blocks = around->ring_blocks;
+    const pir_fours *ring = &around->rings[vertex * blocks];
+    const __m256d none = _mm256_set1_pd(-HUGE_VAL);
+    __m256d most = none;
+    for (uint32_t k = 0; k < blocks; k++) {
+        __m256d slopes = pir_four_dot(n, pir_four_at(&ring[k]));
+        __m256d mask = _mm256_loadu_pd((const double *)&pir_one_of[16 - own + 4 * k]);
+        most = _mm256_max_pd(_mm256_blendv_pd(slopes, none, mask), most);
+    }
+    return pir_four_most(most);
+}
+
+/* How far `at` is from the nearest side of a facet; negative outside. */
+PIR_AVX2 static inline double pir_sides_least(const pir_around *around, uint32_t facet, pir_four at) {
+    const uint32_t blocks = around->side_blocks;
+    const pir_sides *sides = &around->sides[facet * blocks];
+    __m256d first = pir_four_dot(pir_four_at(&sides->in), pir_four_sub(at, pir_four_at(&sides->from)));
+    __m256d least = _mm256_min_pd(first, _mm256_set1_pd(HUGE_VAL));
+    for (uint32_t k = 1; k < blocks; k++) {
+        __m256d next = pir_four_dot(pir_four_at(&sides[k].in), pir_four_sub(at, pir_four_at(&sides[k].from)));
+        least = _mm256_min_pd(next, least);
+    }
+    return pir_four_least(least);
+}
+
+/* --- one vector in a register; the fourth number is any --- */
+
+/* Behind the vector there is room for another number. */
+PIR_AVX2 static inline __m256d pir_three_at(const pir_vec3 *v) {
+    return _mm256_loadu_pd(&v->x);
+}
+
+/* x, y, z as y, z, x. */
+PIR_AVX2 static inline __m256d pir_three_turned(__m256d v) {
+    return _mm256_permute4x64_pd(v, 0xc9);
+}
+
+/* a × b, both turned being known. */
+PIR_AVX2 static inline __m256d pir_three_cross(__m256d a, __m256d a_turned, __m256d b, __m256d b_turned) {
+    return pir_three_turned(_mm256_sub_pd(_mm256_mul_pd(a, b_turned), _mm256_mul_pd(a_turned, b)));
+}
+
+/* The sums of the three numbers of each of four vectors, and of each of two. */
+PIR_AVX2 static inline __m256d pir_three_sums(__m256d a, __m256d b, __m256d c, __m256d d) {
+    __m256d low = _mm256_unpacklo_pd(a, b), high = _mm256_unpacklo_pd(c, d);
+    __m256d y = _mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20);
+    __m256d xy = _mm256_add_pd(_mm256_permute2f128_pd(low, high, 0x20), y);
+    return _mm256_add_pd(xy, _mm256_permute2f128_pd(low, high, 0x31));
+}
+
+PIR_AVX2 static inline __m128d pir_three_two_sums(__m256d a, __m256d b) {
+    __m256d xz = _mm256_unpacklo_pd(a, b);
+    __m128d y = _mm256_castpd256_pd128(_mm256_unpackhi_pd(a, b));
+    return _mm_add_pd(_mm_add_pd(_mm256_castpd256_pd128(xz), y), _mm256_extractf128_pd(xz, 1));
+}
+
+/* A vector by its numbers, each four times. */
+PIR_AVX2 static inline pir_four pir_three_spread(__m256d v) {
+    return (pir_four){_mm256_broadcastsd_pd(_mm256_castpd256_pd128(v)), _mm256_permute4x64_pd(v, 0x55),
+                      _mm256_permute4x64_pd(v, 0xaa)};
+}
+
+/* The columns of a matrix: number by number, as it may have been stored just before. */
+PIR_AVX2 static inline __m256d pir_three_column(const pir_mat3 *r, int k) {
+    __m128d low = _mm_loadh_pd(_mm_load_sd(&r->m[0][k]), &r->m[1][k]);
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(low), _mm_load_sd(&r->m[2][k]), 1);
+}
+
+PIR_AVX2 static inline pir_four pir_three_columns(const pir_mat3 *r) {
+    return (pir_four){pir_three_column(r, 0), pir_three_column(r, 1), pir_three_column(r, 2)};
+}
+
+/* The matrix of these columns times a vector. */
+PIR_AVX2 static inline __m256d pir_three_apply(pir_four columns, pir_four v) {
+    return pir_four_dot(columns, v);
+}
+
+PIR_AVX2 static inline void pir_three_put(pir_vec3 *to, __m256d v) {
+    _mm_storeu_pd(&to->x, _mm256_castpd256_pd128(v));
+    _mm_store_sd(&to->z, _mm256_extractf128_pd(v, 1));
+}
+
+#endif
