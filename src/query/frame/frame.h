@@ -148,13 +148,13 @@ static inline void pir_frame_set_doubles(pir_frame *frame, pir_quat given, const
     frame->unit = doubles->unit;
     frame->rest = (pir_quat){0, 0, 0, 0};
     frame->r = doubles->r;
-    if (frame->p.far != 0)
+    if (frame->p.far > 0)
         pir_frame_set_offset(frame);
 }
 
 /* A translation in units of the frame. */
 static inline pir_vec3 pir_frame_units(const pir_frame *frame, pir_vec3 t) {
-    if (frame->down != 0)
+    if (frame->down > 0)
         return pir_vec_scale(t, frame->down);
     return (pir_vec3){ldexp(t.x, -frame->exponent), ldexp(t.y, -frame->exponent), ldexp(t.z, -frame->exponent)};
 }
@@ -177,10 +177,10 @@ static inline pir_status pir_frame_place(const pir_frame *frame, pir_vec3 transl
         return pir_vec_is_finite(translation) ? PIR_ERR_LIMIT : PIR_ERR_NOT_FINITE;
     ret_placement->translation = translation;
     // about an offset of 0 the sum below is t, and 0 where that is -0
-    if (frame->p.far + frame->q.far == 0)
-        ret_placement->x = (pir_vec3){t.x + 0.0, t.y + 0.0, t.z + 0.0};
-    else
+    if (frame->p.far + frame->q.far > 0)
         ret_placement->x = pir_dd3_add_rounded(pir_dd3_negate(frame->offset), t);
+    else
+        ret_placement->x = (pir_vec3){t.x + 0.0, t.y + 0.0, t.z + 0.0};
     pir_frame_set_reach(frame, fabs(t.x) + fabs(t.y) + fabs(t.z), ret_placement);
     return PIR_OK;
 }
@@ -192,19 +192,19 @@ static inline pir_status pir_frame_place(const pir_frame *frame, pir_vec3 transl
 pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *world, pir_placement *ret_placement);
 
 static inline double pir_frame_length(const pir_frame *frame, double length) {
-    return frame->up != 0 ? length * frame->up : ldexp(length, frame->exponent);
+    return frame->up > 0 ? length * frame->up : ldexp(length, frame->exponent);
 }
 
 static inline double pir_frame_from(const pir_frame *frame, double length) {
-    return frame->up != 0 ? length * frame->down : ldexp(length, -frame->exponent);
+    return frame->up > 0 ? length * frame->down : ldexp(length, -frame->exponent);
 }
 
 /* A point y in the frame of Q's body, relative to Q's middle, in world coordinates. */
 static inline pir_vec3 pir_frame_world(const pir_frame *frame, pir_vec3 y) {
     // about a middle at the origin the sum is y, and 0 where that is -0
     pir_vec3 w =
-        frame->q.far == 0 ? (pir_vec3){y.x + 0.0, y.y + 0.0, y.z + 0.0} : pir_dd3_add_rounded(frame->q.centre, y);
-    if (frame->up != 0)
+        frame->q.far > 0 ? pir_dd3_add_rounded(frame->q.centre, y) : (pir_vec3){y.x + 0.0, y.y + 0.0, y.z + 0.0};
+    if (frame->up > 0)
         return pir_vec_scale(w, frame->up);
     return (pir_vec3){pir_frame_length(frame, w.x), pir_frame_length(frame, w.y), pir_frame_length(frame, w.z)};
 }
