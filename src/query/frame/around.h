@@ -11,12 +11,9 @@
 #include "base/memory.h"
 #include "polytope/polytope.h"
 
-/*
- * A vertex or a facet has at most this many blocks. Bodies of more vertices have none at all: theirs would crowd the
- * cache, and plain loops read what else is read too.
- */
+/* A vertex or a facet has at most this many blocks; bodies of more vertices have none at all. */
 #define PIR_AROUND_BLOCKS   4
-#define PIR_AROUND_VERTICES 24
+#define PIR_AROUND_VERTICES 4096
 
 /* One coordinate of four vectors beside one another. */
 typedef struct pir_fours {
