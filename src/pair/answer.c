@@ -17,6 +17,7 @@
  */
 #include "pair/apart.h"
 #include "pair/give.h"
+#include "pair/seek.h"
 #include "pair/still_apart.h"
 #include "pair/task.h"
 #include "query/last/foot.h"
@@ -252,7 +253,7 @@ static bool by_need(pir_task *task) {
     pair->deep = pair->held.some = false;
     if (near && deep && by_axes(task))
         return true;
-    return pir_task_search(task, near, deep, was_deep);
+    return pir_task_seek(task, near, deep, was_deep);
 }
 
 static void add_radii(const pir_pair_input *input, pir_query_result *result) {

@@ -49,14 +49,6 @@ void pir_task_touching(pir_task *task, const pir_facet *facet);
 /* The answer from a true facet, where that is enough. */
 bool pir_task_settle(pir_task *task, const pir_facet *facet);
 
-/* --- search.c --- */
-
-/*
- * The answer by searching for its facet, on the levels that the option allows: from the facet and the surface of the
- * last answer on, the latter where that was deep, and anew.
- */
-bool pir_task_search(pir_task *task, bool near, bool deep, bool was_deep);
-
 /* --- outside.c --- */
 
 /* The answer by a descent to the nearest point. False where x is not proven to be outside, and not settled. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The ways to an answer that search for its facet: see answer.c. */
+/* The ways to an answer that search for its facet: see seek.h. */
+#include "pair/seek.h"
+
 #include "pair/overlap.h"
-#include "pair/task.h"
 
 /* --- by a facet --- */
 
@@ -102,7 +103,7 @@ static bool by_new_surface(pir_task *task) {
 
 /* --- all --- */
 
-bool pir_task_search(pir_task *task, bool near, bool deep, bool was_deep) {
+bool pir_task_seek(pir_task *task, bool near, bool deep, bool was_deep) {
     if (was_deep && deep && by_surface(task))
         return true;
     if (near && (by_facet(task) || pir_task_descend(task)))
