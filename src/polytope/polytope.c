@@ -20,15 +20,15 @@
 /* The arrays, but that of rings, whose size follows from them. */
 static pir_layout layout_of(pir_polytope *p) {
     const size_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
+    const size_t more = h + PIR_LANES;
     // a few more of some: vector loads of four doubles, or eight integers, may reach past the last
-    return (pir_layout){
-        {PIR_ROW(p->ring_start, v + 1), PIR_ROW(p->origin, h),         PIR_ROW(p->target, h + PIR_LANES),
-         PIR_ROW(p->twin, h),           PIR_ROW(p->left, h),           PIR_ROW(p->edge, h),
-         PIR_ROW(p->edge_half, e),      PIR_ROW(p->loop_start, f + 1), PIR_ROW(p->loop, h),
-         PIR_ROW(p->across, h),         PIR_ROW(p->arc_ends, e),       PIR_ROW(p->edge_arc, e),
-         PIR_ROW(p->visit, f),          PIR_ROW(p->beside, f),         PIR_ROW(p->source, v),
-         PIR_ROW(p->vertex, v),         PIR_ROW(p->direction, h + 1),  PIR_ROW(p->normal, f + 1),
-         PIR_ROW(p->ring_block, v + 1), PIR_ROW(p->normal4, 4 * f)}};
+    return (pir_layout){{PIR_ROW(p->ring_start, v + 1), PIR_ROW(p->origin, h),         PIR_ROW(p->target, more),
+                         PIR_ROW(p->twin, h),           PIR_ROW(p->left, more),        PIR_ROW(p->edge, h),
+                         PIR_ROW(p->edge_half, e),      PIR_ROW(p->loop_start, f + 1), PIR_ROW(p->loop, h),
+                         PIR_ROW(p->across, h),         PIR_ROW(p->arc_ends, e),       PIR_ROW(p->edge_arc, e),
+                         PIR_ROW(p->visit, f),          PIR_ROW(p->beside, f),         PIR_ROW(p->source, v),
+                         PIR_ROW(p->vertex, v),         PIR_ROW(p->direction, more),   PIR_ROW(p->normal, f + 1),
+                         PIR_ROW(p->ring_block, v + 1), PIR_ROW(p->normal4, 4 * f)}};
 }
 
 /* With room to begin at a multiple of a block. A point has room for one that is read without need. */

@@ -137,7 +137,8 @@ static double size_of(const pir_polytope *p) {
 /* A patch of the body as it stands, with room for its vertices. */
 static pir_patch patch_of(const pir_polytope *p, pir_vec3 out, const pir_mat3 *r, uint32_t *member, bool *is_member,
                           pir_corner *corner) {
-    return (pir_patch){.polytope = p,
+    return (pir_patch){.version = pir_single_version_best(),
+                       .polytope = p,
                        .vertex = p->vertex,
                        .r = r,
                        .sign = r ? -1 : 1,
@@ -351,11 +352,12 @@ static void versions_place_singles_alike(void **state) {
             if (body->loop_start[of_p.facet + 1] - body->loop_start[of_p.facet] > PIR_CLIP_MOST ||
                 body->loop_start[of_q.facet + 1] - body->loop_start[of_q.facet] > PIR_CLIP_MOST)
                 continue;
-            bool is_clear = pir_singles_place_version(0)(&p0, &of_p, &q0, &of_q, axis, &plain);
+            bool is_clear = pir_single_version_of(0)->place(&p0, &of_p, &q0, &of_q, axis, &plain);
             clear += is_clear;
-            for (unsigned version = 1; pir_singles_place_version(version); version++) {
+            for (unsigned version = 1; pir_single_version_of(version); version++) {
                 pir_patch p1 = singled(&p, corner[2]), q1 = singled(&q, corner[3]);
-                assert_int_equal(pir_singles_place_version(version)(&p1, &of_p, &q1, &of_q, axis, &places), is_clear);
+                assert_int_equal(pir_single_version_of(version)->place(&p1, &of_p, &q1, &of_q, axis, &places),
+                                 is_clear);
                 check_same_single(&p0, &p1);
                 check_same_single(&q0, &q1);
                 for (uint32_t j = 0; j < q0.outline.count; j++)
@@ -371,11 +373,69 @@ static void versions_place_singles_alike(void **state) {
     assert_true(clear > 1000);
 }
 
+/* A direction in which edges and facets of a body may be flat, equally near or foremost, but for rounding. */
+static pir_vec3 nearly_facing(const pir_polytope *p, test_random *random, uint32_t half) {
+    pir_vec3 n = p->normal[p->left[half]], m = p->normal[pir_right(p, half)], d = test_random_direction(random);
+    const pir_vec3 some[4] = {n, pir_vec_add(n, m), pir_vec_cross(p->direction[half], d), d};
+    pir_vec3 out = some[test_random_below(random, 4)];
+    out = pir_vec_add(
+        out, pir_vec_scale(d, test_random_below(random, 3) ? ldexp(1, -test_random_between(random, 8, 50)) : 0));
+    double square = pir_vec_dot(out, out);
+    return square > 0 ? pir_vec_scale(out, 1 / sqrt(square)) : n;
+}
+
+/* Every version tells sharp features and foremost facets with the bits of the plain one, ties included. */
+static void versions_look_around_alike(void **state) {
+    (void)state;
+    const pir_single_version *plain = pir_single_version_of(0);
+    int sharp = 0, found = 0, asked = 0;
+    for (uint64_t number = 0; number < 2000; number++) {
+        test_random random = test_random_case("rings", number);
+        test_points at;
+        test_body_points(&random, (test_body)(number % TEST_BODY_COUNT), 4 + number % 40, &at);
+        pir_polytope *p = test_polytope(&at);
+        const uint32_t counts[2] = {p->vertex_count, p->edge_count};
+        for (int i = 0; i < 40 && p->dimension > 0; i++) {
+            pir_feature feature = {(pir_feature_kind)(PIR_FEATURE_VERTEX + i % 2),
+                                   // the last ones, behind which the arrays end, as often as others
+                                   test_random_below(&random, counts[i % 2])};
+            feature.index = i % 4 < 2 ? feature.index : counts[i % 2] - 1;
+            uint32_t half =
+                feature.kind == PIR_FEATURE_EDGE ? p->edge_half[feature.index] : p->ring_start[feature.index];
+            pir_vec3 out = nearly_facing(p, &random, half);
+            // also what an edge falls by, to the bit
+            double slope = fabs(pir_vec_dot(out, p->direction[half])), sine = i % 5 && slope < 1 ? PIR_FLAT : slope;
+            bool is_sharp = plain->is_sharp(p, feature, out, sine);
+            pir_foremost foremost = {UINT32_MAX, 0};
+            if (feature.kind == PIR_FEATURE_VERTEX)
+                foremost = plain->foremost(p, feature.index, out, sine);
+            sharp += is_sharp;
+            found += foremost.half != UINT32_MAX;
+            asked++;
+            for (unsigned version = 1; pir_single_version_of(version); version++) {
+                const pir_single_version *other = pir_single_version_of(version);
+                expect(other->is_sharp(p, feature, out, sine) == is_sharp, "case %d: feature %d %u", (int)number,
+                       (int)feature.kind, feature.index);
+                if (feature.kind != PIR_FEATURE_VERTEX)
+                    continue;
+                pir_foremost again = other->foremost(p, feature.index, out, sine);
+                expect(
+                    again.half == foremost.half &&
+                        (again.half == UINT32_MAX || memcmp(&again.cosine, &foremost.cosine, sizeof again.cosine) == 0),
+                    "case %d: vertex %u", (int)number, feature.index);
+            }
+        }
+        pir_polytope_release(p);
+    }
+    print_message("# of %d features %d are sharp, at %d vertices a facet is foremost\n", asked, sharp, found);
+    assert_true(4 * sharp > asked && 12 * found > asked && sharp < asked);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clipping_finds_what_merging_finds), cmocka_unit_test(flush_outlines_are_unclear),
+        cmocka_unit_test(clipping_finds_what_merging_finds),      cmocka_unit_test(flush_outlines_are_unclear),
         cmocka_unit_test(single_facets_are_what_growing_ends_at), cmocka_unit_test(flat_facets_are_what_grows),
-        cmocka_unit_test(versions_place_singles_alike)};
+        cmocka_unit_test(versions_place_singles_alike),           cmocka_unit_test(versions_look_around_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

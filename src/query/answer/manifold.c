@@ -201,7 +201,7 @@ static uint32_t overlap_singles(struct manifold *m) {
         return 0;
     set_plane(m);
     pir_clip_places places;
-    if (!m->room->place(m->p, &p, m->q, &q, m->axis, &places))
+    if (!m->p->version->place(m->p, &p, m->q, &q, m->axis, &places))
         return PIR_CLIP_UNCLEAR;
     return pir_clip_corners(m->p->outline, m->q->outline, m->p->snap, &places, m->room->shared);
 }

@@ -23,7 +23,9 @@ static pir_layout layout_of(pir_patch_room *room) {
 }
 
 bool pir_patch_room_grow(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
-    pir_patch_room grown = {.place = pir_singles_place_best(),
+    const pir_single_version *version = pir_single_version_best();
+    pir_patch_room grown = {.p = {.version = version},
+                            .q = {.version = version},
                             .of_p = of_p > room->of_p ? of_p : room->of_p,
                             .of_q = of_q > room->of_q ? of_q : room->of_q};
     pir_layout layout = layout_of(&grown);

@@ -41,7 +41,10 @@
 
 #define PIR_NO_FACET UINT32_MAX
 
+typedef struct pir_single_version pir_single_version; // single.h
+
 typedef struct pir_patch {
+    const pir_single_version *version;
     /* the body in its place. P is stored reflected, so its sign is −1. Q is not rotated: its r is NULL. */
     const pir_polytope *polytope;
     const pir_vec3 *vertex;
@@ -62,20 +65,10 @@ typedef struct pir_patch {
     double height, along_u, along_v; /* of a single facet's plane over the contact plane's origin, and its slopes */
 } pir_patch;
 
-typedef struct pir_single pir_single;
-
-/*
- * Sets outlines and planes of the single facets of both patches, and places their corners as pir_clip_place does, which
- * says what it returns: see single.h.
- */
-typedef bool pir_singles_place(pir_patch *p, const pir_single *of_p, pir_patch *q, const pir_single *of_q,
-                               const pir_vec3 axis[3], pir_clip_places *ret_places);
-
 /* Memory for the patches of a query and what they share; zeros at first. */
 typedef struct pir_patch_room {
     pir_patch p, q;
     pir_corner *shared, *hull;
-    pir_singles_place *place;
     size_t of_p, of_q; /* for bodies of so many vertices */
 } pir_patch_room;
 

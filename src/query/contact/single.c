@@ -16,9 +16,6 @@
 
 #include "query/contact/single_versions.h"
 
-/* A facet at a smaller cosine with the contact normal is not taken: heights on its plane would lose digits. */
-#define LEAST_COSINE 0x1p-4
-
 /* Above what sines and differences of unit vectors round by. */
 #define ROUNDING 0x1p-40
 
@@ -49,9 +46,7 @@ static inline double least_slope_beside(const pir_polytope *p, uint32_t half, pi
     return least;
 }
 
-/* Whether all edges that leave a vertex or an edge fall or rise steeply. */
-static inline bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3 m, double turn) {
-    const double sine = PIR_FLAT + turn;
+static inline bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3 m, double sine) {
     if (feature.kind == PIR_FEATURE_VERTEX)
         return least_slope(p, feature.index, m) > sine;
     uint32_t half = p->edge_half[feature.index];
@@ -59,8 +54,20 @@ static inline bool is_sharp(const pir_polytope *p, pir_feature feature, pir_vec3
     return p->artificial || (least_slope_beside(p, half, m) > sine && least_slope_beside(p, p->twin[half], m) > sine);
 }
 
+static bool is_sharp_plain(const pir_polytope *p, pir_feature feature, pir_vec3 m, double sine) {
+    return is_sharp(p, feature, m, sine);
+}
+
+/* Whether most vertices have four edges at most: one by one, these are looked at as fast. */
+static inline bool is_sparse(const pir_polytope *p) {
+    return p->half_count <= 4 * p->vertex_count;
+}
+
 bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn) {
-    return is_sharp(patch->polytope, feature, pir_patch_to_body(patch, patch->out), turn);
+    const pir_polytope *p = patch->polytope;
+    pir_vec3 out = pir_patch_to_body(patch, patch->out);
+    return is_sparse(p) ? is_sharp(p, feature, out, PIR_FLAT + turn)
+                        : patch->version->is_sharp(p, feature, out, PIR_FLAT + turn);
 }
 
 /* --- the shape of a facet --- */
@@ -182,16 +189,33 @@ static struct facing grown_by_edge(const pir_polytope *p, uint32_t half, pir_vec
     return found;
 }
 
-/* The facet that a vertex or an edge grows by; none where either is not sharp. */
-static inline struct facing grown_by(const pir_polytope *p, pir_feature feature, pir_vec3 out, double turn) {
-    struct facing found = {UINT32_MAX, LEAST_COSINE, LEAST_COSINE};
-    if (feature.kind != PIR_FEATURE_VERTEX)
-        return is_sharp(p, feature, out, turn) ? grown_by_edge(p, p->edge_half[feature.index], out, found) : found;
-    // one loop tells both
+/* The same of a vertex, which is sharp. */
+static struct facing grown_by_vertex(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine) {
     double least = 1;
-    found = find_facing(p, feature.index, out, found, &least);
-    found.half = least > PIR_FLAT + turn ? found.half : UINT32_MAX;
+    struct facing found =
+        find_facing(p, v, out, (struct facing){UINT32_MAX, PIR_LEAST_COSINE, PIR_LEAST_COSINE}, &least);
+    found.half = least > sine ? found.half : UINT32_MAX;
     return found;
+}
+
+static pir_foremost foremost_plain(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine) {
+    struct facing found = grown_by_vertex(p, v, out, sine);
+    return (pir_foremost){found.half, found.cosine};
+}
+
+/* The facet that a vertex or an edge grows by; none where either is not sharp. */
+static inline struct facing grown_by(const pir_patch *patch, pir_feature feature, pir_vec3 out, double turn) {
+    const pir_polytope *p = patch->polytope;
+    const double sine = PIR_FLAT + turn;
+    struct facing none = {UINT32_MAX, PIR_LEAST_COSINE, PIR_LEAST_COSINE};
+    if (feature.kind == PIR_FEATURE_EDGE)
+        return patch->version->is_sharp(p, feature, out, sine)
+                   ? grown_by_edge(p, p->edge_half[feature.index], out, none)
+                   : none;
+    if (turn > 0 || is_sparse(p))
+        return grown_by_vertex(p, feature.index, out, sine);
+    pir_foremost found = patch->version->foremost(p, feature.index, out, sine);
+    return (struct facing){found.half, found.cosine, PIR_LEAST_COSINE};
 }
 
 bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_single *ret_single) {
@@ -204,7 +228,7 @@ bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_si
         *ret_single = (pir_single){feature.index, UINT32_MAX, pir_vec_dot(out, n)};
         return stands_alone(patch, feature.index, pir_vec_dot(off, off), ret_single->cosine, turn > 0);
     }
-    struct facing found = grown_by(p, feature, out, turn);
+    struct facing found = grown_by(patch, feature, out, turn);
     if (found.half == UINT32_MAX || (turn > 0 && !(found.cosine - found.next > 2 * turn)))
         return false;
     uint32_t half = found.half;
@@ -284,21 +308,23 @@ static bool place_plain(pir_patch *p, const pir_single *of_p, pir_patch *q, cons
     return pir_clip_place(p->outline, q->outline, p->snap, places);
 }
 
-pir_singles_place *pir_singles_place_version(unsigned index) {
+const pir_single_version *pir_single_version_of(unsigned index) {
+    static const pir_single_version plain = {is_sharp_plain, foremost_plain, place_plain};
     if (index == 0)
-        return place_plain;
+        return &plain;
 #if PIR_HAVE_X86_SINGLES
+    static const pir_single_version avx2 = {pir_is_sharp_avx2, pir_foremost_avx2, pir_singles_place_avx2};
     if (index == 1 && __builtin_cpu_supports("avx2"))
-        return pir_singles_place_avx2;
+        return &avx2;
 #endif
     return NULL;
 }
 
-pir_singles_place *pir_singles_place_best(void) {
+const pir_single_version *pir_single_version_best(void) {
     unsigned index = 0;
-    while (pir_singles_place_version(index + 1))
+    while (pir_single_version_of(index + 1))
         index++;
-    return pir_singles_place_version(index);
+    return pir_single_version_of(index);
 }
 
 /* --- lone vertices --- */

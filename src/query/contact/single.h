@@ -8,6 +8,42 @@
 
 #include "query/contact/patch.h"
 
+/* A facet that is the whole patch. */
+typedef struct pir_single {
+    uint32_t facet;
+    uint32_t half; /* of a vertex: the facet lies between this halfedge from it and the next; else UINT32_MAX */
+    double cosine; /* of its normal and `out` */
+} pir_single;
+
+/* The halfedge before which the facet lies that faces a direction most; UINT32_MAX for none. */
+typedef struct pir_foremost {
+    uint32_t half;
+    double cosine; /* of the facet's normal */
+} pir_foremost;
+
+/* What is done in loops around vertices and facets. All versions give the same bits. */
+struct pir_single_version {
+    /* Whether all edges that leave a vertex or an edge of the body fall or rise along m by more than a sine. */
+    bool (*is_sharp)(const pir_polytope *p, pir_feature feature, pir_vec3 m, double sine);
+    /* At such a vertex, of facets at a cosine above PIR_LEAST_COSINE; `out` is unit. Else none. */
+    pir_foremost (*foremost)(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine);
+    /*
+     * Sets outlines and planes of the single facets of both patches, and places their corners as pir_clip_place does,
+     * which says what it returns.
+     */
+    bool (*place)(pir_patch *p, const pir_single *of_p, pir_patch *q, const pir_single *of_q, const pir_vec3 axis[3],
+                  pir_clip_places *ret_places);
+};
+
+/* A facet at a smaller cosine with the contact normal is not taken: heights on its plane would lose digits. */
+#define PIR_LEAST_COSINE 0x1p-4
+
+/* The plain version first; NULL past those that this machine can run. */
+const pir_single_version *pir_single_version_of(unsigned index);
+
+/* The last of them. */
+const pir_single_version *pir_single_version_best(void);
+
 /*
  * How far things may move while what is said of them here still holds: directions of one body as seen by the other by
  * `turn`, an angle or a chord, points by `way`. 0 for this placement alone.
@@ -18,13 +54,6 @@ typedef struct pir_leeway {
 
 /* Whether the patch of a vertex or an edge is that feature alone, `out` turning by the leeway. */
 bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn);
-
-/* A facet that is the whole patch. */
-struct pir_single {
-    uint32_t facet;
-    uint32_t half; /* of a vertex: the facet lies between this halfedge from it and the next; else UINT32_MAX */
-    double cosine; /* of its normal and `out` */
-};
 
 /*
  * Finds the facet that is the whole patch, where the other body's patch has an area: the feature itself, or the facet
@@ -52,15 +81,6 @@ void pir_patch_set_flat(pir_patch *patch, uint32_t facet, const pir_vec3 axis[2]
 
 /* Sets outline and plane of a single facet. axis[2] = axis[0] × axis[1] is the normal from Q to P. */
 void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]);
-
-/*
- * A version of pir_singles_place, all of which give the same bits: the plain one first; NULL past those that this
- * machine can run.
- */
-pir_singles_place *pir_singles_place_version(unsigned index);
-
-/* The last of them. */
-pir_singles_place *pir_singles_place_best(void);
 
 /* How far the plane of a single facet is along axis[2] over a point of the contact plane. */
 static inline double pir_patch_height(const pir_patch *patch, const pir_corner *at) {

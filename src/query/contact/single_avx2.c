@@ -167,7 +167,7 @@ AVX2 bool pir_singles_place_avx2(pir_patch *p, const pir_single *of_p, pir_patch
                                  const pir_vec3 axis[3], pir_clip_places *places) {
     const uint32_t *start_p = p->polytope->loop_start + of_p->facet, *start_q = q->polytope->loop_start + of_q->facet;
     if (start_p[1] - start_p[0] > 4 || start_q[1] - start_q[0] > 4)
-        return pir_singles_place_version(0)(p, of_p, q, of_q, axis, places);
+        return pir_single_version_of(0)->place(p, of_p, q, of_q, axis, places);
     const struct three axes = three_of(axis);
     const struct four four_p = set_single(p, of_p->facet, &axes), four_q = set_single(q, of_q->facet, &axes);
     return place_four(&four_p, p->outline.count, &four_q, q->outline.count, places);
