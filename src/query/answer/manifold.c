@@ -43,21 +43,27 @@ struct manifold {
 
 /* --- the caller's answer --- */
 
+/* All ones where something holds. */
+static inline uint32_t where(bool holds) {
+    return 0 - (uint32_t)holds;
+}
+
 static inline bool is_feature(const pir_polytope *p, pir_feature feature) {
-    return (feature.kind == PIR_FEATURE_VERTEX && feature.index < p->vertex_count) ||
-           (feature.kind == PIR_FEATURE_EDGE && feature.index < p->edge_count) ||
-           (feature.kind == PIR_FEATURE_FACET && feature.index < p->facet_count);
+    uint32_t count = (p->vertex_count & where(feature.kind == PIR_FEATURE_VERTEX)) |
+                     (p->edge_count & where(feature.kind == PIR_FEATURE_EDGE)) |
+                     (p->facet_count & where(feature.kind == PIR_FEATURE_FACET));
+    return feature.index < count;
 }
 
 /* Whether an answer can be one about these bodies. */
 static inline bool is_usable(const pir_frame *frame, const pir_query_result *answer) {
     double square = pir_vec_dot(answer->normal, answer->normal);
-    // ours are unit vectors within a few 2^-53; a caller may keep them in single precision
     const pir_vec3 *p = &answer->point_p, *q = &answer->point_q;
-    // of a number that is not finite the product with 0 is no number
-    double none = p->x * 0 + p->y * 0 + p->z * 0 + q->x * 0 + q->y * 0 + q->z * 0 + answer->distance * 0;
-    return fabs(square - 1) < 0x1p-20 && none == 0 && is_feature(frame->p.polytope, answer->witness.p) &&
-           is_feature(frame->q.polytope, answer->witness.q);
+    // of a number that is not finite the product with 0 is no number; two at once
+    double even = p->x * 0 + p->z * 0 + q->y * 0, odd = p->y * 0 + q->x * 0 + q->z * 0;
+    // ours are unit vectors within a few 2^-53; a caller may keep them in single precision
+    return (fabs(square - 1) < 0x1p-20) & (even + odd + answer->distance * 0 == 0) &
+           is_feature(frame->p.polytope, answer->witness.p) & is_feature(frame->q.polytope, answer->witness.q);
 }
 
 /* --- setting up --- */
@@ -75,7 +81,7 @@ static inline void set_patch(pir_patch *patch, const pir_body *body, pir_vec3 ou
 /* Sets two unit vectors across n, from the coordinate axis that is least along n. */
 static inline void set_axes(struct manifold *m) {
     double x = fabs(m->n.x), y = fabs(m->n.y), z = fabs(m->n.z);
-    pir_vec3 least = {x <= y && x <= z, y < x && y <= z, z < x && z < y};
+    pir_vec3 least = {(x <= y) & (x <= z), (y < x) & (y <= z), (z < x) & (z < y)};
     pir_vec3 across = pir_vec_cross(m->n, least);
     m->axis[0] = pir_vec_scale(across, 1 / sqrt(pir_vec_dot(across, across)));
     m->axis[1] = pir_vec_cross(m->n, m->axis[0]);
