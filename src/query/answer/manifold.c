@@ -237,6 +237,10 @@ static uint32_t overlap(struct manifold *m) {
     uint32_t count = pir_outline_overlap(m->p->outline, m->q->outline, m->p->snap, PIR_FLUSH, room->shared);
     pir_patch_clear(m->p);
     pir_patch_clear(m->q);
+    if (count > 0) {
+        pir_patch_look_around(m->p);
+        pir_patch_look_around(m->q);
+    }
     return pir_outline_hull(room->shared, count, m->p->snap, room->hull);
 }
 

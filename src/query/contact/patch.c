@@ -179,21 +179,40 @@ void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner 
 /* --- the surface --- */
 
 /*
- * The distance of x from the plane of facet f along `out`, or HUGE_VAL where the facet faces away. A facet at 60° or
- * more to the patch's first facet bounds the patch, and so does a steep one. Rounding may put a corner of the patch's
- * rim beside it, so its plane is moved out by twice PIR_SNAP. Then a point over the patch is never beside it by
- * rounding alone, and one that is beside it belongs on it, however steep it is: on a needle such facets are wider than
- * rounding.
+ * The plane of a facet. A facet at 60° or more to the patch's first facet bounds the patch, and so does a steep one.
+ * Rounding may put a corner of the patch's rim beside it, so its plane is moved out by twice PIR_SNAP. Then a point
+ * over the patch is never beside it by rounding alone, and one that is beside it belongs on it, however steep it is: on
+ * a needle such facets are wider than rounding.
  */
-static double height(const pir_patch *patch, uint32_t f, pir_vec3 x) {
+static inline pir_patch_plane plane_of(const pir_patch *patch, uint32_t f) {
     const pir_polytope *p = patch->polytope;
     pir_vec3 n = normal_of(patch, f);
     double along = pir_vec_dot(n, patch->out);
-    if (along <= 0)
-        return HUGE_VAL;
     bool bounds = along < PIR_STEEP || 2 * pir_vec_dot(p->normal[f], p->normal[patch->facet]) < 1;
     pir_vec3 from = pir_patch_vertex(patch, p->origin[p->loop[p->loop_start[f]]]);
-    return (pir_vec_dot(n, pir_vec_sub(from, x)) + (bounds ? 2 * patch->snap : 0)) / along;
+    return (pir_patch_plane){f, n, from, along, bounds ? 2 * patch->snap : 0};
+}
+
+/* The distance of x from a plane along `out`, or HUGE_VAL where its facet faces away. */
+static inline double height(const pir_patch_plane *plane, pir_vec3 x) {
+    if (plane->along <= 0)
+        return HUGE_VAL;
+    return (pir_vec_dot(plane->n, pir_vec_sub(plane->from, x)) + plane->more) / plane->along;
+}
+
+void pir_patch_look_around(pir_patch *patch) {
+    const pir_polytope *p = patch->polytope;
+    uint32_t f = patch->facet;
+    patch->planes = 0;
+    if (f == PIR_NO_FACET || p->loop_start[f + 1] - p->loop_start[f] >= PIR_PATCH_PLANES)
+        return;
+    patch->plane[patch->planes++] = plane_of(patch, f);
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
+        pir_patch_plane beside = plane_of(patch, pir_right(p, p->loop[i]));
+        // none is lower than one that faces away
+        if (beside.along > 0)
+            patch->plane[patch->planes++] = beside;
+    }
 }
 
 pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
@@ -202,16 +221,26 @@ pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
         return x;
     // the surface is the least of its planes: go from facet to facet until no neighbour is lower
     uint32_t f = patch->facet;
-    double least = height(patch, f, x);
-    for (bool lower = true; lower;) {
+    bool lower = patch->planes == 0;
+    const pir_patch_plane first = lower ? plane_of(patch, f) : patch->plane[0];
+    double least = height(&first, x);
+    for (uint32_t i = 1; i < patch->planes; i++) {
+        double h = height(&patch->plane[i], x);
+        if (h < least) {
+            least = h;
+            f = patch->plane[i].facet;
+            lower = true;
+        }
+    }
+    while (lower) {
         lower = false;
         uint32_t here = f;
         for (uint32_t i = p->loop_start[here]; i < p->loop_start[here + 1]; i++) {
-            uint32_t g = pir_right(p, p->loop[i]);
-            double h = height(patch, g, x);
+            const pir_patch_plane beside = plane_of(patch, pir_right(p, p->loop[i]));
+            double h = height(&beside, x);
             if (h < least) {
                 least = h;
-                f = g;
+                f = beside.facet;
                 lower = true;
             }
         }

@@ -43,6 +43,16 @@
 
 typedef struct pir_single_version pir_single_version; // single.h
 
+/* The plane of a facet in its place. */
+typedef struct pir_patch_plane {
+    uint32_t facet;
+    pir_vec3 n, from;   /* its normal, and a point of it */
+    double along, more; /* the cosine of n and `out`, how far the plane is moved out */
+} pir_patch_plane;
+
+/* The most planes that are kept of a patch: of its first facet, then of those beside it. */
+#define PIR_PATCH_PLANES 17
+
 typedef struct pir_patch {
     const pir_single_version *version;
     /* the body in its place. P is stored reflected, so its sign is −1. Q is not rotated: its r is NULL. */
@@ -63,6 +73,8 @@ typedef struct pir_patch {
     pir_outline outline;
     pir_facet_shape shape;           /* of the last facet that was asked for as a single one */
     double height, along_u, along_v; /* of a single facet's plane over the contact plane's origin, and its slopes */
+    uint32_t planes;                 /* so many are known; 0 for none */
+    pir_patch_plane plane[PIR_PATCH_PLANES];
 } pir_patch;
 
 /* Memory for the patches of a query and what they share; zeros at first. */
@@ -117,6 +129,9 @@ bool pir_patch_extend(pir_patch *patch);
 
 /* Sets the outline in coordinates along two axes of the contact plane. axis[0] × axis[1] is the normal from Q to P. */
 void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner *room);
+
+/* Finds the planes around the first facet once for many points to lift, until the patch or its place changes. */
+void pir_patch_look_around(pir_patch *patch);
 
 /* The point of the surface that x moves to along `out`. x lies beside a point of the patch. */
 pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x);
