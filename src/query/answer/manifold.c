@@ -61,9 +61,10 @@ static inline bool is_usable(const pir_frame *frame, const pir_query_result *ans
     const pir_vec3 *p = &answer->point_p, *q = &answer->point_q;
     // of a number that is not finite the product with 0 is no number; two at once
     double even = p->x * 0 + p->z * 0 + q->y * 0, odd = p->y * 0 + q->x * 0 + q->z * 0;
+    const bool of_p = is_feature(frame->p.polytope, answer->witness.p),
+               of_q = is_feature(frame->q.polytope, answer->witness.q);
     // ours are unit vectors within a few 2^-53; a caller may keep them in single precision
-    return (fabs(square - 1) < 0x1p-20) & (even + odd + answer->distance * 0 == 0) &
-           is_feature(frame->p.polytope, answer->witness.p) & is_feature(frame->q.polytope, answer->witness.q);
+    return (fabs(square - 1) < 0x1p-20) & (even + odd + answer->distance * 0 == 0) & of_p & of_q;
 }
 
 /* --- setting up --- */
