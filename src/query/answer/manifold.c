@@ -13,8 +13,8 @@
  *   - two features without an area, from which nothing grows and which are not parallel, share nothing: the answer is
  *     the one contact;
  *   - a vertex carried by a facet, where no other corner is near, is the one contact;
- *   - two patches of one facet each (single.h) in general position (clip.h) share corners that need no merging, and
- *     these lie on the two facets' planes.
+ *   - two patches of one facet each (single.h), tilted or both across the normal, in general position (clip.h) share
+ *     corners that need no merging, and these lie on the two facets' planes.
  */
 #include "query/answer/manifold.h"
 
@@ -196,17 +196,25 @@ static inline bool find_singles(const struct manifold *m, double turn, pir_singl
            pir_patch_single(m->q, q, turn, ret_q);
 }
 
+/* The facets of both patches, where each is one facet across the normal. */
+static inline bool find_flats(const struct manifold *m, pir_single *ret_p, pir_single *ret_q) {
+    *ret_p = (pir_single){pir_patch_flat(m->p, m->answer->witness.p), UINT32_MAX, 1};
+    if (ret_p->facet == PIR_NO_FACET)
+        return false;
+    *ret_q = (pir_single){pir_patch_flat(m->q, m->answer->witness.q), UINT32_MAX, 1};
+    return ret_q->facet != PIR_NO_FACET;
+}
+
 /* The corners that two single facets share, in the room; PIR_CLIP_UNCLEAR where growing and merging have to tell. */
 static uint32_t overlap_singles(struct manifold *m) {
     pir_single p, q;
-    if (!find_singles(m, 0, &p, &q)) {
-        set_plane(m);
-        return PIR_CLIP_UNCLEAR;
-    }
-    m->is_lone = is_lone_vertex(m, &p, &q, (pir_leeway){0, 0});
+    bool found = find_singles(m, 0, &p, &q);
+    m->is_lone = found && is_lone_vertex(m, &p, &q, (pir_leeway){0, 0});
     if (m->is_lone)
         return 0;
     set_plane(m);
+    if (!found && !find_flats(m, &p, &q))
+        return PIR_CLIP_UNCLEAR;
     pir_clip_places places;
     if (!m->p->version->place(m->p, &p, m->q, &q, m->axis, &places))
         return PIR_CLIP_UNCLEAR;
