@@ -8,34 +8,18 @@
 
 #if PIR_HAVE_X86_SINGLES
 
-#include <immintrin.h>
+#include "base/vec_avx2.h"
 
-#define AVX2 __attribute__((target("avx2")))
-
-/* A vector in all places. */
-struct all {
-    __m256d x, y, z;
-};
-
-AVX2 static inline struct all all_of(pir_vec3 d) {
-    return (struct all){_mm256_set1_pd(d.x), _mm256_set1_pd(d.y), _mm256_set1_pd(d.z)};
-}
-
-AVX2 static inline __m256d along(const struct all *d, __m256d x, __m256d y, __m256d z) {
-    __m256d in_plane = _mm256_add_pd(_mm256_mul_pd(d->x, x), _mm256_mul_pd(d->y, y));
-    return _mm256_add_pd(in_plane, _mm256_mul_pd(d->z, z));
-}
-
-AVX2 static inline __m256d halves(const double *low, const double *high) {
+PIR_AVX2 static inline __m256d halves(const double *low, const double *high) {
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
 }
 
 /* The set of those of four edges that fall or rise along m by at most a sine. */
-AVX2 static inline uint32_t flat_among(const pir_vec3 *direction, const struct all *m, __m256d sine) {
+PIR_AVX2 static inline uint32_t flat_among(const pir_vec3 *direction, pir_four m, __m256d sine) {
     const double *d = &direction->x;
     const __m256d a = halves(d, d + 6), b = halves(d + 2, d + 8), c = halves(d + 4, d + 10);
-    const __m256d slope =
-        along(m, _mm256_shuffle_pd(a, b, 10), _mm256_shuffle_pd(a, c, 5), _mm256_shuffle_pd(b, c, 10));
+    const __m256d slope = pir_four_dot(
+        m, (pir_four){_mm256_shuffle_pd(a, b, 10), _mm256_shuffle_pd(a, c, 5), _mm256_shuffle_pd(b, c, 10)});
     const __m256d size = _mm256_andnot_pd(_mm256_set1_pd(-0.0), slope);
     return (uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(size, sine, _CMP_LE_OQ));
 }
@@ -48,7 +32,7 @@ static inline uint32_t ones(uint32_t count) {
     return (1u << count) - 1;
 }
 
-AVX2 bool pir_is_sharp_avx2(const pir_polytope *p, pir_feature feature, pir_vec3 m, double sine) {
+PIR_AVX2 bool pir_is_sharp_avx2(const pir_polytope *p, pir_feature feature, pir_vec3 m, double sine) {
     if (p->artificial)
         return pir_single_version_of(0)->is_sharp(p, feature, m, sine);
     const bool is_edge = feature.kind == PIR_FEATURE_EDGE;
@@ -59,47 +43,48 @@ AVX2 bool pir_is_sharp_avx2(const pir_polytope *p, pir_feature feature, pir_vec3
                    targets = of_target[1] - target;
     if ((origins > MOST) | (targets > MOST))
         return pir_single_version_of(0)->is_sharp(p, feature, m, sine);
-    const struct all all = all_of(m);
+    const pir_four all = pir_four_of(m);
     const __m256d sines = _mm256_set1_pd(sine);
     const pir_vec3 *direction = p->direction;
-    const uint32_t flat = flat_among(direction + origin, &all, sines) |
-                          flat_among(direction + origin + 4, &all, sines) << 4 |
-                          flat_among(direction + target, &all, sines) << HALF |
-                          flat_among(direction + target + 4, &all, sines) << (HALF + 4);
+    const uint32_t flat = flat_among(direction + origin, all, sines) |
+                          flat_among(direction + origin + 4, all, sines) << 4 |
+                          flat_among(direction + target, all, sines) << HALF |
+                          flat_among(direction + target + 4, all, sines) << (HALF + 4);
     const uint32_t beside = (ones(origins) & ~(1u << (half - origin))) | (ones(targets) & ~(1u << (twin - target)))
                                                                              << HALF;
     return (flat & (is_edge ? beside : ones(origins))) == 0;
 }
 
 /* The cosines of the facets left of four halfedges with a direction. */
-AVX2 static inline __m256d cosines(const pir_polytope *p, uint32_t half, const struct all *out) {
+PIR_AVX2 static inline __m256d cosines(const pir_polytope *p, uint32_t half, pir_four out) {
     const uint32_t *left = p->left + half;
     const __m256d a = _mm256_loadu_pd(&p->normal[left[0]].x), b = _mm256_loadu_pd(&p->normal[left[1]].x),
                   c = _mm256_loadu_pd(&p->normal[left[2]].x), d = _mm256_loadu_pd(&p->normal[left[3]].x);
     const __m256d xz_ab = _mm256_unpacklo_pd(a, b), xz_cd = _mm256_unpacklo_pd(c, d), y_ab = _mm256_unpackhi_pd(a, b),
                   y_cd = _mm256_unpackhi_pd(c, d);
-    return along(out, _mm256_permute2f128_pd(xz_ab, xz_cd, 0x20), _mm256_permute2f128_pd(y_ab, y_cd, 0x20),
-                 _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31));
+    return pir_four_dot(out,
+                        (pir_four){_mm256_permute2f128_pd(xz_ab, xz_cd, 0x20), _mm256_permute2f128_pd(y_ab, y_cd, 0x20),
+                                   _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31)});
 }
 
-AVX2 static inline __m256d greater(__m256d a, __m256d b) {
+PIR_AVX2 static inline __m256d greater(__m256d a, __m256d b) {
     return _mm256_max_pd(a, b);
 }
 
-AVX2 pir_foremost pir_foremost_avx2(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine) {
+PIR_AVX2 pir_foremost pir_foremost_avx2(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine) {
     // ones, then zeros, from 8 - count on
     static const uint64_t some[16] = {UINT64_MAX, UINT64_MAX, UINT64_MAX, UINT64_MAX,
                                       UINT64_MAX, UINT64_MAX, UINT64_MAX, UINT64_MAX};
     const uint32_t start = p->ring_start[v], count = p->ring_start[v + 1] - start;
     if (count > MOST)
         return pir_single_version_of(0)->foremost(p, v, out, sine);
-    const struct all all = all_of(out);
+    const pir_four all = pir_four_of(out);
     const __m256d sines = _mm256_set1_pd(sine), least = _mm256_set1_pd(PIR_LEAST_COSINE);
     const double *mask = (const double *)some + 8 - count;
     const pir_vec3 *direction = p->direction + start;
-    const uint32_t flat = flat_among(direction, &all, sines) | flat_among(direction + 4, &all, sines) << 4;
-    const __m256d low = _mm256_blendv_pd(least, cosines(p, start, &all), _mm256_loadu_pd(mask)),
-                  high = _mm256_blendv_pd(least, cosines(p, start + 4, &all), _mm256_loadu_pd(mask + 4));
+    const uint32_t flat = flat_among(direction, all, sines) | flat_among(direction + 4, all, sines) << 4;
+    const __m256d low = _mm256_blendv_pd(least, cosines(p, start, all), _mm256_loadu_pd(mask)),
+                  high = _mm256_blendv_pd(least, cosines(p, start + 4, all), _mm256_loadu_pd(mask + 4));
     __m256d most = greater(low, high);
     most = greater(most, _mm256_permute2f128_pd(most, most, 1));
     most = greater(most, _mm256_permute_pd(most, 5));

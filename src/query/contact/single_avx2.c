@@ -8,9 +8,7 @@
 
 #if PIR_HAVE_X86_SINGLES
 
-#include <immintrin.h>
-
-#define AVX2 __attribute__((target("avx2")))
+#include "base/vec_avx2.h"
 
 /* --- where corners are --- */
 
@@ -19,16 +17,16 @@ struct four {
     __m256d u, v, along_u, along_v, at, clear;
 };
 
-AVX2 static inline __m256d magnitude(__m256d x) {
+PIR_AVX2 static inline __m256d magnitude(__m256d x) {
     return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x);
 }
 
 /* The same of the corner after each. */
-AVX2 static inline __m256d next(__m256d x, bool has_four) {
+PIR_AVX2 static inline __m256d next(__m256d x, bool has_four) {
     return has_four ? _mm256_permute4x64_pd(x, 0x39) : _mm256_permute4x64_pd(x, 0x49);
 }
 
-AVX2 static inline struct four with_lines(__m256d u, __m256d v, bool has_four, double snap) {
+PIR_AVX2 static inline struct four with_lines(__m256d u, __m256d v, bool has_four, double snap) {
     struct four four = {.u = u, .v = v};
     four.along_u = _mm256_sub_pd(next(u, has_four), u);
     four.along_v = _mm256_sub_pd(next(v, has_four), v);
@@ -39,19 +37,19 @@ AVX2 static inline struct four with_lines(__m256d u, __m256d v, bool has_four, d
 }
 
 /* How far points are inside of lines, times the lengths of the sides. */
-AVX2 static inline __m256d inside_of(__m256d along_u, __m256d along_v, __m256d at, __m256d u, __m256d v) {
+PIR_AVX2 static inline __m256d inside_of(__m256d along_u, __m256d along_v, __m256d at, __m256d u, __m256d v) {
     return _mm256_sub_pd(_mm256_sub_pd(_mm256_mul_pd(along_u, v), _mm256_mul_pd(along_v, u)), at);
 }
 
 /* The lower halves of four numbers. */
-AVX2 static inline __m128i halves(__m256i x) {
+PIR_AVX2 static inline __m128i halves(__m256i x) {
     __m128 low = _mm_castsi128_ps(_mm256_castsi256_si128(x)), high = _mm_castsi128_ps(_mm256_extracti128_si256(x, 1));
     return _mm_castps_si128(_mm_shuffle_ps(low, high, 0x88));
 }
 
 /* Sets which sides cross, from sets of sides of Q per corner and side of P. False where more do than can. */
-AVX2 static inline bool set_crossings(__m128i outside, __m128i beyond, uint32_t p, uint32_t q,
-                                      pir_clip_places *places) {
+PIR_AVX2 static inline bool set_crossings(__m128i outside, __m128i beyond, uint32_t p, uint32_t q,
+                                          pir_clip_places *places) {
     const __m128i one = _mm_set1_epi32(1), none = _mm_setzero_si128();
     __m128i end = p == 4 ? _mm_shuffle_epi32(outside, 0x39) : _mm_shuffle_epi32(outside, 0x49);
     __m128i first = _mm_sll_epi32(_mm_and_si128(beyond, one), _mm_cvtsi32_si128((int)q - 1));
@@ -69,8 +67,8 @@ AVX2 static inline bool set_crossings(__m128i outside, __m128i beyond, uint32_t 
 }
 
 /* As pir_clip_place. */
-AVX2 static inline bool place_four(const struct four *of_p, uint32_t p, const struct four *of_q, uint32_t q,
-                                   pir_clip_places *places) {
+PIR_AVX2 static inline bool place_four(const struct four *of_p, uint32_t p, const struct four *of_q, uint32_t q,
+                                       pir_clip_places *places) {
     double side[6][4];
     _mm256_storeu_pd(side[0], of_q->along_u);
     _mm256_storeu_pd(side[1], of_q->along_v);
@@ -103,37 +101,29 @@ AVX2 static inline bool place_four(const struct four *of_p, uint32_t p, const st
 
 /* --- outlines and planes --- */
 
-/* Three vectors by coordinates. */
-struct three {
-    __m256d x, y, z;
-};
-
-AVX2 static inline struct three three_of(const pir_vec3 axis[3]) {
-    return (struct three){_mm256_set_pd(0, axis[2].x, axis[1].x, axis[0].x),
-                          _mm256_set_pd(0, axis[2].y, axis[1].y, axis[0].y),
-                          _mm256_set_pd(0, axis[2].z, axis[1].z, axis[0].z)};
+PIR_AVX2 static inline pir_four three_of(const pir_vec3 axis[3]) {
+    return (pir_four){_mm256_set_pd(0, axis[2].x, axis[1].x, axis[0].x),
+                      _mm256_set_pd(0, axis[2].y, axis[1].y, axis[0].y),
+                      _mm256_set_pd(0, axis[2].z, axis[1].z, axis[0].z)};
 }
 
-/* Their dot products with one. */
-AVX2 static inline __m256d along(const struct three *three, pir_vec3 d) {
-    __m256d x = _mm256_mul_pd(three->x, _mm256_set1_pd(d.x)), y = _mm256_mul_pd(three->y, _mm256_set1_pd(d.y));
-    return _mm256_add_pd(_mm256_add_pd(x, y), _mm256_mul_pd(three->z, _mm256_set1_pd(d.z)));
+/* Dot products with one vector. */
+PIR_AVX2 static inline __m256d along(pir_four four, pir_vec3 d) {
+    return pir_four_dot(four, pir_four_of(d));
 }
 
-AVX2 static inline struct three to_body(const pir_patch *patch, struct three d) {
+PIR_AVX2 static inline pir_four to_body(const pir_patch *patch, pir_four d) {
     if (patch->r) {
         const double(*m)[3] = patch->r->m;
-        d = (struct three){along(&d, (pir_vec3){m[0][0], m[1][0], m[2][0]}),
-                           along(&d, (pir_vec3){m[0][1], m[1][1], m[2][1]}),
-                           along(&d, (pir_vec3){m[0][2], m[1][2], m[2][2]})};
+        d = (pir_four){along(d, (pir_vec3){m[0][0], m[1][0], m[2][0]}), along(d, (pir_vec3){m[0][1], m[1][1], m[2][1]}),
+                       along(d, (pir_vec3){m[0][2], m[1][2], m[2][2]})};
     }
     __m256d sign = _mm256_set1_pd(patch->sign);
-    return (struct three){_mm256_mul_pd(d.x, sign), _mm256_mul_pd(d.y, sign), _mm256_mul_pd(d.z, sign)};
+    return (pir_four){_mm256_mul_pd(d.x, sign), _mm256_mul_pd(d.y, sign), _mm256_mul_pd(d.z, sign)};
 }
 
 /* A vertex along the axes, put as corner i of the outline. */
-AVX2 static inline __m256d put_corner(const pir_patch *patch, uint32_t i, uint32_t v, const struct three *body,
-                                      __m256d at) {
+PIR_AVX2 static inline __m256d put_corner(const pir_patch *patch, uint32_t i, uint32_t v, pir_four body, __m256d at) {
     __m256d x = _mm256_add_pd(along(body, patch->vertex[v]), at);
     pir_corner *corner = &patch->corner[i];
     _mm_storeu_pd(&corner->u, _mm256_castpd256_pd128(x));
@@ -142,15 +132,15 @@ AVX2 static inline __m256d put_corner(const pir_patch *patch, uint32_t i, uint32
 }
 
 /* Sets outline and plane, as pir_patch_set_single. */
-AVX2 static inline struct four set_single(pir_patch *patch, uint32_t facet, const struct three *axes) {
+PIR_AVX2 static inline struct four set_single(pir_patch *patch, uint32_t facet, pir_four axes) {
     const pir_polytope *p = patch->polytope;
-    const struct three body = to_body(patch, *axes);
+    const pir_four body = to_body(patch, axes);
     const uint32_t *loop = p->loop + p->loop_start[facet], count = p->loop_start[facet + 1] - p->loop_start[facet];
-    const __m256d at = along(axes, patch->at), normal = along(&body, p->normal[facet]);
-    const __m256d a = put_corner(patch, 0, p->origin[loop[0]], &body, at);
-    const __m256d b = put_corner(patch, 1, p->origin[loop[1]], &body, at);
-    const __m256d c = put_corner(patch, 2, p->origin[loop[2]], &body, at);
-    const __m256d d = count == 4 ? put_corner(patch, 3, p->origin[loop[3]], &body, at) : a;
+    const __m256d at = along(axes, patch->at), normal = along(body, p->normal[facet]);
+    const __m256d a = put_corner(patch, 0, p->origin[loop[0]], body, at);
+    const __m256d b = put_corner(patch, 1, p->origin[loop[1]], body, at);
+    const __m256d c = put_corner(patch, 2, p->origin[loop[2]], body, at);
+    const __m256d d = count == 4 ? put_corner(patch, 3, p->origin[loop[3]], body, at) : a;
     const __m128d by = _mm_div_sd(_mm_set_sd(-1), _mm256_extractf128_pd(normal, 1));
     const __m128d slopes = _mm_mul_pd(_mm_unpacklo_pd(by, by), _mm256_castpd256_pd128(normal));
     const __m128d parts = _mm_mul_pd(slopes, _mm256_castpd256_pd128(a));
@@ -163,13 +153,13 @@ AVX2 static inline struct four set_single(pir_patch *patch, uint32_t facet, cons
     return with_lines(_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd), count == 4, patch->snap);
 }
 
-AVX2 bool pir_singles_place_avx2(pir_patch *p, const pir_single *of_p, pir_patch *q, const pir_single *of_q,
-                                 const pir_vec3 axis[3], pir_clip_places *places) {
+PIR_AVX2 bool pir_singles_place_avx2(pir_patch *p, const pir_single *of_p, pir_patch *q, const pir_single *of_q,
+                                     const pir_vec3 axis[3], pir_clip_places *places) {
     const uint32_t *start_p = p->polytope->loop_start + of_p->facet, *start_q = q->polytope->loop_start + of_q->facet;
     if (start_p[1] - start_p[0] > 4 || start_q[1] - start_q[0] > 4)
         return pir_single_version_of(0)->place(p, of_p, q, of_q, axis, places);
-    const struct three axes = three_of(axis);
-    const struct four four_p = set_single(p, of_p->facet, &axes), four_q = set_single(q, of_q->facet, &axes);
+    const pir_four axes = three_of(axis);
+    const struct four four_p = set_single(p, of_p->facet, axes), four_q = set_single(q, of_q->facet, axes);
     return place_four(&four_p, p->outline.count, &four_q, q->outline.count, places);
 }
 

@@ -6,22 +6,10 @@
 #ifndef PIR_QUERY_FRAME_FOURS_AVX2_H
 #define PIR_QUERY_FRAME_FOURS_AVX2_H
 
-#include <immintrin.h>
-
+#include "base/vec_avx2.h"
 #include "query/frame/frame.h"
 
-#define PIR_AVX2 __attribute__((target("avx2")))
-
 /* --- one coordinate of four vectors in each register --- */
-
-typedef struct pir_four {
-    __m256d x, y, z;
-} pir_four;
-
-/* One vector four times. */
-PIR_AVX2 static inline pir_four pir_four_of(pir_vec3 v) {
-    return (pir_four){_mm256_set1_pd(v.x), _mm256_set1_pd(v.y), _mm256_set1_pd(v.z)};
-}
 
 PIR_AVX2 static inline pir_four pir_four_at(const pir_fours *v) {
     return (pir_four){_mm256_loadu_pd(v->x), _mm256_loadu_pd(v->y), _mm256_loadu_pd(v->z)};
@@ -29,10 +17,6 @@ PIR_AVX2 static inline pir_four pir_four_at(const pir_fours *v) {
 
 PIR_AVX2 static inline pir_four pir_four_sub(pir_four a, pir_four b) {
     return (pir_four){_mm256_sub_pd(a.x, b.x), _mm256_sub_pd(a.y, b.y), _mm256_sub_pd(a.z, b.z)};
-}
-
-PIR_AVX2 static inline __m256d pir_four_dot(pir_four a, pir_four b) {
-    return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y)), _mm256_mul_pd(a.z, b.z));
 }
 
 /* The greatest and the least of four. */
