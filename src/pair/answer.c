@@ -6,8 +6,9 @@
  *   - certificate: the proven distance of an earlier answer, less the motion since; after the last one without a
  *     frame (still_apart.h);
  *   - axis: the direction in which the last answer was apart by more than the cutoff, with Q or with P (apart.c);
- *   - same facet: the facet of the last answer, proven again by doubles (same_facet.h). Where it separates, it is the
- *     nearest; where x is within it, foot.h or lead.h tell whether it is the least;
+ *   - same facet: the facet of the last answer, or the one that the foot of x has gone to from there (follow_foot.h),
+ *     proven by doubles (same_facet.h). Where it separates, it is the nearest; where x is within it, foot.h or lead.h
+ *     tell whether it is the least;
  *   - axes: the facet of least slack among all that D can have, where both bodies have few (axes.h);
  *   - surface: that of the last answer, placed again and mended (overlap.h);
  *   - facet: that of the last answer with another corner, or proven by integers;
@@ -122,6 +123,8 @@ static bool by_fresh_facet(pir_task *task) {
     pir_pair *pair = task->pair;
     pir_same is = workspace->prove_same(&workspace->frame, task->placement, pair->facet, NULL, &task->same);
     task->in_doubt = is == PIR_SAME_IN_DOUBT;
+    if (is <= PIR_SAME_BESIDE)
+        is = workspace->follow_foot(&workspace->frame, task->placement, is, &task->same);
     if (!settle_same(task, is))
         return false;
     // what is held is of this piece, with its corner as it is here

@@ -4,8 +4,7 @@
 
 void pir_pair_set_bodies(const pir_pair *pair, pir_workspace *workspace) {
     pir_frame *frame = &workspace->frame;
-    frame->p = pair->body_p->body;
-    frame->q = pair->body_q->body;
+    pir_frame_take_bodies(frame, pair->body_p, pair->body_q);
     frame->offset = frame->q.centre;
     pir_frame_set_exponent(frame, pair->exponent);
 }

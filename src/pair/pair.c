@@ -25,6 +25,7 @@ pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **
     workspace->room.loops = pir_surface_loops_best();
     workspace->axes = pir_axes_loops_best();
     workspace->prove_same = pir_same_facet_best();
+    workspace->follow_foot = pir_follow_foot_best();
     workspace->find_supports = pir_supports_best();
     *ret_workspace = workspace;
     return PIR_OK;

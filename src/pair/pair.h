@@ -25,6 +25,7 @@
 #include "query/decide/nearest.h"
 #include "query/frame/body.h"
 #include "query/frame/supports.h"
+#include "query/last/follow_foot.h"
 
 struct pir_pair {
     pir_allocator allocator;
@@ -74,6 +75,7 @@ struct pir_workspace {
     pir_surface_room room;
     const pir_axes_loops *axes;
     pir_same_prover *prove_same;
+    pir_foot_follower *follow_foot;
     pir_supports *find_supports;
     pir_surface spare; /* where a pair has none */
     pir_patch_room patches;

@@ -8,8 +8,8 @@
 #include "query/decide/flat.h"
 #include "query/decide/witness.h"
 #include "query/last/facet_simplex.h"
+#include "query/last/follow_foot.h"
 #include "query/last/foot.h"
-#include "query/last/same_facet.h"
 #include "query/search/closest.h"
 #include "query/search/depth.h"
 #include "query/search/proof.h"
@@ -61,14 +61,20 @@ static bool was_by_facet(const pir_query_cache *cache) {
     return cache && cache->pieces == 1 && (cache->points == 0 || cache->points == 3);
 }
 
-/* The answer of the facet of the last one, where doubles prove that it still is the one. False where they do not. */
+/* The facet of a piece, or the one that the foot of x has gone to from there, where doubles prove it. */
+static bool prove_near(const pir_frame *frame, const pir_placement *placement, pir_piece piece, pir_same_facet *same) {
+    pir_same is = pir_same_facet_prove(frame, placement, piece, NULL, same);
+    return pir_follow_foot(frame, placement, is, same) == PIR_SAME_PROVEN;
+}
+
+/* The answer of the facet of the last one, or near that, where doubles prove it. False where they do not. */
 static bool by_last_facet(pir_query *query, const pir_placement *placement, double limit, int want,
                           pir_query_cache *cache, pir_query_result *result) {
     const pir_frame *frame = &query->frame;
     pir_piece piece;
     pir_same_facet same;
     if (!was_by_facet(cache) || !pir_piece_cached(&query->search.groups, cache, &piece) ||
-        pir_same_facet_prove(frame, placement, piece, NULL, &same) != PIR_SAME_PROVEN)
+        !prove_near(frame, placement, piece, &same))
         return false;
     if (same.slack > 0 && !pir_foot_settles_within(frame, placement, &same.facet, same.slack, same.margin))
         return false;

@@ -74,6 +74,14 @@ static pir_vec3 inner_of(const pir_body *body) {
     return pir_vec_scale(sum, 1 / all);
 }
 
+/* How far inside the middle is of all facets' planes, less rounding; negative where it may be in none of the body. */
+static double inside_of(const pir_body *body) {
+    double least = body->polytope->dimension == 3 ? HUGE_VAL : -HUGE_VAL;
+    for (uint32_t f = 0; f < body->polytope->facet_count; f++)
+        least = fmin(least, body->offset[f] - 0x1p-46 * body->size);
+    return least > 0 ? least : -HUGE_VAL;
+}
+
 /* The least sine by which an edge falls along the mean of the normals at its vertex; 0 where that is not known. */
 static double point_of(const pir_polytope *p) {
     double least = 1;
@@ -115,6 +123,7 @@ static pir_status make_body(pir_polytope *p, int exponent, pir_kept_body **ret_b
     for (uint32_t f = 0; f < p->facet_count; f++)
         pir_kept_shape_clear(&pir_body_shapes(&made->body)[f]);
     made->inner = inner_of(&made->body);
+    made->inside = inside_of(&made->body);
     double point = point_of(p);
     made->slip = point > 0 ? made->body.size / point : -1;
     *ret_body = made;
@@ -149,8 +158,7 @@ pir_status pir_frame_set_bodies(pir_frame *frame, pir_polytope *p, pir_polytope 
     if (status != PIR_OK)
         return status;
     pir_frame_set_exponent(frame, exponent);
-    frame->p = body_p->body;
-    frame->q = body_q->body;
+    pir_frame_take_bodies(frame, body_p, body_q);
     frame->is_set = false;
     return PIR_OK;
 }

@@ -16,6 +16,7 @@ typedef struct pir_kept_body {
     pir_body body;
     pir_around around; /* what body.around points to */
     pir_vec3 inner;    /* a point of it, inside where it has an inside, and of no symmetry */
+    double inside;     /* the radius of a ball about the middle that it holds; minus infinity for none */
     double slip;       /* how far its support may be above where a climb ends, per slope; negative where not known */
 } pir_kept_body;
 
@@ -24,6 +25,14 @@ pir_status pir_kept_exponent(pir_polytope *p, int *ret_exponent);
 
 /* The polytope in the frame of an exponent. PIR_ERR_MEMORY, PIR_ERR_LIMIT where it is too far from its origin. */
 pir_status pir_kept_body_of(pir_polytope *p, int exponent, const pir_kept_body **ret_body);
+
+/* Sets both bodies of a frame, but not what depends on its unit. */
+static inline void pir_frame_take_bodies(pir_frame *frame, const pir_kept_body *p, const pir_kept_body *q) {
+    frame->p = p->body;
+    frame->q = q->body;
+    // less than what the sum is rounded by
+    frame->inner = (float)((p->inside + q->inside) * (1 - 0x1p-20));
+}
 
 /*
  * Sets both bodies of a frame, which then has no rotation. p and q must outlive the frame's use. Errors as above; the

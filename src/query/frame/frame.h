@@ -70,6 +70,7 @@ static inline pir_kept_shape *pir_body_shapes(const pir_body *body) {
 typedef struct pir_frame {
     pir_body p, q;
     int exponent;    /* one unit of the frame is 2^exponent */
+    float inner;     /* a ball about 0 with this radius is in D; minus infinity where none is known */
     double up, down; /* 2^exponent and 2^-exponent; both 0 where either is no normal number */
 
     /* the rotation that the frame is at */

@@ -78,9 +78,15 @@ static pir_vec3 landmark(const pir_frame *frame, pir_vec3 along) {
     return pir_frame_vertex(frame, a, b);
 }
 
-/* Whether the middle of a body's bounds is inside of it: its swing is greater where that is not known. */
-static bool holds_middle(const pir_body *body) {
-    return body->swing < body->size;
+/* Whether the ball inside of D leaves more than `most` to all facets beyond the reach of the disc: see foot.h. */
+static inline bool is_beyond_ball(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet,
+                                  double most, double margin) {
+    const double far = pir_vec_dot(placement->x, placement->x), along = pir_vec_dot(facet->n, placement->x);
+    const double s = most * most, m = margin * margin, scale = 1 / (s + m);
+    const double cosine = (s - m) * scale, sine = 2 * most * margin * scale, spare = 0x1p-30 * placement->reach;
+    const double square = far - along * along, across = sqrt((square > 0 ? square : 0) + spare * spare);
+    return (margin > 0) & (cosine * sqrt(far) < along - spare) &
+           (frame->inner - spare - (along * cosine + across * sine) > most);
 }
 
 /*
@@ -99,13 +105,12 @@ static inline bool is_enough(const pir_placement *placement, const pir_facet *fa
 
 bool pir_foot_settles_within(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet,
                              double slack, double margin) {
-    double most = (slack > 0 ? slack : 0) + placement->error * facet->err, kappa = most / margin * (1 + 0x1p-40);
+    double most = (slack > 0 ? slack : 0) + placement->error * facet->err;
+    if (is_beyond_ball(frame, placement, facet, most, margin))
+        return true;
     if (!(margin > most))
         return false;
-    // D's middle is at hand; vertices are farther below
-    if (holds_middle(&frame->p) && holds_middle(&frame->q) &&
-        is_enough(placement, facet, (pir_vec3){0, 0, 0}, most, kappa))
-        return true;
+    double kappa = most / margin * (1 + 0x1p-40);
     return is_enough(placement, facet, landmark(frame, pir_vec_scale(facet->n, -1)), most, kappa) ||
            is_enough(placement, facet, landmark(frame, pir_vec_scale(placement->x, -1)), most, kappa);
 }

@@ -2,17 +2,21 @@
 /*
  * The least slack from one facet of D and the foot of x on it.
  *
- * Let F be a facet of D with normal n and slack s at x, y = x + s n the foot of x, and let F hold the disc of radius m
- * about y. Let z be a point of D, k below F, and L at least its distance from the line through x and y. Let G be
- * another facet of D with a normal at the angle θ from n, and S = max(s, 0). D is within the plane of G, so the disc
- * and z are, and the slack of G at y is at least m sin θ and at least −k cos θ − L sin θ. At x it is that, plus
- * s cos θ. Where κ = S / m is below 1 it is above s
+ * Let F be a facet of D with normal n and slack s at x, y = x + s n the foot of x, and let F hold the disc of radius
+ * m about y. Let G be another facet of D with a normal at the angle θ from n, and S = max(s, 0). D is within the plane
+ * of G, so the disc is, and the slack of G at x is at least m sin θ + s cos θ. Since 1 − cos θ = tan(θ/2) sin θ,
+ * it is above s for θ < θ₁, where tan(θ₁/2) = m / S. For all others one of these is enough:
  *
- *   - for tan(θ/2) < 1/κ: it is at least m sin θ + s cos θ, and 1 − cos θ = tan(θ/2) sin θ;
- *   - for all others, where −cos θ ≥ (1 − κ²) / (1 + κ²) and sin θ ≤ 2 κ / (1 + κ²): it is at least
+ *   - The ball of radius r about 0 is in D (frame.h). So the slack of G at x is at least r less what x is along the
+ *     normal of G, which is at an angle of at least θ₁ − ψ from x, ψ being the one of n. Where ψ < θ₁ and
+ *     r − |x| cos(θ₁ − ψ) is above S, so is the slack of G.
+ *   - Let z be a point of D, k below F, and L at least its distance from the line through x and y. The slack of G
+ *     at y is at least −k cos θ − L sin θ. Where κ = S / m is below 1, θ is beyond a right angle: −cos θ ≥
+ *     (1 − κ²) / (1 + κ²) and sin θ ≤ 2 κ / (1 + κ²). So the slack of G at x is at least
  *     ((k − S)(1 − κ²) − 2 κ L) / (1 + κ²), where that is above S.
  *
- * So a body that rests on another, or that has sunk into it by less than the foot is from the rim, needs one facet.
+ * So a body that rests on another, or that has sunk into it by not much more than the foot is from the rim, needs one
+ * facet.
  */
 #ifndef PIR_QUERY_LAST_FOOT_H
 #define PIR_QUERY_LAST_FOOT_H

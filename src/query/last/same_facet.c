@@ -95,8 +95,10 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
     double in_p = pir_vec_dot(by_d, w), in_q = pir_vec_dot(by_e, w);
     double left_p = pir_vec_dot(by_d, along_p) - in_p, left_q = pir_vec_dot(by_e, along_q) - in_q;
     const double h = pir_vec_dot(n, corner);
-    in_p = in_p < left_p ? in_p : left_p;
-    in_q = in_q < left_q ? in_q : left_q;
+    const bool end_p = left_p < in_p, end_q = left_q < in_q;
+    in_p = end_p ? left_p : in_p;
+    in_q = end_q ? left_q : in_q;
+    same->side = in_q < in_p ? 2 + (uint32_t)end_q : (uint32_t)end_p;
     set_facet(same, (pir_witness){{PIR_FEATURE_EDGE, edge}, {PIR_FEATURE_EDGE, q->edge[other]}}, a, b,
               (struct unit_plane){n, err, h});
     pir_same is = measure(placement, in_p < in_q ? in_p : in_q, h - pir_vec_dot(n, placement->x), same);

@@ -95,6 +95,9 @@ PIR_AVX2 static pir_same prove_ee(const pir_frame *frame, const pir_placement *p
     const __m128d inner = _mm_min_pd(first, left),
                   heights = pir_three_two_sums(_mm256_mul_pd(n, corner), _mm256_mul_pd(n, x));
     const double within = _mm_cvtsd_f64(_mm_min_sd(inner, _mm_unpackhi_pd(inner, inner)));
+    const uint32_t ends = (uint32_t)_mm_movemask_pd(_mm_cmplt_pd(left, first));
+    const bool by_e_least = _mm_comilt_sd(_mm_unpackhi_pd(inner, inner), inner);
+    same->side = by_e_least ? 2 + (ends >> 1) : (ends & 1);
     pir_vec3 normal;
     pir_three_put(&normal, n);
     set_facet(same, (pir_witness){{PIR_FEATURE_EDGE, of.edge}, {PIR_FEATURE_EDGE, q->edge[of.other]}}, of.a, of.b,

@@ -59,7 +59,7 @@ SAME_TARGET static inline pir_same measure(const pir_placement *placement, doubl
     // most often both hold
     if ((within > off) & (size > least))
         return PIR_SAME_PROVEN;
-    return within > off ? PIR_SAME_NEAR : within < -off ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
+    return within > off ? PIR_SAME_NEAR : within < -off ? PIR_SAME_BESIDE : PIR_SAME_IN_DOUBT;
 }
 
 /*
