@@ -7,8 +7,8 @@
  *     frame (still_apart.h);
  *   - axis: the direction in which the last answer was apart by more than the cutoff, with Q or with P (apart.c);
  *   - same facet: the facet of the last answer, or the one that the foot of x has gone to from there (follow_foot.h),
- *     proven by doubles (same_facet.h). Where it separates, it is the nearest; where x is within it, foot.h or lead.h
- *     tell whether it is the least;
+ *     proven by doubles (same_facet.h). Where it separates, it is the nearest; where x is within it, foot.h tells
+ *     whether it is the least;
  *   - axes: the facet of least slack among all that D can have, where both bodies have few (axes.h);
  *   - surface: that of the last answer, placed again and mended (overlap.h);
  *   - facet: that of the last answer with another corner, or proven by integers;
@@ -86,9 +86,7 @@ static bool settle_same(pir_task *task, pir_same is) {
         pir_task_near(task, &nearest);
         return true;
     }
-    if (!pir_foot_settles_within(frame, task->placement, &same->facet, same->slack, same->margin) &&
-        !(task->pair->lead.others > same->slack &&
-          pir_lead_lasts(&task->pair->lead, task->placement, same, moved_since(task, way_since(task)))))
+    if (!pir_foot_settles_within(frame, task->placement, &same->facet, same->slack, same->margin))
         return false;
     if (side == 0)
         pir_task_touching(task, &same->facet);
@@ -152,9 +150,6 @@ static bool is_ahead(pir_task *task, const pir_axes_slack *least) {
     if (!(same->slack > 0 && same->slack + task->placement->error * same->facet.err < least->next))
         return false;
     pir_task_inside(task, &same->facet, same->slack);
-    pair->lead = pir_lead_of(task->placement, &same->facet, least->next);
-    pair->at = task->placement->x;
-    pair->turned = task->workspace->frame.unit;
     pair->statistics.by_surface++;
     pir_task_end(task, PIR_LEVEL_OVERLAPPING);
     return true;

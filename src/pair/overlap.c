@@ -281,7 +281,6 @@ struct found {
     pir_facet facet[MOST_FACETS];
     uint32_t corners[MOST_FACETS];
     pir_least least;
-    uint32_t least_at; /* which of them */
 };
 
 /* Takes the facet after the last, which has these corners. True where it is the least of all. */
@@ -290,7 +289,6 @@ static bool add_facet(const pir_overlap *overlap, uint32_t corners, struct found
     found->corners[found->count] = corners;
     pir_least_offer_facet(overlap->exact, overlap->placement, &found->least, facet);
     bool is_least = pir_facet_same(facet, &found->least.facet);
-    found->least_at = is_least ? found->count : found->least_at;
     found->count++;
     return is_least;
 }
@@ -350,22 +348,10 @@ static double bound_of(const pir_overlap *overlap, const pir_least *least) {
     return facet->h - pir_vec_dot(facet->n, overlap->placement->x) + overlap->placement->error * facet->err;
 }
 
-/*
- * A distance from x beyond which all triangles are that do not lie in the least facet. It is cut at three times the
- * bound on the least slack, which few frames notice: what has moved that far mostly needs another proof anyway.
- */
-static double others_than(const pir_overlap *overlap, uint32_t corners, double bound) {
-    const pir_surface_loops *loops = overlap->room->loops;
-    double others = loops->least(overlap->surface, overlap->room, ~loops->within(overlap->surface, corners));
-    return others < 3 * bound ? others : 3 * bound;
-}
-
-bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet, double *ret_others) {
+bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet) {
     struct found found;
     found.count = 0;
-    found.corners[0] = 0;
     found.least.some = false;
-    found.least_at = 0;
     if (*overlap->has_same) {
         found.facet[0] = overlap->same->facet;
         add_facet(overlap, corners_in(overlap, &found.facet[0]), &found);
@@ -375,7 +361,6 @@ bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet, double 
         uint32_t t = next_open(overlap, &found, bound), corner;
         if (t == overlap->surface->count) {
             *ret_facet = found.least.facet;
-            *ret_others = others_than(overlap, found.corners[found.least_at], bound);
             return found.least.some;
         }
         enum expansion expansion = expand(overlap, t, &corner);

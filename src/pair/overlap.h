@@ -40,8 +40,8 @@ pir_about pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_face
 
 /*
  * The true facet of least slack, and the first in order of those that tie, from a surface about x; false where it
- * is left open. All triangles that are not in it are *ret_others from x or farther. `same` may become that facet.
+ * is left open. `same` may become that facet.
  */
-bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet, double *ret_others);
+bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet);
 
 #endif

@@ -5,9 +5,9 @@
  * A pair holds what persists: the bodies, and hints from which the next answer starts. Hints are never believed: an
  * answer follows from proofs at its own placement, so it has the same bits whatever the hints were.
  *
- * The one exception are proofs with the place that they were made at: the distance `apart`, or the lead of the least
- * facet (lead.h). Supports of D have changed against x since by no more than the way of x and the turn times the swing
- * of P (frame.h), so the distance is at least what is left.
+ * The one exception is a proof with the place that it was made at: the distance `apart`. Supports of D have changed
+ * against x since by no more than the way of x and the turn times the swing of P (frame.h), so the distance is at least
+ * what is left.
  */
 #ifndef PIR_PAIR_PAIR_H
 #define PIR_PAIR_PAIR_H
@@ -19,7 +19,6 @@
 #include "base/scratch.h"
 #include "pair/axes/axes.h"
 #include "pair/facet/held_proof.h"
-#include "pair/facet/lead.h"
 #include "pair/surface/inner_surface.h"
 #include "query/contact/patch.h"
 #include "query/decide/nearest.h"
@@ -48,9 +47,8 @@ struct pir_pair {
     uint32_t axis_a, axis_b; /* the supports there */
     pir_surface *surface;    /* made when first needed; used where `deep` */
 
-    /* a proof at a place: x had at least this distance from D, or the lead; 0 where there is none */
+    /* a proof at a place: x had at least this distance from D; 0 where there is none */
     double apart;
-    pir_lead lead;
     pir_vec3 at;
     pir_quat turned;
 

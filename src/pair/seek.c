@@ -48,17 +48,13 @@ static pir_overlap overlap_of(pir_task *task) {
 /* The answer from a surface about x. */
 static bool finish_inside(pir_task *task, const pir_overlap *overlap) {
     pir_facet facet;
-    double others;
     if (!(task->want & PIR_WANT_DEPTH)) {
         pir_result_set_state(task->result, PIR_INSIDE);
         task->pair->apart = 0;
     } else {
-        if (!pir_overlap_least(overlap, &facet, &others))
+        if (!pir_overlap_least(overlap, &facet))
             return false;
         pir_task_inside(task, &facet, pir_facet_slack(task->exact, task->placement, &facet));
-        task->pair->lead = pir_lead_of(task->placement, &facet, others);
-        task->pair->at = task->placement->x;
-        task->pair->turned = task->workspace->frame.unit;
     }
     task->pair->deep = true;
     task->pair->statistics.by_surface++;

@@ -8,7 +8,6 @@
 void pir_task_keep_apart(const pir_task *task, double distance) {
     pir_pair *pair = task->pair;
     pair->apart = distance;
-    pair->lead.others = 0;
     pair->at = task->placement->x;
     pair->turned = task->workspace->frame.unit;
 }
