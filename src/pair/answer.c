@@ -123,6 +123,9 @@ static bool by_fresh_facet(pir_task *task) {
     task->in_doubt = is == PIR_SAME_IN_DOUBT;
     if (is <= PIR_SAME_BESIDE)
         is = workspace->follow_foot(&workspace->frame, task->placement, is, &task->same);
+    // a descent begins there
+    if (is == PIR_SAME_BESIDE)
+        pir_task_keep_facet(pair, &task->same.facet);
     if (!settle_same(task, is))
         return false;
     // what is held is of this piece, with its corner as it is here

@@ -8,8 +8,8 @@
  * that cross no more are left for a facet at the end of one of them.
  *
  * Where x is inside of D, each facet on the way has less slack than the one before: the foot is beyond the next one's
- * plane. So none comes twice. From outside, where the nearest point may lie on no facet, the way may have no end and is
- * given up. Rounding may lead astray; but what is given is proven.
+ * plane. So none comes twice. From outside the nearest point may lie on an edge of D, and the way leads to and fro
+ * across that, or about a vertex: then it is given up. Rounding may lead astray; but what is given is proven.
  */
 #ifndef PIR_QUERY_LAST_FOLLOW_FOOT_H
 #define PIR_QUERY_LAST_FOLLOW_FOOT_H

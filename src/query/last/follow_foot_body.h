@@ -93,9 +93,15 @@ FOOT_TARGET static pir_piece near_edges(const pir_frame *frame, pir_piece piece)
 
 FOOT_TARGET static inline pir_same follow(const pir_frame *frame, const pir_placement *placement, pir_same is,
                                           pir_same_facet *same) {
+    pir_piece before = {PIR_NO_PIECE, 0, 0};
     for (uint32_t left = MOST_FACETS; left > 0 && is <= PIR_SAME_BESIDE; left--) {
-        pir_piece next = is == PIR_SAME_BESIDE ? across(frame, placement, same) : near_edges(frame, same->facet.piece);
+        const pir_piece last = same->facet.piece,
+                        next = is == PIR_SAME_BESIDE ? across(frame, placement, same) : near_edges(frame, last);
+        // to and fro across an edge of D, which the nearest point is on
+        if (next.kind == before.kind && next.first == before.first && next.second == before.second)
+            break;
         is = FOOT_PROVE(frame, placement, next, NULL, same);
+        before = last;
     }
     return is;
 }
