@@ -78,13 +78,19 @@ static pir_vec3 landmark(const pir_frame *frame, pir_vec3 along) {
     return pir_frame_vertex(frame, a, b);
 }
 
-/* Whether the ball inside of D leaves more than `most` to all facets beyond the reach of the disc: see foot.h. */
+/*
+ * Whether the ball inside of D leaves more than `most` to all facets beyond the reach of the disc: see foot.h. The
+ * normal is off by 2^-42 at most, so what x is along it by that times the reach, which is less than `spare`; its part
+ * across comes from squares, which are off by less than 2^-40 of the reach's.
+ */
 static inline bool is_beyond_ball(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet,
                                   double most, double margin) {
     const double far = pir_vec_dot(placement->x, placement->x), along = pir_vec_dot(facet->n, placement->x);
+    const double square = far - along * along, reach = placement->reach;
+    const double across = sqrt((square > 0 ? square : 0) + 0x1p-40 * reach * reach);
     const double s = most * most, m = margin * margin, scale = 1 / (s + m);
-    const double cosine = (s - m) * scale, sine = 2 * most * margin * scale, spare = 0x1p-30 * placement->reach;
-    const double square = far - along * along, across = sqrt((square > 0 ? square : 0) + spare * spare);
+    const double cosine = (s - m) * scale, sine = 2 * most * margin * scale;
+    const double spare = 0x1p-30 * reach + 4 * placement->error;
     return (margin > 0) & (cosine * sqrt(far) < along - spare) &
            (frame->inner - spare - (along * cosine + across * sine) > most);
 }
