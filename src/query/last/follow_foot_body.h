@@ -9,7 +9,7 @@
  * Operations are taken in one order and never fused, so all versions have the same bits.
  */
 
-/* More facets than this are between two answers only where the way has no end. */
+/* A way over more facets than this takes longer than a search; from step to step there are few. */
 #define MOST_FACETS 8
 
 /* The arc of an edge towards its end at a facet: from that on its left to that on its right, or back. */
