@@ -112,6 +112,18 @@ static bool has_insides(const facet_scene *scene) {
     return scene->frame.p.polytope->dimension == 3 && scene->frame.q.polytope->dimension == 3;
 }
 
+static void a_processor_with_avx2_has_its_version(void **state) {
+    (void)state;
+#if defined(__x86_64__) && defined(__GNUC__)
+    if (__builtin_cpu_supports("avx2")) {
+        assert_non_null(pir_same_facet_version(1));
+        assert_non_null(pir_follow_foot_version(1));
+    }
+#endif
+    assert_null(pir_same_facet_version(2));
+    assert_null(pir_follow_foot_version(2));
+}
+
 static void inside_the_end_holds_the_foot(void **state) {
     (void)state;
     struct counts counts = {0};
@@ -165,6 +177,7 @@ static void outside_versions_give_the_same_bits(void **state) {
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_processor_with_avx2_has_its_version),
         cmocka_unit_test(inside_the_end_holds_the_foot),
         cmocka_unit_test(outside_versions_give_the_same_bits),
     };
