@@ -19,7 +19,7 @@ void pir_bytes_finish(pir_bytes *bytes, const pir_allocator *allocator);
 
 uint64_t pir_hash_bytes(uint64_t hash, const void *data, size_t size);
 
-/* The same over numbers of eight bytes, the least significant first; zeros fill the last one up. */
+/* Hashes numbers of eight bytes, the least significant first; zeros fill the last one up. */
 uint64_t pir_hash_words(uint64_t hash, const void *data, size_t size);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a function is declared by that does nothing but fetch memory ahead. GCC takes one that it does not inline for a
+ * Declares a function that does nothing but fetch memory ahead. GCC takes one that it does not inline for a
  * function without effect, and leaves out its calls.
  */
 #ifndef PIR_BASE_FETCHING_H

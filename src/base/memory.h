@@ -18,7 +18,7 @@ pir_allocator pir_allocator_or_default(const pir_allocator *allocator);
  * 0 gives a block of one element, so that NULL always means failure. */
 void *pir_memory_new(const pir_allocator *allocator, size_t count, size_t size);
 
-/* The same, zeroed. */
+/* New memory for `count` elements, zeroed. */
 void *pir_memory_zeroed(const pir_allocator *allocator, size_t count, size_t size);
 
 /*

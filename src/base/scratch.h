@@ -27,7 +27,7 @@ typedef struct pir_scratch {
     void (*destroy[PIR_ROOM_KINDS])(void *room, const pir_allocator *allocator);
 } pir_scratch;
 
-/* What a pir_workspace begins with. */
+/* The head of a pir_workspace. */
 typedef struct pir_workspace_head {
     pir_scratch *scratch;
 } pir_workspace_head;

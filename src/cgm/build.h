@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the two ways to make a map share, from a polytope and from two maps: memory, rings, faces, copies, flags.
+ * Shared by the two ways to make a map, from a polytope and from two maps: memory, rings, faces, copies, flags.
  */
 #ifndef PIR_CGM_BUILD_H
 #define PIR_CGM_BUILD_H
@@ -11,7 +11,7 @@
    NULL when out of memory. */
 pir_cgm *pir_cgm_new(const pir_allocator *allocator, const pir_cgm *first, const pir_cgm *second);
 
-/* The same for a polytope alone; `rotation` may be NULL and is copied. */
+/* A new map of one polytope; `rotation` may be NULL and is copied. */
 pir_cgm *pir_cgm_new_from(const pir_allocator *allocator, pir_polytope *polytope, const pir_rotation *rotation);
 
 /* Takes a reference, which pir_cgm_destroy gives back; the last one frees. Returns the map. */

@@ -63,7 +63,7 @@ struct pir_cgm_source {
     uint32_t normal_start;     /* the number of its facet 0 among facets */
 };
 
-/* What defines a direction: facet `a` when b is PIR_CGM_NONE, else the ray along (signed line a) × (signed line b). */
+/* A direction: the normal of facet `a` when b is PIR_CGM_NONE, else the ray (signed line a) × (signed line b). */
 struct pir_cgm_point {
     uint32_t a, b;
     pir_vec3 unit; /* within `error` of the true unit vector, in Euclidean length */

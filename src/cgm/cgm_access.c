@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What callers may ask of a map. */
+/* The public questions about a map. */
 #include "cgm/build.h"
 
 uint32_t pir_cgm_source_count(const pir_cgm *cgm) {

@@ -79,7 +79,7 @@ static inline void pir_map_corner(uint32_t map, uint32_t corner, int ret_coordin
     ret_coordinates[pir_map_plane_axis(map, 1)] = corner & 1 ? 1 : -1;
 }
 
-/* The same corner as a corner of the cube: bits 0 to 2 are set where x, y, z are positive. */
+/* A map's corner as a corner of the cube: bits 0 to 2 are set where x, y, z are positive. */
 static inline uint32_t pir_cube_corner(uint32_t map, uint32_t corner) {
     int c[3];
     pir_map_corner(map, corner, c);

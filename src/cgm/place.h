@@ -26,7 +26,7 @@ void pir_cgm_places_finish(struct pir_cgm_places *places);
 /* The point of a face, not an outer one, into `to`, whose components have room for `stride` limbs. */
 void pir_cgm_place_exact(struct pir_cgm_places *places, uint32_t face, pir_int3 *to);
 
-/* The same by doubles, sources added in order. */
+/* A face's vertex of the sum by doubles, sources added in order. */
 static inline pir_vec3 pir_cgm_place_near(const pir_cgm *cgm, uint32_t face) {
     pir_vec3 sum = {0, 0, 0};
     for (uint32_t s = 0; s < cgm->source_count; s++) {

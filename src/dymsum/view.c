@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is read of a sum from outside, where it is more than the pairing. */
+/* Reads of a sum from outside that need more than the pairing. */
 #include "dymsum/view.h"
 
 #include <stddef.h>

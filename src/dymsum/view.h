@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What may be read of a sum from outside: its pairing, its rotations, its region, and a number that changes with it.
+ * The read-only view of a sum: its pairing, its rotations, its region, and a number that changes with it.
  *
  * Queries, meshes, live meshes and files include this header and not the sum's own. Nothing here changes a sum, but for
  * the integers that exact signs make on demand. What is borrowed here stays valid until the sum changes or is freed.

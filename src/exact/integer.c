@@ -119,7 +119,7 @@ void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs
 /* Sums of products up to this many limbs are made in one go. */
 #define SHORT_LIMBS 16
 
-/* What holds a product of two limbs. */
+/* Holds a product of two limbs. */
 #if GMP_NUMB_BITS == 64
 __extension__ typedef unsigned __int128 two_limbs;
 #else

@@ -83,7 +83,7 @@ void pir_int_add_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs
 void pir_int_sub_mul(pir_int *dst, const pir_int *a, const pir_int *b, pir_limbs *scratch);
 
 #if GMP_NUMB_BITS == 64
-/* What holds sums of products of two limbs below 2^61. */
+/* Holds sums of products of two limbs below 2^61. */
 __extension__ typedef __int128 pir_two_limbs;
 
 /* The integer, where it is below 2^61. */

@@ -84,7 +84,7 @@ int pir_sign_true(pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
     return exact_sign(signs, a, b);
 }
 
-/* What the coefficients of a tie are made of. */
+/* The inputs of a tie's coefficients. */
 struct tie {
     const pir_int3 *a, *b;
     const pir_int *q; /* x, y, z, w */

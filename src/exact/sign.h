@@ -41,7 +41,7 @@ typedef struct pir_signs {
 } pir_signs;
 
 /*
- * What exact signs work in, which may be shared by all signs of a thread. It begins as zeros. pir_signs_reserve makes
+ * Scratch of exact signs, which all signs of a thread may share. It begins as zeros. pir_signs_reserve makes
  * room for vectors of up to `a_limbs` and `b_limbs` a component: PIR_ERR_MEMORY.
  */
 typedef struct pir_signs_room {

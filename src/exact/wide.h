@@ -42,13 +42,13 @@ void pir_int256_add_scaled(pir_int256 *sum, const pir_int256 *a, int64_t b);
 /* a·b for vectors. */
 pir_int512 pir_int256_dot(const pir_int256 a[3], const pir_int256 b[3]);
 
-/* The same where one has two limbs. */
+/* The dot product where one vector has components of two limbs. */
 pir_int512 pir_int256_dot_two(const pir_int256 a[3], const pir_two_limbs b[3]);
 
 /* a·a for a vector of integers below 2^126. */
 pir_int512 pir_two_square(const pir_two_limbs a[3]);
 
-/* The same number as pir_int_to_double gives. */
+/* The double and exponent that pir_int_to_double gives. */
 double pir_int512_to_double(const pir_int512 *a, int *ret_exponent);
 
 /* The integer, where it is below 2^bits, bits ≤ 126. */

@@ -2,7 +2,7 @@
 /*
  * Running a history. Notes are read one after the other, and each is called as it is read.
  *
- * What breaks the form of the file ends the run with PIR_ERR_FORMAT, and so does memory that runs out, with
+ * A breach of the file's form ends the run with PIR_ERR_FORMAT, and memory that runs out ends it with
  * PIR_ERR_MEMORY. Any other status is what the call came to when it was noted, too: a step that the visitor is told of.
  */
 #include "history/run_notes.h"
@@ -169,7 +169,7 @@ static pir_status call_ask(pir_replay *replay) {
 
 /* --- all of it --- */
 
-/* What notes are called, how they are run, and what the history must be of; PIR_NOTE_NONE for first notes. */
+/* A note's name, its function, and the object that its history must be of; PIR_NOTE_NONE for first notes. */
 static const struct call {
     const char *name;
     pir_status (*run)(pir_replay *replay);
@@ -188,7 +188,7 @@ static const struct call {
     [PIR_NOTE_UPDATE] = {"update", pir_replay_update, PIR_NOTE_SCENE},
 };
 
-/* What the run is of so far: a first note that failed leaves nothing, and no other may follow. */
+/* The object of the run so far: a first note that failed leaves none, and no other note may follow. */
 static pir_note object_of(const pir_replay *replay) {
     return replay->sum ? PIR_NOTE_SUM : replay->pair ? PIR_NOTE_PAIR : replay->scene ? PIR_NOTE_SCENE : PIR_NOTE_NONE;
 }

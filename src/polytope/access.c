@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What callers may ask of a polytope, and the whole-structure check. */
+/* The public questions about a polytope, and the whole-structure check. */
 #include <pirouette/exact.h>
 
 #include "base/vec.h"

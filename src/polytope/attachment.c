@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What other parts keep of a polytope: see attachment.h. */
+/* Data that other rooms attach to a polytope: see attachment.h. */
 #include "polytope/attachment.h"
 
 static pir_attachment *find(pir_attachment *from, const void *kind, int key) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What other parts keep of a polytope: made when first needed, never changed but for numbers that an item learns
+ * Data that other rooms attach to a polytope: made when first needed, never changed but for numbers that an item learns
  * atomically (query/frame/facet_shape.h), freed with the polytope.
  *
  * A polytope is shared by threads, so the list only ever grows at its head, by one atomic exchange. Where two

@@ -35,7 +35,7 @@
 
 typedef struct pir_attachment pir_attachment;
 
-/* What lies across a side of a facet. */
+/* The neighbour of a facet across one of its sides. */
 typedef struct pir_across {
     uint32_t facet;
     uint32_t edge : 31;
@@ -110,7 +110,7 @@ struct pir_polytope {
     pir_attachment *_Atomic attachments; /* of other parts: see attachment.h */
 };
 
-/* What a polytope is built from; everything is copied. */
+/* The parts that a polytope is built from; everything is copied. */
 typedef struct pir_polytope_parts {
     const pir_vectors *points; /* exact, on `scale` */
     const pir_scale *scale;

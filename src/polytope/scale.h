@@ -6,7 +6,7 @@
 #include "polytope/polytope.h"
 
 /*
- * The same polytope with its integers on another scale. PIR_ERR_LIMIT when a coordinate is beyond the doubles,
+ * A copy of the polytope with its integers on another scale. PIR_ERR_LIMIT when a coordinate is beyond the doubles,
  * PIR_ERR_MEMORY.
  */
 pir_status pir_polytope_rescale(const pir_polytope *polytope, const pir_scale *scale, pir_polytope **ret_polytope);

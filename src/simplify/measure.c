@@ -6,7 +6,7 @@
 
 #include "polytope/some_vertices.h"
 
-/* What query.h promises of a distance, with a part in a thousand for the roundings here. */
+/* The bound that query.h promises of a distance, with a part in a thousand for the roundings here. */
 #define PROMISE 1.001e-12
 
 pir_status pir_measure_init(pir_measure *measure, const pir_allocator *allocator) {

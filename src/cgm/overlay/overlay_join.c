@@ -101,7 +101,7 @@ static uint32_t list_a(const struct pir_overlay *o, uint32_t v, uint32_t *list) 
     return count;
 }
 
-/* The same for b; places in the ring are noted for the halfedges and for the faces right of them. */
+/* Lists b's halfedges around v; notes places in the ring for the halfedges and for the faces right of them. */
 static uint32_t list_b(struct pir_overlay *o, uint32_t v, uint32_t *list) {
     const struct pir_joint *joint = &o->joint[v];
     const pir_cgm *b = o->b;

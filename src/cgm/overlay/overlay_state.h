@@ -21,7 +21,7 @@ struct pir_location {
     uint32_t index;
 };
 
-/* What a vertex of the result is in a and in b; PIR_CGM_NONE where a member does not apply. */
+/* A vertex of the result, by where it lies in a and in b; PIR_CGM_NONE where a member does not apply. */
 struct pir_joint {
     uint32_t a, b; /* the vertices that are here */
     /* Within an edge of a: the result's halfedge onwards in the direction in which that edge was walked. The halfedge
@@ -31,7 +31,7 @@ struct pir_joint {
     uint32_t record; /* within an edge of b: its record */
 };
 
-/* What an edge of the result lies on: halfedges of a and b along its halfedge 2e; the face of b where
+/* Where an edge of the result lies: on halfedges of a and b along its halfedge 2e; in the face of b where
    it is on no edge of b. */
 struct pir_seam {
     uint32_t a, b, cell;

@@ -85,7 +85,7 @@ void pir_certificates_shift(pir_certificates *certificates, uint32_t used, doubl
 #define NET_ERROR    0x1p-20f
 #define NET_RELATIVE (1 + 0x1p-19f)
 
-/* What is left of certificate i's margin, at most, in whatever epoch it was made. */
+/* An upper bound on the rest of certificate i's margin, in whatever epoch it was made. */
 static inline float left_of(const pir_certificates *certificates, uint32_t i) {
     const float *now = certificates->now.c;
     float apart = 0, across = 0;

@@ -62,7 +62,7 @@ static inline float pir_epoch_reach(const pir_epoch *epoch) {
     return reach <= PIR_FOLLOWED_FARTHEST ? (float)reach : HUGE_VALF;
 }
 
-/* What a step means for the keys that certificates are filed under. */
+/* The effect of a step on the keys of certificates. */
 typedef enum pir_epoch_event {
     PIR_EPOCH_CONTINUES, /* keys stay as they are */
     PIR_EPOCH_REBASED,   /* *ret_shift is to be subtracted from every key: the phase is counted from here */

@@ -24,7 +24,7 @@ static inline pir_expiry pir_expiry_never(void) {
     return (pir_expiry){HUGE_VAL, HUGE_VAL, -HUGE_VAL};
 }
 
-/* What predictions subtract: the slack for the drift, and 2^-10 of that for the rounding in these functions. */
+/* Predictions subtract the slack for the drift, and 2^-10 of that for the rounding in these functions. */
 #define PIR_EXPIRY_SLACK (PIR_DRIFT_SLACK * (1 + 0x1p-10))
 
 /*

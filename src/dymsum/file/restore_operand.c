@@ -12,7 +12,7 @@
 #include "polytope/hull/hull.h"
 #include "polytope/scale.h"
 
-/* What the file says of one operand. */
+/* One operand, as the file describes it. */
 struct operand {
     uint32_t dimension, vertices, facets, width, corners;
     pir_scale_room room;

@@ -26,7 +26,7 @@
  *     pairing    u32 each  fv; vf; the number of crossings of each edge of P; then, edge by edge, 2·(edge of Q), plus
  *                          1 when it is crossed against its direction from the smaller vertex to the larger
  *
- * What a region leaves out has 2^32 - 1 for its vertex, and no crossings.
+ * A facet that the region leaves out has 2^32 - 1 for its vertex; an edge that it leaves out has no crossings.
  *
  * Facets and edges of a polytope are numbered as polytope.h says, those of a segment included.
  */

@@ -39,7 +39,7 @@
 /* A ring longer than this has all bits of a mask of sides set when any of its sides is in it. */
 #define PIR_SIDE_BITS 64
 
-/* What a check of a facet in a cell finds. */
+/* The result of a check of a facet in a cell. */
 typedef struct pir_check {
     float margin;        /* how far R may turn until some s changes its sign; negative when one is not certain */
     float ahead, behind; /* how far the phase may go either way, both ≥ 0 */
@@ -49,7 +49,7 @@ typedef struct pir_check {
     uint64_t above; /* the sides that it is certainly past: s > PIR_FLOAT_BOUND */
 } pir_check;
 
-/* What a probe of a facet in a cell finds: the check, and which side is the farthest that it may be past. */
+/* The result of a probe of a facet in a cell: the check, and the side that it may be farthest beyond. */
 typedef struct pir_probe {
     float highest;  /* the greatest value s; below −PIR_FLOAT_BOUND the facet is certainly in the cell */
     uint32_t which; /* the first side that has it */
@@ -135,7 +135,7 @@ typedef struct pir_clustered {
     uint32_t clusters;
 } pir_clustered;
 
-/* What is kept of an arc: the normals at its ends, the direction of its edge, the cosine of its length. */
+/* Rows of an arc: the normals at its ends, the direction of its edge, the cosine of its length. */
 enum {
     PIR_ARC_FROM = 0,
     PIR_ARC_TO = 3,
@@ -144,7 +144,7 @@ enum {
     PIR_ARC_ROWS = 10,
 };
 
-/* What is kept of a point: its unit vector. */
+/* Rows of a point: its unit vector. */
 enum { PIR_POINT_ROWS = 3 };
 
 typedef struct pir_kernels {
@@ -215,7 +215,7 @@ static inline const pir_ring *pir_ring_of(const pir_facets *facets, uint32_t cel
     return facets->ring + (facets->single ? cell : facets->ring_block[cell]);
 }
 
-/* The same, and how many blocks there are. */
+/* A cell's ring, and its number of blocks. */
 static inline const pir_ring *pir_rings_of(const pir_facets *facets, uint32_t cell, uint32_t *ret_blocks) {
     if (facets->single) {
         *ret_blocks = 1;

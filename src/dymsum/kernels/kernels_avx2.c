@@ -11,7 +11,7 @@
 /* The lanes in which a and b are equal. */
 #define EQUAL(a, b) ((uint32_t)_mm256_movemask_ps(_mm256_cmp_ps((a), (b), _CMP_EQ_OQ)))
 
-/* The same of integers. */
+/* Lanes of equal integers. */
 #define SAME(a, b) ((uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32((a), (b)))))
 
 #define AT_LEAST(a, b) ((uint32_t)_mm256_movemask_ps(_mm256_cmp_ps((a), (b), _CMP_GE_OQ)))

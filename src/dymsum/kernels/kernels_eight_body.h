@@ -40,7 +40,7 @@ TARGET static inline struct turned spread(const float turned[8]) {
                            _mm256_broadcast_ss(turned + 5), _mm256_broadcast_ss(turned + 6)};
 }
 
-/* What blocks have given so far, lane by lane. */
+/* Running extremes over the blocks, lane by lane. */
 struct seen {
     __m256 highest, least, ahead, behind;
 };

@@ -24,7 +24,7 @@ typedef struct pir_live_sizes {
     uint32_t corners_fixed; /* before the first crossing's */
 } pir_live_sizes;
 
-/* What grows with the sum's room for crossings. */
+/* Arrays that grow with the sum's room for crossings. */
 typedef struct pir_live_slots {
     uint32_t capacity, used; /* crossings */
     uint32_t *edge, *half;   /* per crossing */

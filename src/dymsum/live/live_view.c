@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What callers see of a live mesh: slots, pairs, and coordinates and planes, computed in one pass each. */
+/* The public view of a live mesh: slots, pairs, and coordinates and planes, computed in one pass each. */
 #include "dymsum/live/live_mesh.h"
 #include "dymsum/mesh/placing.h"
 

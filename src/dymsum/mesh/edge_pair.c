@@ -52,7 +52,7 @@ static int exact_side(const pir_posed *posed, const pir_edge_pair *pair, pir_fac
     return side;
 }
 
-/* The same by doubles where they are certain, else exactly. */
+/* The side by doubles where they are certain, else exactly. */
 static int side_of(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet) {
     pir_vec3 normal = facet.of_p ? posed->normal[facet.facet] : posed->pairing->q->normal[facet.facet];
     double value = pir_vec_dot(pir_vec_cross(pair->d, pair->e), normal);

@@ -71,8 +71,8 @@ static inline void pir_crossing_free(pir_tracked *tracked, uint32_t slot) {
 bool pir_crossing_append(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last);
 
 /*
- * The same on a store that has been emptied, and from which no slot has been freed since. The journal has it already
- * that everything changes.
+ * Adds a crossing to a store that was emptied, and from which no slot was freed since. The journal already
+ * holds that everything changes.
  */
 bool pir_crossing_push(pir_tracked *tracked, uint32_t e, uint32_t h, uint32_t *last);
 

@@ -24,7 +24,7 @@
 #include "exact/sign.h"
 #include "polytope/polytope.h"
 
-/* What a sum is made from. References are taken; without scratch it makes its own. */
+/* The parts that a sum is made from. References are taken; without scratch it makes its own. */
 typedef struct pir_sum_parts {
     pir_polytope *p, *q;
     pir_quat rotation;

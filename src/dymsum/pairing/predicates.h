@@ -35,14 +35,14 @@ static inline int pir_sign_half_facet_by(pir_pairing *pairing, uint32_t h, uint3
     return pir_sign_perturbed(&pairing->signs, &e, &n);
 }
 
-/* The same with the value, the halfedge's direction rotated to `rotated`. */
+/* The sign with its value; the halfedge's direction, rotated, is `rotated`. */
 static inline int pir_sign_half_facet(pir_pairing *pairing, uint32_t h, pir_vec3 rotated, uint32_t g,
                                       double *ret_value) {
     *ret_value = pir_vec_dot(rotated, pairing->q->normal[g]);
     return pir_sign_half_facet_by(pairing, h, g, *ret_value);
 }
 
-/* The same, the facet's normal turned back into P's frame instead. */
+/* The sign with its value; the facet's normal, turned back into P's frame, is `turned_back`. */
 static inline int pir_sign_facet_half_back(pir_pairing *pairing, uint32_t g, pir_vec3 turned_back, uint32_t h,
                                            double *ret_value) {
     *ret_value = pir_vec_dot(turned_back, pairing->p->direction[h]);

@@ -61,7 +61,7 @@ static inline uint32_t pir_traces_most(uint32_t certificates) {
     return certificates / PIR_MANY_OPEN + 1;
 }
 
-/* What rebuilds and updates work in: nothing of it lasts from call to call. */
+/* Scratch of rebuilds and updates: nothing of it lasts from call to call. */
 typedef struct pir_pairing_work {
     uint32_t *queue;       /* facets to visit, or edges */
     pir_arc_cells *met;    /* per edge of Q, see pir_arc_cells */

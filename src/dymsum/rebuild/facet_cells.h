@@ -43,9 +43,9 @@ static inline void pir_note_met(pir_tracked *tracked, uint32_t e, uint32_t edge,
 }
 
 /*
- * The same where Q is large. Each crossing of an arc of Q leads from one cell of P to the next, so that what all of
- * them add to a cell's number is the difference of its two ends'. It is noted for the facet that is visited from the
- * other.
+ * Notes a passed edge where Q is large. Each crossing of an arc of Q leads from one cell of P to the next, so all of
+ * them together add the difference of the numbers at the arc's two ends. It is noted for the facet that is visited from
+ * the other.
  */
 static inline void pir_note_passed(pir_tracked *tracked, uint32_t e, uint32_t right, uint32_t left) {
     const pir_edge_arc *arc = &tracked->pairing.p->edge_arc[e];

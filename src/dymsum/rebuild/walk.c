@@ -305,7 +305,7 @@ static bool cross_arcs(pir_tracked *tracked, const pir_arcs *arcs, enum listing 
 }
 
 /*
- * The same of a large body. In between, what the arcs in the next two turns read is fetched: one after another, since a
+ * Crosses the chunk of a large body, and fetches between arcs the memory of the next two: one at a time, since a
  * processor that is to fetch many lines at once does nothing else meanwhile.
  */
 static bool cross_and_fetch(pir_tracked *tracked, const struct chunk *chunk, const pir_arcs *found,

@@ -3,7 +3,7 @@
 #include "dymsum/region/cover.h"
 
 /*
- * What a cone is widened by, so that rounding never excludes a facet that is in it. The pairing does not depend on it.
+ * Widens a cone, so that rounding never excludes a facet that is in it. The pairing does not depend on it.
  */
 #define CONE_SLACK 0x1p-40
 

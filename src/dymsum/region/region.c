@@ -33,8 +33,8 @@
  * when the step is within the old stride, and one that becomes inactive in the new cover when it is within the new
  * stride. After a longer step, a jump, every edge that stays is derived again.
  *
- * What is kept is a function of the cover alone, whatever the history. The members (sweep.h) are the active features.
- * What is no member has no cell and no crossings at any time, within a call as well:
+ * The active features are a function of the cover alone, whatever the history. They are the members (sweep.h).
+ * A feature that is no member has no cell and no crossings at any time, within a call as well:
  *
  *   - A choice sweeps with nothing but the cover and the normals, drops the members that the sweep leaves out, and
  *     makes members of those that it found. What is no member before or after had nothing and gets nothing.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a sum keeps when its caller needs a cone of directions only. The idea and the invariants stand in region.c.
+ * The part of a sum within a cone of directions. The idea and the invariants stand in region.c.
  */
 #ifndef PIR_DYMSUM_REGION_REGION_H
 #define PIR_DYMSUM_REGION_REGION_H

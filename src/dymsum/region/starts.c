@@ -24,7 +24,7 @@ void pir_starts_finish(pir_starts *starts, const pir_allocator *allocator) {
     *starts = (pir_starts){0};
 }
 
-/* What the middle of a square stands for, no longer than 1: the lower half was unfolded around the upper one. */
+/* The direction of a square's middle, no longer than 1: the lower half was unfolded around the upper one. */
 static void middle_of(const pir_starts *starts, uint32_t square, float ret_normal[4]) {
     float step = 2 / (float)starts->side, x = ((float)(square % starts->side) + 0.5f) * step - 1,
           y = ((float)(square / starts->side) + 0.5f) * step - 1, z = 1 - fabsf(x) - fabsf(y), below = z < 0 ? -z : 0;

@@ -12,7 +12,7 @@
 #include "base/layout.h"
 
 /*
- * What the sweep is widened by: floats are off by less than 2^-20 in the cosine; where that becomes an angle, by less
+ * Widens the sweep: floats are off by less than 2^-20 in the cosine; where that becomes an angle, by less
  * than 2^-14.
  */
 #define FLOAT_SLACK 0x1p-18f

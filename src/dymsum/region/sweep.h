@@ -34,7 +34,7 @@ typedef struct pir_sweep {
     float *arc, *point;
 } pir_sweep;
 
-/* What a sweep is made from; nothing is kept but the kernels. */
+/* The inputs of a sweep; it keeps the kernels alone. */
 typedef struct pir_sweep_parts {
     const pir_kernels *kernels;
     const pir_polytope *p, *q;

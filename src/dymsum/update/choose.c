@@ -50,7 +50,7 @@
  */
 #define LEAST_SLOPE 1
 
-/* What an update adds to the work of recent ones, and to the radians, loses this part with each that comes after. */
+/* The work and radians of recent updates lose this share with each update. */
 #define FORGETTING 0x1p-7
 
 /* Staying behind begins to pay where following is expected to cost so many walks; it goes on down to one. */

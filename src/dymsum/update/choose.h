@@ -11,7 +11,7 @@
 
 #include <pirouette/sum.h>
 
-/* What the choice is made from. Work is counted in signs. */
+/* The inputs of the choice. Work is counted in signs. */
 typedef struct pir_cost_model {
     double walk;       /* work of the last walk */
     double per_radian; /* work of recent updates per radian turned, 0 while none is known */

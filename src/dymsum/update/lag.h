@@ -8,7 +8,7 @@
 
 #define PIR_LAG_KNOTS 4
 
-/* What a tolerance needs. */
+/* The state of a tolerance. */
 typedef struct pir_lag_knots {
     /*
      * after a turn by angle[k] the support function falls short by at most length[k]; rising, length[PIR_LAG_KNOTS - 1]

@@ -13,7 +13,7 @@
 uint32_t pir_trace_open(pir_tracked *tracked, bool of_p, const pir_suspect *suspects, uint32_t count, uint32_t room,
                         pir_trace *ret_traces);
 
-/* The same of one facet. */
+/* Traces one facet. */
 void pir_trace_one(pir_tracked *tracked, bool of_p, uint32_t facet, pir_trace *ret_trace);
 
 #endif

@@ -216,7 +216,7 @@ static void note_side(pir_tracked *tracked, uint32_t from, uint32_t to) {
             pir_journal_note_edge(&tracked->journal, p->edge[half]);
 }
 
-/* The same of the edges that a facet of Q has passed one after another, and of that which would be the shortest way. */
+/* Notes the edges that a facet of Q has passed, one after another, and those of the shortest way. */
 static void note_way_of_q(pir_tracked *tracked, const pir_trace *trace) {
     note_side(tracked, trace->from, trace->cell);
     for (uint32_t i = 0; i < trace->count; i++)
@@ -400,7 +400,7 @@ static inline uint32_t review_part(const struct update *update, bool of_p, pir_d
                                     &tracked->certificates, &due, ret_suspects, &tracked->pairing.signs.by_filter);
 }
 
-/* The same of all of P or of Q, where memory is fetched ahead. Traces are made of what a part has just read. */
+/* Reviews all of P or of Q, memory fetched ahead. Each part is traced as soon as it was read. */
 static uint32_t review_and_trace(struct update *update, bool of_p, const uint32_t *expired, uint32_t count,
                                  pir_suspect *ret_suspects) {
     pir_tracked *tracked = update->tracked;

@@ -21,7 +21,7 @@ pir_status pir_polytope_check_options(const pir_polytope_options *options) {
     return options && options->merge_tolerance < 0 ? PIR_ERR_ARGUMENT : PIR_OK;
 }
 
-/* What both ways to make a polytope ask of their arguments. */
+/* Checks the arguments of both ways to make a polytope. */
 static pir_status check_arguments(const void *points, size_t count, const pir_polytope_options *options,
                                   pir_polytope **ret_polytope) {
     if (!ret_polytope || (!points && count > 0))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is asked of the options of a polytope. */
+/* Checks of the options of a polytope. */
 #ifndef PIR_POLYTOPE_CREATE_CREATE_H
 #define PIR_POLYTOPE_CREATE_CREATE_H
 

@@ -427,7 +427,7 @@ static pir_status merge_facets(const pir_polytope *hull, double tolerance, pir_p
     return status;
 }
 
-/* What can be dropped dropped, then what can be merged merged; NULL where nothing can. */
+/* Drops vertices, then merges facets, where that is possible; NULL where it is not. */
 static pir_status drop_and_merge(const pir_polytope *hull, double tolerance, pir_polytope **ret_merged) {
     pir_polytope *thinned = NULL, *merged = NULL;
     pir_status status = pir_merge_thin(hull, tolerance, &thinned);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the name of a file says: its format by the ending, and how reports call it. */
+/* File names: the format by the ending, and the name in reports. */
 #ifndef PIR_POLYTOPE_FILE_FILE_NAME_H
 #define PIR_POLYTOPE_FILE_FILE_NAME_H
 

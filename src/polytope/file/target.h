@@ -9,7 +9,7 @@
 #define PIR_PATH_SIZE 4096
 
 /*
- * What `path` leads to when links are followed, whether it is there or not. False, with errno set, for a circle or
+ * The path to which `path` leads through links, whether it is there or not. False, with errno set, for a circle or
  * too long a name.
  */
 bool pir_follow_links(const char *path, char ret_target[PIR_PATH_SIZE]);

@@ -36,7 +36,7 @@ static void approximate_axis(pir_points *points, int axis, double *mantissa, int
     }
 }
 
-/* The same for all axes; false when out of memory. */
+/* Doubles of all points on all axes; false when out of memory. */
 static bool approximate(pir_points *points, const pir_allocator *allocator) {
     uint32_t count = points->exact->count;
     double *mantissa = PIR_NEW(allocator, double, count);
@@ -54,7 +54,7 @@ struct power {
     double one, other;
 };
 
-/* What brings a magnitude below 1, and near it. */
+/* The power of two that brings a magnitude below 1, and near it. */
 static struct power power_below(double most) {
     int top;
     frexp(most, &top);

@@ -56,7 +56,7 @@ static inline double pir_plane_height(const pir_plane *plane, const pir_points *
 /* Exactly: 1 when p is on the side of the plane abc from which a, b, c turn counter-clockwise, −1 beyond, 0 on it. */
 int pir_orient_exact(pir_points *points, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 
-/* The same, through the filter. */
+/* The orientation, through the filter. */
 int pir_orient(pir_points *points, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 
 /* Exactly: whether a, b, c lie on a line. */

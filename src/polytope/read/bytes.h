@@ -16,7 +16,7 @@ static inline uint64_t pir_bytes_unsigned(const char *bytes, size_t size, bool b
     return value;
 }
 
-/* The same in two's complement, 1 to 4 bytes. */
+/* An integer in two's complement, 1 to 4 bytes. */
 static inline int64_t pir_bytes_signed(const char *bytes, size_t size, bool big) {
     const int64_t value = (int64_t)pir_bytes_unsigned(bytes, size, big), range = (int64_t)1 << (8 * size);
     return value >= range / 2 ? value - range : value;

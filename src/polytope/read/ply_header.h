@@ -12,7 +12,7 @@
 enum ply_format { PLY_ASCII, PLY_LITTLE, PLY_BIG };
 enum ply_type { PLY_INT8, PLY_UINT8, PLY_INT16, PLY_UINT16, PLY_INT32, PLY_UINT32, PLY_FLOAT, PLY_DOUBLE };
 
-/* What a property is to the model. */
+/* The role of a property in the model. */
 enum ply_role { PLY_PASSED_OVER, PLY_X, PLY_Y, PLY_Z, PLY_CORNERS };
 
 struct ply_property {

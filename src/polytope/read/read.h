@@ -5,7 +5,7 @@
 
 #include "polytope/surface/model.h"
 
-/* What is made of a model once it is read. */
+/* The consumer of a model that was read. */
 struct pir_model_maker {
     pir_status (*make)(const struct pir_model *model, void *context);
     void *context;

@@ -146,7 +146,7 @@ static bool same_word(const char *s, const char *word) {
     return *s == *word;
 }
 
-/* What the string looks like. Only decimal digits count: hexadecimal floats are no numbers here. */
+/* The form of a number. Only decimal digits count: hexadecimal floats are no numbers here. */
 static enum form form_of(const char *string) {
     const char *start = pass_sign(string), *s = pass_digits(start);
     size_t digits = (size_t)(s - start);

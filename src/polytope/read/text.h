@@ -70,7 +70,7 @@ bool pir_text_is_number(struct pir_text *text);
  * none. */
 bool pir_text_count(const struct pir_text *text, uint64_t *ret_count);
 
-/* The same for `length` characters at `digits`. */
+/* The count that `length` characters at `digits` spell. */
 bool pir_digits_count(const char *digits, size_t length, uint64_t *ret_count);
 
 #endif

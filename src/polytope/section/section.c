@@ -29,7 +29,7 @@ struct side {
     uint32_t from[2], to[2];
 };
 
-/* What is being cut, and what of the polygon is known. */
+/* The mesh that is cut, and the polygon as far as it is known. */
 struct work {
     const pir_mesh *mesh;
     struct pir_cut cut;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a reader makes of a file: points and facets as they stand in it, before the hull is taken.
+ * The contents of a file: points and facets as they stand in it, before the hull is taken.
  *
  * Points are doubles, or rationals once a coordinate is none. A facet is a loop of point numbers; a corner may be a
  * point that is read later, so that readers check at the end what they could not check before. Memory comes from the

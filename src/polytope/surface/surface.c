@@ -16,7 +16,7 @@
 #include "polytope/surface/cut_polygon.h"
 #include "polytope/surface/facets.h"
 
-/* What is known of a surface, and the facet at which it fails to be that of a convex solid. */
+/* Findings about a surface, and the facet at which it fails to be that of a convex solid. */
 struct examination {
     const struct pir_model *model;
     const struct pir_exact_points *exact;

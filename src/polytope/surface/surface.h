@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the facets of a model are before its hull is taken: closed or not, convex or not, and the volume that they
+ * The facets of a model before its hull is taken: closed or not, convex or not, and the volume that they
  * enclose. All of it is decided exactly, by the positions of corners: points at the same place are one corner, whatever
  * their numbers.
  */

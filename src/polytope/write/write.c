@@ -94,7 +94,7 @@ static FILE *open_beside(const char *target, char ret_name[PIR_PATH_SIZE]) {
     return NULL;
 }
 
-/* What is written, and where. */
+/* A mesh to be written, and its destination. */
 struct job {
     const pir_mesh *mesh;
     const char *path;
