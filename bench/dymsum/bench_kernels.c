@@ -133,7 +133,7 @@ static double run_probe(void *context, unsigned index) {
     struct scene *scene = context;
     const pir_facets *facets = &scene->sum->tracked.p_facets;
     const pir_kernels *kernels = pir_kernels_version(index);
-    pir_probe seen;
+    pir_cell_probe seen;
     double start = trial_now();
     for (uint32_t f = 0; f < facets->count; f++)
         kernels->probe(facets, &scene->sum->tracked.step, facets->cell[f], facets->turn[f % 3], &seen);

@@ -15,7 +15,7 @@
 
 /* --- sites --- */
 
-static uint32_t add_site(struct pir_arcs *arcs, struct pir_site site) {
+static uint32_t add_site(struct pir_cgm_arcs *arcs, struct pir_site site) {
     void *block = arcs->site;
     bool done = pir_cgm_grow(&arcs->allocator, &block, &arcs->site_capacity, arcs->site_count + 1, sizeof *arcs->site);
     arcs->site = block;
@@ -33,7 +33,7 @@ static int at_side(const int8_t planes[PIR_CUBE_PLANES], uint32_t map, uint32_t 
 
 /* Finds where on the cube a point is from its signs at the planes: place, map, cube edge; the corner's site is
    returned, or PIR_CGM_NONE. */
-static uint32_t locate(const struct pir_arcs *arcs, const int8_t planes[PIR_CUBE_PLANES], struct pir_site *site) {
+static uint32_t locate(const struct pir_cgm_arcs *arcs, const int8_t planes[PIR_CUBE_PLANES], struct pir_site *site) {
     for (uint32_t map = 0; map < 6; map++) {
         uint32_t zeros = 0, last = 0;
         bool inside = true, first_and_last = false;
@@ -58,12 +58,13 @@ static uint32_t locate(const struct pir_arcs *arcs, const int8_t planes[PIR_CUBE
     return PIR_CGM_NONE;
 }
 
-static void sign_planes(struct pir_arcs *arcs, const struct pir_cgm_point *point, int8_t ret_planes[PIR_CUBE_PLANES]) {
+static void sign_planes(struct pir_cgm_arcs *arcs, const struct pir_cgm_point *point,
+                        int8_t ret_planes[PIR_CUBE_PLANES]) {
     for (uint32_t k = 0; k < PIR_CUBE_PLANES; k++)
         ret_planes[k] = (int8_t)pir_cgm_side(&arcs->sides, arcs->cgm, 2 * k, arcs->cgm, point);
 }
 
-static bool add_corners(struct pir_arcs *arcs) {
+static bool add_corners(struct pir_cgm_arcs *arcs) {
     for (uint32_t c = 0; c < 8; c++)
         if (add_site(arcs, (struct pir_site){.facet = PIR_CGM_NONE, .place = PIR_CGM_CORNER}) == PIR_CGM_NONE)
             return false;
@@ -77,7 +78,7 @@ static bool add_corners(struct pir_arcs *arcs) {
     return true;
 }
 
-static bool add_facets(struct pir_arcs *arcs) {
+static bool add_facets(struct pir_cgm_arcs *arcs) {
     const pir_polytope *p = arcs->polytope;
     const pir_rotation *rotation = arcs->cgm->source[0].rotation;
     for (uint32_t f = 0; f < p->facet_count && !p->artificial; f++) {
@@ -97,7 +98,7 @@ static bool add_facets(struct pir_arcs *arcs) {
 /* --- walking one arc --- */
 
 struct walk {
-    struct pir_arcs *arcs;
+    struct pir_cgm_arcs *arcs;
     uint32_t edge, line; /* the polytope's edge, its signed line */
     int corner[8];       /* on which side of the line the cube's corners are */
     uint32_t at, end;    /* sites: where it is, where it goes */
@@ -105,14 +106,14 @@ struct walk {
 };
 
 static bool add_piece(struct walk *walk, uint32_t to, uint32_t map, uint32_t cube_edge, bool forward) {
-    struct pir_arcs *arcs = walk->arcs;
+    struct pir_cgm_arcs *arcs = walk->arcs;
     void *block = arcs->piece;
     bool done =
         pir_cgm_grow(&arcs->allocator, &block, &arcs->piece_capacity, arcs->piece_count + 1, sizeof *arcs->piece);
     arcs->piece = block;
     if (done)
         arcs->piece[arcs->piece_count++] =
-            (struct pir_piece){walk->at, to, walk->edge, (uint8_t)map, (uint8_t)cube_edge, forward};
+            (struct pir_arc_piece){walk->at, to, walk->edge, (uint8_t)map, (uint8_t)cube_edge, forward};
     walk->at = to;
     return done;
 }
@@ -124,7 +125,7 @@ static int corner_sign(const struct walk *walk, uint32_t map, uint32_t side) {
 /* From inside map *map, or from its border inwards: to the end or out of it. *map is the next map to
    cross, or PIR_ALONG_EDGE. */
 static bool cross_map(struct walk *walk, uint32_t *map) {
-    struct pir_arcs *arcs = walk->arcs;
+    struct pir_cgm_arcs *arcs = walk->arcs;
     uint32_t side = 0;
     while (corner_sign(walk, *map, side) >= 0 || corner_sign(walk, *map, side + 1) < 0)
         side++;
@@ -147,7 +148,7 @@ static bool cross_map(struct walk *walk, uint32_t *map) {
 
 /* Along cube edge `cube_edge`: to the end or to the corner ahead. */
 static bool follow_edge(struct walk *walk, uint32_t cube_edge, bool forward) {
-    struct pir_arcs *arcs = walk->arcs;
+    struct pir_cgm_arcs *arcs = walk->arcs;
     const struct pir_site *end = &arcs->site[walk->end];
     uint32_t map = arcs->edge_map[cube_edge], side = arcs->edge_side[cube_edge];
     uint32_t to = pir_cube_corner(map, pir_side_corner((side + forward) % 4));
@@ -158,7 +159,7 @@ static bool follow_edge(struct walk *walk, uint32_t cube_edge, bool forward) {
 
 /* From a point on a cube edge: the map it goes into, or PIR_ALONG_EDGE after following the edge. */
 static bool start_on_edge(struct walk *walk, uint32_t *ret_map) {
-    struct pir_arcs *arcs = walk->arcs;
+    struct pir_cgm_arcs *arcs = walk->arcs;
     uint32_t cube_edge = arcs->site[walk->at].cube_edge;
     uint32_t map = arcs->edge_map[cube_edge], side = arcs->edge_side[cube_edge];
     int sign = corner_sign(walk, map, side);
@@ -187,7 +188,7 @@ static bool start_at_corner(struct walk *walk, uint32_t *ret_map) {
 }
 
 static bool walk_arc(struct walk *walk) {
-    struct pir_arcs *arcs = walk->arcs;
+    struct pir_cgm_arcs *arcs = walk->arcs;
     // opposite corners have opposite signs
     for (uint32_t c = 0; c < 4; c++) {
         walk->corner[c] = pir_cgm_side(&arcs->sides, arcs->cgm, walk->line, arcs->cgm, &arcs->site[c].point);
@@ -208,7 +209,7 @@ static bool walk_arc(struct walk *walk) {
     return done;
 }
 
-static bool walk_arcs(struct pir_arcs *arcs) {
+static bool walk_arcs(struct pir_cgm_arcs *arcs) {
     const pir_polytope *p = arcs->polytope;
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t h = p->edge_half[e], to = pir_right(p, h);
@@ -227,7 +228,7 @@ static bool walk_arcs(struct pir_arcs *arcs) {
 }
 
 /* The great circle of a segment, from a point on a cube edge to its opposite and back. */
-static bool walk_circle(struct pir_arcs *arcs) {
+static bool walk_circle(struct pir_cgm_arcs *arcs) {
     uint32_t line = 2 * arcs->cgm->source[0].line_start, at[2] = {PIR_CGM_NONE, PIR_CGM_NONE};
     int8_t planes[2][PIR_CUBE_PLANES];
     // some cube plane meets the circle on a cube edge
@@ -263,7 +264,7 @@ static bool walk_circle(struct pir_arcs *arcs) {
 
 /* --- all of it --- */
 
-static void number_cube_edges(struct pir_arcs *arcs) {
+static void number_cube_edges(struct pir_cgm_arcs *arcs) {
     uint8_t count = 0;
     for (uint32_t map = 0; map < 6; map++)
         for (uint32_t side = 0; side < 4; side++) {
@@ -276,10 +277,10 @@ static void number_cube_edges(struct pir_arcs *arcs) {
         }
 }
 
-bool pir_arcs_init(struct pir_arcs *arcs, const pir_cgm *cgm) {
+bool pir_arcs_init(struct pir_cgm_arcs *arcs, const pir_cgm *cgm) {
     const pir_polytope *p = cgm->source[0].polytope;
     const pir_allocator *a = &cgm->allocator;
-    *arcs = (struct pir_arcs){.allocator = *a, .cgm = cgm, .polytope = p};
+    *arcs = (struct pir_cgm_arcs){.allocator = *a, .cgm = cgm, .polytope = p};
     number_cube_edges(arcs);
     arcs->facet_site = PIR_NEW(a, uint32_t, p->facet_count);
     arcs->facet_planes = pir_memory_new(a, p->facet_count, sizeof *arcs->facet_planes);
@@ -292,7 +293,7 @@ bool pir_arcs_init(struct pir_arcs *arcs, const pir_cgm *cgm) {
     return done;
 }
 
-void pir_arcs_finish(struct pir_arcs *arcs) {
+void pir_arcs_finish(struct pir_cgm_arcs *arcs) {
     const pir_allocator *a = &arcs->allocator;
     PIR_FREE(a, arcs->site, arcs->site_capacity);
     PIR_FREE(a, arcs->piece, arcs->piece_capacity);

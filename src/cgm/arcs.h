@@ -22,13 +22,13 @@ struct pir_site {
     uint8_t cube_edge;  /* where place is PIR_CGM_EDGE */
 };
 
-struct pir_piece {
+struct pir_arc_piece {
     uint32_t from, to, edge; /* sites; the polytope's edge */
     uint8_t map, cube_edge;  /* cube_edge: where map is PIR_ALONG_EDGE */
     uint8_t forward;         /* along a cube edge: whether in its direction */
 };
 
-struct pir_arcs {
+struct pir_cgm_arcs {
     pir_allocator allocator;
     const pir_cgm *cgm; /* of the polytope alone: its sources and lines are there */
     const pir_polytope *polytope;
@@ -37,14 +37,14 @@ struct pir_arcs {
     uint8_t edge_map[PIR_CUBE_EDGES], edge_side[PIR_CUBE_EDGES]; /* a cube edge has the direction of this side */
     uint32_t site_count, site_capacity, piece_count, piece_capacity;
     struct pir_site *site;
-    struct pir_piece *piece;
+    struct pir_arc_piece *piece;
     uint32_t *facet_site;                    /* per facet */
     int8_t (*facet_planes)[PIR_CUBE_PLANES]; /* per facet: on which side of each of the cube's planes */
     uint32_t *piece_start;                   /* per edge, and the end; a segment's are all listed under edge 0 */
 };
 
 /* False when out of memory, with everything released. */
-bool pir_arcs_init(struct pir_arcs *arcs, const pir_cgm *cgm);
-void pir_arcs_finish(struct pir_arcs *arcs);
+bool pir_arcs_init(struct pir_cgm_arcs *arcs, const pir_cgm *cgm);
+void pir_arcs_finish(struct pir_cgm_arcs *arcs);
 
 #endif

@@ -14,7 +14,7 @@
 
 struct construct {
     pir_cgm *cgm;
-    struct pir_arcs arcs;
+    struct pir_cgm_arcs arcs;
     uint32_t vertices, edges; /* made so far */
     uint32_t *vertex_of;      /* per site: its vertex in the map being made */
     uint32_t *piece_half;     /* per piece: the halfedge along it */
@@ -33,13 +33,13 @@ struct construct {
 
 static bool site_before(void *context, uint32_t x, uint32_t y) {
     struct construct *c = context;
-    struct pir_arcs *arcs = &c->arcs;
+    struct pir_cgm_arcs *arcs = &c->arcs;
     uint32_t line = pir_side_line(arcs->edge_map[c->cube_edge], arcs->edge_side[c->cube_edge]);
     return pir_cgm_ahead(&arcs->sides, c->cgm, line, c->cgm, &arcs->site[x].point, c->cgm, &arcs->site[y].point) > 0;
 }
 
 static void sort_edge_sites(struct construct *c) {
-    const struct pir_arcs *arcs = &c->arcs;
+    const struct pir_cgm_arcs *arcs = &c->arcs;
     memset(c->edge_start, 0, sizeof c->edge_start);
     for (uint32_t i = 8; i < arcs->site_count; i++)
         if (arcs->site[i].place == PIR_CGM_EDGE)
@@ -59,12 +59,12 @@ static void sort_edge_sites(struct construct *c) {
 
 /* Notes which parts of cube edges arcs run along. */
 static void cover_cube_edges(struct construct *c) {
-    const struct pir_arcs *arcs = &c->arcs;
+    const struct pir_cgm_arcs *arcs = &c->arcs;
     const pir_polytope *p = arcs->polytope;
     memset(c->cover, 0xff, arcs->site_count * sizeof *c->cover);
     memset(c->first_cover, 0xff, sizeof c->first_cover);
     for (uint32_t i = 0; i < arcs->piece_count; i++) {
-        const struct pir_piece *piece = &arcs->piece[i];
+        const struct pir_arc_piece *piece = &arcs->piece[i];
         if (piece->map != PIR_ALONG_EDGE)
             continue;
         uint32_t half = p->edge_half[piece->edge], start = piece->forward ? piece->from : piece->to;
@@ -100,7 +100,7 @@ static uint32_t add_edge(struct construct *c, uint32_t from, uint32_t to, uint32
 /* The vertices of one side but for its last corner, and what arc runs along from each: into `covers`, from
    the first rim vertex on. */
 static void add_side_vertices(struct construct *c, uint32_t map, uint32_t side, uint32_t *covers) {
-    const struct pir_arcs *arcs = &c->arcs;
+    const struct pir_cgm_arcs *arcs = &c->arcs;
     uint32_t k = arcs->cube_edge[map][side], first = c->cgm->vertex_start[map];
     uint32_t low = c->edge_start[k], n = c->edge_start[k + 1] - low, corner = pir_side_corner(side);
     bool forward = arcs->edge_map[k] == map;
@@ -137,12 +137,12 @@ static void add_rim(struct construct *c, uint32_t map) {
 }
 
 static void add_pieces(struct construct *c, uint32_t map) {
-    const struct pir_arcs *arcs = &c->arcs;
+    const struct pir_cgm_arcs *arcs = &c->arcs;
     for (uint32_t i = 8; i < arcs->site_count; i++)
         if (arcs->site[i].place == PIR_CGM_INTERIOR && arcs->site[i].map == map)
             add_vertex(c, i, map);
     for (uint32_t i = 0; i < arcs->piece_count; i++) {
-        const struct pir_piece *piece = &arcs->piece[i];
+        const struct pir_arc_piece *piece = &arcs->piece[i];
         if (piece->map != map)
             continue;
         uint32_t from = c->vertex_of[piece->from], to = c->vertex_of[piece->to];
@@ -159,7 +159,7 @@ static void add_pieces(struct construct *c, uint32_t map) {
 /* The halfedge in map `map` that starts the arc along polytope halfedge h from the normal of the facet left
    of it, or PIR_CGM_NONE. */
 static uint32_t first_half(const struct construct *c, uint32_t h, uint32_t map) {
-    const struct pir_arcs *arcs = &c->arcs;
+    const struct pir_cgm_arcs *arcs = &c->arcs;
     uint32_t e = arcs->polytope->edge[h];
     bool forward = arcs->polytope->edge_half[e] == h;
     uint32_t piece = forward ? arcs->piece_start[e] : arcs->piece_start[e + 1] - 1;
@@ -274,7 +274,7 @@ static bool set_attributes(struct construct *c) {
 /* Counts what all maps take, and allocates it. */
 static bool allocate(struct construct *c) {
     const pir_allocator *a = &c->cgm->allocator;
-    const struct pir_arcs *arcs = &c->arcs;
+    const struct pir_cgm_arcs *arcs = &c->arcs;
     uint32_t on_edges = 0, interior = 0, pieces = 0;
     for (uint32_t i = 8; i < arcs->site_count; i++)
         arcs->site[i].place == PIR_CGM_EDGE ? on_edges++ : interior++;
@@ -298,7 +298,7 @@ static bool allocate(struct construct *c) {
 
 static void release(struct construct *c, uint32_t vertices, uint32_t edges) {
     const pir_allocator *a = &c->cgm->allocator;
-    const struct pir_arcs *arcs = &c->arcs;
+    const struct pir_cgm_arcs *arcs = &c->arcs;
     PIR_FREE(a, c->vertex_of, arcs->site_count);
     PIR_FREE(a, c->cover, arcs->site_count);
     PIR_FREE(a, c->edge_sites, arcs->site_count);

@@ -74,7 +74,7 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     hash = mix(hash, facets->cell, count * sizeof *cells);
     hash = mix(hash, &sides, sizeof sides);
     for (uint32_t f = 0; f < count; f++) {
-        pir_probe seen;
+        pir_cell_probe seen;
         kernels->probe(facets, &step, cells[f], facets->turn[f % 3], &seen);
         const float spans[4] = {seen.highest, seen.check.margin, seen.check.ahead, seen.check.behind};
         hash = mix(hash, &seen.check.touched, sizeof seen.check.touched);

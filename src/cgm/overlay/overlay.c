@@ -63,9 +63,9 @@ static bool merge_rims(struct pir_overlay *o, uint32_t map) {
         side += r->vertex[v].place == PIR_CGM_CORNER;
         half_a = joint->a != PIR_CGM_NONE ? a->vertex[joint->a].out : half_a;
         half_b = joint->b != PIR_CGM_NONE ? b->vertex[joint->b].out : half_b;
-        struct pir_run *run = &o->run[half_a >> 1];
+        struct pir_overlay_run *run = &o->run[half_a >> 1];
         if (joint->a != PIR_CGM_NONE)
-            *run = (struct pir_run){o->edges, o->edges, half_a};
+            *run = (struct pir_overlay_run){o->edges, o->edges, half_a};
         else
             joint->a_mid = half;
         run->last = o->edges;
@@ -75,7 +75,7 @@ static bool merge_rims(struct pir_overlay *o, uint32_t map) {
             o->record[joint->record].cover = half;
         r->vertex[v].out = half;
         if (pir_overlay_add_edge(o, v, k + 1 == n ? first : v + 1, pir_side_line(map, side),
-                                 (struct pir_seam){half_a, half_b, PIR_CGM_NONE}) == PIR_CGM_NONE)
+                                 (struct pir_overlay_seam){half_a, half_b, PIR_CGM_NONE}) == PIR_CGM_NONE)
             return false;
     }
     return true;

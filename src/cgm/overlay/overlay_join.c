@@ -37,7 +37,8 @@ static bool record_before(void *context, uint32_t x, uint32_t y) {
 static bool add_piece(struct pir_overlay *o, uint32_t e, uint32_t from, uint32_t to, uint32_t covering) {
     if (covering == PIR_CGM_NONE) {
         uint32_t line = pir_overlay_line(o, pir_cgm_half_line(o->b, 2 * e));
-        uint32_t made = pir_overlay_add_edge(o, from, to, line, (struct pir_seam){PIR_CGM_NONE, 2 * e, PIR_CGM_NONE});
+        uint32_t made =
+            pir_overlay_add_edge(o, from, to, line, (struct pir_overlay_seam){PIR_CGM_NONE, 2 * e, PIR_CGM_NONE});
         if (made == PIR_CGM_NONE)
             return false;
         covering = 2 * made;
@@ -90,7 +91,7 @@ static uint32_t list_a(const struct pir_overlay *o, uint32_t v, uint32_t *list) 
     if (joint->a != PIR_CGM_NONE) {
         uint32_t start = o->a->vertex[joint->a].out, h = start;
         do {
-            const struct pir_run *run = &o->run[h >> 1];
+            const struct pir_overlay_run *run = &o->run[h >> 1];
             list[count++] = run->half == h ? 2 * run->first : 2 * run->last + 1;
             h = pir_cgm_clockwise(o->a, h);
         } while (h != start);
@@ -127,7 +128,7 @@ static uint32_t list_b(struct pir_overlay *o, uint32_t v, uint32_t *list) {
 
 /* The place among b's of a halfedge of the result on an edge of a: even on one of b's, odd right of one. */
 static uint32_t position(const struct pir_overlay *o, uint32_t half) {
-    const struct pir_seam *seam = &o->seam[half >> 1];
+    const struct pir_overlay_seam *seam = &o->seam[half >> 1];
     return seam->b != PIR_CGM_NONE ? 2 * o->half_position[seam->b ^ (half & 1)] : 2 * o->face_position[seam->cell] + 1;
 }
 
@@ -193,7 +194,7 @@ static void find_parents(const struct pir_overlay *o, uint32_t *in_a, uint32_t *
     const pir_cgm *r = o->result;
     memset(in_a, 0xff, pir_cgm_faces(r) * sizeof *in_a);
     for (uint32_t h = 0; h < 2 * pir_cgm_edges(r); h++) {
-        const struct pir_seam *seam = &o->seam[h >> 1];
+        const struct pir_overlay_seam *seam = &o->seam[h >> 1];
         uint32_t face = r->half[h].face;
         if (seam->a != PIR_CGM_NONE)
             in_a[face] = o->a->half[seam->a ^ (h & 1)].face;

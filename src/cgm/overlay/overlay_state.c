@@ -13,7 +13,7 @@ static bool allocate(struct pir_overlay *o) {
     o->where = PIR_ZEROED(allocator, struct pir_location, va);
     o->a_vertex = PIR_NEW(allocator, uint32_t, va);
     o->queue = PIR_NEW(allocator, uint32_t, va);
-    o->run = PIR_NEW(allocator, struct pir_run, ea);
+    o->run = PIR_NEW(allocator, struct pir_overlay_run, ea);
     o->b_vertex = PIR_NEW(allocator, uint32_t, vb);
     o->first_record = PIR_NEW(allocator, uint32_t, eb);
     o->first_cover = PIR_NEW(allocator, uint32_t, eb);
@@ -29,7 +29,7 @@ static bool allocate(struct pir_overlay *o) {
     memset(o->first_record, 0xff, eb * sizeof *o->first_record);
     memset(o->first_cover, 0xff, eb * sizeof *o->first_cover);
     for (size_t e = 0; e < ea; e++)
-        o->run[e] = (struct pir_run){1, 0, 0};
+        o->run[e] = (struct pir_overlay_run){1, 0, 0};
     return pir_cgm_sides_init(&o->sides, allocator, o->result, o->result);
 }
 
@@ -114,7 +114,8 @@ uint32_t pir_overlay_vertex_of_b(struct pir_overlay *o, uint32_t w) {
     return o->b_vertex[w] = v;
 }
 
-uint32_t pir_overlay_add_edge(struct pir_overlay *o, uint32_t from, uint32_t to, uint32_t line, struct pir_seam seam) {
+uint32_t pir_overlay_add_edge(struct pir_overlay *o, uint32_t from, uint32_t to, uint32_t line,
+                              struct pir_overlay_seam seam) {
     pir_cgm *r = o->result;
     void *block = o->seam;
     bool done = pir_cgm_reserve_edges(r, o->edges, 1) &&

@@ -33,7 +33,7 @@ struct pir_joint {
 
 /* Where an edge of the result lies: on halfedges of a and b along its halfedge 2e; in the face of b where
    it is on no edge of b. */
-struct pir_seam {
+struct pir_overlay_seam {
     uint32_t a, b, cell;
 };
 
@@ -44,7 +44,7 @@ struct pir_record {
 };
 
 /* The edges of the result on one edge of a, in the order that they were walked. */
-struct pir_run {
+struct pir_overlay_run {
     uint32_t first, last; /* first > last: not walked yet */
     uint32_t half;        /* the halfedge of a that was walked along */
 };
@@ -56,15 +56,15 @@ struct pir_overlay {
     struct pir_cgm_sides sides;
     uint32_t vertices, edges; /* of the result so far */
     uint32_t joint_capacity, seam_capacity, record_count, record_capacity, piece_count, piece_capacity;
-    struct pir_joint *joint; /* per vertex of the result */
-    struct pir_seam *seam;   /* per edge of the result */
+    struct pir_joint *joint;       /* per vertex of the result */
+    struct pir_overlay_seam *seam; /* per edge of the result */
     struct pir_record *record;
     uint32_t *piece; /* the result's halfedges along halfedge 2e of b's edges, edge by edge */
     /* of a */
-    struct pir_location *where; /* per vertex */
-    uint32_t *a_vertex;         /* per vertex: the result's */
-    struct pir_run *run;        /* per edge */
-    uint32_t *queue;            /* vertices located, to be walked from */
+    struct pir_location *where;  /* per vertex */
+    uint32_t *a_vertex;          /* per vertex: the result's */
+    struct pir_overlay_run *run; /* per edge */
+    uint32_t *queue;             /* vertices located, to be walked from */
     /* of b */
     uint32_t *b_vertex;      /* per vertex: the result's, or PIR_CGM_NONE */
     uint32_t *first_record;  /* per edge */
@@ -97,7 +97,7 @@ uint32_t pir_overlay_vertex_of_b(struct pir_overlay *overlay, uint32_t w);
 
 /* Adds an edge of the result; its number, or PIR_CGM_NONE when out of memory. */
 uint32_t pir_overlay_add_edge(struct pir_overlay *overlay, uint32_t from, uint32_t to, uint32_t line,
-                              struct pir_seam seam);
+                              struct pir_overlay_seam seam);
 
 /* Notes that vertex v of the result is within edge e of b; false when out of memory. */
 bool pir_overlay_add_record(struct pir_overlay *overlay, uint32_t v, uint32_t e);

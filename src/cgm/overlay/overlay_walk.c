@@ -52,14 +52,14 @@ static bool add_piece(struct walk *walk, uint32_t to, uint32_t on, uint32_t cell
     struct pir_overlay *o = walk->overlay;
     if (to == PIR_CGM_NONE)
         return false;
-    uint32_t e = pir_overlay_add_edge(o, walk->at, to, walk->line, (struct pir_seam){walk->half, on, cell});
+    uint32_t e = pir_overlay_add_edge(o, walk->at, to, walk->line, (struct pir_overlay_seam){walk->half, on, cell});
     if (e == PIR_CGM_NONE)
         return false;
-    struct pir_run *run = &o->run[walk->half >> 1];
+    struct pir_overlay_run *run = &o->run[walk->half >> 1];
     if (walk->begun)
         o->joint[walk->at].a_mid = 2 * e;
     else
-        *run = (struct pir_run){e, e, walk->half};
+        *run = (struct pir_overlay_run){e, e, walk->half};
     run->last = e;
     walk->begun = true;
     if (on != PIR_CGM_NONE)

@@ -6,7 +6,7 @@
 #include "polytope/polytope.h"
 
 /* Checks a facet in the cell whose ring fills `blocks` blocks. */
-static pir_probe see(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8]) {
+static pir_cell_probe see(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8]) {
     float highest = -HUGE_VALF, least = 4, ahead = PIR_FARTHEST_PREDICTION, behind = PIR_FARTHEST_PREDICTION;
     uint64_t touched = 0, above = 0;
     uint32_t which = 0;
@@ -30,11 +30,11 @@ static pir_probe see(const pir_ring *ring, uint32_t blocks, const pir_step *step
         touched = pir_side_mask_add(touched, i / PIR_LANES, (uint32_t)!clear << i % PIR_LANES);
         above = pir_side_mask_add(above, i / PIR_LANES, (uint32_t)(s > PIR_FLOAT_BOUND) << i % PIR_LANES);
     }
-    return (pir_probe){highest + 0.0f, which, {least - PIR_FLOAT_BOUND, ahead, behind, 0, touched, above}};
+    return (pir_cell_probe){highest + 0.0f, which, {least - PIR_FLOAT_BOUND, ahead, behind, 0, touched, above}};
 }
 
 static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                  pir_probe *ret_probe) {
+                  pir_cell_probe *ret_probe) {
     uint32_t blocks;
     const pir_ring *ring = pir_rings_of(facets, cell, &blocks);
     *ret_probe = see(ring, blocks, step, turned);

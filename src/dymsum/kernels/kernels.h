@@ -50,11 +50,11 @@ typedef struct pir_check {
 } pir_check;
 
 /* The result of a probe of a facet in a cell: the check, and the side that it may be farthest beyond. */
-typedef struct pir_probe {
+typedef struct pir_cell_probe {
     float highest;  /* the greatest value s; below −PIR_FLOAT_BOUND the facet is certainly in the cell */
     uint32_t which; /* the first side that has it */
     pir_check check;
-} pir_probe;
+} pir_cell_probe;
 
 /* A part of a list of expired certificates, by numbers. Parts are reviewed one after another. */
 typedef struct pir_due {
@@ -161,7 +161,7 @@ typedef struct pir_kernels {
 
     /* Probes a facet in the cell of vertex `cell`; turned: its normal rotated, 0, the motion of that, 0. */
     void (*probe)(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                  pir_probe *ret_probe);
+                  pir_cell_probe *ret_probe);
 
     /*
      * Finds the cell of each of `count` facets, 1 to PIR_DESCENT_MOST, from vertex `from` uphill, always along the

@@ -57,7 +57,7 @@ static inline float check(const pir_ring *ring, uint32_t blocks, const pir_step 
 }
 
 static void probe(const pir_facets *facets, const pir_step *step, uint32_t cell, const float turned[8],
-                  pir_probe *ret_probe) {
+                  pir_cell_probe *ret_probe) {
     uint32_t blocks;
     const pir_ring *ring = pir_rings_of(facets, cell, &blocks);
     const float highest = check(ring, blocks, step, turned, &ret_probe->check);

@@ -38,11 +38,11 @@ static uint32_t first_side(const pir_posed *posed, uint32_t half, pir_face_edges
 }
 
 uint32_t pir_face_sum(const pir_posed *posed, pir_face_edges of_p, pir_face_edges of_q, pir_facet_of facet,
-                      pir_corner *corner) {
+                      pir_sum_corner *corner) {
     uint32_t count = 0, i = 0, j = 0, start = first_side(posed, of_p.half[0], of_q, facet);
     while (i < of_p.count || j < of_q.count) {
         uint32_t half = of_p.half[i % of_p.count], h = of_q.half[(start + j) % of_q.count];
-        corner[count++] = (pir_corner){posed->pairing->p->origin[half], posed->pairing->q->origin[h]};
+        corner[count++] = (pir_sum_corner){posed->pairing->p->origin[half], posed->pairing->q->origin[h]};
         int turn = i == of_p.count ? -1 : j == of_q.count ? 1 : turn_between(posed, half, h, facet);
         i += turn >= 0;
         j += turn <= 0;

@@ -6,9 +6,9 @@
 #include "dymsum/mesh/edge_pair.h"
 
 /* A vertex of the sum: one of P and one of Q. */
-typedef struct pir_corner {
+typedef struct pir_sum_corner {
     uint32_t p, q;
-} pir_corner;
+} pir_sum_corner;
 
 /* A face of one polytope, counter-clockwise from outside: the halfedges around a facet, or the two of an edge. */
 typedef struct pir_face_edges {
@@ -26,6 +26,6 @@ static inline pir_face_edges pir_facet_edges(const pir_polytope *of, uint32_t fa
  * the direction of `facet`, which is one of them or has the same normal; one of them is a facet. O(edges).
  */
 uint32_t pir_face_sum(const pir_posed *posed, pir_face_edges of_p, pir_face_edges of_q, pir_facet_of facet,
-                      pir_corner *corner);
+                      pir_sum_corner *corner);
 
 #endif

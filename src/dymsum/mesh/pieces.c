@@ -21,16 +21,16 @@
 
 #include "base/layout.h"
 
-static pir_layout layout_of(pir_pieces *pieces, const pir_pairing *pairing) {
+static pir_layout layout_of(pir_sum_pieces *pieces, const pir_pairing *pairing) {
     size_t words = (size_t)pairing->crossings.used / 64 + 1;
     return (pir_layout){{PIR_ROW(pieces->of_p, pairing->p->facet_count), PIR_ROW(pieces->of_q, pairing->q->facet_count),
                          PIR_ROW(pieces->alone, words)}};
 }
 
-void pir_pieces_finish(pir_pieces *pieces, const pir_posed *posed) {
+void pir_pieces_finish(pir_sum_pieces *pieces, const pir_posed *posed) {
     pir_layout layout = layout_of(pieces, posed->pairing);
     pir_layout_free(&posed->pairing->allocator, &layout);
-    *pieces = (pir_pieces){0};
+    *pieces = (pir_sum_pieces){0};
 }
 
 /* Whether s(a, b) is exactly zero, given its value by doubles. */
@@ -44,7 +44,7 @@ struct ends {
 };
 
 /* Whether the crossing is known to be part of a merged facet, or to have no area, from the notes so far. */
-static bool is_known(const pir_pieces *pieces, const pir_posed *posed, const struct ends *ends) {
+static bool is_known(const pir_sum_pieces *pieces, const pir_posed *posed, const struct ends *ends) {
     bool half_circles = posed->pairing->p->dimension < 3 && posed->pairing->q->dimension < 3;
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++)
@@ -76,7 +76,7 @@ static uint32_t coinciding_q(const pir_posed *posed, const pir_edge_pair *pair, 
 }
 
 /* Whether a crossing is a facet alone. Where it is not, it is noted with the facets that it coincides with. */
-static bool check_crossing(pir_pieces *pieces, const pir_posed *posed, const pir_edge_pair *pair) {
+static bool check_crossing(pir_sum_pieces *pieces, const pir_posed *posed, const pir_edge_pair *pair) {
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     const struct ends ends = {{p->left[pair->half], pir_right(p, pair->half)},
                               {q->left[pair->h], pir_right(q, pair->h)}};
@@ -95,25 +95,25 @@ static bool check_crossing(pir_pieces *pieces, const pir_posed *posed, const pir
         return false;
     uint32_t f = coinciding_p(posed, pair, &ends, tie_p), g = coinciding_q(posed, pair, &ends, tie_q);
     if (f != PIR_NO_FACE)
-        pieces->of_p[f] = (pir_face){g, pair->h};
+        pieces->of_p[f] = (pir_sum_face){g, pair->h};
     if (g != PIR_NO_FACE)
-        pieces->of_q[g] = (pir_face){f, pair->half};
+        pieces->of_q[g] = (pir_sum_face){f, pair->half};
     return f == PIR_NO_FACE && g == PIR_NO_FACE;
 }
 
-pir_status pir_pieces_make(pir_pieces *pieces, const pir_posed *posed) {
+pir_status pir_pieces_make(pir_sum_pieces *pieces, const pir_posed *posed) {
     const pir_pairing *pairing = posed->pairing;
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
-    *pieces = (pir_pieces){0};
+    *pieces = (pir_sum_pieces){0};
     pir_layout layout = layout_of(pieces, pairing);
     if (!pir_layout_new(&pairing->allocator, &layout)) {
         pir_pieces_finish(pieces, posed);
         return PIR_ERR_MEMORY;
     }
     for (uint32_t f = 0; f < p->facet_count; f++)
-        pieces->of_p[f] = (pir_face){PIR_NO_FACE, PIR_NO_FACE};
+        pieces->of_p[f] = (pir_sum_face){PIR_NO_FACE, PIR_NO_FACE};
     for (uint32_t g = 0; g < q->facet_count; g++)
-        pieces->of_q[g] = (pir_face){PIR_NO_FACE, PIR_NO_FACE};
+        pieces->of_q[g] = (pir_sum_face){PIR_NO_FACE, PIR_NO_FACE};
     for (uint32_t edge = 0; edge < p->edge_count; edge++) {
         pir_edge_pair pair = {.half = p->edge_half[edge], .e = pir_posed_direction(posed, p->edge_half[edge])};
         for (uint32_t slot = pir_crossing_first(pairing, edge); slot != PIR_NO_CROSSING;

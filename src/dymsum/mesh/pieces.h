@@ -17,24 +17,24 @@
  * The face of the other operand in the direction of a facet's normal: `facet` when that is one, else the edge of
  * halfedge `half`, else, when both are PIR_NO_FACE, the vertex that the facet is paired with.
  */
-typedef struct pir_face {
+typedef struct pir_sum_face {
     uint32_t facet, half;
-} pir_face;
+} pir_sum_face;
 
-typedef struct pir_pieces {
-    pir_face *of_p, *of_q; /* per facet of P, of Q */
-    uint64_t *alone;       /* a bit for each slot of a crossing: its parallelogram is a facet */
+typedef struct pir_sum_pieces {
+    pir_sum_face *of_p, *of_q; /* per facet of P, of Q */
+    uint64_t *alone;           /* a bit for each slot of a crossing: its parallelogram is a facet */
     uint32_t alone_count;
-} pir_pieces;
+} pir_sum_pieces;
 
 /*
  * The pieces of the sum at the rotation that its pairing is exact at, told apart exactly.
  * PIR_ERR_MEMORY leaves nothing to release.
  */
-pir_status pir_pieces_make(pir_pieces *pieces, const pir_posed *posed);
-void pir_pieces_finish(pir_pieces *pieces, const pir_posed *posed);
+pir_status pir_pieces_make(pir_sum_pieces *pieces, const pir_posed *posed);
+void pir_pieces_finish(pir_sum_pieces *pieces, const pir_posed *posed);
 
-static inline bool pir_piece_is_alone(const pir_pieces *pieces, uint32_t slot) {
+static inline bool pir_piece_is_alone(const pir_sum_pieces *pieces, uint32_t slot) {
     return pieces->alone[slot / 64] >> slot % 64 & 1;
 }
 

@@ -23,7 +23,7 @@ struct facets {
     uint32_t count, corner_count; /* so far */
     uint32_t facet_room, corner_room;
     uint32_t *start;
-    pir_corner *corner;
+    pir_sum_corner *corner;
 };
 
 static pir_layout layout_of(struct facets *facets) {
@@ -32,7 +32,7 @@ static pir_layout layout_of(struct facets *facets) {
 }
 
 /* An upper bound of the corners of a facet of one operand plus the face of the other in its direction. */
-static uint32_t corner_bound(const pir_polytope *of, uint32_t facet, const pir_polytope *other, pir_face face) {
+static uint32_t corner_bound(const pir_polytope *of, uint32_t facet, const pir_polytope *other, pir_sum_face face) {
     uint32_t own = pir_facet_edges(of, facet).count;
     if (face.facet != PIR_NO_FACE)
         return own + pir_facet_edges(other, face.facet).count;
@@ -43,7 +43,7 @@ static uint32_t corner_bound(const pir_polytope *of, uint32_t facet, const pir_p
  * Room for all facets; of two facets that make one the second is not counted. PIR_ERR_MEMORY, or PIR_ERR_LIMIT beyond
  * 2^32 corners.
  */
-static pir_status reserve_facets(struct facets *facets, const pir_posed *posed, const pir_pieces *pieces) {
+static pir_status reserve_facets(struct facets *facets, const pir_posed *posed, const pir_sum_pieces *pieces) {
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     uint64_t count = pieces->alone_count, corners = 4 * (uint64_t)pieces->alone_count;
     for (uint32_t f = 0; f < p->facet_count && !p->artificial; f++, count++)
@@ -68,7 +68,7 @@ static void free_facets(struct facets *facets, const pir_allocator *a) {
 }
 
 /* Where the corners of the next facet go, and the end of that facet. */
-static pir_corner *next_facet(const struct facets *facets) {
+static pir_sum_corner *next_facet(const struct facets *facets) {
     return facets->corner + facets->corner_count;
 }
 
@@ -78,11 +78,11 @@ static void end_facet(struct facets *facets, uint32_t corners) {
 }
 
 /* Appends the facet that facet f of P is or is part of. */
-static void append_facet_of_p(struct facets *facets, const pir_posed *posed, const pir_pieces *pieces, uint32_t f) {
+static void append_facet_of_p(struct facets *facets, const pir_posed *posed, const pir_sum_pieces *pieces, uint32_t f) {
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     pir_face_edges own = pir_facet_edges(p, f);
-    pir_corner *corner = next_facet(facets);
-    pir_face face = pieces->of_p[f];
+    pir_sum_corner *corner = next_facet(facets);
+    pir_sum_face face = pieces->of_p[f];
     uint32_t count = own.count;
     if (face.facet != PIR_NO_FACE || face.half != PIR_NO_FACE) {
         const uint32_t sides[2] = {face.half, q->twin[face.half]};
@@ -90,24 +90,24 @@ static void append_facet_of_p(struct facets *facets, const pir_posed *posed, con
         count = pir_face_sum(posed, own, other, (pir_facet_of){true, f}, corner);
     } else {
         for (uint32_t i = 0; i < count; i++)
-            corner[i] = (pir_corner){p->origin[own.half[i]], posed->pairing->fv[f]};
+            corner[i] = (pir_sum_corner){p->origin[own.half[i]], posed->pairing->fv[f]};
     }
     end_facet(facets, count);
 }
 
 /* Appends the facet that facet g of Q is or is part of, where that is no facet of P as well. */
-static void append_facet_of_q(struct facets *facets, const pir_posed *posed, const pir_pieces *pieces, uint32_t g) {
+static void append_facet_of_q(struct facets *facets, const pir_posed *posed, const pir_sum_pieces *pieces, uint32_t g) {
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
     pir_face_edges own = pir_facet_edges(q, g);
-    pir_corner *corner = next_facet(facets);
-    pir_face face = pieces->of_q[g];
+    pir_sum_corner *corner = next_facet(facets);
+    pir_sum_face face = pieces->of_q[g];
     uint32_t count = own.count;
     if (face.half != PIR_NO_FACE) {
         const uint32_t sides[2] = {face.half, p->twin[face.half]};
         count = pir_face_sum(posed, (pir_face_edges){sides, 2}, own, (pir_facet_of){false, g}, corner);
     } else {
         for (uint32_t i = 0; i < count; i++)
-            corner[i] = (pir_corner){posed->pairing->vf[g], q->origin[own.half[i]]};
+            corner[i] = (pir_sum_corner){posed->pairing->vf[g], q->origin[own.half[i]]};
     }
     end_facet(facets, count);
 }
@@ -118,18 +118,18 @@ static void append_crossing(struct facets *facets, const pir_posed *posed, uint3
     const pir_polytope *p = pairing->p, *q = pairing->q;
     uint32_t half = p->edge_half[pir_crossing_edge(pairing, slot)], h = pir_crossing_half(pairing, slot);
     uint32_t p0 = p->origin[half], p1 = p->target[half], q0 = q->origin[h], q1 = q->target[h];
-    pir_corner *corner = next_facet(facets);
-    corner[0] = (pir_corner){p0, q0};
-    corner[1] = (pir_corner){p0, q1};
-    corner[2] = (pir_corner){p1, q1};
-    corner[3] = (pir_corner){p1, q0};
+    pir_sum_corner *corner = next_facet(facets);
+    corner[0] = (pir_sum_corner){p0, q0};
+    corner[1] = (pir_sum_corner){p0, q1};
+    corner[2] = (pir_sum_corner){p1, q1};
+    corner[3] = (pir_sum_corner){p1, q0};
     end_facet(facets, 4);
 }
 
 /* All facets of the true sum; errors as reserve_facets. */
 static pir_status collect_facets(struct facets *facets, const pir_posed *posed) {
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
-    pir_pieces pieces;
+    pir_sum_pieces pieces;
     pir_status status = pir_pieces_make(&pieces, posed);
     if (status != PIR_OK)
         return status;
@@ -167,7 +167,7 @@ static void sort_by_pair(const struct facets *facets, uint32_t *bucket, uint32_t
         order[bucket[facets->corner[work[i]].p]++] = work[i];
 }
 
-static bool same_corner(pir_corner a, pir_corner b) {
+static bool same_corner(pir_sum_corner a, pir_sum_corner b) {
     return a.p == b.p && a.q == b.q;
 }
 
@@ -212,7 +212,7 @@ static pir_mesh *number_vertices(const struct facets *facets, const pir_sum *sum
     }
     if (mesh) {
         for (uint32_t i = 0; i < n; i++) {
-            pir_corner corner = facets->corner[i];
+            pir_sum_corner corner = facets->corner[i];
             uint32_t v = work[i];
             mesh->facets.corner[i] = v;
             mesh->pair[v][0] = corner.p;

@@ -45,7 +45,7 @@ static uint32_t descend(pir_tracked *tracked, const struct descent *descent, uin
     float turned[8];
     pir_pack_turned(descent->turned, descent->motion, turned);
     for (;;) {
-        pir_probe seen;
+        pir_cell_probe seen;
         tracked->kernels->probe(descent->facets, &tracked->step, from, turned, &seen);
         tracked->pairing.signs.by_filter += other->ring_start[from + 1] - other->ring_start[from];
         uint32_t next = other->half_count == 0 ? from : other->target[other->ring_start[from] + seen.which];

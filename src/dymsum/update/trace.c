@@ -233,7 +233,7 @@ static void turn_tracer(const pir_tracked *tracked, const struct step *step, uin
 /* Certifies a facet in the cell at the end of its trace. */
 static void certify(pir_tracked *tracked, const struct tracer *tracer) {
     const pir_facets *facets = tracer->step->facets;
-    pir_probe seen;
+    pir_cell_probe seen;
     tracked->kernels->probe(facets, &tracked->step, tracer->trace->cell, tracer->packed, &seen);
     const pir_expiry expiry = {seen.check.margin, seen.check.ahead, -seen.check.behind};
     facets->cell[tracer->facet] = tracer->trace->cell;

@@ -115,10 +115,10 @@ void pir_points_finish(pir_points *points, const pir_allocator *allocator) {
     *points = (pir_points){0};
 }
 
-pir_plane pir_plane_through(const pir_points *points, uint32_t a, uint32_t b, uint32_t c) {
+pir_hull_plane pir_plane_through(const pir_points *points, uint32_t a, uint32_t b, uint32_t c) {
     pir_vec3 origin = points->near[a];
     pir_vec3 ab = pir_vec_sub(points->near[b], origin), ac = pir_vec_sub(points->near[c], origin);
-    return (pir_plane){origin, pir_vec_cross(ab, ac)};
+    return (pir_hull_plane){origin, pir_vec_cross(ab, ac)};
 }
 
 int pir_orient_exact(pir_points *points, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
@@ -137,7 +137,7 @@ int pir_orient_exact(pir_points *points, uint32_t a, uint32_t b, uint32_t c, uin
 }
 
 int pir_orient(pir_points *points, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
-    pir_plane plane = pir_plane_through(points, a, b, c);
+    pir_hull_plane plane = pir_plane_through(points, a, b, c);
     double height = pir_plane_height(&plane, points, p);
     if (fabs(height) > PIR_ORIENT_BOUND)
         return height > 0 ? 1 : -1;
@@ -167,7 +167,7 @@ int pir_turn(pir_points *points, int axis, uint32_t a, uint32_t b, uint32_t c) {
 }
 
 int pir_steepest_axis(pir_points *points, uint32_t a, uint32_t b, uint32_t c) {
-    pir_plane plane = pir_plane_through(points, a, b, c);
+    pir_hull_plane plane = pir_plane_through(points, a, b, c);
     double n[3] = {fabs(plane.normal.x), fabs(plane.normal.y), fabs(plane.normal.z)};
     int best = n[0] >= n[1] && n[0] >= n[2] ? 0 : n[1] >= n[2] ? 1 : 2;
     for (int k = 0; k < 3; k++)

@@ -43,13 +43,13 @@ static inline uint32_t pir_points_source(const pir_points *points, uint32_t p) {
  */
 #define PIR_ORIENT_BOUND 0x1p-43
 
-typedef struct pir_plane {
+typedef struct pir_hull_plane {
     pir_vec3 origin, normal;
-} pir_plane;
+} pir_hull_plane;
 
-pir_plane pir_plane_through(const pir_points *points, uint32_t a, uint32_t b, uint32_t c);
+pir_hull_plane pir_plane_through(const pir_points *points, uint32_t a, uint32_t b, uint32_t c);
 
-static inline double pir_plane_height(const pir_plane *plane, const pir_points *points, uint32_t p) {
+static inline double pir_plane_height(const pir_hull_plane *plane, const pir_points *points, uint32_t p) {
     return pir_vec_dot(plane->normal, pir_vec_sub(points->near[p], plane->origin));
 }
 

@@ -21,7 +21,7 @@
  * farthest.
  */
 static inline double height_above(pir_quickhull *hull, const pir_triangle *t, uint32_t p) {
-    const pir_plane plane = {hull->points->near[t->vertex[0]], t->normal};
+    const pir_hull_plane plane = {hull->points->near[t->vertex[0]], t->normal};
     double height = pir_plane_height(&plane, hull->points, p);
     if (fabs(height) > PIR_ORIENT_BOUND)
         return height;

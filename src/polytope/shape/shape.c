@@ -60,8 +60,8 @@ static size_t distance(struct piece piece, const char *word) {
     return row[columns];
 }
 
-static const struct pir_shape *find_shape(struct piece name, pir_report *report) {
-    const struct pir_shape *nearest = NULL;
+static const struct pir_shape_entry *find_shape(struct piece name, pir_report *report) {
+    const struct pir_shape_entry *nearest = NULL;
     for (size_t i = 0; i < pir_shapes_count; i++) {
         if (piece_is(name, pir_shapes[i].name))
             return &pir_shapes[i];
@@ -156,7 +156,7 @@ static bool read_number(struct piece piece, double *ret_value) {
 }
 
 /* The names of a shape's parameters for a report. */
-static const char *parameter_list(const struct pir_shape *shape, char list[64]) {
+static const char *parameter_list(const struct pir_shape_entry *shape, char list[64]) {
     size_t used = 0;
     for (int k = 0; k < PIR_SHAPE_PARAMETERS; k++) {
         const char *name = shape->parameter[k].name;
@@ -174,8 +174,8 @@ static const char *parameter_list(const struct pir_shape *shape, char list[64]) 
 }
 
 /* Reads one "key=value" into `value`; `given` has a bit for each parameter that was. */
-static pir_status read_parameter(const struct pir_shape *shape, struct piece piece, double *value, unsigned *given,
-                                 pir_report *report) {
+static pir_status read_parameter(const struct pir_shape_entry *shape, struct piece piece, double *value,
+                                 unsigned *given, pir_report *report) {
     char shown[SHOWN_MAX + 1], list[64];
     const char *equals = memchr(piece.text, '=', piece.length);
     if (!equals)
@@ -203,10 +203,10 @@ static pir_status read_parameter(const struct pir_shape *shape, struct piece pie
 }
 
 /* Finds the shape and its parameters' values. */
-static pir_status read_name(const char *name, pir_report *report, const struct pir_shape **ret_shape,
+static pir_status read_name(const char *name, pir_report *report, const struct pir_shape_entry **ret_shape,
                             double value[PIR_SHAPE_PARAMETERS]) {
     const char *mark = strchr(name, '?');
-    const struct pir_shape *shape =
+    const struct pir_shape_entry *shape =
         find_shape((struct piece){name, mark ? (size_t)(mark - name) : strlen(name)}, report);
     if (!shape)
         return PIR_ERR_ARGUMENT;
@@ -229,7 +229,7 @@ pir_status pir_shape_create(const char *name, const pir_allocator *allocator, pi
                             pir_polytope **ret_polytope) {
     if (!name || !ret_polytope)
         return pir_fail(report, PIR_ERR_ARGUMENT, "shape: no name or no place for the result");
-    const struct pir_shape *shape = NULL;
+    const struct pir_shape_entry *shape = NULL;
     double value[PIR_SHAPE_PARAMETERS];
     pir_status status = read_name(name, report, &shape, value);
     if (status != PIR_OK)

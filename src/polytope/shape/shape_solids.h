@@ -5,7 +5,7 @@
 
 #include "polytope/shape/shape_points.h"
 
-enum pir_solid {
+enum pir_shape_solid {
     PIR_TETRAHEDRON,
     PIR_CUBE,
     PIR_OCTAHEDRON,
@@ -27,7 +27,7 @@ enum pir_solid {
     PIR_TRIAKIS_ICOSAHEDRON,
 };
 
-/* value[0] is an enum pir_solid. The largest coordinate is in [1/2, 1): the cube's side is 1. */
+/* value[0] is an enum pir_shape_solid. The largest coordinate is in [1/2, 1): the cube's side is 1. */
 void pir_points_solid(const double *value, struct pir_point_list *points);
 
 #endif

@@ -17,7 +17,7 @@
 #define SIDES(standard)                    COUNT("sides", standard, 3, 100000)
 #define SOLID(name, solid, help)           {name, help, pir_points_solid, {FIXED(solid)}}
 
-const struct pir_shape pir_shapes[] = {
+const struct pir_shape_entry pir_shapes[] = {
     {"cone", "cone over a regular polygon; 78 triangles; sides=40 radius=1 height=2",
      pir_points_pyramid, {SIDES(40), LENGTH("radius", 1), LENGTH("height", 2)}},
     SOLID("cube", PIR_CUBE, "cube of side 1; 6 facets, 12 triangles"),

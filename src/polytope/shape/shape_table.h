@@ -14,13 +14,13 @@ struct pir_shape_parameter {
     bool whole;
 };
 
-struct pir_shape {
+struct pir_shape_entry {
     const char *name, *help;
     void (*fill)(const double *value, struct pir_point_list *points);
     struct pir_shape_parameter parameter[PIR_SHAPE_PARAMETERS];
 };
 
-extern const struct pir_shape pir_shapes[];
+extern const struct pir_shape_entry pir_shapes[];
 extern const size_t pir_shapes_count;
 
 #endif

@@ -36,7 +36,7 @@ static bool point_before(void *context, uint32_t a, uint32_t b) {
 }
 
 /* `order` and `work` have room for all points. */
-static void find_places(struct pir_facets *facets, const pir_vectors *exact, uint32_t *order, uint32_t *work) {
+static void find_places(struct pir_model_facets *facets, const pir_vectors *exact, uint32_t *order, uint32_t *work) {
     for (uint32_t p = 0; p < exact->count; p++)
         order[p] = p;
     pir_vectors points = *exact;
@@ -51,7 +51,7 @@ static void find_places(struct pir_facets *facets, const pir_vectors *exact, uin
 
 /* The corners of each facet as places, without those that equal the one before. Of one or two
    places it has no sides left. */
-static void copy_corners(struct pir_facets *facets, const struct pir_model *model) {
+static void copy_corners(struct pir_model_facets *facets, const struct pir_model *model) {
     uint32_t end = 0;
     for (uint32_t f = 0; f < facets->count; f++) {
         uint32_t first = end;
@@ -76,7 +76,7 @@ struct edge {
     uint32_t facet_way; /* twice the facet, plus 1 when it walks from high to low */
 };
 
-static void list_edges(const struct pir_facets *facets, struct edge *edges) {
+static void list_edges(const struct pir_model_facets *facets, struct edge *edges) {
     uint32_t count = 0;
     for (uint32_t f = 0; f < facets->count; f++)
         for (uint32_t i = facets->start[f]; i < facets->start[f + 1]; i++) {
@@ -105,7 +105,7 @@ static uint32_t group_end(const struct edge *edges, uint32_t count, uint32_t i) 
     return end;
 }
 
-static uint32_t find_root(struct pir_facets *facets, uint32_t f) {
+static uint32_t find_root(struct pir_model_facets *facets, uint32_t f) {
     uint32_t root = f;
     uint8_t turned = 0;
     while (facets->piece[root] != root) {
@@ -125,7 +125,7 @@ static uint32_t find_root(struct pir_facets *facets, uint32_t f) {
 }
 
 /* Joins two facets, one turned against the other or not; false when they are joined otherwise already. */
-static bool join(struct pir_facets *facets, uint32_t a, uint32_t b, bool against) {
+static bool join(struct pir_model_facets *facets, uint32_t a, uint32_t b, bool against) {
     uint32_t root_a = find_root(facets, a), root_b = find_root(facets, b);
     uint8_t turned = (uint8_t)(facets->turned[a] ^ facets->turned[b] ^ against);
     if (root_a == root_b)
@@ -136,7 +136,7 @@ static bool join(struct pir_facets *facets, uint32_t a, uint32_t b, bool against
 }
 
 /* Turns facets so that those on either side of an edge walk it opposite ways; all edges are on two. */
-static bool turn_facets(struct pir_facets *facets, const struct edge *edges, uint32_t count) {
+static bool turn_facets(struct pir_model_facets *facets, const struct edge *edges, uint32_t count) {
     for (uint32_t f = 0; f < facets->count; f++)
         facets->piece[f] = f;
     for (uint32_t i = 0; i < count; i += 2) {
@@ -149,7 +149,7 @@ static bool turn_facets(struct pir_facets *facets, const struct edge *edges, uin
     return true;
 }
 
-static void examine_edges(struct pir_facets *facets, const struct edge *edges, uint32_t count) {
+static void examine_edges(struct pir_model_facets *facets, const struct edge *edges, uint32_t count) {
     bool in_pairs = true;
     uint32_t open = UINT32_MAX;
     facets->one_way = true;
@@ -179,7 +179,7 @@ static void examine_edges(struct pir_facets *facets, const struct edge *edges, u
 
 /* --- the whole --- */
 
-static bool join_facets(struct pir_facets *facets, const pir_allocator *allocator) {
+static bool join_facets(struct pir_model_facets *facets, const pir_allocator *allocator) {
     uint32_t count = facets->start[facets->count];
     size_t start_count = (size_t)facets->point_count + 1;
     struct edge *edges = PIR_NEW(allocator, struct edge, count);
@@ -198,9 +198,9 @@ static bool join_facets(struct pir_facets *facets, const pir_allocator *allocato
     return done;
 }
 
-bool pir_facets_init(struct pir_facets *facets, const struct pir_model *model, const pir_vectors *exact) {
+bool pir_facets_init(struct pir_model_facets *facets, const struct pir_model *model, const pir_vectors *exact) {
     const pir_allocator *a = &model->allocator;
-    *facets = (struct pir_facets){
+    *facets = (struct pir_model_facets){
         .point_count = exact->count, .count = model->facet_count, .corner_room = model->corner_count};
     facets->place = PIR_NEW(a, uint32_t, facets->point_count);
     facets->start = PIR_NEW(a, uint32_t, (size_t)facets->count + 1);
@@ -221,11 +221,11 @@ bool pir_facets_init(struct pir_facets *facets, const struct pir_model *model, c
     return done;
 }
 
-void pir_facets_finish(struct pir_facets *facets, const pir_allocator *allocator) {
+void pir_facets_finish(struct pir_model_facets *facets, const pir_allocator *allocator) {
     PIR_FREE(allocator, facets->place, facets->point_count);
     PIR_FREE(allocator, facets->start, (size_t)facets->count + 1);
     PIR_FREE(allocator, facets->corner, facets->corner_room);
     PIR_FREE(allocator, facets->turned, facets->count);
     PIR_FREE(allocator, facets->piece, facets->count);
-    *facets = (struct pir_facets){0};
+    *facets = (struct pir_model_facets){0};
 }

@@ -17,7 +17,7 @@ enum pir_joining {
     PIR_JOINED_NEITHER, /* closed, but the surface is not orientable, or an edge is on more than two facets */
 };
 
-struct pir_facets {
+struct pir_model_facets {
     uint32_t point_count, place_count; /* different places */
     uint32_t *place;                   /* per point: the first point at the same place */
     uint32_t count;
@@ -35,7 +35,7 @@ struct pir_facets {
 };
 
 /* False when out of memory, with nothing left behind. */
-bool pir_facets_init(struct pir_facets *facets, const struct pir_model *model, const pir_vectors *exact);
-void pir_facets_finish(struct pir_facets *facets, const pir_allocator *allocator);
+bool pir_facets_init(struct pir_model_facets *facets, const struct pir_model *model, const pir_vectors *exact);
+void pir_facets_finish(struct pir_model_facets *facets, const pir_allocator *allocator);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include "polytope/hull/quickhull.h"
 
-bool pir_on_hull_init(struct pir_on_hull *on, const pir_polytope *hull, const struct pir_facets *facets,
+bool pir_on_hull_init(struct pir_on_hull *on, const pir_polytope *hull, const struct pir_model_facets *facets,
                       const pir_vectors *exact, const pir_allocator *allocator) {
     *on = (struct pir_on_hull){.allocator = allocator, .hull = hull};
     if (!pir_points_init(&on->points, allocator, exact, NULL))

@@ -20,7 +20,7 @@ struct pir_on_hull {
     } * on;
 };
 
-bool pir_on_hull_init(struct pir_on_hull *on, const pir_polytope *hull, const struct pir_facets *facets,
+bool pir_on_hull_init(struct pir_on_hull *on, const pir_polytope *hull, const struct pir_model_facets *facets,
                       const pir_vectors *exact, const pir_allocator *allocator);
 void pir_on_hull_finish(struct pir_on_hull *on);
 

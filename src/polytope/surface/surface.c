@@ -21,7 +21,7 @@ struct examination {
     const struct pir_model *model;
     const struct pir_exact_points *exact;
     const pir_polytope *hull;
-    struct pir_facets facets;
+    struct pir_model_facets facets;
     pir_surface surface;
     uint32_t *by_piece; /* per facet: facets, those of one piece together */
     uint32_t inner;     /* a facet that is not in the boundary of the hull, or PIR_NONE */
@@ -226,7 +226,7 @@ static const char *name_facet(const struct pir_model *model, uint32_t facet, cha
 
 static pir_status refuse_open(const struct examination *x) {
     const struct pir_model *model = x->model;
-    const struct pir_facets *facets = &x->facets;
+    const struct pir_model_facets *facets = &x->facets;
     char where[128];
     pir_vec3 a = model->points[facets->open_edge[0]], b = model->points[facets->open_edge[1]];
     return pir_fail(model->report, PIR_ERR_NOT_CLOSED,

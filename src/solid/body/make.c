@@ -18,7 +18,7 @@ struct maker {
 
 static pir_status make_of_points(const struct pir_model *model, const struct pir_exact_points *exact,
                                  const struct maker *maker) {
-    struct pir_facets facets;
+    struct pir_model_facets facets;
     uint32_t *line = PIR_NEW(&model->allocator, uint32_t, model->facet_count);
     if (!line || !pir_facets_init(&facets, model, &exact->vectors)) {
         PIR_FREE(&model->allocator, line, model->facet_count);
