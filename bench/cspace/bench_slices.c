@@ -7,7 +7,8 @@
  * and hulls of all sums of vertices (qhull). Three rounds, each way in each round, the fastest round of each counts;
  * CPU time of the process. A rebuild that is written takes the same time to write. slices.csv, one row a scene.
  *
- * slices_read.csv: what reading takes, by how often a slice is written whole.
+ * slices_read.csv: what reading takes, by how often a slice is written whole. slices_scale.csv: one pair on fine grids;
+ * `record_bytes` leaves out what a file of slices holds but once, rotations above all.
  *
  * P and Q: one more scene. P may be a folder of convex pieces, each of which meets Q, or the first of them.
  */
@@ -94,6 +95,40 @@ static void measure(const struct slices_scene *scene, const char *folder, FILE *
     slices_free(&bodies);
 }
 
+/* One pair on a fine grid: the job has it twice, so that what a second pair adds to the file is seen. */
+static void measure_scale(const struct slices_scene *scene, const char *folder, FILE *csv) {
+    char path[1064];
+    struct slices_bodies bodies;
+    struct times once = times_none(), twice = times_none();
+    slices_make(scene, &bodies);
+    snprintf(path, sizeof path, "%s/slices-%ld.h5", folder, (long)getpid());
+    run_job(&bodies, path, &once);
+    bodies.p[bodies.pieces++] = pir_polytope_retain(bodies.p[0]);
+    for (int round = 0; round < ROUNDS; round++)
+        run_job(&bodies, path, &twice);
+    fprintf(csv, "%s,%u,%llu,%.0f,%.0f,%.2f\n", scene->name, (unsigned)scene->level, (unsigned long long)bodies.slices,
+            twice.make, twice.file, 2 * twice.bytes - once.bytes);
+    slices_free(&bodies);
+}
+
+static void measure_scales(const struct results *results) {
+    static const struct {
+        const char *name, *p, *q;
+    } pairs[] = {{"dodecahedra", "shape:dodecahedron", "shape:dodecahedron"},
+                 {"cube gs4", "shape:cube", "shape:gs4"},
+                 {"gs4", "shape:gs4", "shape:gs4"}};
+    FILE *csv = results_open(results, "slices_scale.csv");
+    fprintf(csv, "scene,level,slices,make_ns,file_ns,record_bytes\n");
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        for (uint32_t level = 5; level <= 6; level++) {
+            // the first 100,000 rotations or so
+            const uint32_t share = (uint32_t)(72ull << 3 * level) / 100000;
+            measure_scale(&(struct slices_scene){pairs[i].name, pairs[i].p, pairs[i].q, 0, level, share},
+                          results->folder, csv);
+        }
+    results_close(csv, "slices_scale.csv");
+}
+
 static const char head[] =
     "scene,grid,pairs,slices,mean_turn_degrees,track_ns,make_ns,file_ns,walk_ns,older_walk_ns,qhull_ns,"
     "faster_than_older_walks,faster_than_walks,faster_than_qhull,write_by_track,bytes_a_slice,mesh_bytes\n";
@@ -120,6 +155,7 @@ int main(int argc, char **argv) {
                 csv);
     results_close(csv, "slices.csv");
     slices_read_all(&results);
+    measure_scales(&results);
     printf("results in %s\n", results.folder);
     return 0;
 }

@@ -77,10 +77,10 @@ void slices_make(const struct slices_scene *scene, struct slices_bodies *ret_bod
     uint64_t all = pir_grid_get_info(ret_bodies->grid).count, count = all / scene->share;
     if (results_count(1000) < 1000 && count > SLICES_UNIT)
         count = SLICES_UNIT;
-    ret_bodies->turn = pir_grid_get_turns(ret_bodies->grid).mean * 57.29577951308232;
     ret_bodies->slices = count;
     if (count < all)
         ret_bodies->grid = first_of(ret_bodies->grid, count);
+    ret_bodies->turn = pir_grid_get_turns(ret_bodies->grid).mean * 57.29577951308232;
 }
 
 void slices_free(struct slices_bodies *bodies) {

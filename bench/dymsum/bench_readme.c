@@ -3,8 +3,8 @@
  * The table of README.md, row by row. Usage: bench_readme FOLDER MODELS [BODIES STEPS]
  *
  * Each row turns P as `pirouette track --axis random` does, so that its counters are those of the command. MODELS is
- * the folder of the game controller and the mug. readme.csv holds the figures, readme.md the table as it stands in
- * README.md. With BODIES (controller or gs4) and STEPS (to a full turn) only that row is made, and printed.
+ * the folder of the game controller and the mug. readme.csv holds the figures; docs/figures puts them into README.md.
+ * With BODIES (controller or gs4) and STEPS (to a full turn) only that row is made, and printed.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 #include "trial.h"
 
 struct bodies {
-    const char *name, *title;
+    const char *name;
     uint32_t frames;
     pir_polytope *p, *q;
 };
@@ -48,50 +48,30 @@ static pir_quat turn(void *context, uint64_t frame) {
     return motion_before(&turning->motion);
 }
 
-/* Two digits, or all before the point. */
-static void write_number(FILE *page, double x) {
-    fprintf(page, x < 1 ? " %.2f |" : x < 10 ? " %.1f |" : " %.0f |", x);
-}
-
-/* One row of readme.md, and of readme.csv unless `csv` is NULL. */
-static void write_row(const struct bodies *bodies, double steps, bool titled, FILE *csv, FILE *page) {
+static void write_row(const struct bodies *bodies, double steps, FILE *csv) {
     struct trial_request request = {.frames = bodies->frames, .walk_samples = 200, .brute_samples = 20, .choose = true};
     struct turning turning = {.steps = (uint64_t)steps};
     struct trial_result t = trial_run_along(&request, bodies->p, bodies->q, turn, &turning);
-    const double numbers[] = {t.update.median / 1e3, t.walk.median / 1e3, t.brute.median / 1e3, t.checked, t.repaired};
-    fprintf(page, "| %s | %.0f |", titled ? bodies->title : "", steps);
-    for (int k = 0; k < 5; k++)
-        write_number(page, numbers[k]);
-    fprintf(page, "\n");
-    if (csv)
-        fprintf(csv, "%s,%.0f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f,%.2f,%.2f,%u,%u\n", bodies->name, steps, t.update.median,
-                t.update.fastest, t.walk.median, t.walk.fastest, t.brute.median, t.brute.fastest, t.checked, t.repaired,
-                t.compared, t.mismatches);
+    fprintf(csv, "%s,%.0f", bodies->name, steps);
+    const struct trial_times *times[] = {&t.update, &t.walk, &t.brute};
+    for (int k = 0; k < 3; k++)
+        fprintf(csv, ",%.1f,%.1f,%.1f", times[k]->median, times[k]->mean, times[k]->fastest);
+    fprintf(csv, ",%.2f,%.2f,%u,%u\n", t.checked, t.repaired, t.compared, t.mismatches);
 }
 
-static void write_head(FILE *page) {
-    fprintf(page,
-            "| bodies | frames to a full turn | update | rebuild by walk | brute-force re-check | pairs looked at "
-            "| pairs repaired |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+static void write_head(FILE *csv) {
+    fprintf(csv, "bodies,steps,update_ns,update_mean_ns,update_fastest_ns,walk_ns,walk_mean_ns,walk_fastest_ns,"
+                 "brute_ns,brute_mean_ns,brute_fastest_ns,checked_per_frame,repaired_per_frame,compared,mismatches\n");
 }
 
 static void write_table(const char *folder, const struct bodies bodies[2]) {
     struct results results = results_new(folder);
-    FILE *csv = results_open(&results, "readme.csv"), *page = results_open(&results, "readme.md");
-    fprintf(csv, "bodies,steps,update_ns,update_fastest_ns,walk_ns,walk_fastest_ns,brute_ns,brute_fastest_ns,"
-                 "checked_per_frame,repaired_per_frame,compared,mismatches\n");
-    fprintf(
-        page,
-        "# The table of README.md\n\nMachine: %s; one thread. Medians in µs of %u frames (gs4: %u) about random "
-        "axes, a new one every 50 frames; of 200 walks and of 20 brute-force re-checks in the same run, in CPU "
-        "time. Each sum that was re-checked was held against the updated one: readme.csv has how many differed.\n\n",
-        results.machine, (unsigned)bodies[0].frames, (unsigned)bodies[1].frames);
-    write_head(page);
+    FILE *csv = results_open(&results, "readme.csv");
+    write_head(csv);
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 3; k++)
-            write_row(&bodies[i], all_steps[k], k == 0, csv, page);
+            write_row(&bodies[i], all_steps[k], csv);
     results_close(csv, "readme.csv");
-    results_close(page, "readme.md");
     printf("results in %s\n", results.folder);
 }
 
@@ -109,15 +89,14 @@ int main(int argc, char **argv) {
         fprintf(stderr, "usage: bench_readme FOLDER MODELS [controller|gs4 500|5000|50000]\n");
         return 2;
     }
-    struct bodies bodies[2] = {
-        {"controller", "controller, mug", 2000, read_model(argv[2], "gamepad.off"), read_model(argv[2], "mug.off")},
-        {"gs4", "gs4, gs4", 3000, trial_model("gs4"), trial_model("gs4")}};
+    struct bodies bodies[2] = {{"controller", 2000, read_model(argv[2], "gamepad.off"), read_model(argv[2], "mug.off")},
+                               {"gs4", 3000, trial_model("gs4"), trial_model("gs4")}};
     int status = 0;
     if (argc == 5) {
         const struct bodies *row = find_row(bodies, argv[3], strtod(argv[4], NULL));
         if (row) {
             write_head(stdout);
-            write_row(row, strtod(argv[4], NULL), true, NULL, stdout);
+            write_row(row, strtod(argv[4], NULL), stdout);
         } else {
             fprintf(stderr, "bench_readme: README.md has no row for %s at %s steps\n", argv[3], argv[4]);
             status = 2;

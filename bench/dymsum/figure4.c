@@ -1,11 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* Experiment 2: the time of an update by the number of steps to a turn, beside auto, walk and brute force. */
+#include <math.h>
+
 #include "chart.h"
 #include "experiments.h"
 #include "trial.h"
 
 static const double all_steps[] = {10, 20, 50, 100, 200, 500, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5};
 #define STEPS_COUNT (sizeof all_steps / sizeof all_steps[0])
+
+/*
+ * The step in degrees from which on a walk is as fast as an update, or the one found before: between the last row,
+ * whose steps and ratio `last` holds, and this one, on a line of logarithms.
+ */
+static double as_fast(double last[2], double steps, double ratio, double found) {
+    if (isnan(found) && last[0] > 0 && last[1] < 1 && ratio >= 1)
+        found = 360 / (last[0] * pow(steps / last[0], log(last[1]) / (log(last[1]) - log(ratio))));
+    last[0] = steps;
+    last[1] = ratio;
+    return found;
+}
 
 static void run_pair(const struct results *results, FILE *page, FILE *csv, const char *name) {
     pir_polytope *p = trial_model(name);
@@ -19,6 +33,7 @@ static void run_pair(const struct results *results, FILE *page, FILE *csv, const
         .y_label = "nanoseconds a frame",
         .count = 4,
         .series = {{.label = "update"}, {.label = "auto"}, {.label = "walk"}, {.label = "brute force"}}};
+    double before[2] = {0, 0}, degrees = NAN;
     fprintf(page,
             "### %s ⊕ %s\n\n| steps | update ns | auto ns | walk ns | brute ns | walk / update | brute / update |\n"
             "|---:|---:|---:|---:|---:|---:|---:|\n",
@@ -36,12 +51,13 @@ static void run_pair(const struct results *results, FILE *page, FILE *csv, const
         const double times[4] = {t.update.median, t.automatic.median, t.walk.median, t.brute.median};
         for (unsigned k = 0; k < 4; k++)
             chart_add(&chart.series[k], steps, times[k]);
+        degrees = as_fast(before, steps, t.walk.median / t.update.median, degrees);
         fprintf(csv, "%s,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.2f\n", name, steps, t.update.median, t.update.mean,
                 t.automatic.median, t.automatic.mean, t.walk.median, t.brute.median, t.events);
         fprintf(page, "| %.0f | %.0f | %.0f | %.0f | %.0f | %.2f | %.1f |\n", steps, times[0], times[1], times[2],
                 times[3], times[2] / times[0], times[3] / times[0]);
     }
-    fprintf(page, "\n![](%s)\n\n", file);
+    fprintf(page, "\nAn update and a walk take the same time at steps of %.1f degrees.\n\n![](%s)\n\n", degrees, file);
     FILE *svg = results_open(results, file);
     chart_write(&chart, svg);
     results_close(svg, file);

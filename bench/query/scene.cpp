@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <numeric>
 
 #include "results.h"
 
@@ -68,6 +69,10 @@ pir_vec3 Random::direction() {
 double Times::median() {
     std::nth_element(ns.begin(), ns.begin() + (long)ns.size() / 2, ns.end());
     return ns[ns.size() / 2];
+}
+
+double Times::mean() const {
+    return std::accumulate(ns.begin(), ns.end(), 0.0) / (double)ns.size();
 }
 
 double Times::fastest() const {

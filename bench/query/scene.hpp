@@ -40,6 +40,7 @@ std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish);
 struct Times {
     std::vector<double> ns;
     double median();
+    double mean() const;
     double fastest() const;
 };
 
