@@ -35,7 +35,7 @@ typedef struct pir_sum pir_sum;
 
 /** How a sum is brought to a rotation. All methods give the same pairing. */
 typedef enum pir_method {
-    PIR_METHOD_AUTO = 0, /* < update or walk, whichever is cheaper by the sum's own counters */
+    PIR_METHOD_AUTO = 0, /**< update or walk, whichever is cheaper by the sum's own counters */
     PIR_METHOD_UPDATE,   /**< repair the pairs that failed */
     PIR_METHOD_WALK,     /**< rebuild by walking one Gaussian map through the other */
     PIR_METHOD_CGM,      /**< rebuild by overlaying cubical Gaussian maps (cgm.h); allocates */
@@ -330,8 +330,8 @@ PIR_API pir_status pir_sum_read(FILE *file, const pir_allocator *allocator, pir_
 
 /** What the sum has done since it was made, in plain counters. */
 typedef struct pir_sum_statistics {
-    uint64_t updates, rebuilds; /* < rotations brought in by update, and by rebuild */
-    uint64_t kept;              /* < rotations that the pairing stayed behind of, within a tolerance */
+    uint64_t updates, rebuilds; /**< rotations brought in by update, and by rebuild */
+    uint64_t kept;              /**< rotations that the pairing stayed behind of, within a tolerance */
     uint64_t checked;           /**< certificates that expired */
     uint64_t repaired;          /**< pairs that had failed */
     uint64_t by_filter;         /**< signs that the double filter decided */

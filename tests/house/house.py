@@ -180,7 +180,15 @@ def check_names(tree):
                 yield Breach("names", name, 1, f"{folder} has a file of the name {stem} as well")
 
 
-CHECKS = (check_rooms, check_arrows, check_declares, check_lines, check_parameters, check_names)
+def check_marks(tree):
+    """In a public header a comment behind a member is one that the reference shows: it begins with `/**<`."""
+    for name, text in tree.code("include/").items():
+        for number, line in enumerate(text.split("\n"), 1):
+            if re.search(r"/\* ?<", line):
+                yield Breach("marks", name, number, "the reference shows a comment that begins with /**<, not this one")
+
+
+CHECKS = (check_rooms, check_arrows, check_declares, check_lines, check_parameters, check_names, check_marks)
 
 
 def breaches(root):

@@ -95,6 +95,13 @@ class Planted(unittest.TestCase):
     def test_header_of_another_room(self):
         self.planted("src/high/other.h", lines("int pir_number_add(int a, int b);"), "src/high/other.h:1: declares")
 
+    def test_comment_of_a_member_that_the_reference_does_not_show(self):
+        self.planted("include/pirouette/body.h", lines("struct pir_pair {", "    int a; /**< shown */", "};"))
+        for comment in ("/* < hidden */", "/*< hidden */"):
+            with self.subTest(comment):
+                self.planted("include/pirouette/body.h", lines("struct pir_pair {", f"    int a; {comment}", "};"),
+                             "include/pirouette/body.h:2: marks")
+
     def test_long_file(self):
         for name in ("docs/long.md", "src/low/long.c", "tests/long.py"):
             with self.subTest(name):
