@@ -14,8 +14,8 @@ enum { FRAMES = 200, SHOW_EVERY = 10, ROOM = 16 };
 
 static const double step = 1.0 / 60;
 
-/* As far apart as this is all the same to the loop. */
-static const double cutoff = 1.25;
+/* Farther apart than this is all the same to the loop. Contacts are asked for up to `margin` apart. */
+static const double cutoff = 1.25, margin = 0.02;
 
 static void show(int frame, const pir_query_result *answer, size_t contacts) {
     printf("frame %3d: ", frame);
@@ -29,7 +29,7 @@ static void show(int frame, const pir_query_result *answer, size_t contacts) {
 static pir_status run(pir_pair *pair, pir_workspace *workspace) {
     pir_pair_input input = pir_pair_input_default();
     input.cutoff = cutoff;
-    input.margin = 0.02; /* contacts up to this distance apart */
+    input.margin = margin;
     for (int frame = 0; frame <= FRAMES; frame++) {
         const double time = frame * step;
         pir_query_result answer;
@@ -39,7 +39,7 @@ static pir_status run(pir_pair *pair, pir_workspace *workspace) {
         input.pose_p.translation = (pir_vec3){3 - 2 * time, 0.25, 0.6};
         input.pose_q.rotation = (pir_quat){0, 0, sin(time), cos(time)};
         pir_status status = pir_pair_signed_distance(pair, workspace, &input, &answer);
-        if (status == PIR_OK && answer.outcome != PIR_BEYOND_CUTOFF)
+        if (status == PIR_OK && answer.outcome != PIR_BEYOND_CUTOFF && answer.distance <= margin)
             status = pir_pair_manifold(pair, workspace, &input, &answer, ROOM, contacts, &count);
         if (status != PIR_OK)
             return status;
