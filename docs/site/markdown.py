@@ -3,6 +3,7 @@
 import html
 import re
 
+COMMENT = re.compile(r"^<!--.*-->\n|<!--.*?-->", re.M)
 ITEM = re.compile(r"^( *)- ")
 INLINE = re.compile(r"(?P<code>`[^`]+`)|!\[(?P<alt>[^\]]*)\]\((?P<image>[^)]+)\)"
                     r"|\[(?P<text>(?:[^\][]|\[[^\]]*\])+)\]\((?P<link>[^)]+)\)"
@@ -61,7 +62,7 @@ def code(lines, language):
 
 def render(text, link):
     """(HTML, [(level, heading, anchor)]); `link` turns the address of a link into that of the site."""
-    out, headings, lines, i = [], [], text.split("\n"), 0
+    out, headings, lines, i = [], [], COMMENT.sub("", text).split("\n"), 0
     while i < len(lines):
         line = lines[i]
         begin = i

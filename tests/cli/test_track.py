@@ -152,7 +152,7 @@ class Counters(CommandTest):
         root = Path(__file__).resolve().parents[2]
         models = {"controller, mug": [root / "examples/models" / f"{n}.off" for n in ("gamepad", "mug")],
                   "gs4, gs4": ["shape:gs4"] * 2}
-        rows = re.findall(r"^\| ([a-z0-9, ]*)\| (\d+) \|(?: [0-9.]+ \|){3} ([0-9.]+) \| ([0-9.]+) \|$",
+        rows = re.findall(r"^\| ([a-z0-9, ]*)\| (\d+) \|(?: [0-9.,/ ]+ \|){3} ([0-9.]+) \| ([0-9.]+) \|$",
                           (root / "README.md").read_text(), re.M)
         self.assertEqual(len(rows), 6)
         name = ""

@@ -35,7 +35,7 @@ def main():
     status = 0
     for part, (run, all_lines) in totals.items():
         share = 100 * run / all_lines
-        print(f"{part}: {share:.1f} % of {all_lines} lines")
+        print(f"{part}: {run} of {all_lines} lines, {share:.1f} %")
         status = 1 if share < LEAST else status
     return status
 

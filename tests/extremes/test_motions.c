@@ -155,10 +155,10 @@ int main(void) {
     static const struct {
         const char *name;
         motion *run;
-    } rows[] = {{"tiny turns against rebuilds", tiny_turns},
-                {"crossings of a pose where all ties", crossings},
-                {"steps of an ulp through contact", touching},
-                {"turning on a face in contact", turning}};
+    } rows[] = {{"turns of 1e-9 to 1e-3 about random axes", tiny_turns},
+                {"crossings of a pose where all features tie", crossings},
+                {"steps of an ulp through contact, face on face", touching},
+                {"a box that turns on its face", turning}};
     const char *text = getenv("PIR_TEST_FRAMES");
     int failed = 0;
     frames = text ? strtoull(text, NULL, 10) : FRAMES;
