@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import c_text
 
-MAX_LINES = 500
+MAX_LINES = 900
 MAX_WIDTH = 120  # bytes of UTF-8
 MAX_PARAMETERS = 7
 MAX_DECLARED = 2  # .c files whose functions one header declares

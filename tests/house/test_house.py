@@ -105,12 +105,12 @@ class Planted(unittest.TestCase):
     def test_long_file(self):
         for name in ("docs/long.md", "src/low/long.c", "tests/long.py"):
             with self.subTest(name):
-                self.planted(name, "\n" * 500)
-                self.planted(name, "\n" * 501, f"{name}:501: length")
+                self.planted(name, "\n" * house.MAX_LINES)
+                self.planted(name, "\n" * (house.MAX_LINES + 1), f"{name}:{house.MAX_LINES + 1}: length")
                 self.write(name, "")
 
     def test_long_files_of_machines(self):
-        self.planted("tests/fuzz/corpus/a.txt", "\n" * 501)
+        self.planted("tests/fuzz/corpus/a.txt", "\n" * (house.MAX_LINES + 1))
 
     def test_wide_line(self):
         for name in ("docs/wide.md", "src/low/wide.c", "tools/meson.build", "ARCHITECTURE.md", "bench/smoke.py"):
