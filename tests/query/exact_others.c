@@ -150,6 +150,10 @@ static void check_manifold(exact_pair *pair, test_random *random, const exact_po
         exact_check(EXACT_MANIFOLD, fmax(off_p, off_q) <= tolerance,
                     "contact %zu of %zu, at %.17g, is %.3g of the size off P and %.3g off Q", i, count, c->distance,
                     off_p, off_q);
+        pir_vec3 end = exact_add(c->point_q, r->normal, c->distance);
+        double miss = exact_length(exact_add(c->point_p, end, -1)) / (pair->size + fabs(pose->should));
+        exact_check(EXACT_MANIFOLD, miss <= tolerance,
+                    "contact %zu of %zu: point_p is %.3g of the size off point_q + distance · normal", i, count, miss);
         least = fmin(least, c->distance);
     }
     exact_number(EXACT_MANIFOLD, "least contact", least, r->distance, pair->size + fabs(pose->should));

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "query/contact_scene.h"
+#include "support/random.h"
 #include "support/vectors.h"
 
 /* A slab whose top is at height 0. */
@@ -101,9 +102,96 @@ static void contacts_beside_a_needle_lie_on_it(void **state) {
     contact_scene_clear(&scene);
 }
 
+/* --- edges that are nearly parallel --- */
+
+/* Two segments at an angle: the second contact was beside P by up to 1e-6. */
+static void contacts_of_segments_nearly_parallel_are_over_each_other(void **state) {
+    (void)state;
+    const pir_vec3 ends[2] = {{-1, 0, 0}, {1, 0, 0}};
+    size_t pairs = 0;
+    for (uint64_t i = 0; i < 2000; i++) {
+        test_random random = test_random_case("nearly parallel", i);
+        double angle = ldexp(1 + fabs(test_random_unit(&random)), -(int)(i % 45) - 6);
+        const pir_quat r = {0, 0, -sin(angle / 2), cos(angle / 2)};
+        contact_scene scene = contact_scene_make(body(ends, 2), body(ends, 2), r);
+        scene.t = (pir_vec3){0.5 * test_random_unit(&random) * (i % 2 ? 1 : 1e-3),
+                             ldexp(test_random_unit(&random), -(int)(i / 45 % 27)),
+                             ldexp(fabs(test_random_unit(&random)), -(int)(i / 45 % 29))};
+        scene.margin = i % 2;
+        contact_scene_check(&scene, "segments", i);
+        pairs += scene.count > 1;
+        contact_scene_clear(&scene);
+    }
+    print_message("# %zu manifolds of two segments have more than one contact\n", pairs);
+    assert_true(pairs > 50);
+}
+
+/* The edge of a box along a needle thinner than PIR_FLUSH, whose patch is a segment: points were 8e-8 off. */
+static void contacts_of_an_edge_along_a_needle_are_over_each_other(void **state) {
+    (void)state;
+    const pir_vec3 needle[5] = {{0x1.f6adfd10feff9p-1, 0x1.45fc5f90577c2p-26, -0x1.d1776b10868cap-31},
+                                {0x1.8cf7946526181p-3, 0x1.a949e9cff1dd4p-26, 0x1.97b7562bc8addp-24},
+                                {-0x1.fcb06bf558197p-1, 0x1.11e94ae23c5f7p-27, 0x1.15c936cdaf5f1p-27},
+                                {-0x1.c47406c712fd6p-1, 0x1.646e12c599bbfp-25, -0x1.7411d869fed45p-26},
+                                {0x1.44a11d65594d1p-4, 0x1.901192116e533p-25, -0x1.7a8b132f3f242p-24}};
+    contact_scene scene =
+        contact_scene_make(contact_scene_box(1, 0x1.39a3a943fb868p-1, 1), body(needle, 5), (pir_quat){0, 0, 0, 1});
+    scene.t = (pir_vec3){0x1.ff56ac4c1642ap-1, 0x1.7f05fbada3c6p+0, 0x1.31690bc2d5d3dp+0};
+    scene.margin = 10;
+    contact_scene_check(&scene, "needle along an edge", 0);
+    // the box's corner over x = -0.0013 is beside the needle
+    assert_int_equal(scene.count, 2);
+    contact_scene_clear(&scene);
+}
+
+/* --- tilted facets --- */
+
+/* A prism about z, of half height 0.5 and radius 1, rotated in double. */
+static pir_polytope *prism(uint32_t sides, pir_quat turned) {
+    pir_vec3 at[128];
+    for (uint32_t i = 0; i < sides; i++) {
+        double angle = 2 * acos(-1.0) * i / sides;
+        at[i] = (pir_vec3){cos(angle), sin(angle), -0.5};
+        at[sides + i] = (pir_vec3){cos(angle), sin(angle), 0.5};
+    }
+    return contact_scene_baked(at, 2 * sides, turned);
+}
+
+/*
+ * A prism rocks on a slab. Of its rim some edges are flatter than PIR_FLAT between 0.06 and 1 degrees of tilt, and only
+ * those corners were contacts. All corners are, whether within the margin or below the surface.
+ */
+static void a_prism_tilted_by_any_angle_has_all_its_corners(void **state) {
+    (void)state;
+    static const uint32_t sides[4] = {3, 8, 16, 64};
+    static const double degrees[14] = {0, 1e-9, 0.01, 0.05, 0.06, 0.08, 0.1, 0.2, 0.3, 0.5, 0.7, 1, 2, 5};
+    const pir_quat still = {0, 0, 0, 1}, baked = {0.3, -0.2, 0.5, 0.7}, back = {-0.3, 0.2, -0.5, 0.7};
+    for (uint64_t i = 0; i < 4 * 14 * 4; i++) {
+        double angle = degrees[i / 4 % 14] * acos(-1.0) / 180, c = cos(angle / 2), s = sin(angle / 2);
+        bool is_baked = i / 56 % 2, deep = i / 112;
+        pir_quat r = {0, s, 0, c};
+        // the tilt after what takes the rotation in double back
+        pir_quat both = {c * back.x + s * back.z, c * back.y + s * back.w, c * back.z - s * back.x,
+                         c * back.w - s * back.y};
+        contact_scene scene =
+            contact_scene_make(prism(sides[i % 4], is_baked ? baked : still), slab(), is_baked ? both : r);
+        scene.t = (pir_vec3){0, 0, 0.5 * cos(angle) + sin(angle) + (deep ? -0.3 : 0.001)};
+        scene.margin = deep ? 0 : 0.3;
+        contact_scene_check(&scene, "prism", i);
+        expect(contact_scene_corners(&scene) == sides[i % 4], "%u sides, %g degrees%s%s: %zu corners", sides[i % 4],
+               degrees[i / 4 % 14], is_baked ? ", rotated in double" : "", deep ? ", deep" : "",
+               contact_scene_corners(&scene));
+        contact_scene_clear(&scene);
+    }
+}
+
 int main(void) {
+    test_print_seed();
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_segment_over_a_slab_has_both_ends_within_the_margin),
                                        cmocka_unit_test(a_plate_on_its_corner_has_the_corner_that_rises_least),
-                                       cmocka_unit_test(contacts_beside_a_needle_lie_on_it)};
+                                       cmocka_unit_test(contacts_beside_a_needle_lie_on_it),
+                                       cmocka_unit_test(contacts_of_segments_nearly_parallel_are_over_each_other),
+                                       cmocka_unit_test(contacts_of_an_edge_along_a_needle_are_over_each_other),
+                                       cmocka_unit_test(a_prism_tilted_by_any_angle_has_all_its_corners)};
     return cmocka_run_group_tests_name("inclined", tests, NULL, NULL);
 }

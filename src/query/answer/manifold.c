@@ -230,6 +230,8 @@ static void grow(pir_patch *patch, pir_feature feature, const pir_vec3 axis[2], 
     }
     pir_patch_grow(patch, feature);
     pir_patch_set_outline(patch, axis, room);
+    if (patch->outline.count > 2 && pir_patch_complete(patch))
+        pir_patch_set_outline(patch, axis, room);
 }
 
 /* Grows both patches until each has an outline. Returns the number of corners that they share, in the room. */
@@ -295,7 +297,20 @@ static inline pir_contact contact_at(const struct manifold *m, const pir_corner 
     return (pir_contact){pir_vec_add(from, pir_vec_scale(m->n, distance)), from, distance, corner_id(m, corner)};
 }
 
-static pir_contact contact_of_patches(const struct manifold *m, const pir_corner *corner) {
+/* Whether two points are over each other along the normal. */
+static inline bool is_over(const struct manifold *m, pir_vec3 p, pir_vec3 q) {
+    pir_vec3 off = pir_vec_sub(p, q);
+    double along = pir_vec_dot(m->n, off), most = PIR_OVER * m->p->snap;
+    pir_vec3 across = pir_vec_sub(off, pir_vec_scale(m->n, along));
+    return pir_vec_dot(across, across) <= most * most;
+}
+
+/*
+ * The points of both patches at a corner. Edges that are nearly parallel, and sides at a sharp corner, pass each other:
+ * then one of the points stays, and the other is over or under it, on a facet beside the edge. False where there is
+ * none.
+ */
+static bool find_points(const struct manifold *m, const pir_corner *corner, pir_vec3 *ret_p, pir_vec3 *ret_q) {
     pir_vec3 p, q;
     if (corner->kind == PIR_CORNER_P) {
         p = pir_patch_vertex(m->p, m->p->outline.at[corner->p].p);
@@ -307,11 +322,35 @@ static pir_contact contact_of_patches(const struct manifold *m, const pir_corner
         p = pir_patch_side(m->p, corner->p, along_side(&m->p->outline, corner->p, corner));
         q = pir_patch_side(m->q, corner->q, along_side(&m->q->outline, corner->q, corner));
     }
+    bool found = is_over(m, p, q) || (corner->kind != PIR_CORNER_P && pir_patch_find(m->p, q, &p)) ||
+                 (corner->kind != PIR_CORNER_Q && pir_patch_find(m->q, p, &q));
+    *ret_p = p;
+    *ret_q = q;
+    return found;
+}
+
+/* Whether a corner is near enough to be a contact. */
+static inline bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
+    if (distance <= m->limit)
+        return true;
+    const pir_corner *a = &m->of_answer;
+    double more = distance - m->answer->distance;
+    // the way is no longer than both its parts: most that are too far are so by that
+    if (more > 2 * PIR_FLUSH * pir_frame_length(m->frame, fabs(corner->u - a->u) + fabs(corner->v - a->v)))
+        return false;
+    return more <= PIR_FLUSH * pir_frame_length(m->frame, pir_outline_distance(corner, a));
+}
+
+/* The contact at a corner of grown patches; false where there is none. */
+static bool contact_of_patches(const struct manifold *m, const pir_corner *corner, pir_contact *ret_contact) {
+    pir_vec3 p, q;
+    if (!find_points(m, corner, &p, &q))
+        return false;
     double distance = pir_frame_length(m->frame, pir_vec_dot(m->n, pir_vec_sub(p, q))) - m->radii;
-    pir_contact contact = contact_at(m, corner, q, distance);
-    // two sides that are flush may pass each other by a little
-    contact.point_p = pir_vec_sub(pir_frame_world(m->frame, p), pir_vec_scale(m->n, m->radius_p));
-    return contact;
+    *ret_contact = contact_at(m, corner, q, distance);
+    // sides that meet at a corner may be apart there by rounding
+    ret_contact->point_p = pir_vec_sub(pir_frame_world(m->frame, p), pir_vec_scale(m->n, m->radius_p));
+    return is_near(m, corner, distance);
 }
 
 /*
@@ -340,24 +379,10 @@ static inline uint32_t corner_of_answer(const struct manifold *m, uint32_t count
     return count;
 }
 
-/* Whether a corner is near enough to be a contact. */
-static inline bool is_near(const struct manifold *m, const pir_corner *corner, double distance) {
-    if (distance <= m->limit)
-        return true;
-    const pir_corner *a = &m->of_answer;
-    double more = distance - m->answer->distance;
-    // the way is no longer than both its parts: most that are too far are so by that
-    if (more > 2 * PIR_FLUSH * pir_frame_length(m->frame, fabs(corner->u - a->u) + fabs(corner->v - a->v)))
-        return false;
-    return more <= PIR_FLUSH * pir_frame_length(m->frame, pir_outline_distance(corner, a));
-}
-
 /* The contact at a corner; false where it is too far apart. */
 static inline bool make_contact(const struct manifold *m, const pir_corner *corner, pir_contact *ret_contact) {
-    if (!m->is_single) {
-        *ret_contact = contact_of_patches(m, corner);
-        return is_near(m, corner, ret_contact->distance);
-    }
+    if (!m->is_single)
+        return contact_of_patches(m, corner, ret_contact);
     double p = pir_patch_height(m->p, corner), q = pir_patch_height(m->q, corner);
     double distance = pir_frame_length(m->frame, p - q) - m->radii;
     if (!is_near(m, corner, distance))

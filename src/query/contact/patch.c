@@ -161,6 +161,20 @@ bool pir_patch_extend(pir_patch *patch) {
     return v != UINT32_MAX;
 }
 
+bool pir_patch_complete(pir_patch *patch) {
+    if (patch->facet == PIR_NO_FACET)
+        return false;
+    pir_vec3 n = normal_of(patch, patch->facet);
+    double along = pir_vec_dot(n, patch->out);
+    // edges of a facet that is tilted by no more than that are flat, so it is whole
+    if (1 - along * along <= PIR_FLAT * PIR_FLAT)
+        return false;
+    uint32_t members = patch->members;
+    add_facet(patch, patch->facet);
+    spread(patch, n);
+    return patch->members > members;
+}
+
 void pir_patch_clear(pir_patch *patch) {
     for (uint32_t i = 0; i < patch->members; i++)
         patch->is_member[patch->member[i]] = false;
@@ -215,10 +229,9 @@ void pir_patch_look_around(pir_patch *patch) {
     }
 }
 
-pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
+/* The facet over or under x, found from the patch's first facet, and how far x is from it along `out`. */
+static inline uint32_t facet_over(const pir_patch *patch, pir_vec3 x, double *ret_height) {
     const pir_polytope *p = patch->polytope;
-    if (patch->facet == PIR_NO_FACET)
-        return x;
     // the surface is the least of its planes: go from facet to facet until no neighbour is lower
     uint32_t f = patch->facet;
     bool lower = patch->planes == 0;
@@ -245,7 +258,57 @@ pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
             }
         }
     }
-    return pir_vec_add(x, pir_vec_scale(patch->out, least));
+    *ret_height = least;
+    return f;
+}
+
+pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x) {
+    double height = 0;
+    if (patch->facet == PIR_NO_FACET)
+        return x;
+    facet_over(patch, x, &height);
+    return pir_vec_add(x, pir_vec_scale(patch->out, height));
+}
+
+/* The distance of x from the segment of a halfedge, in the body's own frame. */
+static double off_side(const pir_patch *patch, uint32_t h, pir_vec3 x) {
+    const pir_polytope *p = patch->polytope;
+    pir_vec3 a = patch->vertex[p->origin[h]], way = pir_vec_sub(patch->vertex[p->target[h]], a),
+             off = pir_vec_sub(x, a);
+    double part = fmin(1, fmax(0, pir_vec_dot(off, way) / pir_vec_dot(way, way)));
+    off = pir_vec_sub(off, pir_vec_scale(way, part));
+    return sqrt(pir_vec_dot(off, off));
+}
+
+/* The distance from a facet of a point of its plane, in the body's own frame. */
+static double off_facet(const pir_patch *patch, uint32_t f, pir_vec3 x) {
+    const pir_polytope *p = patch->polytope;
+    bool inside = true;
+    double least = HUGE_VAL;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
+        uint32_t h = p->loop[i];
+        pir_vec3 in = pir_vec_cross(p->normal[f], p->direction[h]);
+        inside &= pir_vec_dot(in, pir_vec_sub(x, patch->vertex[p->origin[h]])) >= 0;
+        least = fmin(least, off_side(patch, h, x));
+    }
+    return inside ? 0 : least;
+}
+
+bool pir_patch_find(const pir_patch *patch, pir_vec3 x, pir_vec3 *ret_point) {
+    double unused;
+    if (patch->facet == PIR_NO_FACET)
+        return false;
+    uint32_t f = facet_over(patch, x, &unused);
+    pir_patch_plane plane = plane_of(patch, f);
+    if (plane.along < PIR_LEAST_COSINE)
+        return false;
+    // on the facet itself: the plane may be moved out
+    plane.more = 0;
+    pir_vec3 point = pir_vec_add(x, pir_vec_scale(patch->out, height(&plane, x)));
+    if (off_facet(patch, f, pir_patch_to_body(patch, pir_vec_sub(point, patch->at))) > PIR_OVER * patch->snap)
+        return false;
+    *ret_point = point;
+    return true;
 }
 
 pir_vec3 pir_patch_side(const pir_patch *patch, uint32_t side, double t) {

@@ -33,11 +33,15 @@
  *
  * PIR_SNAP: points of the contact plane closer than this, relative to the placement's reach, are one. Rounding leaves
  * 2^-46.
+ *
+ * PIR_OVER: two points of a contact are over each other when their distance across the normal is at most this many
+ * times PIR_SNAP of the reach. Merging puts them up to 5 apart.
  */
 #define PIR_FLAT  0x1p-10
 #define PIR_FLUSH 0x1p-20
 #define PIR_STEEP 0x1p-10
 #define PIR_SNAP  0x1p-44
+#define PIR_OVER  8
 
 #define PIR_NO_FACET UINT32_MAX
 
@@ -127,6 +131,13 @@ void pir_patch_grow(pir_patch *patch, pir_feature feature);
  */
 bool pir_patch_extend(pir_patch *patch);
 
+/*
+ * Makes whole a patch that has an area on a tilted facet. Of a facet with many corners some edges are nearly across
+ * `out` while the facet is not, so that growing takes only a part of it: the facet that faces `out` most is taken, and
+ * what is flat with it. False where that changes nothing.
+ */
+bool pir_patch_complete(pir_patch *patch);
+
 /* Sets the outline in coordinates along two axes of the contact plane. axis[0] × axis[1] is the normal from Q to P. */
 void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner *room);
 
@@ -135,6 +146,12 @@ void pir_patch_look_around(pir_patch *patch);
 
 /* The point of the surface that x moves to along `out`. x lies beside a point of the patch. */
 pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x);
+
+/*
+ * The same for any x near the patch. False where the line through x along `out` passes the body by more than
+ * PIR_OVER · snap, or meets a facet at a cosine below PIR_LEAST_COSINE.
+ */
+bool pir_patch_find(const pir_patch *patch, pir_vec3 x, pir_vec3 *ret_point);
 
 /* The point of the surface over the point at fraction t of side `side` of the outline. */
 pir_vec3 pir_patch_side(const pir_patch *patch, uint32_t side, double t);
