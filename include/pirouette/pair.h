@@ -61,8 +61,8 @@ typedef struct pir_pair_options {
     const pir_allocator *allocator; /**< or NULL: malloc's */
     /**
      * The levels that may be used: those from `least` to `most`. PIR_LEVEL_WHOLE for both answers all by the
-     * difference. Where `most` is below what an answer needs, the call is PIR_ERR_UNSUPPORTED. PIR_LEVEL_NONE for
-     * `least` is no bound.
+     * difference. Where none of them finds the answer, the call is PIR_ERR_UNSUPPORTED. PIR_LEVEL_NONE for `least` is
+     * no bound.
      */
     pir_level least, most;
 } pir_pair_options;

@@ -151,8 +151,8 @@ PIR_API pir_status pir_query_create(pir_sum *difference, pir_query **ret_query);
 PIR_API void pir_query_destroy(pir_query *query);
 
 /**
- * Whether the bodies overlap: state and outcome, exact, without a distance. On the boundary, normal, points and
- * witness are those of the contact; elsewhere they are not set.
+ * Whether the bodies overlap: state and outcome, exact, without a distance, so that no cutoff counts. On the boundary,
+ * normal, points and witness are those of the contact. Elsewhere they are not set.
  *
  * input  where P is.
  * cache  NULL, or the caller's memory of an earlier answer.
@@ -334,13 +334,14 @@ typedef struct pir_contact {
  * A patch is the vertex, edge or facet that carries the answer, and everything that edges in its plane lead to. An
  * edge is in the plane when it is within 0.056° of it (a sine of 2^-10), so that facets that are coplanar but for
  * rounding are one. Where one body has an area there and the other has none, the other is tilted: its patch is the
- * facet there that faces the first body most.
+ * facet there that faces the first body most. A patch that has a part of such a facet has all of it.
  *
  * The first contact is the answer itself, with its points and its distance. The others are the corners of the region
  * that the patches share, counter-clockwise about the normal. Where the answer lies on a corner, the first contact is
  * that corner. Where it lies elsewhere in the region, both top bits of its id are set, and of no other id. Two
  * parallel edges share a segment, with two corners. Points lie on the surfaces of their bodies, and point_p = point_q
- * + distance · normal. Edges that are parallel within 2^-20 only meet this up to that part of their length.
+ * + distance · normal, within 1e-12 of the size and distance of the bodies. Where edges are parallel only nearly, the
+ * end of one has its point on a facet beside the other edge, and is no contact where it is beside the body.
  *
  * A corner is a contact where its distance is at most the greatest of input->margin, the answer's distance, and 0, or
  * where it rises from the answer's point by at most 2^-20 of the way to it. So a larger margin only adds contacts.

@@ -236,19 +236,15 @@ static bool by_axes(pir_task *task) {
 
 /* --- the calls --- */
 
-/* Which ways the option allows. */
-static bool allows(const pir_pair *pair, pir_level level) {
-    return (pair->levels >> level & 1) != 0;
-}
-
 static bool by_need(pir_task *task) {
     pir_pair *pair = task->pair;
-    if (allows(pair, PIR_LEVEL_APART) && (by_certificate(task) || (pair->has_axis && pir_task_apart(task)))) {
+    if (pir_pair_allows(pair, PIR_LEVEL_APART) && (by_certificate(task) || (pair->has_axis && pir_task_apart(task)))) {
         pair->statistics.by_certificate++;
         pir_task_end(task, PIR_LEVEL_APART);
         return true;
     }
-    bool near = allows(pair, PIR_LEVEL_NEAR), deep = allows(pair, PIR_LEVEL_OVERLAPPING), was_deep = pair->deep;
+    bool near = pir_pair_allows(pair, PIR_LEVEL_NEAR), deep = pir_pair_allows(pair, PIR_LEVEL_OVERLAPPING),
+         was_deep = pair->deep;
     if (near && by_same_facet(task))
         return true;
     pair->deep = pair->held.some = false;
@@ -264,7 +260,7 @@ static void add_radii(const pir_pair_input *input, pir_query_result *result) {
 
 /* The answer where it takes no frame. */
 static bool is_still_apart(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want) {
-    if (!(want & PIR_WANT_SEPARATION) || !allows(pair, PIR_LEVEL_APART) ||
+    if (!(want & PIR_WANT_SEPARATION) || !pir_pair_allows(pair, PIR_LEVEL_APART) ||
         !pir_pair_still_apart(pair, workspace, input))
         return false;
     pir_result_clear(&workspace->answer);
@@ -293,7 +289,7 @@ static pir_status find_answer(pir_pair *pair, pir_workspace *workspace, const pi
     task.result = result;
     pair->statistics.queries++;
     if (!by_need(&task)) {
-        if (!allows(pair, PIR_LEVEL_WHOLE))
+        if (!pir_pair_allows(pair, PIR_LEVEL_WHOLE))
             return PIR_ERR_UNSUPPORTED;
         pir_status status = pir_pair_whole(pair, workspace, input, want, result);
         if (status != PIR_OK)
@@ -327,26 +323,20 @@ static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pai
 
 pir_status pir_pair_overlap(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                             pir_query_result *ret_result) {
-    pir_query_result result;
-    pir_pair_input near;
-    if (!input || !ret_result)
+    if (!pair || !workspace || !input || !ret_result)
         return PIR_ERR_ARGUMENT;
-    near = *input;
+    // the caller's cutoff tells nothing here, but is refused where it is no number
+    pir_status status = pir_pair_check(input);
+    if (status != PIR_OK)
+        return status;
+    pir_pair_input near = *input;
     bool rounded = input->radius_p + input->radius_q > 0;
     if (rounded)
         near.cutoff = 0;
-    pir_status status = answer(pair, workspace, &near, rounded ? PIR_WANT_SEPARATION : 0, &result);
-    if (status != PIR_OK)
-        return status;
-    if (!rounded && result.state != PIR_BOUNDARY) {
-        pir_state state = result.state;
-        uint32_t steps = result.steps;
-        pir_result_clear(&result);
-        pir_result_set_state(&result, state);
-        result.steps = steps;
-    }
-    *ret_result = result;
-    return PIR_OK;
+    status = answer(pair, workspace, &near, rounded ? PIR_WANT_SEPARATION : 0, ret_result);
+    if (status == PIR_OK)
+        pir_result_keep_state(ret_result);
+    return status;
 }
 
 pir_status pir_pair_distance(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,

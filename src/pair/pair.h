@@ -94,6 +94,11 @@ struct pir_workspace {
     pir_query *query;
 };
 
+/* Whether the options allow answers by a level. */
+static inline bool pir_pair_allows(const pir_pair *pair, pir_level level) {
+    return (pair->levels >> level & 1) != 0;
+}
+
 /* --- begin.c --- */
 
 /* Whether radii, cutoff and margin are numbers that mean something. */

@@ -62,11 +62,11 @@ static bool finish_inside(pir_task *task, const pir_overlap *overlap) {
     return true;
 }
 
-/* The answer from what came of a surface. */
+/* The answer from what came of a surface. A facet that x is at or beyond is an answer by the level `near`. */
 static bool finish(pir_task *task, const pir_overlap *overlap, pir_about about, const pir_facet *facet) {
     if (about == PIR_ABOUT_X)
         return finish_inside(task, overlap);
-    if (about == PIR_ABOUT_NOTHING || !pir_task_settle(task, facet))
+    if (about == PIR_ABOUT_NOTHING || !pir_pair_allows(task->pair, PIR_LEVEL_NEAR) || !pir_task_settle(task, facet))
         return false;
     task->pair->statistics.by_facet++;
     pir_task_end(task, PIR_LEVEL_NEAR);

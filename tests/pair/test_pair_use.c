@@ -69,7 +69,8 @@ static void what_is_no_pose_is_refused_and_changes_nothing(void **state) {
                        {{0, 0, 0, 1}, {0, 0, 1e300}, 0, 1, PIR_ERR_LIMIT},
                        {{0, 0, 0, 1}, {0, 0, 0}, -1, 1, PIR_ERR_ARGUMENT},
                        {{0, 0, 0, 1}, {0, 0, 0}, NAN, 1, PIR_ERR_NOT_FINITE},
-                       {{0, 0, 0, 1}, {0, 0, 0}, 0, NAN, PIR_ERR_NOT_FINITE}};
+                       {{0, 0, 0, 1}, {0, 0, 0}, 0, NAN, PIR_ERR_NOT_FINITE},
+                       {{0, 0, 0, 1}, {5, 0, 0}, 0.125, NAN, PIR_ERR_NOT_FINITE}};
     pir_polytope *p = cube(1);
     pir_pair *pair;
     pir_workspace *workspace;
@@ -377,6 +378,99 @@ static void a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike(
     pir_polytope_release(p);
 }
 
+/* The pair's answer is that of the whole difference, by a level of those allowed, or the call is refused. */
+static void check_level(pir_pair *pair, const pir_pair_options *options, pir_workspace *workspace, int call,
+                        const pir_pair_input *input, const pir_query_result *expected, size_t asked[2]) {
+    pir_query_result result;
+    pir_status status = calls[call](pair, workspace, input, &result);
+    pir_level level = pir_pair_level(pair);
+    expect(status == PIR_OK || (status == PIR_ERR_UNSUPPORTED && options->most < PIR_LEVEL_WHOLE),
+           "levels %d to %d: status %d", (int)options->least, (int)options->most, (int)status);
+    expect(status != PIR_OK || (level >= options->least && level <= options->most && level > PIR_LEVEL_NONE),
+           "levels %d to %d: an answer by level %d", (int)options->least, (int)options->most, (int)level);
+    expect(status != PIR_OK || test_same_result(&result, expected), "levels %d to %d: another answer by level %d",
+           (int)options->least, (int)options->most, (int)level);
+    asked[status != PIR_OK]++;
+}
+
+/* All options, at poses apart, resting and deep, one pair for each that goes from pose to pose. */
+static void an_answer_comes_by_a_level_that_is_allowed(void **state) {
+    (void)state;
+    pir_workspace *workspace;
+    size_t asked[2] = {0, 0};
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t i = 0; i < 40; i++) {
+        test_random random = test_random_case("allowed levels", i);
+        test_pose pose;
+        test_random_pose(&random, i % 2 ? 12 : 60, &pose);
+        pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
+        for (int least = PIR_LEVEL_NONE; least <= PIR_LEVEL_WHOLE; least++)
+            for (int most = least > PIR_LEVEL_APART ? least : PIR_LEVEL_APART; most <= PIR_LEVEL_WHOLE; most++) {
+                pir_pair_options options = {NULL, (pir_level)least, (pir_level)most},
+                                 all = {NULL, PIR_LEVEL_WHOLE, PIR_LEVEL_WHOLE};
+                pir_pair *pair, *whole;
+                if (pir_pair_create(p, q, &options, &pair) != PIR_OK)
+                    continue;
+                assert_int_equal(pir_pair_create(p, q, &all, &whole), PIR_OK);
+                pir_vec3 from = pir_polytope_vertex(p, 0), to = pir_polytope_vertex(q, 0);
+                for (int k = 0; k < 12; k++) {
+                    pir_pair_input input = pir_pair_input_default();
+                    pir_query_result expected;
+                    double part = k % 3 == 0 ? 1 : 1 + 0.5 * test_random_unit(&random);
+                    input.pose_p.translation =
+                        (pir_vec3){part * (to.x - from.x), part * (to.y - from.y), part * (to.z - from.z)};
+                    input.cutoff = k % 4 == 3 ? 0.125 : HUGE_VAL;
+                    if (calls[k % 4](whole, workspace, &input, &expected) == PIR_OK)
+                        check_level(pair, &options, workspace, k % 4, &input, &expected, asked);
+                }
+                pir_pair_destroy(pair);
+                pir_pair_destroy(whole);
+            }
+        pir_polytope_release(p);
+        pir_polytope_release(q);
+    }
+    print_message("# %zu answers, %zu refused\n", asked[0], asked[1]);
+    assert_true(asked[0] > 1000 && asked[1] > 100);
+    pir_workspace_destroy(workspace);
+}
+
+/* Whether bodies overlap is asked for without a distance: the cutoff is none of it. */
+static void rounded_bodies_are_separated_or_overlap_whatever_the_cutoff(void **state) {
+    (void)state;
+    static const double places[3] = {5, 2.125, 2}, cutoffs[3] = {HUGE_VAL, 0, 0.5};
+    static const pir_outcome outcomes[3] = {PIR_SEPARATED, PIR_TOUCHING, PIR_OVERLAPPING};
+    pir_polytope *p = cube(1);
+    pir_workspace *workspace;
+    pir_pair *pair;
+    pir_sum *sum;
+    pir_query *query;
+    pir_sum_options options = pir_sum_options_default();
+    options.difference = 1;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, p, NULL, &pair), PIR_OK);
+    assert_int_equal(pir_sum_create(p, p, (pir_quat){0, 0, 0, 1}, &options, &sum), PIR_OK);
+    assert_int_equal(pir_query_create(sum, &query), PIR_OK);
+    for (int i = 0; i < 9; i++) {
+        pir_pair_input input = pir_pair_input_default();
+        pir_query_input asked = pir_query_input_default();
+        pir_query_result result, same;
+        input.pose_p.translation.x = asked.translation.x = places[i % 3];
+        input.radius_p = asked.radius_p = 0.125;
+        input.cutoff = asked.cutoff = cutoffs[i / 3];
+        assert_int_equal(pir_pair_overlap(pair, workspace, &input, &result), PIR_OK);
+        assert_int_equal(pir_query_overlap(query, &asked, NULL, &same), PIR_OK);
+        assert_int_equal(result.outcome, outcomes[i % 3]);
+        assert_true(result.distance == 0 && test_same_result(&result, &same));
+        // on the boundary alone there is a contact
+        assert_true((result.normal.x == 1) == (result.outcome == PIR_TOUCHING));
+    }
+    pir_query_destroy(query);
+    pir_sum_destroy(sum);
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(p);
+}
+
 /* P goes round Q with the same facet towards it: the direction that parts them turns with P, and is tried so. */
 static void a_direction_that_turns_with_p_still_parts(void **state) {
     (void)state;
@@ -415,6 +509,8 @@ int main(void) {
         cmocka_unit_test(a_common_turn_changes_no_state),
         cmocka_unit_test(posed_pairs_answer_alike_at_all_levels),
         cmocka_unit_test(a_direction_that_turns_with_p_still_parts),
+        cmocka_unit_test(an_answer_comes_by_a_level_that_is_allowed),
+        cmocka_unit_test(rounded_bodies_are_separated_or_overlap_whatever_the_cutoff),
         cmocka_unit_test(a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike),
     };
     return cmocka_run_group_tests_name("pairs in use", tests, NULL, NULL);

@@ -293,7 +293,10 @@ pir_status pir_query_overlap(pir_query *query, const pir_query_input *input, pir
     if (input->radius_p + input->radius_q > 0) {
         pir_query_input near = *input;
         near.cutoff = 0;
-        return answer(query, &near, PIR_WANT_SEPARATION, cache, ret_result);
+        status = answer(query, &near, PIR_WANT_SEPARATION, cache, ret_result);
+        if (status == PIR_OK)
+            pir_result_keep_state(ret_result);
+        return status;
     }
     pir_query_result result = {0};
     pir_least touching = {.some = false};

@@ -58,6 +58,17 @@ void pir_result_separation(const pir_frame *frame, const pir_nearest *nearest, p
     separate_points(result);
 }
 
+void pir_result_keep_state(pir_query_result *result) {
+    const pir_query_result had = *result;
+    if (had.state == PIR_BOUNDARY)
+        return;
+    pir_result_clear(result);
+    result->state = had.state;
+    // rounded bodies are asked within a cutoff of 0, which is not the caller's
+    result->outcome = had.outcome == PIR_BEYOND_CUTOFF ? PIR_SEPARATED : had.outcome;
+    result->steps = had.steps;
+}
+
 void pir_result_beyond(pir_query_result *result) {
     uint32_t steps = result->steps;
     pir_result_clear(result);

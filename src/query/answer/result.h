@@ -40,6 +40,9 @@ static inline void pir_result_set_state(pir_query_result *result, pir_state stat
 void pir_result_touching(pir_exact *exact, const pir_placement *placement, const pir_least *touching,
                          pir_query_result *result);
 
+/* Keeps what a query about overlap gives: state, outcome and steps, and of a boundary the contact. */
+void pir_result_keep_state(pir_query_result *result);
+
 void pir_result_separation(const pir_frame *frame, const pir_nearest *nearest, pir_query_result *result);
 void pir_result_beyond(pir_query_result *result);
 
