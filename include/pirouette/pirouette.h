@@ -26,6 +26,7 @@
 #include <pirouette/solid.h>
 #include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
+#include <pirouette/trimesh.h>
 #include <pirouette/version.h>
 #include <pirouette/workspace.h>
 

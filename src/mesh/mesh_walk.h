@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/* A traversal of a mesh or a height field: boxes first, the nearest of a node's children before the others. */
+#ifndef PIR_MESH_MESH_WALK_H
+#define PIR_MESH_MESH_WALK_H
+
+#include "mesh/height_field.h"
+#include "mesh/trimesh.h"
+
+/* A triangle that a walk comes to. */
+typedef struct pir_met_triangle {
+    uint32_t number;
+    uint32_t id[3]; /* of its corners: equal where they are at one place */
+    pir_tri tri;
+} pir_met_triangle;
+
+typedef struct pir_walk {
+    /* Writes how near each box can be, HUGE_VAL for what is not to be entered. */
+    void (*measure)(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]);
+    /* Looks at a triangle; false ends the walk. */
+    bool (*look)(void *context, const pir_met_triangle *triangle);
+    void *context;
+    const double *most; /* what is not as near as this is not entered; it may change */
+} pir_walk;
+
+/* PIR_ERR_ARGUMENT where there is neither a mesh nor a field. */
+pir_status pir_surface_check(pir_surface_ref surface);
+
+void pir_surface_walk(pir_surface_ref surface, const pir_walk *walk);
+
+pir_tri pir_surface_tri(pir_surface_ref surface, uint32_t triangle);
+uint32_t pir_surface_material(pir_surface_ref surface, uint32_t triangle);
+
+/* The greatest size of a coordinate of a box around all, axis by axis. */
+void pir_surface_reach(pir_surface_ref surface, double ret_reach[3]);
+
+#endif
