@@ -83,7 +83,9 @@ PIR_API pir_cspace_options pir_cspace_options_default(void);
 /**
  * Makes a job. With `resume` it takes over the units that parts of an earlier run hold, and where the file itself is
  * there, of the same job, nothing is left to make; else it removes such parts. Of several processes that share a job
- * only the first, whose `part` is 0, may be without `resume`, and the others make theirs after it.
+ * only the first, whose `part` is 0, may be without `resume`, and the others make theirs after it. That first one holds
+ * the lock `path`.lock until it is destroyed, so that no other job makes the same file meanwhile; a process that is
+ * killed drops it. docs/slices.md says what holds where a file system has no locks.
  *
  * bodies   pieces of any dimension, at least one of each; the job takes a reference to each.
  * grid     borrowed until the job is destroyed.
@@ -95,7 +97,7 @@ PIR_API pir_cspace_options pir_cspace_options_default(void);
  * Cost: O(rotations + size of the pieces); with `resume`, the time to read all parts.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY (no pieces), PIR_ERR_FORMAT (with `resume`, a part of another job, or a file
- * that is another one and no part of this job), PIR_ERR_FILE, PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no
+ * that is another one and no part of this job), PIR_ERR_FILE (also where another job holds the lock), PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no
  * HDF5).
  */
 PIR_API pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,

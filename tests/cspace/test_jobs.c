@@ -166,6 +166,42 @@ static void parts_of_several_processes_make_the_same_file(void **state) {
     slice_scene_finish(&scene);
 }
 
+/* Two jobs of one process are kept apart as those of two are; what is left of a lock, or of a file half made, goes. */
+static void a_file_is_that_of_one_job_at_a_time(void **state) {
+    (void)state;
+    struct slice_scene scene;
+    char path[SLICE_PATH], lock[SLICE_PATH + 16], half[SLICE_PATH + 32];
+    pir_report report = {0};
+    pir_cspace_job *first = NULL, *second = NULL;
+    pir_cspace_options options = slice_short_units();
+    slice_scene_make(&scene, 30);
+    slice_path("locked.h5", path);
+    snprintf(lock, sizeof lock, "%s.lock", path);
+    snprintf(half, sizeof half, "%s.assembling-1-2", path);
+    slice_write_whole(lock, (const uint8_t *)"\x1b[2J", 4);
+    slice_write_whole(half, (const uint8_t *)"half", 4);
+    assert_int_equal(pir_cspace_job_create(&scene.bodies, scene.grid, path, &options, &report, &first), PIR_OK);
+    assert_int_not_equal(access(half, F_OK), 0);
+    for (int resume = 0; resume < 2; resume++) {
+        options.resume = resume;
+        assert_int_equal(pir_cspace_job_create(&scene.bodies, scene.grid, path, &options, &report, &second),
+                         PIR_ERR_FILE);
+        expect(strstr(report.text, "locked.h5: process ") && strstr(report.text, " is making it"), "%s", report.text);
+        assert_null(second);
+    }
+    assert_int_equal(pir_cspace_job_run(first, &report), PIR_OK);
+    assert_int_equal(pir_cspace_job_assemble(first, &report), PIR_OK);
+    // the lock is that of the job, not of its run
+    assert_int_equal(pir_cspace_job_create(&scene.bodies, scene.grid, path, &options, &report, &second), PIR_ERR_FILE);
+    pir_cspace_job_destroy(first);
+    assert_int_not_equal(access(lock, F_OK), 0);
+    assert_int_equal(pir_cspace_job_create(&scene.bodies, scene.grid, path, &options, &report, &second), PIR_OK);
+    assert_int_equal(pir_cspace_job_left(second), 0);
+    pir_cspace_job_destroy(second);
+    unlink(path);
+    slice_scene_finish(&scene);
+}
+
 static void parts_of_another_job_are_refused(void **state) {
     (void)state;
     struct slice_scene scene, other;
@@ -221,6 +257,7 @@ int main(void) {
         cmocka_unit_test(runs_that_resume_make_the_same_file),
         cmocka_unit_test(a_file_that_is_complete_is_left_alone),
         cmocka_unit_test(parts_of_several_processes_make_the_same_file),
+        cmocka_unit_test(a_file_is_that_of_one_job_at_a_time),
         cmocka_unit_test(parts_of_another_job_are_refused),
         cmocka_unit_test(what_cannot_be_a_job_is_refused),
     };

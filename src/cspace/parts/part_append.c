@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -36,12 +37,11 @@ static bool write_all(int descriptor, const void *data, size_t size, uint64_t at
 }
 
 /*
- * One process at a time appends to a part. The lock goes when the process closes any descriptor of the part, so parts
- * are scanned before one is opened to append to.
+ * One process at a time appends to a part. Where the file system has no locks, the lock of the job and the numbers of
+ * its parts keep processes apart.
  */
 static bool take_lock(int descriptor) {
-    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    return fcntl(descriptor, F_SETLK, &lock) == 0;
+    return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
 /* The end of the last unit that is whole, of the part's own; writes the header where there is none. */
@@ -77,7 +77,7 @@ pir_status pir_part_open(pir_part *part, const pir_parts *parts, uint32_t number
     if (!part->path)
         return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", parts->file);
     snprintf(part->path, part->path_size, "%s.part%u", parts->file, (unsigned)number);
-    part->descriptor = open(part->path, O_RDWR | O_CREAT, 0666);
+    part->descriptor = open(part->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (part->descriptor < 0)
         return fail_part(part, "open", report);
     if (!take_lock(part->descriptor))

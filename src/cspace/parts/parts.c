@@ -14,6 +14,7 @@
 #include "base/report.h"
 #include "cspace/parts/chunks.h"
 #include "cspace/parts/part_file.h"
+#include "polytope/file/file_name.h"
 #include "polytope/file/target.h"
 
 /* At most what a chunk takes in the file's index. */
@@ -49,9 +50,15 @@ static int64_t part_number(const char *file, const char *name) {
     return *end == '\0' ? number : -1;
 }
 
-/* Calls `visit` for each part in the folder of the file, by path and number, until one fails. */
-static pir_status each_part(const pir_parts *parts, pir_report *report, void *context,
-                            pir_status (*visit)(void *context, const char *path, uint32_t number, pir_report *report)) {
+static bool is_assembling(const char *file, const char *name) {
+    size_t length = strlen(name_in(file));
+    return strncmp(name, name_in(file), length) == 0 &&
+           strncmp(name + length, PIR_ASSEMBLING, strlen(PIR_ASSEMBLING)) == 0;
+}
+
+/* Calls `visit` for all that is left beside the file, by path and number of the part, or -1, until one fails. */
+static pir_status each_left(const pir_parts *parts, pir_report *report, void *context,
+                            pir_status (*visit)(void *context, const char *path, int64_t number, pir_report *report)) {
     char folder[PIR_PATH_SIZE] = ".", path[PIR_PATH_SIZE];
     size_t length = (size_t)(name_in(parts->file) - parts->file);
     if (strlen(parts->file) + 32 > sizeof path)
@@ -60,14 +67,17 @@ static pir_status each_part(const pir_parts *parts, pir_report *report, void *co
         snprintf(folder, sizeof folder, "%.*s", (int)length, parts->file);
     DIR *entries = opendir(folder);
     if (!entries)
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open the folder: %s", parts->file, strerror(errno));
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open the folder: %s", pir_short_name(parts->file),
+                        strerror(errno));
     pir_status status = PIR_OK;
     for (struct dirent *entry; status == PIR_OK && (entry = readdir(entries));) {
         int64_t number = part_number(parts->file, entry->d_name);
-        if (number < 0)
+        if (number < 0 && !is_assembling(parts->file, entry->d_name))
             continue;
-        snprintf(path, sizeof path, "%s.part%" PRId64, parts->file, number);
-        status = visit(context, path, (uint32_t)number, report);
+        if (length + strlen(entry->d_name) >= sizeof path)
+            continue;
+        snprintf(path, sizeof path, "%.*s%s", (int)length, parts->file, entry->d_name);
+        status = visit(context, path, number, report);
     }
     closedir(entries);
     return status;
@@ -91,32 +101,35 @@ void pir_parts_note(pir_parts *parts, const pir_unit *unit, uint32_t number, uin
         parts->done_bytes += unit->packed[s].used + INDEX_BYTES * pir_chunks_of(s, pir_unit_elements(unit, s));
 }
 
-static pir_status scan_part(void *context, const char *path, uint32_t number, pir_report *report) {
+static pir_status scan_part(void *context, const char *path, int64_t number, pir_report *report) {
     struct scan *scan = context;
     const pir_plan *plan = scan->parts->plan;
+    if (number < 0)
+        return PIR_OK;
     scan->parts->found++;
-    int descriptor = open(path, O_RDONLY);
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0)
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open: %s", path, strerror(errno));
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open: %s", pir_short_name(path), strerror(errno));
     pir_part_header header;
     pir_status status = pir_read_at(descriptor, &header, sizeof header, 0);
     if (status == PIR_OK && (header.magic != PIR_PART_MAGIC || header.plan != plan->hash)) {
         close(descriptor);
-        return pir_fail(report, PIR_ERR_FORMAT, "%s: it is of another job; without resuming it is removed", path);
+        return pir_fail(report, PIR_ERR_FORMAT, "%s: it is of another job; without resuming it is removed",
+                        pir_short_name(path));
     }
     // a part that ends within its header has no unit yet
     for (uint64_t at = sizeof header; status == PIR_OK;) {
         status = pir_unit_read(descriptor, at, plan, &scan->unit);
         if (status != PIR_OK)
             break;
-        pir_parts_note(scan->parts, &scan->unit, number, at);
+        pir_parts_note(scan->parts, &scan->unit, (uint32_t)number, at);
         pir_unit_header whole = pir_unit_header_of(&scan->unit, pir_sections_of(plan));
         at += sizeof whole + pir_unit_body(&whole, pir_sections_of(plan));
     }
     close(descriptor);
     if (status == PIR_ERR_FORMAT)
         return PIR_OK;
-    return pir_fail(report, status, "%s: cannot read: %s", path, pir_status_text(status));
+    return pir_fail(report, status, "%s: cannot read: %s", pir_short_name(path), pir_status_text(status));
 }
 
 pir_status pir_parts_scan(pir_parts *parts, pir_report *report) {
@@ -125,7 +138,7 @@ pir_status pir_parts_scan(pir_parts *parts, pir_report *report) {
     parts->done = parts->done_slices = parts->done_bytes = parts->found = 0;
     pir_status status;
     if (pir_unit_init(&scan.unit, parts->plan->slices_per_unit, &parts->allocator))
-        status = each_part(parts, report, &scan, scan_part);
+        status = each_left(parts, report, &scan, scan_part);
     else
         status = pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
     pir_unit_finish(&scan.unit, &parts->allocator);
@@ -136,26 +149,29 @@ pir_status pir_parts_read(const pir_parts *parts, uint64_t number, pir_unit *uni
     const pir_unit_place *place = &parts->unit[number];
     char path[PIR_PATH_SIZE];
     snprintf(path, sizeof path, "%s.part%u", parts->file, (unsigned)(place->part - 1));
-    int descriptor = open(path, O_RDONLY);
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0)
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open: %s", path, strerror(errno));
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot open: %s", pir_short_name(path), strerror(errno));
     pir_status status = pir_unit_read(descriptor, place->at, parts->plan, unit);
     close(descriptor);
     if (status == PIR_OK && unit->number != number)
         status = PIR_ERR_FORMAT;
-    return status == PIR_OK ? PIR_OK : pir_fail(report, status, "%s: cannot read: %s", path, pir_status_text(status));
+    return status == PIR_OK
+               ? PIR_OK
+               : pir_fail(report, status, "%s: cannot read: %s", pir_short_name(path), pir_status_text(status));
 }
 
 /* --- removing --- */
 
-static pir_status remove_part(void *context, const char *path, uint32_t number, pir_report *report) {
-    (void)context;
-    (void)number;
+static pir_status remove_left(void *context, const char *path, int64_t number, pir_report *report) {
+    const unsigned *kinds = context;
+    if (!(*kinds & (number < 0 ? PIR_LEFT_ASSEMBLING : PIR_LEFT_PARTS)))
+        return PIR_OK;
     if (unlink(path) != 0 && errno != ENOENT)
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot remove: %s", path, strerror(errno));
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot remove: %s", pir_short_name(path), strerror(errno));
     return PIR_OK;
 }
 
-pir_status pir_parts_remove(const pir_parts *parts, pir_report *report) {
-    return each_part(parts, report, NULL, remove_part);
+pir_status pir_parts_remove(const pir_parts *parts, unsigned kinds, pir_report *report) {
+    return each_left(parts, report, &kinds, remove_left);
 }

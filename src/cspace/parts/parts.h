@@ -54,8 +54,14 @@ void pir_parts_finish(pir_parts *parts);
  */
 pir_status pir_parts_scan(pir_parts *parts, pir_report *report);
 
-/* Removes all parts beside the file. Errors: PIR_ERR_FILE, PIR_ERR_MEMORY. */
-pir_status pir_parts_remove(const pir_parts *parts, pir_report *report);
+/* What runs leave beside the file: parts, and files that were being made of all parts, under names of their own. */
+enum pir_left { PIR_LEFT_PARTS = 1, PIR_LEFT_ASSEMBLING = 2, PIR_LEFT_ALL = 3 };
+
+/* How the name of such a file goes on behind that of the one that it is to be. */
+#define PIR_ASSEMBLING ".assembling"
+
+/* Removes what is left beside the file, of the kinds given as bits. Errors: PIR_ERR_FILE, PIR_ERR_MEMORY. */
+pir_status pir_parts_remove(const pir_parts *parts, unsigned kinds, pir_report *report);
 
 /*
  * Opens part `number` to append to, behind the last unit of it that is whole, and locks it. Errors: PIR_ERR_FILE (also

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <pirouette/version.h>
@@ -21,6 +22,8 @@
 #include "cspace/store/names.h"
 #include "cspace/store/piece_file.h"
 #include "cspace/store/sealed_file.h"
+#include "polytope/file/file_name.h"
+#include "polytope/file/target.h"
 
 #define TABLE_CHUNK 1024
 #define GRID_CHUNK  2048
@@ -189,13 +192,20 @@ static bool put_sections(struct output *out, pir_status *status, pir_report *rep
 
 /* --- the file --- */
 
+/* Opens a new file for HDF5 to write. Jobs have a lock of their own, so that HDF5's, which some systems lack, is off. */
 static hid_t create_file(const char *path) {
-    hid_t create = H5Pcreate(H5P_FILE_CREATE);
+    hid_t create = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
     hid_t file = -1;
-    if (create >= 0 && H5Pset_obj_track_times(create, false) >= 0)
-        file = H5Fcreate(path, H5F_ACC_TRUNC, create, H5P_DEFAULT);
+    bool good = create >= 0 && access >= 0 && H5Pset_obj_track_times(create, false) >= 0;
+#if H5_VERSION_GE(1, 10, 7) && (H5_VERS_MINOR != 12 || H5_VERS_RELEASE > 0)
+    good = good && H5Pset_file_locking(access, false, true) >= 0;
+#endif
+    if (good)
+        file = H5Fcreate(path, H5F_ACC_TRUNC, create, access);
     if (create >= 0)
         H5Pclose(create);
+    if (access >= 0)
+        H5Pclose(access);
     return file;
 }
 
@@ -216,13 +226,13 @@ static uint64_t most_bytes(const pir_parts *parts) {
 }
 
 /*
- * Whether the file may become so large. Where HDF5 cannot write to the end, it cannot close the file either, and some
+ * Makes the file, which must not be there, and tells whether it may become so large. Where HDF5 cannot write to the end, it cannot close the file either, and some
  * versions of it crash when the process ends. So limits are met before.
  */
-static bool has_room(const pir_parts *parts, const char *path) {
+static bool make_room(const pir_parts *parts, const char *path) {
     const uint64_t most = most_bytes(parts);
     struct statvfs disk;
-    int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0)
         return false;
     errno = 0;
@@ -239,8 +249,9 @@ static pir_status write_file(struct output *out, const char *path, pir_report *r
     for (int s = 0; s < PIR_SECTION_COUNT; s++)
         out->section[s] = (struct section){-1, -1, -1, -1, -1, {0}, 0};
     errno = 0;
-    if (!has_room(out->parts, path))
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, strerror(errno));
+    if (!make_room(out->parts, path))
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", pir_short_name(out->parts->file),
+                        strerror(errno));
     out->file = create_file(path);
     pir_status status = PIR_OK;
     bool good = out->file >= 0 && put_head(out) && put_grid(out) && pir_pieces_put(out->file, out->plan, out->packer) &&
@@ -250,7 +261,34 @@ static pir_status write_file(struct output *out, const char *path, pir_report *r
         good = false;
     if (status != PIR_OK)
         return status;
-    return good ? PIR_OK : pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, reason(error));
+    return good ? PIR_OK
+                : pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", pir_short_name(out->parts->file),
+                           reason(error));
+}
+
+/* Sees to it that the folder of a path is on the disk, as far as the system lets it. */
+static void sync_folder(const char *path) {
+    char folder[PIR_PATH_SIZE] = ".";
+    const char *slash = strrchr(path, '/');
+    if (slash && (size_t)(slash + 1 - path) < sizeof folder)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash + 1 - path), path);
+    int descriptor = open(folder, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return;
+    fsync(descriptor);
+    close(descriptor);
+}
+
+/* Puts the file, which is sealed and on the disk, in the place of an older one, whose permissions it takes over. */
+static pir_status give_name(const char *path, const char *name, pir_report *report) {
+    struct stat old;
+    if (stat(name, &old) == 0)
+        chmod(path, old.st_mode & 07777);
+    if (rename(path, name) != 0)
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot rename to it: %s", pir_short_name(name), strerror(errno));
+    // the parts are removed next: by then the name must be on the disk as well
+    sync_folder(name);
+    return PIR_OK;
 }
 
 static pir_status assemble_as(const pir_parts *parts, const char *path, pir_report *report) {
@@ -267,22 +305,23 @@ static pir_status assemble_as(const pir_parts *parts, const char *path, pir_repo
         status = pir_seal(path, &parts->allocator, report);
     pir_unit_finish(&out.unit, &parts->allocator);
     pir_packer_free(out.packer);
-    struct stat old;
-    if (status == PIR_OK && stat(parts->file, &old) == 0)
-        chmod(path, old.st_mode & 07777);
-    if (status == PIR_OK && rename(path, parts->file) != 0)
-        status = pir_fail(report, PIR_ERR_FILE, "%s: cannot rename to it: %s", parts->file, strerror(errno));
+    if (status == PIR_OK)
+        status = give_name(path, parts->file, report);
     if (status != PIR_OK)
         unlink(path);
     return status;
 }
 
 pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
-    size_t size = strlen(parts->file) + 32;
+    struct timespec now;
+    size_t size = strlen(parts->file) + sizeof PIR_ASSEMBLING + 3 * sizeof(long) * 3;
     char *path = PIR_NEW(&parts->allocator, char, size);
     if (!path)
-        return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", parts->file);
-    snprintf(path, size, "%s.assembling", parts->file);
+        return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", pir_short_name(parts->file));
+    // a name that no other process has, for where there are no locks and someone has removed that of a job under way
+    clock_gettime(CLOCK_REALTIME, &now);
+    snprintf(path, size, "%s" PIR_ASSEMBLING "-%ld-%ld%09ld", parts->file, (long)getpid(), (long)now.tv_sec,
+             now.tv_nsec);
     pir_status status = assemble_as(parts, path, report);
     PIR_FREE(&parts->allocator, path, size);
     return status;

@@ -19,6 +19,8 @@
 #include "cspace/parts/maker.h"
 #include "cspace/parts/parts.h"
 #include "cspace/store/assemble.h"
+#include "cspace/store/job_lock.h"
+#include "polytope/file/file_name.h"
 #include "polytope/file/target.h"
 
 #define THREADS_MOST 1024u
@@ -28,6 +30,7 @@ struct pir_cspace_job {
     pir_cspace_options options;
     pir_plan plan;
     pir_parts parts;
+    pir_job_lock lock; /* of the first process of those that share the job */
     char *file;
     size_t file_size;
     uint64_t left; /* units, when it was created */
@@ -51,6 +54,7 @@ void pir_cspace_job_destroy(pir_cspace_job *job) {
     if (!job)
         return;
     const pir_allocator a = job->allocator;
+    pir_job_lock_drop(&job->lock, &a);
     pir_parts_finish(&job->parts);
     pir_plan_finish(&job->plan);
     if (job->file)
@@ -65,13 +69,13 @@ void pir_cspace_job_destroy(pir_cspace_job *job) {
 static pir_status find_target(const char *path, char ret_target[PIR_PATH_SIZE], pir_report *report) {
     struct stat there;
     if (!pir_follow_links(path, ret_target))
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, strerror(errno));
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", pir_short_name(path), strerror(errno));
     if (stat(ret_target, &there) != 0)
         return PIR_OK;
     if (!S_ISREG(there.st_mode))
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: it is no regular file", path);
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: it is no regular file", pir_short_name(path));
     if (access(ret_target, W_OK) != 0)
-        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", path, strerror(errno));
+        return pir_fail(report, PIR_ERR_FILE, "%s: cannot write: %s", pir_short_name(path), strerror(errno));
     return PIR_OK;
 }
 
@@ -87,7 +91,8 @@ static pir_status take_over(pir_cspace_job *job, pir_report *report) {
     pir_status status = pir_parts_scan(&job->parts, report);
     // the first run of this job may have been ended before it could replace an older file: then it has left a part
     if (status == PIR_OK && is_first && job->parts.found == 0 && access(job->file, F_OK) == 0)
-        return pir_fail(report, PIR_ERR_FORMAT, "%s: it is of another job; without resuming it is replaced", job->file);
+        return pir_fail(report, PIR_ERR_FORMAT, "%s: it is of another job; without resuming it is replaced",
+                        pir_short_name(job->file));
     return status;
 }
 
@@ -104,7 +109,12 @@ static pir_status begin(pir_cspace_job *job, const pir_cspace_bodies *bodies, co
     if (!job->file || !pir_parts_init(&job->parts, &job->plan, job->file))
         return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
     memcpy(job->file, target, job->file_size);
-    return job->options.resume ? take_over(job, report) : pir_parts_remove(&job->parts, report);
+    // a file is that of one job at a time, from before the first look at what stands beside it to the end
+    if (job->options.part == 0)
+        status = pir_job_lock_take(&job->lock, job->file, &job->allocator, report);
+    if (status == PIR_OK && job->options.part == 0)
+        status = pir_parts_remove(&job->parts, job->options.resume ? PIR_LEFT_ASSEMBLING : PIR_LEFT_ALL, report);
+    return status == PIR_OK && job->options.resume ? take_over(job, report) : status;
 }
 
 pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
@@ -258,15 +268,16 @@ pir_status pir_cspace_job_assemble(pir_cspace_job *job, pir_report *report) {
     if (!job)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no job");
     if (job->is_made)
-        return pir_parts_remove(&job->parts, report);
+        return pir_parts_remove(&job->parts, PIR_LEFT_ALL, report);
     // other processes may have made what this one has not
     pir_status status = job->parts.done < job->plan.units ? pir_parts_scan(&job->parts, report) : PIR_OK;
     if (status == PIR_OK && job->parts.done < job->plan.units)
-        status = pir_fail(report, PIR_ERR_EMPTY, "%s: %llu of %llu units are still to be made", job->file,
-                          (unsigned long long)(job->plan.units - job->parts.done), (unsigned long long)job->plan.units);
+        status =
+            pir_fail(report, PIR_ERR_EMPTY, "%s: %llu of %llu units are still to be made", pir_short_name(job->file),
+                     (unsigned long long)(job->plan.units - job->parts.done), (unsigned long long)job->plan.units);
     if (status == PIR_OK)
         status = pir_assemble(&job->parts, report);
     if (status == PIR_OK)
-        status = pir_parts_remove(&job->parts, report);
+        status = pir_parts_remove(&job->parts, PIR_LEFT_ALL, report);
     return status;
 }
