@@ -13,15 +13,17 @@
  */
 #include "ranks.h"
 
+#include <stdlib.h>
+
+#include "../message.h"
+
 #if PIR_HAVE_MPI
 
 #include <mpi.h>
 #include <pthread.h>
-#include <stdlib.h>
 #include <time.h>
 
 #include "../interrupt.h"
-#include "../message.h"
 
 enum want { WANT_CLAIM, WANT_NOTE, WANT_REST, WANT_FAILED };
 
@@ -342,9 +344,31 @@ void ranks_end(struct ranks *ranks) {
 
 #else
 
+/*
+ * Whether a launcher of MPI has started this process as one of several: its variable, which says how many there are, or
+ * which of them this is.
+ */
+static const char *launched_as_one_of_several(void) {
+    static const char *const counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"};
+    static const char *const numbers[] = {"PMI_RANK", "PMIX_RANK"};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+        if (getenv(counts[i]) && strtol(getenv(counts[i]), NULL, 10) > 1)
+            return counts[i];
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (getenv(numbers[i]) && strtol(getenv(numbers[i]), NULL, 10) > 0)
+            return numbers[i];
+    return NULL;
+}
+
+/* Without MPI each process would make the whole file. */
 bool ranks_begin(struct ranks *ranks) {
     *ranks = (struct ranks){0, 1, NULL};
-    return true;
+    const char *mark = launched_as_one_of_several();
+    if (mark)
+        complain("slice: %s is %s, so this is one of several ranks of MPI, but this build has no MPI: build with "
+                 "-Dmpi=enabled, or start one process with --threads",
+                 mark, getenv(mark));
+    return !mark;
 }
 
 void ranks_end(struct ranks *ranks) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Processes that make one file of slices together, ranks of MPI. Rank 0 deals the units and makes some as well; each
- * rank appends to a part of its own. Without MPI in the build, or without a launcher such as mpirun, there is one rank.
+ * rank appends to a part of its own. Without a launcher such as mpirun there is one rank; in a build without MPI a
+ * launcher that starts several is refused.
  *
  * A rank that fails is told to rank 0, and others make its unit. A rank that is killed ends the whole job, as MPI has
  * it; what all ranks had appended is then still there for a run with --resume.
@@ -22,7 +23,7 @@ struct ranks {
     struct ranks_shared *shared; /* NULL for one rank */
 };
 
-/* Joins the others where a launcher has started several. False after a complaint. */
+/* Joins the others where a launcher has started several. False after a complaint, in a build without MPI too. */
 bool ranks_begin(struct ranks *ranks);
 
 /* Waits until the others have ended as well. */
