@@ -101,9 +101,11 @@ static bool write_piece(const pir_pieces *pieces, const char *folder, uint32_t n
 }
 
 static bool write_folder(const pir_pieces *pieces, const char *folder) {
-    bool good = folder_make(folder);
+    int lock;
+    bool good = folder_take(folder, &lock);
     for (uint32_t k = 0; good && k < pir_pieces_count(pieces); k++)
         good = write_piece(pieces, folder, k);
+    folder_leave(lock);
     return good;
 }
 

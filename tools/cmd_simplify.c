@@ -28,19 +28,15 @@ static bool read_options(const struct args *args, pir_simplify_options *options)
     return false;
 }
 
-/* Writes a polytope where an option says so. False after a complaint. */
-static bool write_body(const struct args *args, const char *name, const pir_polytope *polytope) {
-    const char *path = args_value(args, name);
-    struct output_file file = {0};
+/* Writes a polytope to its file, where there is one. False after a complaint. */
+static bool write_body(const struct args *args, struct output_file *file, const pir_polytope *polytope) {
     pir_mesh *mesh = NULL;
-    if (!path)
+    if (!file->stream)
         return true;
     pir_status status = pir_mesh_from_polytope(polytope, &mesh);
     if (status != PIR_OK)
         complain_status("simplify", status, NULL);
-    bool done =
-        status == PIR_OK && output_open(&file, path) && target_write_mesh(&file, mesh, args_has(args, "--exact"));
-    output_discard(&file);
+    bool done = status == PIR_OK && target_write_mesh(file, mesh, args_has(args, "--exact"));
     pir_mesh_destroy(mesh);
     return done;
 }
@@ -76,7 +72,13 @@ static bool print(const struct args *args, const pir_polytope *polytope, const p
     return true;
 }
 
-static int simplify(const struct args *args, pir_polytope *polytope, const pir_simplify_options *options) {
+static bool open_target(const struct args *args, const char *name, struct output_file *file) {
+    const char *path = args_value(args, name);
+    return !path || output_open(file, path);
+}
+
+static int simplify(const struct args *args, pir_polytope *polytope, const pir_simplify_options *options,
+                    struct output_file files[2]) {
     pir_simplified simplified = {0};
     pir_status status = pir_polytope_simplify(polytope, options, &simplified);
     if (status != PIR_OK) {
@@ -84,7 +86,7 @@ static int simplify(const struct args *args, pir_polytope *polytope, const pir_s
         return EXIT_BAD_INPUT;
     }
     bool silent = target_is_stdout(args, "-o") || target_is_stdout(args, "--outer");
-    bool done = write_body(args, "-o", simplified.inner) && write_body(args, "--outer", simplified.outer) &&
+    bool done = write_body(args, &files[0], simplified.inner) && write_body(args, &files[1], simplified.outer) &&
                 (silent || print(args, polytope, &simplified));
     pir_simplified_release(&simplified);
     return done ? EXIT_DONE : EXIT_BAD_INPUT;
@@ -95,11 +97,15 @@ int cmd_simplify(const struct args *args) {
     if (!read_options(args, &options) || !target_check(args, "-o", TARGET_MESH) ||
         !target_check(args, "--outer", TARGET_MESH))
         return EXIT_BAD_INPUT;
-    if (target_is_stdout(args, "-o") && target_is_stdout(args, "--outer"))
-        return complain("simplify: -o and --outer both write to standard output");
+    if (!targets_differ(args, "-o", "--outer"))
+        return EXIT_BAD_INPUT;
     pir_surface surface;
+    struct output_file files[2] = {{0}, {0}};
     pir_polytope *polytope = model_load(args, 0, &surface);
-    int result = polytope ? simplify(args, polytope, &options) : EXIT_BAD_INPUT;
+    bool open = polytope && open_target(args, "-o", &files[0]) && open_target(args, "--outer", &files[1]);
+    int result = open ? simplify(args, polytope, &options, files) : EXIT_BAD_INPUT;
+    output_discard(&files[0]);
+    output_discard(&files[1]);
     pir_polytope_release(polytope);
     return result;
 }

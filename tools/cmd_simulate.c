@@ -41,19 +41,14 @@ struct run {
 
 /* Whether -o and --record name what can be written, and not the same. */
 static bool check_targets(const struct args *args) {
-    const char *page = args_value(args, "-o"), *recording = args_value(args, "--record");
+    const char *page = args_value(args, "-o");
     if (!target_check(args, "-o", NULL) || !target_check(args, "--record", NULL))
         return false;
     if (page && !output_is_stream(page) && !output_ends_in(page, ".html")) {
         complain("simulate: -o: '%s' does not end in .html", page);
         return false;
     }
-    if (page && recording &&
-        (strcmp(page, recording) == 0 || (output_is_stdout(page) && output_is_stdout(recording)))) {
-        complain("simulate: -o and --record both write to '%s'", page);
-        return false;
-    }
-    return true;
+    return targets_differ(args, "-o", "--record");
 }
 
 /* The scene with what the options say otherwise. */

@@ -237,13 +237,9 @@ static bool add_sections(const struct slicing *run) {
 #endif
 }
 
-static int make_slices(struct slicing *run) {
+/* Runs the job to its end, or to that of the run. False after a complaint. */
+static bool run_job(struct slicing *run, pir_cspace_job *job) {
     pir_report report = {0};
-    int64_t start = clock_now();
-    pir_cspace_job *job = create_job(run);
-    if (!job)
-        return EXIT_BAD_INPUT;
-    interrupt_put_off(true);
     // rank 0 alone knows whether a file that is complete leaves nothing to share
     bool shared = ranks_agree(&run->ranks, run->ranks.number > 0 || pir_cspace_job_left(job) > 0);
     pir_status status = PIR_OK;
@@ -252,19 +248,29 @@ static int make_slices(struct slicing *run) {
     else if (run->ranks.number == 0)
         status = pir_cspace_job_run(job, &report);
     progress_end(&run->bar);
-    interrupt_put_off(false);
-    int result = EXIT_DONE;
-    if (status == PIR_OK && interrupt_asked())
-        result = complain("slice: ended after %" PRIu64 " of %" PRIu64 " slices, which are kept; --resume goes on",
-                          run->progress.done, run->progress.total);
-    else if (status != PIR_OK)
-        result = complain_status("slice", status, &report);
-    else if (run->ranks.number == 0 && (status = pir_cspace_job_assemble(job, &report)) != PIR_OK)
-        result = complain_status("slice", status, &report);
-    else if (run->ranks.number == 0)
-        result = add_sections(run) ? report_done(run, (double)(clock_now() - start) / 1e9) : EXIT_BAD_INPUT;
+    if (status == PIR_OK && interrupt_asked()) {
+        complain("slice: ended after %" PRIu64 " of %" PRIu64 " slices, which are kept; --resume goes on",
+                 run->progress.done, run->progress.total);
+        return false;
+    }
+    if (status == PIR_OK && run->ranks.number == 0)
+        status = pir_cspace_job_assemble(job, &report);
+    if (status != PIR_OK)
+        complain_status("slice", status, &report);
+    return status == PIR_OK;
+}
+
+/* A signal is put off from before the job has its lock until it has none, so that it leaves no file that is no part. */
+static int make_slices(struct slicing *run) {
+    int64_t start = clock_now();
+    interrupt_put_off(true);
+    pir_cspace_job *job = create_job(run);
+    bool done = job && run_job(run, job) && (run->ranks.number > 0 || add_sections(run));
     pir_cspace_job_destroy(job);
-    return result;
+    interrupt_put_off(false);
+    if (done && run->ranks.number == 0)
+        return report_done(run, (double)(clock_now() - start) / 1e9);
+    return done ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
 int cmd_slice(const struct args *args) {

@@ -17,7 +17,7 @@ static bool make_exact_folder(const char *folder) {
 
 bool dump_open(struct dump *dump, const char *folder, bool exact) {
     *dump = (struct dump){.folder = folder, .exact = exact};
-    if (!folder_make(folder) || (!exact && !make_exact_folder(folder)))
+    if (!folder_take(folder, &dump->lock) || (!exact && !make_exact_folder(folder)))
         return false;
     dump->index_path = path_join(folder, "frames.json");
     if (!dump->index_path || !output_open(&dump->index, dump->index_path))
@@ -67,4 +67,5 @@ void dump_discard(struct dump *dump) {
     json_discard(&dump->json);
     output_discard(&dump->index);
     free(dump->index_path);
+    folder_leave(dump->lock);
 }

@@ -22,6 +22,7 @@ struct dump {
     struct json json;
     cJSON *frames;
     char *index_path;
+    int lock; /* of the folder */
 };
 
 /* Makes the folder unless it is there; its frames.json appears when all is done. `exact`: rationals alone. */

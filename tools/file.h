@@ -4,6 +4,9 @@
  * its folder and renamed when all of it is down, and keeps the permissions that a file of its name had. Links are
  * followed and stay. A device or a FIFO is opened and written to, "-" is standard output. A file is opened before a
  * long run, so that a path that cannot be written is known at once. Functions that return false have complained.
+ *
+ * Runs that write one file at the same time have temporary files of their own: each puts a whole file there, and the
+ * last one stays. What a run leaves that was killed is removed by the next one that writes the same file.
  */
 #ifndef TOOLS_FILE_H
 #define TOOLS_FILE_H
@@ -11,11 +14,14 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+struct output_sink;
+
 struct output_file {
-    FILE *stream;     /* NULL when not open */
-    const char *path; /* as it was given, for complaints; the caller's */
-    char *target;     /* what links lead to; NULL where it is written to as it stands */
-    char *temporary;  /* in the folder of the target; NULL likewise */
+    FILE *stream;             /* NULL when not open */
+    struct output_sink *sink; /* what the stream ends in, and why that failed */
+    const char *path;         /* as it was given, for complaints; the caller's */
+    char *target;             /* what links lead to; NULL where it is written to as it stands */
+    char *temporary;          /* in the folder of the target; NULL likewise */
 };
 
 /* `path` must outlive the file. */
@@ -23,6 +29,9 @@ bool output_open(struct output_file *file, const char *path);
 
 /* Closes the stream and gives the file its name. */
 bool output_commit(struct output_file *file);
+
+/* Whether a write to the stream of an open file has failed, which is then complained of. */
+bool output_failed(struct output_file *file);
 
 /* Removes what is not committed; a file that is not open, or zeroed, is accepted. */
 void output_discard(struct output_file *file);
@@ -36,6 +45,9 @@ bool output_is_stdout(const char *path);
  */
 bool output_is_stream(const char *path);
 
+/* Whether two outputs would be one file or stream, by whatever names; devices such as /dev/null can be given twice. */
+bool output_same(const char *path, const char *other);
+
 /* Whether `path` ends in `ending`, in either case; something stands before it. */
 bool output_ends_in(const char *path, const char *ending);
 
@@ -44,5 +56,14 @@ char *path_join(const char *folder, const char *name);
 
 /* Makes `folder` unless it is there. */
 bool folder_make(const char *folder);
+
+/*
+ * The same for a folder of files that belong together, and keeps other runs from writing into it until folder_leave, as
+ * far as its file system has locks.
+ */
+bool folder_take(const char *folder, int *ret_lock);
+
+/* A folder that was not taken, as a zeroed lock says, is accepted. */
+void folder_leave(int lock);
 
 #endif

@@ -3,6 +3,7 @@
 #include "interrupt.h"
 
 #include <assert.h>
+#include <fcntl.h>
 #include <stddef.h>
 #include <unistd.h>
 
@@ -58,18 +59,18 @@ static void hold(sigset_t *ret_before) {
     sigprocmask(SIG_BLOCK, &all, ret_before);
 }
 
-FILE *interrupt_create(char *path) {
+int interrupt_create(char *path) {
     sigset_t before;
     hold(&before);
-    FILE *file = fopen(path, "wbx");
+    int descriptor = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     size_t i = 0;
     while (i + 1 < INTERRUPT_FILES && temporaries[i])
         i++;
     assert(!temporaries[i]);
-    if (file)
+    if (descriptor >= 0)
         temporaries[i] = path;
     sigprocmask(SIG_SETMASK, &before, NULL);
-    return file;
+    return descriptor;
 }
 
 void interrupt_keep(const char *path) {

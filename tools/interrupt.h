@@ -9,7 +9,6 @@
 
 #include <signal.h>
 #include <stdbool.h>
-#include <stdio.h>
 
 /* Files that can be temporary at the same time. */
 #define INTERRUPT_FILES 4
@@ -28,9 +27,9 @@ void interrupt_end(void);
 
 /*
  * Creates the temporary file `path`, which must not exist and stays the caller's; a signal removes it until
- * interrupt_keep. NULL with errno set on failure.
+ * interrupt_keep. Its descriptor, or -1 with errno set.
  */
-FILE *interrupt_create(char *path);
+int interrupt_create(char *path);
 
 /* A signal no longer removes the file: it has its final name, or is gone. NULL is accepted. */
 void interrupt_keep(const char *path);

@@ -2,8 +2,10 @@
 /*
  * The `pirouette` command: finds the subcommand in the table of command.h and hands it its arguments.
  */
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <pirouette/version.h>
@@ -81,9 +83,20 @@ static int run(int argc, char *const *argv) {
     return run_command(command, argc - 2, argv + 2);
 }
 
+/* Sees to it that no file that is opened gets the number of a standard stream that was closed before the start. */
+static void hold_standard_streams(void) {
+    for (int stream = 0; stream < 3; stream++)
+        if (fcntl(stream, F_GETFD) < 0)
+            open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY); // so that what uses it fails, as before
+}
+
 int main(int argc, char **argv) {
-    // A reader that goes away is a failed write, to be told like any other.
+    hold_standard_streams();
+    // A reader that goes away is a failed write, to be told like any other; so is a limit on the size of files.
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+    // HDF5 would lock the files that it writes for this command, which have locks, or fail where there are none.
+    setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     interrupt_watch();
     int status = run(argc, argv);
     if (status != EXIT_BAD_INPUT && !stdout_arrived())

@@ -28,6 +28,15 @@ bool target_is_stdout(const struct args *args, const char *name) {
     return path && output_is_stdout(path);
 }
 
+bool targets_differ(const struct args *args, const char *name, const char *other) {
+    const char *path = args_value(args, name), *second = args_value(args, other);
+    if (!path || !second || !output_same(path, second))
+        return true;
+    const char *where = output_is_stdout(path) ? "standard output" : path;
+    complain("%s: %s and %s both write to %s", args->command->name, name, other, where);
+    return false;
+}
+
 bool target_check(const struct args *args, const char *name, const char *endings) {
     const char *path = args_value(args, name);
     char ending[ENDING_ROOM];
@@ -51,6 +60,7 @@ bool target_write_mesh(struct output_file *file, const pir_mesh *mesh, bool exac
                                               format ? format + 1 : "off", exact, &report);
     if (status == PIR_OK)
         return output_commit(file);
-    complain_status(name, status, &report);
+    if (!output_failed(file))
+        complain_status(name, status, &report);
     return false;
 }

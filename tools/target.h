@@ -20,6 +20,9 @@
  */
 bool target_check(const struct args *args, const char *name, const char *endings);
 
+/* Whether options `name` and `other`, where both were given, name two files. False after a complaint. */
+bool targets_differ(const struct args *args, const char *name, const char *other);
+
 /* Whether option `name` sends its results to standard output, where nothing else is printed then. */
 bool target_is_stdout(const struct args *args, const char *name);
 

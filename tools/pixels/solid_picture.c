@@ -212,7 +212,7 @@ bool solid_picture_write(struct output_file *file, pir_mesh *const *meshes, uint
     pixels_clear(&scene.pixels);
     free(scene.at);
     free(scene.crossings);
-    if (!good)
-        complain("%s: the picture could not be written", file->path);
+    if (!good && !output_failed(file))
+        complain("%s: out of memory for the picture", file->path);
     return good && output_commit(file);
 }

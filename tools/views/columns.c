@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "columns.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +16,7 @@ bool column_make(struct column *column, hid_t parent, const char *name, hid_t st
     column->waiting = malloc(CHUNK_ROWS * column->row_size);
     hid_t space = H5Screate_simple(rank, none, most), how = H5Pcreate(H5P_DATASET_CREATE);
     bool done = column->waiting && space >= 0 && how >= 0 && H5Pset_chunk(how, rank, chunk) >= 0 &&
-                H5Pset_shuffle(how) >= 0 && H5Pset_deflate(how, EFFORT) >= 0;
+                H5Pset_shuffle(how) >= 0 && H5Pset_deflate(how, EFFORT) >= 0 && H5Pset_obj_track_times(how, false) >= 0;
     hid_t dataset = done ? H5Dcreate2(parent, name, stored, space, H5P_DEFAULT, how, H5P_DEFAULT) : -1;
     if (space >= 0)
         H5Sclose(space);
@@ -63,6 +64,24 @@ bool column_close(struct column *column) {
     return done;
 }
 
+hid_t group_make(hid_t parent, const char *name) {
+    hid_t how = H5Pcreate(H5P_GROUP_CREATE), group = -1;
+    if (how >= 0 && H5Pset_obj_track_times(how, false) >= 0)
+        group = H5Gcreate2(parent, name, H5P_DEFAULT, how, H5P_DEFAULT);
+    if (how >= 0)
+        H5Pclose(how);
+    return group > 0 ? group : 0;
+}
+
+hid_t file_make(const char *path) {
+    hid_t how = H5Pcreate(H5P_FILE_CREATE), file = -1;
+    if (how >= 0 && H5Pset_obj_track_times(how, false) >= 0)
+        file = H5Fcreate(path, H5F_ACC_TRUNC, how, H5P_DEFAULT);
+    if (how >= 0)
+        H5Pclose(how);
+    return file > 0 ? file : 0;
+}
+
 bool attribute_number(hid_t object, const char *name, hid_t stored, hid_t type, const void *values, hsize_t count) {
     hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
     hid_t attribute = space >= 0 ? H5Acreate2(object, name, stored, space, H5P_DEFAULT, H5P_DEFAULT) : -1;
@@ -83,6 +102,33 @@ bool attribute_text(hid_t object, const char *name, const char *text) {
     return done;
 }
 
+/* --- why HDF5 failed --- */
+
+static char first_reason[128];
+
+/* Copies the system's words out of a line of HDF5's, which may have them in quotes behind these. */
+static herr_t read_reason(unsigned line, const H5E_error2_t *error, void *context) {
+    static const char before[] = "error message = '";
+    const char *words = error->desc ? strstr(error->desc, before) : NULL;
+    (void)line;
+    (void)context;
+    if (words && first_reason[0] == '\0') {
+        words += strlen(before);
+        snprintf(first_reason, sizeof first_reason, "%.*s", (int)strcspn(words, "'"), words);
+    }
+    return 0;
+}
+
+/* HDF5 calls this where it would print. */
+static herr_t keep_reason(hid_t stack, void *context) {
+    return H5Ewalk2(stack, H5E_WALK_UPWARD, read_reason, context);
+}
+
 void columns_quiet(void) {
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    first_reason[0] = '\0';
+    H5Eset_auto2(H5E_DEFAULT, keep_reason, NULL);
+}
+
+const char *columns_reason(void) {
+    return first_reason[0] ? first_reason : "HDF5 could not";
 }

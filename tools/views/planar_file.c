@@ -24,10 +24,10 @@ static bool copy_file(const char *path, struct output_file *out) {
     bool done = true;
     while (done && (size = fread(block, 1, sizeof block, from)) > 0)
         done = fwrite(block, 1, size, out->stream) == size;
-    done = done && !ferror(from) && fflush(out->stream) == 0;
+    if (ferror(from))
+        complain("%s: cannot be read again", path);
+    done = !ferror(from) && !output_failed(out);
     fclose(from);
-    if (!done)
-        complain("%s: cannot be copied; is the disk full?", path);
     return done;
 }
 
@@ -36,13 +36,12 @@ static bool group_open(struct planar_group *group, const char *path, const struc
     group->file = file > 0 ? file : 0;
     if (!group->file || (H5Lexists(file, "planar", H5P_DEFAULT) > 0 && H5Ldelete(file, "planar", H5P_DEFAULT) < 0))
         return false;
-    hid_t made = H5Gcreate2(file, "planar", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    group->group = made > 0 ? made : 0;
+    group->group = group_make(file, "planar");
     const char axis[2] = {"xyz"[planar->axis], '\0'};
-    return group->group && attribute_text(made, "axis", axis) &&
-           attribute_number(made, "offset", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &planar->offset, 1) &&
-           column_make(&group->count, made, "count", H5T_STD_U32LE, H5T_NATIVE_UINT32, 0) &&
-           column_make(&group->corner, made, "corner", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3);
+    return group->group && attribute_text(group->group, "axis", axis) &&
+           attribute_number(group->group, "offset", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &planar->offset, 1) &&
+           column_make(&group->count, group->group, "count", H5T_STD_U32LE, H5T_NATIVE_UINT32, 0) &&
+           column_make(&group->corner, group->group, "corner", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3);
 }
 
 static bool group_close(struct planar_group *group) {
@@ -101,7 +100,7 @@ bool planar_file_write(const char *path, const struct planar *planar) {
     bool done = copied && group_open(&group, out.temporary, planar) && put_sections(&group, &slices, planar, &told);
     done &= group_close(&group);
     if (copied && !done && !told)
-        complain("%s: HDF5 cannot add the sections; is the disk full?", path);
+        complain("%s: cannot add the sections: %s", path, columns_reason());
     done = done && ask_seal(pir_cspace_seal, out.temporary) && output_commit(&out);
     output_discard(&out);
     slices_close(&slices);

@@ -40,19 +40,13 @@ struct vtk_file {
     struct column cell[CELL_DATASETS], step[STEP_DATASETS];
 };
 
-static hid_t make_group(hid_t parent, const char *name) {
-    hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    return group > 0 ? group : 0;
-}
-
 static bool open_groups(struct vtk_file *vtk, const char *path, const struct slices *slices) {
     const int64_t version[2] = {1, 0}, count = (int64_t)slices->count;
-    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    vtk->file = file > 0 ? file : 0;
-    vtk->root = vtk->file ? make_group(vtk->file, "VTKHDF") : 0;
-    vtk->cells = vtk->root ? make_group(vtk->root, "CellData") : 0;
-    vtk->steps = vtk->root ? make_group(vtk->root, "Steps") : 0;
-    vtk->offsets = vtk->steps ? make_group(vtk->steps, "CellDataOffsets") : 0;
+    vtk->file = file_make(path);
+    vtk->root = vtk->file ? group_make(vtk->file, "VTKHDF") : 0;
+    vtk->cells = vtk->root ? group_make(vtk->root, "CellData") : 0;
+    vtk->steps = vtk->root ? group_make(vtk->root, "Steps") : 0;
+    vtk->offsets = vtk->steps ? group_make(vtk->steps, "CellDataOffsets") : 0;
     return vtk->cells && vtk->offsets &&
            attribute_number(vtk->root, "Version", H5T_STD_I64LE, H5T_NATIVE_INT64, version, 2) &&
            attribute_text(vtk->root, "Type", "UnstructuredGrid") &&
@@ -182,7 +176,7 @@ bool vtk_write(const char *path, const struct slices *slices) {
         done = put_slice(&vtk, slices, s, &told);
     done &= close_all(&vtk);
     if (!done && !told)
-        complain("%s: HDF5 cannot write the file; is the disk full?", path);
+        complain("%s: cannot write: %s", path, columns_reason());
     done = done && output_commit(&out);
     output_discard(&out);
     return done;
