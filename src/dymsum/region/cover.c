@@ -7,7 +7,11 @@
  */
 #define CONE_SLACK 0x1p-40
 
+static const pir_arc half_turn = {-1, 0};
+
 pir_arc pir_arc_of(double angle) {
+    if (!(angle < PIR_WHOLE_HALF_ANGLE))
+        return half_turn;
     double x = angle / 8, y = x * x;
     double s = x * (1 - y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72 * (1 - y / 110)))));
     double c = 1 - y / 2 * (1 - y / 12 * (1 - y / 30 * (1 - y / 56 * (1 - y / 90))));
@@ -16,12 +20,14 @@ pir_arc pir_arc_of(double angle) {
         c = c * c - s * s;
         s = twice;
     }
-    return s < 0 ? (pir_arc){-1, 0} : (pir_arc){c, s};
+    return s < 0 ? half_turn : (pir_arc){c, s};
 }
 
 pir_arc pir_arc_add(pir_arc a, pir_arc b) {
-    pir_arc sum = {a.cosine * b.cosine - a.sine * b.sine, a.sine * b.cosine + a.cosine * b.sine};
-    return sum.sine < 0 ? (pir_arc){-1, 0} : sum;
+    // cos a ≤ cos (π − b), whose sign no rounding changes: the sine of the sum is −0 for π + π
+    if (a.cosine + b.cosine <= 0)
+        return half_turn;
+    return (pir_arc){a.cosine * b.cosine - a.sine * b.sine, fmax(0, a.sine * b.cosine + a.cosine * b.sine)};
 }
 
 pir_arc pir_arc_from_cosine(double cosine) {
