@@ -56,7 +56,7 @@ typedef struct pir_vec3 {
 } pir_vec3;
 
 /** A quaternion x·i + y·j + z·k + w of any non-zero length: it stands for the exact rotation
-    M(q)/|q|². Never normalised. */
+    M(q)/|q|². Never normalised. Multiples of q, −q among them, are the same rotation, and have the same pairings. */
 typedef struct pir_quat {
     double x, y, z, w;
 } pir_quat;

@@ -27,9 +27,8 @@
  *
  * Cost of a query of a pair: O(steps of the descent) when warm, O(√n) of them when cold; O(n log n) with the level
  * `whole`. Errors of a query of a pair: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a
- * translation beyond 2^400 times the size of the bodies, or, where Q's is not (0, 0, 0, 1), a quaternion whose
- * components span more than 2^900),
- * PIR_ERR_MEMORY (the workspace has to grow and cannot), PIR_ERR_UNSUPPORTED (see pir_pair_options).
+ * translation beyond 2^400 times the size of the bodies, or, where Q is turned, a quaternion whose components span more
+ * than 2^900), PIR_ERR_MEMORY (the workspace has to grow and cannot), PIR_ERR_UNSUPPORTED (see pir_pair_options).
  *
  * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */

@@ -10,8 +10,8 @@
  * Minkowski Sum of Convex Shapes, GMU-CS-TR-2010-12, made right for steps of any size).
  *
  * Exactness: the pairing is that of the exact rotation M(q)/|q|². One symbolic perturbation of q settles all ties, so
- * the pairing is in general position and unique, and a tracked pairing equals a rebuilt one. The mesh is that of the
- * true sum: coplanar pieces are merged.
+ * the pairing is in general position and unique, and a tracked pairing equals a rebuilt one. It depends on the rotation
+ * alone: q, −q and multiples have the same. The mesh is that of the true sum: coplanar pieces are merged.
  *
  * Threads: a sum belongs to one thread at a time; different sums are independent, even of the same polytopes.
  *

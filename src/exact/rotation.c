@@ -23,10 +23,11 @@ static int top_exponent(const double c[4]) {
     return top;
 }
 
-pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
+pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given) {
+    const pir_quat q = pir_quat_signed(given);
     if (pir_quat_is_near_one(q)) {
         const pir_rotation_doubles doubles = pir_doubles_of(q);
-        pir_rotation_set_doubles(rotation, q, &doubles);
+        pir_rotation_set_doubles(rotation, given, &doubles);
         return PIR_OK;
     }
     const double c[4] = {q.x, q.y, q.z, q.w};
@@ -38,7 +39,7 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q) {
     int top = top_exponent(c);
     const pir_rotation_doubles doubles =
         pir_doubles_of((pir_quat){ldexp(q.x, -top), ldexp(q.y, -top), ldexp(q.z, -top), ldexp(q.w, -top)});
-    pir_rotation_set_doubles(rotation, q, &doubles);
+    pir_rotation_set_doubles(rotation, given, &doubles);
     return PIR_OK;
 }
 
@@ -146,7 +147,7 @@ static void multiply_conjugate(const double a[4], const double b[4], double ret_
  * a relative normal or edge is off by elsewhere (42u, 37u) has 6u more; the bounds there leave room for it.
  */
 pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_quat p) {
-    if (q.x == 0 && q.y == 0 && q.z == 0 && q.w == 1)
+    if (pir_quat_is_identity(q) && q.w != 0 && isfinite(q.w))
         return pir_rotation_set(rotation, p);
     double a[4], b[4];
     pir_status status = bring_near_one(q, a);
@@ -207,6 +208,32 @@ static void set_product(const pir_quat factor[2], pir_int q[4]) {
     pir_int_sum(&q[3], terms, 4, &room);
 }
 
+/* Gives the integers of a quaternion its sign: see rotation.h. */
+static void set_sign(pir_int q[4]) {
+    static const int order[4] = {3, 0, 1, 2};
+    int first = 0;
+    while (first < 3 && q[order[first]].size == 0)
+        first++;
+    bool reverse = q[order[first]].size < 0;
+    for (int k = 0; k < 4; k++)
+        q[k].size = reverse ? -q[k].size : q[k].size;
+}
+
+/*
+ * Components of a relative rotation from here on are within 2^-52 of themselves: rounding leaves less than 2^-100 of
+ * factors that are of length 1 but for a power of two.
+ */
+#define LEAST_COMPONENT 0x1p-40
+
+/* Whether the doubles of a relative rotation are zero where its integers are, and near them elsewhere. */
+static bool has_zeros(pir_quat given, const pir_int q[4]) {
+    const double c[4] = {given.x, given.y, given.z, given.w};
+    bool has = true;
+    for (int k = 0; k < 4; k++)
+        has &= q[k].size == 0 ? c[k] == 0 : fabs(c[k]) >= LEAST_COMPONENT;
+    return has;
+}
+
 /* The diagonal of M, w² ± x² ± y² ± z², and |q|², entry 3. */
 static void set_diagonal(const pir_int q[4], pir_int *entry, int i, pir_limbs *scratch) {
     pir_term terms[4];
@@ -258,10 +285,13 @@ void pir_rotation_make_exact(pir_rotation *rotation) {
     to->of = rotation;
     for (int k = 0; k < 4; k++)
         q[k] = pir_limbs_take(&room, PIR_QUAT_LIMBS);
-    if (rotation->relative)
+    if (rotation->relative) {
         set_product(rotation->factor, q);
-    else
+        rotation->has_zeros = has_zeros(rotation->given, q);
+    } else {
         set_integers(rotation->given, q);
+    }
+    set_sign(q);
     for (int i = 0; i < 9; i++)
         to->m[i / 3][i % 3] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
     to->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);

@@ -6,6 +6,12 @@
  *
  * held twice: as a matrix of doubles with a proven bound, and as integers, M of q scaled to integers by a power of two.
  *
+ * One rotation has many quaternions, all multiples of one another. M is the same for q and −q, but the perturbation
+ * of ties (sign.h) is not: −q + ε is −(q − ε). So a rotation takes the one of q and −q whose first component
+ * that is not zero, of w, x, y and z, is positive. Each ε is smaller than any multiple of the one before, so a
+ * positive factor changes nothing, and the perturbed rotation depends on the rotation alone. It jumps where a motion
+ * passes a half turn.
+ *
  * The integers are made on demand, in memory that the rotation is given: a double spans at most 2098 bits, so nothing
  * allocates. Rotations of one thread may share that memory, one after the other.
  */
@@ -25,7 +31,7 @@ typedef struct pir_rotation pir_rotation;
 /* A rotation as integers. */
 typedef struct pir_rotation_integers {
     const pir_rotation *of; /* whose they are, where that has_exact */
-    pir_int q[4];           /* x, y, z, w on one scale */
+    pir_int q[4];           /* x, y, z, w on one scale, with the sign above */
     pir_int m[3][3];
     pir_int norm; /* |q|² on the scale of m: R = m/norm */
     mp_limb_t limbs[PIR_ROTATION_LIMBS];
@@ -36,11 +42,23 @@ struct pir_rotation {
     pir_quat rest;  /* of a relative rotation, what `given` leaves, rounded; else 0 */
     bool relative;  /* conj(factor[0]) · factor[1] exactly */
     pir_quat factor[2];
-    pir_quat unit;  /* scaled to length 1, within 8·2^-53 */
+    pir_quat unit;  /* with the sign above, scaled to length 1, within 8·2^-53 */
     pir_mat3 r;     /* within 31·2^-53 of R in Frobenius norm, 37·2^-53 if relative: see rotation.c */
     bool has_exact; /* whether integers have been made; they may be another rotation's by now */
+    bool has_zeros; /* of a relative rotation with integers: `given` is zero where they are, and near them elsewhere */
     pir_rotation_integers *integers; /* set by whoever asks for integers; pir_rotation_set leaves it as it is */
 };
+
+/* The one of q and −q that stands for their rotation, its zeros without a sign. */
+static inline pir_quat pir_quat_signed(pir_quat q) {
+    double first = q.w != 0 ? q.w : q.x != 0 ? q.x : q.y != 0 ? q.y : q.z, sign = first < 0 ? -1 : 1;
+    return (pir_quat){sign * q.x + 0.0, sign * q.y + 0.0, sign * q.z + 0.0, sign * q.w + 0.0};
+}
+
+/* Whether a quaternion, not zero, turns nothing. */
+static inline bool pir_quat_is_identity(pir_quat q) {
+    return q.x == 0 && q.y == 0 && q.z == 0;
+}
 
 /* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is far below u·n. */
 #define PIR_NORM_NEAR_ONE 0x1p-400
@@ -81,7 +99,7 @@ static inline pir_rotation_doubles pir_doubles_as_given(pir_quat c) {
     return pir_doubles_at(c, n, fabs(n - 1) <= 0x1p-50 ? 1 : 1 / sqrt(n));
 }
 
-/* Sets a rotation to the quaternion `given`, whose turn is known. */
+/* Sets a rotation to the quaternion `given`; the doubles are those of it with its sign. */
 static inline void pir_rotation_set_doubles(pir_rotation *rotation, pir_quat given,
                                             const pir_rotation_doubles *doubles) {
     rotation->given = given;
@@ -105,12 +123,12 @@ static inline bool pir_quat_is_near_one(pir_quat q) {
     return n >= PIR_NORM_NEAR_ONE && n <= 1 / PIR_NORM_NEAR_ONE;
 }
 
-/* Takes `q`: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, or PIR_OK. On failure *rotation is as it was. */
-pir_status pir_rotation_set(pir_rotation *rotation, pir_quat q);
+/* Takes a quaternion: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, or PIR_OK. On failure *rotation is as it was. */
+pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given);
 
 /*
- * Takes the rotation of body p as body q sees it, both given as they stand in the world: conj(q) · p. Where q is
- * (0, 0, 0, 1) it is `p` as given. Errors as above, and PIR_ERR_LIMIT where the components of either that are not 0
+ * Takes the rotation of body p as body q sees it, both given as they stand in the world: conj(q) · p. Where q
+ * turns nothing it is `p` as given. Errors as above, and PIR_ERR_LIMIT where the components of either that are not 0
  * span more than 2^900.
  */
 pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_quat p);

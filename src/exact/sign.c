@@ -225,10 +225,16 @@ static int small_tie_sign(const double q[4], const double a[3], const double b[3
 }
 
 /* The sign of a tie that doubles can see and settle, or 0. */
-static int small_sign(const pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
-    const pir_quat given = signs->rotation.given;
-    const double q[4] = {given.x, given.y, given.z, given.w};
+static int small_sign(pir_signs *signs, const pir_int3 *a, const pir_int3 *b) {
+    const pir_quat signed_q = pir_quat_signed(signs->rotation.given);
+    const double q[4] = {signed_q.x, signed_q.y, signed_q.z, signed_q.w};
     double x[3], y[3];
+    if (signs->rotation.relative) {
+        // its doubles are rounded, so they tell a zero only where the integers say so too
+        pir_rotation_make_exact(&signs->rotation);
+        if (!signs->rotation.has_zeros)
+            return 0;
+    }
     if (!is_tame(q) || !small_vector(a, x) || !small_vector(b, y) || !vanishes(q, x, y))
         return 0;
     int sign = small_tie_sign(q, x, y);

@@ -9,7 +9,7 @@ pir_pair_input pir_pair_input_default(void) {
 
 /* P's rotation as Q sees it. */
 static inline pir_status set_rotation(pir_workspace *workspace, const pir_pair_input *input) {
-    const pir_quat given = input->pose_p.rotation;
+    const pir_quat given = pir_quat_signed(input->pose_p.rotation);
     if (workspace->is_turned || !pir_quat_is_near_one(given))
         return pir_pair_set_any_rotation(workspace, input);
     const pir_rotation_doubles doubles = pir_doubles_as_given(given);

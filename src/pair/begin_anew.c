@@ -16,7 +16,7 @@ pir_status pir_pair_set_q(pir_workspace *workspace, const pir_pose *q) {
         return status;
     workspace->world.translation_q = q->translation;
     workspace->posed = !pir_world_is_plain(&workspace->world);
-    workspace->is_turned = q->rotation.x != 0 || q->rotation.y != 0 || q->rotation.z != 0 || q->rotation.w != 1;
+    workspace->is_turned = !pir_quat_is_identity(q->rotation);
     workspace->exact.world = workspace->posed ? &workspace->world : NULL;
     workspace->pose[1] = *q;
     workspace->has_q = true;

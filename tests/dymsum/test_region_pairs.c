@@ -284,7 +284,7 @@ static void arc_of_half_a_turn_among_arcs_at_its_far_end_is_kept(void **state) {
 
 /* --- arcs --- */
 
-/* The sum of two arcs of half a turn has a sine of −0, and that of an arc and its supplement may be on either side. */
+/* The sum of two arcs of half a turn has a sine of −0; that of an arc and its supplement may be on either side. */
 static void arcs_add_up_to_half_a_turn_at_most(void **state) {
     (void)state;
     const pir_arc none = {1, 0}, half = {-1, 0}, quarter = {0, 1};

@@ -15,8 +15,18 @@ static uint32_t bits_of(mpz_t *z, size_t count) {
     return (uint32_t)bits;
 }
 
+/* Of the two quaternions of a rotation the one whose w is positive; of a half turn, x, else y, else z. */
+static void give_sign(oracle_quat q) {
+    int sign = 0;
+    for (int k = 3, left = 4; left > 0 && sign == 0; left--, k = (k + 1) % 4)
+        sign = mpz_sgn(q[k]);
+    for (int k = 0; k < 4 && sign < 0; k++)
+        mpz_neg(q[k], q[k]);
+}
+
 void oracle_perturbed_quat_init(oracle_quat to, pir_quat q, uint32_t bits) {
     oracle_quat_init(to, q);
+    give_sign(to);
     // The components are integers now: coefficients are integers below 2^(2·bits + 2·span + 8), and neighbours in
     // rank differ by ε at least.
     uint32_t k = 2 * bits + 2 * bits_of(to, 4) + 16;

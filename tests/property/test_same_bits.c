@@ -187,12 +187,12 @@ static void thousands_of_frames_keep_their_bits(void **state) {
         {"spheres turn steadily", TEST_SPHERE, TEST_SPHERE, 60, STEADY, 0, 0, 0xfc0b076a2995c40fu},
         {"spheres to and fro, their difference", TEST_SPHERE, TEST_BALL, 40, TO_AND_FRO, 1, 0, 0x86373570b775765au},
         {"trembling spheres", TEST_SPHERE, TEST_SPHERE, 40, TREMBLING, 0, 0, 0x2e110d93d00ba31bu},
-        {"aligned grids", TEST_GRID, TEST_GRID, 30, ALIGNED, 0, 0, 0x4fe6fe968aeb3b13u},
-        {"aligned boxes", TEST_BOX, TEST_BOX, 8, ALIGNED, 1, 0, 0xd59da7b0a3caea1du},
+        {"aligned grids", TEST_GRID, TEST_GRID, 30, ALIGNED, 0, 0, 0x147a2583e36777c4u},
+        {"aligned boxes", TEST_BOX, TEST_BOX, 8, ALIGNED, 1, 0, 0x4cdf84e854ae8737u},
         {"a prism about an octahedron", TEST_PRISM, TEST_OCTAHEDRON, 16, TREMBLING, 0, 0, 0x82bcb85fbedb9c9du},
         {"needles and far bodies", TEST_NEEDLE, TEST_FAR, 30, STEADY, 0, 0, 0xa27147b33841cc00u},
         {"bodies of all scales", TEST_SCALED, TEST_SCALED, 20, TREMBLING, 0, 0, 0xeb71fa20e9311595u},
-        {"flat bodies", TEST_POLYGON, TEST_PRISM, 16, ALIGNED, 0, 0, 0x451999a787ee6fe6u},
+        {"flat bodies", TEST_POLYGON, TEST_PRISM, 16, ALIGNED, 0, 0, 0x19208aa10baadae0u},
         {"spheres within a tolerance", TEST_SPHERE, TEST_SPHERE, 40, STEADY, 0, 0.02, 0xba3219a8a07f23b2u},
     };
     int different = 0;
@@ -259,7 +259,7 @@ static void answers_keep_their_bits(void **state) {
     (void)state;
     int different = 0;
     different += differs("spheres", hash_queries(TEST_SPHERE, TEST_SPHERE, STEADY, 20), 0x7fdd7013dba022cau);
-    different += differs("boxes", hash_queries(TEST_BOX, TEST_BOX, ALIGNED, 21), 0xe0f97b60e9d746cbu);
+    different += differs("boxes", hash_queries(TEST_BOX, TEST_BOX, ALIGNED, 21), 0xc9685125a9b10acbu);
     different += differs("grids", hash_queries(TEST_GRID, TEST_PRISM, TREMBLING, 22), 0xb26ca0b027b80db5u);
     assert_int_equal(different, 0);
 }

@@ -309,6 +309,55 @@ static void sign_is_that_of_the_directions(void **state) {
     question_clear(&question, &allocator);
 }
 
+/* One rule for the sign of the quaternion: short vectors are settled by doubles, long ones by integers. */
+static void quaternions_of_one_rotation_settle_ties_alike(void **state) {
+    (void)state;
+    static const double factors[] = {-1, 0.5, -4, 0x1p60};
+    pir_allocator allocator = from_malloc();
+    struct question question;
+    question_init(&question, &allocator);
+    for (uint64_t i = 0; i < 4000; i++) {
+        test_random random = test_random_case("sign of multiples", i);
+        draw_tie(&question, &random);
+        if (i % 3 == 2)
+            lengthen(&question, &random);
+        const pir_quat q = question.q;
+        const pir_int3 *a = &question.a.value, *b = &question.b.value;
+        int sign = pir_sign_perturbed(&question.signs, a, b);
+        for (size_t k = 0; k < sizeof factors / sizeof *factors; k++) {
+            const double f = factors[k];
+            const pir_quat other = {f * q.x, f * q.y, f * q.z, f * q.w};
+            if (pir_rotation_set(&question.signs.rotation, other) != PIR_OK || other.x / f != q.x ||
+                other.y / f != q.y || other.z / f != q.z || other.w / f != q.w)
+                continue;
+            expect(pir_sign_perturbed(&question.signs, a, b) == sign, "case %llu, factor %g", (unsigned long long)i, f);
+        }
+    }
+    question_clear(&question, &allocator);
+}
+
+/*
+ * A relative rotation is rounded to doubles. One of its components is 2^-166 here, and 0 in doubles, as if a vector and
+ * the turned other one were at a right angle.
+ */
+static void zero_that_rounding_made_is_no_tie(void **state) {
+    (void)state;
+    pir_allocator allocator = from_malloc();
+    struct question question;
+    question_init(&question, &allocator);
+    question_set(&question, (pir_quat){0, 0, 0, 1}, (double[3]){1, 0, 0}, (double[3]){0, 1, 0});
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const pir_quat q = {0, 0x1p-83, 0.7, 0.7}, p = {0, sign * 0x1p-83, -0.7, 0.7};
+        assert_int_equal(pir_rotation_set_relative(&question.signs.rotation, q, p), PIR_OK);
+        assert_true(question.signs.rotation.given.w == 0);
+        // M's entry for the two vectors is 2 (xy + wz), of which y or x is 0 and z is −2·0.7²
+        int expected = pir_sign_true(&question.signs, &question.a.value, &question.b.value);
+        assert_true(expected != 0);
+        assert_int_equal(pir_sign_perturbed(&question.signs, &question.a.value, &question.b.value), expected);
+    }
+    question_clear(&question, &allocator);
+}
+
 static void negated(test_int3 *v) {
     for (int k = 0; k < 3; k++)
         pir_int_negate(&v->value.c[k]);
@@ -412,6 +461,8 @@ int main(void) {
         cmocka_unit_test(exact_sign_is_that_of_rational_arithmetic),
         cmocka_unit_test(tie_is_settled_as_a_real_tiny_perturbation_settles_it),
         cmocka_unit_test(sign_is_that_of_the_directions),
+        cmocka_unit_test(quaternions_of_one_rotation_settle_ties_alike),
+        cmocka_unit_test(zero_that_rounding_made_is_no_tie),
         cmocka_unit_test(reversing_a_vector_reverses_the_sign_ties_included),
         cmocka_unit_test(each_sign_is_counted_once_and_scratch_is_given_back),
         cmocka_unit_test(unit_vectors_are_within_their_bound),

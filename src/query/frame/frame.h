@@ -97,9 +97,8 @@ typedef struct pir_world {
 
 /* Whether Q is at the origin, not turned. */
 static inline bool pir_world_is_plain(const pir_world *world) {
-    pir_quat q = world->rotation_q->given;
     pir_vec3 t = world->translation_q;
-    return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 1 && t.x == 0 && t.y == 0 && t.z == 0;
+    return pir_quat_is_identity(world->rotation_q->given) && t.x == 0 && t.y == 0 && t.z == 0;
 }
 
 /*
