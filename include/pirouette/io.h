@@ -4,7 +4,8 @@
  *
  * OFF is read and written with exact rationals: a token `a/b` is that rational, an integer is itself, any other number
  * the nearest double; `#` starts a comment. OBJ, STL and PLY are read as the doubles nearest to their numbers, and
- * written in float through assimp where the build has it (PIR_ERR_UNSUPPORTED where it has not). SVG is written only.
+ * written so that the doubles come back: OBJ in decimals, PLY in binary with double properties, STL in binary where
+ * floats hold every coordinate and as text where they do not. SVG is written only.
  *
  * Every call takes an optional report that, on failure, says in one line what was wrong, where (file and line) and why.
  *
@@ -89,7 +90,7 @@ typedef struct pir_file_bytes {
     const void *bytes; /**< borrowed; may be NULL when size is 0 */
     size_t size;
     const char *name;   /**< stands for the file in reports; NULL for "text" */
-    const char *format; /**< "off", "obj", "stl" or "ply" */
+    const char *format; /**< "off", "obj", "stl" or "ply", in either case */
 } pir_file_bytes;
 
 /**
@@ -140,8 +141,12 @@ PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const ch
  *
  * A regular file is complete or absent: it is written under another name in its folder and then renamed, and keeps the
  * permissions that a file of its name had. Symbolic links are followed and stay. What is no regular file, such as a
- * device or a FIFO, is opened and written to, never replaced or removed. Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE,
- * PIR_ERR_UNSUPPORTED, PIR_ERR_MEMORY.
+ * device or a FIFO, is opened and written to, never replaced or removed.
+ *
+ * STL holds triangles, into which every facet is cut from its first corner. A mesh without facets, or of a sum of
+ * solids, whose facets may have holes, is refused there.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY.
  *
  * report  NULL, or filled when the call fails.
  *

@@ -18,6 +18,7 @@ struct pir_mesh {
     uint32_t (*pair)[2];
     pir_loops facets;
     uint8_t *kind; /* per facet: pir_facet_kind */
+    bool of_solid; /* facets need not be convex, and slits lead to their holes */
     uint32_t segment_count, point_count;
     uint32_t *segment, *point; /* two vertices a segment; vertices of points on their own */
     bool exact;                /* whether the next two are set */

@@ -20,7 +20,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KEPT = ROOT / "tests/golden/golden.txt"
-WITHOUT = ["tools", "bench", "assimp", "hdf5", "mpi", "ccd", "ompl", "bullet"]
+WITHOUT = ["tools", "bench", "hdf5", "mpi", "ccd", "ompl", "bullet"]
 CROSS = {
     # limbs of 64 bits, NEON
     "aarch64": {"prefix": "aarch64-linux-gnu-", "pc": "aarch64-linux-gnu", "family": "aarch64", "cpu": "armv8-a",

@@ -324,43 +324,7 @@ static void test_pictures_show_the_facets_that_face_the_viewer(void **state) {
     expect_picture(state, "OFF\n4 0 0\n0 0 0\n5e-324 0 0\n0 5e-324 0\n0 0 5e-324\n", 1, "4 vertices");
 }
 
-/* Whether this build has assimp, as a file of that kind shows; reports otherwise. */
-static bool has_assimp(void **state, const char *name) {
-    pir_polytope *p = must_read(CUBE);
-    pir_mesh *mesh = NULL;
-    assert_int_equal(pir_mesh_from_polytope(p, &mesh), PIR_OK);
-    pir_polytope_release(p);
-    pir_report report = {PIR_OK, ""};
-    pir_status status = pir_mesh_write(mesh, path_of(state, name), 0, &report);
-    pir_mesh_destroy(mesh);
-    assert_true(status == PIR_OK || status == PIR_ERR_UNSUPPORTED);
-    if (status != PIR_OK)
-        assert_non_null(strstr(report.text, "this build has no assimp"));
-    return status == PIR_OK;
-}
-
-static void test_obj_stl_and_ply_come_back(void **state) {
-    static const char *const names[] = {"cube.obj", "cube.stl", "cube.ply"};
-    for (int i = 0; i < 3; i++) {
-        if (!has_assimp(state, names[i])) {
-            continue; // what is read without having been written is in test_files.c
-        }
-        pir_polytope *p = NULL;
-        pir_report report = {PIR_OK, ""};
-        assert_int_equal(pir_polytope_read(path_of(state, names[i]), NULL, &report, &p), PIR_OK);
-        remove(path_of(state, names[i]));
-        assert_true(pir_polytope_volume(p) == 1.0);
-        pir_vec3 low, high;
-        pir_polytope_bounds(p, &low, &high);
-        assert_true(low.x == 0 && low.y == 0 && low.z == 0 && high.x == 1 && high.y == 1 && high.z == 1);
-        expect_counts(p, 8, 12, 6);
-    }
-}
-
 static void test_obj_stl_and_ply_that_are_wrong(void **state) {
-    if (!has_assimp(state, "cube.obj"))
-        skip();
-    remove(path_of(state, "cube.obj"));
     static const struct {
         const char *name, *text;
     } broken[] = {
@@ -379,21 +343,6 @@ static void test_obj_stl_and_ply_that_are_wrong(void **state) {
         assert_null(p);
         remove(path);
     }
-    // Flat facets and floats are all that these formats hold.
-    pir_polytope *p = must_read("OFF\n2 0 0\n0 0 0\n1 1 1\n");
-    pir_mesh *mesh = NULL;
-    pir_report report = {PIR_OK, ""};
-    assert_int_equal(pir_mesh_from_polytope(p, &mesh), PIR_OK);
-    assert_int_equal(pir_mesh_write(mesh, path_of(state, "segment.stl"), 0, &report), PIR_ERR_ARGUMENT);
-    assert_non_null(strstr(report.text, "segment.stl: .stl holds facets and a segment has none"));
-    pir_mesh_destroy(mesh);
-    pir_polytope_release(p);
-    p = must_read("OFF\n3 0 0\n0 0 0\n1 1e300 1\n0 0 1\n");
-    assert_int_equal(pir_mesh_from_polytope(p, &mesh), PIR_OK);
-    assert_int_equal(pir_mesh_write(mesh, path_of(state, "large.obj"), 0, &report), PIR_ERR_ARGUMENT);
-    assert_non_null(strstr(report.text, "large.obj: vertex 1 is beyond the largest float"));
-    pir_mesh_destroy(mesh);
-    pir_polytope_release(p);
 }
 
 static void test_missing_arguments(void **state) {
@@ -422,7 +371,6 @@ int main(void) {
         cmocka_unit_test(test_pipes_are_read_to_their_end),
         cmocka_unit_test(test_long_path_leaves_room_for_the_reason),
         cmocka_unit_test(test_pictures_show_the_facets_that_face_the_viewer),
-        cmocka_unit_test(test_obj_stl_and_ply_come_back),
         cmocka_unit_test(test_obj_stl_and_ply_that_are_wrong),
         cmocka_unit_test(test_missing_arguments),
     };

@@ -12,20 +12,21 @@ const char *pir_short_name(const char *path) {
     return length > SHORT_NAME ? path + length - SHORT_NAME : path;
 }
 
-enum pir_file_type pir_file_type_of(const char *path, char ret_ending[4]) {
-    size_t length = strlen(path);
-    ret_ending[0] = '\0';
-    if (length < 4 || path[length - 4] != '.')
-        return PIR_FILE_UNKNOWN;
-    for (size_t i = 0; i < 4; i++) {
-        char c = path[length - 3 + i];
-        ret_ending[i] = c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-    }
-    if (strcmp(ret_ending, "off") == 0)
-        return PIR_FILE_OFF;
-    if (strcmp(ret_ending, "svg") == 0)
-        return PIR_FILE_SVG;
-    if (strcmp(ret_ending, "obj") == 0 || strcmp(ret_ending, "stl") == 0 || strcmp(ret_ending, "ply") == 0)
-        return PIR_FILE_ASSIMP;
+enum pir_file_type pir_file_type_named(const char *name) {
+    static const char *const names[] = {
+        [PIR_FILE_OFF] = "off", [PIR_FILE_OBJ] = "obj", [PIR_FILE_STL] = "stl",
+        [PIR_FILE_PLY] = "ply", [PIR_FILE_SVG] = "svg",
+    };
+    char lower[4] = "";
+    for (size_t i = 0; i < 3 && name[i]; i++)
+        lower[i] = name[i] >= 'A' && name[i] <= 'Z' ? (char)(name[i] - 'A' + 'a') : name[i];
+    for (size_t type = PIR_FILE_OFF; type < sizeof names / sizeof *names; type++)
+        if (strlen(name) == 3 && strcmp(lower, names[type]) == 0)
+            return (enum pir_file_type)type;
     return PIR_FILE_UNKNOWN;
+}
+
+enum pir_file_type pir_file_type_of(const char *path) {
+    const char *dot = strrchr(path, '.');
+    return dot ? pir_file_type_named(dot + 1) : PIR_FILE_UNKNOWN;
 }

@@ -9,10 +9,13 @@
 #define PIR_FILE_SIZE_MAX ((size_t)1 << 31)
 
 /* Which reader and writer a file has. */
-enum pir_file_type { PIR_FILE_UNKNOWN, PIR_FILE_OFF, PIR_FILE_ASSIMP, PIR_FILE_SVG };
+enum pir_file_type { PIR_FILE_UNKNOWN, PIR_FILE_OFF, PIR_FILE_OBJ, PIR_FILE_STL, PIR_FILE_PLY, PIR_FILE_SVG };
 
-/* The type by the ending, in either case; ret_ending gets it in lower case without the dot. */
-enum pir_file_type pir_file_type_of(const char *path, char ret_ending[4]);
+/* The type of that name: "off", "obj", "stl", "ply" or "svg", in either case. */
+enum pir_file_type pir_file_type_named(const char *name);
+
+/* The type by the ending of a path. */
+enum pir_file_type pir_file_type_of(const char *path);
 
 /* The last part of a path, short enough to leave room for what went wrong. */
 const char *pir_short_name(const char *path);

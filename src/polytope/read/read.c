@@ -17,16 +17,22 @@
 #include "polytope/read/read_ply.h"
 #include "polytope/read/read_stl.h"
 
-static pir_status read_model(const char *data, size_t size, const char *ending, struct pir_model *model) {
-    static const struct {
-        const char *ending;
-        pir_status (*read)(const char *data, size_t size, struct pir_model *model);
-    } readers[] = {{"off", pir_read_off}, {"obj", pir_read_obj}, {"stl", pir_read_stl}, {"ply", pir_read_ply}};
-    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
-        if (strcmp(ending, readers[i].ending) == 0)
-            return readers[i].read(data, size, model);
+static pir_status read_model(const char *data, size_t size, const char *format, struct pir_model *model) {
+    switch (pir_file_type_named(format)) {
+    case PIR_FILE_OFF:
+        return pir_read_off(data, size, model);
+    case PIR_FILE_OBJ:
+        return pir_read_obj(data, size, model);
+    case PIR_FILE_STL:
+        return pir_read_stl(data, size, model);
+    case PIR_FILE_PLY:
+        return pir_read_ply(data, size, model);
+    case PIR_FILE_SVG:
+    case PIR_FILE_UNKNOWN:
+        break;
+    }
     return pir_fail(model->report, PIR_ERR_ARGUMENT, "%s: '%.8s' is none of off, obj, stl and ply", model->name,
-                    ending);
+                    format);
 }
 
 pir_read_options pir_read_options_default(void) {
@@ -56,8 +62,7 @@ pir_status pir_model_read_bytes(const pir_file_bytes *file, const pir_allocator 
 pir_status pir_model_read_file(const char *path, const pir_allocator *allocator, pir_report *report,
                                struct pir_model_maker maker) {
     const char *name = pir_short_name(path);
-    char ending[4];
-    enum pir_file_type type = pir_file_type_of(path, ending);
+    enum pir_file_type type = pir_file_type_of(path);
     if (type == PIR_FILE_SVG)
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: .svg files are written, not read", name);
     if (type == PIR_FILE_UNKNOWN)
@@ -65,8 +70,8 @@ pir_status pir_model_read_file(const char *path, const pir_allocator *allocator,
     struct pir_read_bytes bytes = {0};
     pir_status status = pir_file_read(path, allocator, report, &bytes);
     if (status == PIR_OK)
-        status =
-            pir_model_read_bytes(&(pir_file_bytes){bytes.data, bytes.size, path, ending}, allocator, report, maker);
+        status = pir_model_read_bytes(&(pir_file_bytes){bytes.data, bytes.size, path, path + strlen(path) - 3},
+                                      allocator, report, maker);
     PIR_FREE(allocator, bytes.data, bytes.capacity);
     return status;
 }

@@ -16,8 +16,10 @@
 #include "base/report.h"
 #include "polytope/file/file_name.h"
 #include "polytope/file/target.h"
-#include "polytope/write/write_assimp.h"
+#include "polytope/write/write_obj.h"
 #include "polytope/write/write_off.h"
+#include "polytope/write/write_ply.h"
+#include "polytope/write/write_stl.h"
 #include "polytope/write/write_svg.h"
 
 /*
@@ -42,19 +44,26 @@ static pir_status check_exact(const pir_mesh *mesh, const char *name, enum pir_f
     return PIR_OK;
 }
 
-static pir_status write_as(const pir_mesh *mesh, FILE *file, const char *name, enum pir_file_type type,
-                           const char *ending, int exact, pir_report *report) {
-    if (type == PIR_FILE_ASSIMP)
-        return pir_mesh_write_assimp(mesh, file, ending, name, report);
-    pir_status status =
-        type == PIR_FILE_OFF ? pir_mesh_write_off(mesh, file, exact != 0) : pir_mesh_write_svg(mesh, file);
+static pir_status write_as(const pir_mesh *mesh, FILE *file, const char *name, enum pir_file_type type, int exact,
+                           pir_report *report) {
+    pir_status status = PIR_OK;
+    if (type == PIR_FILE_STL)
+        return pir_mesh_write_stl(mesh, file, name, report);
+    if (type == PIR_FILE_PLY)
+        pir_mesh_write_ply(mesh, file);
+    else if (type == PIR_FILE_OBJ)
+        status = pir_mesh_write_obj(mesh, file);
+    else if (type == PIR_FILE_SVG)
+        status = pir_mesh_write_svg(mesh, file);
+    else
+        status = pir_mesh_write_off(mesh, file, exact != 0);
     return status == PIR_OK ? PIR_OK : pir_fail(report, status, "%s: cannot write: %s", name, pir_status_text(status));
 }
 
 /* Writes and flushes; a full disk may show only at the end. */
-static pir_status write_stream(const pir_mesh *mesh, FILE *file, const char *path, enum pir_file_type type,
-                               const char *ending, int exact, pir_report *report) {
-    pir_status status = write_as(mesh, file, pir_short_name(path), type, ending, exact, report);
+static pir_status write_stream(const pir_mesh *mesh, FILE *file, const char *path, enum pir_file_type type, int exact,
+                               pir_report *report) {
+    pir_status status = write_as(mesh, file, pir_short_name(path), type, exact, report);
     errno = 0;
     if ((fflush(file) != 0 || ferror(file)) && status == PIR_OK)
         status = fail_file(report, path, errno ? errno : EIO);
@@ -65,14 +74,12 @@ pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *n
                                  pir_report *report) {
     if (!mesh || !file || !name || !format)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no mesh, no stream, no name or no format");
-    char dotted[8], ending[4];
-    snprintf(dotted, sizeof dotted, ".%s", format);
-    enum pir_file_type type = strlen(format) == 3 ? pir_file_type_of(dotted, ending) : PIR_FILE_UNKNOWN;
+    enum pir_file_type type = pir_file_type_named(format);
     if (type == PIR_FILE_UNKNOWN)
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: '%.32s' is none of off, obj, stl, ply and svg",
                         pir_short_name(name), format);
     pir_status status = check_exact(mesh, pir_short_name(name), type, exact, report);
-    return status == PIR_OK ? write_stream(mesh, file, name, type, ending, exact, report) : status;
+    return status == PIR_OK ? write_stream(mesh, file, name, type, exact, report) : status;
 }
 
 /* --- files --- */
@@ -104,9 +111,7 @@ struct job {
 
 /* Writes to the open file and closes it. */
 static pir_status write_and_close(const struct job *job, FILE *file) {
-    char ending[4];
-    enum pir_file_type type = pir_file_type_of(job->path, ending);
-    pir_status status = write_stream(job->mesh, file, job->path, type, ending, job->exact, job->report);
+    pir_status status = write_stream(job->mesh, file, job->path, pir_file_type_of(job->path), job->exact, job->report);
     if (fclose(file) != 0 && status == PIR_OK)
         status = fail_file(job->report, job->path, errno);
     return status;
@@ -146,8 +151,7 @@ pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int exact, pir
     if (!mesh || !path)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no mesh, or no path to write it to");
     const char *name = pir_short_name(path);
-    char ending[4];
-    enum pir_file_type type = pir_file_type_of(path, ending);
+    enum pir_file_type type = pir_file_type_of(path);
     if (type == PIR_FILE_UNKNOWN)
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name does not end in .off, .obj, .stl, .ply or .svg", name);
     pir_status status = check_exact(mesh, name, type, exact, report);

@@ -2,34 +2,24 @@
 /*
  * Writing OFF: counts, vertices, facets, one to a line, so that what is read back is the same numbers.
  *
- * A double is written with the fewest of 15, 16 or 17 digits that read back as itself; an exact coordinate as an
- * integer or a/b in lowest terms.
+ * A double is written with the fewest digits that read back as itself; an exact coordinate as an integer or a/b in
+ * lowest terms.
  */
 #include "polytope/write/write_off.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 
 #include <pirouette/exact.h>
 
 #include "polytope/file/c_locale.h"
-
-static void write_double(FILE *file, double value, char end) {
-    char text[32];
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
-        if (strtod(text, NULL) == value)
-            break;
-    }
-    fprintf(file, "%s%c", text, end);
-}
+#include "polytope/write/write_number.h"
 
 static void write_doubles(const pir_mesh *mesh, FILE *file) {
     const pir_vec3 *vertices = pir_mesh_vertices(mesh);
     for (uint32_t v = 0; v < pir_mesh_vertex_count(mesh); v++) {
-        write_double(file, vertices[v].x, ' ');
-        write_double(file, vertices[v].y, ' ');
-        write_double(file, vertices[v].z, '\n');
+        pir_write_number(file, vertices[v].x, ' ');
+        pir_write_number(file, vertices[v].y, ' ');
+        pir_write_number(file, vertices[v].z, '\n');
     }
 }
 

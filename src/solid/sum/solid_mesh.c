@@ -121,6 +121,7 @@ static pir_status fill(struct source *from, pir_mesh **ret_mesh) {
         return PIR_ERR_MEMORY;
     }
     mesh->exact = true;
+    mesh->of_solid = true;
     for (uint32_t v = 0; v < from->vertices; v++)
         set_vertex(mesh, from, v, from->point[v]);
     fill_facets(mesh, from);
