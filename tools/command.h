@@ -2,7 +2,7 @@
 /*
  * What a subcommand is: its name, its arguments, its text. All of them stand in one table, command_table.c. The parser
  * of arguments, `--help`, the manual pages and the completion of shells read that table, so all of them agree. A
- * subcommand runs in a cmd_*.c of its own, and main.c knows which.
+ * subcommand runs in a cmd_*.c of its own; runs.h says in which program.
  */
 #ifndef TOOLS_COMMAND_H
 #define TOOLS_COMMAND_H

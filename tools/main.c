@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The `pirouette` command: finds the subcommand in the table of command.h and hands it its arguments.
+ * The `pirouette` command: finds the subcommand in the table of command.h and hands it its arguments. What needs slices
+ * runs in another program (runs.h).
  */
 #include <fcntl.h>
 #include <signal.h>
@@ -11,41 +12,12 @@
 #include <pirouette/version.h>
 
 #include "args.h"
-#include "cmd.h"
 #include "command.h"
+#include "hand_over.h"
 #include "help.h"
 #include "interrupt.h"
 #include "message.h"
-
-/* help SUBCOMMAND prints what SUBCOMMAND --help does. */
-static int run_help(const struct args *args) {
-    const char *name = args->positional_count > 0 ? args->positional[0] : NULL;
-    const struct command *command = name ? command_find(name) : NULL;
-    if (name && !command)
-        return complain("help: unknown subcommand '%s'; see pirouette --help", name);
-    if (command)
-        help_print_command(command);
-    else
-        help_print();
-    return EXIT_DONE;
-}
-
-static int (*const runs[COMMAND_COUNT])(const struct args *) = {
-    [COMMAND_INFO] = cmd_info,
-    [COMMAND_CGM] = cmd_cgm,
-    [COMMAND_SHAPE] = cmd_shape,
-    [COMMAND_SUM] = cmd_sum,
-    [COMMAND_TRACK] = cmd_track,
-    [COMMAND_QUERY] = cmd_query,
-    [COMMAND_SLICE] = cmd_slice,
-    [COMMAND_HELP] = run_help,
-    [COMMAND_CONFIGURATION] = cmd_configuration,
-    [COMMAND_VIEW] = cmd_view,
-    [COMMAND_DECOMPOSE] = cmd_decompose,
-    [COMMAND_SIMPLIFY] = cmd_simplify,
-    [COMMAND_REPLAY] = cmd_replay,
-    [COMMAND_SIMULATE] = cmd_simulate,
-};
+#include "runs.h"
 
 static int run_command(const struct command *command, int argc, char *const *argv) {
     struct args args;
@@ -55,7 +27,7 @@ static int run_command(const struct command *command, int argc, char *const *arg
         help_print_command(command);
         return EXIT_DONE;
     }
-    return runs[command - command_table](&args);
+    return command_runs[command - command_table](&args);
 }
 
 /* Whether `text` is the option of this name, which stands before a subcommand. */
@@ -80,7 +52,7 @@ static int run(int argc, char *const *argv) {
     const struct command *command = command_find(argv[1]);
     if (!command)
         return complain("unknown %s '%s'; see pirouette --help", argv[1][0] == '-' ? "option" : "subcommand", argv[1]);
-    return run_command(command, argc - 2, argv + 2);
+    return command_runs[command - command_table] ? run_command(command, argc - 2, argv + 2) : hand_over(argv);
 }
 
 /* Sees to it that no file that is opened gets the number of a standard stream that was closed before the start. */

@@ -3,6 +3,7 @@
 #ifndef BENCH_SLICES_SCENE_H
 #define BENCH_SLICES_SCENE_H
 
+#include <pirouette/cspace.h>
 #include <pirouette/pirouette.h>
 
 #define SLICES_PIECES_MOST 64

@@ -6,6 +6,7 @@
 #ifndef EXAMPLES_PIANO_PLACE_H
 #define EXAMPLES_PIANO_PLACE_H
 
+#include <pirouette/cspace.h>
 #include <pirouette/pirouette.h>
 
 #ifdef __cplusplus

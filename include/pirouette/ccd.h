@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * Pairs asked by support functions alone, through libccd: a second opinion. Stateless, not exact, in doubles; pair.h
- * and query.h hold the exact answers.
+ * and query.h hold the exact answers. This header is of libpirouette-ccd, which stands beside libpirouette:
+ * pkg-config's pirouette-ccd.
  *
  * Threads: a call reads its polytopes and writes nothing but its results; a pir_support_body belongs to one thread at a
  * time.

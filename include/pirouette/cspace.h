@@ -12,7 +12,8 @@
  *
  * Threads: one object of this header belongs to one thread at a time, but a job makes threads of its own.
  *
- * Without HDF5 in the build, calls that read or write files return PIR_ERR_UNSUPPORTED.
+ * This header is of libpirouette-cspace, which stands beside libpirouette: pkg-config's pirouette-cspace. Without HDF5
+ * in the build, calls that read or write files return PIR_ERR_UNSUPPORTED.
  *
  * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
@@ -290,14 +291,14 @@ PIR_API pir_status pir_cspace_planes(pir_cspace *cspace, pir_cspace_place place,
                                      const pir_halfspace **ret_planes, uint32_t *ret_count);
 
 /**
- * A slice as a sum that keeps the difference, which queries take, and which turns on from there. Every pair is proven
- * in exact arithmetic, so the sum is right whoever wrote the file.
+ * A slice as a sum that keeps the difference, which queries take, and which turns on from there. It is made anew, and
+ * its pairing held against that of the file, so the sum is right whoever wrote the file.
  *
  * place, report  as of pir_cspace_slice.
  *
  * The caller destroys *ret_sum; it may outlive `cspace`.
  *
- * Cost: that of pir_cspace_slice and of pir_sum_is_valid.
+ * Cost: that of pir_cspace_slice and of pir_sum_create.
  *
  * Errors: those of pir_cspace_slice; PIR_ERR_FORMAT where the pairing is not that of the rotation.
  */

@@ -6,6 +6,8 @@
  * +, −, ·, / and √ of doubles alone, so that a grid has the same bits on every machine. A grid about an axis and
  * one of all rotations keep no rotations: any one is made from its number.
  *
+ * This header is of libpirouette-cspace, which stands beside libpirouette.
+ *
  * Threads may read one grid at the same time.
  *
  * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.

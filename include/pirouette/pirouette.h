@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/** All of Pirouette but exact.h, which shows GMP types. */
+/**
+ * All of libpirouette but exact.h, which shows GMP types. The libraries beside it have headers of their own: cspace.h
+ * and grid.h are libpirouette-cspace's, ccd.h is libpirouette-ccd's.
+ */
 #ifndef PIROUETTE_H
 #define PIROUETTE_H
 
 #include <pirouette/base.h>
-#include <pirouette/ccd.h>
 #include <pirouette/cgm.h>
-#include <pirouette/cspace.h>
-#include <pirouette/grid.h>
 #include <pirouette/history.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>

@@ -16,6 +16,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <pirouette/cspace.h>
 #include <pirouette/pirouette.h>
 
 #include "fuzz/input.h"

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/ccd.h>
 #include <pirouette/pirouette.h>
 
 #include "fuzz/query_scene.h"

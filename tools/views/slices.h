@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include <pirouette/cspace.h>
 #include <pirouette/pirouette.h>
 
 struct slices {

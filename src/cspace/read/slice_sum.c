@@ -1,29 +1,36 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Slices as sums and as meshes. What the file says of the pairing is not trusted: it is proven in exact arithmetic, so
- * a sum that is returned is right.
+ * Slices as sums and as meshes. What the file says of the pairing is not trusted. There is one pairing at a rotation,
+ * so the sum is made anew and its pairing held against the file's.
  */
 #include <string.h>
 
 #include "base/report.h"
 #include "cspace/read/cspace.h"
-#include "dymsum/fill.h"
+#include "dymsum/view.h"
 
-/* Puts the pairing that the cursor is at into a sum that has been begun. False when out of memory. */
-static bool fill(pir_sum *sum, const pir_replay *replay, const pir_replay_crossing *crossing, uint32_t count) {
-    memcpy(pir_fill_cells(sum, PIR_OPERAND_P), replay->fv, replay->p->facet_count * sizeof *replay->fv);
-    memcpy(pir_fill_cells(sum, PIR_OPERAND_Q), replay->vf, replay->q->facet_count * sizeof *replay->vf);
-    if (!pir_fill_crossings(sum, count))
-        return false;
-    uint32_t last = PIR_NO_CROSSING;
-    for (uint32_t i = 0; i < count; i++) {
-        if (i > 0 && crossing[i].edge != crossing[i - 1].edge)
-            last = PIR_NO_CROSSING;
-        if (!pir_fill_crossing(sum, crossing[i].edge, crossing[i].half, &last))
+/* Whether the crossings of edge e of −P are those that stand from *at on; moves *at past them. */
+static bool same_crossings(const pir_pairing *pairing, uint32_t e, const pir_replay_crossing **at,
+                           const pir_replay_crossing *end) {
+    for (uint32_t slot = pir_crossing_first(pairing, e); slot != PIR_NO_CROSSING;
+         slot = pir_crossing_next(pairing, slot), ++*at)
+        if (*at == end || (*at)->edge != e || (*at)->half != pir_crossing_half(pairing, slot))
             return false;
-    }
-    pir_fill_end(sum);
     return true;
+}
+
+/* Whether the pairing of the sum is that which the cursor is at. */
+static bool same_pairing(const pir_sum *sum, const pir_replay *replay, const pir_replay_crossing *crossing,
+                         uint32_t count) {
+    const pir_pairing *pairing = pir_sum_pairing(sum);
+    const pir_replay_crossing *at = crossing, *end = crossing + count;
+    if (memcmp(pairing->fv, replay->fv, replay->p->facet_count * sizeof *replay->fv) != 0 ||
+        memcmp(pairing->vf, replay->vf, replay->q->facet_count * sizeof *replay->vf) != 0)
+        return false;
+    for (uint32_t e = 0; e < replay->p->edge_count; e++)
+        if (!same_crossings(pairing, e, &at, end))
+            return false;
+    return at == end;
 }
 
 pir_status pir_cspace_sum(pir_cspace *cspace, pir_cspace_place place, pir_report *report, pir_sum **ret_sum) {
@@ -34,15 +41,13 @@ pir_status pir_cspace_sum(pir_cspace *cspace, pir_cspace_place place, pir_report
     pir_status status = pir_cspace_go_to(cspace, place, report, &crossing, &count);
     if (status != PIR_OK)
         return status;
-    // a sum takes a reference, which is no change of what the piece says
+    // a sum takes a reference, which is no change of what the pieces say
+    pir_polytope *robot = (pir_polytope *)pir_cspace_robot(cspace, place.robot);
     pir_polytope *obstacle = (pir_polytope *)pir_cspace_obstacle(cspace, place.obstacle);
-    pir_polytope *minus_p = cspace->cursor.minus_p;
-    const pir_fill_operands operands = {{minus_p, obstacle}, {minus_p, obstacle}, true};
+    const pir_sum_options options = {.allocator = &cspace->allocator, .difference = 1};
     pir_sum *sum = NULL;
-    status = pir_fill_begin(&operands, pir_cspace_cursor_rotation(cspace), &cspace->allocator, &sum);
-    if (status == PIR_OK && !fill(sum, &cspace->cursor.replay, crossing, count))
-        status = PIR_ERR_MEMORY;
-    if (status == PIR_OK && !pir_sum_is_valid(sum))
+    status = pir_sum_create(robot, obstacle, pir_cspace_cursor_rotation(cspace), &options, &sum);
+    if (status == PIR_OK && !same_pairing(sum, &cspace->cursor.replay, crossing, count))
         status = PIR_ERR_FORMAT;
     if (status != PIR_OK) {
         pir_sum_destroy(sum);
