@@ -18,9 +18,7 @@
 #include "progress.h"
 #include "ranks/ranks.h"
 #include "text.h"
-#if PIR_HAVE_HDF5
 #include "views/planar_file.h"
-#endif
 
 #define DEGREES (180 / 3.14159265358979323846)
 
