@@ -19,6 +19,7 @@ struct outcome {
 #define CAST_TOLERANCE 1e-6
 
 static const char *const state_names[] = {"outside", "boundary", "inside"};
+static const char *const cast_names[] = {"hit", "miss", "receding", "start inside", "at rest", "step limit"};
 
 static bool check_options(const struct args *args) {
     static const char *const others[] = {"--direction", "--batch", "-o"};
@@ -50,8 +51,8 @@ static bool print_json(const struct args *args, const struct outcome *outcome, b
     }
     if (casts) {
         cJSON *cast = json_add_object(&json, json.root, "cast");
-        json_add_text(&json, cast, "outcome", outcome->impact.meets ? "hit" : "miss");
-        if (outcome->impact.meets)
+        json_add_text(&json, cast, "outcome", cast_names[outcome->impact.outcome]);
+        if (outcome->impact.outcome != PIR_CAST_MISS)
             json_add_number(&json, cast, "time", outcome->impact.time);
     }
     json_add_numbers(&json, json.root, "pieces", (const double[]){outcome->pieces[0], outcome->pieces[1]}, 2);
@@ -67,8 +68,8 @@ static void print_text(const struct args *args, const struct outcome *outcome, b
         printf("  %-12s %.17g\n", "distance", result->distance);
         printf("  %-12s %.17g, %.17g, %.17g\n", "normal", result->normal.x, result->normal.y, result->normal.z);
     }
-    if (casts && outcome->impact.meets)
-        printf("  %-12s hit, time %.17g\n", "cast", outcome->impact.time);
+    if (casts && outcome->impact.outcome != PIR_CAST_MISS)
+        printf("  %-12s %s, time %.17g\n", "cast", cast_names[outcome->impact.outcome], outcome->impact.time);
     else if (casts)
         printf("  %-12s miss\n", "cast");
     printf("  %-12s %" PRIu32 " of P, %" PRIu32 " of Q\n", "pieces", outcome->pieces[0], outcome->pieces[1]);

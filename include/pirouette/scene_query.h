@@ -5,17 +5,17 @@
  * They see all bodies at their present poses, those added since the last update too, and change neither contacts nor
  * events. A shape is a polytope of any dimension with a pose and a rounding radius; it need not be one of a body.
  *
- * States and whether a ray hits are exact for the doubles given, as in pair.h; distances are those of pair.h; times of
- * moving shapes have a tolerance. Results do not depend on the history of the scene; they are in the order of the
- * numbers of bodies and pieces, or of distance or time first.
+ * Rounding radii count in all of them. States, and whether a ray hits a body without a radius, are exact for the
+ * doubles given, as in pair.h; distances are those of pair.h; times of moving shapes have a tolerance. Results do not
+ * depend on the history of the scene; they are in the order of the numbers of bodies and pieces, or of distance or time
+ * first.
  *
  * Sensors are not seen. Two bodies meet as scene.h says; a shape or a ray meets bodies whose category is in its mask.
  *
  * Threads: a query is a call on the scene, and belongs to its thread.
  *
- * Memory: a query may allocate from the scene's budget, where it is larger than all before. A ray that grazes a piece
- * makes a segment. Until the next query the scene may hold a reference to the shape. Where a call fails, arrays may
- * have been written to.
+ * Memory: a query may allocate from the scene's budget, where it is larger than all before. Until the next query the
+ * scene may hold a reference to the shape. Where a call fails, arrays may have been written to.
  *
  * Cost: O(log n) to find the boxes in a scene of n pieces where these are apart, and a query of a pair for each piece
  * whose box meets what is asked.
@@ -153,22 +153,33 @@ PIR_API pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *
 /** What a ray or a motion meets first. */
 typedef struct pir_scene_impact {
     uint32_t body, piece; /**< PIR_SCENE_NONE where it meets nothing */
-    uint32_t own_piece;   /**< of the body that moves; 0 for a shape */
-    double time;          /**< a fraction of the way, 0 to 1; 0 where it begins in contact */
-    pir_vec3 normal;      /**< unit, away from the piece that is met; 0 where it begins inside */
-    pir_vec3 point;       /**< of contact, in the world */
+    uint32_t own_piece;   /**< of the body that moves; 0 for a shape and a ray */
+    /** PIR_CAST_HIT, PIR_CAST_MISS, PIR_CAST_START_INSIDE, or PIR_CAST_STEP_LIMIT: then this piece is not proven to be
+        met, but until `time` nothing is. */
+    pir_cast_outcome outcome;
+    double time;     /**< a fraction of the way, 0 to 1; 0 where it begins in contact, 1 on a miss */
+    pir_vec3 normal; /**< unit, away from the piece; where it begins inside, that of the depth */
+    pir_vec3 point;  /**< of the piece, in the world */
 } pir_scene_impact;
 
 /**
- * What the segment from `origin` to `origin` + `way` meets first: whether it shares a point with a piece is exact, time
- * and point are doubles within 2^-40 of the way where the segment does not graze. On a flat piece they are those of a
- * point that both share, and the normal is 0 unless the segment goes through a side. Rounding radii of bodies do not
- * count.
+ * What the segment from `origin` to `origin` + `way` meets first. Bodies are as large as their rounding radii make
+ * them.
+ *
+ * Without a radius, whether the segment shares a point with a piece is exact, and time and point are those of the first
+ * point shared, within 2^-40 of the way: also on a flat piece, and where the segment lies in its plane. With a radius
+ * r, a segment is told rightly where its distance from the polytope is not within 1e-12 of r, relative to sizes and
+ * coordinates; time and point are those of the rounded body. Of pieces that are met at times that do not differ the one
+ * of the lowest numbers is told.
+ *
+ * The normal is that of the surface where it is entered. Where the segment meets an edge of a flat piece within its
+ * plane, it lies in the plane; where it meets a piece that is a segment or a point, it is against the way, and 0 for a
+ * way of 0.
  *
  * origin, way  in the world; a way of 0 asks for what holds the origin.
  * mask         the categories of bodies that it meets.
  *
- * Cost: that of a query of a scene, for the boxes that the segment meets.
+ * Cost: that of a query of a scene, for the boxes that the segment meets: O(vertices) for each.
  *
  * Errors: those of a query of a scene.
  */
@@ -179,18 +190,22 @@ PIR_API pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way
 typedef struct pir_scene_motion {
     pir_vec3 way;
     pir_vec3 turn; /**< along the axis, as long as the angle in radians; up to 2^20 */
+    /** Nonzero where something else, a solver say, holds the contacts of time 0. A piece that shares a point then is
+        not met at all, and one within the tolerance only when it comes within half of its distance at time 0. */
+    int leaves;
 } pir_scene_motion;
 
 /**
  * When a shape that moves first comes within `tolerance` of a piece, by conservative advancement (Mirtich, 1996):
- * before that time it shares no point with any. A piece that is not reached in 256 steps is taken to be met at the time
- * that the last one came to.
+ * before that time it shares no point with any. An advance that gets no nearer in 512 steps, along something that is
+ * hardly farther than the tolerance, ends with PIR_CAST_STEP_LIMIT at the time that is proven.
  *
  * shape      where it begins; borrowed for the call.
  * motion     over which it moves.
- * tolerance  > 0, a length; below 1e-9 of the size of bodies and coordinates steps are many.
+ * tolerance  > 0, a length; below 1e-10 of the size of bodies and coordinates it counts as that.
  *
- * Cost: that of a query of a scene for all that the way may meet, up to 256 queries of a pair each.
+ * Cost: that of a query of a scene for all that the way may meet, for each of them some queries of a pair, and, where
+ * the shape turns, as often O(its vertices).
  *
  * Errors: those of a query of a scene; PIR_ERR_ARGUMENT also for a tolerance that is not above 0.
  */

@@ -92,22 +92,24 @@ typedef struct pir_solid_motion {
 
 /** What a motion meets first. */
 typedef struct pir_solid_impact {
-    int meets;                 /**< 0 where the motion ends without, and nothing else is set */
-    double time;               /**< 0 to 1; 0 where it begins in contact */
-    uint32_t piece_p, piece_q; /**< that meet then; of several the lowest of P, then of Q */
-    pir_vec3 normal;           /**< unit, from Q to P; 0 where it begins inside */
+    /** PIR_CAST_HIT, PIR_CAST_MISS, PIR_CAST_START_INSIDE, or PIR_CAST_STEP_LIMIT: then these pieces are not proven to
+        meet, but until `time` none do. */
+    pir_cast_outcome outcome;
+    double time;               /**< 0 to 1; 0 where it begins in contact, 1 on a miss */
+    uint32_t piece_p, piece_q; /**< that meet then; of several the lowest of P, then of Q; 0 on a miss */
+    pir_vec3 normal;           /**< unit, from Q to P; where it begins inside, that of the depth of these pieces */
     pir_vec3 point;            /**< of Q */
 } pir_solid_impact;
 
 /**
  * When P first comes within the tolerance of Q, by conservative advancement (Mirtich, 1996) of each pair of pieces
- * that may be first: before that time the bodies share no point. A pair that needs more than 256 steps is taken to be
- * met at the time that the last one came to.
+ * that may be first: before that time the bodies share no point. An advance that gets no nearer in 512 steps ends with
+ * PIR_CAST_STEP_LIMIT, as of pir_scene_cast.
  *
  * workspace, input  scratch, and the poses at time 0; radii count.
  * motion            P's.
  *
- * Cost: that of a query, with up to 256 queries of a pair for each pair.
+ * Cost: that of a query, for each pair some queries of a pair, and, where P turns, as often O(vertices of its piece).
  *
  * Errors: those of a query; PIR_ERR_NOT_FINITE for the motion; PIR_ERR_ARGUMENT for a tolerance that is not above 0;
  * PIR_ERR_LIMIT for a turn beyond 2^20.

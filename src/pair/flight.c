@@ -1,14 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See flight.h. With the normal n from Q to P at some time and the distance d, the bodies stay apart along n while P
- * comes nearer along it by less than d: P's points move along −n at most at the rate −way·n + |turn| · reach. So
- * there is no contact for d over that rate, and none at all where it is not positive (Mirtich 1996).
+ * See flight.h. The normal n from Q to P at some time, and Q's point nearest to P, make a plane that has Q below it for
+ * good, since Q is at rest. The bodies are apart until P comes down to it (query/frame/parting.h). There the distance
+ * is asked for again, and its plane parts them further.
  */
 #include "pair/flight.h"
 
-#include "base/vec.h"
+#include "polytope/polytope.h"
+#include "query/frame/parting.h"
 
-#define MOST_STEPS 256
+/* Few casts need more than ten; those that take all glide along something that is hardly farther than the tolerance. */
+#define MOST_STEPS 512
+/* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
+#define DISTANCE_ERROR 1e-11
+/* Likewise of the way of P's farthest point: angles of many turns have few bits behind them. */
+#define TURN_ERROR 0x1p-48
 
 static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
@@ -22,25 +28,49 @@ pir_status pir_flight_check(pir_vec3 way, pir_vec3 turn, double tolerance) {
     return length(turn) <= 0x1p20 ? PIR_OK : PIR_ERR_LIMIT;
 }
 
+/* What a flight that begins where the bodies share a point ends with. */
+static pir_status end_at_once(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                              const pir_flight *flight, pir_flight_end *end) {
+    bool inside = end->answer.state == PIR_INSIDE;
+    end->outcome = flight->leaves ? PIR_CAST_MISS : inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT;
+    return inside && !flight->leaves ? pir_pair_penetration(pair, workspace, input, &end->answer) : PIR_OK;
+}
+
+/* How near P has to come to have met Q; 0 where it cannot. `error` is what distances are off by at most. */
+static double near_of(const pir_flight *flight, double distance, double error) {
+    double least = 4 * error;
+    if (!flight->leaves || distance > flight->tolerance)
+        return fmax(flight->tolerance, least);
+    return 0.5 * distance > least ? 0.5 * distance : 0;
+}
+
 pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input *input, const pir_flight *flight,
                         double until, pir_flight_end *ret_end) {
-    const double swing = length(flight->turn) * flight->reach;
-    pir_flight_end end = {.meets = true};
-    for (int step = 0; step < MOST_STEPS; step++) {
+    const double error = DISTANCE_ERROR * flight->size + TURN_ERROR * length(flight->turn) * flight->reach;
+    const pir_parted body = {flight->p->vertex, flight->p->vertex_count, input->radius_p, flight->reach, flight->way,
+                             flight->turn};
+    pir_flight_end end = {.outcome = PIR_CAST_STEP_LIMIT};
+    double near = 0;
+    for (int step = 0; step < MOST_STEPS && end.outcome == PIR_CAST_STEP_LIMIT; step++) {
         input->pose_p =
             end.time == 0 ? flight->from : pir_pose_integrate(flight->from, flight->way, flight->turn, end.time);
-        const pir_status status = pir_pair_distance(pair, workspace, input, &end.answer);
+        pir_status status = pir_pair_distance(pair, workspace, input, &end.answer);
+        if (status == PIR_OK && step == 0 && end.answer.state != PIR_OUTSIDE)
+            status = end_at_once(pair, workspace, input, flight, &end);
         if (status != PIR_OK)
             return status;
-        const double left = end.answer.distance - flight->error;
-        if (end.answer.state != PIR_OUTSIDE || end.answer.distance <= flight->tolerance || step + 1 == MOST_STEPS)
+        if (end.outcome != PIR_CAST_STEP_LIMIT)
             break;
-        const double rate =
-            (swing - pir_vec_dot(flight->way, end.answer.normal)) * (1 + 0x1p-40) + 0x1p-40 * length(flight->way);
-        end.time += rate > 0 && left > 0 ? left / rate : rate > 0 ? 0x1p-40 : HUGE_VAL;
-        end.meets = end.time <= until;
-        if (!end.meets)
+        if (step == 0)
+            near = near_of(flight, end.answer.distance, error);
+        if (near == 0 || end.answer.distance <= near) {
+            end.outcome = near == 0 ? PIR_CAST_MISS : PIR_CAST_HIT;
             break;
+        }
+        const pir_parting plane = {end.answer.normal, end.answer.point_q, 0.75 * near, 0.5 * near};
+        end.time = pir_part_until(&body, &plane, input->pose_p, end.answer.distance, end.time, until);
+        if (!(end.time <= until))
+            end.outcome = PIR_CAST_MISS;
     }
     *ret_end = end;
     return PIR_OK;

@@ -9,23 +9,26 @@
 
 /* A motion of P over time 0 to 1, at constant speed. */
 typedef struct pir_flight {
+    const pir_polytope *p;
     pir_pose from;
-    pir_vec3 way, turn;      /* in the world; about P's origin, as long as the angle */
-    double reach;            /* no point of P is farther from its origin */
-    double tolerance, error; /* bodies this near have met; what distances are off by at most */
+    pir_vec3 way, turn; /* in the world; about P's origin, as long as the angle */
+    double reach;       /* no point of P is farther from its origin */
+    double tolerance;   /* bodies this near have met */
+    double size;        /* of both bodies and their coordinates, which rounding is relative to */
+    bool leaves;        /* Q is met only where P comes nearer than half of their distance at time 0 */
 } pir_flight;
 
 typedef struct pir_flight_end {
-    bool meets;
+    pir_cast_outcome outcome; /* HIT, MISS, START_INSIDE or STEP_LIMIT */
     double time;
-    pir_query_result answer; /* that of the last step */
+    pir_query_result answer; /* that of the last step; of START_INSIDE the penetration */
 } pir_flight_end;
 
 /* PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT for a tolerance that is not above 0, PIR_ERR_LIMIT for too long a turn. */
 pir_status pir_flight_check(pir_vec3 way, pir_vec3 turn, double tolerance);
 
-/* The time at which P comes within the tolerance of Q, where that is at most `until`. `input` has Q's pose, the radii
- * and no cutoff. */
+/* The time at which P comes within the tolerance of Q, where that is at most `until`; else a miss. `input` has Q's
+ * pose, the radii and no cutoff. */
 pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input *input, const pir_flight *flight,
                         double until, pir_flight_end *ret_end);
 

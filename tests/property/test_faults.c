@@ -147,7 +147,7 @@ static pir_status set_stage(struct run *run, struct stage *stage) {
 }
 
 static pir_status ask_stage(struct stage *stage) {
-    const pir_scene_motion motion = {{9, 0, 0}, {0, 0, 1}};
+    const pir_scene_motion motion = {{9, 0, 0}, {0, 0, 1}, 0};
     const double cutoffs[2] = {HUGE_VAL, 3};
     pir_scene_shape shape = pir_scene_shape_default(stage->round);
     pir_scene_distance told[3];

@@ -216,6 +216,22 @@ static void a_turning_box_arrives_in_time(void **state) {
     clear(&s);
 }
 
+/* A cube that spins about the vertical over a floor which it never nears. */
+static void a_spinning_box_that_glides_by_is_a_miss(void **state) {
+    (void)state;
+    for (int k = 2; k <= 6; k++) {
+        struct scene s = make(cube(1), box(40, 40, 2, (pir_vec3){0, 0, -1}), still);
+        const double gap = pow(10, -k);
+        pir_motion motion = {.rotation = still, .start = {0, 0, 0.5 + gap}, .motion = {2, 0, 0}, .axis = {0, 0, 1}};
+        pir_cast_result r;
+        for (motion.angle = 0.1; motion.angle < 1000; motion.angle *= 10) {
+            assert_int_equal(pir_query_advance(s.query, &motion, 1e-7, &r), PIR_OK);
+            expect(r.outcome == PIR_CAST_MISS, "gap %g, angle %g: outcome %d", gap, motion.angle, (int)r.outcome);
+        }
+        clear(&s);
+    }
+}
+
 static void the_answer_is_the_same_a_million_away(void **state) {
     (void)state;
     const double away[3] = {0, 1e6, 1e7};
@@ -248,6 +264,7 @@ int main(void) {
         cmocka_unit_test(casts_hit_miss_and_recede),
         cmocka_unit_test(directions_tell_how_far),
         cmocka_unit_test(a_turning_box_arrives_in_time),
+        cmocka_unit_test(a_spinning_box_that_glides_by_is_a_miss),
         cmocka_unit_test(the_answer_is_the_same_a_million_away),
     };
     return cmocka_run_group_tests_name("known cases", tests, NULL, NULL);

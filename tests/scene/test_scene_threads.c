@@ -78,7 +78,7 @@ static void add_bodies(struct life *life, test_random *random) {
 /* What the queries of a scene say of a shape that the others use too. */
 static uint64_t ask(struct life *life, uint32_t frame) {
     pir_scene_shape shape = pir_scene_shape_default(life->shared->shape[frame % SHAPES]);
-    pir_scene_motion motion = {{3, 0.5, 0.25}, {0, 0, 0.5}};
+    pir_scene_motion motion = {{3, 0.5, 0.25}, {0, 0, 0.5}, 0};
     pir_scene_hit hit[BODIES];
     pir_scene_near near[8];
     pir_scene_impact ray, cast, impact;

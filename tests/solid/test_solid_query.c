@@ -279,21 +279,45 @@ static void impacts_are_the_first(void **state) {
         input.pose_q.translation = (pir_vec3){0.25, 0, 0.5};
         assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, &impact), PIR_OK);
         const pir_pose start = input.pose_p;
-        const double end = impact.meets ? impact.time : 1;
+        const double end = impact.time;
         for (int k = 0; k <= 50; k++) {
             input.pose_p = pir_pose_integrate(start, motion.way, motion.turn, end * k / 50);
             assert_int_equal(pir_solid_query_distance(query, workspace, &input, &distance), PIR_OK);
             expect(distance.result.state == PIR_OUTSIDE, "case %llu: they meet at %d/50 of the way to %g",
                    (unsigned long long)i, k, end);
         }
-        expect(!impact.meets || distance.result.distance <= 1.001e-6, "case %llu: %g apart at impact",
+        expect(impact.outcome == PIR_CAST_MISS || distance.result.distance <= 1.001e-6, "case %llu: %g apart at impact",
                (unsigned long long)i, distance.result.distance);
-        met += impact.meets != 0;
+        met += impact.outcome != PIR_CAST_MISS;
     }
     printf("%u casts met\n", met);
     assert_true(met > 0);
     pir_solid_query_destroy(query);
     pir_solid_release(q);
+    pir_solid_release(p);
+    pir_workspace_destroy(workspace);
+}
+
+static void a_cast_that_begins_inside_has_the_normal_of_its_depth(void **state) {
+    (void)state;
+    cells cube = {0};
+    cube.full[0][0][0] = true;
+    pir_workspace *workspace = NULL;
+    pir_solid *p = solid_of_cells(&cube);
+    pir_solid_query *query = query_of(p, p);
+    pir_pair_input input = pir_pair_input_default();
+    const pir_solid_motion motion = {{1, 0, 0}, {0, 0, 1}, 1e-6};
+    pir_solid_impact impact;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    input.pose_p.translation = (pir_vec3){0.125, 0.25, 0.75};
+    assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, &impact), PIR_OK);
+    assert_true(impact.outcome == PIR_CAST_START_INSIDE && impact.time == 0);
+    assert_true(impact.normal.x == 0 && impact.normal.y == 0 && impact.normal.z == 1);
+    // one that spins over it, and never nears it, is no hit
+    input.pose_p.translation = (pir_vec3){0, 0, 1 + 1e-5};
+    assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, &impact), PIR_OK);
+    assert_true(impact.outcome == PIR_CAST_MISS && impact.time == 1);
+    pir_solid_query_destroy(query);
     pir_solid_release(p);
     pir_workspace_destroy(workspace);
 }
@@ -370,6 +394,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(answers_are_those_of_the_exact_difference),
         cmocka_unit_test(answers_for_bodies_of_many_pieces_are_those_of_the_exact_difference),
         cmocka_unit_test(impacts_are_the_first),
+        cmocka_unit_test(a_cast_that_begins_inside_has_the_normal_of_its_depth),
         cmocka_unit_test(body_in_a_cavity_is_outside_and_one_that_is_swallowed_inside),
     };
     return cmocka_run_group_tests_name("queries of solids", tests, NULL, NULL);

@@ -2,10 +2,11 @@
 /*
  * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996).
  *
- * At a separation d with normal n no contact can come before P, at its greatest speed against n, has covered d.
- * Advancing by that time again and again comes as near to contact as the caller asks, and never past it.
+ * At a separation with normal n no contact can come before P is down at the plane that has Q below it. Advancing to
+ * that time (query/frame/parting.h) again and again comes as near to contact as the caller asks, and never past it.
  */
 #include "query/answer/follow.h"
+#include "query/frame/parting.h"
 
 /* The bound on queries that query.h promises. Few motions need more than ten. */
 #define MOST_QUERIES 256
@@ -74,14 +75,21 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
     pir_quat start = middling(motion->rotation);
     pir_vec3 axis = {0, 0, 0};
     pir_unit_of(motion->axis, &axis, &part, &exponent);
-    double turning = fabs(motion->angle) * reach_of(pir_sum_pairing(query->sum)->p), time = 0;
+    const pir_polytope *p = pir_sum_pairing(query->sum)->p;
+    const pir_parted body = {.point = p->vertex,
+                             .count = p->vertex_count,
+                             .reach = reach_of(p),
+                             .way = motion->motion,
+                             .turn = pir_vec_scale(axis, motion->angle)};
+    double turning = fabs(motion->angle) * body.reach, time = 0;
     pir_cast_result result = {.outcome = PIR_CAST_STEP_LIMIT};
     pir_query_cache cache = {0};
     for (int i = 0; i < MOST_QUERIES; i++) {
         pir_query_input input = pir_query_input_default();
         pir_query_result at;
         input.translation = pir_vec_add(motion->start, pir_vec_scale(motion->motion, time));
-        status = pir_sum_rotate(query->sum, rotation_at(motion, start, axis, time), PIR_METHOD_AUTO);
+        const pir_pose pose = {rotation_at(motion, start, axis, time), input.translation};
+        status = pir_sum_rotate(query->sum, pose.rotation, PIR_METHOD_AUTO);
         if (status == PIR_OK)
             status = pir_query_signed_distance(query, &input, &cache, &at);
         if (status != PIR_OK)
@@ -105,14 +113,13 @@ pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double 
             set_outcome(&result, &at, 1, PIR_CAST_AT_REST);
             break;
         }
-        // advance to half the tolerance, so that few steps are needed; past the end there is no contact within the
-        // motion
-        double next = speed > 0 ? time + (at.distance - 0.5 * tolerance) / speed : HUGE_VAL;
-        if (next > 1) {
+        // advance to part of the tolerance, so that few steps are needed; past the end there is no contact
+        const pir_parting plane = {at.normal, at.point_q, 0.75 * tolerance, 0.5 * tolerance};
+        time = pir_part_until(&body, &plane, pose, at.distance, time, 1);
+        if (!(time <= 1)) {
             set_outcome(&result, &at, 1, PIR_CAST_MISS);
             break;
         }
-        time = next;
     }
     *ret_result = result;
     return PIR_OK;

@@ -3,9 +3,6 @@
 #include "pair/flight.h"
 #include "scene/query/probe.h"
 
-/* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
-#define DISTANCE_ERROR 1e-11
-
 struct flight {
     pir_scene *scene;
     pir_probe probe; /* where it begins */
@@ -24,14 +21,15 @@ static double size_of(const struct flight *flight, const pir_scene_body *body) {
            length(flight->probe.pose.translation) + length(flight->motion->way) + length(body->pose.translation);
 }
 
-static void set_impact(const struct flight *flight, const pir_scene_piece *piece, double time,
-                       const pir_query_result *answer, pir_scene_impact *impact) {
-    *impact = (pir_scene_impact){piece->body, piece->number, flight->own_piece, time, {0, 0, 0}, {0, 0, 0}};
-    impact->point = flight->probe.pose.translation;
-    if (answer->state == PIR_INSIDE || answer->outcome == PIR_BEYOND_CUTOFF)
-        return;
-    impact->normal = answer->normal;
-    impact->point = answer->point_q;
+static void set_impact(const struct flight *flight, const pir_scene_piece *piece, const pir_flight_end *end,
+                       pir_scene_impact *impact) {
+    *impact = (pir_scene_impact){.body = piece->body,
+                                 .piece = piece->number,
+                                 .own_piece = flight->own_piece,
+                                 .outcome = end->outcome,
+                                 .time = end->time,
+                                 .normal = end->answer.normal,
+                                 .point = end->answer.point_q};
 }
 
 /* The time at which the probe comes within the tolerance of a piece, where that is at most `until`. */
@@ -39,22 +37,24 @@ static pir_status advance(const struct flight *flight, uint32_t number, double u
                           bool *ret_meets) {
     pir_scene *scene = flight->scene;
     const pir_scene_piece *piece = &scene->bodies.piece[number];
-    const pir_flight way = {.from = flight->probe.pose,
+    const pir_flight way = {.p = flight->probe.extent.polytope,
+                            .from = flight->probe.pose,
                             .way = flight->motion->way,
                             .turn = flight->motion->turn,
                             .reach = flight->probe.extent.reach,
                             .tolerance = flight->tolerance,
-                            .error = DISTANCE_ERROR * size_of(flight, &scene->bodies.body[piece->body])};
+                            .size = size_of(flight, &scene->bodies.body[piece->body]),
+                            .leaves = flight->motion->leaves != 0};
     pir_pair *pair;
     pir_pair_input input;
     pir_flight_end end;
     pir_status status = pir_probe_pair(&flight->probe, number, &pair, &input);
     if (status == PIR_OK)
         status = pir_pair_fly(pair, scene->worker[0].workspace, &input, &way, until, &end);
-    if (status != PIR_OK || !end.meets)
+    if (status != PIR_OK || end.outcome == PIR_CAST_MISS)
         return status;
     *ret_meets = true;
-    set_impact(flight, piece, end.time, &end.answer, impact);
+    set_impact(flight, piece, &end, impact);
     return PIR_OK;
 }
 
@@ -109,7 +109,8 @@ static pir_status check(const pir_scene_motion *motion, double tolerance) {
     return status != PIR_OK || length(motion->way) <= PIR_BOX_FARTHEST ? status : PIR_ERR_LIMIT;
 }
 
-static const pir_scene_impact no_impact = {PIR_SCENE_NONE, PIR_SCENE_NONE, 0, 1, {0, 0, 0}, {0, 0, 0}};
+static const pir_scene_impact no_impact = {
+    .body = PIR_SCENE_NONE, .piece = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1};
 
 pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_scene_motion *motion,
                           double tolerance, pir_scene_impact *ret_impact) {

@@ -94,6 +94,8 @@ void pir_scene_destroy(pir_scene *scene) {
     PIR_FREE(a, scene->worker, scene->threads);
     pir_scene_pairs_finish(&scene->pairs, a);
     pir_pair_destroy(scene->spare);
+    PIR_FREE(&scene->allocator, scene->exact_room.limbs.base, scene->exact_room.limbs.capacity);
+    PIR_FREE(&scene->allocator, scene->exact_room.integers, 1);
     pir_tree_finish(&scene->tree, a);
     pir_bodies_finish(&scene->bodies, a);
     PIR_FREE(a, scene->fresh, scene->fresh_capacity);

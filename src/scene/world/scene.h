@@ -12,6 +12,7 @@
 #ifndef PIR_SCENE_WORLD_SCENE_H
 #define PIR_SCENE_WORLD_SCENE_H
 
+#include "exact/rotation.h"
 #include "scene/pairs/pairs.h"
 #include "scene/tasks/tasks.h"
 #include "scene/tree/tree.h"
@@ -80,6 +81,12 @@ typedef struct pir_scene_lists {
     uint32_t moved_count, replaced_count, asked_count, ended_count;
 } pir_scene_lists;
 
+/* What rays compute in where doubles do not settle them; made when it is first needed. */
+typedef struct pir_exact_room {
+    pir_limbs limbs;
+    pir_rotation_integers *integers;
+} pir_exact_room;
+
 struct pir_scene {
     pir_budget budget;
     pir_allocator allocator; /* of the budget */
@@ -95,6 +102,7 @@ struct pir_scene {
     pir_tree tree;
     pir_scene_pairs pairs;
     pir_pair *spare; /* of queries, or NULL */
+    pir_exact_room exact_room;
     uint32_t *fresh; /* bodies added since the last update */
     uint32_t fresh_capacity, fresh_count;
 

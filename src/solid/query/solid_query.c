@@ -12,9 +12,6 @@
 #include "solid/query/piece_pairs.h"
 #include "solid/query/visit.h"
 
-/* As of scene casts: what distances are off by, relative to bodies and coordinates, with room to spare. */
-#define DISTANCE_ERROR 1e-11
-
 struct pir_solid_query {
     pir_allocator allocator;
     pir_compound p, q;
@@ -213,30 +210,32 @@ static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
+static bool meets(const pir_solid_impact *impact) {
+    return impact->outcome != PIR_CAST_MISS;
+}
+
 /* How far off pairs may be that are met in time. */
 static double reach_until(const struct call *call) {
-    return (call->impact.meets ? call->impact.time : 1) * call->speed * (1 + 0x1p-40) + call->flight.tolerance +
-           call->flight.error;
+    const double room = 0x1p-30 * call->flight.size;
+    return (meets(&call->impact) ? call->impact.time : 1) * call->speed * (1 + 0x1p-40) + call->flight.tolerance + room;
 }
 
 static double ask_flight(void *context, uint32_t i, uint32_t j) {
     struct call *call = context;
     pir_solid_impact *first = &call->impact;
     pir_pair_input input = call->input;
-    pir_flight_end end = {.meets = false};
+    pir_flight flight = call->flight;
+    pir_flight_end end = {.outcome = PIR_CAST_MISS};
     pir_pair *pair = pair_of(call, i, j);
+    flight.p = call->query->p.piece[i];
     if (pair)
-        call->status = pir_pair_fly(pair, call->workspace, &input, &call->flight, first->meets ? first->time : 1, &end);
+        call->status = pir_pair_fly(pair, call->workspace, &input, &flight, meets(first) ? first->time : 1, &end);
     if (call->status != PIR_OK)
         return -1;
-    if (end.meets && (!first->meets || end.time < first->time ||
-                      (end.time == first->time && comes_before(i, j, first->piece_p, first->piece_q)))) {
-        *first = (pir_solid_impact){
-            .meets = 1, .time = end.time, .piece_p = i, .piece_q = j, .point = call->flight.from.translation};
-        if (end.answer.state != PIR_INSIDE) {
-            first->normal = end.answer.normal;
-            first->point = end.answer.point_q;
-        }
+    if (end.outcome != PIR_CAST_MISS &&
+        (!meets(first) || end.time < first->time ||
+         (end.time == first->time && comes_before(i, j, first->piece_p, first->piece_q)))) {
+        *first = (pir_solid_impact){end.outcome, end.time, i, j, end.answer.normal, end.answer.point_q};
         call->query->last[0] = i;
         call->query->last[1] = j;
     }
@@ -251,6 +250,7 @@ pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *workspace
     if (checked != PIR_OK)
         return checked;
     struct call call = {.query = query, .workspace = workspace, .input = *input};
+    call.impact = (pir_solid_impact){.outcome = PIR_CAST_MISS, .time = 1};
     call.input.cutoff = HUGE_VAL;
     call.speed = length(motion->way) + length(motion->turn) * query->p.reach;
     call.flight = (pir_flight){.from = input->pose_p,
@@ -258,9 +258,8 @@ pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *workspace
                                .turn = motion->turn,
                                .reach = query->p.reach,
                                .tolerance = motion->tolerance};
-    call.flight.error =
-        DISTANCE_ERROR * (query->p.reach + input->radius_p + query->q.reach + input->radius_q +
-                          length(input->pose_p.translation) + length(motion->way) + length(input->pose_q.translation));
+    call.flight.size = query->p.reach + input->radius_p + query->q.reach + input->radius_q +
+                       length(input->pose_p.translation) + length(motion->way) + length(input->pose_q.translation);
     const pir_status status = visit(&call, ask_flight);
     if (status == PIR_OK)
         *ret_impact = call.impact;
