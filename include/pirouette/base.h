@@ -39,6 +39,7 @@ typedef enum pir_status {
     PIR_ERR_NOT_CONVEX,  /**< a model that is not convex, where a convex one is required */
     PIR_ERR_LIMIT,       /**< too large for 32-bit indices or for a stated limit */
     PIR_ERR_UNSUPPORTED, /**< this build lacks the optional feature */
+    PIR_ERR_INTERNAL,    /**< the result failed the library's own check and is withheld: a bug, please report it */
 } pir_status;
 
 /** The name of a status in plain words, such as "zero quaternion". Never NULL; static memory. */

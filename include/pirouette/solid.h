@@ -30,9 +30,14 @@ typedef struct pir_solid_options {
     const pir_allocator *allocator; /**< NULL for malloc's; copied; it outlives what is made */
     size_t
         memory; /**< the most bytes that one call may hold beside its result and its solids, GMP's numbers included */
+    /**
+     * NULL, or filled when a call that has no report of its own ends with PIR_ERR_LIMIT, PIR_ERR_MEMORY or
+     * PIR_ERR_INTERNAL: it names the limit and its value, and how far the job was.
+     */
+    pir_report *report;
 } pir_solid_options;
 
-/** malloc's allocator, and 4 GiB. */
+/** malloc's allocator, 4 GiB, no report. */
 PIR_API pir_solid_options pir_solid_options_default(void);
 
 /** What a solid is. Lengths in units of the model. */
@@ -241,7 +246,7 @@ typedef struct pir_solid_sum_info {
  * pairs are near a candidate; O(n·m) to find the candidates of solids with n and m edges.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (options->solid.memory),
- * PIR_ERR_MEMORY.
+ * PIR_ERR_MEMORY; PIR_ERR_INTERNAL where the surface fails the last check, that it is closed.
  */
 PIR_API pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotation,
                                  const pir_solid_sum_options *options, pir_solid_sum_info *ret_info,

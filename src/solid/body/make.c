@@ -125,6 +125,7 @@ pir_status pir_solid_from_polytope(const pir_polytope *polytope, const pir_solid
     const pir_solid_parts parts = {.points = &mesh->where,
                                    .scale = &mesh->scale,
                                    .source = {.name = "the polytope",
+                                              .report = used.report,
                                               .facet_count = mesh->facets.count,
                                               .start = mesh->facets.start,
                                               .corner = mesh->facets.corner}};

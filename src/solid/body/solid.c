@@ -16,7 +16,7 @@
 #define MEMORY_DEFAULT (SIZE_MAX < UINT64_C(1) << 32 ? SIZE_MAX : (size_t)(UINT64_C(1) << 32))
 
 pir_solid_options pir_solid_options_default(void) {
-    return (pir_solid_options){NULL, MEMORY_DEFAULT};
+    return (pir_solid_options){NULL, MEMORY_DEFAULT, NULL};
 }
 
 pir_solid_options pir_solid_options_or_default(const pir_solid_options *options, pir_allocator *ret_allocator) {
@@ -195,19 +195,20 @@ pir_status pir_solid_make(const pir_solid_parts *parts, const pir_solid_options 
     solid->allocator = *options->allocator;
     solid->facet_count = source->facet_count;
     mpq_init(solid->volume);
-    pir_status status = copy_points(solid, parts) ? PIR_OK : PIR_ERR_MEMORY;
-    if (status == PIR_OK) {
+    pir_status status = PIR_OK;
+    if (copy_points(solid, parts)) {
         pir_space space;
         pir_space_init(&space, &solid->allocator, options->memory, pir_vectors_bits(&solid->points) + 1);
-        status = pir_space_outcome(&space, check(solid, parts, &space));
+        pir_space_begin_stage(&space, "checking the solid", 0);
+        status = pir_space_outcome(&space, check(solid, parts, &space), source->name, source->report);
         pir_space_finish(&space);
+    } else {
+        status = pir_fail(source->report, PIR_ERR_MEMORY, "%s: out of memory", source->name);
     }
     if (status == PIR_OK) {
         *ret_solid = solid;
         return PIR_OK;
     }
     pir_solid_release(solid);
-    if (status == PIR_ERR_MEMORY || status == PIR_ERR_LIMIT)
-        return pir_fail(source->report, status, "%s: checking the solid: %s", source->name, pir_status_text(status));
     return status;
 }

@@ -9,12 +9,13 @@
 #include "base/sort.h"
 #include "solid/space/boxes.h"
 
-/* Whether a point lies within a run, not at its ends. */
+/* Whether a point lies within a run, not at its ends: in both planes that meet in its line, and between the ends. */
 static bool is_within(pir_outline *o, const pir_run *run, uint32_t point) {
-    const uint32_t direction = o->line_direction[run->line];
-    return point != run->a && point != run->b && pir_space_order(o->space, direction, run->a, point) > 0 &&
-           pir_space_order(o->space, direction, point, run->b) > 0 && pir_space_side(o->space, run->half, point) == 0 &&
-           pir_space_turn(o->space, run->half, run->a, run->b, point) == 0;
+    const uint32_t direction = o->line_direction[run->line], *plane = o->line_plane[run->line];
+    return point != run->a && point != run->b && pir_space_side(o->space, pir_half(plane[0], false), point) == 0 &&
+           pir_space_side(o->space, pir_half(plane[1], false), point) == 0 &&
+           pir_space_order(o->space, direction, run->a, point) > 0 &&
+           pir_space_order(o->space, direction, point, run->b) > 0;
 }
 
 void pir_outline_touch(pir_outline *outline, uint32_t line, uint32_t point) {
@@ -124,15 +125,18 @@ static void cut_line(pir_outline *o, const uint32_t *order, uint32_t count, uint
     }
     if (!pir_outline_sort_places(o, o->run[order[0]].line))
         return;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && o->space->status == PIR_OK; i++) {
         pir_run run = o->run[order[i]];
+        const uint32_t end = run.b;
         uint32_t at = 0;
-        while (o->place[at] != run.a)
+        while (at < o->place_count && o->place[at] != run.a)
             at++;
-        for (const uint32_t end = run.b; run.a != end && o->space->status == PIR_OK; run.a = run.b) {
+        for (; run.a != end && at + 1 < o->place_count && o->space->status == PIR_OK; run.a = run.b) {
             run.b = o->place[++at];
             pir_outline_push_side(o, run);
         }
+        if (run.a != end)
+            pir_space_fault(o->space);
     }
 }
 

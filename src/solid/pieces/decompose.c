@@ -359,6 +359,7 @@ static void keep_piece(struct division *d, const struct node *node) {
 static void divide(struct division *d) {
     while (d->node_count > 0 && d->space->status == PIR_OK) {
         struct node node = d->node[--d->node_count];
+        d->space->stage.done++;
         // what was listed after this node's own is of nodes that are done
         d->list_count = node.fragment + node.fragment_count;
         d->crease_count = node.crease + node.crease_count;

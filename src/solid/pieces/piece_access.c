@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/report.h"
 #include "solid/body/solid.h"
 #include "solid/pieces/approximate.h"
 #include "solid/pieces/join_pieces.h"
@@ -110,7 +111,7 @@ static pir_status keep(const pir_cells *cells, const pir_piece_list *list, const
 
 /* The exact pieces by one method, not the best. */
 static pir_status decompose(const pir_solid *solid, const pir_solid_options *options, pir_decompose_method method,
-                            pir_pieces **ret_pieces) {
+                            pir_report *report, pir_pieces **ret_pieces) {
     pir_space space;
     pir_body body = {0};
     pir_cells cells;
@@ -118,6 +119,7 @@ static pir_status decompose(const pir_solid *solid, const pir_solid_options *opt
     pir_space_init(&space, options->allocator, options->memory, pir_vectors_bits(&solid->points) + 1);
     pir_cells_init(&cells, &space);
     pir_status status = pir_solid_body(solid, &space, &body);
+    pir_space_begin_stage(&space, "dividing the solid", 0);
     if (status == PIR_OK)
         status = pir_decompose(&body, method, &cells, &list);
     if (status == PIR_OK) {
@@ -129,7 +131,7 @@ static pir_status decompose(const pir_solid *solid, const pir_solid_options *opt
     pir_piece_list_finish(&list, &space);
     pir_cells_finish(&cells);
     pir_body_finish(&body);
-    status = pir_space_outcome(&space, status);
+    status = pir_space_outcome(&space, status, "decompose", report);
     pir_space_finish(&space);
     return status;
 }
@@ -139,12 +141,12 @@ static pir_status decompose_by(const pir_solid *solid, const pir_solid_options *
                                pir_pieces **ret_pieces) {
     const bool both = *method == PIR_DECOMPOSE_BEST;
     *method = both ? PIR_DECOMPOSE_FACETS : *method;
-    pir_status status = decompose(solid, options, *method, ret_pieces);
+    pir_status status = decompose(solid, options, *method, options->report, ret_pieces);
     if (status != PIR_OK || !both || (*ret_pieces)->count == 1)
         return status;
     pir_pieces *other = NULL;
-    status = decompose(solid, options, PIR_DECOMPOSE_WALLS, &other);
     // one way that takes too much leaves the other
+    status = decompose(solid, options, PIR_DECOMPOSE_WALLS, NULL, &other);
     if (status == PIR_OK && other->count < (*ret_pieces)->count) {
         pir_pieces *kept = other;
         other = *ret_pieces;
@@ -152,7 +154,9 @@ static pir_status decompose_by(const pir_solid *solid, const pir_solid_options *
         *method = PIR_DECOMPOSE_WALLS;
     }
     pir_pieces_destroy(other);
-    return status == PIR_ERR_LIMIT ? PIR_OK : status;
+    return status == PIR_OK || status == PIR_ERR_LIMIT
+               ? PIR_OK
+               : pir_fail(options->report, status, "decompose: by walls: %s", pir_status_text(status));
 }
 
 pir_decompose_options pir_decompose_options_default(void) {
@@ -166,6 +170,13 @@ static pir_status check(const pir_decompose_options *options) {
     if (!isfinite(options->tolerance))
         return PIR_ERR_NOT_FINITE;
     return options->tolerance < 0 ? PIR_ERR_ARGUMENT : PIR_OK;
+}
+
+static pir_status approximate(pir_pieces **pieces, const pir_decompose_options *options, pir_decompose_info *info) {
+    const pir_status status = pir_pieces_approximate(pieces, options->pieces, options->tolerance, &info->error);
+    return status == PIR_OK ? status
+                            : pir_fail(options->solid.report, status, "decompose: into fewer pieces, of %u: %s",
+                                       (unsigned)info->exact_pieces, pir_status_text(status));
 }
 
 pir_status pir_solid_decompose_with(const pir_solid *solid, const pir_decompose_options *options,
@@ -184,7 +195,7 @@ pir_status pir_solid_decompose_with(const pir_solid *solid, const pir_decompose_
     if (status == PIR_OK)
         info.exact_pieces = pieces->count;
     if (status == PIR_OK && (used.tolerance > 0 || used.pieces > 0))
-        status = pir_pieces_approximate(&pieces, used.pieces, used.tolerance, &info.error);
+        status = approximate(&pieces, &used, &info);
     if (status != PIR_OK) {
         pir_pieces_destroy(pieces);
         return status;

@@ -52,13 +52,17 @@ void pir_space_round_point(pir_space *space, uint32_t point) {
     pir_space_point *p = &space->point[point];
     mpz_t *x = space->number + p->exact;
     long scale, e;
+    bool within = true;
     const double w = mpz_get_d_2exp(&scale, x[3]);
     for (int k = 0; k < 3; k++) {
         const double m = mpz_get_d_2exp(&e, x[k]);
         const long power = e - scale - space->shift;
-        p->x[k] = m == 0 || power < -300 ? 0 : ldexp(m / w, (int)power);
+        p->x[k] = m == 0 || power < -300 ? 0 : ldexp(m / w, power < 300 ? (int)power : 300);
+        within = within && fabs(p->x[k]) <= 1 + 0x1p-40;
     }
     p->err = 0x1p-49;
+    if (!within)
+        pir_space_fault(space);
 }
 
 /* The normal is within 2^-49 of the true one, which is worth 2^-48 at |x| ≤ √3; d is off by 2^-50·√3 and its
@@ -115,14 +119,21 @@ static void make_meet(pir_space *space, mpz_t *ret, const uint32_t exact[3]) {
             mpz_neg(ret[k], ret[k]);
 }
 
-/* Moves four numbers from scratch into new ones. */
-static uint32_t keep(pir_space *space, mpz_t *made) {
+/* Four numbers in scratch as those of a point or a plane: moved into new ones, or equal ones that are `known`. */
+static uint32_t keep(pir_space *space, pir_intern *known, mpz_t *made) {
     pir_numbers_reduce(made, 4, space->t[16]);
     const uint32_t exact = pir_space_numbers(space, 4);
-    if (space->status == PIR_OK)
-        for (uint32_t k = 0; k < 4; k++)
-            mpz_swap(space->number[exact + k], made[k]);
-    return exact;
+    if (space->status != PIR_OK)
+        return 0;
+    for (uint32_t k = 0; k < 4; k++)
+        mpz_swap(space->number[exact + k], made[k]);
+    const uint32_t first = pir_intern_add(known, exact, exact);
+    if (first == exact || space->status != PIR_OK)
+        return first;
+    for (uint32_t k = 0; k < 4; k++)
+        mpz_swap(space->number[exact + k], made[k]);
+    pir_space_drop_numbers(space, exact);
+    return first;
 }
 
 uint32_t pir_space_exact_point(pir_space *space, uint32_t point) {
@@ -138,7 +149,11 @@ uint32_t pir_space_exact_point(pir_space *space, uint32_t point) {
         make_sum(space, space->t, of[0], of[1]);
     else
         make_meet(space, space->t, of);
-    const uint32_t exact = keep(space, space->t);
+    if (mpz_sgn(space->t[3]) == 0) {
+        pir_space_fault(space);
+        return 0;
+    }
+    const uint32_t exact = keep(space, &space->known_point, space->t);
     if (space->status != PIR_OK)
         return 0;
     space->point[point].exact = exact;
@@ -170,10 +185,14 @@ uint32_t pir_space_exact_plane(pir_space *space, uint32_t plane) {
     if (p.turned)
         for (int k = 0; k < 3; k++)
             mpz_neg(n[k], n[k]);
+    if (mpz_sgn(n[0]) == 0 && mpz_sgn(n[1]) == 0 && mpz_sgn(n[2]) == 0) {
+        pir_space_fault(space);
+        return 0;
+    }
     pir_numbers_dot(n[3], n, x, 3);
     for (int k = 0; k < 3; k++)
         mpz_mul(n[k], n[k], x[3]);
-    const uint32_t exact = keep(space, n);
+    const uint32_t exact = keep(space, &space->known_plane, n);
     if (space->status != PIR_OK)
         return 0;
     space->plane[plane].exact = exact;

@@ -47,7 +47,7 @@ static void widen(pir_intern *table) {
     const uint32_t room = table->slot_room ? 2 * table->slot_room : 64;
     uint32_t *slot = PIR_ZEROED(&space->allocator, uint32_t, room);
     if (!slot) {
-        space->status = pir_space_outcome(space, PIR_ERR_MEMORY);
+        space->status = PIR_ERR_MEMORY;
         return;
     }
     pir_space_shrink(space, table->slot, table->slot_room, sizeof *table->slot);

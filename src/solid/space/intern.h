@@ -3,7 +3,9 @@
 #ifndef PIR_SOLID_SPACE_INTERN_H
 #define PIR_SOLID_SPACE_INTERN_H
 
-#include "solid/space/space.h"
+#include <stdint.h>
+
+typedef struct pir_space pir_space;
 
 typedef struct pir_intern {
     pir_space *space;

@@ -132,20 +132,24 @@ pir_ball pir_polygons_ball(const pir_polygons *polygons, uint32_t polygon) {
 void pir_polygons_cut(pir_polygons *polygons, uint32_t polygon, uint32_t half, uint32_t ret_parts[2]) {
     pir_space *space = polygons->space;
     const pir_polygon from = polygons->polygon[polygon];
-    // where the loop passes through the plane: going up, coming down
-    uint32_t pass[2] = {0}, point[2] = {0};
+    // where the loop passes through the plane: going up, coming down, each once
+    uint32_t pass[2] = {0}, point[2] = {0}, passes[2] = {0};
     for (uint32_t i = 0; i < from.count && space->status == PIR_OK; i++) {
         const uint32_t j = i + 1 < from.count ? i + 1 : 0;
         const int a = polygons->sign[i], b = polygons->sign[j];
         if (a * b < 0) {
             const int down = a > 0;
+            passes[down]++;
             pass[down] = i;
             point[down] = pir_space_add_meet(space, from.half >> 1, polygons->wall[from.first + i] >> 1, half >> 1);
-        } else if (a == 0 && b != 0) {
+        } else if (a == 0 && b != 0 && polygons->sign[i > 0 ? i - 1 : from.count - 1] != b) {
+            passes[b < 0]++;
             pass[b < 0] = i;
             point[b < 0] = polygons->point[from.first + i];
         }
     }
+    if (passes[0] != 1 || passes[1] != 1)
+        pir_space_fault(space);
     for (int above = 0; above < 2 && space->status == PIR_OK; above++) {
         const uint32_t enter = pass[!above], leave = pass[above];
         ret_parts[above] = begin(polygons, from.half);

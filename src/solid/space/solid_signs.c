@@ -11,16 +11,67 @@
 #include "solid/space/exact.h"
 #include "solid/space/space.h"
 
+/* Sides that exact numbers told and that are kept at most, 12 bytes each. */
+#define MOST_SIDES (1u << 20)
+
+/* --- sides --- */
+
+/* Whether a point is in a plane by what the two were made of. */
+static bool is_made_in(const pir_space_plane *f, uint32_t plane, const pir_space_point *p, uint32_t point) {
+    switch (p->kind) {
+    case PIR_POINT_MEET:
+        return p->of[0] == plane || p->of[1] == plane || p->of[2] == plane;
+    case PIR_POINT_SUM:
+        if ((f->point[0] == p->of[0] && f->point[1] == p->of[1]) ||
+            (f->point[0] == p->of[1] && f->point[1] == p->of[0]))
+            return true;
+        break;
+    case PIR_POINT_GIVEN:
+        break;
+    }
+    return f->point[0] == point && f->point[1] == PIR_SPACE_NONE;
+}
+
+/* Twice the room for known sides, which are forgotten. */
+static void widen_sides(pir_space *space) {
+    const uint32_t room = space->side_room ? 2 * space->side_room : 64;
+    struct pir_known_side *side = PIR_ZEROED(&space->allocator, struct pir_known_side, room);
+    if (!side) {
+        space->status = PIR_ERR_MEMORY;
+        return;
+    }
+    pir_space_shrink(space, space->side, space->side_room, sizeof *space->side);
+    space->side = side;
+    space->side_room = room;
+    space->side_count = 0;
+}
+
+/* The place of the side of a plane with exact numbers from a on, for a point with those from x on. */
+static struct pir_known_side *known_side(pir_space *space, uint32_t a, uint32_t x) {
+    const uint64_t mixed = ((uint64_t)a << 32 | x) * 0x9e3779b97f4a7c15u;
+    return &space->side[mixed >> 32 & (space->side_room - 1)];
+}
+
 int pir_space_exact_side(pir_space *space, uint32_t plane, uint32_t point) {
+    if (is_made_in(&space->plane[plane], plane, &space->point[point], point))
+        return 0;
     const uint32_t a = pir_space_exact_plane(space, plane), x = pir_space_exact_point(space, point);
+    if (space->side_count >= space->side_room && space->side_room < MOST_SIDES && space->status == PIR_OK)
+        widen_sides(space);
     if (space->status != PIR_OK)
         return 0;
-    space->by_exact++;
+    struct pir_known_side *known = known_side(space, a, x);
+    if (known->plane == a && known->point == x)
+        return known->sign;
     mpz_t *n = space->number + a, *p = space->number + x;
     pir_numbers_dot(space->t[17], n, p, 3);
     mpz_submul(space->t[17], n[3], p[3]);
-    return mpz_sgn(space->t[17]);
+    *known = (struct pir_known_side){a, x, mpz_sgn(space->t[17])};
+    space->side_count++;
+    return known->sign;
 }
+
+/* --- determinants --- */
 
 static double det_of(const double a[3], const double b[3], const double c[3]) {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
@@ -114,9 +165,13 @@ int pir_space_order(pir_space *space, uint32_t direction, uint32_t a, uint32_t b
     if (fabs(s) > p->err + q->err + 0x1p-46)
         return s > 0 ? 1 : -1;
     const uint32_t i = pir_space_exact_point(space, a), j = pir_space_exact_point(space, b);
-    if (space->status != PIR_OK)
+    if (space->status != PIR_OK || i == j)
         return 0;
-    exact_difference(space->t, space->number + i, space->number + j);
-    pir_numbers_dot(space->t[17], space->number + space->direction[direction].exact, space->t, 3);
-    return mpz_sgn(space->t[17]);
+    // n·X_b · W_a against n·X_a · W_b: n is shorter than the points are
+    mpz_t *along = space->number + space->direction[direction].exact, *x = space->number + i, *y = space->number + j;
+    pir_numbers_dot(space->t[0], along, x, 3);
+    pir_numbers_dot(space->t[1], along, y, 3);
+    mpz_mul(space->t[2], space->t[1], x[3]);
+    mpz_submul(space->t[2], space->t[0], y[3]);
+    return mpz_sgn(space->t[2]);
 }

@@ -3,7 +3,9 @@
 #include "solid/space/space.h"
 
 #include <math.h>
+#include <stdio.h>
 
+#include "base/report.h"
 #include "solid/space/exact.h"
 
 #define SCRATCH (sizeof((pir_space *)0)->t / sizeof(mpz_t))
@@ -21,8 +23,41 @@ static void *limited_resize(void *context, void *block, size_t old_size, size_t 
     return made;
 }
 
-pir_status pir_space_outcome(const pir_space *space, pir_status status) {
+static pir_status status_of(const pir_space *space, pir_status status) {
     return status == PIR_ERR_MEMORY && space->refused ? PIR_ERR_LIMIT : status;
+}
+
+/* "clipping candidates, 7 of 12 done": where a job is. */
+static const char *place_of(const pir_space *space, char ret_text[80]) {
+    const char *what = space->stage.what ? space->stage.what : "beginning";
+    if (space->stage.all > 0)
+        snprintf(ret_text, 80, "%s, %llu of %llu done", what, (unsigned long long)space->stage.done,
+                 (unsigned long long)space->stage.all);
+    else if (space->stage.done > 0)
+        snprintf(ret_text, 80, "%s, %llu steps done", what, (unsigned long long)space->stage.done);
+    else
+        snprintf(ret_text, 80, "%s", what);
+    return ret_text;
+}
+
+pir_status pir_space_outcome(const pir_space *space, pir_status status, const char *name, pir_report *report) {
+    char place[80];
+    status = status_of(space, status);
+    place_of(space, place);
+    if (status == PIR_ERR_LIMIT && space->refused)
+        return pir_fail(report, status, "%s: %s: more memory is needed than the limit of %zu bytes; %zu are held", name,
+                        place, space->limit, space->bytes);
+    if (status == PIR_ERR_LIMIT)
+        return pir_fail(report, status, "%s: %s: too large: more than %u of one kind", name, place, UINT32_MAX / 2);
+    if (status == PIR_ERR_INTERNAL || status == PIR_ERR_MEMORY)
+        return pir_fail(report, status, "%s: %s: %s", name, place, pir_status_text(status));
+    return status;
+}
+
+void pir_space_begin_stage(pir_space *space, const char *what, uint64_t all) {
+    space->stage.what = what;
+    space->stage.done = 0;
+    space->stage.all = all;
 }
 
 void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t limit, size_t bits) {
@@ -30,6 +65,8 @@ void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t lim
         (pir_space){.allocator = {limited_resize, space}, .given = *allocator, .limit = limit, .shift = (int)bits + 1};
     for (size_t k = 0; k < SCRATCH; k++)
         mpz_init(space->t[k]);
+    pir_intern_init(&space->known_point, space, 4);
+    pir_intern_init(&space->known_plane, space, 4);
     pir_space_numbers(space, 4);
     mpz_t one;
     mpz_init_set_ui(one, 1);
@@ -42,13 +79,20 @@ void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t lim
 void pir_space_finish(pir_space *space) {
     for (size_t k = 0; k < SCRATCH; k++)
         mpz_clear(space->t[k]);
-    for (uint32_t k = 0; k < space->number_count; k++)
-        mpz_clear(space->number[k]);
+    pir_space_drop_numbers(space, 0);
+    pir_intern_finish(&space->known_point);
+    pir_intern_finish(&space->known_plane);
+    pir_space_shrink(space, space->side, space->side_room, sizeof *space->side);
     pir_space_shrink(space, space->number, space->number_room, sizeof *space->number);
     pir_space_shrink(space, space->direction, space->direction_room, sizeof *space->direction);
     pir_space_shrink(space, space->point, space->point_room, sizeof *space->point);
     pir_space_shrink(space, space->plane, space->plane_room, sizeof *space->plane);
     *space = (pir_space){0};
+}
+
+void pir_space_fault(pir_space *space) {
+    if (space->status == PIR_OK)
+        space->status = PIR_ERR_INTERNAL;
 }
 
 bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count, size_t size) {
@@ -63,7 +107,7 @@ bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count
     }
     void *grown = pir_memory_resize(&space->allocator, *array, *room, larger, size);
     if (!grown) {
-        space->status = pir_space_outcome(space, PIR_ERR_MEMORY);
+        space->status = status_of(space, PIR_ERR_MEMORY);
         return false;
     }
     *array = grown;
@@ -99,6 +143,12 @@ uint32_t pir_space_numbers(pir_space *space, uint32_t count) {
     return first;
 }
 
+void pir_space_drop_numbers(pir_space *space, uint32_t first) {
+    while (space->number_count > first)
+        mpz_clear(space->number[--space->number_count]);
+    space->weighed = space->weighed < first ? space->weighed : first;
+}
+
 uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z) {
     const uint32_t exact = pir_space_numbers(space, 3), made = space->direction_count;
     if (!pir_space_grow(space, (void **)&space->direction, &space->direction_room, made, sizeof *space->direction))
@@ -107,6 +157,10 @@ uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, m
     mpz_set(n[0], x);
     mpz_set(n[1], y);
     mpz_set(n[2], z);
+    if (mpz_sgn(x) == 0 && mpz_sgn(y) == 0 && mpz_sgn(z) == 0) {
+        pir_space_fault(space);
+        return 0;
+    }
     pir_numbers_reduce(n, 3, space->t[16]);
     space->direction[made].exact = exact;
     pir_space_round_direction(space->direction[made].n, n);
@@ -164,36 +218,41 @@ static double meet_error(const pir_space_plane *const plane[3], const double x[3
     return least > 0 ? all * (1 + 0x1p-40) / least : (double)INFINITY;
 }
 
+/* Where three planes meet, by doubles, and how far off that may be: infinite where it is not in the cube. */
+static double solve_meet(const pir_space_plane *const plane[3], double x[3]) {
+    double sum[3] = {0}, det = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = plane[(i + 1) % 3]->n, *b = plane[(i + 2) % 3]->n, d = plane[i]->d;
+        const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        for (int k = 0; k < 3; k++)
+            sum[k] += d * cross[k];
+        if (i == 0)
+            det = plane[0]->n[0] * cross[0] + plane[0]->n[1] * cross[1] + plane[0]->n[2] * cross[2];
+    }
+    for (int k = 0; k < 3; k++) {
+        x[k] = sum[k] / det;
+        if (!(fabs(x[k]) <= 1))
+            return (double)INFINITY;
+    }
+    return meet_error(plane, x, det);
+}
+
 uint32_t pir_space_add_meet(pir_space *space, uint32_t f, uint32_t g, uint32_t h) {
     const uint32_t made = new_point(space, PIR_POINT_MEET), of[3] = {f, g, h};
     if (space->status != PIR_OK)
         return 0;
     const pir_space_plane *const plane[3] = {&space->plane[f], &space->plane[g], &space->plane[h]};
-    double x[3] = {0}, det = 0;
-    for (int i = 0; i < 3; i++) {
-        const double *a = plane[(i + 1) % 3]->n, *b = plane[(i + 2) % 3]->n, d = plane[i]->d;
-        const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-        for (int k = 0; k < 3; k++)
-            x[k] += d * cross[k];
-        if (i == 0)
-            det = plane[0]->n[0] * cross[0] + plane[0]->n[1] * cross[1] + plane[0]->n[2] * cross[2];
-    }
-    bool usable = fabs(det) > 0x1p-40;
-    for (int k = 0; k < 3 && usable; k++) {
-        x[k] /= det;
-        usable = fabs(x[k]) <= 1.5;
-    }
     pir_space_point *p = &space->point[made];
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
         p->of[k] = of[k];
-        p->x[k] = usable ? x[k] : 0;
-    }
-    p->err = usable ? meet_error(plane, x, det) : (double)INFINITY;
+    p->err = solve_meet(plane, p->x);
+    if (!(p->err <= PIR_SPACE_ERROR))
+        pir_space_exact_point(space, made);
     return made;
 }
 
 /* The unit normal of a plane, and how far it may be from the true one: two directions, each within 2^-49, bring
- * 2^-48 and the rounding of their product, over its length. */
+ * 2^-48 and the rounding of their product, over its length. Infinite where that has none. */
 static double set_normal(const pir_space *space, pir_space_plane *p) {
     const double *a = space->direction[p->direction[0]].n, sign = p->turned ? -1 : 1;
     if (p->direction[1] == PIR_SPACE_NONE) {
@@ -204,11 +263,9 @@ static double set_normal(const pir_space *space, pir_space_plane *p) {
     const double *b = space->direction[p->direction[1]].n;
     const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     const double length = sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
-    if (!(length > 0x1p-40))
-        return (double)INFINITY;
     for (int k = 0; k < 3; k++)
         p->n[k] = sign * cross[k] / length;
-    return 0x1p-46 / length;
+    return length > 0 ? 0x1p-46 / length : (double)INFINITY;
 }
 
 uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool turned, const uint32_t point[2]) {
@@ -228,5 +285,8 @@ uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool
     // the normal is wrong at x and at the point itself, each within √3 of the middle
     p.err = 4 * off + err + 0x1p-48;
     space->plane[made] = p;
-    return space->plane_count++;
+    space->plane_count++;
+    if (!(p.err <= PIR_SPACE_ERROR))
+        pir_space_exact_plane(space, made);
+    return made;
 }

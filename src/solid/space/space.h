@@ -9,9 +9,17 @@
  *     |point.x − x| ≤ point.err,
  *     |(plane.n·x − plane.d) − (n·x − d)| ≤ plane.err  for |n| = 1 and x in that cube.
  *
+ * No such error is ever above PIR_SPACE_ERROR: where doubles cannot prove that much, as where planes are nearly
+ * parallel, the exact numbers are made at once and rounded. So doubles may be read without asking first; how far they
+ * may be off is what a caller has to add, and signs that this leaves open are decided exactly.
+ *
  * A point is given, or the sum of two points, or where three planes meet. A plane has a direction, or the cross product
  * of two, for a normal, and holds the sum of two points. So exact numbers never rest on constructed ones in a row: they
- * are made from the definition when a filter fails, in lowest terms, and kept.
+ * are made from the definition when a filter fails, in lowest terms, and kept: once for all points at one place, and
+ * for all planes that are one and face one way. So where much is nearly coplanar, long numbers are few.
+ *
+ * Planes that meet in no point of the cube, and directions of no length, are a fault of the caller's. They leave
+ * PIR_ERR_INTERNAL in `status`, as does whatever else on the way contradicts what came before (pir_space_fault).
  *
  * Memory that runs out, or past the limit, is remembered in `status`; calls then return number 0, and the job looks at
  * `status` before it gives a result. The job takes all its memory from `allocator`, which counts it. Exact numbers are
@@ -25,8 +33,12 @@
 #include <pirouette/base.h>
 
 #include "base/memory.h"
+#include "solid/space/intern.h"
 
 #define PIR_SPACE_NONE UINT32_MAX
+
+/* The most that the doubles of a point or a plane may be off. */
+#define PIR_SPACE_ERROR 0x1p-20
 
 typedef struct pir_space_direction {
     double n[3];    /* unit, within 2^-49 of the true one */
@@ -64,8 +76,17 @@ typedef struct pir_space {
     mpz_t *number;
     uint32_t direction_count, point_count, plane_count, number_count;
     uint32_t direction_room, point_room, plane_room, number_room;
-    mpz_t t[20];       /* scratch of the exact calls */
-    uint64_t by_exact; /* sides that doubles could not tell */
+    mpz_t t[20];                         /* scratch of the exact calls */
+    pir_intern known_point, known_plane; /* exact numbers: equal ones are there once */
+    struct pir_known_side {
+        uint32_t plane, point; /* the first of the exact numbers of each; no plane's is 0 */
+        int32_t sign;
+    } * side; /* what exact numbers told last, at a place that both make */
+    uint32_t side_room, side_count;
+    struct {
+        const char *what; /* "clipping candidates" */
+        uint64_t done, all;
+    } stage; /* of the job, for reports */
 } pir_space;
 
 /* `bits` of the longest coordinate of the job, sums included; at most `limit` bytes of memory. The space stays where it
@@ -73,8 +94,16 @@ typedef struct pir_space {
 void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t limit, size_t bits);
 void pir_space_finish(pir_space *space);
 
-/* The status that a job ends with: memory that the limit did not allow had not run out. */
-pir_status pir_space_outcome(const pir_space *space, pir_status status);
+/* The status that a job ends with: memory that the limit did not allow had not run out. Fills `report`, unless it is
+ * NULL or says it already, where a limit was met, memory ran out or a check failed: which limit, its value, and how far
+ * the job of this name was. */
+pir_status pir_space_outcome(const pir_space *space, pir_status status, const char *name, pir_report *report);
+
+/* Begins a stage of the job, of `all` steps: `space->stage.done` counts them. */
+void pir_space_begin_stage(pir_space *space, const char *what, uint64_t all);
+
+/* Notes that something contradicts what is known, so that the job ends without a result. */
+void pir_space_fault(pir_space *space);
 
 /* Grows *array, of *room elements, to hold one more than `count`, within the limit. False once `status` is a failure.
  * */
@@ -85,6 +114,9 @@ void pir_space_shrink(pir_space *space, void *array, uint32_t room, size_t size)
 
 /* `count` new numbers, all 0; the number of the first. */
 uint32_t pir_space_numbers(pir_space *space, uint32_t count);
+
+/* Frees the numbers from `first` on, which nothing refers to. */
+void pir_space_drop_numbers(pir_space *space, uint32_t first);
 
 /* The direction (x, y, z), which is not zero. */
 uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z);

@@ -184,11 +184,13 @@ static void take_reflex_vertices(pir_remains *c, const pir_body body[2]) {
 /* --- all --- */
 
 static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
+    pir_space_begin_stage(c->space, "adding pairs of pieces", (uint64_t)convexes[0].count * convexes[1].count);
     for (uint32_t i = 0; i < convexes[0].count; i++)
         for (uint32_t j = 0; j < convexes[1].count; j++) {
             if (!pir_space_grow(c->space, (void **)&c->pair, &c->pair_room, c->pair_count, sizeof *c->pair))
                 return false;
             c->pair[c->pair_count++] = pir_pair_sum_make(&convexes[0], i, &convexes[1], j);
+            c->space->stage.done++;
         }
     const pir_allocator *a = &c->space->allocator;
     pir_box *box = PIR_NEW(a, pir_box, c->pair_count);
@@ -230,11 +232,12 @@ static void clip_all(pir_remains *c) {
     const pir_allocator *a = &c->space->allocator;
     const uint32_t count = c->kept.count;
     uint32_t *order = PIR_NEW(a, uint32_t, count), *work = PIR_NEW(a, uint32_t, count);
+    pir_space_begin_stage(c->space, "clipping candidates", count);
     if (order && work) {
         for (uint32_t i = 0; i < count; i++)
             order[i] = i;
         pir_sort(order, count, work, is_in_earlier_plane, c->kept.polygon);
-        for (uint32_t i = 0; i < count && c->space->status == PIR_OK; i++)
+        for (uint32_t i = 0; i < count && c->space->status == PIR_OK; i++, c->space->stage.done++)
             clip(c, order[i]);
     } else {
         c->space->status = PIR_ERR_MEMORY;
@@ -250,10 +253,11 @@ void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_co
     pir_polygons_init(&remains->kept, remains->space);
     if (!make_pairs(remains, convexes))
         return;
+    pir_space_begin_stage(remains->space, "listing candidates", 0);
     pir_candidates(&body[0], &body[1], &remains->kept, take, remains);
     join_planes(remains);
     clip_all(remains);
-    if (open)
+    if (open && remains->space->status == PIR_OK)
         take_reflex_vertices(remains, body);
 }
 

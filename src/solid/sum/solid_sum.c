@@ -117,12 +117,15 @@ static void outline_planes(struct job *job) {
     for (uint32_t s = 0; s < job->order_count; s++)
         job->order[s] = s;
     pir_sort(job->order, job->order_count, job->work, survivor_before, remains->survivor);
+    pir_space_begin_stage(space, "uniting what bounds the sum", job->order_count);
     for (uint32_t i = 0, end; i < job->order_count && space->status == PIR_OK; i = end) {
+        space->stage.done = i;
         for (end = i + 1; end < job->order_count && !survivor_before(remains->survivor, job->order[i], job->order[end]);
              end++)
             ;
         outline_group(job, job->order + i, end - i);
     }
+    pir_space_begin_stage(space, "cutting edges", 0);
     if (remains->open)
         add_tight(job);
     pir_outline_cut(&job->outline);
@@ -131,12 +134,14 @@ static void outline_planes(struct job *job) {
         imprint(job);
         job->edges = pir_outline_edges(&job->outline);
     }
+    pir_space_begin_stage(space, "tracing facets", 0);
     pir_loops_trace(&job->loops, &job->outline);
 }
 
 static pir_status compute(struct job *job, bool open) {
     pir_space *space = &job->operands.space;
     for (int k = 0; k < 2; k++) {
+        pir_space_begin_stage(space, k == 0 ? "dividing P" : "dividing Q", 0);
         pir_cells_init(&job->cells[k], space);
         pir_status status =
             pir_decompose(&job->operands.body[k], PIR_DECOMPOSE_FACETS, &job->cells[k], &job->pieces[k]);
@@ -183,7 +188,7 @@ pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotati
     status = pir_operands_init(&job.operands, solids, &exact, used.difference != 0, &solid_options);
     if (status == PIR_OK)
         status = compute(&job, used.open != 0);
-    status = pir_space_outcome(&job.operands.space, status);
+    status = pir_space_outcome(&job.operands.space, status, "sum", used.solid.report);
     pir_mesh *mesh = NULL;
     if (status == PIR_OK)
         status = pir_solid_mesh_make(&job.operands, &job.outline, &job.loops, &job.points, &mesh);
