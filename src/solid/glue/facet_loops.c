@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "solid/glue/slits.h"
+#include "solid/space/exact.h"
 
 struct tracer {
     pir_loop_list *list;
@@ -19,7 +20,8 @@ struct tracer {
     uint32_t first, end; /* runs of the group */
     uint32_t first_loop; /* of it */
     bool *used;          /* per run */
-    uint32_t axis[2];    /* directions that tell points of the plane apart */
+    uint32_t level[2];   /* the two coordinates that tell points of the plane apart */
+    uint32_t axis[2];    /* their directions */
 };
 
 static uint32_t from_of(const pir_run *run) {
@@ -51,28 +53,29 @@ static bool turns_more(struct tracer *t, const pir_run *from, const pir_run *a, 
     return turn_a != turn_b ? turn_b > turn_a : pir_space_turn(t->space, t->half, to_of(from), to_of(a), to_of(b)) > 0;
 }
 
-/* The run that a loop goes on with after `run`. */
-static uint32_t next_run(struct tracer *t, uint32_t run) {
+/* The run that a loop goes on with after `run`: the one that it began with, or one that no loop has. */
+static uint32_t next_run(struct tracer *t, uint32_t start, uint32_t run) {
     const pir_run *runs = t->outline->run;
     uint32_t best = PIR_SPACE_NONE;
     for (uint32_t r = t->first; r < t->end; r++)
-        if (from_of(&runs[r]) == to_of(&runs[run]) &&
+        if ((r == start || !t->used[r]) && from_of(&runs[r]) == to_of(&runs[run]) &&
             (best == PIR_SPACE_NONE || turns_more(t, &runs[run], &runs[best], &runs[r])))
             best = r;
     return best;
 }
 
-/* The directions of the two axes that a plane's normal is not nearest to. */
+/* The two axes that a plane's normal is not nearest to. Any two do along which the normal is not 0, and that of the
+ * largest component, as doubles have it, is more than .5. */
 static void set_axes(struct tracer *t) {
     pir_space *space = t->space;
     const double *n = space->plane[t->half >> 1].n;
-    int most = 0;
-    for (int k = 1; k < 3; k++)
+    uint32_t most = 0;
+    for (uint32_t k = 1; k < 3; k++)
         most = fabs(n[k]) > fabs(n[most]) ? k : most;
-    for (int i = 0; i < 2; i++) {
-        const int axis = (most + 1 + i) % 3;
-        for (int k = 0; k < 3; k++)
-            mpz_set_ui(space->t[k], k == axis);
+    for (uint32_t i = 0; i < 2; i++) {
+        t->level[i] = (most + 1 + i) % 3;
+        for (uint32_t k = 0; k < 3; k++)
+            mpz_set_ui(space->t[k], k == t->level[i]);
         t->axis[i] = pir_space_add_direction(space, space->t[0], space->t[1], space->t[2]);
     }
 }
@@ -102,9 +105,11 @@ static void trace_loop(struct tracer *t, uint32_t start) {
     do {
         t->used[run] = true;
         push_corner(list, from_of(&t->outline->run[run]));
-        run = next_run(t, run);
+        run = next_run(t, start, run);
     } while (run != start && run != PIR_SPACE_NONE && t->space->status == PIR_OK);
     loop.count = list->corner_count - loop.first;
+    if (run == PIR_SPACE_NONE || loop.count < 2)
+        pir_space_fault(t->space);
     if (!pir_space_grow(t->space, (void **)&list->loop, &list->room, list->count, sizeof *list->loop))
         return;
     loop.hole = is_hole(t, &loop);
@@ -127,30 +132,54 @@ static bool holds(struct tracer *t, const pir_loop *loop, uint32_t point) {
     return inside;
 }
 
-static double area_of(struct tracer *t, const pir_loop *loop) {
+/* Twice the area of a loop that goes round a facet, seen along one axis, up to a sign that all loops of the plane share:
+ * exactly, as a product over all corners. */
+static void exact_area(struct tracer *t, const pir_loop *loop, mpq_t ret_area) {
     const uint32_t *corner = t->list->corner + loop->first;
-    double sum[3] = {0};
-    for (uint32_t i = 0; i < loop->count; i++) {
-        const double *p = t->space->point[corner[i]].x;
-        const double *q = t->space->point[corner[i + 1 < loop->count ? i + 1 : 0]].x;
-        for (int k = 0; k < 3; k++)
-            sum[k] += p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+    pir_space *space = t->space;
+    mpq_t term;
+    mpq_init(term);
+    mpq_set_ui(ret_area, 0, 1);
+    for (uint32_t i = 0; i < loop->count && space->status == PIR_OK; i++) {
+        const uint32_t p = pir_space_exact_point(space, corner[i]);
+        const uint32_t q = pir_space_exact_point(space, corner[i + 1 < loop->count ? i + 1 : 0]);
+        if (space->status != PIR_OK)
+            break;
+        mpz_t *x = space->number + p, *y = space->number + q;
+        mpz_mul(mpq_numref(term), x[t->level[0]], y[t->level[1]]);
+        mpz_submul(mpq_numref(term), x[t->level[1]], y[t->level[0]]);
+        mpz_mul(mpq_denref(term), x[3], y[3]);
+        mpq_canonicalize(term);
+        mpq_add(ret_area, ret_area, term);
     }
-    return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+    mpq_abs(ret_area, ret_area);
+    mpq_clear(term);
 }
 
-/* The smallest of the facets' loops that hold the hole; loops of one plane do not cross, so those nest. */
-static void find_facet(struct tracer *t, pir_loop *hole) {
+/* Whether the first of two loops, one of which is within the other, is the inner one. */
+static bool is_inner(struct tracer *t, const pir_loop *a, const pir_loop *b) {
+    mpq_t area[2];
+    mpq_inits(area[0], area[1], NULL);
+    exact_area(t, a, area[0]);
+    exact_area(t, b, area[1]);
+    const bool inner = mpq_cmp(area[0], area[1]) < 0;
+    mpq_clears(area[0], area[1], NULL);
+    return inner;
+}
+
+/* The innermost of the facets' loops that hold the hole: loops of one plane do not cross, so those nest. */
+static void find_facet(struct tracer *t, uint32_t hole) {
     pir_loop_list *list = t->list;
-    double least = (double)INFINITY;
-    for (uint32_t l = t->first_loop; l < list->count; l++) {
+    uint32_t within = hole;
+    for (uint32_t l = t->first_loop; l < list->count && t->space->status == PIR_OK; l++) {
         const pir_loop *loop = &list->loop[l];
-        if (loop->hole || !holds(t, loop, list->corner[hole->first]))
-            continue;
-        const double area = area_of(t, loop);
-        hole->within = area < least ? l : hole->within;
-        least = area < least ? area : least;
+        if (!loop->hole && holds(t, loop, list->corner[list->loop[hole].first]) &&
+            (within == hole || is_inner(t, loop, &list->loop[within])))
+            within = l;
     }
+    list->loop[hole].within = within;
+    if (within == hole)
+        pir_space_fault(t->space);
 }
 
 static void trace_group(struct tracer *t) {
@@ -162,7 +191,7 @@ static void trace_group(struct tracer *t) {
             trace_loop(t, r);
     for (uint32_t l = t->first_loop; l < list->count; l++)
         if (list->loop[l].hole)
-            find_facet(t, &list->loop[l]);
+            find_facet(t, l);
     for (uint32_t l = t->first_loop; l < list->count && t->space->status == PIR_OK; l++)
         if (!list->loop[l].hole)
             pir_loops_add_facet(list, t->half, l);

@@ -93,17 +93,23 @@ static void cut_slit(pir_loop_list *list, const struct slit *slit) {
     list->spare[at] = list->spare[slit->to];
 }
 
-/* Joins one hole of the facet that can be joined; false when none is left, or none can. */
+/* Joins one hole of the facet that can be joined; false when none is left. One of several can always be. */
 static bool join_hole(pir_loop_list *list, uint32_t half, uint32_t outer) {
+    bool left = false;
     for (uint32_t l = 0; l < list->count && list->space->status == PIR_OK; l++) {
         struct slit slit = {.hole = l};
-        if (l == outer || !list->loop[l].hole || list->loop[l].within != outer || !find_slit(list, half, outer, &slit))
+        if (l == outer || !list->loop[l].hole || list->loop[l].within != outer)
+            continue;
+        left = true;
+        if (!find_slit(list, half, outer, &slit))
             continue;
         cut_slit(list, &slit);
         list->loop[l].within = l;
         list->hole_count++;
         return true;
     }
+    if (left)
+        pir_space_fault(list->space);
     return false;
 }
 

@@ -89,7 +89,7 @@ static uint32_t cut_edge(pir_cells *cells, const uint32_t ends[2], const uint32_
 }
 
 /* The plane of the cell's other face at the edge from a to b of face `own`. */
-static uint32_t plane_beside(const pir_cells *cells, pir_cell cell, uint32_t own, uint32_t a, uint32_t b) {
+static uint32_t plane_beside(pir_cells *cells, pir_cell cell, uint32_t own, uint32_t a, uint32_t b) {
     for (uint32_t f = cell.first; f < cell.first + cell.count; f++) {
         const pir_face *face = &cells->face[f];
         if (f == own)
@@ -99,6 +99,7 @@ static uint32_t plane_beside(const pir_cells *cells, pir_cell cell, uint32_t own
                 cells->corner[face->first + (i + 1 < face->count ? i + 1 : 0)] == a)
                 return face->half >> 1;
     }
+    pir_space_fault(cells->space);
     return 0;
 }
 
@@ -145,15 +146,20 @@ static uint32_t cut_side(pir_cells *cells, uint32_t cell, uint32_t half, int kee
     for (uint32_t f = from.first; f < from.first + from.count && cells->space->status == PIR_OK; f++)
         cut_face(cells, from, f, half, keep);
     pir_cells_begin_face(cells, keep > 0 ? half : half ^ 1);
-    uint32_t at = cells->side_count ? cells->side[0].from : 0;
+    const uint32_t start = cells->side_count ? cells->side[0].from : 0;
+    uint32_t at = start;
     for (uint32_t n = 0; n < cells->side_count && cells->space->status == PIR_OK; n++) {
+        uint32_t i = 0;
         pir_cells_add_corner(cells, at);
-        for (uint32_t i = 0; i < cells->side_count; i++)
-            if (cells->side[i].from == at) {
-                at = cells->side[i].to;
-                break;
-            }
+        while (i < cells->side_count && cells->side[i].from != at)
+            i++;
+        if (i == cells->side_count || (n > 0 && at == start))
+            pir_space_fault(cells->space);
+        else
+            at = cells->side[i].to;
     }
+    if (cells->side_count < 3 || at != start)
+        pir_space_fault(cells->space);
     return made;
 }
 

@@ -132,9 +132,11 @@ static void add_union(struct merge *m, pir_face a, const pir_face *other) {
         if (!other || corner_after(cells, &b, q) != p)
             continue;
         // the side from p to q is shared: go round b from p to q instead
-        for (uint32_t at = corner_after(cells, &b, p); at != q && at != PIR_SPACE_NONE;
-             at = corner_after(cells, &b, at))
+        uint32_t at = corner_after(cells, &b, p);
+        for (uint32_t n = 0; n < b.count && at != q && at != PIR_SPACE_NONE; n++, at = corner_after(cells, &b, at))
             push_loop(m, at);
+        if (at != q)
+            pir_space_fault(m->space);
     }
     add_loop(m, a.half);
 }

@@ -64,6 +64,7 @@ static uint32_t half_beside(const pir_cells *cells, pir_cell cell, uint32_t a, u
                 cells->corner[face->first + (i + 1 < face->count ? i + 1 : 0)] == a)
                 return face->half;
     }
+    pir_space_fault(cells->space);
     return cells->face[cell.first].half;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/sort.h"
 #include "polytope/mesh.h"
+#include "solid/glue/closed.h"
 #include "solid/glue/cut_runs.h"
 #include "solid/pieces/join_pieces.h"
 #include "solid/sum/coplanar.h"
@@ -136,6 +137,8 @@ static void outline_planes(struct job *job) {
     }
     pir_space_begin_stage(space, "tracing facets", 0);
     pir_loops_trace(&job->loops, &job->outline);
+    if (space->status == PIR_OK)
+        pir_loops_check_closed(&job->loops);
 }
 
 static pir_status compute(struct job *job, bool open) {
