@@ -29,9 +29,11 @@ static pir_status read_stdin(pir_solid **ret_solid) {
 
 static pir_status make_shape(const char *name, pir_report *report, pir_solid **ret_solid) {
     pir_polytope *shape = NULL;
+    pir_solid_options options = pir_solid_options_default();
     pir_status status = pir_shape_create(name, NULL, report, &shape);
+    options.report = report;
     if (status == PIR_OK)
-        status = pir_solid_from_polytope(shape, NULL, ret_solid);
+        status = pir_solid_from_polytope(shape, &options, ret_solid);
     pir_polytope_release(shape);
     return status;
 }

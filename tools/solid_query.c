@@ -92,15 +92,17 @@ static pir_status ask(pir_solid_query *query, pir_workspace *workspace, const pi
 }
 
 static pir_status run(const pir_solid *const solid[2], const pir_pair_input *input, const pir_vec3 *motion,
-                      struct outcome *outcome) {
+                      pir_report *report, struct outcome *outcome) {
+    pir_solid_options options = pir_solid_options_default();
     pir_pieces *pieces[2] = {NULL, NULL};
     pir_solid_query *query = NULL;
     pir_workspace *workspace = NULL;
     const pir_solid_motion way = {.way = motion ? *motion : (pir_vec3){0, 0, 0},
                                   .tolerance = CAST_TOLERANCE * (reach_of(solid[0]) + reach_of(solid[1]))};
     pir_status status = pir_workspace_create(NULL, &workspace);
+    options.report = report;
     for (int k = 0; k < 2 && status == PIR_OK; k++)
-        status = pir_solid_decompose(solid[k], NULL, &pieces[k]);
+        status = pir_solid_decompose(solid[k], &options, &pieces[k]);
     if (status == PIR_OK)
         status = pir_solid_query_create(pieces[0], pieces[1], NULL, &query);
     if (status == PIR_OK)
@@ -122,12 +124,13 @@ int solid_query(const struct args *args, pir_quat rotation, const pir_query_inpu
     placed.radius_p = input->radius_p;
     placed.radius_q = input->radius_q;
     struct outcome outcome = {.pieces = {0, 0}};
+    pir_report report = {0};
     int result = EXIT_BAD_INPUT;
     pir_solid *p = solid_load(args, 0), *q = p ? solid_load(args, 1) : NULL;
     if (p && q) {
-        const pir_status status = run((const pir_solid *const[]){p, q}, &placed, motion, &outcome);
+        const pir_status status = run((const pir_solid *const[]){p, q}, &placed, motion, &report, &outcome);
         if (status != PIR_OK)
-            complain_status("query", status, NULL);
+            complain_status("query", status, &report);
         else if (args_has(args, "--json"))
             result = print_json(args, &outcome, motion != NULL) ? EXIT_DONE : EXIT_BAD_INPUT;
         else {

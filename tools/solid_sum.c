@@ -109,6 +109,8 @@ int solid_sum(const struct args *args) {
     struct request request = {.options = pir_solid_sum_options_default()};
     request.options.difference = args_has(args, "--difference");
     request.options.open = args_has(args, "--open");
+    pir_report fault = {0};
+    request.options.solid.report = &fault;
     if (!pose_read(args, &request.rotation) || !target_check(args, "-o", TARGET_SOLID))
         return EXIT_BAD_INPUT;
     struct outcome outcome = {0};
@@ -121,7 +123,7 @@ int solid_sum(const struct args *args) {
         const pir_status status = pir_solid_sum(p, q, request.rotation, &request.options, &outcome.info, &outcome.mesh);
         outcome.seconds = (double)(clock_now() - start) / 1e9;
         if (status != PIR_OK)
-            complain_status("sum", status, NULL);
+            complain_status("sum", status, &fault);
         else if (!path || write(&file, outcome.mesh, args_has(args, "--exact")))
             result = report(args, &request, &outcome);
     }
