@@ -29,6 +29,8 @@ const char *pir_status_text(pir_status status) {
         return "too large";
     case PIR_ERR_UNSUPPORTED:
         return "not in this build";
+    case PIR_ERR_INTERNAL:
+        return "the result failed the library's own check";
     }
     return "unknown status";
 }

@@ -139,19 +139,24 @@ pir_solid *solid_of_cells(const cells *of) {
     return solid_of_facets(&facets);
 }
 
-pir_solid *solid_read_again(const pir_mesh *mesh) {
+pir_status solid_try_again(const pir_mesh *mesh, pir_report *report, pir_solid **ret_solid) {
     char *text = NULL;
     size_t size = 0;
     FILE *file = open_memstream(&text, &size);
-    pir_report report = {0};
-    pir_solid *solid = NULL;
     assert_non_null(file);
     assert_int_equal(pir_mesh_write_stream(mesh, file, "again", "off", 1, NULL), PIR_OK);
     fclose(file);
     const pir_status status =
-        pir_solid_read_bytes(&(pir_file_bytes){text, size, "again", "off"}, NULL, &report, &solid);
-    expect(status == PIR_OK, "%s", report.text);
+        pir_solid_read_bytes(&(pir_file_bytes){text, size, "again", "off"}, NULL, report, ret_solid);
     free(text);
+    return status;
+}
+
+pir_solid *solid_read_again(const pir_mesh *mesh) {
+    pir_report report = {0};
+    pir_solid *solid = NULL;
+    const pir_status status = solid_try_again(mesh, &report, &solid);
+    expect(status == PIR_OK, "%s", report.text);
     return solid;
 }
 
@@ -162,33 +167,40 @@ uint64_t solid_cases(uint64_t usual) {
 
 /* --- volumes --- */
 
+/* Adds the determinant of three vertices; a and b are scratch. */
+static void add_determinant(mpq_t sum, mpq_t *const v[3], mpq_t a, mpq_t b) {
+    for (int k = 0; k < 3; k++) {
+        mpq_mul(a, v[1][(k + 1) % 3], v[2][(k + 2) % 3]);
+        mpq_mul(b, v[1][(k + 2) % 3], v[2][(k + 1) % 3]);
+        mpq_sub(a, a, b);
+        mpq_mul(a, a, v[0][k]);
+        mpq_add(sum, sum, a);
+    }
+}
+
 void mesh_volume(const pir_mesh *mesh, mpq_t ret_volume) {
-    mpq_t v[3][3], a, b;
+    const uint32_t vertices = pir_mesh_vertex_count(mesh);
+    mpq_t *x = malloc(3 * (size_t)vertices * sizeof *x), a, b;
+    assert_non_null(x);
     mpq_inits(a, b, NULL);
-    for (int i = 0; i < 3; i++)
-        mpq_inits(v[i][0], v[i][1], v[i][2], NULL);
+    for (uint32_t v = 0; v < vertices; v++) {
+        mpq_inits(x[3 * v], x[3 * v + 1], x[3 * v + 2], NULL);
+        pir_mesh_vertex_exact(mesh, v, &x[3 * v]);
+    }
     mpq_set_ui(ret_volume, 0, 1);
     for (uint32_t f = 0; f < pir_mesh_facet_count(mesh); f++) {
         uint32_t count;
         const uint32_t *corner = pir_mesh_facet(mesh, f, &count);
-        for (uint32_t i = 1; i + 1 < count; i++) {
-            const uint32_t fan[3] = {corner[0], corner[i], corner[i + 1]};
-            for (int k = 0; k < 3; k++)
-                pir_mesh_vertex_exact(mesh, fan[k], v[k]);
-            for (int k = 0; k < 3; k++) {
-                mpq_mul(a, v[1][(k + 1) % 3], v[2][(k + 2) % 3]);
-                mpq_mul(b, v[1][(k + 2) % 3], v[2][(k + 1) % 3]);
-                mpq_sub(a, a, b);
-                mpq_mul(a, a, v[0][k]);
-                mpq_add(ret_volume, ret_volume, a);
-            }
-        }
+        for (uint32_t i = 1; i + 1 < count; i++)
+            add_determinant(ret_volume, (mpq_t *const[]){&x[3 * corner[0]], &x[3 * corner[i]], &x[3 * corner[i + 1]]},
+                            a, b);
     }
     mpq_set_ui(a, 6, 1);
     mpq_div(ret_volume, ret_volume, a);
     mpq_clears(a, b, NULL);
-    for (int i = 0; i < 3; i++)
-        mpq_clears(v[i][0], v[i][1], v[i][2], NULL);
+    for (uint32_t k = 0; k < 3 * vertices; k++)
+        mpq_clear(x[k]);
+    free(x);
 }
 
 void pieces_volume(const pir_pieces *pieces, mpq_t ret_volume) {

@@ -58,7 +58,10 @@ void solid_add_cells(solid_facets *facets, const cells *of);
 /* A solid of cells that make one; the test fails where they do not. */
 pir_solid *solid_of_cells(const cells *of);
 
-/* A mesh in exact OFF, read as a solid; the test fails where it is none. */
+/* Reads a mesh, written in exact OFF, as a solid. */
+pir_status solid_try_again(const pir_mesh *mesh, pir_report *report, pir_solid **ret_solid);
+
+/* The same; the test fails where it is none. */
 pir_solid *solid_read_again(const pir_mesh *mesh);
 
 /* How many cases a test tries: what PIR_TEST_CASES says, or `usual`. */

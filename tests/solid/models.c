@@ -196,10 +196,10 @@ static void add_rings(solid_model *m, const struct ring *ring, uint32_t count, u
     add_facet(m, last, sides);
 }
 
-static void add_mushroom(solid_model *m) {
+static void add_mushroom(solid_model *m, uint32_t sides) {
     static const struct ring ring[] = {{0.5, 0},     {0.375, 0.5},  {0.375, 1.5}, {1.25, 1.25},
                                        {1.5, 1.375}, {1.25, 1.875}, {0.75, 2.25}, {0.25, 2.375}};
-    add_rings(m, ring, sizeof ring / sizeof *ring, 32);
+    add_rings(m, ring, sizeof ring / sizeof *ring, sides);
 }
 
 static void add_cup(solid_model *m) {
@@ -254,12 +254,14 @@ static bool make(solid_model *m, const char *name) {
     static const struct {
         const char *name;
         void (*add)(solid_model *m);
-    } plain[] = {{"cube", add_cube},   {"stella", add_stella}, {"mushroom", add_mushroom}, {"clamp", add_clamp},
-                 {"frame", add_frame}, {"case", add_case},     {"cup", add_cup},           {"spoon", add_spoon}};
+    } plain[] = {{"cube", add_cube}, {"stella", add_stella}, {"clamp", add_clamp}, {"frame", add_frame},
+                 {"case", add_case}, {"cup", add_cup},       {"spoon", add_spoon}};
     for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
         if (strcmp(name, plain[i].name) == 0)
             plain[i].add(m);
-    if (strncmp(name, "star", 4) == 0)
+    if (strncmp(name, "mushroom", 8) == 0)
+        add_mushroom(m, name[8] ? (uint32_t)atoi(name + 8) : 32);
+    else if (strncmp(name, "star", 4) == 0)
         add_star(m, (uint32_t)atoi(name + 4));
     else if (strncmp(name, "gear", 4) == 0)
         add_gear(m, (uint32_t)atoi(name + 4));

@@ -7,6 +7,7 @@
  *     stella                 the stella octangula
  *     clamp, frame, case     a C with a slot 2 wide, a square ring round a hole, a box round a cavity: 1 thick
  *     mushroom, cup, spoon   a cap on a stem and a bowl on a foot, of rings; a shallow bowl on a handle, of sections
+ *     mushroom6              the same of six sides instead of 32, or as many as it says
  */
 #ifndef PIR_TEST_SOLID_MODELS_H
 #define PIR_TEST_SOLID_MODELS_H
