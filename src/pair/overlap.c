@@ -3,9 +3,20 @@
 #include "pair/overlap.h"
 
 #include "query/decide/witness.h"
+#include "query/last/foot.h"
+#include "query/last/foot_walk.h"
 
 /* Bounds on the vertices added in one search; most take none to three. */
 #define MOST_ADDED 64
+
+/* From so many on, discs about the feet of x are looked for. */
+#define MANY_ADDED 24
+
+/* The most walks to a foot of x in one search: each end of D takes one. */
+#define MOST_WALKS 8
+
+/* Directions at a greater cosine are at one end of D. */
+#define SAME_END 0.875
 
 /* The same for a surface that x has left. */
 #define MOST_REPAIRS 8
@@ -251,15 +262,38 @@ static uint32_t least_about(const pir_overlap *overlap, pir_vec3 way, double *re
     return least;
 }
 
-pir_about pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet) {
-    const pir_placement *placement = overlap->placement;
-    pir_placement within = *placement;
+/* Four vertices of D in directions that are as far from each other as can be. */
+static pir_simplex four_corners(const pir_frame *frame) {
+    static const pir_vec3 along[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    pir_simplex simplex = {.tried = 4};
+    for (int k = 0; k < 4; k++) {
+        simplex.a[k] = frame->p.landmarks[pir_landmark_of(pir_mat_apply_transposed(&frame->r, along[k]))];
+        simplex.b[k] = frame->q.landmarks[pir_landmark_of(along[k])];
+    }
+    return simplex;
+}
+
+/*
+ * A certain surface about a point inside of D. A descent to that point ends with a tetrahedron about it, unless the
+ * point is on the rim of what was tried, as the middle of a symmetric body is.
+ */
+static bool begin_inside(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet) {
+    const pir_frame *frame = overlap->exact->frame;
+    pir_placement within = *overlap->placement;
     pir_simplex simplex = {.count = 0};
     uint32_t steps = 0;
     within.x = inner;
-    pir_descend_to_point(overlap->exact->frame, &within, 0, &simplex, &steps);
+    pir_descend_to_point(frame, &within, 0, &simplex, &steps);
+    if (simplex.tried == 4 && begin_about(overlap, &simplex, inner))
+        return true;
+    simplex = four_corners(frame);
+    return begin_about(overlap, &simplex, inner) || pir_overlap_repair(overlap, ret_facet) == PIR_ABOUT_X;
+}
+
+pir_about pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet) {
+    const pir_placement *placement = overlap->placement;
     overlap->statistics->begun++;
-    if (simplex.tried != 4 || !begin_about(overlap, &simplex, inner))
+    if (!begin_inside(overlap, inner, ret_facet))
         return PIR_ABOUT_NOTHING;
     pir_vec3 way = pir_vec_sub(placement->x, inner);
     for (uint32_t added = 0; added < MOST_ADDED; added++) {
@@ -280,6 +314,9 @@ struct found {
     uint32_t count;
     pir_facet facet[MOST_FACETS];
     uint32_t corners[MOST_FACETS];
+    double radius[MOST_FACETS]; /* of a disc about the foot of x that found facets hold; NAN where it is not known */
+    uint32_t walks;             /* to the foot of x */
+    bool aside;                 /* some triangles are proven by the discs: others may be, without more vertices */
     pir_least least;
 };
 
@@ -287,6 +324,7 @@ struct found {
 static bool add_facet(const pir_overlap *overlap, uint32_t corners, struct found *found) {
     const pir_facet *facet = &found->facet[found->count];
     found->corners[found->count] = corners;
+    found->radius[found->count] = NAN;
     pir_least_offer_facet(overlap->exact, overlap->placement, &found->least, facet);
     bool is_least = pir_facet_same(facet, &found->least.facet);
     found->count++;
@@ -348,10 +386,131 @@ static double bound_of(const pir_overlap *overlap, const pir_least *least) {
     return facet->h - pir_vec_dot(facet->n, overlap->placement->x) + overlap->placement->error * facet->err;
 }
 
+/* --- triangles that lie in no facet --- */
+
+/* What the least of three corners is along a unit direction, less what they may be off by. */
+static double least_along(const pir_overlap *overlap, uint32_t t, pir_vec3 along) {
+    double least = HUGE_VAL;
+    for (int k = 0; k < 3; k++)
+        least = fmin(least, pir_vec_dot(along, pir_surface_corner(overlap->room, corner_of(overlap, t, k))));
+    return least - 2 * overlap->placement->error;
+}
+
+/*
+ * A bound on the distance of a triangle from x, from the nearest points of its sides: those are certain where the plane
+ * of a sliver is not. *ret_along is the direction of the best.
+ */
+static double distance_of(const pir_overlap *overlap, uint32_t t, pir_vec3 *ret_along) {
+    double most = overlap->room->plane.low[t];
+    pir_vec3 n = pir_surface_normal(overlap->room, t);
+    *ret_along = pir_vec_scale(n, 1 / sqrt(pir_vec_dot(n, n)));
+    for (int k = 0; k < 3; k++) {
+        pir_vec3 a = pir_surface_corner(overlap->room, corner_of(overlap, t, k)),
+                 way = pir_vec_sub(pir_surface_corner(overlap->room, corner_of(overlap, t, (k + 1) % 3)), a);
+        double part = fmin(1, fmax(0, -pir_vec_dot(a, way) / pir_vec_dot(way, way)));
+        pir_vec3 at = pir_vec_add(a, pir_vec_scale(way, part)),
+                 along = pir_vec_scale(at, 1 / sqrt(pir_vec_dot(at, at)));
+        double least = least_along(overlap, t, along);
+        if (least > most) {
+            most = least;
+            *ret_along = along;
+        }
+    }
+    return most;
+}
+
+/*
+ * A bound on the distance from x of what a triangle holds beside the disc about the foot of x in facet i. All facets
+ * whose normals, as rays from x, pass through the disc are compared, or have more slack than those there (foot_walk.h).
+ * A ray beside it is at an angle from the facet's normal n whose tangent is at least the radius over the slack. It
+ * leaves the triangle at a distance of at least the least of its corners along n, over the cosine.
+ */
+static double distance_beside(const pir_overlap *overlap, uint32_t t, struct found *found, uint32_t i) {
+    const pir_facet *facet = &found->facet[i];
+    const double error = overlap->placement->error * facet->err;
+    double slack = pir_facet_slack(overlap->exact, overlap->placement, facet);
+    if (isnan(found->radius[i]))
+        found->radius[i] = pir_foot_rim(overlap->exact, overlap->placement, facet, slack).margin;
+    double least = least_along(overlap, t, facet->n) - error, tangent = found->radius[i] / (slack + error);
+    return tangent > 0 && least > 0 ? least * sqrt(1 + tangent * tangent) : 0;
+}
+
+/*
+ * Raises what a triangle is known to be from x at least: by its distance, and by what is beside the discs in the facets
+ * that are found. Returns whether that is more than the least facet.
+ */
+static bool is_beside(const pir_overlap *overlap, uint32_t t, struct found *found, pir_vec3 *ret_along) {
+    double *low = &overlap->room->plane.low[t], bound = bound_of(overlap, &found->least);
+    *low = distance_of(overlap, t, ret_along);
+    for (uint32_t i = 0; i < found->count && !(*low > bound); i++)
+        *low = fmax(*low, distance_beside(overlap, t, found, i));
+    return *low > bound;
+}
+
+/* The place of a facet among those that are found; the count where it is new. */
+static uint32_t place_of(const struct found *found, const pir_facet *facet) {
+    uint32_t i = 0;
+    while (i < found->count && !pir_facet_same(&found->facet[i], facet))
+        i++;
+    return i;
+}
+
+/* Adds the facets about the foot of x, found from a triangle. */
+static bool add_at_foot(const pir_overlap *overlap, uint32_t t, pir_vec3 along, struct found *found) {
+    const uint32_t corner = corner_of(overlap, t, 0);
+    const uint32_t vertex[2] = {overlap->surface->a[corner], overlap->surface->b[corner]};
+    pir_about_foot about;
+    if (found->walks++ == MOST_WALKS || !pir_foot_walk(overlap->exact, overlap->placement, vertex, along, &about))
+        return false;
+    for (uint32_t i = 0; i < about.count; i++) {
+        if (place_of(found, &about.facet[i]) < found->count)
+            continue;
+        if (found->count == MOST_FACETS)
+            return false;
+        found->facet[found->count] = about.facet[i];
+        add_facet(overlap, corners_in(overlap, &about.facet[i]), found);
+    }
+    found->radius[place_of(found, &about.facet[0])] = about.radius;
+    return true;
+}
+
+/*
+ * Whether a triangle in which nothing is beyond, but which lies in no facet, is proven to be farther from x than the
+ * least facet. Facets that doubles cannot tell apart leave such triangles.
+ */
+static bool set_aside(const pir_overlap *overlap, uint32_t t, struct found *found) {
+    pir_vec3 along;
+    found->aside = true;
+    return is_beside(overlap, t, found, &along) ||
+           (add_at_foot(overlap, t, along, found) && is_beside(overlap, t, found, &along));
+}
+
+/* Whether no disc is known that faces a direction. */
+static bool is_new_end(const struct found *found, pir_vec3 along) {
+    bool new_end = true;
+    for (uint32_t i = 0; i < found->count; i++)
+        new_end &= isnan(found->radius[i]) || !(pir_vec_dot(found->facet[i].n, along) > SAME_END);
+    return new_end;
+}
+
+/*
+ * Whether a triangle needs no more vertices. Most searches end soon. In one that does not, facets are nearly parallel,
+ * and the discs at each end prove what many vertices would.
+ */
+static inline bool is_passed(const pir_overlap *overlap, uint32_t t, uint32_t added, struct found *found) {
+    pir_vec3 along;
+    if (!found->aside && added < MANY_ADDED)
+        return false;
+    found->aside = true;
+    return is_beside(overlap, t, found, &along) ||
+           (added >= MANY_ADDED && is_new_end(found, along) && add_at_foot(overlap, t, along, found) &&
+            is_beside(overlap, t, found, &along));
+}
+
 bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet) {
     struct found found;
-    found.count = 0;
-    found.least.some = false;
+    found.count = found.walks = 0;
+    found.aside = found.least.some = false;
     if (*overlap->has_same) {
         found.facet[0] = overlap->same->facet;
         add_facet(overlap, corners_in(overlap, &found.facet[0]), &found);
@@ -363,8 +522,11 @@ bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet) {
             *ret_facet = found.least.facet;
             return found.least.some;
         }
+        if (is_passed(overlap, t, added, &found))
+            continue;
         enum expansion expansion = expand(overlap, t, &corner);
-        if (expansion == STUCK || (expansion == NOTHING_BEYOND && !take_facet(overlap, t, &found)))
+        if (expansion == STUCK ||
+            (expansion == NOTHING_BEYOND && !take_facet(overlap, t, &found) && !set_aside(overlap, t, &found)))
             return false;
         if (expansion == CHANGED) {
             if (corner < PIR_SURFACE_CORNERS)

@@ -5,71 +5,123 @@
 /* What a distance in the plane of F is off by, in units of the placement's error and the facet's: see touch.c. */
 #define MARGIN_ERRORS 16
 
-/* Faces with more vertices are not looked at. */
-#define MOST_VERTICES 32
+/* --- how far the foot is from the rim --- */
 
-/* A face as it stands in D: its vertices in order, and the unit vectors from each to the next; an edge has two. */
-struct face {
-    uint32_t count;
-    pir_vec3 at[MOST_VERTICES], along[MOST_VERTICES];
+/* The normal of F, the foot of x on it, and what corners may be off by. */
+struct foot {
+    pir_vec3 n, y;
+    double noise;
+    pir_rims *rims; /* NULL where the nearest side alone is wanted */
 };
 
-/* One vertex of it, with the halfedge that leads on from there. */
-static void put_vertex(const pir_body *body, const pir_mat3 *r, uint32_t vertex, uint32_t half, struct face *face) {
-    pir_vec3 at = body->vertex[vertex], along = {0, 0, 0};
-    if (half != UINT32_MAX)
-        along = body->polytope->direction[half];
-    face->at[face->count] = r ? pir_mat_apply(r, at) : at;
-    face->along[face->count++] = r ? pir_mat_apply(r, along) : along;
-}
+/* A face of a body as it stands in D, and where its vertices are listed. */
+struct face {
+    const pir_body *body;
+    const pir_mat3 *r; /* of P; NULL for Q */
+    pir_feature feature;
+    uint32_t start, count; /* of a facet: its first place in the loops */
+};
 
-/* A face of P, turned by r, or of Q, r being NULL; false where it has too many vertices. */
-static bool make_face(const pir_body *body, const pir_mat3 *r, pir_feature feature, struct face *face) {
+static struct face face_of(const pir_body *body, const pir_mat3 *r, pir_feature feature) {
     const pir_polytope *p = body->polytope;
-    face->count = 0;
-    if (feature.kind == PIR_FEATURE_VERTEX) {
-        put_vertex(body, r, feature.index, UINT32_MAX, face);
-    } else if (feature.kind == PIR_FEATURE_EDGE) {
-        uint32_t half = p->edge_half[feature.index];
-        put_vertex(body, r, p->origin[half], half, face);
-        put_vertex(body, r, p->target[half], p->twin[half], face);
-    } else {
-        uint32_t start = p->loop_start[feature.index], end = p->loop_start[feature.index + 1];
-        if (end - start > MOST_VERTICES)
-            return false;
-        for (uint32_t i = start; i < end; i++)
-            put_vertex(body, r, p->origin[p->loop[i]], p->loop[i], face);
+    struct face face = {body, r, feature, 0, feature.kind == PIR_FEATURE_VERTEX ? 1 : 2};
+    if (feature.kind == PIR_FEATURE_FACET) {
+        face.start = p->loop_start[feature.index];
+        face.count = p->loop_start[feature.index + 1] - face.start;
     }
-    return true;
+    return face;
 }
 
-/* How far y is within the sides of F that are along those of `face`: `other` is the other body's. */
-static double margin_along(const struct face *face, const struct face *other, pir_vec3 n, pir_vec3 y) {
-    double margin = HUGE_VAL;
-    for (uint32_t i = 0; face->count > 1 && i < face->count; i++) {
-        pir_vec3 in = pir_vec_cross(n, face->along[i]);
-        double least = HUGE_VAL;
-        for (uint32_t k = 0; k < other->count; k++) {
-            double along = pir_vec_dot(in, other->at[k]);
-            least = along < least ? along : least;
-        }
-        double within = pir_vec_dot(in, pir_vec_sub(y, face->at[i])) - least;
-        margin = within < margin ? within : margin;
-    }
-    return margin;
+/* The halfedge that leads from corner i of an edge or a facet to the next. */
+static inline uint32_t half_at(const struct face *face, uint32_t i) {
+    const pir_polytope *p = face->body->polytope;
+    if (face->feature.kind == PIR_FEATURE_FACET)
+        return p->loop[face->start + i];
+    uint32_t half = p->edge_half[face->feature.index];
+    return i == 0 ? half : p->twin[half];
+}
+
+static inline uint32_t vertex_at(const struct face *face, uint32_t i) {
+    return face->feature.kind == PIR_FEATURE_VERTEX ? face->feature.index
+                                                    : face->body->polytope->origin[half_at(face, i)];
+}
+
+/* A vector of the body's own frame, in that of D. */
+static inline pir_vec3 turned(const struct face *face, pir_vec3 v) {
+    return face->r ? pir_mat_apply(face->r, v) : v;
 }
 
 /*
- * The distance of y from the rim of F; negative outside, or where it is not known. F is the sum of two faces, so
- * each of its sides is along a side of one of them and through the vertex of the other that is farthest across it.
+ * The least that corners of a face are along `in`, and the corner: from corner *at on, where the least is or before it
+ * as corners go around. Along a direction across the normal a convex polygon falls and rises once, so nothing is less
+ * after a corner that is more than `noise` above.
  */
-static double margin_of(const pir_frame *frame, const pir_facet *facet, pir_vec3 y) {
-    struct face p, q;
-    if (!make_face(&frame->p, &frame->r, facet->faces.p, &p) || !make_face(&frame->q, NULL, facet->faces.q, &q))
-        return -1;
-    double of_p = margin_along(&p, &q, facet->n, y), of_q = margin_along(&q, &p, facet->n, y);
-    return of_p < of_q ? of_p : of_q;
+static double least_from(const struct face *face, pir_vec3 in, double noise, uint32_t *at) {
+    const pir_vec3 *vertex = face->body->vertex;
+    pir_vec3 d = face->r ? pir_mat_apply_transposed(face->r, in) : in;
+    double least = HUGE_VAL;
+    for (uint32_t k = 0, i = *at; k < face->count; k++) {
+        double along = pir_vec_dot(d, vertex[vertex_at(face, i)]);
+        if (along > least + noise)
+            break;
+        *at = along < least ? i : *at;
+        least = along < least ? along : least;
+        i = i + 1 < face->count ? i + 1 : 0;
+    }
+    return least;
 }
+
+/* The corner of a face that is least along `in`, by looking at all. */
+static uint32_t least_of(const struct face *face, pir_vec3 in) {
+    uint32_t at = 0;
+    least_from(face, in, HUGE_VAL, &at);
+    return at;
+}
+
+/*
+ * Looks at the sides of F that are along those of `face`, for the one that y is least within. `other` is the other
+ * body's. Both go around the normal in the same sense, so that the corner across goes on from side to side.
+ */
+static void look_along(const struct face *face, const struct face *other, const struct foot *foot, pir_rim *rim) {
+    const pir_body *body = face->body;
+    uint32_t across = 0;
+    for (uint32_t i = 0; face->count > 1 && i < face->count; i++) {
+        uint32_t half = half_at(face, i);
+        pir_vec3 in = pir_vec_cross(foot->n, turned(face, body->polytope->direction[half]));
+        pir_vec3 from = turned(face, body->vertex[body->polytope->origin[half]]);
+        if (i == 0)
+            across = least_of(other, in);
+        double within = pir_vec_dot(in, pir_vec_sub(foot->y, from)) - least_from(other, in, foot->noise, &across);
+        pir_rim side = {within, face->r == NULL, half, vertex_at(other, across)};
+        if (within < rim->margin)
+            *rim = side;
+        if (foot->rims && within < foot->rims->within && foot->rims->count++ < PIR_RIMS_MOST)
+            foot->rims->side[foot->rims->count - 1] = side;
+    }
+}
+
+/* F is the sum of two faces: each side is along a side of one, and through the vertex of the other farthest across. */
+static pir_rim rim_of(const pir_frame *frame, const pir_facet *facet, struct foot foot) {
+    struct face p = face_of(&frame->p, &frame->r, facet->faces.p), q = face_of(&frame->q, NULL, facet->faces.q);
+    pir_rim rim = {HUGE_VAL, false, UINT32_MAX, UINT32_MAX};
+    look_along(&p, &q, &foot, &rim);
+    look_along(&q, &p, &foot, &rim);
+    rim.margin -= MARGIN_ERRORS * foot.noise * facet->err + foot.noise;
+    return rim;
+}
+
+pir_rim pir_foot_rim(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack) {
+    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
+    return rim_of(exact->frame, facet, (struct foot){facet->n, y, placement->error, NULL});
+}
+
+pir_rim pir_foot_rims(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, pir_vec3 y,
+                      pir_rims *rims) {
+    rims->count = 0;
+    return rim_of(exact->frame, facet, (struct foot){facet->n, y, placement->error, rims});
+}
+
+/* --- the proof --- */
 
 /* The vertex of D at the landmarks along a direction. */
 static pir_vec3 landmark(const pir_frame *frame, pir_vec3 along) {
@@ -125,7 +177,6 @@ bool pir_foot_settles(const pir_exact *exact, const pir_placement *placement, co
     const pir_frame *frame = exact->frame;
     if (frame->p.polytope->artificial || frame->q.polytope->artificial)
         return false;
-    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
-    double margin = margin_of(frame, facet, y) - MARGIN_ERRORS * placement->error * facet->err;
+    double margin = pir_foot_rim(exact, placement, facet, slack).margin;
     return pir_foot_settles_within(frame, placement, facet, slack, margin);
 }

@@ -23,6 +23,28 @@
 
 #include "query/decide/facet.h"
 
+/* The side of F that a point of its plane is least within, or farthest beyond. */
+typedef struct pir_rim {
+    double margin;         /* how far it is within, less errors */
+    bool of_q;             /* the side is along an edge of Q, not of P */
+    uint32_t half, across; /* a halfedge of that edge, and the vertex of the other body that it is put at */
+} pir_rim;
+
+/* The one of the foot of x. Neither body is a point or a segment. */
+pir_rim pir_foot_rim(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack);
+
+/* The sides that a point is less than `within` of them within, in doubles. */
+#define PIR_RIMS_MOST 16
+typedef struct pir_rims {
+    double within;
+    uint32_t count; /* above PIR_RIMS_MOST where there are more: then not all are listed */
+    pir_rim side[PIR_RIMS_MOST];
+} pir_rims;
+
+/* The same for a point y of F's plane; lists the sides near it. */
+pir_rim pir_foot_rims(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, pir_vec3 y,
+                      pir_rims *rims);
+
 /*
  * Whether the slack of F, which is at most `slack` and certain to be above −placement->error · facet->err, is below
  * that of all other facets.

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Which way serves: situations that once took the whole difference in every frame, and must not. Each answer is that of
+ * the whole difference, bit for bit, where that is not too large to be made in a test.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include <pirouette/pair.h>
+
+#include "support/answers.h"
+#include "support/bodies.h"
+
+static pir_polytope *box(double x, double y, double z) {
+    test_points points = {.count = 8};
+    for (int i = 0; i < 8; i++)
+        points.at[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
+    return test_polytope(&points);
+}
+
+/* A prism about z, of radius 1 and half height 0.5. */
+static pir_polytope *prism(uint32_t sides) {
+    pir_polytope *p = NULL;
+    pir_vec3 *at = malloc(2 * sides * sizeof *at);
+    assert_non_null(at);
+    for (uint32_t i = 0; i < sides; i++) {
+        double angle = 2 * acos(-1.0) * i / sides;
+        at[i] = (pir_vec3){cos(angle), sin(angle), -0.5};
+        at[sides + i] = (pir_vec3){cos(angle), sin(angle), 0.5};
+    }
+    assert_int_equal(pir_polytope_create(at, 2 * sides, NULL, &p), PIR_OK);
+    free(at);
+    return p;
+}
+
+/* A pair, and one that answers by the whole difference. */
+struct bench {
+    pir_polytope *p, *q;
+    pir_workspace *workspace;
+    pir_pair *pair, *whole;
+    pir_pair_input input;
+};
+
+static struct bench bench_make(pir_polytope *p, pir_polytope *q) {
+    struct bench bench = {.p = p, .q = q, .input = pir_pair_input_default()};
+    pir_pair_options options = pir_pair_options_default();
+    options.least = PIR_LEVEL_WHOLE;
+    assert_int_equal(pir_workspace_create(NULL, &bench.workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, q, NULL, &bench.pair), PIR_OK);
+    assert_int_equal(pir_pair_create(p, q, &options, &bench.whole), PIR_OK);
+    return bench;
+}
+
+static void bench_clear(struct bench *bench) {
+    pir_pair_destroy(bench->pair);
+    pir_pair_destroy(bench->whole);
+    pir_workspace_destroy(bench->workspace);
+    pir_polytope_release(bench->p);
+    if (bench->q != bench->p)
+        pir_polytope_release(bench->q);
+}
+
+static pir_query_result ask(struct bench *bench, bool compare, const char *what, int frame) {
+    pir_query_result result, expected;
+    assert_int_equal(pir_pair_signed_distance(bench->pair, bench->workspace, &bench->input, &result), PIR_OK);
+    if (compare) {
+        assert_int_equal(pir_pair_signed_distance(bench->whole, bench->workspace, &bench->input, &expected), PIR_OK);
+        expect(test_same_result(&result, &expected), "%s, frame %d: level %d, distance %.17g, not %.17g", what, frame,
+               (int)pir_pair_level(bench->pair), result.distance, expected.distance);
+    }
+    return result;
+}
+
+/* --- bodies that are laid flush --- */
+
+/* Its difference is symmetric about x, so that no descent ended with a tetrahedron about a point inside. */
+static void a_cold_box_laid_flush_on_a_box_is_told_by_its_facet(void **state) {
+    (void)state;
+    struct bench bench = bench_make(box(1, 1, 1), box(1, 1, 1));
+    for (int i = 0; i < 200; i++) {
+        assert_int_equal(pir_pair_reset(bench.pair, bench.p, bench.q), PIR_OK);
+        bench.input.pose_p.translation = (pir_vec3){-1.5 + i / 64.0, (i % 7 - 3) / 4.0, i % 2 ? 2 : -2};
+        pir_query_result result = ask(&bench, true, "box on box", i);
+        pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
+        expect(statistics.by_facet == 1 && result.state == PIR_BOUNDARY, "frame %d: level %d, state %d", i,
+               (int)pir_pair_level(bench.pair), (int)result.state);
+    }
+    bench_clear(&bench);
+}
+
+/* Rests, turns, slides, or both: the facet of the last frame is proven by the disc about the foot of x. */
+static void a_cylinder_that_stands_on_a_box_is_told_by_its_facet(void **state) {
+    (void)state;
+    static const uint32_t sides[3] = {36, 64, 200};
+    for (int i = 0; i < 3 * 4 * 2; i++) {
+        bool turns = i / 3 % 4 & 1, slides = i / 3 % 4 & 2, wide = i / 12;
+        struct bench bench = bench_make(prism(sides[i % 3]), wide ? box(10, 10, 1) : box(1, 1, 1));
+        for (int k = 0; k < 60; k++) {
+            double angle = turns ? k * 0.01 : 0;
+            bench.input.pose_p.rotation = (pir_quat){0, 0, sin(angle / 2), cos(angle / 2)};
+            bench.input.pose_p.translation = (pir_vec3){slides ? 0.005 * k : 0.125, 0.0625, 1.5};
+            pir_query_result result = ask(&bench, k % 20 == 0, "cylinder on box", k);
+            assert_int_equal(result.state, PIR_BOUNDARY);
+        }
+        pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
+        expect(statistics.by_facet == 60, "%u sides%s%s%s: %llu of 60 by a facet, %llu by the whole difference",
+               sides[i % 3], turns ? ", turning" : "", slides ? ", sliding" : "", wide ? ", on a slab" : "",
+               (unsigned long long)statistics.by_facet, (unsigned long long)statistics.by_whole);
+        bench_clear(&bench);
+    }
+}
+
+/* --- facets that doubles cannot tell apart --- */
+
+static const double turns[7] = {0, 1e-16, 1e-14, 1e-12, 1e-9, 1e-6, 1e-3};
+
+static void turn(struct bench *bench, int i, bool about_one_middle) {
+    double e = turns[i];
+    bench->input.pose_p.rotation = (pir_quat){e, 2 * e, -e, 1};
+    bench->input.pose_p.translation = about_one_middle ? (pir_vec3){0, 0, 0} : (pir_vec3){0.1, 0.2, 0.3};
+}
+
+/* Two equal prisms, turned by next to nothing: their difference has some millions of facets at 1,451 sides. */
+static void equal_prisms_nearly_parallel_need_no_whole_difference(void **state) {
+    (void)state;
+    static const uint32_t sides[10] = {3, 4, 8, 9, 15, 36, 64, 101, 400, 1451};
+    int by_whole = 0;
+    for (int m = 0; m < 10; m++) {
+        pir_polytope *p = prism(sides[m]);
+        struct bench bench = bench_make(p, p);
+        for (int i = 0; i < 14; i++) {
+            turn(&bench, i / 2, i % 2);
+            assert_int_equal(pir_pair_reset(bench.pair, p, p), PIR_OK);
+            pir_query_result result = ask(&bench, sides[m] <= 101, "prisms", i);
+            pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
+            assert_int_equal(result.state, PIR_INSIDE);
+            expect(sides[m] < 400 || statistics.by_whole == 0, "%u sides, turned by %g: the whole difference", sides[m],
+                   turns[i / 2]);
+            // a vertex takes a microsecond, and a search has no more than these
+            assert_true(statistics.supports < 256);
+            by_whole += statistics.by_whole > 0;
+        }
+        bench_clear(&bench);
+    }
+    print_message("# %d of 140 by the whole difference\n", by_whole);
+    assert_true(by_whole <= 7);
+}
+
+/* Prisms of other numbers of sides, sizes and places, resting, sunk or apart by little. */
+static void prisms_at_random_nearly_parallel_answer_as_their_difference(void **state) {
+    (void)state;
+    const char *scenes = getenv("PIR_TEST_SCENES");
+    uint64_t count = scenes ? strtoull(scenes, NULL, 10) : 150, asked = 0, by_whole = 0;
+    for (uint64_t number = 0; number < count; number++) {
+        test_random random = test_random_case("prisms nearly parallel", number);
+        pir_polytope *p = prism(3 + test_random_below(&random, 60)), *q = prism(3 + test_random_below(&random, 60));
+        struct bench bench = bench_make(p, q);
+        double e = ldexp(test_random_unit(&random), -test_random_between(&random, 0, 54));
+        for (int k = 0; k < 8; k++) {
+            pir_vec3 d = test_random_direction(&random);
+            bench.input.pose_p.rotation = (pir_quat){e * d.x, e * d.y, k % 2 ? e * d.z : 0.25 * d.z, 1};
+            double gap = k % 3 ? ldexp(test_random_unit(&random), -test_random_between(&random, 1, 50)) : 0;
+            pir_vec3 t = {0.5 * test_random_unit(&random), k % 4 ? 0 : 0.5 * test_random_unit(&random), 1 + gap};
+            bench.input.pose_p.translation = k % 5 == 4 ? (pir_vec3){0, 0, t.z - 1} : t;
+            ask(&bench, true, "prisms at random", (int)number);
+            asked++;
+        }
+        by_whole += pir_pair_get_statistics(bench.pair).by_whole;
+        bench_clear(&bench);
+    }
+    print_message("# %llu answers, %llu by the whole difference\n", (unsigned long long)asked,
+                  (unsigned long long)by_whole);
+    // a t on an edge of D but for rounding is left to that
+    assert_true(5 * by_whole < asked);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cold_box_laid_flush_on_a_box_is_told_by_its_facet),
+        cmocka_unit_test(a_cylinder_that_stands_on_a_box_is_told_by_its_facet),
+        cmocka_unit_test(equal_prisms_nearly_parallel_need_no_whole_difference),
+        cmocka_unit_test(prisms_at_random_nearly_parallel_answer_as_their_difference),
+    };
+    return cmocka_run_group_tests_name("ways of pairs", tests, NULL, NULL);
+}
