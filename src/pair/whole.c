@@ -28,6 +28,14 @@ static pir_status make(pir_pair *pair, pir_workspace *workspace) {
     return status;
 }
 
+/* Keeps the facet of the answer as a hint, as all levels do. */
+static void keep_facet(pir_pair *pair, const pir_query_cache *cache) {
+    if (cache->pieces != 1 || pair->p->artificial || pair->q->artificial)
+        return;
+    pair->facet = (pir_piece){cache->kind, cache->first, cache->second};
+    pair->has_facet = true;
+}
+
 pir_status pir_pair_whole(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want,
                           pir_query_result *result) {
     pir_placement placement;
@@ -42,6 +50,8 @@ pir_status pir_pair_whole(pir_pair *pair, pir_workspace *workspace, const pir_pa
         return status;
     }
     pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .cutoff = input->cutoff};
-    pir_query_answer(workspace->query, &placement, &asked, want, NULL, result);
+    pir_query_cache cache = {0};
+    pir_query_answer(workspace->query, &placement, &asked, want, &cache, result);
+    keep_facet(pair, &cache);
     return PIR_OK;
 }
