@@ -12,8 +12,8 @@
  * share a point is exact for the doubles given, as in pair.h; with rounding radii, and for the margin, the distance
  * decides.
  *
- * Which pairs are looked at: one of both bodies is a moving one, the other is not of the same body, and each category
- * is in the other's mask. A sensor is told of what overlaps it, and has no contacts; two sensors do not meet.
+ * A pair needs one moving body, two bodies, and masks that match both ways: the category of each is in the mask of the
+ * other. A sensor is told of what overlaps it, and has no contacts. Two sensors do not meet.
  *
  * Determinism: events, their order and all their numbers depend on the poses, on the bodies and on which pieces were in
  * contact before: not on threads, the history of the scene, nor the machine. Events are in the order of body_p, body_q,
