@@ -375,6 +375,54 @@ static void notes_of_another_kind_are_refused(void **state) {
     pir_polytope_release(p);
 }
 
+/* A call that is refused leaves no body behind, in whatever way it is wrong. */
+static void refused_notes_leave_no_bytes(void **state) {
+    (void)state;
+    test_random random = test_random_case("history of refused notes", 0);
+    pir_polytope *p = test_sphere(&random, 8), *other = test_sphere(&random, 8), *pieces[] = {p, NULL};
+    const pir_quat r = {0, 0, 0, 1};
+    pir_query_input query = pir_query_input_default();
+    pir_pair_input input = pir_pair_input_default();
+    pir_body_options body = pir_body_options_default();
+    pir_history *history;
+    assert_int_equal(pir_history_sum(NULL, p, p, r, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_pair(NULL, p, p, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_scene(NULL, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_rotate(NULL, r, PIR_METHOD_AUTO), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_tolerance(NULL, 1), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_region(NULL, (pir_vec3){1, 0, 0}, 1), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_query(NULL, &query), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_ask(NULL, &input), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_add(NULL, &body), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_remove(NULL, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_update(NULL, NULL, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_write(NULL, stdout, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_create(NULL, &history), PIR_OK);
+    struct bytes empty = written(history);
+    assert_int_equal(pir_history_sum(history, NULL, p, r, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_sum(history, p, NULL, r, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_ask(history, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_update(history, NULL, 1), PIR_ERR_ARGUMENT);
+    struct bytes still = written(history);
+    assert_true(still.size == empty.size && memcmp(still.data, empty.data, empty.size) == 0);
+    assert_int_equal(pir_history_scene(history, NULL), PIR_OK);
+    struct bytes begun = written(history);
+    assert_int_equal(pir_history_sum(history, other, other, r, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_pair(history, other, other, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_history_add(history, NULL), PIR_ERR_ARGUMENT);
+    struct bytes same = written(history);
+    assert_true(same.size == begun.size && memcmp(same.data, begun.data, begun.size) == 0);
+    body.pieces = pieces;
+    body.piece_count = 2;
+    assert_int_equal(pir_history_add(history, &body), PIR_ERR_ARGUMENT);
+    struct bytes *all[] = {&empty, &still, &begun, &same};
+    for (int i = 0; i < 4; i++)
+        free(all[i]->data);
+    pir_history_destroy(history);
+    pir_polytope_release(other);
+    pir_polytope_release(p);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -384,6 +432,7 @@ int main(void) {
         cmocka_unit_test(memory_that_runs_out_changes_nothing),
         cmocka_unit_test(notes_without_memory_leave_whole_ones),
         cmocka_unit_test(notes_of_another_kind_are_refused),
+        cmocka_unit_test(refused_notes_leave_no_bytes),
     };
     return cmocka_run_group_tests_name("histories of calls", tests, NULL, NULL);
 }
