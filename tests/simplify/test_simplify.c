@@ -115,6 +115,30 @@ static void flat_bodies_are_their_own_outer_ones(void **state) {
     }
 }
 
+/* Where an outer polytope would reach beyond the doubles, or be finer than they are, the body is its own. */
+static void bodies_at_the_ends_of_the_doubles_are_their_own_outer_ones(void **state) {
+    (void)state;
+    static const double sizes[] = {1.5e308, 1e308, 1e-320};
+    test_random random = test_random_case("ends of the doubles", 0);
+    pir_polytope *sphere = test_sphere(&random, 40);
+    for (int i = 0; i < 3; i++) {
+        test_points points = {.count = pir_polytope_vertex_count(sphere)};
+        pir_simplify_options options = {.vertices = 12};
+        pir_simplified s;
+        for (uint32_t v = 0; v < points.count; v++) {
+            pir_vec3 at = pir_polytope_vertex(sphere, v);
+            points.at[v] = (pir_vec3){sizes[i] * at.x, sizes[i] * at.y, sizes[i] * at.z};
+        }
+        pir_polytope *body = test_polytope(&points);
+        expect(pir_polytope_simplify(body, &options, &s) == PIR_OK, "size %g", sizes[i]);
+        expect(s.outer == body && s.outer_error == 0, "size %g: an outer polytope %g away", sizes[i], s.outer_error);
+        assert_in_range(pir_polytope_vertex_count(s.inner), 4, 12);
+        pir_simplified_release(&s);
+        pir_polytope_release(body);
+    }
+    pir_polytope_release(sphere);
+}
+
 static void what_is_near_enough_is_the_body_itself(void **state) {
     (void)state;
     test_random random = test_random_case("itself", 0);
@@ -172,6 +196,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_near),
         cmocka_unit_test(flat_bodies_are_their_own_outer_ones),
+        cmocka_unit_test(bodies_at_the_ends_of_the_doubles_are_their_own_outer_ones),
         cmocka_unit_test(what_is_near_enough_is_the_body_itself),
         cmocka_unit_test(bad_options_are_refused),
         cmocka_unit_test(memory_that_runs_out_leaves_nothing),
