@@ -23,7 +23,7 @@ static void the_hopf_grid_is_a_path_of_small_turns(void **state) {
         double spacing = pir_grid_get_info(grid).spacing;
         printf("# level %u: %llu rotations, turns in spacings: mean %.4f, most %.4f\n", level,
                (unsigned long long)pir_grid_get_info(grid).count, turns.mean / spacing, turns.most / spacing);
-        assert_true(turns.mean < 1.006 * spacing && turns.most < 1.5 * spacing);
+        assert_true(turns.mean < (level ? 1.001 : 1.0056) * spacing && turns.most < 1.5 * spacing);
         pir_grid_destroy(grid);
     }
 }
@@ -67,7 +67,8 @@ static void a_list_in_disorder_becomes_a_path(void **state) {
     double spacing = pir_grid_get_info(list).spacing;
     printf("# 4608 rotations of a grid in disorder: mean %.4f, most %.4f of the distance to the nearest\n",
            turns.mean / spacing, turns.most / spacing);
-    assert_true(turns.mean < 1.05 * spacing && turns.most < 2 * spacing);
+    // as good as the search for exchanges has found it
+    assert_true(turns.mean < 1.0161 * spacing && turns.most < 1.34 * spacing);
     uint8_t *seen = calloc(count, 1);
     for (uint64_t i = 0; i < count; i++) {
         uint64_t source = pir_grid_cell(list, i);
