@@ -121,6 +121,7 @@ static void check_motion(uint64_t number, pir_vec3 middle) {
     }
     pir_pair_statistics used = pir_pair_get_statistics(scene.kept);
     expect(used.by_certificate > FRAMES / 4, "%llu by certificate", (unsigned long long)used.by_certificate);
+    expect(used.queries == FRAMES, "%llu queries in as many frames", (unsigned long long)used.queries);
     expect(used.by_facet + used.by_surface > FRAMES / 50, "near in %llu", (unsigned long long)used.by_facet);
     pir_pair_destroy(scene.kept);
     pir_pair_destroy(scene.fresh);

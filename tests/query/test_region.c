@@ -135,6 +135,7 @@ static void ask(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, p
                memcmp(&part.normal, &again.normal, sizeof part.normal) == 0 &&
                memcmp(&part.witness, &again.witness, sizeof part.witness) == 0,
            "%s: another answer after another way", situation);
+    expect(part.steps == 1 && again.steps == 1, "%s: %u steps to look once", situation, part.steps);
     if (part.outcome == PIR_SEPARATED) {
         s->apart++;
         expect(all.state == PIR_OUTSIDE && part.state == PIR_OUTSIDE, "%s: apart and not", situation);
@@ -171,6 +172,8 @@ static void ask(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, p
     // the depth along a direction: that of the whole sum where its facet is in the cone, otherwise no shorter
     pir_query_result out, all_out;
     assert_int_equal(pir_query_directional_depth(s->ask_region, &input, axis, &out), PIR_OK);
+    expect(out.steps == (out.state == PIR_INSIDE ? 2 : 1), "%s: %u steps to the state and the exit", situation,
+           out.steps);
     assert_int_equal(pir_query_directional_depth(s->ask_whole, &input, axis, &all_out), PIR_OK);
     if (dot(all_out.normal, axis) > cos(half_angle) + RIM) {
         s->along++;

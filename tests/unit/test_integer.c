@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "exact/vectors.h"
 #include "support/integers.h"
 #include "support/random.h"
 
@@ -238,12 +239,41 @@ static void cross_and_dot_products_are_exact(void **state) {
     }
 }
 
+/* Vectors lose the common factor of their components, and their array the limbs that none needs. */
+static void vectors_are_divided_by_what_their_components_share(void **state) {
+    (void)state;
+    const pir_allocator allocator = pir_allocator_or_default(NULL);
+    static const double given[][3] = {{6, -10, 14}, {0, 0, -7}, {0x1p+100, 0, 0x1p+101}, {3, 5, 7}, {0, 0, 0}},
+                        reduced[][3] = {{3, -5, 7}, {0, 0, -1}, {1, 0, 2}, {3, 5, 7}, {0, 0, 0}};
+    pir_vectors vectors;
+    assert_true(pir_vectors_init(&vectors, &allocator, 5, 4));
+    for (uint32_t i = 0; i < 5; i++) {
+        pir_int3 v = pir_vectors_at(&vectors, i);
+        for (int k = 0; k < 3; k++)
+            pir_int_set_double(&v.c[k], given[i][k], 0);
+        pir_vectors_put(&vectors, i, &v);
+    }
+    assert_true(pir_vectors_bits(&vectors) == 102);
+    assert_true(pir_vectors_reduce(&vectors, &allocator));
+    assert_true(vectors.count == 5 && vectors.stride == 1 && pir_vectors_bits(&vectors) == 3);
+    for (uint32_t i = 0; i < 5; i++) {
+        pir_int3 v = pir_vectors_at(&vectors, i);
+        for (int k = 0; k < 3; k++) {
+            int exponent;
+            double x = pir_int_to_double(&v.c[k], &exponent);
+            expect(ldexp(x, exponent) == reduced[i][k], "vector %u, component %d: %g", i, k, ldexp(x, exponent));
+        }
+    }
+    pir_vectors_finish(&vectors, &allocator);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sums_differences_and_products_are_those_of_gmp),
         cmocka_unit_test(shifts_and_bit_counts_are_those_of_gmp),
         cmocka_unit_test(doubles_of_any_size_become_integers_and_back),
+        cmocka_unit_test(vectors_are_divided_by_what_their_components_share),
         cmocka_unit_test(large_integers_become_doubles_within_the_stated_bound),
         cmocka_unit_test(cross_and_dot_products_are_exact),
     };
