@@ -38,6 +38,22 @@ struct motion {
 static pir_pair_statistics used;
 static uint64_t inside_by_facet, apart;
 
+/* One answer counts once, and as what its level says. */
+static void expect_counted(const pir_pair *pair, const pir_pair_statistics *before) {
+    const pir_pair_statistics now = pir_pair_get_statistics(pair);
+    const uint64_t apart_now = now.by_certificate - before->by_certificate, facet = now.by_facet - before->by_facet,
+                   descent = now.by_descent - before->by_descent, surface = now.by_surface - before->by_surface,
+                   whole = now.by_whole - before->by_whole;
+    const pir_level level = pir_pair_level(pair);
+    assert_int_equal(now.queries, before->queries + 1);
+    assert_true(now.supports - before->supports < 10000 && now.begun - before->begun < 100);
+    expect(apart_now == (level == PIR_LEVEL_APART) && facet + descent == (level == PIR_LEVEL_NEAR) && facet <= 1 &&
+               surface == (level == PIR_LEVEL_OVERLAPPING) && whole == (level == PIR_LEVEL_WHOLE),
+           "level %d: apart %llu, facet %llu, descent %llu, surface %llu, whole %llu", (int)level,
+           (unsigned long long)apart_now, (unsigned long long)facet, (unsigned long long)descent,
+           (unsigned long long)surface, (unsigned long long)whole);
+}
+
 static bool same_contact(const pir_contact *a, const pir_contact *b) {
     return a->id == b->id && memcmp(&a->distance, &b->distance, 8) == 0 && memcmp(&a->point_p, &b->point_p, 24) == 0 &&
            memcmp(&a->point_q, &b->point_q, 24) == 0;
@@ -52,7 +68,9 @@ static void check_near(struct motion *motion, int frame, pir_pair_input input) {
     asked.translation = input.pose_p.translation;
     asked.cutoff = input.cutoff = asked.margin = input.margin = motion->size * (frame % 7 ? 0.02 : 0.1);
     assert_int_equal(pir_query_signed_distance(motion->query, &asked, NULL, &expected), PIR_OK);
+    const pir_pair_statistics before = pir_pair_get_statistics(motion->near);
     pir_status status = pir_pair_signed_distance(motion->near, motion->workspace, &input, &result);
+    expect_counted(motion->near, &before);
     expect(status == PIR_OK && test_same_result(&result, &expected),
            "motion %llu, frame %d, with a cutoff: status %d, level %d, outcome %d not %d, distance %.17g not %.17g",
            (unsigned long long)motion->number, frame, (int)status, (int)pir_pair_level(motion->near),
@@ -105,9 +123,10 @@ static void check_frame(struct motion *motion, int frame, pir_quat rotation, pir
     asked.translation = t;
     assert_int_equal(pir_sum_rotate(motion->sum, rotation, PIR_METHOD_AUTO), PIR_OK);
     assert_int_equal(pir_query_signed_distance(motion->query, &asked, NULL, &expected), PIR_OK);
-    uint64_t before = pir_pair_get_statistics(motion->pair).by_facet;
+    const pir_pair_statistics before = pir_pair_get_statistics(motion->pair);
     pir_status status = pir_pair_signed_distance(motion->pair, motion->workspace, &input, &result);
-    inside_by_facet += pir_pair_get_statistics(motion->pair).by_facet > before && expected.state == PIR_INSIDE;
+    inside_by_facet += pir_pair_get_statistics(motion->pair).by_facet > before.by_facet && expected.state == PIR_INSIDE;
+    expect_counted(motion->pair, &before);
     expect(status == PIR_OK && test_same_result(&result, &expected),
            "motion %llu, frame %d: status %d, level %d, state %d not %d, distance %.17g not %.17g, witness %d %u %d %u "
            "not "
