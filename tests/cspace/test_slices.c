@@ -183,20 +183,24 @@ static bool try_job(const struct slice_scene *scene, const char *path, test_memo
     pir_cspace_job *job = NULL;
     pir_cspace *cspace = NULL;
     pir_slice slice;
+    pir_report report = {0};
     options.allocator = &a;
     options.planes = 1;
-    pir_status status = pir_cspace_job_create(&scene->bodies, scene->grid, path, &options, NULL, &job);
+    pir_status status = pir_cspace_job_create(&scene->bodies, scene->grid, path, &options, &report, &job);
     if (status == PIR_OK)
-        status = pir_cspace_job_run(job, NULL);
+        status = pir_cspace_job_run(job, &report);
     if (status == PIR_OK)
-        status = pir_cspace_job_assemble(job, NULL);
+        status = pir_cspace_job_assemble(job, &report);
     pir_cspace_job_destroy(job);
     if (status == PIR_OK)
-        status = pir_cspace_open(path, &a, NULL, &cspace);
+        status = pir_cspace_open(path, &a, &report, &cspace);
     if (status == PIR_OK)
-        status = pir_cspace_slice(cspace, (pir_cspace_place){1, 0, 3}, NULL, &slice);
+        status = pir_cspace_slice(cspace, (pir_cspace_place){1, 0, 3}, &report, &slice);
     pir_cspace_close(cspace);
-    assert_true(status == PIR_OK || memory->requests >= memory->fail_at);
+    // a request that fails is told, never passed over
+    const bool failed = memory->requests >= memory->fail_at;
+    expect(failed ? status == PIR_ERR_MEMORY || status == PIR_ERR_FILE : status == PIR_OK,
+           "status %d after %llu requests: %s", (int)status, (unsigned long long)memory->requests, report.text);
     return status != PIR_OK;
 }
 
@@ -220,6 +224,58 @@ static void memory_runs_out_anywhere(void **state) {
     slice_scene_finish(&scene);
 }
 
+/* A call on a file, in memory that fails at a request. */
+typedef pir_status file_call(const char *path, const pir_allocator *allocator);
+
+static pir_status check_it(const char *path, const pir_allocator *allocator) {
+    return pir_cspace_check(path, allocator, NULL);
+}
+
+static pir_status seal_it(const char *path, const pir_allocator *allocator) {
+    return pir_cspace_seal(path, allocator, NULL);
+}
+
+static pir_status sum_of_it(const char *path, const pir_allocator *allocator) {
+    pir_cspace *cspace = NULL;
+    pir_sum *sum = NULL;
+    pir_status status = pir_cspace_open(path, allocator, NULL, &cspace);
+    if (status == PIR_OK)
+        status = pir_cspace_sum(cspace, (pir_cspace_place){0, 0, 2}, NULL, &sum);
+    pir_sum_destroy(sum);
+    pir_cspace_close(cspace);
+    return status;
+}
+
+static void memory_that_runs_out_is_told_by_each_call_on_a_file(void **state) {
+    (void)state;
+    static file_call *const calls[] = {check_it, seal_it, sum_of_it};
+    struct slice_scene scene;
+    char path[SLICE_PATH], as_it_was[SLICE_PATH];
+    pir_cspace_options options = slice_short_units();
+    slice_scene_make(&scene, 4);
+    slice_path("told.h5", path);
+    slice_path("as it was.h5", as_it_was);
+    slice_make_file(&scene, path, &options);
+    slice_make_file(&scene, as_it_was, &options);
+    for (size_t call = 0; call < sizeof calls / sizeof *calls; call++) {
+        bool failed = true;
+        for (uint64_t n = 1; failed; n++) {
+            test_memory memory = {.fail_at = n};
+            const pir_allocator a = test_allocator(&memory);
+            pir_status status = calls[call](path, &a);
+            failed = memory.requests >= n;
+            expect(status == (failed ? PIR_ERR_MEMORY : PIR_OK), "call %zu, request %llu: status %d", call,
+                   (unsigned long long)n, (int)status);
+            expect(memory.blocks == 0 && !memory.wrong_size && !memory.overrun, "call %zu, request %llu: %zu blocks",
+                   call, (unsigned long long)n, memory.blocks);
+        }
+        slice_expect_same_files(path, as_it_was);
+    }
+    unlink(path);
+    unlink(as_it_was);
+    slice_scene_finish(&scene);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -227,6 +283,7 @@ int main(void) {
         cmocka_unit_test(half_spaces_hold_the_difference),
         cmocka_unit_test(damaged_files_are_refused_or_read),
         cmocka_unit_test(memory_runs_out_anywhere),
+        cmocka_unit_test(memory_that_runs_out_is_told_by_each_call_on_a_file),
     };
     return cmocka_run_group_tests(tests, slice_make_folder, slice_remove_folder);
 }
