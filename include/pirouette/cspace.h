@@ -98,8 +98,8 @@ PIR_API pir_cspace_options pir_cspace_options_default(void);
  * Cost: O(rotations + size of the pieces); with `resume`, the time to read all parts.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY (no pieces), PIR_ERR_FORMAT (with `resume`, a part of another job, or a file
- * that is another one and no part of this job), PIR_ERR_FILE (also where another job holds the lock), PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no
- * HDF5).
+ * that is another one and no part of this job), PIR_ERR_FILE (also where another job holds the lock), PIR_ERR_LIMIT,
+ * PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no HDF5).
  */
 PIR_API pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
                                          const pir_cspace_options *options, pir_report *report,

@@ -95,7 +95,7 @@ class Race(CommandTest):
         return digest(output)
 
     def rounds(self, jobs, output, rounds, on_the_way=()):
-        """`jobs`: for each its arguments and words that it may have. `on_the_way`: what a run puts there before it ends."""
+        """`jobs`: for each its arguments and words that it may have. `on_the_way`: files of a run before it ends."""
         print(f"{self.id()}: {rounds} rounds, PIR_TEST_SEED={SEED}")
         made = [self.alone(job[0], output) for job in jobs]
         for number in range(rounds):
@@ -225,7 +225,8 @@ class Stages(Race):
         output = self.folder_of("a.h5")
         self.assertGreater(self.each_stage(self.slicing("shape:cube"), output, False, True), 30)
         self.assertGreater(self.each_stage(self.slicing("shape:cube"), output, True, True), 30)
-        for ending, args in ((".off", ["sum", self.tetrahedron, self.pyramid, "-o"]), (".svg", ["cgm", "shape:gs2", "-o"])):
+        for ending, args in ((".off", ["sum", self.tetrahedron, self.pyramid, "-o"]),
+                             (".svg", ["cgm", "shape:gs2", "-o"])):
             self.assertGreater(self.each_stage(args, output.with_suffix(ending), True, False), 4)
 
     def test_without_locks(self):

@@ -194,8 +194,8 @@ static void the_closest_pairs_are_those_of_all(void **state) {
 /* --- rays --- */
 
 /*
- * Whether a segment meets a piece, by pairs: 1 it does, 0 it does not, −1 where doubles cannot tell whether it touches
- * a rounded body.
+ * Whether a segment meets a piece, by pairs: 1 it does, 0 it does not, −1 where doubles cannot tell whether it
+ * touches a rounded body.
  */
 static int segment_hits(const crowd *c, pir_vec3 origin, pir_vec3 way, uint32_t mask) {
     test_points ends = {2, {test_zero, way}};

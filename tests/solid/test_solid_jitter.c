@@ -4,7 +4,7 @@
  *
  *     closed        each edge is walked as often one way as the other, and what is written is a solid to read, of the
  *                   volume of its mesh
- *     volume        R·P ⊕ Q and Q turned back ⊕ P have one volume, exactly; of open solids it is that of the closed ones
+ *     volume        R·P ⊕ Q and Q turned back ⊕ P have one volume, exactly, and open solids that of closed ones
  *     time          no sum takes more than 100 times what that of the unmoved bodies takes, or 20 ms
  *
  * PIR_TEST_CASES sets how many cases there are, PIR_TEST_CASE names one of them.

@@ -31,8 +31,8 @@ bool column_add(struct column *column, const void *row);
 bool column_close(struct column *column);
 
 /*
- * A group, and a new file in place of one that is there, which hold no times, so that equal runs make equal files. 0 when
- * HDF5 failed.
+ * A group, and a new file in place of one that is there. They hold no times, so that equal runs make equal files.
+ * 0 when HDF5 failed.
  */
 hid_t group_make(hid_t parent, const char *name);
 hid_t file_make(const char *path);

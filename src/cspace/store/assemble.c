@@ -192,7 +192,7 @@ static bool put_sections(struct output *out, pir_status *status, pir_report *rep
 
 /* --- the file --- */
 
-/* Opens a new file for HDF5 to write. Jobs have a lock of their own, so that HDF5's, which some systems lack, is off. */
+/* Opens a new file for HDF5 to write. Jobs have a lock of their own: HDF5's, which some systems lack, is off. */
 static hid_t create_file(const char *path) {
     hid_t create = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
     hid_t file = -1;
@@ -226,8 +226,8 @@ static uint64_t most_bytes(const pir_parts *parts) {
 }
 
 /*
- * Makes the file, which must not be there, and tells whether it may become so large. Where HDF5 cannot write to the end, it cannot close the file either, and some
- * versions of it crash when the process ends. So limits are met before.
+ * Makes the file, which must not be there, and tells whether it may become so large. Where HDF5 cannot write to the
+ * end, it cannot close the file either, and some versions of it crash when the process ends. So limits are met before.
  */
 static bool make_room(const pir_parts *parts, const char *path) {
     const uint64_t most = most_bytes(parts);

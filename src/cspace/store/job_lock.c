@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The lock is that of flock, which belongs to the open file: no descriptor that is closed elsewhere in the process drops
- * it. The file is removed while the lock is held. So whoever gets the lock looks whether the name still leads to the
+ * The lock is that of flock, which belongs to the open file: no descriptor closed elsewhere in the process drops it.
+ * The file is removed while the lock is held. So whoever gets the lock looks whether the name still leads to the
  * file that it has opened, and else begins again.
  */
 #include "cspace/store/job_lock.h"

@@ -132,8 +132,8 @@ static bool holds(struct tracer *t, const pir_loop *loop, uint32_t point) {
     return inside;
 }
 
-/* Twice the area of a loop that goes round a facet, seen along one axis, up to a sign that all loops of the plane share:
- * exactly, as a product over all corners. */
+/* Twice the area of a loop that goes round a facet, seen along one axis, up to a sign that all loops of the plane
+ * share: exactly, as a product over all corners. */
 static void exact_area(struct tracer *t, const pir_loop *loop, mpq_t ret_area) {
     const uint32_t *corner = t->list->corner + loop->first;
     pir_space *space = t->space;
