@@ -61,6 +61,16 @@ static inline pir_int3 pir_num3_sub(pir_limbs *limbs, const pir_int3 *a, const p
                        pir_num_sub(limbs, &a->c[2], &b->c[2])}};
 }
 
+static inline pir_int3 pir_num3_add(pir_limbs *limbs, const pir_int3 *a, const pir_int3 *b) {
+    return (pir_int3){{pir_num_add(limbs, &a->c[0], &b->c[0]), pir_num_add(limbs, &a->c[1], &b->c[1]),
+                       pir_num_add(limbs, &a->c[2], &b->c[2])}};
+}
+
+static inline pir_int3 pir_num3_scale(pir_limbs *limbs, const pir_int3 *a, const pir_int *by) {
+    return (pir_int3){
+        {pir_num_mul(limbs, &a->c[0], by), pir_num_mul(limbs, &a->c[1], by), pir_num_mul(limbs, &a->c[2], by)}};
+}
+
 static inline pir_int3 pir_num3_cross(pir_limbs *limbs, const pir_int3 *a, const pir_int3 *b) {
     return (pir_int3){{pir_num_minor(limbs, &a->c[1], &b->c[2], &a->c[2], &b->c[1]),
                        pir_num_minor(limbs, &a->c[2], &b->c[0], &a->c[0], &b->c[2]),

@@ -54,7 +54,8 @@ static bool look_at_leaf(const pir_trimesh *mesh, const pir_walk *walk, uint32_t
 }
 
 static void walk_mesh(const pir_trimesh *mesh, const pir_walk *walk) {
-    struct stack stack = {.used = 1};
+    struct stack stack;
+    stack.used = 1; // the rest is written before it is read
     stack.entry[0] = (struct entry){0, -HUGE_VAL};
     while (stack.used > 0) {
         struct entry entry = stack.entry[--stack.used];
@@ -147,7 +148,8 @@ static void push_blocks(const pir_height_field *field, const pir_walk *walk, str
 }
 
 static void walk_field(const pir_height_field *field, const pir_walk *walk) {
-    struct stack stack = {.used = 1};
+    struct stack stack;
+    stack.used = 1; // the rest is written before it is read
     stack.entry[0] = (struct entry){block(field->levels - 1, 0, 0), -HUGE_VAL};
     while (stack.used > 0) {
         struct entry entry = stack.entry[--stack.used];

@@ -277,9 +277,12 @@ pir_span pir_triangle_span(const pir_corners *a, const pir_corners *b, double er
         span.certain = is_certain(a, b, &found, error);
         span.a = ids_of(a, &found, 0);
         span.b = ids_of(b, &found, 1);
-    } else if (meet_certainly(a, b, error, &span.point_a)) {
+        return span;
+    }
+    pir_vec3 point;
+    if (meet_certainly(a, b, error, &point)) {
         span.meets = true;
-        span.point_b = span.point_a;
+        span.point_a = span.point_b = point;
         span.high = 0;
     }
     return span;

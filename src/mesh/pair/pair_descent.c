@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT */
+/* Descents from the roots, and the search for the lowest two triangles that meet, which is one. */
+#include "mesh/pair/pair_descent.h"
+
+#define STACK (3 * 2 * PIR_MESH_DEPTH + PIR_LANES)
+
+struct task {
+    pir_mesh_item p, q;
+    float n[3];
+};
+
+struct tasks {
+    struct task task[STACK];
+    uint32_t used;
+};
+
+static uint32_t child_of(const pir_trimesh_pair *pair, int side, pir_mesh_item item) {
+    return pir_item_child(pair->mesh[side], item);
+}
+
+/* Whether a pair of items has lower triangles than another: it is looked at first. */
+static bool is_before(const pir_trimesh_pair *pair, const struct task *a, const struct task *b) {
+    uint32_t ap = pir_item_least(pair->mesh[0], a->p), bp = pir_item_least(pair->mesh[0], b->p);
+    return ap < bp || (ap == bp && pir_item_least(pair->mesh[1], a->q) < pir_item_least(pair->mesh[1], b->q));
+}
+
+static void push(const pir_trimesh_pair *pair, struct tasks *tasks, uint32_t first, const struct task *task) {
+    uint32_t at = tasks->used++;
+    for (; at > first && is_before(pair, &tasks->task[at - 1], task); at--)
+        tasks->task[at] = tasks->task[at - 1];
+    tasks->task[at] = *task;
+}
+
+/* Pushes those of four pairs of items that may be within the distance. */
+static void sort_lanes(pir_trimesh_pair *pair, const pir_pair_descent *d, struct tasks *tasks, const pir_lanes *p,
+                       const pir_lanes *q, struct task *lane) {
+    pir_axes axes;
+    for (int i = 0; i < PIR_LANES; i++)
+        for (int k = 0; k < 3; k++)
+            axes.n[k][i] = lane[i].n[k];
+    pir_bound_along(&pair->floats, p, q, &axes);
+    pir_bound_by_nodes(&pair->floats, p, q, &axes);
+    uint32_t first = tasks->used;
+    for (int i = 0; i < PIR_LANES; i++) {
+        if (lane[i].p == PIR_MESH_NO_CHILD || (double)axes.bound[i] > d->within ||
+            (d->skip && d->skip(d->context, lane[i].p, lane[i].q)))
+            continue;
+        pair->counts.bounds++;
+        for (int k = 0; k < 3; k++)
+            lane[i].n[k] = axes.n[k][i];
+        push(pair, tasks, first, &lane[i]);
+    }
+}
+
+/* The children of the larger item that is no leaf, against the other. */
+static void divide(pir_trimesh_pair *pair, const pir_pair_descent *d, struct tasks *tasks, const struct task *task) {
+    pir_lanes lanes[2];
+    pir_lane_set(&lanes[0], 0, pair->mesh[0], task->p);
+    pir_lane_set(&lanes[1], 0, pair->mesh[1], task->q);
+    int side = pir_lane_size(&lanes[0], 0) >= pir_lane_size(&lanes[1], 0) ? 0 : 1;
+    if (pir_mesh_is_leaf(child_of(pair, side, side == 0 ? task->p : task->q)))
+        side = 1 - side;
+    uint32_t node = child_of(pair, side, side == 0 ? task->p : task->q);
+    pir_lanes_set_node(&lanes[side], pair->mesh[side], node);
+    pir_lanes_repeat(&lanes[1 - side], &lanes[1 - side], 0);
+    struct task lane[PIR_LANES];
+    for (int i = 0; i < PIR_LANES; i++) {
+        lane[i] = *task;
+        pir_mesh_item item = node * PIR_MESH_WIDTH + (uint32_t)i;
+        *(side == 0 ? &lane[i].p : &lane[i].q) = item;
+        if (i >= pair->mesh[side]->tree.node[node].count)
+            lane[i].p = PIR_MESH_NO_CHILD;
+    }
+    sort_lanes(pair, d, tasks, &lanes[0], &lanes[1], lane);
+}
+
+static void work(pir_trimesh_pair *pair, const pir_pair_descent *d, struct tasks *tasks) {
+    while (tasks->used > 0) {
+        struct task task = tasks->task[--tasks->used];
+        if (d->skip && d->skip(d->context, task.p, task.q))
+            continue;
+        const uint32_t leaf[2] = {child_of(pair, 0, task.p), child_of(pair, 1, task.q)};
+        if (pir_mesh_is_leaf(leaf[0]) && pir_mesh_is_leaf(leaf[1]))
+            d->look(d->context, leaf, (pir_vec3){(double)task.n[0], (double)task.n[1], (double)task.n[2]});
+        else
+            divide(pair, d, tasks, &task);
+    }
+}
+
+void pir_pair_descend(pir_trimesh_pair *pair, const pir_pair_descent *descent) {
+    const uint8_t of_p = pair->mesh[0]->tree.node[0].count, of_q = pair->mesh[1]->tree.node[0].count;
+    for (uint32_t i = 0; i < of_p; i++) {
+        struct tasks tasks;
+        tasks.used = 0; // the rest is written before it is read
+        struct task lane[PIR_LANES];
+        pir_lanes p, q;
+        pir_lane_set(&p, 0, pair->mesh[0], i);
+        pir_lanes_repeat(&p, &p, 0);
+        pir_lanes_set_node(&q, pair->mesh[1], 0);
+        for (uint32_t j = 0; j < PIR_LANES; j++)
+            lane[j] = (struct task){j < of_q ? i : PIR_MESH_NO_CHILD, j, {1, 0, 0}};
+        sort_lanes(pair, descent, &tasks, &p, &q, lane);
+        work(pair, descent, &tasks);
+    }
+}
+
+/* --- the lowest two that meet --- */
+
+static bool cannot_be_lower(const void *context, pir_mesh_item p, pir_mesh_item q) {
+    const pir_trimesh_pair *pair = context;
+    const pir_best_pair *best = &pair->best;
+    uint32_t least = pir_item_least(pair->mesh[0], p);
+    return least > best->p || (least == best->p && pir_item_least(pair->mesh[1], q) >= best->q);
+}
+
+static void look_at_meeting(void *context, const uint32_t leaf[2], pir_vec3 n) {
+    pir_trimesh_pair *pair = context;
+    double gap;
+    (void)pir_leaf_pair_consider(&pair->best, &pair->frame, leaf, &n, &gap, &pair->counts);
+}
+
+void pir_meeting_pair_find(pir_trimesh_pair *pair) {
+    pir_pair_descend(pair, &(pir_pair_descent){0, cannot_be_lower, look_at_meeting, pair});
+}
