@@ -115,8 +115,10 @@ bool output_same(const char *path, const char *other) {
     struct stat there[2];
     if (output_is_stdout(path) || output_is_stdout(other))
         return output_is_stdout(path) && output_is_stdout(other);
-    if (stat(path, &there[0]) == 0 && stat(other, &there[1]) == 0 && S_ISFIFO(there[0].st_mode) &&
-        there[0].st_dev == there[1].st_dev && there[0].st_ino == there[1].st_ino)
+    const bool are = stat(path, &there[0]) == 0 && stat(other, &there[1]) == 0;
+    if (are && (S_ISCHR(there[0].st_mode) || S_ISCHR(there[1].st_mode)))
+        return false;
+    if (are && S_ISFIFO(there[0].st_mode) && there[0].st_dev == there[1].st_dev && there[0].st_ino == there[1].st_ino)
         return true;
     char *target = follow_links(path), *second = target ? follow_links(other) : NULL;
     bool same = second && is_same_name(target, second);
@@ -143,6 +145,40 @@ static ssize_t sink_write(void *cookie, const char *data, size_t size) {
     }
     errno = sink->error;
     return sink->error == 0 ? (ssize_t)done : 0;
+}
+
+void output_write_at(struct output_file *file, const void *data, size_t size, uint64_t at) {
+    struct output_sink *sink = file->sink;
+    for (size_t done = 0; done < size && sink->error == 0;) {
+        ssize_t put = pwrite(sink->descriptor, (const char *)data + done, size - done, (off_t)(at + done));
+        if (put < 0 && errno != EINTR)
+            sink->error = errno;
+        done += put > 0 ? (size_t)put : 0;
+    }
+}
+
+bool output_read_at(struct output_file *file, void *data, size_t size, uint64_t at) {
+    memset(data, 0, size);
+    for (size_t done = 0; done < size;) {
+        ssize_t got = pread(file->sink->descriptor, (char *)data + done, size - done, (off_t)(at + done));
+        if (got == 0)
+            return true;
+        if (got < 0 && errno != EINTR)
+            return false;
+        done += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+void output_cut(struct output_file *file, uint64_t size) {
+    struct output_sink *sink = file->sink;
+    if (sink->error == 0 && ftruncate(sink->descriptor, (off_t)size) != 0)
+        sink->error = errno;
+}
+
+uint64_t output_size(struct output_file *file) {
+    struct stat about;
+    return fstat(file->sink->descriptor, &about) == 0 ? (uint64_t)about.st_size : 0;
 }
 
 /* Closes what the sink had open, but for standard output. Some systems tell of a full disk only here. */
@@ -278,7 +314,7 @@ bool output_open(struct output_file *file, const char *path) {
 /* --- closing --- */
 
 bool output_failed(struct output_file *file) {
-    if (fflush(file->stream) == 0 && !ferror(file->stream))
+    if (fflush(file->stream) == 0 && !ferror(file->stream) && file->sink->error == 0)
         return false;
     errno = file->sink->error;
     return !complain_file(file->path, "write");

@@ -12,6 +12,7 @@
 #define TOOLS_FILE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 struct output_sink;
@@ -32,6 +33,15 @@ bool output_commit(struct output_file *file);
 
 /* Whether a write to the stream of an open file has failed, which is then complained of. */
 bool output_failed(struct output_file *file);
+
+/*
+ * For who writes to places in a regular file, rather than to its stream: after the first failure nothing is written.
+ * Bytes behind the end are read as zeros; false where they cannot be read.
+ */
+void output_write_at(struct output_file *file, const void *data, size_t size, uint64_t at);
+bool output_read_at(struct output_file *file, void *data, size_t size, uint64_t at);
+void output_cut(struct output_file *file, uint64_t size);
+uint64_t output_size(struct output_file *file);
 
 /* Removes what is not committed; a file that is not open, or zeroed, is accepted. */
 void output_discard(struct output_file *file);

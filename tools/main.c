@@ -6,8 +6,8 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <pirouette/version.h>
 
@@ -46,7 +46,7 @@ static int run(int argc, char *const *argv) {
         return EXIT_DONE;
     }
     if (is_option(argv[1], "--version")) {
-        printf("pirouette %s\n", pir_version());
+        say("pirouette %s\n", pir_version());
         return EXIT_DONE;
     }
     const struct command *command = command_find(argv[1]);
@@ -63,12 +63,14 @@ static void hold_standard_streams(void) {
 }
 
 int main(int argc, char **argv) {
+    static char printed[1 << 16];
     hold_standard_streams();
+    // help, which is shorter, is then written at once, so that a failure is told with its reason
+    if (!isatty(STDOUT_FILENO))
+        setvbuf(stdout, printed, _IOFBF, sizeof printed);
     // A reader that goes away is a failed write, to be told like any other; so is a limit on the size of files.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-    // HDF5 would lock the files that it writes for this command, which have locks, or fail where there are none.
-    setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     interrupt_watch();
     int status = run(argc, argv);
     if (status != EXIT_BAD_INPUT && !stdout_arrived())

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../text.h"
+
 void bytes_add(struct bytes *bytes, const void *from, size_t size) {
     if (bytes->room - bytes->size < size) {
         size_t room = 2 * bytes->room + size + 64;
@@ -41,11 +43,16 @@ void bytes_add_vec(struct bytes *bytes, pir_vec3 v) {
 
 void bytes_print_text(FILE *file, const char *text) {
     fputc('"', file);
-    for (; *text; text++)
-        if (strchr("\"\\<>&", *text) || (unsigned char)*text < ' ')
+    while (*text) {
+        const size_t length = text_character(text);
+        if (length == 0)
+            fputs("\\ufffd", file);
+        else if (strchr("\"\\<>&", *text) || (unsigned char)*text < ' ')
             fprintf(file, "\\u%04x", (unsigned)(unsigned char)*text);
         else
-            fputc(*text, file);
+            fwrite(text, 1, length, file);
+        text += length > 0 ? length : 1;
+    }
     fputc('"', file);
 }
 

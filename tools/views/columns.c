@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "columns.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,15 +72,6 @@ hid_t group_make(hid_t parent, const char *name) {
     return group > 0 ? group : 0;
 }
 
-hid_t file_make(const char *path) {
-    hid_t how = H5Pcreate(H5P_FILE_CREATE), file = -1;
-    if (how >= 0 && H5Pset_obj_track_times(how, false) >= 0)
-        file = H5Fcreate(path, H5F_ACC_TRUNC, how, H5P_DEFAULT);
-    if (how >= 0)
-        H5Pclose(how);
-    return file > 0 ? file : 0;
-}
-
 bool attribute_number(hid_t object, const char *name, hid_t stored, hid_t type, const void *values, hsize_t count) {
     hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
     hid_t attribute = space >= 0 ? H5Acreate2(object, name, stored, space, H5P_DEFAULT, H5P_DEFAULT) : -1;
@@ -102,33 +92,6 @@ bool attribute_text(hid_t object, const char *name, const char *text) {
     return done;
 }
 
-/* --- why HDF5 failed --- */
-
-static char first_reason[128];
-
-/* Copies the system's words out of a line of HDF5's, which may have them in quotes behind these. */
-static herr_t read_reason(unsigned line, const H5E_error2_t *error, void *context) {
-    static const char before[] = "error message = '";
-    const char *words = error->desc ? strstr(error->desc, before) : NULL;
-    (void)line;
-    (void)context;
-    if (words && first_reason[0] == '\0') {
-        words += strlen(before);
-        snprintf(first_reason, sizeof first_reason, "%.*s", (int)strcspn(words, "'"), words);
-    }
-    return 0;
-}
-
-/* HDF5 calls this where it would print. */
-static herr_t keep_reason(hid_t stack, void *context) {
-    return H5Ewalk2(stack, H5E_WALK_UPWARD, read_reason, context);
-}
-
 void columns_quiet(void) {
-    first_reason[0] = '\0';
-    H5Eset_auto2(H5E_DEFAULT, keep_reason, NULL);
-}
-
-const char *columns_reason(void) {
-    return first_reason[0] ? first_reason : "HDF5 could not";
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }

@@ -30,21 +30,14 @@ bool column_add(struct column *column, const void *row);
 /* Closes; false when HDF5 failed. One that is closed is accepted. */
 bool column_close(struct column *column);
 
-/*
- * A group, and a new file in place of one that is there. They hold no times, so that equal runs make equal files.
- * 0 when HDF5 failed.
- */
+/* A group, which holds no times, as the datasets do not: equal runs make equal files. 0 when HDF5 failed. */
 hid_t group_make(hid_t parent, const char *name);
-hid_t file_make(const char *path);
 
 /* Attributes of an object; false when HDF5 failed. */
 bool attribute_number(hid_t object, const char *name, hid_t stored, hid_t type, const void *values, hsize_t count);
 bool attribute_text(hid_t object, const char *name, const char *text);
 
-/* Makes HDF5 print no complaints, from here on. */
+/* Makes HDF5 keep its complaints to itself. */
 void columns_quiet(void);
-
-/* What the system gave HDF5 as the reason of its first failure since columns_quiet, in words. */
-const char *columns_reason(void);
 
 #endif

@@ -5,10 +5,12 @@
 #include "../file.h"
 #include "../message.h"
 #include "columns.h"
+#include "sink_file.h"
 
 /* A group under way: how many corners each section has, and all corners. */
 struct planar_group {
-    hid_t file, group; /* 0 when closed */
+    struct sink_file file;
+    hid_t group; /* 0 when closed */
     struct column count, corner;
 };
 
@@ -31,10 +33,10 @@ static bool copy_file(const char *path, struct output_file *out) {
     return done;
 }
 
-static bool group_open(struct planar_group *group, const char *path, const struct planar *planar) {
-    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
-    group->file = file > 0 ? file : 0;
-    if (!group->file || (H5Lexists(file, "planar", H5P_DEFAULT) > 0 && H5Ldelete(file, "planar", H5P_DEFAULT) < 0))
+static bool group_open(struct planar_group *group, struct output_file *out, const struct planar *planar) {
+    const bool open = sink_file_open(&group->file, out);
+    const hid_t file = group->file.file;
+    if (!open || (H5Lexists(file, "planar", H5P_DEFAULT) > 0 && H5Ldelete(file, "planar", H5P_DEFAULT) < 0))
         return false;
     group->group = group_make(file, "planar");
     const char axis[2] = {"xyz"[planar->axis], '\0'};
@@ -48,8 +50,7 @@ static bool group_close(struct planar_group *group) {
     bool done = column_close(&group->count);
     done &= column_close(&group->corner);
     done &= group->group == 0 || H5Gclose(group->group) >= 0;
-    done &= group->file == 0 || H5Fclose(group->file) >= 0;
-    return done;
+    return sink_file_close(&group->file) && done;
 }
 
 static bool put_section(struct planar_group *group, const pir_section *section) {
@@ -97,11 +98,12 @@ bool planar_file_write(const char *path, const struct planar *planar) {
         return false;
     // HDF5 reads the copy as it is
     bool copied = ask_seal(pir_cspace_check, path) && output_open(&out, path) && copy_file(path, &out);
-    bool done = copied && group_open(&group, out.temporary, planar) && put_sections(&group, &slices, planar, &told);
+    bool done = copied && group_open(&group, &out, planar) && put_sections(&group, &slices, planar, &told);
     done &= group_close(&group);
-    if (copied && !done && !told)
-        complain("%s: cannot add the sections: %s", path, columns_reason());
-    done = done && ask_seal(pir_cspace_seal, out.temporary) && output_commit(&out);
+    const bool failed = copied && !told && output_failed(&out);
+    if (copied && !done && !told && !failed)
+        complain("%s: HDF5 cannot add the sections", path);
+    done = done && !failed && ask_seal(pir_cspace_seal, out.temporary) && output_commit(&out);
     output_discard(&out);
     slices_close(&slices);
     return done;

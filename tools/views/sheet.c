@@ -10,6 +10,7 @@
 
 #include "../message.h"
 #include "../model.h"
+#include "../text.h"
 #include "hidden.h"
 
 /* A view, the space between views, the line under each, the title's line. */
@@ -135,11 +136,7 @@ static double angle_of(pir_quat q) {
 
 static void put_title(FILE *file, const struct slices *slices, const struct planar *planar) {
     fprintf(file, "<text x=\"%g\" y=\"22\" font-size=\"15\">", VIEW_SPACE);
-    for (const char *c = model_title(slices->path); *c; c++)
-        if (*c == '<' || *c == '&' || *c == '>')
-            fprintf(file, "&#%d;", *c);
-        else if ((unsigned char)*c >= ' ')
-            fputc(*c, file);
+    text_print_xml(file, model_title(slices->path));
     fprintf(file, ": %llu of %llu slices", (unsigned long long)slices->count,
             (unsigned long long)slices->info.grid.count);
     if (planar->given)

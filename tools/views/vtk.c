@@ -13,6 +13,7 @@
 #include "../file.h"
 #include "../message.h"
 #include "columns.h"
+#include "sink_file.h"
 
 #define VTK_POLYGON 7
 
@@ -36,14 +37,14 @@ enum {
 };
 
 struct vtk_file {
-    hid_t file, root, cells, steps, offsets; /* groups; 0 when closed */
+    struct sink_file file;
+    hid_t root, cells, steps, offsets; /* groups; 0 when closed */
     struct column cell[CELL_DATASETS], step[STEP_DATASETS];
 };
 
-static bool open_groups(struct vtk_file *vtk, const char *path, const struct slices *slices) {
+static bool open_groups(struct vtk_file *vtk, struct output_file *out, const struct slices *slices) {
     const int64_t version[2] = {1, 0}, count = (int64_t)slices->count;
-    vtk->file = file_make(path);
-    vtk->root = vtk->file ? group_make(vtk->file, "VTKHDF") : 0;
+    vtk->root = sink_file_make(&vtk->file, out) ? group_make(vtk->file.file, "VTKHDF") : 0;
     vtk->cells = vtk->root ? group_make(vtk->root, "CellData") : 0;
     vtk->steps = vtk->root ? group_make(vtk->root, "Steps") : 0;
     vtk->offsets = vtk->steps ? group_make(vtk->steps, "CellDataOffsets") : 0;
@@ -96,8 +97,7 @@ static bool close_all(struct vtk_file *vtk) {
     const hid_t groups[] = {vtk->offsets, vtk->steps, vtk->cells, vtk->root};
     for (int i = 0; i < 4; i++)
         done &= groups[i] == 0 || H5Gclose(groups[i]) >= 0;
-    done &= vtk->file == 0 || H5Fclose(vtk->file) >= 0;
-    return done;
+    return sink_file_close(&vtk->file) && done;
 }
 
 /* One facet; its corners count from `first` on. */
@@ -171,12 +171,12 @@ bool vtk_write(const char *path, const struct slices *slices) {
     struct vtk_file vtk = {0};
     bool told = false;
     columns_quiet();
-    bool done = open_groups(&vtk, out.temporary, slices) && open_columns(&vtk);
+    bool done = open_groups(&vtk, &out, slices) && open_columns(&vtk);
     for (uint64_t s = 0; done && s < slices->count; s++)
         done = put_slice(&vtk, slices, s, &told);
     done &= close_all(&vtk);
-    if (!done && !told)
-        complain("%s: cannot write: %s", path, columns_reason());
+    if (!done && !told && !output_failed(&out))
+        complain("%s: HDF5 cannot write the file", path);
     done = done && output_commit(&out);
     output_discard(&out);
     return done;
