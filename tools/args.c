@@ -34,6 +34,10 @@ static bool take_option(struct args *args, int argc, char *const *argv, int *at)
         return false;
     }
     const struct option *option = &args->command->options[row];
+    if (args->value[row]) {
+        complain("%s: %s is given twice", name, option->name);
+        return false;
+    }
     if (!option->value) {
         if (equals) {
             complain("%s: %.*s takes no value, but is given '%s'", name, (int)(equals - text), text, equals + 1);

@@ -3,7 +3,7 @@
  * The arguments of a subcommand: positional ones in order, options by name, values checked as they are read.
  *
  * An option's value follows as `--opt value` or `--opt=value` and may begin with a minus sign either way. `--` ends the
- * options. Of an option given twice the last counts. Every function that returns false has complained on stderr.
+ * options. An option is given once. Every function that returns false has complained on stderr.
  */
 #ifndef TOOLS_ARGS_H
 #define TOOLS_ARGS_H

@@ -74,25 +74,25 @@ static bool print_json(const struct args *args, const struct outcome *outcome) {
 }
 
 static void print_counts(const char *name, pir_cgm_counts counts) {
-    printf("  %-10s %8" PRIu32 " %10" PRIu32 " %8" PRIu32 "\n", name, counts.vertices, counts.halfedges, counts.faces);
+    say("  %-10s %8" PRIu32 " %10" PRIu32 " %8" PRIu32 "\n", name, counts.vertices, counts.halfedges, counts.faces);
 }
 
 static void print_text(const struct args *args, const struct outcome *outcome) {
     char time[TEXT_NUMBER];
     text_time(outcome->seconds * 1e9, time);
-    printf("cubical Gaussian map of %s", args->positional[0]);
-    printf(args->positional_count > 1 ? " and %s\n" : "\n", args->positional[1]);
+    say("cubical Gaussian map of %s", args->positional[0]);
+    say(args->positional_count > 1 ? " and %s\n" : "\n", args->positional[1]);
     surface_print_notes(outcome->surfaces, args->positional_count);
-    printf("  %-10s %8s %10s %8s\n", "map", "vertices", "halfedges", "faces");
+    say("  %-10s %8s %10s %8s\n", "map", "vertices", "halfedges", "faces");
     for (uint32_t map = 0; map < 6; map++)
         print_counts(pir_cgm_map_name(map), pir_cgm_map_counts(outcome->cgm, map));
     print_counts("total", pir_cgm_total_counts(outcome->cgm));
-    printf("  %-10s vertices %" PRIu32 ", edges %" PRIu32 ", facets %" PRIu32 "\n",
-           args->positional_count > 1 ? "sum" : "polytope", pir_mesh_vertex_count(outcome->mesh),
-           pir_mesh_edge_count(outcome->mesh), pir_mesh_facet_count(outcome->mesh));
-    printf("  %-10s %s\n", "time", time);
+    say("  %-10s vertices %" PRIu32 ", edges %" PRIu32 ", facets %" PRIu32 "\n",
+        args->positional_count > 1 ? "sum" : "polytope", pir_mesh_vertex_count(outcome->mesh),
+        pir_mesh_edge_count(outcome->mesh), pir_mesh_facet_count(outcome->mesh));
+    say("  %-10s %s\n", "time", time);
     if (args_has(args, "-o"))
-        printf("  %-10s %s\n", "file", args_value(args, "-o"));
+        say("  %-10s %s\n", "file", args_value(args, "-o"));
 }
 
 /* P, reflected when the difference is asked for, and Q when there is one; false after a complaint. */

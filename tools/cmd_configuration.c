@@ -79,6 +79,22 @@ static bool read_request(const struct args *args, struct request *request) {
     return target_check(args, "-o", NULL);
 }
 
+/* Complains of what came of a pose; its numbers may be at fault, which `option` gave. */
+static int complain_option(const struct args *args, const char *option, pir_status status, const pir_report *report) {
+    if (status != PIR_ERR_LIMIT)
+        return complain_status(args->positional[0], status, report);
+    return complain("configuration: %s: '%s': %s", option, args_value(args, option), pir_status_text(status));
+}
+
+/* The same of pose `number` of a file of them. */
+static void complain_row(const struct args *args, size_t number, pir_status status, const pir_report *report) {
+    const char *path = args_value(args, "--batch");
+    if (status != PIR_ERR_LIMIT)
+        complain_status(args->positional[0], status, report);
+    else
+        complain("%s: pose %zu: %s", input_is_stdin(path) ? INPUT_NAME : path, number, pir_status_text(status));
+}
+
 /* --- one pose --- */
 
 static void add_pose(struct json *json, const char *quat_name, const char *translation_name, const pir_pose *pose) {
@@ -91,12 +107,12 @@ static void add_pose(struct json *json, const char *quat_name, const char *trans
 static bool print_pose(const struct args *args, const struct request *request, const pir_configuration *answer,
                        double seconds) {
     if (!args_has(args, "--json")) {
-        printf("%s: %s\n", args->positional[0], verdict_names[answer->verdict]);
+        say("%s: %s\n", args->positional[0], verdict_names[answer->verdict]);
         if (answer->on_grid)
-            printf("  %-12s %s\n", "state", state_names[answer->state]);
-        printf("  %-12s %" PRIu64 " of robot piece %" PRIu32 " and obstacle piece %" PRIu32 ", %.6g degrees away\n",
-               "slice", answer->place.slice, answer->place.robot, answer->place.obstacle,
-               answer->turn * 57.29577951308232);
+            say("  %-12s %s\n", "state", state_names[answer->state]);
+        say("  %-12s %" PRIu64 " of robot piece %" PRIu32 " and obstacle piece %" PRIu32 ", %.6g degrees away\n",
+            "slice", answer->place.slice, answer->place.robot, answer->place.obstacle,
+            answer->turn * 57.29577951308232);
         return true;
     }
     struct json json = json_new();
@@ -118,23 +134,27 @@ static int run_pose(const struct args *args, pir_cspace *cspace, const struct re
     pir_report report = {0};
     pir_status status = pir_cspace_classify(cspace, &request->pose, &report, &answer);
     if (status != PIR_OK)
-        return complain_status(args->positional[0], status, &report);
+        return complain_option(args, "--translate", status, &report);
     return print_pose(args, request, &answer, (double)(clock_now() - start) / 1e9) ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
 /* --- a motion --- */
 
 static int run_motion(const struct args *args, pir_cspace *cspace, const struct request *request, int64_t start) {
+    pir_configuration begins;
     pir_cspace_motion answer;
     pir_report report = {0};
     pir_status status = pir_cspace_segment(cspace, &request->pose, &request->end, &report, &answer);
-    if (status != PIR_OK)
-        return complain_status(args->positional[0], status, &report);
+    if (status != PIR_OK) {
+        // which of the ends is at fault
+        bool at_end = args_has(args, "--to") && pir_cspace_classify(cspace, &request->pose, NULL, &begins) == PIR_OK;
+        return complain_option(args, at_end ? "--to" : "--translate", status, &report);
+    }
     double seconds = (double)(clock_now() - start) / 1e9;
     if (!args_has(args, "--json")) {
-        printf("%s: the motion is %s\n", args->positional[0], verdict_names[answer.verdict]);
+        say("%s: the motion is %s\n", args->positional[0], verdict_names[answer.verdict]);
         if (answer.verdict != PIR_VERDICT_FREE)
-            printf("  %-12s from %.6g to %.6g of the way\n", "not free", answer.from, answer.to);
+            say("  %-12s from %.6g to %.6g of the way\n", "not free", answer.from, answer.to);
         return EXIT_DONE;
     }
     struct json json = json_new();
@@ -182,7 +202,7 @@ static bool answer_all(const struct args *args, pir_cspace *cspace, struct batch
             write_row(batch->out.stream, &batch->poses[batch->done], &answer);
             batch->counts[answer.verdict]++;
         } else {
-            complain_status(args->positional[0], status, &report);
+            complain_row(args, batch->done + 1, status, &report);
         }
         progress_show(&progress, batch->done);
     }
@@ -194,9 +214,9 @@ static bool answer_all(const struct args *args, pir_cspace *cspace, struct batch
 static bool print_counts(const struct args *args, const struct batch *batch, double seconds) {
     const bool interrupted = batch->done < batch->count;
     if (!args_has(args, "--json")) {
-        printf("%zu poses%s: %" PRIu64 " free, %" PRIu64 " blocked, %" PRIu64 " unknown\n", batch->done,
-               interrupted ? ", then interrupted" : "", batch->counts[PIR_VERDICT_FREE],
-               batch->counts[PIR_VERDICT_BLOCKED], batch->counts[PIR_VERDICT_UNKNOWN]);
+        say("%zu poses%s: %" PRIu64 " free, %" PRIu64 " blocked, %" PRIu64 " unknown\n", batch->done,
+            interrupted ? ", then interrupted" : "", batch->counts[PIR_VERDICT_FREE],
+            batch->counts[PIR_VERDICT_BLOCKED], batch->counts[PIR_VERDICT_UNKNOWN]);
         return true;
     }
     struct json json = json_new();

@@ -126,16 +126,15 @@ static void print_text(const struct args *args, const struct outcome *outcome) {
     char time[TEXT_NUMBER], error[TEXT_NUMBER];
     text_time(outcome->seconds * 1e9, time);
     text_double(outcome->did.error, error);
-    printf("%s in convex pieces\n", args->positional[0]);
-    printf("  %-10s %" PRIu32 ", by %s\n", "pieces", pir_pieces_count(outcome->pieces),
-           method_names[outcome->did.method]);
+    say("%s in convex pieces\n", args->positional[0]);
+    say("  %-10s %" PRIu32 ", by %s\n", "pieces", pir_pieces_count(outcome->pieces), method_names[outcome->did.method]);
     if (outcome->did.error > 0)
-        printf("  %-10s within %s of the solid, for %" PRIu32 " exact pieces\n", "error", error,
-               outcome->did.exact_pieces);
-    printf("  %-10s %" PRIu32 "\n", "reflex", outcome->info.reflex_edges);
-    printf("  %-10s %s\n", "time", time);
+        say("  %-10s within %s of the solid, for %" PRIu32 " exact pieces\n", "error", error,
+            outcome->did.exact_pieces);
+    say("  %-10s %" PRIu32 "\n", "reflex", outcome->info.reflex_edges);
+    say("  %-10s %s\n", "time", time);
     if (args_has(args, "-o"))
-        printf("  %-10s %s\n", "written to", args_value(args, "-o"));
+        say("  %-10s %s\n", "written to", args_value(args, "-o"));
 }
 
 #if PIR_HAVE_PNG

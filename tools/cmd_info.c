@@ -35,11 +35,11 @@ static bool print_json(const char *model, const pir_polytope *polytope, const pi
 
 static void print_input(const pir_surface *surface) {
     char text[SURFACE_TEXT], volume[TEXT_NUMBER];
-    printf("  %-10s %s, %s\n", "as given", surface_text(surface, text), surface->convex ? "convex" : "not convex");
+    say("  %-10s %s, %s\n", "as given", surface_text(surface, text), surface->convex ? "convex" : "not convex");
     if (isnan(surface->volume))
         return;
     text_double(surface->volume, volume);
-    printf("  %-10s volume %s\n", "", volume);
+    say("  %-10s volume %s\n", "", volume);
 }
 
 static void print_text(const char *model, const pir_polytope *polytope, const pir_surface *surface, bool merged) {
@@ -47,18 +47,18 @@ static void print_text(const char *model, const pir_polytope *polytope, const pi
     pir_polytope_bounds(polytope, &low, &high);
     char volume[TEXT_NUMBER];
     text_double(pir_polytope_volume(polytope), volume);
-    printf("%s\n", model);
-    printf("  %-10s %d\n", "dimension", pir_polytope_dimension(polytope));
-    printf("  %-10s %" PRIu32 "\n", "vertices", pir_polytope_vertex_count(polytope));
-    printf("  %-10s %" PRIu32 "\n", "edges", pir_polytope_edge_count(polytope));
-    printf("  %-10s %" PRIu32 "\n", "facets", pir_polytope_facet_count(polytope));
+    say("%s\n", model);
+    say("  %-10s %d\n", "dimension", pir_polytope_dimension(polytope));
+    say("  %-10s %" PRIu32 "\n", "vertices", pir_polytope_vertex_count(polytope));
+    say("  %-10s %" PRIu32 "\n", "edges", pir_polytope_edge_count(polytope));
+    say("  %-10s %" PRIu32 "\n", "facets", pir_polytope_facet_count(polytope));
     text_print_range("x", low.x, high.x);
     text_print_range("y", low.y, high.y);
     text_print_range("z", low.z, high.z);
-    printf("  %-10s %s\n", "volume", volume);
+    say("  %-10s %s\n", "volume", volume);
     if (merged) {
         text_double(pir_polytope_merge_bound(polytope), volume);
-        printf("  %-10s within %s of the hull\n", "merged", volume);
+        say("  %-10s within %s of the hull\n", "merged", volume);
     }
     print_input(surface);
 }

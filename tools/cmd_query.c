@@ -59,6 +59,10 @@ static bool read_request(const struct args *args, struct request *request) {
         !read_radius(args, "--radius-p", &request->input.radius_p) ||
         !read_radius(args, "--radius-q", &request->input.radius_q))
         return false;
+    if (!isfinite(request->input.radius_p + request->input.radius_q)) {
+        complain("query: --radius-p and --radius-q: too large together");
+        return false;
+    }
     request->has_direction = args_has(args, "--direction");
     request->casts = args_has(args, "--cast");
     if (!read_vector(args, "--direction", &request->direction) || !read_vector(args, "--cast", &request->motion))
@@ -169,33 +173,32 @@ static bool print_json(const struct args *args, const struct request *request, c
 }
 
 static void print_vector(const char *name, pir_vec3 v) {
-    printf("  %-12s %.17g, %.17g, %.17g\n", name, v.x, v.y, v.z);
+    say("  %-12s %.17g, %.17g, %.17g\n", name, v.x, v.y, v.z);
 }
 
 static void print_text(const struct args *args, const struct request *request, const struct answer *answer) {
     const pir_query_result *result = &answer->result;
     char kind[3];
     witness_kind(&result->witness, kind);
-    printf("%s against %s: %s\n", args->positional[0], args->positional[1], state_names[result->state]);
+    say("%s against %s: %s\n", args->positional[0], args->positional[1], state_names[result->state]);
     surface_print_notes(request->surfaces, 2);
     if (result->state == PIR_INSIDE)
-        printf("  %-12s %.17g\n", "depth", -result->distance);
+        say("  %-12s %.17g\n", "depth", -result->distance);
     else
-        printf("  %-12s %.17g\n", "distance", result->distance);
+        say("  %-12s %.17g\n", "distance", result->distance);
     print_vector("normal", result->normal);
     print_vector("point of P", result->point_p);
     print_vector("point of Q", result->point_q);
-    printf("  %-12s %s %u, %u\n", "witness", kind, (unsigned)result->witness.p.index,
-           (unsigned)result->witness.q.index);
+    say("  %-12s %s %u, %u\n", "witness", kind, (unsigned)result->witness.p.index, (unsigned)result->witness.q.index);
     if (request->has_direction && answer->along.outcome == PIR_NO_HIT)
-        printf("  %-12s never touches\n", "direction");
+        say("  %-12s never touches\n", "direction");
     else if (request->has_direction)
-        printf("  %-12s %.17g\n", result->state == PIR_INSIDE ? "depth along" : "touches at",
-               fabs(answer->along.distance));
+        say("  %-12s %.17g\n", result->state == PIR_INSIDE ? "depth along" : "touches at",
+            fabs(answer->along.distance));
     if (request->casts)
-        printf("  %-12s %s, time %.17g\n", "cast", cast_names[answer->cast.outcome], answer->cast.time);
+        say("  %-12s %s, time %.17g\n", "cast", cast_names[answer->cast.outcome], answer->cast.time);
     if (args_has(args, "-o"))
-        printf("  %-12s %s\n", "file", args_value(args, "-o"));
+        say("  %-12s %s\n", "file", args_value(args, "-o"));
 }
 
 static int run_one(const struct args *args, const struct request *request, pir_polytope *p, pir_polytope *q,

@@ -26,8 +26,8 @@ static void tell(void *context, const pir_history_step *step) {
     // one number for all steps: the statuses count
     run->hash = (run->hash ^ step->hash ^ (uint64_t)step->status) * UINT64_C(0x100000001b3);
     if (!run->json) {
-        printf("%8" PRIu64 " %-10s %s%s%s\n", step->index, step->call, hash, step->status == PIR_OK ? "" : " ",
-               step->status == PIR_OK ? "" : pir_status_text(step->status));
+        say("%8" PRIu64 " %-10s %s%s%s\n", step->index, step->call, hash, step->status == PIR_OK ? "" : " ",
+            step->status == PIR_OK ? "" : pir_status_text(step->status));
         return;
     }
     cJSON *at = json_add_object(run->json, run->steps, NULL);
@@ -65,6 +65,6 @@ int cmd_replay(const struct args *args) {
     if (run.json)
         return print_json(&run, path) ? EXIT_DONE : EXIT_BAD_INPUT;
     json_discard(&json);
-    printf("%s: %" PRIu64 " calls, %" PRIu64 " refused, hash %016" PRIx64 "\n", path, run.count, run.refused, run.hash);
+    say("%s: %" PRIu64 " calls, %" PRIu64 " refused, hash %016" PRIx64 "\n", path, run.count, run.refused, run.hash);
     return EXIT_DONE;
 }

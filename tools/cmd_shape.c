@@ -14,7 +14,7 @@
 static int list_shapes(bool as_json) {
     if (!as_json) {
         for (size_t i = 0; i < pir_shape_count(); i++)
-            printf("%-32s %s\n", pir_shape_name(i), pir_shape_help(i));
+            say("%-32s %s\n", pir_shape_name(i), pir_shape_help(i));
         return EXIT_DONE;
     }
     struct json json = json_new();
@@ -30,7 +30,7 @@ static int list_shapes(bool as_json) {
 static bool print_written(const pir_polytope *polytope, const char *name, const char *file, bool as_json) {
     uint32_t vertices = pir_polytope_vertex_count(polytope), facets = pir_polytope_facet_count(polytope);
     if (!as_json) {
-        printf("%s: %" PRIu32 " vertices, %" PRIu32 " facets, written to %s\n", name, vertices, facets, file);
+        say("%s: %" PRIu32 " vertices, %" PRIu32 " facets, written to %s\n", name, vertices, facets, file);
         return true;
     }
     struct json json = json_new();

@@ -44,8 +44,8 @@ static bool write_body(const struct args *args, struct output_file *file, const 
 static void print_body(const char *which, const pir_polytope *polytope, double error) {
     char text[TEXT_NUMBER];
     text_double(error, text);
-    printf("  %-10s %" PRIu32 " vertices, %" PRIu32 " facets, within %s\n", which, pir_polytope_vertex_count(polytope),
-           pir_polytope_facet_count(polytope), text);
+    say("  %-10s %" PRIu32 " vertices, %" PRIu32 " facets, within %s\n", which, pir_polytope_vertex_count(polytope),
+        pir_polytope_facet_count(polytope), text);
 }
 
 static void add_body(struct json *json, const char *which, const pir_polytope *polytope, double error) {
@@ -66,7 +66,7 @@ static bool print(const struct args *args, const pir_polytope *polytope, const p
         add_body(&json, "outer", simplified->outer, simplified->outer_error);
         return json_print(&json, stdout);
     }
-    printf("%s: %" PRIu32 " vertices\n", model, vertices);
+    say("%s: %" PRIu32 " vertices\n", model, vertices);
     print_body("inside", simplified->inner, simplified->inner_error);
     print_body("around", simplified->outer, simplified->outer_error);
     return true;

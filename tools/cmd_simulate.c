@@ -182,20 +182,20 @@ static void print_text(const struct args *args, const struct run *run) {
     struct end end = end_of(run);
     char time[TEXT_NUMBER];
     text_time(run->seconds * 1e9, time);
-    printf("%s\n", *run->stage.title ? run->stage.title : run->path);
-    printf("  %-10s %" PRIu32 ", %" PRIu32 " of them moving, %" PRIu32 " asleep at the end\n", "bodies",
-           run->stage.body_count, end.moving, end.asleep);
-    printf("  %-10s %g s in %" PRIu64 " steps\n", "simulated", (double)run->frames / FRAME_RATE,
-           (uint64_t)run->frames * run->steps);
-    printf("  %-10s %.3g m/s at the end\n", "mean speed", world_mean_speed(run->world));
-    printf("  %-10s %" PRIu32 " at the end, the deepest %.3g m\n", "contacts", world_contact_count(run->world),
-           end.deepest);
-    printf("  %-10s %016" PRIx64 "\n", "state", run->state);
-    printf("  %-10s %s\n", "time", time);
+    say("%s\n", *run->stage.title ? run->stage.title : run->path);
+    say("  %-10s %" PRIu32 ", %" PRIu32 " of them moving, %" PRIu32 " asleep at the end\n", "bodies",
+        run->stage.body_count, end.moving, end.asleep);
+    say("  %-10s %g s in %" PRIu64 " steps\n", "simulated", (double)run->frames / FRAME_RATE,
+        (uint64_t)run->frames * run->steps);
+    say("  %-10s %.3g m/s at the end\n", "mean speed", world_mean_speed(run->world));
+    say("  %-10s %" PRIu32 " at the end, the deepest %.3g m\n", "contacts", world_contact_count(run->world),
+        end.deepest);
+    say("  %-10s %016" PRIx64 "\n", "state", run->state);
+    say("  %-10s %s\n", "time", time);
     if (args_has(args, "-o"))
-        printf("  %-10s %s\n", "written to", args_value(args, "-o"));
+        say("  %-10s %s\n", "written to", args_value(args, "-o"));
     if (args_has(args, "--record"))
-        printf("  %-10s %s\n", "recorded", args_value(args, "--record"));
+        say("  %-10s %s\n", "recorded", args_value(args, "--record"));
 }
 
 static bool tell(const struct args *args, const struct run *run) {

@@ -143,11 +143,11 @@ static void add_common(struct json *json, const struct slicing *run) {
 static void print_common(const struct slicing *run) {
     pir_grid_info info = pir_grid_get_info(run->grid);
     pir_grid_turns turns = pir_grid_get_turns(run->grid);
-    printf("slices of %s, %" PRIu32 " by %" PRIu32 " pieces\n", run->args->positional[0], run->robot.count,
-           run->obstacles.count);
-    printf("  %-10s %s, %" PRIu64 " rotations, %.3g degrees apart\n", "grid", grid_names[info.kind], info.count,
-           info.spacing * DEGREES);
-    printf("  %-10s mean %.3g degrees, most %.3g\n", "turns", turns.mean * DEGREES, turns.most * DEGREES);
+    say("slices of %s, %" PRIu32 " by %" PRIu32 " pieces\n", run->args->positional[0], run->robot.count,
+        run->obstacles.count);
+    say("  %-10s %s, %" PRIu64 " rotations, %.3g degrees apart\n", "grid", grid_names[info.kind], info.count,
+        info.spacing * DEGREES);
+    say("  %-10s mean %.3g degrees, most %.3g\n", "turns", turns.mean * DEGREES, turns.most * DEGREES);
 }
 
 static int foresee(struct slicing *run) {
@@ -170,10 +170,10 @@ static int foresee(struct slicing *run) {
     char time[TEXT_NUMBER];
     text_time(seconds * 1e9, time);
     print_common(run);
-    printf("  %-10s %" PRIu64 " in %" PRIu64 " units\n", "slices", estimate.slices, estimate.units);
-    printf("  %-10s about %s with %" PRIu32 " thread%s\n", "time", time, run->options.threads,
-           run->options.threads == 1 ? "" : "s");
-    printf("  %-10s about %.3g MB\n", "size", estimate.bytes / 1e6);
+    say("  %-10s %" PRIu64 " in %" PRIu64 " units\n", "slices", estimate.slices, estimate.units);
+    say("  %-10s about %s with %" PRIu32 " thread%s\n", "time", time, run->options.threads,
+        run->options.threads == 1 ? "" : "s");
+    say("  %-10s about %.3g MB\n", "size", estimate.bytes / 1e6);
     return EXIT_DONE;
 }
 
@@ -196,9 +196,9 @@ static int report_done(const struct slicing *run, double seconds) {
     char time[TEXT_NUMBER];
     text_time(seconds * 1e9, time);
     print_common(run);
-    printf("  %-10s %" PRIu64 ", %" PRIu64 " of them from an earlier run\n", "slices", slices, resumed);
-    printf("  %-10s %s, %.3g slices a second\n", "time", time, (double)(slices - resumed) / seconds);
-    printf("  %-10s %s, %.3g MB, %.3g bytes a slice\n", "file", path, bytes / 1e6, bytes / (double)slices);
+    say("  %-10s %" PRIu64 ", %" PRIu64 " of them from an earlier run\n", "slices", slices, resumed);
+    say("  %-10s %s, %.3g slices a second\n", "time", time, (double)(slices - resumed) / seconds);
+    say("  %-10s %s, %.3g MB, %.3g bytes a slice\n", "file", path, bytes / 1e6, bytes / (double)slices);
     return EXIT_DONE;
 }
 

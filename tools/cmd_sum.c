@@ -108,18 +108,18 @@ static bool print_json(const struct args *args, const struct request *request, c
 static void print_text(const struct args *args, const struct request *request, const struct outcome *outcome) {
     char time[TEXT_NUMBER];
     text_time(outcome->seconds * 1e9, time);
-    printf("%s of %s and %s\n", request->options.difference ? "difference" : "sum", args->positional[0],
-           args->positional[1]);
+    say("%s of %s and %s\n", request->options.difference ? "difference" : "sum", args->positional[0],
+        args->positional[1]);
     surface_print_notes(outcome->surfaces, 2);
-    printf("  %-10s %" PRIu32 "\n", "vertices", pir_mesh_vertex_count(outcome->mesh));
-    printf("  %-10s %" PRIu32 "\n", "edges", pir_mesh_edge_count(outcome->mesh));
-    printf("  %-10s %" PRIu32 "\n", "facets", pir_mesh_facet_count(outcome->mesh));
-    printf("  %-10s fv %" PRIu32 ", vf %" PRIu32 ", ee %" PRIu32 "\n", "pairs",
-           pir_polytope_facet_count(pir_sum_p(outcome->sum)), pir_polytope_facet_count(pir_sum_q(outcome->sum)),
-           pir_sum_ee_count(outcome->sum));
-    printf("  %-10s %s by %s\n", "time", time, method_names[request->method]);
+    say("  %-10s %" PRIu32 "\n", "vertices", pir_mesh_vertex_count(outcome->mesh));
+    say("  %-10s %" PRIu32 "\n", "edges", pir_mesh_edge_count(outcome->mesh));
+    say("  %-10s %" PRIu32 "\n", "facets", pir_mesh_facet_count(outcome->mesh));
+    say("  %-10s fv %" PRIu32 ", vf %" PRIu32 ", ee %" PRIu32 "\n", "pairs",
+        pir_polytope_facet_count(pir_sum_p(outcome->sum)), pir_polytope_facet_count(pir_sum_q(outcome->sum)),
+        pir_sum_ee_count(outcome->sum));
+    say("  %-10s %s by %s\n", "time", time, method_names[request->method]);
     if (args_has(args, "-o"))
-        printf("  %-10s %s\n", "file", args_value(args, "-o"));
+        say("  %-10s %s\n", "file", args_value(args, "-o"));
 }
 
 int cmd_sum(const struct args *args) {

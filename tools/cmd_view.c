@@ -149,8 +149,8 @@ static bool print_written(const struct args *args, const struct request *request
     if (target_is_stdout(args, "-o"))
         return true;
     if (!args_has(args, "--json")) {
-        printf("%s: %" PRIu64 " of %" PRIu64 " slices, written to %s\n", slices->path, slices->count,
-               slices->info.grid.count, request->path);
+        say("%s: %" PRIu64 " of %" PRIu64 " slices, written to %s\n", slices->path, slices->count,
+            slices->info.grid.count, request->path);
         return true;
     }
     struct json json = json_new();

@@ -4,6 +4,8 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "message.h"
 #include "text.h"
@@ -43,8 +45,27 @@ void json_add_flag(struct json *json, cJSON *parent, const char *name, bool valu
     add(json, parent, name, cJSON_CreateBool(value));
 }
 
+/* The text in UTF-8, to be freed: U+FFFD stands for each byte that is none of a character. NULL when out of memory. */
+static char *as_utf8(const char *text) {
+    static const char unknown[] = "\xef\xbf\xbd";
+    char *clean = malloc(strlen(text) * strlen(unknown) + 1), *to = clean;
+    while (clean && *text) {
+        size_t length = text_character(text);
+        const char *from = length > 0 ? text : unknown;
+        const size_t size = length > 0 ? length : strlen(unknown);
+        memcpy(to, from, size);
+        to += size;
+        text += length > 0 ? length : 1;
+    }
+    if (clean)
+        *to = '\0';
+    return clean;
+}
+
 void json_add_text(struct json *json, cJSON *parent, const char *name, const char *text) {
-    add(json, parent, name, cJSON_CreateString(text));
+    char *clean = as_utf8(text);
+    add(json, parent, name, clean ? cJSON_CreateString(clean) : NULL);
+    free(clean);
 }
 
 void json_add_numbers(struct json *json, cJSON *parent, const char *name, const double *values, size_t count) {
@@ -68,7 +89,12 @@ bool json_print(struct json *json, FILE *file) {
         complain("out of memory, for the JSON text");
         return false;
     }
-    fprintf(file, "%s\n", text);
+    if (file == stdout) {
+        put_out(text);
+        put_out("\n");
+    } else {
+        fprintf(file, "%s\n", text);
+    }
     cJSON_free(text);
     return true;
 }

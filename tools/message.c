@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reports of what went wrong, one line of stderr each. */
+/* Lines of text; see message.h. */
 #include "message.h"
 
 #include <errno.h>
@@ -7,18 +7,59 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "text.h"
+
+/* The longest text of one call, of which two names may take most; what goes beyond is cut off. */
+#define TEXT_SIZE 16384
+
+/* Why the first write to standard output failed that did, or 0. */
+static int output_error;
+
+static void note_failure(void) {
+    if (ferror(stdout) && output_error == 0)
+        output_error = errno;
+}
+
+/* Prints a text as people are shown it. */
+static void print_shown(FILE *file, const char *text) {
+    for (char shown[TEXT_SHOWN]; text_shown(&text, shown);)
+        fputs(shown, file);
+}
+
 int complain(const char *format, ...) {
-    char text[512];
+    char text[TEXT_SIZE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    // an argument or file name may hold anything
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < ' ' || *c == 0x7f)
-            *c = ' ';
-    fprintf(stderr, "pirouette: %s\n", text);
+    fputs("pirouette: ", stderr);
+    print_shown(stderr, text);
+    fputs("\n", stderr);
     return EXIT_BAD_INPUT;
+}
+
+void say(const char *format, ...) {
+    char text[TEXT_SIZE];
+    size_t length = strlen(format);
+    const bool ends = length > 0 && format[length - 1] == '\n';
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    length = strlen(text);
+    if (ends && length > 0 && text[length - 1] == '\n')
+        text[length - 1] = '\0';
+    errno = 0;
+    print_shown(stdout, text);
+    if (ends)
+        fputs("\n", stdout);
+    note_failure();
+}
+
+void put_out(const char *text) {
+    errno = 0;
+    fputs(text, stdout);
+    note_failure();
 }
 
 int complain_status(const char *where, pir_status status, const pir_report *report) {
@@ -29,8 +70,10 @@ int complain_status(const char *where, pir_status status, const pir_report *repo
 
 bool stdout_arrived(void) {
     errno = 0;
-    if (fflush(stdout) == 0 && !ferror(stdout))
+    const bool flushed = fflush(stdout) == 0;
+    note_failure();
+    if (flushed && !ferror(stdout))
         return true;
-    complain("standard output: cannot write: %s", strerror(errno ? errno : EIO));
+    complain("standard output: cannot write: %s", strerror(output_error ? output_error : EIO));
     return false;
 }

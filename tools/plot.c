@@ -11,6 +11,7 @@
 
 #include "measure.h"
 #include "message.h"
+#include "text.h"
 
 #define WIDTH   960
 #define HEIGHT  540
@@ -109,17 +110,6 @@ static struct scale scale_for(const struct plot *plot, const struct columns *col
 
 /* --- drawing --- */
 
-static void put_text(FILE *file, const char *text) {
-    for (const char *c = text; *c; c++) {
-        if (*c == '<')
-            fputs("&lt;", file);
-        else if (*c == '&')
-            fputs("&amp;", file);
-        else
-            fputc((unsigned char)*c < ' ' ? '?' : *c, file);
-    }
-}
-
 static void put_time(double nanoseconds, FILE *file) {
     static const char *const units[] = {"ns", "µs", "ms", "s"};
     int unit = 0;
@@ -163,9 +153,9 @@ static void draw_frame(const struct plot *plot, const struct scale *scale, FILE 
             "<rect width='%d' height='%d' fill='#fff'/>\n",
             WIDTH, HEIGHT, WIDTH, HEIGHT, WIDTH, HEIGHT);
     fprintf(file, "<text x='%d' y='30' font-size='17' font-weight='bold' fill='#111'>", LEFT);
-    put_text(file, plot->title);
+    text_print_xml(file, plot->title);
     fprintf(file, "</text>\n<text x='%d' y='51' font-size='13' fill='#555'>", LEFT);
-    put_text(file, plot->subtitle);
+    text_print_xml(file, plot->subtitle);
     fputs("</text>\n", file);
     draw_level_lines(scale, file);
     draw_frame_lines(scale, plot->stride, file);

@@ -192,8 +192,8 @@ static bool answer_file(struct batch *batch, pir_query *query, const pir_query_i
 
 static bool report(const struct args *args, const struct batch *batch) {
     if (!args_has(args, "--json")) {
-        printf("%" PRIu64 " placements%s: %" PRIu64 " outside, %" PRIu64 " boundary, %" PRIu64 " inside\n", batch->done,
-               batch->interrupted ? ", then interrupted" : "", batch->counts[0], batch->counts[1], batch->counts[2]);
+        say("%" PRIu64 " placements%s: %" PRIu64 " outside, %" PRIu64 " boundary, %" PRIu64 " inside\n", batch->done,
+            batch->interrupted ? ", then interrupted" : "", batch->counts[0], batch->counts[1], batch->counts[2]);
         return true;
     }
     struct json json = json_new();

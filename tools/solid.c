@@ -98,17 +98,17 @@ static bool print_json(const char *model, const pir_solid_info *info) {
 static void print_text(const char *model, const pir_solid_info *info) {
     char volume[TEXT_NUMBER];
     text_double(info->volume, volume);
-    printf("%s, as a solid\n", model);
-    printf("  %-10s %" PRIu32 "\n", "vertices", info->merged_vertices);
-    printf("  %-10s %" PRIu32 ", %" PRIu32 " of them reflex\n", "edges", info->merged_edges, info->reflex_edges);
-    printf("  %-10s %" PRIu32 "\n", "facets", info->merged_facets);
-    printf("  %-10s %" PRIu32 ", genus %" PRId64 "\n", "shells", info->shells, info->genus);
+    say("%s, as a solid\n", model);
+    say("  %-10s %" PRIu32 "\n", "vertices", info->merged_vertices);
+    say("  %-10s %" PRIu32 ", %" PRIu32 " of them reflex\n", "edges", info->merged_edges, info->reflex_edges);
+    say("  %-10s %" PRIu32 "\n", "facets", info->merged_facets);
+    say("  %-10s %" PRIu32 ", genus %" PRId64 "\n", "shells", info->shells, info->genus);
     text_print_range("x", info->low.x, info->high.x);
     text_print_range("y", info->low.y, info->high.y);
     text_print_range("z", info->low.z, info->high.z);
-    printf("  %-10s %s\n", "volume", volume);
-    printf("  %-10s %" PRIu32 " vertices, %" PRIu32 " edges, %" PRIu32 " facets\n", "as given", info->vertices,
-           info->edges, info->facets);
+    say("  %-10s %s\n", "volume", volume);
+    say("  %-10s %" PRIu32 " vertices, %" PRIu32 " edges, %" PRIu32 " facets\n", "as given", info->vertices,
+        info->edges, info->facets);
 }
 
 int solid_info(const struct args *args) {

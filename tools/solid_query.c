@@ -12,7 +12,8 @@ struct outcome {
     pir_solid_distance distance;
     pir_solid_impact impact;
     uint32_t pieces[2];
-    double seconds; /* of the answers, pieces being there */
+    double seconds;     /* of the answers, pieces being there */
+    const char *option; /* what was asked last, or NULL before */
 };
 
 /* A cast ends this near, relative to how far the models reach. */
@@ -63,16 +64,16 @@ static bool print_json(const struct args *args, const struct outcome *outcome, b
 
 static void print_text(const struct args *args, const struct outcome *outcome, bool casts) {
     const pir_query_result *result = &outcome->distance.result;
-    printf("%s against %s, as solids: %s\n", args->positional[0], args->positional[1], state_names[result->state]);
+    say("%s against %s, as solids: %s\n", args->positional[0], args->positional[1], state_names[result->state]);
     if (result->state != PIR_INSIDE) {
-        printf("  %-12s %.17g\n", "distance", result->distance);
-        printf("  %-12s %.17g, %.17g, %.17g\n", "normal", result->normal.x, result->normal.y, result->normal.z);
+        say("  %-12s %.17g\n", "distance", result->distance);
+        say("  %-12s %.17g, %.17g, %.17g\n", "normal", result->normal.x, result->normal.y, result->normal.z);
     }
     if (casts && outcome->impact.outcome != PIR_CAST_MISS)
-        printf("  %-12s %s, time %.17g\n", "cast", cast_names[outcome->impact.outcome], outcome->impact.time);
+        say("  %-12s %s, time %.17g\n", "cast", cast_names[outcome->impact.outcome], outcome->impact.time);
     else if (casts)
-        printf("  %-12s miss\n", "cast");
-    printf("  %-12s %" PRIu32 " of P, %" PRIu32 " of Q\n", "pieces", outcome->pieces[0], outcome->pieces[1]);
+        say("  %-12s miss\n", "cast");
+    say("  %-12s %" PRIu32 " of P, %" PRIu32 " of Q\n", "pieces", outcome->pieces[0], outcome->pieces[1]);
 }
 
 static double reach_of(const pir_solid *solid) {
@@ -84,7 +85,10 @@ static double reach_of(const pir_solid *solid) {
 static pir_status ask(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
                       const pir_solid_motion *motion, struct outcome *outcome) {
     const int64_t start = clock_now();
+    outcome->option = "--translate";
     pir_status status = pir_solid_query_distance(query, workspace, input, &outcome->distance);
+    if (status == PIR_OK && motion)
+        outcome->option = "--cast";
     if (status == PIR_OK && motion)
         status = pir_solid_query_cast(query, workspace, input, motion, &outcome->impact);
     outcome->seconds = (double)(clock_now() - start) / 1e9;
@@ -129,7 +133,9 @@ int solid_query(const struct args *args, pir_quat rotation, const pir_query_inpu
     pir_solid *p = solid_load(args, 0), *q = p ? solid_load(args, 1) : NULL;
     if (p && q) {
         const pir_status status = run((const pir_solid *const[]){p, q}, &placed, motion, &report, &outcome);
-        if (status != PIR_OK)
+        if (status == PIR_ERR_LIMIT && outcome.option)
+            complain("query: %s: '%s': %s", outcome.option, args_value(args, outcome.option), pir_status_text(status));
+        else if (status != PIR_OK)
             complain_status("query", status, &report);
         else if (args_has(args, "--json"))
             result = print_json(args, &outcome, motion != NULL) ? EXIT_DONE : EXIT_BAD_INPUT;

@@ -56,18 +56,18 @@ static void print_text(const struct args *args, const struct request *request, c
     const pir_solid_sum_info *info = &outcome->info;
     char time[TEXT_NUMBER];
     text_time(outcome->seconds * 1e9, time);
-    printf("%s of %s and %s, as solids\n", request->options.difference ? "difference" : "sum", args->positional[0],
-           args->positional[1]);
-    printf("  %-10s %" PRIu32 "\n", "vertices", info->vertices);
-    printf("  %-10s %" PRIu32 "\n", "edges", info->edges);
-    printf("  %-10s %" PRIu32 ", with %" PRIu32 " holes\n", "facets", info->facets, info->holes);
+    say("%s of %s and %s, as solids\n", request->options.difference ? "difference" : "sum", args->positional[0],
+        args->positional[1]);
+    say("  %-10s %" PRIu32 "\n", "vertices", info->vertices);
+    say("  %-10s %" PRIu32 "\n", "edges", info->edges);
+    say("  %-10s %" PRIu32 ", with %" PRIu32 " holes\n", "facets", info->facets, info->holes);
     if (request->options.open)
-        printf("  %-10s %" PRIu32 " two-sided facets, %" PRIu32 " segments, %" PRIu32 " points\n", "left out",
-               info->two_sided, info->segments, info->points);
-    printf("  %-10s %" PRIu32 " of P, %" PRIu32 " of Q\n", "pieces", info->pieces_p, info->pieces_q);
-    printf("  %-10s %s\n", "time", time);
+        say("  %-10s %" PRIu32 " two-sided facets, %" PRIu32 " segments, %" PRIu32 " points\n", "left out",
+            info->two_sided, info->segments, info->points);
+    say("  %-10s %" PRIu32 " of P, %" PRIu32 " of Q\n", "pieces", info->pieces_p, info->pieces_q);
+    say("  %-10s %s\n", "time", time);
     if (args_has(args, "-o"))
-        printf("  %-10s %s\n", "file", args_value(args, "-o"));
+        say("  %-10s %s\n", "file", args_value(args, "-o"));
 }
 
 static int report(const struct args *args, const struct request *request, const struct outcome *outcome) {

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "message.h"
 #include "text.h"
 
 static const char *const form_names[] = {"points", "open", "closed"};
@@ -49,7 +50,7 @@ void surface_print_notes(const pir_surface *surfaces, size_t count) {
     for (size_t i = 0; i < count; i++) {
         char text[SURFACE_TEXT];
         if (!surfaces[i].convex)
-            printf("  %-10s %s, not convex; its convex hull is taken\n", i == 0 ? "P as given" : "Q as given",
-                   surface_text(&surfaces[i], text));
+            say("  %-10s %s, not convex; its convex hull is taken\n", i == 0 ? "P as given" : "Q as given",
+                surface_text(&surfaces[i], text));
     }
 }

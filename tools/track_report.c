@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "json.h"
+#include "message.h"
 #include "model.h"
 #include "motion.h"
 #include "plot.h"
@@ -93,24 +94,24 @@ bool track_print_json(const struct track_request *request, const struct track_re
 /* --- text --- */
 
 static void print_motion(const struct track_request *request, const struct track_result *result) {
-    printf("%s turns against %s: %" PRIu64 " frames, %" PRIu64 " steps to a turn, ", request->p, request->q,
-           result->frames, request->steps);
+    say("%s turns against %s: %" PRIu64 " frames, %" PRIu64 " steps to a turn, ", request->p, request->q,
+        result->frames, request->steps);
     if (request->random)
-        printf("random axes from seed %" PRIu64, request->seed);
+        say("random axes from seed %" PRIu64, request->seed);
     else
-        printf("axis %g,%g,%g", request->axis.x, request->axis.y, request->axis.z);
-    printf(", method %s%s\n", request->method_name, request->difference ? ", difference" : "");
+        say("axis %g,%g,%g", request->axis.x, request->axis.y, request->axis.z);
+    say(", method %s%s\n", request->method_name, request->difference ? ", difference" : "");
     if (result->interrupted)
-        printf("  interrupted, %" PRIu64 " frames were asked for\n", request->frames);
+        say("  interrupted, %" PRIu64 " frames were asked for\n", request->frames);
     if (request->region_degrees < 180)
-        printf("  kept are facets whose normals are within %g degrees of %g,%g,%g\n", request->region_degrees,
-               request->region.x, request->region.y, request->region.z);
+        say("  kept are facets whose normals are within %g degrees of %g,%g,%g\n", request->region_degrees,
+            request->region.x, request->region.y, request->region.z);
 }
 
 static void print_slower(const char *name, double time_ns, double update_ns) {
     char time[TEXT_NUMBER];
     text_time(time_ns, time);
-    printf("  %-18s %-10s %.3g times as long as an update\n", name, time, ratio(time_ns, update_ns));
+    say("  %-18s %-10s %.3g times as long as an update\n", name, time, ratio(time_ns, update_ns));
 }
 
 static void print_times(const struct track_request *request, const struct track_result *result) {
@@ -118,7 +119,7 @@ static void print_times(const struct track_request *request, const struct track_
     text_time(result->update.median, median);
     text_time(result->update.p99, p99);
     text_time(result->update.max, max);
-    printf("  %-18s %-10s median; 99 of 100 frames within %s, all within %s\n", "update", median, p99, max);
+    say("  %-18s %-10s median; 99 of 100 frames within %s, all within %s\n", "update", median, p99, max);
     print_slower("rebuild by walk", result->walk.median, result->update.median);
     print_slower("rebuild by CGM", result->cgm.median, result->update.median);
     if (request->brute)
@@ -128,15 +129,15 @@ static void print_times(const struct track_request *request, const struct track_
 static void print_work(const struct track_result *result) {
     const pir_sum_statistics *did = &result->did;
     double frames = (double)result->frames, signs = asked(did);
-    printf("  %-18s %.4g a frame\n", "pairs checked", (double)did->checked / frames);
-    printf("  %-18s %.4g a frame\n", "pairs repaired", (double)did->repaired / frames);
-    printf("  %-18s %" PRIu64 " of %" PRIu64 " frames\n", "rebuilds", did->rebuilds, result->frames);
-    printf("  %-18s %" PRIu64 " after the first %" PRIu64 " frames\n", "allocations", result->late_allocations,
-           result->warm_up);
+    say("  %-18s %.4g a frame\n", "pairs checked", (double)did->checked / frames);
+    say("  %-18s %.4g a frame\n", "pairs repaired", (double)did->repaired / frames);
+    say("  %-18s %" PRIu64 " of %" PRIu64 " frames\n", "rebuilds", did->rebuilds, result->frames);
+    say("  %-18s %" PRIu64 " after the first %" PRIu64 " frames\n", "allocations", result->late_allocations,
+        result->warm_up);
     if (signs > 0)
-        printf("  %-18s %.4g a frame: %.3f %% by filter, %.3f %% by exact arithmetic, %.3f %% ties\n", "signs",
-               signs / frames, 100 * (double)did->by_filter / signs, 100 * (double)did->by_exact / signs,
-               100 * (double)did->by_perturbation / signs);
+        say("  %-18s %.4g a frame: %.3f %% by filter, %.3f %% by exact arithmetic, %.3f %% ties\n", "signs",
+            signs / frames, 100 * (double)did->by_filter / signs, 100 * (double)did->by_exact / signs,
+            100 * (double)did->by_perturbation / signs);
 }
 
 void track_print_text(const struct track_request *request, const struct track_result *result) {
@@ -145,17 +146,17 @@ void track_print_text(const struct track_request *request, const struct track_re
     print_times(request, result);
     print_work(result);
     if (request->tolerance > 0)
-        printf("  %-18s %" PRIu64 " of %" PRIu64 " frames, the support short by %.3g at most, %.3g allowed\n",
-               "pairing kept", result->did.kept, result->frames, result->shortfall, request->tolerance);
+        say("  %-18s %" PRIu64 " of %" PRIu64 " frames, the support short by %.3g at most, %.3g allowed\n",
+            "pairing kept", result->did.kept, result->frames, result->shortfall, request->tolerance);
     if (request->verify_every)
-        printf("  %-18s %" PRIu64 " frames, %" PRIu64 " differ from a rebuild\n", "verified", result->verified,
-               result->mismatches);
+        say("  %-18s %" PRIu64 " frames, %" PRIu64 " differ from a rebuild\n", "verified", result->verified,
+            result->mismatches);
     if (result->mismatches)
-        printf("  %-18s frame %" PRIu64 "\n", "first difference", result->first_mismatch);
+        say("  %-18s frame %" PRIu64 "\n", "first difference", result->first_mismatch);
     if (request->dump)
-        printf("  %-18s %" PRIu64 " frames in %s\n", "dumped", result->dumped, request->dump);
+        say("  %-18s %" PRIu64 " frames in %s\n", "dumped", result->dumped, request->dump);
     if (request->plot)
-        printf("  %-18s %s\n", "plot", request->plot);
+        say("  %-18s %s\n", "plot", request->plot);
 }
 
 /* --- chart --- */
