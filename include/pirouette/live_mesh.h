@@ -86,7 +86,8 @@ PIR_API void pir_live_mesh_clear_region(pir_live_mesh *live);
 
 /**
  * The pairs that appeared in the last refresh, and those that disappeared; none is in both lists. Sorted by kind, p, q.
- * Valid until the next refresh.
+ * The one pair of two segments has two facets, and two slots: it appears with the first of them and disappears with the
+ * last. Valid until the next refresh.
  */
 PIR_API const pir_sum_pair *pir_live_mesh_appeared(const pir_live_mesh *live, uint32_t *ret_count);
 PIR_API const pir_sum_pair *pir_live_mesh_disappeared(const pir_live_mesh *live, uint32_t *ret_count);

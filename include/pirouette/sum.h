@@ -236,8 +236,8 @@ PIR_API const uint32_t *pir_sum_vf(const pir_sum *sum);
 PIR_API uint32_t pir_sum_ee_count(const pir_sum *sum);
 
 /**
- * Writes the ee pairs: {edge of P, edge of Q}, by rising edge of P and, for each, in order along its arc. Room for
- * pir_sum_ee_count pairs.
+ * Writes the ee pairs: {edge of P, edge of Q}, by rising edge of P and, for each, in order along its arc. The pair of
+ * two segments is there twice, for it has two facets. Room for pir_sum_ee_count pairs.
  *
  * Cost: O(edges of P + pairs).
  */

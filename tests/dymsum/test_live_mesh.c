@@ -70,8 +70,19 @@ static bool same_pairs(const struct pairs *a, const struct pairs *b) {
     return true;
 }
 
+/* Of sorted pairs, each once: the pair of two segments has two facets. */
+static const struct pairs *each_once(const struct pairs *pairs, struct pairs *ret_once) {
+    ret_once->count = 0;
+    for (uint32_t i = 0; i < pairs->count; i++)
+        if (i == 0 || compare(&pairs->at[i - 1], &pairs->at[i]) != 0)
+            ret_once->at[ret_once->count++] = pairs->at[i];
+    return ret_once;
+}
+
 /* That before, less what disappeared, with what appeared, is now; and that nothing did both. */
-static void expect_changes(const pir_live_mesh *live, const struct pairs *before, const struct pairs *now) {
+static void expect_changes(const pir_live_mesh *live, const struct pairs *pairs_before, const struct pairs *pairs_now) {
+    static struct pairs once_before, once_now;
+    const struct pairs *before = each_once(pairs_before, &once_before), *now = each_once(pairs_now, &once_now);
     uint32_t came, went, i = 0, j = 0;
     const pir_sum_pair *appeared = pir_live_mesh_appeared(live, &came),
                        *disappeared = pir_live_mesh_disappeared(live, &went);
@@ -209,6 +220,44 @@ static void live_mesh_is_the_sum_after_every_rotation(void **state) {
     }
     print_message("%u plain, %u with ties\n", plain, merged);
     assert_true(plain > 100 && merged > 100);
+}
+
+/* A region of the live mesh lets in and out facets of a pair that stays. */
+static void region_of_a_live_mesh_tells_each_change_once(void **state) {
+    (void)state;
+    static struct pairs before, held;
+    static const test_body bodies[] = {TEST_SEGMENT, TEST_SEGMENT, TEST_POLYGON, TEST_POINT, TEST_BOX, TEST_PRISM};
+    uint32_t of_segments = 0;
+    for (uint64_t i = 0; i < 600; i++) {
+        test_random random = test_random_case("live regions", i);
+        pir_polytope *p = test_random_polytope(&random, bodies[i % 2 ? 0 : test_random_below(&random, 6)], 8),
+                     *q = test_random_polytope(&random, bodies[i % 2 ? 0 : test_random_below(&random, 6)], 8);
+        pir_sum *sum;
+        pir_live_mesh *live;
+        assert_int_equal(pir_sum_create(p, q, test_rotation(&random), NULL, &sum), PIR_OK);
+        assert_int_equal(pir_live_mesh_create(sum, &live), PIR_OK);
+        list_live(live, &held);
+        for (int frame = 0; frame < 20; frame++) {
+            before = held;
+            if (frame % 7 == 6)
+                pir_live_mesh_clear_region(live);
+            else
+                assert_int_equal(pir_live_mesh_set_region(live, test_random_direction(&random), frame % 5 * 0.5),
+                                 PIR_OK);
+            if (frame % 2)
+                assert_int_equal(pir_sum_rotate(sum, test_rotation(&random), PIR_METHOD_UPDATE), PIR_OK);
+            assert_int_equal(pir_live_mesh_refresh(live), PIR_OK);
+            list_live(live, &held);
+            expect_changes(live, &before, &held);
+            bool segments = pir_polytope_dimension(p) == 1 && pir_polytope_dimension(q) == 1;
+            of_segments += segments && before.count + held.count == 3;
+        }
+        pir_live_mesh_destroy(live);
+        pir_sum_destroy(sum);
+        pir_polytope_release(q);
+        pir_polytope_release(p);
+    }
+    assert_true(of_segments > 200);
 }
 
 /* Slot for slot the same, and the same lists of what changed. */
@@ -447,6 +496,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(live_mesh_is_the_sum_after_every_rotation),
+        cmocka_unit_test(region_of_a_live_mesh_tells_each_change_once),
         cmocka_unit_test(what_is_noted_is_what_changed),
         cmocka_unit_test(small_turns_rewrite_little_and_allocate_nothing),
         cmocka_unit_test(region_holds_the_facets_that_face_its_way),

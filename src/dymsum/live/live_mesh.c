@@ -251,6 +251,19 @@ static void refresh_noted(pir_live_mesh *live) {
     }
 }
 
+/*
+ * Two segments have one pair and two facets, on either side of it. A region may hold one of these. So of the facets
+ * that came and went, which are counted here, at most one is told: where there was none before, or is none now.
+ */
+static void tell_once(pir_live_mesh *live) {
+    uint32_t now = 0;
+    for (uint32_t slot = 0; slot < live->slots.used; slot++)
+        now += live->slots.edge[slot] != PIR_NO_CROSSING;
+    uint32_t before = now + live->disappeared.count - live->appeared.count;
+    live->appeared.count = before == 0 && now > 0;
+    live->disappeared.count = before > 0 && now == 0;
+}
+
 pir_status pir_live_mesh_refresh(pir_live_mesh *live) {
     if (!live)
         return PIR_ERR_ARGUMENT;
@@ -267,5 +280,7 @@ pir_status pir_live_mesh_refresh(pir_live_mesh *live) {
     live->slots.used = live->pairing->crossings.used;
     pir_live_vertices_sweep(&live->vertices);
     pir_live_pairs_settle(&live->appeared, &live->disappeared);
+    if (live->pairing->p->artificial && live->pairing->q->artificial)
+        tell_once(live);
     return PIR_OK;
 }
