@@ -394,3 +394,17 @@ void pir_polytope_release(pir_polytope *polytope) {
     if (polytope && atomic_fetch_sub_explicit(&polytope->references, 1, memory_order_acq_rel) == 1)
         destroy(polytope);
 }
+
+/* --- reading --- */
+
+static bool is_power_of_two(const pir_int *a) {
+    return pir_int_sign(a) > 0 && pir_int_trailing_zeros(a) + 1 == pir_int_bits(a);
+}
+
+bool pir_vertex_is_double(const pir_polytope *p, uint32_t vertex, int k) {
+    const pir_int3 exact = pir_vertex_exact(p, vertex);
+    const double rounded[3] = {p->vertex[vertex].x, p->vertex[vertex].y, p->vertex[vertex].z};
+    return exact.c[k].size == 0 ||
+           (is_power_of_two(&p->scale.num) && is_power_of_two(&p->scale.den) && fabs(rounded[k]) > 0x1p-900 &&
+            pir_int_bits(&exact.c[k]) - pir_int_trailing_zeros(&exact.c[k]) <= 53);
+}

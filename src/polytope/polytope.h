@@ -156,4 +156,7 @@ static inline pir_int3 pir_vertex_exact(const pir_polytope *p, uint32_t vertex) 
     return pir_vectors_at(&p->exact_vertex, vertex);
 }
 
+/* Whether component k of a vertex is its double exactly, which is told of doubles that are no smaller than 2^-900. */
+bool pir_vertex_is_double(const pir_polytope *p, uint32_t vertex, int k);
+
 #endif

@@ -335,19 +335,11 @@ double pir_facet_slack(pir_exact *exact, const pir_placement *placement, const p
 
 /* --- planes across an axis --- */
 
-static bool is_power_of_two(const pir_int *a) {
-    return pir_int_sign(a) > 0 && pir_int_trailing_zeros(a) + 1 == pir_int_bits(a);
-}
-
 /* Component k of a vertex, where it is a double exactly. */
 static bool exact_component(const pir_polytope *p, uint32_t vertex, int k, double *ret_c) {
-    pir_int3 v = pir_vertex_exact(p, vertex);
     const pir_vec3 d = p->vertex[vertex];
     *ret_c = k == 0 ? d.x : k == 1 ? d.y : d.z;
-    if (v.c[k].size == 0)
-        return true;
-    return is_power_of_two(&p->scale.num) && is_power_of_two(&p->scale.den) && fabs(*ret_c) > 0x1p-900 &&
-           pir_int_bits(&v.c[k]) - pir_int_trailing_zeros(&v.c[k]) <= 53;
+    return pir_vertex_is_double(p, vertex, k);
 }
 
 /* The axis that a facet's normal is along, where the rotation turns about it or half round across it. */
