@@ -45,14 +45,16 @@ typedef struct pir_simplified {
  * polytope  of any dimension. One below dimension 3 is its own outer polytope, whatever number of vertices it has.
  * options   when to stop.
  *
- * Either result is the polytope itself, with the error 0, where that has no more vertices than are allowed, or where
- * nothing of fewer vertices is as near as asked for. Errors above 0 are at least 10^-12 of the size, which is how well
- * distances are known.
+ * Either result is the polytope itself, with the error 0, where that has no more vertices than are allowed and nothing
+ * of fewer vertices is as near as asked for. Errors above 0 are at least 10^-12 of the size, which is how well
+ * distances are known, wherever the body is. The outer polytope has doubles for coordinates: where those are coarse,
+ * far from the origin, it is not near.
  *
  * Cost: O(r · (n + v) · log n) for n vertices, v of them in the results, and r rounds, about 10 · log v.
  *
  * Errors: PIR_ERR_ARGUMENT (fewer than 4 vertices, a negative error, neither set), PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT (a
- * body farther from its origin than 2^400 times its size), PIR_ERR_MEMORY.
+ * body farther from its origin than 2^400 times its size, or so large that what is around it is beyond the doubles),
+ * PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_polytope_simplify(pir_polytope *polytope, const pir_simplify_options *options,
                                          pir_simplified *ret_simplified);

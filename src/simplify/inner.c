@@ -42,9 +42,9 @@ static pir_status measure_all(struct growth *g) {
     for (uint32_t i = 0; i < g->open_count && status == PIR_OK; i++) {
         pir_far_point point = g->open[i];
         pir_measured measured;
-        status = pir_measure_point(g->measure, point.at, &measured);
-        point.distance = measured.distance;
-        if (status == PIR_OK && point.distance > 0) {
+        status = pir_measure_vertex(g->measure, g->body, point.index, &measured);
+        if (status == PIR_OK && measured.distance > 0) {
+            point.distance = measured.distance;
             g->error = fmax(g->error, point.distance);
             g->open[left++] = point;
         }

@@ -26,6 +26,9 @@ void pir_measure_finish(pir_measure *measure) {
     pir_polytope_release(measure->origin);
 }
 
+/* What rounding a vertex may add to a distance at most, as a part of the size. */
+#define ROUGH 1e-12
+
 /* The sum of the sides of a box, and the greatest coordinate. */
 static double extent(const pir_polytope *polytope, double *ret_reach) {
     pir_vec3 low, high;
@@ -42,22 +45,55 @@ pir_status pir_measure_aim(pir_measure *measure, pir_polytope *polytope) {
                                       : pir_pair_create(measure->origin, polytope, &options, &measure->pair);
     if (status != PIR_OK)
         return status;
-    // vertices are known as doubles, off by half an ulp in each coordinate
-    measure->slack = PROMISE * size + 0x1p-51 * reach;
+    // vertices as doubles are off by half an ulp in each coordinate
+    double off = 0x1p-51 * reach;
+    measure->polytope = polytope;
+    measure->slack = PROMISE * size;
+    measure->rough = off <= ROUGH * size ? PROMISE * size + off : 0;
     return PIR_OK;
 }
 
-pir_status pir_measure_point(pir_measure *measure, pir_vec3 point, pir_measured *ret_measured) {
+/* Asks the pair, whose P is moved by `by`. */
+static pir_status ask(pir_measure *measure, pir_vec3 by, double slack, pir_measured *ret_measured) {
     pir_pair_input input = pir_pair_input_default();
     pir_query_result result;
-    input.pose_p.translation = point;
+    input.pose_p.translation = by;
     pir_status status = pir_pair_distance(measure->pair, measure->workspace, &input, &result);
     if (status != PIR_OK)
         return status;
     bool apart = result.state == PIR_OUTSIDE;
-    ret_measured->distance = apart ? result.distance * (1 + PROMISE) + measure->slack : 0;
+    ret_measured->distance = apart ? result.distance * (1 + PROMISE) + slack : 0;
     ret_measured->nearest = apart ? result.witness.q : (pir_feature){PIR_FEATURE_NONE, 0};
     return PIR_OK;
+}
+
+pir_status pir_measure_point(pir_measure *measure, pir_vec3 point, pir_measured *ret_measured) {
+    return ask(measure, point, measure->slack, ret_measured);
+}
+
+/* A pair of two points has the unit 1 unless its bodies are far or near: a translation of P then may not be. */
+static bool is_moderate(pir_vec3 v) {
+    double most = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
+    return most == 0 || (most > 0x1p-300 && most < 0x1p300);
+}
+
+pir_status pir_measure_vertex(pir_measure *measure, const pir_polytope *of, uint32_t vertex,
+                              pir_measured *ret_measured) {
+    bool moves = measure->polytope->dimension > 0 || is_moderate(of->vertex[vertex]), exact = true;
+    for (int k = 0; k < 3; k++)
+        exact &= pir_vertex_is_double(of, vertex, k);
+    if (moves && (exact || measure->rough > 0))
+        return ask(measure, of->vertex[vertex], exact ? measure->slack : measure->rough, ret_measured);
+    pir_polytope *point = NULL;
+    pir_status status = pir_polytope_of_some(of, &vertex, 1, &point);
+    if (status == PIR_OK)
+        status = pir_pair_reset(measure->pair, point, measure->polytope);
+    if (status == PIR_OK)
+        status = ask(measure, (pir_vec3){0, 0, 0}, measure->slack, ret_measured);
+    if (status == PIR_OK)
+        status = pir_pair_reset(measure->pair, measure->origin, measure->polytope);
+    pir_polytope_release(point);
+    return status;
 }
 
 pir_status pir_measure_holds(pir_measure *measure, pir_polytope *around, const pir_polytope *polytope, uint32_t vertex,

@@ -7,6 +7,8 @@
  *
  * That the polytope holds the body is proven at the end, vertex by vertex and exactly. Where rounding has moved a
  * corner inwards, all are moved outwards more and measured again.
+ *
+ * Where doubles have no such polytope, a tetrahedron around the body's box is one: a poor one, but of few vertices.
  */
 #include "simplify/outer.h"
 
@@ -15,7 +17,10 @@
 
 /* By how much corners are moved outwards at first, and at most. */
 #define PUSH      0x1p-46
-#define PUSH_MOST 0x1p-8
+#define PUSH_MOST 2.0
+
+/* The planes that there are before any facet's. */
+#define FIRST_PLANES 4
 
 struct cutting {
     pir_measure *measure;
@@ -133,28 +138,72 @@ static pir_status cut_all(struct cutting *c, double error) {
     return status;
 }
 
-/* Moves corners outwards until the polytope holds the body. */
-static pir_status prove(struct cutting *c) {
-    for (;;) {
-        bool holds = true;
-        pir_status status = PIR_OK;
-        for (uint32_t v = 0; v < c->body->vertex_count && status == PIR_OK && holds; v++)
-            status = pir_measure_holds(c->measure, c->outer, c->body, v, &holds);
-        if (status == PIR_OK)
-            status = pir_measure_aim(c->measure, c->body);
-        if (status != PIR_OK || holds)
-            return status;
-        c->push *= 4;
-        status = c->push > PUSH_MOST ? PIR_ERR_EMPTY : rebuild(c, &holds);
-        if (status != PIR_OK)
-            return status;
-    }
+/* Whether the polytope holds the body, exactly. */
+static pir_status ask_holds(struct cutting *c, bool *ret_holds) {
+    pir_status status = PIR_OK;
+    *ret_holds = true;
+    for (uint32_t v = 0; v < c->body->vertex_count && status == PIR_OK && *ret_holds; v++)
+        status = pir_measure_holds(c->measure, c->outer, c->body, v, ret_holds);
+    return status == PIR_OK ? pir_measure_aim(c->measure, c->body) : status;
 }
+
+/* Moves corners outwards until the polytope holds the body. Where too many come apart, it stays as it is. */
+static pir_status prove(struct cutting *c) {
+    bool holds, fits;
+    pir_status status = ask_holds(c, &holds);
+    while (status == PIR_OK && !holds) {
+        c->push *= 4;
+        status = c->push > PUSH_MOST ? PIR_ERR_EMPTY : rebuild(c, &fits);
+        if (status == PIR_OK)
+            status = ask_holds(c, &holds);
+    }
+    return status;
+}
+
+/* --- a tetrahedron --- */
+
+/* The least corner of a tetrahedron around a box along one axis, and how long its side is there. */
+struct side {
+    double from, length;
+};
+
+static struct side side_around(double low, double high) {
+    // a point of the box is less than a quarter of each side beyond the corner, so the parts add up to less than 1
+    double apart = high - low, reach = fmax(fabs(low), fabs(high));
+    double more = apart * 0x1p-8 + reach * 0x1p-50 + 0x1p-1070;
+    return (struct side){low - more, 4 * (apart + 2 * more)};
+}
+
+/* A tetrahedron around the body's box. PIR_ERR_LIMIT where its corners are beyond the doubles. */
+static pir_status surround(struct cutting *c) {
+
+    const pir_polytope_options options = {.allocator = &c->body->allocator};
+    pir_vec3 low, high, corner[4];
+    pir_polytope_bounds(c->body, &low, &high);
+    struct side x = side_around(low.x, high.x), y = side_around(low.y, high.y), z = side_around(low.z, high.z);
+    for (int i = 0; i < 4; i++) {
+        corner[i] = (pir_vec3){x.from + (i == 1 ? x.length : 0), y.from + (i == 2 ? y.length : 0),
+                               z.from + (i == 3 ? z.length : 0)};
+        if (!pir_vec_is_finite(corner[i]))
+            return PIR_ERR_LIMIT;
+    }
+    pir_polytope_release(c->outer);
+    c->outer = NULL;
+    bool holds = false;
+    pir_status status = pir_polytope_create(corner, 4, &options, &c->outer);
+    if (status == PIR_OK)
+        status = ask_holds(c, &holds);
+    if (status == PIR_OK)
+        status = holds ? measure_all(c, c->outer) : PIR_ERR_LIMIT;
+    return status;
+}
+
+/* --- the call --- */
 
 /* The planes of a tetrahedron around the body. */
 static bool begin(struct cutting *c) {
-    static const pir_vec3 normals[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    for (int i = 0; i < 4; i++) {
+    static const pir_vec3 normals[FIRST_PLANES] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    for (int i = 0; i < FIRST_PLANES; i++) {
         // in units of the body's box, so that the tetrahedron is as flat as the body
         pir_vec3 u = c->spaces.unit, n = {normals[i].x / u.x, normals[i].y / u.y, normals[i].z / u.z};
         uint32_t farthest = 0;
@@ -179,16 +228,19 @@ pir_status pir_simplify_outer(pir_measure *measure, pir_polytope *body, uint32_t
     const pir_allocator *a = &body->allocator;
     struct cutting c = {.measure = measure, .body = body, .room = most, .push = PUSH};
     // where corners are not bounded: all facets, and the four planes of the beginning, have fewer corners than this
-    uint32_t corners = 2 * (body->facet_count + 4);
+    uint32_t corners = 2 * (body->facet_count + FIRST_PLANES);
     c.room = c.room < corners ? c.room : corners;
-    bool made = pir_half_spaces_init(&c.spaces, body, body->facet_count + 4);
+    bool made = pir_half_spaces_init(&c.spaces, body, body->facet_count + FIRST_PLANES),
+         fits = body->vertex_count <= most;
     c.used = PIR_ZEROED(a, bool, body->facet_count);
     c.far = PIR_NEW(a, pir_far_point, c.room);
     c.nearest = PIR_NEW(a, uint32_t, c.room);
     pir_status status = made && c.used && c.far && c.nearest ? run(&c, error) : PIR_ERR_MEMORY;
+    if (status == PIR_ERR_EMPTY && !fits)
+        status = surround(&c);
     // where doubles have no such polytope, or none of fewer vertices, the body itself is one
-    bool itself = status == PIR_ERR_EMPTY || (status == PIR_OK && body->vertex_count <= most &&
-                                              (c.error > error || c.outer->vertex_count >= body->vertex_count));
+    bool itself = fits && (status == PIR_ERR_EMPTY ||
+                           (status == PIR_OK && (c.error > error || c.outer->vertex_count >= body->vertex_count)));
     if (itself || status == PIR_OK) {
         *ret_outer = pir_polytope_retain(itself ? body : c.outer);
         *ret_error = itself ? 0 : c.error;

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <pirouette/exact.h>
 #include <pirouette/simplify.h>
 
 #include "oracle/distance.h"
@@ -55,13 +56,14 @@ static void check_between(uint64_t number, const char *which, const pir_polytope
 static double size_of(const pir_polytope *polytope) {
     pir_vec3 low, high;
     pir_polytope_bounds(polytope, &low, &high);
-    return fmax(high.x - low.x, fmax(high.y - low.y, high.z - low.z)) +
-           1e-3 * fmax(fabs(low.x), fmax(fabs(low.y), fabs(low.z)));
+    double size = fmax(high.x - low.x, fmax(high.y - low.y, high.z - low.z));
+    return size > 0 ? size : 1;
 }
 
 static void check(uint64_t number, pir_polytope *body, const pir_simplify_options *options) {
     pir_simplified s;
-    assert_int_equal(pir_polytope_simplify(body, options, &s), PIR_OK);
+    pir_status status = pir_polytope_simplify(body, options, &s);
+    expect(status == PIR_OK, "body %llu: %s", (unsigned long long)number, pir_status_text(status));
     uint32_t most = options->vertices ? options->vertices : UINT32_MAX;
     expect(pir_polytope_vertex_count(s.inner) <= most, "body %llu: inner has %u vertices", (unsigned long long)number,
            pir_polytope_vertex_count(s.inner));
@@ -69,9 +71,10 @@ static void check(uint64_t number, pir_polytope *body, const pir_simplify_option
     if (!options->vertices)
         expect(s.inner_error <= options->error && s.outer_error <= options->error, "body %llu: errors %g and %g of %g",
                (unsigned long long)number, s.inner_error, s.outer_error, options->error);
-    if (pir_polytope_dimension(body) == 3 && pir_polytope_dimension(s.inner) == 3) {
+    if (pir_polytope_dimension(body) == 3)
         expect(pir_polytope_vertex_count(s.outer) <= most, "body %llu: outer has %u vertices",
                (unsigned long long)number, pir_polytope_vertex_count(s.outer));
+    if (pir_polytope_dimension(body) == 3 && pir_polytope_dimension(s.inner) == 3) {
         check_between(number, "inner", s.inner, body, s.inner_error, size_of(body));
         check_between(number, "outer", body, s.outer, s.outer_error, size_of(body));
     }
@@ -98,6 +101,106 @@ static void bounds_hold_and_are_near(void **state) {
     }
 }
 
+/* Bodies of size 1 far from the origin, up to where they are a few of the doubles there. */
+static void bodies_far_from_the_origin_have_the_vertices_and_bounds_of_others(void **state) {
+    (void)state;
+    const char *text = getenv("PIR_TEST_BODIES");
+    uint64_t count = text ? strtoull(text, NULL, 10) : 120;
+    for (uint64_t number = 0; number < count; number++) {
+        test_random random = test_random_case("simplify far", number);
+        test_points points;
+        test_body_points(&random, TEST_SPHERE, 5 + test_random_below(&random, 30), &points);
+        double far = ldexp(1, test_random_between(&random, 16, 49));
+        stretch(&points, (pir_vec3){1, 1, 1}, (pir_vec3){0.7 * far, -0.3 * far, far});
+        pir_polytope *body = test_polytope(&points);
+        pir_simplify_options options = {.vertices = 4 + test_random_below(&random, 12)};
+        if (number % 2)
+            options.error = pow(10, -(double)test_random_below(&random, 7));
+        if (pir_polytope_dimension(body) == 3)
+            check(number, body, &options);
+        pir_polytope_release(body);
+    }
+}
+
+static double outer_error_of(const test_points *points, uint32_t vertices) {
+    pir_polytope *body = test_polytope(points);
+    pir_simplified s;
+    assert_int_equal(pir_polytope_simplify(body, &(pir_simplify_options){.vertices = vertices}, &s), PIR_OK);
+    double error = s.outer_error;
+    pir_simplified_release(&s);
+    pir_polytope_release(body);
+    return error;
+}
+
+/* Coarse doubles cost the outer polytope some planes, not most of them. */
+static void outer_polytope_far_away_is_nearly_as_near(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 24; number++) {
+        test_random random = test_random_case("simplify far, outer", number);
+        test_points points;
+        test_body_points(&random, TEST_SPHERE, 300, &points);
+        uint32_t vertices = 20 + test_random_below(&random, 200);
+        double near = outer_error_of(&points, vertices), far = ldexp(1, test_random_between(&random, 30, 44));
+        stretch(&points, (pir_vec3){1, 1, 1}, (pir_vec3){0.7 * far, -0.3 * far, far});
+        double there = outer_error_of(&points, vertices);
+        expect(there <= 2 * near + 0x1p-46 * far, "body %llu, %g away: %g, and %g at the origin",
+               (unsigned long long)number, far, there, near);
+    }
+}
+
+/* Vertices that are no doubles: thirds, far from the origin, and a body much smaller than the doubles are apart. */
+static void exact_vertices_are_measured_exactly(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 30; number++) {
+        test_random random = test_random_case("simplify exact", number);
+        mpq_t at[3 * 20];
+        pir_polytope *body = NULL;
+        long down = number % 3 == 0 ? 30 : 0;
+        for (int i = 0; i < 60; i++) {
+            mpq_init(at[i]);
+            mpq_set_si(at[i], test_random_between(&random, -100, 100), 30);
+            mpq_canonicalize(at[i]);
+            mpq_div_2exp(at[i], at[i], (mp_bitcnt_t)down);
+            mpz_addmul_ui(mpq_numref(at[i]), mpq_denref(at[i]), 1ul << 46);
+        }
+        assert_int_equal(pir_polytope_create_exact((const mpq_t *)at, 20, NULL, &body), PIR_OK);
+        if (pir_polytope_dimension(body) == 3)
+            check(number, body, &(pir_simplify_options){.vertices = 4 + test_random_below(&random, 6)});
+        pir_polytope_release(body);
+        for (int i = 0; i < 60; i++)
+            mpq_clear(at[i]);
+    }
+}
+
+/* The first vertex that is kept is the origin, a point: all others are 10^140 away, or 10^-200. */
+static void vertex_at_the_origin_is_measured_from_at_any_size(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 20; number++) {
+        test_random random = test_random_case("simplify at the origin", number);
+        test_points points;
+        test_body_points(&random, TEST_GRID, 30, &points);
+        double size = number % 2 ? 1e140 : 1e-200;
+        points.at[0] = (pir_vec3){-9, -9, -9};
+        stretch(&points, (pir_vec3){size, size, size}, (pir_vec3){9 * size, 9 * size, 9 * size});
+        pir_polytope *body = test_polytope(&points);
+        check(number, body, &(pir_simplify_options){.vertices = 4 + test_random_below(&random, 4)});
+        pir_polytope_release(body);
+    }
+}
+
+/* A cube whose corners are the greatest doubles is in no tetrahedron of doubles. */
+static void body_as_large_as_doubles_has_no_outer_one_of_fewer_vertices(void **state) {
+    (void)state;
+    test_points cube = {.count = 8};
+    pir_simplified s = {0};
+    for (size_t i = 0; i < 8; i++)
+        cube.at[i] = (pir_vec3){i & 1 ? 1.5e308 : -1.5e308, i & 2 ? 1.5e308 : -1.5e308, i & 4 ? 1.5e308 : -1.5e308};
+    pir_polytope *body = test_polytope(&cube);
+    assert_int_equal(pir_polytope_simplify(body, &(pir_simplify_options){.vertices = 4}, &s), PIR_ERR_LIMIT);
+    assert_true(!s.inner && !s.outer);
+    pir_polytope_release(body);
+}
+
 static void flat_bodies_are_their_own_outer_ones(void **state) {
     (void)state;
     static const test_body flat[3] = {TEST_POLYGON, TEST_SEGMENT, TEST_POINT};
@@ -115,24 +218,26 @@ static void flat_bodies_are_their_own_outer_ones(void **state) {
     }
 }
 
-/* Where an outer polytope would reach beyond the doubles, or be finer than they are, the body is its own. */
-static void bodies_at_the_ends_of_the_doubles_are_their_own_outer_ones(void **state) {
+/* What is around a body may be beyond the doubles, though the body is not; where doubles are coarse there is a way. */
+static void bodies_at_the_ends_of_the_doubles_have_no_more_vertices_or_are_refused(void **state) {
     (void)state;
     static const double sizes[] = {1.5e308, 1e308, 1e-320};
     test_random random = test_random_case("ends of the doubles", 0);
     pir_polytope *sphere = test_sphere(&random, 40);
     for (int i = 0; i < 3; i++) {
         test_points points = {.count = pir_polytope_vertex_count(sphere)};
-        pir_simplify_options options = {.vertices = 12};
-        pir_simplified s;
+        pir_simplified s = {0};
         for (uint32_t v = 0; v < points.count; v++) {
             pir_vec3 at = pir_polytope_vertex(sphere, v);
             points.at[v] = (pir_vec3){sizes[i] * at.x, sizes[i] * at.y, sizes[i] * at.z};
         }
         pir_polytope *body = test_polytope(&points);
-        expect(pir_polytope_simplify(body, &options, &s) == PIR_OK, "size %g", sizes[i]);
-        expect(s.outer == body && s.outer_error == 0, "size %g: an outer polytope %g away", sizes[i], s.outer_error);
-        assert_in_range(pir_polytope_vertex_count(s.inner), 4, 12);
+        pir_status status = pir_polytope_simplify(body, &(pir_simplify_options){.vertices = 12}, &s);
+        expect(status == (i < 2 ? PIR_ERR_LIMIT : PIR_OK), "size %g: %s", sizes[i], pir_status_text(status));
+        if (status == PIR_OK) {
+            assert_in_range(pir_polytope_vertex_count(s.inner), 4, 12);
+            assert_in_range(pir_polytope_vertex_count(s.outer), 4, 12);
+        }
         pir_simplified_release(&s);
         pir_polytope_release(body);
     }
@@ -195,8 +300,13 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_near),
+        cmocka_unit_test(bodies_far_from_the_origin_have_the_vertices_and_bounds_of_others),
+        cmocka_unit_test(outer_polytope_far_away_is_nearly_as_near),
+        cmocka_unit_test(exact_vertices_are_measured_exactly),
+        cmocka_unit_test(vertex_at_the_origin_is_measured_from_at_any_size),
+        cmocka_unit_test(body_as_large_as_doubles_has_no_outer_one_of_fewer_vertices),
         cmocka_unit_test(flat_bodies_are_their_own_outer_ones),
-        cmocka_unit_test(bodies_at_the_ends_of_the_doubles_are_their_own_outer_ones),
+        cmocka_unit_test(bodies_at_the_ends_of_the_doubles_have_no_more_vertices_or_are_refused),
         cmocka_unit_test(what_is_near_enough_is_the_body_itself),
         cmocka_unit_test(bad_options_are_refused),
         cmocka_unit_test(memory_that_runs_out_leaves_nothing),
