@@ -281,6 +281,49 @@ static void what_lies_with_a_right_checksum_does_no_harm(void **state) {
     }
 }
 
+/* Counts beyond what the file holds, or the format allows, are refused before memory is taken for them. */
+static void counts_that_lie_are_refused_at_once(void **state) {
+    (void)state;
+    static const uint32_t counts[] = {2, 0xffff, (1u << 20) + 1, 0x7fffffff, UINT32_MAX};
+    test_memory memory = {0};
+    pir_allocator allocator = test_allocator(&memory);
+    const pir_history_visitor visitor = {&allocator, NULL, NULL};
+    const pir_scene_move move = {0, {{0, 0, 0, 1}, {0, 0, 0}}};
+    test_random random = test_random_case("counts that lie", 0);
+    pir_polytope *p = test_sphere(&random, 8);
+    pir_body_options body = pir_body_options_default();
+    pir_history *history;
+    body.pieces = &p;
+    body.piece_count = 1;
+    assert_int_equal(pir_history_create(NULL, &history), PIR_OK);
+    assert_int_equal(pir_history_scene(history, NULL), PIR_OK);
+    assert_int_equal(pir_history_add(history, &body), PIR_OK);
+    struct bytes added = written(history);
+    assert_int_equal(pir_history_update(history, &move, 1), PIR_OK);
+    struct bytes bytes = written(history);
+    assert_int_equal(pir_history_replay_bytes(bytes.data, bytes.size, &visitor, NULL), PIR_OK);
+    // the update's count stands behind its kind; the body's count of pieces before its last number
+    const size_t places[] = {added.size + 1, added.size - 8};
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+            uint8_t before[4];
+            memcpy(before, bytes.data + places[k], 4);
+            for (int b = 0; b < 4; b++)
+                bytes.data[places[k] + (size_t)b] = (uint8_t)(counts[i] >> (8 * b));
+            seal(&bytes);
+            memory.peak = 0;
+            pir_status status = pir_history_replay_bytes(bytes.data, bytes.size, &visitor, NULL);
+            expect(status == PIR_ERR_FORMAT, "place %d, count %u: status %d", k, counts[i], (int)status);
+            expect(memory.blocks == 0 && memory.peak < 1000000, "place %d, count %u: %zu bytes", k, counts[i],
+                   memory.peak);
+            memcpy(bytes.data + places[k], before, 4);
+        }
+    free(added.data);
+    free(bytes.data);
+    pir_history_destroy(history);
+    pir_polytope_release(p);
+}
+
 static void memory_that_runs_out_changes_nothing(void **state) {
     (void)state;
     struct told right = {0};
@@ -429,6 +472,7 @@ int main(void) {
         cmocka_unit_test(what_is_run_again_has_the_same_bits),
         cmocka_unit_test(what_is_cut_or_changed_is_refused),
         cmocka_unit_test(what_lies_with_a_right_checksum_does_no_harm),
+        cmocka_unit_test(counts_that_lie_are_refused_at_once),
         cmocka_unit_test(memory_that_runs_out_changes_nothing),
         cmocka_unit_test(notes_without_memory_leave_whole_ones),
         cmocka_unit_test(notes_of_another_kind_are_refused),
