@@ -47,6 +47,27 @@ static void poses_are_applied_composed_and_inverted(void **state) {
     assert_true(apart(pir_pose_apply(pir_pose_identity(), v), v) == 0);
 }
 
+/* A half turn about each axis, and none, by quaternions whose squares are beyond the doubles. */
+static void one_component_alone_may_be_of_any_size(void **state) {
+    (void)state;
+    static const double sizes[] = {1e300, -1e300, 1e-300, 5e-324};
+    const pir_vec3 v = {1, 2, 3}, turned[4] = {{1, -2, -3}, {-1, 2, -3}, {-1, -2, 3}, {1, 2, 3}};
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 4; i++) {
+            const double s = sizes[i];
+            const pir_pose pose = {{k == 0 ? s : 0, k == 1 ? s : 0, k == 2 ? s : 0, k == 3 ? s : 0}, {10, 20, 30}};
+            const pir_vec3 at = {10 + turned[k].x, 20 + turned[k].y, 30 + turned[k].z};
+            expect(apart(pir_pose_apply(pose, v), at) < 1e-13, "component %d, %g", k, s);
+            expect(apart(pir_pose_apply_inverse(pose, at), v) < 1e-13, "component %d, %g", k, s);
+            const pir_pose moved = pir_pose_integrate(pose, (pir_vec3){1, 0, 0}, (pir_vec3){0, 0, 0}, 2);
+            expect(apart(pir_pose_apply(moved, v), (pir_vec3){at.x + 2, at.y, at.z}) < 1e-13, "component %d, %g", k, s);
+            expect(apart(pir_pose_apply(pir_pose_compose(pose, pose), v),
+                         (pir_vec3){10 + (k == 0 || k == 3 ? 10 : -10) + 1, 20 + (k == 1 || k == 3 ? 20 : -20) + 2,
+                                    30 + (k == 2 || k == 3 ? 30 : -30) + 3}) < 1e-13,
+                   "component %d, %g, twice", k, s);
+        }
+}
+
 static void a_turn_is_that_of_sine_and_cosine(void **state) {
     (void)state;
     for (uint64_t i = 0; i < 2000; i++) {
@@ -86,6 +107,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(poses_are_applied_composed_and_inverted),
+        cmocka_unit_test(one_component_alone_may_be_of_any_size),
         cmocka_unit_test(a_turn_is_that_of_sine_and_cosine),
         cmocka_unit_test(the_bits_are_the_same_everywhere),
     };
