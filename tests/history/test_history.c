@@ -281,6 +281,47 @@ static void what_lies_with_a_right_checksum_does_no_harm(void **state) {
     }
 }
 
+/*
+ * A file that ends between two notes is a history; one that ends within a note is none, though what stood behind it is
+ * still in memory.
+ */
+static void files_end_between_notes(void **state) {
+    (void)state;
+    enum { UPDATES = 3 };
+    const pir_history_visitor visitor = {NULL, NULL, NULL};
+    test_random random = test_random_case("ends of notes", 0);
+    pir_polytope *p = test_sphere(&random, 8);
+    pir_body_options body = pir_body_options_default();
+    pir_history *history;
+    body.pieces = &p;
+    body.piece_count = 1;
+    assert_int_equal(pir_history_create(NULL, &history), PIR_OK);
+    assert_int_equal(pir_history_scene(history, NULL), PIR_OK);
+    assert_int_equal(pir_history_add(history, &body), PIR_OK);
+    for (int i = 0; i < UPDATES; i++) {
+        const pir_scene_move move = {0, {{0, 0, 0, 1}, {i, 0, 0}}};
+        assert_int_equal(pir_history_update(history, &move, 1), PIR_OK);
+    }
+    assert_int_equal(pir_history_remove(history, 0), PIR_OK);
+    struct bytes bytes = written(history);
+    int whole = 0;
+    for (size_t size = 33; size <= bytes.size; size++) {
+        struct bytes cut = {malloc(bytes.size), size};
+        assert_non_null(cut.data);
+        memcpy(cut.data, bytes.data, bytes.size);
+        seal(&cut);
+        pir_status status = pir_history_replay_bytes(cut.data, cut.size, &visitor, NULL);
+        expect(status == PIR_OK || status == PIR_ERR_FORMAT, "cut at %zu: status %d", size, (int)status);
+        whole += status == PIR_OK;
+        free(cut.data);
+    }
+    // the scene, the polytope, the body, the updates, the removal
+    assert_int_equal(whole, 3 + UPDATES + 1);
+    free(bytes.data);
+    pir_history_destroy(history);
+    pir_polytope_release(p);
+}
+
 /* Counts beyond what the file holds, or the format allows, are refused before memory is taken for them. */
 static void counts_that_lie_are_refused_at_once(void **state) {
     (void)state;
@@ -472,6 +513,7 @@ int main(void) {
         cmocka_unit_test(what_is_run_again_has_the_same_bits),
         cmocka_unit_test(what_is_cut_or_changed_is_refused),
         cmocka_unit_test(what_lies_with_a_right_checksum_does_no_harm),
+        cmocka_unit_test(files_end_between_notes),
         cmocka_unit_test(counts_that_lie_are_refused_at_once),
         cmocka_unit_test(memory_that_runs_out_changes_nothing),
         cmocka_unit_test(notes_without_memory_leave_whole_ones),

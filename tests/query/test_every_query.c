@@ -231,6 +231,27 @@ static void batches_say_what_single_queries_say(void **state) {
     clear(&s);
 }
 
+/* Support functions alone know the same refusals, in a build that has them. */
+static void supports_alone_refuse_what_is_no_place(void **state) {
+    (void)state;
+    struct scene s = make(cube(1), cube(1), still);
+    const pir_ccd_pair pairs[] = {{s.p, s.q, still, {NAN, 0, 0}},        {s.p, s.q, still, {0, HUGE_VAL, 0}},
+                                  {s.p, s.q, {0, NAN, 0, 1}, {3, 0, 0}}, {s.p, s.q, {0, 0, 0, 0}, {3, 0, 0}},
+                                  {NULL, s.q, still, {3, 0, 0}},         {s.p, NULL, still, {3, 0, 0}}};
+    const pir_status should[] = {PIR_ERR_NOT_FINITE,      PIR_ERR_NOT_FINITE, PIR_ERR_NOT_FINITE,
+                                 PIR_ERR_ZERO_QUATERNION, PIR_ERR_ARGUMENT,   PIR_ERR_ARGUMENT};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        pir_ccd_outcome outcome = PIR_CCD_FAILED;
+        double distance = 7;
+        pir_status status = pir_ccd_overlap(&pairs[i], &outcome);
+        expect(status == should[i] || status == PIR_ERR_UNSUPPORTED, "pair %zu: status %d", i, (int)status);
+        status = pir_ccd_distance(&pairs[i], &outcome, &distance);
+        expect(status == should[i] || status == PIR_ERR_UNSUPPORTED, "pair %zu: status %d", i, (int)status);
+        assert_true(outcome == PIR_CCD_FAILED && distance == 7);
+    }
+    clear(&s);
+}
+
 /* A query that has followed every step, and one that has seen nothing, agree to the bit. */
 static void following_small_steps_is_like_looking_afresh(void **state) {
     (void)state;
@@ -275,6 +296,7 @@ int main(void) {
         cmocka_unit_test(nothing_allocates_after_the_first_query),
         cmocka_unit_test(running_out_of_memory_is_a_status),
         cmocka_unit_test(swapping_scaling_and_moving_change_no_state),
+        cmocka_unit_test(supports_alone_refuse_what_is_no_place),
         cmocka_unit_test(following_small_steps_is_like_looking_afresh),
         cmocka_unit_test(batches_say_what_single_queries_say),
     };

@@ -232,6 +232,28 @@ static void a_spinning_box_that_glides_by_is_a_miss(void **state) {
     }
 }
 
+/* Faces that touch: what goes away or slides recedes at time 0, what goes on is a hit, what does not move rests. */
+static void boxes_that_touch_and_part_recede_at_once(void **state) {
+    (void)state;
+    struct scene s = make(cube(1), cube(1), still);
+    static const struct {
+        pir_vec3 start, way;
+        pir_cast_outcome outcome;
+    } cases[] = {{{1, 0, 0}, {2, 0, 0}, PIR_CAST_RECEDING}, {{1, 0, 0}, {0, 1, 0}, PIR_CAST_RECEDING},
+                 {{1, 0, 0}, {-1, 0, 0}, PIR_CAST_HIT},     {{0.9, 0, 0}, {2, 0, 0}, PIR_CAST_START_INSIDE},
+                 {{3, 0, 0}, {0, 0, 0}, PIR_CAST_AT_REST},  {{3, 0, 0}, {-1, 0, 0}, PIR_CAST_MISS}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const pir_motion motion = {
+            .rotation = still, .start = cases[i].start, .motion = cases[i].way, .axis = {0, 0, 1}, .angle = 0};
+        pir_cast_result r;
+        assert_int_equal(pir_query_advance(s.query, &motion, 1e-9, &r), PIR_OK);
+        expect(r.outcome == cases[i].outcome, "case %zu: outcome %d", i, (int)r.outcome);
+        expect(r.time == (i < 4 ? 0 : 1), "case %zu: time %g", i, r.time);
+        expect(r.steps >= 1 && r.steps < 1000, "case %zu: %u steps", i, r.steps);
+    }
+    clear(&s);
+}
+
 static void the_answer_is_the_same_a_million_away(void **state) {
     (void)state;
     const double away[3] = {0, 1e6, 1e7};
@@ -265,6 +287,7 @@ int main(void) {
         cmocka_unit_test(directions_tell_how_far),
         cmocka_unit_test(a_turning_box_arrives_in_time),
         cmocka_unit_test(a_spinning_box_that_glides_by_is_a_miss),
+        cmocka_unit_test(boxes_that_touch_and_part_recede_at_once),
         cmocka_unit_test(the_answer_is_the_same_a_million_away),
     };
     return cmocka_run_group_tests_name("known cases", tests, NULL, NULL);

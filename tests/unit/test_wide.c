@@ -94,6 +94,39 @@ static void sums_of_products_are_exact(void **state) {
     mpz_clears(a, b, NULL);
 }
 
+/* Zeros, ones and powers of two next to what fills a limb, of either sign, each with each. */
+static void products_of_special_numbers_are_exact(void **state) {
+    (void)state;
+    pir_two_limbs special[60];
+    size_t count = 0;
+    static const uint32_t powers[] = {0, 1, 31, 32, 62, 63, 64, 65, 91};
+    for (size_t i = 0; i < sizeof powers / sizeof *powers; i++)
+        for (int by = -1; by <= 1; by++) {
+            const pir_two_limbs number = ((pir_two_limbs)1 << powers[i]) + by;
+            special[count++] = number;
+            special[count++] = -number;
+        }
+    mpz_t a, b, z;
+    mpz_inits(a, b, z, NULL);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < count; k++) {
+            pir_int256 sum = {{0}};
+            pir_int256_add_product(&sum, special[i], special[k]);
+            set_two(a, special[i]);
+            set_two(b, special[k]);
+            mpz_mul(z, a, b);
+            set_wide(b, sum.limb, 4);
+            expect(mpz_cmp(z, b) == 0, "numbers %zu and %zu", i, k);
+            // and once more, so that the sum is carried on
+            pir_int256_add_product(&sum, special[k], special[k]);
+            set_two(a, special[k]);
+            mpz_addmul(z, a, a);
+            set_wide(b, sum.limb, 4);
+            expect(mpz_cmp(z, b) == 0, "numbers %zu and %zu, added", i, k);
+        }
+    mpz_clears(a, b, z, NULL);
+}
+
 static void products_with_two_limbs_are_exact(void **state) {
     (void)state;
     test_random random = test_random_case("wide integers", 1);
@@ -126,6 +159,7 @@ static void products_with_two_limbs_are_exact(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sums_of_products_are_exact),
+                                       cmocka_unit_test(products_of_special_numbers_are_exact),
                                        cmocka_unit_test(products_with_two_limbs_are_exact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
