@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include <pirouette/shape.h>
+
 #include "scene/crowd.h"
 #include "scene/scene_bodies.h"
 #include "support/bodies.h"
@@ -337,6 +339,38 @@ static void only_moved_bodies_are_looked_at(void **state) {
     pir_polytope_release(p);
 }
 
+/* Two octahedra apart whose boxes meet are not asked about again until they have travelled as far as was proven. */
+static void bodies_that_are_apart_are_asked_about_once(void **state) {
+    (void)state;
+    pir_scene *scene = NULL;
+    pir_polytope *octahedron = NULL;
+    pir_body_options body = pir_body_options_default();
+    uint32_t still_one, mover;
+    assert_int_equal(pir_shape_create("octahedron", NULL, NULL, &octahedron), PIR_OK);
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    body.pieces = &octahedron;
+    body.piece_count = 1;
+    assert_int_equal(pir_scene_add(scene, &body, &still_one), PIR_OK);
+    pir_vec3 low, high;
+    pir_polytope_bounds(octahedron, &low, &high);
+    const double reach = high.x, apart = reach / sqrt(3);
+    body.pose.translation = (pir_vec3){1.5 * reach, 1.5 * reach, 0};
+    assert_int_equal(pir_scene_add(scene, &body, &mover), PIR_OK);
+    assert_int_equal(pir_scene_update(scene, NULL, 0), PIR_OK);
+    assert_int_equal(pir_scene_get_statistics(scene).asked, 1);
+    uint32_t asked = 0;
+    for (int i = 1; i <= 40; i++) {
+        // to and fro, so that the bodies stay as far apart
+        pir_scene_move move = {mover, body.pose};
+        move.pose.translation.z = i % 2 ? 0.05 * apart : 0;
+        assert_int_equal(pir_scene_update(scene, &move, 1), PIR_OK);
+        asked += pir_scene_get_statistics(scene).asked;
+    }
+    expect(asked >= 1 && asked <= 10, "asked %u times in 40 moves of a twentieth of the distance", asked);
+    pir_scene_destroy(scene);
+    pir_polytope_release(octahedron);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -348,6 +382,7 @@ int main(void) {
         cmocka_unit_test(a_budget_is_kept),
         cmocka_unit_test(a_scene_that_no_longer_grows_allocates_nothing),
         cmocka_unit_test(only_moved_bodies_are_looked_at),
+        cmocka_unit_test(bodies_that_are_apart_are_asked_about_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
