@@ -80,6 +80,12 @@ class Planted(unittest.TestCase):
         self.change("docs/guarantees.md", "tested: golden histories", "tested: silver histories")
         self.assertIn("there is no test silver histories", self.wrong())
 
+    def test_a_peer_that_was_not_there_leaves_its_cells_empty(self):
+        path = self.root / "bench/results/amd-epyc-2-cores/pairs.csv"
+        lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+        path.write_text("".join(line for line in lines if ",coal " not in line), encoding="utf-8")
+        self.assertIn("–", tables.pairs(results.Results(self.root)))
+
     def test_names_and_tables_that_are_not_there_end_it(self):
         for mark in ("<!--=readme.upsilon-->1<!--/-->", "<!-- figures: nothing -->"):
             with self.subTest(mark), self.assertRaises(results.Figures):
