@@ -86,15 +86,20 @@ static void no_pose_is_answered_wrongly(void **state) {
     (void)state;
     const uint32_t most = number_of("PIR_TEST_LEVEL", 2);
     const uint32_t each = number_of("PIR_TEST_POSES", 900) / (WORLD_KINDS * (most + 1));
+    uint32_t all = 0;
     for (int kind = 0; kind < WORLD_KINDS; kind++) {
         uint32_t before = 0;
         for (uint32_t level = 0; level <= most; level++) {
             uint32_t unknown = ask_poses(kind, level, each);
+            all += unknown;
             // half of those before, and what chance may add
             expect(level < 2 || unknown <= 0.5 * before + 3 * sqrt(before) + 2, "world %d, level %u", kind, level);
             before = unknown;
         }
     }
+    // as much is proven as has been: a proof that is lost leaves more unknown
+    const bool as_ever = !getenv("PIR_TEST_SEED") && !getenv("PIR_TEST_POSES") && !getenv("PIR_TEST_LEVEL");
+    expect(!as_ever || all <= 40, "%u poses are unknown", all);
 }
 
 /* At the rotations of the grid every pose has its exact state, whatever the length of the quaternion. */
