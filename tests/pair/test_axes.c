@@ -18,7 +18,7 @@
 #include "query/frame/body.h"
 #include "support/bodies.h"
 
-/* A body that may have few axes, turned or not. */
+/* A body that may have few axes, turned or not, its vertices in any order. */
 static pir_polytope *small_body(test_random *random) {
     static const test_body kinds[4] = {TEST_BOX, TEST_BOX, TEST_OCTAHEDRON, TEST_SPHERE};
     test_points points;
@@ -26,6 +26,12 @@ static pir_polytope *small_body(test_random *random) {
     test_body_points(random, kind, 4, &points);
     if (test_random_below(random, 8) == 0)
         test_bake(&points, test_general_rotation(random));
+    for (size_t i = points.count; i > 1; i--) {
+        const size_t k = test_random_below(random, (uint32_t)i);
+        const pir_vec3 kept = points.at[i - 1];
+        points.at[i - 1] = points.at[k];
+        points.at[k] = kept;
+    }
     return test_polytope(&points);
 }
 

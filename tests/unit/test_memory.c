@@ -78,6 +78,28 @@ static void sizes_are_products_or_nothing_is_asked_for(void **state) {
     assert_null(pir_memory_zeroed(&allocator, 5000, 1));
 }
 
+/* Large blocks that last are zeroed, on huge pages where the kernel has them, and may grow and go as others. */
+static void large_blocks_that_last_begin_with_a_huge_page(void **state) {
+    (void)state;
+    const pir_allocator allocator = pir_allocator_or_default(NULL);
+    const size_t page = (size_t)2 << 20, sizes[] = {1, 4096, 2 * page - 1, 2 * page, 2 * page + 1, 3 * page};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        unsigned char *block = pir_memory_lasting(&allocator, sizes[i]);
+        assert_non_null(block);
+        for (size_t k = 0; k < sizes[i]; k += 509)
+            assert_int_equal(block[k], 0);
+        assert_int_equal(block[sizes[i] - 1], 0);
+#ifdef __linux__
+        if (sizes[i] >= 2 * page)
+            expect((uintptr_t)block % page == 0, "%zu bytes", sizes[i]);
+#endif
+        block[sizes[i] - 1] = 7;
+        block = pir_memory_resize(&allocator, block, sizes[i], sizes[i] + 5, 1);
+        assert_true(block && block[sizes[i] - 1] == 7);
+        pir_memory_free(&allocator, block, sizes[i] + 5, 1);
+    }
+}
+
 /* The default allocator gives back what it gave. */
 static void nothing_stays_with_malloc(void **state) {
     (void)state;
@@ -117,6 +139,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sizes_are_products_or_nothing_is_asked_for),
+        cmocka_unit_test(large_blocks_that_last_begin_with_a_huge_page),
         cmocka_unit_test(nothing_stays_with_malloc),
         cmocka_unit_test(reports_are_one_line),
     };
