@@ -9,8 +9,9 @@
 /* Bounds on the vertices added in one search; most take none to three. */
 #define MOST_ADDED 64
 
-/* From so many on, discs about the feet of x are looked for. */
-#define MANY_ADDED 24
+/* From so many on, discs about the feet of x are looked for, where a facet has so many corners. */
+#define MANY_ADDED   24
+#define MANY_CORNERS 64
 
 /* The most walks to a foot of x in one search: each end of D takes one. */
 #define MOST_WALKS 8
@@ -493,17 +494,31 @@ static bool is_new_end(const struct found *found, pir_vec3 along) {
     return new_end;
 }
 
-/*
- * Whether a triangle needs no more vertices. Most searches end soon. In one that does not, facets are nearly parallel,
- * and the discs at each end prove what many vertices would.
- */
+/* Whether a vertex has a facet of many corners. */
+static bool has_large_facet(const pir_polytope *p, uint32_t vertex) {
+    bool large = false;
+    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++)
+        large |= p->loop_start[p->left[h] + 1] - p->loop_start[p->left[h]] >= MANY_CORNERS;
+    return large;
+}
+
+/* Whether a search takes long because large facets of both bodies are nearly parallel at a triangle. */
+static bool is_long(const pir_overlap *overlap, uint32_t t, uint32_t added) {
+    const pir_frame *frame = overlap->exact->frame;
+    const uint32_t corner = corner_of(overlap, t, 0);
+    return added >= MANY_ADDED && has_large_facet(frame->p.polytope, overlap->surface->a[corner]) &&
+           has_large_facet(frame->q.polytope, overlap->surface->b[corner]);
+}
+
+/* Whether a triangle needs no more vertices: where discs are known, or a search is long, they prove what many would. */
 static inline bool is_passed(const pir_overlap *overlap, uint32_t t, uint32_t added, struct found *found) {
     pir_vec3 along;
-    if (!found->aside && added < MANY_ADDED)
+    const bool seeks = is_long(overlap, t, added);
+    if (!found->aside && !seeks)
         return false;
     found->aside = true;
     return is_beside(overlap, t, found, &along) ||
-           (added >= MANY_ADDED && is_new_end(found, along) && add_at_foot(overlap, t, along, found) &&
+           (seeks && is_new_end(found, along) && add_at_foot(overlap, t, along, found) &&
             is_beside(overlap, t, found, &along));
 }
 
