@@ -5,6 +5,9 @@
 /* What a distance in the plane of F is off by, in units of the placement's error and the facet's: see touch.c. */
 #define MARGIN_ERRORS 16
 
+/* Facets of so many corners together are looked at in part first. */
+#define MANY_CORNERS 16
+
 /* --- how far the foot is from the rim --- */
 
 /* The normal of F, the foot of x on it, and what corners may be off by. */
@@ -46,9 +49,13 @@ static inline uint32_t vertex_at(const struct face *face, uint32_t i) {
                                                     : face->body->polytope->origin[half_at(face, i)];
 }
 
-/* A vector of the body's own frame, in that of D. */
+/* A vector of the body's own frame in that of D, and the reverse. */
 static inline pir_vec3 turned(const struct face *face, pir_vec3 v) {
     return face->r ? pir_mat_apply(face->r, v) : v;
+}
+
+static inline pir_vec3 turned_back(const struct face *face, pir_vec3 v) {
+    return face->r ? pir_mat_apply_transposed(face->r, v) : v;
 }
 
 /*
@@ -58,7 +65,7 @@ static inline pir_vec3 turned(const struct face *face, pir_vec3 v) {
  */
 static double least_from(const struct face *face, pir_vec3 in, double noise, uint32_t *at) {
     const pir_vec3 *vertex = face->body->vertex;
-    pir_vec3 d = face->r ? pir_mat_apply_transposed(face->r, in) : in;
+    pir_vec3 d = turned_back(face, in);
     double least = HUGE_VAL;
     for (uint32_t k = 0, i = *at; k < face->count; k++) {
         double along = pir_vec_dot(d, vertex[vertex_at(face, i)]);
@@ -84,14 +91,15 @@ static uint32_t least_of(const struct face *face, pir_vec3 in) {
  */
 static void look_along(const struct face *face, const struct face *other, const struct foot *foot, pir_rim *rim) {
     const pir_body *body = face->body;
+    const pir_vec3 n = turned_back(face, foot->n), y = turned_back(face, foot->y);
     uint32_t across = 0;
     for (uint32_t i = 0; face->count > 1 && i < face->count; i++) {
         uint32_t half = half_at(face, i);
-        pir_vec3 in = pir_vec_cross(foot->n, turned(face, body->polytope->direction[half]));
-        pir_vec3 from = turned(face, body->vertex[body->polytope->origin[half]]);
+        pir_vec3 in = pir_vec_cross(n, body->polytope->direction[half]), of_other = turned(face, in);
         if (i == 0)
-            across = least_of(other, in);
-        double within = pir_vec_dot(in, pir_vec_sub(foot->y, from)) - least_from(other, in, foot->noise, &across);
+            across = least_of(other, of_other);
+        double within = pir_vec_dot(in, pir_vec_sub(y, body->vertex[body->polytope->origin[half]])) -
+                        least_from(other, of_other, foot->noise, &across);
         pir_rim side = {within, face->r == NULL, half, vertex_at(other, across)};
         if (within < rim->margin)
             *rim = side;
@@ -110,15 +118,45 @@ static pir_rim rim_of(const pir_frame *frame, const pir_facet *facet, struct foo
     return rim;
 }
 
+/* The foot of x on F, for the nearest side alone. */
+static struct foot foot_of(const pir_placement *placement, const pir_facet *facet, double slack) {
+    return (struct foot){facet->n, pir_vec_add(placement->x, pir_vec_scale(facet->n, slack)), placement->error, NULL};
+}
+
 pir_rim pir_foot_rim(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack) {
-    pir_vec3 y = pir_vec_add(placement->x, pir_vec_scale(facet->n, slack));
-    return rim_of(exact->frame, facet, (struct foot){facet->n, y, placement->error, NULL});
+    return rim_of(exact->frame, facet, foot_of(placement, facet, slack));
 }
 
 pir_rim pir_foot_rims(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, pir_vec3 y,
                       pir_rims *rims) {
     rims->count = 0;
     return rim_of(exact->frame, facet, (struct foot){facet->n, y, placement->error, rims});
+}
+
+/*
+ * The distance of y from the rim of a part of F: of the facet of fewer corners, put at a point within that of the
+ * other. It is found sooner where that has many. 0 where neither has, or where one body has no facet there.
+ */
+static double margin_of_part(const pir_frame *frame, const pir_facet *facet, const struct foot *foot) {
+    struct face p = face_of(&frame->p, &frame->r, facet->faces.p), q = face_of(&frame->q, NULL, facet->faces.q);
+    if (p.feature.kind != PIR_FEATURE_FACET || q.feature.kind != PIR_FEATURE_FACET || p.count + q.count < MANY_CORNERS)
+        return 0;
+    const struct face *few = p.count < q.count ? &p : &q, *many = p.count < q.count ? &q : &p;
+    pir_vec3 sum = {0, 0, 0};
+    for (uint32_t k = 0; k < 3; k++)
+        sum = pir_vec_add(sum, many->body->vertex[vertex_at(many, k * (many->count / 3))]);
+    const pir_body *body = few->body;
+    pir_vec3 y = pir_vec_sub(foot->y, turned(many, pir_vec_scale(sum, 1.0 / 3)));
+    const pir_vec3 n = turned_back(few, foot->n);
+    double margin = HUGE_VAL;
+    y = turned_back(few, y);
+    for (uint32_t i = 0; i < few->count; i++) {
+        uint32_t half = half_at(few, i);
+        pir_vec3 in = pir_vec_cross(n, body->polytope->direction[half]);
+        double within = pir_vec_dot(in, pir_vec_sub(y, body->vertex[body->polytope->origin[half]]));
+        margin = within < margin ? within : margin;
+    }
+    return margin - (MARGIN_ERRORS * facet->err + 1) * foot->noise;
 }
 
 /* --- the proof --- */
@@ -177,6 +215,10 @@ bool pir_foot_settles(const pir_exact *exact, const pir_placement *placement, co
     const pir_frame *frame = exact->frame;
     if (frame->p.polytope->artificial || frame->q.polytope->artificial)
         return false;
-    double margin = pir_foot_rim(exact, placement, facet, slack).margin;
+    const struct foot foot = foot_of(placement, facet, slack);
+    double margin = margin_of_part(frame, facet, &foot);
+    if (margin > 0 && pir_foot_settles_within(frame, placement, facet, slack, margin))
+        return true;
+    margin = rim_of(frame, facet, foot).margin;
     return pir_foot_settles_within(frame, placement, facet, slack, margin);
 }
