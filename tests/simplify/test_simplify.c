@@ -256,43 +256,6 @@ static void what_is_near_enough_is_the_body_itself(void **state) {
     pir_polytope_release(body);
 }
 
-/* A sphere on a grid of 2^-20, moved so that nothing rounds. */
-static pir_polytope *moved_sphere(pir_vec3 by) {
-    test_random random = test_random_case("moved sphere", 0);
-    test_points points = {.count = 60};
-    for (size_t i = 0; i < points.count; i++) {
-        const pir_vec3 v = test_random_direction(&random);
-        points.at[i] = (pir_vec3){nearbyint(v.x * 0x1p20) * 0x1p-20 + by.x, nearbyint(v.y * 0x1p20) * 0x1p-20 + by.y,
-                                  nearbyint(v.z * 0x1p20) * 0x1p-20 + by.z};
-    }
-    return test_polytope(&points);
-}
-
-/* Far from the origin the bounds tell of the coarser doubles there, whichever way the body has gone. */
-static void bounds_grow_with_the_way_from_the_origin_on_every_side(void **state) {
-    (void)state;
-    const double far = 0x1p30;
-    const pir_simplify_options options = {.vertices = 12};
-    pir_polytope *near = moved_sphere((pir_vec3){0, 0, 0});
-    pir_simplified here;
-    assert_int_equal(pir_polytope_simplify(near, &options, &here), PIR_OK);
-    for (int side = 0; side < 6; side++) {
-        const double by = side % 2 ? -far : far;
-        pir_polytope *body =
-            moved_sphere((pir_vec3){side / 2 == 0 ? by : 0, side / 2 == 1 ? by : 0, side / 2 == 2 ? by : 0});
-        pir_simplified there;
-        assert_int_equal(pir_polytope_simplify(body, &options, &there), PIR_OK);
-        expect(there.inner_error >= here.inner_error + 0x1p-54 * far, "side %d: %g after %g", side, there.inner_error,
-               here.inner_error);
-        expect(there.inner_error <= here.inner_error + 0x1p-48 * far, "side %d: %g after %g", side, there.inner_error,
-               here.inner_error);
-        pir_simplified_release(&there);
-        pir_polytope_release(body);
-    }
-    pir_simplified_release(&here);
-    pir_polytope_release(near);
-}
-
 static void bad_options_are_refused(void **state) {
     (void)state;
     test_random random = test_random_case("refused", 0);
@@ -357,7 +320,6 @@ int main(void) {
         cmocka_unit_test(flat_bodies_are_their_own_outer_ones),
         cmocka_unit_test(bodies_at_the_ends_of_the_doubles_have_no_more_vertices_or_are_refused),
         cmocka_unit_test(what_is_near_enough_is_the_body_itself),
-        cmocka_unit_test(bounds_grow_with_the_way_from_the_origin_on_every_side),
         cmocka_unit_test(bad_options_are_refused),
         cmocka_unit_test(memory_that_runs_out_leaves_nothing),
     };
