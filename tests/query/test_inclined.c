@@ -144,6 +144,40 @@ static void contacts_of_an_edge_along_a_needle_are_over_each_other(void **state)
     contact_scene_clear(&scene);
 }
 
+/*
+ * A plate whose lower facet an ulp has split, over an inclined facet. The way from one half to the rim passes the
+ * other, which is lower by less than rounding: a contact was put on the plane of the facet, 1.3e-6 beside the plate.
+ */
+static void contacts_of_a_plate_that_an_ulp_has_split_lie_on_it(void **state) {
+    (void)state;
+    const double half = 0x1.0c6f7a0b5ed8dp-20;
+    const pir_vec3 plate[8] = {{-0x1.0000000000002p+0, -1, -half},
+                               {1, -1, -0x1.0c6f7a0b5ed8fp-20},
+                               {-1, 1, -half},
+                               {1, 1, -half},
+                               {-1, -1, half},
+                               {1, -1, half},
+                               {-1, 1, half},
+                               {1, 1, half}};
+    const pir_vec3 lattice[13] = {{-0x1.ffffffffffffep-1, -0x1.0000000000001p+1, 0},
+                                  {-1, 1, -1},
+                                  {1, -1, -1},
+                                  {0, 2, 1},
+                                  {0, -2, 0},
+                                  {-1, 0, 1},
+                                  {1, 1, 2},
+                                  {-1, 1, 2},
+                                  {0, 2, 2},
+                                  {2, -1, -2},
+                                  {-2, 2, 0},
+                                  {0, 2, -2},
+                                  {2, 1, 0}};
+    contact_scene scene = contact_scene_make(body(plate, 8), body(lattice, 13), (pir_quat){0, 0, 0, 1});
+    scene.t = (pir_vec3){0x1.26783a298ccaep-1, -0x1.8613dc46a0e0ep-1, 0x1.000008637bd06p+1};
+    contact_scene_check(&scene, "split plate", 0);
+    contact_scene_clear(&scene);
+}
+
 /* --- tilted facets --- */
 
 /* A prism about z, of half height 0.5 and radius 1, rotated in double. */
@@ -192,6 +226,7 @@ int main(void) {
                                        cmocka_unit_test(contacts_beside_a_needle_lie_on_it),
                                        cmocka_unit_test(contacts_of_segments_nearly_parallel_are_over_each_other),
                                        cmocka_unit_test(contacts_of_an_edge_along_a_needle_are_over_each_other),
+                                       cmocka_unit_test(contacts_of_a_plate_that_an_ulp_has_split_lie_on_it),
                                        cmocka_unit_test(a_prism_tilted_by_any_angle_has_all_its_corners)};
     return cmocka_run_group_tests_name("inclined", tests, NULL, NULL);
 }

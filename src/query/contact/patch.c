@@ -218,15 +218,56 @@ void pir_patch_look_around(pir_patch *patch) {
     const pir_polytope *p = patch->polytope;
     uint32_t f = patch->facet;
     patch->planes = 0;
+    patch->is_split = false;
     if (f == PIR_NO_FACET || p->loop_start[f + 1] - p->loop_start[f] >= PIR_PATCH_PLANES)
         return;
     patch->plane[patch->planes++] = plane_of(patch, f);
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         pir_patch_plane beside = plane_of(patch, pir_right(p, p->loop[i]));
+        patch->is_split |= pir_vec_dot(beside.n, patch->plane[0].n) > PIR_LEVEL_COSINE;
         // none is lower than one that faces away
         if (beside.along > 0)
             patch->plane[patch->planes++] = beside;
     }
+}
+
+/* Of the sides of a facet, the one that a point of its plane, in the body's frame, is farthest beyond; or none. */
+static uint32_t side_passed(const pir_patch *patch, uint32_t f, pir_vec3 x) {
+    const pir_polytope *p = patch->polytope;
+    uint32_t side = UINT32_MAX;
+    double most = -PIR_OVER * patch->snap;
+    for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
+        uint32_t h = p->loop[i];
+        pir_vec3 in = pir_vec_cross(p->normal[f], p->direction[h]);
+        double within = pir_vec_dot(in, pir_vec_sub(x, patch->vertex[p->origin[h]]));
+        side = within < most ? h : side;
+        most = within < most ? within : most;
+    }
+    return side;
+}
+
+/*
+ * Goes on from a facet that x is beyond a side of to what is lower. The facet across the side is not lower for certain
+ * where both are coplanar but for rounding.
+ */
+static uint32_t pass_split(const pir_patch *patch, pir_vec3 x, uint32_t f, double *least) {
+    const pir_polytope *p = patch->polytope;
+    uint32_t best = f;
+    for (uint32_t left = p->facet_count; left > 0; left--) {
+        const pir_patch_plane plane = plane_of(patch, f);
+        pir_vec3 at = pir_vec_add(x, pir_vec_scale(patch->out, height(&plane, x)));
+        uint32_t side = side_passed(patch, f, pir_patch_to_body(patch, pir_vec_sub(at, patch->at)));
+        if (side == UINT32_MAX)
+            break;
+        f = pir_right(p, side);
+        const pir_patch_plane beside = plane_of(patch, f);
+        if (beside.along <= 0)
+            break;
+        double h = height(&beside, x);
+        best = h < *least ? f : best;
+        *least = h < *least ? h : *least;
+    }
+    return best;
 }
 
 /* The facet over or under x, found from the patch's first facet, and how far x is from it along `out`. */
@@ -258,6 +299,8 @@ static inline uint32_t facet_over(const pir_patch *patch, pir_vec3 x, double *re
             }
         }
     }
+    if (patch->planes == 0 || patch->is_split)
+        f = pass_split(patch, x, f, &least);
     *ret_height = least;
     return f;
 }

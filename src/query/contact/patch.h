@@ -78,6 +78,7 @@ typedef struct pir_patch {
     pir_facet_shape shape;           /* of the last facet that was asked for as a single one */
     double height, along_u, along_v; /* of a single facet's plane over the contact plane's origin, and its slopes */
     uint32_t planes;                 /* so many are known; 0 for none */
+    bool is_split;                   /* one of them is coplanar with the first but for rounding */
     pir_patch_plane plane[PIR_PATCH_PLANES];
 } pir_patch;
 
