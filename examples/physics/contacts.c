@@ -63,7 +63,7 @@ static void warm(struct point *point, const struct link *link, const struct cont
         const struct point *old = &last->point[k];
         if (old->id != point->id)
             continue;
-        point->impulse = old->impulse;
+        point->impulse = point->spent = old->impulse;
         point->rub = vec_less(old->rub, vec_times(vec_dot(old->rub, link->normal), link->normal));
         return;
     }

@@ -22,7 +22,8 @@ static bool may_sleep(const struct body *body) {
 
 void sleep_update(struct body *body, uint32_t count, const struct contacts *contacts, double step, uint32_t *group) {
     for (uint32_t i = 0; i < count; i++) {
-        double speed = vec_length(body[i].velocity) + body[i].radius * vec_length(body[i].spin);
+        double speed = vec_length(body[i].velocity) + body[i].radius * vec_length(body[i].spin) +
+                       vec_length(body[i].push) + body[i].radius * vec_length(body[i].push_spin);
         if (!body[i].asleep)
             body[i].still = speed < STILL_SPEED ? body[i].still + step : 0;
         group[i] = i;

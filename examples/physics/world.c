@@ -4,17 +4,34 @@
 
 #include <stdlib.h>
 
+#include "bounce.h"
 #include "contacts.h"
 #include "sleep.h"
-#include "solver.h"
+#include "sweep.h"
+
+/*
+ * Parts of the margin: the gap at which bodies rest, within which they are held; the overlap that is left alone; where
+ * fast bodies stop, and within which they then bounce.
+ */
+#define GAP_PART    0.0004
+#define HELD_PART   0.004
+#define SLOP_PART   0.04
+#define NEAR_PART   0.1
+#define BOUNCE_PART 0.2
+/* The sizes of cores, as parts of the piece's. */
+static const double core_parts[WORLD_CORES] = {0.99, 0.9, 0.4};
+/* A margin, in metres, where none is given. */
+#define MARGIN_LEAST 1e-4
+/* Slower approaches do not bounce, in m/s; what gravity adds in two steps comes to it. */
+#define BOUNCE_LEAST 0.01
 
 struct world {
     struct world_options options;
     pir_scene *scene;
     struct body *body;
-    uint32_t *group;       /* per body, for sleep_update */
-    pir_scene_move *moves; /* room for all bodies */
+    uint32_t *group; /* per body, for bounce_all and sleep_update */
     uint32_t count, room;
+    struct sweep sweep;
     struct contacts contacts, last; /* the present ones; memory for the next */
 };
 
@@ -31,9 +48,14 @@ struct world_options world_options_default(void) {
 /* --- shapes --- */
 
 void world_shape_release(struct world_shape *shape) {
-    for (uint32_t i = 0; i < shape->count; i++)
+    for (uint32_t i = 0; i < shape->count; i++) {
         pir_polytope_release(shape->piece[i]);
+        for (int k = 0; k < WORLD_CORES; k++)
+            pir_polytope_release(shape->core[k][i]);
+    }
     free(shape->piece);
+    for (int k = 0; k < WORLD_CORES; k++)
+        free(shape->core[k]);
     *shape = (struct world_shape){0};
 }
 
@@ -45,10 +67,27 @@ static double radius_of(const struct world_shape *shape) {
     return radius;
 }
 
+/* A piece, smaller about the mean of its vertices. */
+static pir_status make_core(pir_polytope *piece, double part, pir_polytope **ret_core) {
+    uint32_t count = pir_polytope_vertex_count(piece);
+    pir_vec3 *point = calloc(count, sizeof *point), middle = {0, 0, 0};
+    for (uint32_t v = 0; v < count; v++)
+        middle = vec_add(middle, vec_times(1. / count, pir_polytope_vertex(piece, v)));
+    for (uint32_t v = 0; point && v < count; v++)
+        point[v] = vec_add(middle, vec_times(part, vec_less(pir_polytope_vertex(piece, v), middle)));
+    pir_status status = point ? pir_polytope_create(point, count, NULL, ret_core) : PIR_ERR_MEMORY;
+    free(point);
+    return status;
+}
+
 pir_status world_shape_make(pir_polytope *const *pieces, uint32_t count, struct world_shape *ret_shape) {
     struct world_shape shape = {.piece = calloc(count + (size_t)1, sizeof *shape.piece)};
     pir_mass *mass = calloc(count + (size_t)1, sizeof *mass);
     pir_status status = shape.piece && mass ? PIR_OK : PIR_ERR_MEMORY;
+    for (int k = 0; k < WORLD_CORES; k++) {
+        shape.core[k] = calloc(count + (size_t)1, sizeof *shape.core[k]);
+        status = shape.core[k] ? status : PIR_ERR_MEMORY;
+    }
     for (uint32_t i = 0; status == PIR_OK && i < count; i++)
         status = pir_polytope_mass(pieces[i], &mass[i]);
     if (status == PIR_OK)
@@ -57,6 +96,8 @@ pir_status world_shape_make(pir_polytope *const *pieces, uint32_t count, struct 
     for (uint32_t i = 0; status == PIR_OK && i < count; i++) {
         status = pir_polytope_translate(pieces[i], vec_times(-1, shape.offset), &shape.piece[i]);
         shape.count += status == PIR_OK;
+        for (int k = 0; status == PIR_OK && k < WORLD_CORES; k++)
+            status = make_core(shape.piece[i], core_parts[k], &shape.core[k][i]);
     }
     free(mass);
     shape.mass.centroid = (pir_vec3){0, 0, 0};
@@ -76,13 +117,15 @@ pir_status world_create(const struct world_options *options, struct world **ret_
         return PIR_ERR_MEMORY;
     world->options = *options;
     pir_scene_options scene = pir_scene_options_default();
-    scene.margin = options->margin;
+    world->options.margin = scene.margin = options->margin > 0 ? options->margin : MARGIN_LEAST;
     scene.threads = options->threads;
     pir_status status = pir_scene_create(&scene, &world->scene);
     if (status == PIR_OK)
+        status = sweep_init(&world->sweep);
+    if (status == PIR_OK)
         *ret_world = world;
     else
-        free(world);
+        world_destroy(world);
     return status;
 }
 
@@ -90,11 +133,11 @@ void world_destroy(struct world *world) {
     if (!world)
         return;
     pir_scene_destroy(world->scene);
+    sweep_finish(&world->sweep);
     contacts_clear(&world->contacts);
     contacts_clear(&world->last);
     free(world->body);
     free(world->group);
-    free(world->moves);
     free(world);
 }
 
@@ -106,9 +149,7 @@ static pir_status reserve_body(struct world *world) {
     world->body = body ? body : world->body;
     uint32_t *group = realloc(world->group, room * sizeof *group);
     world->group = group ? group : world->group;
-    pir_scene_move *moves = realloc(world->moves, room * sizeof *moves);
-    world->moves = moves ? moves : world->moves;
-    if (!body || !group || !moves)
+    if (!body || !group)
         return PIR_ERR_MEMORY;
     world->room = room;
     return PIR_OK;
@@ -132,7 +173,8 @@ pir_status world_add(struct world *world, const struct world_body *from) {
                         from->spin,
                         .radius = from->shape->radius,
                         .friction = from->friction,
-                        .restitution = from->restitution};
+                        .restitution = from->restitution,
+                        .shape = from->shape};
     if (body.kind == PIR_BODY_MOVING) {
         set_mass(&body, from);
         if (!(body.inverse_mass > 0 && isfinite(body.inverse_mass) && isfinite(body.inverse_inertia.row[0].x)))
@@ -148,6 +190,8 @@ pir_status world_add(struct world *world, const struct world_body *from) {
     pir_status status = reserve_body(world);
     if (status == PIR_OK)
         status = pir_scene_add(world->scene, &options, &number);
+    if (status == PIR_OK)
+        status = sweep_add(&world->sweep, &body, number);
     if (status == PIR_OK)
         world->body[world->count++] = body;
     return status;
@@ -170,59 +214,21 @@ static void turn_inertia(struct body *body) {
     body->inverse_in_world = turned;
 }
 
-/*
- * The spin of a body that nothing turns: its angular momentum stays, so its spin does not. One step of Newton's method
- * on the implicit equation, in the body's frame, which takes energy away rather than adding it (Catto, GDC 2015).
- */
-static pir_vec3 spin_freely(const struct body *body, double step) {
-    pir_vec3 w = pir_pose_rotate_inverse(body->pose, body->spin), l = mat_times(&body->inertia, w);
-    pir_vec3 off = vec_times(step, vec_cross(w, l));
-    struct mat3 slope;
-    const pir_vec3 *row = body->inertia.row;
-    // row i of [w]× inertia, and of [l]×
-    pir_vec3 turned[3] = {vec_less(vec_times(w.y, row[2]), vec_times(w.z, row[1])),
-                          vec_less(vec_times(w.z, row[0]), vec_times(w.x, row[2])),
-                          vec_less(vec_times(w.x, row[1]), vec_times(w.y, row[0]))};
-    pir_vec3 crossed[3] = {{0, -l.z, l.y}, {l.z, 0, -l.x}, {-l.y, l.x, 0}};
-    for (int i = 0; i < 3; i++)
-        slope.row[i] = vec_add(row[i], vec_times(step, vec_less(turned[i], crossed[i])));
-    struct mat3 inverse = mat_inverse(&slope);
-    return pir_pose_rotate(body->pose, vec_less(w, mat_times(&inverse, off)));
-}
-
-static bool is_awake(const struct body *body) {
-    return body->kind == PIR_BODY_MOVING && !body->asleep;
-}
-
-/* Gravity and free spin. */
+/* Half of the step's gravity, and all of a step that begins anew. */
 static void begin_step(struct world *world) {
-    double step = world->options.step;
+    pir_vec3 half = vec_times(0.5 * world->options.step, world->options.gravity), none = {0, 0, 0};
     for (uint32_t i = 0; i < world->count; i++) {
         struct body *body = &world->body[i];
-        if (!is_awake(body))
-            continue;
-        turn_inertia(body);
-        body->velocity = vec_add(body->velocity, vec_times(step, world->options.gravity));
-        body->spin = spin_freely(body, step);
+        body->push = body->push_spin = none;
+        body->flies = body->touches = false;
+        if (body_is_awake(body))
+            body->velocity = vec_add(body->velocity, half);
     }
-}
-
-/* Moves what moves; returns how many, which stand in `moves`. */
-static size_t move_bodies(struct world *world) {
-    size_t count = 0;
-    for (uint32_t i = 0; i < world->count; i++) {
-        struct body *body = &world->body[i];
-        if (!is_awake(body) && !body_is_driven(body))
-            continue;
-        body->pose = pir_pose_integrate(body->pose, body->velocity, body->spin, world->options.step);
-        world->moves[count++] = (pir_scene_move){i, body->pose};
-    }
-    return count;
 }
 
 /* Contacts where the bodies are now. */
 static pir_status find_contacts(struct world *world, size_t moved) {
-    pir_status status = pir_scene_update(world->scene, world->moves, moved);
+    pir_status status = pir_scene_update(world->scene, world->sweep.moves, moved);
     if (status != PIR_OK)
         return status;
     size_t count;
@@ -235,24 +241,39 @@ static pir_status find_contacts(struct world *world, size_t moved) {
     return PIR_OK;
 }
 
+/* What bounces, and then what touches: the speeds that bodies have at the end of the step. */
+static void end_step(struct world *world, const struct solver_rules *rules) {
+    for (uint32_t i = 0; i < world->count; i++)
+        if (body_is_awake(&world->body[i]))
+            turn_inertia(&world->body[i]);
+    solver_place(world->body, &world->contacts);
+    bounce_all(world->body, world->count, &world->contacts, rules, world->group);
+    solver_begin(world->body, &world->contacts, rules);
+    solver_passes(world->body, &world->contacts, rules, world->options.relaxations, false);
+}
+
 pir_status world_step(struct world *world) {
     const struct world_options *options = &world->options;
-    const struct contacts *contacts = &world->contacts;
+    const struct solver_rules rules = {options->step, GAP_PART * options->margin, BOUNCE_PART * options->margin,
+                                       SLOP_PART * options->margin,
+                                       BOUNCE_LEAST + 2 * options->step * vec_length(options->gravity)};
+    const struct sweep_rules sweep = {options->gravity, options->step, options->margin, NEAR_PART * options->margin,
+                                      HELD_PART * options->margin};
     if (world->count == 0)
         return PIR_OK;
     begin_step(world);
-    solver_begin(world->body, contacts);
-    for (uint32_t i = 0; i < options->iterations; i++)
-        solver_pass(world->body, contacts, options->step, true);
-    size_t moved = move_bodies(world);
-    solver_advance(world->body, contacts, options->step);
-    for (uint32_t i = 0; i < options->relaxations; i++)
-        solver_pass(world->body, contacts, options->step, false);
-    solver_bounce(world->body, contacts);
-    pir_status status = find_contacts(world, moved);
-    if (status == PIR_OK && options->sleep)
-        sleep_update(world->body, world->count, contacts, options->step, world->group);
-    return status;
+    solver_begin(world->body, &world->contacts, &rules);
+    solver_passes(world->body, &world->contacts, &rules, options->iterations, true);
+    size_t moved;
+    pir_status status = sweep_step(&world->sweep, world->body, world->count, &sweep, &moved);
+    if (status == PIR_OK)
+        status = find_contacts(world, moved);
+    if (status != PIR_OK)
+        return status;
+    end_step(world, &rules);
+    if (options->sleep)
+        sleep_update(world->body, world->count, &world->contacts, options->step, world->group);
+    return PIR_OK;
 }
 
 /* --- what can be seen --- */
@@ -293,7 +314,7 @@ struct world_contact world_contact(const struct world *world, uint32_t index) {
     return (struct world_contact){vec_add(world->body[link->body_p].pose.translation, point->at_p),
                                   link->normal,
                                   point->distance,
-                                  point->impulse,
+                                  point->spent + point->impulse,
                                   link->body_p,
                                   link->body_q};
 }

@@ -2,10 +2,11 @@
 /*
  * A small world of rigid bodies on pir_scene: bodies fall, touch, rub and come to rest.
  *
- * A step is 1/240 s. It takes the contacts that the scene found at the end of the step before, finds impulses at them
- * (solver.h), moves the bodies, and tells the scene where they are. Impulses are kept by the ids of contacts from step
- * to step. Bodies that have been still for half a second, with all that they touch, sleep: they cost nothing until
- * something that moves touches them.
+ * A step is 1/240 s. It takes the contacts that the scene found at the end of the step before and half of gravity,
+ * finds impulses (solver.h), moves the bodies until something stops them (sweep.h), and tells the scene where they
+ * are. With the other half of gravity, what meets bounces there (bounce.h), and what touches is held. Impulses are
+ * kept by the ids of contacts from step to step. Bodies that have been still for half a second, with all that they
+ * touch, sleep: they cost nothing until something that moves touches them.
  *
  * Numbers are made with +, −, ·, / and the square root alone, and the scene's are the same everywhere: so are runs.
  *
@@ -18,9 +19,13 @@
 
 #include <pirouette/pirouette.h>
 
+#define WORLD_CORES 3
+
 /* A body's form: convex pieces about their common centre of mass. */
 struct world_shape {
     pir_polytope **piece; /* `count` of them, a reference each */
+    /* Each piece smaller about its middle, a little, more, and much: what may not be passed through. */
+    pir_polytope **core[WORLD_CORES];
     uint32_t count;
     pir_mass mass;   /* of density 1, about the origin */
     double radius;   /* no point is farther from the origin */
@@ -37,8 +42,8 @@ struct world_options {
     pir_vec3 gravity;
     double step;          /* seconds */
     double margin;        /* how far apart pieces may be that have contacts */
-    uint32_t iterations;  /* passes over all contacts that also push overlapping bodies apart */
-    uint32_t relaxations; /* passes afterwards that take the speed of that away again */
+    uint32_t iterations;  /* passes over all contacts before bodies move, which also push overlapping ones apart */
+    uint32_t relaxations; /* passes after they moved */
     bool sleep;
     uint32_t threads; /* of the scene */
 };

@@ -190,9 +190,9 @@ PIR_API pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way
 typedef struct pir_scene_motion {
     pir_vec3 way;
     pir_vec3 turn; /**< along the axis, as long as the angle in radians; up to 2^20 */
-    /** Nonzero where something else, a solver say, holds the contacts of time 0. A piece that shares a point then is
-        not met at all, and one within the tolerance only when it comes within half of its distance at time 0. */
-    int leaves;
+    /** Above 0 where something else, a solver say, holds the contacts of time 0. A piece that is no farther than this
+        then is not met at all, and one within the tolerance only when it comes within half of its distance then. */
+    double held;
 } pir_scene_motion;
 
 /**
@@ -207,7 +207,8 @@ typedef struct pir_scene_motion {
  * Cost: that of a query of a scene for all that the way may meet, for each of them some queries of a pair, and, where
  * the shape turns, as often O(its vertices).
  *
- * Errors: those of a query of a scene; PIR_ERR_ARGUMENT also for a tolerance that is not above 0.
+ * Errors: those of a query of a scene; PIR_ERR_ARGUMENT also for a tolerance that is not above 0, and
+ * for `held` below 0; PIR_ERR_NOT_FINITE for one that is no number.
  */
 PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_scene_motion *motion,
                                   double tolerance, pir_scene_impact *ret_impact);

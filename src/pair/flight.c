@@ -32,16 +32,16 @@ pir_status pir_flight_check(pir_vec3 way, pir_vec3 turn, double tolerance) {
 static pir_status end_at_once(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                               const pir_flight *flight, pir_flight_end *end) {
     bool inside = end->answer.state == PIR_INSIDE;
-    end->outcome = flight->leaves ? PIR_CAST_MISS : inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT;
-    return inside && !flight->leaves ? pir_pair_penetration(pair, workspace, input, &end->answer) : PIR_OK;
+    end->outcome = flight->held > 0 ? PIR_CAST_MISS : inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT;
+    return inside && !(flight->held > 0) ? pir_pair_penetration(pair, workspace, input, &end->answer) : PIR_OK;
 }
 
 /* How near P has to come to have met Q; 0 where it cannot. `error` is what distances are off by at most. */
 static double near_of(const pir_flight *flight, double distance, double error) {
     double least = 4 * error;
-    if (!flight->leaves || distance > flight->tolerance)
+    if (!(flight->held > 0) || distance > fmax(flight->tolerance, flight->held))
         return fmax(flight->tolerance, least);
-    return 0.5 * distance > least ? 0.5 * distance : 0;
+    return distance > flight->held && 0.5 * distance > least ? 0.5 * distance : 0;
 }
 
 pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input *input, const pir_flight *flight,
@@ -51,6 +51,9 @@ pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input
                              flight->turn};
     pir_flight_end end = {.outcome = PIR_CAST_STEP_LIMIT};
     double near = 0;
+    // what is farther than P can come at all need not be known
+    input->cutoff = (length(flight->way) + length(flight->turn) * flight->reach) * (1 + 0x1p-40) + 2 * error +
+                    fmax(flight->tolerance, 4 * error);
     for (int step = 0; step < MOST_STEPS && end.outcome == PIR_CAST_STEP_LIMIT; step++) {
         input->pose_p =
             end.time == 0 ? flight->from : pir_pose_integrate(flight->from, flight->way, flight->turn, end.time);
@@ -59,6 +62,8 @@ pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input
             status = end_at_once(pair, workspace, input, flight, &end);
         if (status != PIR_OK)
             return status;
+        if (end.answer.outcome == PIR_BEYOND_CUTOFF)
+            end.outcome = PIR_CAST_MISS;
         if (end.outcome != PIR_CAST_STEP_LIMIT)
             break;
         if (step == 0)

@@ -15,7 +15,7 @@ typedef struct pir_flight {
     double reach;       /* no point of P is farther from its origin */
     double tolerance;   /* bodies this near have met */
     double size;        /* of both bodies and their coordinates, which rounding is relative to */
-    bool leaves;        /* Q is met only where P comes nearer than half of their distance at time 0 */
+    double held;        /* above 0: Q is met only from farther than this at time 0, and nearer than half as far */
 } pir_flight;
 
 typedef struct pir_flight_end {

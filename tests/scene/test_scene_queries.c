@@ -394,7 +394,7 @@ static void a_cast_that_begins_inside_tells_the_normal_of_the_depth(void **state
     assert_int_equal(pir_scene_ray(scene, (pir_vec3){1, 2, -0.5}, motion.way, UINT32_MAX, &impact), PIR_OK);
     assert_true(impact.outcome == PIR_CAST_START_INSIDE && impact.time == 0 && impact.normal.z == 1);
     // what is left at once is not met
-    motion.leaves = 1;
+    motion.held = 1e-6;
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-6, &impact), PIR_OK);
     assert_int_equal(impact.outcome, PIR_CAST_MISS);
     pir_polytope_release(shape.polytope);
@@ -402,11 +402,11 @@ static void a_cast_that_begins_inside_tells_the_normal_of_the_depth(void **state
 }
 
 /* A cube that begins within the tolerance of a floor, level or on an edge. */
-static void what_leaves_is_met_at_half_its_distance(void **state) {
+static void what_is_held_is_met_at_half_its_distance(void **state) {
     (void)state;
     pir_scene_shape shape;
     pir_scene *scene = floor_new(1e-3, &shape);
-    pir_scene_motion motion = {{5, 0, 1e-3}, {0, 0, 0}, 1};
+    pir_scene_motion motion = {{5, 0, 1e-3}, {0, 0, 0}, 1e-6};
     pir_scene_impact impact;
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_OK);
     assert_int_equal(impact.outcome, PIR_CAST_MISS);
@@ -414,12 +414,19 @@ static void what_leaves_is_met_at_half_its_distance(void **state) {
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_OK);
     expect(impact.outcome == PIR_CAST_HIT && impact.time >= 0.25 && impact.time < 0.4, "time %g", impact.time);
     // one side rises as fast as the other comes down
-    motion = (pir_scene_motion){{0, 0, 1e-4}, {0, 0.5, 0}, 1};
+    motion = (pir_scene_motion){{0, 0, 1e-4}, {0, 0.5, 0}, 1e-6};
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_OK);
     expect(impact.outcome == PIR_CAST_HIT && impact.time > 0 && impact.time < 0.01, "time %g", impact.time);
-    motion.leaves = 0;
+    motion.held = 2e-3;
+    assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_OK);
+    assert_int_equal(impact.outcome, PIR_CAST_MISS);
+    motion.held = 0;
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_OK);
     assert_true(impact.outcome == PIR_CAST_HIT && impact.time == 0);
+    motion.held = -1;
+    assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_ERR_ARGUMENT);
+    motion.held = NAN;
+    assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_ERR_NOT_FINITE);
     pir_polytope_release(shape.polytope);
     pir_scene_destroy(scene);
 }
@@ -574,7 +581,7 @@ int main(void) {
         cmocka_unit_test(a_cast_ends_at_the_first_contact),
         cmocka_unit_test(a_spinning_cube_that_glides_by_is_no_hit),
         cmocka_unit_test(a_cast_that_begins_inside_tells_the_normal_of_the_depth),
-        cmocka_unit_test(what_leaves_is_met_at_half_its_distance),
+        cmocka_unit_test(what_is_held_is_met_at_half_its_distance),
         cmocka_unit_test(a_fast_body_meets_a_wall_in_time),
         cmocka_unit_test(what_cannot_be_asked_is_refused),
         cmocka_unit_test(memory_that_fails_fails_the_query_alone),

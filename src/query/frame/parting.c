@@ -80,7 +80,12 @@ double pir_part_until(const pir_parted *body, const pir_parting *plane, pir_pose
         return rate > 0 ? time + fmax(distance - 0.5 * (plane->least + plane->near), 0) / rate : HUGE_VAL;
     }
     const pir_vec3 axis = pir_vec_scale(body->turn, 1 / theta);
+    const pir_vec3 lever = pir_vec_cross(n, axis);
     const double along = pir_vec_dot(n, axis), until = end - time;
+    // no point comes down faster than this
+    const double rate = theta * body->reach * sqrt(pir_vec_dot(lever, lever)) - w;
+    if (distance - plane->near > rate * (1 + 0x1p-40) * until)
+        return HUGE_VAL;
     const double c = pir_vec_dot(n, pir_vec_sub(pose.translation, plane->foot)) - body->radius;
     const pir_vec3 in_body = pir_pose_rotate_inverse(pose, n), axis_in_body = pir_pose_rotate_inverse(pose, axis),
                    across = pir_vec_cross(in_body, axis_in_body);

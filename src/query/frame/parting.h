@@ -29,10 +29,10 @@ typedef struct pir_parting {
 } pir_parting;
 
 /*
- * The time to which the plane parts them, from `time` on, when the body is at `pose`. HUGE_VAL where it does until the
- * time `end`. At every time before, all points of the body are more than `least` above the plane, but for what `least`
- * has to hold: 2^-44 of sizes and coordinates, and 2^-48 of the way of the farthest point. O(points) where the body
- * turns, otherwise O(1) with the distance between the plane and the body, which may be 0 where it turns.
+ * The time to which the plane parts them, from `time` on, when the body is at `pose`. HUGE_VAL where it does until
+ * the time `end`. At every time before, all points of the body are more than `least` above the plane, but for what
+ * `least` has to hold: 2^-44 of sizes and coordinates, and 2^-48 of the way of the farthest point. `distance` is how
+ * far the body is above the plane at `time`. O(points) where the body turns far enough to come down, otherwise O(1).
  */
 double pir_part_until(const pir_parted *body, const pir_parting *plane, pir_pose pose, double distance, double time,
                       double end);

@@ -44,7 +44,7 @@ static pir_status advance(const struct flight *flight, uint32_t number, double u
                             .reach = flight->probe.extent.reach,
                             .tolerance = flight->tolerance,
                             .size = size_of(flight, &scene->bodies.body[piece->body]),
-                            .leaves = flight->motion->leaves != 0};
+                            .held = flight->motion->held};
     pir_pair *pair;
     pir_pair_input input;
     pir_flight_end end;
@@ -63,12 +63,16 @@ static pir_box box_of_way(const struct flight *flight) {
     const pir_probe *probe = &flight->probe;
     const pir_vec3 begin = probe->pose.translation, end = pir_vec_add(begin, flight->motion->way);
     const double from[3] = {begin.x, begin.y, begin.z}, to[3] = {end.x, end.y, end.z};
-    bool turns = length(flight->motion->turn) > 0;
+    // a turn takes no point farther than its arc, nor out of the ball about the origin
+    const double arc = length(flight->motion->turn) * flight->probe.extent.reach * (1 + 0x1p-40),
+                 ball = flight->probe.extent.reach + flight->probe.radius;
     pir_box box;
     for (int k = 0; k < 3; k++) {
         double low = probe->box.low[k] - from[k], high = probe->box.high[k] - from[k];
-        if (turns)
-            high = flight->probe.extent.reach + probe->radius, low = -high;
+        if (arc > 0) {
+            low = fmax(low - arc, -ball);
+            high = fmin(high + arc, ball);
+        }
         double room = flight->tolerance + 0x1p-40 * (fabs(from[k]) + fabs(to[k]) + high - low);
         box.low[k] = pir_float_below(fmin(from[k], to[k]) + low - room);
         box.high[k] = pir_float_above(fmax(from[k], to[k]) + high + room);
@@ -106,7 +110,13 @@ static pir_status fly(const struct flight *flight, pir_scene_impact *first) {
 
 static pir_status check(const pir_scene_motion *motion, double tolerance) {
     const pir_status status = pir_flight_check(motion->way, motion->turn, tolerance);
-    return status != PIR_OK || length(motion->way) <= PIR_BOX_FARTHEST ? status : PIR_ERR_LIMIT;
+    if (status != PIR_OK)
+        return status;
+    if (isnan(motion->held))
+        return PIR_ERR_NOT_FINITE;
+    if (!(motion->held >= 0))
+        return PIR_ERR_ARGUMENT;
+    return length(motion->way) <= PIR_BOX_FARTHEST ? PIR_OK : PIR_ERR_LIMIT;
 }
 
 static const pir_scene_impact no_impact = {
