@@ -350,13 +350,14 @@ class Terminal(CommandTest):
         """The bar, its parts and their agreement; wiped away before anything else is printed."""
         master, slave = self.open_terminal()
         started = time.monotonic()
-        running = subprocess.Popen([self.command, "track", "shape:icosahedron", self.pyramid, "--frames", "5000000"],
+        running = subprocess.Popen([self.command, "track", "shape:gs4", self.pyramid, "--frames", "5000000"],
                                    stdout=subprocess.DEVNULL, stderr=slave, preexec_fn=with_own_signals)
         os.close(slave)
         shown = b""
         while shown.count(b"\r[") < 3 and time.monotonic() - started < 30 and running.poll() is None:
             shown += read_terminal(master, 1)
             waited = time.monotonic() - started if shown.count(b"\r[") <= 1 else waited
+        self.assertIsNone(running.poll(), "the run ended before it could be looked at")
         running.terminate()
         running.wait()
         shown += read_terminal(master, 1)
