@@ -8,6 +8,7 @@
 int cmd_cgm(const struct args *args);
 int cmd_configuration(const struct args *args);
 int cmd_decompose(const struct args *args);
+int cmd_distance(const struct args *args);
 int cmd_help(const struct args *args);
 int cmd_info(const struct args *args);
 int cmd_query(const struct args *args);

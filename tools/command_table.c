@@ -81,6 +81,17 @@ static const struct option replay_options[] = {
     COMMON_OPTIONS,
 };
 
+static const struct option distance_options[] = {
+    {"--quat", "x,y,z,w", "turn A by this quaternion, exactly as given, of any length but 0"},
+    {"--axis", "x,y,z", "turn A about this axis, of any length but 0, ..."},
+    {"--angle", "DEGREES", "... by this angle"},
+    {"--translate", "x,y,z", "then move A by this (0,0,0)"},
+    {"--farthest", NULL, "the greatest distance of any two points, not the least"},
+    {"--within", "D", "also list all pairs of triangles whose distance is at most this length"},
+    {"-o", "FILE", "draw both meshes and the points to FILE, .svg"},
+    COMMON_OPTIONS,
+};
+
 static const struct option cgm_options[] = {
     POSE_OPTIONS,
     {"--difference", NULL, "reflect P through the origin before it is turned"},
@@ -360,6 +371,21 @@ const struct command command_table[COMMAND_COUNT] = {
                        "call. docs/replay.md has the format.",
             .options = replay_options,
             .examples = {{"replay wrong.history", "a line for each call, and a hash of all"}},
+        },
+    [COMMAND_DISTANCE] =
+        {
+            .name = "distance",
+            .positional = {"A", "B"},
+            .required = 2,
+            .summary = "the nearest or farthest triangles of two meshes as they are, not their hulls",
+            .details = "A and B are models whose facets are surfaces, open or closed; facets of more than three "
+                       "corners are cut into triangles, which count in the order of the file. The state is apart or "
+                       "meet, or, of closed meshes, which of them has a part within the other. Which triangles they "
+                       "are is exact; of equals the lowest numbers are told.",
+            .options = distance_options,
+            .examples = {{"distance shape:cube shape:gs4 --translate 3,0,0", "how far apart two meshes are"},
+                         {"distance shape:cube shape:cube --translate 3,0,0 --within 2 --json",
+                          "with the triangles at most 2 apart"}},
         },
     [COMMAND_HELP] =
         {

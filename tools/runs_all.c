@@ -12,4 +12,5 @@ int (*const command_runs[COMMAND_COUNT])(const struct args *) = {
     [COMMAND_VIEW] = cmd_view,         [COMMAND_DECOMPOSE] = cmd_decompose,
     [COMMAND_SIMPLIFY] = cmd_simplify, [COMMAND_SIMULATE] = cmd_simulate,
     [COMMAND_REPLAY] = cmd_replay,     [COMMAND_HELP] = cmd_help,
+    [COMMAND_DISTANCE] = cmd_distance,
 };

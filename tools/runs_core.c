@@ -10,5 +10,5 @@ int (*const command_runs[COMMAND_COUNT])(const struct args *) = {
     [COMMAND_TRACK] = cmd_track,         [COMMAND_QUERY] = cmd_query,
     [COMMAND_DECOMPOSE] = cmd_decompose, [COMMAND_SIMPLIFY] = cmd_simplify,
     [COMMAND_SIMULATE] = cmd_simulate,   [COMMAND_REPLAY] = cmd_replay,
-    [COMMAND_HELP] = cmd_help,
+    [COMMAND_HELP] = cmd_help,           [COMMAND_DISTANCE] = cmd_distance,
 };
