@@ -134,6 +134,17 @@ def large(r):
                     rows)
 
 
+# ---- meshes.md -------------------------------------------------------------------------------------------------------
+
+
+def mesh_pairs(r):
+    rows = [[count(row["triangles"]), row["place"], count(row["steps"]),
+             *(count(row[key]) for key in ("median_us", "mean_us", "p99_us", "fcl_median_us", "fcl_mean_us"))]
+            for row in r.mesh_pairs.rows]
+    return markdown([">triangles each", "place", ">steps", ">median", ">mean", ">p99", ">FCL median", ">FCL mean"],
+                    rows)
+
+
 # ---- queries.md ------------------------------------------------------------------------------------------------------
 
 
@@ -261,5 +272,5 @@ def solid_query(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, query, readme, distances, cgm, extremes, histories, large, whole, scale, pile, slices, slices_read, grid,
-    answers, solids, solid_query)}
+    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, whole, scale, pile, slices,
+    slices_read, grid, answers, solids, solid_query)}
