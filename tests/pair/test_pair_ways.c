@@ -177,12 +177,56 @@ static void prisms_at_random_nearly_parallel_answer_as_their_difference(void **s
     assert_true(5 * by_whole < asked);
 }
 
+/* Of two facets that are nearly as deep the one beyond a facet a rounding wide was passed over. */
+static void the_facet_beyond_one_a_rounding_wide_is_compared(void **state) {
+    (void)state;
+    pir_polytope *p = box(1, 0x1.32a559e403192p-1, 0x1.2be0ba2d59a16p-1);
+    struct bench bench = bench_make(p, p);
+    bench.input.pose_p =
+        (pir_pose){{-0x1.19799812dea0fp-42, 0x1.bb67ae8584cabp-1, -0x1.e78769f84a62bp-42, -0x1.ffffffffffffcp-2},
+                   {-0x1.06f9ffae42a95p+2, -0x1.460f8898610dcp+1, -0x1.832ac4a941493p+1}};
+    bench.input.pose_q = (pir_pose){{0, 0x1.bb67ae8584cabp-1, 0, -0x1.ffffffffffffcp-2},
+                                    {-0x1.9f1a13bb242p+1, -0x1.460f8898610dcp+1, -0x1.432ac4a941492p+1}};
+    const pir_vec3 t = bench.input.pose_p.translation;
+    // about one middle first, so that there is a surface
+    bench.input.pose_p.translation = bench.input.pose_q.translation;
+    ask(&bench, true, "one middle", 0);
+    bench.input.pose_p.translation = t;
+    ask(&bench, true, "moved along an axis", 1);
+    bench_clear(&bench);
+}
+
+/* Any equal boxes, turned by next to nothing and moved along an axis. */
+static void equal_boxes_nearly_parallel_answer_as_their_difference(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 3000; number++) {
+        test_random random = test_random_case("boxes nearly parallel", number);
+        pir_polytope *p = box(1, 0.6 + 0.3 * test_random_unit(&random), 0.6 + 0.3 * test_random_unit(&random));
+        struct bench bench = bench_make(p, p);
+        double e = number % 2 ? 5e-13 : ldexp(test_random_unit(&random), -test_random_between(&random, 20, 54));
+        for (int k = 0; k < 4; k++) {
+            double along = k == 0 ? 0 : ldexp(1 + test_random_unit(&random), -test_random_between(&random, 0, 50));
+            double t[3] = {0, 0, 0}, v[3] = {0, 0, 0};
+            t[test_random_below(&random, 3)] = number % 3 ? along : (k > 0);
+            v[test_random_below(&random, 3)] = e;
+            if (number % 5 == 0)
+                v[test_random_below(&random, 3)] = 2 * e;
+            bench.input.pose_p.rotation = (pir_quat){v[0], v[1], v[2], 1};
+            bench.input.pose_p.translation = (pir_vec3){t[0], t[1], t[2]};
+            ask(&bench, true, "equal boxes", (int)number);
+        }
+        bench_clear(&bench);
+    }
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cold_box_laid_flush_on_a_box_is_told_by_its_facet),
         cmocka_unit_test(a_cylinder_that_stands_on_a_box_is_told_by_its_facet),
         cmocka_unit_test(equal_prisms_nearly_parallel_need_no_whole_difference),
+        cmocka_unit_test(the_facet_beyond_one_a_rounding_wide_is_compared),
+        cmocka_unit_test(equal_boxes_nearly_parallel_answer_as_their_difference),
         cmocka_unit_test(prisms_at_random_nearly_parallel_answer_as_their_difference),
     };
     return cmocka_run_group_tests_name("ways of pairs", tests, NULL, NULL);

@@ -13,8 +13,8 @@
 /* The normal of F, the foot of x on it, and what corners may be off by. */
 struct foot {
     pir_vec3 n, y;
-    double noise;
-    pir_rims *rims; /* NULL where the nearest side alone is wanted */
+    double noise, doubt; /* the latter as the normal may be off, too */
+    pir_rims *rims;      /* NULL where the nearest side alone is wanted */
 };
 
 /* A face of a body as it stands in D, and where its vertices are listed. */
@@ -85,6 +85,20 @@ static uint32_t least_of(const struct face *face, pir_vec3 in) {
     return at;
 }
 
+/* Lists a side once for each corner that may be the one across it: all that are as far but for rounding. */
+static void list_sides(const struct face *other, pir_vec3 in, const pir_rim *side, const struct foot *foot) {
+    const pir_vec3 *vertex = other->body->vertex;
+    pir_rims *rims = foot->rims;
+    const double least = pir_vec_dot(in, vertex[side->across]);
+    for (uint32_t k = 0; k < other->count; k++) {
+        uint32_t v = vertex_at(other, k);
+        if (pir_vec_dot(in, vertex[v]) <= least + foot->doubt && rims->count++ < PIR_RIMS_MOST) {
+            rims->side[rims->count - 1] = *side;
+            rims->side[rims->count - 1].across = v;
+        }
+    }
+}
+
 /*
  * Looks at the sides of F that are along those of `face`, for the one that y is least within. `other` is the other
  * body's. Both go around the normal in the same sense, so that the corner across goes on from side to side.
@@ -103,8 +117,8 @@ static void look_along(const struct face *face, const struct face *other, const 
         pir_rim side = {within, face->r == NULL, half, vertex_at(other, across)};
         if (within < rim->margin)
             *rim = side;
-        if (foot->rims && within < foot->rims->within && foot->rims->count++ < PIR_RIMS_MOST)
-            foot->rims->side[foot->rims->count - 1] = side;
+        if (foot->rims && within < foot->rims->within)
+            list_sides(other, turned_back(other, of_other), &side, foot);
     }
 }
 
@@ -120,7 +134,8 @@ static pir_rim rim_of(const pir_frame *frame, const pir_facet *facet, struct foo
 
 /* The foot of x on F, for the nearest side alone. */
 static struct foot foot_of(const pir_placement *placement, const pir_facet *facet, double slack) {
-    return (struct foot){facet->n, pir_vec_add(placement->x, pir_vec_scale(facet->n, slack)), placement->error, NULL};
+    return (struct foot){facet->n, pir_vec_add(placement->x, pir_vec_scale(facet->n, slack)), placement->error, 0,
+                         NULL};
 }
 
 pir_rim pir_foot_rim(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack) {
@@ -130,7 +145,8 @@ pir_rim pir_foot_rim(const pir_exact *exact, const pir_placement *placement, con
 pir_rim pir_foot_rims(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, pir_vec3 y,
                       pir_rims *rims) {
     rims->count = 0;
-    return rim_of(exact->frame, facet, (struct foot){facet->n, y, placement->error, rims});
+    const double doubt = 2 * MARGIN_ERRORS * placement->error * facet->err;
+    return rim_of(exact->frame, facet, (struct foot){facet->n, y, placement->error, doubt, rims});
 }
 
 /*

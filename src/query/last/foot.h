@@ -33,7 +33,10 @@ typedef struct pir_rim {
 /* The one of the foot of x. Neither body is a point or a segment. */
 pir_rim pir_foot_rim(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack);
 
-/* The sides that a point is less than `within` of them within, in doubles. */
+/*
+ * The sides that a point is less than `within` of them within, in doubles. Where these do not tell which corner is
+ * across a side, it is listed with each. Some of those are no sides.
+ */
 #define PIR_RIMS_MOST 16
 typedef struct pir_rims {
     double within;

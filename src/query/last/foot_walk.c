@@ -110,11 +110,16 @@ static bool goes_to(pir_exact *exact, const struct side *side, pir_piece piece, 
     return true;
 }
 
+static bool has_many_edges(const struct side *side) {
+    const uint32_t *ring = &side->other->ring_start[side->vertex];
+    return ring[1] - ring[0] > MOST_EDGES;
+}
+
 /* Goes across a side: to the one other facet of D that holds it. */
 static bool cross(pir_exact *exact, const struct side *side, pir_facet *facet) {
     const pir_polytope *p = side->body, *q = side->other;
     const uint32_t start = q->ring_start[side->vertex], end = q->ring_start[side->vertex + 1];
-    if (end - start > MOST_EDGES)
+    if (has_many_edges(side))
         return false;
     if (goes_to(exact, side, piece_of_facet(side, p->left[side->half]), facet) ||
         goes_to(exact, side, piece_of_facet(side, pir_right(p, side->half)), facet))
@@ -173,7 +178,10 @@ static bool add_beside(pir_exact *exact, const pir_placement *placement, uint32_
     for (uint32_t k = 0; k < rims->count; k++) {
         pir_facet beside = *facet;
         const struct side side = side_of(exact->frame, &rims->side[k]);
-        if (!cross(exact, &side, &beside) || !add(about, &beside))
+        if (has_many_edges(&side))
+            return false;
+        // what is no side of D has no facet beside it
+        if (cross(exact, &side, &beside) && !add(about, &beside))
             return false;
     }
     return true;
