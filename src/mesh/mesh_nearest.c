@@ -119,8 +119,23 @@ static bool is_better(const struct nearest *n, const pir_met_triangle *met, cons
     return order < 0 || (order == 0 && met->number < n->best);
 }
 
+/* Whether the direction to the best point so far shows a triangle to be farther than that. */
+static bool is_behind(const struct nearest *n, const pir_tri *tri) {
+    pir_vec3 to = pir_vec_sub(n->span.point_a, n->point);
+    double square = pir_vec_dot(to, to), least = HUGE_VAL;
+    if (n->best == PIR_TRIANGLE_NONE || !(square > 0x1p-900))
+        return false;
+    for (int k = 0; k < 3; k++) {
+        double along = pir_vec_dot(to, pir_vec_sub(tri->p[k], n->point));
+        least = along < least ? along : least;
+    }
+    return least / sqrt(square) * (1 - 0x1p-48) - 16 * n->error > n->most;
+}
+
 static bool look(void *context, const pir_met_triangle *met) {
     struct nearest *n = context;
+    if (is_behind(n, &met->tri))
+        return true;
     pir_span span = span_of(n, met);
     if (span.low <= n->most && is_better(n, met, &span)) {
         n->best = met->number;
