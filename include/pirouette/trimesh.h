@@ -123,6 +123,7 @@ typedef struct pir_trimesh_info {
     size_t tree_bytes;  /**< what the mesh takes beside its arrays */
 } pir_trimesh_info;
 
+/** What the mesh is. O(n) for n triangles. */
 PIR_API void pir_trimesh_describe(const pir_trimesh *mesh, pir_trimesh_info *ret_info);
 
 /** A triangle as it stands. */
