@@ -217,8 +217,50 @@ static void fill_leaves(const pir_mesh_frame *frame, const uint32_t leaf[2], pir
     fill_leaf(frame, 1, leaf[1], n, b);
 }
 
+/* The vertex of a leaf that is the farthest along n, in the mesh's own frame. */
+static pir_vec3 leaf_support(const pir_trimesh *mesh, uint32_t leaf, pir_vec3 n) {
+    uint32_t start = pir_mesh_leaf_start(leaf), end = start + pir_mesh_leaf_count(leaf), best = 0;
+    double most = -HUGE_VAL;
+    for (uint32_t i = start; i < end; i++) {
+        const uint32_t *corner = mesh->corner[mesh->tree.item[i]];
+        for (int k = 0; k < 3; k++) {
+            double along = pir_vec_dot(n, mesh->vertex[corner[k]]);
+            best = along > most ? corner[k] : best;
+            most = along > most ? along : most;
+        }
+    }
+    return mesh->vertex[best];
+}
+
+/* Directions that are tried for leaves as a whole. */
+#define LEAF_TRIES 4
+
+/* Whether a direction takes two leaves apart by more than the best distance; *ret_gap is by how much. As in gap_of. */
+static bool leaves_are_far(const pir_best_pair *best, const pir_mesh_frame *frame, const uint32_t leaf[2], pir_vec3 *n,
+                           double *ret_gap) {
+    pir_vec3 v = *n;
+    for (int i = 0; i < LEAF_TRIES; i++) {
+        pir_vec3 towards = pir_vec_scale(pir_mat_apply_transposed(&frame->r, v), -1);
+        pir_vec3 x = pir_mesh_frame_apply(frame, leaf_support(frame->mesh[0], leaf[0], towards));
+        pir_vec3 w = pir_vec_sub(x, leaf_support(frame->mesh[1], leaf[1], v)), e = pir_vec_sub(w, v);
+        double square = pir_vec_dot(v, v);
+        *ret_gap = pir_vec_dot(v, w) / sqrt(square) * (1 - 0x1p-48) - 16 * frame->error;
+        if (*ret_gap > best->span.high) {
+            *n = v;
+            return true;
+        }
+        double along = -pir_vec_dot(v, e), length = pir_vec_dot(e, e);
+        v = i == 0 || along >= length ? w : pir_vec_add(v, pir_vec_scale(e, along > 0 ? along / length : 0));
+        if (!(pir_vec_dot(v, v) > 0))
+            break;
+    }
+    return false;
+}
+
 double pir_leaf_pair_consider(pir_best_pair *best, pir_mesh_frame *frame, const uint32_t leaf[2], pir_vec3 *n,
                               double *ret_gap, pir_trimesh_pair_statistics *counts) {
+    if (best->p != PIR_TRIANGLE_NONE && !best->meets && leaves_are_far(best, frame, leaf, n, ret_gap))
+        return *ret_gap;
     struct leaf a, b;
     fill_leaves(frame, leaf, *n, &a, &b);
     double length = sqrt(pir_vec_dot(*n, *n)), by = length > 0 ? (1 - 0x1p-48) / length : 0;
