@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/report.h"
-#include "mesh/mesh_numbers.h"
 #include "mesh/mesh_tree.h"
+#include "mesh/signs/mesh_numbers.h"
 
 #define MOST_SIDE 32768u
 

@@ -16,7 +16,7 @@
 #include <pirouette/trimesh.h>
 
 #include "base/memory.h"
-#include "mesh/mesh_signs.h"
+#include "mesh/signs/mesh_signs.h"
 
 #define PIR_HEIGHT_LEVELS 16
 

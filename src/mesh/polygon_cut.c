@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#include "mesh/mesh_signs.h"
+#include "mesh/signs/mesh_signs.h"
 
 /* The axes of a plane in which the polygon is counter-clockwise, by Newell's normal. */
 struct plane {

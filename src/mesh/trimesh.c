@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/report.h"
-#include "mesh/mesh_numbers.h"
+#include "mesh/signs/mesh_numbers.h"
 #include "mesh/weld.h"
 
 /* Counts from here on are refused: a leaf has 29 bits for where its items begin. */

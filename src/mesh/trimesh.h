@@ -15,8 +15,8 @@
 #include <pirouette/trimesh.h>
 
 #include "base/memory.h"
-#include "mesh/mesh_signs.h"
 #include "mesh/mesh_tree.h"
+#include "mesh/signs/mesh_signs.h"
 
 struct pir_trimesh {
     pir_allocator allocator;

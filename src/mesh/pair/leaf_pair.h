@@ -6,7 +6,7 @@
 #include <pirouette/trimesh_pair.h>
 
 #include "mesh/pair/mesh_frame.h"
-#include "mesh/triangle_span.h"
+#include "mesh/signs/triangle_span.h"
 
 /* The nearest two triangles so far, exactly: no pair that was considered is nearer, or as near with lower numbers. */
 typedef struct pir_best_pair {

@@ -9,7 +9,7 @@
 #include <pirouette/pose.h>
 
 #include "exact/rotation.h"
-#include "mesh/exact_distance.h"
+#include "mesh/signs/exact_distance.h"
 #include "mesh/trimesh.h"
 
 typedef struct pir_mesh_frame {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* All pairs of triangles within a distance. */
-#include "mesh/heap_sort.h"
 #include "mesh/pair/pair_descent.h"
+#include "mesh/signs/heap_sort.h"
 
 struct within {
     pir_trimesh_pair *pair;

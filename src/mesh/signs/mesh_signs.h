@@ -3,8 +3,8 @@
  * Signs that queries on surfaces rest on, exact for the doubles given, which are at most 2^60 in size: doubles within a
  * proven bound on their error decide most, integers the rest. Nothing allocates.
  */
-#ifndef PIR_MESH_MESH_SIGNS_H
-#define PIR_MESH_MESH_SIGNS_H
+#ifndef PIR_MESH_SIGNS_MESH_SIGNS_H
+#define PIR_MESH_SIGNS_MESH_SIGNS_H
 
 #include "base/vec.h"
 

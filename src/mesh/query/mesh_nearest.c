@@ -5,9 +5,9 @@
  */
 #include <string.h>
 
-#include "mesh/exact_distance.h"
-#include "mesh/mesh_walk.h"
-#include "mesh/triangle_span.h"
+#include "mesh/query/mesh_walk.h"
+#include "mesh/signs/exact_distance.h"
+#include "mesh/signs/triangle_span.h"
 
 /* Limbs of a coordinate, 2^60 down to 2^-1074; of a square's parts; of all that is computed. */
 #define COORDINATE (1136 / GMP_NUMB_BITS + 3)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Sorting in place, without memory of its own, which qsort does not promise. */
-#ifndef PIR_MESH_HEAP_SORT_H
-#define PIR_MESH_HEAP_SORT_H
+#ifndef PIR_MESH_SIGNS_HEAP_SORT_H
+#define PIR_MESH_SIGNS_HEAP_SORT_H
 
 #include <stddef.h>
 

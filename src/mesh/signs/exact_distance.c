@@ -3,7 +3,7 @@
  * Exact distances of triangles. Every pair of features is tried: this runs where doubles cannot tell, so it is kept
  * plain.
  */
-#include "mesh/exact_distance.h"
+#include "mesh/signs/exact_distance.h"
 
 struct work {
     pir_limbs *limbs;

@@ -6,9 +6,9 @@
  * Below TINY a product may have lost what it should have kept, since coordinates are at most 2^60 and the least double
  * is 2^-1074: there integers decide.
  */
-#include "mesh/mesh_signs.h"
+#include "mesh/signs/mesh_signs.h"
 
-#include "mesh/mesh_numbers.h"
+#include "mesh/signs/mesh_numbers.h"
 
 #define TINY 0x1p-900
 

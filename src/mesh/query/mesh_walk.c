@@ -5,7 +5,7 @@
  *
  * The stack has room for the deepest tree: each node that is left leaves at most three siblings behind.
  */
-#include "mesh/mesh_walk.h"
+#include "mesh/query/mesh_walk.h"
 
 #define STACK (PIR_MESH_WIDTH * PIR_MESH_DEPTH)
 

@@ -4,9 +4,9 @@
  * side is one exact sign, the same for both triangles that have the edge but for its direction (after Woop, Benthin and
  * Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013, who do it in floats).
  */
-#include "mesh/heap_sort.h"
-#include "mesh/mesh_numbers.h"
-#include "mesh/mesh_walk.h"
+#include "mesh/query/mesh_walk.h"
+#include "mesh/signs/heap_sort.h"
+#include "mesh/signs/mesh_numbers.h"
 
 struct ray {
     pir_surface_ref surface;

@@ -3,8 +3,8 @@
  * Exact integers made one from another on a stack of limbs: each result takes as many limbs as it needs at most.
  * Whoever computes notes limbs->used before and sets it back afterwards.
  */
-#ifndef PIR_MESH_MESH_NUMBERS_H
-#define PIR_MESH_MESH_NUMBERS_H
+#ifndef PIR_MESH_SIGNS_MESH_NUMBERS_H
+#define PIR_MESH_SIGNS_MESH_NUMBERS_H
 
 #include "base/vec.h"
 #include "exact/integer.h"

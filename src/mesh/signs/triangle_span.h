@@ -4,8 +4,8 @@
  * from above, a direction that separates them from below. And the features that attain it, where these are certain, so
  * that pairs of triangles that share them are known to be as near without exact numbers.
  */
-#ifndef PIR_MESH_TRIANGLE_SPAN_H
-#define PIR_MESH_TRIANGLE_SPAN_H
+#ifndef PIR_MESH_SIGNS_TRIANGLE_SPAN_H
+#define PIR_MESH_SIGNS_TRIANGLE_SPAN_H
 
 #include "base/vec.h"
 

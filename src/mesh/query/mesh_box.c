@@ -5,9 +5,9 @@
  * Tools 6(1), 2001). Seen along an axis of the box the products are turns in a plane, so every gap is an exact
  * sign.
  */
-#include "mesh/heap_sort.h"
-#include "mesh/mesh_numbers.h"
-#include "mesh/mesh_walk.h"
+#include "mesh/query/mesh_walk.h"
+#include "mesh/signs/heap_sort.h"
+#include "mesh/signs/mesh_numbers.h"
 
 struct query {
     double low[3], high[3];

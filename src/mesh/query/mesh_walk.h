@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A traversal of a mesh or a height field: boxes first, the nearest of a node's children before the others. */
-#ifndef PIR_MESH_MESH_WALK_H
-#define PIR_MESH_MESH_WALK_H
+#ifndef PIR_MESH_QUERY_MESH_WALK_H
+#define PIR_MESH_QUERY_MESH_WALK_H
 
 #include "mesh/height_field.h"
 #include "mesh/trimesh.h"

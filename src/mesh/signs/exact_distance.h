@@ -4,10 +4,10 @@
  * the least over pairs of features whose nearest points are within both: vertices, a vertex and an edge, two
  * edges, a vertex and a face; and 0 where an edge goes through a face. A triangle may be a point three times.
  */
-#ifndef PIR_MESH_EXACT_DISTANCE_H
-#define PIR_MESH_EXACT_DISTANCE_H
+#ifndef PIR_MESH_SIGNS_EXACT_DISTANCE_H
+#define PIR_MESH_SIGNS_EXACT_DISTANCE_H
 
-#include "mesh/mesh_numbers.h"
+#include "mesh/signs/mesh_numbers.h"
 
 /* num / den, den > 0. Its owner has given each PIR_EXACT_SQUARE_LIMBS of room. */
 typedef struct pir_exact_square {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A heap whose greatest element is exchanged for the last, again and again (Floyd, CACM 7(12), 1964). */
-#include "mesh/heap_sort.h"
+#include "mesh/signs/heap_sort.h"
 
 #include <string.h>
 

@@ -7,7 +7,7 @@
  * with M the longest difference, a dot product of two is off by less than 8·E·M, a determinant of three by
  * 32·E·M², and one that has k factors by less than 2^(k+3)·E·M^(k−1). Signs below these bounds are not certain.
  */
-#include "mesh/triangle_span.h"
+#include "mesh/signs/triangle_span.h"
 
 /* A length whose square may have lost its bits, and one below which products of four may have. */
 #define UNDERFLOW 0x1p-500
