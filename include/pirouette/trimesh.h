@@ -112,7 +112,7 @@ PIR_API pir_trimesh *pir_trimesh_retain(pir_trimesh *mesh);
 /** Gives back a reference; the last one frees. NULL is accepted. Thread-safe. */
 PIR_API void pir_trimesh_release(pir_trimesh *mesh);
 
-/** What a mesh is. */
+/** Counts and properties of a mesh. */
 typedef struct pir_trimesh_info {
     uint32_t vertices, triangles; /**< as given */
     uint32_t degenerate;          /**< triangles without an area, which are left out */
@@ -123,7 +123,7 @@ typedef struct pir_trimesh_info {
     size_t tree_bytes;  /**< what the mesh takes beside its arrays */
 } pir_trimesh_info;
 
-/** What the mesh is. O(n) for n triangles. */
+/** Describes the mesh. O(n) for n triangles. */
 PIR_API void pir_trimesh_describe(const pir_trimesh *mesh, pir_trimesh_info *ret_info);
 
 /** A triangle as it stands. */
@@ -191,7 +191,7 @@ PIR_API pir_height_field *pir_height_field_retain(pir_height_field *field);
 /** Gives back a reference; the last one frees. NULL is accepted. Thread-safe. */
 PIR_API void pir_height_field_release(pir_height_field *field);
 
-/** What a height field is. */
+/** Counts and properties of a height field. */
 typedef struct pir_height_info {
     uint32_t columns, rows;
     uint32_t triangles; /**< those of holes are not counted */
@@ -212,7 +212,7 @@ PIR_API pir_status pir_height_field_triangle(const pir_height_field *field, uint
 
 /* --- queries --- */
 
-/** What is asked: a mesh, or where that is NULL a height field. */
+/** The surface of a query: a mesh, or where that is NULL a height field. */
 typedef struct pir_surface_ref {
     const pir_trimesh *mesh;
     const pir_height_field *field;

@@ -105,7 +105,7 @@ typedef struct pir_triangle_pair {
     uint32_t p, q;
 } pir_triangle_pair;
 
-/** What is asked of pir_trimesh_pair_within. */
+/** The input of pir_trimesh_pair_within. */
 typedef struct pir_within_input {
     pir_pose pose_p, pose_q;
     double distance; /**< 0 or more; 0 asks which triangles share a point */

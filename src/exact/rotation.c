@@ -142,7 +142,7 @@ static void multiply_conjugate(const double a[4], const double b[4], double ret_
 }
 
 /*
- * What rounding of the product's components, by u each, does to r: |q| is off by u, and M by 2·u·√2 in norm, 4u
+ * The effect on r of rounding the product's components, by u each: |q| is off by u, and M by 2·u·√2 in norm, 4u
  * with the norm that it is divided by; 6u is more than that and the terms of order u². So r is within 37u, and what
  * a relative normal or edge is off by elsewhere (42u, 37u) has 6u more; the bounds there leave room for it.
  */

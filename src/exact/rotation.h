@@ -63,7 +63,7 @@ static inline bool pir_quat_is_identity(pir_quat q) {
 /* |q|² between this and its inverse needs no scaling: what its products lose below 2^-1074 is far below u·n. */
 #define PIR_NORM_NEAR_ONE 0x1p-400
 
-/* What a rotation is in doubles: see pir_rotation. */
+/* A rotation in doubles: see pir_rotation. */
 typedef struct pir_rotation_doubles {
     pir_quat unit;
     pir_mat3 r;
@@ -90,9 +90,9 @@ static inline pir_rotation_doubles pir_doubles_of(pir_quat c) {
 }
 
 /*
- * The same but for the last bits of `unit`: a quaternion that has length 1 but for rounding, as most have, is taken as
- * it is, for a root and a division take as long as all else here. Its norm is within 8u of 1 and off by 4u, so its
- * length is within 6u.
+ * Doubles of a rotation, but for the last bits of `unit`: a quaternion of length 1 but for rounding, as most are, is
+ * taken as it is, for a root and a division take as long as all else here. Its norm is within 8u of 1 and off by 4u,
+ * so its length is within 6u.
  */
 static inline pir_rotation_doubles pir_doubles_as_given(pir_quat c) {
     double n = pir_quat_norm(c);
@@ -110,7 +110,7 @@ static inline void pir_rotation_set_doubles(pir_rotation *rotation, pir_quat giv
     rotation->has_exact = false;
 }
 
-/* The same where the doubles are kept elsewhere: only integers may be asked for. */
+/* Sets a rotation whose doubles are kept elsewhere: only integers may be asked for. */
 static inline void pir_rotation_set_given(pir_rotation *rotation, pir_quat given) {
     rotation->given = given;
     rotation->relative = false;
@@ -168,7 +168,7 @@ static inline double pir_rotation_angle_bound_within(pir_quat a, pir_quat b, dou
     return 4 * (half + 0.2215 * (half * half * half)) * (1 + 0x1p-48);
 }
 
-/* The same for `unit` quaternions; tight to a few parts in 10^15 for small turns. */
+/* The bound for `unit` quaternions; tight to a few parts in 10^15 for small turns. */
 static inline double pir_rotation_angle_bound(pir_quat a, pir_quat b) {
     // each unit quaternion is off by at most 8u, the chord so by 16u, which with the 5u is below 2^-48 = 32u
     return pir_rotation_angle_bound_within(a, b, 0x1p-48);

@@ -9,7 +9,7 @@
 /* Concave polygons of more corners are refused. */
 #define PIR_CUT_MOST 4096
 
-/* What ears are cut with: arrays of PIR_CUT_MOST. */
+/* Scratch of cutting ears: arrays of PIR_CUT_MOST. */
 typedef struct pir_cut_room {
     double (*flat)[2];
     uint32_t *before, *after;

@@ -12,7 +12,7 @@ static bool is_same(pir_vec3 a, pir_vec3 b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* The same for 0 and −0, which are equal. */
+/* A hash that 0 and −0 share, since they are equal. */
 static uint64_t hash_of(pir_vec3 v) {
     const double c[3] = {v.x + 0.0, v.y + 0.0, v.z + 0.0};
     uint64_t hash = pir_hash_words(PIR_HASH_START, c, sizeof c);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What triangles have in common: vertices at one place, edges, and the parts that hang together by vertices. */
+/* Shared features of triangles: vertices at one place, edges, and the parts that vertices join. */
 #ifndef PIR_MESH_WELD_H
 #define PIR_MESH_WELD_H
 

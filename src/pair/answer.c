@@ -95,7 +95,7 @@ static bool settle_same(pir_task *task, pir_same is) {
     return true;
 }
 
-/* The same with what is left of an earlier proof. */
+/* Proves the facet of the last answer by the rest of an earlier proof. */
 static bool by_held_facet(pir_task *task) {
     pir_workspace *workspace = task->workspace;
     pir_held *held = &task->pair->held;

@@ -15,7 +15,7 @@
 
 #include "pair/still_apart.h"
 
-/* What a climb may have missed of a body's support: see above. */
+/* The most that a climb may have missed of a body's support: see above. */
 static inline double missed(const pir_kept_body *body) {
     return 4 * PIR_SLOPE_BOUND * body->slip;
 }
@@ -39,7 +39,7 @@ double pir_task_certain(const pir_task *task, pir_vec3 n, double distance) {
     return pir_vec_dot(n, task->placement->x) - support - error;
 }
 
-/* What a distance has to be above to be an answer. */
+/* The distance above which an answer is proven. */
 static inline double least_beyond(const pir_task *task) {
     return task->limit + PIR_DISTANCE_ERROR * task->placement->reach;
 }
@@ -60,7 +60,7 @@ void pir_task_keep_axis(const pir_task *task, pir_vec3 n, double distance) {
     keep(task->pair, n, pir_mat_apply_transposed(&task->workspace->frame.r, n), distance);
 }
 
-/* What all directions have in common. */
+/* Shared by all directions tried. */
 struct probe {
     pir_vec3 way; /* to x, from the vertex of D at the supports that were kept */
     double least; /* a distance has to be above this to be an answer */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a call on a pair begins and ends with: the relative pose, and the way back to the world. */
+/* The beginning and the end of a call on a pair: the relative pose, and the way back to the world. */
 #include "pair/begin.h"
 
 pir_pair_input pir_pair_input_default(void) {

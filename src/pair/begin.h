@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a call begins with where that is not as it was in the call before. */
+/* Slow path of a call's beginning: its inputs changed since the call before. */
 #ifndef PIR_PAIR_BEGIN_H
 #define PIR_PAIR_BEGIN_H
 

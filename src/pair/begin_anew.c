@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a call on a pair begins with where that is not as it was in the call before: see begin.h. */
+/* Slow path of a call's beginning: its inputs changed since the call before. See begin.h. */
 #include "pair/begin.h"
 
 void pir_pair_set_bodies(const pir_pair *pair, pir_workspace *workspace) {

@@ -28,7 +28,7 @@ pir_status pir_flight_check(pir_vec3 way, pir_vec3 turn, double tolerance) {
     return length(turn) <= 0x1p20 ? PIR_OK : PIR_ERR_LIMIT;
 }
 
-/* What a flight that begins where the bodies share a point ends with. */
+/* Ends a flight that begins where the bodies share a point. */
 static pir_status end_at_once(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                               const pir_flight *flight, pir_flight_end *end) {
     bool inside = end->answer.state == PIR_INSIDE;

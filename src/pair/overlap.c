@@ -19,7 +19,7 @@
 /* Directions at a greater cosine are at one end of D. */
 #define SAME_END 0.875
 
-/* The same for a surface that x has left. */
+/* The most repairs of a surface that x has left. */
 #define MOST_REPAIRS 8
 
 /* Facets that one search may prove; a body of many equal ones has more, and is left to the whole sum. */
@@ -124,7 +124,7 @@ static bool piece_at(const pir_overlap *overlap, uint32_t t, pir_piece *ret_piec
 
 /* --- expansion --- */
 
-/* What came of an expansion: nothing is beyond the triangle, the surface has changed, or it could not. */
+/* The outcome of an expansion: nothing is beyond the triangle, the surface has changed, or it could not. */
 enum expansion { NOTHING_BEYOND, CHANGED, STUCK };
 
 /* Bodies of more vertices than this have corners of triangles that are far from what is beyond those. */
@@ -379,7 +379,7 @@ static uint32_t next_open(const pir_overlap *overlap, const struct found *found,
     return (uint32_t)__builtin_ctzll(open & loops->below(surface, overlap->room, least));
 }
 
-/* What the least slack is not above. */
+/* An upper bound on the least slack. */
 static double bound_of(const pir_overlap *overlap, const pir_least *least) {
     if (!least->some)
         return HUGE_VAL;
@@ -389,7 +389,7 @@ static double bound_of(const pir_overlap *overlap, const pir_least *least) {
 
 /* --- triangles that lie in no facet --- */
 
-/* What the least of three corners is along a unit direction, less what they may be off by. */
+/* The least of three corners along a unit direction, less the error that they may have. */
 static double least_along(const pir_overlap *overlap, uint32_t t, pir_vec3 along) {
     double least = HUGE_VAL;
     for (int k = 0; k < 3; k++)

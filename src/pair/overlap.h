@@ -26,7 +26,7 @@ typedef struct pir_overlap {
 /* Places the surface about x. True where it is certain: x then is inside. */
 bool pir_overlap_place(const pir_overlap *overlap);
 
-/* What came of a surface: nothing, a facet of D that x is within rounding of or beyond, or a certain one about x. */
+/* The outcome of a surface: nothing, a facet of D that x is within rounding of or beyond, or a certain one about x. */
 typedef enum pir_about { PIR_ABOUT_NOTHING, PIR_ABOUT_FACET, PIR_ABOUT_X } pir_about;
 
 /* Expands a placed surface that x has left. */

@@ -58,7 +58,7 @@ static pir_status find_axes(pir_polytope *p, pir_polytope *q, pir_pair *pair) {
     return status;
 }
 
-/* What a pair needs to know of its bodies. */
+/* Finds the bodies of a pair, with the tables that it reads. */
 static pir_status find_bodies(pir_polytope *p, pir_polytope *q, pir_pair *pair) {
     pir_polytope *reflected;
     int of_p, of_q;

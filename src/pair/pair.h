@@ -133,7 +133,7 @@ static inline bool pir_pair_is_at(const pir_pair *pair, const pir_workspace *wor
     return workspace->pair == pair && pair->workspace == workspace;
 }
 
-/* What every call begins with: checks but for NULL, the frame at the relative pose, the workspace's placement. */
+/* Begins a call: checks but for NULL, the frame at the relative pose, the workspace's placement. */
 pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input);
 
 /* A point in Q's frame, and a result, brought to the world: where Q is not at the origin, or turned. */

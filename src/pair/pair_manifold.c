@@ -51,7 +51,7 @@ static inline bool is_in_place(const pir_workspace *workspace, const pir_pair_in
 }
 
 /*
- * What a call begins with that may follow one on this pair in this workspace: at the same poses it uses what that one
+ * Begins a call that may follow one on this pair in this workspace: at the same poses it uses what that one
  * made. Where it needs no frame none is made.
  */
 static pir_status resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, bool needs_frame) {

@@ -2,11 +2,11 @@
 /* Apart still by more than the cutoff: see still_apart.h. */
 #include "pair/still_apart.h"
 
-/* What |q|² of a quaternion may differ from 1 by, so that none has to be brought to length 1. */
+/* The most that |q|² of a quaternion may differ from 1, so that none has to be brought to length 1. */
 #define NEAR_UNIT 0x1p-20
 
 /*
- * What two such quaternions, brought to length 1, may be farther from one another: |q| is within 2^-21 and some
+ * The error of a difference of two such quaternions, brought to length 1: |q| is within 2^-21 and some
  * rounding of 1, so each moves by less than 2^-20, and both by less than 2^-19.
  */
 #define BESIDE_UNIT 0x1p-18

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the ways to an answer share: the question, what is proven so far, and the answers that follow from a nearest
+ * Shared by the ways to an answer: the question, the proofs so far, and the answers that follow from a nearest
  * point or a facet. See answer.c for the ways.
  */
 #ifndef PIR_PAIR_TASK_H

@@ -26,7 +26,7 @@ void pir_measure_finish(pir_measure *measure) {
     pir_polytope_release(measure->origin);
 }
 
-/* What rounding a vertex may add to a distance at most, as a part of the size. */
+/* The most that rounding a vertex may add to a distance, as a part of the size. */
 #define ROUGH 1e-12
 
 /* The sum of the sides of a box, and the greatest coordinate. */

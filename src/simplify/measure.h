@@ -36,7 +36,7 @@ pir_status pir_measure_aim(pir_measure *measure, pir_polytope *polytope);
 
 pir_status pir_measure_point(pir_measure *measure, pir_vec3 point, pir_measured *ret_measured);
 
-/* The same of a vertex of another polytope. */
+/* Measures a vertex of another polytope. */
 pir_status pir_measure_vertex(pir_measure *measure, const pir_polytope *of, uint32_t vertex,
                               pir_measured *ret_measured);
 

@@ -27,7 +27,7 @@ typedef struct pir_carrying {
     double radius;   /* of it; 0 or less where there is none */
 } pir_carrying;
 
-/* What is proven. */
+/* The findings of a proof. */
 typedef struct pir_proof {
     bool free, blocked;
     double gap; /* it holds wherever no point of P is moved farther than this */

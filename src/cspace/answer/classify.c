@@ -14,7 +14,7 @@ static void free_answers(pir_cspace *cspace) {
     PIR_FREE(&cspace->allocator, answers, 1);
 }
 
-/* What is kept, made where it is not there yet. */
+/* The answers that the file keeps, made where they are not there yet. */
 static pir_status get_answers(pir_cspace *cspace, pir_report *report, pir_answers **ret_answers) {
     if (!cspace->answers) {
         const pir_polytope *const *pieces = (const pir_polytope *const *)pir_store_pieces(cspace->store);

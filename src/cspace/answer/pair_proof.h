@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What slices prove of one pair of pieces at a pose. */
+/* Proofs by slices about one pair of pieces at a pose. */
 #ifndef PIR_CSPACE_ANSWER_PAIR_PROOF_H
 #define PIR_CSPACE_ANSWER_PAIR_PROOF_H
 
@@ -23,8 +23,8 @@ pir_status pir_pair_at_slice(const pir_asked_pair *pair, uint64_t slice, pir_vec
                              pir_proof *proof);
 
 /*
- * What one slice proves, in this order: by its distance or depth and the bound δ on what moves; by the features there,
- * carried to the pose; by those that the ray from the middle of the difference through the translation meets.
+ * The proofs of one slice, in this order: by its distance or depth and the bound δ on what moves; by the features
+ * there, carried to the pose; by those that the ray from the middle of the difference through the translation meets.
  */
 pir_status pir_pair_by_slice(const pir_asked_pair *pair, const pir_rotation *pose, pir_vec3 translation, uint64_t slice,
                              pir_proof *proof);

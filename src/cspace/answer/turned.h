@@ -30,7 +30,7 @@ pir_turned pir_turned_of(const pir_rotation *pose, pir_vec3 translation, const p
 /* t' − t for a piece: (A − B)c. */
 pir_vec3 pir_turned_shift(const pir_turned *turned, const pir_piece_ball *p);
 
-/* What t' and lengths here are off by at most. */
+/* The error of t' and of lengths here, at most. */
 double pir_turned_error(const pir_turned *turned, const pir_piece_ball *p, const pir_piece_ball *q);
 
 /* δ by the ball, O(1), and by the vertices, O(n). */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is within a closed mesh. */
+/* Whether a point, or a whole part, is within a closed mesh. */
 #ifndef PIR_MESH_PAIR_INSIDE_H
 #define PIR_MESH_PAIR_INSIDE_H
 

@@ -46,7 +46,7 @@ void pir_mesh_front_renew(pir_mesh_front *front, uint32_t i, float bound);
 /* Takes an entry out; the last one takes its place. */
 void pir_mesh_front_drop(pir_mesh_front *front, uint32_t i);
 
-/* What the direction of an entry still proves. */
+/* The bound that the direction of an entry still proves. */
 float pir_mesh_front_along(const pir_mesh_front *front, const pir_float_frame *frame, uint32_t i);
 
 /* Lists entries, from the last to the first, that may be apart by no more than `most`; how many they are. */

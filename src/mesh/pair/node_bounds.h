@@ -55,7 +55,7 @@ void pir_lanes_set_node(pir_lanes *lanes, const pir_trimesh *mesh, uint32_t node
 /* Lanes that are all like one. */
 void pir_lanes_repeat(pir_lanes *lanes, const pir_lanes *from, int lane);
 
-/* What given directions prove: axes->bound. */
+/* The bounds that given directions prove: axes->bound. */
 void pir_bound_along(const pir_float_frame *frame, const pir_lanes *p, const pir_lanes *q, pir_axes *axes);
 
 /* Tries directions of the nodes' own, and keeps those that prove more. */

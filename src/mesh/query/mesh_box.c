@@ -45,7 +45,7 @@ static bool edge_separates(const double a[2], const double b[2], const double c[
     return (own >= 0 && most < 0) || (own <= 0 && least > 0);
 }
 
-/* The same for the edges of a triangle seen along axis `k`; *ret_sign is that of its normal there. */
+/* Whether an edge of a triangle seen along axis `k` separates it from the box; *ret_sign is its normal's sign there. */
 static bool outline_separates(const struct query *q, double p[3][3], int k, int *ret_sign) {
     int x = (k + 1) % 3, y = (k + 2) % 3;
     double flat[3][2];

@@ -23,7 +23,7 @@
 #define PIR_AXES_SLACKS (4 * PIR_AXES_PADDED + 2 * PIR_AXES_ALONG * PIR_AXES_PADDED)
 
 /*
- * What the loops read of a body: vectors in parallel arrays. Two facets with opposite normals are on one line, and of
+ * The loops' view of a body: vectors in parallel arrays. Two facets with opposite normals are on one line, and of
  * two opposite vertices one is enough where all have one, as boxes do: so there is half as much to compute.
  */
 typedef struct pir_axes_lanes {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What is left of a proof when the bodies have moved little.
+ * The rest of a proof after the bodies have moved little.
  *
  * A facet of D was proven at a placement: its features were exposed, by so much that R has to turn by an angle before
  * they may not be, and its foot was inside of the rim by so much. At a placement that differs by a turn and a way of x
@@ -66,7 +66,7 @@ static inline void pir_held_set(pir_held *held, const pir_frame *frame, const pi
     held->lone.kind = PIR_LONE_UNKNOWN;
 }
 
-/* What is left of that after the bodies have moved; false where nothing is. */
+/* The rest of the proof after the bodies have moved; false where nothing is left. */
 static inline bool pir_held_known(const pir_held *held, pir_leeway moved, const pir_placement *placement,
                                   pir_same_known *ret_known) {
     *ret_known = held->known;

@@ -35,7 +35,7 @@ struct lanes {
     __m256d x, y, z;
 };
 
-/* The same corner of four triangles. */
+/* One corner of each of four triangles. */
 AVX2 static inline struct lanes corner_of(const pir_surface_room *room, const uint8_t *corner) {
     __m256d a = _mm256_loadu_pd(room->at[corner[0]]), b = _mm256_loadu_pd(room->at[corner[1]]);
     __m256d c = _mm256_loadu_pd(room->at[corner[2]]), d = _mm256_loadu_pd(room->at[corner[3]]);

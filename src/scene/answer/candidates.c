@@ -90,7 +90,7 @@ static void look_by_bodies(pir_scene *scene, uint32_t task, uint32_t begin, uint
                     pir_scene_worker_note(worker, look(scene, worker, at / 2), i);
 }
 
-/* The same by the table of pairs, a block at a time: memory is read in order, and a pair once. */
+/* Looks by the table of pairs, a block at a time: memory is read in order, and a pair once. */
 static void look_by_table(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
     pir_scene_worker *worker = &scene->worker[task];
     uint32_t most = scene->pairs.capacity, last = end * BLOCK < most ? end * BLOCK : most;

@@ -8,7 +8,7 @@
 /* The most items that a task takes at a time. */
 #define PIR_SHARE_RUN 16
 
-/* What the task with that number does with the items from `begin` up to `end`. */
+/* The work of the task with that number on the items from `begin` up to `end`. */
 typedef void pir_share_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end);
 
 /*

@@ -223,7 +223,7 @@ static pir_status read_contacts(pir_scene *scene, const struct snapshot *s) {
     return PIR_OK;
 }
 
-/* What cannot fail: which are in contact, which are fresh. */
+/* Sets the pairs in contact and the fresh bodies, which cannot fail. */
 static void commit(pir_scene *scene, const struct snapshot *s) {
     for (uint32_t i = 0; i < scene->pairs.capacity; i++)
         scene->pairs.at[i].touching = false;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a shape that moves meets first: the first of the pieces that its way may meet, each by pir_pair_fly. */
+/* The first hit of a moving shape: the least over the pieces that its way may meet, each by pir_pair_fly. */
 #include "pair/flight.h"
 #include "scene/query/probe.h"
 

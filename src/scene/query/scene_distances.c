@@ -8,7 +8,7 @@
  */
 #include "scene/query/far_bounds.h"
 
-/* What query.h promises of a distance, with a part in a thousand for the roundings here. */
+/* The bound that query.h promises of a distance, with a part in a thousand for the roundings here. */
 #define PROMISE 1.001e-12
 
 /* A question about one piece, and what is known. */
@@ -23,7 +23,7 @@ struct gauge {
     bool beyond;              /* the cutoff */
 };
 
-/* What is put together of the answers. */
+/* The answers, as they are put together. */
 struct told {
     pir_scene_distance *at;
     size_t capacity, count;
@@ -103,7 +103,7 @@ static pir_status settle(struct gauge *gauge, const pir_scene_piece *q) {
 
 /* --- the call --- */
 
-/* What a distance in doubles may be off: relative to sizes and coordinates, generously. */
+/* The error of a distance in doubles, relative to sizes and coordinates, generously. */
 static double slack_of(const pir_probe *probe, const pir_scene_piece *q) {
     const pir_scene_body *body = &probe->scene->bodies.body[q->body];
     pir_vec3 s = probe->pose.translation, t = body->pose.translation;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What is nearest to a shape, and the closest pairs of a scene. The best so far are kept in order. Once there are as
+ * The nearest pieces to a shape, and the closest pairs of a scene. The best so far are kept in order. Once there are as
  * many as asked for, the last of them is the cutoff of the next question.
  */
 #include "scene/query/probe.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a shape overlaps. Hits are kept in order as they are found, so that those beyond the capacity fall off. */
+/* The pieces that a shape overlaps. Hits are kept in order, so that those beyond the capacity fall off. */
 #include "scene/query/probe.h"
 
 static bool comes_before(const pir_scene_hit *a, const pir_scene_hit *b) {

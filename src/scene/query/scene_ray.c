@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a segment meets first: the first of the pieces whose boxes it meets, each by one of the ways of ray.h. */
+/* The first hit of a segment: the least over the pieces whose boxes it meets, each by one of the ways of ray.h. */
 #include "scene/query/probe.h"
 #include "scene/query/ray_rounded.h"
 

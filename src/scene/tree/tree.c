@@ -42,7 +42,7 @@ static void give_back(pir_tree *tree, uint32_t n) {
 
 /* --- where a leaf goes --- */
 
-/* What a leaf costs below a child: how much the areas there grow at least. */
+/* The cost of a leaf below a child: the least growth of the areas there. */
 static float cost_below(const pir_tree *tree, uint32_t child, const pir_box *box) {
     const pir_tree_node *node = &tree->node[child];
     float joint = pir_box_joint_area(&node->box, box);

@@ -8,7 +8,7 @@
  *   - A node has two children, and its box is that of its children joined; or it is a leaf, and has an item.
  *   - With n leaves there are 2 n − 1 nodes in use.
  *
- * What a traversal finds depends on the leaves alone; in which order it does depends on the history of the tree.
+ * The findings of a traversal depend on the leaves alone, their order on the history of the tree.
  */
 #ifndef PIR_SCENE_TREE_TREE_H
 #define PIR_SCENE_TREE_TREE_H

@@ -34,7 +34,7 @@ typedef struct pir_scene_noted {
     bool asks;
 } pir_scene_noted;
 
-/* What belongs to one task at a time. */
+/* Memory that belongs to one task at a time. */
 typedef struct pir_scene_worker {
     pir_workspace *workspace;
     pir_scene_noted *noted;
@@ -69,7 +69,7 @@ typedef struct pir_scene_replaced {
     pir_box before;
 } pir_scene_replaced;
 
-/* What an update works with; the memory stays. */
+/* The lists of an update; the memory stays. */
 typedef struct pir_scene_lists {
     pir_scene_moved *moved;
     pir_box *box; /* of the pieces of those */
@@ -81,7 +81,7 @@ typedef struct pir_scene_lists {
     uint32_t moved_count, replaced_count, asked_count, ended_count;
 } pir_scene_lists;
 
-/* What rays compute in where doubles do not settle them; made when it is first needed. */
+/* Scratch of rays that doubles do not settle; made when it is first needed. */
 typedef struct pir_exact_room {
     pir_limbs limbs;
     pir_rotation_integers *integers;

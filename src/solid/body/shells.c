@@ -170,7 +170,7 @@ static pir_status check_shells(struct shells *shells, uint32_t count, mpz_ptr si
 
 /* --- counts --- */
 
-/* What meets at a point of the body, as far as counts need it. */
+/* The edges and facets at a point of the body, as far as counts need them. */
 struct corner {
     uint32_t bends, reflex;     /* edges that are not flat, and the reflex ones among them */
     uint32_t first[2], last[2]; /* their least and greatest direction's edge, for two bends, for two reflex ones */

@@ -56,7 +56,7 @@ pir_status pir_solid_volume_exact(const pir_solid *solid, mpq_t ret_volume) {
 
 /* --- the body of a solid --- */
 
-/* What 1 is in the doubles of a space with this shift, in units of the model. */
+/* The length 1 of a space with this shift, in units of the model. */
 static double unit_of(const pir_scale *scale, int shift) {
     int top, bottom;
     const double num = pir_int_to_double(&scale->num, &top), den = pir_int_to_double(&scale->den, &bottom);

@@ -21,7 +21,7 @@ struct pir_solid {
     mpq_t volume;
 };
 
-/* What a solid is made of; everything is copied. */
+/* The parts that a solid is made of; everything is copied. */
 typedef struct pir_solid_parts {
     const pir_vectors *points;
     const pir_scale *scale;

@@ -131,7 +131,7 @@ static bool is_new(struct division *d, uint32_t half) {
     return is;
 }
 
-/* What a crease counts for a plane that holds it, or against one that cuts it. */
+/* The weight of a crease for a plane that holds it, or against one that cuts it. */
 static int worth_of(struct division *d, const struct crease *crease, uint32_t plane) {
     const unsigned seen = pir_sides_of_points(&d->sides, plane, (const uint32_t[]){crease->a, crease->b}, 2);
     return seen == PIR_ON_PLANE ? 16 : seen == (PIR_ABOVE | PIR_BELOW) ? -8 : 0;
@@ -277,7 +277,7 @@ static void cut_creases(struct division *d, const struct node *node, uint32_t ha
     }
 }
 
-/* What a child of a node has that the node has not, and the reverse: in the order of the node's, parts that the cut
+/* The difference of a child and its node, both ways: in the order of the node's, parts that the cut
  * made stand for what they are parts of. Points and polygons from first[0] and first[1] on are such. */
 static void list_changes(struct division *d, const struct node *node, const struct node *child,
                          const uint32_t first[2]) {

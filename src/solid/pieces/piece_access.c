@@ -136,7 +136,7 @@ static pir_status decompose(const pir_solid *solid, const pir_solid_options *opt
     return status;
 }
 
-/* The same by the method asked for; *method becomes the one that it is. */
+/* Decomposes by the method asked for; *method becomes the one that was used. */
 static pir_status decompose_by(const pir_solid *solid, const pir_solid_options *options, pir_decompose_method *method,
                                pir_pieces **ret_pieces) {
     const bool both = *method == PIR_DECOMPOSE_BEST;

@@ -27,7 +27,7 @@ bool pir_relative_is_plain(const pir_pair_input *input) {
            input->radius_p + input->radius_q < 0x1p400 && !isnan(input->cutoff) && !isnan(input->margin);
 }
 
-/* The same rotation, of a usual size. */
+/* The rotation as a quaternion of a usual size. */
 static pir_quat usual(pir_quat q) {
     if (is_usual(norm(q)))
         return q;

@@ -123,7 +123,7 @@ static double ask_state(void *context, uint32_t i, uint32_t j) {
     return call->state == PIR_INSIDE ? -1 : 0;
 }
 
-/* The same where doubles do not tell. */
+/* The state of two pieces, asked of a pair only where doubles do not tell. */
 static double ask_likely(void *context, uint32_t i, uint32_t j) {
     struct call *call = context;
     const pir_likely likely = pir_pieces_look(&call->relative, &call->query->p, i, &call->query->q, j);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is left of the candidates of a sum once the sums of all pairs of pieces have covered what is inside. */
+/* The rest of a sum's candidates once the sums of all pairs of pieces have covered the inside. */
 #ifndef PIR_SOLID_SUM_REMAINS_H
 #define PIR_SOLID_SUM_REMAINS_H
 

@@ -86,7 +86,7 @@ static void outline_group(struct job *job, const uint32_t *order, uint32_t count
                          job->fragments.count - first);
 }
 
-/* What of open solids is no boundary, onto the outline before it is cut. */
+/* Adds the interior edges of open solids to the outline before it is cut. */
 static void add_tight(struct job *job) {
     const pir_facet_polygons facets = {&job->remains.kept, job->fragments.polygon, job->fragments.count,
                                        job->first_loose};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What of a convex polygon a convex set leaves uncovered. */
+/* The part of a convex polygon that a convex set leaves uncovered. */
 #ifndef PIR_SOLID_SUM_SUBTRACT_H
 #define PIR_SOLID_SUM_SUBTRACT_H
 

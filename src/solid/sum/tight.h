@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the sum of open solids leaves out beside facets: segments and points on their own, and the edges where two-sided
+ * The parts that the sum of open solids leaves out beside facets: segments, points, and the edges where two-sided
  * facets cross others.
  */
 #ifndef PIR_SOLID_SUM_TIGHT_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What open convex sets leave of closed polygons: polygons, segments and points. So a polygon that open sets cover but
- * for a line or a corner leaves that.
+ * The rest of closed polygons outside of open convex sets: polygons, segments and points. So a polygon that open sets
+ * cover but for a line or a corner leaves that.
  */
 #ifndef PIR_SOLID_SUM_TOUCHING_H
 #define PIR_SOLID_SUM_TOUCHING_H
