@@ -133,7 +133,8 @@ typedef struct pir_triangle_corners {
 } pir_triangle_corners;
 
 /**
- * Triangle `triangle` as given, one without an area too. Errors: PIR_ERR_ARGUMENT (no triangle of the mesh).
+ * Triangle `triangle` as given, one without an area too. Cost: O(1). Errors: PIR_ERR_ARGUMENT (no triangle of the
+ * mesh).
  *
  * ret_corners  its corners.
  */
@@ -203,7 +204,7 @@ typedef struct pir_height_info {
 PIR_API void pir_height_field_describe(const pir_height_field *field, pir_height_info *ret_info);
 
 /**
- * Triangle `triangle` of the field. Errors: PIR_ERR_ARGUMENT (no triangle, or one of a hole).
+ * Triangle `triangle` of the field. Cost: O(1). Errors: PIR_ERR_ARGUMENT (no triangle, or one of a hole).
  *
  * ret_corners  its corners.
  */
