@@ -86,7 +86,7 @@ static int complain_option(const struct args *args, const char *option, pir_stat
     return complain("configuration: %s: '%s': %s", option, args_value(args, option), pir_status_text(status));
 }
 
-/* The same of pose `number` of a file of them. */
+/* Complains of pose `number` of a batch. */
 static void complain_row(const struct args *args, size_t number, pir_status status, const pir_report *report) {
     const char *path = args_value(args, "--batch");
     if (status != PIR_ERR_LIMIT)

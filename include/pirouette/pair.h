@@ -170,7 +170,7 @@ PIR_API pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, c
 /** How the last answer was found. */
 PIR_API pir_level pir_pair_level(const pir_pair *pair);
 
-/** What a pair has done since it was made, or reset. */
+/** Counters of a pair since it was made, or reset. */
 typedef struct pir_pair_statistics {
     uint64_t queries;
     uint64_t by_certificate; /**< answers at the level `apart` */

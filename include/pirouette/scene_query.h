@@ -163,7 +163,7 @@ typedef struct pir_scene_impact {
 } pir_scene_impact;
 
 /**
- * What the segment from `origin` to `origin` + `way` meets first. Bodies are as large as their rounding radii make
+ * The first hit of the segment from `origin` to `origin` + `way`. Bodies are as large as their rounding radii make
  * them.
  *
  * Without a radius, whether the segment shares a point with a piece is exact, and time and point are those of the first

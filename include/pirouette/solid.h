@@ -76,7 +76,7 @@ PIR_API pir_status pir_solid_read(const char *path, const pir_solid_options *opt
                                   pir_solid **ret_solid);
 
 /**
- * The same for a file in memory.
+ * A solid of a file in memory.
  *
  * file                        the bytes, and their format.
  * options, report, ret_solid  as of pir_solid_read.

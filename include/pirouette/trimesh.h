@@ -293,7 +293,7 @@ PIR_API pir_status pir_surface_box_each(pir_surface_ref surface, pir_vec3 low, p
                                         pir_triangle_callback *callback, void *context);
 
 /**
- * The same as an array, in rising order where all fit.
+ * The triangles that meet a box, as an array, in rising order where all fit.
  *
  * surface, low, high       as of pir_surface_box_each.
  * capacity, ret_triangles  room for how many, and that room.

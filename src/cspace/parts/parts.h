@@ -54,7 +54,7 @@ void pir_parts_finish(pir_parts *parts);
  */
 pir_status pir_parts_scan(pir_parts *parts, pir_report *report);
 
-/* What runs leave beside the file: parts, and files that were being made of all parts, under names of their own. */
+/* Files that runs leave beside the output: parts, and those being made of all parts, under names of their own. */
 enum pir_left { PIR_LEFT_PARTS = 1, PIR_LEFT_ASSEMBLING = 2, PIR_LEFT_ALL = 3 };
 
 /* How the name of such a file goes on behind that of the one that it is to be. */

@@ -149,8 +149,8 @@ void pir_patch_look_around(pir_patch *patch);
 pir_vec3 pir_patch_lift(const pir_patch *patch, pir_vec3 x);
 
 /*
- * The same for any x near the patch. False where the line through x along `out` passes the body by more than
- * PIR_OVER · snap, or meets a facet at a cosine below PIR_LEAST_COSINE.
+ * The point of the surface over or under any x near the patch. False where the line through x along `out` passes the
+ * body by more than PIR_OVER · snap, or meets a facet at a cosine below PIR_LEAST_COSINE.
  */
 bool pir_patch_find(const pir_patch *patch, pir_vec3 x, pir_vec3 *ret_point);
 

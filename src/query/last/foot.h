@@ -30,7 +30,7 @@ typedef struct pir_rim {
     uint32_t half, across; /* a halfedge of that edge, and the vertex of the other body that it is put at */
 } pir_rim;
 
-/* The one of the foot of x. Neither body is a point or a segment. */
+/* The side that the foot of x is least within. Neither body is a point or a segment. */
 pir_rim pir_foot_rim(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack);
 
 /*
@@ -44,7 +44,7 @@ typedef struct pir_rims {
     pir_rim side[PIR_RIMS_MOST];
 } pir_rims;
 
-/* The same for a point y of F's plane; lists the sides near it. */
+/* The rim's side that a point y of F's plane is least within; lists the sides near y. */
 pir_rim pir_foot_rims(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, pir_vec3 y,
                       pir_rims *rims);
 
