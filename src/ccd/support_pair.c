@@ -30,7 +30,7 @@ _Static_assert(sizeof(ccd_real_t) == sizeof(double), "libccd must be built for d
 #define EXPONENT_LEAST (-1020)
 
 /* One operand, scaled. */
-struct side {
+struct support_side {
     const pir_polytope *polytope;
     pir_mat3 r;
     pir_vec3 middle; /* of its bounds, in body coordinates */
@@ -40,7 +40,7 @@ struct side {
 };
 
 static void side_support(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *point) {
-    struct side *side = (struct side *)object;
+    struct support_side *side = (struct support_side *)object;
     pir_vec3 d = {direction->v[0], direction->v[1], direction->v[2]};
     double length = sqrt(pir_vec_dot(d, d));
     d = length > 0 ? pir_vec_scale(d, 1 / length) : (pir_vec3){1, 0, 0};
@@ -51,7 +51,7 @@ static void side_support(const void *object, const ccd_vec3_t *direction, ccd_ve
 }
 
 static void side_centre(const void *object, ccd_vec3_t *point) {
-    const struct side *side = object;
+    const struct support_side *side = object;
     ccdVec3Set(point, side->at.x, side->at.y, side->at.z);
 }
 
@@ -64,7 +64,7 @@ static pir_vec3 middle_of(const pir_polytope *p, double *size) {
 }
 
 /* Both operands on one scale, P in its place. *ret_unit is the length of the scale's unit. */
-static pir_status make_sides(const pir_ccd_pair *pair, struct side sides[2], double *ret_unit) {
+static pir_status make_sides(const pir_ccd_pair *pair, struct support_side sides[2], double *ret_unit) {
     if (!pair || !pair->p || !pair->q)
         return PIR_ERR_ARGUMENT;
     if (!pir_vec_is_finite(pair->translation))
@@ -74,8 +74,8 @@ static pir_status make_sides(const pir_ccd_pair *pair, struct side sides[2], dou
     if (status != PIR_OK)
         return status;
     double size = 0;
-    sides[0] = (struct side){.polytope = pair->p, .r = rotation.r, .middle = middle_of(pair->p, &size)};
-    sides[1] = (struct side){
+    sides[0] = (struct support_side){.polytope = pair->p, .r = rotation.r, .middle = middle_of(pair->p, &size)};
+    sides[1] = (struct support_side){
         .polytope = pair->q, .r = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .middle = middle_of(pair->q, &size)};
     pir_vec3 at = pir_vec_add(pir_mat_apply(&rotation.r, sides[0].middle), pair->translation);
     pir_vec3 apart = pir_vec_sub(at, sides[1].middle);
@@ -93,7 +93,7 @@ static pir_status make_sides(const pir_ccd_pair *pair, struct side sides[2], dou
 }
 
 pir_status pir_ccd_overlap(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome) {
-    struct side sides[2];
+    struct support_side sides[2];
     double unit;
     if (!ret_outcome)
         return PIR_ERR_ARGUMENT;
@@ -116,7 +116,7 @@ struct pair_simplex {
     ccd_vec3_t w[4];
 };
 
-static void support_of_difference(struct side sides[2], const ccd_vec3_t *direction, ccd_vec3_t *w) {
+static void support_of_difference(struct support_side sides[2], const ccd_vec3_t *direction, ccd_vec3_t *w) {
     ccd_vec3_t minus, a, b;
     ccdVec3Copy(&minus, direction);
     ccdVec3Scale(&minus, -1);
@@ -156,7 +156,7 @@ static double nearest_of(struct pair_simplex *simplex, ccd_vec3_t *ret_v) {
 }
 
 pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome, double *ret_distance) {
-    struct side sides[2];
+    struct support_side sides[2];
     double unit;
     if (!ret_outcome || !ret_distance)
         return PIR_ERR_ARGUMENT;

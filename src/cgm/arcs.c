@@ -97,7 +97,7 @@ static bool add_facets(struct pir_cgm_arcs *arcs) {
 
 /* --- walking one arc --- */
 
-struct walk {
+struct arc_walk {
     struct pir_cgm_arcs *arcs;
     uint32_t edge, line; /* the polytope's edge, its signed line */
     int corner[8];       /* on which side of the line the cube's corners are */
@@ -105,7 +105,7 @@ struct walk {
     const int8_t *end_planes;
 };
 
-static bool add_piece(struct walk *walk, uint32_t to, uint32_t map, uint32_t cube_edge, bool forward) {
+static bool add_piece(struct arc_walk *walk, uint32_t to, uint32_t map, uint32_t cube_edge, bool forward) {
     struct pir_cgm_arcs *arcs = walk->arcs;
     void *block = arcs->piece;
     bool done =
@@ -118,13 +118,13 @@ static bool add_piece(struct walk *walk, uint32_t to, uint32_t map, uint32_t cub
     return done;
 }
 
-static int corner_sign(const struct walk *walk, uint32_t map, uint32_t side) {
+static int corner_sign(const struct arc_walk *walk, uint32_t map, uint32_t side) {
     return walk->corner[pir_cube_corner(map, pir_side_corner(side % 4))];
 }
 
 /* From inside map *map, or from its border inwards: to the end or out of it. *map is the next map to
    cross, or PIR_ALONG_EDGE. */
-static bool cross_map(struct walk *walk, uint32_t *map) {
+static bool cross_map(struct arc_walk *walk, uint32_t *map) {
     struct pir_cgm_arcs *arcs = walk->arcs;
     uint32_t side = 0;
     while (corner_sign(walk, *map, side) >= 0 || corner_sign(walk, *map, side + 1) < 0)
@@ -147,7 +147,7 @@ static bool cross_map(struct walk *walk, uint32_t *map) {
 }
 
 /* Along cube edge `cube_edge`: to the end or to the corner ahead. */
-static bool follow_edge(struct walk *walk, uint32_t cube_edge, bool forward) {
+static bool follow_edge(struct arc_walk *walk, uint32_t cube_edge, bool forward) {
     struct pir_cgm_arcs *arcs = walk->arcs;
     const struct pir_site *end = &arcs->site[walk->end];
     uint32_t map = arcs->edge_map[cube_edge], side = arcs->edge_side[cube_edge];
@@ -158,7 +158,7 @@ static bool follow_edge(struct walk *walk, uint32_t cube_edge, bool forward) {
 }
 
 /* From a point on a cube edge: the map it goes into, or PIR_ALONG_EDGE after following the edge. */
-static bool start_on_edge(struct walk *walk, uint32_t *ret_map) {
+static bool start_on_edge(struct arc_walk *walk, uint32_t *ret_map) {
     struct pir_cgm_arcs *arcs = walk->arcs;
     uint32_t cube_edge = arcs->site[walk->at].cube_edge;
     uint32_t map = arcs->edge_map[cube_edge], side = arcs->edge_side[cube_edge];
@@ -170,7 +170,7 @@ static bool start_on_edge(struct walk *walk, uint32_t *ret_map) {
 }
 
 /* From a corner of the cube, in the same way. */
-static bool start_at_corner(struct walk *walk, uint32_t *ret_map) {
+static bool start_at_corner(struct arc_walk *walk, uint32_t *ret_map) {
     for (uint32_t map = 0; map < 6; map++)
         for (uint32_t side = 0; side < 4; side++) {
             if (pir_cube_corner(map, pir_side_corner(side)) != walk->at)
@@ -187,7 +187,7 @@ static bool start_at_corner(struct walk *walk, uint32_t *ret_map) {
     return false;
 }
 
-static bool walk_arc(struct walk *walk) {
+static bool walk_arc(struct arc_walk *walk) {
     struct pir_cgm_arcs *arcs = walk->arcs;
     // opposite corners have opposite signs
     for (uint32_t c = 0; c < 4; c++) {
@@ -214,12 +214,12 @@ static bool walk_arcs(struct pir_cgm_arcs *arcs) {
     for (uint32_t e = 0; e < p->edge_count; e++) {
         uint32_t h = p->edge_half[e], to = pir_right(p, h);
         arcs->piece_start[e] = arcs->piece_count;
-        struct walk walk = {.arcs = arcs,
-                            .edge = e,
-                            .line = 2 * (arcs->cgm->source[0].line_start + e),
-                            .at = arcs->facet_site[p->left[h]],
-                            .end = arcs->facet_site[to],
-                            .end_planes = arcs->facet_planes[to]};
+        struct arc_walk walk = {.arcs = arcs,
+                                .edge = e,
+                                .line = 2 * (arcs->cgm->source[0].line_start + e),
+                                .at = arcs->facet_site[p->left[h]],
+                                .end = arcs->facet_site[to],
+                                .end_planes = arcs->facet_planes[to]};
         if (!walk_arc(&walk))
             return false;
     }
@@ -252,7 +252,7 @@ static bool walk_circle(struct pir_cgm_arcs *arcs) {
     }
     PIR_ASSERT(at[0] != PIR_CGM_NONE && at[1] != PIR_CGM_NONE);
     for (uint32_t i = 0; i < 2; i++) {
-        struct walk walk = {
+        struct arc_walk walk = {
             .arcs = arcs, .edge = 0, .line = line, .at = at[i], .end = at[1 - i], .end_planes = planes[1 - i]};
         if (!walk_arc(&walk))
             return false;

@@ -30,7 +30,7 @@ struct pir_cgm_locator {
 };
 
 /* A point, and a bound on its distance from the origin. */
-struct probe {
+struct located_point {
     pir_vec3 at;
     double length;
 };
@@ -88,7 +88,8 @@ static pir_int exact_height(struct pir_cgm_locator *l, uint32_t v, const pir_int
 }
 
 /* By doubles: n·(x − p) for the unit normal, and a bound on its error. */
-static double near_height(const struct pir_cgm_locator *l, uint32_t v, const struct probe *p, double *ret_error) {
+static double near_height(const struct pir_cgm_locator *l, uint32_t v, const struct located_point *p,
+                          double *ret_error) {
     const struct pir_cgm_point *n = &l->cgm->vertex[v].point;
     pir_vec3 x = pir_cgm_place_near(l->cgm, face_at(l->cgm, v));
     *ret_error = (n->error + 16 * U) * (p->length + l->size) + (64 + l->cgm->source_count) * U * l->size;
@@ -96,7 +97,7 @@ static double near_height(const struct pir_cgm_locator *l, uint32_t v, const str
 }
 
 /* The sign of n·(x − p): 1 when p is below the plane of v. */
-static int height_sign(struct pir_cgm_locator *l, uint32_t v, const struct probe *p) {
+static int height_sign(struct pir_cgm_locator *l, uint32_t v, const struct located_point *p) {
     double error, height = near_height(l, v, p, &error);
     error += 0x1p-1000;
     if (height > error || height < -error)
@@ -113,7 +114,7 @@ static int height_sign(struct pir_cgm_locator *l, uint32_t v, const struct probe
 /* --- the walk --- */
 
 /* a_v b_w − a_w b_v exactly, its sign. */
-static int exact_order(struct pir_cgm_locator *l, const struct probe *s, uint32_t v, uint32_t w) {
+static int exact_order(struct pir_cgm_locator *l, const struct located_point *s, uint32_t v, uint32_t w) {
     pir_limbs *scratch = &l->scratch;
     uint32_t mark = scratch->used;
     int low = unit_exponent(s->at, l->centre);
@@ -139,8 +140,8 @@ static int exact_order(struct pir_cgm_locator *l, const struct probe *s, uint32_
 }
 
 /* Whether the plane of w is cut by the ray strictly before that of v: a_w b_v > a_v b_w. */
-static bool is_better(struct pir_cgm_locator *l, const struct probe *s, uint32_t w, uint32_t v) {
-    struct probe c = {l->centre, length_of(l->centre)};
+static bool is_better(struct pir_cgm_locator *l, const struct located_point *s, uint32_t w, uint32_t v) {
+    struct located_point c = {l->centre, length_of(l->centre)};
     uint32_t at[2] = {w, v};
     double a[2], b[2], a_error[2], b_error[2];
     for (int i = 0; i < 2; i++) {
@@ -178,7 +179,7 @@ static uint32_t follow_arc(const pir_cgm *cgm, uint32_t h) {
 }
 
 /* A neighbour that is strictly better, or v. */
-static uint32_t step(struct pir_cgm_locator *l, const struct probe *s, uint32_t v) {
+static uint32_t step(struct pir_cgm_locator *l, const struct located_point *s, uint32_t v) {
     struct pir_cgm_around around = pir_cgm_around_new(l->cgm, v);
     do {
         if (!pir_cgm_edge_is_real(l->cgm, around.half >> 1))
@@ -204,7 +205,7 @@ static uint32_t first_vertex(const struct pir_cgm_locator *l, pir_vec3 point) {
 
 /* --- all vertices --- */
 
-static void look_at_all(struct pir_cgm_locator *l, const struct probe *s, pir_cgm_location *location) {
+static void look_at_all(struct pir_cgm_locator *l, const struct located_point *s, pir_cgm_location *location) {
     *location = (pir_cgm_location){PIR_CGM_INSIDE, 0, 0};
     for (uint32_t v = 0; v < pir_cgm_vertices(l->cgm) && location->position != PIR_CGM_OUTSIDE;
          v++, location->steps++) {
@@ -221,7 +222,7 @@ pir_status pir_cgm_locate(pir_cgm_locator *l, pir_vec3 point, uint32_t witness, 
         return PIR_ERR_ARGUMENT;
     if (!pir_vec_is_finite(point))
         return PIR_ERR_NOT_FINITE;
-    struct probe s = {point, length_of(point)};
+    struct located_point s = {point, length_of(point)};
     if (!l->solid) {
         look_at_all(l, &s, ret_location);
         return PIR_OK;
@@ -250,7 +251,7 @@ static bool find_centre(struct pir_cgm_locator *l) {
     l->centre = sum;
     if (!pir_vec_is_finite(sum))
         return false;
-    struct probe c = {sum, length_of(sum)};
+    struct located_point c = {sum, length_of(sum)};
     bool any = false;
     for (uint32_t v = 0; v < pir_cgm_vertices(cgm); v++) {
         if (cgm->vertex[v].real && height_sign(l, v, &c) <= 0)

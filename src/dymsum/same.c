@@ -7,17 +7,17 @@
 #include "dymsum/view.h"
 
 /* One of the two sums. */
-struct side {
+struct compared_sum {
     const pir_pairing *pairing;
     const pir_cone *cone;
 };
 
 /* Whether both sums must have what has this normal. */
-static bool both_have(const struct side *a, const struct side *b, pir_vec3 n) {
+static bool both_have(const struct compared_sum *a, const struct compared_sum *b, pir_vec3 n) {
     return pir_cone_has(a->cone, n) && pir_cone_has(b->cone, n);
 }
 
-static bool same_cells(const struct side *a, const struct side *b) {
+static bool same_cells(const struct compared_sum *a, const struct compared_sum *b) {
     const pir_polytope *p = a->pairing->p, *q = a->pairing->q;
     for (uint32_t f = 0; f < p->facet_count; f++)
         if (a->pairing->fv[f] != b->pairing->fv[f] && both_have(a, b, pir_rotated_normal(a->pairing, f)))
@@ -35,8 +35,8 @@ static bool same_cells(const struct side *a, const struct side *b) {
 #define NEARLY_PARALLEL 0x1p-30
 
 /* The first crossing of edge e from `at` on that both sums must have. */
-static uint32_t next_crossing(const struct side *a, const struct side *b, const struct side *of, uint32_t e,
-                              uint32_t at) {
+static uint32_t next_crossing(const struct compared_sum *a, const struct compared_sum *b, const struct compared_sum *of,
+                              uint32_t e, uint32_t at) {
     if (!a->cone->set && !b->cone->set)
         return at;
     pir_vec3 direction = pir_rotated_direction(of->pairing, of->pairing->p->edge_half[e]);
@@ -48,7 +48,7 @@ static uint32_t next_crossing(const struct side *a, const struct side *b, const 
     return at;
 }
 
-static bool same_crossings(const struct side *a, const struct side *b, uint32_t e) {
+static bool same_crossings(const struct compared_sum *a, const struct compared_sum *b, uint32_t e) {
     uint32_t i = next_crossing(a, b, a, e, pir_crossing_first(a->pairing, e)),
              j = next_crossing(a, b, b, e, pir_crossing_first(b->pairing, e));
     while (i != PIR_NO_CROSSING && j != PIR_NO_CROSSING &&
@@ -60,7 +60,8 @@ static bool same_crossings(const struct side *a, const struct side *b, uint32_t 
 }
 
 int pir_sum_same_pairing(const pir_sum *one, const pir_sum *other) {
-    const struct side a = {pir_sum_pairing(one), pir_sum_cone(one)}, b = {pir_sum_pairing(other), pir_sum_cone(other)};
+    const struct compared_sum a = {pir_sum_pairing(one), pir_sum_cone(one)},
+                              b = {pir_sum_pairing(other), pir_sum_cone(other)};
     const pir_polytope *p = a.pairing->p, *q = a.pairing->q, *p_of_b = b.pairing->p, *q_of_b = b.pairing->q;
     if (p->facet_count != p_of_b->facet_count || q->facet_count != q_of_b->facet_count ||
         p->edge_count != p_of_b->edge_count)

@@ -95,14 +95,14 @@ static pir_status call_region(pir_replay *replay) {
 }
 
 /* An answer and its contacts, of which `count` were found. */
-struct told {
+struct note_answer {
     pir_query_result answer;
     pir_contact contact[PIR_REPLAY_CONTACTS];
     size_t count;
 };
 
 /* The hash of what a query told; `status` says whether there are contacts. */
-static pir_status hash_told(pir_replay *replay, pir_status status, const struct told *told) {
+static pir_status hash_told(pir_replay *replay, pir_status status, const struct note_answer *told) {
     const size_t kept = told->count < PIR_REPLAY_CONTACTS ? told->count : PIR_REPLAY_CONTACTS;
     replay->hash = pir_replay_hash_answer(replay->hash, &told->answer);
     if (status == PIR_OK)
@@ -123,7 +123,7 @@ static bool take_lengths(pir_history_reader *reader, double *radius_p, double *r
 static pir_status call_query(pir_replay *replay) {
     pir_history_reader *reader = &replay->reader;
     pir_query_input input = pir_query_input_default();
-    struct told told = {.count = 0};
+    struct note_answer told = {.count = 0};
     input.translation = pir_history_take_vec(reader);
     if (!take_lengths(reader, &input.radius_p, &input.radius_q, &input.cutoff, &input.margin))
         return PIR_ERR_FORMAT;
@@ -154,7 +154,7 @@ static pir_status call_pair(pir_replay *replay) {
 static pir_status call_ask(pir_replay *replay) {
     pir_history_reader *reader = &replay->reader;
     pir_pair_input input = pir_pair_input_default();
-    struct told told = {.count = 0};
+    struct note_answer told = {.count = 0};
     input.pose_p = pir_history_take_pose(reader);
     input.pose_q = pir_history_take_pose(reader);
     if (!take_lengths(reader, &input.radius_p, &input.radius_q, &input.cutoff, &input.margin))
@@ -170,7 +170,7 @@ static pir_status call_ask(pir_replay *replay) {
 /* --- all of it --- */
 
 /* A note's name, its function, and the object that its history must be of; PIR_NOTE_NONE for first notes. */
-static const struct call {
+static const struct note_call {
     const char *name;
     pir_status (*run)(pir_replay *replay);
     pir_note object;

@@ -28,13 +28,13 @@ struct builder {
     uint32_t node_room;
 };
 
-struct range {
+struct triangle_range {
     uint32_t begin, end;
 };
 
 /* A range whose node is still to be made, and where its number goes. */
-struct task {
-    struct range range;
+struct node_task {
+    struct triangle_range range;
     uint32_t depth, parent, slot;
 };
 
@@ -85,7 +85,7 @@ struct middles {
     float low[3], high[3];
 };
 
-static struct middles middles_of(const struct builder *b, struct range range) {
+static struct middles middles_of(const struct builder *b, struct triangle_range range) {
     struct middles m = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
     for (uint32_t i = range.begin; i < range.end; i++)
         for (int k = 0; k < 3; k++) {
@@ -105,7 +105,7 @@ static int widest(const struct middles *m) {
 }
 
 /* Few items, in order along the widest axis, so that the first part fills its leaves. */
-static uint32_t split_few(struct builder *b, struct range range) {
+static uint32_t split_few(struct builder *b, struct triangle_range range) {
     struct middles m = middles_of(b, range);
     int axis = widest(&m);
     for (uint32_t i = range.begin + 1; i < range.end; i++)
@@ -157,7 +157,7 @@ static void try_axis(const struct bins *bins, int axis, struct split *best) {
     }
 }
 
-static struct split best_split(const struct builder *b, struct range range, const struct middles *m) {
+static struct split best_split(const struct builder *b, struct triangle_range range, const struct middles *m) {
     struct split best = {-1, 0, HUGE_VALF};
     for (int axis = 0; axis < 3; axis++) {
         float scale = scale_of(m, axis);
@@ -177,7 +177,7 @@ static struct split best_split(const struct builder *b, struct range range, cons
 }
 
 /* Where a range of more than a leaf's items is divided: items change places. */
-static uint32_t split(struct builder *b, struct range range, uint32_t depth) {
+static uint32_t split(struct builder *b, struct triangle_range range, uint32_t depth) {
     if (range.end - range.begin <= FEW)
         return split_few(b, range);
     uint32_t half = range.begin + (range.end - range.begin) / 2;
@@ -199,7 +199,8 @@ static uint32_t split(struct builder *b, struct range range, uint32_t depth) {
 }
 
 /* Divides a range for the children of one node; how many there are. */
-static int divide(struct builder *b, struct range range, uint32_t depth, struct range parts[PIR_MESH_WIDTH]) {
+static int divide(struct builder *b, struct triangle_range range, uint32_t depth,
+                  struct triangle_range parts[PIR_MESH_WIDTH]) {
     int count = 1;
     parts[0] = range;
     while (count < PIR_MESH_WIDTH) {
@@ -207,7 +208,7 @@ static int divide(struct builder *b, struct range range, uint32_t depth, struct 
         for (int i = 1; i < count; i++)
             if (parts[i].end - parts[i].begin > parts[largest].end - parts[largest].begin)
                 largest = i;
-        struct range part = parts[largest];
+        struct triangle_range part = parts[largest];
         if (part.end - part.begin <= PIR_MESH_LEAF)
             break;
         uint32_t at = split(b, part, depth);
@@ -259,7 +260,7 @@ static void set_no_child(pir_mesh_node *node, int child) {
 }
 
 /* The sum of the normals of the triangles of a range, or the normal of one of them where that is next to nothing. */
-static pir_vec3 mean_normal(const struct builder *b, struct range range) {
+static pir_vec3 mean_normal(const struct builder *b, struct triangle_range range) {
     const pir_mesh_source *source = b->source;
     pir_vec3 sum = {0, 0, 0}, one = {0, 0, 1};
     double all = 0, most = 0;
@@ -278,7 +279,7 @@ static pir_vec3 mean_normal(const struct builder *b, struct range range) {
     return fabs(sum.x) + fabs(sum.y) + fabs(sum.z) > 0.01 * all ? sum : one;
 }
 
-static void set_slab(const struct builder *b, pir_mesh_node *node, int child, struct range range) {
+static void set_slab(const struct builder *b, pir_mesh_node *node, int child, struct triangle_range range) {
     pir_vec3 n = mean_normal(b, range);
     double length = fmax(fabs(n.x), fmax(fabs(n.y), fabs(n.z))), by = length > 1e-300 ? 127 / length : 0;
     const double d[3] = {rint(n.x * by), rint(n.y * by), by > 0 ? rint(n.z * by) : 127};
@@ -297,7 +298,7 @@ static void set_slab(const struct builder *b, pir_mesh_node *node, int child, st
     node->slab_high[child] = pir_float_over(high);
 }
 
-static uint32_t least_item(const struct builder *b, struct range range) {
+static uint32_t least_item(const struct builder *b, struct triangle_range range) {
     uint32_t least = UINT32_MAX;
     for (uint32_t i = range.begin; i < range.end; i++)
         least = b->item[i] < least ? b->item[i] : least;
@@ -305,7 +306,7 @@ static uint32_t least_item(const struct builder *b, struct range range) {
 }
 
 /* A node of these parts; inner children are filled in by tasks. */
-static void fill_node(struct builder *b, pir_mesh_node *node, const struct range *parts, int count) {
+static void fill_node(struct builder *b, pir_mesh_node *node, const struct triangle_range *parts, int count) {
     struct box box[PIR_MESH_WIDTH], all = nothing;
     for (int i = 0; i < count; i++) {
         box[i] = nothing;
@@ -345,12 +346,12 @@ static uint32_t new_node(struct builder *b) {
 }
 
 static bool make_nodes(struct builder *b, uint32_t count) {
-    struct task stack[PIR_MESH_WIDTH * PIR_MESH_DEPTH];
+    struct node_task stack[PIR_MESH_WIDTH * PIR_MESH_DEPTH];
     uint32_t used = 0;
-    stack[used++] = (struct task){{0, count}, 0, PIR_MESH_NO_CHILD, 0};
+    stack[used++] = (struct node_task){{0, count}, 0, PIR_MESH_NO_CHILD, 0};
     while (used > 0) {
-        struct task task = stack[--used];
-        struct range parts[PIR_MESH_WIDTH];
+        struct node_task task = stack[--used];
+        struct triangle_range parts[PIR_MESH_WIDTH];
         int part_count = divide(b, task.range, task.depth, parts);
         uint32_t n = new_node(b);
         if (n == PIR_MESH_NO_CHILD)
@@ -360,7 +361,7 @@ static bool make_nodes(struct builder *b, uint32_t count) {
             b->tree->node[task.parent].child[task.slot] = n;
         for (int i = part_count; i-- > 0;)
             if (parts[i].end - parts[i].begin > PIR_MESH_LEAF)
-                stack[used++] = (struct task){parts[i], task.depth + 1, n, (uint32_t)i};
+                stack[used++] = (struct node_task){parts[i], task.depth + 1, n, (uint32_t)i};
     }
     return true;
 }

@@ -11,7 +11,7 @@
 #include "mesh/signs/mesh_signs.h"
 
 /* The axes of a plane in which the polygon is counter-clockwise, by Newell's normal. */
-struct plane {
+struct plane_axes {
     int first, second;
 };
 
@@ -19,7 +19,7 @@ static double at(const pir_vec3 *v, int axis) {
     return axis == 0 ? v->x : axis == 1 ? v->y : v->z;
 }
 
-static struct plane plane_of(const pir_vec3 *point, const uint32_t *corner, uint32_t count) {
+static struct plane_axes plane_of(const pir_vec3 *point, const uint32_t *corner, uint32_t count) {
     double normal[3] = {0, 0, 0};
     pir_vec3 origin = point[corner[0]];
     for (uint32_t i = 1; i + 1 < count; i++) {
@@ -31,11 +31,11 @@ static struct plane plane_of(const pir_vec3 *point, const uint32_t *corner, uint
     for (int k = 1; k < 3; k++)
         if (fabs(normal[k]) > fabs(normal[axis]))
             axis = k;
-    struct plane plane = {(axis + 1) % 3, (axis + 2) % 3};
-    return normal[axis] < 0 ? (struct plane){plane.second, plane.first} : plane;
+    struct plane_axes plane = {(axis + 1) % 3, (axis + 2) % 3};
+    return normal[axis] < 0 ? (struct plane_axes){plane.second, plane.first} : plane;
 }
 
-static int turn(const struct plane *plane, const pir_vec3 *a, const pir_vec3 *b, const pir_vec3 *c) {
+static int turn(const struct plane_axes *plane, const pir_vec3 *a, const pir_vec3 *b, const pir_vec3 *c) {
     const double fa[2] = {at(a, plane->first), at(a, plane->second)};
     const double fb[2] = {at(b, plane->first), at(b, plane->second)};
     const double fc[2] = {at(c, plane->first), at(c, plane->second)};
@@ -43,7 +43,7 @@ static int turn(const struct plane *plane, const pir_vec3 *a, const pir_vec3 *b,
 }
 
 /* Whether it turns left all along, and goes round once: its first coordinate rises once and falls once. */
-static bool is_convex(const struct plane *plane, const pir_vec3 *point, const uint32_t *corner, uint32_t count) {
+static bool is_convex(const struct plane_axes *plane, const pir_vec3 *point, const uint32_t *corner, uint32_t count) {
     uint32_t changes = 0;
     int direction = 0, first = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -147,7 +147,7 @@ static pir_status cut_ears(const uint32_t *corner, uint32_t count, const pir_cut
 
 pir_status pir_polygon_cut(const pir_vec3 *point, const uint32_t *corner, uint32_t count, const pir_cut_room *room,
                            uint32_t (*ret_triangles)[3]) {
-    struct plane plane = plane_of(point, corner, count);
+    struct plane_axes plane = plane_of(point, corner, count);
     if (count == 3 || is_convex(&plane, point, corner, count)) {
         cut_fan(corner, count, ret_triangles);
         return PIR_OK;

@@ -9,7 +9,7 @@
 #include "mesh/polygon_cut.h"
 #include "polytope/read/read.h"
 
-struct maker {
+struct trimesh_maker {
     const pir_trimesh_options *options;
     pir_report *report;
     pir_trimesh **mesh;
@@ -57,7 +57,7 @@ static pir_layout layout_of(pir_cut_room *room) {
 }
 
 /* The mesh of triangles whose facets have been cut; what it says is wrong is told with the name of the file. */
-static pir_status make_mesh(const struct pir_model *model, const struct maker *maker, uint32_t (*triangle)[3],
+static pir_status make_mesh(const struct pir_model *model, const struct trimesh_maker *maker, uint32_t (*triangle)[3],
                             size_t count) {
     const pir_trimesh_arrays arrays = {
         .vertices = model->points,
@@ -71,7 +71,7 @@ static pir_status make_mesh(const struct pir_model *model, const struct maker *m
 }
 
 static pir_status make(const struct pir_model *model, void *context) {
-    const struct maker *maker = context;
+    const struct trimesh_maker *maker = context;
     const pir_allocator *allocator = &model->allocator;
     size_t count = triangle_count(model);
     if (count == 0)
@@ -94,7 +94,7 @@ pir_status pir_trimesh_read_bytes(const pir_file_bytes *file, const pir_trimesh_
     if (!file || (!file->bytes && file->size > 0) || !file->format || !ret_mesh)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, no format, or no place for the mesh");
     const pir_allocator allocator = pir_allocator_or_default(options ? options->allocator : NULL);
-    struct maker maker = {options, report, ret_mesh};
+    struct trimesh_maker maker = {options, report, ret_mesh};
     return pir_model_read_bytes(file, &allocator, report, (struct pir_model_maker){make, &maker});
 }
 
@@ -103,6 +103,6 @@ pir_status pir_trimesh_read(const char *path, const pir_trimesh_options *options
     if (!path || !ret_mesh)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the mesh");
     const pir_allocator allocator = pir_allocator_or_default(options ? options->allocator : NULL);
-    struct maker maker = {options, report, ret_mesh};
+    struct trimesh_maker maker = {options, report, ret_mesh};
     return pir_model_read_file(path, &allocator, report, (struct pir_model_maker){make, &maker});
 }

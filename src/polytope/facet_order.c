@@ -10,26 +10,26 @@
 #define BLOCK 1024
 
 /* The facets seen so far. */
-struct seen {
+struct facets_seen {
     bool *is; /* per facet */
     uint32_t count;
 };
 
-static void see(pir_polytope *p, struct seen *seen, uint32_t f, uint32_t beside) {
+static void see(pir_polytope *p, struct facets_seen *seen, uint32_t f, uint32_t beside) {
     p->visit[seen->count++] = (pir_visit){f, beside};
     p->beside[f] = beside;
     seen->is[f] = true;
 }
 
 /* A facet beside f that has been seen, of those below `limit`; or f. */
-static uint32_t seen_beside(const pir_polytope *p, const struct seen *seen, uint32_t f, uint32_t limit) {
+static uint32_t seen_beside(const pir_polytope *p, const struct facets_seen *seen, uint32_t f, uint32_t limit) {
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)
         if (p->across[i].facet < limit && seen->is[p->across[i].facet])
             return p->across[i].facet;
     return f;
 }
 
-static void order(pir_polytope *p, struct seen *seen) {
+static void order(pir_polytope *p, struct facets_seen *seen) {
     see(p, seen, 0, 0);
     for (uint32_t first = 0, next = 0, limit; first < p->facet_count; first = limit) {
         limit = p->facet_count - first > BLOCK ? first + BLOCK : p->facet_count;
@@ -49,7 +49,7 @@ static void order(pir_polytope *p, struct seen *seen) {
 
 bool pir_order_facets(pir_polytope *p) {
     const pir_allocator *a = &p->allocator;
-    struct seen seen = {PIR_ZEROED(a, bool, p->facet_count), 0};
+    struct facets_seen seen = {PIR_ZEROED(a, bool, p->facet_count), 0};
     if (seen.is && p->facet_count > 0)
         order(p, &seen);
     PIR_FREE(a, seen.is, p->facet_count);

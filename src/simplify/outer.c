@@ -163,15 +163,15 @@ static pir_status prove(struct cutting *c) {
 /* --- a tetrahedron --- */
 
 /* The least corner of a tetrahedron around a box along one axis, and how long its side is there. */
-struct side {
+struct box_side {
     double from, length;
 };
 
-static struct side side_around(double low, double high) {
+static struct box_side side_around(double low, double high) {
     // a point of the box is less than a quarter of each side beyond the corner, so the parts add up to less than 1
     double apart = high - low, reach = fmax(fabs(low), fabs(high));
     double more = apart * 0x1p-8 + reach * 0x1p-50 + 0x1p-1070;
-    return (struct side){low - more, 4 * (apart + 2 * more)};
+    return (struct box_side){low - more, 4 * (apart + 2 * more)};
 }
 
 /* A tetrahedron around the body's box. PIR_ERR_LIMIT where its corners are beyond the doubles. */
@@ -180,7 +180,7 @@ static pir_status surround(struct cutting *c) {
     const pir_polytope_options options = {.allocator = &c->body->allocator};
     pir_vec3 low, high, corner[4];
     pir_polytope_bounds(c->body, &low, &high);
-    struct side x = side_around(low.x, high.x), y = side_around(low.y, high.y), z = side_around(low.z, high.z);
+    struct box_side x = side_around(low.x, high.x), y = side_around(low.y, high.y), z = side_around(low.z, high.z);
     for (int i = 0; i < 4; i++) {
         corner[i] = (pir_vec3){x.from + (i == 1 ? x.length : 0), y.from + (i == 2 ? y.length : 0),
                                z.from + (i == 3 ? z.length : 0)};

@@ -43,13 +43,13 @@ static pir_quat step_from(test_random *random, pir_quat from, double size) {
 }
 
 /* Whether the replay holds what the sum's pairing holds, array for array. */
-static void expect_same(pir_replay *replay, const pir_sum *sum, const char *situation, int step) {
+static void expect_same(pir_record_replay *replay, const pir_sum *sum, const char *situation, int step) {
     const pir_pairing *pairing = pir_sum_pairing(sum);
-    const pir_replay_crossing *crossing;
+    const pir_record_replay_crossing *crossing;
     uint32_t count, at = 0;
     assert_memory_equal(replay->fv, pairing->fv, pairing->p->facet_count * sizeof *replay->fv);
     assert_memory_equal(replay->vf, pairing->vf, pairing->q->facet_count * sizeof *replay->vf);
-    assert_int_equal(pir_replay_crossings(replay, &crossing, &count), PIR_OK);
+    assert_int_equal(pir_record_replay_crossings(replay, &crossing, &count), PIR_OK);
     expect(count == pairing->crossings.count, "%s, step %d", situation, step);
     for (uint32_t e = 0; e < pairing->p->edge_count; e++)
         for (uint32_t slot = pir_crossing_first(pairing, e); slot != PIR_NO_CROSSING;
@@ -65,10 +65,10 @@ static void replay_random_walk(uint32_t number) {
     const pir_allocator a = pir_allocator_or_default(NULL);
     pir_sum *sum = make_difference(&pose, NULL);
     pir_recorder recorder;
-    pir_replay replay;
+    pir_record_replay replay;
     pir_bytes bytes = {0};
     assert_true(pir_recorder_init(&recorder, sum, &a));
-    assert_true(pir_replay_init(&replay, pir_sum_p(sum), pir_sum_q(sum), &a));
+    assert_true(pir_record_replay_init(&replay, pir_sum_p(sum), pir_sum_q(sum), &a));
     pir_quat q = pose.rotation;
     double size = number % 3 == 0 ? 0.01 : number % 3 == 1 ? 0.1 : 1;
     for (int i = 0; i < STEPS; i++) {
@@ -76,10 +76,10 @@ static void replay_random_walk(uint32_t number) {
             assert_int_equal(pir_sum_rotate(sum, q = step_from(&random, q, size), PIR_METHOD_AUTO), PIR_OK);
         bytes.used = 0;
         assert_true(pir_recorder_write(&recorder, i % 16 == 0, &bytes));
-        assert_int_equal(pir_replay_record(&replay, bytes.data, bytes.used), PIR_OK);
+        assert_int_equal(pir_record_replay_record(&replay, bytes.data, bytes.used), PIR_OK);
         expect_same(&replay, sum, pose.situation, i);
     }
-    pir_replay_finish(&replay);
+    pir_record_replay_finish(&replay);
     pir_recorder_finish(&recorder);
     pir_bytes_finish(&bytes, &a);
     pir_sum_destroy(sum);
@@ -128,10 +128,10 @@ static void bytes_do_not_depend_on_the_way(void **state) {
 }
 
 /* Applies the bytes, whatever they are; what is taken can be put in order, or says that it cannot. */
-static void replay_any(pir_replay *replay, const uint8_t *bytes, size_t size) {
-    const pir_replay_crossing *crossing;
+static void replay_any(pir_record_replay *replay, const uint8_t *bytes, size_t size) {
+    const pir_record_replay_crossing *crossing;
     uint32_t count;
-    pir_status status = pir_replay_record(replay, bytes, size);
+    pir_status status = pir_record_replay_record(replay, bytes, size);
     assert_true(status == PIR_OK || status == PIR_ERR_FORMAT);
     if (status != PIR_OK)
         return;
@@ -139,7 +139,7 @@ static void replay_any(pir_replay *replay, const uint8_t *bytes, size_t size) {
         assert_true(replay->fv[f] < replay->q->vertex_count);
     for (uint32_t g = 0; g < replay->q->facet_count; g++)
         assert_true(replay->vf[g] < replay->p->vertex_count);
-    status = pir_replay_crossings(replay, &crossing, &count);
+    status = pir_record_replay_crossings(replay, &crossing, &count);
     assert_true(status == PIR_OK || status == PIR_ERR_FORMAT);
     for (uint32_t i = 0; status == PIR_OK && i < count; i++)
         assert_true(crossing[i].edge < replay->p->edge_count && crossing[i].half < replay->q->half_count);
@@ -154,10 +154,10 @@ static void changed_bytes_are_refused_or_harmless(void **state) {
         test_random_pose(&random, 20, &pose);
         pir_sum *sum = make_difference(&pose, NULL);
         pir_recorder recorder;
-        pir_replay replay;
+        pir_record_replay replay;
         pir_bytes whole = {0}, changes = {0};
         assert_true(pir_recorder_init(&recorder, sum, &a));
-        assert_true(pir_replay_init(&replay, pir_sum_p(sum), pir_sum_q(sum), &a));
+        assert_true(pir_record_replay_init(&replay, pir_sum_p(sum), pir_sum_q(sum), &a));
         assert_true(pir_recorder_write(&recorder, true, &whole));
         assert_int_equal(pir_sum_rotate(sum, step_from(&random, pose.rotation, 0.1), PIR_METHOD_AUTO), PIR_OK);
         assert_true(pir_recorder_write(&recorder, false, &changes));
@@ -172,10 +172,10 @@ static void changed_bytes_are_refused_or_harmless(void **state) {
             hit->data[at] = before;
         }
         // and the right ones are taken again
-        assert_int_equal(pir_replay_record(&replay, whole.data, whole.used), PIR_OK);
-        assert_int_equal(pir_replay_record(&replay, changes.data, changes.used), PIR_OK);
+        assert_int_equal(pir_record_replay_record(&replay, whole.data, whole.used), PIR_OK);
+        assert_int_equal(pir_record_replay_record(&replay, changes.data, changes.used), PIR_OK);
         expect_same(&replay, sum, pose.situation, 1);
-        pir_replay_finish(&replay);
+        pir_record_replay_finish(&replay);
         pir_recorder_finish(&recorder);
         pir_bytes_finish(&whole, &a);
         pir_bytes_finish(&changes, &a);
@@ -188,14 +188,14 @@ static void changes_before_a_whole_record_are_refused(void **state) {
     test_random random = test_random_case("first record", 0);
     pir_polytope *p = test_sphere(&random, 8);
     const pir_allocator a = pir_allocator_or_default(NULL);
-    pir_replay replay;
+    pir_record_replay replay;
     const uint8_t nothing_changes[] = {PIR_RECORD_CHANGES, 0, 0, 0};
-    const pir_replay_crossing *crossing;
+    const pir_record_replay_crossing *crossing;
     uint32_t count;
-    assert_true(pir_replay_init(&replay, p, p, &a));
-    assert_int_equal(pir_replay_record(&replay, nothing_changes, sizeof nothing_changes), PIR_ERR_FORMAT);
-    assert_int_equal(pir_replay_crossings(&replay, &crossing, &count), PIR_ERR_FORMAT);
-    pir_replay_finish(&replay);
+    assert_true(pir_record_replay_init(&replay, p, p, &a));
+    assert_int_equal(pir_record_replay_record(&replay, nothing_changes, sizeof nothing_changes), PIR_ERR_FORMAT);
+    assert_int_equal(pir_record_replay_crossings(&replay, &crossing, &count), PIR_ERR_FORMAT);
+    pir_record_replay_finish(&replay);
     pir_polytope_release(p);
 }
 
@@ -208,25 +208,25 @@ static bool try_records(test_memory *memory) {
     test_body_points(&random, TEST_SPHERE, 30, &pose.q);
     pir_sum *sum = make_difference(&pose, NULL);
     pir_recorder recorder;
-    pir_replay replay;
+    pir_record_replay replay;
     pir_bytes bytes = {0};
     bool enough = pir_recorder_init(&recorder, sum, &a);
-    if (!pir_replay_init(&replay, pir_sum_p(sum), pir_sum_q(sum), &a))
+    if (!pir_record_replay_init(&replay, pir_sum_p(sum), pir_sum_q(sum), &a))
         enough = false;
     for (int i = 0; enough && i < 3; i++) {
-        const pir_replay_crossing *crossing;
+        const pir_record_replay_crossing *crossing;
         uint32_t count;
         pir_quat next = test_general_rotation(&random);
         assert_int_equal(pir_sum_rotate(sum, i == 2 ? next : pose.rotation, PIR_METHOD_AUTO), PIR_OK);
         bytes.used = 0;
         enough = pir_recorder_write(&recorder, i == 0, &bytes);
-        pir_status status = enough ? pir_replay_record(&replay, bytes.data, bytes.used) : PIR_ERR_MEMORY;
+        pir_status status = enough ? pir_record_replay_record(&replay, bytes.data, bytes.used) : PIR_ERR_MEMORY;
         if (status == PIR_OK)
-            status = pir_replay_crossings(&replay, &crossing, &count);
+            status = pir_record_replay_crossings(&replay, &crossing, &count);
         enough = status == PIR_OK;
         assert_true(enough || status == PIR_ERR_MEMORY);
     }
-    pir_replay_finish(&replay);
+    pir_record_replay_finish(&replay);
     pir_recorder_finish(&recorder);
     pir_bytes_finish(&bytes, &a);
     pir_sum_destroy(sum);

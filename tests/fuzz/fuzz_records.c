@@ -23,14 +23,14 @@ static pir_polytope *body_of(uint8_t choice, const pir_allocator *allocator) {
 }
 
 /* What has been taken is a pairing in form. */
-static void check(pir_replay *replay) {
-    const pir_replay_crossing *crossing;
+static void check(pir_record_replay *replay) {
+    const pir_record_replay_crossing *crossing;
     uint32_t count;
     for (uint32_t f = 0; f < replay->p->facet_count; f++)
         fuzz_require(replay->fv[f] < replay->q->vertex_count, "a cell of Q is a vertex");
     for (uint32_t g = 0; g < replay->q->facet_count; g++)
         fuzz_require(replay->vf[g] < replay->p->vertex_count, "a cell of P is a vertex");
-    if (pir_replay_crossings(replay, &crossing, &count) != PIR_OK)
+    if (pir_record_replay_crossings(replay, &crossing, &count) != PIR_OK)
         return;
     uint32_t at = 0;
     for (uint32_t e = 0; e < replay->p->edge_count; e++) {
@@ -44,13 +44,13 @@ static void check(pir_replay *replay) {
     fuzz_require(at == count, "crossings are by rising edge");
 }
 
-static void apply(pir_replay *replay, const uint8_t *data, size_t size) {
+static void apply(pir_record_replay *replay, const uint8_t *data, size_t size) {
     while (size >= 2) {
         size_t length = data[0] | (size_t)data[1] << 8;
         data += 2;
         size -= 2;
         length = length < size ? length : size;
-        pir_status status = pir_replay_record(replay, data, length);
+        pir_status status = pir_record_replay_record(replay, data, length);
         fuzz_require(status == PIR_OK || status == PIR_ERR_FORMAT, "a record is taken or refused for what it is");
         if (status == PIR_OK)
             check(replay);
@@ -65,10 +65,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
     pir_polytope *p = body_of(data[0], &allocator), *q = body_of(data[1], &allocator);
-    pir_replay replay;
-    fuzz_require(pir_replay_init(&replay, p, q, &allocator), "there is memory");
+    pir_record_replay replay;
+    fuzz_require(pir_record_replay_init(&replay, p, q, &allocator), "there is memory");
     apply(&replay, data + 2, size - 2);
-    pir_replay_finish(&replay);
+    pir_record_replay_finish(&replay);
     pir_polytope_release(p);
     pir_polytope_release(q);
     fuzz_require(memory.blocks == 0 && !memory.wrong_size, "nothing is left behind");

@@ -41,10 +41,10 @@ uint64_t golden_slices(uint64_t number) {
     uint64_t hash = golden_number(TEST_HASH_START, plan.hash);
     for (uint64_t unit = 0; unit < plan.units && unit < 2; unit++) {
         golden_require(pir_maker_make(&maker, unit, plan.slices_per_unit), "pir_maker_make");
-        for (int s = 0; s < PIR_SECTION_COUNT; s++) {
+        for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++) {
             const pir_bytes *bytes = &maker.unit.data[s];
             hash = golden_number(hash, pir_unit_elements(&maker.unit, s));
-            if (s == PIR_SECTION_RECORDS)
+            if (s == PIR_UNIT_SECTION_RECORDS)
                 hash = golden_bytes(hash, bytes->data, bytes->used);
             else
                 for (size_t i = 0; i < bytes->used / sizeof(double); i++)

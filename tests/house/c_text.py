@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a C or C++ file declares, read from its text: functions with their parameters, macros, includes."""
+"""What a C or C++ file declares, read from its text: functions with their parameters, macros, types, includes."""
 import re
 from typing import NamedTuple
 
@@ -95,6 +95,39 @@ def functions(text):
             depth = 0
         if depth == 0:
             start = i + 1
+    return found
+
+
+TAGGED = re.compile(r"(?:(?:typedef|static|const)\s+)*(?:struct|enum|union)\s+(\w+)$")
+ALIAS = re.compile(r"typedef\b.*?(?:\(\s*\*\s*(\w+)\s*\)|(\w+))\s*(?:\[[^]]*\]|\([^)]*\))?$", re.S)
+ATTRIBUTE = re.compile(r"__attribute__\s*\(\(.*\)\)", re.S)
+
+
+def alias_of(statement):
+    """The name that a typedef defines. None where there is none, or where it repeats a structure's tag, as
+    `typedef struct pir_sum pir_sum` does: the name counts with the structure."""
+    match = ALIAS.match(ATTRIBUTE.sub("", statement).strip())
+    name = match and (match.group(1) or match.group(2))
+    return None if name and re.match(rf"typedef\s+(?:struct|enum|union)\s+{name}\b", statement) else name
+
+
+def types(text):
+    """(name, line) of each structure, union, enumeration and typedef that a file defines at its outer level."""
+    code = DIRECTIVE.sub(blank, NOT_CODE.sub(blank, text))
+    found, depth, start, outer = [], 0, 0, ""  # outer: the statement at hand, without what is in braces
+    for i, character in enumerate(code):
+        if character not in "{};":
+            continue
+        if depth == 0:
+            outer = (outer + code[start:i]).strip()
+            match = TAGGED.match(outer) if character == "{" else None
+            name = match.group(1) if match else alias_of(outer) if character == ";" else None
+            if name:
+                found.append((name, code.count("\n", 0, i) + 1))
+        depth = max(0, depth + {"{": 1, "}": -1, ";": 0}[character])
+        if depth == 0:
+            start = i + 1
+            outer = outer + "{} " if character == "}" and outer.startswith("typedef") else ""
     return found
 
 

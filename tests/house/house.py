@@ -180,6 +180,20 @@ def check_names(tree):
                 yield Breach("names", name, 1, f"{folder} has a file of the name {stem} as well")
 
 
+# Types of rooms that are being put together: each still has a name that another room gives as well.
+DOUBLE_TYPES = ("pir_body", "pir_held", "pir_sides")
+
+
+def check_types(tree):
+    """No two types of the public headers and of src have one name; tags within a .c file count as well."""
+    seen = {}
+    for file, text in sorted(tree.code("include/", "src/").items()):
+        for name, line in c_text.types(text):
+            where = seen.setdefault(name, file)
+            if where != file and name not in DOUBLE_TYPES:
+                yield Breach("types", file, line, f"{where} has a type of the name {name} as well")
+
+
 def check_marks(tree):
     """In a public header a comment behind a member is one that the reference shows: it begins with `/**<`."""
     for name, text in tree.code("include/").items():
@@ -188,7 +202,8 @@ def check_marks(tree):
                 yield Breach("marks", name, number, "the reference shows a comment that begins with /**<, not this one")
 
 
-CHECKS = (check_rooms, check_arrows, check_declares, check_lines, check_parameters, check_names, check_marks)
+CHECKS = (check_rooms, check_arrows, check_declares, check_lines, check_parameters, check_names, check_types,
+          check_marks)
 
 
 def breaches(root):

@@ -143,6 +143,15 @@ class Planted(unittest.TestCase):
     def test_two_files_of_one_name_in_tools(self):
         self.planted("tools/pages/main.c", "", "tools/pages/main.c:1: names")
 
+    def test_two_types_of_one_name(self):
+        self.write("include/pirouette/kinds.h", lines("typedef enum pir_kind {", "    PIR_ONE,", "} pir_kind;"))
+        self.write("src/high/kept.h", lines("typedef struct pir_kept pir_kept;"))
+        self.planted("src/high/kept.c", lines("struct pir_kept {", "};", "struct side {", "};"))
+        for text in ("struct pir_kept {", "enum side {", "typedef int pir_kind;", "typedef int (*side)(int a);"):
+            with self.subTest(text):  # of two files the later one is named
+                end = "};" if text.endswith("{") else ""
+                self.planted("src/low/kept_too.h", lines("", text, end), "src/low/kept_too.h:2: types")
+
     def test_report(self):
         """The program names each breach and fails, and passes without one."""
         for text, status, said in (("", 0, "0 breaches"), ("x" * 121, 1, "docs/wide.md:1: width: 121 bytes")):
@@ -164,6 +173,17 @@ class Declarations(unittest.TestCase):
                          [("first", 8, 0, False), ("second", 9, 2, True), ("fourth", 13, 2, False),
                           ("fifth", 15, 1, True)])
 
+    def test_types(self):
+        found = c_text.types(lines(
+            "/* struct no { int a; }; */", "typedef int first;", "typedef int second __attribute__((aligned(8)));",
+            "typedef int (*third)(int a, struct b c);", "typedef bool fourth(void *x);", "typedef struct made made;",
+            "typedef struct fifth {", "    struct inner {", "        int a;", "    } b;", "} fifth;",
+            "typedef enum {", "    A,", "} sixth;", "static const struct seventh {", "    int a;", "} all[3] = {{1}};",
+            "int make(void) {", "    struct within {", "        int a;", "    } b;", "}", "struct made;",
+            "typedef uint8_t eighth[4];", "union ninth {", "    int a;", "};"))
+        self.assertEqual([name for name, _ in found],
+                         ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth"])
+        self.assertEqual(found[4], ("fifth", 7))
 
 
 if __name__ == "__main__":

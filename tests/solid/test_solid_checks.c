@@ -82,23 +82,23 @@ static void numbers_of_nearly_parallel_planes_are_near_the_truth(void **state) {
 }
 
 /* A square from −r to r round the middle of the plane z = 0, one way or the other, as runs. */
-static void add_square(pir_outline *outline, uint32_t half, long r, bool hole) {
+static void add_square(pir_union_outline *outline, uint32_t half, long r, bool hole) {
     uint32_t corner[4];
     const long at[4][2] = {{-r, -r}, {r, -r}, {r, r}, {-r, r}};
     for (int i = 0; i < 4; i++)
         corner[i] = point(at[i][0], at[i][1], 0);
     for (int i = 0; i < 4; i++) {
         const uint32_t from = corner[hole ? 3 - i : i], to = corner[hole ? (6 - i) % 4 : (i + 1) % 4];
-        pir_outline_push(outline, (pir_run){0, half, outline->run_count, from, to, 1});
+        pir_union_outline_push(outline, (pir_run){0, half, outline->run_count, from, to, 1});
     }
 }
 
 static void hole_lies_in_the_innermost_facet_that_doubles_cannot_tell(void **state) {
     (void)state;
     begin(60);
-    pir_outline outline;
+    pir_union_outline outline;
     pir_loop_list loops;
-    pir_outline_init(&outline, &space);
+    pir_union_outline_init(&outline, &space);
     const uint32_t half = pir_half(plane(direction(0, 0, 1), point(0, 0, 0)), false);
     const long r = 1L << 58;
     for (int i = 0; i < 4; i++)
@@ -112,7 +112,7 @@ static void hole_lies_in_the_innermost_facet_that_doubles_cannot_tell(void **sta
     assert_int_equal(loops.facet[0], 10);
     assert_int_equal(loops.facet[1], 20);
     pir_loop_list_finish(&loops);
-    pir_outline_finish(&outline);
+    pir_union_outline_finish(&outline);
     pir_space_finish(&space);
 }
 
@@ -120,18 +120,18 @@ static void outline_that_does_not_close_ends_the_job(void **state) {
     (void)state;
     for (uint32_t drop = 0; drop < 4; drop++) {
         begin(40);
-        pir_outline outline;
+        pir_union_outline outline;
         pir_loop_list loops;
-        pir_outline_init(&outline, &space);
+        pir_union_outline_init(&outline, &space);
         const uint32_t half = pir_half(plane(direction(0, 0, 1), point(0, 0, 0)), false);
         add_square(&outline, half, 100, false);
         outline.run[drop] = outline.run[--outline.run_count];
         // and one that leads into a loop which it is no part of
-        pir_outline_push(&outline, (pir_run){0, half, 9, point(7, 500, 0), outline.run[0].a, 1});
+        pir_union_outline_push(&outline, (pir_run){0, half, 9, point(7, 500, 0), outline.run[0].a, 1});
         pir_loops_trace(&loops, &outline);
         assert_int_equal(space.status, PIR_ERR_INTERNAL);
         pir_loop_list_finish(&loops);
-        pir_outline_finish(&outline);
+        pir_union_outline_finish(&outline);
         pir_space_finish(&space);
     }
 }

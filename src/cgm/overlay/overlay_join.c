@@ -20,13 +20,13 @@
 
 /* --- edges of b --- */
 
-struct along {
+struct overlay_along {
     struct pir_overlay *overlay;
     uint32_t line;
 };
 
 static bool record_before(void *context, uint32_t x, uint32_t y) {
-    const struct along *along = context;
+    const struct overlay_along *along = context;
     struct pir_overlay *o = along->overlay;
     const pir_cgm *r = o->result;
     return pir_cgm_ahead(&o->sides, o->b, along->line, r, &r->vertex[o->record[x].vertex].point, r,
@@ -55,7 +55,7 @@ static bool cut_edge(struct pir_overlay *o, uint32_t e) {
     uint32_t count = 0;
     for (uint32_t r = o->first_record[e]; r != PIR_CGM_NONE; r = o->record[r].next)
         o->list[count++] = r;
-    struct along along = {o, pir_cgm_half_line(o->b, 2 * e)};
+    struct overlay_along along = {o, pir_cgm_half_line(o->b, 2 * e)};
     pir_sort(o->list, count, o->list + count, record_before, &along);
     o->piece_start[e] = o->piece_count;
     uint32_t from = o->b_vertex[o->b->half[2 * e].origin], covering = o->first_cover[e];

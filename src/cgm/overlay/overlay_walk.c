@@ -17,7 +17,7 @@
  */
 #include "cgm/overlay/overlay_walk.h"
 
-struct walk {
+struct overlay_walk {
     struct pir_overlay *overlay;
     uint32_t map, half, line; /* of a */
     uint32_t end;             /* the vertex of a where it ends */
@@ -26,13 +26,13 @@ struct walk {
 };
 
 /* The side of the walked line that vertex w of b is on. */
-static int vertex_side(const struct walk *walk, uint32_t w) {
+static int vertex_side(const struct overlay_walk *walk, uint32_t w) {
     struct pir_overlay *o = walk->overlay;
     return pir_cgm_side(&o->sides, o->a, walk->line, o->b, &o->b->vertex[w].point);
 }
 
 /* The side of halfedge h of b that the walk's end is on. */
-static int end_side(const struct walk *walk, uint32_t h) {
+static int end_side(const struct overlay_walk *walk, uint32_t h) {
     struct pir_overlay *o = walk->overlay;
     return pir_cgm_side(&o->sides, o->b, pir_cgm_half_line(o->b, h), o->a, &o->a->vertex[walk->end].point);
 }
@@ -48,7 +48,7 @@ static void cover(struct pir_overlay *o, uint32_t start, uint32_t e, uint32_t ha
 }
 
 /* The next piece, to vertex `to` of the result, on halfedge `on` of b or, when that is PIR_CGM_NONE, in face `cell`. */
-static bool add_piece(struct walk *walk, uint32_t to, uint32_t on, uint32_t cell) {
+static bool add_piece(struct overlay_walk *walk, uint32_t to, uint32_t on, uint32_t cell) {
     struct pir_overlay *o = walk->overlay;
     if (to == PIR_CGM_NONE)
         return false;
@@ -69,7 +69,7 @@ static bool add_piece(struct walk *walk, uint32_t to, uint32_t on, uint32_t cell
 }
 
 /* The result's vertex at the walk's end, found to be at `kind`, `index` in b; it is located unless it was. */
-static uint32_t arrive(struct walk *walk, enum pir_kind kind, uint32_t index) {
+static uint32_t arrive(struct overlay_walk *walk, enum pir_kind kind, uint32_t index) {
     struct pir_overlay *o = walk->overlay;
     uint32_t t = walk->end;
     if (o->where[t].kind != PIR_UNKNOWN)
@@ -85,7 +85,7 @@ static uint32_t arrive(struct walk *walk, enum pir_kind kind, uint32_t index) {
 }
 
 /* The result's vertex where the walk crosses halfedge h of b from left to right. */
-static uint32_t cross(struct walk *walk, uint32_t h) {
+static uint32_t cross(struct overlay_walk *walk, uint32_t h) {
     struct pir_overlay *o = walk->overlay;
     struct pir_cgm_point point = pir_cgm_meet(o->result, walk->line, pir_overlay_line(o, pir_cgm_half_line(o->b, h)));
     uint32_t v = pir_overlay_add_vertex(o, walk->map, &point, PIR_CGM_INTERIOR);
@@ -96,15 +96,15 @@ static uint32_t cross(struct walk *walk, uint32_t h) {
 
 /* The next step: from within a face, beginning with a side whose start is right of the line; from a vertex; along an
    edge; or the end. */
-enum step { FACE, VERTEX, ALONG, DONE, FAILED };
+enum walk_step { FACE, VERTEX, ALONG, DONE, FAILED };
 
 struct next {
-    enum step step;
+    enum walk_step step;
     uint32_t index;
 };
 
 /* Within a face, from side g on, whose start is right of the line. */
-static struct next cross_face(struct walk *walk, uint32_t g) {
+static struct next cross_face(struct overlay_walk *walk, uint32_t g) {
     const pir_cgm *b = walk->overlay->b;
     int ahead;
     while ((ahead = vertex_side(walk, pir_cgm_target(b, g))) < 0)
@@ -126,7 +126,7 @@ static struct next cross_face(struct walk *walk, uint32_t g) {
 }
 
 /* At vertex w of b: the way on. */
-static struct next leave_vertex(struct walk *walk, uint32_t w) {
+static struct next leave_vertex(struct overlay_walk *walk, uint32_t w) {
     const pir_cgm *b = walk->overlay->b;
     uint32_t r = b->vertex[w].out;
     int side = vertex_side(walk, pir_cgm_target(b, r));
@@ -141,7 +141,7 @@ static struct next leave_vertex(struct walk *walk, uint32_t w) {
 }
 
 /* Along halfedge k of b. */
-static struct next follow(struct walk *walk, uint32_t k) {
+static struct next follow(struct overlay_walk *walk, uint32_t k) {
     const pir_cgm *b = walk->overlay->b;
     uint32_t w = pir_cgm_target(b, k);
     int end = end_side(walk, b->half[k].next);
@@ -154,7 +154,7 @@ static struct next follow(struct walk *walk, uint32_t k) {
 }
 
 /* From within an edge of b. */
-static struct next leave_edge(struct walk *walk, uint32_t k) {
+static struct next leave_edge(struct overlay_walk *walk, uint32_t k) {
     const struct pir_overlay *o = walk->overlay;
     int start = vertex_side(walk, o->b->half[k].origin);
     if (start == 0) {
@@ -165,7 +165,7 @@ static struct next leave_edge(struct walk *walk, uint32_t k) {
 }
 
 /* From within a face: a side whose start is right of the line. */
-static struct next leave_inside(struct walk *walk, uint32_t face) {
+static struct next leave_inside(struct overlay_walk *walk, uint32_t face) {
     const pir_cgm *b = walk->overlay->b;
     uint32_t g = b->face_half[face];
     while (vertex_side(walk, b->half[g].origin) >= 0)
@@ -175,12 +175,12 @@ static struct next leave_inside(struct walk *walk, uint32_t face) {
 
 static bool walk_half(struct pir_overlay *o, uint32_t map, uint32_t half) {
     uint32_t from = o->a->half[half].origin;
-    struct walk walk = {.overlay = o,
-                        .map = map,
-                        .half = half,
-                        .line = pir_cgm_half_line(o->a, half),
-                        .end = pir_cgm_target(o->a, half),
-                        .at = o->a_vertex[from]};
+    struct overlay_walk walk = {.overlay = o,
+                                .map = map,
+                                .half = half,
+                                .line = pir_cgm_half_line(o->a, half),
+                                .end = pir_cgm_target(o->a, half),
+                                .at = o->a_vertex[from]};
     struct pir_location where = o->where[from];
     struct next next = where.kind == PIR_AT_VERTEX ? (struct next){VERTEX, where.index}
                        : where.kind == PIR_ON_EDGE ? leave_edge(&walk, where.index)

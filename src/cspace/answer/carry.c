@@ -38,12 +38,12 @@ bool pir_carry_covers(const pir_carrying *c, pir_vec3 point) {
 /* --- the sum of two faces --- */
 
 /* Corners of a face, in order round a facet. */
-typedef struct corners {
+typedef struct face_corners {
     uint32_t count;
     pir_vec3 at[CORNERS];
-} corners;
+} face_corners;
 
-static void corners_of(const pir_polytope *polytope, pir_feature feature, corners *ret) {
+static void corners_of(const pir_polytope *polytope, pir_feature feature, face_corners *ret) {
     uint32_t vertex[CORNERS];
     ret->count = 0;
     if (feature.kind == PIR_FEATURE_VERTEX) {
@@ -95,7 +95,7 @@ static bool polygon_covers(const pir_carrying *c, const pir_vec3 *at, uint32_t c
 }
 
 static bool faces_cover(const pir_carrying *c, pir_witness faces) {
-    corners p, q;
+    face_corners p, q;
     pir_vec3 at[CORNERS];
     corners_of(c->p->polytope, faces.p, &p);
     corners_of(c->q->polytope, faces.q, &q);
@@ -109,7 +109,7 @@ static bool faces_cover(const pir_carrying *c, pir_witness faces) {
     }
     // the larger face at each corner of the smaller one
     const bool of_p = p.count >= q.count;
-    const corners *large = of_p ? &p : &q, *small = of_p ? &q : &p;
+    const face_corners *large = of_p ? &p : &q, *small = of_p ? &q : &p;
     for (uint32_t i = 0; i < small->count; i++) {
         for (uint32_t k = 0; k < large->count; k++)
             at[k] = of_p ? difference_point(c, large->at[k], small->at[i])
@@ -162,7 +162,7 @@ void pir_carry(const pir_carrying *c, const pir_mat3 *slice, pir_witness faces, 
     if (!proof->free && !proof->blocked)
         try_direction(c, turned, proof);
     if (!proof->free && !proof->blocked && faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE) {
-        corners p, q;
+        face_corners p, q;
         corners_of(c->p->polytope, faces.p, &p);
         corners_of(c->q->polytope, faces.q, &q);
         pir_vec3 e = pir_mat_apply(&c->turned->a, pir_vec_sub(p.at[1], p.at[0])), g = pir_vec_sub(q.at[1], q.at[0]);

@@ -31,7 +31,7 @@
 #define WIDER    0x1p-44
 
 /* The motion as far as it is known. */
-struct motion {
+struct pose_motion {
     pir_answers *answers;
     pir_report *report;
     double length, angle, reach; /* |t₁ − t₀|, φ, and the greatest reach of the robot's pieces */
@@ -61,34 +61,34 @@ static pir_vec3 mean_of(pir_vec3 a, pir_vec3 b) {
 }
 
 /* How far a point of the robot may be from its place at the middle of a stretch. */
-static double moved_in(const struct motion *motion, const struct stretch *stretch) {
+static double moved_in(const struct pose_motion *motion, const struct stretch *stretch) {
     double half = 0.5 * (stretch->to - stretch->from);
     double size = fmax(fabs(stretch->t0.x) + fabs(stretch->t0.y) + fabs(stretch->t0.z),
                        fabs(stretch->t1.x) + fabs(stretch->t1.y) + fabs(stretch->t1.z));
     return half * (motion->length + motion->angle * motion->reach) * (1 + WIDER) + WIDER * (motion->reach + size);
 }
 
-static void mark_proven(struct motion *motion, const struct stretch *stretch) {
+static void mark_proven(struct pose_motion *motion, const struct stretch *stretch) {
     if (motion->open && !motion->closed) {
         motion->to = stretch->from;
         motion->closed = true;
     }
 }
 
-static void mark_unproven(struct motion *motion, const struct stretch *stretch) {
+static void mark_unproven(struct pose_motion *motion, const struct stretch *stretch) {
     if (!motion->open)
         motion->from = stretch->from;
     motion->open = true;
 }
 
 /* Whether a stretch is left as it is. */
-static bool ends_here(const struct motion *motion, const struct stretch *stretch) {
+static bool ends_here(const struct pose_motion *motion, const struct stretch *stretch) {
     uint32_t less = motion->left / OPEN;
     uint32_t deepest = less < DEEPEST - COARSEST ? DEEPEST - less : COARSEST;
     return stretch->depth >= deepest || motion->asked >= POSES || (motion->closed && motion->blocked);
 }
 
-static pir_status look_at(struct motion *motion, const struct stretch *stretch) {
+static pir_status look_at(struct pose_motion *motion, const struct stretch *stretch) {
     if (motion->closed && motion->blocked)
         return PIR_OK;
     const pir_pose middle = {middle_of(stretch->q0, stretch->q1), mean_of(stretch->t0, stretch->t1)};
@@ -120,7 +120,7 @@ static pir_status look_at(struct motion *motion, const struct stretch *stretch) 
 }
 
 /* The poses at the ends, as given: at the rotation of a slice they are exact. */
-static pir_status look_at_end(struct motion *motion, const pir_pose *end) {
+static pir_status look_at_end(struct pose_motion *motion, const pir_pose *end) {
     pir_configuration configuration;
     double gap;
     pir_status status = pir_answers_classify(motion->answers, end, motion->report, &configuration, &gap);
@@ -143,7 +143,7 @@ pir_status pir_answers_segment(pir_answers *answers, const pir_pose *from, const
     if (pir_quat_dot(first.unit, last.unit) < 0)
         whole.q1 = (pir_quat){-last.unit.x, -last.unit.y, -last.unit.z, -last.unit.w};
     pir_vec3 way = pir_vec_sub(to->translation, from->translation);
-    struct motion motion = {.answers = answers, .report = report, .to = 1};
+    struct pose_motion motion = {.answers = answers, .report = report, .to = 1};
     motion.length = pir_safe_length(way);
     motion.angle = pir_rotation_angle_bound(first.unit, whole.q1);
     for (uint32_t k = 0; k < answers->source.robot_count; k++)

@@ -64,7 +64,7 @@ void pir_quat_tree_build(pir_quat_tree *tree) {
 
 /* --- searching --- */
 
-struct search {
+struct tree_search {
     const pir_quat_tree *tree;
     pir_quat unit;
     bool opposite; /* the second of two searches, for −q: a product of 0 was seen by the first */
@@ -72,7 +72,7 @@ struct search {
     pir_near *near;
 };
 
-static void offer(const struct search *search, uint32_t item) {
+static void offer(const struct tree_search *search, uint32_t item) {
     double close = pir_quat_dot(search->unit, search->tree->unit[item]);
     if (search->opposite ? close <= 0 : close < 0)
         return;
@@ -80,7 +80,7 @@ static void offer(const struct search *search, uint32_t item) {
         pir_near_offer(search->near, close, item);
 }
 
-static void descend(const struct search *search, uint32_t from, uint32_t to, uint32_t depth) {
+static void descend(const struct tree_search *search, uint32_t from, uint32_t to, uint32_t depth) {
     while (from < to) {
         uint32_t middle = from + (to - from) / 2, item = search->tree->item[middle];
         offer(search, item);
@@ -102,7 +102,7 @@ static void descend(const struct search *search, uint32_t from, uint32_t to, uin
 }
 
 void pir_quat_tree_nearest(const pir_quat_tree *tree, pir_quat unit, const pir_tree_filter *filter, pir_near *near) {
-    struct search search = {tree, unit, false, filter, near};
+    struct tree_search search = {tree, unit, false, filter, near};
     descend(&search, 0, tree->count, 0);
     search.unit = (pir_quat){-unit.x, -unit.y, -unit.z, -unit.w};
     search.opposite = true;

@@ -17,8 +17,8 @@ bool pir_next_chunk(const pir_bytes *packed, size_t *at, pir_chunk *ret_chunk) {
     return true;
 }
 
-bool pir_packed_holds(const pir_bytes *packed, pir_section section, uint64_t elements) {
-    const uint64_t most = (uint64_t)pir_chunk_elements[section] * pir_section_element[section];
+bool pir_packed_holds(const pir_bytes *packed, pir_unit_section section, uint64_t elements) {
+    const uint64_t most = (uint64_t)pir_chunk_elements[section] * pir_unit_section_element[section];
     uint64_t chunks = 0;
     size_t at = 0;
     for (pir_chunk chunk; pir_next_chunk(packed, &at, &chunk); chunks++)

@@ -9,7 +9,7 @@
 #define PIR_CHUNK_MOST (1u << 16)
 
 /* Elements of each section in a chunk: what a reader of one slice has to unpack. */
-static const uint32_t pir_chunk_elements[PIR_SECTION_COUNT] = {1u << 13, 1u << 11, 1u << 11};
+static const uint32_t pir_chunk_elements[PIR_UNIT_SECTION_COUNT] = {1u << 13, 1u << 11, 1u << 11};
 
 /* Added to the size of a chunk that is stored. */
 #define PIR_CHUNK_STORED (UINT32_C(1) << 31)
@@ -30,6 +30,6 @@ static inline uint64_t pir_chunks_of(int section, uint64_t elements) {
 bool pir_next_chunk(const pir_bytes *packed, size_t *at, pir_chunk *ret_chunk);
 
 /* Whether packed bytes are the chunks of so many elements. */
-bool pir_packed_holds(const pir_bytes *packed, pir_section section, uint64_t elements);
+bool pir_packed_holds(const pir_bytes *packed, pir_unit_section section, uint64_t elements);
 
 #endif

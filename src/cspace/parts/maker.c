@@ -55,9 +55,10 @@ static void put_halfspace(pir_bytes *bytes, pir_halfspace plane) {
 static bool add_planes(pir_maker *maker, uint32_t slice) {
     const pir_pairing *pairing = pir_sum_pairing(maker->sum);
     const pir_polytope *p = pairing->p, *q = pairing->q;
-    pir_bytes *bytes = &maker->unit.data[PIR_SECTION_PLANES];
+    pir_bytes *bytes = &maker->unit.data[PIR_UNIT_SECTION_PLANES];
     uint32_t count = p->facet_count + q->facet_count + pairing->crossings.count;
-    if (!pir_bytes_reserve(bytes, &maker->plan->allocator, (size_t)count * pir_section_element[PIR_SECTION_PLANES]))
+    if (!pir_bytes_reserve(bytes, &maker->plan->allocator,
+                           (size_t)count * pir_unit_section_element[PIR_UNIT_SECTION_PLANES]))
         return false;
     pir_halfspaces of = pir_halfspaces_of(p, q, &pir_sum_exact_rotation(maker->sum)->r);
     for (uint32_t f = 0; f < p->facet_count; f++)
@@ -67,7 +68,7 @@ static bool add_planes(pir_maker *maker, uint32_t slice) {
     for (uint32_t e = 0; e < p->edge_count; e++)
         for (uint32_t at = pir_crossing_first(pairing, e); at != PIR_NO_CROSSING; at = pir_crossing_next(pairing, at))
             put_halfspace(bytes, pir_halfspace_ee(&of, e, pir_crossing_half(pairing, at), pairing->fv));
-    maker->unit.count[PIR_SECTION_PLANES][slice] = count;
+    maker->unit.count[PIR_UNIT_SECTION_PLANES][slice] = count;
     return true;
 }
 
@@ -76,12 +77,12 @@ static pir_status add_vertices(pir_maker *maker, uint32_t slice) {
     pir_status status = pir_sum_mesh(maker->sum, PIR_DOUBLE, &mesh);
     if (status != PIR_OK)
         return status;
-    pir_bytes *bytes = &maker->unit.data[PIR_SECTION_VERTICES];
-    size_t size = (size_t)pir_mesh_vertex_count(mesh) * pir_section_element[PIR_SECTION_VERTICES];
+    pir_bytes *bytes = &maker->unit.data[PIR_UNIT_SECTION_VERTICES];
+    size_t size = (size_t)pir_mesh_vertex_count(mesh) * pir_unit_section_element[PIR_UNIT_SECTION_VERTICES];
     if (pir_bytes_reserve(bytes, &maker->plan->allocator, size)) {
         memcpy(bytes->data + bytes->used, pir_mesh_vertices(mesh), size);
         bytes->used += size;
-        maker->unit.count[PIR_SECTION_VERTICES][slice] = pir_mesh_vertex_count(mesh);
+        maker->unit.count[PIR_UNIT_SECTION_VERTICES][slice] = pir_mesh_vertex_count(mesh);
     } else {
         status = PIR_ERR_MEMORY;
     }
@@ -91,13 +92,13 @@ static pir_status add_vertices(pir_maker *maker, uint32_t slice) {
 
 static pir_status add_slice(pir_maker *maker, uint32_t slice) {
     const pir_plan *plan = maker->plan;
-    pir_bytes *records = &maker->unit.data[PIR_SECTION_RECORDS];
+    pir_bytes *records = &maker->unit.data[PIR_UNIT_SECTION_RECORDS];
     size_t before = records->used;
     if (!pir_recorder_write(&maker->recorder, slice % plan->slices_per_key == 0, records))
         return PIR_ERR_MEMORY;
     if (records->used - before > UINT32_MAX)
         return PIR_ERR_LIMIT;
-    maker->unit.count[PIR_SECTION_RECORDS][slice] = (uint32_t)(records->used - before);
+    maker->unit.count[PIR_UNIT_SECTION_RECORDS][slice] = (uint32_t)(records->used - before);
     if (plan->planes && !add_planes(maker, slice))
         return PIR_ERR_MEMORY;
     return plan->vertices ? add_vertices(maker, slice) : PIR_OK;
@@ -109,7 +110,7 @@ pir_status pir_maker_make(pir_maker *maker, uint64_t number, uint32_t most) {
     uint32_t count = pir_plan_count(plan, number);
     maker->unit.number = number;
     maker->unit.slices = count < most ? count : most;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         maker->unit.data[s].used = 0;
     pir_status status = begin(maker, number / plan->units_per_pair, pir_grid_rotation(plan->grid, first));
     for (uint32_t i = 0; status == PIR_OK && i < maker->unit.slices; i++) {

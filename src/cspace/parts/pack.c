@@ -9,14 +9,7 @@
  * How well deflate tries. Records are dense, and tables of numbers are little else once shuffled: to look for more than
  * their code and runs takes longer and gains nothing.
  */
-enum { FOR_RUNS, FOR_MATCHES, WAYS };
-static const int levels[WAYS] = {1, 4};
-
-struct pir_packer {
-    pir_allocator allocator;
-    struct libdeflate_compressor *compressor[WAYS];
-    uint8_t filled[PIR_CHUNK_MOST], shuffled[PIR_CHUNK_MOST], deflated[PIR_CHUNK_MOST];
-};
+static const int levels[PIR_PACK_WAYS] = {[PIR_PACK_RUNS] = 1, [PIR_PACK_MATCHES] = 4};
 
 pir_packer *pir_packer_new(const pir_allocator *allocator) {
     pir_packer *packer = PIR_NEW(allocator, pir_packer, 1);
@@ -24,7 +17,7 @@ pir_packer *pir_packer_new(const pir_allocator *allocator) {
         return NULL;
     packer->allocator = *allocator;
     bool made = true;
-    for (int i = 0; i < WAYS; i++) {
+    for (int i = 0; i < PIR_PACK_WAYS; i++) {
         packer->compressor[i] = libdeflate_alloc_compressor(levels[i]);
         made = made && packer->compressor[i];
     }
@@ -38,7 +31,7 @@ void pir_packer_free(pir_packer *packer) {
     if (!packer)
         return;
     const pir_allocator a = packer->allocator;
-    for (int i = 0; i < WAYS; i++)
+    for (int i = 0; i < PIR_PACK_WAYS; i++)
         libdeflate_free_compressor(packer->compressor[i]);
     PIR_FREE(&a, packer, 1);
 }
@@ -62,7 +55,7 @@ pir_chunk pir_pack_chunk(pir_packer *packer, const pir_chunk_form *form, const v
         shuffle(bytes, form->size, form->element, packer->shuffled);
         bytes = packer->shuffled;
     }
-    struct libdeflate_compressor *compressor = packer->compressor[form->again ? FOR_MATCHES : FOR_RUNS];
+    struct libdeflate_compressor *compressor = packer->compressor[form->again ? PIR_PACK_MATCHES : PIR_PACK_RUNS];
     // what does not get shorter is stored
     const size_t size = libdeflate_zlib_compress(compressor, bytes, form->size, packer->deflated, form->size - 1);
     return size ? (pir_chunk){packer->deflated, (uint32_t)size, false} : (pir_chunk){bytes, form->size, true};
@@ -70,9 +63,9 @@ pir_chunk pir_pack_chunk(pir_packer *packer, const pir_chunk_form *form, const v
 
 static bool pack_section(pir_unit *unit, int s, pir_packer *packer, const pir_allocator *a) {
     const pir_bytes *data = &unit->data[s];
-    const uint32_t size = pir_chunk_elements[s] * pir_section_element[s];
+    const uint32_t size = pir_chunk_elements[s] * pir_unit_section_element[s];
     // digits of doubles come again in neighbouring numbers
-    const bool doubles = pir_section_doubles[s] > 0;
+    const bool doubles = pir_unit_section_doubles[s] > 0;
     const pir_chunk_form form = {size, doubles ? (uint32_t)sizeof(double) : 1, doubles};
     pir_bytes *packed = &unit->packed[s];
     for (size_t at = 0; at < data->used; at += size) {
@@ -90,7 +83,7 @@ static bool pack_section(pir_unit *unit, int s, pir_packer *packer, const pir_al
 
 bool pir_unit_pack(pir_unit *unit, pir_packer *packer, const pir_allocator *allocator) {
     bool packed = true;
-    for (int s = 0; packed && s < PIR_SECTION_COUNT; s++) {
+    for (int s = 0; packed && s < PIR_UNIT_SECTION_COUNT; s++) {
         unit->packed[s].used = 0;
         packed = pack_section(unit, s, packer, allocator);
     }

@@ -20,8 +20,15 @@ typedef struct pir_chunk_form {
     bool again; /* longer stretches come again in them, so that it is worth looking for these */
 } pir_chunk_form;
 
-/* What packing works on; about 1 MB. */
-typedef struct pir_packer pir_packer;
+/* Deflate looks for runs of a byte alone, or for longer stretches that come again. */
+enum { PIR_PACK_RUNS, PIR_PACK_MATCHES, PIR_PACK_WAYS };
+
+/* Memory to pack in, about 1 MB. A build without HDF5 packs nothing, and makes no compressors. */
+typedef struct pir_packer {
+    pir_allocator allocator;
+    struct libdeflate_compressor *compressor[PIR_PACK_WAYS];
+    uint8_t filled[PIR_CHUNK_MOST], shuffled[PIR_CHUNK_MOST], deflated[PIR_CHUNK_MOST];
+} pir_packer;
 
 /* NULL when out of memory. */
 pir_packer *pir_packer_new(const pir_allocator *allocator);

@@ -91,13 +91,13 @@ pir_status pir_part_append(pir_part *part, const pir_unit *unit, pir_report *rep
     uint64_t at = part->end;
     bool written = write_all(part->descriptor, &header, sizeof header, at);
     at += sizeof header;
-    for (int s = 0; written && s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; written && s < PIR_UNIT_SECTION_COUNT; s++)
         if (part->sections & 1u << s) {
             size_t size = unit->slices * sizeof *unit->count[s];
             written = write_all(part->descriptor, unit->count[s], size, at);
             at += size;
         }
-    for (int s = 0; written && s < PIR_SECTION_COUNT; s++) {
+    for (int s = 0; written && s < PIR_UNIT_SECTION_COUNT; s++) {
         written = write_all(part->descriptor, unit->packed[s].data, unit->packed[s].used, at);
         at += unit->packed[s].used;
     }

@@ -24,7 +24,7 @@ static uint64_t hash_more(uint64_t hash, const void *data, size_t size) {
 
 static uint64_t hash_counts(const pir_unit *unit, unsigned sections) {
     uint64_t hash = HASH_START;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         if (sections & 1u << s)
             hash = hash_more(hash, unit->count[s], unit->slices * sizeof *unit->count[s]);
     return hash;
@@ -40,7 +40,7 @@ static uint64_t hash_header(const pir_unit_header *header) {
 
 pir_unit_header pir_unit_header_of(const pir_unit *unit, unsigned sections) {
     pir_unit_header header = {.magic = PIR_UNIT_MAGIC, .number = unit->number, .slices = unit->slices};
-    for (int s = 0; s < PIR_SECTION_COUNT; s++) {
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++) {
         header.size[s] = unit->packed[s].used;
         header.packed[s] = hash_packed(unit, s);
         header.check[s] = unit->check[s];
@@ -69,7 +69,7 @@ pir_status pir_read_at(int descriptor, void *data, size_t size, uint64_t at) {
 
 /* Whether each section has the chunks that its counts add up to. */
 static bool counts_add_up(const pir_unit *unit) {
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         if (!pir_packed_holds(&unit->packed[s], s, pir_unit_elements(unit, s)))
             return false;
     return true;
@@ -100,7 +100,7 @@ pir_status pir_unit_read(int descriptor, uint64_t at, const pir_plan *plan, pir_
     at += sizeof header;
     unit->number = header.number;
     unit->slices = (uint32_t)header.slices;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++) {
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++) {
         size_t size = unit->slices * sizeof *unit->count[s];
         if (sections & 1u << s)
             status = pir_read_at(descriptor, unit->count[s], size, at);
@@ -111,13 +111,13 @@ pir_status pir_unit_read(int descriptor, uint64_t at, const pir_plan *plan, pir_
             return status;
         at += sections & 1u << s ? size : 0;
     }
-    for (int s = 0; status == PIR_OK && s < PIR_SECTION_COUNT; s++) {
+    for (int s = 0; status == PIR_OK && s < PIR_UNIT_SECTION_COUNT; s++) {
         status = read_data(descriptor, at, header.size[s], &plan->allocator, &unit->packed[s]);
         at += header.size[s];
     }
     if (status != PIR_OK)
         return status;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++) {
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++) {
         unit->check[s] = header.check[s];
         if (hash_packed(unit, s) != header.packed[s])
             return PIR_ERR_FORMAT;

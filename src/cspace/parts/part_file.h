@@ -15,11 +15,11 @@ typedef struct pir_part_header {
 /* Behind it stand the counts of each section that the plan has, then their packed bytes. */
 typedef struct pir_unit_header {
     uint64_t magic, number, slices;
-    uint64_t size[PIR_SECTION_COUNT];   /* packed bytes, */
-    uint64_t packed[PIR_SECTION_COUNT]; /* and a hash of them */
-    uint64_t check[PIR_SECTION_COUNT];  /* of the bytes before they were packed */
-    uint64_t counts;                    /* a hash of the counts */
-    uint64_t hash;                      /* a hash of what stands before it */
+    uint64_t size[PIR_UNIT_SECTION_COUNT];   /* packed bytes, */
+    uint64_t packed[PIR_UNIT_SECTION_COUNT]; /* and a hash of them */
+    uint64_t check[PIR_UNIT_SECTION_COUNT];  /* of the bytes before they were packed */
+    uint64_t counts;                         /* a hash of the counts */
+    uint64_t hash;                           /* a hash of what stands before it */
 } pir_unit_header;
 
 /* The sections that a plan has: a bit for each. */
@@ -36,7 +36,7 @@ bool pir_unit_header_holds(const pir_unit_header *header, const pir_plan *plan);
 /* The bytes of the unit behind its header. */
 static inline uint64_t pir_unit_body(const pir_unit_header *header, unsigned sections) {
     uint64_t size = 0;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         size += sections & 1u << s ? header->slices * sizeof(uint32_t) + header->size[s] : 0;
     return size;
 }

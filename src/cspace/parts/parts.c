@@ -85,7 +85,7 @@ static pir_status each_left(const pir_parts *parts, pir_report *report, void *co
 
 /* --- reading --- */
 
-struct scan {
+struct parts_scan {
     pir_parts *parts;
     pir_unit unit;
 };
@@ -97,12 +97,12 @@ void pir_parts_note(pir_parts *parts, const pir_unit *unit, uint32_t number, uin
     *place = (pir_unit_place){number + 1, at};
     parts->done++;
     parts->done_slices += unit->slices;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         parts->done_bytes += unit->packed[s].used + INDEX_BYTES * pir_chunks_of(s, pir_unit_elements(unit, s));
 }
 
 static pir_status scan_part(void *context, const char *path, int64_t number, pir_report *report) {
-    struct scan *scan = context;
+    struct parts_scan *scan = context;
     const pir_plan *plan = scan->parts->plan;
     if (number < 0)
         return PIR_OK;
@@ -133,7 +133,7 @@ static pir_status scan_part(void *context, const char *path, int64_t number, pir
 }
 
 pir_status pir_parts_scan(pir_parts *parts, pir_report *report) {
-    struct scan scan = {.parts = parts};
+    struct parts_scan scan = {.parts = parts};
     memset(parts->unit, 0, parts->plan->units * sizeof *parts->unit);
     parts->done = parts->done_slices = parts->done_bytes = parts->found = 0;
     pir_status status;

@@ -21,7 +21,7 @@ bool pir_unit_init(pir_unit *unit, uint32_t slices, const pir_allocator *allocat
 void pir_unit_finish(pir_unit *unit, const pir_allocator *allocator) {
     pir_layout layout = layout_of(unit);
     pir_layout_free(allocator, &layout);
-    for (int s = 0; s < PIR_SECTION_COUNT; s++) {
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++) {
         pir_bytes_finish(&unit->data[s], allocator);
         pir_bytes_finish(&unit->packed[s], allocator);
     }
@@ -29,6 +29,6 @@ void pir_unit_finish(pir_unit *unit, const pir_allocator *allocator) {
 }
 
 void pir_unit_seal(pir_unit *unit) {
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         unit->check[s] = pir_hash_words(PIR_HASH_START, unit->data[s].data, unit->data[s].used);
 }

@@ -8,24 +8,24 @@
 
 #include "cspace/record/record_bytes.h"
 
-typedef enum pir_section {
-    PIR_SECTION_RECORDS = 0, /* bytes */
-    PIR_SECTION_PLANES,      /* four doubles each: normal and offset */
-    PIR_SECTION_VERTICES,    /* three doubles each */
-    PIR_SECTION_COUNT,
-} pir_section;
+typedef enum pir_unit_section {
+    PIR_UNIT_SECTION_RECORDS = 0, /* bytes */
+    PIR_UNIT_SECTION_PLANES,      /* four doubles each: normal and offset */
+    PIR_UNIT_SECTION_VERTICES,    /* three doubles each */
+    PIR_UNIT_SECTION_COUNT,
+} pir_unit_section;
 
 /* Bytes of an element of each section, and its doubles; 0 for bytes. */
-static const uint32_t pir_section_element[PIR_SECTION_COUNT] = {1, 32, 24};
-static const uint32_t pir_section_doubles[PIR_SECTION_COUNT] = {0, 4, 3};
+static const uint32_t pir_unit_section_element[PIR_UNIT_SECTION_COUNT] = {1, 32, 24};
+static const uint32_t pir_unit_section_doubles[PIR_UNIT_SECTION_COUNT] = {0, 4, 3};
 
 typedef struct pir_unit {
     uint64_t number;
-    uint32_t slices, room;               /* slices; how many `count` has room for */
-    uint32_t *count[PIR_SECTION_COUNT];  /* per slice: elements */
-    pir_bytes data[PIR_SECTION_COUNT];   /* empty where a job has no such section */
-    uint64_t check[PIR_SECTION_COUNT];   /* of the bytes of data */
-    pir_bytes packed[PIR_SECTION_COUNT]; /* data as the file keeps it; see pack.h */
+    uint32_t slices, room;                    /* slices; how many `count` has room for */
+    uint32_t *count[PIR_UNIT_SECTION_COUNT];  /* per slice: elements */
+    pir_bytes data[PIR_UNIT_SECTION_COUNT];   /* empty where a job has no such section */
+    uint64_t check[PIR_UNIT_SECTION_COUNT];   /* of the bytes of data */
+    pir_bytes packed[PIR_UNIT_SECTION_COUNT]; /* data as the file keeps it; see pack.h */
 } pir_unit;
 
 /* Room for so many slices; false when out of memory, and there is nothing to finish then. */

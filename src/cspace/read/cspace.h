@@ -39,7 +39,7 @@ typedef struct pir_cspace_cursor {
     uint64_t pair;   /* that the replay is of, where has_replay */
     bool has_replay;
     pir_polytope *minus_p; /* of that pair; held */
-    pir_replay replay;
+    pir_record_replay replay;
     uint32_t (*ee)[2]; /* room for the pairs that are shown */
     uint32_t ee_room;
     pir_halfspace *plane; /* likewise */
@@ -63,7 +63,7 @@ struct pir_cspace {
  * pir_cspace_slice.
  */
 pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *report,
-                            const pir_replay_crossing **ret_crossings, uint32_t *ret_count);
+                            const pir_record_replay_crossing **ret_crossings, uint32_t *ret_count);
 
 /* The rotation that the cursor is at. */
 static inline pir_quat pir_cspace_cursor_rotation(const pir_cspace *cspace) {

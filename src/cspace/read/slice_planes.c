@@ -17,8 +17,8 @@ static bool reserve(pir_cspace *cspace, uint32_t count) {
     return true;
 }
 
-static void make(pir_cspace *cspace, const pir_mat3 *r, const pir_replay_crossing *crossing, uint32_t count) {
-    const pir_replay *replay = &cspace->cursor.replay;
+static void make(pir_cspace *cspace, const pir_mat3 *r, const pir_record_replay_crossing *crossing, uint32_t count) {
+    const pir_record_replay *replay = &cspace->cursor.replay;
     pir_halfspace *plane = cspace->cursor.plane;
     pir_halfspaces of = pir_halfspaces_of(replay->p, replay->q, r);
     for (uint32_t f = 0; f < replay->p->facet_count; f++)
@@ -33,12 +33,12 @@ pir_status pir_cspace_planes(pir_cspace *cspace, pir_cspace_place place, pir_rep
                              const pir_halfspace **ret_planes, uint32_t *ret_count) {
     if (!cspace || !ret_planes || !ret_count)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the planes");
-    const pir_replay_crossing *crossing;
+    const pir_record_replay_crossing *crossing;
     uint32_t count;
     pir_status status = pir_cspace_go_to(cspace, place, report, &crossing, &count);
     if (status != PIR_OK)
         return status;
-    const pir_replay *replay = &cspace->cursor.replay;
+    const pir_record_replay *replay = &cspace->cursor.replay;
     uint32_t planes = replay->p->facet_count + replay->q->facet_count + count;
     pir_rotation rotation;
     status = pir_rotation_set(&rotation, pir_cspace_cursor_rotation(cspace));

@@ -10,8 +10,8 @@
 #include "dymsum/view.h"
 
 /* Whether the crossings of edge e of −P are those that stand from *at on; moves *at past them. */
-static bool same_crossings(const pir_pairing *pairing, uint32_t e, const pir_replay_crossing **at,
-                           const pir_replay_crossing *end) {
+static bool same_crossings(const pir_pairing *pairing, uint32_t e, const pir_record_replay_crossing **at,
+                           const pir_record_replay_crossing *end) {
     for (uint32_t slot = pir_crossing_first(pairing, e); slot != PIR_NO_CROSSING;
          slot = pir_crossing_next(pairing, slot), ++*at)
         if (*at == end || (*at)->edge != e || (*at)->half != pir_crossing_half(pairing, slot))
@@ -20,10 +20,10 @@ static bool same_crossings(const pir_pairing *pairing, uint32_t e, const pir_rep
 }
 
 /* Whether the pairing of the sum is that which the cursor is at. */
-static bool same_pairing(const pir_sum *sum, const pir_replay *replay, const pir_replay_crossing *crossing,
-                         uint32_t count) {
+static bool same_pairing(const pir_sum *sum, const pir_record_replay *replay,
+                         const pir_record_replay_crossing *crossing, uint32_t count) {
     const pir_pairing *pairing = pir_sum_pairing(sum);
-    const pir_replay_crossing *at = crossing, *end = crossing + count;
+    const pir_record_replay_crossing *at = crossing, *end = crossing + count;
     if (memcmp(pairing->fv, replay->fv, replay->p->facet_count * sizeof *replay->fv) != 0 ||
         memcmp(pairing->vf, replay->vf, replay->q->facet_count * sizeof *replay->vf) != 0)
         return false;
@@ -36,7 +36,7 @@ static bool same_pairing(const pir_sum *sum, const pir_replay *replay, const pir
 pir_status pir_cspace_sum(pir_cspace *cspace, pir_cspace_place place, pir_report *report, pir_sum **ret_sum) {
     if (!cspace || !ret_sum)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the sum");
-    const pir_replay_crossing *crossing;
+    const pir_record_replay_crossing *crossing;
     uint32_t count;
     pir_status status = pir_cspace_go_to(cspace, place, report, &crossing, &count);
     if (status != PIR_OK)

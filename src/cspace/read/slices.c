@@ -75,7 +75,7 @@ static pir_status begin(pir_cspace *cspace, pir_report *report) {
 
 static void forget_pair(pir_cspace *cspace) {
     pir_cspace_cursor *cursor = &cspace->cursor;
-    pir_replay_finish(&cursor->replay);
+    pir_record_replay_finish(&cursor->replay);
     pir_polytope_release(cursor->minus_p);
     cursor->minus_p = NULL;
     cursor->has_replay = cursor->has_slice = false;
@@ -188,7 +188,7 @@ static pir_status go_to_unit(pir_cspace *cspace, uint64_t number, pir_report *re
     if (!kept->asked) {
         if (!reserve_unit(cspace, kept))
             return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
-        pir_status status = pir_store_unit(cspace->store, PIR_SECTION_RECORDS, number, report, &kept->unit);
+        pir_status status = pir_store_unit(cspace->store, PIR_UNIT_SECTION_RECORDS, number, report, &kept->unit);
         if (status == PIR_OK)
             status =
                 read_rotations(cspace, kept->rotation, number % cspace->units_per_pair * cspace->info.slices_per_unit,
@@ -207,8 +207,8 @@ static pir_status go_to_pair(pir_cspace *cspace, pir_cspace_place place, uint64_
         return PIR_OK;
     forget_pair(cspace);
     pir_status status = pir_polytope_reflect(pir_cspace_robot(cspace, place.robot), &cursor->minus_p);
-    if (status == PIR_OK && !pir_replay_init(&cursor->replay, cursor->minus_p,
-                                             pir_cspace_obstacle(cspace, place.obstacle), &cspace->allocator))
+    if (status == PIR_OK && !pir_record_replay_init(&cursor->replay, cursor->minus_p,
+                                                    pir_cspace_obstacle(cspace, place.obstacle), &cspace->allocator))
         status = PIR_ERR_MEMORY;
     if (status != PIR_OK) {
         forget_pair(cspace);
@@ -223,7 +223,7 @@ static pir_status go_to_pair(pir_cspace *cspace, pir_cspace_place place, uint64_
 static pir_status go_to_slice(pir_cspace *cspace, uint32_t to, pir_report *report) {
     pir_cspace_cursor *cursor = &cspace->cursor;
     const pir_unit *unit = &cursor->at->unit;
-    const uint32_t *length = unit->count[PIR_SECTION_RECORDS];
+    const uint32_t *length = unit->count[PIR_UNIT_SECTION_RECORDS];
     uint32_t key = to - to % cspace->info.slices_per_key, at = cursor->slice + 1;
     if (cursor->has_slice && cursor->slice == to)
         return PIR_OK;
@@ -234,8 +234,8 @@ static pir_status go_to_slice(pir_cspace *cspace, uint32_t to, pir_report *repor
     }
     cursor->has_slice = false;
     for (; at <= to; at++) {
-        pir_status status =
-            pir_replay_record(&cursor->replay, unit->data[PIR_SECTION_RECORDS].data + cursor->offset, length[at]);
+        pir_status status = pir_record_replay_record(
+            &cursor->replay, unit->data[PIR_UNIT_SECTION_RECORDS].data + cursor->offset, length[at]);
         if (status != PIR_OK)
             return pir_fail(report, status, "slices: unit %" PRIu64 ": record %u: %s", cursor->at->unit.number,
                             (unsigned)at, pir_status_text(status));
@@ -262,12 +262,12 @@ static pir_status go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *
 /* --- pairs --- */
 
 pir_status pir_cspace_go_to(pir_cspace *cspace, pir_cspace_place place, pir_report *report,
-                            const pir_replay_crossing **ret_crossings, uint32_t *ret_count) {
+                            const pir_record_replay_crossing **ret_crossings, uint32_t *ret_count) {
     const pir_cspace_cursor *cursor = &cspace->cursor;
     pir_status status = go_to(cspace, place, report);
     if (status != PIR_OK)
         return status;
-    status = pir_replay_crossings(&cspace->cursor.replay, ret_crossings, ret_count);
+    status = pir_record_replay_crossings(&cspace->cursor.replay, ret_crossings, ret_count);
     if (status == PIR_OK)
         return PIR_OK;
     return pir_fail(report, status, "slices: unit %" PRIu64 ": record %u: %s", cursor->at->unit.number,
@@ -291,14 +291,14 @@ static bool reserve_ee(pir_cspace *cspace, uint32_t count) {
 pir_status pir_cspace_slice(pir_cspace *cspace, pir_cspace_place place, pir_report *report, pir_slice *ret_slice) {
     if (!cspace || !ret_slice)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the slice");
-    const pir_replay_crossing *crossing;
+    const pir_record_replay_crossing *crossing;
     uint32_t count;
     pir_status status = pir_cspace_go_to(cspace, place, report, &crossing, &count);
     if (status != PIR_OK)
         return status;
     if (!reserve_ee(cspace, count))
         return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
-    const pir_replay *replay = &cspace->cursor.replay;
+    const pir_record_replay *replay = &cspace->cursor.replay;
     for (uint32_t i = 0; i < count; i++) {
         cspace->cursor.ee[i][0] = replay->p->artificial ? 0 : crossing[i].edge;
         cspace->cursor.ee[i][1] = replay->q->artificial ? 0 : replay->q->edge[crossing[i].half];

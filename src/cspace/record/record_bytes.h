@@ -49,13 +49,13 @@ static inline uint8_t *pir_pen_end(const pir_pen *pen) {
 }
 
 /* Bytes that are read; `broken` once a number did not end in them, or was greater than asked for. */
-typedef struct pir_scan {
+typedef struct pir_record_scan {
     const uint8_t *at, *end;
     bool odd, broken;
-} pir_scan;
+} pir_record_scan;
 
 /* The next number where it is at most `most`; else 0, and the scan is broken. */
-static inline uint32_t pir_scan_number(pir_scan *scan, uint32_t most) {
+static inline uint32_t pir_record_scan_number(pir_record_scan *scan, uint32_t most) {
     uint64_t number = 0;
     for (unsigned shift = 0; scan->at < scan->end && shift < 33; shift += 3) {
         uint32_t half = scan->odd ? *scan->at >> 4 : *scan->at & 15;
@@ -72,7 +72,7 @@ static inline uint32_t pir_scan_number(pir_scan *scan, uint32_t most) {
 }
 
 /* Whether everything has been read: at most half a byte is left over, of zeros. */
-static inline bool pir_scan_ended(const pir_scan *scan) {
+static inline bool pir_record_scan_ended(const pir_record_scan *scan) {
     return !scan->broken && (scan->odd ? scan->at + 1 == scan->end && *scan->at >> 4 == 0 : scan->at == scan->end);
 }
 

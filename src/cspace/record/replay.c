@@ -6,12 +6,12 @@
 
 /* --- memory --- */
 
-static pir_layout layout_of(pir_replay *replay) {
+static pir_layout layout_of(pir_record_replay *replay) {
     return (pir_layout){{PIR_ROW(replay->fv, replay->p->facet_count), PIR_ROW(replay->vf, replay->q->facet_count),
                          PIR_ROW(replay->slots.first, replay->p->edge_count)}};
 }
 
-static void empty(pir_replay *replay) {
+static void empty(pir_record_replay *replay) {
     replay->begun = false;
     replay->slots.used = replay->slots.count = 0;
     replay->slots.free = PIR_NO_EDGE;
@@ -19,9 +19,9 @@ static void empty(pir_replay *replay) {
         replay->slots.first[e] = PIR_NO_EDGE;
 }
 
-bool pir_replay_init(pir_replay *replay, const pir_polytope *minus_p, const pir_polytope *q,
-                     const pir_allocator *allocator) {
-    *replay = (pir_replay){.allocator = *allocator, .p = minus_p, .q = q};
+bool pir_record_replay_init(pir_record_replay *replay, const pir_polytope *minus_p, const pir_polytope *q,
+                            const pir_allocator *allocator) {
+    *replay = (pir_record_replay){.allocator = *allocator, .p = minus_p, .q = q};
     pir_layout layout = layout_of(replay);
     if (!pir_layout_new(allocator, &layout) || !pir_ring_ranks_init(&replay->ranks_p, minus_p, allocator) ||
         !pir_ring_ranks_init(&replay->ranks_q, q, allocator))
@@ -30,7 +30,7 @@ bool pir_replay_init(pir_replay *replay, const pir_polytope *minus_p, const pir_
     return true;
 }
 
-void pir_replay_finish(pir_replay *replay) {
+void pir_record_replay_finish(pir_record_replay *replay) {
     if (!replay->p)
         return;
     pir_layout layout = layout_of(replay);
@@ -40,11 +40,11 @@ void pir_replay_finish(pir_replay *replay) {
     PIR_FREE(&replay->allocator, replay->slots.next, replay->slots.room);
     PIR_FREE(&replay->allocator, replay->slots.other, replay->slots.room);
     PIR_FREE(&replay->allocator, replay->ordered, replay->ordered_room);
-    *replay = (pir_replay){0};
+    *replay = (pir_record_replay){0};
 }
 
-static pir_status grow(pir_replay *replay) {
-    pir_replay_slots *slots = &replay->slots;
+static pir_status grow(pir_record_replay *replay) {
+    pir_record_replay_slots *slots = &replay->slots;
     if (slots->room > UINT32_MAX / 4)
         return PIR_ERR_LIMIT;
     uint32_t room = slots->room ? 2 * slots->room : 256;
@@ -68,8 +68,8 @@ static pir_status grow(pir_replay *replay) {
 
 /* --- crossings as a set --- */
 
-static pir_status enter(pir_replay *replay, uint32_t e, uint32_t g) {
-    pir_replay_slots *slots = &replay->slots;
+static pir_status enter(pir_record_replay *replay, uint32_t e, uint32_t g) {
+    pir_record_replay_slots *slots = &replay->slots;
     uint32_t slot = slots->free;
     if (slot != PIR_NO_EDGE) {
         slots->free = slots->next[slot];
@@ -87,8 +87,8 @@ static pir_status enter(pir_replay *replay, uint32_t e, uint32_t g) {
 }
 
 /* Takes the crossing out where it is there, enters it where it is not. */
-static pir_status toggle(pir_replay *replay, uint32_t e, uint32_t g) {
-    pir_replay_slots *slots = &replay->slots;
+static pir_status toggle(pir_record_replay *replay, uint32_t e, uint32_t g) {
+    pir_record_replay_slots *slots = &replay->slots;
     for (uint32_t *link = &slots->first[e]; *link != PIR_NO_EDGE; link = &slots->next[*link]) {
         uint32_t slot = *link;
         if (slots->other[slot] != g)
@@ -105,16 +105,16 @@ static pir_status toggle(pir_replay *replay, uint32_t e, uint32_t g) {
 /* --- records --- */
 
 /* A count that is followed by at least so many numbers. */
-static uint32_t scan_count(pir_scan *scan, uint32_t most) {
-    uint32_t count = pir_scan_number(scan, most);
+static uint32_t scan_count(pir_record_scan *scan, uint32_t most) {
+    uint32_t count = pir_record_scan_number(scan, most);
     if (count > 2 * (uint64_t)(scan->end - scan->at))
         scan->broken = true;
     return scan->broken ? 0 : count;
 }
 
 /* Takes out all crossings of edge e of −P. */
-static void clear_edge(pir_replay *replay, uint32_t e) {
-    pir_replay_slots *slots = &replay->slots;
+static void clear_edge(pir_record_replay *replay, uint32_t e) {
+    pir_record_replay_slots *slots = &replay->slots;
     while (slots->first[e] != PIR_NO_EDGE) {
         uint32_t slot = slots->first[e];
         slots->first[e] = slots->next[slot];
@@ -125,11 +125,11 @@ static void clear_edge(pir_replay *replay, uint32_t e) {
 }
 
 /* The crossings of edge e of −P, which has none yet, from cell to cell: at most as many as there are cells. */
-static pir_status scan_way(pir_replay *replay, uint32_t e, pir_scan *scan) {
+static pir_status scan_way(pir_record_replay *replay, uint32_t e, pir_record_scan *scan) {
     const pir_polytope *p = replay->p, *q = replay->q;
     uint32_t half = p->edge_half[e], cell = replay->fv[p->left[half]], end = replay->fv[pir_right(p, half)];
     for (uint32_t steps = 0; cell != end; steps++) {
-        uint32_t step = pir_scan_number(scan, q->vertex_count);
+        uint32_t step = pir_record_scan_number(scan, q->vertex_count);
         uint32_t side = step == 0 ? pir_half_between(&replay->ranks_q, cell, end)
                                   : pir_half_of_rank(&replay->ranks_q, cell, step - 1);
         if (scan->broken || side == PIR_NO_HALF || steps == q->vertex_count)
@@ -144,25 +144,25 @@ static pir_status scan_way(pir_replay *replay, uint32_t e, pir_scan *scan) {
 }
 
 /* The cell of a facet, as seen from the cell `near`; UINT32_MAX where there is none. */
-static uint32_t scan_cell_from(const pir_ring_ranks *other, uint32_t near, pir_scan *scan) {
+static uint32_t scan_cell_from(const pir_ring_ranks *other, uint32_t near, pir_record_scan *scan) {
     uint32_t ring = pir_ring_size(other, near);
-    uint32_t step = pir_scan_number(scan, ring + 1);
+    uint32_t step = pir_record_scan_number(scan, ring + 1);
     if (step == 0)
         return near;
     if (step > ring)
-        return pir_scan_number(scan, other->of->vertex_count - 1);
+        return pir_record_scan_number(scan, other->of->vertex_count - 1);
     uint32_t half = pir_half_of_rank(other, near, step - 1);
     return half == PIR_NO_HALF ? UINT32_MAX : other->of->target[half];
 }
 
 /* The cells of all facets of an operand. */
-static pir_status scan_all_cells(pir_replay *replay, bool of_p, pir_scan *scan) {
+static pir_status scan_all_cells(pir_record_replay *replay, bool of_p, pir_record_scan *scan) {
     const pir_ring_ranks *own = of_p ? &replay->ranks_p : &replay->ranks_q,
                          *other = of_p ? &replay->ranks_q : &replay->ranks_p;
     uint32_t *cell = of_p ? replay->fv : replay->vf;
     for (uint32_t f = 0; f < own->of->facet_count; f++) {
         uint32_t guide = own->guide[f];
-        cell[f] = guide == PIR_NO_GUIDE ? pir_scan_number(scan, other->of->vertex_count - 1)
+        cell[f] = guide == PIR_NO_GUIDE ? pir_record_scan_number(scan, other->of->vertex_count - 1)
                                         : scan_cell_from(other, cell[guide], scan);
         if (scan->broken || cell[f] == UINT32_MAX)
             return PIR_ERR_FORMAT;
@@ -170,7 +170,7 @@ static pir_status scan_all_cells(pir_replay *replay, bool of_p, pir_scan *scan) 
     return PIR_OK;
 }
 
-static pir_status scan_whole(pir_replay *replay, pir_scan *scan) {
+static pir_status scan_whole(pir_record_replay *replay, pir_record_scan *scan) {
     empty(replay);
     pir_status status = scan_all_cells(replay, true, scan);
     if (status == PIR_OK)
@@ -181,7 +181,7 @@ static pir_status scan_whole(pir_replay *replay, pir_scan *scan) {
 }
 
 /* Toggles the crossings that a facet passes with the edge `passed` of the other operand. */
-static pir_status pass(pir_replay *replay, bool of_p, uint32_t f, uint32_t passed) {
+static pir_status pass(pir_record_replay *replay, bool of_p, uint32_t f, uint32_t passed) {
     const pir_polytope *of = of_p ? replay->p : replay->q;
     pir_status status = PIR_OK;
     for (uint32_t i = of->loop_start[f]; status == PIR_OK && i < of->loop_start[f + 1]; i++) {
@@ -191,7 +191,7 @@ static pir_status pass(pir_replay *replay, bool of_p, uint32_t f, uint32_t passe
     return status;
 }
 
-static pir_status scan_cells(pir_replay *replay, bool of_p, pir_scan *scan) {
+static pir_status scan_cells(pir_record_replay *replay, bool of_p, pir_record_scan *scan) {
     const pir_polytope *of = of_p ? replay->p : replay->q;
     const pir_ring_ranks *other = of_p ? &replay->ranks_q : &replay->ranks_p;
     uint32_t *cell = of_p ? replay->fv : replay->vf;
@@ -199,12 +199,12 @@ static pir_status scan_cells(pir_replay *replay, bool of_p, pir_scan *scan) {
     uint64_t f = 0;
     pir_status status = PIR_OK;
     for (uint32_t i = 0; status == PIR_OK && i < count; i++) {
-        f += pir_scan_number(scan, of->facet_count);
-        uint32_t step = pir_scan_number(scan, other->of->vertex_count);
+        f += pir_record_scan_number(scan, of->facet_count);
+        uint32_t step = pir_record_scan_number(scan, other->of->vertex_count);
         if (scan->broken || f >= of->facet_count)
             return PIR_ERR_FORMAT;
         if (step == 0) {
-            cell[f] = pir_scan_number(scan, other->of->vertex_count - 1);
+            cell[f] = pir_record_scan_number(scan, other->of->vertex_count - 1);
             continue;
         }
         uint32_t half = pir_half_of_rank(other, cell[f], step - 1);
@@ -216,7 +216,7 @@ static pir_status scan_cells(pir_replay *replay, bool of_p, pir_scan *scan) {
     return scan->broken ? PIR_ERR_FORMAT : status;
 }
 
-static pir_status scan_changes(pir_replay *replay, pir_scan *scan) {
+static pir_status scan_changes(pir_record_replay *replay, pir_record_scan *scan) {
     const uint32_t edges = replay->p->edge_count;
     pir_status status = scan_cells(replay, true, scan);
     if (status == PIR_OK)
@@ -224,7 +224,7 @@ static pir_status scan_changes(pir_replay *replay, pir_scan *scan) {
     uint32_t count = status == PIR_OK ? scan_count(scan, edges) : 0;
     uint64_t e = 0;
     for (uint32_t i = 0; status == PIR_OK && i < count; i++) {
-        e += pir_scan_number(scan, edges);
+        e += pir_record_scan_number(scan, edges);
         if (scan->broken || e >= edges)
             return PIR_ERR_FORMAT;
         clear_edge(replay, (uint32_t)e);
@@ -233,15 +233,15 @@ static pir_status scan_changes(pir_replay *replay, pir_scan *scan) {
     return status;
 }
 
-pir_status pir_replay_record(pir_replay *replay, const uint8_t *bytes, size_t size) {
-    pir_scan scan = {bytes, bytes + size, false, false};
-    uint32_t kind = pir_scan_number(&scan, PIR_RECORD_WHOLE);
+pir_status pir_record_replay_record(pir_record_replay *replay, const uint8_t *bytes, size_t size) {
+    pir_record_scan scan = {bytes, bytes + size, false, false};
+    uint32_t kind = pir_record_scan_number(&scan, PIR_RECORD_WHOLE);
     pir_status status = PIR_ERR_FORMAT;
     if (!scan.broken && kind == PIR_RECORD_WHOLE)
         status = scan_whole(replay, &scan);
     else if (!scan.broken && replay->begun)
         status = scan_changes(replay, &scan);
-    if (status == PIR_OK && !pir_scan_ended(&scan))
+    if (status == PIR_OK && !pir_record_scan_ended(&scan))
         status = PIR_ERR_FORMAT;
     replay->begun = status == PIR_OK;
     return status;
@@ -261,11 +261,12 @@ static uint32_t half_from(const pir_polytope *q, uint32_t g, uint32_t v) {
  * The crossings of edge e from cell to cell into `ordered`: those that are left are searched for the one that leaves
  * the cell, and the one found takes the place of the first. False where none does, or the last leads elsewhere.
  */
-static bool order_edge(const pir_replay *replay, uint32_t e, pir_replay_crossing *ordered, uint32_t count) {
+static bool order_edge(const pir_record_replay *replay, uint32_t e, pir_record_replay_crossing *ordered,
+                       uint32_t count) {
     const pir_polytope *p = replay->p, *q = replay->q;
     uint32_t half = p->edge_half[e], cell = replay->fv[p->left[half]], i = 0;
     for (uint32_t slot = replay->slots.first[e]; slot != PIR_NO_EDGE; slot = replay->slots.next[slot])
-        ordered[i++] = (pir_replay_crossing){e, replay->slots.other[slot]};
+        ordered[i++] = (pir_record_replay_crossing){e, replay->slots.other[slot]};
     for (i = 0; i < count; i++) {
         uint32_t at = i, leaves = PIR_NO_EDGE;
         for (; at < count; at++)
@@ -280,12 +281,13 @@ static bool order_edge(const pir_replay *replay, uint32_t e, pir_replay_crossing
     return cell == replay->fv[pir_right(p, half)];
 }
 
-pir_status pir_replay_crossings(pir_replay *replay, const pir_replay_crossing **ret_crossings, uint32_t *ret_count) {
-    const pir_replay_slots *slots = &replay->slots;
+pir_status pir_record_replay_crossings(pir_record_replay *replay, const pir_record_replay_crossing **ret_crossings,
+                                       uint32_t *ret_count) {
+    const pir_record_replay_slots *slots = &replay->slots;
     if (!replay->begun)
         return PIR_ERR_FORMAT;
     if (!replay->ordered || slots->count > replay->ordered_room) {
-        pir_replay_crossing *room = PIR_NEW(&replay->allocator, pir_replay_crossing, slots->room);
+        pir_record_replay_crossing *room = PIR_NEW(&replay->allocator, pir_record_replay_crossing, slots->room);
         if (!room)
             return PIR_ERR_MEMORY;
         PIR_FREE(&replay->allocator, replay->ordered, replay->ordered_room);

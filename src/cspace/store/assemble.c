@@ -43,7 +43,7 @@ struct output {
     const pir_parts *parts;
     const pir_plan *plan;
     hid_t file;
-    struct section section[PIR_SECTION_COUNT];
+    struct section section[PIR_UNIT_SECTION_COUNT];
     pir_unit unit;
     pir_packer *packer;
 };
@@ -107,14 +107,14 @@ static bool put_head(const struct output *out) {
 /* --- sections --- */
 
 static bool has_section(const pir_plan *plan, int s) {
-    return s == PIR_SECTION_RECORDS || (s == PIR_SECTION_PLANES ? plan->planes : plan->vertices);
+    return s == PIR_UNIT_SECTION_RECORDS || (s == PIR_UNIT_SECTION_PLANES ? plan->planes : plan->vertices);
 }
 
 static bool begin_section(struct output *out, int s) {
     const pir_plan *plan = out->plan;
-    const pir_section_names *names = &pir_names_of_section[s];
+    const pir_unit_section_names *names = &pir_names_of_section[s];
     struct section *section = &out->section[s];
-    uint32_t doubles = pir_section_doubles[s];
+    uint32_t doubles = pir_unit_section_doubles[s];
     section->shape = (pir_h5_shape){.type = doubles ? PIR_H5_F64 : PIR_H5_U8, .rank = doubles ? 2 : 1, .grows = true};
     section->shape.size[1] = section->shape.chunk[1] = doubles;
     section->shape.chunk[0] = pir_chunk_elements[s];
@@ -128,7 +128,7 @@ static bool begin_section(struct output *out, int s) {
     section->unit = pir_h5_make_set(section->group, names->unit, &units);
     section->check = pir_h5_make_set(section->group, names->check, &units);
     return section->data >= 0 && section->count >= 0 && section->unit >= 0 && section->check >= 0 &&
-           (s != PIR_SECTION_RECORDS ||
+           (s != PIR_UNIT_SECTION_RECORDS ||
             (pir_h5_put_numbers(section->group, "slices_per_unit", PIR_H5_U32, &plan->slices_per_unit, 1) &&
              pir_h5_put_numbers(section->group, "slices_per_key", PIR_H5_U32, &plan->slices_per_key, 1)));
 }
@@ -176,16 +176,16 @@ static bool put_unit(struct output *out, int s) {
 static bool put_sections(struct output *out, pir_status *status, pir_report *report) {
     const pir_plan *plan = out->plan;
     bool good = true;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         if (has_section(plan, s))
             good = good && begin_section(out, s);
     for (uint64_t u = 0; good && u < plan->units; u++) {
         *status = pir_parts_read(out->parts, u, &out->unit, report);
         good = *status == PIR_OK;
-        for (int s = 0; good && s < PIR_SECTION_COUNT; s++)
+        for (int s = 0; good && s < PIR_UNIT_SECTION_COUNT; s++)
             good = !has_section(plan, s) || put_unit(out, s);
     }
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         good = end_section(&out->section[s]) && good;
     return good;
 }
@@ -246,7 +246,7 @@ static bool make_room(const pir_parts *parts, const char *path) {
 }
 
 static pir_status write_file(struct output *out, const char *path, pir_report *report) {
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         out->section[s] = (struct section){-1, -1, -1, -1, -1, {0}, 0};
     errno = 0;
     if (!make_room(out->parts, path))

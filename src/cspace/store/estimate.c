@@ -42,7 +42,7 @@ static pir_status add_bytes(pir_maker *maker, double *bytes) {
     pir_unit *unit = &maker->unit;
     if (!pir_unit_pack(unit, maker->packer, &maker->plan->allocator))
         return PIR_ERR_MEMORY;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         *bytes += fmax(0, (double)unit->packed[s].used - CHUNK_BYTES);
     return PIR_OK;
 }

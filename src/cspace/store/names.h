@@ -6,11 +6,11 @@
 #define PIR_SLICES_FORMAT "pirouette slices"
 
 /* A section: its group, and in it the elements, the elements of each slice, where units begin, their checks. */
-typedef struct pir_section_names {
+typedef struct pir_unit_section_names {
     const char *group, *data, *count, *unit, *check;
-} pir_section_names;
+} pir_unit_section_names;
 
-static const pir_section_names pir_names_of_section[] = {
+static const pir_unit_section_names pir_names_of_section[] = {
     {"slices", "bytes", "length", "unit", "check"},
     {"planes", "plane", "count", "unit", "check"},
     {"vertices", "vertex", "count", "unit", "check"},

@@ -5,10 +5,6 @@
 #include "cspace/store/assemble.h"
 #include "cspace/store/store.h"
 
-struct pir_packer {
-    pir_allocator allocator;
-};
-
 pir_packer *pir_packer_new(const pir_allocator *allocator) {
     pir_packer *packer = PIR_NEW(allocator, pir_packer, 1);
     if (packer)
@@ -68,7 +64,8 @@ pir_status pir_store_rotations(pir_store *store, uint64_t first, size_t count, p
     return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
 }
 
-pir_status pir_store_unit(pir_store *store, pir_section section, uint64_t number, pir_report *report, pir_unit *unit) {
+pir_status pir_store_unit(pir_store *store, pir_unit_section section, uint64_t number, pir_report *report,
+                          pir_unit *unit) {
     (void)store;
     (void)section;
     (void)number;

@@ -52,13 +52,13 @@ static void fill(struct arrays *arrays, const pir_polytope *p) {
 }
 
 /* Where arrays go. */
-struct place {
+struct array_place {
     hid_t group;
     pir_packer *packer;
 };
 
 /* Digits of doubles are as good as random: they are kept as they are. */
-static bool put_rows(const struct place *at, const char *name, pir_h5_type type, uint64_t rows, uint64_t columns,
+static bool put_rows(const struct array_place *at, const char *name, pir_h5_type type, uint64_t rows, uint64_t columns,
                      const void *data) {
     const uint64_t number = type == PIR_H5_U8 ? 1 : type == PIR_H5_U32 ? 4 : 8;
     const uint64_t chunk = PIR_CHUNK_MOST / (number * (columns ? columns : 1));
@@ -66,7 +66,7 @@ static bool put_rows(const struct place *at, const char *name, pir_h5_type type,
     return pir_h5_put(at->group, name, &shape, data, at->packer);
 }
 
-static bool put_arrays(const struct place *at, const struct arrays *arrays, const pir_polytope *p) {
+static bool put_arrays(const struct array_place *at, const struct arrays *arrays, const pir_polytope *p) {
     return put_rows(at, "vertex", PIR_H5_F64, p->vertex_count, 3, arrays->vertex) &&
            put_rows(at, "normal", PIR_H5_F64, p->facet_count, 3, arrays->normal) &&
            put_rows(at, "edge", PIR_H5_U32, p->edge_count, 2, arrays->edge) &&
@@ -99,7 +99,7 @@ static bool put_piece(hid_t file, const char *path, const pir_plan_piece *piece,
     pir_layout layout = layout_of(&arrays, p);
     snprintf(hash, sizeof hash, "%016" PRIx64, piece->hash);
     hid_t group = pir_h5_make_group(file, path);
-    const struct place at = {group, packer};
+    const struct array_place at = {group, packer};
     bool good = group >= 0 && pir_layout_new(a, &layout) && pir_h5_put_text(group, "hash", hash) &&
                 put_rows(&at, "off", PIR_H5_U8, piece->off.used, 0, piece->off.data);
     if (good) {

@@ -36,7 +36,7 @@ struct pir_store {
     uint64_t units_per_pair;
     pir_polytope **piece;
     uint32_t piece_count;
-    struct sets section[PIR_SECTION_COUNT];
+    struct sets section[PIR_UNIT_SECTION_COUNT];
 };
 
 static pir_status broken(const pir_store *store, pir_report *report, const char *where, const char *why) {
@@ -174,9 +174,9 @@ static pir_status read_models(pir_store *store, pir_report *report) {
 
 /* Opens the data sets of a section, whose sizes must be those of the pieces and rotations. */
 static bool open_sets(pir_store *store, int s) {
-    const pir_section_names *names = &pir_names_of_section[s];
+    const pir_unit_section_names *names = &pir_names_of_section[s];
     struct sets *sets = &store->section[s];
-    uint32_t doubles = pir_section_doubles[s];
+    uint32_t doubles = pir_unit_section_doubles[s];
     uint64_t pairs = (uint64_t)store->info.robot_count * store->info.obstacle_count, slices = store->info.grid.count;
     uint64_t data[2] = {0, doubles}, count[2], unit[2], check[2];
     sets->data = pir_h5_open_set(sets->group, names->data, doubles ? PIR_H5_F64 : PIR_H5_U8, doubles ? 2 : 1, data);
@@ -191,17 +191,17 @@ static bool open_sets(pir_store *store, int s) {
 
 static pir_status read_sections(pir_store *store, pir_report *report) {
     pir_cspace_info *info = &store->info;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         store->section[s].group = pir_h5_open_group(store->file, pir_names_of_section[s].group);
-    hid_t slices = store->section[PIR_SECTION_RECORDS].group;
+    hid_t slices = store->section[PIR_UNIT_SECTION_RECORDS].group;
     if (slices < 0 || !pir_h5_get_numbers(slices, "slices_per_unit", PIR_H5_U32, &info->slices_per_unit, 1) ||
         !pir_h5_get_numbers(slices, "slices_per_key", PIR_H5_U32, &info->slices_per_key, 1) ||
         info->slices_per_unit == 0 || info->slices_per_unit > PIR_CSPACE_UNIT_MAX || info->slices_per_key == 0)
         return broken(store, report, "group slices", "missing, or units of no length");
     store->units_per_pair = (info->grid.count - 1) / info->slices_per_unit + 1;
-    info->has_planes = store->section[PIR_SECTION_PLANES].group >= 0;
-    info->has_vertices = store->section[PIR_SECTION_VERTICES].group >= 0;
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    info->has_planes = store->section[PIR_UNIT_SECTION_PLANES].group >= 0;
+    info->has_vertices = store->section[PIR_UNIT_SECTION_VERTICES].group >= 0;
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         if (store->section[s].group >= 0 && !open_sets(store, s))
             return broken(store, report, pir_names_of_section[s].group, "a data set is missing, or of another form");
     return PIR_OK;
@@ -210,7 +210,7 @@ static pir_status read_sections(pir_store *store, pir_report *report) {
 /* --- opening --- */
 
 static void close_store(pir_store *store) {
-    for (int s = 0; s < PIR_SECTION_COUNT; s++) {
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++) {
         pir_h5_close(store->section[s].data);
         pir_h5_close(store->section[s].count);
         pir_h5_close(store->section[s].unit);
@@ -257,7 +257,7 @@ pir_status pir_store_open(const char *path, const pir_allocator *allocator, pir_
         return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", path);
     *store = (pir_store){
         .allocator = a, .sealed = PIR_NO_SEALED_FILE, .file = -1, .rotation = -1, .path_size = strlen(path) + 1};
-    for (int s = 0; s < PIR_SECTION_COUNT; s++)
+    for (int s = 0; s < PIR_UNIT_SECTION_COUNT; s++)
         store->section[s] = (struct sets){-1, -1, -1, -1, -1, 0};
     store->path = PIR_NEW(&a, char, store->path_size);
     pir_status status = PIR_ERR_MEMORY;
@@ -305,28 +305,28 @@ pir_status pir_store_rotations(pir_store *store, uint64_t first, size_t count, p
 }
 
 /* The elements of the section's data from `start` on, into the unit. */
-static pir_status read_data(pir_store *store, pir_section s, uint64_t start, uint64_t elements, pir_report *report,
+static pir_status read_data(pir_store *store, pir_unit_section s, uint64_t start, uint64_t elements, pir_report *report,
                             pir_bytes *data) {
     const struct sets *sets = &store->section[s];
     const char *where = pir_names_of_section[s].group;
     if (start > sets->elements || elements > sets->elements - start)
         return broken(store, report, where, "a unit that lies outside of its data set");
     // a data set may say that it is long where nothing is stored
-    uint64_t size = elements * pir_section_element[s];
+    uint64_t size = elements * pir_unit_section_element[s];
     if (size / 1100 > H5Dget_storage_size(sets->data))
         return broken(store, report, where, "a data set of a size that lies");
     data->used = 0;
     if (!pir_bytes_reserve(data, &store->allocator, (size_t)size))
         return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", store->path);
-    const uint64_t from[2] = {start, 0}, count[2] = {elements, pir_section_doubles[s]};
-    pir_h5_type type = pir_section_doubles[s] ? PIR_H5_F64 : PIR_H5_U8;
+    const uint64_t from[2] = {start, 0}, count[2] = {elements, pir_unit_section_doubles[s]};
+    pir_h5_type type = pir_unit_section_doubles[s] ? PIR_H5_F64 : PIR_H5_U8;
     if (elements > 0 && !pir_h5_read(sets->data, type, from, count, data->data))
         return broken(store, report, where, "a unit cannot be read: truncated or corrupted");
     data->used = (size_t)size;
     return PIR_OK;
 }
 
-static pir_status read_unit(pir_store *store, pir_section s, uint64_t number, pir_report *report, pir_unit *unit) {
+static pir_status read_unit(pir_store *store, pir_unit_section s, uint64_t number, pir_report *report, pir_unit *unit) {
     const struct sets *sets = &store->section[s];
     const pir_cspace_info *info = &store->info;
     uint64_t in_pair = number % store->units_per_pair, first = in_pair * info->slices_per_unit, start, check;
@@ -349,7 +349,8 @@ static pir_status read_unit(pir_store *store, pir_section s, uint64_t number, pi
     return status;
 }
 
-pir_status pir_store_unit(pir_store *store, pir_section section, uint64_t number, pir_report *report, pir_unit *unit) {
+pir_status pir_store_unit(pir_store *store, pir_unit_section section, uint64_t number, pir_report *report,
+                          pir_unit *unit) {
     pir_h5_reports reports = pir_h5_quiet();
     pir_status status = read_unit(store, section, number, report, unit);
     pir_h5_loud(reports);

@@ -33,6 +33,7 @@ pir_status pir_store_rotations(pir_store *store, uint64_t first, size_t count, p
  * Reads one section of unit `number`, counted as in a plan; `unit` has room for slices_per_unit. Errors:
  * PIR_ERR_FORMAT, PIR_ERR_FILE, PIR_ERR_MEMORY.
  */
-pir_status pir_store_unit(pir_store *store, pir_section section, uint64_t number, pir_report *report, pir_unit *unit);
+pir_status pir_store_unit(pir_store *store, pir_unit_section section, uint64_t number, pir_report *report,
+                          pir_unit *unit);
 
 #endif

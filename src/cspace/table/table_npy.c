@@ -23,7 +23,7 @@ struct header {
 };
 
 /* Reading the header: what is left of it. */
-struct scan {
+struct header_scan {
     const char *at, *end;
     const pir_table *table;
 };
@@ -37,7 +37,7 @@ static pir_status fail(const pir_table *table, pir_status status, const char *wh
 }
 
 /* Passes blanks, then `c`, when it is there. */
-static bool pass(struct scan *scan, char c) {
+static bool pass(struct header_scan *scan, char c) {
     while (scan->at < scan->end && (*scan->at == ' ' || *scan->at == '\n'))
         scan->at++;
     if (scan->at == scan->end || *scan->at != c)
@@ -47,7 +47,7 @@ static bool pass(struct scan *scan, char c) {
 }
 
 /* Passes a word or a string in quotes when it is `text`. */
-static bool pass_text(struct scan *scan, const char *text) {
+static bool pass_text(struct header_scan *scan, const char *text) {
     while (scan->at < scan->end && *scan->at == ' ')
         scan->at++;
     size_t length = strlen(text);
@@ -57,7 +57,7 @@ static bool pass_text(struct scan *scan, const char *text) {
     return true;
 }
 
-static bool pass_string(struct scan *scan, const char *text) {
+static bool pass_string(struct header_scan *scan, const char *text) {
     char quoted[2][32];
     size_t length = strlen(text);
     for (int k = 0; k < 2; k++) {
@@ -69,7 +69,7 @@ static bool pass_string(struct scan *scan, const char *text) {
 }
 
 /* A count of at most 18 digits. */
-static bool pass_count(struct scan *scan, uint64_t *ret_count) {
+static bool pass_count(struct header_scan *scan, uint64_t *ret_count) {
     while (scan->at < scan->end && *scan->at == ' ')
         scan->at++;
     uint64_t count = 0;
@@ -80,7 +80,7 @@ static bool pass_count(struct scan *scan, uint64_t *ret_count) {
     return digits > 0 && digits < 19;
 }
 
-static pir_status read_type(struct scan *scan, struct header *header) {
+static pir_status read_type(struct header_scan *scan, struct header *header) {
     header->has_type = true;
     header->big = pass_string(scan, ">f8");
     if (!header->big && !pass_string(scan, "<f8"))
@@ -88,14 +88,14 @@ static pir_status read_type(struct scan *scan, struct header *header) {
     return PIR_OK;
 }
 
-static pir_status read_order(struct scan *scan, struct header *header) {
+static pir_status read_order(struct header_scan *scan, struct header *header) {
     header->has_order = true;
     if (!pass_text(scan, "False"))
         return fail(scan->table, PIR_ERR_UNSUPPORTED, "fortran_order is not False, the array is not stored by rows");
     return PIR_OK;
 }
 
-static pir_status read_shape(struct scan *scan, struct header *header) {
+static pir_status read_shape(struct header_scan *scan, struct header *header) {
     header->has_shape = true;
     bool good =
         pass(scan, '(') && pass_count(scan, &header->rows) && pass(scan, ',') && pass_count(scan, &header->columns);
@@ -106,7 +106,7 @@ static pir_status read_shape(struct scan *scan, struct header *header) {
     return PIR_OK;
 }
 
-static pir_status read_header(struct scan *scan, struct header *header) {
+static pir_status read_header(struct header_scan *scan, struct header *header) {
     if (!pass(scan, '{'))
         return fail(scan->table, PIR_ERR_FORMAT, "no dictionary");
     while (!pass(scan, '}')) {
@@ -172,7 +172,7 @@ pir_status pir_table_read_npy(const char *data, size_t size, const pir_allocator
     if (size < from || pir_bytes_unsigned(data + MAGIC_SIZE + 2, width, false) > size - from)
         return fail(table, PIR_ERR_FORMAT, "the file ends in it");
     const size_t length = (size_t)pir_bytes_unsigned(data + MAGIC_SIZE + 2, width, false);
-    struct scan scan = {data + from, data + from + length, table};
+    struct header_scan scan = {data + from, data + from + length, table};
     struct header header = {0};
     pir_status status = read_header(&scan, &header);
     if (status != PIR_OK)

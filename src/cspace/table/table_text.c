@@ -16,7 +16,7 @@
 #define NUMBER_ROOM 1024
 
 /* What is being read: a line without its end. */
-struct line {
+struct text_line {
     const char *at, *end;
     uint32_t number;
     bool commas;
@@ -32,7 +32,7 @@ static bool is_blank(char c) {
 }
 
 /* The next field of the line, blanks around it left out. False at the end. */
-static bool next_field(struct line *line, bool first, struct field *ret_field) {
+static bool next_field(struct text_line *line, bool first, struct field *ret_field) {
     if (!line->commas)
         while (line->at < line->end && is_blank(*line->at))
             line->at++;
@@ -62,7 +62,7 @@ static bool field_number(const struct field *field, double *ret_value) {
 }
 
 /* Whether no field of the line is a number. */
-static bool is_heading(struct line line) {
+static bool is_heading(struct text_line line) {
     struct field field;
     double value;
     for (bool first = true; next_field(&line, first, &field); first = false)
@@ -71,7 +71,7 @@ static bool is_heading(struct line line) {
     return true;
 }
 
-static pir_status fail_line(const pir_table *table, const struct line *line, const char *what) {
+static pir_status fail_line(const pir_table *table, const struct text_line *line, const char *what) {
     return pir_fail(table->report, PIR_ERR_FORMAT, "%s:%u: %s", table->name, line->number, what);
 }
 
@@ -98,7 +98,7 @@ static bool make_room(pir_table *table, const pir_allocator *allocator) {
 }
 
 /* Reads the numbers of a line into the next row. */
-static pir_status read_row(pir_table *table, struct line *line) {
+static pir_status read_row(pir_table *table, struct text_line *line) {
     const uint32_t columns = table->form.columns, row = table->rows;
     double *value = table->value + (size_t)row * columns;
     struct field field;
@@ -124,16 +124,16 @@ static pir_status read_row(pir_table *table, struct line *line) {
 }
 
 /* The line from `at` on, without a comment. */
-static struct line line_at(const char *at, const char *end, uint32_t number) {
+static struct text_line line_at(const char *at, const char *end, uint32_t number) {
     const char *stop = memchr(at, '\n', (size_t)(end - at));
     stop = stop ? stop : end;
     const char *comment = memchr(at, '#', (size_t)(stop - at));
-    struct line line = {at, comment ? comment : stop, number, false};
+    struct text_line line = {at, comment ? comment : stop, number, false};
     line.commas = memchr(at, ',', (size_t)(line.end - at)) != NULL;
     return line;
 }
 
-static bool is_empty(const struct line *line) {
+static bool is_empty(const struct text_line *line) {
     for (const char *c = line->at; c < line->end; c++)
         if (!is_blank(*c))
             return false;
@@ -144,7 +144,7 @@ static pir_status read_lines(const char *data, size_t size, const pir_allocator 
     const char *end = data + size, *at = data;
     bool first = true;
     for (uint32_t number = 1; at < end; number++) {
-        struct line line = line_at(at, end, number);
+        struct text_line line = line_at(at, end, number);
         const char *stop = memchr(at, '\n', (size_t)(end - at));
         at = stop ? stop + 1 : end;
         if (is_empty(&line))

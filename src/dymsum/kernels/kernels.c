@@ -96,18 +96,18 @@ void pir_arcs_measure_sides(const pir_facets *facets, const pir_polytope *p, con
 #include "dymsum/kernels/review_body.h"
 
 /* How far R has turned, by floats. */
-struct turned_now {
+struct turned_scalar {
     float ahead, behind;
     bool either;
 };
 
-static inline bool holds(float ahead, float behind, struct turned_now now) {
+static inline bool holds(float ahead, float behind, struct turned_scalar now) {
     bool forwards = ahead > now.ahead, backwards = behind < now.behind;
     return now.either ? forwards || backwards : forwards && backwards;
 }
 
 /* Collects the certificates of block b. */
-static uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now, uint32_t *expired) {
+static uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_scalar now, uint32_t *expired) {
     uint32_t count = 0;
     float least = HUGE_VALF, greatest = -HUGE_VALF;
     for (uint32_t i = b * PIR_CERTIFICATE_BLOCK; i < (b + 1) * PIR_CERTIFICATE_BLOCK; i++) {
@@ -125,7 +125,7 @@ static uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct
 }
 
 static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
-    const struct turned_now now = {pir_float_above(time.ahead), pir_float_below(time.behind), time.either};
+    const struct turned_scalar now = {pir_float_above(time.ahead), pir_float_below(time.behind), time.either};
     uint32_t count = 0;
     for (uint32_t b = 0; b < blocks; b++)
         if (!holds(certificates->block_ahead[b], certificates->block_behind[b], now))

@@ -30,7 +30,7 @@ TARGET static inline uint32_t list_lanes(uint32_t lanes, __m256i number, uint32_
 #include "dymsum/kernels/kernels_eight_body.h"
 
 TARGET static inline void see_block(const pir_ring *ring, const struct turned *t, const pir_step *step,
-                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above) {
+                                    struct ring_extremes *seen, uint32_t *ret_touched, uint32_t *ret_above) {
     const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
     __m256 x = _mm256_loadu_ps(ring->x), y = _mm256_loadu_ps(ring->y), z = _mm256_loadu_ps(ring->z);
     __m256 s = dot(t->x, t->y, t->z, x, y, z), rate = dot(t->dx, t->dy, t->dz, x, y, z);
@@ -50,20 +50,20 @@ TARGET static inline void see_block(const pir_ring *ring, const struct turned *t
 }
 
 /* How far R has turned, as certificates' keys are compared with it. */
-struct turned_now {
+struct turned_avx2 {
     __m256 ahead, behind;
     bool either;
 };
 
 /* Which of eight certificates or blocks hold. */
-TARGET static inline __m256 holding(__m256 ahead, __m256 behind, struct turned_now now) {
+TARGET static inline __m256 holding(__m256 ahead, __m256 behind, struct turned_avx2 now) {
     __m256 forwards = _mm256_cmp_ps(ahead, now.ahead, _CMP_GT_OQ);
     __m256 backwards = _mm256_cmp_ps(behind, now.behind, _CMP_LT_OQ);
     return now.either ? _mm256_or_ps(forwards, backwards) : _mm256_and_ps(forwards, backwards);
 }
 
 /* Collects the certificates of block b. */
-TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
+TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_avx2 now,
                                             uint32_t *expired) {
     const __m256 most = _mm256_set1_ps(HUGE_VALF), fewest = _mm256_set1_ps(-HUGE_VALF);
     __m256 least = most, greatest = fewest;
@@ -82,7 +82,7 @@ TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint
 }
 
 TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_certificates *certificates, uint32_t blocks,
-                                                                        struct turned_now now) {
+                                                                        struct turned_avx2 now) {
     uint32_t count = 0;
     // eight blocks at a time; those past the last in use always hold
     for (uint32_t b = 0; b < blocks; b += 8) {
@@ -99,8 +99,8 @@ TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_cert
 /* A loop for each of the two kinds of epoch. */
 TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
     __m256 ahead = _mm256_set1_ps(pir_float_above(time.ahead)), behind = _mm256_set1_ps(pir_float_below(time.behind));
-    return time.either ? collect_at(certificates, blocks, (struct turned_now){ahead, behind, true})
-                       : collect_at(certificates, blocks, (struct turned_now){ahead, behind, false});
+    return time.either ? collect_at(certificates, blocks, (struct turned_avx2){ahead, behind, true})
+                       : collect_at(certificates, blocks, (struct turned_avx2){ahead, behind, false});
 }
 
 const pir_kernels pir_kernels_avx2 = {"avx2",        review,  probe,     descend,     find_starts, find_sides,

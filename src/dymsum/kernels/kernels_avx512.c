@@ -28,7 +28,7 @@ TARGET static inline uint32_t list_lanes(uint32_t lanes, __m256i number, uint32_
 #include "dymsum/kernels/kernels_eight_body.h"
 
 TARGET static inline void see_block(const pir_ring *ring, const struct turned *t, const pir_step *step,
-                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above) {
+                                    struct ring_extremes *seen, uint32_t *ret_touched, uint32_t *ret_above) {
     const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
     __m256 x = _mm256_loadu_ps(ring->x), y = _mm256_loadu_ps(ring->y), z = _mm256_loadu_ps(ring->z);
     __m256 s = dot(t->x, t->y, t->z, x, y, z), rate = dot(t->dx, t->dy, t->dz, x, y, z);
@@ -48,13 +48,13 @@ TARGET static inline void see_block(const pir_ring *ring, const struct turned *t
 }
 
 /* How far R has turned, as certificates' keys are compared with it. */
-struct turned_now {
+struct turned_avx512 {
     __m256 ahead, behind;
     bool either;
 };
 
 /* Which of eight certificates or blocks hold. */
-TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct turned_now now) {
+TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct turned_avx512 now) {
     __mmask8 forwards = _mm256_cmp_ps_mask(ahead, now.ahead, _CMP_GT_OQ);
     if (now.either)
         return forwards | _mm256_cmp_ps_mask(behind, now.behind, _CMP_LT_OQ);
@@ -62,7 +62,7 @@ TARGET static inline __mmask8 holding(__m256 ahead, __m256 behind, struct turned
 }
 
 /* Collects the certificates of block b. */
-TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
+TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_avx512 now,
                                             uint32_t *expired) {
     const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     __m256 least = _mm256_set1_ps(HUGE_VALF), greatest = _mm256_set1_ps(-HUGE_VALF);
@@ -87,7 +87,7 @@ TARGET static inline uint32_t collect_block(pir_certificates *certificates, uint
 }
 
 TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_certificates *certificates, uint32_t blocks,
-                                                                        struct turned_now now) {
+                                                                        struct turned_avx512 now) {
     uint32_t count = 0;
     // eight blocks at a time; those past the last in use always hold
     for (uint32_t b = 0; b < blocks; b += 8) {
@@ -104,8 +104,8 @@ TARGET static inline __attribute__((always_inline)) uint32_t collect_at(pir_cert
 /* A loop for each of the two kinds of epoch. */
 TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
     __m256 ahead = _mm256_set1_ps(pir_float_above(time.ahead)), behind = _mm256_set1_ps(pir_float_below(time.behind));
-    return time.either ? collect_at(certificates, blocks, (struct turned_now){ahead, behind, true})
-                       : collect_at(certificates, blocks, (struct turned_now){ahead, behind, false});
+    return time.either ? collect_at(certificates, blocks, (struct turned_avx512){ahead, behind, true})
+                       : collect_at(certificates, blocks, (struct turned_avx512){ahead, behind, false});
 }
 
 const pir_kernels pir_kernels_avx512 = {"avx512",      review,  probe,     descend,     find_starts, find_sides,

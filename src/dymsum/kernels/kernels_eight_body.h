@@ -41,13 +41,13 @@ TARGET static inline struct turned spread(const float turned[8]) {
 }
 
 /* Running extremes over the blocks, lane by lane. */
-struct seen {
+struct ring_extremes {
     __m256 highest, least, ahead, behind;
 };
 
 /* Checks one block; gives the masks of its sides that were touched, and that the facet is past. */
 TARGET static inline void see_block(const pir_ring *ring, const struct turned *t, const pir_step *step,
-                                    struct seen *seen, uint32_t *ret_touched, uint32_t *ret_above);
+                                    struct ring_extremes *seen, uint32_t *ret_touched, uint32_t *ret_above);
 
 /*
  * Checks a facet in the cell whose ring fills `blocks` blocks, most often one. Returns the greatest values of s, lane
@@ -56,8 +56,8 @@ TARGET static inline void see_block(const pir_ring *ring, const struct turned *t
 TARGET static inline __m256 check(const pir_ring *ring, uint32_t blocks, const pir_step *step, const float turned[8],
                                   pir_check *ret_check) {
     const struct turned t = spread(turned);
-    struct seen seen = {_mm256_set1_ps(-HUGE_VALF), _mm256_set1_ps(4), _mm256_set1_ps(PIR_FARTHEST_PREDICTION),
-                        _mm256_set1_ps(PIR_FARTHEST_PREDICTION)};
+    struct ring_extremes seen = {_mm256_set1_ps(-HUGE_VALF), _mm256_set1_ps(4), _mm256_set1_ps(PIR_FARTHEST_PREDICTION),
+                                 _mm256_set1_ps(PIR_FARTHEST_PREDICTION)};
     uint64_t touched = 0, above = 0;
     for (uint32_t b = 0; b < blocks; b++) {
         uint32_t touched_here, above_here;

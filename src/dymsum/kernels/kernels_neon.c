@@ -115,19 +115,19 @@ static inline float steepest(const pir_ring *ring, uint32_t blocks, const float 
 #include "dymsum/kernels/review_body.h"
 
 /* How far R has turned, as certificates' keys are compared with it; either: all bits or none. */
-struct turned_now {
+struct turned_neon {
     float32x4_t ahead, behind;
     uint32x4_t either;
 };
 
 /* Which of four certificates or blocks hold. */
-static inline uint32x4_t holding(float32x4_t ahead, float32x4_t behind, struct turned_now now) {
+static inline uint32x4_t holding(float32x4_t ahead, float32x4_t behind, struct turned_neon now) {
     uint32x4_t forwards = vcgtq_f32(ahead, now.ahead), backwards = vcltq_f32(behind, now.behind);
     return vorrq_u32(vandq_u32(forwards, backwards), vandq_u32(vorrq_u32(forwards, backwards), now.either));
 }
 
 /* Collects the certificates of block b. */
-static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_now now,
+static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b, struct turned_neon now,
                                      uint32_t *expired) {
     const float32x4_t most = vdupq_n_f32(HUGE_VALF), fewest = vdupq_n_f32(-HUGE_VALF);
     float32x4_t least = most, greatest = fewest;
@@ -150,8 +150,8 @@ static inline uint32_t collect_block(pir_certificates *certificates, uint32_t b,
 }
 
 static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_turned_angle time) {
-    const struct turned_now now = {vdupq_n_f32(pir_float_above(time.ahead)), vdupq_n_f32(pir_float_below(time.behind)),
-                                   vdupq_n_u32(time.either ? UINT32_MAX : 0)};
+    const struct turned_neon now = {vdupq_n_f32(pir_float_above(time.ahead)), vdupq_n_f32(pir_float_below(time.behind)),
+                                    vdupq_n_u32(time.either ? UINT32_MAX : 0)};
     uint32_t count = 0;
     // four blocks at a time; those past the last in use always hold
     for (uint32_t b = 0; b < blocks; b += 4) {

@@ -39,12 +39,12 @@ static bool is_tie(const pir_posed *posed, double value, const pir_int3 *a, cons
 }
 
 /* The facets at the ends of a crossing's arcs. */
-struct ends {
+struct crossing_ends {
     uint32_t p[2], q[2];
 };
 
 /* Whether the crossing is known to be part of a merged facet, or to have no area, from the notes so far. */
-static bool is_known(const pir_sum_pieces *pieces, const pir_posed *posed, const struct ends *ends) {
+static bool is_known(const pir_sum_pieces *pieces, const pir_posed *posed, const struct crossing_ends *ends) {
     bool half_circles = posed->pairing->p->dimension < 3 && posed->pairing->q->dimension < 3;
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++)
@@ -57,7 +57,7 @@ static bool is_known(const pir_sum_pieces *pieces, const pir_posed *posed, const
  * The facet of P that the crossing coincides with, or PIR_NO_FACE. The hidden facets of a segment have no area and do
  * not count.
  */
-static uint32_t coinciding_p(const pir_posed *posed, const pir_edge_pair *pair, const struct ends *ends,
+static uint32_t coinciding_p(const pir_posed *posed, const pir_edge_pair *pair, const struct crossing_ends *ends,
                              const bool tie[2]) {
     for (int i = 0; i < 2 && !posed->pairing->p->artificial; i++)
         if (tie[i] &&
@@ -66,7 +66,7 @@ static uint32_t coinciding_p(const pir_posed *posed, const pir_edge_pair *pair, 
     return PIR_NO_FACE;
 }
 
-static uint32_t coinciding_q(const pir_posed *posed, const pir_edge_pair *pair, const struct ends *ends,
+static uint32_t coinciding_q(const pir_posed *posed, const pir_edge_pair *pair, const struct crossing_ends *ends,
                              const bool tie[2]) {
     for (int i = 0; i < 2 && !posed->pairing->q->artificial; i++)
         if (tie[i] && (posed->pairing->q->dimension == 3 ||
@@ -78,8 +78,8 @@ static uint32_t coinciding_q(const pir_posed *posed, const pir_edge_pair *pair, 
 /* Whether a crossing is a facet alone. Where it is not, it is noted with the facets that it coincides with. */
 static bool check_crossing(pir_sum_pieces *pieces, const pir_posed *posed, const pir_edge_pair *pair) {
     const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
-    const struct ends ends = {{p->left[pair->half], pir_right(p, pair->half)},
-                              {q->left[pair->h], pir_right(q, pair->h)}};
+    const struct crossing_ends ends = {{p->left[pair->half], pir_right(p, pair->half)},
+                                       {q->left[pair->h], pir_right(q, pair->h)}};
     if (is_known(pieces, posed, &ends))
         return false;
     pir_int3 e = pir_half_exact(p, pair->half), d = pir_half_exact(q, pair->h);

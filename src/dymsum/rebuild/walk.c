@@ -21,15 +21,15 @@
 #define MANY_SIDES 12
 
 /* An arc of P: its halfedge, and that rotated. */
-struct arc {
+struct turned_arc {
     uint32_t half;
     float x, y, z;
 };
 
-static inline struct arc arc_of_edge(const pir_tracked *tracked, uint32_t e) {
+static inline struct turned_arc arc_of_edge(const pir_tracked *tracked, uint32_t e) {
     const pir_edge_arc *d = &tracked->pairing.p->edge_arc[e];
     const float(*turn)[8] = tracked->p_facets.turn;
-    struct arc arc = {.half = d->half};
+    struct turned_arc arc = {.half = d->half};
     arc.x = turn[0][0] * d->x + turn[1][0] * d->y + turn[2][0] * d->z;
     arc.y = turn[0][1] * d->x + turn[1][1] * d->y + turn[2][1] * d->z;
     arc.z = turn[0][2] * d->x + turn[1][2] * d->y + turn[2][2] * d->z;
@@ -37,7 +37,7 @@ static inline struct arc arc_of_edge(const pir_tracked *tracked, uint32_t e) {
 }
 
 /* The sign of the arc and a facet of Q: by floats, and where those are not certain as every other. */
-static inline int corner_sign(pir_tracked *tracked, const struct arc *arc, uint32_t corner_half) {
+static inline int corner_sign(pir_tracked *tracked, const struct turned_arc *arc, uint32_t corner_half) {
     uint32_t g = tracked->pairing.q->left[corner_half];
     const float *n = tracked->pairing.q->normal4 + (size_t)4 * g;
     float s = arc->x * n[0] + arc->y * n[1] + arc->z * n[2];
@@ -50,7 +50,7 @@ static inline int corner_sign(pir_tracked *tracked, const struct arc *arc, uint3
 }
 
 /* As pir_leave_cell, with `by` the halfedge of v by which the arc came, or PIR_NO_SIDE. */
-static uint32_t leave_cell(pir_tracked *tracked, const struct arc *arc, uint32_t v, uint32_t by) {
+static uint32_t leave_cell(pir_tracked *tracked, const struct turned_arc *arc, uint32_t v, uint32_t by) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t start = q->ring_start[v], n = q->ring_start[v + 1] - start;
     if (by == PIR_NO_SIDE) {
@@ -82,7 +82,7 @@ static uint32_t leave_cell(pir_tracked *tracked, const struct arc *arc, uint32_t
 }
 
 uint32_t pir_leave_cell(pir_tracked *tracked, uint32_t h, pir_vec3 direction, uint32_t v, uint32_t entered) {
-    const struct arc arc = {h, (float)direction.x, (float)direction.y, (float)direction.z};
+    const struct turned_arc arc = {h, (float)direction.x, (float)direction.y, (float)direction.z};
     return leave_cell(tracked, &arc, v, entered == PIR_NO_CROSSING ? PIR_NO_SIDE : tracked->pairing.q->twin[entered]);
 }
 
@@ -198,7 +198,7 @@ static void leave_first_cells(pir_tracked *tracked, struct chunk *chunk) {
     const pir_polytope *q = tracked->pairing.q;
     for (uint32_t i = 0; i < chunk->led; i++) {
         uint32_t k = chunk->arc[i];
-        const struct arc arc = arc_of_edge(tracked, chunk->arcs.edge[k]);
+        const struct turned_arc arc = arc_of_edge(tracked, chunk->arcs.edge[k]);
         uint32_t side = leave_cell(tracked, &arc, chunk->arcs.from[k], PIR_NO_SIDE);
         uint32_t start = q->ring_start[q->target[side]];
         chunk->side[i] = side;
@@ -260,7 +260,7 @@ static inline __attribute__((always_inline)) bool walk_arc(pir_tracked *tracked,
                                                            pir_walked *walked) {
     const pir_polytope *q = tracked->pairing.q;
     uint32_t v = arcs->from[k], by = PIR_NO_SIDE, last = PIR_NO_CROSSING;
-    const struct arc arc = arc_of_edge(tracked, arcs->edge[k]);
+    const struct turned_arc arc = arc_of_edge(tracked, arcs->edge[k]);
     while (v != arcs->to[k]) {
         if (!many || by != PIR_NO_SIDE || side == PIR_NO_SIDE)
             side = leave_cell(tracked, &arc, v, by);

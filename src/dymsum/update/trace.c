@@ -26,7 +26,7 @@
 #include "dymsum/pairing/predicates.h"
 
 /* The last step, as facets of one operand have it. */
-struct step {
+struct trace_step {
     const pir_facets *facets;
     const pir_polytope *own, *other;
     bool of_p;
@@ -34,8 +34,8 @@ struct step {
     double error;  /* E */
 };
 
-struct tracer {
-    const struct step *step;
+struct facet_tracer {
+    const struct trace_step *step;
     uint32_t facet;
     pir_vec3 turned, motion; /* the normal rotated to the other operand's frame, and its motion about the axis */
     float packed[8];         /* the two, as kernels take them */
@@ -87,7 +87,8 @@ struct sides {
  * Compares `count` sides from halfedge h on, at most SIDES. Returns a bit for each that may have been touched in the
  * step or that the facet is past; which ones these are is not foreseen, so that nothing branches here.
  */
-static inline uint32_t compare_sides(const struct tracer *tracer, uint32_t h, uint32_t count, struct sides *ret_sides) {
+static inline uint32_t compare_sides(const struct facet_tracer *tracer, uint32_t h, uint32_t count,
+                                     struct sides *ret_sides) {
     const double stride = fabs(tracer->step->stride), farthest = 0.5 * stride * stride + 2 * tracer->step->error;
     const pir_vec3 *direction = tracer->step->other->direction + h;
     uint32_t concerned = 0;
@@ -101,7 +102,7 @@ static inline uint32_t compare_sides(const struct tracer *tracer, uint32_t h, ui
 }
 
 /* Adds a side that is concerned to the exit. */
-static inline void see_side(const struct tracer *tracer, uint32_t h, double s, double rate, struct exit *exit) {
+static inline void see_side(const struct facet_tracer *tracer, uint32_t h, double s, double rate, struct exit *exit) {
     const double stride = fabs(tracer->step->stride), error = tracer->step->error, size = fabs(s), speed = fabs(rate);
     const double rising = tracer->step->stride < 0 ? -rate : rate;
     bool reached = size <= speed * stride + (0.5 * stride * stride + 2 * error);
@@ -111,7 +112,7 @@ static inline void see_side(const struct tracer *tracer, uint32_t h, double s, d
 }
 
 /* Finds the side through which the facet has left the cell of v. */
-static struct exit find_exit(const struct tracer *tracer, uint32_t v) {
+static struct exit find_exit(const struct facet_tracer *tracer, uint32_t v) {
     const uint32_t end = tracer->step->other->ring_start[v + 1];
     struct exit exit = {.known = true};
     for (uint32_t h = tracer->step->other->ring_start[v]; h < end && exit.known; h += SIDES) {
@@ -126,8 +127,8 @@ static struct exit find_exit(const struct tracer *tracer, uint32_t v) {
 }
 
 /* Follows a facet by doubles. */
-static void follow_by_doubles(struct tracer *tracer) {
-    const struct step *step = tracer->step;
+static void follow_by_doubles(struct facet_tracer *tracer) {
+    const struct trace_step *step = tracer->step;
     pir_trace *trace = tracer->trace;
     trace->count = trace->signs = 0;
     trace->cell = trace->from;
@@ -152,7 +153,8 @@ static void follow_by_doubles(struct tracer *tracer) {
 #define SLACK ((double)PIR_FLOAT_BOUND)
 
 /* Returns a bit for each of the directions of a block that floats are not certain to be left as it is. */
-static inline uint32_t compare_block(const struct tracer *tracer, const pir_ring *ring, float *ret_s, float *ret_rate) {
+static inline uint32_t compare_block(const struct facet_tracer *tracer, const pir_ring *ring, float *ret_s,
+                                     float *ret_rate) {
     const float *u = tracer->packed, stride = (float)fabs(tracer->step->stride);
     const float farthest = (float)(0.5 * (double)stride * (double)stride + 2 * tracer->step->error + 2 * SLACK);
     uint32_t concerned = 0;
@@ -166,7 +168,7 @@ static inline uint32_t compare_block(const struct tracer *tracer, const pir_ring
 }
 
 /* As see_side, where that is certain of all values within the slack. */
-static inline void see_side_by_floats(const struct tracer *tracer, uint32_t h, double s, double rate,
+static inline void see_side_by_floats(const struct facet_tracer *tracer, uint32_t h, double s, double rate,
                                       struct exit *exit) {
     const double stride = fabs(tracer->step->stride), error = tracer->step->error;
     const double size = fabs(s) - SLACK, speed = fabs(rate) - SLACK, rising = tracer->step->stride < 0 ? -rate : rate;
@@ -177,7 +179,7 @@ static inline void see_side_by_floats(const struct tracer *tracer, uint32_t h, d
 }
 
 /* The exit from the cell, which has so many sides. Its halfedge is counted from the first of the ring. */
-static struct exit find_exit_by_floats(const struct tracer *tracer, uint32_t cell, uint32_t sides) {
+static struct exit find_exit_by_floats(const struct facet_tracer *tracer, uint32_t cell, uint32_t sides) {
     const pir_ring *ring = pir_ring_of(tracer->step->facets, cell);
     struct exit exit = {.known = true};
     for (uint32_t h = 0; h < sides && exit.known; h += PIR_LANES, ring++) {
@@ -192,7 +194,7 @@ static struct exit find_exit_by_floats(const struct tracer *tracer, uint32_t cel
 }
 
 /* Follows a facet through one cell. False where its trace is at an end, or is to be made by doubles. */
-static bool follow_on(const struct tracer *tracer, bool *ret_sure) {
+static bool follow_on(const struct facet_tracer *tracer, bool *ret_sure) {
     const pir_facets *facets = tracer->step->facets;
     pir_trace *trace = tracer->trace;
     uint32_t start = facets->ring_start[trace->cell], sides = facets->ring_start[trace->cell + 1] - start;
@@ -217,21 +219,21 @@ static bool follow_on(const struct tracer *tracer, bool *ret_sure) {
 #define AT_A_TIME 32
 
 /* Turns a facet to where it is now. */
-static void turn_tracer(const pir_tracked *tracked, const struct step *step, uint32_t facet, pir_trace *trace,
-                        struct tracer *ret_tracer) {
+static void turn_tracer(const pir_tracked *tracked, const struct trace_step *step, uint32_t facet, pir_trace *trace,
+                        struct facet_tracer *ret_tracer) {
     pir_vec3 turned =
         step->of_p ? pir_rotated_normal(&tracked->pairing, facet) : pir_turned_back_normal(&tracked->pairing, facet);
     *ret_tracer =
-        (struct tracer){.step = step,
-                        .facet = facet,
-                        .turned = turned,
-                        .motion = step->of_p ? pir_motion_of(tracked, turned) : pir_motion_back(tracked, turned),
-                        .trace = trace};
+        (struct facet_tracer){.step = step,
+                              .facet = facet,
+                              .turned = turned,
+                              .motion = step->of_p ? pir_motion_of(tracked, turned) : pir_motion_back(tracked, turned),
+                              .trace = trace};
     pir_pack_turned(ret_tracer->turned, ret_tracer->motion, ret_tracer->packed);
 }
 
 /* Certifies a facet in the cell at the end of its trace. */
-static void certify(pir_tracked *tracked, const struct tracer *tracer) {
+static void certify(pir_tracked *tracked, const struct facet_tracer *tracer) {
     const pir_facets *facets = tracer->step->facets;
     pir_cell_probe seen;
     tracked->kernels->probe(facets, &tracked->step, tracer->trace->cell, tracer->packed, &seen);
@@ -240,14 +242,14 @@ static void certify(pir_tracked *tracked, const struct tracer *tracer) {
     pir_tracked_certify(tracked, facets->first_certificate + tracer->facet, &expiry);
 }
 
-static void follow(pir_tracked *tracked, struct tracer *tracer, uint32_t count) {
+static void follow(pir_tracked *tracked, struct facet_tracer *tracer, uint32_t count) {
     uint32_t going[AT_A_TIME];
     for (uint32_t i = 0; i < count; i++)
         going[i] = i;
     for (uint32_t left = count; left > 0;) {
         uint32_t on = 0;
         for (uint32_t k = 0; k < left; k++) {
-            struct tracer *t = &tracer[going[k]];
+            struct facet_tracer *t = &tracer[going[k]];
             bool sure;
             if (follow_on(t, &sure)) {
                 going[on++] = going[k];
@@ -263,19 +265,19 @@ static void follow(pir_tracked *tracked, struct tracer *tracer, uint32_t count) 
 }
 
 /* The last step as facets of P or of Q have it. */
-static struct step step_of(const pir_tracked *tracked, bool of_p) {
+static struct trace_step step_of(const pir_tracked *tracked, bool of_p) {
     const pir_epoch *epoch = &tracked->epoch;
     const pir_polytope *p = tracked->pairing.p, *q = tracked->pairing.q;
-    return (struct step){of_p ? &tracked->p_facets : &tracked->q_facets,
-                         of_p ? p : q,
-                         of_p ? q : p,
-                         of_p,
-                         epoch->stride * (1 + 0x1p-20),
-                         (PIR_SIGN_BOUND + 2 * epoch->drift) * (1 + 0x1p-20)};
+    return (struct trace_step){of_p ? &tracked->p_facets : &tracked->q_facets,
+                               of_p ? p : q,
+                               of_p ? q : p,
+                               of_p,
+                               epoch->stride * (1 + 0x1p-20),
+                               (PIR_SIGN_BOUND + 2 * epoch->drift) * (1 + 0x1p-20)};
 }
 
 /* Begins the trace of a facet. */
-static bool begin_trace(const struct step *step, uint32_t facet, pir_trace *trace) {
+static bool begin_trace(const struct trace_step *step, uint32_t facet, pir_trace *trace) {
     const bool followed = fabs(step->stride) <= PIR_FOLLOWED_FARTHEST;
     trace->from = trace->cell = step->facets->cell[facet];
     trace->count = followed ? 0 : PIR_TRACE_UNKNOWN;
@@ -286,8 +288,8 @@ static bool begin_trace(const struct step *step, uint32_t facet, pir_trace *trac
 /* Follows `count` facets, at most AT_A_TIME. */
 static void trace_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, uint32_t count,
                          pir_trace *ret_traces) {
-    const struct step step = step_of(tracked, of_p);
-    struct tracer tracer[AT_A_TIME];
+    const struct trace_step step = step_of(tracked, of_p);
+    struct facet_tracer tracer[AT_A_TIME];
     bool followed = true;
     for (uint32_t i = 0; i < count; i++) {
         followed &= begin_trace(&step, facet[i], &ret_traces[i]);
@@ -317,8 +319,8 @@ uint32_t pir_trace_open(pir_tracked *tracked, bool of_p, const pir_suspect *susp
 }
 
 void pir_trace_one(pir_tracked *tracked, bool of_p, uint32_t facet, pir_trace *ret_trace) {
-    const struct step step = step_of(tracked, of_p);
-    struct tracer tracer;
+    const struct trace_step step = step_of(tracked, of_p);
+    struct facet_tracer tracer;
     if (!begin_trace(&step, facet, ret_trace))
         return;
     turn_tracer(tracked, &step, facet, ret_trace, &tracer);

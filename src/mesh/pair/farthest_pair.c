@@ -6,16 +6,16 @@
  */
 #include "mesh/pair/pair_descent.h"
 
-#define STACK (3 * 2 * PIR_MESH_DEPTH + PIR_LANES)
+#define STACK (3 * 2 * PIR_MESH_DEPTH + PIR_NODE_LANES)
 
-struct farthest {
+struct farthest_search {
     pir_trimesh_pair *pair;
     uint32_t p, q; /* the best triangles, PIR_TRIANGLE_NONE for none yet */
     uint32_t vertex_p, vertex_q;
     double low, high; /* of their distance */
 };
 
-struct task {
+struct farthest_task {
     pir_mesh_item p, q;
     double most;
 };
@@ -23,7 +23,7 @@ struct task {
 /* --- vertices --- */
 
 /* The sign of the distance of two vertices less that of the best two, exactly. */
-static int exact_order(struct farthest *f, uint32_t vp, uint32_t vq) {
+static int exact_order(struct farthest_search *f, uint32_t vp, uint32_t vq) {
     pir_mesh_frame *frame = &f->pair->frame;
     const uint32_t used = frame->limbs.used, p[2] = {vp, f->vertex_p}, q[2] = {vq, f->vertex_q};
     pir_int square[2];
@@ -38,7 +38,7 @@ static int exact_order(struct farthest *f, uint32_t vp, uint32_t vq) {
     return order;
 }
 
-static void consider(struct farthest *f, uint32_t p, uint32_t vp, uint32_t q, uint32_t vq, double distance) {
+static void consider(struct farthest_search *f, uint32_t p, uint32_t vp, uint32_t q, uint32_t vq, double distance) {
     double error = 4 * f->pair->frame.error;
     bool lower = p < f->p || (p == f->p && q < f->q);
     if (f->p != PIR_TRIANGLE_NONE && distance + error < f->low)
@@ -62,7 +62,7 @@ static double length_of(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
-static void look(struct farthest *f, uint32_t p, uint32_t q) {
+static void look(struct farthest_search *f, uint32_t p, uint32_t q) {
     f->pair->counts.triangles++;
     pir_corners a = pir_frame_corners(&f->pair->frame, 0, p), b = pir_frame_corners(&f->pair->frame, 1, q);
     for (int i = 0; i < 3; i++)
@@ -70,7 +70,7 @@ static void look(struct farthest *f, uint32_t p, uint32_t q) {
             consider(f, p, a.id[i], q, b.id[j], length_of(pir_vec_sub(a.p[i], b.p[j])));
 }
 
-static void look_at_leaves(struct farthest *f, uint32_t leaf_p, uint32_t leaf_q) {
+static void look_at_leaves(struct farthest_search *f, uint32_t leaf_p, uint32_t leaf_q) {
     const pir_mesh_tree *p = &f->pair->mesh[0]->tree, *q = &f->pair->mesh[1]->tree;
     for (uint32_t i = 0; i < pir_mesh_leaf_count(leaf_p); i++)
         for (uint32_t j = 0; j < pir_mesh_leaf_count(leaf_q); j++)
@@ -79,17 +79,17 @@ static void look_at_leaves(struct farthest *f, uint32_t leaf_p, uint32_t leaf_q)
 
 /* --- nodes --- */
 
-static pir_vec3 middle_of(const pir_lanes *l, int i) {
+static pir_vec3 middle_of(const pir_node_lanes *l, int i) {
     return (pir_vec3){(double)l->middle[0][i], (double)l->middle[1][i], (double)l->middle[2][i]};
 }
 
 /* How far w leads in a box from its middle. */
-static double half_along(const pir_lanes *l, int i, pir_vec3 w) {
+static double half_along(const pir_node_lanes *l, int i, pir_vec3 w) {
     return fabs(w.x) * (double)l->half[0][i] + fabs(w.y) * (double)l->half[1][i] + fabs(w.z) * (double)l->half[2][i];
 }
 
 /* At least the distance of any two points of two items. */
-static double most_of(const pir_trimesh_pair *pair, const pir_lanes *p, int i, const pir_lanes *q, int j) {
+static double most_of(const pir_trimesh_pair *pair, const pir_node_lanes *p, int i, const pir_node_lanes *q, int j) {
     pir_vec3 between = pir_vec_sub(pir_mesh_frame_apply(&pair->frame, middle_of(p, i)), middle_of(q, j));
     double radii = sqrt((double)pir_lane_size(p, i)) + sqrt((double)pir_lane_size(q, j));
     double along = half_along(p, i, pir_mat_apply_transposed(&pair->frame.r, between)) + half_along(q, j, between);
@@ -98,15 +98,16 @@ static double most_of(const pir_trimesh_pair *pair, const pir_lanes *p, int i, c
     return most * (1 + 0x1p-20) + (double)pair->floats.error;
 }
 
-static struct task task_of(const pir_trimesh_pair *pair, pir_mesh_item p, pir_mesh_item q) {
-    pir_lanes a, b;
+static struct farthest_task task_of(const pir_trimesh_pair *pair, pir_mesh_item p, pir_mesh_item q) {
+    pir_node_lanes a, b;
     pir_lane_set(&a, 0, pair->mesh[0], p);
     pir_lane_set(&b, 0, pair->mesh[1], q);
-    return (struct task){p, q, most_of(pair, &a, 0, &b, 0)};
+    return (struct farthest_task){p, q, most_of(pair, &a, 0, &b, 0)};
 }
 
 /* Pushes a pair of items before those that are nearer, so that the farthest is popped first. */
-static uint32_t push(struct farthest *f, struct task *stack, uint32_t first, uint32_t used, struct task task) {
+static uint32_t push(struct farthest_search *f, struct farthest_task *stack, uint32_t first, uint32_t used,
+                     struct farthest_task task) {
     f->pair->counts.bounds++;
     if (f->p != PIR_TRIANGLE_NONE && task.most < f->low)
         return used;
@@ -117,10 +118,11 @@ static uint32_t push(struct farthest *f, struct task *stack, uint32_t first, uin
     return used + 1;
 }
 
-static uint32_t divide(struct farthest *f, struct task *stack, uint32_t used, const struct task *task) {
+static uint32_t divide(struct farthest_search *f, struct farthest_task *stack, uint32_t used,
+                       const struct farthest_task *task) {
     const pir_trimesh_pair *pair = f->pair;
     uint32_t child[2] = {pir_item_child(pair->mesh[0], task->p), pir_item_child(pair->mesh[1], task->q)};
-    pir_lanes p, q;
+    pir_node_lanes p, q;
     pir_lane_set(&p, 0, pair->mesh[0], task->p);
     pir_lane_set(&q, 0, pair->mesh[1], task->q);
     bool of_q =
@@ -133,11 +135,11 @@ static uint32_t divide(struct farthest *f, struct task *stack, uint32_t used, co
     return used;
 }
 
-static void descend(struct farthest *f, pir_mesh_item p, pir_mesh_item q) {
-    struct task stack[STACK];
+static void descend(struct farthest_search *f, pir_mesh_item p, pir_mesh_item q) {
+    struct farthest_task stack[STACK];
     uint32_t used = push(f, stack, 0, 0, task_of(f->pair, p, q));
     while (used > 0) {
-        struct task task = stack[--used];
+        struct farthest_task task = stack[--used];
         if (f->p != PIR_TRIANGLE_NONE && task.most < f->low)
             continue;
         uint32_t leaf_p = pir_item_child(f->pair->mesh[0], task.p), leaf_q = pir_item_child(f->pair->mesh[1], task.q);
@@ -158,7 +160,7 @@ pir_status pir_trimesh_pair_farthest(pir_trimesh_pair *pair, pir_pose pose_p, pi
     pir_status status = pair && ret_distance ? pir_trimesh_pair_place(pair, pose_p, pose_q, 0) : PIR_ERR_ARGUMENT;
     if (status != PIR_OK)
         return status;
-    struct farthest f = {.pair = pair, .p = PIR_TRIANGLE_NONE, .q = PIR_TRIANGLE_NONE};
+    struct farthest_search f = {.pair = pair, .p = PIR_TRIANGLE_NONE, .q = PIR_TRIANGLE_NONE};
     if (pair->farthest_p != PIR_TRIANGLE_NONE)
         look(&f, pair->farthest_p, pair->farthest_q);
     for (uint32_t i = 0; i < pair->mesh[0]->tree.node[0].count; i++)

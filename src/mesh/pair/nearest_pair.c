@@ -13,15 +13,15 @@
 #define FEW 512
 
 /* Pairs of items to be looked at: three more for each of at most 2 · PIR_MESH_DEPTH levels. */
-#define STACK (3 * 2 * PIR_MESH_DEPTH + PIR_LANES * PIR_LANES)
+#define STACK (3 * 2 * PIR_MESH_DEPTH + PIR_NODE_LANES * PIR_NODE_LANES)
 
-struct task {
+struct nearest_task {
     pir_front_entry entry;
     float bound;
 };
 
-struct tasks {
-    struct task task[STACK];
+struct nearest_tasks {
+    struct nearest_task task[STACK];
     uint32_t used;
 };
 
@@ -40,7 +40,7 @@ static bool are_leaves(const pir_trimesh_pair *pair, const pir_front_entry *entr
 /* --- leaves --- */
 
 /* Notes what the direction of an entry proves: that its items are apart by `gap` along it. */
-static void note(const pir_trimesh_pair *pair, pir_front_entry *entry, const pir_lanes *p, int lane, float gap) {
+static void note(const pir_trimesh_pair *pair, pir_front_entry *entry, const pir_node_lanes *p, int lane, float gap) {
     const pir_float_frame *f = &pair->floats;
     entry->taken = -gap;
     entry->radius = sqrtf(pir_lane_size(p, lane)) * (1 + 0x1p-20f);
@@ -52,12 +52,12 @@ static void note(const pir_trimesh_pair *pair, pir_front_entry *entry, const pir
                                        f->r[k][2] * entry->middle[2] + f->t[k]);
 }
 
-static bool keep(pir_trimesh_pair *pair, const pir_front_entry *entry, const pir_lanes *p, int lane, float bound) {
+static bool keep(pir_trimesh_pair *pair, const pir_front_entry *entry, const pir_node_lanes *p, int lane, float bound) {
     return pir_mesh_front_add(&pair->front, &pair->allocator, entry, pir_lane_reach(&pair->floats, p, lane), bound);
 }
 
 /* Looks at the triangles of two leaves; the lower bound that they leave, and in the entry its direction. */
-static float look_at_triangles(pir_trimesh_pair *pair, pir_front_entry *entry, const pir_lanes *p) {
+static float look_at_triangles(pir_trimesh_pair *pair, pir_front_entry *entry, const pir_node_lanes *p) {
     const uint32_t leaf[2] = {child_of(pair, 0, entry->p), child_of(pair, 1, entry->q)};
     pir_vec3 n = {(double)entry->n[0], (double)entry->n[1], (double)entry->n[2]};
     double gap, low = pir_leaf_pair_consider(&pair->best, &pair->frame, leaf, &n, &gap, &pair->counts);
@@ -75,26 +75,26 @@ static float look_at_triangles(pir_trimesh_pair *pair, pir_front_entry *entry, c
 
 /* The children of an item, or the item itself by lanes that are all like it. */
 static int set_lanes(const pir_trimesh_pair *pair, int side, pir_mesh_item item, bool divide,
-                     pir_mesh_item ret_items[PIR_LANES], pir_lanes *ret_lanes) {
+                     pir_mesh_item ret_items[PIR_NODE_LANES], pir_node_lanes *ret_lanes) {
     const pir_trimesh *mesh = pair->mesh[side];
     if (!divide) {
-        pir_lanes one;
+        pir_node_lanes one;
         pir_lane_set(&one, 0, mesh, item);
-        pir_lanes_repeat(ret_lanes, &one, 0);
-        for (int i = 0; i < PIR_LANES; i++)
+        pir_node_lanes_repeat(ret_lanes, &one, 0);
+        for (int i = 0; i < PIR_NODE_LANES; i++)
             ret_items[i] = item;
         return 1;
     }
     uint32_t node = pir_item_child(mesh, item);
-    pir_lanes_set_node(ret_lanes, mesh, node);
-    for (int i = 0; i < PIR_LANES; i++)
+    pir_node_lanes_set_node(ret_lanes, mesh, node);
+    for (int i = 0; i < PIR_NODE_LANES; i++)
         ret_items[i] = node * PIR_MESH_WIDTH + (uint32_t)i;
     return mesh->tree.node[node].count;
 }
 
 /* Which of two items is divided: the larger one, unless it is a leaf. */
 static int divided_side(const pir_trimesh_pair *pair, const pir_front_entry *entry) {
-    pir_lanes p, q;
+    pir_node_lanes p, q;
     if (pir_mesh_is_leaf(child_of(pair, 0, entry->p)))
         return 1;
     if (pir_mesh_is_leaf(child_of(pair, 1, entry->q)))
@@ -105,7 +105,7 @@ static int divided_side(const pir_trimesh_pair *pair, const pir_front_entry *ent
 }
 
 /* Puts a task where it belongs among those from `first` on: what is nearest is looked at first. */
-static void push(struct tasks *tasks, uint32_t first, const struct task *task) {
+static void push(struct nearest_tasks *tasks, uint32_t first, const struct nearest_task *task) {
     uint32_t at = tasks->used++;
     for (; at > first && tasks->task[at - 1].bound < task->bound; at--)
         tasks->task[at] = tasks->task[at - 1];
@@ -113,11 +113,11 @@ static void push(struct tasks *tasks, uint32_t first, const struct task *task) {
 }
 
 /* Bounds lanes of pairs; what is far is kept, the others become tasks. False when out of memory. */
-static bool sort_lanes(pir_trimesh_pair *pair, struct tasks *tasks, const pir_lanes *p, const pir_lanes *q,
-                       const pir_front_entry *entries, int count) {
-    pir_axes axes;
+static bool sort_lanes(pir_trimesh_pair *pair, struct nearest_tasks *tasks, const pir_node_lanes *p,
+                       const pir_node_lanes *q, const pir_front_entry *entries, int count) {
+    pir_node_axes axes;
     bool all_far = true;
-    for (int i = 0; i < PIR_LANES; i++)
+    for (int i = 0; i < PIR_NODE_LANES; i++)
         for (int k = 0; k < 3; k++)
             axes.n[k][i] = entries[i < count ? i : 0].n[k];
     pir_bound_along(&pair->floats, p, q, &axes);
@@ -128,7 +128,7 @@ static bool sort_lanes(pir_trimesh_pair *pair, struct tasks *tasks, const pir_la
         pir_bound_by_nodes(&pair->floats, p, q, &axes);
     uint32_t first = tasks->used;
     for (int i = 0; i < count; i++) {
-        struct task task = {.entry = entries[i], .bound = axes.bound[i]};
+        struct nearest_task task = {.entry = entries[i], .bound = axes.bound[i]};
         for (int k = 0; k < 3; k++)
             task.entry.n[k] = axes.n[k][i];
         note(pair, &task.entry, p, i, task.bound);
@@ -141,28 +141,28 @@ static bool sort_lanes(pir_trimesh_pair *pair, struct tasks *tasks, const pir_la
 }
 
 /* Divides a pair of items that is not far. */
-static bool divide(pir_trimesh_pair *pair, struct tasks *tasks, const pir_front_entry *entry) {
-    pir_lanes lanes[2];
-    pir_mesh_item items[2][PIR_LANES];
-    pir_front_entry entries[PIR_LANES];
+static bool divide(pir_trimesh_pair *pair, struct nearest_tasks *tasks, const pir_front_entry *entry) {
+    pir_node_lanes lanes[2];
+    pir_mesh_item items[2][PIR_NODE_LANES];
+    pir_front_entry entries[PIR_NODE_LANES];
     int side = divided_side(pair, entry), count = 1;
     for (int s = 0; s < 2; s++) {
         int n = set_lanes(pair, s, s == 0 ? entry->p : entry->q, s == side, items[s], &lanes[s]);
         count = n > count ? n : count;
     }
-    for (int i = 0; i < PIR_LANES; i++)
+    for (int i = 0; i < PIR_NODE_LANES; i++)
         entries[i] =
             (pir_front_entry){.p = items[0][i], .q = items[1][i], .n = {entry->n[0], entry->n[1], entry->n[2]}};
     return sort_lanes(pair, tasks, &lanes[0], &lanes[1], entries, count);
 }
 
 /* Works off tasks. What they come to stands in the front afterwards. */
-static bool work(pir_trimesh_pair *pair, struct tasks *tasks) {
+static bool work(pir_trimesh_pair *pair, struct nearest_tasks *tasks) {
     while (tasks->used > 0 && !pair->best.meets) {
-        struct task task = tasks->task[--tasks->used];
+        struct nearest_task task = tasks->task[--tasks->used];
         bool done = true;
         if (is_far(pair, (double)task.bound) || are_leaves(pair, &task.entry)) {
-            pir_lanes p;
+            pir_node_lanes p;
             pir_lane_set(&p, 0, pair->mesh[0], task.entry.p);
             float bound = is_far(pair, (double)task.bound) ? task.bound : look_at_triangles(pair, &task.entry, &p);
             done = keep(pair, &task.entry, &p, 0, bound);
@@ -178,18 +178,18 @@ static bool work(pir_trimesh_pair *pair, struct tasks *tasks) {
 /* --- from the roots --- */
 
 static bool rebuild_once(pir_trimesh_pair *pair) {
-    struct tasks tasks;
+    struct nearest_tasks tasks;
     tasks.used = 0; // the rest is written before it is read
     pair->front.count = 0;
-    pir_lanes p, q, one;
-    pir_lanes_set_node(&p, pair->mesh[0], 0);
-    pir_lanes_set_node(&one, pair->mesh[1], 0);
+    pir_node_lanes p, q, one;
+    pir_node_lanes_set_node(&p, pair->mesh[0], 0);
+    pir_node_lanes_set_node(&one, pair->mesh[1], 0);
     int of_p = pair->mesh[0]->tree.node[0].count, of_q = pair->mesh[1]->tree.node[0].count;
     for (int j = 0; j < of_q; j++) {
-        pir_front_entry entries[PIR_LANES];
-        for (int i = 0; i < PIR_LANES; i++)
+        pir_front_entry entries[PIR_NODE_LANES];
+        for (int i = 0; i < PIR_NODE_LANES; i++)
             entries[i] = (pir_front_entry){.p = (uint32_t)i, .q = (uint32_t)j, .n = {1, 0, 0}};
-        pir_lanes_repeat(&q, &one, j);
+        pir_node_lanes_repeat(&q, &one, j);
         if (!sort_lanes(pair, &tasks, &p, &q, entries, of_p))
             return false;
     }
@@ -210,9 +210,9 @@ static bool rebuild(pir_trimesh_pair *pair) {
 
 /* Up to four entries along the directions that proved them, then others: bit i where no bound is enough. */
 static unsigned try_again(pir_trimesh_pair *pair, const uint32_t *which, int count) {
-    pir_lanes p, q;
-    pir_axes axes;
-    for (int i = 0; i < PIR_LANES; i++) {
+    pir_node_lanes p, q;
+    pir_node_axes axes;
+    for (int i = 0; i < PIR_NODE_LANES; i++) {
         const pir_front_entry *entry = &pair->front.entry[which[i < count ? i : 0]];
         pir_lane_set(&p, i, pair->mesh[0], entry->p);
         pir_lane_set(&q, i, pair->mesh[1], entry->q);
@@ -245,13 +245,13 @@ static unsigned try_again(pir_trimesh_pair *pair, const uint32_t *which, int cou
 static bool look_again(pir_trimesh_pair *pair, uint32_t i) {
     pir_front_entry entry = pair->front.entry[i];
     if (are_leaves(pair, &entry)) {
-        pir_lanes p;
+        pir_node_lanes p;
         pir_lane_set(&p, 0, pair->mesh[0], entry.p);
         float bound = look_at_triangles(pair, &pair->front.entry[i], &p);
         pir_mesh_front_renew(&pair->front, i, bound);
         return true;
     }
-    struct tasks tasks;
+    struct nearest_tasks tasks;
     tasks.used = 0;
     pir_mesh_front_drop(&pair->front, i);
     return divide(pair, &tasks, &entry) && work(pair, &tasks);
@@ -273,9 +273,9 @@ static uint32_t renew_along(pir_trimesh_pair *pair, uint32_t count) {
 static bool look_at_expired(pir_trimesh_pair *pair, uint32_t count) {
     const uint32_t *which = pair->front.expired;
     // they are listed from the last to the first, so that what takes the place of one that is dropped was looked at
-    for (uint32_t at = 0; at < count; at += PIR_LANES) {
-        uint32_t lanes[PIR_LANES];
-        int left = count - at < PIR_LANES ? (int)(count - at) : PIR_LANES;
+    for (uint32_t at = 0; at < count; at += PIR_NODE_LANES) {
+        uint32_t lanes[PIR_NODE_LANES];
+        int left = count - at < PIR_NODE_LANES ? (int)(count - at) : PIR_NODE_LANES;
         for (int i = 0; i < left; i++)
             lanes[i] = which[at + (uint32_t)i];
         unsigned short_of = try_again(pair, lanes, left);

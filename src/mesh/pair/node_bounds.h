@@ -11,26 +11,26 @@
 
 #include "mesh/pair/mesh_frame.h"
 
-#define PIR_LANES 4
+#define PIR_NODE_LANES 4
 
 /* Four floats at once, as gcc and clang make of any processor's vectors. */
-typedef float pir_float4 __attribute__((vector_size(16)));
+typedef float pir_node_float4 __attribute__((vector_size(16)));
 typedef int32_t pir_int4 __attribute__((vector_size(16)));
 
 /* A child of a node: node · 4 + place. */
 typedef uint32_t pir_mesh_item;
 
 /* Children by lanes. */
-typedef struct pir_lanes {
-    pir_float4 middle[3], half[3];
-    pir_float4 normal[3], inverse; /* the slab's, and 1 / |normal|² */
-    pir_float4 low, high;
-} pir_lanes;
+typedef struct pir_node_lanes {
+    pir_node_float4 middle[3], half[3];
+    pir_node_float4 normal[3], inverse; /* the slab's, and 1 / |normal|² */
+    pir_node_float4 low, high;
+} pir_node_lanes;
 
 /* Directions in Q's frame, from Q to P, and what they prove. */
-typedef struct pir_axes {
-    pir_float4 n[3], bound;
-} pir_axes;
+typedef struct pir_node_axes {
+    pir_node_float4 n[3], bound;
+} pir_node_axes;
 
 /* The relative pose in floats, and the middle of P about which motion is measured. */
 typedef struct pir_float_frame {
@@ -49,20 +49,22 @@ static inline uint32_t pir_item_least(const pir_trimesh *mesh, pir_mesh_item ite
 }
 
 /* Fills one lane, or all by the children of a node; lanes without a child are like the first. */
-void pir_lane_set(pir_lanes *lanes, int lane, const pir_trimesh *mesh, pir_mesh_item item);
-void pir_lanes_set_node(pir_lanes *lanes, const pir_trimesh *mesh, uint32_t node);
+void pir_lane_set(pir_node_lanes *lanes, int lane, const pir_trimesh *mesh, pir_mesh_item item);
+void pir_node_lanes_set_node(pir_node_lanes *lanes, const pir_trimesh *mesh, uint32_t node);
 
 /* Lanes that are all like one. */
-void pir_lanes_repeat(pir_lanes *lanes, const pir_lanes *from, int lane);
+void pir_node_lanes_repeat(pir_node_lanes *lanes, const pir_node_lanes *from, int lane);
 
 /* The bounds that given directions prove: axes->bound. */
-void pir_bound_along(const pir_float_frame *frame, const pir_lanes *p, const pir_lanes *q, pir_axes *axes);
+void pir_bound_along(const pir_float_frame *frame, const pir_node_lanes *p, const pir_node_lanes *q,
+                     pir_node_axes *axes);
 
 /* Tries directions of the nodes' own, and keeps those that prove more. */
-void pir_bound_by_nodes(const pir_float_frame *frame, const pir_lanes *p, const pir_lanes *q, pir_axes *axes);
+void pir_bound_by_nodes(const pir_float_frame *frame, const pir_node_lanes *p, const pir_node_lanes *q,
+                        pir_node_axes *axes);
 
 /* How far a child of P reaches from the middle of P, rounded up; and how large it is, squared. */
-float pir_lane_reach(const pir_float_frame *frame, const pir_lanes *lanes, int lane);
-float pir_lane_size(const pir_lanes *lanes, int lane);
+float pir_lane_reach(const pir_float_frame *frame, const pir_node_lanes *lanes, int lane);
+float pir_lane_size(const pir_node_lanes *lanes, int lane);
 
 #endif

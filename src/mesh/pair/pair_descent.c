@@ -2,15 +2,15 @@
 /* Descents from the roots, and the search for the lowest two triangles that meet, which is one. */
 #include "mesh/pair/pair_descent.h"
 
-#define STACK (3 * 2 * PIR_MESH_DEPTH + PIR_LANES)
+#define STACK (3 * 2 * PIR_MESH_DEPTH + PIR_NODE_LANES)
 
-struct task {
+struct descent_task {
     pir_mesh_item p, q;
     float n[3];
 };
 
-struct tasks {
-    struct task task[STACK];
+struct descent_tasks {
+    struct descent_task task[STACK];
     uint32_t used;
 };
 
@@ -19,12 +19,13 @@ static uint32_t child_of(const pir_trimesh_pair *pair, int side, pir_mesh_item i
 }
 
 /* Whether a pair of items has lower triangles than another: it is looked at first. */
-static bool is_before(const pir_trimesh_pair *pair, const struct task *a, const struct task *b) {
+static bool is_before(const pir_trimesh_pair *pair, const struct descent_task *a, const struct descent_task *b) {
     uint32_t ap = pir_item_least(pair->mesh[0], a->p), bp = pir_item_least(pair->mesh[0], b->p);
     return ap < bp || (ap == bp && pir_item_least(pair->mesh[1], a->q) < pir_item_least(pair->mesh[1], b->q));
 }
 
-static void push(const pir_trimesh_pair *pair, struct tasks *tasks, uint32_t first, const struct task *task) {
+static void push(const pir_trimesh_pair *pair, struct descent_tasks *tasks, uint32_t first,
+                 const struct descent_task *task) {
     uint32_t at = tasks->used++;
     for (; at > first && is_before(pair, &tasks->task[at - 1], task); at--)
         tasks->task[at] = tasks->task[at - 1];
@@ -32,16 +33,16 @@ static void push(const pir_trimesh_pair *pair, struct tasks *tasks, uint32_t fir
 }
 
 /* Pushes those of four pairs of items that may be within the distance. */
-static void sort_lanes(pir_trimesh_pair *pair, const pir_pair_descent *d, struct tasks *tasks, const pir_lanes *p,
-                       const pir_lanes *q, struct task *lane) {
-    pir_axes axes;
-    for (int i = 0; i < PIR_LANES; i++)
+static void sort_lanes(pir_trimesh_pair *pair, const pir_pair_descent *d, struct descent_tasks *tasks,
+                       const pir_node_lanes *p, const pir_node_lanes *q, struct descent_task *lane) {
+    pir_node_axes axes;
+    for (int i = 0; i < PIR_NODE_LANES; i++)
         for (int k = 0; k < 3; k++)
             axes.n[k][i] = lane[i].n[k];
     pir_bound_along(&pair->floats, p, q, &axes);
     pir_bound_by_nodes(&pair->floats, p, q, &axes);
     uint32_t first = tasks->used;
-    for (int i = 0; i < PIR_LANES; i++) {
+    for (int i = 0; i < PIR_NODE_LANES; i++) {
         if (lane[i].p == PIR_MESH_NO_CHILD || (double)axes.bound[i] > d->within ||
             (d->skip && d->skip(d->context, lane[i].p, lane[i].q)))
             continue;
@@ -53,18 +54,19 @@ static void sort_lanes(pir_trimesh_pair *pair, const pir_pair_descent *d, struct
 }
 
 /* The children of the larger item that is no leaf, against the other. */
-static void divide(pir_trimesh_pair *pair, const pir_pair_descent *d, struct tasks *tasks, const struct task *task) {
-    pir_lanes lanes[2];
+static void divide(pir_trimesh_pair *pair, const pir_pair_descent *d, struct descent_tasks *tasks,
+                   const struct descent_task *task) {
+    pir_node_lanes lanes[2];
     pir_lane_set(&lanes[0], 0, pair->mesh[0], task->p);
     pir_lane_set(&lanes[1], 0, pair->mesh[1], task->q);
     int side = pir_lane_size(&lanes[0], 0) >= pir_lane_size(&lanes[1], 0) ? 0 : 1;
     if (pir_mesh_is_leaf(child_of(pair, side, side == 0 ? task->p : task->q)))
         side = 1 - side;
     uint32_t node = child_of(pair, side, side == 0 ? task->p : task->q);
-    pir_lanes_set_node(&lanes[side], pair->mesh[side], node);
-    pir_lanes_repeat(&lanes[1 - side], &lanes[1 - side], 0);
-    struct task lane[PIR_LANES];
-    for (int i = 0; i < PIR_LANES; i++) {
+    pir_node_lanes_set_node(&lanes[side], pair->mesh[side], node);
+    pir_node_lanes_repeat(&lanes[1 - side], &lanes[1 - side], 0);
+    struct descent_task lane[PIR_NODE_LANES];
+    for (int i = 0; i < PIR_NODE_LANES; i++) {
         lane[i] = *task;
         pir_mesh_item item = node * PIR_MESH_WIDTH + (uint32_t)i;
         *(side == 0 ? &lane[i].p : &lane[i].q) = item;
@@ -74,9 +76,9 @@ static void divide(pir_trimesh_pair *pair, const pir_pair_descent *d, struct tas
     sort_lanes(pair, d, tasks, &lanes[0], &lanes[1], lane);
 }
 
-static void work(pir_trimesh_pair *pair, const pir_pair_descent *d, struct tasks *tasks) {
+static void work(pir_trimesh_pair *pair, const pir_pair_descent *d, struct descent_tasks *tasks) {
     while (tasks->used > 0) {
-        struct task task = tasks->task[--tasks->used];
+        struct descent_task task = tasks->task[--tasks->used];
         if (d->skip && d->skip(d->context, task.p, task.q))
             continue;
         const uint32_t leaf[2] = {child_of(pair, 0, task.p), child_of(pair, 1, task.q)};
@@ -90,15 +92,15 @@ static void work(pir_trimesh_pair *pair, const pir_pair_descent *d, struct tasks
 void pir_pair_descend(pir_trimesh_pair *pair, const pir_pair_descent *descent) {
     const uint8_t of_p = pair->mesh[0]->tree.node[0].count, of_q = pair->mesh[1]->tree.node[0].count;
     for (uint32_t i = 0; i < of_p; i++) {
-        struct tasks tasks;
+        struct descent_tasks tasks;
         tasks.used = 0; // the rest is written before it is read
-        struct task lane[PIR_LANES];
-        pir_lanes p, q;
+        struct descent_task lane[PIR_NODE_LANES];
+        pir_node_lanes p, q;
         pir_lane_set(&p, 0, pair->mesh[0], i);
-        pir_lanes_repeat(&p, &p, 0);
-        pir_lanes_set_node(&q, pair->mesh[1], 0);
-        for (uint32_t j = 0; j < PIR_LANES; j++)
-            lane[j] = (struct task){j < of_q ? i : PIR_MESH_NO_CHILD, j, {1, 0, 0}};
+        pir_node_lanes_repeat(&p, &p, 0);
+        pir_node_lanes_set_node(&q, pair->mesh[1], 0);
+        for (uint32_t j = 0; j < PIR_NODE_LANES; j++)
+            lane[j] = (struct descent_task){j < of_q ? i : PIR_MESH_NO_CHILD, j, {1, 0, 0}};
         sort_lanes(pair, descent, &tasks, &p, &q, lane);
         work(pair, descent, &tasks);
     }

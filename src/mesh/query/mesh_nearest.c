@@ -14,7 +14,7 @@
 #define SQUARE     PIR_EXACT_SQUARE_LIMBS(COORDINATE)
 #define WORK       PIR_EXACT_WORK_LIMBS(COORDINATE)
 
-struct nearest {
+struct mesh_nearest {
     pir_surface_ref surface;
     pir_vec3 point;
     double error; /* of a coordinate: see pir_triangle_span */
@@ -41,7 +41,7 @@ static double at(pir_vec3 v, int axis) {
 
 /* A lower bound on the distance of each box: a few roundings less than what doubles say. */
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    const struct nearest *n = context;
+    const struct mesh_nearest *n = context;
     double square[PIR_MESH_WIDTH] = {0, 0, 0, 0};
     for (int k = 0; k < 3; k++) {
         double x = at(n->point, k);
@@ -55,13 +55,13 @@ static void measure(const void *context, const pir_mesh_boxes *boxes, double ret
         ret_near[i] = sqrt(square[i]) * (1 - 0x1p-48);
 }
 
-static pir_span span_of(const struct nearest *n, const pir_met_triangle *met) {
+static pir_span span_of(const struct mesh_nearest *n, const pir_met_triangle *met) {
     pir_corners a = {{met->tri.p[0], met->tri.p[1], met->tri.p[2]}, {met->id[0], met->id[1], met->id[2]}, 3};
     pir_corners b = {{n->point, n->point, n->point}, {0, 0, 0}, 1};
     return pir_triangle_span(&a, &b, n->error);
 }
 
-static int low_bit(const struct nearest *n, const pir_tri *tri, const pir_tri *other) {
+static int low_bit(const struct mesh_nearest *n, const pir_tri *tri, const pir_tri *other) {
     int low = pir_vec_low_bit(n->point);
     for (int k = 0; k < 3; k++) {
         int a = pir_vec_low_bit(tri->p[k]), b = pir_vec_low_bit(other->p[k]);
@@ -71,7 +71,8 @@ static int low_bit(const struct nearest *n, const pir_tri *tri, const pir_tri *o
     return low;
 }
 
-static void square_of(const struct nearest *n, const pir_tri *tri, int exponent, pir_limbs *limbs, struct square *s) {
+static void square_of(const struct mesh_nearest *n, const pir_tri *tri, int exponent, pir_limbs *limbs,
+                      struct square *s) {
     uint32_t used = limbs->used;
     pir_int3 a[3], b[3];
     for (int k = 0; k < 3; k++) {
@@ -84,7 +85,7 @@ static void square_of(const struct nearest *n, const pir_tri *tri, int exponent,
 }
 
 /* The sign of the distance of one triangle less that of another, exactly. */
-static int order_of(const struct nearest *n, const pir_tri *tri, const pir_tri *other) {
+static int order_of(const struct mesh_nearest *n, const pir_tri *tri, const pir_tri *other) {
     mp_limb_t room[WORK];
     pir_limbs limbs = {room, 0, WORK};
     struct square mine, others;
@@ -95,7 +96,7 @@ static int order_of(const struct nearest *n, const pir_tri *tri, const pir_tri *
 }
 
 /* Whether a triangle is within the cutoff, exactly. */
-static bool is_within(const struct nearest *n, const pir_tri *tri) {
+static bool is_within(const struct mesh_nearest *n, const pir_tri *tri) {
     mp_limb_t room[WORK];
     pir_limbs limbs = {room, 0, WORK};
     struct square mine;
@@ -107,7 +108,7 @@ static bool is_within(const struct nearest *n, const pir_tri *tri) {
     return pir_num_compare(&limbs, &mine.square.num, &scaled) <= 0;
 }
 
-static bool is_better(const struct nearest *n, const pir_met_triangle *met, const pir_span *span) {
+static bool is_better(const struct mesh_nearest *n, const pir_met_triangle *met, const pir_span *span) {
     if (n->best == PIR_TRIANGLE_NONE)
         return span->high <= n->cutoff || (span->low <= n->cutoff && is_within(n, &met->tri));
     if (span->high < n->span.low)
@@ -120,7 +121,7 @@ static bool is_better(const struct nearest *n, const pir_met_triangle *met, cons
 }
 
 /* Whether the direction to the best point so far shows a triangle to be farther than that. */
-static bool is_behind(const struct nearest *n, const pir_tri *tri) {
+static bool is_behind(const struct mesh_nearest *n, const pir_tri *tri) {
     pir_vec3 to = pir_vec_sub(n->span.point_a, n->point);
     double square = pir_vec_dot(to, to), least = HUGE_VAL;
     if (n->best == PIR_TRIANGLE_NONE || !(square > 0x1p-900))
@@ -133,7 +134,7 @@ static bool is_behind(const struct nearest *n, const pir_tri *tri) {
 }
 
 static bool look(void *context, const pir_met_triangle *met) {
-    struct nearest *n = context;
+    struct mesh_nearest *n = context;
     if (is_behind(n, &met->tri))
         return true;
     pir_span span = span_of(n, met);
@@ -159,12 +160,12 @@ pir_status pir_surface_nearest_point(pir_surface_ref surface, pir_vec3 point, do
         size = fmax(size, fmax(reach[k], fabs(at(point, k))));
     // what is farther than any surface can be is no cutoff
     double farthest = fmin(cutoff, 0x1p63);
-    struct nearest n = {.surface = surface,
-                        .point = point,
-                        .error = 0x1p-49 * size,
-                        .cutoff = farthest,
-                        .best = PIR_TRIANGLE_NONE,
-                        .most = farthest};
+    struct mesh_nearest n = {.surface = surface,
+                             .point = point,
+                             .error = 0x1p-49 * size,
+                             .cutoff = farthest,
+                             .best = PIR_TRIANGLE_NONE,
+                             .most = farthest};
     pir_surface_walk(surface, &(pir_walk){measure, look, &n, &n.most});
     *ret_nearest = (pir_surface_nearest){.triangle = n.best};
     if (n.best == PIR_TRIANGLE_NONE)

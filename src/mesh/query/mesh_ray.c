@@ -8,7 +8,7 @@
 #include "mesh/signs/heap_sort.h"
 #include "mesh/signs/mesh_numbers.h"
 
-struct ray {
+struct mesh_ray {
     pir_surface_ref surface;
     pir_mesh_segment segment;
     double inverse[3], pad[3]; /* 1/way, 0 where that is no number; how far boxes are wider on each side */
@@ -35,7 +35,7 @@ static bool is_near(pir_vec3 v) {
  * Boxes are widened by 2^-48 of the coordinates, which is more than a difference of two is off by; a time is then too
  * early, or late, by a few roundings of itself at most, which `measure` allows for.
  */
-static pir_status init(struct ray *ray, pir_surface_ref surface, const pir_surface_ray *asked) {
+static pir_status init(struct mesh_ray *ray, pir_surface_ref surface, const pir_surface_ray *asked) {
     if (!asked || pir_surface_check(surface) != PIR_OK || asked->sides > PIR_RAY_BOTH)
         return PIR_ERR_ARGUMENT;
     if (!pir_vec_is_finite(asked->origin) || !pir_vec_is_finite(asked->way))
@@ -43,7 +43,7 @@ static pir_status init(struct ray *ray, pir_surface_ref surface, const pir_surfa
     if (!is_near(asked->origin) || !is_near(asked->way))
         return PIR_ERR_LIMIT;
     bool two_sided = surface.mesh ? surface.mesh->two_sided : surface.field->two_sided;
-    *ray = (struct ray){.surface = surface, .segment = {asked->origin, asked->way}, .most = 1};
+    *ray = (struct mesh_ray){.surface = surface, .segment = {asked->origin, asked->way}, .most = 1};
     ray->front = asked->sides != PIR_RAY_BACK;
     ray->back = asked->sides == PIR_RAY_BACK || asked->sides == PIR_RAY_BOTH ||
                 (asked->sides == PIR_RAY_AS_SURFACE && two_sided);
@@ -59,7 +59,7 @@ static pir_status init(struct ray *ray, pir_surface_ref surface, const pir_surfa
 
 /* When each box is entered. */
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    const struct ray *ray = context;
+    const struct mesh_ray *ray = context;
     double enter[PIR_MESH_WIDTH], leave[PIR_MESH_WIDTH];
     for (int i = 0; i < PIR_MESH_WIDTH; i++) {
         enter[i] = 0;
@@ -102,7 +102,7 @@ static int side_met(const pir_mesh_segment *segment, const pir_tri *tri) {
     return least < 0 ? 1 : most > 0 ? -1 : 0;
 }
 
-static bool meets(const struct ray *ray, const pir_met_triangle *met, struct hit *ret_hit) {
+static bool meets(const struct mesh_ray *ray, const pir_met_triangle *met, struct hit *ret_hit) {
     int side = side_met(&ray->segment, &met->tri);
     if (side == 0 || !(side > 0 ? ray->front : ray->back) || !pir_time_is_within(&ray->segment, &met->tri))
         return false;
@@ -111,7 +111,7 @@ static bool meets(const struct ray *ray, const pir_met_triangle *met, struct hit
     return true;
 }
 
-static void give(const struct ray *ray, const struct hit *hit, pir_ray_hit *ret_hit) {
+static void give(const struct mesh_ray *ray, const struct hit *hit, pir_ray_hit *ret_hit) {
     *ret_hit = (pir_ray_hit){.triangle = hit->triangle};
     if (hit->triangle == PIR_TRIANGLE_NONE)
         return;
@@ -127,13 +127,13 @@ static void give(const struct ray *ray, const struct hit *hit, pir_ray_hit *ret_
 
 /* --- the nearest --- */
 
-struct nearest {
-    struct ray ray; /* first, for `measure` */
+struct nearest_hit {
+    struct mesh_ray ray; /* first, for `measure` */
     struct hit best;
 };
 
 /* Whether `hit` comes before the best: exactly, by its number where times are equal. */
-static bool is_before(const struct nearest *nearest, const struct hit *hit, const pir_tri *tri) {
+static bool is_before(const struct nearest_hit *nearest, const struct hit *hit, const pir_tri *tri) {
     const struct hit *best = &nearest->best;
     if (best->triangle == PIR_TRIANGLE_NONE || hit->time + hit->error < best->time - best->error)
         return true;
@@ -145,7 +145,7 @@ static bool is_before(const struct nearest *nearest, const struct hit *hit, cons
 }
 
 static bool look_nearest(void *context, const pir_met_triangle *met) {
-    struct nearest *nearest = context;
+    struct nearest_hit *nearest = context;
     struct hit hit;
     if (meets(&nearest->ray, met, &hit) && is_before(nearest, &hit, &met->tri)) {
         nearest->best = hit;
@@ -155,7 +155,7 @@ static bool look_nearest(void *context, const pir_met_triangle *met) {
 }
 
 pir_status pir_surface_ray_nearest(pir_surface_ref surface, const pir_surface_ray *ray, pir_ray_hit *ret_hit) {
-    struct nearest nearest = {.best.triangle = PIR_TRIANGLE_NONE};
+    struct nearest_hit nearest = {.best.triangle = PIR_TRIANGLE_NONE};
     pir_status status = ret_hit ? init(&nearest.ray, surface, ray) : PIR_ERR_ARGUMENT;
     if (status != PIR_OK)
         return status;
@@ -167,7 +167,7 @@ pir_status pir_surface_ray_nearest(pir_surface_ref surface, const pir_surface_ra
 /* --- any --- */
 
 struct any {
-    struct ray ray;
+    struct mesh_ray ray;
     bool hits;
 };
 
@@ -191,7 +191,7 @@ pir_status pir_surface_ray_any(pir_surface_ref surface, const pir_surface_ray *r
 /* --- all --- */
 
 struct all {
-    struct ray ray;
+    struct mesh_ray ray;
     pir_ray_hit *hits;
     size_t capacity, count;
 };

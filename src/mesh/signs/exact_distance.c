@@ -5,7 +5,7 @@
  */
 #include "mesh/signs/exact_distance.h"
 
-struct work {
+struct distance_work {
     pir_limbs *limbs;
     pir_exact_square *best;
     bool any;
@@ -19,7 +19,7 @@ int pir_exact_square_order(pir_limbs *limbs, const pir_exact_square *a, const pi
 }
 
 /* Takes num/den, den > 0, where it is less than the best so far. */
-static void offer(struct work *w, const pir_int *num, const pir_int *den) {
+static void offer(struct distance_work *w, const pir_int *num, const pir_int *den) {
     const pir_exact_square square = {*num, *den};
     if (w->any && pir_exact_square_order(w->limbs, &square, w->best) >= 0)
         return;
@@ -28,17 +28,17 @@ static void offer(struct work *w, const pir_int *num, const pir_int *den) {
     w->any = true;
 }
 
-static bool is_zero(const struct work *w) {
+static bool is_zero(const struct distance_work *w) {
     return w->any && w->best->num.size == 0;
 }
 
-static void offer_zero(struct work *w) {
+static void offer_zero(struct distance_work *w) {
     mp_limb_t one = 1;
     const pir_int zero = {&one, 0, 0}, unit = {&one, 1, 0};
     offer(w, &zero, &unit);
 }
 
-static void try_vertices(struct work *w, const pir_int3 *a, const pir_int3 *b) {
+static void try_vertices(struct distance_work *w, const pir_int3 *a, const pir_int3 *b) {
     pir_int3 between = pir_num3_sub(w->limbs, a, b);
     pir_int square = pir_num3_dot(w->limbs, &between, &between);
     mp_limb_t one = 1;
@@ -47,7 +47,7 @@ static void try_vertices(struct work *w, const pir_int3 *a, const pir_int3 *b) {
 }
 
 /* A vertex and the edge from p to q, where the foot is on it. */
-static void try_vertex_edge(struct work *w, const pir_int3 *v, const pir_int3 *p, const pir_int3 *q) {
+static void try_vertex_edge(struct distance_work *w, const pir_int3 *v, const pir_int3 *p, const pir_int3 *q) {
     pir_limbs *limbs = w->limbs;
     pir_int3 e = pir_num3_sub(limbs, q, p), away = pir_num3_sub(limbs, v, p);
     pir_int along = pir_num3_dot(limbs, &away, &e), length = pir_num3_dot(limbs, &e, &e);
@@ -63,7 +63,8 @@ static bool is_part(pir_limbs *limbs, const pir_int *part, const pir_int *whole)
 }
 
 /* Two edges, from p to q and from r to s, where the feet of their common perpendicular are on them. */
-static void try_edges(struct work *w, const pir_int3 *p, const pir_int3 *q, const pir_int3 *r, const pir_int3 *s) {
+static void try_edges(struct distance_work *w, const pir_int3 *p, const pir_int3 *q, const pir_int3 *r,
+                      const pir_int3 *s) {
     pir_limbs *limbs = w->limbs;
     pir_int3 e = pir_num3_sub(limbs, q, p), f = pir_num3_sub(limbs, s, r), away = pir_num3_sub(limbs, p, r);
     pir_int ee = pir_num3_dot(limbs, &e, &e), ef = pir_num3_dot(limbs, &e, &f), ff = pir_num3_dot(limbs, &f, &f);
@@ -89,7 +90,7 @@ static int side_of(pir_limbs *limbs, const pir_int3 *p, const pir_int3 *q, const
 }
 
 /* A vertex and the face of a triangle with the normal n, not 0, where the foot is within. */
-static void try_vertex_face(struct work *w, const pir_int3 *v, const pir_int3 tri[3], const pir_int3 *n) {
+static void try_vertex_face(struct distance_work *w, const pir_int3 *v, const pir_int3 tri[3], const pir_int3 *n) {
     pir_limbs *limbs = w->limbs;
     for (int k = 0; k < 3; k++)
         if (side_of(limbs, &tri[k], &tri[(k + 1) % 3], v, n) < 0)
@@ -120,7 +121,7 @@ static int around(pir_limbs *limbs, const pir_int3 *p, const pir_int3 *q, const 
 
 /* An edge whose ends are strictly on either side of a face: whether it goes through. Where an end is on the face, a
  * vertex and the face tell. */
-static void try_piercing(struct work *w, const pir_int3 *p, const pir_int3 *q, const pir_int3 tri[3],
+static void try_piercing(struct distance_work *w, const pir_int3 *p, const pir_int3 *q, const pir_int3 tri[3],
                          const pir_int3 *n) {
     pir_limbs *limbs = w->limbs;
     if (height_sign(limbs, p, &tri[0], n) * height_sign(limbs, q, &tri[0], n) >= 0)
@@ -136,7 +137,7 @@ static void try_piercing(struct work *w, const pir_int3 *p, const pir_int3 *q, c
 }
 
 /* The features of `a` against the face of `b`. */
-static void try_face(struct work *w, const pir_int3 a[3], const pir_int3 b[3]) {
+static void try_face(struct distance_work *w, const pir_int3 a[3], const pir_int3 b[3]) {
     pir_limbs *limbs = w->limbs;
     uint32_t begin = limbs->used;
     pir_int3 e = pir_num3_sub(limbs, &b[1], &b[0]), f = pir_num3_sub(limbs, &b[2], &b[0]);
@@ -152,7 +153,7 @@ static void try_face(struct work *w, const pir_int3 a[3], const pir_int3 b[3]) {
 }
 
 void pir_exact_distance(pir_limbs *limbs, const pir_int3 a[3], const pir_int3 b[3], pir_exact_square *ret_square) {
-    struct work w = {limbs, ret_square, false};
+    struct distance_work w = {limbs, ret_square, false};
     const uint32_t used = limbs->used;
     try_face(&w, a, b);
     try_face(&w, b, a);

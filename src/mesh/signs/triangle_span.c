@@ -14,7 +14,7 @@
 #define SHORT     0x1p-200
 
 /* The features whose nearest points are known: numbers of corners of a and of b. */
-struct found {
+struct found_features {
     double square;
     pir_vec3 a, b;
     int at[2][3], count[2];
@@ -25,7 +25,7 @@ static double clamp01(double x) {
 }
 
 /* An edge's point at `t`: an end of it, or its inside. */
-static void set_feature(struct found *found, int side, int from, int to, double t) {
+static void set_feature(struct found_features *found, int side, int from, int to, double t) {
     found->count[side] = t > 0 && t < 1 ? 2 : 1;
     found->at[side][0] = t < 1 ? from : to;
     found->at[side][1] = to;
@@ -33,7 +33,7 @@ static void set_feature(struct found *found, int side, int from, int to, double 
 
 /* --- nearest points --- */
 
-static void try_edges(const pir_corners *a, const pir_corners *b, int i, int j, struct found *best) {
+static void try_edges(const pir_corners *a, const pir_corners *b, int i, int j, struct found_features *best) {
     int i1 = (i + 1) % a->count, j1 = (j + 1) % b->count;
     pir_vec3 e = pir_vec_sub(a->p[i1], a->p[i]), f = pir_vec_sub(b->p[j1], b->p[j]);
     pir_vec3 w = pir_vec_sub(a->p[i], b->p[j]);
@@ -50,14 +50,14 @@ static void try_edges(const pir_corners *a, const pir_corners *b, int i, int j, 
     pir_vec3 between = pir_vec_sub(x, y);
     double square = pir_vec_dot(between, between);
     if (square < best->square) {
-        *best = (struct found){.square = square, .a = x, .b = y};
+        *best = (struct found_features){.square = square, .a = x, .b = y};
         set_feature(best, 0, i, i1, s);
         set_feature(best, 1, j, j1, t);
     }
 }
 
 /* The corners of `points` over the face of `face`; `side` is whose the points are. */
-static void try_face(const pir_corners *points, const pir_corners *face, int side, struct found *best) {
+static void try_face(const pir_corners *points, const pir_corners *face, int side, struct found_features *best) {
     const pir_vec3 *p = face->p;
     pir_vec3 n = pir_vec_cross(pir_vec_sub(p[1], p[0]), pir_vec_sub(p[2], p[0]));
     double nn = pir_vec_dot(n, n);
@@ -73,7 +73,7 @@ static void try_face(const pir_corners *points, const pir_corners *face, int sid
             pir_vec_dot(in[2], pir_vec_sub(v, p[2])) < 0)
             continue;
         pir_vec3 foot = pir_vec_sub(v, pir_vec_scale(n, height / nn));
-        *best = (struct found){square, side == 0 ? v : foot, side == 0 ? foot : v, {{0}}, {0}};
+        *best = (struct found_features){square, side == 0 ? v : foot, side == 0 ? foot : v, {{0}}, {0}};
         best->count[side] = 1;
         best->at[side][0] = i;
         best->count[1 - side] = 3;
@@ -82,8 +82,8 @@ static void try_face(const pir_corners *points, const pir_corners *face, int sid
     }
 }
 
-static struct found find_nearest(const pir_corners *a, const pir_corners *b) {
-    struct found best = {.square = HUGE_VAL};
+static struct found_features find_nearest(const pir_corners *a, const pir_corners *b) {
+    struct found_features best = {.square = HUGE_VAL};
     for (int i = 0; i < a->count; i++)
         for (int j = 0; j < b->count; j++)
             try_edges(a, b, i, j, &best);
@@ -112,7 +112,8 @@ static double longest(const pir_corners *a, const pir_corners *b) {
 }
 
 /* A direction from b to a across both features, as a polynomial in the corners, and how many factors it has. */
-static pir_vec3 across(const pir_corners *a, const pir_corners *b, const struct found *found, int *ret_factors) {
+static pir_vec3 across(const pir_corners *a, const pir_corners *b, const struct found_features *found,
+                       int *ret_factors) {
     pir_vec3 w = pir_vec_sub(a->p[found->at[0][0]], b->p[found->at[1][0]]), n = w;
     int ca = found->count[0], cb = found->count[1];
     *ret_factors = 1;
@@ -141,7 +142,7 @@ static double bound_of(int factors, double error, double m) {
     return bound;
 }
 
-static bool is_used(const struct found *found, int side, int corner) {
+static bool is_used(const struct found_features *found, int side, int corner) {
     for (int k = 0; k < found->count[side]; k++)
         if (found->at[side][k] == corner)
             return true;
@@ -149,7 +150,8 @@ static bool is_used(const struct found *found, int side, int corner) {
 }
 
 /* Whether the corners that are not of the feature are behind it, strictly, as seen along n. */
-static bool others_are_behind(const pir_corners *c, const struct found *found, int side, pir_vec3 n, double bound) {
+static bool others_are_behind(const pir_corners *c, const struct found_features *found, int side, pir_vec3 n,
+                              double bound) {
     for (int i = 0; i < c->count; i++)
         if (!is_used(found, side, i) && !(pir_vec_dot(n, pir_vec_sub(c->p[i], c->p[found->at[side][0]])) > bound))
             return false;
@@ -163,8 +165,8 @@ static bool foot_is_within(pir_vec3 v, pir_vec3 p, pir_vec3 q, double error, dou
     return pir_vec_dot(e, pir_vec_sub(v, p)) > bound && pir_vec_dot(e, pir_vec_sub(q, v)) > bound;
 }
 
-static bool feet_are_within(const pir_corners *a, const pir_corners *b, const struct found *found, double error,
-                            double m) {
+static bool feet_are_within(const pir_corners *a, const pir_corners *b, const struct found_features *found,
+                            double error, double m) {
     const int *ia = found->at[0], *ib = found->at[1];
     int ca = found->count[0], cb = found->count[1];
     if (ca == 1 && cb == 1)
@@ -194,7 +196,7 @@ static bool feet_are_within(const pir_corners *a, const pir_corners *b, const st
 
 /* Whether the features found are those that hold the nearest points of the exact triangles: the nearest points of their
  * lines or planes are within them, and all else is behind. */
-static bool is_certain(const pir_corners *a, const pir_corners *b, const struct found *found, double error) {
+static bool is_certain(const pir_corners *a, const pir_corners *b, const struct found_features *found, double error) {
     double m = longest(a, b);
     if (m < SHORT)
         return false;
@@ -208,7 +210,7 @@ static bool is_certain(const pir_corners *a, const pir_corners *b, const struct 
            others_are_behind(b, found, 1, pir_vec_scale(n, -1), bound);
 }
 
-static pir_feature_ids ids_of(const pir_corners *c, const struct found *found, int side) {
+static pir_feature_ids ids_of(const pir_corners *c, const struct found_features *found, int side) {
     pir_feature_ids ids = {{UINT32_MAX, UINT32_MAX, UINT32_MAX}};
     for (int k = 0; k < found->count[side]; k++) {
         uint32_t id = c->id[found->at[side][k]];
@@ -265,7 +267,7 @@ static double gap_along(const pir_corners *a, const pir_corners *b, pir_vec3 n) 
 }
 
 pir_span pir_triangle_span(const pir_corners *a, const pir_corners *b, double error) {
-    struct found found = find_nearest(a, b);
+    struct found_features found = find_nearest(a, b);
     pir_vec3 between = pir_vec_sub(found.a, found.b);
     double distance = length_of(between), slack = 16 * error + UNDERFLOW;
     pir_span span = {.high = distance + slack, .point_a = found.a, .point_b = found.b};

@@ -80,7 +80,7 @@ static inline bool is_box(const pir_axes_lanes *of) {
 }
 
 /* The vertices of one body, as all look from the other; taken by four, which is no loop. */
-struct corners {
+struct axes_corners {
     const double (*vertex)[PIR_AXES_PADDED];
     struct counts of;
 };
@@ -90,7 +90,7 @@ struct range {
     lane least, most;
 };
 
-AXES_TARGET static AXES_INLINE struct range range_along(lane x, lane y, lane z, const struct corners *of) {
+AXES_TARGET static AXES_INLINE struct range range_along(lane x, lane y, lane z, const struct axes_corners *of) {
     lane to = along(x, y, z, of->vertex, 0);
     struct range range = {to, to};
     if (of->of.is_central) {
@@ -111,8 +111,8 @@ AXES_TARGET static AXES_INLINE struct range range_along(lane x, lane y, lane z, 
 
 /* Slacks along lines, one way and the other, where the other body has these vertices. Returns their number. */
 AXES_TARGET static AXES_INLINE uint32_t lines(const double n[3][PIR_AXES_PADDED], const pir_axes_lanes *of,
-                                              uint32_t count, const struct corners *others, pir_vec3 at, double error,
-                                              double *low) {
+                                              uint32_t count, const struct axes_corners *others, pir_vec3 at,
+                                              double error, double *low) {
     count = padded(count);
     for (uint32_t i = 0; i < count; i += AXES_WIDTH) {
         lane x = load(&n[0][i]), y = load(&n[1][i]), z = load(&n[2][i]), to = x * at.x + y * at.y + z * at.z;
@@ -124,12 +124,12 @@ AXES_TARGET static AXES_INLINE uint32_t lines(const double n[3][PIR_AXES_PADDED]
 }
 
 /* A body, and how much there is of it. */
-struct side {
+struct axes_side {
     const pir_axes_lanes *lanes;
     struct counts of;
 };
 
-AXES_TARGET static AXES_INLINE uint32_t slacks_of(struct side side_p, struct side side_q, const pir_mat3 *r,
+AXES_TARGET static AXES_INLINE uint32_t slacks_of(struct axes_side side_p, struct axes_side side_q, const pir_mat3 *r,
                                                   pir_vec3 at, double error, double low[PIR_AXES_SLACKS]) {
     const pir_axes_lanes *p = side_p.lanes, *q = side_q.lanes;
     const struct counts of_p = side_p.of, of_q = side_q.of;
@@ -138,7 +138,7 @@ AXES_TARGET static AXES_INLINE uint32_t slacks_of(struct side side_p, struct sid
     turn(r, p->vertex, of_p.vertices, vertex);
     turn(r, p->normal, of_p.lines, normal);
     turn(r, p->edge, of_p.along, edge);
-    const struct corners in_p = {(lanes)vertex, of_p}, in_q = {q->vertex, of_q};
+    const struct axes_corners in_p = {(lanes)vertex, of_p}, in_q = {q->vertex, of_q};
     uint32_t wide = padded(of_q.along), count = lines((lanes)normal, p, of_p.lines, &in_q, at, error, low);
     count += lines(q->normal, q, of_q.lines, &in_p, at, error, &low[count]);
     for (uint32_t i = 0; i < of_p.along; i++, count += 2 * wide)
@@ -158,9 +158,9 @@ AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes
                                    double error, double low[PIR_AXES_SLACKS]) {
     const struct counts box = {4, 3, 3, true};
     if (is_box(p) && is_box(q))
-        return slacks_of((struct side){p, box}, (struct side){q, box}, r, at, error, low);
-    const struct side side_p = {p, {p->vertices, p->lines, p->along, p->is_central}};
-    const struct side side_q = {q, {q->vertices, q->lines, q->along, q->is_central}};
+        return slacks_of((struct axes_side){p, box}, (struct axes_side){q, box}, r, at, error, low);
+    const struct axes_side side_p = {p, {p->vertices, p->lines, p->along, p->is_central}};
+    const struct axes_side side_q = {q, {q->vertices, q->lines, q->along, q->is_central}};
     return slacks_of(side_p, side_q, r, at, error, low);
 }
 

@@ -32,20 +32,20 @@
 #define PLANES_MAX 3
 
 /* A plane n·x = d in the hull's integers. */
-struct plane {
+struct integer_plane {
     mpz_t n[3], d;
 };
 
 struct merging {
     const pir_polytope *hull;
     pir_merge_groups groups;
-    mpz_t *offset;                  /* per group */
-    mpq_t *at;                      /* three a vertex, in the hull's integers */
-    mpq_t limit;                    /* the square of the tolerance, in those units */
-    mpq_t unit;                     /* of length: the hull's scale */
-    mpq_t farthest;                 /* the square of the longest move */
-    mpz_t common;                   /* the denominator so far */
-    struct plane plane[PLANES_MAX]; /* work space, with the next two */
+    mpz_t *offset;                          /* per group */
+    mpq_t *at;                              /* three a vertex, in the hull's integers */
+    mpq_t limit;                            /* the square of the tolerance, in those units */
+    mpq_t unit;                             /* of length: the hull's scale */
+    mpq_t farthest;                         /* the square of the longest move */
+    mpz_t common;                           /* the denominator so far */
+    struct integer_plane plane[PLANES_MAX]; /* work space, with the next two */
     mpz_t minor[3], rest;
     mpq_t move;
 };
@@ -58,7 +58,7 @@ static void set_int(mpz_t to, pir_int a) {
 /* --- planes --- */
 
 /* sum = n·x for the vertex's own place. */
-static void height_of(struct merging *m, mpz_t sum, const struct plane *plane, uint32_t vertex) {
+static void height_of(struct merging *m, mpz_t sum, const struct integer_plane *plane, uint32_t vertex) {
     pir_int3 x = pir_vertex_exact(m->hull, vertex);
     mpz_set_ui(sum, 0);
     for (int k = 0; k < 3; k++) {
@@ -67,7 +67,7 @@ static void height_of(struct merging *m, mpz_t sum, const struct plane *plane, u
     }
 }
 
-static void set_normal(struct plane *plane, const pir_merge_slope *slope) {
+static void set_normal(struct integer_plane *plane, const pir_merge_slope *slope) {
     mpz_set_ui(plane->n[slope->axis], 1);
     mpz_mul_2exp(plane->n[slope->axis], plane->n[slope->axis], (mp_bitcnt_t)slope->bits);
     for (int k = 0; k < 2; k++)
@@ -99,7 +99,7 @@ static void set_offsets(struct merging *m) {
 }
 
 /* A facet's plane: of its group where that is active, else its own. */
-static void set_plane(struct merging *m, struct plane *plane, uint32_t facet) {
+static void set_plane(struct merging *m, struct integer_plane *plane, uint32_t facet) {
     uint32_t g = m->groups.of[facet];
     if (g != PIR_NO_GROUP && m->groups.group[g].active) {
         set_normal(plane, &m->groups.group[g].slope);
@@ -139,7 +139,7 @@ static void set_quotient(mpq_t to, const mpz_t num, const mpz_t den) {
 
 /* Onto one plane: the coordinate along its steepest axis changes. */
 static bool move_to_plane(struct merging *m, mpq_t *x) {
-    struct plane *plane = &m->plane[0];
+    struct integer_plane *plane = &m->plane[0];
     int axis = longest_axis(plane->n);
     mpz_set(m->rest, plane->d);
     for (int k = 1; k < 3; k++)
@@ -150,7 +150,7 @@ static bool move_to_plane(struct merging *m, mpq_t *x) {
 
 /* Onto two planes: the coordinate along which their line runs most stays. */
 static bool move_to_line(struct merging *m, mpq_t *x) {
-    struct plane *a = &m->plane[0], *b = &m->plane[1];
+    struct integer_plane *a = &m->plane[0], *b = &m->plane[1];
     cross_of(m->minor, a->n, b->n);
     int axis = longest_axis(m->minor), i = (axis + 1) % 3, j = (axis + 2) % 3;
     if (mpz_sgn(m->minor[axis]) == 0)
@@ -172,7 +172,7 @@ static bool move_to_point(struct merging *m, mpq_t *x) {
     mpz_t sum[3], determinant;
     mpz_inits(sum[0], sum[1], sum[2], determinant, NULL);
     for (int p = 0; p < 3; p++) {
-        struct plane *one = &m->plane[p], *two = &m->plane[(p + 1) % 3], *three = &m->plane[(p + 2) % 3];
+        struct integer_plane *one = &m->plane[p], *two = &m->plane[(p + 1) % 3], *three = &m->plane[(p + 2) % 3];
         cross_of(m->minor, two->n, three->n);
         for (int k = 0; k < 3; k++) {
             mpz_addmul(sum[k], one->d, m->minor[k]);

@@ -39,7 +39,7 @@ struct thinning {
 };
 
 /* A point of the hull of up to three vertices near a fourth. */
-struct nearest {
+struct thin_nearest {
     uint32_t vertex[3];
     double weight[3]; /* from 0 to 1; the first makes up the sum of 1 */
     double square;    /* of the distance */
@@ -47,22 +47,23 @@ struct nearest {
 
 /* --- the nearest point --- */
 
-static void keep_nearer(struct nearest *best, const struct nearest *other) {
+static void keep_nearer(struct thin_nearest *best, const struct thin_nearest *other) {
     if (other->square < best->square)
         *best = *other;
 }
 
 /* The point of the segment from u to w that is nearest to v. */
-static void look_at_segment(const struct thinning *t, uint32_t v, uint32_t u, uint32_t w, struct nearest *best) {
+static void look_at_segment(const struct thinning *t, uint32_t v, uint32_t u, uint32_t w, struct thin_nearest *best) {
     pir_vec3 a = pir_vec_sub(t->at[u], t->at[v]), along = pir_vec_sub(t->at[w], t->at[u]);
     double s = -pir_vec_dot(a, along) / pir_vec_dot(along, along);
     s = s > 0 ? fmin(s, 1) : 0;
     pir_vec3 d = pir_vec_add(a, pir_vec_scale(along, s));
-    keep_nearer(best, &(struct nearest){{u, w, u}, {1 - s, s, 0}, pir_vec_dot(d, d)});
+    keep_nearer(best, &(struct thin_nearest){{u, w, u}, {1 - s, s, 0}, pir_vec_dot(d, d)});
 }
 
 /* The foot of v on the plane of three vertices, where that lies between them. */
-static void look_at_triangle(const struct thinning *t, uint32_t v, const uint32_t vertex[3], struct nearest *best) {
+static void look_at_triangle(const struct thinning *t, uint32_t v, const uint32_t vertex[3],
+                             struct thin_nearest *best) {
     pir_vec3 a = pir_vec_sub(t->at[vertex[0]], t->at[v]), b = pir_vec_sub(t->at[vertex[1]], t->at[vertex[0]]),
              c = pir_vec_sub(t->at[vertex[2]], t->at[vertex[0]]), n = pir_vec_cross(b, c);
     double square = pir_vec_dot(n, n), height = pir_vec_dot(n, a);
@@ -70,21 +71,21 @@ static void look_at_triangle(const struct thinning *t, uint32_t v, const uint32_
         return;
     double s = pir_vec_dot(n, pir_vec_cross(c, a)) / square, r = pir_vec_dot(n, pir_vec_cross(a, b)) / square;
     if (s > 0 && r > 0 && s + r < 1)
-        keep_nearer(best,
-                    &(struct nearest){{vertex[0], vertex[1], vertex[2]}, {1 - s - r, s, r}, height / square * height});
+        keep_nearer(best, &(struct thin_nearest){
+                              {vertex[0], vertex[1], vertex[2]}, {1 - s - r, s, r}, height / square * height});
 }
 
 /*
  * A point near v of the hull of its neighbours: the nearest of the segments between two of them; where that is out of
  * reach, of the triangles that two neighbouring ones make with a third.
  */
-static struct nearest find_nearest(const struct thinning *t, uint32_t v) {
+static struct thin_nearest find_nearest(const struct thinning *t, uint32_t v) {
     const pir_polytope *hull = t->hull;
     uint32_t around[NEIGHBOURS_MAX], count = 0;
     for (uint32_t h = hull->ring_start[v]; h < hull->ring_start[v + 1]; h++)
         if (t->mark[hull->target[h]] != DROPPED)
             around[count++] = hull->target[h];
-    struct nearest best = {.square = INFINITY};
+    struct thin_nearest best = {.square = INFINITY};
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t j = i + 1; j < count; j++)
             look_at_segment(t, v, around[i], around[j], &best);
@@ -102,7 +103,7 @@ static struct nearest find_nearest(const struct thinning *t, uint32_t v) {
 /* --- the exact distance --- */
 
 /* t->distance = the square of the distance of v from the point, in the hull's integers. */
-static void measure_distance(struct thinning *t, uint32_t v, const struct nearest *point) {
+static void measure_distance(struct thinning *t, uint32_t v, const struct thin_nearest *point) {
     int64_t weight[3] = {0};
     weight[1] = llround(ldexp(point->weight[1], WEIGHT_BITS));
     weight[2] = llround(ldexp(point->weight[2], WEIGHT_BITS));
@@ -127,7 +128,7 @@ static void try_vertex(struct thinning *t, uint32_t v) {
     uint32_t degree = t->hull->ring_start[v + 1] - t->hull->ring_start[v];
     if (t->mark[v] == HELD || degree > NEIGHBOURS_MAX)
         return;
-    struct nearest point = find_nearest(t, v);
+    struct thin_nearest point = find_nearest(t, v);
     if (!(point.square <= t->reach * t->reach))
         return;
     measure_distance(t, v, &point);

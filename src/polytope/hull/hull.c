@@ -141,7 +141,7 @@ static bool hull_of_plane(pir_hull *hull, const pir_allocator *allocator, pir_po
 
 /* --- in space: joining coplanar triangles --- */
 
-struct merge {
+struct hull_merge {
     const pir_quickhull *quick;
     uint32_t *parent; /* union-find over triangles */
     uint32_t *degree; /* per point: facets that meet there */
@@ -165,7 +165,7 @@ static uint32_t apex_beyond(const pir_triangle *t, uint32_t a, uint32_t b) {
 }
 
 /* Joins each triangle with the coplanar ones beside it. */
-static void join_coplanar(struct merge *merge) {
+static void join_coplanar(struct hull_merge *merge) {
     const pir_quickhull *quick = merge->quick;
     for (uint32_t t = 0; t < quick->count; t++) {
         const pir_triangle *triangle = &quick->triangle[t];
@@ -181,12 +181,12 @@ static void join_coplanar(struct merge *merge) {
     }
 }
 
-static bool is_boundary(struct merge *merge, uint32_t t, int side) {
+static bool is_boundary(struct hull_merge *merge, uint32_t t, int side) {
     return find_root(merge->parent, t) != find_root(merge->parent, merge->quick->triangle[t].neighbor[side]);
 }
 
 /* Counts the facets at each point: the boundary sides that start there. Returns the number of boundary sides. */
-static uint32_t count_degrees(struct merge *merge) {
+static uint32_t count_degrees(struct hull_merge *merge) {
     uint32_t sides = 0;
     for (uint32_t t = 0; t < merge->quick->count; t++)
         for (int k = 0; pir_triangle_lives(&merge->quick->triangle[t]) && k < 3; k++)
@@ -198,7 +198,7 @@ static uint32_t count_degrees(struct merge *merge) {
 }
 
 /* Walks the facet that has boundary side (t, k), writing its corners that are not straight; returns their number. */
-static uint32_t walk_facet(struct merge *merge, uint32_t t, int k, uint32_t *corner) {
+static uint32_t walk_facet(struct hull_merge *merge, uint32_t t, int k, uint32_t *corner) {
     const pir_triangle *triangle = merge->quick->triangle;
     uint32_t count = 0;
     while (!merge->seen[(size_t)t * 3 + (size_t)k]) {
@@ -219,7 +219,7 @@ static uint32_t walk_facet(struct merge *merge, uint32_t t, int k, uint32_t *cor
 }
 
 /* Turns the triangles into facets. */
-static bool collect_facets(pir_hull *hull, const pir_allocator *allocator, struct merge *merge) {
+static bool collect_facets(pir_hull *hull, const pir_allocator *allocator, struct hull_merge *merge) {
     const pir_quickhull *quick = merge->quick;
     uint32_t points = quick->points->exact->count;
     merge->parent = PIR_NEW(allocator, uint32_t, quick->count);
@@ -280,7 +280,7 @@ static bool hull_in_space(pir_hull *hull, const pir_allocator *allocator, pir_po
     if (!sort_many(points, allocator, simplex) || pir_quickhull_run(&quick, points, allocator, simplex) != PIR_OK)
         return false;
     hull->dimension = 3;
-    struct merge merge = {.quick = &quick};
+    struct hull_merge merge = {.quick = &quick};
     bool done = collect_facets(hull, allocator, &merge);
     pir_quickhull_finish(&quick);
     return done;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct place {
+struct polygon_place {
     pir_vec3 near;
     const pir_points *points;
     uint32_t point, rank; /* rank: the place in the list that was given, so that of equal points the first stays */
@@ -16,7 +16,7 @@ struct place {
 };
 
 /* Compares one coordinate exactly. */
-static int compare_coordinate(const struct place *a, const struct place *b, int k) {
+static int compare_coordinate(const struct polygon_place *a, const struct polygon_place *b, int k) {
     double x = k == 0   ? a->near.x
                : k == 1 ? a->near.y
                         : a->near.z,
@@ -37,12 +37,12 @@ static int compare_coordinate(const struct place *a, const struct place *b, int 
     return si < 0 ? -order : order;
 }
 
-static bool same_place(const struct place *a, const struct place *b) {
+static bool same_place(const struct polygon_place *a, const struct polygon_place *b) {
     return compare_coordinate(a, b, (a->axis + 1) % 3) == 0 && compare_coordinate(a, b, (a->axis + 2) % 3) == 0;
 }
 
 static int compare_places(const void *left, const void *right) {
-    const struct place *a = left, *b = right;
+    const struct polygon_place *a = left, *b = right;
     int order = compare_coordinate(a, b, (a->axis + 1) % 3);
     if (order == 0)
         order = compare_coordinate(a, b, (a->axis + 2) % 3);
@@ -60,14 +60,14 @@ static uint32_t extend_chain(pir_points *points, int axis, uint32_t *chain, uint
 
 uint32_t pir_polygon_corners(pir_points *points, const pir_allocator *allocator, int axis, int direction,
                              uint32_t *index, uint32_t count) {
-    struct place *place = PIR_NEW(allocator, struct place, count);
+    struct polygon_place *place = PIR_NEW(allocator, struct polygon_place, count);
     uint32_t *chain = PIR_NEW(allocator, uint32_t, (size_t)count * 2 + 2);
     uint32_t length = 0;
     if (!place || !chain)
         goto done;
     // sort along the kept coordinates, equal points once
     for (uint32_t i = 0; i < count; i++)
-        place[i] = (struct place){points->near[index[i]], points, index[i], i, axis};
+        place[i] = (struct polygon_place){points->near[index[i]], points, index[i], i, axis};
     qsort(place, count, sizeof *place, compare_places);
     uint32_t distinct = 0;
     for (uint32_t i = 0; i < count; i++)

@@ -13,11 +13,11 @@
 #include "polytope/polytope.h"
 
 /* x → linear·x / norm + offset, in rationals. */
-typedef struct motion {
+typedef struct affine_map {
     mpq_t linear[3][3], norm, offset[3];
-} motion;
+} affine_map;
 
-static void motion_init(motion *m) {
+static void motion_init(affine_map *m) {
     mpq_init(m->norm);
     for (int i = 0; i < 3; i++) {
         mpq_init(m->offset[i]);
@@ -26,7 +26,7 @@ static void motion_init(motion *m) {
     }
 }
 
-static void motion_clear(motion *m) {
+static void motion_clear(affine_map *m) {
     mpq_clear(m->norm);
     for (int i = 0; i < 3; i++) {
         mpq_clear(m->offset[i]);
@@ -39,7 +39,7 @@ static void motion_clear(motion *m) {
  * linear = M(q) and norm = |q|²: M has w² + v_i² − v_j² − v_k² on its diagonal and 2 (v_i v_k ± w v_j) beside
  * it.
  */
-static void set_rotation(motion *m, pir_quat q) {
+static void set_rotation(affine_map *m, pir_quat q) {
     double components[4] = {q.x, q.y, q.z, q.w};
     mpq_t c[4], t;
     mpq_init(t);
@@ -69,7 +69,7 @@ static void set_rotation(motion *m, pir_quat q) {
 }
 
 /* The images of all vertices, three rationals each. */
-static void apply(const motion *m, const pir_polytope *p, mpq_t *coordinates) {
+static void apply(const affine_map *m, const pir_polytope *p, mpq_t *coordinates) {
     mpq_t x[3], t;
     mpq_inits(x[0], x[1], x[2], t, NULL);
     for (uint32_t v = 0; v < p->vertex_count; v++) {
@@ -94,7 +94,7 @@ static bool has_finite_vertices(const pir_polytope *p) {
     return true;
 }
 
-static pir_status move(const motion *m, const pir_polytope *p, pir_polytope **ret_polytope) {
+static pir_status move(const affine_map *m, const pir_polytope *p, pir_polytope **ret_polytope) {
     size_t count = 3 * (size_t)p->vertex_count;
     mpq_t *coordinates = PIR_NEW(&p->allocator, mpq_t, count);
     if (!coordinates)
@@ -129,7 +129,7 @@ pir_status pir_polytope_transform(const pir_polytope *p, pir_pose pose, pir_poly
         return PIR_ERR_NOT_FINITE;
     if (q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0)
         return PIR_ERR_ZERO_QUATERNION;
-    motion m;
+    affine_map m;
     motion_init(&m);
     set_rotation(&m, q);
     mpq_set_d(m.offset[0], t.x);

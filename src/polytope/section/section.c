@@ -25,34 +25,34 @@
 #include "polytope/section/cut.h"
 
 /* A side of the polygon, from the point of one edge to that of another. */
-struct side {
+struct section_side {
     uint32_t from[2], to[2];
 };
 
 /* The mesh that is cut, and the polygon as far as it is known. */
-struct work {
+struct section_work {
     const pir_mesh *mesh;
     struct pir_cut cut;
     int8_t *sign;      /* per vertex: above 1, below −1, in the plane 0; the other way round when `flipped` */
     bool flipped;      /* no vertex is above */
     uint32_t signs[3]; /* how many vertices have −1, 0 and 1, before flipping */
-    struct side *side;
+    struct section_side *side;
     uint32_t sides;
     uint32_t *order, *sort; /* sides by where they begin, and scratch to sort them */
 };
 
-static bool begin(struct work *work, const pir_mesh *mesh) {
+static bool begin(struct section_work *work, const pir_mesh *mesh) {
     const pir_allocator *a = &mesh->allocator;
     uint32_t facets = mesh->facets.count;
-    *work = (struct work){.mesh = mesh};
+    *work = (struct section_work){.mesh = mesh};
     work->sign = PIR_NEW(a, int8_t, mesh->vertex_count);
-    work->side = PIR_NEW(a, struct side, facets);
+    work->side = PIR_NEW(a, struct section_side, facets);
     work->order = PIR_NEW(a, uint32_t, facets);
     work->sort = PIR_NEW(a, uint32_t, facets);
     return work->sign && work->side && work->order && work->sort;
 }
 
-static void end(struct work *work) {
+static void end(struct section_work *work) {
     const pir_allocator *a = &work->mesh->allocator;
     uint32_t facets = work->mesh->facets.count;
     PIR_FREE(a, work->sign, work->mesh->vertex_count);
@@ -61,7 +61,7 @@ static void end(struct work *work) {
     PIR_FREE(a, work->sort, facets);
 }
 
-static void find_signs(struct work *work) {
+static void find_signs(struct section_work *work) {
     for (uint32_t v = 0; v < work->mesh->vertex_count; v++) {
         work->sign[v] = (int8_t)pir_cut_side(&work->cut, v);
         work->signs[work->sign[v] + 1]++;
@@ -72,7 +72,7 @@ static void find_signs(struct work *work) {
 }
 
 /* The edge from `above` to `other`, or `other` alone when it is in the plane. */
-static void set_point(const struct work *work, uint32_t above, uint32_t other, uint32_t ret_edge[2]) {
+static void set_point(const struct section_work *work, uint32_t above, uint32_t other, uint32_t ret_edge[2]) {
     if (work->sign[other] == 0)
         above = other;
     ret_edge[0] = above < other ? above : other;
@@ -80,7 +80,7 @@ static void set_point(const struct work *work, uint32_t above, uint32_t other, u
 }
 
 /* The side that a facet gives; false when it gives none. */
-static bool find_side(const struct work *work, uint32_t facet, struct side *ret_side) {
+static bool find_side(const struct section_work *work, uint32_t facet, struct section_side *ret_side) {
     uint32_t count;
     const uint32_t *corner = pir_mesh_facet(work->mesh, facet, &count);
     bool crosses = false;
@@ -96,7 +96,7 @@ static bool find_side(const struct work *work, uint32_t facet, struct side *ret_
     if (!crosses || memcmp(ret_side->from, ret_side->to, sizeof ret_side->from) == 0)
         return false;
     if (work->flipped) {
-        struct side back = *ret_side;
+        struct section_side back = *ret_side;
         memcpy(ret_side->from, back.to, sizeof back.to);
         memcpy(ret_side->to, back.from, sizeof back.from);
     }
@@ -108,11 +108,11 @@ static bool edge_before(const uint32_t a[2], const uint32_t b[2]) {
 }
 
 static bool side_before(void *context, uint32_t a, uint32_t b) {
-    const struct work *work = context;
+    const struct section_work *work = context;
     return edge_before(work->side[a].from, work->side[b].from);
 }
 
-static void find_sides(struct work *work) {
+static void find_sides(struct section_work *work) {
     for (uint32_t f = 0; f < work->mesh->facets.count; f++)
         if (find_side(work, f, &work->side[work->sides])) {
             work->order[work->sides] = work->sides;
@@ -122,7 +122,7 @@ static void find_sides(struct work *work) {
 }
 
 /* The side that begins where another ends: by halving, since they are in order. */
-static uint32_t side_from(const struct work *work, const uint32_t point[2]) {
+static uint32_t side_from(const struct section_work *work, const uint32_t point[2]) {
     uint32_t low = 0, high = work->sides;
     while (high - low > 1) {
         uint32_t middle = low + (high - low) / 2;
@@ -140,7 +140,7 @@ static void put_vertex(pir_section *section, uint32_t vertex) {
 }
 
 /* A body that lies in the plane whole: of the two facets of a polygon the one that faces the normal's way. */
-static void put_whole(struct work *work, pir_section *section) {
+static void put_whole(struct section_work *work, pir_section *section) {
     const pir_mesh *mesh = work->mesh;
     if (mesh->facets.count == 0) {
         for (uint32_t v = 0; v < mesh->vertex_count; v++)
@@ -156,7 +156,7 @@ static void put_whole(struct work *work, pir_section *section) {
 }
 
 /* A section that is no polygon with sides from facets: empty, a vertex, or that of a segment. */
-static void put_small(const struct work *work, pir_section *section) {
+static void put_small(const struct section_work *work, pir_section *section) {
     const pir_mesh *mesh = work->mesh;
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         if (work->sign[v] == 0)
@@ -169,7 +169,7 @@ static void put_small(const struct work *work, pir_section *section) {
 }
 
 /* The sides one after the other, from the first in order. */
-static void put_sides(const struct work *work, pir_section *section) {
+static void put_sides(const struct section_work *work, pir_section *section) {
     uint32_t side = work->order[0];
     for (uint32_t i = 0; i < work->sides; i++) {
         memcpy(section->edge[i], work->side[side].from, sizeof section->edge[i]);
@@ -178,7 +178,7 @@ static void put_sides(const struct work *work, pir_section *section) {
     section->count = work->sides;
 }
 
-static void put_corners(struct work *work, pir_section *section) {
+static void put_corners(struct section_work *work, pir_section *section) {
     mpz_t over[3], under;
     mpz_inits(over[0], over[1], over[2], under, NULL);
     for (uint32_t i = 0; i < section->count; i++) {
@@ -210,7 +210,7 @@ static pir_section *new_section(const pir_allocator *allocator, uint32_t room) {
     return NULL;
 }
 
-static pir_section *make(struct work *work) {
+static pir_section *make(struct section_work *work) {
     // A polygon in the plane has as many corners as vertices, another one no more than it has facets.
     uint32_t room = work->sides > 2 ? work->sides : work->mesh->vertex_count;
     pir_section *section = new_section(&work->mesh->allocator, room);
@@ -231,7 +231,7 @@ pir_status pir_mesh_section(const pir_mesh *mesh, pir_vec3 normal, double offset
         return PIR_ERR_ARGUMENT;
     if (!pir_vec_is_finite(normal) || !isfinite(offset))
         return PIR_ERR_NOT_FINITE;
-    struct work work;
+    struct section_work work;
     pir_section *section = NULL;
     if (begin(&work, mesh)) {
         pir_cut_init(&work.cut, mesh, normal, offset);

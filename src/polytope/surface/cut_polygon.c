@@ -17,7 +17,7 @@ struct pair {
     uint32_t first, second;
 };
 
-struct cut {
+struct polygon_cut {
     const pir_allocator *allocator;
     const uint32_t *corner; /* of the polygon */
     uint32_t count;
@@ -35,14 +35,14 @@ static bool pair_before(void *context, uint32_t a, uint32_t b) {
 }
 
 /* Puts cut->order in the order of `count` pairs. */
-static void sort_pairs(struct cut *cut, struct pair *pairs, uint32_t count) {
+static void sort_pairs(struct polygon_cut *cut, struct pair *pairs, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         cut->order[i] = i;
     pir_sort(cut->order, count, cut->work, pair_before, pairs);
 }
 
-static bool init_cut(struct cut *cut, const struct pir_on_hull *on, const uint32_t *corner, uint32_t count) {
-    *cut = (struct cut){.allocator = on->allocator, .corner = corner, .count = count};
+static bool init_cut(struct polygon_cut *cut, const struct pir_on_hull *on, const uint32_t *corner, uint32_t count) {
+    *cut = (struct polygon_cut){.allocator = on->allocator, .corner = corner, .count = count};
     for (uint32_t i = 0; i < count; i++)
         cut->room += pir_on_hull_degree(on, corner[i]);
     cut->pairs = PIR_NEW(on->allocator, struct pair, cut->room);
@@ -53,7 +53,7 @@ static bool init_cut(struct cut *cut, const struct pir_on_hull *on, const uint32
     return cut->pairs && cut->sides && cut->order && cut->work && cut->seen;
 }
 
-static void finish_cut(struct cut *cut) {
+static void finish_cut(struct polygon_cut *cut) {
     PIR_FREE(cut->allocator, cut->seen, cut->count);
     PIR_FREE(cut->allocator, cut->work, cut->room);
     PIR_FREE(cut->allocator, cut->order, cut->room);
@@ -63,7 +63,7 @@ static void finish_cut(struct cut *cut) {
 
 /* Notes the sides of the part whose corners' positions are `position`, rising; false when a side of the polygon is in
  * two parts. */
-static bool note_sides(struct cut *cut, const uint32_t *position, uint32_t count) {
+static bool note_sides(struct polygon_cut *cut, const uint32_t *position, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         uint32_t from = position[i], to = position[i + 1 < count ? i + 1 : 0];
         if (to == (from + 1) % cut->count) {
@@ -77,7 +77,7 @@ static bool note_sides(struct cut *cut, const uint32_t *position, uint32_t count
 }
 
 /* Whether the corners at these positions are on a line. */
-static bool on_a_line(struct pir_on_hull *on, const struct cut *cut, const uint32_t *position, uint32_t count) {
+static bool on_a_line(struct pir_on_hull *on, const struct polygon_cut *cut, const uint32_t *position, uint32_t count) {
     for (uint32_t i = 2; i < count; i++)
         if (!pir_collinear(&on->points, cut->corner[position[0]], cut->corner[position[1]], cut->corner[position[i]]))
             return false;
@@ -85,7 +85,7 @@ static bool on_a_line(struct pir_on_hull *on, const struct cut *cut, const uint3
 }
 
 /* Every side of a part that is none of the polygon must be walked as often one way as the other. */
-static bool sides_cancel(struct cut *cut) {
+static bool sides_cancel(struct polygon_cut *cut) {
     sort_pairs(cut, cut->sides, cut->side_count);
     const struct pair *sides = cut->sides;
     for (uint32_t i = 0, end; i < cut->side_count; i = end) {
@@ -102,7 +102,7 @@ static bool sides_cancel(struct cut *cut) {
 }
 
 /* Adds the parts to `volumes`; whether they make up the polygon. */
-static bool add_parts(struct pir_on_hull *on, struct cut *cut, bool turned, struct pir_six_volumes *volumes) {
+static bool add_parts(struct pir_on_hull *on, struct polygon_cut *cut, bool turned, struct pir_six_volumes *volumes) {
     uint32_t *position = cut->work, *corner = cut->order;
     for (uint32_t i = 0, end; i < cut->room; i = end) {
         for (end = i; end < cut->room && cut->pairs[end].first == cut->pairs[i].first; end++) {
@@ -121,7 +121,7 @@ static bool add_parts(struct pir_on_hull *on, struct cut *cut, bool turned, stru
 /* Cuts a polygon whose corners are all found, and not all on one facet. */
 static enum pir_on_hull_answer cut_polygon(struct pir_on_hull *on, const uint32_t *corner, uint32_t count, bool turned,
                                            struct pir_six_volumes *volumes) {
-    struct cut cut;
+    struct polygon_cut cut;
     enum pir_on_hull_answer answer = PIR_ON_HULL_NO_MEMORY;
     if (init_cut(&cut, on, corner, count)) {
         // sorted by facets: the corners on each, in the order of the polygon

@@ -102,7 +102,7 @@ static FILE *open_beside(const char *target, char ret_name[PIR_PATH_SIZE]) {
 }
 
 /* A mesh to be written, and its destination. */
-struct job {
+struct write_job {
     const pir_mesh *mesh;
     const char *path;
     int exact;
@@ -110,7 +110,7 @@ struct job {
 };
 
 /* Writes to the open file and closes it. */
-static pir_status write_and_close(const struct job *job, FILE *file) {
+static pir_status write_and_close(const struct write_job *job, FILE *file) {
     pir_status status = write_stream(job->mesh, file, job->path, pir_file_type_of(job->path), job->exact, job->report);
     if (fclose(file) != 0 && status == PIR_OK)
         status = fail_file(job->report, job->path, errno);
@@ -118,7 +118,7 @@ static pir_status write_and_close(const struct job *job, FILE *file) {
 }
 
 /* To a name beside the target, which then takes its place; `old` is what is there now, or NULL. */
-static pir_status replace(const struct job *job, const char *target, const struct stat *old) {
+static pir_status replace(const struct write_job *job, const char *target, const struct stat *old) {
     char temporary[PIR_PATH_SIZE];
     if (old && access(target, W_OK) != 0)
         return fail_file(job->report, job->path, errno);
@@ -135,7 +135,7 @@ static pir_status replace(const struct job *job, const char *target, const struc
     return status;
 }
 
-static pir_status write_file(const struct job *job) {
+static pir_status write_file(const struct write_job *job) {
     struct stat there;
     if (stat(job->path, &there) == 0 && !S_ISREG(there.st_mode)) {
         FILE *file = fopen(job->path, "wb");
@@ -155,5 +155,5 @@ pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int exact, pir
     if (type == PIR_FILE_UNKNOWN)
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name does not end in .off, .obj, .stl, .ply or .svg", name);
     pir_status status = check_exact(mesh, name, type, exact, report);
-    return status == PIR_OK ? write_file(&(struct job){mesh, path, exact, report}) : status;
+    return status == PIR_OK ? write_file(&(struct write_job){mesh, path, exact, report}) : status;
 }

@@ -26,17 +26,17 @@ struct clip {
 /* --- where corners are --- */
 
 /* A line along a side: how far a point is inside, times the side's length, is u · v' − v · u' − at. */
-struct line {
+struct side_line {
     double u, v, at, clear;
 };
 
-static inline struct line line_along(pir_outline outline, uint32_t i, double snap) {
+static inline struct side_line line_along(pir_outline outline, uint32_t i, double snap) {
     const pir_corner *a = &outline.at[i], *b = &outline.at[i + 1 < outline.count ? i + 1 : 0];
     double u = b->u - a->u, v = b->v - a->v;
-    return (struct line){u, v, u * a->v - v * a->u, PIR_CLIP_CLEAR * snap * (fabs(u) + fabs(v))};
+    return (struct side_line){u, v, u * a->v - v * a->u, PIR_CLIP_CLEAR * snap * (fabs(u) + fabs(v))};
 }
 
-static inline double inside_of(const struct line *line, const pir_corner *x) {
+static inline double inside_of(const struct side_line *line, const pir_corner *x) {
     return line->u * x->v - line->v * x->u - line->at;
 }
 
@@ -68,7 +68,7 @@ bool pir_clip_place(pir_outline p, pir_outline q, double snap, pir_clip_places *
     for (uint32_t i = 0; i < p.count; i++)
         places->outside[i] = 0;
     for (uint32_t j = 0; j < q.count; j++) {
-        struct line line = line_along(q, j, snap);
+        struct side_line line = line_along(q, j, snap);
         for (uint32_t i = 0; i < p.count; i++) {
             double inside = inside_of(&line, &p.at[i]);
             places->inside[j][i] = inside;
@@ -78,7 +78,7 @@ bool pir_clip_place(pir_outline p, pir_outline q, double snap, pir_clip_places *
     }
     places->all_beyond = 0;
     for (uint32_t i = 0; i < p.count; i++) {
-        struct line line = line_along(p, i, snap);
+        struct side_line line = line_along(p, i, snap);
         beyond[i] = 0;
         for (uint32_t j = 0; j < q.count; j++) {
             double inside = inside_of(&line, &q.at[j]);

@@ -23,7 +23,7 @@
  */
 #define MOST_STEPS 1024
 
-struct corners {
+struct simplex_corners {
     uint32_t count, a[4], b[4];
     pir_int3 w[4];
 };
@@ -31,7 +31,7 @@ struct corners {
 /* --- the nearest face of a simplex --- */
 
 /* Whether no corner of the set is beyond corner i along n. */
-static bool is_farthest(pir_exact *exact, const struct corners *set, uint32_t i, const pir_int3 *n) {
+static bool is_farthest(pir_exact *exact, const struct simplex_corners *set, uint32_t i, const pir_int3 *n) {
     uint32_t mark = exact->scratch.used;
     bool farthest = true;
     for (uint32_t k = 0; k < set->count && farthest; k++)
@@ -49,13 +49,13 @@ static void negate(pir_int3 *v) {
 }
 
 /* n of corner i, in the scratch, where that corner is the nearest face. */
-static bool try_corner(pir_exact *exact, const struct corners *set, uint32_t i, pir_int3 *ret_n) {
+static bool try_corner(pir_exact *exact, const struct simplex_corners *set, uint32_t i, pir_int3 *ret_n) {
     *ret_n = set->w[i];
     negate(ret_n);
     return is_farthest(exact, set, i, ret_n);
 }
 
-static bool try_segment(pir_exact *exact, const struct corners *set, uint32_t i, uint32_t j, pir_int3 *ret_n) {
+static bool try_segment(pir_exact *exact, const struct simplex_corners *set, uint32_t i, uint32_t j, pir_int3 *ret_n) {
     pir_int3 e = pir_exact_difference(exact, &set->w[j], &set->w[i]);
     pir_int from = pir_exact_dot(exact, &set->w[i], &e), to = pir_exact_dot(exact, &set->w[j], &e);
     if (pir_int_sign(&from) >= 0 || pir_int_sign(&to) <= 0)
@@ -75,7 +75,7 @@ static int weight(pir_exact *exact, const pir_int3 *n, const pir_int3 *w, const 
     return sign;
 }
 
-static bool try_triangle(pir_exact *exact, const struct corners *set, uint32_t i, uint32_t j, uint32_t k,
+static bool try_triangle(pir_exact *exact, const struct simplex_corners *set, uint32_t i, uint32_t j, uint32_t k,
                          pir_int3 *ret_n) {
     const pir_int3 *w = set->w;
     pir_int3 e = pir_exact_difference(exact, &w[j], &w[i]), f = pir_exact_difference(exact, &w[k], &w[i]);
@@ -91,7 +91,7 @@ static bool try_triangle(pir_exact *exact, const struct corners *set, uint32_t i
 }
 
 /* Reduces the set to the corners that are named. */
-static void keep(struct corners *set, const uint32_t *index, uint32_t count) {
+static void keep(struct simplex_corners *set, const uint32_t *index, uint32_t count) {
     for (uint32_t k = 0; k < count; k++) {
         set->a[k] = set->a[index[k]];
         set->b[k] = set->b[index[k]];
@@ -100,7 +100,7 @@ static void keep(struct corners *set, const uint32_t *index, uint32_t count) {
 }
 
 /* Reduces the set to its face that is nearest to 0. Its n is in the scratch. False where 0 is in the hull. */
-static bool nearest_face(pir_exact *exact, struct corners *set, pir_int3 *ret_n) {
+static bool nearest_face(pir_exact *exact, struct simplex_corners *set, pir_int3 *ret_n) {
     uint32_t mark = exact->scratch.used;
     for (uint32_t i = 0; i < set->count; i++, exact->scratch.used = mark)
         if (try_corner(exact, set, i, ret_n)) {
@@ -136,13 +136,14 @@ static uint32_t climb(pir_exact *exact, const pir_normal *normal, const pir_view
     return from;
 }
 
-static void make_corners(pir_exact *exact, struct corners *set) {
+static void make_corners(pir_exact *exact, struct simplex_corners *set) {
     for (uint32_t i = 0; i < set->count; i++)
         set->w[i] = pir_exact_corner(exact, set->a[i], set->b[i]);
 }
 
 /* One step. True where it is the last: then the faces are set. */
-static bool step(pir_exact *exact, struct corners *set, pir_witness *ret_faces, pir_facet *ret_facet, bool *ret_flat) {
+static bool step(pir_exact *exact, struct simplex_corners *set, pir_witness *ret_faces, pir_facet *ret_facet,
+                 bool *ret_flat) {
     const pir_frame *frame = exact->frame;
     make_corners(exact, set);
     pir_int3 n;
@@ -167,7 +168,7 @@ static bool step(pir_exact *exact, struct corners *set, pir_witness *ret_faces, 
 
 bool pir_nearest_faces(pir_exact *exact, const pir_placement *placement, const pir_simplex *simplex,
                        pir_witness *ret_faces, pir_facet *ret_facet, bool *ret_flat, uint32_t *steps) {
-    struct corners set = {.count = simplex->count};
+    struct simplex_corners set = {.count = simplex->count};
     for (uint32_t i = 0; i < simplex->count; i++) {
         set.a[i] = simplex->a[i];
         set.b[i] = simplex->b[i];

@@ -15,12 +15,12 @@ struct touch {
 /* --- signs --- */
 
 /* A halfedge of P or Q. */
-struct side {
+struct touch_side {
     bool of_q;
     uint32_t half;
 };
 
-static pir_vec3 direction_of(const pir_frame *frame, struct side side) {
+static pir_vec3 direction_of(const pir_frame *frame, struct touch_side side) {
     return side.of_q ? frame->q.polytope->direction[side.half]
                      : pir_mat_apply(&frame->r, frame->p.polytope->direction[side.half]);
 }
@@ -48,7 +48,7 @@ static pir_int3 exact_corner(const struct touch *touch, uint32_t a, uint32_t b) 
 }
 
 /* The exact sign of m·(y − corner (a, b)), m = n × e or, `along`, e. */
-static int exact_position(const struct touch *touch, struct side side, bool along, uint32_t a, uint32_t b) {
+static int exact_position(const struct touch *touch, struct touch_side side, bool along, uint32_t a, uint32_t b) {
     pir_exact *exact = touch->exact;
     pir_exact_begin(exact, touch->placement->translation);
     uint32_t mark = exact->scratch.used;
@@ -64,7 +64,7 @@ static int exact_position(const struct touch *touch, struct side side, bool alon
 }
 
 /* The sign of m·(y − corner (a, b)), m = n × e. */
-static inline int position(const struct touch *touch, struct side side, pir_vec3 m, uint32_t a, uint32_t b) {
+static inline int position(const struct touch *touch, struct touch_side side, pir_vec3 m, uint32_t a, uint32_t b) {
     double s = pir_vec_dot(m, pir_vec_sub(touch->x, pir_frame_vertex(touch->exact->frame, a, b)));
     if (fabs(s) > touch->error)
         return (s > 0) - (s < 0);
@@ -102,7 +102,7 @@ static int position_of(const struct point *point, uint32_t half, bool along, uin
     double s = pir_vec_dot(m, pir_vec_sub(point->at, point->vertex[own]));
     if (fabs(s) > point->touch->error)
         return (s > 0) - (s < 0);
-    return exact_position(point->touch, (struct side){of_q, half}, along, of_q ? point->fixed : own,
+    return exact_position(point->touch, (struct touch_side){of_q, half}, along, of_q ? point->fixed : own,
                           of_q ? own : point->fixed);
 }
 
@@ -242,7 +242,7 @@ static pir_vec3 crossing_point(const struct touch *touch, uint32_t half_p, uint3
 /* Whether the edges cross at y, and the least faces that hold it. */
 static bool edges_cross(const struct touch *touch, uint32_t e, uint32_t d, pir_witness *ret_witness) {
     const pir_polytope *p = touch->exact->frame->p.polytope, *q = touch->exact->frame->q.polytope;
-    struct side of_p = {false, p->edge_half[e]}, of_q = {true, q->edge_half[d]};
+    struct touch_side of_p = {false, p->edge_half[e]}, of_q = {true, q->edge_half[d]};
     pir_vec3 along_p = direction_of(touch->exact->frame, of_p), along_q = direction_of(touch->exact->frame, of_q);
     int turn = turn_of(touch, of_p.half, of_q.half, along_p, along_q);
     if (turn == 0)

@@ -13,7 +13,7 @@
 #define DIRECTIONS 4
 #define VERTICES   40
 
-static void narrow(pir_bounds *bounds, double least, double most) {
+static void narrow(pir_far_bounds *bounds, double least, double most) {
     bounds->least = fmax(bounds->least, least - bounds->slack);
     bounds->most = fmin(bounds->most, most + bounds->slack);
 }
@@ -29,14 +29,14 @@ static double diagonal(const pir_box *box) {
     return sqrt(square);
 }
 
-pir_bounds pir_bounds_of_boxes(const pir_box *p, const pir_box *q, double slack) {
+pir_far_bounds pir_far_bounds_of_boxes(const pir_box *p, const pir_box *q, double slack) {
     double square = 0;
     for (int k = 0; k < 3; k++) {
         double gap = fmax(0, fmax((double)p->low[k] - q->high[k], (double)q->low[k] - p->high[k]));
         square += gap * gap;
     }
     double gap = sqrt(square);
-    return (pir_bounds){gap * DOWN, (gap + diagonal(p) + diagonal(q)) * UP, slack};
+    return (pir_far_bounds){gap * DOWN, (gap + diagonal(p) + diagonal(q)) * UP, slack};
 }
 
 /* --- balls --- */
@@ -55,7 +55,7 @@ static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
-void pir_bounds_by_balls(pir_bounds *bounds, const pir_placed *p, const pir_placed *q) {
+void pir_far_bounds_by_balls(pir_far_bounds *bounds, const pir_placed *p, const pir_placed *q) {
     double apart = length(pir_vec_sub(q->centre, p->centre)) - p->radius - q->radius;
     narrow(bounds, apart - p->coarse->around - q->coarse->around, apart - p->coarse->inside - q->coarse->inside);
 }
@@ -90,7 +90,7 @@ static pir_vec3 support(const pir_placed *placed, const pir_polytope *body, pir_
  * bodies are apart by at least the part of y − x along u, and by at most its length. The bodies are apart by at most
  * as much, and by at least as much less both errors.
  */
-void pir_bounds_by_supports(pir_bounds *bounds, const pir_placed *p, const pir_placed *q, double error) {
+void pir_far_bounds_by_supports(pir_far_bounds *bounds, const pir_placed *p, const pir_placed *q, double error) {
     const pir_coarse_body *of_p = coarsest(p->coarse, error / 4), *of_q = coarsest(q->coarse, error / 4);
     double radii = p->radius + q->radius;
     pir_vec3 way = pir_vec_sub(q->centre, p->centre);

@@ -9,9 +9,9 @@
 #include "scene/query/probe.h"
 
 /* The distance is between these; `slack` is what a distance in doubles may be off. */
-typedef struct pir_bounds {
+typedef struct pir_far_bounds {
     double least, most, slack;
-} pir_bounds;
+} pir_far_bounds;
 
 /* A body in a place, with its coarse bodies; none may be missing. */
 typedef struct pir_placed {
@@ -25,12 +25,12 @@ typedef struct pir_placed {
 pir_placed pir_placed_of(const pir_coarse *coarse, pir_quat unit, pir_vec3 translation, double radius);
 
 /* From nothing: each body is in its box, and has a point in it. */
-pir_bounds pir_bounds_of_boxes(const pir_box *p, const pir_box *q, double slack);
+pir_far_bounds pir_far_bounds_of_boxes(const pir_box *p, const pir_box *q, double slack);
 
-void pir_bounds_by_balls(pir_bounds *bounds, const pir_placed *p, const pir_placed *q);
+void pir_far_bounds_by_balls(pir_far_bounds *bounds, const pir_placed *p, const pir_placed *q);
 
 /* Supports along a few directions, of the coarsest bodies that are within `error` of theirs, until the bounds are so
    near to each other. */
-void pir_bounds_by_supports(pir_bounds *bounds, const pir_placed *p, const pir_placed *q, double error);
+void pir_far_bounds_by_supports(pir_far_bounds *bounds, const pir_placed *p, const pir_placed *q, double error);
 
 #endif

@@ -15,10 +15,10 @@
 #include "scene/world/scene.h"
 
 /* The segment from `from` to from + way as a body sees it. */
-typedef struct pir_segment {
+typedef struct pir_ray_segment {
     pir_vec3 from, way;
     double error; /* heights over planes are off by at most this */
-} pir_segment;
+} pir_ray_segment;
 
 /* Where a segment enters a piece. */
 typedef struct pir_entry {
@@ -31,7 +31,7 @@ typedef struct pir_entry {
 /* --- without a radius: pir_ray_rounded is ray_rounded.h's --- */
 
 /* Whether doubles settle it; *ret_entry is set only then. */
-bool pir_ray_by_doubles(const pir_polytope *p, const pir_segment *segment, pir_entry *ret_entry);
+bool pir_ray_by_doubles(const pir_polytope *p, const pir_ray_segment *segment, pir_entry *ret_entry);
 
 /* The segment in the world, and the body's pose. */
 typedef struct pir_world_ray {
@@ -42,7 +42,7 @@ typedef struct pir_world_ray {
 uint32_t pir_ray_limbs(const pir_polytope *p);
 
 /* Exact but for the last rounding of the time; `segment` for the normal. The room has pir_ray_limbs. */
-pir_entry pir_ray_exact(const pir_polytope *p, const pir_world_ray *ray, pir_pose pose, const pir_segment *segment,
+pir_entry pir_ray_exact(const pir_polytope *p, const pir_world_ray *ray, pir_pose pose, const pir_ray_segment *segment,
                         pir_exact_room *room);
 
 /* --- what all three share --- */

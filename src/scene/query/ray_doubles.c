@@ -10,16 +10,17 @@
 #define GOOD_ENOUGH 0x1p-42
 
 /* Bounds on the times at which the segment is within all half-spaces so far. */
-struct clip {
+struct ray_clip {
     bool misses, open;
     double enter_low, enter_high, leave_low, leave_high;
     double time;    /* of the last entry, by doubles */
     uint32_t facet; /* and its half-space; UINT32_MAX where there is none yet */
 };
 
-static const struct clip unclipped = {false, false, -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, UINT32_MAX};
+static const struct ray_clip unclipped = {false, false, -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, UINT32_MAX};
 
-static void clip_by(struct clip *clip, const pir_segment *segment, pir_vec3 normal, pir_vec3 corner, uint32_t facet) {
+static void clip_by(struct ray_clip *clip, const pir_ray_segment *segment, pir_vec3 normal, pir_vec3 corner,
+                    uint32_t facet) {
     const double e = segment->error, s0 = pir_vec_dot(normal, pir_vec_sub(corner, segment->from)),
                  s1 = s0 - pir_vec_dot(normal, segment->way), span = fabs(s1 - s0);
     if (s0 > e && s1 > e)
@@ -44,13 +45,13 @@ static void clip_by(struct clip *clip, const pir_segment *segment, pir_vec3 norm
 }
 
 /* Whether a clip without doubt misses. */
-static bool misses(const struct clip *clip) {
+static bool misses(const struct ray_clip *clip) {
     return clip->misses || clip->enter_low > fmin(clip->leave_high, 1) || clip->leave_high < 0;
 }
 
 /* A polygon is met where its plane is crossed, if that is within its sides. */
-static bool cross_polygon(const pir_polytope *p, const pir_segment *segment, pir_entry *entry) {
-    struct clip plane = unclipped, sides = unclipped;
+static bool cross_polygon(const pir_polytope *p, const pir_ray_segment *segment, pir_entry *entry) {
+    struct ray_clip plane = unclipped, sides = unclipped;
     const pir_vec3 corner = pir_facet_corner(p, 0);
     uint32_t side = pir_vec_dot(p->normal[0], segment->way) < 0 ? 0 : 1;
     clip_by(&plane, segment, p->normal[side], corner, side);
@@ -70,8 +71,8 @@ static bool cross_polygon(const pir_polytope *p, const pir_segment *segment, pir
     return before || after || within;
 }
 
-static bool enter_body(const pir_polytope *p, const pir_segment *segment, pir_entry *entry) {
-    struct clip clip = unclipped;
+static bool enter_body(const pir_polytope *p, const pir_ray_segment *segment, pir_entry *entry) {
+    struct ray_clip clip = unclipped;
     for (uint32_t f = 0; f < p->facet_count && !clip.misses; f++)
         clip_by(&clip, segment, p->normal[f], pir_facet_corner(p, f), f);
     if (misses(&clip)) {
@@ -88,7 +89,7 @@ static bool enter_body(const pir_polytope *p, const pir_segment *segment, pir_en
     return clip.enter_low > 0 && clip.enter_high < 1 && clip.enter_high - clip.enter_low <= GOOD_ENOUGH;
 }
 
-bool pir_ray_by_doubles(const pir_polytope *p, const pir_segment *segment, pir_entry *ret_entry) {
+bool pir_ray_by_doubles(const pir_polytope *p, const pir_ray_segment *segment, pir_entry *ret_entry) {
     return p->dimension == 3   ? enter_body(p, segment, ret_entry)
            : p->dimension == 2 ? cross_polygon(p, segment, ret_entry)
                                : false;

@@ -13,18 +13,18 @@
 #include "scene/query/ray.h"
 
 /* A time −S/D, and the half-space that it comes from; UINT32_MAX: the end of the segment. */
-struct crossing {
+struct ray_crossing {
     pir_int s, d;
     uint32_t facet;
     pir_vec3 normal; /* in doubles */
 };
 
-struct line {
+struct exact_line {
     const pir_polytope *p;
     pir_limbs *limbs;
     pir_int f;
     pir_int3 origin, way; /* o' and w' */
-    struct crossing enter, leave;
+    struct ray_crossing enter, leave;
     bool misses, inside; /* `inside`: the begin is within all half-spaces so far, on the boundary of none */
     uint32_t on;         /* the first facet that the begin is on, or UINT32_MAX */
     pir_vec3 on_normal;
@@ -73,7 +73,7 @@ static pir_int3 integers_of(pir_vec3 v, int exponent, pir_limbs *limbs) {
 }
 
 /* den · Mᵀ v. */
-static pir_int3 seen(const struct line *line, const pir_rotation *rotation, const pir_int3 *v) {
+static pir_int3 seen(const struct exact_line *line, const pir_rotation *rotation, const pir_int3 *v) {
     pir_int3 to = pir_int3_take(line->limbs, limbs_of_point(line->p));
     uint32_t mark = line->limbs->used;
     pir_int3 turned = pir_int3_take(line->limbs, PIR_MATRIX_LIMBS + PIR_QUAT_LIMBS + 3);
@@ -84,7 +84,7 @@ static pir_int3 seen(const struct line *line, const pir_rotation *rotation, cons
     return to;
 }
 
-static void set_line(struct line *line, const pir_world_ray *ray, pir_pose pose, pir_rotation *rotation) {
+static void set_line(struct exact_line *line, const pir_world_ray *ray, pir_pose pose, pir_rotation *rotation) {
     pir_limbs *limbs = line->limbs;
     const int e = low_bit_of(ray->origin, low_bit_of(ray->way, low_bit_of(pose.translation, 0)));
     pir_int3 origin = integers_of(ray->origin, e, limbs), at = integers_of(pose.translation, e, limbs),
@@ -104,16 +104,17 @@ static void set_line(struct line *line, const pir_world_ray *ray, pir_pose pose,
 }
 
 /* A crossing at the time 0 or 1. */
-static struct crossing end_of(const struct line *line, int time) {
+static struct ray_crossing end_of(const struct exact_line *line, int time) {
     const uint32_t room = limbs_of_point(line->p) + limbs_of_normal(line->p) + 4;
-    struct crossing end = {pir_limbs_take(line->limbs, room), pir_limbs_take(line->limbs, room), UINT32_MAX, {0, 0, 0}};
+    struct ray_crossing end = {
+        pir_limbs_take(line->limbs, room), pir_limbs_take(line->limbs, room), UINT32_MAX, {0, 0, 0}};
     pir_int_set_double(&end.s, time, 0);
     pir_int_set_double(&end.d, time ? -1 : 1, 0);
     return end;
 }
 
 /* The sign of the time of a less that of b. */
-static int compare(const struct line *line, const struct crossing *a, const struct crossing *b) {
+static int compare(const struct exact_line *line, const struct ray_crossing *a, const struct ray_crossing *b) {
     uint32_t mark = line->limbs->used,
              need = pir_int_length(&a->s) + pir_int_length(&a->d) + pir_int_length(&b->s) + pir_int_length(&b->d) + 1;
     pir_int x = pir_limbs_take(line->limbs, need), y = pir_limbs_take(line->limbs, need);
@@ -124,7 +125,7 @@ static int compare(const struct line *line, const struct crossing *a, const stru
     return pir_int_sign(&x) * pir_int_sign(&a->d) * pir_int_sign(&b->d);
 }
 
-static void keep(struct crossing *to, const struct crossing *from) {
+static void keep(struct ray_crossing *to, const struct ray_crossing *from) {
     pir_int_copy(&to->s, &from->s);
     pir_int_copy(&to->d, &from->d);
     to->facet = from->facet;
@@ -134,9 +135,9 @@ static void keep(struct crossing *to, const struct crossing *from) {
 /* --- half-spaces --- */
 
 /* S and D, in the limbs from here on. */
-static struct crossing crossing_of(const struct line *line, const pir_int3 *n, uint32_t vertex) {
+static struct ray_crossing crossing_of(const struct exact_line *line, const pir_int3 *n, uint32_t vertex) {
     const uint32_t room = limbs_of_point(line->p) + limbs_of_normal(line->p) + 4;
-    struct crossing made = {.s = pir_limbs_take(line->limbs, room), .d = pir_limbs_take(line->limbs, room)};
+    struct ray_crossing made = {.s = pir_limbs_take(line->limbs, room), .d = pir_limbs_take(line->limbs, room)};
     uint32_t mark = line->limbs->used;
     pir_int3 corner = pir_int3_take(line->limbs, limbs_of_point(line->p) + 1), v = pir_vertex_exact(line->p, vertex);
     for (int k = 0; k < 3; k++) {
@@ -151,9 +152,9 @@ static struct crossing crossing_of(const struct line *line, const pir_int3 *n, u
 }
 
 /* Clips by the half-space with outward normal `n` through a vertex; `number` tells it, `normal` is for the entry. */
-static void clip_by(struct line *line, const pir_int3 *n, uint32_t vertex, uint32_t number, pir_vec3 normal) {
+static void clip_by(struct exact_line *line, const pir_int3 *n, uint32_t vertex, uint32_t number, pir_vec3 normal) {
     uint32_t mark = line->limbs->used;
-    struct crossing at = crossing_of(line, n, vertex);
+    struct ray_crossing at = crossing_of(line, n, vertex);
     at.facet = number;
     at.normal = normal;
     const int s = pir_int_sign(&at.s), d = pir_int_sign(&at.d);
@@ -171,7 +172,7 @@ static void clip_by(struct line *line, const pir_int3 *n, uint32_t vertex, uint3
 }
 
 /* The plane as two half-spaces. */
-static void clip_by_plane(struct line *line, pir_int3 n, uint32_t vertex, pir_vec3 normal) {
+static void clip_by_plane(struct exact_line *line, pir_int3 n, uint32_t vertex, pir_vec3 normal) {
     for (int side = 0; side < 2; side++) {
         clip_by(line, &n, vertex, 0, normal);
         for (int k = 0; k < 3; k++)
@@ -179,7 +180,7 @@ static void clip_by_plane(struct line *line, pir_int3 n, uint32_t vertex, pir_ve
     }
 }
 
-static void clip_by_facets(struct line *line) {
+static void clip_by_facets(struct exact_line *line) {
     const pir_polytope *p = line->p;
     for (uint32_t f = 0; f < p->facet_count && !line->misses; f++) {
         pir_int3 n = pir_normal_exact(p, f);
@@ -187,7 +188,7 @@ static void clip_by_facets(struct line *line) {
     }
 }
 
-static void clip_by_walls(struct line *line) {
+static void clip_by_walls(struct exact_line *line) {
     const pir_polytope *p = line->p;
     pir_int3 n = pir_normal_exact(p, 0);
     for (uint32_t i = p->loop_start[0]; i < p->loop_start[1] && !line->misses; i++) {
@@ -200,7 +201,7 @@ static void clip_by_walls(struct line *line) {
 }
 
 /* The k-th axis, or, for a segment along e, the axis × e. */
-static void clip_by_axes(struct line *line, const pir_int3 *e, pir_vec3 normal) {
+static void clip_by_axes(struct exact_line *line, const pir_int3 *e, pir_vec3 normal) {
     for (int k = 0; k < 3 && !line->misses; k++) {
         uint32_t mark = line->limbs->used;
         mp_limb_t one = 1;
@@ -217,7 +218,7 @@ static void clip_by_axes(struct line *line, const pir_int3 *e, pir_vec3 normal) 
     }
 }
 
-static void clip_by_ends(struct line *line, pir_vec3 normal) {
+static void clip_by_ends(struct exact_line *line, pir_vec3 normal) {
     const pir_polytope *p = line->p;
     for (uint32_t v = 0; v < 2; v++) {
         // the edge leaves vertex 0 towards vertex 1
@@ -228,20 +229,20 @@ static void clip_by_ends(struct line *line, pir_vec3 normal) {
     }
 }
 
-static double time_of(const struct crossing *at) {
+static double time_of(const struct ray_crossing *at) {
     int es, ed;
     double s = pir_int_to_double(&at->s, &es), d = pir_int_to_double(&at->d, &ed);
     return s == 0 ? 0 : fmin(ldexp(-s / d, es - ed), 1);
 }
 
-pir_entry pir_ray_exact(const pir_polytope *p, const pir_world_ray *ray, pir_pose pose, const pir_segment *segment,
+pir_entry pir_ray_exact(const pir_polytope *p, const pir_world_ray *ray, pir_pose pose, const pir_ray_segment *segment,
                         pir_exact_room *room) {
     const pir_vec3 against = pir_against(segment->way);
     pir_rotation rotation = {.integers = room->integers};
     pir_rotation_set_given(&rotation, pose.rotation);
     pir_rotation_make_exact(&rotation);
     room->limbs.used = 0;
-    struct line line = {.p = p, .limbs = &room->limbs, .inside = true, .on = UINT32_MAX};
+    struct exact_line line = {.p = p, .limbs = &room->limbs, .inside = true, .on = UINT32_MAX};
     set_line(&line, ray, pose, &rotation);
     line.enter = end_of(&line, 0);
     line.leave = end_of(&line, 1);

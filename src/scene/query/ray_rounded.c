@@ -13,7 +13,7 @@
 #define RIM 0x1p-34
 
 /* The line at hand: base + s·u, with the base near the body. */
-struct line {
+struct rounded_line {
     const pir_polytope *p;
     double radius, rim;
     pir_vec3 base, u;
@@ -25,11 +25,11 @@ static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
-static pir_vec3 at(const struct line *line, double s) {
+static pir_vec3 at(const struct rounded_line *line, double s) {
     return pir_vec_add(line->base, pir_vec_scale(line->u, s));
 }
 
-static void note(struct line *line, double s, pir_vec3 normal) {
+static void note(struct rounded_line *line, double s, pir_vec3 normal) {
     if (s < line->first) {
         line->first = s;
         line->normal = normal;
@@ -47,7 +47,7 @@ static bool is_over(const pir_polytope *p, uint32_t f, pir_vec3 x, double rim) {
     return true;
 }
 
-static void cross_facet(struct line *line, uint32_t f) {
+static void cross_facet(struct rounded_line *line, uint32_t f) {
     const pir_polytope *p = line->p;
     double rate = pir_vec_dot(p->normal[f], line->u);
     double s = (pir_facet_slack(p, f, line->base) + line->radius) / rate;
@@ -71,7 +71,7 @@ static bool circle(pir_vec3 w, pir_vec3 v, double radius, const double within[2]
     return true;
 }
 
-static void cross_vertex(struct line *line, uint32_t v) {
+static void cross_vertex(struct rounded_line *line, uint32_t v) {
     const double anywhere[2] = {-HUGE_VAL, HUGE_VAL};
     double s[2];
     pir_vec3 w = pir_vec_sub(line->base, line->p->vertex[v]);
@@ -79,7 +79,7 @@ static void cross_vertex(struct line *line, uint32_t v) {
         note(line, s[k], pir_vec_scale(pir_vec_add(w, pir_vec_scale(line->u, s[k])), 1 / line->radius));
 }
 
-static void cross_edge(struct line *line, uint32_t edge) {
+static void cross_edge(struct rounded_line *line, uint32_t edge) {
     const pir_polytope *p = line->p;
     const uint32_t half = p->edge_half[edge];
     const pir_vec3 from = p->vertex[p->origin[half]], e = p->direction[half], w = pir_vec_sub(line->base, from);
@@ -98,7 +98,7 @@ static void cross_edge(struct line *line, uint32_t edge) {
     }
 }
 
-static void cross_all(struct line *line) {
+static void cross_all(struct rounded_line *line) {
     const pir_polytope *p = line->p;
     for (uint32_t f = 0; f < p->facet_count && p->dimension >= 2; f++)
         cross_facet(line, f);
@@ -161,14 +161,14 @@ static pir_entry hold(const pir_polytope *p, pir_vec3 x, double radius) {
     return (pir_entry){off <= radius, off < radius, off <= radius ? 0 : 1, normal_of_depth(p, x, (pir_vec3){0, 0, 0})};
 }
 
-pir_entry pir_ray_rounded(const pir_polytope *p, const pir_segment *segment, double radius) {
+pir_entry pir_ray_rounded(const pir_polytope *p, const pir_ray_segment *segment, double radius) {
     const pir_vec3 against = pir_against(segment->way), u = {-against.x, -against.y, -against.z};
     const double way = pir_vec_dot(u, segment->way);
     if (!(way > 0))
         return hold(p, segment->from, radius);
     const pir_vec3 middle = p->vertex[0];
     const double to_base = pir_vec_dot(u, pir_vec_sub(middle, segment->from));
-    struct line line = {.p = p, .radius = radius, .u = u, .first = HUGE_VAL, .last = -HUGE_VAL};
+    struct rounded_line line = {.p = p, .radius = radius, .u = u, .first = HUGE_VAL, .last = -HUGE_VAL};
     line.base = pir_vec_add(segment->from, pir_vec_scale(u, to_base));
     for (uint32_t v = 0; v < p->vertex_count; v++)
         line.rim = fmax(line.rim, length(pir_vec_sub(p->vertex[v], middle)));

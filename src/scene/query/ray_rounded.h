@@ -6,6 +6,6 @@
 #include "scene/query/ray.h"
 
 /* `radius` is above 0. */
-pir_entry pir_ray_rounded(const pir_polytope *p, const pir_segment *segment, double radius);
+pir_entry pir_ray_rounded(const pir_polytope *p, const pir_ray_segment *segment, double radius);
 
 #endif

@@ -18,18 +18,18 @@ struct gauge {
     uint32_t piece;
     double cutoff;
     pir_accuracy accuracy;
-    pir_bounds bounds;
+    pir_far_bounds bounds;
     pir_scene_distance known; /* its bounds are those above */
     bool beyond;              /* the cutoff */
 };
 
 /* The answers, as they are put together. */
-struct told {
+struct distance_list {
     pir_scene_distance *at;
     size_t capacity, count;
 };
 
-static void put(struct told *told, pir_scene_distance distance) {
+static void put(struct distance_list *told, pir_scene_distance distance) {
     size_t at = told->count < told->capacity ? told->count : told->capacity;
     told->count++;
     for (; at > 0; at--) {
@@ -49,7 +49,7 @@ static double wanted(const struct gauge *gauge) {
 
 /* Whether the bounds that are known settle it. */
 static bool is_settled(struct gauge *gauge, pir_settled by) {
-    const pir_bounds *bounds = &gauge->bounds;
+    const pir_far_bounds *bounds = &gauge->bounds;
     gauge->known.settled = by;
     gauge->beyond = bounds->least > gauge->cutoff + bounds->slack;
     return gauge->beyond || (bounds->least > 0 && bounds->most <= gauge->cutoff - bounds->slack &&
@@ -64,10 +64,10 @@ static bool is_settled_without_a_pair(struct gauge *gauge, const pir_scene_piece
     if (!gauge->placed || !q->extent.coarse || !(gauge->bounds.least > 0 && wanted(gauge) > 0))
         return false;
     const pir_placed placed = pir_placed_of(q->extent.coarse, body->unit, body->pose.translation, body->radius);
-    pir_bounds_by_balls(&gauge->bounds, gauge->placed, &placed);
+    pir_far_bounds_by_balls(&gauge->bounds, gauge->placed, &placed);
     if (is_settled(gauge, PIR_SETTLED_BY_COARSE))
         return true;
-    pir_bounds_by_supports(&gauge->bounds, gauge->placed, &placed, wanted(gauge));
+    pir_far_bounds_by_supports(&gauge->bounds, gauge->placed, &placed, wanted(gauge));
     return is_settled(gauge, PIR_SETTLED_BY_COARSE);
 }
 
@@ -81,7 +81,7 @@ static pir_status ask(struct gauge *gauge) {
         status = pir_pair_distance(pair, gauge->probe->scene->worker[0].workspace, &input, &result);
     if (status != PIR_OK)
         return status;
-    pir_bounds *bounds = &gauge->bounds;
+    pir_far_bounds *bounds = &gauge->bounds;
     bool apart = result.state == PIR_OUTSIDE;
     gauge->beyond = result.outcome == PIR_BEYOND_CUTOFF || result.distance > gauge->cutoff;
     gauge->known.state = result.state;
@@ -117,7 +117,7 @@ static pir_status check(double cutoff, pir_accuracy accuracy) {
     return cutoff < 0 || accuracy.length < 0 || accuracy.part < 0 ? PIR_ERR_ARGUMENT : PIR_OK;
 }
 
-static pir_status hold(const struct gauge *asked, struct told *told) {
+static pir_status hold(const struct gauge *asked, struct distance_list *told) {
     const pir_scene *scene = asked->probe->scene;
     const pir_box box = pir_probe_wider(asked->probe, asked->cutoff);
     for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE;
@@ -127,7 +127,7 @@ static pir_status hold(const struct gauge *asked, struct told *told) {
         const pir_scene_piece *q = &scene->bodies.piece[gauge.piece];
         if (!pir_probe_meets(asked->probe, gauge.piece) || !pir_box_meets(&box, &q->tight))
             continue;
-        gauge.bounds = pir_bounds_of_boxes(&asked->probe->box, &q->tight, slack_of(asked->probe, q));
+        gauge.bounds = pir_far_bounds_of_boxes(&asked->probe->box, &q->tight, slack_of(asked->probe, q));
         gauge.known = (pir_scene_distance){.body = q->body, .piece = q->number, .state = PIR_OUTSIDE};
         pir_status status = settle(&gauge, q);
         if (status != PIR_OK)
@@ -140,7 +140,7 @@ static pir_status hold(const struct gauge *asked, struct told *told) {
 
 pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, double cutoff, pir_accuracy accuracy,
                                size_t capacity, pir_scene_distance *ret_distances, size_t *ret_count) {
-    struct told told = {ret_distances, capacity, 0};
+    struct distance_list told = {ret_distances, capacity, 0};
     pir_probe probe;
     pir_place place;
     pir_placed placed;

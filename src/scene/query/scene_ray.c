@@ -10,7 +10,7 @@
  */
 #define SLACK_ERROR 0x1p-45
 
-struct ray {
+struct scene_ray {
     pir_scene *scene;
     pir_world_ray world;
     uint32_t mask;
@@ -20,11 +20,11 @@ static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
-static pir_segment seen_by(const struct ray *ray, const pir_scene_body *body) {
+static pir_ray_segment seen_by(const struct scene_ray *ray, const pir_scene_body *body) {
     const pir_world_ray *world = &ray->world;
     pir_vec3 away = pir_vec_sub(world->origin, body->pose.translation);
-    pir_segment segment = {pir_pose_rotate_inverse(body->pose, away), pir_pose_rotate_inverse(body->pose, world->way),
-                           0};
+    pir_ray_segment segment = {pir_pose_rotate_inverse(body->pose, away),
+                               pir_pose_rotate_inverse(body->pose, world->way), 0};
     segment.error =
         SLACK_ERROR * (length(world->origin) + length(body->pose.translation) + length(world->way) + body->reach);
     return segment;
@@ -47,11 +47,11 @@ static pir_status reserve(pir_scene *scene, const pir_polytope *p) {
 }
 
 /* The impact on a piece, where there is one. */
-static pir_status meet(const struct ray *ray, uint32_t number, pir_scene_impact *impact) {
+static pir_status meet(const struct scene_ray *ray, uint32_t number, pir_scene_impact *impact) {
     const pir_scene_piece *piece = &ray->scene->bodies.piece[number];
     const pir_scene_body *body = &ray->scene->bodies.body[piece->body];
     const pir_polytope *p = piece->extent.polytope;
-    pir_segment segment = seen_by(ray, body);
+    pir_ray_segment segment = seen_by(ray, body);
     pir_entry entry;
     if (body->radius > 0) {
         entry = pir_ray_rounded(p, &segment, body->radius);
@@ -83,7 +83,7 @@ static bool comes_before(const pir_scene_impact *a, const pir_scene_impact *b) {
  * Whether the segment may meet a box, by axes of the box and its own, with twice the room that rounding needs. `to` is
  * how far along it the search still goes.
  */
-static bool may_meet(const struct ray *ray, const pir_box *box, double to) {
+static bool may_meet(const struct scene_ray *ray, const pir_box *box, double to) {
     double from[3] = {ray->world.origin.x, ray->world.origin.y, ray->world.origin.z},
            way[3] = {ray->world.way.x, ray->world.way.y, ray->world.way.z};
     double enter = 0, leave = to;
@@ -102,7 +102,7 @@ static bool may_meet(const struct ray *ray, const pir_box *box, double to) {
     return enter <= leave;
 }
 
-static pir_status search(struct ray *ray, pir_scene_impact *first) {
+static pir_status search(struct scene_ray *ray, pir_scene_impact *first) {
     const pir_tree *tree = &ray->scene->tree;
     pir_probe probe = {.scene = ray->scene, .body = PIR_SCENE_NONE, .mask = ray->mask, .except = PIR_SCENE_NONE};
     uint32_t n = tree->node ? tree->root : PIR_TREE_NONE;
@@ -134,7 +134,7 @@ pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32
         return PIR_ERR_NOT_FINITE;
     if (!(length(origin) <= PIR_BOX_FARTHEST && length(way) <= PIR_BOX_FARTHEST))
         return PIR_ERR_LIMIT;
-    struct ray ray = {scene, {origin, way}, mask};
+    struct scene_ray ray = {scene, {origin, way}, mask};
     pir_scene_impact first = {.body = PIR_SCENE_NONE, .piece = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1};
     pir_status status = search(&ray, &first);
     if (status == PIR_OK)

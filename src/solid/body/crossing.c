@@ -61,9 +61,9 @@ static pir_status check_edges(pir_body *body, const pir_boxes *boxes, uint32_t *
     for (uint32_t e = 0; e < body->edge_count && body->space->status == PIR_OK; e++) {
         const pir_body_edge *edge = &body->edge[e];
         const pir_seam seam = {edge->a, edge->b, edge->left, edge->right, edge->direction, true};
-        pir_box box = PIR_BOX_EMPTY;
-        pir_box_add(&box, &body->space->point[edge->a]);
-        pir_box_add(&box, &body->space->point[edge->b]);
+        pir_space_box box = PIR_SPACE_BOX_EMPTY;
+        pir_space_box_add(&box, &body->space->point[edge->a]);
+        pir_space_box_add(&box, &body->space->point[edge->b]);
         for (uint32_t i = 0, count = pir_boxes_find(boxes, &box, found); i < count; i++)
             if (passes_through(body, edge, found[i]) && body->space->status == PIR_OK)
                 return pir_seam_refuse(body, &seam, body->part_facet[found[i]]);
@@ -121,7 +121,7 @@ static pir_status refuse_facets(const pir_body *body, uint32_t facet, uint32_t o
                     pir_body_where(&body->source, facet, where), pir_body_where(&body->source, other, beside));
 }
 
-static pir_status check_parts(pir_body *body, const pir_boxes *boxes, const pir_box *box, uint32_t *found) {
+static pir_status check_parts(pir_body *body, const pir_boxes *boxes, const pir_space_box *box, uint32_t *found) {
     for (uint32_t p = 0; p < body->part_count && body->space->status == PIR_OK; p++) {
         const uint32_t facet = body->part_facet[p];
         for (uint32_t i = 0, count = pir_boxes_find(boxes, &box[p], found); i < count; i++) {
@@ -138,13 +138,13 @@ static pir_status check_parts(pir_body *body, const pir_boxes *boxes, const pir_
 
 pir_status pir_body_check_crossing(pir_body *body) {
     const pir_allocator *a = &body->space->allocator;
-    pir_box *box = PIR_NEW(a, pir_box, body->part_count);
+    pir_space_box *box = PIR_NEW(a, pir_space_box, body->part_count);
     uint32_t *found = PIR_NEW(a, uint32_t, body->part_count);
     pir_status status = box && found ? PIR_OK : PIR_ERR_MEMORY;
     for (uint32_t p = 0; p < body->part_count && status == PIR_OK; p++) {
-        box[p] = PIR_BOX_EMPTY;
+        box[p] = PIR_SPACE_BOX_EMPTY;
         for (uint32_t i = 0; i < corner_count(body, p); i++)
-            pir_box_add(&box[p], &body->space->point[corner(body, p, i)]);
+            pir_space_box_add(&box[p], &body->space->point[corner(body, p, i)]);
     }
     pir_boxes boxes;
     if (status == PIR_OK && !pir_boxes_init(&boxes, a, box, body->part_count))

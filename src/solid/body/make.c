@@ -11,13 +11,13 @@
 #include "polytope/surface/facets.h"
 #include "solid/body/solid.h"
 
-struct maker {
+struct solid_maker {
     const pir_solid_options *options;
     pir_solid **solid;
 };
 
 static pir_status make_of_points(const struct pir_model *model, const struct pir_exact_points *exact,
-                                 const struct maker *maker) {
+                                 const struct solid_maker *maker) {
     struct pir_model_facets facets;
     uint32_t *line = PIR_NEW(&model->allocator, uint32_t, model->facet_count);
     if (!line || !pir_facets_init(&facets, model, &exact->vectors)) {
@@ -61,7 +61,7 @@ pir_status pir_solid_read(const char *path, const pir_solid_options *options, pi
         return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the solid");
     pir_allocator allocator;
     const pir_solid_options used = pir_solid_options_or_default(options, &allocator);
-    struct maker maker = {&used, ret_solid};
+    struct solid_maker maker = {&used, ret_solid};
     return pir_model_read_file(path, &allocator, report, (struct pir_model_maker){make_of_model, &maker});
 }
 
@@ -71,7 +71,7 @@ pir_status pir_solid_read_bytes(const pir_file_bytes *file, const pir_solid_opti
         return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, no format, or no place for the solid");
     pir_allocator allocator;
     const pir_solid_options used = pir_solid_options_or_default(options, &allocator);
-    struct maker maker = {&used, ret_solid};
+    struct solid_maker maker = {&used, ret_solid};
     return pir_model_read_bytes(file, &allocator, report, (struct pir_model_maker){make_of_model, &maker});
 }
 
@@ -100,7 +100,7 @@ pir_status pir_solid_create(const pir_solid_facets *facets, const pir_solid_opti
         return pir_fail(report, PIR_ERR_ARGUMENT, "no facets, or no place for the solid");
     pir_allocator allocator;
     const pir_solid_options used = pir_solid_options_or_default(options, &allocator);
-    struct maker maker = {&used, ret_solid};
+    struct solid_maker maker = {&used, ret_solid};
     struct pir_model model;
     pir_model_init(&model, "the facets", &allocator, report);
     pir_status status = fill_model(&model, facets);

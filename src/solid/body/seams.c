@@ -297,10 +297,10 @@ static bool cross_seam(pir_body *body, pir_seam *seam, pir_seam *other) {
 
 /* --- all --- */
 
-static pir_box box_of(const pir_body *body, const pir_seam *seam) {
-    pir_box box = PIR_BOX_EMPTY;
-    pir_box_add(&box, &body->space->point[seam->a]);
-    pir_box_add(&box, &body->space->point[seam->b]);
+static pir_space_box box_of(const pir_body *body, const pir_seam *seam) {
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
+    pir_space_box_add(&box, &body->space->point[seam->a]);
+    pir_space_box_add(&box, &body->space->point[seam->b]);
     return box;
 }
 
@@ -309,7 +309,7 @@ static pir_status check(struct seams *seams, const pir_boxes *boxes, bool of_par
     pir_body *body = seams->body;
     for (uint32_t s = 0; s < seams->count && body->space->status == PIR_OK; s++) {
         pir_seam *seam = &seams->seam[s];
-        const pir_box box = box_of(body, seam);
+        const pir_space_box box = box_of(body, seam);
         for (uint32_t i = 0, count = pir_boxes_find(boxes, &box, found); i < count; i++) {
             const uint32_t o = found[i];
             const bool crosses =
@@ -323,7 +323,7 @@ static pir_status check(struct seams *seams, const pir_boxes *boxes, bool of_par
 
 static pir_status check_pairs(struct seams *seams) {
     const pir_allocator *a = &seams->body->space->allocator;
-    pir_box *box = PIR_NEW(a, pir_box, seams->count);
+    pir_space_box *box = PIR_NEW(a, pir_space_box, seams->count);
     uint32_t *found = PIR_NEW(a, uint32_t, seams->count);
     pir_boxes boxes;
     pir_status status = box && found ? PIR_OK : PIR_ERR_MEMORY;

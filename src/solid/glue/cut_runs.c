@@ -10,7 +10,7 @@
 #include "solid/space/boxes.h"
 
 /* Whether a point lies within a run, not at its ends: in both planes that meet in its line, and between the ends. */
-static bool is_within(pir_outline *o, const pir_run *run, uint32_t point) {
+static bool is_within(pir_union_outline *o, const pir_run *run, uint32_t point) {
     const uint32_t direction = o->line_direction[run->line], *plane = o->line_plane[run->line];
     return point != run->a && point != run->b && pir_space_side(o->space, pir_half(plane[0], false), point) == 0 &&
            pir_space_side(o->space, pir_half(plane[1], false), point) == 0 &&
@@ -18,28 +18,28 @@ static bool is_within(pir_outline *o, const pir_run *run, uint32_t point) {
            pir_space_order(o->space, direction, point, run->b) > 0;
 }
 
-void pir_outline_touch(pir_outline *outline, uint32_t line, uint32_t point) {
-    pir_outline *o = outline;
+void pir_union_outline_touch(pir_union_outline *outline, uint32_t line, uint32_t point) {
+    pir_union_outline *o = outline;
     if (pir_space_grow(o->space, (void **)&o->touch, &o->touch_room, o->touch_count, sizeof *o->touch))
-        o->touch[o->touch_count++] = (pir_touch){line, point};
+        o->touch[o->touch_count++] = (pir_outline_touch){line, point};
 }
 
 static bool touch_before(void *context, uint32_t a, uint32_t b) {
-    const pir_outline *o = context;
+    const pir_union_outline *o = context;
     return o->touch[a].line < o->touch[b].line;
 }
 
 /* Notes the runs that a vertex lies within; `found` has room for all runs. */
-static void find_touches(pir_outline *o, const pir_boxes *boxes, uint32_t point, uint32_t *found) {
-    pir_box box = PIR_BOX_EMPTY;
-    pir_box_add(&box, &o->space->point[point]);
+static void find_touches(pir_union_outline *o, const pir_boxes *boxes, uint32_t point, uint32_t *found) {
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
+    pir_space_box_add(&box, &o->space->point[point]);
     for (uint32_t i = 0, count = pir_boxes_find(boxes, &box, found); i < count; i++)
         if (is_within(o, &o->run[found[i]], point))
-            pir_outline_touch(o, o->run[found[i]].line, point);
+            pir_union_outline_touch(o, o->run[found[i]].line, point);
 }
 
 /* Notes where runs r and s cross within each other. */
-static void find_crossing(pir_outline *o, const pir_run *r, const pir_run *s) {
+static void find_crossing(pir_union_outline *o, const pir_run *r, const pir_run *s) {
     pir_space *space = o->space;
     for (int k = 0; k < 2 && r->line != s->line; k++) {
         const uint32_t plane = o->line_plane[s->line][k], other = o->line_plane[s->line][1 - k];
@@ -54,14 +54,15 @@ static void find_crossing(pir_outline *o, const pir_run *r, const pir_run *s) {
         if (point == s->a || point == s->b || pir_space_order(space, along, s->a, point) <= 0 ||
             pir_space_order(space, along, point, s->b) <= 0)
             return;
-        pir_outline_touch(o, r->line, point);
-        pir_outline_touch(o, s->line, point);
+        pir_union_outline_touch(o, r->line, point);
+        pir_union_outline_touch(o, s->line, point);
         return;
     }
 }
 
 /* The crossings of a loose run with all others; of two loose ones, the earlier looks. */
-static void find_crossings(pir_outline *o, const pir_boxes *boxes, uint32_t r, const pir_box *box, uint32_t *found) {
+static void find_crossings(pir_union_outline *o, const pir_boxes *boxes, uint32_t r, const pir_space_box *box,
+                           uint32_t *found) {
     if (o->run[r].group < o->loose)
         return;
     for (uint32_t i = 0, count = pir_boxes_find(boxes, box, found); i < count && o->space->status == PIR_OK; i++)
@@ -69,14 +70,14 @@ static void find_crossings(pir_outline *o, const pir_boxes *boxes, uint32_t r, c
             find_crossing(o, &o->run[r], &o->run[found[i]]);
 }
 
-static void list_touches(pir_outline *o) {
+static void list_touches(pir_union_outline *o) {
     const pir_allocator *a = &o->space->allocator;
-    pir_box *box = PIR_NEW(a, pir_box, o->run_count);
+    pir_space_box *box = PIR_NEW(a, pir_space_box, o->run_count);
     uint32_t *found = PIR_NEW(a, uint32_t, o->run_count);
     for (uint32_t r = 0; r < o->run_count && box; r++) {
-        box[r] = PIR_BOX_EMPTY;
-        pir_box_add(&box[r], &o->space->point[o->run[r].a]);
-        pir_box_add(&box[r], &o->space->point[o->run[r].b]);
+        box[r] = PIR_SPACE_BOX_EMPTY;
+        pir_space_box_add(&box[r], &o->space->point[o->run[r].a]);
+        pir_space_box_add(&box[r], &o->space->point[o->run[r].b]);
     }
     pir_boxes boxes;
     if (!box || !found || !pir_boxes_init(&boxes, a, box, o->run_count)) {
@@ -97,8 +98,8 @@ static void list_touches(pir_outline *o) {
 }
 
 /* Puts the touches in order of their lines. */
-static void sort_touches(pir_outline *o) {
-    if (!pir_outline_sort(o, o->touch_count, touch_before))
+static void sort_touches(pir_union_outline *o) {
+    if (!pir_union_outline_sort(o, o->touch_count, touch_before))
         return;
     const uint32_t count = o->touch_count;
     for (uint32_t i = 0; i < count; i++)
@@ -109,21 +110,21 @@ static void sort_touches(pir_outline *o) {
 }
 
 static bool run_before(void *context, uint32_t a, uint32_t b) {
-    const pir_outline *o = context;
+    const pir_union_outline *o = context;
     return o->run[a].line < o->run[b].line;
 }
 
 /* Cuts the runs order[0 .. count), which are on one line; the parts go to `side`. *touch is the first touch of the line
  * or of one after it, and becomes that of the next line. */
-static void cut_line(pir_outline *o, const uint32_t *order, uint32_t count, uint32_t *touch) {
+static void cut_line(pir_union_outline *o, const uint32_t *order, uint32_t count, uint32_t *touch) {
     o->place_count = 0;
     for (; *touch < o->touch_count && o->touch[*touch].line <= o->run[order[0]].line; ++*touch)
-        pir_outline_push_place(o, o->touch[*touch].point);
+        pir_union_outline_push_place(o, o->touch[*touch].point);
     for (uint32_t i = 0; i < count; i++) {
-        pir_outline_push_place(o, o->run[order[i]].a);
-        pir_outline_push_place(o, o->run[order[i]].b);
+        pir_union_outline_push_place(o, o->run[order[i]].a);
+        pir_union_outline_push_place(o, o->run[order[i]].b);
     }
-    if (!pir_outline_sort_places(o, o->run[order[0]].line))
+    if (!pir_union_outline_sort_places(o, o->run[order[0]].line))
         return;
     for (uint32_t i = 0; i < count && o->space->status == PIR_OK; i++) {
         pir_run run = o->run[order[i]];
@@ -133,7 +134,7 @@ static void cut_line(pir_outline *o, const uint32_t *order, uint32_t count, uint
             at++;
         for (; run.a != end && at + 1 < o->place_count && o->space->status == PIR_OK; run.a = run.b) {
             run.b = o->place[++at];
-            pir_outline_push_side(o, run);
+            pir_union_outline_push_side(o, run);
         }
         if (run.a != end)
             pir_space_fault(o->space);
@@ -141,32 +142,32 @@ static void cut_line(pir_outline *o, const uint32_t *order, uint32_t count, uint
 }
 
 static bool part_before(void *context, uint32_t a, uint32_t b) {
-    const pir_outline *o = context;
+    const pir_union_outline *o = context;
     return o->side[a].group < o->side[b].group;
 }
 
 /* The sides, by group, become the runs. */
-void pir_outline_sort_runs(pir_outline *outline) {
-    pir_outline *o = outline;
-    if (!pir_outline_sort(o, o->side_count, part_before))
+void pir_union_outline_sort_runs(pir_union_outline *outline) {
+    pir_union_outline *o = outline;
+    if (!pir_union_outline_sort(o, o->side_count, part_before))
         return;
     o->run_count = 0;
     for (uint32_t i = 0; i < o->side_count; i++)
-        pir_outline_push(o, o->side[o->order[i]]);
+        pir_union_outline_push(o, o->side[o->order[i]]);
 }
 
-void pir_outline_cut(pir_outline *outline) {
-    pir_outline *o = outline;
+void pir_union_outline_cut(pir_union_outline *outline) {
+    pir_union_outline *o = outline;
     uint32_t touch = 0;
     o->side_count = 0;
     list_touches(o);
     sort_touches(o);
-    if (!pir_outline_sort(o, o->run_count, run_before))
+    if (!pir_union_outline_sort(o, o->run_count, run_before))
         return;
     for (uint32_t i = 0, end; i < o->run_count; i = end) {
         for (end = i + 1; end < o->run_count && !run_before(o, o->order[i], o->order[end]); end++)
             ;
         cut_line(o, o->order + i, end - i, &touch);
     }
-    pir_outline_sort_runs(o);
+    pir_union_outline_sort_runs(o);
 }

@@ -6,12 +6,12 @@
 #include "solid/glue/union_outline.h"
 
 /* Notes a vertex within the runs of a line. */
-void pir_outline_touch(pir_outline *outline, uint32_t line, uint32_t point);
+void pir_union_outline_touch(pir_union_outline *outline, uint32_t line, uint32_t point);
 
 /* Cuts the runs, once all are there. */
-void pir_outline_cut(pir_outline *outline);
+void pir_union_outline_cut(pir_union_outline *outline);
 
 /* Makes the sides in the scratch the runs, by group. */
-void pir_outline_sort_runs(pir_outline *outline);
+void pir_union_outline_sort_runs(pir_union_outline *outline);
 
 #endif

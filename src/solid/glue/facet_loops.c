@@ -12,10 +12,10 @@
 #include "solid/glue/slits.h"
 #include "solid/space/exact.h"
 
-struct tracer {
+struct loop_tracer {
     pir_loop_list *list;
     pir_space *space;
-    const pir_outline *outline;
+    const pir_union_outline *outline;
     uint32_t half;
     uint32_t first, end; /* runs of the group */
     uint32_t first_loop; /* of it */
@@ -40,7 +40,7 @@ static void push_corner(pir_loop_list *list, uint32_t point) {
 
 /* How a loop turns that comes from p to q and goes on along `run`: 2 to the left, 1 straight on, 0 to the right, −1
  * back. */
-static int turn_of(struct tracer *t, const pir_run *from, const pir_run *run) {
+static int turn_of(struct loop_tracer *t, const pir_run *from, const pir_run *run) {
     const int turn = pir_space_turn(t->space, t->half, from_of(from), to_of(from), to_of(run));
     if (turn != 0)
         return turn > 0 ? 2 : 0;
@@ -48,13 +48,13 @@ static int turn_of(struct tracer *t, const pir_run *from, const pir_run *run) {
 }
 
 /* Whether `b` turns more to the left than `a`, after `from`. */
-static bool turns_more(struct tracer *t, const pir_run *from, const pir_run *a, const pir_run *b) {
+static bool turns_more(struct loop_tracer *t, const pir_run *from, const pir_run *a, const pir_run *b) {
     const int turn_a = turn_of(t, from, a), turn_b = turn_of(t, from, b);
     return turn_a != turn_b ? turn_b > turn_a : pir_space_turn(t->space, t->half, to_of(from), to_of(a), to_of(b)) > 0;
 }
 
 /* The run that a loop goes on with after `run`: the one that it began with, or one that no loop has. */
-static uint32_t next_run(struct tracer *t, uint32_t start, uint32_t run) {
+static uint32_t next_run(struct loop_tracer *t, uint32_t start, uint32_t run) {
     const pir_run *runs = t->outline->run;
     uint32_t best = PIR_SPACE_NONE;
     for (uint32_t r = t->first; r < t->end; r++)
@@ -66,7 +66,7 @@ static uint32_t next_run(struct tracer *t, uint32_t start, uint32_t run) {
 
 /* The two axes that a plane's normal is not nearest to. Any two do along which the normal is not 0, and that of the
  * largest component, as doubles have it, is more than .5. */
-static void set_axes(struct tracer *t) {
+static void set_axes(struct loop_tracer *t) {
     pir_space *space = t->space;
     const double *n = space->plane[t->half >> 1].n;
     uint32_t most = 0;
@@ -82,7 +82,7 @@ static void set_axes(struct tracer *t) {
 
 /* Whether a loop goes round a hole: a turn to the right, or back, at the corner that is first along one axis, then
  * along the other. */
-static bool is_hole(struct tracer *t, const pir_loop *loop) {
+static bool is_hole(struct loop_tracer *t, const pir_loop *loop) {
     const uint32_t *corner = t->list->corner + loop->first;
     uint32_t best = 0;
     for (uint32_t i = 1; i < loop->count; i++) {
@@ -98,7 +98,7 @@ static bool is_hole(struct tracer *t, const pir_loop *loop) {
     return false;
 }
 
-static void trace_loop(struct tracer *t, uint32_t start) {
+static void trace_loop(struct loop_tracer *t, uint32_t start) {
     pir_loop_list *list = t->list;
     pir_loop loop = {.first = list->corner_count};
     uint32_t run = start;
@@ -119,7 +119,7 @@ static void trace_loop(struct tracer *t, uint32_t start) {
 
 /* --- holes --- */
 
-static bool holds(struct tracer *t, const pir_loop *loop, uint32_t point) {
+static bool holds(struct loop_tracer *t, const pir_loop *loop, uint32_t point) {
     const uint32_t *corner = t->list->corner + loop->first;
     bool inside = false;
     for (uint32_t i = 0; i < loop->count; i++) {
@@ -134,7 +134,7 @@ static bool holds(struct tracer *t, const pir_loop *loop, uint32_t point) {
 
 /* Twice the area of a loop that goes round a facet, seen along one axis, up to a sign that all loops of the plane
  * share: exactly, as a product over all corners. */
-static void exact_area(struct tracer *t, const pir_loop *loop, mpq_t ret_area) {
+static void exact_area(struct loop_tracer *t, const pir_loop *loop, mpq_t ret_area) {
     const uint32_t *corner = t->list->corner + loop->first;
     pir_space *space = t->space;
     mpq_t term;
@@ -157,7 +157,7 @@ static void exact_area(struct tracer *t, const pir_loop *loop, mpq_t ret_area) {
 }
 
 /* Whether the first of two loops, one of which is within the other, is the inner one. */
-static bool is_inner(struct tracer *t, const pir_loop *a, const pir_loop *b) {
+static bool is_inner(struct loop_tracer *t, const pir_loop *a, const pir_loop *b) {
     mpq_t area[2];
     mpq_inits(area[0], area[1], NULL);
     exact_area(t, a, area[0]);
@@ -168,7 +168,7 @@ static bool is_inner(struct tracer *t, const pir_loop *a, const pir_loop *b) {
 }
 
 /* The innermost of the facets' loops that hold the hole: loops of one plane do not cross, so those nest. */
-static void find_facet(struct tracer *t, uint32_t hole) {
+static void find_facet(struct loop_tracer *t, uint32_t hole) {
     pir_loop_list *list = t->list;
     uint32_t within = hole;
     for (uint32_t l = t->first_loop; l < list->count && t->space->status == PIR_OK; l++) {
@@ -182,7 +182,7 @@ static void find_facet(struct tracer *t, uint32_t hole) {
         pir_space_fault(t->space);
 }
 
-static void trace_group(struct tracer *t) {
+static void trace_group(struct loop_tracer *t) {
     pir_loop_list *list = t->list;
     t->first_loop = list->count;
     set_axes(t);
@@ -197,10 +197,10 @@ static void trace_group(struct tracer *t) {
             pir_loops_add_facet(list, t->half, l);
 }
 
-void pir_loops_trace(pir_loop_list *loops, const pir_outline *outline) {
+void pir_loops_trace(pir_loop_list *loops, const pir_union_outline *outline) {
     pir_space *space = outline->space;
     *loops = (pir_loop_list){.space = space};
-    struct tracer t = {.list = loops, .space = space, .outline = outline};
+    struct loop_tracer t = {.list = loops, .space = space, .outline = outline};
     t.used = PIR_ZEROED(&space->allocator, bool, outline->run_count);
     if (!t.used)
         space->status = PIR_ERR_MEMORY;

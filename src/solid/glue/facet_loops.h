@@ -25,7 +25,7 @@ typedef struct pir_loop_list {
 } pir_loop_list;
 
 /* Traces the runs of an outline that has been cut, those of one group after the other. */
-void pir_loops_trace(pir_loop_list *loops, const pir_outline *outline);
+void pir_loops_trace(pir_loop_list *loops, const pir_union_outline *outline);
 void pir_loop_list_finish(pir_loop_list *loops);
 
 #endif

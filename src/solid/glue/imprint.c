@@ -25,7 +25,7 @@ static bool same_place(const pir_run *r, const pir_run *s) {
 }
 
 /* Whether a run lies within polygons of a group, in whose plane it is. */
-static bool is_in(const pir_outline *o, const pir_facet_group *group, const pir_run *run) {
+static bool is_in(const pir_union_outline *o, const pir_facet_group *group, const pir_run *run) {
     for (uint32_t i = 0; i < group->count; i++) {
         const pir_polygon p = group->polygons->polygon[group->polygon[i]];
         const uint32_t *plane = o->line_plane[run->line];
@@ -37,12 +37,13 @@ static bool is_in(const pir_outline *o, const pir_facet_group *group, const pir_
 }
 
 static bool run_before(void *context, uint32_t a, uint32_t b) {
-    const pir_run *r = &((const pir_outline *)context)->run[a], *s = &((const pir_outline *)context)->run[b];
+    const pir_run *r = &((const pir_union_outline *)context)->run[a],
+                  *s = &((const pir_union_outline *)context)->run[b];
     return r->line != s->line ? r->line < s->line : r->a != s->a ? r->a < s->a : r->b < s->b;
 }
 
 /* Imprints the runs at one place, order[0 .. count), on the groups. */
-static void imprint_place(pir_outline *o, const uint32_t *order, uint32_t count, const pir_facet_group *group,
+static void imprint_place(pir_union_outline *o, const uint32_t *order, uint32_t count, const pir_facet_group *group,
                           uint32_t groups) {
     const pir_run run = o->run[order[0]];
     for (uint32_t g = 0; g < groups && o->space->status == PIR_OK; g++) {
@@ -53,15 +54,15 @@ static void imprint_place(pir_outline *o, const uint32_t *order, uint32_t count,
         if (own || pir_space_side(o->space, half, run.a) != 0 || pir_space_side(o->space, half, run.b) != 0 ||
             !is_in(o, &group[g], &run))
             continue;
-        pir_outline_push_side(o, (pir_run){g, half, run.line, run.a, run.b, 1});
-        pir_outline_push_side(o, (pir_run){g, half, run.line, run.a, run.b, -1});
+        pir_union_outline_push_side(o, (pir_run){g, half, run.line, run.a, run.b, 1});
+        pir_union_outline_push_side(o, (pir_run){g, half, run.line, run.a, run.b, -1});
     }
 }
 
-void pir_outline_imprint(pir_outline *outline, const pir_facet_group *group, uint32_t count) {
-    pir_outline *o = outline;
+void pir_union_outline_imprint(pir_union_outline *outline, const pir_facet_group *group, uint32_t count) {
+    pir_union_outline *o = outline;
     o->side_count = 0;
-    if (!pir_outline_sort(o, o->run_count, run_before))
+    if (!pir_union_outline_sort(o, o->run_count, run_before))
         return;
     for (uint32_t i = 0, end; i < o->run_count; i = end) {
         bool loose = false;
@@ -71,14 +72,14 @@ void pir_outline_imprint(pir_outline *outline, const pir_facet_group *group, uin
             imprint_place(o, o->order + i, end - i, group, count);
     }
     for (uint32_t i = 0; i < o->run_count; i++)
-        pir_outline_push_side(o, o->run[i]);
-    pir_outline_sort_runs(o);
+        pir_union_outline_push_side(o, o->run[i]);
+    pir_union_outline_sort_runs(o);
 }
 
-uint32_t pir_outline_edges(pir_outline *outline) {
-    pir_outline *o = outline;
+uint32_t pir_union_outline_edges(pir_union_outline *outline) {
+    pir_union_outline *o = outline;
     uint32_t edges = 0;
-    if (!pir_outline_sort(o, o->run_count, run_before))
+    if (!pir_union_outline_sort(o, o->run_count, run_before))
         return 0;
     for (uint32_t i = 0; i < o->run_count; i++)
         edges += i == 0 || !same_place(&o->run[o->order[i]], &o->run[o->order[i - 1]]);

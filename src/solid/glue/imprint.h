@@ -17,9 +17,9 @@ typedef struct pir_facet_group {
 bool pir_segment_clip(pir_space *space, pir_segment *segment, const uint32_t *half, uint32_t count);
 
 /* Adds to the runs of an outline that has been cut, for each group, those loose runs that lie within its polygons. */
-void pir_outline_imprint(pir_outline *outline, const pir_facet_group *group, uint32_t count);
+void pir_union_outline_imprint(pir_union_outline *outline, const pir_facet_group *group, uint32_t count);
 
 /* How many edges there are: runs at one place are one. */
-uint32_t pir_outline_edges(pir_outline *outline);
+uint32_t pir_union_outline_edges(pir_union_outline *outline);
 
 #endif

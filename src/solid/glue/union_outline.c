@@ -10,13 +10,13 @@
 #include "base/sort.h"
 #include "solid/space/exact.h"
 
-void pir_outline_init(pir_outline *outline, pir_space *space) {
-    *outline = (pir_outline){.space = space, .loose = PIR_SPACE_NONE};
+void pir_union_outline_init(pir_union_outline *outline, pir_space *space) {
+    *outline = (pir_union_outline){.space = space, .loose = PIR_SPACE_NONE};
     pir_intern_init(&outline->points, space, 4);
     pir_intern_init(&outline->lines, space, 6);
 }
 
-void pir_outline_finish(pir_outline *outline) {
+void pir_union_outline_finish(pir_union_outline *outline) {
     pir_space *space = outline->space;
     if (!space)
         return;
@@ -31,13 +31,13 @@ void pir_outline_finish(pir_outline *outline) {
     pir_space_shrink(space, outline->order, outline->order_room, sizeof *outline->order);
     pir_space_shrink(space, outline->work, outline->work_room, sizeof *outline->work);
     pir_space_shrink(space, outline->place, outline->place_room, sizeof *outline->place);
-    *outline = (pir_outline){0};
+    *outline = (pir_union_outline){0};
 }
 
 /* --- lines --- */
 
-uint32_t pir_outline_line(pir_outline *outline, uint32_t f, uint32_t g) {
-    pir_outline *o = outline;
+uint32_t pir_union_outline_line(pir_union_outline *outline, uint32_t f, uint32_t g) {
+    pir_union_outline *o = outline;
     pir_space *space = o->space;
     const uint32_t known = o->lines.count, line = pir_intern_line(&o->lines, f, g);
     if (!pir_space_grow(space, (void **)&o->line_direction, &o->line_room, line, sizeof *o->line_direction) ||
@@ -55,28 +55,28 @@ uint32_t pir_outline_line(pir_outline *outline, uint32_t f, uint32_t g) {
 }
 
 /* The line where plane g cuts the plane of the group, f. */
-static uint32_t line_of(pir_outline *o, uint32_t f, uint32_t g) {
+static uint32_t line_of(pir_union_outline *o, uint32_t f, uint32_t g) {
     const uint32_t before = o->line_of_room;
     if (!pir_space_grow(o->space, (void **)&o->line_of, &o->line_of_room, g, sizeof *o->line_of))
         return 0;
     for (uint32_t k = before; k < o->line_of_room; k++)
         o->line_of[k] = PIR_SPACE_NONE;
     if (o->line_of[g] == PIR_SPACE_NONE)
-        o->line_of[g] = pir_outline_line(o, f, g);
+        o->line_of[g] = pir_union_outline_line(o, f, g);
     return o->line_of[g];
 }
 
-void pir_outline_push(pir_outline *o, pir_run run) {
+void pir_union_outline_push(pir_union_outline *o, pir_run run) {
     if (pir_space_grow(o->space, (void **)&o->run, &o->run_room, o->run_count, sizeof *o->run))
         o->run[o->run_count++] = run;
 }
 
-void pir_outline_push_side(pir_outline *o, pir_run side) {
+void pir_union_outline_push_side(pir_union_outline *o, pir_run side) {
     if (pir_space_grow(o->space, (void **)&o->side, &o->side_room, o->side_count, sizeof *o->side))
         o->side[o->side_count++] = side;
 }
 
-bool pir_outline_sort(pir_outline *o, uint32_t count, bool (*before)(void *, uint32_t, uint32_t)) {
+bool pir_union_outline_sort(pir_union_outline *o, uint32_t count, bool (*before)(void *, uint32_t, uint32_t)) {
     if (!pir_space_grow(o->space, (void **)&o->order, &o->order_room, count, sizeof *o->order) ||
         !pir_space_grow(o->space, (void **)&o->work, &o->work_room, count, sizeof *o->work))
         return false;
@@ -88,26 +88,26 @@ bool pir_outline_sort(pir_outline *o, uint32_t count, bool (*before)(void *, uin
 
 /* --- the places of ends along a line --- */
 
-struct along {
+struct outline_along {
     pir_space *space;
     uint32_t direction;
 };
 
 static bool place_before(void *context, uint32_t a, uint32_t b) {
-    const struct along *along = context;
+    const struct outline_along *along = context;
     return a != b && pir_space_order(along->space, along->direction, a, b) > 0;
 }
 
-void pir_outline_push_place(pir_outline *o, uint32_t point) {
+void pir_union_outline_push_place(pir_union_outline *o, uint32_t point) {
     if (pir_space_grow(o->space, (void **)&o->place, &o->place_room, o->place_count, sizeof *o->place))
         o->place[o->place_count++] = point;
 }
 
 /* Puts the collected ends in order along the line, each once. */
-bool pir_outline_sort_places(pir_outline *o, uint32_t line) {
+bool pir_union_outline_sort_places(pir_union_outline *o, uint32_t line) {
     if (!pir_space_grow(o->space, (void **)&o->work, &o->work_room, o->place_count, sizeof *o->work))
         return false;
-    struct along along = {o->space, o->line_direction[line]};
+    struct outline_along along = {o->space, o->line_direction[line]};
     pir_sort(o->place, o->place_count, o->work, place_before, &along);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < o->place_count; i++)
@@ -120,12 +120,13 @@ bool pir_outline_sort_places(pir_outline *o, uint32_t line) {
 /* --- the boundary of a union --- */
 
 static bool side_before(void *context, uint32_t a, uint32_t b) {
-    const pir_outline *o = context;
+    const pir_union_outline *o = context;
     return o->side[a].line < o->side[b].line;
 }
 
 /* The sign of what the sides order[0 .. count), which are on one line, add up to between two neighbouring ends. */
-static int sum_between(const pir_outline *o, const uint32_t *order, uint32_t count, const uint32_t *rank, uint32_t at) {
+static int sum_between(const pir_union_outline *o, const uint32_t *order, uint32_t count, const uint32_t *rank,
+                       uint32_t at) {
     int sum = 0;
     for (uint32_t i = 0; i < count; i++) {
         const pir_run *side = &o->side[order[i]];
@@ -135,14 +136,14 @@ static int sum_between(const pir_outline *o, const uint32_t *order, uint32_t cou
 }
 
 /* The runs of one line, from its sides. */
-static void add_line(pir_outline *o, const uint32_t *order, uint32_t count, uint32_t *rank) {
+static void add_line(pir_union_outline *o, const uint32_t *order, uint32_t count, uint32_t *rank) {
     const pir_run first = o->side[order[0]];
     o->place_count = 0;
     for (uint32_t i = 0; i < count; i++) {
-        pir_outline_push_place(o, o->side[order[i]].a);
-        pir_outline_push_place(o, o->side[order[i]].b);
+        pir_union_outline_push_place(o, o->side[order[i]].a);
+        pir_union_outline_push_place(o, o->side[order[i]].b);
     }
-    if (!pir_outline_sort_places(o, first.line))
+    if (!pir_union_outline_sort_places(o, first.line))
         return;
     for (uint32_t i = 0; i < o->place_count; i++)
         rank[o->place[i]] = i;
@@ -153,7 +154,7 @@ static void add_line(pir_outline *o, const uint32_t *order, uint32_t count, uint
         if (next == sum)
             continue;
         if (sum != 0)
-            pir_outline_push(
+            pir_union_outline_push(
                 o, (pir_run){first.group, first.half, first.line, o->place[from], o->place[i], sum > 0 ? 1 : -1});
         sum = next;
         from = i;
@@ -161,7 +162,7 @@ static void add_line(pir_outline *o, const uint32_t *order, uint32_t count, uint
 }
 
 /* A side from p to q as a run. */
-static void add_side(pir_outline *o, pir_run side, uint32_t p, uint32_t q) {
+static void add_side(pir_union_outline *o, pir_run side, uint32_t p, uint32_t q) {
     const uint32_t a = pir_intern_point(&o->points, p), b = pir_intern_point(&o->points, q);
     if (o->space->status != PIR_OK)
         return;
@@ -169,16 +170,16 @@ static void add_side(pir_outline *o, pir_run side, uint32_t p, uint32_t q) {
     side.a = along ? a : b;
     side.b = along ? b : a;
     side.sign = along ? 1 : -1;
-    pir_outline_push_side(o, side);
+    pir_union_outline_push_side(o, side);
 }
 
 /* The runs of all sides, line by line. */
-static void add_lines(pir_outline *o) {
+static void add_lines(pir_union_outline *o) {
     const uint32_t points = o->space->point_count;
     uint32_t *rank = PIR_NEW(&o->space->allocator, uint32_t, points);
     if (!rank)
         o->space->status = PIR_ERR_MEMORY;
-    if (rank && pir_outline_sort(o, o->side_count, side_before))
+    if (rank && pir_union_outline_sort(o, o->side_count, side_before))
         for (uint32_t i = 0, end; i < o->side_count && o->space->status == PIR_OK; i = end) {
             for (end = i + 1; end < o->side_count && !side_before(o, o->order[i], o->order[end]); end++)
                 ;
@@ -187,8 +188,9 @@ static void add_lines(pir_outline *o) {
     PIR_FREE(&o->space->allocator, rank, points);
 }
 
-void pir_outline_add(pir_outline *outline, uint32_t group, uint32_t half, const pir_segment *edge, uint32_t count) {
-    pir_outline *o = outline;
+void pir_union_outline_add(pir_union_outline *outline, uint32_t group, uint32_t half, const pir_segment *edge,
+                           uint32_t count) {
+    pir_union_outline *o = outline;
     o->side_count = 0;
     for (uint32_t i = 0; i < count && o->space->status == PIR_OK; i++) {
         const uint32_t line = line_of(o, half >> 1, edge[i].plane[1]);
@@ -200,12 +202,13 @@ void pir_outline_add(pir_outline *outline, uint32_t group, uint32_t half, const 
     add_lines(o);
 }
 
-void pir_outline_add_segments(pir_outline *outline, uint32_t group, const pir_segment *segment, uint32_t count) {
-    pir_outline *o = outline;
+void pir_union_outline_add_segments(pir_union_outline *outline, uint32_t group, const pir_segment *segment,
+                                    uint32_t count) {
+    pir_union_outline *o = outline;
     o->side_count = 0;
     for (uint32_t i = 0; i < count && o->space->status == PIR_OK; i++) {
         const pir_segment *s = &segment[i];
-        const uint32_t line = pir_outline_line(o, s->plane[0], s->plane[1]);
+        const uint32_t line = pir_union_outline_line(o, s->plane[0], s->plane[1]);
         add_side(o, (pir_run){.group = group, .half = pir_half(s->plane[0], false), .line = line}, s->a, s->b);
     }
     // the union has no way to go: all sides lead along their lines

@@ -29,11 +29,11 @@ typedef struct pir_segment {
 } pir_segment;
 
 /* A vertex within a run of a line, where runs of other lines end. */
-typedef struct pir_touch {
+typedef struct pir_outline_touch {
     uint32_t line, point;
-} pir_touch;
+} pir_outline_touch;
 
-typedef struct pir_outline {
+typedef struct pir_union_outline {
     pir_space *space;
     pir_intern points, lines;
     uint32_t *line_direction, line_room;
@@ -44,33 +44,35 @@ typedef struct pir_outline {
     uint32_t loose; /* the first group whose runs may cross others within; none at first */
     pir_run *side;  /* scratch: the sides of the group at hand, the parts of a run */
     uint32_t side_count, side_room;
-    pir_touch *touch; /* by line */
+    pir_outline_touch *touch; /* by line */
     uint32_t touch_count, touch_room;
     uint32_t *order, order_room, *work, work_room, *place, place_room, place_count;
-} pir_outline;
+} pir_union_outline;
 
-void pir_outline_init(pir_outline *outline, pir_space *space);
-void pir_outline_finish(pir_outline *outline);
+void pir_union_outline_init(pir_union_outline *outline, pir_space *space);
+void pir_union_outline_finish(pir_union_outline *outline);
 
 /* The line where two planes meet, and its direction. */
-uint32_t pir_outline_line(pir_outline *outline, uint32_t f, uint32_t g);
+uint32_t pir_union_outline_line(pir_union_outline *outline, uint32_t f, uint32_t g);
 
 /* Adds edges in the plane of `half`, which is the first plane of each, as a group: they lead from a to b with the union
  * that they bound on their left, and do not overlap. */
-void pir_outline_add(pir_outline *outline, uint32_t group, uint32_t half, const pir_segment *edge, uint32_t count);
+void pir_union_outline_add(pir_union_outline *outline, uint32_t group, uint32_t half, const pir_segment *edge,
+                           uint32_t count);
 
 /* Adds the union of segments as runs of a group that has no polygons. */
-void pir_outline_add_segments(pir_outline *outline, uint32_t group, const pir_segment *segment, uint32_t count);
+void pir_union_outline_add_segments(pir_union_outline *outline, uint32_t group, const pir_segment *segment,
+                                    uint32_t count);
 
 /* Adds a run, or a side to the scratch. */
-void pir_outline_push(pir_outline *outline, pir_run run);
-void pir_outline_push_side(pir_outline *outline, pir_run side);
+void pir_union_outline_push(pir_union_outline *outline, pir_run run);
+void pir_union_outline_push_side(pir_union_outline *outline, pir_run side);
 
 /* Puts 0 .. count in order into `order`; the order holds with equal ones as they stand. False when out of memory. */
-bool pir_outline_sort(pir_outline *outline, uint32_t count, bool (*before)(void *, uint32_t, uint32_t));
+bool pir_union_outline_sort(pir_union_outline *outline, uint32_t count, bool (*before)(void *, uint32_t, uint32_t));
 
 /* Adds a place to those collected, and puts them in order along a line, each once. */
-void pir_outline_push_place(pir_outline *outline, uint32_t point);
-bool pir_outline_sort_places(pir_outline *outline, uint32_t line);
+void pir_union_outline_push_place(pir_union_outline *outline, uint32_t point);
+bool pir_union_outline_sort_places(pir_union_outline *outline, uint32_t line);
 
 #endif

@@ -22,7 +22,7 @@
 
 #define NEIGHBOURS 8
 
-struct part {
+struct joined_part {
     pir_joint_part joint;
     pir_polytope *polytope; /* NULL once it has been joined with another */
     uint32_t *vertex;       /* of the exact pieces: those that the part's exact hull has */
@@ -38,7 +38,7 @@ struct couple {
 struct approximation {
     const pir_pieces *pieces;
     const pir_allocator *allocator;
-    struct part *part; /* at most 2 · pieces − 1 */
+    struct joined_part *part; /* at most 2 · pieces − 1 */
     uint32_t part_count, part_room, left;
     struct couple *couple;
     uint32_t couple_count, couple_room;
@@ -80,10 +80,10 @@ static double length_scaled(double length, long shift) {
 
 /* --- parts --- */
 
-static void part_finish(struct approximation *job, struct part *part) {
+static void part_finish(struct approximation *job, struct joined_part *part) {
     pir_polytope_release(part->polytope);
     PIR_FREE(job->allocator, part->vertex, part->room);
-    *part = (struct part){0};
+    *part = (struct joined_part){0};
 }
 
 /* Leaves of some vertices those that their exact hull has. Their numbers are borrowed while it is made. */
@@ -116,8 +116,8 @@ static pir_status keep_extreme(struct approximation *job, uint32_t *vertex, uint
  * the vertices as scaled doubles, which is what distances are measured with.
  */
 static bool add_part(struct approximation *job, uint32_t *vertex, uint32_t count, uint32_t room, double error) {
-    struct part *part = &job->part[job->part_count++];
-    *part = (struct part){.vertex = vertex, .room = room, .count = count};
+    struct joined_part *part = &job->part[job->part_count++];
+    *part = (struct joined_part){.vertex = vertex, .room = room, .count = count};
     pir_vec3 *point = PIR_NEW(job->allocator, pir_vec3, count);
     mpq_t room_of_one;
     mpq_init(room_of_one);
@@ -160,7 +160,7 @@ static double sides(pir_vec3 low, pir_vec3 high) {
 }
 
 /* How far two boxes are from each other along the axis where they are farthest. */
-static double gap(const struct part *a, const struct part *b) {
+static double gap(const struct joined_part *a, const struct joined_part *b) {
     const double x = fmax(a->low.x - b->high.x, b->low.x - a->high.x),
                  y = fmax(a->low.y - b->high.y, b->low.y - a->high.y),
                  z = fmax(a->low.z - b->high.z, b->low.z - a->high.z);
@@ -168,7 +168,7 @@ static double gap(const struct part *a, const struct part *b) {
 }
 
 /* How much longer the sides of a box about both are than those of the larger one. */
-static double growth(const struct part *a, const struct part *b) {
+static double growth(const struct joined_part *a, const struct joined_part *b) {
     const pir_vec3 low = {fmin(a->low.x, b->low.x), fmin(a->low.y, b->low.y), fmin(a->low.z, b->low.z)};
     const pir_vec3 high = {fmax(a->high.x, b->high.x), fmax(a->high.y, b->high.y), fmax(a->high.z, b->high.z)};
     return sides(low, high) - fmax(sides(a->low, a->high), sides(b->low, b->high));
@@ -208,7 +208,7 @@ static bool add_couples(struct approximation *job, uint32_t part) {
     uint32_t near[NEIGHBOURS], count = 0;
     double by[NEIGHBOURS];
     for (uint32_t other = 0; other < job->part_count; other++) {
-        const struct part *a = &job->part[part], *b = &job->part[other];
+        const struct joined_part *a = &job->part[part], *b = &job->part[other];
         if (other == part || !b->polytope || (job->most == 0 && gap(a, b) > job->tolerance))
             continue;
         const double own = growth(a, b);
@@ -256,7 +256,7 @@ static struct couple take_least(struct approximation *job) {
 /* --- joining --- */
 
 static bool join(struct approximation *job, const struct couple *couple) {
-    struct part *a = &job->part[couple->a], *b = &job->part[couple->b];
+    struct joined_part *a = &job->part[couple->a], *b = &job->part[couple->b];
     const uint32_t room = a->count + b->count, made = job->part_count;
     uint32_t *vertex = PIR_NEW(job->allocator, uint32_t, room), count = room;
     if (!vertex) {
@@ -306,7 +306,7 @@ static pir_pieces *result_of(const struct approximation *job, double *ret_error)
     pir_pieces *made = pir_pieces_new(job->allocator, job->left, vertices);
     *ret_error = 0;
     for (uint32_t i = 0; i < job->part_count && made; i++) {
-        const struct part *part = &job->part[i];
+        const struct joined_part *part = &job->part[i];
         if (!part->polytope)
             continue;
         *ret_error = fmax(*ret_error, part->joint.error);
@@ -327,7 +327,7 @@ pir_status pir_pieces_approximate(pir_pieces **pieces, uint32_t most, double tol
         return PIR_OK;
     job.shift = shift_of(*pieces);
     job.tolerance = length_scaled(tolerance, -job.shift);
-    job.part = PIR_ZEROED(job.allocator, struct part, job.part_room);
+    job.part = PIR_ZEROED(job.allocator, struct joined_part, job.part_room);
     job.status = job.part ? PIR_OK : PIR_ERR_MEMORY;
     if (job.status == PIR_OK && add_exact_parts(&job))
         join_all(&job);

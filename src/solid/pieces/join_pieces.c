@@ -17,7 +17,7 @@ struct shared {
     double area;
 };
 
-struct merge {
+struct piece_merge {
     pir_space *space;
     pir_cells *cells;
     pir_piece_list *pieces;
@@ -76,7 +76,7 @@ static double area_of(const pir_cells *cells, const pir_face *face) {
 }
 
 /* Whether all of piece `a` is on or below the planes of `b` but that of the shared face. */
-static bool is_below(struct merge *m, uint32_t a, uint32_t b, uint32_t shared) {
+static bool is_below(struct piece_merge *m, uint32_t a, uint32_t b, uint32_t shared) {
     const pir_cell from = m->cells->cell[a], to = m->cells->cell[b];
     for (uint32_t g = to.first; g < to.first + to.count; g++) {
         const uint32_t half = m->cells->face[g].half;
@@ -107,7 +107,7 @@ static const pir_face *face_in(const pir_cells *cells, pir_cell cell, uint32_t h
 }
 
 /* Adds a face with the corners of the loop that are not straight. */
-static void add_loop(struct merge *m, uint32_t half) {
+static void add_loop(struct piece_merge *m, uint32_t half) {
     const uint32_t *loop = m->loop, count = m->loop_count;
     pir_cells_begin_face(m->cells, half);
     for (uint32_t i = 0; i < count; i++)
@@ -116,13 +116,13 @@ static void add_loop(struct merge *m, uint32_t half) {
             pir_cells_add_corner(m->cells, loop[i]);
 }
 
-static void push_loop(struct merge *m, uint32_t point) {
+static void push_loop(struct piece_merge *m, uint32_t point) {
     if (pir_space_grow(m->space, (void **)&m->loop, &m->loop_room, m->loop_count, sizeof *m->loop))
         m->loop[m->loop_count++] = point;
 }
 
 /* The loop round two faces of one plane that have a side in common, or just the first. */
-static void add_union(struct merge *m, pir_face a, const pir_face *other) {
+static void add_union(struct piece_merge *m, pir_face a, const pir_face *other) {
     const pir_cells *cells = m->cells;
     const pir_face b = other ? *other : (pir_face){0};
     m->loop_count = 0;
@@ -141,7 +141,7 @@ static void add_union(struct merge *m, pir_face a, const pir_face *other) {
     add_loop(m, a.half);
 }
 
-static uint32_t join(struct merge *m, uint32_t a, uint32_t b, uint32_t shared) {
+static uint32_t join(struct piece_merge *m, uint32_t a, uint32_t b, uint32_t shared) {
     pir_cells *cells = m->cells;
     const pir_cell from[2] = {cells->cell[a], cells->cell[b]};
     const uint32_t made = pir_cells_begin(cells);
@@ -158,16 +158,16 @@ static uint32_t join(struct merge *m, uint32_t a, uint32_t b, uint32_t shared) {
 /* --- the pairs --- */
 
 static bool slot_before(void *context, uint32_t a, uint32_t b) {
-    const struct merge *m = context;
+    const struct piece_merge *m = context;
     return m->slot[a].half >> 1 < m->slot[b].half >> 1;
 }
 
 static bool shared_before(void *context, uint32_t a, uint32_t b) {
-    const struct merge *m = context;
+    const struct piece_merge *m = context;
     return m->shared[a].area > m->shared[b].area;
 }
 
-static void list_slots(struct merge *m) {
+static void list_slots(struct piece_merge *m) {
     const pir_cells *cells = m->cells;
     m->slot_count = 0;
     for (uint32_t i = 0; i < m->pieces->count; i++) {
@@ -180,7 +180,7 @@ static void list_slots(struct merge *m) {
     }
 }
 
-static bool sort(struct merge *m, uint32_t count, bool (*before)(void *, uint32_t, uint32_t)) {
+static bool sort(struct piece_merge *m, uint32_t count, bool (*before)(void *, uint32_t, uint32_t)) {
     if (!pir_space_grow(m->space, (void **)&m->order, &m->order_room, count, sizeof *m->order) ||
         !pir_space_grow(m->space, (void **)&m->work, &m->work_room, count, sizeof *m->work))
         return false;
@@ -190,7 +190,7 @@ static bool sort(struct merge *m, uint32_t count, bool (*before)(void *, uint32_
     return true;
 }
 
-static void note_shared(struct merge *m, const struct slot *a, const struct slot *b) {
+static void note_shared(struct piece_merge *m, const struct slot *a, const struct slot *b) {
     const pir_cells *cells = m->cells;
     if ((a->half ^ b->half) != 1 || !same_polygon(cells, &cells->face[a->face], &cells->face[b->face]))
         return;
@@ -200,7 +200,7 @@ static void note_shared(struct merge *m, const struct slot *a, const struct slot
 }
 
 /* Finds the pairs of pieces with the same polygon for a face, by planes. */
-static void list_shared(struct merge *m) {
+static void list_shared(struct piece_merge *m) {
     m->shared_count = 0;
     list_slots(m);
     if (!sort(m, m->slot_count, slot_before))
@@ -215,7 +215,7 @@ static void list_shared(struct merge *m) {
 }
 
 /* Joins pairs that no earlier join of this round has changed; whether it joined any. */
-static bool join_round(struct merge *m) {
+static bool join_round(struct piece_merge *m) {
     bool joined = false;
     list_shared(m);
     if (!sort(m, m->shared_count, shared_before) ||
@@ -242,7 +242,7 @@ static bool join_round(struct merge *m) {
 }
 
 void pir_merge_pieces(pir_cells *cells, pir_piece_list *pieces) {
-    struct merge m = {.space = cells->space, .cells = cells, .pieces = pieces};
+    struct piece_merge m = {.space = cells->space, .cells = cells, .pieces = pieces};
     intern_numbers(cells, pieces);
     while (m.space->status == PIR_OK && join_round(&m))
         ;

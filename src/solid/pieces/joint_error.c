@@ -12,7 +12,7 @@
 #define PLANES 2
 
 /* A plane that A is below, off by up to `margin` at points of both. */
-struct plane {
+struct margin_plane {
     pir_vec3 n;
     double h, margin;
 };
@@ -22,7 +22,7 @@ struct joint {
     double reach; /* the greatest coordinate of both */
 };
 
-static double height(const struct plane *plane, pir_vec3 x) {
+static double height(const struct margin_plane *plane, pir_vec3 x) {
     return pir_vec_dot(plane->n, x) - plane->h;
 }
 
@@ -32,7 +32,7 @@ static double distance_to(const struct joint *joint, const pir_joint_part *part,
 }
 
 /* The point of the plane between `from` below it and `to` above, and how far it may be from there. */
-static pir_vec3 crossing(const struct plane *plane, pir_vec3 from, pir_vec3 to, double *ret_off) {
+static pir_vec3 crossing(const struct margin_plane *plane, pir_vec3 from, pir_vec3 to, double *ret_off) {
     const double below = -height(plane, from), above = height(plane, to), sum = below + above;
     const pir_vec3 way = pir_vec_sub(to, from);
     const double share = sum > 8 * plane->margin ? fmin(1, fmax(0, below / sum)) : 0.5;
@@ -41,7 +41,7 @@ static pir_vec3 crossing(const struct plane *plane, pir_vec3 from, pir_vec3 to, 
 }
 
 /* A bound on how far from a part the segment crosses the plane; HUGE_VAL where it is too flat to tell. */
-static double from_crossing(const struct joint *joint, const pir_joint_part *part, const struct plane *plane,
+static double from_crossing(const struct joint *joint, const pir_joint_part *part, const struct margin_plane *plane,
                             pir_vec3 from, pir_vec3 to) {
     double off;
     const pir_vec3 c = crossing(plane, from, to, &off);
@@ -54,7 +54,7 @@ struct distances {
 };
 
 /* Adds the segments from A's vertices to a vertex of B above the plane, which is `from_a` from A. */
-static void add_above(const struct joint *joint, const struct plane *plane, pir_vec3 to, double from_a,
+static void add_above(const struct joint *joint, const struct margin_plane *plane, pir_vec3 to, double from_a,
                       struct distances *d) {
     const pir_polytope *a = joint->a->polytope;
     d->above_a = fmax(d->above_a, from_a);
@@ -69,7 +69,7 @@ static void add_above(const struct joint *joint, const struct plane *plane, pir_
 }
 
 /* Adds a vertex of B below the plane, and where the segments from it to those above cross the plane. */
-static void add_below(const struct joint *joint, const struct plane *plane, pir_vec3 from, double from_a,
+static void add_below(const struct joint *joint, const struct margin_plane *plane, pir_vec3 from, double from_a,
                       struct distances *d) {
     const pir_polytope *b = joint->b->polytope;
     d->below_a = fmax(d->below_a, from_a);
@@ -101,7 +101,7 @@ static double error_of(const struct joint *joint, const struct distances *d) {
 }
 
 /* The bound by one plane, or `best` and more where it is no less. */
-static double error_by(const struct joint *joint, const struct plane *plane, double best) {
+static double error_by(const struct joint *joint, const struct margin_plane *plane, double best) {
     const pir_polytope *a = joint->a->polytope, *b = joint->b->polytope;
     struct distances d = {0};
     for (uint32_t i = 0; i < pir_polytope_vertex_count(a); i++)
@@ -120,9 +120,9 @@ static double error_by(const struct joint *joint, const struct plane *plane, dou
 }
 
 /* A plane of A's facet, moved outwards by more than rounding, and how far B is below it. */
-static struct plane plane_of(const struct joint *joint, uint32_t facet, double *ret_below) {
+static struct margin_plane plane_of(const struct joint *joint, uint32_t facet, double *ret_below) {
     const pir_polytope *a = joint->a->polytope, *b = joint->b->polytope;
-    struct plane plane = {pir_polytope_normal(a, facet), -HUGE_VAL, 0x1p-47 * joint->reach};
+    struct margin_plane plane = {pir_polytope_normal(a, facet), -HUGE_VAL, 0x1p-47 * joint->reach};
     for (uint32_t i = 0; i < pir_polytope_vertex_count(a); i++)
         plane.h = fmax(plane.h, pir_vec_dot(plane.n, pir_polytope_vertex(a, i)));
     plane.h += plane.margin;
@@ -134,14 +134,14 @@ static struct plane plane_of(const struct joint *joint, uint32_t facet, double *
 
 /* The least bound by planes of A's facets, or `best` where none is less. */
 static double error_by_facets(const struct joint *joint, double best) {
-    struct plane plane[PLANES] = {0};
+    struct margin_plane plane[PLANES] = {0};
     double below[PLANES] = {HUGE_VAL, HUGE_VAL};
     for (uint32_t f = 0; f < pir_polytope_facet_count(joint->a->polytope); f++) {
         double own;
-        struct plane next = plane_of(joint, f, &own);
+        struct margin_plane next = plane_of(joint, f, &own);
         for (int k = 0; k < PLANES; k++)
             if (own < below[k]) {
-                const struct plane kept = plane[k];
+                const struct margin_plane kept = plane[k];
                 const double kept_below = below[k];
                 plane[k] = next;
                 below[k] = own;

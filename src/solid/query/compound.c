@@ -5,8 +5,8 @@
 #include "base/vec.h"
 
 /* The box of a piece, and how far it reaches. */
-static pir_box box_of(const pir_polytope *piece, double *reach) {
-    pir_box box = PIR_BOX_EMPTY;
+static pir_space_box box_of(const pir_polytope *piece, double *reach) {
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
     for (uint32_t v = 0; v < pir_polytope_vertex_count(piece); v++) {
         const pir_vec3 at = pir_polytope_vertex(piece, v);
         const double x[3] = {at.x, at.y, at.z};
@@ -63,7 +63,7 @@ static void fill_faces(pir_compound *c, uint32_t i) {
 pir_status pir_compound_init(pir_compound *compound, const pir_pieces *pieces, const pir_allocator *allocator) {
     const uint32_t count = pir_pieces_count(pieces);
     *compound = (pir_compound){.count = count, .piece = PIR_ZEROED(allocator, pir_polytope *, count)};
-    pir_box *box = PIR_NEW(allocator, pir_box, count);
+    pir_space_box *box = PIR_NEW(allocator, pir_space_box, count);
     pir_status status = box && compound->piece ? PIR_OK : PIR_ERR_MEMORY;
     for (uint32_t i = 0; i < count && status == PIR_OK; i++) {
         status = pir_pieces_polytope(pieces, i, &compound->piece[i]);

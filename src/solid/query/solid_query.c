@@ -20,7 +20,7 @@ struct pir_solid_query {
     uint64_t visits;
 };
 
-struct call {
+struct solid_call {
     pir_solid_query *query;
     pir_workspace *workspace;
     pir_pair_input input;
@@ -71,7 +71,7 @@ void pir_solid_query_destroy(pir_solid_query *query) {
 
 /* --- what calls share --- */
 
-static pir_pair *pair_of(struct call *call, uint32_t i, uint32_t j) {
+static pir_pair *pair_of(struct solid_call *call, uint32_t i, uint32_t j) {
     pir_pair *pair = NULL;
     pir_solid_query *query = call->query;
     call->status =
@@ -85,14 +85,14 @@ static bool comes_before(uint32_t i, uint32_t j, uint32_t other_i, uint32_t othe
 }
 
 static double ask_once(void *context, uint32_t i, uint32_t j) {
-    struct call *call = context;
+    struct solid_call *call = context;
     if (i != call->first[0] || j != call->first[1])
         call->within = call->ask(call, i, j);
     return call->within;
 }
 
 /* Asks the pair of the last answer, which checks the input as well, then all others that may matter. */
-static pir_status visit(struct call *call, pir_pair_asker *ask) {
+static pir_status visit(struct solid_call *call, pir_pair_asker *ask) {
     pir_solid_query *query = call->query;
     call->ask = ask;
     call->first[0] = query->last[0];
@@ -108,7 +108,7 @@ static pir_status visit(struct call *call, pir_pair_asker *ask) {
 /* --- state --- */
 
 static double ask_state(void *context, uint32_t i, uint32_t j) {
-    struct call *call = context;
+    struct solid_call *call = context;
     pir_query_result result;
     pir_pair *pair = pair_of(call, i, j);
     if (pair)
@@ -125,7 +125,7 @@ static double ask_state(void *context, uint32_t i, uint32_t j) {
 
 /* The state of two pieces, asked of a pair only where doubles do not tell. */
 static double ask_likely(void *context, uint32_t i, uint32_t j) {
-    struct call *call = context;
+    struct solid_call *call = context;
     const pir_likely likely = pir_pieces_look(&call->relative, &call->query->p, i, &call->query->q, j);
     if (likely == PIR_LIKELY_UNKNOWN)
         return ask_state(call, i, j);
@@ -141,7 +141,7 @@ pir_status pir_solid_query_overlap(pir_solid_query *query, pir_workspace *worksp
                                    pir_state *ret_state) {
     if (!query || !workspace || !input || !ret_state)
         return PIR_ERR_ARGUMENT;
-    struct call call = {.query = query, .workspace = workspace, .input = *input, .state = PIR_OUTSIDE};
+    struct solid_call call = {.query = query, .workspace = workspace, .input = *input, .state = PIR_OUTSIDE};
     pir_status status = PIR_OK;
     if (pir_relative_is_plain(input)) {
         call.relative = pir_relative_of(&query->p, &query->q, input);
@@ -159,7 +159,7 @@ pir_status pir_solid_query_overlap(pir_solid_query *query, pir_workspace *worksp
 /* --- distance --- */
 
 static double ask_distance(void *context, uint32_t i, uint32_t j) {
-    struct call *call = context;
+    struct solid_call *call = context;
     pir_solid_distance *least = &call->distance;
     pir_query_result result;
     pir_pair *pair = pair_of(call, i, j);
@@ -193,7 +193,7 @@ pir_status pir_solid_query_distance(pir_solid_query *query, pir_workspace *works
                                     pir_solid_distance *ret_distance) {
     if (!query || !workspace || !input || !ret_distance)
         return PIR_ERR_ARGUMENT;
-    struct call call = {.query = query, .workspace = workspace, .input = *input};
+    struct solid_call call = {.query = query, .workspace = workspace, .input = *input};
     const pir_status status = visit(&call, ask_distance);
     if (status != PIR_OK)
         return status;
@@ -215,13 +215,13 @@ static bool meets(const pir_solid_impact *impact) {
 }
 
 /* How far off pairs may be that are met in time. */
-static double reach_until(const struct call *call) {
+static double reach_until(const struct solid_call *call) {
     const double room = 0x1p-30 * call->flight.size;
     return (meets(&call->impact) ? call->impact.time : 1) * call->speed * (1 + 0x1p-40) + call->flight.tolerance + room;
 }
 
 static double ask_flight(void *context, uint32_t i, uint32_t j) {
-    struct call *call = context;
+    struct solid_call *call = context;
     pir_solid_impact *first = &call->impact;
     pir_pair_input input = call->input;
     pir_flight flight = call->flight;
@@ -249,7 +249,7 @@ pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *workspace
     const pir_status checked = pir_flight_check(motion->way, motion->turn, motion->tolerance);
     if (checked != PIR_OK)
         return checked;
-    struct call call = {.query = query, .workspace = workspace, .input = *input};
+    struct solid_call call = {.query = query, .workspace = workspace, .input = *input};
     call.impact = (pir_solid_impact){.outcome = PIR_CAST_MISS, .time = 1};
     call.input.cutoff = HUGE_VAL;
     call.speed = length(motion->way) + length(motion->turn) * query->p.reach;

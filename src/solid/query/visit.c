@@ -16,18 +16,18 @@ struct visit {
 };
 
 /* A node of each tree, or from `leaves` on a box, and how far apart they are at the least. */
-struct place {
+struct tree_place {
     uint32_t p, q;
     double apart;
 };
 
 /* A box of a tree, by the number of its node, or of its box behind the nodes. */
-static const pir_box *box_of(const pir_boxes *boxes, uint32_t number) {
+static const pir_space_box *box_of(const pir_boxes *boxes, uint32_t number) {
     return number < boxes->node_count ? &boxes->node[number] : &boxes->box[number - boxes->node_count];
 }
 
 /* How far a box is from an interval of half a length about a middle, along an axis. */
-static double gap_of(const pir_box *box, int axis, double middle, double half) {
+static double gap_of(const pir_space_box *box, int axis, double middle, double half) {
     const double below = box->low[axis] - middle, above = middle - box->high[axis];
     const double gap = (below > above ? below : above) - half;
     return gap > 0 ? gap : 0;
@@ -38,7 +38,7 @@ static const pir_turned_box *turned_p(const struct visit *v, uint32_t number) {
     pir_turned_box *turned = &v->p->turned[number];
     if (turned->visit == v->number)
         return turned;
-    const pir_box *box = box_of(&v->p->boxes, number);
+    const pir_space_box *box = box_of(&v->p->boxes, number);
     double middle[3], half[3];
     for (int k = 0; k < 3; k++) {
         middle[k] = (box->low[k] + box->high[k]) / 2;
@@ -58,7 +58,7 @@ static const pir_turned_box *turned_q(const struct visit *v, uint32_t number) {
     pir_turned_box *turned = &v->q->turned[number];
     if (turned->visit == v->number)
         return turned;
-    const pir_box *box = box_of(&v->q->boxes, number);
+    const pir_space_box *box = box_of(&v->q->boxes, number);
     const double(*turn)[3] = (const double(*)[3])v->at->turn, (*reach)[3] = (const double(*)[3])v->at->reach;
     double middle[3], half[3];
     for (int k = 0; k < 3; k++) {
@@ -79,7 +79,7 @@ static double distance(const struct visit *v, uint32_t p, uint32_t q, double wit
     const double room = v->at->room + v->at->radii;
     double sum[2] = {0, 0};
     const pir_turned_box *of_p = turned_p(v, p), *of_q = turned_q(v, q);
-    const pir_box *box_p = box_of(&v->p->boxes, p), *box_q = box_of(&v->q->boxes, q);
+    const pir_space_box *box_p = box_of(&v->p->boxes, p), *box_q = box_of(&v->q->boxes, q);
     for (int i = 0; i < 3; i++) {
         const double gap = gap_of(box_q, i, of_p->middle[i], of_p->half[i]);
         if (gap - room > within)
@@ -96,7 +96,7 @@ static double distance(const struct visit *v, uint32_t p, uint32_t q, double wit
     return (most > 0 ? sqrt(most) * (1 - 0x1p-48) : 0) - room;
 }
 
-static double length_of(const pir_box *box) {
+static double length_of(const pir_space_box *box) {
     return box->high[0] - box->low[0] + box->high[1] - box->low[1] + box->high[2] - box->low[2];
 }
 
@@ -104,12 +104,12 @@ static bool is_leaf(const pir_boxes *boxes, uint32_t node) {
     return node + 1 >= boxes->leaf_count;
 }
 
-static struct place place_of(const struct visit *v, uint32_t p, uint32_t q, double within) {
-    return (struct place){p, q, distance(v, p, q, within)};
+static struct tree_place place_of(const struct visit *v, uint32_t p, uint32_t q, double within) {
+    return (struct tree_place){p, q, distance(v, p, q, within)};
 }
 
 /* Asks about the pairs of two leaves that are within a distance; how far pairs are of interest then. */
-static double ask_leaves(const struct visit *v, const struct place *place, double within, pir_pair_asker *ask,
+static double ask_leaves(const struct visit *v, const struct tree_place *place, double within, pir_pair_asker *ask,
                          void *context) {
     const pir_boxes *p = &v->p->boxes, *q = &v->q->boxes;
     const uint32_t first_p = (place->p + 1 - p->leaf_count) * PIR_BOXES_LEAF;
@@ -127,11 +127,11 @@ static double ask_leaves(const struct visit *v, const struct place *place, doubl
 void pir_visit_pairs(const pir_compound *p, const pir_compound *q, const pir_relative *relative, uint64_t number,
                      double within, pir_pair_asker *ask, void *context) {
     const struct visit v = {p, q, relative, number};
-    struct place stack[128]; // a division replaces a place by two; trees are at most 31 deep
+    struct tree_place stack[128]; // a division replaces a place by two; trees are at most 31 deep
     uint32_t depth = 0;
     stack[depth++] = place_of(&v, 0, 0, within);
     while (depth > 0 && within >= 0) {
-        const struct place place = stack[--depth];
+        const struct tree_place place = stack[--depth];
         const bool leaf_p = is_leaf(&p->boxes, place.p), leaf_q = is_leaf(&q->boxes, place.q);
         if (place.apart > within)
             continue;
@@ -141,7 +141,7 @@ void pir_visit_pairs(const pir_compound *p, const pir_compound *q, const pir_rel
         }
         const bool of_p =
             leaf_q || (!leaf_p && length_of(&p->boxes.node[place.p]) > length_of(&q->boxes.node[place.q]));
-        const struct place half[2] = {
+        const struct tree_place half[2] = {
             of_p ? place_of(&v, 2 * place.p + 1, place.q, within) : place_of(&v, place.p, 2 * place.q + 1, within),
             of_p ? place_of(&v, 2 * place.p + 2, place.q, within) : place_of(&v, place.p, 2 * place.q + 2, within)};
         const int nearer = half[1].apart < half[0].apart;

@@ -6,7 +6,7 @@
 
 #define LEAF PIR_BOXES_LEAF
 
-void pir_box_add(pir_box *box, const pir_space_point *point) {
+void pir_space_box_add(pir_space_box *box, const pir_space_point *point) {
     for (int k = 0; k < 3; k++) {
         const double low = point->x[k] - point->err, high = point->x[k] + point->err;
         box->low[k] = low < box->low[k] ? low : box->low[k];
@@ -14,7 +14,7 @@ void pir_box_add(pir_box *box, const pir_space_point *point) {
     }
 }
 
-static void join(pir_box *box, const pir_box *other) {
+static void join(pir_space_box *box, const pir_space_box *other) {
     for (int k = 0; k < 3; k++) {
         box->low[k] = other->low[k] < box->low[k] ? other->low[k] : box->low[k];
         box->high[k] = other->high[k] > box->high[k] ? other->high[k] : box->high[k];
@@ -22,7 +22,7 @@ static void join(pir_box *box, const pir_box *other) {
 }
 
 struct order {
-    const pir_box *box;
+    const pir_space_box *box;
     int axis;
 };
 
@@ -32,10 +32,10 @@ static bool box_before(void *context, uint32_t a, uint32_t b) {
 }
 
 /* Puts order[first .. first + count) into the leaves below `node`, halves along the longest side of their box. */
-static void split(pir_boxes *boxes, const pir_box *box, uint32_t first, uint32_t count, uint32_t *work) {
+static void split(pir_boxes *boxes, const pir_space_box *box, uint32_t first, uint32_t count, uint32_t *work) {
     if (count <= LEAF)
         return;
-    pir_box all = PIR_BOX_EMPTY;
+    pir_space_box all = PIR_SPACE_BOX_EMPTY;
     for (uint32_t i = first; i < first + count; i++)
         join(&all, &box[boxes->order[i]]);
     struct order by = {box, 0};
@@ -51,14 +51,14 @@ static void split(pir_boxes *boxes, const pir_box *box, uint32_t first, uint32_t
     split(boxes, box, first + half, count - half, work);
 }
 
-bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_box *box, uint32_t count) {
+bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_space_box *box, uint32_t count) {
     const pir_allocator *a = allocator;
     uint32_t leaves = 1;
     while (leaves * LEAF < count)
         leaves *= 2;
     *boxes = (pir_boxes){.count = count, .leaf_count = leaves, .node_count = 2 * leaves - 1};
-    boxes->node = PIR_NEW(a, pir_box, boxes->node_count);
-    boxes->box = PIR_NEW(a, pir_box, count);
+    boxes->node = PIR_NEW(a, pir_space_box, boxes->node_count);
+    boxes->box = PIR_NEW(a, pir_space_box, count);
     boxes->order = PIR_NEW(a, uint32_t, count);
     uint32_t *work = PIR_NEW(a, uint32_t, count);
     const bool done = boxes->node && boxes->box && boxes->order && work;
@@ -67,7 +67,7 @@ bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_
             boxes->order[i] = i;
         split(boxes, box, 0, count, work);
         for (uint32_t k = boxes->node_count; k-- > 0;) {
-            boxes->node[k] = PIR_BOX_EMPTY;
+            boxes->node[k] = PIR_SPACE_BOX_EMPTY;
             if (k + 1 < leaves) {
                 join(&boxes->node[k], &boxes->node[2 * k + 1]);
                 join(&boxes->node[k], &boxes->node[2 * k + 2]);
@@ -92,12 +92,12 @@ void pir_boxes_finish(pir_boxes *boxes, const pir_allocator *allocator) {
     *boxes = (pir_boxes){0};
 }
 
-uint32_t pir_boxes_find(const pir_boxes *boxes, const pir_box *box, uint32_t *ret_found) {
+uint32_t pir_boxes_find(const pir_boxes *boxes, const pir_space_box *box, uint32_t *ret_found) {
     uint32_t stack[64], depth = 0, found = 0;
     stack[depth++] = 0;
     while (depth > 0) {
         const uint32_t k = stack[--depth];
-        if (!pir_box_meets(&boxes->node[k], box))
+        if (!pir_space_box_meets(&boxes->node[k], box))
             continue;
         if (k + 1 < boxes->leaf_count) {
             stack[depth++] = 2 * k + 2;
@@ -106,7 +106,7 @@ uint32_t pir_boxes_find(const pir_boxes *boxes, const pir_box *box, uint32_t *re
         }
         const uint32_t first = (k + 1 - boxes->leaf_count) * LEAF;
         for (uint32_t i = first; i < boxes->count && i < first + LEAF; i++)
-            if (pir_box_meets(&boxes->box[i], box))
+            if (pir_space_box_meets(&boxes->box[i], box))
                 ret_found[found++] = boxes->order[i];
     }
     return found;

@@ -39,7 +39,7 @@ static void add_vertex(pir_convexes *c, uint32_t point) {
         return;
     c->vertex[c->vertex_count++] = point;
     convex->vertex_count++;
-    pir_box_add(&convex->box, &c->space->point[point]);
+    pir_space_box_add(&convex->box, &c->space->point[point]);
 }
 
 /* The edge from a to b with its two faces, seen from the one on its left. */
@@ -89,8 +89,8 @@ void pir_convexes_make(pir_convexes *convexes, const pir_cells *cells, const pir
     for (uint32_t i = 0; i < pieces->count; i++) {
         if (!pir_space_grow(c->space, (void **)&c->convex, &c->room, c->count, sizeof *c->convex))
             return;
-        c->convex[c->count++] =
-            (pir_convex){.vertex = c->vertex_count, .face = c->face_count, .edge = c->edge_count, .box = PIR_BOX_EMPTY};
+        c->convex[c->count++] = (pir_convex){
+            .vertex = c->vertex_count, .face = c->face_count, .edge = c->edge_count, .box = PIR_SPACE_BOX_EMPTY};
         const pir_cell cell = cells->cell[pieces->cell[i]];
         for (uint32_t f = cell.first; f < cell.first + cell.count && c->space->status == PIR_OK; f++)
             add_face(c, cells, cell, &cells->face[f]);

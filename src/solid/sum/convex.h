@@ -18,7 +18,7 @@ typedef struct pir_convex {
     uint32_t vertex, vertex_count; /* in the list's arrays */
     uint32_t face, face_count;
     uint32_t edge, edge_count;
-    pir_box box;
+    pir_space_box box;
 } pir_convex;
 
 typedef struct pir_convex_face {
@@ -44,7 +44,7 @@ typedef struct pir_pair_sum {
     uint32_t first, count; /* planes of the space */
     uint32_t below;        /* a half-space of a candidate that the sum is below, or 0 */
     uint32_t apart;        /* the plane of its own that a candidate was last found above */
-    pir_box box;
+    pir_space_box box;
 } pir_pair_sum;
 
 /* The sum of one piece of p and one of q. */

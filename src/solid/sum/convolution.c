@@ -16,12 +16,12 @@
 #include "solid/space/exact.h"
 
 /* A convex polygon of one body in a plane, or a segment with its two directions, or a point. */
-struct face {
+struct flat_face {
     const uint32_t *point, *direction;
     uint32_t count;
 };
 
-struct maker {
+struct candidate_maker {
     pir_space *space;
     const pir_body *a, *b; /* the body whose facet gives the normal, and the other */
     pir_polygons *polygons;
@@ -34,7 +34,7 @@ struct maker {
 
 /* --- sums of faces --- */
 
-static void push(struct maker *m, uint32_t a, uint32_t b, uint32_t direction) {
+static void push(struct candidate_maker *m, uint32_t a, uint32_t b, uint32_t direction) {
     if (!pir_space_grow(m->space, (void **)&m->point, &m->point_room, m->count, sizeof *m->point) ||
         !pir_space_grow(m->space, (void **)&m->direction, &m->direction_room, m->count, sizeof *m->direction))
         return;
@@ -44,7 +44,7 @@ static void push(struct maker *m, uint32_t a, uint32_t b, uint32_t direction) {
 
 /* The corner of `face` that is farthest out beyond a side of direction d, counter-clockwise about n; of two, the one
  * from which the side to the other leads along d. */
-static uint32_t start_of(struct maker *m, const struct face *face, uint32_t n, uint32_t d) {
+static uint32_t start_of(struct candidate_maker *m, const struct flat_face *face, uint32_t n, uint32_t d) {
     for (uint32_t i = 0; i < face->count && face->count > 1; i++) {
         const uint32_t before = face->direction[i > 0 ? i - 1 : face->count - 1], after = face->direction[i];
         const int to = pir_space_det(m->space, n, d, after), from = pir_space_det(m->space, n, d, before);
@@ -56,7 +56,8 @@ static uint32_t start_of(struct maker *m, const struct face *face, uint32_t n, u
 }
 
 /* The sum of a polygon f and of g, as a candidate in the plane of `half` with normal n. */
-static void add_sum(struct maker *m, uint32_t half, uint32_t n, const struct face *f, const struct face *g) {
+static void add_sum(struct candidate_maker *m, uint32_t half, uint32_t n, const struct flat_face *f,
+                    const struct flat_face *g) {
     uint32_t j = start_of(m, g, n, f->direction[0]), left = g->count > 1 ? g->count : 0;
     m->count = 0;
     for (uint32_t i = 0; (i < f->count || left > 0) && m->space->status == PIR_OK;) {
@@ -74,19 +75,20 @@ static void add_sum(struct maker *m, uint32_t half, uint32_t n, const struct fac
         m->take(m->context, polygon);
 }
 
-static struct face part_of(const pir_body *body, uint32_t part) {
+static struct flat_face part_of(const pir_body *body, uint32_t part) {
     const uint32_t first = body->part_start[part];
-    return (struct face){body->part_corner + first, body->part_direction + first, body->part_start[part + 1] - first};
+    return (struct flat_face){body->part_corner + first, body->part_direction + first,
+                              body->part_start[part + 1] - first};
 }
 
 /* The sums of all parts of a's facets in the group of `facet` with a face of b. */
-static void add_parts(struct maker *m, uint32_t facet, const struct face *g) {
+static void add_parts(struct candidate_maker *m, uint32_t facet, const struct flat_face *g) {
     const uint32_t n = m->space->plane[m->a->plane[facet]].direction[0];
     uint32_t half = PIR_SPACE_NONE;
     for (uint32_t p = 0; p < m->a->part_count; p++) {
         if (m->a->group[m->a->part_facet[p]] != facet)
             continue;
-        const struct face f = part_of(m->a, p);
+        const struct flat_face f = part_of(m->a, p);
         if (half == PIR_SPACE_NONE)
             half = pir_half(pir_space_add_plane(m->space, (const uint32_t[]){n, PIR_SPACE_NONE}, false,
                                                 (const uint32_t[]){f.point[0], g->point[0]}),
@@ -103,7 +105,7 @@ static uint32_t direction_from(const pir_body_edge *edge, uint32_t point, int *r
 }
 
 /* Whether all edges of a vertex lead below a plane with normal n. */
-static bool supports_at_vertex(struct maker *m, uint32_t v, uint32_t n) {
+static bool supports_at_vertex(struct candidate_maker *m, uint32_t v, uint32_t n) {
     for (uint32_t i = m->first[v]; i < m->first[v + 1]; i++) {
         int sign;
         const uint32_t d = direction_from(&m->b->edge[m->edge[i]], m->b->first_point + v, &sign);
@@ -114,7 +116,7 @@ static bool supports_at_vertex(struct maker *m, uint32_t v, uint32_t n) {
 }
 
 /* Whether an edge lies in a plane with normal n, and both its facets lead below it. */
-static bool supports_at_edge(struct maker *m, const pir_body_edge *edge, uint32_t n) {
+static bool supports_at_edge(struct candidate_maker *m, const pir_body_edge *edge, uint32_t n) {
     if (edge->bend != PIR_BEND_CONVEX || pir_space_dot(m->space, edge->direction, n) != 0)
         return false;
     const uint32_t left = m->space->plane[m->b->plane[edge->left]].direction[0];
@@ -134,15 +136,15 @@ static bool same_direction(pir_space *space, uint32_t a, uint32_t b) {
     return true;
 }
 
-static void meet_vertices(struct maker *m, uint32_t facet, uint32_t n) {
+static void meet_vertices(struct candidate_maker *m, uint32_t facet, uint32_t n) {
     for (uint32_t v = 0; v < m->b->source.point_count && m->space->status == PIR_OK; v++) {
         const uint32_t point = m->b->first_point + v;
         if (supports_at_vertex(m, v, n))
-            add_parts(m, facet, &(struct face){&point, NULL, 1});
+            add_parts(m, facet, &(struct flat_face){&point, NULL, 1});
     }
 }
 
-static void meet_edges(struct maker *m, uint32_t facet, uint32_t n) {
+static void meet_edges(struct candidate_maker *m, uint32_t facet, uint32_t n) {
     for (uint32_t e = 0; e < m->b->edge_count && m->space->status == PIR_OK; e++) {
         const pir_body_edge *edge = &m->b->edge[e];
         if (!supports_at_edge(m, edge, n))
@@ -152,13 +154,13 @@ static void meet_edges(struct maker *m, uint32_t facet, uint32_t n) {
             mpz_neg(t[k], m->space->number[m->space->direction[edge->direction].exact + k]);
         const uint32_t point[2] = {edge->a, edge->b};
         const uint32_t direction[2] = {edge->direction, pir_space_add_direction(m->space, t[0], t[1], t[2])};
-        add_parts(m, facet, &(struct face){point, direction, 2});
+        add_parts(m, facet, &(struct flat_face){point, direction, 2});
     }
 }
 
-static void meet_facets(struct maker *m, uint32_t facet, uint32_t n) {
+static void meet_facets(struct candidate_maker *m, uint32_t facet, uint32_t n) {
     for (uint32_t p = 0; p < m->b->part_count && m->space->status == PIR_OK; p++) {
-        const struct face g = part_of(m->b, p);
+        const struct flat_face g = part_of(m->b, p);
         if (same_direction(m->space, n, m->space->plane[m->b->plane[m->b->part_facet[p]]].direction[0]))
             add_parts(m, facet, &g);
     }
@@ -167,14 +169,15 @@ static void meet_facets(struct maker *m, uint32_t facet, uint32_t n) {
 /* --- edges --- */
 
 /* As of convex pieces: the sign of right · direction where an edge's arc passes strictly through its great circle. */
-static int passes(const struct maker *m, const pir_body *body, const pir_body_edge *edge, uint32_t direction) {
+static int passes(const struct candidate_maker *m, const pir_body *body, const pir_body_edge *edge,
+                  uint32_t direction) {
     const uint32_t left = m->space->plane[body->plane[edge->left]].direction[0];
     const uint32_t right = m->space->plane[body->plane[edge->right]].direction[0];
     const int sign = pir_space_dot(m->space, right, direction);
     return sign != 0 && pir_space_dot(m->space, left, direction) == -sign ? sign : 0;
 }
 
-static void meet_edge_pair(struct maker *m, const pir_body_edge *e, const pir_body_edge *g) {
+static void meet_edge_pair(struct candidate_maker *m, const pir_body_edge *e, const pir_body_edge *g) {
     const int along = passes(m, m->a, e, g->direction);
     if (along == 0 || passes(m, m->b, g, e->direction) != -along)
         return;
@@ -195,7 +198,7 @@ static void meet_edge_pair(struct maker *m, const pir_body_edge *e, const pir_bo
         m->take(m->context, polygon);
 }
 
-static void meet_edge_pairs(struct maker *m) {
+static void meet_edge_pairs(struct candidate_maker *m) {
     for (uint32_t e = 0; e < m->a->edge_count; e++)
         for (uint32_t g = 0; g < m->b->edge_count && m->space->status == PIR_OK; g++)
             if (m->a->edge[e].bend == PIR_BEND_CONVEX && m->b->edge[g].bend == PIR_BEND_CONVEX)
@@ -205,7 +208,7 @@ static void meet_edge_pairs(struct maker *m) {
 /* --- the whole --- */
 
 /* The edges of each point of b, by counting. */
-static bool list_edges(struct maker *m) {
+static bool list_edges(struct candidate_maker *m) {
     const pir_allocator *a = &m->space->allocator;
     const uint32_t points = m->b->source.point_count;
     m->first = PIR_ZEROED(a, uint32_t, (size_t)points + 2);
@@ -226,7 +229,7 @@ static bool list_edges(struct maker *m) {
     return true;
 }
 
-static void finish(struct maker *m) {
+static void finish(struct candidate_maker *m) {
     const pir_allocator *a = &m->space->allocator;
     PIR_FREE(a, m->first, (size_t)m->b->source.point_count + 2);
     PIR_FREE(a, m->edge, 2 * (size_t)m->b->edge_count);
@@ -235,7 +238,7 @@ static void finish(struct maker *m) {
 }
 
 /* The candidates with a facet of `a`; those of two facets and of two edges when `both`. */
-static void make(struct maker *m, bool both) {
+static void make(struct candidate_maker *m, bool both) {
     if (!list_edges(m))
         m->space->status = PIR_ERR_MEMORY;
     for (uint32_t f = 0; f < m->a->source.facet_count && m->space->status == PIR_OK; f++) {
@@ -254,8 +257,10 @@ static void make(struct maker *m, bool both) {
 
 void pir_candidates(const pir_body *p, const pir_body *q, pir_polygons *polygons, pir_candidate_taker *take,
                     void *context) {
-    struct maker pq = {.space = p->space, .a = p, .b = q, .polygons = polygons, .take = take, .context = context};
-    struct maker qp = {.space = p->space, .a = q, .b = p, .polygons = polygons, .take = take, .context = context};
+    struct candidate_maker pq = {
+        .space = p->space, .a = p, .b = q, .polygons = polygons, .take = take, .context = context};
+    struct candidate_maker qp = {
+        .space = p->space, .a = q, .b = p, .polygons = polygons, .take = take, .context = context};
     make(&pq, true);
     make(&qp, false);
 }

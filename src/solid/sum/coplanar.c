@@ -18,13 +18,13 @@ struct wall {
     uint32_t half;
 };
 
-struct plane {
+struct plane_union {
     pir_space *space;
     const pir_polygons *polygons;
     const uint32_t *polygon;
     uint32_t count;
     double *area;
-    pir_box *box;
+    pir_space_box *box;
     uint32_t *order, *work;
     pir_segment *left; /* of the sides of the polygon at hand */
     uint32_t left_count, left_room;
@@ -52,13 +52,13 @@ static bool is_larger(void *context, uint32_t a, uint32_t b) {
     return area[a] > area[b];
 }
 
-static void measure(struct plane *plane) {
+static void measure(struct plane_union *plane) {
     for (uint32_t i = 0; i < plane->count; i++) {
         const pir_polygon p = plane->polygons->polygon[plane->polygon[i]];
         plane->area[i] = area_of(plane->polygons, p);
-        plane->box[i] = PIR_BOX_EMPTY;
+        plane->box[i] = PIR_SPACE_BOX_EMPTY;
         for (uint32_t k = 0; k < p.count; k++)
-            pir_box_add(&plane->box[i], &plane->space->point[plane->polygons->point[p.first + k]]);
+            pir_space_box_add(&plane->box[i], &plane->space->point[plane->polygons->point[p.first + k]]);
         plane->order[i] = i;
     }
     pir_sort(plane->order, plane->count, plane->work, is_larger, plane->area);
@@ -70,7 +70,7 @@ static void push(pir_space *space, pir_segment **list, uint32_t *room, uint32_t 
 }
 
 /* Whether a wall through a side of `own` has that polygon above it. */
-static bool is_beyond(struct plane *plane, pir_polygon own, uint32_t wall) {
+static bool is_beyond(struct plane_union *plane, pir_polygon own, uint32_t wall) {
     int side = 0;
     for (uint32_t i = 0; i < own.count && side == 0; i++)
         side = pir_space_side(plane->space, wall, plane->polygons->point[own.first + i]);
@@ -78,7 +78,7 @@ static bool is_beyond(struct plane *plane, pir_polygon own, uint32_t wall) {
 }
 
 /* Lists the walls that a segment may not be wholly below: others neither cut it nor keep it from being covered. */
-static void list_near(struct plane *plane, pir_segment segment) {
+static void list_near(struct plane_union *plane, pir_segment segment) {
     const pir_space_point *a = &plane->space->point[segment.a], *b = &plane->space->point[segment.b];
     pir_ball ball = {{0}, 0};
     double square = 0;
@@ -100,7 +100,7 @@ static void list_near(struct plane *plane, pir_segment segment) {
 
 /* Whether the polygon at hand covers a part of a segment of a side of `own`; where they share a side and face one way,
  * only an `earlier` one does. */
-static bool covers(struct plane *plane, pir_segment segment, pir_polygon own, bool earlier) {
+static bool covers(struct plane_union *plane, pir_segment segment, pir_polygon own, bool earlier) {
     list_near(plane, segment);
     for (uint32_t i = 0; i < plane->near_count; i++) {
         const uint32_t wall = plane->near[i];
@@ -116,7 +116,7 @@ static bool covers(struct plane *plane, pir_segment segment, pir_polygon own, bo
 
 /* Takes from a segment what the polygon at hand covers, whose walls near it are listed; what is left is added to
  * `left`. */
-static void cut(struct plane *plane, pir_segment rest) {
+static void cut(struct plane_union *plane, pir_segment rest) {
     pir_space *space = plane->space;
     const uint32_t before = plane->left_count;
     const pir_segment whole = rest;
@@ -139,17 +139,17 @@ static void cut(struct plane *plane, pir_segment rest) {
     }
 }
 
-static pir_box box_of_left(const struct plane *plane) {
-    pir_box box = PIR_BOX_EMPTY;
+static pir_space_box box_of_left(const struct plane_union *plane) {
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
     for (uint32_t i = 0; i < plane->left_count; i++) {
-        pir_box_add(&box, &plane->space->point[plane->left[i].a]);
-        pir_box_add(&box, &plane->space->point[plane->left[i].b]);
+        pir_space_box_add(&box, &plane->space->point[plane->left[i].a]);
+        pir_space_box_add(&box, &plane->space->point[plane->left[i].b]);
     }
     return box;
 }
 
 /* Lists the walls of a polygon that a box is not wholly below. Whether it is above none. */
-static bool list_walls(struct plane *plane, const pir_box *box, pir_polygon by) {
+static bool list_walls(struct plane_union *plane, const pir_space_box *box, pir_polygon by) {
     plane->wall_count = 0;
     if (!pir_space_grow(plane->space, (void **)&plane->wall, &plane->wall_room, by.count, sizeof *plane->wall))
         return false;
@@ -177,7 +177,7 @@ static bool list_walls(struct plane *plane, const pir_box *box, pir_polygon by) 
 }
 
 /* Takes from what is left of the sides of `own` what the polygon at hand covers; whether that is anything. */
-static bool cut_left(struct plane *plane, pir_polygon own, bool earlier) {
+static bool cut_left(struct plane_union *plane, pir_polygon own, bool earlier) {
     bool changed = false;
     uint32_t kept = 0;
     const uint32_t count = plane->left_count;
@@ -197,17 +197,17 @@ static bool cut_left(struct plane *plane, pir_polygon own, bool earlier) {
 }
 
 /* Adds what of a polygon's sides bounds the union. */
-static void add_polygon(struct plane *plane, uint32_t rank) {
+static void add_polygon(struct plane_union *plane, uint32_t rank) {
     const pir_polygon own = plane->polygons->polygon[plane->polygon[plane->order[rank]]];
     const uint32_t *point = plane->polygons->point + own.first, *wall = plane->polygons->wall + own.first;
     plane->left_count = 0;
     for (uint32_t i = 0; i < own.count; i++)
         push(plane->space, &plane->left, &plane->left_room, &plane->left_count,
              (pir_segment){{own.half >> 1, wall[i] >> 1}, point[i], point[i + 1 < own.count ? i + 1 : 0]});
-    pir_box box = plane->box[plane->order[rank]];
+    pir_space_box box = plane->box[plane->order[rank]];
     for (uint32_t j = 0; j < plane->count && plane->left_count > 0 && plane->space->status == PIR_OK; j++) {
         const uint32_t by = plane->order[j];
-        if (j != rank && pir_box_meets(&plane->box[by], &box) &&
+        if (j != rank && pir_space_box_meets(&plane->box[by], &box) &&
             list_walls(plane, &box, plane->polygons->polygon[plane->polygon[by]]) && cut_left(plane, own, j < rank))
             box = box_of_left(plane);
     }
@@ -215,20 +215,20 @@ static void add_polygon(struct plane *plane, uint32_t rank) {
         push(plane->space, &plane->edge, &plane->edge_room, &plane->edge_count, plane->left[i]);
 }
 
-void pir_coplanar_outline(pir_outline *outline, uint32_t group, const pir_polygons *polygons, const uint32_t *polygon,
-                          uint32_t count) {
+void pir_coplanar_outline(pir_union_outline *outline, uint32_t group, const pir_polygons *polygons,
+                          const uint32_t *polygon, uint32_t count) {
     pir_space *space = polygons->space;
     const pir_allocator *a = &space->allocator;
-    struct plane plane = {.space = space, .polygons = polygons, .polygon = polygon, .count = count};
+    struct plane_union plane = {.space = space, .polygons = polygons, .polygon = polygon, .count = count};
     plane.area = PIR_NEW(a, double, count);
-    plane.box = PIR_NEW(a, pir_box, count);
+    plane.box = PIR_NEW(a, pir_space_box, count);
     plane.order = PIR_NEW(a, uint32_t, count);
     plane.work = PIR_NEW(a, uint32_t, count);
     if (plane.area && plane.box && plane.order && plane.work) {
         measure(&plane);
         for (uint32_t rank = 0; rank < count; rank++)
             add_polygon(&plane, rank);
-        pir_outline_add(outline, group, polygons->polygon[polygon[0]].half, plane.edge, plane.edge_count);
+        pir_union_outline_add(outline, group, polygons->polygon[polygon[0]].half, plane.edge, plane.edge_count);
     } else {
         space->status = PIR_ERR_MEMORY;
     }

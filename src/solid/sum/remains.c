@@ -65,10 +65,10 @@ static bool deeper(void *context, uint32_t a, uint32_t b) {
 /* The pairs that may cover a candidate, the deepest first, into `order`. */
 static uint32_t find_pairs(pir_remains *c, uint32_t polygon) {
     const pir_polygon p = c->polygons.polygon[polygon];
-    pir_box box = PIR_BOX_EMPTY;
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
     const pir_ball ball = pir_polygons_ball(&c->polygons, polygon);
     for (uint32_t i = 0; i < p.count; i++)
-        pir_box_add(&box, &c->space->point[c->polygons.point[p.first + i]]);
+        pir_space_box_add(&box, &c->space->point[c->polygons.point[p.first + i]]);
     const uint32_t found = pir_boxes_find(&c->boxes, &box, c->order);
     uint32_t count = 0;
     for (uint32_t i = 0; i < found; i++) {
@@ -160,10 +160,10 @@ static bool *list_reflex(const pir_body *body) {
 
 static void take_vertices(pir_remains *c, uint32_t p, uint32_t q) {
     const uint32_t point = pir_space_add_sum(c->space, p, q);
-    pir_box box = PIR_BOX_EMPTY;
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
     if (c->space->status != PIR_OK)
         return;
-    pir_box_add(&box, &c->space->point[point]);
+    pir_space_box_add(&box, &c->space->point[point]);
     pir_touching_clear(&c->touching);
     pir_touching_add_point(&c->touching, c->space, point);
     clip_touching(c, pir_boxes_find(&c->boxes, &box, c->order));
@@ -193,7 +193,7 @@ static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
             c->space->stage.done++;
         }
     const pir_allocator *a = &c->space->allocator;
-    pir_box *box = PIR_NEW(a, pir_box, c->pair_count);
+    pir_space_box *box = PIR_NEW(a, pir_space_box, c->pair_count);
     c->depth = PIR_NEW(a, double, c->pair_count);
     c->order = PIR_NEW(a, uint32_t, c->pair_count);
     c->work = PIR_NEW(a, uint32_t, c->pair_count);

@@ -10,7 +10,7 @@
 
 struct source {
     pir_operands *operands;
-    const pir_outline *outline;
+    const pir_union_outline *outline;
     const pir_loop_list *loops;
     const pir_touching *points;
     uint32_t *number, *point; /* per point of the space its vertex; per vertex its point */
@@ -129,7 +129,7 @@ static pir_status fill(struct source *from, pir_mesh **ret_mesh) {
     return PIR_OK;
 }
 
-pir_status pir_solid_mesh_make(pir_operands *operands, const pir_outline *outline, const pir_loop_list *loops,
+pir_status pir_solid_mesh_make(pir_operands *operands, const pir_union_outline *outline, const pir_loop_list *loops,
                                const pir_touching *points, pir_mesh **ret_mesh) {
     const pir_allocator *a = &operands->allocator;
     const uint32_t count = operands->space.point_count;

@@ -10,7 +10,7 @@
 #include "solid/sum/touching.h"
 
 /* The number of edges is the caller's to set. */
-pir_status pir_solid_mesh_make(pir_operands *operands, const pir_outline *outline, const pir_loop_list *loops,
+pir_status pir_solid_mesh_make(pir_operands *operands, const pir_union_outline *outline, const pir_loop_list *loops,
                                const pir_touching *points, pir_mesh **ret_mesh);
 
 #endif

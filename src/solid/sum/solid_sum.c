@@ -17,13 +17,13 @@
 #include "solid/sum/solid_mesh.h"
 #include "solid/sum/tight.h"
 
-struct job {
+struct solid_sum_job {
     pir_operands operands;
     pir_cells cells[2];
     pir_piece_list pieces[2];
     pir_convexes convexes[2];
     pir_remains remains;
-    pir_outline outline;
+    pir_union_outline outline;
     pir_loop_list loops;
     pir_fragments fragments; /* of all groups */
     pir_facet_group *group;
@@ -38,13 +38,13 @@ pir_solid_sum_options pir_solid_sum_options_default(void) {
     return (pir_solid_sum_options){.solid = pir_solid_options_default(), .difference = 0, .open = 0};
 }
 
-static void finish(struct job *job) {
+static void finish(struct solid_sum_job *job) {
     pir_space *space = &job->operands.space;
     const pir_allocator *a = &job->operands.allocator;
     PIR_FREE(a, job->order, job->order_count);
     PIR_FREE(a, job->work, job->order_count);
     pir_loop_list_finish(&job->loops);
-    pir_outline_finish(&job->outline);
+    pir_union_outline_finish(&job->outline);
     pir_fragments_finish(&job->fragments, space);
     pir_space_shrink(space, job->group, job->group_room, sizeof *job->group);
     pir_touching_finish(&job->points, space);
@@ -64,7 +64,7 @@ static bool survivor_before(void *context, uint32_t a, uint32_t b) {
 }
 
 /* Adds the outline of a group: survivors of one plane and side. */
-static void outline_group(struct job *job, const uint32_t *order, uint32_t count) {
+static void outline_group(struct solid_sum_job *job, const uint32_t *order, uint32_t count) {
     pir_space *space = &job->operands.space;
     const pir_survivor *survivor = &job->remains.survivor[order[0]];
     // of a two-sided facet, candidates that face either way tell the same
@@ -87,30 +87,30 @@ static void outline_group(struct job *job, const uint32_t *order, uint32_t count
 }
 
 /* Adds the interior edges of open solids to the outline before it is cut. */
-static void add_tight(struct job *job) {
+static void add_tight(struct solid_sum_job *job) {
     const pir_facet_polygons facets = {&job->remains.kept, job->fragments.polygon, job->fragments.count,
                                        job->first_loose};
     pir_tight_add(&job->outline, &facets, &job->remains.left, &job->points);
 }
 
-static void imprint(struct job *job) {
+static void imprint(struct solid_sum_job *job) {
     uint32_t first = 0;
     for (uint32_t g = 0; g < job->group_count; g++) {
         job->group[g].polygons = &job->remains.kept;
         job->group[g].polygon = job->fragments.polygon + first;
         first += job->group[g].count;
     }
-    pir_outline_imprint(&job->outline, job->group, job->group_count);
+    pir_union_outline_imprint(&job->outline, job->group, job->group_count);
 }
 
 /* The outline of what is left, plane by plane, and the facets that it goes round. */
-static void outline_planes(struct job *job) {
+static void outline_planes(struct solid_sum_job *job) {
     pir_space *space = &job->operands.space;
     pir_remains *remains = &job->remains;
     job->order_count = remains->survivor_count;
     job->order = PIR_NEW(&space->allocator, uint32_t, job->order_count);
     job->work = PIR_NEW(&space->allocator, uint32_t, job->order_count);
-    pir_outline_init(&job->outline, space);
+    pir_union_outline_init(&job->outline, space);
     if (!job->order || !job->work) {
         space->status = PIR_ERR_MEMORY;
         return;
@@ -129,11 +129,11 @@ static void outline_planes(struct job *job) {
     pir_space_begin_stage(space, "cutting edges", 0);
     if (remains->open)
         add_tight(job);
-    pir_outline_cut(&job->outline);
+    pir_union_outline_cut(&job->outline);
     job->edges = job->outline.run_count / 2;
     if (remains->open) {
         imprint(job);
-        job->edges = pir_outline_edges(&job->outline);
+        job->edges = pir_union_outline_edges(&job->outline);
     }
     pir_space_begin_stage(space, "tracing facets", 0);
     pir_loops_trace(&job->loops, &job->outline);
@@ -141,7 +141,7 @@ static void outline_planes(struct job *job) {
         pir_loops_check_closed(&job->loops);
 }
 
-static pir_status compute(struct job *job, bool open) {
+static pir_status compute(struct solid_sum_job *job, bool open) {
     pir_space *space = &job->operands.space;
     for (int k = 0; k < 2; k++) {
         pir_space_begin_stage(space, k == 0 ? "dividing P" : "dividing Q", 0);
@@ -160,7 +160,7 @@ static pir_status compute(struct job *job, bool open) {
     return space->status;
 }
 
-static pir_solid_sum_info describe(const struct job *job, const pir_mesh *mesh) {
+static pir_solid_sum_info describe(const struct solid_sum_job *job, const pir_mesh *mesh) {
     return (pir_solid_sum_info){.vertices = mesh->vertex_count,
                                 .edges = mesh->edge_count,
                                 .facets = job->loops.facet_count,
@@ -186,7 +186,7 @@ pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotati
     pir_status status = pir_rotation_set(&exact, rotation);
     if (status != PIR_OK)
         return status;
-    struct job job = {0};
+    struct solid_sum_job job = {0};
     const pir_solid *const solids[2] = {p, q};
     status = pir_operands_init(&job.operands, solids, &exact, used.difference != 0, &solid_options);
     if (status == PIR_OK)

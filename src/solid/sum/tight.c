@@ -10,7 +10,7 @@
 
 struct tight {
     pir_space *space;
-    pir_outline *outline;
+    pir_union_outline *outline;
     const pir_facet_polygons *facets;
     pir_boxes boxes;
     uint32_t *found;   /* scratch: facets' polygons whose boxes meet another */
@@ -22,15 +22,15 @@ static pir_polygon polygon_of(const struct tight *t, uint32_t i) {
     return t->facets->polygons->polygon[t->facets->polygon[i]];
 }
 
-static pir_box box_of(const struct tight *t, const uint32_t *point, uint32_t count) {
-    pir_box box = PIR_BOX_EMPTY;
+static pir_space_box box_of(const struct tight *t, const uint32_t *point, uint32_t count) {
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
     for (uint32_t i = 0; i < count; i++)
-        pir_box_add(&box, &t->space->point[point[i]]);
+        pir_space_box_add(&box, &t->space->point[point[i]]);
     return box;
 }
 
 static uint32_t find(struct tight *t, const uint32_t *point, uint32_t count) {
-    const pir_box box = box_of(t, point, count);
+    const pir_space_box box = box_of(t, point, count);
     return pir_boxes_find(&t->boxes, &box, t->found);
 }
 
@@ -82,7 +82,7 @@ static void add_lone(struct tight *t, const pir_segment *segment) {
 
 /* Notes the points at which a segment on its own passes through facets. */
 static void touch_facets(struct tight *t, const pir_segment *segment) {
-    const uint32_t line = pir_outline_line(t->outline, segment->plane[0], segment->plane[1]);
+    const uint32_t line = pir_union_outline_line(t->outline, segment->plane[0], segment->plane[1]);
     const uint32_t found = find(t, (const uint32_t[]){segment->a, segment->b}, 2);
     for (uint32_t i = 0; i < found && t->space->status == PIR_OK; i++) {
         const pir_polygon p = polygon_of(t, t->found[i]);
@@ -94,7 +94,7 @@ static void touch_facets(struct tight *t, const pir_segment *segment) {
                                    ? segment->b
                                    : pir_space_add_meet(t->space, segment->plane[0], segment->plane[1], p.half >> 1);
         if (holds(t, p, point))
-            pir_outline_touch(t->outline, line, pir_intern_point(&t->outline->points, point));
+            pir_union_outline_touch(t->outline, line, pir_intern_point(&t->outline->points, point));
     }
 }
 
@@ -165,7 +165,7 @@ static void add_point(struct tight *t, uint32_t point, pir_touching *points) {
 static bool init(struct tight *t) {
     const pir_allocator *a = &t->space->allocator;
     const uint32_t count = t->facets->count;
-    pir_box *box = PIR_NEW(a, pir_box, count);
+    pir_space_box *box = PIR_NEW(a, pir_space_box, count);
     t->found = PIR_NEW(a, uint32_t, count);
     for (uint32_t i = 0; i < count && box; i++) {
         const pir_polygon p = polygon_of(t, i);
@@ -186,7 +186,7 @@ static void finish(struct tight *t) {
     pir_touching_finish(&t->crossing, t->space);
 }
 
-void pir_tight_add(pir_outline *outline, const pir_facet_polygons *facets, const pir_touching *left,
+void pir_tight_add(pir_union_outline *outline, const pir_facet_polygons *facets, const pir_touching *left,
                    pir_touching *ret_points) {
     struct tight t = {.space = outline->space, .outline = outline, .facets = facets};
     if (init(&t)) {
@@ -194,8 +194,8 @@ void pir_tight_add(pir_outline *outline, const pir_facet_polygons *facets, const
             add_lone(&t, &left->segment[i]);
         for (uint32_t i = facets->two_sided; i < facets->count && t.space->status == PIR_OK; i++)
             add_crossings(&t, i);
-        pir_outline_add_segments(outline, PIR_GROUP_CROSSING, t.crossing.segment, t.crossing.segment_count);
-        pir_outline_add_segments(outline, PIR_GROUP_LONE, t.lone.segment, t.lone.segment_count);
+        pir_union_outline_add_segments(outline, PIR_GROUP_CROSSING, t.crossing.segment, t.crossing.segment_count);
+        pir_union_outline_add_segments(outline, PIR_GROUP_LONE, t.lone.segment, t.lone.segment_count);
         for (uint32_t i = 0; i < t.lone.segment_count && t.space->status == PIR_OK; i++)
             touch_facets(&t, &t.lone.segment[i]);
         for (uint32_t i = 0; i < left->point_count && t.space->status == PIR_OK; i++)

@@ -19,7 +19,7 @@ typedef struct pir_facet_polygons {
 
 /* Adds the edges to the outline, before it is cut, from segments and points that are left. ret_points gets the points
  * on their own, whose numbers are the outline's. */
-void pir_tight_add(pir_outline *outline, const pir_facet_polygons *facets, const pir_touching *left,
+void pir_tight_add(pir_union_outline *outline, const pir_facet_polygons *facets, const pir_touching *left,
                    pir_touching *ret_points);
 
 #endif
