@@ -17,8 +17,8 @@
 #include "target.h"
 #include "text.h"
 
-enum method { METHOD_WALK, METHOD_CGM, METHOD_HULL };
-static const char *const method_names[] = {"walk", "cgm", "hull", NULL};
+enum method { METHOD_WALK, METHOD_CGM, METHOD_HULL, METHOD_OBJECT };
+static const char *const method_names[] = {"walk", "cgm", "hull", "object", NULL};
 
 struct request {
     pir_quat rotation;
@@ -79,11 +79,25 @@ static pir_status compute(const struct request *request, pir_polytope *p, pir_po
     if (request->method == METHOD_HULL) {
         start = clock_now();
         status = pir_hull_sum(p, q, request->rotation, &request->options, request->precision, &outcome->mesh);
+    } else if (request->method == METHOD_OBJECT) {
+        start = clock_now();
+        status = pir_object_sum(p, q, request->rotation, &request->options, request->precision, &outcome->mesh);
     } else {
         status = pir_sum_mesh(outcome->sum, request->precision, &outcome->mesh);
     }
     outcome->seconds = (double)(clock_now() - start) / 1e9;
     return status;
+}
+
+/* Says why there is no sum. */
+static void complain_sum(const struct request *request, const pir_polytope *p, const pir_polytope *q,
+                         pir_status status) {
+    if (request->method == METHOD_OBJECT && status == PIR_ERR_LIMIT)
+        complain("sum: --method object: bodies of %" PRIu32 " vertices and %" PRIu32
+                 " vertices are not simple: it looks at each vertex for each pair of edges, 2^32 times at most",
+                 pir_polytope_vertex_count(p), pir_polytope_vertex_count(q));
+    else
+        complain_status("sum", status, NULL);
 }
 
 static bool print_json(const struct args *args, const struct request *request, const struct outcome *outcome) {
@@ -142,7 +156,7 @@ int cmd_sum(const struct args *args) {
 
     pir_status status = compute(&request, p, q, &outcome);
     if (status != PIR_OK) {
-        complain_status("sum", status, NULL);
+        complain_sum(&request, p, q, status);
         goto done;
     }
     if (path && !target_write_mesh(&file, outcome.mesh, args_has(args, "--exact")))

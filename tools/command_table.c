@@ -109,8 +109,9 @@ static const struct option shape_options[] = {
 static const struct option sum_options[] = {
     POSE_OPTIONS,
     {"--difference", NULL, "the sum of Q and the reflected, turned P: what P may be moved by to touch Q"},
-    {"--method", "walk|cgm|hull",
-     "by walking the Gaussian maps (default), by overlaying the cubical ones, or as the hull of all sums"},
+    {"--method", "walk|cgm|hull|object",
+     "by walking the Gaussian maps (default), by overlaying the cubical ones, as the hull of all sums, or from all "
+     "normals (simple bodies)"},
     {"--exact", NULL, "exact coordinates; in .off: integers and a/b instead of doubles"},
     {"--solid", NULL, "P and Q as the solids that they are, not their hulls; -o then takes .off"},
     {"--open", NULL, "with --solid: without their boundaries, so that tight passages are left out"},

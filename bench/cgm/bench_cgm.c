@@ -15,7 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -29,27 +28,11 @@
 #define RUNS_OF_OURS  51
 #define RUNS_OF_PEERS 5
 
-double peer_clock(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
-}
-
 static void need(pir_status status, const char *what) {
     if (status == PIR_OK)
         return;
     fprintf(stderr, "bench_cgm: %s: %s\n", what, pir_status_text(status));
     exit(1);
-}
-
-static int compare(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, size_t count) {
-    qsort(values, count, sizeof *values, compare);
-    return values[count / 2];
 }
 
 /* One way of ours, measured. */
@@ -87,9 +70,9 @@ static struct measured measure(pir_polytope *p, pir_polytope *q, pir_quat rotati
         pir_cgm_destroy(b);
         pir_cgm_destroy(a);
     }
-    m.milliseconds = median(times, runs);
+    m.milliseconds = peer_median(times, runs);
     m.fastest = times[0];
-    m.maps = median(maps, runs);
+    m.maps = peer_median(maps, runs);
     return m;
 }
 
@@ -106,7 +89,7 @@ static double measure_rebuild(pir_polytope *p, pir_polytope *q, pir_quat rotatio
         times[run] = peer_clock() - start;
     }
     pir_sum_destroy(sum);
-    return median(times, runs);
+    return peer_median(times, runs);
 }
 
 #if PIR_HAVE_CGAL || PIR_HAVE_QHULL
@@ -128,22 +111,13 @@ static void run_peer(const char *name, peer_run *run, pir_polytope *p, double ma
         result = run(p, matrix, q);
         times[i] = result.milliseconds;
     }
-    double time = median(times, runs);
+    double time = peer_median(times, runs);
     printf("  %-34s %10.3f ms %8.1f times   %u vertices, %u facets\n", name, time, time / row->ours, result.vertices,
            result.facets);
     if (row->csv)
         fprintf(row->csv, "%s,%u,%s,%.3f,%.1f,,\n", row->name, row->facets, name, time, time / row->ours);
 }
 #endif
-
-static void matrix_of(pir_quat q, double m[3][3]) {
-    double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    const double r[3][3] = {
-        {1 - 2 * (q.y * q.y + q.z * q.z) / n, 2 * (q.x * q.y - q.w * q.z) / n, 2 * (q.x * q.z + q.w * q.y) / n},
-        {2 * (q.x * q.y + q.w * q.z) / n, 1 - 2 * (q.x * q.x + q.z * q.z) / n, 2 * (q.y * q.z - q.w * q.x) / n},
-        {2 * (q.x * q.z - q.w * q.y) / n, 2 * (q.y * q.z + q.w * q.x) / n, 1 - 2 * (q.x * q.x + q.y * q.y) / n}};
-    memcpy(m, r, sizeof r);
-}
 
 /* A model file when the name has an ending, else a built-in shape. */
 static pir_polytope *make_model(const char *name) {
@@ -155,7 +129,7 @@ static pir_polytope *make_model(const char *name) {
 static void bench_pair(const char *name, pir_quat rotation, FILE *csv) {
     pir_polytope *p = make_model(name), *q = make_model(name);
     double matrix[3][3];
-    matrix_of(rotation, matrix);
+    peer_matrix(rotation, matrix);
     struct measured m = measure(p, q, rotation);
     printf("%s and itself turned: %u vertices, %u edges, %u facets; map %u/%u/%u\n", name, m.vertices, m.edges,
            m.facets, m.counts.vertices, m.counts.halfedges, m.counts.faces);

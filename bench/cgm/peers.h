@@ -31,6 +31,12 @@ peer_run peer_qhull;
 /* A moment of the thread's CPU time, in milliseconds. */
 double peer_clock(void);
 
+/* The median of `count` values, which it sorts. */
+double peer_median(double *values, size_t count);
+
+/* The matrix of a quaternion of any length, rounded. */
+void peer_matrix(pir_quat q, double m[3][3]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -100,6 +100,17 @@ def cgm(r):
     return markdown(["", "gs4 and itself turned", "ellipse and itself turned"], rows)
 
 
+# ---- object-space.md -------------------------------------------------------------------------------------------------
+
+
+def objects(r):
+    keys = ("object_us", "walk_us", "cgm_us", "hull_us", "qhull_us", "cgal_us", "index_us")
+    rows = [[row["pair"], *(two(float(row[key])) for key in keys), row["paper_object_ms"], row["paper_hull_ms"]]
+            for row in r.object.rows]
+    return markdown(["", ">object space", ">walk", ">overlay", ">hull", ">qhull", ">CGAL hull", ">by index",
+                     ">paper, ms", ">paper's hull, ms"], rows)
+
+
 # ---- guarantees.md ---------------------------------------------------------------------------------------------------
 
 
@@ -272,5 +283,5 @@ def solid_query(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, whole, scale, pile, slices,
+    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, objects, whole, scale, pile, slices,
     slices_read, grid, answers, solids, solid_query)}

@@ -22,7 +22,8 @@ ROOT = HERE.parent.parent
 PAGES = {
     "README.md": "Pirouette", "docs/coming-from.md": "Coming from others", "docs/queries.md": "Placement queries",
     "docs/scenes.md": "Scenes",
-    "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps", "docs/slices.md": "Slices",
+    "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps",
+    "docs/object-space.md": "Sums of simple bodies", "docs/slices.md": "Slices",
     "docs/scale.md": "Slices at scale",
     "docs/solids.md": "Solids", "docs/meshes.md": "Meshes", "docs/command.md": "The command",
     "docs/bad-input.md": "Bad input",

@@ -28,6 +28,25 @@ PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pi
                                 const pir_sum_options *options, pir_precision precision, pir_mesh **ret_mesh);
 
 /**
+ * The same mesh by the object-space method (Diktaş and Şahiner, An Object-Space Method for Calculating the Minkowski
+ * Sums of Simple 3D Objects, 2006): along each normal that a facet of the sum can have, of a facet of P, a facet of Q
+ * or an edge of each, the farthest vertices of both, and Euler's condition in the end. It keeps nothing and needs no
+ * pairing. It serves simple bodies, of some tens of vertices; all comparisons are exact, so that aligned and flat ones
+ * are no exception. The mesh is the caller's and uses the allocator of `options`.
+ *
+ * p, q, rotation      as of pir_sum_create.
+ * options, precision  as of pir_hull_sum.
+ *
+ * Cost: O(v·e²) for two bodies of v vertices and e edges each, mostly far less: a pair of edges is given up at the
+ * first vertex beyond it.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (normals times vertices of both
+ * are more than 2^32: from about 600 vertices each), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_object_sum(const pir_polytope *p, const pir_polytope *q, pir_quat rotation,
+                                  const pir_sum_options *options, pir_precision precision, pir_mesh **ret_mesh);
+
+/**
  * Brings `sum` to `rotation` by the brute-force re-check of all pairs (Algorithm 3.1 of Behar and Lien, Dynamic
  * Minkowski Sum of Convex Shapes, 2010): every facet against every vertex, every edge against every edge. The pairing
  * that it finds is the one that pir_sum_rotate finds. O(nm) for n and m vertices.

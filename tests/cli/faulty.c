@@ -127,6 +127,10 @@ MAY_FAIL(pir_hull_sum,
          (const pir_polytope *p, const pir_polytope *q, pir_quat rotation, const pir_sum_options *options,
           pir_precision precision, pir_mesh **ret_mesh),
          (p, q, rotation, options, precision, ret_mesh))
+MAY_FAIL(pir_object_sum,
+         (const pir_polytope *p, const pir_polytope *q, pir_quat rotation, const pir_sum_options *options,
+          pir_precision precision, pir_mesh **ret_mesh),
+         (p, q, rotation, options, precision, ret_mesh))
 MAY_FAIL(pir_cgm_create,
          (pir_polytope * polytope, const pir_quat *rotation, const pir_allocator *allocator, pir_cgm **ret_cgm),
          (polytope, rotation, allocator, ret_cgm))

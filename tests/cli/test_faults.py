@@ -51,6 +51,7 @@ class Memory(MemoryTest):
         (self.path / "link.off").symlink_to("sub.off")
         self.exhaust("sum", self.tetrahedron, self.pyramid, "--exact", "-o", self.path / "link.off")
         self.exhaust("sum", "shape:cube", self.pyramid, "--method", "hull")
+        self.exhaust("sum", "shape:cube", self.pyramid, "--method", "object")
         self.exhaust("sum", "shape:cube", self.pyramid, "--method", "cgm", "--difference")
 
     def test_standard_input(self):

@@ -72,19 +72,26 @@ class Sum(CommandTest):
     POSES = ([], ["--quat=0.1,-0.2,0.3,0.9"], ["--quat", "-0.5,0.25,0,1e-9"], ["--axis", "0,0,1", "--angle", "90"],
              ["--axis", "1,1,1", "--angle", "120"])
 
-    def test_walk_and_hull_write_the_same_bytes(self):
+    def test_walk_hull_and_object_write_the_same_bytes(self):
         for p, q in ((self.tetrahedron, self.pyramid), ("shape:cube", "shape:cube"),
                      (self.pyramid, "shape:icosahedron")):
             for pose in self.POSES:
                 for extra in ([], ["--difference"]):
                     told = {}
-                    for method in ("walk", "hull"):
+                    for method in ("walk", "hull", "object"):
                         told[method] = self.data("sum", p, q, *pose, *extra, "--method", method, "--exact", "-o",
                                                  self.path / f"{method}.off")
                         self.assertEqual(told[method].pop("method"), method)
                         self.assertTrue(0 < told[method].pop("seconds") < 60)
-                    self.assertEqual(told["walk"], told["hull"])
-                    self.assertEqual((self.path / "walk.off").read_bytes(), (self.path / "hull.off").read_bytes())
+                    for method in ("hull", "object"):
+                        self.assertEqual(told["walk"], told[method])
+                        self.assertEqual((self.path / "walk.off").read_bytes(),
+                                         (self.path / f"{method}.off").read_bytes())
+
+    def test_object_space_is_for_simple_bodies(self):
+        self.bad("sum", "shape:geodesic?level=9", "shape:geodesic?level=9", "--method", "object",
+                 says=["--method object", "1002 vertices", "2^32"])
+        self.data("sum", "shape:geodesic?level=9", "shape:cube", "--method", "object")
 
     def test_counts_of_aligned_boxes(self):
         told = self.data("sum", "shape:cube", "shape:box?x=1&y=2&z=3")
@@ -114,7 +121,7 @@ class Sum(CommandTest):
             for quat in ((0, 0, 0, 1), (0, 0, 1, 1), (0.1, -0.2, 0.3, 0.7)):
                 for difference in (0, 1):
                     library = self.answers("sum", p, q, quat=quat, difference=(difference,))
-                    for method in ("walk", "cgm", "hull"):
+                    for method in ("walk", "cgm", "hull", "object"):
                         told = self.data("sum", p, q, f"--quat={numbers(quat)}", "--method", method,
                                          *["--difference"] * difference)
                         self.assertEqual([told[k] for k in ("vertices", "edges", "facets")], library["mesh"])

@@ -23,11 +23,15 @@
 #define STEPS 20
 
 static void check_mesh(pir_sum *sum, pir_polytope *p, pir_polytope *q, const pir_sum_options *options) {
-    pir_mesh *mesh = NULL, *hull = NULL;
+    pir_mesh *mesh = NULL, *hull = NULL, *object = NULL;
     fuzz_require(pir_sum_mesh(sum, PIR_EXACT, &mesh) == PIR_OK, "a sum has a mesh");
     fuzz_require(pir_hull_sum(p, q, pir_sum_rotation(sum), options, PIR_DOUBLE, &hull) == PIR_OK,
                  "sums of vertices have a hull");
     fuzz_require(pir_mesh_equal(mesh, hull), "the mesh is the hull of all sums of vertices");
+    fuzz_require(pir_object_sum(p, q, pir_sum_rotation(sum), options, PIR_DOUBLE, &object) == PIR_OK,
+                 "the object-space method finds a sum");
+    fuzz_require(pir_mesh_equal(mesh, object), "the mesh is that of the object-space method");
+    pir_mesh_destroy(object);
     pir_mesh_destroy(hull);
     pir_mesh_destroy(mesh);
 }

@@ -114,6 +114,11 @@ static void try_all(struct run *run) {
         else
             pir_mesh_destroy(mesh);
         mesh = mesh_before;
+        if (ran_out(run, pir_object_sum(p, q, run->pose->rotation, &options, PIR_EXACT, &mesh)))
+            assert_ptr_equal(mesh, mesh_before);
+        else
+            pir_mesh_destroy(mesh);
+        mesh = mesh_before;
         if (ran_out(run, pir_mesh_from_polytope(p, &mesh)))
             assert_ptr_equal(mesh, mesh_before);
         else

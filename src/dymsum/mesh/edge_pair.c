@@ -10,10 +10,24 @@
 
 #define PARALLEL_BOUND 0x1p-45
 
+pir_status pir_posed_init(pir_posed *posed, const pir_allocator *allocator, const pir_polytope *p,
+                          const pir_polytope *q, pir_signs *signs) {
+    *posed = (pir_posed){p, q, signs, PIR_NEW(allocator, pir_vec3, p->facet_count)};
+    if (!posed->normal)
+        return PIR_ERR_MEMORY;
+    for (uint32_t f = 0; f < p->facet_count; f++)
+        posed->normal[f] = pir_mat_apply(&signs->rotation.r, p->normal[f]);
+    return PIR_OK;
+}
+
+void pir_posed_finish(pir_posed *posed, const pir_allocator *allocator) {
+    PIR_FREE(allocator, posed->normal, posed->p->facet_count);
+}
+
 /* d × M·e exactly, into scratch that the caller gives back. */
 static pir_int3 exact_normal(const pir_posed *posed, const pir_edge_pair *pair) {
     pir_limbs *scratch = posed->signs->scratch;
-    pir_int3 e = pir_half_exact(posed->pairing->p, pair->half), d = pir_half_exact(posed->pairing->q, pair->h);
+    pir_int3 e = pir_half_exact(posed->p, pair->half), d = pir_half_exact(posed->q, pair->h);
     uint32_t le = pir_int3_length(&e) + PIR_MATRIX_LIMBS + 1, ld = pir_int3_length(&d);
     pir_rotation_make_exact(&posed->signs->rotation);
     pir_int3 rotated = pir_int3_take(scratch, le), n = pir_int3_take(scratch, le + ld + 1);
@@ -37,8 +51,7 @@ static int exact_side(const pir_posed *posed, const pir_edge_pair *pair, pir_fac
     pir_limbs *scratch = posed->signs->scratch;
     uint32_t mark = scratch->used;
     pir_int3 n = exact_normal(posed, pair);
-    pir_int3 m = facet.of_p ? pir_normal_exact(posed->pairing->p, facet.facet)
-                            : pir_normal_exact(posed->pairing->q, facet.facet);
+    pir_int3 m = facet.of_p ? pir_normal_exact(posed->p, facet.facet) : pir_normal_exact(posed->q, facet.facet);
     if (facet.of_p) {
         pir_int3 own = m;
         m = pir_int3_take(scratch, pir_int3_length(&own) + PIR_MATRIX_LIMBS + 1);
@@ -54,7 +67,7 @@ static int exact_side(const pir_posed *posed, const pir_edge_pair *pair, pir_fac
 
 /* The side by doubles where they are certain, else exactly. */
 static int side_of(const pir_posed *posed, const pir_edge_pair *pair, pir_facet_of facet) {
-    pir_vec3 normal = facet.of_p ? posed->normal[facet.facet] : posed->pairing->q->normal[facet.facet];
+    pir_vec3 normal = facet.of_p ? posed->normal[facet.facet] : posed->q->normal[facet.facet];
     double value = pir_vec_dot(pir_vec_cross(pair->d, pair->e), normal);
     return value > PARALLEL_BOUND ? 1 : value < -PARALLEL_BOUND ? -1 : exact_side(posed, pair, facet);
 }

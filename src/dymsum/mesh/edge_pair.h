@@ -3,18 +3,24 @@
 #ifndef PIR_DYMSUM_MESH_EDGE_PAIR_H
 #define PIR_DYMSUM_MESH_EDGE_PAIR_H
 
-#include "dymsum/view.h"
+#include "exact/sign.h"
+#include "polytope/polytope.h"
 
-/* Both operands at the rotation that their pairing is exact at. */
+/* Both operands at one rotation: for a sum, the one that its pairing is exact at. */
 typedef struct pir_posed {
-    const pir_pairing *pairing;
+    const pir_polytope *p, *q;
     pir_signs *signs; /* at that rotation */
     pir_vec3 *normal; /* of the facets of P, rotated */
 } pir_posed;
 
+/* Borrows all but the normals; PIR_ERR_MEMORY. */
+pir_status pir_posed_init(pir_posed *posed, const pir_allocator *allocator, const pir_polytope *p,
+                          const pir_polytope *q, pir_signs *signs);
+void pir_posed_finish(pir_posed *posed, const pir_allocator *allocator);
+
 /* The unit vector of halfedge h of P, rotated. */
 static inline pir_vec3 pir_posed_direction(const pir_posed *posed, uint32_t h) {
-    return pir_mat_apply(&posed->signs->rotation.r, posed->pairing->p->direction[h]);
+    return pir_mat_apply(&posed->signs->rotation.r, posed->p->direction[h]);
 }
 
 typedef struct pir_edge_pair {

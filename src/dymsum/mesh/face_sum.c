@@ -12,7 +12,7 @@
 #include "dymsum/mesh/face_sum.h"
 
 static int turn_between(const pir_posed *posed, uint32_t half, uint32_t h, pir_facet_of facet) {
-    pir_edge_pair pair = {half, h, pir_posed_direction(posed, half), posed->pairing->q->direction[h]};
+    pir_edge_pair pair = {half, h, pir_posed_direction(posed, half), posed->q->direction[h]};
     return pir_edges_turn(posed, &pair, facet);
 }
 
@@ -20,8 +20,7 @@ static int turn_between(const pir_posed *posed, uint32_t half, uint32_t h, pir_f
 static bool is_ahead(const pir_posed *posed, uint32_t half, uint32_t h, pir_facet_of facet) {
     int turn = turn_between(posed, half, h, facet);
     // parallel: doubles tell equal from opposite
-    return turn > 0 ||
-           (turn == 0 && pir_vec_dot(pir_posed_direction(posed, half), posed->pairing->q->direction[h]) > 0);
+    return turn > 0 || (turn == 0 && pir_vec_dot(pir_posed_direction(posed, half), posed->q->direction[h]) > 0);
 }
 
 /* The side of Q's face at which the merge begins: the first that is ahead of P's first. */
@@ -42,7 +41,7 @@ uint32_t pir_face_sum(const pir_posed *posed, pir_face_edges of_p, pir_face_edge
     uint32_t count = 0, i = 0, j = 0, start = first_side(posed, of_p.half[0], of_q, facet);
     while (i < of_p.count || j < of_q.count) {
         uint32_t half = of_p.half[i % of_p.count], h = of_q.half[(start + j) % of_q.count];
-        corner[count++] = (pir_sum_corner){posed->pairing->p->origin[half], posed->pairing->q->origin[h]};
+        corner[count++] = (pir_sum_corner){posed->p->origin[half], posed->q->origin[h]};
         int turn = i == of_p.count ? -1 : j == of_q.count ? 1 : turn_between(posed, half, h, facet);
         i += turn >= 0;
         j += turn <= 0;

@@ -27,9 +27,9 @@ static pir_layout layout_of(pir_sum_pieces *pieces, const pir_pairing *pairing) 
                          PIR_ROW(pieces->alone, words)}};
 }
 
-void pir_pieces_finish(pir_sum_pieces *pieces, const pir_posed *posed) {
-    pir_layout layout = layout_of(pieces, posed->pairing);
-    pir_layout_free(&posed->pairing->allocator, &layout);
+void pir_pieces_finish(pir_sum_pieces *pieces, const pir_pairing *pairing) {
+    pir_layout layout = layout_of(pieces, pairing);
+    pir_layout_free(&pairing->allocator, &layout);
     *pieces = (pir_sum_pieces){0};
 }
 
@@ -45,7 +45,7 @@ struct crossing_ends {
 
 /* Whether the crossing is known to be part of a merged facet, or to have no area, from the notes so far. */
 static bool is_known(const pir_sum_pieces *pieces, const pir_posed *posed, const struct crossing_ends *ends) {
-    bool half_circles = posed->pairing->p->dimension < 3 && posed->pairing->q->dimension < 3;
+    bool half_circles = posed->p->dimension < 3 && posed->q->dimension < 3;
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++)
             if (pieces->of_p[ends->p[i]].facet == ends->q[j])
@@ -59,25 +59,25 @@ static bool is_known(const pir_sum_pieces *pieces, const pir_posed *posed, const
  */
 static uint32_t coinciding_p(const pir_posed *posed, const pir_edge_pair *pair, const struct crossing_ends *ends,
                              const bool tie[2]) {
-    for (int i = 0; i < 2 && !posed->pairing->p->artificial; i++)
+    for (int i = 0; i < 2 && !posed->p->artificial; i++)
         if (tie[i] &&
-            (posed->pairing->p->dimension == 3 || pir_edges_point_along(posed, pair, (pir_facet_of){true, ends->p[i]})))
+            (posed->p->dimension == 3 || pir_edges_point_along(posed, pair, (pir_facet_of){true, ends->p[i]})))
             return ends->p[i];
     return PIR_NO_FACE;
 }
 
 static uint32_t coinciding_q(const pir_posed *posed, const pir_edge_pair *pair, const struct crossing_ends *ends,
                              const bool tie[2]) {
-    for (int i = 0; i < 2 && !posed->pairing->q->artificial; i++)
-        if (tie[i] && (posed->pairing->q->dimension == 3 ||
-                       pir_edges_point_along(posed, pair, (pir_facet_of){false, ends->q[i]})))
+    for (int i = 0; i < 2 && !posed->q->artificial; i++)
+        if (tie[i] &&
+            (posed->q->dimension == 3 || pir_edges_point_along(posed, pair, (pir_facet_of){false, ends->q[i]})))
             return ends->q[i];
     return PIR_NO_FACE;
 }
 
 /* Whether a crossing is a facet alone. Where it is not, it is noted with the facets that it coincides with. */
 static bool check_crossing(pir_sum_pieces *pieces, const pir_posed *posed, const pir_edge_pair *pair) {
-    const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
+    const pir_polytope *p = posed->p, *q = posed->q;
     const struct crossing_ends ends = {{p->left[pair->half], pir_right(p, pair->half)},
                                        {q->left[pair->h], pir_right(q, pair->h)}};
     if (is_known(pieces, posed, &ends))
@@ -101,13 +101,12 @@ static bool check_crossing(pir_sum_pieces *pieces, const pir_posed *posed, const
     return f == PIR_NO_FACE && g == PIR_NO_FACE;
 }
 
-pir_status pir_pieces_make(pir_sum_pieces *pieces, const pir_posed *posed) {
-    const pir_pairing *pairing = posed->pairing;
-    const pir_polytope *p = posed->pairing->p, *q = posed->pairing->q;
+pir_status pir_pieces_make(pir_sum_pieces *pieces, const pir_pairing *pairing, const pir_posed *posed) {
+    const pir_polytope *p = posed->p, *q = posed->q;
     *pieces = (pir_sum_pieces){0};
     pir_layout layout = layout_of(pieces, pairing);
     if (!pir_layout_new(&pairing->allocator, &layout)) {
-        pir_pieces_finish(pieces, posed);
+        pir_pieces_finish(pieces, pairing);
         return PIR_ERR_MEMORY;
     }
     for (uint32_t f = 0; f < p->facet_count; f++)

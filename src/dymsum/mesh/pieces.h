@@ -9,17 +9,8 @@
 #ifndef PIR_DYMSUM_MESH_PIECES_H
 #define PIR_DYMSUM_MESH_PIECES_H
 
-#include "dymsum/mesh/edge_pair.h"
-
-#define PIR_NO_FACE UINT32_MAX
-
-/*
- * The face of the other operand in the direction of a facet's normal: `facet` when that is one, else the edge of
- * halfedge `half`, else, when both are PIR_NO_FACE, the vertex that the facet is paired with.
- */
-typedef struct pir_sum_face {
-    uint32_t facet, half;
-} pir_sum_face;
+#include "dymsum/mesh/facet_list.h"
+#include "dymsum/view.h"
 
 typedef struct pir_sum_pieces {
     pir_sum_face *of_p, *of_q; /* per facet of P, of Q */
@@ -28,11 +19,11 @@ typedef struct pir_sum_pieces {
 } pir_sum_pieces;
 
 /*
- * The pieces of the sum at the rotation that its pairing is exact at, told apart exactly.
+ * The pieces of a sum whose pairing is exact at the rotation of `posed`, told apart exactly.
  * PIR_ERR_MEMORY leaves nothing to release.
  */
-pir_status pir_pieces_make(pir_sum_pieces *pieces, const pir_posed *posed);
-void pir_pieces_finish(pir_sum_pieces *pieces, const pir_posed *posed);
+pir_status pir_pieces_make(pir_sum_pieces *pieces, const pir_pairing *pairing, const pir_posed *posed);
+void pir_pieces_finish(pir_sum_pieces *pieces, const pir_pairing *pairing);
 
 static inline bool pir_piece_is_alone(const pir_sum_pieces *pieces, uint32_t slot) {
     return pieces->alone[slot / 64] >> slot % 64 & 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Shared by the two ways to the mesh of a sum. */
+/* Shared by the ways to the mesh of a sum. */
 #ifndef PIR_DYMSUM_MESH_SUM_MESH_H
 #define PIR_DYMSUM_MESH_SUM_MESH_H
 
