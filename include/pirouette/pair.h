@@ -4,8 +4,8 @@
  *
  * A pair keeps what its last answer needed, in levels:
  *
- *   - apart: the distance that was proven and the pose that it was proven at. While the motion since cannot have
- *     used up that distance, a query with a cutoff looks at neither body.
+ *   - apart: a direction along which the bodies were apart, by how much, and the poses of both. While the motion since
+ *     cannot have used that up, a query with a cutoff, or for the state or the depth alone, looks at neither body.
  *   - near: the vertices that hold the closest points. Distance is found by descent on supports (Gilbert, Johnson and
  *     Keerthi, IEEE J. Robotics and Automation 4(2), 1988), which begins there.
  *   - overlapping: a closed surface of triangles in the difference of the bodies, about the origin, expanded where its
@@ -50,7 +50,7 @@ typedef struct pir_pair pir_pair;
 /** How an answer was found. */
 typedef enum pir_level {
     PIR_LEVEL_NONE = 0,    /**< nothing has been asked yet */
-    PIR_LEVEL_APART,       /**< by the distance of an earlier answer and the motion since */
+    PIR_LEVEL_APART,       /**< by an earlier proof of that and the motion since, or along its direction */
     PIR_LEVEL_NEAR,        /**< by descent on supports, or by the facet of the answer before */
     PIR_LEVEL_OVERLAPPING, /**< by a surface inside the difference, or by all its facets where it can have few */
     PIR_LEVEL_WHOLE,       /**< by the difference */

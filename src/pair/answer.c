@@ -3,8 +3,7 @@
  * Queries on a pair. Ways to an answer are tried in the order in which the last answer makes them likely; each ends
  * with a proof at this placement, or leaves the question open for the next.
  *
- *   - certificate: the proven distance of an earlier answer, less the motion since; after the last one without a
- *     frame (still_apart.h);
+ *   - proof: bodies that were apart are so still, without a frame (query/proof/proof.h);
  *   - axis: the direction in which the last answer was apart by more than the cutoff, with Q or with P (apart.c);
  *   - same facet: the facet of the last answer, or the one that the foot of x has gone to from there (follow_foot.h),
  *     proven by doubles (same_facet.h). Where it separates, it is the nearest; where x is within it, foot.h tells
@@ -19,45 +18,8 @@
 #include "pair/apart.h"
 #include "pair/give.h"
 #include "pair/seek.h"
-#include "pair/still_apart.h"
 #include "pair/task.h"
 #include "query/last/foot.h"
-
-/* --- by the certificate --- */
-
-/* The square of x's way from the place of the pair's proof. */
-static inline double way_since(const pir_task *task) {
-    pir_vec3 way = pir_vec_sub(task->placement->x, task->pair->at);
-    return pir_vec_dot(way, way);
-}
-
-/* How much supports of D may have changed against x since then, the square of x's way being known. */
-static double moved_since(const pir_task *task, double way) {
-    double turn = pir_rotation_angle_bound(task->pair->turned, task->workspace->frame.unit);
-    return (sqrt(way) + turn * task->workspace->frame.p.swing) * (1 + 0x1p-40);
-}
-
-static bool by_certificate(pir_task *task) {
-    const pir_pair *pair = task->pair;
-    const pir_placement *placement = task->placement;
-    // where there is no cutoff, numbers are wanted
-    if (!(pair->apart > 0) || ((task->want & PIR_WANT_SEPARATION) && !(task->limit < pair->apart)))
-        return false;
-    // most that is too far is so by the way alone
-    double way = way_since(task);
-    if (!(way < pair->apart * pair->apart))
-        return false;
-    double left = pair->apart - moved_since(task, way) - 4 * placement->error;
-    if (!(left > 0))
-        return false;
-    task->is_outside = true;
-    if (!(task->want & PIR_WANT_SEPARATION))
-        return true;
-    if (!(left > task->limit + PIR_DISTANCE_ERROR * placement->reach))
-        return false;
-    pir_result_beyond(task->result);
-    return true;
-}
 
 /* --- by the same facet --- */
 
@@ -95,31 +57,12 @@ static bool settle_same(pir_task *task, pir_same is) {
     return true;
 }
 
-/* Proves the facet of the last answer by the rest of an earlier proof. */
-static bool by_held_facet(pir_task *task) {
-    pir_workspace *workspace = task->workspace;
-    pir_held *held = &task->pair->held;
-    pir_same_known known;
-    if (!held->some)
-        return false;
-    held->served += held->served < UINT16_MAX;
-    if (pir_held_is_past(held, &workspace->frame)) {
-        pir_held_end(held, held->falls);
-        return false;
-    }
-    workspace->moved = pir_held_moved(held, &workspace->frame, task->placement);
-    if (pir_held_known(held, workspace->moved, task->placement, &known) &&
-        settle_same(task,
-                    workspace->prove_same(&workspace->frame, task->placement, task->pair->facet, &known, &task->same)))
-        return true;
-    pir_held_end(held, workspace->moved.turn);
-    return false;
-}
-
-static bool by_fresh_facet(pir_task *task) {
+static bool by_same_facet(pir_task *task) {
     pir_workspace *workspace = task->workspace;
     pir_pair *pair = task->pair;
-    pir_same is = workspace->prove_same(&workspace->frame, task->placement, pair->facet, NULL, &task->same);
+    if (!pair->has_facet)
+        return false;
+    pir_same is = workspace->prove_same(&workspace->frame, task->placement, pair->facet, &task->same);
     task->in_doubt = is == PIR_SAME_IN_DOUBT;
     if (is <= PIR_SAME_BESIDE)
         is = workspace->follow_foot(&workspace->frame, task->placement, is, &task->same);
@@ -128,17 +71,7 @@ static bool by_fresh_facet(pir_task *task) {
         pir_task_keep_facet(pair, &task->same.facet);
     if (!settle_same(task, is))
         return false;
-    // what is held is of this piece, with its corner as it is here
     pir_task_keep_facet(pair, &task->same.facet);
-    pir_held_set(&pair->held, &workspace->frame, task->placement, &task->same);
-    workspace->moved = (pir_leeway){0, 0};
-    return true;
-}
-
-static bool by_same_facet(pir_task *task) {
-    pir_pair *pair = task->pair;
-    if (!pair->has_facet || !(by_held_facet(task) || by_fresh_facet(task)))
-        return false;
     pair->statistics.by_facet++;
     pir_task_end(task, PIR_LEVEL_NEAR);
     return true;
@@ -171,13 +104,9 @@ static void finish_outside(pir_task *task) {
 
 /* The answer from task->same, a facet that doubles have proven. */
 static bool settle_least(pir_task *task, const pir_axes_slack *least) {
-    pir_workspace *workspace = task->workspace;
-    if (task->same.slack < 0)
-        finish_outside(task);
-    else if (!is_ahead(task, least))
-        return false;
-    pir_held_set(&task->pair->held, &workspace->frame, task->placement, &task->same);
-    workspace->moved = (pir_leeway){0, 0};
+    if (task->same.slack > 0)
+        return is_ahead(task, least);
+    finish_outside(task);
     return true;
 }
 
@@ -200,7 +129,7 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
     pir_piece piece = pir_axes_piece(p, q, frame, least.at, &n);
     // in place where nothing is there: copying takes a while
     pir_same_facet *same = task->has_same ? &other : &task->same;
-    if (task->workspace->prove_same(frame, task->placement, piece, NULL, same) == PIR_SAME_PROVEN) {
+    if (task->workspace->prove_same(frame, task->placement, piece, same) == PIR_SAME_PROVEN) {
         if (task->has_same)
             task->same = other;
         task->has_same = true;
@@ -238,7 +167,7 @@ static bool by_axes(pir_task *task) {
 
 static bool by_need(pir_task *task) {
     pir_pair *pair = task->pair;
-    if (pir_pair_allows(pair, PIR_LEVEL_APART) && (by_certificate(task) || (pair->has_axis && pir_task_apart(task)))) {
+    if (pir_pair_allows(pair, PIR_LEVEL_APART) && pair->has_axis && pir_task_apart(task)) {
         pair->statistics.by_certificate++;
         pir_task_end(task, PIR_LEVEL_APART);
         return true;
@@ -247,7 +176,7 @@ static bool by_need(pir_task *task) {
          was_deep = pair->deep;
     if (near && by_same_facet(task))
         return true;
-    pair->deep = pair->held.some = false;
+    pair->deep = false;
     if (near && deep && by_axes(task))
         return true;
     return pir_task_seek(task, near, deep, was_deep);
@@ -260,12 +189,15 @@ static void add_radii(const pir_pair_input *input, pir_query_result *result) {
 
 /* The answer where it takes no frame. */
 static bool is_still_apart(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want) {
-    if (!(want & PIR_WANT_SEPARATION) || !pir_pair_allows(pair, PIR_LEVEL_APART) ||
-        !pir_pair_still_apart(pair, workspace, input))
+    const double radii = input->radius_p + input->radius_q, cutoff = input->cutoff > 0 ? input->cutoff : 0;
+    const bool has_cutoff = (want & PIR_WANT_SEPARATION) || radii > 0;
+    if (!pir_pair_allows(pair, PIR_LEVEL_APART) || !pir_pair_stays_apart(pair, input, has_cutoff ? cutoff + radii : 0))
         return false;
     pir_result_clear(&workspace->answer);
-    workspace->answer.outcome = PIR_BEYOND_CUTOFF;
-    workspace->answer.distance = input->cutoff > 0 ? input->cutoff : 0;
+    if (has_cutoff) {
+        workspace->answer.outcome = PIR_BEYOND_CUTOFF;
+        workspace->answer.distance = cutoff;
+    }
     pair->statistics.queries++;
     pair->statistics.by_certificate++;
     pair->level = PIR_LEVEL_APART;

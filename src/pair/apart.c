@@ -13,8 +13,6 @@
  */
 #include "pair/apart.h"
 
-#include "pair/still_apart.h"
-
 /* The most that a climb may have missed of a body's support: see above. */
 static inline double missed(const pir_kept_body *body) {
     return 4 * PIR_SLOPE_BOUND * body->slip;
@@ -48,16 +46,28 @@ bool pir_task_is_beyond(const pir_task *task, double distance) {
     return (task->want & PIR_WANT_SEPARATION) && distance > least_beyond(task);
 }
 
+void pir_task_keep_proof(const pir_task *task, pir_vec3 n, double distance) {
+    const pir_workspace *workspace = task->workspace;
+    pir_pair_proof *proof = &task->pair->proof;
+    // `down` is 0 where units are no normal numbers
+    proof->leeway = workspace->frame.down > 0 ? distance : 0;
+    proof->down = workspace->frame.down;
+    proof->along = workspace->is_turned ? pir_mat_apply(&workspace->rotation_q.r, n) : n;
+    proof->p = workspace->pose[0];
+    proof->q = workspace->pose[1];
+}
+
 /* Keeps n, which is `back` in the frame of P, and a distance along it. */
-static inline void keep(pir_pair *pair, pir_vec3 n, pir_vec3 back, double distance) {
+static inline void keep(const pir_task *task, pir_vec3 n, pir_vec3 back, double distance) {
+    pir_pair *pair = task->pair;
     pair->axis = n;
     pair->axis_of_p = back;
     pair->has_axis = true;
-    pir_pair_keep_left(pair, distance);
+    pir_task_keep_proof(task, n, distance);
 }
 
 void pir_task_keep_axis(const pir_task *task, pir_vec3 n, double distance) {
-    keep(task->pair, n, pir_mat_apply_transposed(&task->workspace->frame.r, n), distance);
+    keep(task, n, pir_mat_apply_transposed(&task->workspace->frame.r, n), distance);
 }
 
 /* Shared by all directions tried. */
@@ -90,8 +100,7 @@ static bool settle_along(pir_task *task, pir_vec3 n, double distance, struct pro
     distance = pir_task_certain(task, n, distance);
     if (!(distance > probe->least))
         return false;
-    keep(pair, n, back, distance);
-    pir_task_keep_apart(task, distance);
+    keep(task, n, back, distance);
     // nothing else has been written yet
     task->result->outcome = PIR_BEYOND_CUTOFF;
     return true;

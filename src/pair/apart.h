@@ -11,6 +11,9 @@ double pir_task_certain(const pir_task *task, pir_vec3 n, double distance);
 /* Whether a certain distance is an answer: more than the cutoff. */
 bool pir_task_is_beyond(const pir_task *task, double distance);
 
+/* Keeps a proof: at the poses of this call the bodies are a distance apart along n, in the frame, for certain. */
+void pir_task_keep_proof(const pir_task *task, pir_vec3 n, double distance);
+
 /* Keeps the direction of such an answer as a hint, and the distance along it that is certain. */
 void pir_task_keep_axis(const pir_task *task, pir_vec3 n, double distance);
 

@@ -34,8 +34,6 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
     if (!pir_pair_is_at(pair, workspace))
         pir_pair_set_bodies(pair, workspace);
     workspace->pair = NULL;
-    workspace->moved = (pir_leeway){HUGE_VAL, HUGE_VAL};
-    pair->left = 0;
     pir_status status = pir_pair_check(input);
     if (status != PIR_OK)
         return status;
@@ -52,7 +50,6 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
     if (status != PIR_OK)
         return status;
     workspace->pair = pair;
-    workspace->is_framed = true;
     workspace->pose[0] = input->pose_p;
     pair->workspace = workspace;
     return PIR_OK;

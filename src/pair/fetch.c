@@ -18,7 +18,6 @@ struct way {
     const pir_kept_body *kept;
     uint32_t index;  /* of the edge, halfedge, vertex or facet */
     uint32_t target; /* of a halfedge */
-    bool is_held;    /* what is around the feature is not read */
 };
 
 static inline void touch(const void *at) {
@@ -62,15 +61,11 @@ static inline enum step take_step(struct way *way) {
     case AT_ENDS:
         touch(&body->vertex[way->target]);
         touch(&body->vertex[i]);
-        if (!way->is_held) {
-            touch_ring(p, way->target);
-            touch_ring(p, i);
-        }
+        touch_ring(p, way->target);
+        touch_ring(p, i);
         return AT_END;
     case AT_VERTEX:
         touch(&body->vertex[i]);
-        if (way->is_held)
-            return AT_END;
         touch_ring(p, i);
         return AT_RING;
     case AT_RING:
@@ -80,8 +75,6 @@ static inline enum step take_step(struct way *way) {
     case AT_FACET:
         touch(&p->normal[i]);
         touch(&body->offset[i]);
-        if (way->is_held)
-            return AT_END;
         touch(&p->loop[p->loop_start[i]]);
         return AT_LOOP;
     case AT_LOOP:
@@ -104,13 +97,11 @@ static void begin_ways(const pir_pair *pair, struct way way[2]) {
     const pir_piece piece = pair->facet;
     enum step p = piece.kind == PIR_FACET_FV ? AT_FACET : piece.kind == PIR_FACET_VF ? AT_VERTEX : AT_EDGE;
     enum step q = piece.kind == PIR_FACET_FV ? AT_VERTEX : piece.kind == PIR_FACET_VF ? AT_FACET : AT_HALF;
-    // a manifold of more than one contact reads what is around
-    bool is_held = pair->held.some && pair->held.lone.kind != PIR_LONE_UNKNOWN;
-    way[0] = (struct way){AT_BODY, pair->has_facet ? p : AT_END, pair->body_p, piece.first, 0, is_held};
-    way[1] = (struct way){AT_BODY, pair->has_facet ? q : AT_END, pair->body_q, piece.second, 0, is_held};
+    way[0] = (struct way){AT_BODY, pair->has_facet ? p : AT_END, pair->body_p, piece.first, 0};
+    way[1] = (struct way){AT_BODY, pair->has_facet ? q : AT_END, pair->body_q, piece.second, 0};
     touch_bytes(pair->body_p, sizeof *pair->body_p);
     touch_bytes(pair->body_q, sizeof *pair->body_q);
-    if (pair->deep && pair->surface && !is_held)
+    if (pair->deep && pair->surface)
         touch_bytes(pair->surface, offsetof(pir_surface, corner[1]));
 }
 

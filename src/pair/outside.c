@@ -72,7 +72,7 @@ static bool prove(pir_task *task, pir_nearest *ret_nearest) {
     }
     pir_facet facet;
     pir_same_facet same;
-    if (task->workspace->prove_same(frame, task->placement, piece, NULL, &same) == PIR_SAME_PROVEN && same.slack < 0) {
+    if (task->workspace->prove_same(frame, task->placement, piece, &same) == PIR_SAME_PROVEN && same.slack < 0) {
         *ret_nearest = (pir_nearest){-same.slack, same.facet.n, same.touch};
         pir_task_keep_facet(task->pair, &same.facet);
         return true;
@@ -136,8 +136,8 @@ bool pir_task_descend(pir_task *task) {
         double distance = simplex->lower > 0 ? pir_task_certain(task, simplex->direction, simplex->lower) : 0;
         if (!task->is_outside && !(distance > 0))
             return false;
-        if (distance > 0)
-            pir_task_keep_apart(task, distance);
+        if (distance > 0 && !(task->want & PIR_WANT_SEPARATION))
+            pir_task_keep_proof(task, simplex->direction, distance);
         if (pir_task_is_beyond(task, distance)) {
             pir_result_beyond(task->result);
             pir_task_keep_axis(task, simplex->direction, distance);

@@ -339,8 +339,7 @@ static bool take_facet(const pir_overlap *overlap, uint32_t t, struct found *fou
     pir_facet *facet = &found->facet[found->count];
     if (found->count == MOST_FACETS || !piece_at(overlap, t, &piece))
         return false;
-    bool has_same =
-        overlap->prove_same(overlap->exact->frame, overlap->placement, piece, NULL, &same) == PIR_SAME_PROVEN;
+    bool has_same = overlap->prove_same(overlap->exact->frame, overlap->placement, piece, &same) == PIR_SAME_PROVEN;
     if (has_same)
         *facet = same.facet;
     else if (!pir_facet_prove(overlap->exact, piece, facet))

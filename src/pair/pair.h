@@ -5,26 +5,22 @@
  * A pair holds what persists: the bodies, and hints from which the next answer starts. Hints are never believed: an
  * answer follows from proofs at its own placement, so it has the same bits whatever the hints were.
  *
- * The one exception is a proof with the place that it was made at: the distance `apart`. Supports of D have changed
- * against x since by no more than the way of x and the turn times the swing of P (frame.h), so the distance is at least
- * what is left.
+ * The one exception is a proof that the bodies are apart, with the poses that it was made at (query/proof/proof.h).
  */
 #ifndef PIR_PAIR_PAIR_H
 #define PIR_PAIR_PAIR_H
-
-#include <string.h>
 
 #include <pirouette/pair.h>
 
 #include "base/scratch.h"
 #include "pair/axes/axes.h"
-#include "pair/facet/held_proof.h"
 #include "pair/surface/inner_surface.h"
 #include "query/contact/patch.h"
 #include "query/decide/nearest.h"
 #include "query/frame/body.h"
 #include "query/frame/supports.h"
 #include "query/last/follow_foot.h"
+#include "query/proof/proof.h"
 
 struct pir_pair {
     pir_allocator allocator;
@@ -40,19 +36,13 @@ struct pir_pair {
     bool has_facet, has_axis, deep; /* the facet, the axis below; the surface */
     uint8_t points;                 /* of the simplex below */
     uint32_t a[3], b[3];
-    pir_piece facet;    /* of the last answer; its corner may have changed */
-    float left;         /* a distance along the axis at the poses of the last call: see still_apart.h; 0 for none */
-    pir_vec3 axis;      /* unit; x was apart along it by more than the cutoff */
-    pir_vec3 axis_of_p; /* the same in the frame of P */
+    pir_piece facet;         /* of the last answer; its corner may have changed */
+    pir_vec3 axis;           /* unit; x was apart along it by more than the cutoff */
+    pir_vec3 axis_of_p;      /* the same in the frame of P */
     uint32_t axis_a, axis_b; /* the supports there */
     pir_surface *surface;    /* made when first needed; used where `deep` */
 
-    /* a proof at a place: x had at least this distance from D; 0 where there is none */
-    double apart;
-    pir_vec3 at;
-    pir_quat turned;
-
-    pir_held held; /* what is left of the last proof of `facet` */
+    pir_pair_proof proof;
 
     const pir_workspace *workspace; /* of the last call; never followed */
 
@@ -84,10 +74,8 @@ struct pir_workspace {
      */
     const pir_pair *pair; /* never followed */
     pir_pose pose[2];     /* of P and of Q */
-    bool is_framed;       /* whether the frame is at these poses: still_apart.h needs none */
     pir_placement placement;
     pir_query_result answer; /* that it gave */
-    pir_leeway moved;        /* since the proof that is held; no numbers where the call did not look */
 
     /* the level `whole`: for the bodies of the pair that took it last */
     pir_sum *sum;
@@ -99,8 +87,6 @@ static inline bool pir_pair_allows(const pir_pair *pair, pir_level level) {
     return (pair->levels >> level & 1) != 0;
 }
 
-/* --- begin.c --- */
-
 /* Whether radii, cutoff and margin are numbers that mean something. */
 static inline pir_status pir_pair_check(const pir_pair_input *input) {
     const double p = input->radius_p, q = input->radius_q;
@@ -111,22 +97,14 @@ static inline pir_status pir_pair_check(const pir_pair_input *input) {
     return some ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
 }
 
-/* The bits in which two numbers differ. */
-static inline uint64_t pir_bits_apart(double a, double b) {
-    uint64_t of_a, of_b;
-    memcpy(&of_a, &a, sizeof a);
-    memcpy(&of_b, &b, sizeof b);
-    return of_a ^ of_b;
+/* Whether the bodies are apart by more than a length, as an earlier answer proves. False where the input is wrong. */
+static inline bool pir_pair_stays_apart(const pir_pair *pair, const pir_pair_input *input, double least) {
+    return pir_pair_proof_holds(&pair->proof, &pair->body_p->body, &pair->body_q->body, &input->pose_p, &input->pose_q,
+                                least) &&
+           pir_pair_check(input) == PIR_OK;
 }
 
-/* Whether two poses are the same to the bit. */
-static inline bool pir_pose_is_same(const pir_pose *a, const pir_pose *b) {
-    const pir_quat *r = &a->rotation, *s = &b->rotation;
-    const pir_vec3 *t = &a->translation, *u = &b->translation;
-    return (pir_bits_apart(r->x, s->x) | pir_bits_apart(r->y, s->y) | pir_bits_apart(r->z, s->z) |
-            pir_bits_apart(r->w, s->w) | pir_bits_apart(t->x, u->x) | pir_bits_apart(t->y, u->y) |
-            pir_bits_apart(t->z, u->z)) == 0;
-}
+/* --- begin.c --- */
 
 /* Whether the last call in this workspace was on this pair, and this pair's last call was in this workspace. */
 static inline bool pir_pair_is_at(const pir_pair *pair, const pir_workspace *workspace) {

@@ -52,32 +52,17 @@ static inline bool is_in_place(const pir_workspace *workspace, const pir_pair_in
 
 /*
  * Begins a call that may follow one on this pair in this workspace: at the same poses it uses what that one
- * made. Where it needs no frame none is made.
+ * made. Bodies that stay apart need no frame.
  */
 static pir_status resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, bool needs_frame) {
     if (!pair || !workspace || !input)
         return PIR_ERR_ARGUMENT;
+    if (!needs_frame && pir_pair_stays_apart(pair, input, 0))
+        return PIR_OK;
     // bits may differ where numbers do not: then it begins anew
-    if (!pir_pair_is_at(pair, workspace) || (needs_frame && !workspace->is_framed) || !is_in_place(workspace, input))
+    if (!pir_pair_is_at(pair, workspace) || !is_in_place(workspace, input))
         return pir_pair_begin(pair, workspace, input);
     return pir_pair_check(input);
-}
-
-/* Whether an answer is what the last call gave. */
-static bool is_answer(const pir_workspace *workspace, const pir_query_result *answer) {
-    const pir_query_result *given = &workspace->answer;
-    const size_t first = offsetof(pir_query_result, distance), end = offsetof(pir_query_result, steps);
-    _Static_assert((offsetof(pir_query_result, steps) - offsetof(pir_query_result, distance)) % 8 == 0, "one row");
-    return is_same((const char *)given + first, (const char *)answer + first, (end - first) / 8) &&
-           given->outcome == answer->outcome;
-}
-
-/* The answer's own contact, where that is known to be all. */
-static bool is_lone(const pir_pair *pair, pir_workspace *workspace, const pir_manifold_ask *ask,
-                    pir_contact *ret_contacts) {
-    const pir_lone *lone = &pair->held.lone;
-    return workspace->moved.turn <= lone->leeway.turn && workspace->moved.way <= lone->leeway.way &&
-           pir_manifold_lone(&workspace->frame, &workspace->placement, &workspace->patches, ask, lone, ret_contacts);
 }
 
 pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
@@ -102,23 +87,7 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
         see_by_q(workspace, &seen);
     }
     const pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .margin = input->margin};
-    pir_held *held = &pair->held;
-    pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity, NULL, held->pace};
-    bool is_lone_known = held->some && held->lone.kind != PIR_LONE_UNKNOWN;
-    bool is_fresh =
-        held->some && held->pace <= PIR_LONE_PACE && workspace->moved.way == 0 && workspace->moved.turn == 0;
-    if (is_lone_known && is_answer(workspace, answer)) {
-        if (is_lone(pair, workspace, &ask, ret_contacts)) {
-            *ret_count = 1;
-            if (workspace->posed)
-                to_world(workspace, answer, ret_contacts, capacity > 0);
-            return capacity > 0 ? PIR_OK : PIR_ERR_LIMIT;
-        }
-        // the next answer proves all of it again
-        pir_held_end(held, workspace->moved.turn);
-    } else if (is_fresh && is_answer(workspace, answer)) {
-        ask.ret_lone = &held->lone;
-    }
+    const pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity};
     status =
         pir_manifold_find(&workspace->frame, &workspace->placement, &workspace->patches, &ask, ret_contacts, ret_count);
     if (workspace->posed && (status == PIR_OK || status == PIR_ERR_LIMIT))

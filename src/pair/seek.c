@@ -50,7 +50,6 @@ static bool finish_inside(pir_task *task, const pir_overlap *overlap) {
     pir_facet facet;
     if (!(task->want & PIR_WANT_DEPTH)) {
         pir_result_set_state(task->result, PIR_INSIDE);
-        task->pair->apart = 0;
     } else {
         if (!pir_overlap_least(overlap, &facet))
             return false;

@@ -5,19 +5,13 @@
 #include "pair/apart.h"
 #include "query/last/foot.h"
 
-void pir_task_keep_apart(const pir_task *task, double distance) {
-    pir_pair *pair = task->pair;
-    pair->apart = distance;
-    pair->at = task->placement->x;
-    pair->turned = task->workspace->frame.unit;
-}
-
 void pir_task_near(pir_task *task, const pir_nearest *nearest) {
     pir_query_result *result = task->result;
     const double distance = nearest->distance - PIR_DISTANCE_ERROR * task->placement->reach;
-    pir_task_keep_apart(task, distance);
-    if (!(task->want & PIR_WANT_SEPARATION))
+    if (!(task->want & PIR_WANT_SEPARATION)) {
+        pir_task_keep_proof(task, nearest->normal, distance);
         return;
+    }
     pir_result_separation(&task->workspace->frame, nearest, result);
     if (result->distance > pir_frame_length(&task->workspace->frame, task->limit)) {
         pir_result_beyond(result);
@@ -28,7 +22,6 @@ void pir_task_near(pir_task *task, const pir_nearest *nearest) {
 void pir_task_inside(pir_task *task, const pir_facet *facet, double slack) {
     pir_result_set_state(task->result, PIR_INSIDE);
     pir_task_keep_facet(task->pair, facet);
-    task->pair->apart = 0;
     if (!(task->want & PIR_WANT_DEPTH))
         return;
     if (task->has_same && pir_facet_same(facet, &task->same.facet))
@@ -42,7 +35,6 @@ void pir_task_touching(pir_task *task, const pir_facet *facet) {
     pir_result_set_state(task->result, PIR_BOUNDARY);
     pir_result_touching(task->exact, task->placement, &touching, task->result);
     pir_task_keep_facet(task->pair, facet);
-    task->pair->apart = 0;
 }
 
 bool pir_task_settle(pir_task *task, const pir_facet *facet) {

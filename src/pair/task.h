@@ -28,13 +28,11 @@ static inline void pir_task_end(const pir_task *task, pir_level level) {
     task->pair->level = (uint8_t)level;
 }
 
-/* Keeps a facet as a hint, and a distance from D, in the frame, that is certain. */
+/* Keeps a facet as a hint. */
 static inline void pir_task_keep_facet(pir_pair *pair, const pir_facet *facet) {
     pair->facet = facet->piece;
     pair->has_facet = true;
 }
-
-void pir_task_keep_apart(const pir_task *task, double distance);
 
 /* --- answers --- */
 

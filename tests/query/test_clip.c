@@ -206,11 +206,11 @@ static bool check_feature(pir_patch *patch, test_random *random, pir_feature fea
     pir_single single, again;
     pir_kept_shape *kept = patch->kept;
     patch->kept = NULL;
-    bool is_single = pir_patch_single(patch, feature, 0, &single);
+    bool is_single = pir_patch_single(patch, feature, &single);
     pir_facet_shape shape = patch->shape;
     patch->kept = kept;
     // with shapes that are kept, whether this one is known or not
-    expect(pir_patch_single(patch, feature, 0, &again) == is_single, "case %d: kept", (int)number);
+    expect(pir_patch_single(patch, feature, &again) == is_single, "case %d: kept", (int)number);
     expect(!is_single || (again.facet == single.facet && memcmp(&patch->shape, &shape, sizeof shape) == 0),
            "case %d: the kept shape of facet %u", (int)number, single.facet);
     if (is_single) {
@@ -218,7 +218,7 @@ static bool check_feature(pir_patch *patch, test_random *random, pir_feature fea
                (int)feature.kind, feature.index, single.facet);
         check_outline(patch, &single, number);
     }
-    if (feature.kind != PIR_FEATURE_FACET && pir_patch_is_sharp(patch, feature, 0)) {
+    if (feature.kind != PIR_FEATURE_FACET && pir_patch_is_sharp(patch, feature)) {
         pir_patch_grow(patch, feature);
         expect(patch->members == (uint32_t)feature.kind, "case %d: feature %d %u grows", (int)number, (int)feature.kind,
                feature.index);

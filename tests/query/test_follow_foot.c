@@ -56,7 +56,7 @@ static double least_slack(const pir_frame *frame, pir_vec3 x) {
 static pir_same follow(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
                        pir_same_facet *ret_start, pir_same_facet *ret_end, pir_same *ret_is) {
     memset(ret_start, 0, sizeof *ret_start);
-    pir_same from = pir_same_facet_prove(frame, placement, piece, NULL, ret_start);
+    pir_same from = pir_same_facet_prove(frame, placement, piece, ret_start);
     *ret_end = *ret_start;
     *ret_is = pir_follow_foot(frame, placement, from, ret_end);
     for (unsigned version = 1; pir_follow_foot_version(version); version++) {
@@ -65,8 +65,7 @@ static pir_same follow(const pir_frame *frame, const pir_placement *placement, p
         if (*ret_is == PIR_SAME_PROVEN)
             assert_true(memcmp(&other.facet, &ret_end->facet, sizeof other.facet) == 0 &&
                         memcmp(&other.touch, &ret_end->touch, sizeof other.touch) == 0 &&
-                        other.slack == ret_end->slack && other.margin == ret_end->margin &&
-                        other.falls == ret_end->falls);
+                        other.slack == ret_end->slack && other.margin == ret_end->margin);
     }
     return from;
 }

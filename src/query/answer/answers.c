@@ -12,7 +12,7 @@
 #include "query/last/foot.h"
 #include "query/search/closest.h"
 #include "query/search/depth.h"
-#include "query/search/proof.h"
+#include "query/search/separating.h"
 #include "query/search/state.h"
 
 pir_query_input pir_query_input_default(void) {
@@ -63,7 +63,7 @@ static bool was_by_facet(const pir_query_cache *cache) {
 
 /* The facet of a piece, or the one that the foot of x has gone to from there, where doubles prove it. */
 static bool prove_near(const pir_frame *frame, const pir_placement *placement, pir_piece piece, pir_same_facet *same) {
-    pir_same is = pir_same_facet_prove(frame, placement, piece, NULL, same);
+    pir_same is = pir_same_facet_prove(frame, placement, piece, same);
     return pir_follow_foot(frame, placement, is, same) == PIR_SAME_PROVEN;
 }
 

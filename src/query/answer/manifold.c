@@ -33,7 +33,6 @@ struct manifold {
     pir_vec3 n;
     pir_vec3 axis[3];       /* two of the contact plane, and n = axis[0] × axis[1] */
     bool is_single;         /* both patches are single facets */
-    bool is_lone;           /* of which one is at a vertex that is the only corner */
     pir_vec3 point;         /* the answer's on Q's polytope, in the frame */
     pir_corner of_answer;   /* that in the plane */
     double coarse;          /* a corner this near it is the same */
@@ -101,7 +100,6 @@ static inline void begin(struct manifold *m, const pir_frame *frame, const pir_p
                          pir_patch_room *room, const pir_query_result *answer) {
     m->frame = frame;
     m->room = room;
-    m->is_lone = false;
     m->answer = answer;
     m->p = &room->p;
     m->q = &room->q;
@@ -140,12 +138,11 @@ static inline void set_plane(struct manifold *m) {
 
 /* --- overlaps --- */
 
-/* Whether the patches are a vertex or an edge each that share nothing; of two edges that they do while `out` turns. */
-static inline bool is_alone(const struct manifold *m, double turn, double *ret_sine) {
+/* Whether the patches are a vertex or an edge each that share at most one point. */
+static inline bool is_alone(const struct manifold *m) {
     pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
-    *ret_sine = 0;
-    if (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET || !pir_patch_is_sharp(m->p, p, turn) ||
-        !pir_patch_is_sharp(m->q, q, turn))
+    if (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET || !pir_patch_is_sharp(m->p, p) ||
+        !pir_patch_is_sharp(m->q, q))
         return false;
     if (p.kind == PIR_FEATURE_VERTEX || q.kind == PIR_FEATURE_VERTEX)
         return true;
@@ -153,8 +150,7 @@ static inline bool is_alone(const struct manifold *m, double turn, double *ret_s
     pir_vec3 along = pir_mat_apply(m->p->r, of_p->direction[of_p->edge_half[p.index]]);
     pir_vec3 across = pir_vec_cross(along, of_q->direction[of_q->edge_half[q.index]]);
     // the sine as seen along the normal is at least this
-    *ret_sine = fabs(pir_vec_dot(across, m->n));
-    return *ret_sine > 2 * PIR_FLUSH;
+    return fabs(pir_vec_dot(across, m->n)) > 2 * PIR_FLUSH;
 }
 
 /* The answer's points, in the frame. */
@@ -176,8 +172,7 @@ static inline bool is_at_vertex(const struct manifold *m, const struct ends *end
 }
 
 /* Whether a vertex is the answer's point, carried by a facet of the other body, and no other corner is near. */
-static inline bool is_lone_vertex(const struct manifold *m, const pir_single *p, const pir_single *q,
-                                  pir_leeway leeway) {
+static inline bool is_lone_vertex(const struct manifold *m, const pir_single *p, const pir_single *q) {
     bool is_p = p->half != UINT32_MAX;
     if (!is_p && q->half == UINT32_MAX)
         return false;
@@ -185,15 +180,15 @@ static inline bool is_lone_vertex(const struct manifold *m, const pir_single *p,
     if (!is_at_vertex(m, &ends, is_p))
         return false;
     double room = pir_frame_from(m->frame, m->limit - m->answer->distance) * (1 + 0x1p-20);
-    const pir_lone_place place = {is_p ? ends.on_q : ends.on_p, m->coarse, room, leeway};
+    const pir_lone_place place = {is_p ? ends.on_q : ends.on_p, m->coarse, room};
     return is_p ? pir_patch_is_lone(m->p, p, m->q, q, &place) : pir_patch_is_lone(m->q, q, m->p, p, &place);
 }
 
 /* The single facets of both patches, where at least one has an area. */
-static inline bool find_singles(const struct manifold *m, double turn, pir_single *ret_p, pir_single *ret_q) {
+static inline bool find_singles(const struct manifold *m, pir_single *ret_p, pir_single *ret_q) {
     pir_feature p = m->answer->witness.p, q = m->answer->witness.q;
-    return (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET) && pir_patch_single(m->p, p, turn, ret_p) &&
-           pir_patch_single(m->q, q, turn, ret_q);
+    return (p.kind == PIR_FEATURE_FACET || q.kind == PIR_FEATURE_FACET) && pir_patch_single(m->p, p, ret_p) &&
+           pir_patch_single(m->q, q, ret_q);
 }
 
 /* The facets of both patches, where each is one facet across the normal. */
@@ -208,9 +203,8 @@ static inline bool find_flats(const struct manifold *m, pir_single *ret_p, pir_s
 /* The corners that two single facets share, in the room; PIR_CLIP_UNCLEAR where growing and merging have to tell. */
 static uint32_t overlap_singles(struct manifold *m) {
     pir_single p, q;
-    bool found = find_singles(m, 0, &p, &q);
-    m->is_lone = found && is_lone_vertex(m, &p, &q, (pir_leeway){0, 0});
-    if (m->is_lone)
+    bool found = find_singles(m, &p, &q);
+    if (found && is_lone_vertex(m, &p, &q))
         return 0;
     set_plane(m);
     if (!found && !find_flats(m, &p, &q))
@@ -425,64 +419,6 @@ static size_t put_contacts(struct manifold *m, const pir_placement *placement, c
     return count;
 }
 
-/* --- lone contacts --- */
-
-/* Parts of a right angle's radian and of the reach that leeways are tried with, and for how many calls they last. */
-static const double LEEWAYS[] = {0x1p-6, 0x1p-9, 0x1p-12};
-#define LEAST_CALLS 8
-
-/* What is left of a leeway, so that rounding is no part of it. */
-#define KEPT (1 - 0x1p-10)
-
-/* A leeway within which a part of all is enough: points move by the way, and by the turn as seen from afar. */
-static bool is_lone_within(struct manifold *m, double part, double reach, pir_lone *lone) {
-    pir_single p, q;
-    double sine;
-    if (lone->kind == PIR_LONE_EDGES) {
-        // the normal turns by 2 / sine, and P's edges by 1
-        bool alone = is_alone(m, part, &sine) && sine > 4 * PIR_FLUSH;
-        lone->leeway = (pir_leeway){KEPT * part * sine / (2 + sine), HUGE_VAL};
-        return alone;
-    }
-    lone->leeway = (pir_leeway){KEPT * part, KEPT * part * reach};
-    return find_singles(m, part, &p, &q) && is_lone_vertex(m, &p, &q, (pir_leeway){part, 2 * part * reach});
-}
-
-/* Finds out within what leeway a lone contact stays one. */
-static void find_leeway(struct manifold *m, const pir_manifold_ask *ask, double reach, pir_lone_kind kind) {
-    pir_lone lone = {.kind = kind,
-                     .witness = ask->answer->witness,
-                     .radius_p = ask->input->radius_p,
-                     .radius_q = ask->input->radius_q,
-                     .margin = ask->input->margin};
-    for (size_t i = 0; i < sizeof LEEWAYS / sizeof *LEEWAYS && LEEWAYS[i] > LEAST_CALLS * ask->pace; i++)
-        if (is_lone_within(m, LEEWAYS[i], reach, &lone)) {
-            *ask->ret_lone = lone;
-            return;
-        }
-}
-
-bool pir_manifold_lone(const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
-                       const pir_manifold_ask *ask, const pir_lone *lone, pir_contact *ret_contacts) {
-    const pir_query_input *input = ask->input;
-    pir_witness of = ask->answer->witness, had = lone->witness;
-    if (of.p.kind != had.p.kind || of.p.index != had.p.index || of.q.kind != had.q.kind || of.q.index != had.q.index)
-        return false;
-    if (input->radius_p != lone->radius_p || input->radius_q != lone->radius_q || input->margin != lone->margin ||
-        !is_usable(frame, ask->answer))
-        return false;
-    struct manifold m;
-    begin(&m, frame, placement, room, ask->answer);
-    if (lone->kind == PIR_LONE_VERTEX) {
-        set_measures(&m, input, placement);
-        struct ends ends = ends_of(&m);
-        if (!is_at_vertex(&m, &ends, ask->answer->witness.p.kind == PIR_FEATURE_VERTEX))
-            return false;
-    }
-    put_answer(&m, ask, 0, 0, ret_contacts);
-    return true;
-}
-
 /* --- the calls --- */
 
 pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placement, pir_patch_room *room,
@@ -499,11 +435,8 @@ pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placem
     }
     struct manifold m;
     begin(&m, frame, placement, room, answer);
-    double sine;
-    bool alone = is_alone(&m, 0, &sine);
-    *ret_count = alone ? put_answer(&m, ask, 0, 0, ret_contacts) : put_contacts(&m, placement, ask, ret_contacts);
-    if (ask->ret_lone && ((alone && sine > 0) || m.is_lone))
-        find_leeway(&m, ask, placement->reach, alone ? PIR_LONE_EDGES : PIR_LONE_VERTEX);
+    *ret_count =
+        is_alone(&m) ? put_answer(&m, ask, 0, 0, ret_contacts) : put_contacts(&m, placement, ask, ret_contacts);
     return *ret_count <= ask->capacity ? PIR_OK : PIR_ERR_LIMIT;
 }
 
@@ -515,7 +448,7 @@ pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, co
     pir_status status = pir_query_begin(query, input, &placement);
     if (status != PIR_OK)
         return status;
-    pir_manifold_ask ask = {input, answer, capacity, NULL, 0};
+    pir_manifold_ask ask = {input, answer, capacity};
     pir_patch_room *room = &query->room->patches;
     if (!pir_patch_room_reserve(room, &pir_sum_scratch(query->sum)->allocator, query->p->vertex_count,
                                 query->q->vertex_count))

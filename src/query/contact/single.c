@@ -63,11 +63,10 @@ static inline bool is_sparse(const pir_polytope *p) {
     return p->half_count <= 4 * p->vertex_count;
 }
 
-bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn) {
+bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature) {
     const pir_polytope *p = patch->polytope;
     pir_vec3 out = pir_patch_to_body(patch, patch->out);
-    return is_sparse(p) ? is_sharp(p, feature, out, PIR_FLAT + turn)
-                        : patch->version->is_sharp(p, feature, out, PIR_FLAT + turn);
+    return is_sparse(p) ? is_sharp(p, feature, out, PIR_FLAT) : patch->version->is_sharp(p, feature, out, PIR_FLAT);
 }
 
 /* --- the shape of a facet --- */
@@ -129,12 +128,10 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
 
 /*
  * Whether a shape says that its facet is the patch that grows from it. `off` is the square of how far its normal is
- * from `out`. With a leeway `out` is the normal, and the least cosine is given; what is asked for besides is then more
- * than what rounding may change.
+ * from `out`.
  */
-static inline bool is_alone(const pir_facet_shape *shape, double off, double cosine, double snap, bool leeway) {
-    double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING - (leeway ? COARSE : 0);
-    double seen = cosine * (1 - COARSE) * (leeway ? 0.5 : 1);
+static inline bool is_alone(const pir_facet_shape *shape, double off, double cosine, double snap) {
+    double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING, seen = cosine * (1 - COARSE);
     return (room > 0) & (off < room * room) & (seen * shape->thick > PIR_CLIP_CLEAR * snap) &
            (seen * shape->wide > PIR_FLUSH);
 }
@@ -147,38 +144,30 @@ static void find_shape(pir_patch *patch, uint32_t f) {
 }
 
 /* Whether f is the patch that grows from it; sets the patch's shape to that of f. */
-static inline bool stands_alone(pir_patch *patch, uint32_t f, double off, double cosine, bool leeway) {
+static inline bool stands_alone(pir_patch *patch, uint32_t f, double off, double cosine) {
     if (!patch->kept || !pir_kept_shape_get(&patch->kept[f], &patch->shape))
         find_shape(patch, f);
-    return is_alone(&patch->shape, off, cosine, patch->snap, leeway);
+    return is_alone(&patch->shape, off, cosine, patch->snap);
 }
-
-/* Of halfedges, the one whose facet faces a direction most, by a cosine above the least; the cosine of the next one. */
-struct facing {
-    uint32_t half; /* UINT32_MAX for none */
-    double cosine, next;
-};
 
 /*
  * Looks at the halfedges at v; `out` is a direction of the body. Which of them leads is a guess, so no branch asks.
  * *least becomes the least sine by which an edge there falls or rises, if that is less.
  */
-static inline struct facing find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, struct facing most,
-                                        double *least) {
+static inline pir_foremost find_facing(const pir_polytope *p, uint32_t v, pir_vec3 out, pir_foremost most,
+                                       double *least) {
     for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {
         double slope = fabs(pir_vec_dot(out, p->direction[h]));
         *least = slope < *least ? slope : *least;
         double along = pir_vec_dot(p->normal[p->left[h]], out);
-        double second = along < most.cosine ? along : most.cosine;
         most.half = along > most.cosine ? h : most.half;
         most.cosine = along > most.cosine ? along : most.cosine;
-        most.next = second > most.next ? second : most.next;
     }
     return most;
 }
 
 /* The facet that an edge grows by, as the halfedge before which it lies. */
-static struct facing grown_by_edge(const pir_polytope *p, uint32_t half, pir_vec3 out, struct facing found) {
+static pir_foremost grown_by_edge(const pir_polytope *p, uint32_t half, pir_vec3 out, pir_foremost found) {
     double least = 1;
     found = find_facing(p, p->origin[half], out, found, &least);
     found = find_facing(p, p->target[half], out, found, &least);
@@ -189,36 +178,27 @@ static struct facing grown_by_edge(const pir_polytope *p, uint32_t half, pir_vec
     return found;
 }
 
-/* The same of a vertex, which is sharp. */
-static struct facing grown_by_vertex(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine) {
+/* The facet that a sharp vertex grows by. */
+static pir_foremost grown_by_vertex(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine) {
     double least = 1;
-    struct facing found =
-        find_facing(p, v, out, (struct facing){UINT32_MAX, PIR_LEAST_COSINE, PIR_LEAST_COSINE}, &least);
+    pir_foremost found = find_facing(p, v, out, (pir_foremost){UINT32_MAX, PIR_LEAST_COSINE}, &least);
     found.half = least > sine ? found.half : UINT32_MAX;
     return found;
 }
 
-static pir_foremost foremost_plain(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine) {
-    struct facing found = grown_by_vertex(p, v, out, sine);
-    return (pir_foremost){found.half, found.cosine};
-}
-
 /* The facet that a vertex or an edge grows by; none where either is not sharp. */
-static inline struct facing grown_by(const pir_patch *patch, pir_feature feature, pir_vec3 out, double turn) {
+static inline pir_foremost grown_by(const pir_patch *patch, pir_feature feature, pir_vec3 out) {
     const pir_polytope *p = patch->polytope;
-    const double sine = PIR_FLAT + turn;
-    struct facing none = {UINT32_MAX, PIR_LEAST_COSINE, PIR_LEAST_COSINE};
+    pir_foremost none = {UINT32_MAX, PIR_LEAST_COSINE};
     if (feature.kind == PIR_FEATURE_EDGE)
-        return patch->version->is_sharp(p, feature, out, sine)
+        return patch->version->is_sharp(p, feature, out, PIR_FLAT)
                    ? grown_by_edge(p, p->edge_half[feature.index], out, none)
                    : none;
-    if (turn > 0 || is_sparse(p))
-        return grown_by_vertex(p, feature.index, out, sine);
-    pir_foremost found = patch->version->foremost(p, feature.index, out, sine);
-    return (struct facing){found.half, found.cosine, PIR_LEAST_COSINE};
+    return is_sparse(p) ? grown_by_vertex(p, feature.index, out, PIR_FLAT)
+                        : patch->version->foremost(p, feature.index, out, PIR_FLAT);
 }
 
-bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_single *ret_single) {
+bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_single) {
     const pir_polytope *p = patch->polytope;
     pir_vec3 out = pir_patch_to_body(patch, patch->out);
     if (p->artificial)
@@ -226,15 +206,15 @@ bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_si
     if (feature.kind == PIR_FEATURE_FACET) {
         pir_vec3 n = p->normal[feature.index], off = pir_vec_sub(out, n);
         *ret_single = (pir_single){feature.index, UINT32_MAX, pir_vec_dot(out, n)};
-        return stands_alone(patch, feature.index, pir_vec_dot(off, off), ret_single->cosine, turn > 0);
+        return stands_alone(patch, feature.index, pir_vec_dot(off, off), ret_single->cosine);
     }
-    struct facing found = grown_by(patch, feature, out, turn);
-    if (found.half == UINT32_MAX || (turn > 0 && !(found.cosine - found.next > 2 * turn)))
+    pir_foremost found = grown_by(patch, feature, out);
+    if (found.half == UINT32_MAX)
         return false;
     uint32_t half = found.half;
     *ret_single = (pir_single){p->left[half], feature.kind == PIR_FEATURE_VERTEX ? half : UINT32_MAX, found.cosine};
     // one that a vertex or an edge grows by is looked at across its own normal
-    return stands_alone(patch, ret_single->facet, 0, found.cosine - turn, turn > 0);
+    return stands_alone(patch, ret_single->facet, 0, found.cosine);
 }
 
 void pir_patch_set_single(pir_patch *patch, const pir_single *single, const pir_vec3 axis[3]) {
@@ -265,7 +245,7 @@ static uint32_t foremost(const pir_polytope *p, pir_feature feature, pir_vec3 ou
         return feature.index;
     if (feature.kind == PIR_FEATURE_VERTEX) {
         double unused = 1;
-        struct facing found = find_facing(p, feature.index, out, (struct facing){UINT32_MAX, 0, 0}, &unused);
+        pir_foremost found = find_facing(p, feature.index, out, (pir_foremost){UINT32_MAX, 0}, &unused);
         return found.half != UINT32_MAX ? p->left[found.half] : PIR_NO_FACET;
     }
     uint32_t left = p->left[p->edge_half[feature.index]], right = pir_right(p, p->edge_half[feature.index]);
@@ -283,7 +263,7 @@ uint32_t pir_patch_flat(pir_patch *patch, pir_feature feature) {
         return f;
     pir_vec3 off = pir_vec_sub(out, p->normal[f]);
     double cosine = pir_vec_dot(out, p->normal[f]);
-    bool flat = cosine > PIR_LEVEL_COSINE && stands_alone(patch, f, pir_vec_dot(off, off), cosine, false);
+    bool flat = cosine > PIR_LEVEL_COSINE && stands_alone(patch, f, pir_vec_dot(off, off), cosine);
     return flat ? f : PIR_NO_FACET;
 }
 
@@ -309,7 +289,7 @@ static bool place_plain(pir_patch *p, const pir_single *of_p, pir_patch *q, cons
 }
 
 const pir_single_version *pir_single_version_of(unsigned index) {
-    static const pir_single_version plain = {is_sharp_plain, foremost_plain, place_plain};
+    static const pir_single_version plain = {is_sharp_plain, grown_by_vertex, place_plain};
     if (index == 0)
         return &plain;
 #if PIR_HAVE_X86_SINGLES
@@ -342,12 +322,10 @@ struct rising {
     double rise[2];       /* what those rise by at least */
     double room, clear;   /* how far up counts, and how clear of a side is clear enough */
     double least, wide;   /* what either edge rises by; all of it is nearer to the vertex than `wide` over that */
-    pir_leeway leeway;
 };
 
 /* Whether all of that is over the inside of side h of the carrier. */
-static inline bool is_within_side(const struct rising *rising, const pir_patch *carrier, pir_vec3 n, uint32_t h,
-                                  bool moves) {
+static inline bool is_within_side(const struct rising *rising, const pir_patch *carrier, pir_vec3 n, uint32_t h) {
     const pir_polytope *q = carrier->polytope;
     pir_vec3 in = pir_vec_cross(n, q->direction[h]);
     double from = pir_vec_dot(in, pir_vec_sub(rising->at, carrier->vertex[q->origin[h]])) - rising->clear;
@@ -356,20 +334,16 @@ static inline bool is_within_side(const struct rising *rising, const pir_patch *
     bool inside = from > 0;
     for (int k = 0; k < 2; k++) {
         double along = pir_vec_dot(in, rising->edge[k]);
-        if (moves)
-            along -= rising->leeway.turn;
-        // `room` may shrink as well, and with it what is gained
-        inside &= from * rising->rise[k] + (moves && along > 0 ? 0 : along * rising->room) > 0;
+        inside &= from * rising->rise[k] + along * rising->room > 0;
     }
     return inside;
 }
 
-/* The same for all sides of a facet of the carrier with normal n. */
-static inline bool is_within(const struct rising *rising, const pir_patch *carrier, uint32_t facet, pir_vec3 n,
-                             bool moves) {
+/* Whether it is over the inside of all sides of a facet of the carrier with normal n. */
+static inline bool is_within(const struct rising *rising, const pir_patch *carrier, uint32_t facet, pir_vec3 n) {
     const pir_polytope *q = carrier->polytope;
     for (uint32_t i = q->loop_start[facet]; i < q->loop_start[facet + 1]; i++)
-        if (!is_within_side(rising, carrier, n, q->loop[i], moves))
+        if (!is_within_side(rising, carrier, n, q->loop[i]))
             return false;
     return true;
 }
@@ -379,23 +353,19 @@ bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_
     if (of->half == UINT32_MAX || !(by->cosine > PIR_LEVEL_COSINE))
         return false;
     const pir_polytope *p = vertex->polytope;
-    const pir_leeway leeway = place->leeway;
     pir_vec3 n = carrier->polytope->normal[by->facet];
     struct rising rising;
-    rising.room = place->room + leeway.way;
+    rising.room = place->room;
     for (int k = 0; k < 2; k++) {
         uint32_t half = k == 0 ? of->half : pir_ring_next(p, of->half);
         rising.edge[k] = carry(vertex, carrier, p->direction[half]);
-        double rise = rising.rise[k] = pir_vec_dot(n, rising.edge[k]) - PIR_LEVEL - leeway.turn;
+        double rise = rising.rise[k] = pir_vec_dot(n, rising.edge[k]) - PIR_LEVEL;
         if (!(rise > PIR_FLUSH && rise * vertex->shape.apart * (1 - COARSE) > rising.room))
             return false;
     }
     rising.at = pir_patch_to_body(carrier, pir_vec_sub(place->at, carrier->at));
-    // the terms grow with the reach, of which the way is a part
-    bool moves = leeway.way > 0;
-    rising.clear = (moves ? 2 : 1) * (place->coarse + PIR_CLIP_CLEAR * carrier->snap) + leeway.way;
-    rising.leeway = leeway;
+    rising.clear = place->coarse + PIR_CLIP_CLEAR * carrier->snap;
     rising.least = rising.rise[0] < rising.rise[1] ? rising.rise[0] : rising.rise[1];
-    rising.wide = (1 + leeway.turn) * (1 + COARSE) * rising.room;
-    return moves ? is_within(&rising, carrier, by->facet, n, true) : is_within(&rising, carrier, by->facet, n, false);
+    rising.wide = (1 + COARSE) * rising.room;
+    return is_within(&rising, carrier, by->facet, n);
 }

@@ -44,24 +44,15 @@ const pir_single_version *pir_single_version_of(unsigned index);
 /* The last of them. */
 const pir_single_version *pir_single_version_best(void);
 
-/*
- * How far things may move while what is said of them here still holds: directions of one body as seen by the other by
- * `turn`, an angle or a chord, points by `way`. 0 for this placement alone.
- */
-typedef struct pir_leeway {
-    double turn, way;
-} pir_leeway;
-
-/* Whether the patch of a vertex or an edge is that feature alone, `out` turning by the leeway. */
-bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature, double turn);
+/* Whether the patch of a vertex or an edge is that feature alone. */
+bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature);
 
 /*
  * Finds the facet that is the whole patch, where the other body's patch has an area: the feature itself, or the facet
  * that a sharp vertex or edge grows by. Hulls and slimming would leave its outline as it is. False where the patch is
- * more than that, where the facet is steep, or where rounding might matter. With a turn above 0: where it is the same
- * facet within that. `out` is then the normal of a facet of one of the two bodies.
+ * more than that, where the facet is steep, or where rounding might matter.
  */
-bool pir_patch_single(pir_patch *patch, pir_feature feature, double turn, pir_single *ret_single);
+bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_single);
 
 /*
  * What a facet's normal may be off by from a direction that is taken for it, and the cosine of that: half its square
@@ -92,7 +83,6 @@ typedef struct pir_lone_place {
     pir_vec3 at;   /* the point of the carrier under the vertex */
     double coarse; /* more than it may be off by */
     double room;
-    pir_leeway leeway; /* `room` may grow by the way */
 } pir_lone_place;
 
 /*

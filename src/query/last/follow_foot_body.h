@@ -100,7 +100,7 @@ FOOT_TARGET static inline pir_same follow(const pir_frame *frame, const pir_plac
         // to and fro across an edge of D, which the nearest point is on
         if (next.kind == before.kind && next.first == before.first && next.second == before.second)
             break;
-        is = FOOT_PROVE(frame, placement, next, NULL, same);
+        is = FOOT_PROVE(frame, placement, next, same);
         before = last;
     }
     return is;

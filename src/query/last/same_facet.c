@@ -67,24 +67,19 @@ static inline double steepest_beside(const pir_polytope *p, uint32_t half, pir_v
     return most;
 }
 
-static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
-                         pir_same_facet *same) {
+static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t edge = same->facet.piece.first, half = p->edge_half[edge], other = same->facet.piece.second;
     pir_vec3 d = q->direction[other], e = pir_mat_apply(&frame->r, p->direction[half]), n = pir_vec_cross(d, e);
-    double square = pir_vec_dot(n, n), sine = sqrt(square), err = 1 / sine;
+    double square = pir_vec_dot(n, n), err = 1 / sqrt(square);
     if (square < 4 * PIR_SIN_REFINED * PIR_SIN_REFINED)
         return PIR_SAME_IN_DOUBT;
     uint32_t a = p->origin[half], b = q->origin[other];
-    if (!known) {
-        double falls_q, falls_p = 0;
-        pir_same exposed = all_fall(steepest_beside(q, other, n), &falls_q);
-        if (exposed == PIR_SAME_PROVEN)
-            exposed = all_fall(steepest_beside(p, half, pir_mat_apply_transposed(&frame->r, n)), &falls_p);
-        if (exposed != PIR_SAME_PROVEN)
-            return exposed;
-        same->falls = turn_of_edges(falls_p < falls_q ? falls_p : falls_q, sine);
-    }
+    pir_same exposed = all_fall(steepest_beside(q, other, n));
+    if (exposed == PIR_SAME_PROVEN)
+        exposed = all_fall(steepest_beside(p, half, pir_mat_apply_transposed(&frame->r, n)));
+    if (exposed != PIR_SAME_PROVEN)
+        return exposed;
     n = pir_vec_scale(n, err);
     const struct of_p of_p = {pir_mat_apply(&frame->r, frame->p.vertex[a]), e};
     pir_vec3 corner = pir_vec_add(of_p.corner, frame->q.vertex[b]);
@@ -108,10 +103,10 @@ static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
 }
 
 pir_same pir_same_facet_prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
-                              const pir_same_known *known, pir_same_facet *ret_same) {
+                              pir_same_facet *ret_same) {
     if (frame->p.polytope->artificial || frame->q.polytope->artificial)
         return PIR_SAME_IN_DOUBT;
-    return prove(frame, placement, piece, known, ret_same);
+    return prove(frame, placement, piece, ret_same);
 }
 
 pir_same_prover *pir_same_facet_version(unsigned index) {

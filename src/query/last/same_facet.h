@@ -17,16 +17,9 @@ typedef struct pir_same_facet {
     pir_facet facet;
     double slack;
     double margin; /* the foot of x is at least this far from the rim, above 0 */
-    double falls;  /* its features are exposed until R has turned by this; 0 where that was known before */
     pir_touch touch;
     uint32_t side; /* of two edges, where the rim is nearest: see below */
 } pir_same_facet;
-
-/* What a proof at an earlier placement leaves certain: see held_proof.h. */
-typedef struct pir_same_known {
-    double margin;   /* the foot is at least this far from the rim; not of two edges */
-    uint32_t corner; /* of the facet of P or of Q, its vertex in D's corner */
-} pir_same_known;
 
 /* Whether the features at hand make a facet of D that holds the foot of x. */
 typedef enum pir_same {
@@ -39,13 +32,12 @@ typedef enum pir_same {
 
 /*
  * `piece` may be one of D at some other placement. A vertex of it is moved to where its facet has it here; the edges of
- * one of two edges are not. `known` is NULL, or says what need not be proven: that the features are exposed, and how
- * far the foot is inside. Where the slack is next to nothing, facet and margin are proven, the slack is off and
+ * one of two edges are not. Where the slack is next to nothing, facet and margin are proven, the slack is off and
  * there is no touch. Where the foot is beside the facet, that is known but for the slack; of two edges so is the side:
  * 0 and 1 are along Q's edge, at the origin and the target of P's halfedge, 2 and 3 along P's, at those of Q's.
  */
 typedef pir_same pir_same_prover(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
-                                 const pir_same_known *known, pir_same_facet *ret_same);
+                                 pir_same_facet *ret_same);
 pir_same_prover pir_same_facet_prove;
 
 /*

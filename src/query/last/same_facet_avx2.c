@@ -24,22 +24,18 @@ struct two_edges {
     uint32_t edge, half, other, a, b;
 };
 
-/* Whether all edges beside both fall along n, the cross product of the two, and how steeply at least. */
-PIR_AVX2 static inline pir_same all_beside_fall(const pir_frame *frame, const struct two_edges *of, __m256d n,
-                                                double *ret_falls) {
-    double falls_p;
+/* Whether all edges beside both fall along n, the cross product of the two. */
+PIR_AVX2 static inline pir_same all_beside_fall(const pir_frame *frame, const struct two_edges *of, __m256d n) {
     uint32_t place_p = of->half - frame->p.polytope->ring_start[of->a];
     uint32_t place_q = of->other - frame->q.polytope->ring_start[of->b];
     double most_q = pir_ring_most_but(frame->q.around, of->b, place_q, pir_three_spread(n));
-    pir_same fall = all_fall(most_q, ret_falls);
+    pir_same fall = all_fall(most_q);
     if (fall != PIR_SAME_PROVEN)
         return fall;
     pir_vec3 along;
     pir_three_put(&along, n);
     const pir_four back = pir_four_of(pir_mat_apply_transposed(&frame->r, along));
-    fall = all_fall(pir_ring_most_but(frame->p.around, of->a, place_p, back), &falls_p);
-    *ret_falls = falls_p < *ret_falls ? falls_p : *ret_falls;
-    return fall;
+    return all_fall(pir_ring_most_but(frame->p.around, of->a, place_p, back));
 }
 
 /* Where y is attained by two edges that cross, as `crossing`; `across` is e × n, and `corner` that of P. */
@@ -56,8 +52,7 @@ PIR_AVX2 static inline __m256d crossing_at(const pir_body *q, uint32_t edge, __m
     return _mm256_add_pd(from, _mm256_mul_pd(d, _mm256_broadcastsd_pd(held)));
 }
 
-PIR_AVX2 static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, const pir_same_known *known,
-                                  pir_same_facet *same) {
+PIR_AVX2 static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same) {
     const pir_body *body_p = &frame->p, *body_q = &frame->q;
     const pir_polytope *p = body_p->polytope, *q = body_q->polytope;
     pir_facet *facet = &same->facet;
@@ -70,16 +65,12 @@ PIR_AVX2 static pir_same prove_ee(const pir_frame *frame, const pir_placement *p
     const __m256d e = pir_three_apply(r, pir_four_of(p->direction[of.half])), e_turned = pir_three_turned(e);
     const __m256d across = pir_three_cross(d, d_turned, e, e_turned);
     const __m256d squares = _mm256_mul_pd(across, across);
-    const double square = _mm_cvtsd_f64(pir_three_two_sums(squares, squares)), sine = sqrt(square), err = 1 / sine;
+    const double square = _mm_cvtsd_f64(pir_three_two_sums(squares, squares)), err = 1 / sqrt(square);
     if (square < 4 * PIR_SIN_REFINED * PIR_SIN_REFINED)
         return PIR_SAME_IN_DOUBT;
-    if (!known) {
-        double falls;
-        pir_same exposed = all_beside_fall(frame, &of, across, &falls);
-        if (exposed != PIR_SAME_PROVEN)
-            return exposed;
-        same->falls = turn_of_edges(falls, sine);
-    }
+    pir_same exposed = all_beside_fall(frame, &of, across);
+    if (exposed != PIR_SAME_PROVEN)
+        return exposed;
     const __m256d n = _mm256_mul_pd(across, _mm256_set1_pd(err)), n_turned = pir_three_turned(n);
     const __m256d corner_p = pir_three_apply(r, pir_four_of(body_p->vertex[of.a]));
     const __m256d from_q = pir_three_at(&body_q->vertex[of.b]), corner = _mm256_add_pd(corner_p, from_q);
@@ -112,10 +103,10 @@ PIR_AVX2 static pir_same prove_ee(const pir_frame *frame, const pir_placement *p
 }
 
 PIR_AVX2 pir_same pir_same_facet_prove_avx2(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
-                                            const pir_same_known *known, pir_same_facet *ret_same) {
+                                            pir_same_facet *ret_same) {
     if (!frame->p.around || !frame->q.around)
-        return pir_same_facet_prove(frame, placement, piece, known, ret_same);
-    return prove(frame, placement, piece, known, ret_same);
+        return pir_same_facet_prove(frame, placement, piece, ret_same);
+    return prove(frame, placement, piece, ret_same);
 }
 
 #else

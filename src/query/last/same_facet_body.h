@@ -17,11 +17,10 @@
 #define MARGIN_ERRORS 16
 
 /*
- * Whether edges of which the steepest rises by `most` certainly fall along n, and how steeply at least. n and
- * PIR_SLOPE_BOUND are those of a unit normal, or both times one factor: the sine of two edges' angle.
+ * Whether edges of which the steepest rises by `most` certainly fall along n. n and PIR_SLOPE_BOUND are those of a unit
+ * normal, or both times one factor: the sine of two edges' angle.
  */
-SAME_TARGET static inline pir_same all_fall(double most, double *ret_falls) {
-    *ret_falls = -PIR_SLOPE_BOUND - most;
+SAME_TARGET static inline pir_same all_fall(double most) {
     return most < -PIR_SLOPE_BOUND ? PIR_SAME_PROVEN : most > PIR_SLOPE_BOUND ? PIR_SAME_NOT : PIR_SAME_IN_DOUBT;
 }
 
@@ -38,10 +37,10 @@ static uint32_t steepest_half(const pir_polytope *p, uint32_t vertex, pir_vec3 n
 }
 
 /* The vertex uphill from *vertex of which all edges fall. */
-SAME_TARGET static inline pir_same find_top(const pir_body *body, pir_vec3 n, uint32_t *vertex, double *ret_falls) {
+SAME_TARGET static inline pir_same find_top(const pir_body *body, pir_vec3 n, uint32_t *vertex) {
     const pir_polytope *p = body->polytope;
     for (uint32_t left = p->vertex_count; left > 0; left--) {
-        pir_same fall = all_fall(steepest_at(body, *vertex, n), ret_falls);
+        pir_same fall = all_fall(steepest_at(body, *vertex, n));
         if (fall != PIR_SAME_NOT)
             return fall;
         *vertex = p->target[steepest_half(p, *vertex, n)];
@@ -60,19 +59,6 @@ SAME_TARGET static inline pir_same measure(const pir_placement *placement, doubl
     if ((within > off) & (size > least))
         return PIR_SAME_PROVEN;
     return within > off ? PIR_SAME_NEAR : within < -off ? PIR_SAME_BESIDE : PIR_SAME_IN_DOUBT;
-}
-
-/*
- * How far R may turn while edges that fall by `falls` along a unit normal do: of a facet that moves by the angle
- * itself. The normal of two edges that cross at a sine moves by 2 / sine times that at most, and P's edges by it as
- * well; there `falls` is that times the sine.
- */
-SAME_TARGET static inline double turn_of_facet(double falls) {
-    return falls * (1 - 0x1p-20) - 0x1p-40;
-}
-
-SAME_TARGET static inline double turn_of_edges(double falls, double sine) {
-    return turn_of_facet(falls / (2 + sine));
 }
 
 /* A plane of D: its normal, how wrong that is, and its height, as in pir_facet. */
@@ -95,69 +81,47 @@ SAME_TARGET static inline void set_facet(pir_same_facet *same, pir_witness faces
 }
 
 SAME_TARGET static inline pir_same prove_fv(const pir_frame *frame, const pir_placement *placement,
-                                            const pir_same_known *known, pir_same_facet *same) {
+                                            pir_same_facet *same) {
     const pir_polytope *p = frame->p.polytope;
-    uint32_t f = same->facet.piece.first, b = same->facet.piece.second, corner;
+    uint32_t f = same->facet.piece.first, b = same->facet.piece.second;
     pir_vec3 n = pir_mat_apply(&frame->r, p->normal[f]);
-    double within;
-    if (known) {
-        within = known->margin;
-        corner = known->corner;
-    } else {
-        double falls;
-        pir_same exposed = find_top(&frame->q, n, &b, &falls);
-        if (exposed != PIR_SAME_PROVEN)
-            return exposed;
-        pir_vec3 at = pir_mat_apply_transposed(&frame->r, pir_vec_sub(placement->x, frame->q.vertex[b]));
-        within = within_facet(&frame->p, f, p->normal[f], at);
-        corner = p->origin[p->loop[p->loop_start[f]]];
-        same->falls = turn_of_facet(falls);
-    }
+    pir_same exposed = find_top(&frame->q, n, &b);
+    if (exposed != PIR_SAME_PROVEN)
+        return exposed;
+    pir_vec3 at = pir_mat_apply_transposed(&frame->r, pir_vec_sub(placement->x, frame->q.vertex[b]));
+    double within = within_facet(&frame->p, f, p->normal[f], at);
     const double h = frame->p.offset[f] + pir_vec_dot(n, frame->q.vertex[b]);
     same->facet.piece.second = b;
     same->touch.point_q = frame->q.vertex[b];
-    set_facet(same, (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}}, corner, b,
-              (struct unit_plane){n, 1, h});
+    set_facet(same, (pir_witness){{PIR_FEATURE_FACET, f}, {PIR_FEATURE_VERTEX, b}},
+              p->origin[p->loop[p->loop_start[f]]], b, (struct unit_plane){n, 1, h});
     return measure(placement, within, h - pir_vec_dot(n, placement->x), same);
 }
 
 SAME_TARGET static inline pir_same prove_vf(const pir_frame *frame, const pir_placement *placement,
-                                            const pir_same_known *known, pir_same_facet *same) {
+                                            pir_same_facet *same) {
     const pir_polytope *q = frame->q.polytope;
-    uint32_t a = same->facet.piece.first, g = same->facet.piece.second, corner;
-    pir_vec3 n = q->normal[g], corner_p;
-    double within;
-    if (known) {
-        corner_p = pir_mat_apply(&frame->r, frame->p.vertex[a]);
-        within = known->margin;
-        corner = known->corner;
-    } else {
-        double falls;
-        pir_same exposed = find_top(&frame->p, pir_mat_apply_transposed(&frame->r, n), &a, &falls);
-        if (exposed != PIR_SAME_PROVEN)
-            return exposed;
-        corner_p = pir_mat_apply(&frame->r, frame->p.vertex[a]);
-        within = within_facet(&frame->q, g, n, pir_vec_sub(placement->x, corner_p));
-        corner = q->origin[q->loop[q->loop_start[g]]];
-        same->falls = turn_of_facet(falls);
-    }
+    uint32_t a = same->facet.piece.first, g = same->facet.piece.second;
+    pir_vec3 n = q->normal[g];
+    pir_same exposed = find_top(&frame->p, pir_mat_apply_transposed(&frame->r, n), &a);
+    if (exposed != PIR_SAME_PROVEN)
+        return exposed;
+    pir_vec3 corner_p = pir_mat_apply(&frame->r, frame->p.vertex[a]);
+    double within = within_facet(&frame->q, g, n, pir_vec_sub(placement->x, corner_p));
     const double h = frame->q.offset[g] + pir_vec_dot(n, corner_p), slack = h - pir_vec_dot(n, placement->x);
     same->facet.piece.first = a;
     same->touch.point_q = pir_vec_sub(pir_vec_add(placement->x, pir_vec_scale(n, slack)), corner_p);
-    set_facet(same, (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}}, a, corner,
-              (struct unit_plane){n, 1, h});
+    set_facet(same, (pir_witness){{PIR_FEATURE_VERTEX, a}, {PIR_FEATURE_FACET, g}}, a,
+              q->origin[q->loop[q->loop_start[g]]], (struct unit_plane){n, 1, h});
     return measure(placement, within, slack, same);
 }
 
-/* The same of two edges. */
-SAME_TARGET static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement,
-                                     const pir_same_known *known, pir_same_facet *same);
+SAME_TARGET static pir_same prove_ee(const pir_frame *frame, const pir_placement *placement, pir_same_facet *same);
 
 SAME_TARGET static inline pir_same prove(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
-                                         const pir_same_known *known, pir_same_facet *ret_same) {
+                                         pir_same_facet *ret_same) {
     ret_same->facet.piece = piece;
-    ret_same->falls = 0;
-    return piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, known, ret_same)
-           : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, known, ret_same)
-                                        : prove_ee(frame, placement, known, ret_same);
+    return piece.kind == PIR_FACET_FV   ? prove_fv(frame, placement, ret_same)
+           : piece.kind == PIR_FACET_VF ? prove_vf(frame, placement, ret_same)
+                                        : prove_ee(frame, placement, ret_same);
 }

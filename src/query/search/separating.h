@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A proof that the bodies are apart: see proof.c. */
-#ifndef PIR_QUERY_SEARCH_PROOF_H
-#define PIR_QUERY_SEARCH_PROOF_H
+/* A proof that the bodies are apart: see separating.c. */
+#ifndef PIR_QUERY_SEARCH_SEPARATING_H
+#define PIR_QUERY_SEARCH_SEPARATING_H
 
 #include "query/frame/nearest_vertex.h"
 #include "query/planes/group_planes.h"

@@ -6,7 +6,7 @@
  * facet that separated last time comes first, then all facets around the vertices of the simplex. Where those hold
  * the nearest point, one of the facets separates.
  */
-#include "query/search/proof.h"
+#include "query/search/separating.h"
 
 /* Whether a piece certainly separates. Then the cache keeps it. */
 static bool try_piece(const pir_groups *groups, const pir_placement *placement, pir_piece piece,

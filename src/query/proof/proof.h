@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A decision that outlasts the poses it was made at: two bodies are apart along a direction, by so much.
+ *
+ * Let n be a unit vector from Q to P in the world, and d the distance of the bodies along it: the least of P less the
+ * most of Q. As a body moves, its origin goes along n by what its translation says. As it turns about that origin by
+ * an angle, its support along n changes by at most the angle times its greatest distance from the origin. So d at
+ * another two poses is at least what both leave of it. No frame is needed to tell, and neither body is looked at.
+ */
+#ifndef PIR_QUERY_PROOF_PROOF_H
+#define PIR_QUERY_PROOF_PROOF_H
+
+#include <string.h>
+
+#include <pirouette/pose.h>
+
+#include "query/frame/frame.h"
+
+typedef struct pir_pair_proof {
+    double leeway;  /* the distance along `along` at the poses, in units of the frame, less its error; 0 for no proof */
+    double down;    /* units of the frame in one of the world */
+    pir_vec3 along; /* unit, in the world, from Q to P */
+    pir_pose p, q;
+} pir_pair_proof;
+
+/* The bits in which two numbers differ. */
+static inline uint64_t pir_bits_apart(double a, double b) {
+    uint64_t of_a, of_b;
+    memcpy(&of_a, &a, sizeof a);
+    memcpy(&of_b, &b, sizeof b);
+    return of_a ^ of_b;
+}
+
+/* Whether two poses are the same to the bit. */
+static inline bool pir_pose_is_same(const pir_pose *a, const pir_pose *b) {
+    const pir_quat *r = &a->rotation, *s = &b->rotation;
+    const pir_vec3 *t = &a->translation, *u = &b->translation;
+    return (pir_bits_apart(r->x, s->x) | pir_bits_apart(r->y, s->y) | pir_bits_apart(r->z, s->z) |
+            pir_bits_apart(r->w, s->w) | pir_bits_apart(t->x, u->x) | pir_bits_apart(t->y, u->y) |
+            pir_bits_apart(t->z, u->z)) == 0;
+}
+
+/*
+ * Whether the bodies are apart at other poses by more than `least`, a length of the world. False too where the proof
+ * does not tell, and where a pose may be no valid one.
+ */
+bool pir_pair_proof_holds(const pir_pair_proof *proof, const pir_body *p, const pir_body *q, const pir_pose *at_p,
+                          const pir_pose *at_q, double least);
+
+#endif
