@@ -97,27 +97,14 @@ PIR_FETCHING void fetch_edges(const pir_tracked *tracked, const uint32_t *edge, 
     }
 }
 
-/* Whether a crossing of the list from slot `at` to slot `end` leaves the cell that halfedge h of Q leaves. */
-static bool is_left_before(const pir_pairing *pairing, uint32_t at, uint32_t end, uint32_t h) {
-    const uint32_t *origin = pairing->q->origin;
-    while (at != end && origin[pir_crossing_half(pairing, at)] != origin[h])
-        at = pir_crossing_next(pairing, at);
-    return at != end;
-}
-
-/*
- * Takes the crossing of halfedge h of Q out of the list at *list, as pir_derive_edge would: PIR_NO_CROSSING where there
- * is none, or the list has left that cell by another side first.
- */
-static uint32_t take_kept(pir_tracked *tracked, uint32_t *list, uint32_t h) {
-    pir_crossings *c = &tracked->pairing.crossings;
+/* Takes the crossing of halfedge h of Q out of the list at *list: PIR_NO_CROSSING where there is none. */
+static uint32_t take_kept(pir_crossings *c, uint32_t *list, uint32_t h) {
     uint32_t *at = list;
     while (*at != PIR_NO_CROSSING && c->at[*at].half != h)
         at = &c->at[*at].next;
     uint32_t slot = *at;
-    if (slot == PIR_NO_CROSSING || is_left_before(&tracked->pairing, *list, slot, h))
-        return PIR_NO_CROSSING;
-    *at = c->at[slot].next;
+    if (slot != PIR_NO_CROSSING)
+        *at = c->at[slot].next;
     return slot;
 }
 
@@ -128,7 +115,7 @@ static bool list_found(pir_tracked *tracked, uint32_t e, const pir_walked_crossi
     uint32_t old = c->first[e], last = PIR_NO_CROSSING;
     c->first[e] = PIR_NO_CROSSING;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t slot = take_kept(tracked, &old, found[i].half);
+        uint32_t slot = take_kept(c, &old, found[i].half);
         if (slot == PIR_NO_CROSSING)
             slot = pir_crossing_new(tracked, e, found[i].half);
         if (slot == PIR_NO_CROSSING)
