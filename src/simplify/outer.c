@@ -73,20 +73,19 @@ static uint32_t facet_at(const struct cutting *c, pir_feature feature, pir_vec3 
 
 /* How far the corners of a polytope are from the body, and which facets cut them off. */
 static pir_status measure_all(struct cutting *c, const pir_polytope *outer) {
-    pir_status status = PIR_OK;
     c->error = 0;
     c->far_count = 0;
-    for (uint32_t v = 0; v < outer->vertex_count && status == PIR_OK; v++) {
+    for (uint32_t v = 0; v < outer->vertex_count; v++) {
         pir_measured measured;
-        status = pir_measure_point(c->measure, outer->vertex[v], &measured);
+        pir_status status = pir_measure_point(c->measure, outer->vertex[v], &measured);
         if (status != PIR_OK)
-            break;
+            return status;
         c->error = fmax(c->error, measured.distance);
         c->nearest[v] = facet_at(c, measured.nearest, outer->vertex[v]);
         if (c->nearest[v] != NO_FACET)
             c->far[c->far_count++] = (pir_far_point){outer->vertex[v], measured.distance, v};
     }
-    return status;
+    return PIR_OK;
 }
 
 /* Makes the polytope of the planes. *ret_fits is false, and nothing else changes, where it has too many corners. */
