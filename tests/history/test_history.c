@@ -365,10 +365,9 @@ static void counts_that_lie_are_refused_at_once(void **state) {
     pir_polytope_release(p);
 }
 
-static void memory_that_runs_out_changes_nothing(void **state) {
-    (void)state;
+static void run_short_of_memory(int kind) {
     struct told right = {0};
-    struct bytes bytes = history_of(2, &right);
+    struct bytes bytes = history_of(kind, &right);
     for (uint64_t fail_at = 1;; fail_at += 1 + fail_at / 16) {
         test_memory memory = {.fail_at = fail_at};
         pir_allocator allocator = test_allocator(&memory);
@@ -377,15 +376,22 @@ static void memory_that_runs_out_changes_nothing(void **state) {
         pir_status status = pir_history_replay_bytes(bytes.data, bytes.size, &visitor, NULL);
         bool reached = memory.requests >= fail_at;
         // what a call can do without changes nothing
-        expect(status == PIR_ERR_MEMORY || status == PIR_OK, "request %d", (int)fail_at);
-        expect(reached || status == PIR_OK, "request %d", (int)fail_at);
+        expect(status == PIR_ERR_MEMORY || status == PIR_OK, "kind %d, request %d", kind, (int)fail_at);
+        expect(reached || status == PIR_OK, "kind %d, request %d", kind, (int)fail_at);
         for (uint64_t i = 0; i < told.count; i++)
-            expect(told.hash[i] == right.hash[i], "request %d, step %d", (int)fail_at, (int)i);
-        expect(memory.blocks == 0 && memory.bytes == 0, "request %d: %zu blocks left", (int)fail_at, memory.blocks);
+            expect(told.hash[i] == right.hash[i], "kind %d, request %d, step %d", kind, (int)fail_at, (int)i);
+        expect(memory.blocks == 0 && memory.bytes == 0, "kind %d, request %d: %zu blocks left", kind, (int)fail_at,
+               memory.blocks);
         if (!reached)
             break;
     }
     free(bytes.data);
+}
+
+static void memory_that_runs_out_changes_nothing(void **state) {
+    (void)state;
+    for (int kind = 0; kind < 3; kind++)
+        run_short_of_memory(kind);
 }
 
 /* Notes of a pair with memory that fails at a request: whether all were made. */

@@ -153,6 +153,33 @@ static void two_points_are_apart_at_every_scale(void **state) {
         }
 }
 
+/* A translation that is no double in units of the bodies' size is refused. One at the limit is not. */
+static void bodies_too_far_for_their_size_are_refused_by_supports(void **state) {
+    (void)state;
+    for (int size = -1000; size <= 0; size += 125)
+        for (int more = -2; more <= 2; more++) {
+            const double half = ldexp(1, size - 1);
+            test_points cube = {.count = 8};
+            for (int i = 0; i < 8; i++)
+                cube.at[i] = (pir_vec3){i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half};
+            pir_polytope *p = test_polytope(&cube);
+            // bodies of a width of 2^size are less than a unit of 2^(size + 1) wide
+            const int exponent = size + 1 + 1023 + more;
+            if (exponent <= 1023) {
+                const pir_ccd_pair pair = {p, p, {0, 0, 0, 1}, {0, ldexp(1, exponent), 0}};
+                pir_ccd_outcome outcome = PIR_CCD_FAILED;
+                double distance = -1;
+                const pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
+                expect(status == PIR_ERR_UNSUPPORTED || status == (more > 0 ? PIR_ERR_LIMIT : PIR_OK),
+                       "2^%d, 2^%d apart: %s", size, exponent, pir_status_text(status));
+                if (status != PIR_OK)
+                    assert_true(outcome == PIR_CCD_FAILED && distance == -1);
+                assert_int_equal(pir_ccd_overlap(&pair, &outcome), status);
+            }
+            pir_polytope_release(p);
+        }
+}
+
 /*
  * Bodies that touch are too close to decide by supports alone: the answer is never that they are apart, and no
  * distance.
@@ -190,6 +217,7 @@ int main(void) {
         cmocka_unit_test(supports_of_sums_are_farthest),
         cmocka_unit_test(supports_of_bodies_are_farthest),
         cmocka_unit_test(two_points_are_apart_at_every_scale),
+        cmocka_unit_test(bodies_too_far_for_their_size_are_refused_by_supports),
         cmocka_unit_test(bodies_that_touch_are_not_apart_by_supports),
     };
     return cmocka_run_group_tests_name("supports", tests, NULL, NULL);

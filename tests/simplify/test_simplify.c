@@ -188,6 +188,45 @@ static void vertex_at_the_origin_is_measured_from_at_any_size(void **state) {
     }
 }
 
+/*
+ * A polygon in the plane of two axes and one 2^±900 times as large: alike in all but size. Its first vertex, which is
+ * kept first, is the origin.
+ */
+static void flat_bodies_in_a_plane_of_axes_are_alike_at_any_size(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 24; number++) {
+        test_random random = test_random_case("simplify flat", number);
+        const int exponent = number % 2 ? 900 : -900;
+        test_points points = {.count = 24}, large = {.count = 24};
+        for (size_t i = 0; i < points.count; i++) {
+            const double v[2] = {test_random_between(&random, 1, 99), test_random_between(&random, 1, 99)};
+            double at[3] = {0};
+            at[number % 3] = v[0];
+            at[(number + 1) % 3] = v[1];
+            points.at[i] = (pir_vec3){at[0], at[1], at[2]};
+            large.at[i] = (pir_vec3){ldexp(at[0], exponent), ldexp(at[1], exponent), ldexp(at[2], exponent)};
+        }
+        points.at[0] = large.at[0] = (pir_vec3){0, 0, 0};
+        pir_polytope *body = test_polytope(&points), *scaled = test_polytope(&large);
+        for (uint32_t vertices = 1; vertices < 6; vertices++) {
+            const pir_simplify_options options = {.vertices = vertices};
+            pir_simplified a = {0}, b = {0};
+            const pir_status status = pir_polytope_simplify(body, &options, &a);
+            assert_int_equal(pir_polytope_simplify(scaled, &options, &b), status);
+            if (status == PIR_OK) {
+                const double error = ldexp(b.inner_error, -exponent);
+                expect(fabs(error - a.inner_error) <= 1e-9 * (a.inner_error + 1), "body %llu, %u vertices: %g, not %g",
+                       (unsigned long long)number, vertices, error, a.inner_error);
+                assert_int_equal(pir_polytope_vertex_count(b.inner), pir_polytope_vertex_count(a.inner));
+            }
+            pir_simplified_release(&a);
+            pir_simplified_release(&b);
+        }
+        pir_polytope_release(scaled);
+        pir_polytope_release(body);
+    }
+}
+
 /* A cube whose corners are the greatest doubles is in no tetrahedron of doubles. */
 static void body_as_large_as_doubles_has_no_outer_one_of_fewer_vertices(void **state) {
     (void)state;
@@ -316,6 +355,7 @@ int main(void) {
         cmocka_unit_test(outer_polytope_far_away_is_nearly_as_near),
         cmocka_unit_test(exact_vertices_are_measured_exactly),
         cmocka_unit_test(vertex_at_the_origin_is_measured_from_at_any_size),
+        cmocka_unit_test(flat_bodies_in_a_plane_of_axes_are_alike_at_any_size),
         cmocka_unit_test(body_as_large_as_doubles_has_no_outer_one_of_fewer_vertices),
         cmocka_unit_test(flat_bodies_are_their_own_outer_ones),
         cmocka_unit_test(bodies_at_the_ends_of_the_doubles_have_no_more_vertices_or_are_refused),

@@ -322,6 +322,92 @@ static void a_cast_that_begins_inside_has_the_normal_of_its_depth(void **state) 
     pir_workspace_destroy(workspace);
 }
 
+/* A quaternion of any length, whichever of its numbers is the greatest, is the rotation of one of length 1. It takes no
+ * more pairs either. */
+static void quaternions_of_any_length_are_one_rotation(void **state) {
+    (void)state;
+    static const pir_quat turns[] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0},  {0, 0, 0, 1}, {1, 0, 0.25, 0.5},
+                                     {0, 1, 2, 0}, {0, 3, 0, 4}, {1, 2, 0, -1}, {2, 1, 0, 3}, {0.5, -1, 2, 0.25}};
+    const cells p = {.full = {{{true}}, {{true, true}}}}, q = {.full = {{{true, true, true}}, {{true}}}};
+    pir_workspace *workspace = NULL;
+    pir_solid *of_p = solid_of_cells(&p), *of_q = solid_of_cells(&q);
+    pir_solid_query *query = query_of(of_p, of_q);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (size_t i = 0; i < 2 * sizeof turns / sizeof *turns; i++)
+        for (int exponent = -900; exponent <= 900; exponent += 300)
+            for (int n = 0; n < 3; n++) {
+                const pir_quat turn = turns[i / 2];
+                pir_pair_input input = pir_pair_input_default();
+                pir_pose *pose = i % 2 ? &input.pose_q : &input.pose_p;
+                pir_solid_distance expected, found;
+                pir_state state_found;
+                input.pose_p.translation = (pir_vec3){2.5 * n, 0.25 - n, 0.5};
+                pose->rotation = turn;
+                // the second time the pair of the last answer comes first, as it does from then on
+                for (int twice = 0; twice < 2; twice++)
+                    assert_int_equal(pir_solid_query_distance(query, workspace, &input, &expected), PIR_OK);
+                pose->rotation = (pir_quat){ldexp(turn.x, exponent), ldexp(turn.y, exponent), ldexp(turn.z, exponent),
+                                            ldexp(turn.w, exponent)};
+                assert_int_equal(pir_solid_query_distance(query, workspace, &input, &found), PIR_OK);
+                assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &state_found), PIR_OK);
+                expect(found.result.state == expected.result.state &&
+                           fabs(found.result.distance - expected.result.distance) < 1e-12 &&
+                           state_found == expected.result.state && found.pairs == expected.pairs,
+                       "turn %zu by 2^%d, place %d: %d, %g of %u pairs, not %d, %g of %u", i, exponent, n,
+                       (int)state_found, found.result.distance, found.pairs, (int)expected.result.state,
+                       expected.result.distance, expected.pairs);
+            }
+    pir_solid_query_destroy(query);
+    pir_solid_release(of_q);
+    pir_solid_release(of_p);
+    pir_workspace_destroy(workspace);
+}
+
+/* Every query of solids refuses what a pair refuses, with its status. */
+static void placements_that_are_none_are_refused_as_by_pairs(void **state) {
+    (void)state;
+    const cells cube = {.full = {{{true}}}};
+    const double bad[] = {NAN, HUGE_VAL, 0, -1};
+    const pir_solid_motion motion = {{1, 0, 0}, {0, 0, 0}, 1e-6};
+    pir_workspace *workspace = NULL;
+    pir_polytope *box = NULL;
+    pir_pair *pair = NULL;
+    pir_solid *p = solid_of_cells(&cube);
+    pir_solid_query *query = query_of(p, p);
+    int refused = 0;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_shape_create("cube", NULL, NULL, &box), PIR_OK);
+    assert_int_equal(pir_pair_create(box, box, NULL, &pair), PIR_OK);
+    for (int k = 0; k < 6; k++)
+        for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+            pir_pair_input input = pir_pair_input_default();
+            pir_query_result answer;
+            pir_state found;
+            pir_solid_distance distance;
+            pir_solid_impact impact;
+            input.pose_p.translation.x = 4;
+            double *const numbers[6] = {&input.pose_p.translation.y,
+                                        &input.pose_q.translation.z,
+                                        &input.pose_p.rotation.w,
+                                        &input.pose_q.rotation.w,
+                                        &input.radius_p,
+                                        &input.radius_q};
+            *numbers[k] = bad[i];
+            const pir_status status = pir_pair_distance(pair, workspace, &input, &answer);
+            assert_int_equal(pir_solid_query_distance(query, workspace, &input, &distance), status);
+            assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), status);
+            assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, &impact), status);
+            refused += status != PIR_OK;
+        }
+    // all but the numbers that a translation may be, a quaternion of one sign or the other, and no radius
+    assert_int_equal(refused, 24 - 4 - 2 - 2);
+    pir_pair_destroy(pair);
+    pir_polytope_release(box);
+    pir_solid_query_destroy(query);
+    pir_solid_release(p);
+    pir_workspace_destroy(workspace);
+}
+
 static void body_in_a_cavity_is_outside_and_one_that_is_swallowed_inside(void **state) {
     (void)state;
     cells block = {0}, cube = {0};
@@ -395,6 +481,8 @@ int main(int argc, char **argv) {
         cmocka_unit_test(answers_for_bodies_of_many_pieces_are_those_of_the_exact_difference),
         cmocka_unit_test(impacts_are_the_first),
         cmocka_unit_test(a_cast_that_begins_inside_has_the_normal_of_its_depth),
+        cmocka_unit_test(placements_that_are_none_are_refused_as_by_pairs),
+        cmocka_unit_test(quaternions_of_any_length_are_one_rotation),
         cmocka_unit_test(body_in_a_cavity_is_outside_and_one_that_is_swallowed_inside),
     };
     return cmocka_run_group_tests_name("queries of solids", tests, NULL, NULL);
