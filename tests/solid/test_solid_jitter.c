@@ -7,7 +7,8 @@
  *     volume        R·P ⊕ Q and Q turned back ⊕ P have one volume, exactly, and open solids that of closed ones;
  *                   where pairs of pieces are few, their hulls, united by other means, have it as well
  *     time          no sum takes more than 100 times what that of the unmoved bodies takes, or 20 ms; 300 times where
- *                   one ulp beside 0 is 2^-1074
+ *                   one ulp beside 0 is 2^-1074. Of each the least time of several counts, since a processor that is
+ *                   shared now and then takes long for the same work.
  *
  * PIR_TEST_CASES sets how many cases there are, PIR_TEST_CASE names one of them.
  */
@@ -179,11 +180,11 @@ static void check_union(const struct scene *s, const pir_solid *p, const pir_sol
     mpq_clear(volume);
 }
 
-/* The least time of a few sums of the unmoved bodies. */
-static double time_unmoved(const struct scene *s) {
-    pir_solid *p = jittered_solid(&s->still_p), *q = jittered_solid(&s->still_q);
+/* The least time of so many sums of two bodies. */
+static double least_time(const struct scene *s, const jittered *of_p, const jittered *of_q, int times) {
+    pir_solid *p = jittered_solid(of_p), *q = jittered_solid(of_q);
     double least = HUGE_VAL;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < times; i++) {
         double own;
         bool two_sided;
         pir_mesh_destroy(sum_of(s, p, q, s->turn, s->open, &own, &two_sided));
@@ -207,12 +208,15 @@ static bool has_least_double(const jittered *body) {
 static void check_time(const struct scene *s, double took, double *worst) {
     if (took < 0.02 && *worst > 0)
         return;
-    const double usual = time_unmoved(s), ratio = took / usual;
+    // one ulp beside 0 makes numbers of 1,100 bits, whose products are some hundred times as dear
+    const double most = has_least_double(&s->p) || has_least_double(&s->q) ? 300 : 100;
+    const double usual = least_time(s, &s->still_p, &s->still_q, 3);
+    if (took >= 0.02 && took >= most * usual)
+        took = fmin(took, least_time(s, &s->p, &s->q, 5));
+    const double ratio = took / usual;
     if (ratio > *worst)
         print_message("%s: %.3g ms, %.3g unmoved\n", s->text, 1e3 * took, 1e3 * usual);
     *worst = ratio > *worst ? ratio : *worst;
-    // one ulp beside 0 makes numbers of 1,100 bits, whose products are some hundred times as dear
-    const double most = has_least_double(&s->p) || has_least_double(&s->q) ? 300 : 100;
     expect(ratio < most || took < 0.02, "%s: %g s, %g unmoved", s->text, took, usual);
 }
 
