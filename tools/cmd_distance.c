@@ -33,17 +33,12 @@ struct answer {
 /* --- meshes --- */
 
 static pir_status read_stdin(pir_trimesh **ret_mesh) {
-    size_t size;
-    char *text = input_take() ? input_read(&size) : NULL;
-    if (!text)
-        return PIR_ERR_FILE; // complained of
+    pir_file_bytes file;
     pir_report report = {0};
-    const pir_file_bytes bytes = {text, size, INPUT_NAME, "off"};
-    const pir_status status = pir_trimesh_read_bytes(&bytes, NULL, &report, ret_mesh);
-    if (status != PIR_OK)
-        complain_status(INPUT_NAME, status, &report);
-    free(text);
-    return status;
+    if (!input_begin_model(&file))
+        return PIR_ERR_FILE;
+    const pir_status status = pir_trimesh_read_bytes(&file, NULL, &report, ret_mesh);
+    return input_end_model(&file, status, &report);
 }
 
 /* A facet's corners, in a fan. */
@@ -118,7 +113,7 @@ static bool read_request(const struct args *args, struct request *request) {
     return target_check(args, "-o", ".svg");
 }
 
-/* Those within, counted first, then listed. */
+/* The pairs of triangles within the length, counted first, then listed. */
 static pir_status ask_within(pir_trimesh_pair *pair, const struct request *request, struct answer *answer) {
     const pir_within_input input = {request->pose[0], request->pose[1], request->within};
     pir_status status = pir_trimesh_pair_within(pair, &input, 0, NULL, &answer->count);

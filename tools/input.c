@@ -27,7 +27,8 @@ bool input_take(void) {
     return first;
 }
 
-char *input_read(size_t *ret_size) {
+/* All of standard input, to be freed; its size to *ret_size. */
+static char *read_all(size_t *ret_size) {
     char *text = NULL;
     size_t size = 0, room = 0;
     while (!feof(stdin)) {
@@ -52,4 +53,19 @@ char *input_read(size_t *ret_size) {
     }
     free(text);
     return NULL;
+}
+
+bool input_begin_model(pir_file_bytes *ret_file) {
+    size_t size;
+    char *text = input_take() ? read_all(&size) : NULL;
+    if (text)
+        *ret_file = (pir_file_bytes){text, size, INPUT_NAME, "off"};
+    return text != NULL;
+}
+
+pir_status input_end_model(const pir_file_bytes *file, pir_status status, const pir_report *report) {
+    if (status != PIR_OK)
+        complain_status(INPUT_NAME, status, report);
+    free((void *)file->bytes);
+    return status;
 }

@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include <pirouette/io.h>
+
 /* What stands for standard input in complaints. */
 #define INPUT_NAME "standard input"
 
@@ -15,7 +17,10 @@ bool input_is_stdin(const char *path);
 /* Takes standard input for the caller. It can be read once: false when it is taken already. */
 bool input_take(void);
 
-/* All of standard input, to be freed; its size to *ret_size. */
-char *input_read(size_t *ret_size);
+/* Takes standard input and reads all of it, a model as OFF; input_end_model is to be called once it has been read. */
+bool input_begin_model(pir_file_bytes *ret_file);
+
+/* Frees the bytes, and complains of a status that is no success; the status. */
+pir_status input_end_model(const pir_file_bytes *file, pir_status status, const pir_report *report);
 
 #endif

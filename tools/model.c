@@ -17,16 +17,11 @@ static const char *shape_of(const char *model) {
 /* OFF from standard input. */
 static pir_status read_stdin(const pir_read_options *options, pir_report *report, pir_surface *ret_surface,
                              pir_polytope **ret_polytope) {
-    size_t size;
-    char *text = input_take() ? input_read(&size) : NULL;
-    if (!text)
-        return PIR_ERR_FILE; // complained of
-    pir_status status = pir_polytope_read_bytes(&(pir_file_bytes){text, size, INPUT_NAME, "off"}, options, report,
-                                                ret_surface, ret_polytope);
-    if (status != PIR_OK)
-        complain_status(INPUT_NAME, status, report);
-    free(text);
-    return status;
+    pir_file_bytes file;
+    if (!input_begin_model(&file))
+        return PIR_ERR_FILE;
+    pir_status status = pir_polytope_read_bytes(&file, options, report, ret_surface, ret_polytope);
+    return input_end_model(&file, status, report);
 }
 
 /* A built-in model, which is convex; its coordinates are doubles, so that its vertices say all of it. */

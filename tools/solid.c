@@ -14,17 +14,12 @@
 #include "text.h"
 
 static pir_status read_stdin(pir_solid **ret_solid) {
-    size_t size;
-    char *text = input_take() ? input_read(&size) : NULL;
-    if (!text)
-        return PIR_ERR_FILE; // complained of
+    pir_file_bytes file;
     pir_report report = {0};
-    const pir_file_bytes bytes = {text, size, INPUT_NAME, "off"};
-    const pir_status status = pir_solid_read_bytes(&bytes, NULL, &report, ret_solid);
-    if (status != PIR_OK)
-        complain_status(INPUT_NAME, status, &report);
-    free(text);
-    return status;
+    if (!input_begin_model(&file))
+        return PIR_ERR_FILE;
+    const pir_status status = pir_solid_read_bytes(&file, NULL, &report, ret_solid);
+    return input_end_model(&file, status, &report);
 }
 
 static pir_status make_shape(const char *name, pir_report *report, pir_solid **ret_solid) {
