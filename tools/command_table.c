@@ -15,7 +15,7 @@
 /* Rows that the options of every subcommand but help end with. */
 #define COMMON_OPTIONS {"--json", NULL, "print one JSON object"}, HELP_OPTION
 
-/* The same of every subcommand that takes models; model.c reads how. */
+/* Options of every subcommand that takes models; model.c reads how. */
 #define MODEL_OPTIONS                                                                                                  \
     {"--merge", "T",                                                                                                   \
      "make facets of a model one that are coplanar within this length, as far as it moves no more (0)"},               \
@@ -167,7 +167,8 @@ static const struct option slice_options[] = {
     {"--dry-run", NULL, "only say how many slices there are, how long they will take and how large they will be"},
     {"--planes", NULL, "also write the planes of every slice, as doubles"},
     {"--vertices", NULL, "also write the vertices of every slice, as doubles"},
-    {"--planar", "z=NUMBER", "also write planar sections of every slice, where x, y or z is this"},
+    {"--planar", "z=NUMBER",
+     "also write planar sections of every slice, where x, y or z is this, once the file is whole"},
     MODEL_OPTIONS,
 };
 

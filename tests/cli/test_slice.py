@@ -398,6 +398,16 @@ class WhatStandsThere(InFolder):
             self.other()
 
 
+    def test_a_run_that_was_killed_before_the_sections_were_added_resumes(self):
+        job = {"models": self.JOB[:2], "grid": self.JOB[2:]}
+        self.make("whole.h5", "--planar", "z=0.25", **job)
+        self.make("a.h5", **job)
+        self.assertNotIn(b"planar", Path(self.path("a.h5")).read_bytes())
+        for _ in range(2):  # sections that are there already are made anew
+            self.make("a.h5", "--planar", "z=0.25", "--resume", **job)
+            self.assertEqual(Path(self.path("a.h5")).read_bytes(), Path(self.path("whole.h5")).read_bytes())
+
+
 class LongJobs(InFolder):
     GRID = ("--grid", "hopf", "--level", 2)
     MODELS = ("shape:gs2", "shape:gs3", "shape:icosahedron")
