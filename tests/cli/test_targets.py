@@ -38,7 +38,7 @@ class TargetTest(CommandTest):
             (["query", *pair, "--translate=2,0,0"], "-o", ".svg"),
             (["query", *pair, "--batch", places], "-o", ".csv"),
             (["track", *pair, "--frames=3"], "--plot", ".svg"), (["decompose", "shape:gs2"], "-o", ".obj"),
-            (["simplify", "shape:geodesic?level=40", "--vertices=2000"], "-o", ".off"),
+            (["simplify", "shape:geodesic?level=10", "--vertices=400"], "-o", ".off"),
             (["simplify", "shape:gs4", "--vertices=200"], "--outer", ".ply"),
             (["simulate", scene], "-o", ".html"), (["simulate", scene], "--record", ".bin")]
         if self.run_command("sum", *pair, "--solid", "-o", self.path / "probe.png").returncode == 0:
