@@ -68,8 +68,8 @@ char *path_join(const char *folder, const char *name);
 bool folder_make(const char *folder);
 
 /*
- * The same for a folder of files that belong together, and keeps other runs from writing into it until folder_leave, as
- * far as its file system has locks.
+ * Makes a folder of files that belong together unless it is there. Keeps other runs from writing into it until
+ * folder_leave, as far as its file system has locks.
  */
 bool folder_take(const char *folder, int *ret_lock);
 

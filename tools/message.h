@@ -15,7 +15,7 @@ __attribute__((format(printf, 1, 2)))
 #endif
 int complain(const char *format, ...);
 
-/* The same from what a library call told: the report's text, or `where` and the status in words when it left none. */
+/* Complains of what a library call told: the report's text, or `where` and the status in words when it left none. */
 int complain_status(const char *where, pir_status status, const pir_report *report);
 
 /*

@@ -17,10 +17,10 @@
  */
 pir_polytope *model_load(const struct args *args, size_t index, pir_surface *ret_surface);
 
-/* The same of a MODEL by its name. */
+/* The polytope of a MODEL by its name, as of model_load. */
 pir_polytope *model_of_path(const struct args *args, const char *model, pir_surface *ret_surface);
 
-/* The same of a model's text in a format of pir_file_bytes; `name` stands for it in complaints. */
+/* The polytope of a model's text in a format of pir_file_bytes; `name` stands for it in complaints. */
 pir_polytope *model_of_text(const struct args *args, const char *name, const char *text, const char *format);
 
 /* The name for titles: the file's without its folders. Points into `model`. */

@@ -20,7 +20,7 @@ void surface_add_inputs(struct json *json, const pir_surface *surfaces, size_t c
 #define SURFACE_TEXT 64
 const char *surface_text(const pir_surface *surface, char text[SURFACE_TEXT]);
 
-/* One line for each of them that is not convex; nothing for the others. */
+/* Prints a line for each surface that is not convex. */
 void surface_print_notes(const pir_surface *surfaces, size_t count);
 
 #endif

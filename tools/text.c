@@ -17,7 +17,7 @@ static size_t length_of(unsigned char first, uint32_t *ret_least) {
     return length;
 }
 
-/* The same with the character's number. */
+/* The bytes of the character at `text`, and its number; 0 where there is none. */
 static size_t read_character(const char *text, uint32_t *ret_number) {
     const unsigned char *at = (const unsigned char *)text;
     uint32_t least, number;

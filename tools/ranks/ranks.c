@@ -174,7 +174,7 @@ static uint64_t ask(enum want want) {
     return receive_answer();
 }
 
-/* The same on rank 0 itself. */
+/* A unit for rank 0 itself, which tells the dealer without a message that the one before is done. */
 static uint64_t claim_own(struct ranks_shared *shared) {
     pthread_mutex_lock(&shared->lock);
     note_done(shared, in_work, now() - in_work_since > FOUND_SECONDS);

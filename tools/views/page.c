@@ -10,7 +10,7 @@
  * Arrays of doubles (least significant byte first) and bytes are in base 64. The bytes are numbers as bytes.h writes
  * them: for each slice the count of facets that go, the place of each in the list so far, less the one before and 1;
  * then the count of facets that come, for each its kind, the count of its corners and a vertex of P and one of Q for
- * each. They go to the end of the list. Neighbouring slices share most facets, so a slice takes few bytes.
+ * each. New facets go to the end of the list. Neighbouring slices share most facets, so a slice takes few bytes.
  */
 #include "page.h"
 

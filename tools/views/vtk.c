@@ -19,7 +19,7 @@
 
 /* The datasets that grow with the cells. */
 enum { POINTS, CONNECTIVITY, OFFSETS, TYPES, ROBOT, OBSTACLE, KIND, CELL_DATASETS };
-/* Those with a number for each slice. */
+/* The datasets with a number for each slice. */
 enum {
     POINT_COUNT,
     CELL_COUNT,
