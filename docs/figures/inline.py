@@ -261,8 +261,23 @@ SOLIDS = {
     "fcl_mean": fcl_state("mean_us"),
 }
 
+
+# ---- meshes.md -------------------------------------------------------------------------------------------------------
+
+
+def of_pairs(column, triangles, by=1, form=count):
+    return lambda r: between([float(row[column]) / by for row in r.mesh_pairs.all(triangles=triangles)], form)
+
+
+MESHES = {
+    "front": of_pairs("front", 20480),
+    "megabytes": of_pairs("bytes", 20480, 1e6, short),
+    "front_large": of_pairs("front", 81920),
+    "megabytes_large": of_pairs("bytes", 81920, 1e6, short),
+}
+
 FIGURES = {f"{page}.{name}": figure
            for page, figures in (("readme", README), ("accuracy", ACCURACY), ("cgm", CGM), ("guarantees", GUARANTEES),
                                  ("queries", QUERIES), ("scenes", SCENES), ("slices", SLICES), ("scale", SCALE),
-                                 ("solids", SOLIDS))
+                                 ("solids", SOLIDS), ("meshes", MESHES))
            for name, figure in figures.items()}

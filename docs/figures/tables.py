@@ -156,6 +156,14 @@ def mesh_pairs(r):
                     rows)
 
 
+def mesh_octrees(r):
+    keys = ("depth", "cubes", "left", "culled_percent", "sums", "octrees_us", "pair_us", "missed")
+    rows = [[f"{float(row[key]):.2f} %" if key == "culled_percent" else count(row[key]) for key in keys]
+            for row in r.mesh_octrees.rows]
+    return markdown([">depth", ">cubes", ">triangles left", ">culled", ">sums of cubes", ">time, µs",
+                     ">a new pair, µs", ">nearest missed"], rows)
+
+
 # ---- queries.md ------------------------------------------------------------------------------------------------------
 
 
@@ -283,5 +291,5 @@ def solid_query(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, objects, whole, scale, pile, slices,
-    slices_read, grid, answers, solids, solid_query)}
+    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_octrees, objects, whole, scale,
+    pile, slices, slices_read, grid, answers, solids, solid_query)}

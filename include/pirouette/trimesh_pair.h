@@ -16,7 +16,7 @@
  *
  * Frame: points are in the world. Threads: a pair belongs to one thread at a time; meshes may be shared.
  *
- * Memory: 60 bytes for each pair of nodes of the front, of which there are some thousands for smooth meshes that are
+ * Memory: 56 bytes for each pair of nodes of the front, of which there are some thousands for smooth meshes that are
  * near, and room for exact numbers, 20 to 100 kB. It grows to what was needed; afterwards no call allocates.
  *
  * Errors of a call on a pair: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a
