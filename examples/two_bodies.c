@@ -48,7 +48,7 @@ static pir_status run(pir_pair *pair, pir_workspace *workspace) {
     }
     const pir_pair_statistics done = pir_pair_get_statistics(pair);
     printf("of %u answers %u by what had been proven before, %u by the facet of the answer before\n",
-           (unsigned)done.queries, (unsigned)done.by_certificate, (unsigned)done.by_facet);
+           (unsigned)done.queries, (unsigned)done.by_proof, (unsigned)done.by_walk);
     return PIR_OK;
 }
 

@@ -57,8 +57,8 @@ class Pair : public PairPeer {
             std::printf(
                 "#   %llu: certificate %llu facet %llu descent %llu surface %llu whole %llu; supports %llu begun "
                 "%llu\n",
-                (unsigned long long)s.queries, (unsigned long long)s.by_certificate, (unsigned long long)s.by_facet,
-                (unsigned long long)s.by_descent, (unsigned long long)s.by_surface, (unsigned long long)s.by_whole,
+                (unsigned long long)s.queries, (unsigned long long)s.by_proof, (unsigned long long)s.by_walk,
+                (unsigned long long)s.by_nearest, (unsigned long long)s.by_depth, (unsigned long long)s.by_whole,
                 (unsigned long long)s.supports, (unsigned long long)s.begun);
         check(pir_pair_reset(pair_, p_, q_));
     }

@@ -173,13 +173,14 @@ PIR_API pir_level pir_pair_level(const pir_pair *pair);
 /** Counters of a pair since it was made, or reset. */
 typedef struct pir_pair_statistics {
     uint64_t queries;
-    uint64_t by_certificate; /**< answers at the level `apart` */
-    uint64_t by_facet;       /**< answers by the facet of the one before */
-    uint64_t by_descent;     /**< other answers at the level `near` */
-    uint64_t by_surface;     /**< answers at the level `overlapping`; for small bodies it needs no surface */
-    uint64_t by_whole;       /**< answers at the level `whole` */
-    uint64_t supports;       /**< vertices added to surfaces */
-    uint64_t begun;          /**< surfaces begun anew */
+    uint64_t by_proof;   /**< answers by a direction along which the bodies were apart before: the level `apart` */
+    uint64_t by_walk;    /**< answers by the facet of the one before, or from there by a facet near that */
+    uint64_t by_nearest; /**< answers by a descent to the nearest point */
+    uint64_t by_depth;   /**< answers by facets of a surface in the difference, or by all that small bodies can have */
+    uint64_t by_whole;   /**< answers by the difference: the level `whole` */
+    uint64_t manifolds;  /**< contact manifolds of more than no contact */
+    uint64_t supports;   /**< vertices added to surfaces */
+    uint64_t begun;      /**< surfaces begun anew */
 } pir_pair_statistics;
 
 PIR_API pir_pair_statistics pir_pair_get_statistics(const pir_pair *pair);

@@ -28,46 +28,42 @@ static double farthest(const pir_body *body, pir_vec3 n) {
     return most;
 }
 
-double pir_task_certain(const pir_task *task, pir_vec3 n, double distance) {
-    const pir_kept_body *p = task->pair->body_p, *q = task->pair->body_q;
+/* A distance from D along the unit vector n that is certain, where climbs along n found `distance`. */
+static double certain(const pir_task *task, const pir_pair *pair, pir_vec3 n, double distance) {
+    const pir_kept_body *p = pair->body_p, *q = pair->body_q;
     const double error = 2 * task->placement->error;
     if ((p->slip >= 0) & (q->slip >= 0))
         return distance - error - missed(p) - missed(q);
-    double support = farthest(&p->body, pir_mat_apply_transposed(&task->workspace->frame.r, n)) + farthest(&q->body, n);
+    double support = farthest(&p->body, pir_mat_apply_transposed(&task->frame->r, n)) + farthest(&q->body, n);
     return pir_vec_dot(n, task->placement->x) - support - error;
 }
 
-/* The distance above which an answer is proven. */
-static inline double least_beyond(const pir_task *task) {
-    return task->limit + PIR_DISTANCE_ERROR * task->placement->reach;
+bool pir_pair_is_outside(pir_task *task, double *ret_distance) {
+    const pir_simplex *simplex = &task->simplex;
+    *ret_distance = 0;
+    if (simplex->lower > 0)
+        *ret_distance = certain(task, pir_pair_task_of(task)->pair, simplex->direction, simplex->lower);
+    return task->is_outside || *ret_distance > 0;
 }
 
-bool pir_task_is_beyond(const pir_task *task, double distance) {
-    return (task->want & PIR_WANT_SEPARATION) && distance > least_beyond(task);
-}
-
-void pir_task_keep_proof(const pir_task *task, pir_vec3 n, double distance) {
-    const pir_workspace *workspace = task->workspace;
-    pir_pair_proof *proof = &task->pair->proof;
+/* Keeps n, which is `back` in the frame of P, as the direction to try, and the distance along it as a proof. */
+static inline void keep(pir_task *task, pir_vec3 n, pir_vec3 back, double distance) {
+    const pir_workspace *workspace = pir_pair_task_of(task)->workspace;
+    pir_pair *pair = pir_pair_task_of(task)->pair;
+    pir_pair_proof *proof = &pair->proof;
+    pair->axis = n;
+    pair->axis_of_p = back;
+    pair->has_axis = true;
     // `down` is 0 where units are no normal numbers
-    proof->leeway = workspace->frame.down > 0 ? distance : 0;
-    proof->down = workspace->frame.down;
+    proof->leeway = task->frame->down > 0 ? distance : 0;
+    proof->down = task->frame->down;
     proof->along = workspace->is_turned ? pir_mat_apply(&workspace->rotation_q.r, n) : n;
     proof->p = workspace->pose[0];
     proof->q = workspace->pose[1];
 }
 
-/* Keeps n, which is `back` in the frame of P, and a distance along it. */
-static inline void keep(const pir_task *task, pir_vec3 n, pir_vec3 back, double distance) {
-    pir_pair *pair = task->pair;
-    pair->axis = n;
-    pair->axis_of_p = back;
-    pair->has_axis = true;
-    pir_task_keep_proof(task, n, distance);
-}
-
-void pir_task_keep_axis(const pir_task *task, pir_vec3 n, double distance) {
-    keep(task, n, pir_mat_apply_transposed(&task->workspace->frame.r, n), distance);
+void pir_pair_keep_apart(pir_task *task, pir_vec3 n, double distance) {
+    keep(task, n, pir_mat_apply_transposed(&task->frame->r, n), distance);
 }
 
 /* Shared by all directions tried. */
@@ -76,28 +72,27 @@ struct probe {
     double least; /* a distance has to be above this to be an answer */
 };
 
-static inline pir_vec3 way_from_kept(const pir_task *task) {
-    const pir_pair *pair = task->pair;
-    return pir_vec_sub(task->placement->x, pir_frame_vertex(&task->workspace->frame, pair->axis_a, pair->axis_b));
+static inline pir_vec3 way_from_kept(const pir_task *task, const pir_pair *pair) {
+    return pir_vec_sub(task->placement->x, pir_frame_vertex(task->frame, pair->axis_a, pair->axis_b));
 }
 
-static inline struct probe begin_probe(const pir_task *task) {
-    return (struct probe){way_from_kept(task), least_beyond(task)};
+static inline struct probe begin_probe(pir_task *task) {
+    return (struct probe){way_from_kept(task, pir_pair_task_of(task)->pair), pir_task_least_beyond(task)};
 }
 
 /* The answer along n, where x is `distance` along it from that vertex. */
 static bool settle_along(pir_task *task, pir_vec3 n, double distance, struct probe *probe) {
-    pir_pair *pair = task->pair;
+    pir_pair *pair = pir_pair_task_of(task)->pair;
     pir_vec3 back;
     uint32_t a = pair->axis_a, b = pair->axis_b;
-    task->workspace->find_supports(&task->workspace->frame, n, &a, &b, &back);
+    pir_pair_task_of(task)->workspace->find_supports(task->frame, n, &a, &b, &back);
     if (((a ^ pair->axis_a) | (b ^ pair->axis_b)) != 0) {
         pair->axis_a = a;
         pair->axis_b = b;
-        probe->way = way_from_kept(task);
+        probe->way = way_from_kept(task, pair);
         distance = pir_vec_dot(n, probe->way);
     }
-    distance = pir_task_certain(task, n, distance);
+    distance = certain(task, pair, n, distance);
     if (!(distance > probe->least))
         return false;
     keep(task, n, back, distance);
@@ -112,7 +107,7 @@ static inline bool is_apart_along(pir_task *task, pir_vec3 n, struct probe *prob
     return distance > probe->least && settle_along(task, n, distance, probe);
 }
 
-bool pir_task_apart_along(pir_task *task, pir_vec3 n) {
+bool pir_pair_apart_along(pir_task *task, pir_vec3 n) {
     struct probe probe = begin_probe(task);
     return (task->want & PIR_WANT_SEPARATION) && is_apart_along(task, n, &probe);
 }
@@ -125,16 +120,16 @@ static inline pir_vec3 unit_along(pir_vec3 d) {
 
 /* By the other directions: see above. */
 static bool is_apart_elsewhere(pir_task *task, struct probe *probe) {
-    const pir_pair *pair = task->pair;
+    const pir_pair *pair = pir_pair_task_of(task)->pair;
     // brought to length 1 each time, so that rounding does not add up from turn to turn
-    pir_vec3 n = unit_along(pir_mat_apply(&task->workspace->frame.r, pair->axis_of_p));
+    pir_vec3 n = unit_along(pir_mat_apply(&task->frame->r, pair->axis_of_p));
     pir_vec3 middle = unit_along(task->placement->x);
     return is_apart_along(task, n, probe) || is_apart_along(task, middle, probe) ||
            is_apart_along(task, unit_along(pir_vec_add(middle, pir_vec_add(n, pair->axis))), probe);
 }
 
-bool pir_task_apart(pir_task *task) {
-    pir_pair *pair = task->pair;
+bool pir_pair_apart(pir_task *task) {
+    pir_pair *pair = pir_pair_task_of(task)->pair;
     if (!(task->want & PIR_WANT_SEPARATION))
         return false;
     struct probe probe = begin_probe(task);

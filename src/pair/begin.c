@@ -1,17 +1,53 @@
 /* SPDX-License-Identifier: MIT */
 /* The beginning and the end of a call on a pair: the relative pose, and the way back to the world. */
-#include "pair/begin.h"
+#include "pair/pair.h"
 
 pir_pair_input pir_pair_input_default(void) {
     const pir_pose origin = {{0, 0, 0, 1}, {0, 0, 0}};
     return (pir_pair_input){.pose_p = origin, .pose_q = origin, .cutoff = HUGE_VAL};
 }
 
+/* --- where inputs have changed since the call before: out of line --- */
+
+/* Makes the frame one of the bodies of this pair. */
+__attribute__((noinline)) static void set_bodies(const pir_pair *pair, pir_workspace *workspace) {
+    pir_frame *frame = &workspace->frame;
+    pir_frame_take_bodies(frame, pair->body_p, pair->body_q);
+    frame->offset = frame->q.centre;
+    pir_frame_set_exponent(frame, pair->exponent);
+}
+
+/* Sets Q's place. */
+__attribute__((noinline)) static pir_status set_q(pir_workspace *workspace, const pir_pose *q) {
+    workspace->has_q = false;
+    pir_status status = pir_rotation_set(&workspace->rotation_q, q->rotation);
+    if (status != PIR_OK)
+        return status;
+    workspace->world.translation_q = q->translation;
+    workspace->posed = !pir_world_is_plain(&workspace->world);
+    workspace->is_turned = !pir_quat_is_identity(q->rotation);
+    workspace->exact.world = workspace->posed ? &workspace->world : NULL;
+    workspace->pose[1] = *q;
+    workspace->has_q = true;
+    return PIR_OK;
+}
+
+/* Sets P's rotation as Q sees it, where Q is turned or P's quaternion has to be scaled. */
+__attribute__((noinline)) static pir_status set_any_rotation(pir_workspace *workspace, const pir_pair_input *input) {
+    pir_status status = pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
+    workspace->frame.is_set = false;
+    if (status == PIR_OK)
+        pir_frame_turn(&workspace->frame, &workspace->rotation);
+    return status;
+}
+
+/* --- every call --- */
+
 /* P's rotation as Q sees it. */
 static inline pir_status set_rotation(pir_workspace *workspace, const pir_pair_input *input) {
     const pir_quat given = pir_quat_signed(input->pose_p.rotation);
     if (workspace->is_turned || !pir_quat_is_near_one(given))
-        return pir_pair_set_any_rotation(workspace, input);
+        return set_any_rotation(workspace, input);
     const pir_rotation_doubles doubles = pir_doubles_as_given(given);
     pir_rotation_set_given(&workspace->rotation, given);
     pir_frame_set_doubles(&workspace->frame, given, &doubles);
@@ -32,14 +68,14 @@ static pir_status set_place(const pir_pair *pair, pir_workspace *workspace, cons
 
 pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
     if (!pir_pair_is_at(pair, workspace))
-        pir_pair_set_bodies(pair, workspace);
+        set_bodies(pair, workspace);
     workspace->pair = NULL;
     pir_status status = pir_pair_check(input);
     if (status != PIR_OK)
         return status;
     // mostly it is where it was in the call before
     if (!(workspace->has_q && pir_pose_is_same(&input->pose_q, &workspace->pose[1]))) {
-        status = pir_pair_set_q(workspace, &input->pose_q);
+        status = set_q(workspace, &input->pose_q);
         if (status != PIR_OK)
             return status;
     }

@@ -94,14 +94,14 @@ static inline enum step take_step(struct way *way) {
 
 /* Where the ways to the features begin that the last answer of a pair rests on. */
 static void begin_ways(const pir_pair *pair, struct way way[2]) {
-    const pir_piece piece = pair->facet;
+    const pir_piece piece = pair->hint.facet;
     enum step p = piece.kind == PIR_FACET_FV ? AT_FACET : piece.kind == PIR_FACET_VF ? AT_VERTEX : AT_EDGE;
     enum step q = piece.kind == PIR_FACET_FV ? AT_VERTEX : piece.kind == PIR_FACET_VF ? AT_FACET : AT_HALF;
-    way[0] = (struct way){AT_BODY, pair->has_facet ? p : AT_END, pair->body_p, piece.first, 0};
-    way[1] = (struct way){AT_BODY, pair->has_facet ? q : AT_END, pair->body_q, piece.second, 0};
+    way[0] = (struct way){AT_BODY, pair->hint.has_facet ? p : AT_END, pair->body_p, piece.first, 0};
+    way[1] = (struct way){AT_BODY, pair->hint.has_facet ? q : AT_END, pair->body_q, piece.second, 0};
     touch_bytes(pair->body_p, sizeof *pair->body_p);
     touch_bytes(pair->body_q, sizeof *pair->body_q);
-    if (pair->deep && pair->surface)
+    if (pair->hint.deep && pair->surface)
         touch_bytes(pair->surface, offsetof(pir_surface, corner[1]));
 }
 

@@ -15,11 +15,10 @@
 #include "base/scratch.h"
 #include "pair/axes/axes.h"
 #include "pair/surface/inner_surface.h"
+#include "query/answer/ladder.h"
 #include "query/contact/patch.h"
-#include "query/decide/nearest.h"
 #include "query/frame/body.h"
 #include "query/frame/supports.h"
-#include "query/last/follow_foot.h"
 #include "query/proof/proof.h"
 
 struct pir_pair {
@@ -33,10 +32,8 @@ struct pir_pair {
     uint8_t resting;                      /* how many more calls leave out the axes, since they told nothing */
 
     /* hints */
-    bool has_facet, has_axis, deep; /* the facet, the axis below; the surface */
-    uint8_t points;                 /* of the simplex below */
-    uint32_t a[3], b[3];
-    pir_piece facet;         /* of the last answer; its corner may have changed */
+    pir_hint hint;
+    bool has_axis;           /* the next two */
     pir_vec3 axis;           /* unit; x was apart along it by more than the cutoff */
     pir_vec3 axis_of_p;      /* the same in the frame of P */
     uint32_t axis_a, axis_b; /* the supports there */
@@ -117,11 +114,5 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
 /* A point in Q's frame, and a result, brought to the world: where Q is not at the origin, or turned. */
 pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y);
 void pir_pair_to_world(const pir_workspace *workspace, pir_query_result *result);
-
-/* --- whole.c --- */
-
-/* The answer of the whole difference, in Q's frame; `want` as in query/answer/result.h. PIR_ERR_MEMORY. */
-pir_status pir_pair_whole(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want,
-                          pir_query_result *result);
 
 #endif

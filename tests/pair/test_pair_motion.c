@@ -38,20 +38,22 @@ struct motion {
 static pir_pair_statistics used;
 static uint64_t inside_by_facet, apart;
 
-/* One answer counts once, and as what its level says. */
+/* One answer counts once, by a way of its level. */
 static void expect_counted(const pir_pair *pair, const pir_pair_statistics *before) {
     const pir_pair_statistics now = pir_pair_get_statistics(pair);
-    const uint64_t apart_now = now.by_certificate - before->by_certificate, facet = now.by_facet - before->by_facet,
-                   descent = now.by_descent - before->by_descent, surface = now.by_surface - before->by_surface,
+    const uint64_t proof = now.by_proof - before->by_proof, walk = now.by_walk - before->by_walk,
+                   nearest = now.by_nearest - before->by_nearest, depth = now.by_depth - before->by_depth,
                    whole = now.by_whole - before->by_whole;
     const pir_level level = pir_pair_level(pair);
     assert_int_equal(now.queries, before->queries + 1);
     assert_true(now.supports - before->supports < 10000 && now.begun - before->begun < 100);
-    expect(apart_now == (level == PIR_LEVEL_APART) && facet + descent == (level == PIR_LEVEL_NEAR) && facet <= 1 &&
-               surface == (level == PIR_LEVEL_OVERLAPPING) && whole == (level == PIR_LEVEL_WHOLE),
-           "level %d: apart %llu, facet %llu, descent %llu, surface %llu, whole %llu", (int)level,
-           (unsigned long long)apart_now, (unsigned long long)facet, (unsigned long long)descent,
-           (unsigned long long)surface, (unsigned long long)whole);
+    // facets of a surface tell of bodies that are near as well
+    bool is_near = level == PIR_LEVEL_NEAR, is_deep = level == PIR_LEVEL_OVERLAPPING;
+    expect(proof == (level == PIR_LEVEL_APART) && whole == (level == PIR_LEVEL_WHOLE) && walk + nearest <= is_near &&
+               walk + nearest + depth == (is_near || is_deep),
+           "level %d: proof %llu, walk %llu, nearest %llu, depth %llu, whole %llu", (int)level,
+           (unsigned long long)proof, (unsigned long long)walk, (unsigned long long)nearest, (unsigned long long)depth,
+           (unsigned long long)whole);
 }
 
 static bool same_contact(const pir_contact *a, const pir_contact *b) {
@@ -125,7 +127,7 @@ static void check_frame(struct motion *motion, int frame, pir_quat rotation, pir
     assert_int_equal(pir_query_signed_distance(motion->query, &asked, NULL, &expected), PIR_OK);
     const pir_pair_statistics before = pir_pair_get_statistics(motion->pair);
     pir_status status = pir_pair_signed_distance(motion->pair, motion->workspace, &input, &result);
-    inside_by_facet += pir_pair_get_statistics(motion->pair).by_facet > before.by_facet && expected.state == PIR_INSIDE;
+    inside_by_facet += pir_pair_get_statistics(motion->pair).by_walk > before.by_walk && expected.state == PIR_INSIDE;
     expect_counted(motion->pair, &before);
     expect(status == PIR_OK && test_same_result(&result, &expected),
            "motion %llu, frame %d: status %d, level %d, state %d not %d, distance %.17g not %.17g, witness %d %u %d %u "
@@ -253,11 +255,11 @@ static void check_motion(uint64_t number) {
         hover(&motion, &random, step, 0.3 * test_random_unit(&random));
     pir_pair_statistics s = pir_pair_get_statistics(motion.pair);
     used.queries += s.queries;
-    used.by_facet += s.by_facet;
-    used.by_descent += s.by_descent;
-    used.by_surface += s.by_surface;
+    used.by_walk += s.by_walk;
+    used.by_nearest += s.by_nearest;
+    used.by_depth += s.by_depth;
     used.supports += s.supports;
-    apart += pir_pair_get_statistics(motion.near).by_certificate;
+    apart += pir_pair_get_statistics(motion.near).by_proof;
     pir_pair_destroy(motion.pair);
     pir_pair_destroy(motion.near);
     pir_pair_destroy(motion.lasting);
@@ -275,14 +277,14 @@ static void a_pair_in_motion_answers_as_the_sum(void **state) {
     uint64_t from = one ? strtoull(one, NULL, 10) : 0, motions = one ? 1 : count ? strtoull(count, NULL, 10) : 120;
     for (uint64_t i = from; i < from + motions; i++)
         check_motion(i);
-    print_message("%llu frames: %llu by the facet before, %llu of them inside, %llu by descent, %llu by a surface; "
+    print_message("%llu frames: %llu by a walk, %llu of them inside, %llu by nearest points, %llu by depths; "
                   "%llu apart\n",
-                  (unsigned long long)used.queries, (unsigned long long)used.by_facet,
-                  (unsigned long long)inside_by_facet, (unsigned long long)used.by_descent,
-                  (unsigned long long)used.by_surface, (unsigned long long)apart);
+                  (unsigned long long)used.queries, (unsigned long long)used.by_walk,
+                  (unsigned long long)inside_by_facet, (unsigned long long)used.by_nearest,
+                  (unsigned long long)used.by_depth, (unsigned long long)apart);
     // every way must have been taken often
-    assert_true(one || (used.by_facet > used.queries / 5 && inside_by_facet > used.queries / 50 &&
-                        used.by_descent > used.queries / 50 && used.by_surface > used.queries / 50 &&
+    assert_true(one || (used.by_walk > used.queries / 5 && inside_by_facet > used.queries / 50 &&
+                        used.by_nearest > used.queries / 50 && used.by_depth > used.queries / 50 &&
                         apart > used.queries / 20));
 }
 

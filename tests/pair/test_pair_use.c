@@ -370,7 +370,7 @@ static void a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike(
         assert_int_equal(pir_pair_level(capped), i == 0 ? PIR_LEVEL_NEAR : PIR_LEVEL_APART);
     }
     pir_pair_statistics statistics = pir_pair_get_statistics(capped);
-    assert_int_equal(statistics.by_certificate, 10);
+    assert_int_equal(statistics.by_proof, 10);
     assert_int_equal(statistics.queries, 13);
     pir_pair_destroy(capped);
     pir_pair_destroy(forced);
@@ -491,8 +491,8 @@ static void a_direction_that_turns_with_p_still_parts(void **state) {
         assert_int_equal(result.outcome, PIR_BEYOND_CUTOFF);
     }
     pir_pair_statistics statistics = pir_pair_get_statistics(pair);
-    assert_int_equal(statistics.by_descent, 1);
-    assert_int_equal(statistics.by_certificate, 23);
+    assert_int_equal(statistics.by_nearest, 1);
+    assert_int_equal(statistics.by_proof, 23);
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
     pir_polytope_release(p);

@@ -77,7 +77,7 @@ static pir_query_result ask(struct bench *bench, bool compare, const char *what,
 /* --- bodies that are laid flush --- */
 
 /* Its difference is symmetric about x, so that no descent ended with a tetrahedron about a point inside. */
-static void a_cold_box_laid_flush_on_a_box_is_told_by_its_facet(void **state) {
+static void a_cold_box_laid_flush_on_a_box_is_told_by_a_facet(void **state) {
     (void)state;
     struct bench bench = bench_make(box(1, 1, 1), box(1, 1, 1));
     for (int i = 0; i < 200; i++) {
@@ -85,8 +85,8 @@ static void a_cold_box_laid_flush_on_a_box_is_told_by_its_facet(void **state) {
         bench.input.pose_p.translation = (pir_vec3){-1.5 + i / 64.0, (i % 7 - 3) / 4.0, i % 2 ? 2 : -2};
         pir_query_result result = ask(&bench, true, "box on box", i);
         pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
-        expect(statistics.by_facet == 1 && result.state == PIR_BOUNDARY, "frame %d: level %d, state %d", i,
-               (int)pir_pair_level(bench.pair), (int)result.state);
+        expect(statistics.by_nearest + statistics.by_depth == 1 && statistics.begun < 3 && result.state == PIR_BOUNDARY,
+               "frame %d: level %d, state %d", i, (int)pir_pair_level(bench.pair), (int)result.state);
     }
     bench_clear(&bench);
 }
@@ -106,9 +106,11 @@ static void a_cylinder_that_stands_on_a_box_is_told_by_its_facet(void **state) {
             assert_int_equal(result.state, PIR_BOUNDARY);
         }
         pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
-        expect(statistics.by_facet == 60, "%u sides%s%s%s: %llu of 60 by a facet, %llu by the whole difference",
-               sides[i % 3], turns ? ", turning" : "", slides ? ", sliding" : "", wide ? ", on a slab" : "",
-               (unsigned long long)statistics.by_facet, (unsigned long long)statistics.by_whole);
+        // the first frame has nothing to walk from
+        expect(statistics.by_walk >= 59 && statistics.by_whole == 0,
+               "%u sides%s%s%s: %llu of 60 by a walk, %llu by the whole difference", sides[i % 3],
+               turns ? ", turning" : "", slides ? ", sliding" : "", wide ? ", on a slab" : "",
+               (unsigned long long)statistics.by_walk, (unsigned long long)statistics.by_whole);
         bench_clear(&bench);
     }
 }
@@ -219,15 +221,124 @@ static void equal_boxes_nearly_parallel_answer_as_their_difference(void **state)
     }
 }
 
+/* --- each way where it is there for --- */
+
+#define FRAMES 200
+
+/* Counts the answers of a way. */
+enum way { PROOF, WALK, NEAREST, DEPTH, WHOLE, WAYS };
+
+static const char *const way_names[WAYS] = {"proof", "walk", "nearest", "depth", "whole"};
+
+static uint64_t count_of(const pir_pair *pair, enum way way) {
+    const pir_pair_statistics s = pir_pair_get_statistics(pair);
+    const uint64_t counts[WAYS] = {s.by_proof, s.by_walk, s.by_nearest, s.by_depth, s.by_whole};
+    assert_int_equal(s.by_proof + s.by_walk + s.by_nearest + s.by_depth + s.by_whole, s.queries);
+    return counts[way];
+}
+
+/* Moves both bodies to their poses of a frame. */
+typedef void mover(int frame, pir_pair_input *input);
+
+static pir_quat turned_about(double x, double y, double z, double angle) {
+    double s = sin(angle / 2) / sqrt(x * x + y * y + z * z);
+    return (pir_quat){s * x, s * y, s * z, cos(angle / 2)};
+}
+
+static void glides_apart(int frame, pir_pair_input *input) {
+    input->cutoff = 0.1;
+    input->pose_p.translation = (pir_vec3){0.01 * frame - 1, 0.2, 2.5};
+}
+
+static void both_glide_apart_and_turn(int frame, pir_pair_input *input) {
+    input->cutoff = 0.1;
+    input->pose_p = (pir_pose){turned_about(1, 2, 3, 0.001 * frame), {0.01 * frame - 1, 0.2, 4}};
+    input->pose_q = (pir_pose){turned_about(3, 1, 1, -0.001 * frame), {0.01 * frame, 0.1, -0.001 * frame}};
+}
+
+static void stands_over_a_face(int frame, pir_pair_input *input) {
+    input->pose_p = (pir_pose){turned_about(1, 0.3, 0.1, 0.0002 * frame), {0.002 * frame - 0.2, 0.1, 11.125}};
+}
+
+static void rests(int frame, pir_pair_input *input) {
+    input->pose_p.translation = (pir_vec3){0.25 + 0.001 * frame, 0.125, 2};
+}
+
+static void sinks_deep(int frame, pir_pair_input *input) {
+    input->pose_p = (pir_pose){turned_about(1, 2, 3, 0.3 + 0.02 * frame), {0.001 * frame, 0.1, 0.2}};
+}
+
+static void jumps_about(int frame, pir_pair_input *input) {
+    input->pose_p = (pir_pose){turned_about(1, frame % 7, 3, frame), {3 * cos(2.0 * frame), 3 * sin(2.0 * frame), 4}};
+}
+
+static void stands_corner_to_corner(int frame, pir_pair_input *input) {
+    input->pose_p.translation = (pir_vec3){2, 2, frame % 2 ? 2 : -2};
+}
+
+static void each_way_serves_where_it_is_there_for(void **state) {
+    (void)state;
+    const struct {
+        const char *name;
+        pir_polytope *p, *q;
+        mover *move;
+        enum way way;
+        int least; /* of FRAMES */
+    } situations[] = {
+        {"a box that glides by", box(1, 1, 1), box(1, 1, 1), glides_apart, PROOF, FRAMES - 2},
+        {"boxes that both glide and turn", box(1, 1, 1), box(1, 1, 1), both_glide_apart_and_turn, PROOF, FRAMES - 2},
+        {"a needle over a face", box(0.01, 0.01, 10), box(1, 1, 1), stands_over_a_face, WALK, FRAMES - 4},
+        {"a box at rest", box(1, 1, 1), box(1, 1, 1), rests, WALK, FRAMES - 2},
+        {"a small box on a slab", box(1, 1, 1), box(20, 20, 1), rests, WALK, FRAMES - 2},
+        {"a cylinder of 36 sides deep in a box", prism(36), box(1, 1, 1), sinks_deep, DEPTH, FRAMES * 9 / 10},
+        {"boxes deep in each other", box(1, 0.8, 0.6), box(1, 1, 1), sinks_deep, DEPTH, FRAMES / 2},
+        {"cylinders that jump about", prism(36), prism(36), jumps_about, NEAREST, FRAMES * 9 / 10},
+        {"boxes corner to corner", box(1, 1, 1), box(1, 1, 1), stands_corner_to_corner, WHOLE, FRAMES - 2},
+    };
+    for (size_t i = 0; i < sizeof situations / sizeof *situations; i++) {
+        struct bench bench = bench_make(situations[i].p, situations[i].q);
+        for (int frame = 0; frame < FRAMES; frame++) {
+            situations[i].move(frame, &bench.input);
+            ask(&bench, frame % 20 == 0, situations[i].name, frame);
+        }
+        uint64_t served = count_of(bench.pair, situations[i].way);
+        print_message("# %s: %llu of %d by %s\n", situations[i].name, (unsigned long long)served, FRAMES,
+                      way_names[situations[i].way]);
+        expect(served >= (uint64_t)situations[i].least, "%s: %llu of %d by %s", situations[i].name,
+               (unsigned long long)served, FRAMES, way_names[situations[i].way]);
+        bench_clear(&bench);
+    }
+}
+
+/* Counts manifolds that have a contact, and no others. */
+static void manifolds_are_counted(void **state) {
+    (void)state;
+    struct bench bench = bench_make(box(1, 1, 1), box(1, 1, 1));
+    pir_contact contacts[16];
+    size_t count;
+    for (int frame = 0; frame < 6; frame++) {
+        bench.input.cutoff = bench.input.margin = 0.1;
+        bench.input.pose_p.translation = (pir_vec3){0.25, 0.125, frame < 4 ? 2 : 3};
+        pir_query_result answer = ask(&bench, false, "manifold", frame);
+        assert_int_equal(pir_pair_manifold(bench.pair, bench.workspace, &bench.input, &answer, 16, contacts, &count),
+                         PIR_OK);
+        assert_int_equal(count, frame < 4 ? 4 : 0);
+    }
+    assert_int_equal(pir_pair_get_statistics(bench.pair).manifolds, 4);
+    bench_clear(&bench);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cold_box_laid_flush_on_a_box_is_told_by_its_facet),
+        cmocka_unit_test(a_cold_box_laid_flush_on_a_box_is_told_by_a_facet),
         cmocka_unit_test(a_cylinder_that_stands_on_a_box_is_told_by_its_facet),
         cmocka_unit_test(equal_prisms_nearly_parallel_need_no_whole_difference),
         cmocka_unit_test(the_facet_beyond_one_a_rounding_wide_is_compared),
         cmocka_unit_test(equal_boxes_nearly_parallel_answer_as_their_difference),
         cmocka_unit_test(prisms_at_random_nearly_parallel_answer_as_their_difference),
+        cmocka_unit_test(each_way_serves_where_it_is_there_for),
+        cmocka_unit_test(manifolds_are_counted),
     };
     return cmocka_run_group_tests_name("ways of pairs", tests, NULL, NULL);
 }

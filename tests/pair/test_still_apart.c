@@ -140,9 +140,9 @@ static void check_motion(uint64_t number, pir_vec3 middle) {
         check(&scene, &input, frame);
     }
     pir_pair_statistics used = pir_pair_get_statistics(scene.kept);
-    expect(used.by_certificate > FRAMES / 4, "%llu by certificate", (unsigned long long)used.by_certificate);
+    expect(used.by_proof > FRAMES / 4, "%llu by certificate", (unsigned long long)used.by_proof);
     expect(used.queries == FRAMES + FRAMES / 8 * 2, "%llu queries in as many frames", (unsigned long long)used.queries);
-    expect(used.by_facet + used.by_surface > FRAMES / 50, "near in %llu", (unsigned long long)used.by_facet);
+    expect(used.by_walk + used.by_depth > FRAMES / 50, "near in %llu", (unsigned long long)used.by_walk);
     pir_pair_destroy(scene.kept);
     pir_pair_destroy(scene.fresh);
     pir_workspace_destroy(scene.of_kept);

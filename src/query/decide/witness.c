@@ -53,6 +53,33 @@ pir_feature pir_feature_of(const pir_polytope *p, const uint32_t *vertices, uint
     return (pir_feature){PIR_FEATURE_VERTEX, v[0]};
 }
 
+/* Of a polygon's two facets the one whose normal, turned, is along n; any other facet as it is. */
+static uint32_t facing(const pir_polytope *p, const pir_mat3 *r, uint32_t facet, pir_vec3 n) {
+    if (p->dimension != 2)
+        return facet;
+    pir_vec3 normal = r ? pir_mat_apply(r, p->normal[facet]) : p->normal[facet];
+    return pir_vec_dot(normal, n) < 0 ? 1 - facet : facet;
+}
+
+bool pir_piece_of(const pir_frame *frame, pir_witness faces, uint32_t a, uint32_t b, pir_vec3 n, pir_piece *ret_piece) {
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    if (faces.p.kind == PIR_FEATURE_FACET) {
+        *ret_piece = (pir_piece){PIR_FACET_FV, facing(p, &frame->r, faces.p.index, n), b};
+        return true;
+    }
+    if (faces.q.kind == PIR_FEATURE_FACET) {
+        *ret_piece = (pir_piece){PIR_FACET_VF, a, facing(q, NULL, faces.q.index, n)};
+        return true;
+    }
+    if (faces.p.kind != PIR_FEATURE_EDGE || faces.q.kind != PIR_FEATURE_EDGE)
+        return false;
+    uint32_t half = q->edge_half[faces.q.index];
+    pir_vec3 e = pir_mat_apply(&frame->r, p->direction[p->edge_half[faces.p.index]]);
+    bool along = pir_vec_dot(pir_vec_cross(q->direction[half], e), n) > 0;
+    *ret_piece = (pir_piece){PIR_FACET_EE, faces.p.index, along ? half : q->twin[half]};
+    return true;
+}
+
 pir_vec3 pir_facet_point(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet, double slack) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     if (facet->piece.kind == PIR_FACET_FV)

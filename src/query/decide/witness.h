@@ -15,4 +15,10 @@ pir_feature pir_feature_of(const pir_polytope *polytope, const uint32_t *vertice
  */
 pir_vec3 pir_facet_point(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet, double slack);
 
+/*
+ * The piece that two features make, with its normal on the side of n, and a vertex of P and of Q at it. False where
+ * they are not a facet and a vertex, nor two edges.
+ */
+bool pir_piece_of(const pir_frame *frame, pir_witness faces, uint32_t a, uint32_t b, pir_vec3 n, pir_piece *ret_piece);
+
 #endif

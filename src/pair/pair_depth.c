@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Overlap from a surface in D: see overlap.h. */
-#include "pair/overlap.h"
+/* The depth of a pair that overlaps: see pair_depth.h. */
+#include "pair/pair_depth.h"
 
+#include "pair/apart.h"
 #include "query/decide/witness.h"
 #include "query/last/foot.h"
 #include "query/last/foot_walk.h"
@@ -25,14 +26,28 @@
 /* Facets that one search may prove; a body of many equal ones has more, and is left to the whole sum. */
 #define MOST_FACETS 32
 
+/* --- a surface at one placement --- */
+
+struct overlap {
+    pir_task *task;
+    pir_exact *exact;
+    const pir_placement *placement;
+    pir_surface *surface;
+    pir_surface_room *room;
+    pir_pair_statistics *statistics;
+};
+
+/* The outcome of a surface: nothing, a facet of D that x is within rounding of or beyond, or a certain one about x. */
+enum about { ABOUT_NOTHING, ABOUT_FACET, ABOUT_X };
+
 /* --- triangles and facets --- */
 
-static uint32_t corner_of(const pir_overlap *overlap, uint32_t t, int k) {
+static uint32_t corner_of(const struct overlap *overlap, uint32_t t, int k) {
     return overlap->surface->corner[k][t];
 }
 
 /* The vertices of P and Q at the corners of a triangle. */
-static void vertices_of(const pir_overlap *overlap, uint32_t t, uint32_t a[3], uint32_t b[3]) {
+static void vertices_of(const struct overlap *overlap, uint32_t t, uint32_t a[3], uint32_t b[3]) {
     for (int k = 0; k < 3; k++) {
         a[k] = overlap->surface->a[corner_of(overlap, t, k)];
         b[k] = overlap->surface->b[corner_of(overlap, t, k)];
@@ -55,7 +70,7 @@ static bool has_vertex(const pir_polytope *p, pir_feature face, uint32_t v) {
 /*
  * Whether corner i of the surface is in a true facet of D. A vertex is asked for before a facet, which takes longer.
  */
-static inline bool is_in(const pir_overlap *overlap, uint32_t i, const pir_facet *facet) {
+static inline bool is_in(const struct overlap *overlap, uint32_t i, const pir_facet *facet) {
     const pir_frame *frame = overlap->exact->frame;
     uint32_t a = overlap->surface->a[i], b = overlap->surface->b[i];
     if (facet->faces.p.kind == PIR_FEATURE_FACET)
@@ -64,7 +79,7 @@ static inline bool is_in(const pir_overlap *overlap, uint32_t i, const pir_facet
 }
 
 /* Those of the corners whose vertices of a body, `at`, a face of it has. */
-static uint32_t corners_at(const pir_overlap *overlap, const pir_polytope *p, pir_feature face, const uint32_t *at,
+static uint32_t corners_at(const struct overlap *overlap, const pir_polytope *p, pir_feature face, const uint32_t *at,
                            uint32_t corners) {
     uint32_t in = 0;
     if (face.kind == PIR_FEATURE_VERTEX)
@@ -81,7 +96,7 @@ static uint32_t corners_at(const pir_overlap *overlap, const pir_polytope *p, pi
 }
 
 /* The corners that are: bit i for corner i. */
-static uint32_t corners_in(const pir_overlap *overlap, const pir_facet *facet) {
+static uint32_t corners_in(const struct overlap *overlap, const pir_facet *facet) {
     const pir_frame *frame = overlap->exact->frame;
     const pir_surface *surface = overlap->surface;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
@@ -93,33 +108,12 @@ static uint32_t corners_in(const pir_overlap *overlap, const pir_facet *facet) {
 }
 
 /* The piece that the features at a triangle's corners make, with its normal on the triangle's outer side. */
-static bool piece_at(const pir_overlap *overlap, uint32_t t, pir_piece *ret_piece) {
+static bool piece_at(const struct overlap *overlap, uint32_t t, pir_piece *ret_piece) {
     const pir_frame *frame = overlap->exact->frame;
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     uint32_t a[3], b[3];
     vertices_of(overlap, t, a, b);
-    pir_feature of_p = pir_feature_of(p, a, 3), of_q = pir_feature_of(q, b, 3);
-    pir_vec3 out = pir_surface_normal(overlap->room, t);
-    if (of_p.kind == PIR_FEATURE_FACET) {
-        // of a polygon's two facets, the one that faces outwards
-        pir_vec3 n = pir_mat_apply(&frame->r, p->normal[of_p.index]);
-        if (p->dimension == 2 && pir_vec_dot(n, out) < 0)
-            of_p.index = 1 - of_p.index;
-        *ret_piece = (pir_piece){PIR_FACET_FV, of_p.index, b[0]};
-        return true;
-    }
-    if (of_q.kind == PIR_FEATURE_FACET) {
-        if (q->dimension == 2 && pir_vec_dot(q->normal[of_q.index], out) < 0)
-            of_q.index = 1 - of_q.index;
-        *ret_piece = (pir_piece){PIR_FACET_VF, a[0], of_q.index};
-        return true;
-    }
-    if (of_p.kind != PIR_FEATURE_EDGE || of_q.kind != PIR_FEATURE_EDGE)
-        return false;
-    uint32_t half = q->edge_half[of_q.index];
-    pir_vec3 n = pir_vec_cross(q->direction[half], pir_mat_apply(&frame->r, p->direction[p->edge_half[of_p.index]]));
-    *ret_piece = (pir_piece){PIR_FACET_EE, of_p.index, pir_vec_dot(n, out) > 0 ? half : q->twin[half]};
-    return true;
+    const pir_witness faces = {pir_feature_of(frame->p.polytope, a, 3), pir_feature_of(frame->q.polytope, b, 3)};
+    return pir_piece_of(frame, faces, a[0], b[0], pir_surface_normal(overlap->room, t), ret_piece);
 }
 
 /* --- expansion --- */
@@ -134,7 +128,7 @@ enum expansion { NOTHING_BEYOND, CHANGED, STUCK };
  * The vertex of a body farthest along a direction: uphill from the first corner of triangle t, or from another or a
  * landmark where those are farther. `at` are the vertices at corners.
  */
-static inline uint32_t climb(const pir_overlap *overlap, const pir_body *body, const uint32_t *at, uint32_t t,
+static inline uint32_t climb(const struct overlap *overlap, const pir_body *body, const uint32_t *at, uint32_t t,
                              pir_vec3 n, double least) {
     uint32_t from = at[corner_of(overlap, t, 0)];
     if (body->polytope->vertex_count > FEW_VERTICES) {
@@ -157,7 +151,7 @@ static inline uint32_t climb(const pir_overlap *overlap, const pir_body *body, c
  * A corner of the surface that is beyond goes first: as the bodies turn the surface does not stay convex, and what sees
  * a vertex from within a dent is seldom a disk. Where the centre has left the surface that seldom helps.
  */
-static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *ret_corner) {
+static enum expansion expand(const struct overlap *overlap, uint32_t t, uint32_t *ret_corner) {
     const pir_frame *frame = overlap->exact->frame;
     *ret_corner = PIR_SURFACE_CORNERS;
     if (overlap->room->plane.low[t] > 0 && pir_surface_turn(overlap->surface, t, overlap->room))
@@ -181,14 +175,15 @@ static enum expansion expand(const pir_overlap *overlap, uint32_t t, uint32_t *r
 
 /* --- surfaces --- */
 
-bool pir_overlap_place(const pir_overlap *overlap) {
+/* Places the surface about x. True where it is certain: x then is inside. */
+static bool place(const struct overlap *overlap) {
     const pir_placement *placement = overlap->placement;
     return pir_surface_place(overlap->surface, overlap->exact->frame, placement->x, placement->error, placement->reach,
                              overlap->room);
 }
 
 /* The triangle that is least far from x. */
-static uint32_t least_of(const pir_overlap *overlap) {
+static uint32_t least_of(const struct overlap *overlap) {
     const pir_surface_loops *loops = overlap->room->loops;
     double low = loops->least(overlap->surface, overlap->room, UINT64_MAX);
     uint64_t least = loops->below(overlap->surface, overlap->room, low);
@@ -196,28 +191,29 @@ static uint32_t least_of(const pir_overlap *overlap) {
 }
 
 /* The facet of D that a triangle lies in which nothing is beyond. */
-static pir_about facet_at(const pir_overlap *overlap, uint32_t t, pir_facet *ret_facet) {
+static enum about facet_at(const struct overlap *overlap, uint32_t t, pir_facet *ret_facet) {
     pir_piece piece;
     bool some = piece_at(overlap, t, &piece) && pir_facet_prove(overlap->exact, piece, ret_facet);
-    return some ? PIR_ABOUT_FACET : PIR_ABOUT_NOTHING;
+    return some ? ABOUT_FACET : ABOUT_NOTHING;
 }
 
-pir_about pir_overlap_repair(const pir_overlap *overlap, pir_facet *ret_facet) {
+/* Expands a placed surface that x has left. */
+static enum about repair(const struct overlap *overlap, pir_facet *ret_facet) {
     for (uint32_t added = 0; added < MOST_REPAIRS; added++) {
         uint32_t t = least_of(overlap), corner;
         if (overlap->room->plane.low[t] > 0)
-            return PIR_ABOUT_X;
+            return ABOUT_X;
         enum expansion expansion = expand(overlap, t, &corner);
         if (expansion == NOTHING_BEYOND)
             return facet_at(overlap, t, ret_facet);
         if (expansion == STUCK)
-            return PIR_ABOUT_NOTHING;
+            return ABOUT_NOTHING;
     }
-    return overlap->room->plane.low[least_of(overlap)] > 0 ? PIR_ABOUT_X : PIR_ABOUT_NOTHING;
+    return overlap->room->plane.low[least_of(overlap)] > 0 ? ABOUT_X : ABOUT_NOTHING;
 }
 
 /* The tetrahedron of four vertices of D, placed about a point. Returns whether that is certainly inside. */
-static bool begin_about(const pir_overlap *overlap, const pir_simplex *simplex, pir_vec3 centre) {
+static bool begin_about(const struct overlap *overlap, const pir_simplex *simplex, pir_vec3 centre) {
     const pir_placement *placement = overlap->placement;
     const uint32_t *a = simplex->a, *b = simplex->b;
     bool certain = false;
@@ -235,20 +231,21 @@ static bool begin_about(const pir_overlap *overlap, const pir_simplex *simplex, 
     return certain;
 }
 
-pir_about pir_overlap_begin(const pir_overlap *overlap, const pir_simplex *simplex, pir_facet *ret_facet) {
+/* Makes a surface from the four vertices that a descent ended with, if there are so many. */
+static enum about begin_surface(const struct overlap *overlap, const pir_simplex *simplex, pir_facet *ret_facet) {
     overlap->statistics->begun++;
     if (simplex->tried != 4)
-        return PIR_ABOUT_NOTHING;
+        return ABOUT_NOTHING;
     if (begin_about(overlap, simplex, overlap->placement->x))
-        return PIR_ABOUT_X;
-    return pir_overlap_repair(overlap, ret_facet);
+        return ABOUT_X;
+    return repair(overlap, ret_facet);
 }
 
 /*
  * The triangle that x is deepest inside of, or beyond, the least: its distance times the length of its normal less
  * errors.
  */
-static uint32_t least_about(const pir_overlap *overlap, pir_vec3 way, double *ret_low) {
+static uint32_t least_about(const struct overlap *overlap, pir_vec3 way, double *ret_low) {
     const pir_surface_room *room = overlap->room;
     uint32_t least = 0;
     double low = HUGE_VAL;
@@ -278,7 +275,7 @@ static pir_simplex four_corners(const pir_frame *frame) {
  * A certain surface about a point inside of D. A descent to that point ends with a tetrahedron about it, unless the
  * point is on the rim of what was tried, as the middle of a symmetric body is.
  */
-static bool begin_inside(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet) {
+static bool begin_inside(const struct overlap *overlap, pir_vec3 inner, pir_facet *ret_facet) {
     const pir_frame *frame = overlap->exact->frame;
     pir_placement within = *overlap->placement;
     pir_simplex simplex = {.count = 0};
@@ -288,24 +285,25 @@ static bool begin_inside(const pir_overlap *overlap, pir_vec3 inner, pir_facet *
     if (simplex.tried == 4 && begin_about(overlap, &simplex, inner))
         return true;
     simplex = four_corners(frame);
-    return begin_about(overlap, &simplex, inner) || pir_overlap_repair(overlap, ret_facet) == PIR_ABOUT_X;
+    return begin_about(overlap, &simplex, inner) || repair(overlap, ret_facet) == ABOUT_X;
 }
 
-pir_about pir_overlap_widen(const pir_overlap *overlap, pir_vec3 inner, pir_facet *ret_facet) {
+/* Makes a surface about x from one about `inner`, a point inside of D. */
+static enum about widen(const struct overlap *overlap, pir_vec3 inner, pir_facet *ret_facet) {
     const pir_placement *placement = overlap->placement;
     overlap->statistics->begun++;
     if (!begin_inside(overlap, inner, ret_facet))
-        return PIR_ABOUT_NOTHING;
+        return ABOUT_NOTHING;
     pir_vec3 way = pir_vec_sub(placement->x, inner);
     for (uint32_t added = 0; added < MOST_ADDED; added++) {
         double low;
         uint32_t t = least_about(overlap, way, &low), corner;
         if (low > 0)
-            return pir_overlap_place(overlap) ? PIR_ABOUT_X : PIR_ABOUT_NOTHING;
+            return place(overlap) ? ABOUT_X : ABOUT_NOTHING;
         if (expand(overlap, t, &corner) != CHANGED)
             return facet_at(overlap, t, ret_facet);
     }
-    return PIR_ABOUT_NOTHING;
+    return ABOUT_NOTHING;
 }
 
 /* --- the least facet --- */
@@ -322,7 +320,7 @@ struct found {
 };
 
 /* Takes the facet after the last, which has these corners. True where it is the least of all. */
-static bool add_facet(const pir_overlap *overlap, uint32_t corners, struct found *found) {
+static bool add_facet(const struct overlap *overlap, uint32_t corners, struct found *found) {
     const pir_facet *facet = &found->facet[found->count];
     found->corners[found->count] = corners;
     found->radius[found->count] = NAN;
@@ -333,13 +331,14 @@ static bool add_facet(const pir_overlap *overlap, uint32_t corners, struct found
 }
 
 /* Proves that triangle t lies in a facet of D, and takes that. */
-static bool take_facet(const pir_overlap *overlap, uint32_t t, struct found *found) {
+static bool take_facet(const struct overlap *overlap, uint32_t t, struct found *found) {
     pir_piece piece;
     pir_same_facet same;
     pir_facet *facet = &found->facet[found->count];
     if (found->count == MOST_FACETS || !piece_at(overlap, t, &piece))
         return false;
-    bool has_same = overlap->prove_same(overlap->exact->frame, overlap->placement, piece, &same) == PIR_SAME_PROVEN;
+    bool has_same =
+        overlap->task->prove_same(overlap->exact->frame, overlap->placement, piece, &same) == PIR_SAME_PROVEN;
     if (has_same)
         *facet = same.facet;
     else if (!pir_facet_prove(overlap->exact, piece, facet))
@@ -348,14 +347,14 @@ static bool take_facet(const pir_overlap *overlap, uint32_t t, struct found *fou
     if (!(overlap->room->loops->within(overlap->surface, corners) >> t & 1))
         return false;
     if (add_facet(overlap, corners, found) && has_same) {
-        *overlap->same = same;
-        *overlap->has_same = true;
+        overlap->task->same = same;
+        overlap->task->has_same = true;
     }
     return true;
 }
 
 /* After a corner was added. */
-static void find_corner(const pir_overlap *overlap, uint32_t corner, struct found *found) {
+static void find_corner(const struct overlap *overlap, uint32_t corner, struct found *found) {
     for (uint32_t i = 0; i < found->count; i++) {
         found->corners[i] &= ~(1u << corner);
         found->corners[i] |= (uint32_t)is_in(overlap, corner, &found->facet[i]) << corner;
@@ -366,7 +365,7 @@ static void find_corner(const pir_overlap *overlap, uint32_t corner, struct foun
  * The triangle of least distance that is in no facet that is proven; the count where none is, or that is farther than
  * `limit`.
  */
-static uint32_t next_open(const pir_overlap *overlap, const struct found *found, double limit) {
+static uint32_t next_open(const struct overlap *overlap, const struct found *found, double limit) {
     const pir_surface_loops *loops = overlap->room->loops;
     const pir_surface *surface = overlap->surface;
     uint64_t open = pir_surface_first(surface->count);
@@ -379,7 +378,7 @@ static uint32_t next_open(const pir_overlap *overlap, const struct found *found,
 }
 
 /* An upper bound on the least slack. */
-static double bound_of(const pir_overlap *overlap, const pir_least *least) {
+static double bound_of(const struct overlap *overlap, const pir_least *least) {
     if (!least->some)
         return HUGE_VAL;
     const pir_facet *facet = &least->facet;
@@ -389,7 +388,7 @@ static double bound_of(const pir_overlap *overlap, const pir_least *least) {
 /* --- triangles that lie in no facet --- */
 
 /* The least of three corners along a unit direction, less the error that they may have. */
-static double least_along(const pir_overlap *overlap, uint32_t t, pir_vec3 along) {
+static double least_along(const struct overlap *overlap, uint32_t t, pir_vec3 along) {
     double least = HUGE_VAL;
     for (int k = 0; k < 3; k++)
         least = fmin(least, pir_vec_dot(along, pir_surface_corner(overlap->room, corner_of(overlap, t, k))));
@@ -400,7 +399,7 @@ static double least_along(const pir_overlap *overlap, uint32_t t, pir_vec3 along
  * A bound on the distance of a triangle from x, from the nearest points of its sides: those are certain where the plane
  * of a sliver is not. *ret_along is the direction of the best.
  */
-static double distance_of(const pir_overlap *overlap, uint32_t t, pir_vec3 *ret_along) {
+static double distance_of(const struct overlap *overlap, uint32_t t, pir_vec3 *ret_along) {
     double most = overlap->room->plane.low[t];
     pir_vec3 n = pir_surface_normal(overlap->room, t);
     *ret_along = pir_vec_scale(n, 1 / sqrt(pir_vec_dot(n, n)));
@@ -425,7 +424,7 @@ static double distance_of(const pir_overlap *overlap, uint32_t t, pir_vec3 *ret_
  * A ray beside it is at an angle from the facet's normal n whose tangent is at least the radius over the slack. It
  * leaves the triangle at a distance of at least the least of its corners along n, over the cosine.
  */
-static double distance_beside(const pir_overlap *overlap, uint32_t t, struct found *found, uint32_t i) {
+static double distance_beside(const struct overlap *overlap, uint32_t t, struct found *found, uint32_t i) {
     const pir_facet *facet = &found->facet[i];
     const double error = overlap->placement->error * facet->err;
     double slack = pir_facet_slack(overlap->exact, overlap->placement, facet);
@@ -439,7 +438,7 @@ static double distance_beside(const pir_overlap *overlap, uint32_t t, struct fou
  * Raises what a triangle is known to be from x at least: by its distance, and by what is beside the discs in the facets
  * that are found. Returns whether that is more than the least facet.
  */
-static bool is_beside(const pir_overlap *overlap, uint32_t t, struct found *found, pir_vec3 *ret_along) {
+static bool is_beside(const struct overlap *overlap, uint32_t t, struct found *found, pir_vec3 *ret_along) {
     double *low = &overlap->room->plane.low[t], bound = bound_of(overlap, &found->least);
     *low = distance_of(overlap, t, ret_along);
     for (uint32_t i = 0; i < found->count && !(*low > bound); i++)
@@ -456,7 +455,7 @@ static uint32_t place_of(const struct found *found, const pir_facet *facet) {
 }
 
 /* Adds the facets about the foot of x, found from a triangle. */
-static bool add_at_foot(const pir_overlap *overlap, uint32_t t, pir_vec3 along, struct found *found) {
+static bool add_at_foot(const struct overlap *overlap, uint32_t t, pir_vec3 along, struct found *found) {
     const uint32_t corner = corner_of(overlap, t, 0);
     const uint32_t vertex[2] = {overlap->surface->a[corner], overlap->surface->b[corner]};
     pir_about_foot about;
@@ -478,7 +477,7 @@ static bool add_at_foot(const pir_overlap *overlap, uint32_t t, pir_vec3 along, 
  * Whether a triangle in which nothing is beyond, but which lies in no facet, is proven to be farther from x than the
  * least facet. Facets that doubles cannot tell apart leave such triangles.
  */
-static bool set_aside(const pir_overlap *overlap, uint32_t t, struct found *found) {
+static bool set_aside(const struct overlap *overlap, uint32_t t, struct found *found) {
     pir_vec3 along;
     found->aside = true;
     return is_beside(overlap, t, found, &along) ||
@@ -502,7 +501,7 @@ static bool has_large_facet(const pir_polytope *p, uint32_t vertex) {
 }
 
 /* Whether a search takes long because large facets of both bodies are nearly parallel at a triangle. */
-static bool is_long(const pir_overlap *overlap, uint32_t t, uint32_t added) {
+static bool is_long(const struct overlap *overlap, uint32_t t, uint32_t added) {
     const pir_frame *frame = overlap->exact->frame;
     const uint32_t corner = corner_of(overlap, t, 0);
     return added >= MANY_ADDED && has_large_facet(frame->p.polytope, overlap->surface->a[corner]) &&
@@ -510,7 +509,7 @@ static bool is_long(const pir_overlap *overlap, uint32_t t, uint32_t added) {
 }
 
 /* Whether a triangle needs no more vertices: where discs are known, or a search is long, they prove what many would. */
-static inline bool is_passed(const pir_overlap *overlap, uint32_t t, uint32_t added, struct found *found) {
+static inline bool is_passed(const struct overlap *overlap, uint32_t t, uint32_t added, struct found *found) {
     pir_vec3 along;
     const bool seeks = is_long(overlap, t, added);
     if (!found->aside && !seeks)
@@ -521,12 +520,16 @@ static inline bool is_passed(const pir_overlap *overlap, uint32_t t, uint32_t ad
             is_beside(overlap, t, found, &along));
 }
 
-bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet) {
+/*
+ * The true facet of least slack, and the first in order of those that tie, from a surface about x; false where it
+ * is left open. task->same may become that facet.
+ */
+static bool find_least(const struct overlap *overlap, pir_facet *ret_facet) {
     struct found found;
     found.count = found.walks = 0;
     found.aside = found.least.some = false;
-    if (*overlap->has_same) {
-        found.facet[0] = overlap->same->facet;
+    if (overlap->task->has_same) {
+        found.facet[0] = overlap->task->same.facet;
         add_facet(overlap, corners_in(overlap, &found.facet[0]), &found);
     }
     for (uint32_t added = 0; added <= MOST_ADDED;) {
@@ -549,4 +552,138 @@ bool pir_overlap_least(const pir_overlap *overlap, pir_facet *ret_facet) {
         }
     }
     return false;
+}
+
+/* --- answers from a surface --- */
+
+/* Counts an answer of a level. */
+static bool end(pir_task *task, pir_level level) {
+    pir_pair_task_of(task)->pair->level = (uint8_t)level;
+    return true;
+}
+
+static struct overlap overlap_of(pir_task *task) {
+    pir_pair *pair = pir_pair_task_of(task)->pair;
+    pir_workspace *workspace = pir_pair_task_of(task)->workspace;
+    if (!pair->surface)
+        pair->surface = PIR_ZEROED(&pair->allocator, pir_surface, 1);
+    // without memory, one that is not kept
+    return (struct overlap){.task = task,
+                            .exact = task->exact,
+                            .placement = task->placement,
+                            .surface = pair->surface ? pair->surface : &workspace->spare,
+                            .room = &workspace->room,
+                            .statistics = &pair->statistics};
+}
+
+/* The answer from a surface about x. */
+static bool finish_inside(pir_task *task, const struct overlap *overlap) {
+    pir_facet facet;
+    if (!(task->want & PIR_WANT_DEPTH))
+        pir_result_set_state(task->result, PIR_INSIDE);
+    else if (find_least(overlap, &facet))
+        pir_task_inside(task, &facet, pir_facet_slack(task->exact, task->placement, &facet));
+    else
+        return false;
+    task->hint->deep = true;
+    return end(task, PIR_LEVEL_OVERLAPPING);
+}
+
+/* The answer from what came of a surface. A facet that x is at or beyond is an answer by the level `near`. */
+static bool finish(pir_task *task, const struct overlap *overlap, enum about about, const pir_facet *facet) {
+    if (about == ABOUT_X)
+        return finish_inside(task, overlap);
+    return about == ABOUT_FACET && task->may_near && pir_task_settle(task, facet) && end(task, PIR_LEVEL_NEAR);
+}
+
+/* By the surface of the last answer, mended where x has left it. */
+static bool by_surface(pir_task *task) {
+    const pir_surface *surface = pir_pair_task_of(task)->pair->surface;
+    pir_facet facet;
+    if (!task->was_deep || !surface || surface->count == 0)
+        return false;
+    const struct overlap overlap = overlap_of(task);
+    return finish(task, &overlap, place(&overlap) ? ABOUT_X : repair(&overlap, &facet), &facet);
+}
+
+/* By a new surface: from the descent's last simplex, or widened from one about a point inside of D. */
+static bool by_new_surface(pir_task *task) {
+    pir_pair *pair = pir_pair_task_of(task)->pair;
+    const struct overlap overlap = overlap_of(task);
+    pir_facet facet;
+    bool done = finish(task, &overlap, begin_surface(&overlap, &task->simplex, &facet), &facet);
+    if (!done) {
+        pir_vec3 inner = pir_vec_add(pir_mat_apply(&task->frame->r, pair->body_p->inner), pair->body_q->inner);
+        done = finish(task, &overlap, widen(&overlap, inner, &facet), &facet);
+    }
+    if (pair->surface && !task->hint->deep)
+        pair->surface->count = 0;
+    return done;
+}
+
+/* --- answers from all axes of small bodies --- */
+
+/* The answer from task->same, a facet that doubles have proven; inside only where all others have more slack. */
+static bool settle_least(pir_task *task, const pir_axes_slack *least) {
+    const pir_same_facet *same = &task->same;
+    if (!(same->slack > 0)) {
+        pir_task_near_same(task);
+        return end(task, PIR_LEVEL_NEAR);
+    }
+    if (!(same->slack + task->placement->error * same->facet.err < least->next))
+        return false;
+    pir_task_inside(task, &same->facet, same->slack);
+    return end(task, PIR_LEVEL_OVERLAPPING);
+}
+
+/* The answer by the axes of both bodies. Where they leave it open, tells whether they are likely to do so again. */
+static bool ask_axes(pir_task *task, bool *ret_open) {
+    const pir_pair *pair = pir_pair_task_of(task)->pair;
+    const pir_axes *p = pair->axes_p, *q = pair->axes_q;
+    pir_axes_slack least;
+    pir_same_facet other;
+    pir_vec3 n;
+    pir_axes_least(pir_pair_task_of(task)->workspace->axes, p, q, task->frame, task->placement, &least);
+    // along edges that are parallel there is no axis, and less than any slack is said
+    const bool is_none = least.low < -task->placement->reach;
+    *ret_open = is_none || !(least.low < 0);
+    if (task->has_same && settle_least(task, &least))
+        return true;
+    if (is_none)
+        return false;
+    pir_piece piece = pir_axes_piece(p, q, task->frame, least.at, &n);
+    // written in place where nothing is there: avoids a copy
+    pir_same_facet *same = task->has_same ? &other : &task->same;
+    if (task->prove_same(task->frame, task->placement, piece, same) == PIR_SAME_PROVEN) {
+        if (task->has_same)
+            task->same = other;
+        task->has_same = true;
+        return settle_least(task, &least);
+    }
+    return !*ret_open && pir_pair_apart_along(task, n) && end(task, PIR_LEVEL_NEAR);
+}
+
+/*
+ * What two facets of one slack, or an edge of P along one of Q, leave open lasts where bodies rest on each other. So
+ * the next calls do not ask.
+ */
+#define AXES_REST 15
+
+static bool by_axes(pir_task *task) {
+    pir_pair *pair = pir_pair_task_of(task)->pair;
+    bool open;
+    if (!pair->axes_p || !task->may_near)
+        return false;
+    if (pair->resting > 0) {
+        pair->resting--;
+        return false;
+    }
+    if (ask_axes(task, &open))
+        return true;
+    pair->resting = open ? AXES_REST : 0;
+    return false;
+}
+
+bool pir_pair_depth(pir_task *task, bool anew) {
+    return anew ? by_new_surface(task) : by_axes(task) || by_surface(task);
 }
