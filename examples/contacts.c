@@ -13,7 +13,7 @@ enum { FRAMES = 8, ROOM = 16 };
 
 static void print_contacts(int frame, const pir_query_result *answer, const pir_contact *contacts, size_t count) {
     printf("frame %d: distance %+.4f, %u contacts\n", frame, answer->distance, (unsigned)count);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && i < ROOM; i++) /* `count` is that of all there are */
         printf("  %016llx at (%+.3f, %+.3f, %+.3f), %+.4f apart\n", (unsigned long long)contacts[i].id,
                contacts[i].point_q.x, contacts[i].point_q.y, contacts[i].point_q.z, contacts[i].distance);
 }
@@ -45,7 +45,7 @@ int main(void) {
     pir_sum *difference = NULL;
     pir_query *query = NULL;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1; /* queries are answered from the difference of the two */
+    options.difference = true; /* queries are answered from the difference of the two */
 
     pir_status status = pir_shape_create("cube", NULL, NULL, &cube);
     if (status == PIR_OK)

@@ -58,7 +58,7 @@ int main(void) {
     pir_sum *difference = NULL;
     pir_query *query = NULL;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1; /* queries are answered from the difference of the two */
+    options.difference = true; /* queries are answered from the difference of the two */
 
     pir_status status = pir_shape_create("box?x=1&y=0.6&z=0.4", NULL, NULL, &box);
     if (status == PIR_OK)

@@ -67,7 +67,7 @@ int main(void) {
     pir_sum *kept = NULL, *all = NULL;
     pir_query *cone = NULL, *whole = NULL;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
 
     pir_status status = pir_shape_create("icosahedron", NULL, NULL, &p);
     if (status == PIR_OK)

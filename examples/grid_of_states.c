@@ -33,7 +33,7 @@ int main(void) {
     pir_sum *difference = NULL;
     pir_query *query = NULL;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
 
     pir_status status = pir_shape_create("box?x=0.625&y=0.625&z=1", NULL, NULL, &p);
     if (status == PIR_OK)

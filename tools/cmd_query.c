@@ -234,7 +234,7 @@ int cmd_query(const struct args *args) {
     if (!p || !q)
         goto done;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     int64_t start = clock_now();
     pir_status status = pir_sum_create(p, q, request.rotation, &options, &sum);
     if (status == PIR_OK)

@@ -86,7 +86,7 @@ static uint64_t on_claim(void *context) {
     return ranks_next(&((struct slicing *)context)->ranks);
 }
 
-static int on_progress(void *context, const pir_cspace_progress *progress) {
+static bool on_progress(void *context, const pir_cspace_progress *progress) {
     struct slicing *run = context;
     if (run->ranks.number > 0)
         return !interrupt_asked();
@@ -213,7 +213,7 @@ static pir_cspace_job *create_job(struct slicing *run) {
     for (int turn = 0; turn < 2; turn++) {
         pir_status status = PIR_OK;
         if (run->ranks.number > 0)
-            run->options.resume = 1;
+            run->options.resume = true;
         if ((run->ranks.number > 0) == (turn > 0))
             status = pir_cspace_job_create(&bodies, run->grid, path, &run->options, &report, &job);
         if (ranks_agree(&run->ranks, status == PIR_OK))

@@ -44,7 +44,7 @@ struct Counted {
 
 pir_sum_options options_of(const pir_allocator *allocator, pir_workspace *workspace) {
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     options.allocator = allocator;
     options.workspace = workspace;
     return options;

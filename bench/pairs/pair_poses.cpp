@@ -28,7 +28,7 @@ class Contact {
   public:
     Contact(pir_polytope *p, pir_polytope *q) {
         pir_sum_options options = pir_sum_options_default();
-        options.difference = 1;
+        options.difference = true;
         if (pir_sum_create(p, q, {0, 0, 0, 1}, &options, &sum_) != PIR_OK || pir_query_create(sum_, &query_) != PIR_OK)
             std::exit(2);
         far_ = 4 * (size_of(p) + size_of(q));

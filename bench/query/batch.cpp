@@ -33,7 +33,7 @@ std::vector<pir_vec3> translations(pir_query *query, const pir_polytope *p, doub
 
 void run_batches(FILE *csv, const char *set, pir_polytope *p) {
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *sum;
     pir_query *query;
     if (pir_sum_create(p, p, {0.1, 0.2, 0.3, 0.9}, &options, &sum) != PIR_OK || pir_query_create(sum, &query) != PIR_OK)

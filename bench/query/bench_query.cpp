@@ -48,7 +48,7 @@ struct Ours {
 Ours run_ours(pir_polytope *p, pir_polytope *q, const std::vector<Pose> &poses, Query what, double overhead) {
     Ours ours;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *sum;
     pir_query *query, *fresh;
     if (pir_sum_create(p, q, poses[0].r, &options, &sum) != PIR_OK || pir_query_create(sum, &query) != PIR_OK ||

@@ -68,7 +68,7 @@ void run_set(FILE *csv, const char *set, pir_polytope *body, double overhead) {
     std::vector<Pose> poses = make_poses(body, body, -0.4);
     std::vector<Tracked> all;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     for (double width : WIDTHS) {
         Tracked t = {};
         t.half_angle = width < 180 ? width * M_PI / 180 : 4;

@@ -105,7 +105,7 @@ std::vector<Pose> make_poses(pir_polytope *p, pir_polytope *q, double wish) {
     Random random;
     std::vector<Pose> poses;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *sum;
     pir_query *query;
     pir_quat r{0.1, 0.2, 0.3, 0.9};

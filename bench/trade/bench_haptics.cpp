@@ -61,7 +61,7 @@ class Tracked {
 
     Tracked(pir_polytope *p, pir_polytope *q) {
         pir_sum_options options = pir_sum_options_default();
-        options.difference = 1;
+        options.difference = true;
         check(pir_sum_create(p, q, {0, 0, 0, 1}, &options, &sum_));
         check(pir_query_create(sum_, &query_));
         input_ = pir_query_input_default();

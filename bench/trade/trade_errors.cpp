@@ -69,7 +69,7 @@ double hausdorff(const std::vector<pir_vec3> &a, const std::vector<pir_vec3> &b)
 
 std::vector<pir_vec3> exact_difference(const TradePair &pair, pir_quat r) {
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *sum;
     pir_mesh *mesh;
     trade_check(pir_sum_create(pair.p, pair.q, r, &options, &sum));

@@ -24,7 +24,7 @@ class Sum : public Way {
     void restart() override {
         clear();
         pir_sum_options options = pir_sum_options_default();
-        options.difference = 1;
+        options.difference = true;
         trade_check(pir_sum_create(pair_.p, pair_.q, pair_.poses[0].r, &options, &sum_));
         trade_check(pir_query_create(sum_, &query_));
         cache_ = {};

@@ -31,7 +31,8 @@ PAGES = {
     "docs/replay.md": "Replay",
     "docs/guarantees.md": "Guarantees", "docs/api-tests.md": "What tests each function",
     "docs/building.md": "Building", "ARCHITECTURE.md": "Architecture",
-    "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security", "CHANGELOG.md": "Changelog",
+    "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security",
+    "docs/upgrading.md": "Upgrading", "CHANGELOG.md": "Changelog",
 }
 WORD = re.compile(r"\b(?:pir|PIR)_\w+\b")
 

@@ -83,7 +83,7 @@ class Algorithm : public btActivatingCollisionAlgorithm {
         int kept = manifold_->getNumContacts();
         for (int i = 0; i < kept; i++)
             old[i] = manifold_->getContactPoint(i);
-        int chosen = choose(contacts, count);
+        int chosen = choose(contacts, std::min(count, CONTACTS)); // of more, the first are as good
         for (int i = 0; i < chosen; i++)
             made[i] = point(contacts[i], answer.normal, objects);
         double near = manifold_->getContactBreakingThreshold();

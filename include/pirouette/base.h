@@ -3,12 +3,11 @@
  * Words that every part of Pirouette shares: status codes, error reports, vectors, quaternions, the allocator.
  *
  * Everything here is a plain value; nothing allocates, nothing is global.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_BASE_H
 #define PIROUETTE_BASE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -25,7 +24,8 @@ extern "C" {
 #endif
 
 /** How a call ended. Every call that can fail returns one; on anything but PIR_OK its `ret_`
-    parameters are untouched. */
+    parameters are untouched. A call with a `capacity` writes as much as there is room for, and PIR_OK with the count of
+    all there is says where that was too little: ask again with more room, or go without the rest. */
 typedef enum pir_status {
     PIR_OK = 0,
     PIR_ERR_ARGUMENT,   /**< an argument breaks the call's contract: NULL, an index out of range, an unknown name */
@@ -42,7 +42,7 @@ typedef enum pir_status {
     PIR_ERR_INTERNAL,    /**< the result failed the library's own check and is withheld: a bug, please report it */
 } pir_status;
 
-/** The name of a status in plain words, such as "zero quaternion". Never NULL; static memory. */
+/** The name of a status in plain words, such as "zero quaternion". Never NULL; static memory. O(1). */
 PIR_API const char *pir_status_text(pir_status status);
 
 /** What went wrong, where and why, in one line. Plain memory of the caller; filled only when a call fails. */

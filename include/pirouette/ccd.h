@@ -6,8 +6,6 @@
  *
  * Threads: a call reads its polytopes and writes nothing but its results; a pir_support_body belongs to one thread at a
  * time.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_CCD_H
 #define PIROUETTE_CCD_H

@@ -18,8 +18,6 @@
  * three.
  *
  * A map is immutable; threads may read one together.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_CGM_H
 #define PIROUETTE_CGM_H
@@ -59,7 +57,10 @@ PIR_API pir_status pir_cgm_create(pir_polytope *polytope, const pir_quat *rotati
  */
 PIR_API pir_status pir_cgm_overlay(const pir_cgm *a, const pir_cgm *b, pir_cgm **ret_cgm);
 
-/** Gives the caller's reference back; the map is freed once its locators are destroyed as well. NULL is accepted. */
+/**
+ * Gives the caller's reference back; the map is freed once its locators are destroyed as well. NULL is accepted. Cost:
+ * the time to free it.
+ */
 PIR_API void pir_cgm_destroy(pir_cgm *cgm);
 
 /**
@@ -76,13 +77,13 @@ PIR_API void pir_cgm_destroy(pir_cgm *cgm);
  */
 PIR_API pir_status pir_cgm_mesh(const pir_cgm *cgm, pir_precision precision, pir_mesh **ret_mesh);
 
-/** The number of sources: 1 for the map of a polytope, the sum of both for an overlay. */
+/** The number of sources: 1 for the map of a polytope, the sum of both for an overlay. O(1). */
 PIR_API uint32_t pir_cgm_source_count(const pir_cgm *cgm);
 
-/** Source `source`; borrowed. */
+/** Source `source`; borrowed. O(1). */
 PIR_API const pir_polytope *pir_cgm_source(const pir_cgm *cgm, uint32_t source);
 
-/** The rotation of source `source`, as given; the identity where none was given. */
+/** The rotation of source `source`, as given; the identity where none was given. O(1). */
 PIR_API pir_quat pir_cgm_source_rotation(const pir_cgm *cgm, uint32_t source);
 
 /* --- traversal --- */
@@ -92,16 +93,14 @@ typedef struct pir_cgm_counts {
     uint32_t vertices, halfedges, faces;
 } pir_cgm_counts;
 
-/**
- * The counts of map `map`, 0 to 5, and those of all six maps.
- */
+/** The counts of map `map`, 0 to 5, and those of all six maps. O(1). */
 PIR_API pir_cgm_counts pir_cgm_map_counts(const pir_cgm *cgm, uint32_t map);
 PIR_API pir_cgm_counts pir_cgm_total_counts(const pir_cgm *cgm);
 
-/** The numbers of the first vertex, halfedge and face of map `map`, 0 to 5. */
+/** The numbers of the first vertex, halfedge and face of map `map`, 0 to 5. O(1). */
 PIR_API pir_cgm_counts pir_cgm_map_first(const pir_cgm *cgm, uint32_t map);
 
-/** The name of a map: "-x", "-y", "-z", "+x", "+y", "+z". Static memory. */
+/** The name of a map: "-x", "-y", "-z", "+x", "+y", "+z". Static memory. O(1). */
 PIR_API const char *pir_cgm_map_name(uint32_t map);
 
 /** Where on the cube a vertex is. */
@@ -114,8 +113,8 @@ typedef enum pir_cgm_place {
 typedef struct pir_cgm_vertex_info {
     uint32_t map;
     pir_cgm_place place;
-    /** 1: a facet of the polytope or sum has this normal; 0: an arc meets a cube edge here, or a bare corner. */
-    int real;
+    /** Whether a facet of the polytope or sum has this normal; else an arc meets a cube edge here, or a bare corner. */
+    bool real;
     pir_vec3 direction; /**< unit vector, rounded */
     double x, y;        /**< in the square [−1, 1]² of its map, rounded */
     uint32_t half;      /**< a halfedge that leaves it; on the square, the one along it counter-clockwise */
@@ -128,13 +127,13 @@ typedef struct pir_cgm_halfedge_info {
     uint32_t face;       /**< on its left */
     /** For a halfedge along the square, inside it: its opposite in the map beyond the cube edge; else PIR_CGM_NONE. */
     uint32_t beyond;
-    int real; /**< 1: an edge of the polytope or sum maps here; 0: only the square */
+    bool real; /**< whether an edge of the polytope or sum maps here; else only the square */
 } pir_cgm_halfedge_info;
 
 typedef struct pir_cgm_face_info {
     uint32_t map;
     uint32_t half; /**< a halfedge that has it on its left */
-    int outer;     /**< 1: the outer face of its map */
+    bool outer;    /**< whether it is the outer face of its map */
 } pir_cgm_face_info;
 
 /** A vertex, halfedge or face by its number, which must be below the total count. O(1). */
@@ -142,10 +141,10 @@ PIR_API pir_cgm_vertex_info pir_cgm_vertex_at(const pir_cgm *cgm, uint32_t verte
 PIR_API pir_cgm_halfedge_info pir_cgm_halfedge_at(const pir_cgm *cgm, uint32_t halfedge);
 PIR_API pir_cgm_face_info pir_cgm_face_at(const pir_cgm *cgm, uint32_t face);
 
-/** The vertex at corner `corner` of map `map`: 0 to 3 in lexicographic order of (x, y). */
+/** The vertex at corner `corner` of map `map`: 0 to 3 in lexicographic order of (x, y). O(1). */
 PIR_API uint32_t pir_cgm_corner(const pir_cgm *cgm, uint32_t map, uint32_t corner);
 
-/** The halfedge after `halfedge` clockwise about its origin, within its map. */
+/** The halfedge after `halfedge` clockwise about its origin, within its map. O(1). */
 PIR_API uint32_t pir_cgm_clockwise_after(const pir_cgm *cgm, uint32_t halfedge);
 
 /**
@@ -153,6 +152,8 @@ PIR_API uint32_t pir_cgm_clockwise_after(const pir_cgm *cgm, uint32_t halfedge);
  * extreme here; PIR_CGM_NONE where it has none, for an outer face, and for the hidden facets of a segment.
  *
  * The feature is given by its number `vertex`, `halfedge` or `face`.
+ *
+ * Cost: O(1).
  */
 PIR_API uint32_t pir_cgm_vertex_facet(const pir_cgm *cgm, uint32_t vertex, uint32_t source);
 PIR_API uint32_t pir_cgm_halfedge_edge(const pir_cgm *cgm, uint32_t halfedge, uint32_t source);
@@ -163,6 +164,8 @@ PIR_API uint32_t pir_cgm_face_vertex(const pir_cgm *cgm, uint32_t face, uint32_t
  * vector, the offset is within a few ulp relative to the size of the sources. exact.h has it exactly.
  *
  * ret_normal, ret_offset  the plane's unit normal and offset.
+ *
+ * Cost: O(1).
  */
 PIR_API void pir_cgm_vertex_plane(const pir_cgm *cgm, uint32_t vertex, pir_vec3 *ret_normal, double *ret_offset);
 
@@ -189,7 +192,7 @@ typedef struct pir_cgm_locator pir_cgm_locator;
  */
 PIR_API pir_status pir_cgm_locator_create(const pir_cgm *cgm, pir_cgm_locator **ret_locator);
 
-/** Frees; NULL is accepted. */
+/** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_cgm_locator_destroy(pir_cgm_locator *locator);
 
 /**
@@ -217,17 +220,15 @@ typedef struct pir_cgm_statistics {
     size_t bytes; /**< of its own arrays, without the polytopes */
 } pir_cgm_statistics;
 
-/**
- * The counters of `cgm`.
- */
+/** The counters of `cgm`. O(1). */
 PIR_API pir_cgm_statistics pir_cgm_get_statistics(const pir_cgm *cgm);
 
 /**
- * A whole-structure check for tests: 1 when every invariant of the six maps holds, geometry in exact arithmetic.
+ * A whole-structure check for tests: true when every invariant of the six maps holds, geometry in exact arithmetic.
  *
  * Cost: O(n) for n features, with an exact test each.
  */
-PIR_API int pir_cgm_is_valid(const pir_cgm *cgm);
+PIR_API bool pir_cgm_is_valid(const pir_cgm *cgm);
 
 #ifdef __cplusplus
 }

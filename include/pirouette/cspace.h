@@ -14,8 +14,6 @@
  *
  * This header is of libpirouette-cspace, which stands beside libpirouette: pkg-config's pirouette-cspace. Without HDF5
  * in the build, calls that read or write files return PIR_ERR_UNSUPPORTED.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_CSPACE_H
 #define PIROUETTE_CSPACE_H
@@ -64,21 +62,23 @@ typedef struct pir_cspace_options {
     uint32_t threads;               /**< that make units; 1 */
     uint32_t slices_per_unit;       /**< at most PIR_CSPACE_UNIT_MAX; 0: 256, or 64 where there are few in all */
     uint32_t slices_per_key;        /**< every so many slices of a unit one is written whole; 0: 64 */
-    int planes;                     /**< 1: also the planes of all slices, as doubles */
-    int vertices;                   /**< 1: also the vertices of all slices, as doubles */
-    int resume;                     /**< 1: go on from the parts of an earlier run; 0: remove them */
+    bool planes;                    /**< whether to make the planes of all slices too, as doubles */
+    bool vertices;                  /**< whether to make the vertices of all slices too, as doubles */
+    bool resume;                    /**< whether to go on from the parts of an earlier run; else they are removed */
     uint32_t part;                  /**< the number of this process's part; 0 */
     /**
      * Gives the number of the next unit to make, or any number from the count of units on when there is none. NULL:
      * the job deals them itself. For ranks that share a job. Called from all threads, one at a time.
      */
     uint64_t (*claim)(void *context);
-    /** Called now and then, one thread at a time; a result of 0 ends the run after the units in work. May be NULL. */
-    int (*progress)(void *context, const pir_cspace_progress *progress);
+    /** Called now and then, one thread at a time; false ends the run after the units in work. May be NULL. */
+    bool (*progress)(void *context, const pir_cspace_progress *progress);
     void *context; /**< for claim and progress */
 } pir_cspace_options;
 
-/** One thread, 256 slices a unit (64 where there are few in all), 64 a key, no planes, no vertices, no resuming. */
+/**
+ * One thread, 256 slices a unit (64 where there are few in all), 64 a key, no planes, no vertices, no resuming. O(1).
+ */
 PIR_API pir_cspace_options pir_cspace_options_default(void);
 
 /**
@@ -105,22 +105,24 @@ PIR_API pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const 
                                          const pir_cspace_options *options, pir_report *report,
                                          pir_cspace_job **ret_job);
 
-/** Frees; parts stay. NULL is accepted. */
+/** Frees; parts stay. NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_cspace_job_destroy(pir_cspace_job *job);
 
-/** Units in all, those that are made included. */
+/** Units in all, those that are made included. O(1). */
 PIR_API uint64_t pir_cspace_job_units(const pir_cspace_job *job);
 
 /**
  * Units that were still to be made when the job was created. Of processes that share a job only the first one, whose
  * `part` is 0, looks whether the file is complete.
+ *
+ * Cost: O(1).
  */
 PIR_API uint64_t pir_cspace_job_left(const pir_cspace_job *job);
 
 /**
- * Makes units until none is left to claim, or until `progress` returns 0, and appends them to this process's part. Each
- * unit that was appended is kept, whatever comes after; what is on the disk after a loss of power may be two seconds
- * old.
+ * Makes units until none is left to claim, or until `progress` returns false, and appends them to this process's
+ * part. Each unit that was appended is kept, whatever comes after; what is on the disk after a loss of power may be
+ * two seconds old.
  *
  * report  NULL, or filled when the call fails.
  *
@@ -177,7 +179,7 @@ typedef struct pir_cspace_info {
     pir_grid_info grid;
     uint32_t robot_count, obstacle_count;
     uint32_t slices_per_unit, slices_per_key;
-    int has_planes, has_vertices;
+    bool has_planes, has_vertices;
 } pir_cspace_info;
 
 /** Which slice of which piece pair. */
@@ -249,15 +251,16 @@ PIR_API pir_status pir_cspace_check(const char *path, const pir_allocator *alloc
  */
 PIR_API pir_status pir_cspace_seal(const char *path, const pir_allocator *allocator, pir_report *report);
 
-/** Closes and frees; NULL is accepted. */
+/** Closes and frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_cspace_close(pir_cspace *cspace);
 
+/** What the file holds. O(1). */
 PIR_API pir_cspace_info pir_cspace_get_info(const pir_cspace *cspace);
 
-/** The grid; borrowed. */
+/** The grid; borrowed. O(1). */
 PIR_API const pir_grid *pir_cspace_grid(const pir_cspace *cspace);
 
-/** Piece `piece` of the robot, and of the obstacles, which must be below their counts; borrowed. */
+/** Piece `piece` of the robot, and of the obstacles, which must be below their counts; borrowed. O(1). */
 PIR_API const pir_polytope *pir_cspace_robot(const pir_cspace *cspace, uint32_t piece);
 PIR_API const pir_polytope *pir_cspace_obstacle(const pir_cspace *cspace, uint32_t piece);
 
@@ -330,7 +333,7 @@ typedef enum pir_verdict {
 typedef struct pir_configuration {
     pir_verdict verdict;
     pir_cspace_place place; /**< the slice that the answer rests on; of a free pose the least certain pair's */
-    int on_grid;            /**< 1: the rotation is that of a slice, and `state` is exact */
+    bool on_grid;           /**< whether the rotation is that of a slice, and `state` is exact */
     pir_state state;        /**< the most overlapping state over all piece pairs; with on_grid alone */
     double turn;            /**< radians, rounded up, from the slice's rotation to the pose's */
 } pir_configuration;
@@ -406,6 +409,8 @@ PIR_API pir_status pir_cspace_read_poses(const char *path, const pir_allocator *
  * Frees poses that were read; NULL is accepted.
  *
  * poses, count, allocator  as pir_cspace_read_poses gave them, and was given.
+ *
+ * Cost: O(1).
  */
 PIR_API void pir_cspace_free_poses(pir_pose *poses, size_t count, const pir_allocator *allocator);
 

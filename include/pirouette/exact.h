@@ -4,8 +4,6 @@
  * it.
  *
  * GMP's own allocation functions serve the mpq_t arguments; GMP ends the process when they run out of memory.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_EXACT_H
 #define PIROUETTE_EXACT_H
@@ -86,7 +84,7 @@ PIR_API pir_status pir_polytope_mass_exact(const pir_polytope *polytope, mpq_t r
  */
 PIR_API pir_status pir_solid_volume_exact(const pir_solid *solid, mpq_t ret_volume);
 
-/** The exact coordinates of a vertex, into three initialised rationals. */
+/** The exact coordinates of a vertex, into three initialised rationals. O(1). */
 PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t vertex, mpq_t ret_coordinates[3]);
 
 /**

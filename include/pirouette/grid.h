@@ -9,8 +9,6 @@
  * This header is of libpirouette-cspace, which stands beside libpirouette.
  *
  * Threads may read one grid at the same time.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_GRID_H
 #define PIROUETTE_GRID_H
@@ -85,15 +83,15 @@ PIR_API pir_status pir_grid_hopf(uint32_t level, const pir_allocator *allocator,
  * Makes a grid of given rotations.
  *
  * rotations   `count` of them, 1 to PIR_GRID_LIST_MAX, each of any length but 0; copied as they are.
- * keep_order  1: number i is rotations[i]. 0: numbers follow a path of small turns, found by joining nearest neighbours
- *             first and then exchanging steps while that shortens it. It is not the shortest.
+ * keep_order  true: number i is rotations[i]. false: numbers follow a path of small turns, found by joining nearest
+ *             neighbours first and then exchanging steps while that shortens it. It is not the shortest.
  * allocator   as of pir_grid_axis.
  *
  * Cost: O(n log n) expected for n rotations.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
  */
-PIR_API pir_status pir_grid_list(const pir_quat *rotations, size_t count, int keep_order,
+PIR_API pir_status pir_grid_list(const pir_quat *rotations, size_t count, bool keep_order,
                                  const pir_allocator *allocator, pir_grid **ret_grid);
 
 /**
@@ -128,9 +126,10 @@ PIR_API pir_status pir_grid_read(const char *path, const pir_allocator *allocato
 PIR_API pir_status pir_grid_read_bytes(const void *data, size_t size, const char *name, const pir_allocator *allocator,
                                        pir_report *report, pir_grid **ret_grid);
 
-/** Frees; NULL is accepted. */
+/** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_grid_destroy(pir_grid *grid);
 
+/** What the grid is. O(1). */
 PIR_API pir_grid_info pir_grid_get_info(const pir_grid *grid);
 
 /**
@@ -147,14 +146,14 @@ PIR_API uint64_t pir_grid_cell(const pir_grid *grid, uint64_t number);
 /**
  * Finds the rotations of the grid that are nearest to `rotation`, the nearest first and, of equally near ones, the
  * lower number. How near they are is compared by cosines in double: those within 1e-7 of `rotation` count as equally
- * near. Up to `capacity`, at most 64, go to `ret_numbers`; the result is how many. It is 0 where `rotation` is zero or
- * not finite.
+ * near. The result is how many are found, 0 where `rotation` is zero or not finite.
  *
- * rotation  of any length but 0.
+ * rotation           of any length but 0.
+ * most, ret_numbers  how many are asked for, at most 64 of which are found, and room for them.
  *
- * Cost: O(capacity²), O(log n) more for a list of n rotations.
+ * Cost: O(most²), O(log n) more for a list of n rotations.
  */
-PIR_API size_t pir_grid_nearest(const pir_grid *grid, pir_quat rotation, size_t capacity, uint64_t *ret_numbers);
+PIR_API size_t pir_grid_nearest(const pir_grid *grid, pir_quat rotation, size_t most, uint64_t *ret_numbers);
 
 /** The turns between successive rotations of a grid, in radians; 0 where there is one rotation. */
 typedef struct pir_grid_turns {
@@ -168,6 +167,8 @@ PIR_API pir_grid_turns pir_grid_get_turns(const pir_grid *grid);
  * The angle in radians, 0 to π, by which two rotations differ, within 1e-14; NaN where one is zero or not finite.
  *
  * a, b  of any length but 0.
+ *
+ * Cost: O(1).
  */
 PIR_API double pir_grid_turn(pir_quat a, pir_quat b);
 

@@ -9,8 +9,6 @@
  * A history is of one object, which its first note makes. Later notes must be of that kind of object.
  *
  * Threads: a history belongs to one thread at a time.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_HISTORY_H
 #define PIROUETTE_HISTORY_H
@@ -43,7 +41,7 @@ typedef struct pir_history pir_history;
  */
 PIR_API pir_status pir_history_create(const pir_allocator *allocator, pir_history **ret_history);
 
-/** Frees, and gives its references to bodies back; NULL is accepted. */
+/** Frees, and gives its references to bodies back; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_history_destroy(pir_history *history);
 
 /**
@@ -56,7 +54,7 @@ PIR_API void pir_history_destroy(pir_history *history);
  * Errors: PIR_ERR_ARGUMENT (there is a note already), PIR_ERR_MEMORY; the history is then as it was. So with all notes.
  */
 PIR_API pir_status pir_history_sum(pir_history *history, pir_polytope *p, pir_polytope *q, pir_quat rotation,
-                                   int difference);
+                                   bool difference);
 
 /**
  * Notes pir_sum_rotate.

@@ -8,8 +8,6 @@
  * floats hold every coordinate and as text where they do not. SVG is written only.
  *
  * Every call takes an optional report that, on failure, says in one line what was wrong, where (file and line) and why.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_IO_H
 #define PIROUETTE_IO_H
@@ -47,7 +45,7 @@ typedef enum pir_surface_form {
  */
 typedef struct pir_surface {
     pir_surface_form form;
-    int convex;      /**< 1 when the hull adds nothing; 0 for an open surface */
+    bool convex;     /**< whether the hull adds nothing; false for an open surface */
     uint32_t points; /**< as many as the file has, duplicates and points that no facet has included */
     uint32_t facets;
     /** What the facets enclose, rounded; negative when they are clockwise seen from outside. NaN where there is none:
@@ -58,10 +56,10 @@ typedef struct pir_surface {
 /** How to read a model. */
 typedef struct pir_read_options {
     pir_polytope_options polytope; /**< how the hull is made; the surface is held against the exact one */
-    int require_convex;            /**< refuse a model whose pir_surface is not convex, and say where it is not */
+    bool require_convex;           /**< whether to refuse a model that is not convex, and say where */
 } pir_read_options;
 
-/** pir_polytope_options_default, and models of every form. */
+/** pir_polytope_options_default, and models of every form. O(1). */
 PIR_API pir_read_options pir_read_options_default(void);
 
 /**
@@ -152,7 +150,7 @@ PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const ch
  *
  * Cost: O(size of the mesh).
  */
-PIR_API pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int exact, pir_report *report);
+PIR_API pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, bool exact, pir_report *report);
 
 /**
  * The same to a stream, which is flushed and stays open.
@@ -167,7 +165,7 @@ PIR_API pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int ex
  * Errors as of pir_mesh_write.
  */
 PIR_API pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *name, const char *format,
-                                         int exact, pir_report *report);
+                                         bool exact, pir_report *report);
 
 #ifdef __cplusplus
 }

@@ -12,8 +12,6 @@
  *
  * A live mesh follows one sum and holds a reference to it, so the sum may be destroyed first; both belong to one thread
  * at a time.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_LIVE_MESH_H
 #define PIROUETTE_LIVE_MESH_H
@@ -49,7 +47,7 @@ typedef struct pir_plane_equation {
  */
 PIR_API pir_status pir_live_mesh_create(const pir_sum *sum, pir_live_mesh **ret_live);
 
-/** Frees; NULL is accepted. */
+/** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_live_mesh_destroy(pir_live_mesh *live);
 
 /**
@@ -88,25 +86,27 @@ PIR_API void pir_live_mesh_clear_region(pir_live_mesh *live);
  * The pairs that appeared in the last refresh, and those that disappeared; none is in both lists. Sorted by kind, p, q.
  * The one pair of two segments has two facets, and two slots: it appears with the first of them and disappears with the
  * last. Valid until the next refresh.
+ *
+ * Cost: O(1).
  */
 PIR_API const pir_sum_pair *pir_live_mesh_appeared(const pir_live_mesh *live, uint32_t *ret_count);
 PIR_API const pir_sum_pair *pir_live_mesh_disappeared(const pir_live_mesh *live, uint32_t *ret_count);
 
-/** The facet slots whose corners the last refresh rewrote or emptied, rising. Valid until the next refresh. */
+/** The facet slots whose corners the last refresh rewrote or emptied, rising. Valid until the next refresh. O(1). */
 PIR_API const uint32_t *pir_live_mesh_rewritten(const pir_live_mesh *live, uint32_t *ret_count);
 
-/** The number of slots, empty ones included. */
+/** The number of slots, empty ones included. O(1). */
 PIR_API uint32_t pir_live_mesh_facet_slots(const pir_live_mesh *live);
 PIR_API uint32_t pir_live_mesh_vertex_slots(const pir_live_mesh *live);
 
-/** The pair in a facet slot; returns 0 when it is empty, else 1. */
-PIR_API int pir_live_mesh_pair(const pir_live_mesh *live, uint32_t slot, pir_sum_pair *ret_pair);
+/** The pair in a facet slot; false when it is empty. O(1). */
+PIR_API bool pir_live_mesh_pair(const pir_live_mesh *live, uint32_t slot, pir_sum_pair *ret_pair);
 
-/** The corners of a facet, vertex slots counter-clockwise from outside; *ret_count is 0 for an empty slot. */
+/** The corners of a facet, vertex slots counter-clockwise from outside; *ret_count is 0 for an empty slot. O(1). */
 PIR_API const uint32_t *pir_live_mesh_facet(const pir_live_mesh *live, uint32_t slot, uint32_t *ret_count);
 
-/** The vertices of P and Q in a vertex slot; returns 0 when it is empty, else 1. */
-PIR_API int pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t ret_pair[2]);
+/** The vertices of P and Q in a vertex slot; false when it is empty. O(1). */
+PIR_API bool pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t ret_pair[2]);
 
 /**
  * Writes the coordinates of all vertex slots, in the frame of Q, at the rotation of the sum now:

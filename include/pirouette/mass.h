@@ -13,8 +13,6 @@
  * the polytope that it was made of. Rationals are GMP's memory.
  *
  * Threads: polytopes are read, never changed; any thread.
- *
- * A call that returns no status takes O(1) unless its comment says otherwise.
  */
 #ifndef PIROUETTE_MASS_H
 #define PIROUETTE_MASS_H

@@ -6,8 +6,6 @@
  * smallest vertex; vertices and facets stand in a canonical order that does not depend on how the sum was computed, so
  * two meshes of the same sum are equal array for array. Flat bodies: a polygon has two facets, a segment two vertices
  * and no facet, a point one vertex. Threads may read one mesh together.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_MESH_H
 #define PIROUETTE_MESH_H
@@ -46,25 +44,24 @@ typedef enum pir_precision {
  */
 PIR_API pir_status pir_mesh_from_polytope(const pir_polytope *polytope, pir_mesh **ret_mesh);
 
-/** Frees; NULL is accepted. */
+/** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_mesh_destroy(pir_mesh *mesh);
 
+/** The number of vertices, and of facets. O(1). */
 PIR_API uint32_t pir_mesh_vertex_count(const pir_mesh *mesh);
 PIR_API uint32_t pir_mesh_edge_count(const pir_mesh *mesh);
 PIR_API uint32_t pir_mesh_facet_count(const pir_mesh *mesh);
 
-/** Coordinates in the frame of Q; valid as long as the mesh. */
+/** Coordinates in the frame of Q; valid as long as the mesh. O(1). */
 PIR_API const pir_vec3 *pir_mesh_vertices(const pir_mesh *mesh);
 
-/** The vertices of P and Q whose sum vertex `vertex` is. */
+/** The vertices of P and Q whose sum vertex `vertex` is. O(1). */
 PIR_API void pir_mesh_pair(const pir_mesh *mesh, uint32_t vertex, uint32_t ret_pair[2]);
 
-/** The corners of facet `facet`: *ret_count of them, valid as long as the mesh. */
+/** The corners of facet `facet`: *ret_count of them, valid as long as the mesh. O(1). */
 PIR_API const uint32_t *pir_mesh_facet(const pir_mesh *mesh, uint32_t facet, uint32_t *ret_count);
 
-/**
- * What facet `facet` of `mesh` is made of.
- */
+/** What facet `facet` of `mesh` is made of. O(1). */
 PIR_API pir_facet_kind pir_mesh_facet_kind(const pir_mesh *mesh, uint32_t facet);
 
 /**
@@ -72,6 +69,8 @@ PIR_API pir_facet_kind pir_mesh_facet_kind(const pir_mesh *mesh, uint32_t facet)
  * Valid as long as the mesh.
  *
  * ret_count  how many segments there are.
+ *
+ * Cost: O(1).
  */
 PIR_API const uint32_t *pir_mesh_segments(const pir_mesh *mesh, uint32_t *ret_count);
 
@@ -79,18 +78,20 @@ PIR_API const uint32_t *pir_mesh_segments(const pir_mesh *mesh, uint32_t *ret_co
  * The vertices that no facet or segment has: only sums of open solids have such. Valid as long as the mesh.
  *
  * ret_count  how many there are.
+ *
+ * Cost: O(1).
  */
 PIR_API const uint32_t *pir_mesh_points(const pir_mesh *mesh, uint32_t *ret_count);
 
-/** 1 when the mesh holds exact coordinates beside the doubles. */
-PIR_API int pir_mesh_is_exact(const pir_mesh *mesh);
+/** Whether the mesh holds exact coordinates beside the doubles. O(1). */
+PIR_API bool pir_mesh_is_exact(const pir_mesh *mesh);
 
 /**
- * 1 when both have the same vertices (pairs and doubles, bit for bit) and the same facets. O(n).
+ * Whether both have the same vertices (pairs and doubles, bit for bit) and the same facets. O(n).
  *
  * a, b  two meshes, which may be one.
  */
-PIR_API int pir_mesh_equal(const pir_mesh *a, const pir_mesh *b);
+PIR_API bool pir_mesh_equal(const pir_mesh *a, const pir_mesh *b);
 
 #ifdef __cplusplus
 }

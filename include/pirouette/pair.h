@@ -29,8 +29,6 @@
  * `whole`. Errors of a query of a pair: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a
  * translation beyond 2^400 times the size of the bodies, or, where Q is turned, a quaternion whose components span more
  * than 2^900), PIR_ERR_MEMORY (the workspace has to grow and cannot), PIR_ERR_UNSUPPORTED (see pir_pair_options).
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_PAIR_H
 #define PIROUETTE_PAIR_H
@@ -66,7 +64,7 @@ typedef struct pir_pair_options {
     pir_level least, most;
 } pir_pair_options;
 
-/** malloc's memory, all levels. */
+/** malloc's memory, all levels. O(1). */
 PIR_API pir_pair_options pir_pair_options_default(void);
 
 /**
@@ -79,7 +77,7 @@ PIR_API pir_pair_options pir_pair_options_default(void);
 PIR_API pir_status pir_pair_create(pir_polytope *p, pir_polytope *q, const pir_pair_options *options,
                                    pir_pair **ret_pair);
 
-/** Frees, and gives its references back; NULL is accepted. */
+/** Frees, and gives its references back; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_pair_destroy(pir_pair *pair);
 
 /**
@@ -99,7 +97,7 @@ typedef struct pir_pair_input {
     double cutoff, margin;
 } pir_pair_input;
 
-/** Both bodies at the origin, not turned; no radii, no cutoff, no margin. */
+/** Both bodies at the origin, not turned; no radii, no cutoff, no margin. O(1). */
 PIR_API pir_pair_input pir_pair_input_default(void);
 
 /* --- the queries of query.h by the same names; their comments hold here --- */
@@ -157,7 +155,7 @@ PIR_API pir_status pir_pair_signed_distance(pir_pair *pair, pir_workspace *works
  *
  * workspace               scratch.
  * capacity, ret_contacts  room for how many contacts, and that room.
- * ret_count               how many there are.
+ * ret_count               how many there are, also beyond the capacity.
  *
  * Cost: O(p · q) for patches of p and q vertices.
  *
@@ -167,7 +165,7 @@ PIR_API pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, c
                                      const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
                                      size_t *ret_count);
 
-/** How the last answer was found. */
+/** How the last answer was found. O(1). */
 PIR_API pir_level pir_pair_level(const pir_pair *pair);
 
 /** Counters of a pair since it was made, or reset. */
@@ -183,6 +181,7 @@ typedef struct pir_pair_statistics {
     uint64_t begun;      /**< surfaces begun anew */
 } pir_pair_statistics;
 
+/** The counters of `pair`. O(1). */
 PIR_API pir_pair_statistics pir_pair_get_statistics(const pir_pair *pair);
 
 #ifdef __cplusplus

@@ -9,8 +9,6 @@
  *
  * Frame: body coordinates, right-handed. Facets are listed counter-clockwise seen from outside. Vertices keep the order
  * in which their points were given. Threads may share a polytope; the reference count is atomic.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_POLYTOPE_H
 #define PIROUETTE_POLYTOPE_H
@@ -37,7 +35,7 @@ typedef struct pir_polytope_options {
     double merge_tolerance;
 } pir_polytope_options;
 
-/** malloc, the exact hull. */
+/** malloc, the exact hull. O(1). */
 PIR_API pir_polytope_options pir_polytope_options_default(void);
 
 /**
@@ -66,6 +64,8 @@ PIR_API pir_status pir_polytope_create(const pir_vec3 *points, size_t count, con
  * A bound on the Hausdorff distance between the polytope and the exact hull of the points it was made from, rounded up
  * and at most the merge tolerance; 0 where nothing was merged or dropped. It follows a polytope that is reflected or
  * scaled. A polytope read from the bytes of a sum is made from its own vertices: 0.
+ *
+ * Cost: O(1).
  */
 PIR_API double pir_polytope_merge_bound(const pir_polytope *polytope);
 
@@ -84,36 +84,43 @@ PIR_API pir_status pir_polytope_reflect(const pir_polytope *polytope, pir_polyto
  */
 PIR_API pir_status pir_polytope_scale(const pir_polytope *polytope, double factor, pir_polytope **ret_polytope);
 
-/** Takes one more reference and returns the polytope. Thread-safe. */
+/** Takes one more reference and returns the polytope. Thread-safe. O(1). */
 PIR_API pir_polytope *pir_polytope_retain(pir_polytope *polytope);
 
-/** Gives one reference back; the last one frees. NULL is accepted. Thread-safe. */
+/**
+ * Gives one reference back; the last one frees. NULL is accepted. Thread-safe. O(1), and for the last reference the
+ * time to free it.
+ */
 PIR_API void pir_polytope_release(pir_polytope *polytope);
 
-/** The dimension of its affine hull, 0 to 3. */
+/** The dimension of its affine hull, 0 to 3. O(1). */
 PIR_API int pir_polytope_dimension(const pir_polytope *polytope);
 
 /**
  * Vertices, edges and facets. A polygon has two facets (its sides); a segment has one edge and none; a point has one
  * vertex.
+ *
+ * Cost: O(1).
  */
 PIR_API uint32_t pir_polytope_vertex_count(const pir_polytope *polytope);
 PIR_API uint32_t pir_polytope_edge_count(const pir_polytope *polytope);
 PIR_API uint32_t pir_polytope_facet_count(const pir_polytope *polytope);
 
-/** Vertex `vertex`, rounded to the nearest double where the exact coordinate is none. */
+/** Vertex `vertex`, rounded to the nearest double where the exact coordinate is none. O(1). */
 PIR_API pir_vec3 pir_polytope_vertex(const pir_polytope *polytope, uint32_t vertex);
 
 /**
  * The index, in the points it was made from, of the first point that became vertex `vertex`. Where facets were merged
  * that point may be as far from the vertex as pir_polytope_merge_bound.
+ *
+ * Cost: O(1).
  */
 PIR_API uint32_t pir_polytope_source(const pir_polytope *polytope, uint32_t vertex);
 
-/** The two vertices of edge `edge`, the smaller index first. */
+/** The two vertices of edge `edge`, the smaller index first. O(1). */
 PIR_API void pir_polytope_edge(const pir_polytope *polytope, uint32_t edge, uint32_t ret_vertices[2]);
 
-/** The number of corners of facet `facet`. */
+/** The number of corners of facet `facet`. O(1). */
 PIR_API uint32_t pir_polytope_facet_size(const pir_polytope *polytope, uint32_t facet);
 
 /**
@@ -124,13 +131,15 @@ PIR_API uint32_t pir_polytope_facet_size(const pir_polytope *polytope, uint32_t 
  */
 PIR_API void pir_polytope_facet(const pir_polytope *polytope, uint32_t facet, uint32_t *ret_vertices);
 
-/** The outward unit normal of facet `facet`, within 8·2^-53 of the exact direction. */
+/** The outward unit normal of facet `facet`, within 8·2^-53 of the exact direction. O(1). */
 PIR_API pir_vec3 pir_polytope_normal(const pir_polytope *polytope, uint32_t facet);
 
 /**
  * Least and greatest coordinates.
  *
  * ret_low, ret_high  the corners of the box with edges along the axes.
+ *
+ * Cost: O(1).
  */
 PIR_API void pir_polytope_bounds(const pir_polytope *polytope, pir_vec3 *ret_low, pir_vec3 *ret_high);
 
@@ -138,10 +147,10 @@ PIR_API void pir_polytope_bounds(const pir_polytope *polytope, pir_vec3 *ret_low
 PIR_API double pir_polytope_volume(const pir_polytope *polytope);
 
 /**
- * A whole-structure check for tests: rings, twins, loops, Euler's formula, exact strict convexity. 1 when all hold.
+ * A whole-structure check for tests: rings, twins, loops, Euler's formula, exact strict convexity. true when all hold.
  * O(n).
  */
-PIR_API int pir_polytope_is_valid(const pir_polytope *polytope);
+PIR_API bool pir_polytope_is_valid(const pir_polytope *polytope);
 
 #ifdef __cplusplus
 }

@@ -10,8 +10,6 @@
  * component that is not finite, or a quaternion of zeros, gives components that are not finite.
  *
  * Threads: plain values; any thread.
- *
- * A call that returns no status takes O(1) unless its comment says otherwise.
  */
 #ifndef PIROUETTE_POSE_H
 #define PIROUETTE_POSE_H
@@ -28,25 +26,25 @@ typedef struct pir_pose {
     pir_vec3 translation;
 } pir_pose;
 
-/** Not turned, at the origin. */
+/** Not turned, at the origin. O(1). */
 PIR_API pir_pose pir_pose_identity(void);
 
-/** First `inner`, then `outer`: pir_pose_apply of the result is that of `outer` on that of `inner`. */
+/** First `inner`, then `outer`: pir_pose_apply of the result is that of `outer` on that of `inner`. O(1). */
 PIR_API pir_pose pir_pose_compose(pir_pose outer, pir_pose inner);
 
-/** The pose that undoes `pose`. */
+/** The pose that undoes `pose`. O(1). */
 PIR_API pir_pose pir_pose_invert(pir_pose pose);
 
-/** Where `point` of the body at `pose` stands in the world. */
+/** Where `point` of the body at `pose` stands in the world. O(1). */
 PIR_API pir_vec3 pir_pose_apply(pir_pose pose, pir_vec3 point);
 
-/** Which point of the body at `pose` stands at `point` of the world. */
+/** Which point of the body at `pose` stands at `point` of the world. O(1). */
 PIR_API pir_vec3 pir_pose_apply_inverse(pir_pose pose, pir_vec3 point);
 
-/** A direction of the body at `pose`, turned into the world: without the translation. */
+/** A direction of the body at `pose`, turned into the world: without the translation. O(1). */
 PIR_API pir_vec3 pir_pose_rotate(pir_pose pose, pir_vec3 direction);
 
-/** A direction of the world, as the body at `pose` sees it. */
+/** A direction of the world, as the body at `pose` sees it. O(1). */
 PIR_API pir_vec3 pir_pose_rotate_inverse(pir_pose pose, pir_vec3 direction);
 
 /**
@@ -56,6 +54,8 @@ PIR_API pir_vec3 pir_pose_rotate_inverse(pir_pose pose, pir_vec3 direction);
  *
  * velocity          of the body's origin, in the world, a length per unit of time.
  * angular_velocity  ω in the world: along the axis, in radians per unit of time.
+ *
+ * Cost: O(1).
  */
 PIR_API pir_pose pir_pose_integrate(pir_pose pose, pir_vec3 velocity, pir_vec3 angular_velocity, double time);
 

@@ -48,8 +48,6 @@
  * or cutoff), PIR_ERR_LIMIT (a translation farther than 2^400 times the size of the bodies; of two points that is 1, or
  * their largest coordinate where that is beyond 2^300 or below 2^-300), PIR_ERR_UNSUPPORTED (on a sum with a region, as
  * said above), PIR_ERR_MEMORY (room for a sum that has grown). `cache` may be NULL.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_QUERY_H
 #define PIROUETTE_QUERY_H
@@ -124,7 +122,7 @@ typedef struct pir_query_input {
     double margin; /**< for pir_query_manifold only, ≥ 0: contacts up to this distance apart are given too */
 } pir_query_input;
 
-/** Translation 0, no radii, no cutoff, no margin. */
+/** Translation 0, no radii, no cutoff, no margin. O(1). */
 PIR_API pir_query_input pir_query_input_default(void);
 
 typedef struct pir_query_result {
@@ -138,7 +136,7 @@ typedef struct pir_query_result {
 } pir_query_result;
 
 /**
- * Makes a query object on `difference`: a sum made with options.difference = 1, its clone, or one restored from its
+ * Makes a query object on `difference`: a sum made with options.difference = true, its clone, or one restored from its
  * bytes. The query takes a reference to it. Its memory comes from the sum's allocator, scratch from the sum's workspace
  * (pir_sum_options). What depends on one operand alone is made once, O(its size · log), and stays with that polytope;
  * after that O(groups of facets).
@@ -147,7 +145,7 @@ typedef struct pir_query_result {
  */
 PIR_API pir_status pir_query_create(pir_sum *difference, pir_query **ret_query);
 
-/** Frees a query and gives its references back. NULL is accepted. */
+/** Frees a query and gives its references back. NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_query_destroy(pir_query *query);
 
 /**
@@ -216,11 +214,14 @@ typedef struct pir_escape {
 
 /**
  * Finds every facet of the difference through which P leaves by at most the depth plus `slack` (≥ 0), in the order of
- * the tie rule. Up to `capacity` of them go to `ret_escapes`; *ret_count is their number. There are none unless the
- * bodies overlap. A witness here names the faces of P and Q that make the facet. A facet counts as within `slack` up
- * to 2^-44 of the size of the bodies. O(size of the sum) for each facet.
+ * the tie rule. There are none unless the bodies overlap. A witness here names the faces of P and Q that make the
+ * facet. A facet counts as within `slack` up to 2^-44 of the size of the bodies.
  *
- * input  where P is.
+ * input                  where P is.
+ * capacity, ret_escapes  room for how many, and that room.
+ * ret_count              how many there are, also beyond the capacity.
+ *
+ * Cost: O(size of the sum) for each facet.
  *
  * Errors: those of a query, and PIR_ERR_ARGUMENT for a slack below 0 or NaN.
  */
@@ -349,8 +350,10 @@ typedef struct pir_contact {
  * a step ("speculative contacts"). Ids are distinct. With radii, points move by them along the normal; where a facet
  * is tilted, that is inside of the rounded body by up to radius · (1 − cosine).
  *
- * Up to `capacity` contacts go to `ret_contacts`. PIR_ERR_LIMIT where there are more; *ret_count is their number then
- * too. There are none where the answer has no points (PIR_BEYOND_CUTOFF, PIR_NO_HIT).
+ * There are none where the answer has no points (PIR_BEYOND_CUTOFF, PIR_NO_HIT).
+ *
+ * capacity, ret_contacts  room for how many contacts, and that room.
+ * ret_count               how many there are, also beyond the capacity.
  *
  * Cost: O(p · q) for patches of p and q vertices.
  *
@@ -364,8 +367,8 @@ PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *i
  * --- many translations at one rotation ---
  *
  * The answers are those of single queries. The first batch at a rotation lays out all facets of the difference,
- * O(size of the sum); the first batch of all makes the memory for that. Errors as for single queries. Where one
- * occurs, the answers before it stand.
+ * O(size of the sum); the first batch of all makes the memory for that. Errors as for single queries; all translations
+ * are checked before any is answered.
  */
 
 /**
@@ -376,7 +379,7 @@ PIR_API pir_status pir_query_manifold(pir_query *query, const pir_query_input *i
  *
  * Cost: O(count) queries, after O(size of the sum) once a rotation.
  *
- * Errors: those of a query; what was answered before an error stands.
+ * Errors: those of a query.
  */
 PIR_API pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations, size_t count,
                                           pir_state *ret_states);
@@ -389,7 +392,7 @@ PIR_API pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *tran
  *
  * Cost: O(count) queries, after O(size of the sum) once a rotation.
  *
- * Errors: those of a query; what was answered before an error stands.
+ * Errors: those of a query.
  */
 PIR_API pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *translations, size_t count,
                                           double *ret_depths, pir_state *ret_states);
@@ -402,7 +405,7 @@ PIR_API pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *tran
  *
  * Cost: O(count) queries, after O(size of the sum) once a rotation.
  *
- * Errors: those of a query; what was answered before an error stands.
+ * Errors: those of a query.
  */
 PIR_API pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *translations, size_t count,
                                              double *ret_distances, pir_state *ret_states);

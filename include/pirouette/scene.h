@@ -31,8 +31,6 @@
  * Threads: a scene belongs to one thread at a time. With options.threads above 1 it uses others within a call, and
  * calls its allocator and those of the polytopes from them: its own one at a time, those of polytopes at once, as pairs
  * do.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SCENE_H
 #define PIROUETTE_SCENE_H
@@ -74,12 +72,12 @@ typedef struct pir_scene_options {
     size_t budget;                  /**< the most bytes that the scene may have; 0 for no bound */
     pir_scene_detail detail;
     double margin;          /**< ≥ 0: pieces apart by at most this are in contact too, for solvers; 0 for STATES */
-    int approach;           /**< whether events tell how fast the bodies approach */
+    bool approach;          /**< whether events tell how fast the bodies approach */
     uint32_t threads;       /**< how many threads a call uses, that of the caller included; at least 1, at most 64 */
     const pir_tasks *tasks; /**< or NULL: threads of the scene's own; copied */
 } pir_scene_options;
 
-/** malloc's memory, no budget, manifolds, no margin, no approach, one thread. */
+/** malloc's memory, no budget, manifolds, no margin, no approach, one thread. O(1). */
 PIR_API pir_scene_options pir_scene_options_default(void);
 
 /**
@@ -92,7 +90,7 @@ PIR_API pir_scene_options pir_scene_options_default(void);
  */
 PIR_API pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_scene);
 
-/** Frees, and gives all references back; NULL is accepted. */
+/** Frees, and gives all references back; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_scene_destroy(pir_scene *scene);
 
 /* --- bodies --- */
@@ -113,10 +111,10 @@ typedef struct pir_body_options {
     pir_coarse *const *coarse;
     double radius;           /**< the rounding radius, ≥ 0 */
     uint32_t category, mask; /**< bits: of what the body is; of what it meets */
-    int sensor;
+    bool sensor;
 } pir_body_options;
 
-/** A moving body at the origin, not turned, without pieces yet; category 1, all in its mask, no sensor. */
+/** A moving body at the origin, not turned, without pieces yet; category 1, all in its mask, no sensor. O(1). */
 PIR_API pir_body_options pir_body_options_default(void);
 
 /**
@@ -191,7 +189,7 @@ typedef struct pir_scene_event {
     pir_event_kind kind;
     uint32_t body_p, body_q;   /**< body_p < body_q */
     uint32_t piece_p, piece_q; /**< of the bodies' own */
-    int sensor;                /**< whether one of the bodies is a sensor */
+    bool sensor;               /**< whether one of the bodies is a sensor */
     pir_state state;
     double distance; /**< signed, as of pir_pair_signed_distance */
     pir_vec3 normal; /**< unit, from Q to P */
@@ -204,7 +202,7 @@ typedef struct pir_scene_event {
         *contacts; /**< of the scene's; ids are stable as of pir_pair_manifold; NULL where there are none */
 } pir_scene_event;
 
-/** The events of the last update, until the next one, or NULL where there are none; the scene owns them. */
+/** The events of the last update, until the next one, or NULL where there are none; the scene owns them. O(1). */
 PIR_API const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count);
 
 /** What a scene holds, and what its last update did. */
@@ -218,10 +216,11 @@ typedef struct pir_scene_statistics {
     size_t peak;       /**< the most that has been */
 } pir_scene_statistics;
 
+/** The counters of `scene`. O(1). */
 PIR_API pir_scene_statistics pir_scene_get_statistics(const pir_scene *scene);
 
-/** A whole-structure check for tests: 1 when the tree, the pairs and the bodies agree. O(pairs · degree). */
-PIR_API int pir_scene_is_valid(const pir_scene *scene);
+/** A whole-structure check for tests: true when the tree, the pairs and the bodies agree. O(pairs · degree). */
+PIR_API bool pir_scene_is_valid(const pir_scene *scene);
 
 #ifdef __cplusplus
 }

@@ -8,8 +8,6 @@
  * in one state have the same bytes, whatever their history: a hash of them is a hash of the state.
  *
  * Threads: as of the scene.
- *
- * A call that returns no status takes O(1) unless its comment says otherwise.
  */
 #ifndef PIROUETTE_SCENE_FILE_H
 #define PIROUETTE_SCENE_FILE_H

@@ -15,15 +15,13 @@
  * Threads: a query is a call on the scene, and belongs to its thread.
  *
  * Memory: a query may allocate from the scene's budget, where it is larger than all before. Until the next query the
- * scene may hold a reference to the shape. Where a call fails, arrays may have been written to.
+ * scene may hold a reference to the shape.
  *
  * Cost: O(log n) to find the boxes in a scene of n pieces where these are apart, and a query of a pair for each piece
  * whose box meets what is asked.
  *
  * Errors of a query of a scene: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a shape
  * beyond coordinates of 2^60, and as of a query of a pair), PIR_ERR_MEMORY.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SCENE_QUERY_H
 #define PIROUETTE_SCENE_QUERY_H
@@ -50,7 +48,7 @@ typedef struct pir_scene_shape {
     pir_coarse *coarse; /**< the coarse bodies of `polytope`, or NULL */
 } pir_scene_shape;
 
-/** `polytope` at the origin, not turned, with all in its mask. */
+/** `polytope` at the origin, not turned, with all in its mask. O(1). */
 PIR_API pir_scene_shape pir_scene_shape_default(pir_polytope *polytope);
 
 /** A piece of a body. */
@@ -81,30 +79,30 @@ typedef struct pir_scene_near {
 
 /**
  * The pieces nearest to a shape, nearest first, where it overlaps them the deepest; of equal distances the lower
- * numbers first. At most `capacity`, and at most `cutoff` away.
+ * numbers first. At most `most`, and at most `cutoff` away.
  *
- * shape               borrowed for the call.
- * cutoff              a distance, HUGE_VAL for none: then all boxes are looked at.
- * capacity, ret_near  how many at most, and room for them; *ret_count of them are filled.
+ * shape           borrowed for the call.
+ * cutoff          a distance, HUGE_VAL for none: then all boxes are looked at.
+ * most, ret_near  how many are asked for, at least 1, and room for them; *ret_count of them are found and filled.
  *
- * Cost: that of a query of a scene, and O(capacity) for each answer.
+ * Cost: that of a query of a scene, and O(most) for each answer.
  *
  * Errors: those of a query of a scene.
  */
-PIR_API pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, double cutoff, size_t capacity,
+PIR_API pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, double cutoff, size_t most,
                                      pir_scene_near *ret_near, size_t *ret_count);
 
 /**
  * The closest pairs of pieces of different bodies that may meet, in the order of pir_scene_nearest, body_p < body_q.
  *
- * cutoff              a distance, finite or HUGE_VAL.
- * capacity, ret_near  how many at most, and room for them; *ret_count of them are filled.
+ * cutoff          a distance, finite or HUGE_VAL.
+ * most, ret_near  how many are asked for, at least 1, and room for them; *ret_count of them are found and filled.
  *
- * Cost: that of a query of a scene for each piece, and O(capacity) for each answer.
+ * Cost: that of a query of a scene for each piece, and O(most) for each answer.
  *
  * Errors: those of a query of a scene.
  */
-PIR_API pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t capacity, pir_scene_near *ret_near,
+PIR_API pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t most, pir_scene_near *ret_near,
                                            size_t *ret_count);
 
 /** How accurate a distance has to be: within `length`, or within `part` of the distance, whichever is more. */

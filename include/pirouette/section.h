@@ -8,8 +8,6 @@
  *
  * A section is immutable and owned by whoever made it; it does not need its mesh any more. Threads may read one
  * section together.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SECTION_H
 #define PIROUETTE_SECTION_H
@@ -39,12 +37,13 @@ typedef struct pir_section pir_section;
  */
 PIR_API pir_status pir_mesh_section(const pir_mesh *mesh, pir_vec3 normal, double offset, pir_section **ret_section);
 
-/** Frees; NULL is accepted. */
+/** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_section_destroy(pir_section *section);
 
+/** How many corners the section has. O(1). */
 PIR_API uint32_t pir_section_corner_count(const pir_section *section);
 
-/** The corners, each coordinate the double nearest to the exact one; valid as long as the section. */
+/** The corners, each coordinate the double nearest to the exact one; valid as long as the section. O(1). */
 PIR_API const pir_vec3 *pir_section_corners(const pir_section *section);
 
 /**
@@ -52,6 +51,8 @@ PIR_API const pir_vec3 *pir_section_corners(const pir_section *section);
  * same vertex where the plane holds it.
  *
  * corner  a number below pir_section_corner_count.
+ *
+ * Cost: O(1).
  */
 PIR_API void pir_section_edge(const pir_section *section, uint32_t corner, uint32_t ret_edge[2]);
 

@@ -2,8 +2,6 @@
 /**
  * The model maker: polytopes by name. The thirteen models of Behar and Lien's paper, the platonic and the archimedean
  * solids, and families of any level: geodesic spheres, ellipsoids, boxes, cones, cylinders.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SHAPE_H
 #define PIROUETTE_SHAPE_H
@@ -29,13 +27,15 @@ extern "C" {
 PIR_API pir_status pir_shape_create(const char *name, const pir_allocator *allocator, pir_report *report,
                                     pir_polytope **ret_polytope);
 
-/** The number of shape names. */
+/** The number of shape names. O(1). */
 PIR_API size_t pir_shape_count(void);
 
-/** Name `index`, or NULL past the end; static memory. */
+/** Name `index`, or NULL past the end; static memory. O(1). */
 PIR_API const char *pir_shape_name(size_t index);
 
-/** One line on shape `index`: what it is and its parameters with their defaults; NULL past the end; static memory. */
+/**
+ * One line on shape `index`: what it is and its parameters with their defaults; NULL past the end; static memory. O(1).
+ */
 PIR_API const char *pir_shape_help(size_t index);
 
 #ifdef __cplusplus

@@ -10,8 +10,6 @@
  * distance of a point of the larger body from the smaller one. So a distance between simplified bodies bounds that
  * between the bodies: with the outer ones it is at most the true one, with the inner ones at least, each within the sum
  * of both bounds. Overlap of inner bodies proves overlap, outer bodies apart prove the bodies apart.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SIMPLIFY_H
 #define PIROUETTE_SIMPLIFY_H
@@ -29,7 +27,7 @@ typedef struct pir_simplify_options {
     double error;      /**< a length: what is this near is near enough; 0 for as near as `vertices` allows */
 } pir_simplify_options;
 
-/** No bound on the vertices, no error: one of them must be set. */
+/** No bound on the vertices, no error: one of them must be set. O(1). */
 PIR_API pir_simplify_options pir_simplify_options_default(void);
 
 /** Both polytopes, references of the caller's: release them with pir_simplified_release. */
@@ -59,7 +57,10 @@ typedef struct pir_simplified {
 PIR_API pir_status pir_polytope_simplify(pir_polytope *polytope, const pir_simplify_options *options,
                                          pir_simplified *ret_simplified);
 
-/** Gives both references back, and sets them to NULL. NULL is accepted. */
+/**
+ * Gives both references back, and sets them to NULL. NULL is accepted. O(1), and for the last reference the time to
+ * free it.
+ */
 PIR_API void pir_simplified_release(pir_simplified *simplified);
 
 /* --- coarse bodies --- */
@@ -88,16 +89,18 @@ typedef struct pir_coarse_body {
  */
 PIR_API pir_status pir_coarse_create(pir_polytope *polytope, pir_coarse **ret_coarse);
 
-/** Takes a reference, and returns its argument; NULL is accepted. */
+/** Takes a reference, and returns its argument; NULL is accepted. O(1). */
 PIR_API pir_coarse *pir_coarse_retain(pir_coarse *coarse);
 
-/** Gives a reference back; the last one frees. NULL is accepted. */
+/**
+ * Gives a reference back; the last one frees. NULL is accepted. O(1), and for the last reference the time to free it.
+ */
 PIR_API void pir_coarse_release(pir_coarse *coarse);
 
-/** How many bodies there are, that of the polytope itself, which is the last one, included: at least 1. */
+/** How many bodies there are, that of the polytope itself, which is the last one, included: at least 1. O(1). */
 PIR_API uint32_t pir_coarse_count(const pir_coarse *coarse);
 
-/** Number `index` of them, which must be below the count; later ones have more vertices. */
+/** Number `index` of them, which must be below the count; later ones have more vertices. O(1). */
 PIR_API pir_coarse_body pir_coarse_get(const pir_coarse *coarse, uint32_t index);
 
 #ifdef __cplusplus

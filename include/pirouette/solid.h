@@ -7,8 +7,7 @@
  * inside another that faces inwards is the boundary of a cavity. Whatever is not such a boundary is refused with the
  * place named, and never repaired. Everything is decided exactly.
  *
- * A solid is immutable and counts its references; threads may read one together. A call that returns no status takes
- * O(1) unless it frees memory or its comment says otherwise.
+ * A solid is immutable and counts its references; threads may read one together.
  */
 #ifndef PIROUETTE_SOLID_H
 #define PIROUETTE_SOLID_H
@@ -37,7 +36,7 @@ typedef struct pir_solid_options {
     pir_report *report;
 } pir_solid_options;
 
-/** malloc's allocator, 4 GiB, no report. */
+/** malloc's allocator, 4 GiB, no report. O(1). */
 PIR_API pir_solid_options pir_solid_options_default(void);
 
 /** What a solid is. Lengths in units of the model. */
@@ -125,13 +124,13 @@ PIR_API pir_status pir_solid_create(const pir_solid_facets *facets, const pir_so
 PIR_API pir_status pir_solid_from_polytope(const pir_polytope *polytope, const pir_solid_options *options,
                                            pir_solid **ret_solid);
 
-/** Another reference to `solid`, which is returned. */
+/** Another reference to `solid`, which is returned. O(1). */
 PIR_API pir_solid *pir_solid_retain(pir_solid *solid);
 
-/** Gives back a reference; NULL is accepted. */
+/** Gives back a reference; NULL is accepted. O(1), and for the last reference the time to free it. */
 PIR_API void pir_solid_release(pir_solid *solid);
 
-/** What the solid is. */
+/** What the solid is. O(1). */
 PIR_API void pir_solid_describe(const pir_solid *solid, pir_solid_info *ret_info);
 
 /** By which planes a solid is cut. */
@@ -149,7 +148,7 @@ typedef struct pir_decompose_options {
     double tolerance; /**< pieces may reach this far out of the solid where that makes them fewer, a length; 0: not */
 } pir_decompose_options;
 
-/** pir_solid_options_default, PIR_DECOMPOSE_BEST, exact. */
+/** pir_solid_options_default, PIR_DECOMPOSE_BEST, exact. O(1). */
 PIR_API pir_decompose_options pir_decompose_options_default(void);
 
 /** What a decomposition did. */
@@ -190,9 +189,10 @@ PIR_API pir_status pir_solid_decompose(const pir_solid *solid, const pir_solid_o
 PIR_API pir_status pir_solid_decompose_with(const pir_solid *solid, const pir_decompose_options *options,
                                             pir_decompose_info *ret_info, pir_pieces **ret_pieces);
 
-/** Frees; NULL is accepted. */
+/** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_pieces_destroy(pir_pieces *pieces);
 
+/** How many pieces there are. O(1). */
 PIR_API uint32_t pir_pieces_count(const pir_pieces *pieces);
 
 /**
@@ -209,11 +209,11 @@ PIR_API pir_status pir_pieces_polytope(const pir_pieces *pieces, uint32_t index,
 /** How a sum of solids is made. */
 typedef struct pir_solid_sum_options {
     pir_solid_options solid;
-    int difference; /**< 1: Q ⊕ (−R·P), what P may be moved by to meet Q; 0: R·P ⊕ Q */
-    int open;       /**< 1: P and Q without their boundaries; what they leave out within is in the mesh */
+    bool difference; /**< true: Q ⊕ (−R·P), what P may be moved by to meet Q; false: R·P ⊕ Q */
+    bool open;       /**< whether P and Q are without their boundaries; what they leave out within is in the mesh */
 } pir_solid_sum_options;
 
-/** pir_solid_options_default, no difference, closed. */
+/** pir_solid_options_default, no difference, closed. O(1). */
 PIR_API pir_solid_sum_options pir_solid_sum_options_default(void);
 
 /** What a sum of solids is, and the work that it took. */

@@ -16,8 +16,6 @@
  *
  * Cost of a query: O(k) queries of a pair for the k pairs of pieces whose boxes are nearer than the answer, and
  * O(k log n) for the tree. Errors of a query: those of a query of a pair.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SOLID_QUERY_H
 #define PIROUETTE_SOLID_QUERY_H
@@ -46,7 +44,7 @@ typedef struct pir_solid_query pir_solid_query;
 PIR_API pir_status pir_solid_query_create(const pir_pieces *p, const pir_pieces *q, const pir_allocator *allocator,
                                           pir_solid_query **ret_query);
 
-/** Frees; NULL is accepted. */
+/** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_solid_query_destroy(pir_solid_query *query);
 
 /**

@@ -14,8 +14,6 @@
  * alone: q, −q and multiples have the same. The mesh is that of the true sum: coplanar pieces are merged.
  *
  * Threads: a sum belongs to one thread at a time; different sums are independent, even of the same polytopes.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_SUM_H
 #define PIROUETTE_SUM_H
@@ -43,7 +41,7 @@ typedef enum pir_method {
 
 typedef struct pir_sum_options {
     const pir_allocator *allocator; /**< NULL for malloc; copied, its context must outlive the sum */
-    int difference; /**< 1: keep Q ⊕ (−R·P), the difference that placement queries use; 0: R·P ⊕ Q */
+    bool difference; /**< true: keep Q ⊕ (−R·P), the difference that placement queries use; false: R·P ⊕ Q */
     /**
      * Scratch that the sum, and queries on it, share with others of its thread, so that each is small. All that share
      * it belong to one thread at a time. NULL: the sum makes scratch of its own, about 20 KB for small bodies, 120 KB
@@ -52,7 +50,7 @@ typedef struct pir_sum_options {
     pir_workspace *workspace;
 } pir_sum_options;
 
-/** malloc, no difference, scratch of its own. */
+/** malloc, no difference, scratch of its own. O(1). */
 PIR_API pir_sum_options pir_sum_options_default(void);
 
 /**
@@ -73,6 +71,8 @@ PIR_API pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rot
 /**
  * Gives the caller's reference back. The sum is freed, and its references to the operands are given back, once the
  * queries and live meshes that were made on it are destroyed as well. NULL is accepted.
+ *
+ * Cost: the time to free it.
  */
 PIR_API void pir_sum_destroy(pir_sum *sum);
 
@@ -156,10 +156,15 @@ PIR_API double pir_sum_tolerance(const pir_sum *sum);
 /**
  * An upper bound of what the support function of the sum as it is kept falls short of the true one by: 0 when the
  * pairing is exact.
+ *
+ * Cost: O(1).
  */
 PIR_API double pir_sum_shortfall_bound(const pir_sum *sum);
 
-/** The rotation that the pairing is exact at: pir_sum_rotation, unless the pairing stays behind within a tolerance. */
+/**
+ * The rotation that the pairing is exact at: pir_sum_rotation, unless the pairing stays behind within a tolerance.
+ * O(1).
+ */
 PIR_API pir_quat pir_sum_pairing_rotation(const pir_sum *sum);
 
 /**
@@ -213,26 +218,34 @@ PIR_API pir_status pir_sum_set_region(pir_sum *sum, pir_vec3 axis, double half_a
 PIR_API pir_status pir_sum_clear_region(pir_sum *sum);
 
 /**
- * Returns 1 and the cone where a region has been set. Returns 0 and writes nothing where the sum is whole.
+ * Returns true and the cone where a region has been set. Returns false and writes nothing where the sum is whole.
  *
  * ret_axis, ret_half_angle  the cone: an axis of unit length, and radians.
+ *
+ * Cost: O(1).
  */
-PIR_API int pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle);
+PIR_API bool pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle);
 
-/** The rotation that the sum was brought to, as it was given. */
+/** The rotation that the sum was brought to, as it was given. O(1). */
 PIR_API pir_quat pir_sum_rotation(const pir_sum *sum);
 
-/** The operands as the sum holds them (P reflected when it keeps the difference); borrowed. */
+/** The operands as the sum holds them (P reflected when it keeps the difference); borrowed. O(1). */
 PIR_API const pir_polytope *pir_sum_p(const pir_sum *sum);
 PIR_API const pir_polytope *pir_sum_q(const pir_sum *sum);
 
-/** The vertex of Q paired with each facet of P; pir_polytope_facet_count(P) entries, valid until the next rotation. */
+/**
+ * The vertex of Q paired with each facet of P; pir_polytope_facet_count(P) entries, valid until the next rotation.
+ * O(1).
+ */
 PIR_API const uint32_t *pir_sum_fv(const pir_sum *sum);
 
-/** The vertex of P paired with each facet of Q; pir_polytope_facet_count(Q) entries, valid until the next rotation. */
+/**
+ * The vertex of P paired with each facet of Q; pir_polytope_facet_count(Q) entries, valid until the next rotation.
+ * O(1).
+ */
 PIR_API const uint32_t *pir_sum_vf(const pir_sum *sum);
 
-/** The number of ee pairs. */
+/** The number of ee pairs. O(1). */
 PIR_API uint32_t pir_sum_ee_count(const pir_sum *sum);
 
 /**
@@ -244,22 +257,22 @@ PIR_API uint32_t pir_sum_ee_count(const pir_sum *sum);
 PIR_API void pir_sum_ee(const pir_sum *sum, uint32_t (*ret_pairs)[2]);
 
 /**
- * Returns 1 when both sums hold the same fv, vf and ee pairs in the same order. Where regions are set, only pairs in
+ * Returns true when both sums hold the same fv, vf and ee pairs in the same order. Where regions are set, only pairs in
  * both cones are compared, without ee pairs whose edges are parallel within 2^-30.
  *
  * a, b  sums of the same polytopes.
  *
  * Cost: O(size of the sums).
  */
-PIR_API int pir_sum_same_pairing(const pir_sum *a, const pir_sum *b);
+PIR_API bool pir_sum_same_pairing(const pir_sum *a, const pir_sum *b);
 
 /**
- * A check for tests: every pair that is kept in exact arithmetic, every list of crossings from cell to cell. Returns 1
- * when all hold.
+ * A check for tests: every pair that is kept in exact arithmetic, every list of crossings from cell to cell. Returns
+ * true when all hold.
  *
  * Cost: O(size of the sum), with exact tests.
  */
-PIR_API int pir_sum_is_valid(pir_sum *sum);
+PIR_API bool pir_sum_is_valid(pir_sum *sum);
 
 /**
  * The true sum as a mesh: coplanar pieces are merged, straight corners and pieces without area are dropped. The mesh is
@@ -340,9 +353,10 @@ typedef struct pir_sum_statistics {
     uint64_t allocations;       /**< times the sum's memory grew after it was made */
 } pir_sum_statistics;
 
+/** The counters of `sum`. O(1). */
 PIR_API pir_sum_statistics pir_sum_get_statistics(const pir_sum *sum);
 
-/** Sets all counters to zero. */
+/** Sets all counters to zero. O(1). */
 PIR_API void pir_sum_reset_statistics(pir_sum *sum);
 
 #ifdef __cplusplus

@@ -14,13 +14,9 @@
  * counter-clockwise. Unit: that of the coordinates, which are at most 2^60.
  *
  * Threads may read one surface together. Queries allocate nothing. The reference count is atomic.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_TRIMESH_H
 #define PIROUETTE_TRIMESH_H
-
-#include <stdbool.h>
 
 #include <pirouette/base.h>
 #include <pirouette/io.h>
@@ -57,7 +53,7 @@ typedef struct pir_trimesh_options {
     bool two_sided;                 /**< whether its triangles are met from behind as well */
 } pir_trimesh_options;
 
-/** malloc's memory, one-sided. */
+/** malloc's memory, one-sided. O(1). */
 PIR_API pir_trimesh_options pir_trimesh_options_default(void);
 
 /**
@@ -106,10 +102,13 @@ PIR_API pir_status pir_trimesh_read(const char *path, const pir_trimesh_options 
 PIR_API pir_status pir_trimesh_read_bytes(const pir_file_bytes *file, const pir_trimesh_options *options,
                                           pir_report *report, pir_trimesh **ret_mesh);
 
-/** Another reference to `mesh`, which is returned. Thread-safe. */
+/** Another reference to `mesh`, which is returned. Thread-safe. O(1). */
 PIR_API pir_trimesh *pir_trimesh_retain(pir_trimesh *mesh);
 
-/** Gives back a reference; the last one frees. NULL is accepted. Thread-safe. */
+/**
+ * Gives back a reference; the last one frees. NULL is accepted. Thread-safe. O(1), and for the last reference the time
+ * to free it.
+ */
 PIR_API void pir_trimesh_release(pir_trimesh *mesh);
 
 /** Counts and properties of a mesh. */
@@ -165,7 +164,7 @@ typedef struct pir_height_options {
     bool two_sided;
 } pir_height_options;
 
-/** malloc's memory, one-sided. */
+/** malloc's memory, one-sided. O(1). */
 PIR_API pir_height_options pir_height_options_default(void);
 
 /**
@@ -186,10 +185,13 @@ PIR_API pir_height_options pir_height_options_default(void);
 PIR_API pir_status pir_height_field_create(const pir_height_samples *samples, const pir_height_options *options,
                                            pir_report *report, pir_height_field **ret_field);
 
-/** Another reference to `field`, which is returned. Thread-safe. */
+/** Another reference to `field`, which is returned. Thread-safe. O(1). */
 PIR_API pir_height_field *pir_height_field_retain(pir_height_field *field);
 
-/** Gives back a reference; the last one frees. NULL is accepted. Thread-safe. */
+/**
+ * Gives back a reference; the last one frees. NULL is accepted. Thread-safe. O(1), and for the last reference the time
+ * to free it.
+ */
 PIR_API void pir_height_field_release(pir_height_field *field);
 
 /** Counts and properties of a height field. */
@@ -201,6 +203,7 @@ typedef struct pir_height_info {
     size_t bytes, tree_bytes; /**< in all, and of these for the tree */
 } pir_height_info;
 
+/** Describes the field. O(1). */
 PIR_API void pir_height_field_describe(const pir_height_field *field, pir_height_info *ret_info);
 
 /**

@@ -21,8 +21,6 @@
  *
  * Errors of a call on a pair: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a
  * translation beyond 2^60), PIR_ERR_MEMORY.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_TRIMESH_PAIR_H
 #define PIROUETTE_TRIMESH_PAIR_H
@@ -41,7 +39,7 @@ typedef struct pir_trimesh_pair_options {
     const pir_allocator *allocator; /**< or NULL: malloc's; copied, its context must outlive the pair */
 } pir_trimesh_pair_options;
 
-/** malloc's memory. */
+/** malloc's memory. O(1). */
 PIR_API pir_trimesh_pair_options pir_trimesh_pair_options_default(void);
 
 /**
@@ -56,7 +54,7 @@ PIR_API pir_trimesh_pair_options pir_trimesh_pair_options_default(void);
 PIR_API pir_status pir_trimesh_pair_create(pir_trimesh *p, pir_trimesh *q, const pir_trimesh_pair_options *options,
                                            pir_trimesh_pair **ret_pair);
 
-/** Frees, and gives its references back; NULL is accepted. */
+/** Frees, and gives its references back; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_trimesh_pair_destroy(pir_trimesh_pair *pair);
 
 /** How two surfaces stand. */
@@ -111,7 +109,7 @@ typedef struct pir_within_input {
     double distance; /**< 0 or more; 0 asks which triangles share a point */
 } pir_within_input;
 
-/** Both at the origin, not turned; a distance of 0. */
+/** Both at the origin, not turned; a distance of 0. O(1). */
 PIR_API pir_within_input pir_within_input_default(void);
 
 /**
@@ -137,6 +135,7 @@ typedef struct pir_trimesh_pair_statistics {
     size_t bytes;       /**< of the pair with its front */
 } pir_trimesh_pair_statistics;
 
+/** The counters of `pair`. O(1). */
 PIR_API pir_trimesh_pair_statistics pir_trimesh_pair_get_statistics(const pir_trimesh_pair *pair);
 
 #ifdef __cplusplus

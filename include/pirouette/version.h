@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * The version: of these headers as macros, of the library that runs as a call.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_VERSION_H
 #define PIROUETTE_VERSION_H
@@ -18,7 +16,7 @@
 extern "C" {
 #endif
 
-/** The version of the library at run time, "major.minor.patch"; static memory. */
+/** The version of the library at run time, "major.minor.patch"; static memory. O(1). */
 PIR_API const char *pir_version(void);
 
 #ifdef __cplusplus

@@ -2,8 +2,6 @@
 /**
  * Scratch memory, one a thread. What works in it keeps nothing there from call to call, or makes it again where another
  * has used it in between, so that any number of sums, queries and pairs may share it.
- *
- * A call that returns no status takes O(1) unless it frees memory or its comment says otherwise.
  */
 #ifndef PIROUETTE_WORKSPACE_H
 #define PIROUETTE_WORKSPACE_H
@@ -28,6 +26,8 @@ PIR_API pir_status pir_workspace_create(const pir_allocator *allocator, pir_work
 /**
  * Gives the workspace back; NULL is accepted. Sums that were made with it go on: they hold what they need of it, and
  * the allocator must outlive them.
+ *
+ * Cost: the time to free it.
  */
 PIR_API void pir_workspace_destroy(pir_workspace *workspace);
 

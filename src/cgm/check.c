@@ -223,10 +223,10 @@ static bool facets_are_valid(struct check *check) {
     return true;
 }
 
-int pir_cgm_is_valid(const pir_cgm *cgm) {
+bool pir_cgm_is_valid(const pir_cgm *cgm) {
     struct check check = {.cgm = cgm};
     if (!pir_cgm_sides_init(&check.sides, &cgm->allocator, cgm, cgm))
-        return 0;
+        return false;
     // each kind of question rests on the answers to those before it, for all maps
     bool valid = true;
     for (uint32_t map = 0; map < 6 && valid; map++)

@@ -59,17 +59,17 @@ static bool same_crossings(const struct compared_sum *a, const struct compared_s
     return i == PIR_NO_CROSSING && j == PIR_NO_CROSSING;
 }
 
-int pir_sum_same_pairing(const pir_sum *one, const pir_sum *other) {
+bool pir_sum_same_pairing(const pir_sum *one, const pir_sum *other) {
     const struct compared_sum a = {pir_sum_pairing(one), pir_sum_cone(one)},
                               b = {pir_sum_pairing(other), pir_sum_cone(other)};
     const pir_polytope *p = a.pairing->p, *q = a.pairing->q, *p_of_b = b.pairing->p, *q_of_b = b.pairing->q;
     if (p->facet_count != p_of_b->facet_count || q->facet_count != q_of_b->facet_count ||
         p->edge_count != p_of_b->edge_count)
-        return 0;
+        return false;
     if (!same_cells(&a, &b))
-        return 0;
+        return false;
     for (uint32_t e = 0; e < p->edge_count; e++)
         if (!same_crossings(&a, &b, e))
-            return 0;
-    return 1;
+            return false;
+    return true;
 }

@@ -59,10 +59,10 @@ pir_status pir_sum_clear_region(pir_sum *sum) {
     return cone->set ? pir_sum_set_region(sum, cone->axis, PIR_WHOLE_HALF_ANGLE) : PIR_OK;
 }
 
-int pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle) {
+bool pir_sum_region(const pir_sum *sum, pir_vec3 *ret_axis, double *ret_half_angle) {
     if (!sum->region.cone.set)
-        return 0;
+        return false;
     *ret_axis = sum->region.cone.axis;
     *ret_half_angle = sum->region.cone.half_angle;
-    return 1;
+    return true;
 }

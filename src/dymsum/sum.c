@@ -3,7 +3,7 @@
 #include "dymsum/rotate.h"
 
 pir_sum_options pir_sum_options_default(void) {
-    return (pir_sum_options){.allocator = NULL, .difference = 0, .workspace = NULL};
+    return (pir_sum_options){.allocator = NULL, .difference = false, .workspace = NULL};
 }
 
 bool pir_sum_reserve_lag(pir_sum *sum) {

@@ -103,6 +103,6 @@ static bool crossings_are_valid(pir_sum *sum) {
     return count == c->used;
 }
 
-int pir_sum_is_valid(pir_sum *sum) {
+bool pir_sum_is_valid(pir_sum *sum) {
     return fv_is_valid(sum) && vf_is_valid(sum) && crossings_are_valid(sum);
 }

@@ -156,7 +156,7 @@ static pir_status begin_bodies(pir_history *history, pir_note kind, pir_polytope
     return PIR_OK;
 }
 
-pir_status pir_history_sum(pir_history *history, pir_polytope *p, pir_polytope *q, pir_quat rotation, int difference) {
+pir_status pir_history_sum(pir_history *history, pir_polytope *p, pir_polytope *q, pir_quat rotation, bool difference) {
     pir_status status = begin_bodies(history, PIR_NOTE_SUM, p, q);
     if (status != PIR_OK)
         return status;

@@ -90,8 +90,8 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
     const pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity};
     status =
         pir_manifold_find(&workspace->frame, &workspace->placement, &workspace->patches, &ask, ret_contacts, ret_count);
-    pair->statistics.manifolds += status == PIR_OK || status == PIR_ERR_LIMIT;
-    if (workspace->posed && (status == PIR_OK || status == PIR_ERR_LIMIT))
+    pair->statistics.manifolds += status == PIR_OK;
+    if (workspace->posed && status == PIR_OK)
         to_world(workspace, answer, ret_contacts, *ret_count < capacity ? *ret_count : capacity);
     return status;
 }

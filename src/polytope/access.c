@@ -152,13 +152,13 @@ static bool is_strictly_convex(const pir_polytope *p, pir_limbs *scratch) {
     return true;
 }
 
-int pir_polytope_is_valid(const pir_polytope *p) {
+bool pir_polytope_is_valid(const pir_polytope *p) {
     if (!halves_are_valid(p) || !rings_are_valid(p) || !loops_are_valid(p))
-        return 0;
+        return false;
     if (p->dimension == 0)
         return p->vertex_count == 1 && p->half_count == 0;
     if (p->vertex_count + p->facet_count != p->edge_count + 2)
-        return 0;
+        return false;
     uint32_t limbs = 3 * (p->exact_normal.stride + p->exact_edge.stride + 2);
     pir_limbs scratch = {PIR_NEW(&p->allocator, mp_limb_t, limbs), 0, limbs};
     bool convex = scratch.base && is_strictly_convex(p, &scratch);

@@ -115,7 +115,7 @@ const uint32_t *pir_mesh_points(const pir_mesh *mesh, uint32_t *ret_count) {
     return mesh->point;
 }
 
-int pir_mesh_is_exact(const pir_mesh *mesh) {
+bool pir_mesh_is_exact(const pir_mesh *mesh) {
     return mesh->exact;
 }
 
@@ -137,13 +137,13 @@ pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t re
     return PIR_OK;
 }
 
-int pir_mesh_equal(const pir_mesh *a, const pir_mesh *b) {
+bool pir_mesh_equal(const pir_mesh *a, const pir_mesh *b) {
     if (a->vertex_count != b->vertex_count || a->facets.count != b->facets.count ||
         a->segment_count != b->segment_count || a->point_count != b->point_count)
-        return 0;
+        return false;
     uint32_t corners = pir_loops_corners(&a->facets);
     if (corners != pir_loops_corners(&b->facets))
-        return 0;
+        return false;
     return memcmp(a->vertex, b->vertex, a->vertex_count * sizeof *a->vertex) == 0 &&
            (a->segment_count == 0 || memcmp(a->segment, b->segment, 2 * a->segment_count * sizeof *a->segment) == 0) &&
            (a->point_count == 0 || memcmp(a->point, b->point, a->point_count * sizeof *a->point) == 0) &&

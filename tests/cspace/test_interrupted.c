@@ -48,12 +48,12 @@ static void a_job_that_signals_interrupt_makes_the_same_file(void **state) {
     slice_scene_make(&scene, 130);
     slice_path("calm.h5", calm);
     slice_path("rough.h5", rough);
-    options.planes = 1;
+    options.planes = true;
     slice_make_file(&scene, calm, &options);
     disturbed = true;
     slice_make_file(&scene, rough, &options);
     // resumed where all is done: parts and the file are read
-    options.resume = 1;
+    options.resume = true;
     slice_make_file(&scene, rough, &options);
     expect(pir_cspace_check(rough, NULL, &report) == PIR_OK, "%s", report.text);
     expect(pir_cspace_open(rough, NULL, &report, &file) == PIR_OK, "%s", report.text);
@@ -82,7 +82,7 @@ static void parts_are_read_in_pieces(void **state) {
     assert_int_equal(pir_cspace_job_run(job, &report), PIR_OK);
     pir_cspace_job_destroy(job);
     disturbed = true;
-    options.resume = 1;
+    options.resume = true;
     assert_int_equal(pir_cspace_job_create(&scene.bodies, scene.grid, rough, &options, &report, &job), PIR_OK);
     assert_int_equal(pir_cspace_job_left(job), 0);
     expect(pir_cspace_job_assemble(job, &report) == PIR_OK, "%s", report.text);

@@ -30,7 +30,7 @@ static void threads_make_the_same_file(void **state) {
 }
 
 /* Ends a run once so many slices of it are done. */
-static int stop_at(void *context, const pir_cspace_progress *progress) {
+static bool stop_at(void *context, const pir_cspace_progress *progress) {
     const uint64_t *most = context;
     assert_true(progress->done <= progress->total && progress->resumed <= progress->done);
     return progress->done - progress->resumed < *most;
@@ -97,7 +97,7 @@ static void a_file_that_is_complete_is_left_alone(void **state) {
     slice_make_file(&scene, path, &options);
     size_t size;
     uint8_t *bytes = slice_read_whole(path, &size);
-    options.resume = 1;
+    options.resume = true;
     slice_write_whole(part, bytes, 100);
     assert_int_equal(stat(path, &before), 0);
     slice_make_file(&scene, path, &options);
@@ -111,7 +111,7 @@ static void a_file_that_is_complete_is_left_alone(void **state) {
     assert_non_null(strstr(report.text, "of another job"));
     assert_int_equal(stat(path, &after), 0);
     assert_int_equal(after.st_size, size / 2);
-    options.resume = 0;
+    options.resume = false;
     slice_make_file(&scene, path, &options);
     size_t again;
     uint8_t *made = slice_read_whole(path, &again);
@@ -216,7 +216,7 @@ static void parts_of_another_job_are_refused(void **state) {
     assert_int_equal(pir_cspace_job_create(&scene.bodies, scene.grid, path, &options, &report, &job), PIR_OK);
     assert_int_equal(pir_cspace_job_run(job, &report), PIR_OK);
     pir_cspace_job_destroy(job);
-    options.resume = 1;
+    options.resume = true;
     job = NULL;
     assert_int_equal(pir_cspace_job_create(&other.bodies, other.grid, path, &options, &report, &job), PIR_ERR_FORMAT);
     expect(strstr(report.text, "other.h5.part0") != NULL, "%s", report.text);

@@ -20,7 +20,7 @@ static void expect_slice(pir_cspace *cspace, const struct slice_scene *scene, pi
     pir_report report = {0};
     pir_slice slice;
     pir_sum *fresh = NULL, *read = NULL;
-    const pir_sum_options options = {.allocator = NULL, .difference = 1};
+    const pir_sum_options options = {.allocator = NULL, .difference = true};
     expect(pir_cspace_slice(cspace, place, &report, &slice) == PIR_OK, "%s", report.text);
     assert_int_equal(pir_sum_create(scene->robot[place.robot], scene->obstacle[place.obstacle],
                                     pir_grid_rotation(scene->grid, place.slice), &options, &fresh),
@@ -102,7 +102,7 @@ static void half_spaces_hold_the_difference(void **state) {
     char path[SLICE_PATH];
     pir_cspace *cspace = NULL;
     pir_cspace_options options = slice_short_units();
-    options.planes = options.vertices = 1;
+    options.planes = options.vertices = true;
     slice_scene_make(&scene, 30);
     slice_path("planes.h5", path);
     slice_make_file(&scene, path, &options);
@@ -185,7 +185,7 @@ static bool try_job(const struct slice_scene *scene, const char *path, test_memo
     pir_slice slice;
     pir_report report = {0};
     options.allocator = &a;
-    options.planes = 1;
+    options.planes = true;
     pir_status status = pir_cspace_job_create(&scene->bodies, scene->grid, path, &options, &report, &job);
     if (status == PIR_OK)
         status = pir_cspace_job_run(job, &report);

@@ -56,7 +56,7 @@ int main(void) {
     pir_polytope *cube = NULL;
     struct asked of = {NULL, NULL, NULL, NULL};
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     int good = pir_shape_create("cube", NULL, NULL, &cube) == PIR_OK &&
                pir_workspace_create(NULL, &of.workspace) == PIR_OK &&
                pir_pair_create(cube, cube, NULL, &of.pair) == PIR_OK &&

@@ -113,7 +113,7 @@ static row check_situation(uint32_t index, uint32_t poses) {
     pir_sum *sum = NULL;
     way_objects objects;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     situation_make(index, &s);
     exact_at = (exact_where){.scene = index};
     exact_report_only(s.kinds);

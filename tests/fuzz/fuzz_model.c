@@ -28,7 +28,7 @@ static void check_hull(const pir_polytope *polytope) {
     fuzz_require(pir_mesh_write_stream(mesh, file, "hull", "off", 1, &report) == PIR_OK, report.text);
     fclose(file);
     pir_read_options options = pir_read_options_default();
-    options.require_convex = 1;
+    options.require_convex = true;
     pir_surface surface;
     pir_polytope *again = NULL;
     pir_status status =
@@ -70,7 +70,7 @@ static void run_format(const uint8_t *data, size_t size, const char *format) {
     }
     fuzz_require(pir_polytope_is_valid(polytope) == 1, "the polytope is valid");
     check_surface(&surface, polytope);
-    options.require_convex = 1;
+    options.require_convex = true;
     status = pir_polytope_read_bytes(&(pir_file_bytes){data, size, "fuzz", format}, &options, &report, NULL, &convex);
     fuzz_require((status == PIR_OK) == (surface.convex != 0), "require_convex refuses what is not convex");
     fuzz_require(status == PIR_OK || (status == PIR_ERR_NOT_CLOSED) == (surface.form == PIR_SURFACE_OPEN),

@@ -191,7 +191,7 @@ static void check_states(const struct scene *scene, struct fuzz_input *input) {
     pir_solid_query *query = NULL;
     pir_workspace *workspace = NULL;
     options.solid = limits();
-    options.open = options.difference = 1;
+    options.open = options.difference = true;
     if (!is_done(pir_solid_sum(scene->p, scene->q, scene->turn, &options, NULL, &mesh), "a difference"))
         return;
     fuzz_require(pir_solid_query_create(scene->of_p, scene->of_q, NULL, &query) == PIR_OK &&

@@ -31,7 +31,7 @@ int query_may_be_far(const struct query_scene *scene, pir_vec3 t) {
 struct query_scene query_scene_make(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
     struct query_scene scene = {.p = p, .q = q};
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     fuzz_require(pir_sum_create(p, q, rotation, &options, &scene.sum) == PIR_OK, "a sum can be made");
     pir_status status = pir_query_create(scene.sum, &scene.query);
     fuzz_require(status == PIR_OK || (status == PIR_ERR_LIMIT && query_may_be_far(&scene, (pir_vec3){0, 0, 0})),

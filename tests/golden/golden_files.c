@@ -28,7 +28,7 @@ uint64_t golden_slices(uint64_t number) {
     pir_cspace_options options = pir_cspace_options_default();
     options.slices_per_unit = 24;
     options.slices_per_key = 8;
-    options.planes = options.vertices = 1;
+    options.planes = options.vertices = true;
     pir_grid *grid;
     pir_plan plan;
     pir_maker maker;

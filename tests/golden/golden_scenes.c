@@ -67,7 +67,7 @@ uint64_t golden_scene(uint64_t number) {
     test_random random = golden_random(3, number);
     pir_scene_options options = pir_scene_options_default();
     options.margin = number % 2 ? 0.0625 : 0;
-    options.approach = 1;
+    options.approach = true;
     options.threads = number % 4 == 0 ? 2 : 1;
     pir_scene *scene;
     golden_require(pir_scene_create(&options, &scene), "pir_scene_create");

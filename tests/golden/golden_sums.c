@@ -148,7 +148,7 @@ uint64_t golden_query(uint64_t number) {
     pir_polytope *p = body_of(&random), *q = body_of(&random);
     pir_quat r = test_rotation(&random);
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *sum;
     pir_query *query;
     pir_query_cache cache = {0};

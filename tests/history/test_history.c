@@ -75,7 +75,7 @@ static void note_sum(pir_history *history, struct told *right) {
     pir_query_cache cache = {0};
     pir_quat r = {1, 2, 3, 4};
     uint32_t pairs[4096][2];
-    options.difference = 1;
+    options.difference = true;
     assert_int_equal(pir_sum_create(p, q, r, &options, &sum), PIR_OK);
     assert_int_equal(pir_query_create(sum, &query), PIR_OK);
     assert_int_equal(pir_history_sum(history, p, q, r, 1), PIR_OK);

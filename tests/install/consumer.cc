@@ -65,7 +65,7 @@ int main() {
         return fail("no polytopes");
 
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *made = nullptr;
     if (pir_sum_create(segment.get(), cube.get(), pir_quat{.x = 0, .y = 0, .z = 0, .w = 1}, &options, &made) != PIR_OK)
         return fail("no sum");

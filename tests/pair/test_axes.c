@@ -74,7 +74,7 @@ static pir_query_result ask_sum(const struct scene *scene) {
     pir_sum *sum;
     pir_query *query;
     pir_query_result result;
-    options.difference = 1;
+    options.difference = true;
     assert_int_equal(pir_sum_create(scene->p, scene->q, scene->frame.given, &options, &sum), PIR_OK);
     assert_int_equal(pir_query_create(sum, &query), PIR_OK);
     pir_query_input input = pir_query_input_default();

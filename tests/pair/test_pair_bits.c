@@ -165,7 +165,7 @@ static void check_scene(struct bench *bench, uint64_t number) {
     bench->q = test_polytope(&bench->scene.points_q);
     double size = size_of(bench->p) + size_of(bench->q);
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     assert_int_equal(pir_sum_create(bench->p, bench->q, bench->scene.rotation, &options, &bench->sum), PIR_OK);
     pir_status status = pir_query_create(bench->sum, &bench->query);
     pir_pair_options whole = pir_pair_options_default();

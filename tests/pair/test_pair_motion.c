@@ -240,7 +240,7 @@ static void check_motion(uint64_t number) {
     pir_polytope_bounds(motion.q, &from, &to);
     motion.size = fmax(fmax(high.x - low.x, to.x - from.x), fmax(high.z - low.z, to.z - from.z));
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     assert_int_equal(pir_sum_create(motion.p, motion.q, (pir_quat){0, 0, 0, 1}, &options, &motion.sum), PIR_OK);
     assert_int_equal(pir_query_create(motion.sum, &motion.query), PIR_OK);
     assert_int_equal(pir_pair_create(motion.p, motion.q, NULL, &motion.pair), PIR_OK);

@@ -445,7 +445,7 @@ static void rounded_bodies_are_separated_or_overlap_whatever_the_cutoff(void **s
     pir_sum *sum;
     pir_query *query;
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
     assert_int_equal(pir_pair_create(p, p, NULL, &pair), PIR_OK);
     assert_int_equal(pir_sum_create(p, p, (pir_quat){0, 0, 0, 1}, &options, &sum), PIR_OK);

@@ -53,7 +53,7 @@ static void try_mesh(struct run *run, pir_sum *sum, pir_precision precision) {
 
 /* Whether the sum is what a fresh one, made with plenty of memory, is at `rotation`. */
 static void expect_whole(struct run *run, pir_sum *sum, pir_quat rotation) {
-    pir_sum_options options = {.allocator = NULL, .difference = 0};
+    pir_sum_options options = {.allocator = NULL, .difference = false};
     pir_sum *fresh = NULL;
     pir_quat now = pir_sum_rotation(sum);
     assert_memory_equal(&now, &rotation, sizeof now);
@@ -194,7 +194,7 @@ static void list_of_crossings_that_cannot_grow_leaves_the_sum_whole(void **state
         for (uint64_t n = 1; n <= 4; n++) {
             test_memory memory = {0};
             pir_allocator allocator = test_allocator(&memory);
-            pir_sum_options options = {.allocator = &allocator, .difference = 0};
+            pir_sum_options options = {.allocator = &allocator, .difference = false};
             pir_sum *sum = NULL, *fresh = NULL;
             assert_int_equal(pir_sum_create(p, q, apart, &options, &sum), PIR_OK);
             assert_int_equal(pir_sum_create(p, q, apart, NULL, &fresh), PIR_OK);
@@ -247,7 +247,7 @@ static void step_that_finds_no_memory_can_be_taken_again(void **state) {
         pir_polytope *p = fluted_prism(1), *q = fluted_prism(0);
         test_memory memory = {0};
         pir_allocator allocator = test_allocator(&memory);
-        pir_sum_options options = {.allocator = &allocator, .difference = 0};
+        pir_sum_options options = {.allocator = &allocator, .difference = false};
         pir_sum *sum = NULL, *fresh = NULL;
         pir_quat now = {0, 0, 1, 0.001};
         pir_vec3 tilt = test_random_direction(&random);
@@ -327,7 +327,7 @@ static void allocator_changes_no_bit_of_the_result(void **state) {
         test_memory memory = {0};
         pir_allocator allocator = test_allocator(&memory);
         for (int own = 0; own < 2; own++) {
-            pir_sum_options options = {.allocator = own ? &allocator : NULL, .difference = 0};
+            pir_sum_options options = {.allocator = own ? &allocator : NULL, .difference = false};
             pir_polytope *p = NULL, *q = NULL;
             pir_sum *sum = NULL;
             pir_mesh *mesh = NULL;

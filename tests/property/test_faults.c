@@ -101,7 +101,7 @@ static pir_status open_solids(struct run *run) {
     pir_mesh *mesh = NULL;
     pir_solid_sum_options options = pir_solid_sum_options_default();
     options.solid = run->solid;
-    options.open = options.difference = 1;
+    options.open = options.difference = true;
     pir_status status = pir_solid_read_bytes(&file, &run->solid, NULL, &p);
     if (status == PIR_OK)
         status = pir_shape_create("box?x=2&y=2&z=2", &run->allocator, NULL, &cube);
@@ -214,7 +214,7 @@ static pir_status queries(struct run *run) {
     pir_query *query = NULL;
     pir_sum_options options = pir_sum_options_default();
     options.allocator = &run->allocator;
-    options.difference = 1;
+    options.difference = true;
     pir_status status = pir_shape_create("dodecahedron", &run->allocator, NULL, &p);
     if (status == PIR_OK)
         status = pir_shape_create("cube", &run->allocator, NULL, &q);

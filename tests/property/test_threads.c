@@ -83,7 +83,7 @@ static void ask(struct worker *worker, pir_query *query, pir_query_cache *cache,
 /* Follows a sum by all methods, with a live mesh and a query on it. */
 static void track(struct worker *worker) {
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_quat r = {0.1, 0.2, 0.3, 0.9};
     pir_sum *sum = NULL;
     pir_query *query = NULL;

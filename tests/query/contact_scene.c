@@ -147,7 +147,7 @@ static void check_room(const contact_scene *scene) {
     pir_contact fewer[SCENE_CONTACTS];
     for (size_t room = 0; room < scene->count; room += 1 + scene->count / 3) {
         size_t told = 0;
-        assert_int_equal(pir_query_manifold(scene->query, &input, &scene->answer, room, fewer, &told), PIR_ERR_LIMIT);
+        assert_int_equal(pir_query_manifold(scene->query, &input, &scene->answer, room, fewer, &told), PIR_OK);
         assert_true(told == scene->count);
         for (size_t i = 0; i < room; i++)
             assert_true(same(&fewer[i], &scene->contact[i]));

@@ -10,7 +10,7 @@
 static inline void test_query_make(pir_polytope *p, pir_polytope *q, pir_quat rotation, pir_sum **ret_sum,
                                    pir_query **ret_query) {
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     assert_int_equal(pir_sum_create(p, q, rotation, &options, ret_sum), PIR_OK);
     assert_int_equal(pir_query_create(*ret_sum, ret_query), PIR_OK);
 }

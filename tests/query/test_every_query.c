@@ -68,7 +68,7 @@ static void nothing_allocates_after_the_first_query(void **state) {
     test_random random = test_random_case("allocations", 0);
     pir_polytope *p = test_sphere(&random, 60), *q = test_sphere(&random, 60);
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     options.allocator = &allocator;
     pir_sum *sum;
     pir_query *query;
@@ -111,7 +111,7 @@ static void running_out_of_memory_is_a_status(void **state) {
         test_memory memory = {0};
         pir_allocator allocator = test_allocator(&memory);
         pir_sum_options options = pir_sum_options_default();
-        options.difference = 1;
+        options.difference = true;
         options.allocator = &allocator;
         pir_sum *sum;
         pir_query *query;

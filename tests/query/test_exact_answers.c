@@ -124,7 +124,7 @@ static void check_scene(uint64_t number, int prints) {
             print_body(i ? "Q" : "P", pair.body[i].polytope);
     }
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *sum;
     if (pir_sum_create(pair.body[0].polytope, pair.body[1].polytope, scene.rotation, &options, &sum) != PIR_OK)
         die("no sum");

@@ -84,7 +84,7 @@ static void expect_same(const struct answers *a, const struct answers *b) {
 
 static pir_sum *difference_of(pir_polytope *p, pir_polytope *q, const pir_allocator *allocator) {
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     options.allocator = allocator;
     pir_sum *sum = NULL;
     assert_int_equal(pir_sum_create(p, q, few, &options, &sum), PIR_OK);

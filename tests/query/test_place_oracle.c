@@ -142,7 +142,7 @@ static void the_ways_to_make_a_difference_agree(void **state) {
         assert_null(oracle_solid_compare(s.solid_p, s.p));
         assert_null(oracle_solid_compare(s.solid_q, s.q));
         pir_sum_options options = pir_sum_options_default();
-        options.difference = 1;
+        options.difference = true;
         pir_mesh *mesh;
         assert_int_equal(pir_hull_sum(s.p, s.q, pose.rotation, &options, PIR_EXACT, &mesh), PIR_OK);
         if (s.place->dimension == 3)

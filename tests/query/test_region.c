@@ -34,7 +34,7 @@ static double dot(pir_vec3 a, pir_vec3 b) {
 
 static void scene_init(struct scene *s, const test_pose *pose) {
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     s->p = test_polytope(&pose->p);
     s->q = test_polytope(&pose->q);
     pir_sum **sums[] = {&s->region, &s->fresh, &s->whole};
@@ -254,7 +254,7 @@ static void boundary_of_a_region_is_exact(void **state) {
         box.at[i] = (pir_vec3){i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1};
     pir_polytope *p = test_polytope(&box);
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *sum;
     pir_query *query;
     pir_query_result result;
@@ -324,7 +324,7 @@ static void what_needs_the_whole_sum_says_so(void **state) {
     test_random random = test_random_case("region refusals", 0);
     pir_polytope *p = test_sphere(&random, 20);
     pir_sum_options options = pir_sum_options_default();
-    options.difference = 1;
+    options.difference = true;
     pir_sum *sum;
     pir_query *query;
     pir_query_result result;

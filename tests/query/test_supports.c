@@ -123,7 +123,7 @@ static void two_points_are_apart_at_every_scale(void **state) {
             double far = ldexp(1, exponent), v[3] = {n % 3 == 0 ? far : 0, n % 3 == 1 ? far : 0, n % 3 == 2 ? far : 0};
             pir_polytope *origin = point_at(0, 0, 0), *away = point_at(v[0], v[1], v[2]);
             pir_polytope *p = n / 3 == 0 ? away : origin, *q = n / 3 == 1 ? away : origin;
-            const pir_sum_options options = {.allocator = NULL, .difference = 1};
+            const pir_sum_options options = {.allocator = NULL, .difference = true};
             pir_query_input input = {.cutoff = HUGE_VAL};
             if (n / 3 == 2)
                 input.translation = (pir_vec3){v[0], v[1], v[2]};

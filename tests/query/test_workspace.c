@@ -46,7 +46,7 @@ static void make(struct object *object, test_random *random, pir_workspace *work
     pir_quat rotation = test_rotation(random);
     for (int own = 0; own < 2; own++) {
         pir_sum_options options = pir_sum_options_default();
-        options.difference = 1;
+        options.difference = true;
         options.workspace = own ? NULL : workspace;
         assert_int_equal(pir_sum_create(object->p, object->q, rotation, &options, &object->sum[own]), PIR_OK);
         assert_int_equal(pir_query_create(object->sum[own], &object->query[own]), PIR_OK);
@@ -162,7 +162,7 @@ static size_t bytes_in_use(pir_polytope *p, size_t *ret_blocks) {
     pir_sum *sum;
     pir_query *query;
     assert_int_equal(pir_workspace_create(&scratch, &workspace), PIR_OK);
-    pir_sum_options options = {.allocator = &allocator, .difference = 1, .workspace = workspace};
+    pir_sum_options options = {.allocator = &allocator, .difference = true, .workspace = workspace};
     assert_int_equal(pir_sum_create(p, p, (pir_quat){0, 0, 0, 1}, &options, &sum), PIR_OK);
     assert_int_equal(pir_query_create(sum, &query), PIR_OK);
     *ret_blocks = memory.blocks;

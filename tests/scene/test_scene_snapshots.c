@@ -55,7 +55,7 @@ static void a_restored_scene_goes_on_as_it_did(void **state) {
         unsigned long long number = n;
         pir_scene_options options = pir_scene_options_default();
         options.margin = n % 2 ? 0.125 : 0;
-        options.approach = 1;
+        options.approach = true;
         static const uint32_t threads[3] = {1, 2, 4};
         options.threads = threads[n % 3];
         crowd_init(&c, 2000 + n, 12 + 3 * (uint32_t)n, &options);

@@ -145,7 +145,7 @@ static void a_contact_begins_persists_and_ends(void **state) {
     pir_polytope *p = scene_cube(1);
     pir_scene_options options = pir_scene_options_default();
     pir_scene *scene;
-    options.approach = 1;
+    options.approach = true;
     assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
     uint32_t floor = scene_add(scene, p, scene_at(0, 0, -1), PIR_BODY_STATIC),
              box = scene_add(scene, p, scene_at(0.25, 0, 2), PIR_BODY_MOVING);

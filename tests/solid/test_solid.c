@@ -208,7 +208,7 @@ static void every_failing_request_and_a_low_limit_are_survived(void **state) {
         pir_allocator allocator = test_allocator(&memory);
         pir_solid_sum_options options = pir_solid_sum_options_default();
         options.solid.allocator = &allocator;
-        options.open = 1;
+        options.open = true;
         pir_solid *solid = NULL;
         pir_pieces *pieces = NULL;
         pir_mesh *mesh = NULL;

@@ -24,7 +24,7 @@ static pir_mesh *open_sum(const cells *p, const cells *q, pir_solid_sum_info *in
     pir_solid_sum_options options = pir_solid_sum_options_default();
     pir_mesh *mesh = NULL;
     pir_solid *of_p = solid_of_cells(p), *of_q = solid_of_cells(q);
-    options.open = 1;
+    options.open = true;
     assert_int_equal(pir_solid_sum(of_p, of_q, no_turn, &options, info, &mesh), PIR_OK);
     pir_solid_release(of_q);
     pir_solid_release(of_p);

@@ -205,7 +205,7 @@ static void compare_all(const pir_solid *p, const pir_solid *q, const char *name
         pir_mesh *mesh = NULL;
         const pir_vec3 axis = test_random_direction(&random);
         const pir_quat rotation = {axis.x, axis.y, axis.z, test_random_unit(&random)};
-        options.difference = 1;
+        options.difference = true;
         assert_int_equal(pir_solid_sum(p, q, rotation, &options, NULL, &mesh), PIR_OK);
         compare(query, workspace, mesh, rotation, &random, &tally);
         pir_mesh_destroy(mesh);

@@ -121,7 +121,7 @@ static void difference_is_the_sum_with_the_reflection(void **state) {
         pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q), *minus;
         assert_int_equal(pir_polytope_reflect(p, &minus), PIR_OK);
         pir_sum_options options = pir_sum_options_default();
-        options.difference = 1;
+        options.difference = true;
         pir_sum *difference = make_sum(p, q, pose.rotation, &options), *sum = make_sum(minus, q, pose.rotation, NULL);
         assert_true(pir_sum_same_pairing(difference, sum));
         pir_mesh *a, *b, *c;
@@ -165,7 +165,7 @@ static void tracking_does_not_allocate_after_warm_up(void **state) {
     test_random random = test_random_case("sum warm-up", 0);
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    pir_sum_options options = {.allocator = &allocator, .difference = 0};
+    pir_sum_options options = {.allocator = &allocator, .difference = false};
     pir_polytope *p = test_sphere(&random, 150), *q = test_sphere(&random, 150);
     pir_sum *sum = make_sum(p, q, identity, &options);
     pir_quat r = identity;

@@ -44,7 +44,7 @@ static pir_status require_convex(const void *bytes, size_t size, const char *for
     pir_polytope *polytope = NULL;
     pir_report report = {PIR_OK, ""};
     pir_read_options options = pir_read_options_default();
-    options.require_convex = 1;
+    options.require_convex = true;
     pir_status status =
         pir_polytope_read_bytes(&(pir_file_bytes){bytes, size, "m", format}, &options, &report, NULL, &polytope);
     assert_true((status == PIR_OK) == (polytope != NULL));

@@ -85,7 +85,7 @@ static pir_status check_rotations(const pir_quat *rotations, size_t count) {
     return PIR_OK;
 }
 
-pir_status pir_grid_list(const pir_quat *rotations, size_t count, int keep_order, const pir_allocator *allocator,
+pir_status pir_grid_list(const pir_quat *rotations, size_t count, bool keep_order, const pir_allocator *allocator,
                          pir_grid **ret_grid) {
     if (!ret_grid || (!rotations && count > 0))
         return PIR_ERR_ARGUMENT;
@@ -145,11 +145,11 @@ uint64_t pir_grid_cell(const pir_grid *grid, uint64_t number) {
     }
 }
 
-size_t pir_grid_nearest(const pir_grid *grid, pir_quat rotation, size_t capacity, uint64_t *ret_numbers) {
-    if (!pir_quat_is_rotation(rotation) || capacity == 0)
+size_t pir_grid_nearest(const pir_grid *grid, pir_quat rotation, size_t most, uint64_t *ret_numbers) {
+    if (!pir_quat_is_rotation(rotation) || most == 0)
         return 0;
     pir_quat unit = pir_quat_unit(rotation);
-    pir_near near = {.capacity = capacity < PIR_NEAR_MAX ? capacity : PIR_NEAR_MAX};
+    pir_near near = {.capacity = most < PIR_NEAR_MAX ? most : PIR_NEAR_MAX};
     switch (grid->info.kind) {
     case PIR_GRID_AXIS:
         pir_turns_nearest(&grid->turns, unit, &near);

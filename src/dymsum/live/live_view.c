@@ -26,28 +26,28 @@ uint32_t pir_live_mesh_vertex_slots(const pir_live_mesh *live) {
     return live->vertices.used;
 }
 
-int pir_live_mesh_pair(const pir_live_mesh *live, uint32_t slot, pir_sum_pair *ret_pair) {
+bool pir_live_mesh_pair(const pir_live_mesh *live, uint32_t slot, pir_sum_pair *ret_pair) {
     const pir_polytope *p = live->pairing->p, *q = live->pairing->q;
     uint32_t facets = live->sizes.facets_p + live->sizes.facets_q;
     if (slot < live->sizes.facets_p) {
         if (p->artificial || live->fv[slot] == PIR_NO_SLOT)
-            return 0;
+            return false;
         *ret_pair = (pir_sum_pair){PIR_FACET_FV, slot, live->fv[slot]};
-        return 1;
+        return true;
     }
     if (slot < facets) {
         uint32_t v = live->vf[slot - live->sizes.facets_p];
         if (q->artificial || v == PIR_NO_SLOT)
-            return 0;
+            return false;
         *ret_pair = (pir_sum_pair){PIR_FACET_VF, v, slot - live->sizes.facets_p};
-        return 1;
+        return true;
     }
     if (slot - facets >= live->slots.used || live->slots.edge[slot - facets] == PIR_NO_CROSSING)
-        return 0;
+        return false;
     // a segment's two edges are one to callers
     uint32_t e = live->slots.edge[slot - facets], h = live->slots.half[slot - facets];
     *ret_pair = (pir_sum_pair){PIR_FACET_EE, p->artificial ? 0 : e, q->artificial ? 0 : q->edge[h]};
-    return 1;
+    return true;
 }
 
 const uint32_t *pir_live_mesh_facet(const pir_live_mesh *live, uint32_t slot, uint32_t *ret_count) {
@@ -69,12 +69,12 @@ const uint32_t *pir_live_mesh_facet(const pir_live_mesh *live, uint32_t slot, ui
     return live->slots.corner + live->sizes.corners_fixed + 4 * (size_t)(slot - live->sizes.facets_q);
 }
 
-int pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t ret_pair[2]) {
+bool pir_live_mesh_vertex_pair(const pir_live_mesh *live, uint32_t slot, uint32_t ret_pair[2]) {
     if (slot >= live->vertices.used || live->vertices.uses[slot] == 0)
-        return 0;
+        return false;
     ret_pair[0] = live->vertices.pair[slot][0];
     ret_pair[1] = live->vertices.pair[slot][1];
-    return 1;
+    return true;
 }
 
 /* --- coordinates --- */

@@ -36,7 +36,7 @@ static pir_status read_model(const char *data, size_t size, const char *format, 
 }
 
 pir_read_options pir_read_options_default(void) {
-    return (pir_read_options){.polytope = pir_polytope_options_default(), .require_convex = 0};
+    return (pir_read_options){.polytope = pir_polytope_options_default(), .require_convex = false};
 }
 
 pir_status pir_model_read_bytes(const pir_file_bytes *file, const pir_allocator *allocator, pir_report *report,

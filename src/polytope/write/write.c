@@ -35,7 +35,7 @@ static pir_status fail_file(pir_report *report, const char *path, int error) {
 }
 
 /* Whether the format can hold the mesh that exactly. */
-static pir_status check_exact(const pir_mesh *mesh, const char *name, enum pir_file_type type, int exact,
+static pir_status check_exact(const pir_mesh *mesh, const char *name, enum pir_file_type type, bool exact,
                               pir_report *report) {
     if (exact && type != PIR_FILE_OFF)
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: only .off holds exact coordinates", name);
@@ -44,7 +44,7 @@ static pir_status check_exact(const pir_mesh *mesh, const char *name, enum pir_f
     return PIR_OK;
 }
 
-static pir_status write_as(const pir_mesh *mesh, FILE *file, const char *name, enum pir_file_type type, int exact,
+static pir_status write_as(const pir_mesh *mesh, FILE *file, const char *name, enum pir_file_type type, bool exact,
                            pir_report *report) {
     pir_status status = PIR_OK;
     if (type == PIR_FILE_STL)
@@ -61,7 +61,7 @@ static pir_status write_as(const pir_mesh *mesh, FILE *file, const char *name, e
 }
 
 /* Writes and flushes; a full disk may show only at the end. */
-static pir_status write_stream(const pir_mesh *mesh, FILE *file, const char *path, enum pir_file_type type, int exact,
+static pir_status write_stream(const pir_mesh *mesh, FILE *file, const char *path, enum pir_file_type type, bool exact,
                                pir_report *report) {
     pir_status status = write_as(mesh, file, pir_short_name(path), type, exact, report);
     errno = 0;
@@ -70,7 +70,7 @@ static pir_status write_stream(const pir_mesh *mesh, FILE *file, const char *pat
     return status;
 }
 
-pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *name, const char *format, int exact,
+pir_status pir_mesh_write_stream(const pir_mesh *mesh, FILE *file, const char *name, const char *format, bool exact,
                                  pir_report *report) {
     if (!mesh || !file || !name || !format)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no mesh, no stream, no name or no format");
@@ -105,7 +105,7 @@ static FILE *open_beside(const char *target, char ret_name[PIR_PATH_SIZE]) {
 struct write_job {
     const pir_mesh *mesh;
     const char *path;
-    int exact;
+    bool exact;
     pir_report *report;
 };
 
@@ -147,7 +147,7 @@ static pir_status write_file(const struct write_job *job) {
     return replace(job, target, stat(target, &there) == 0 ? &there : NULL);
 }
 
-pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, int exact, pir_report *report) {
+pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, bool exact, pir_report *report) {
     if (!mesh || !path)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no mesh, or no path to write it to");
     const char *name = pir_short_name(path);

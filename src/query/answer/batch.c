@@ -19,6 +19,21 @@ static pir_status need_leaves(pir_query *query) {
     return query->leaves ? PIR_OK : PIR_ERR_MEMORY;
 }
 
+/* Whether each translation can be placed, so that no answer is written where one cannot. */
+static pir_status check(const pir_frame *frame, const pir_vec3 *translations, size_t count) {
+    pir_status status = PIR_OK;
+    pir_placement placement;
+    double all = 0;
+    for (size_t i = 0; i < count; i++)
+        all += fabs(translations[i].x) + fabs(translations[i].y) + fabs(translations[i].z);
+    // where one is not finite the sum is not, and no translation is beyond it
+    if (pir_frame_place(frame, (pir_vec3){all, 0, 0}, &placement) == PIR_OK)
+        return PIR_OK;
+    for (size_t i = 0; i < count && status == PIR_OK; i++)
+        status = pir_frame_place(frame, translations[i], &placement);
+    return status;
+}
+
 static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *translations, size_t count,
                         const void *ret) {
     pir_placement middle;
@@ -26,6 +41,8 @@ static pir_status begin(struct batch *batch, pir_query *query, const pir_vec3 *t
         return PIR_ERR_ARGUMENT;
     *batch = (struct batch){.query = query, .input = pir_query_input_default()};
     pir_status status = pir_query_begin(query, &batch->input, &middle);
+    if (status == PIR_OK)
+        status = check(&query->frame, translations, count);
     if (status == PIR_OK)
         status = need_leaves(query);
     if (status == PIR_OK)

@@ -437,7 +437,7 @@ pir_status pir_manifold_find(const pir_frame *frame, const pir_placement *placem
     begin(&m, frame, placement, room, answer);
     *ret_count =
         is_alone(&m) ? put_answer(&m, ask, 0, 0, ret_contacts) : put_contacts(&m, placement, ask, ret_contacts);
-    return *ret_count <= ask->capacity ? PIR_OK : PIR_ERR_LIMIT;
+    return PIR_OK;
 }
 
 pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,

@@ -33,18 +33,15 @@ static void keep_apart(pir_scene_pair *pair, const pir_scene_body *p, const pir_
 static pir_status add_contacts(pir_scene *scene, pir_scene_worker *worker, pir_pair *pair, const pir_pair_input *input,
                                const pir_query_result *answer) {
     pir_scene_found *found = &worker->found[worker->found_count];
-    size_t count = 8;
-    pir_status status = PIR_ERR_LIMIT;
-    while (status == PIR_ERR_LIMIT) {
+    size_t count = 8, capacity = 0;
+    pir_status status = PIR_OK;
+    while (status == PIR_OK && count > capacity) {
         uint32_t need = worker->contact_count + (uint32_t)count;
         if (!PIR_GROW(&scene->allocator, worker->contact, worker->contact_capacity, need))
             return PIR_ERR_MEMORY;
-        size_t capacity = worker->contact_capacity - worker->contact_count;
+        capacity = worker->contact_capacity - worker->contact_count;
         status = pir_pair_manifold(pair, worker->workspace, input, answer, capacity,
                                    worker->contact + worker->contact_count, &count);
-        // a limit that is not of the room
-        if (status == PIR_ERR_LIMIT && count <= capacity)
-            return status;
     }
     if (status == PIR_OK) {
         found->count = (uint32_t)count;

@@ -7,6 +7,7 @@
  * cutoff. So what is told of which piece, but for the width of the bounds, is what pairs would tell.
  */
 #include "scene/query/far_bounds.h"
+#include "scene/world/grow.h"
 
 /* The bound that query.h promises of a distance, with a part in a thousand for the roundings here. */
 #define PROMISE 1.001e-12
@@ -25,22 +26,27 @@ struct gauge {
 
 /* The answers, as they are put together. */
 struct distance_list {
-    pir_scene_distance *at;
+    pir_scene *scene;
     size_t capacity, count;
 };
 
-static void put(struct distance_list *told, pir_scene_distance distance) {
+static pir_status put(struct distance_list *told, pir_scene_distance distance) {
+    pir_scene_answers *answers = &told->scene->answers;
     size_t at = told->count < told->capacity ? told->count : told->capacity;
+    if (at < told->capacity &&
+        !PIR_GROW(&told->scene->allocator, answers->distance, answers->distance_capacity, (uint32_t)at + 1))
+        return PIR_ERR_MEMORY;
     told->count++;
     for (; at > 0; at--) {
-        const pir_scene_distance *before = &told->at[at - 1];
+        const pir_scene_distance *before = &answers->distance[at - 1];
         if (before->body < distance.body || (before->body == distance.body && before->piece < distance.piece))
             break;
         if (at < told->capacity)
-            told->at[at] = *before;
+            answers->distance[at] = *before;
     }
     if (at < told->capacity)
-        told->at[at] = distance;
+        answers->distance[at] = distance;
+    return PIR_OK;
 }
 
 static double wanted(const struct gauge *gauge) {
@@ -130,17 +136,17 @@ static pir_status hold(const struct gauge *asked, struct distance_list *told) {
         gauge.bounds = pir_far_bounds_of_boxes(&asked->probe->box, &q->tight, slack_of(asked->probe, q));
         gauge.known = (pir_scene_distance){.body = q->body, .piece = q->number, .state = PIR_OUTSIDE};
         pir_status status = settle(&gauge, q);
+        if (status == PIR_OK && !gauge.beyond)
+            status = put(told, gauge.known);
         if (status != PIR_OK)
             return status;
-        if (!gauge.beyond)
-            put(told, gauge.known);
     }
     return PIR_OK;
 }
 
 pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, double cutoff, pir_accuracy accuracy,
                                size_t capacity, pir_scene_distance *ret_distances, size_t *ret_count) {
-    struct distance_list told = {ret_distances, capacity, 0};
+    struct distance_list told = {scene, capacity, 0};
     pir_probe probe;
     pir_place place;
     pir_placed placed;
@@ -157,7 +163,10 @@ pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, d
         asked.placed = &placed;
     }
     status = hold(&asked, &told);
-    if (status == PIR_OK)
-        *ret_count = told.count;
-    return status;
+    if (status != PIR_OK)
+        return status;
+    for (size_t i = 0; i < told.count && i < capacity; i++)
+        ret_distances[i] = scene->answers.distance[i];
+    *ret_count = told.count;
+    return PIR_OK;
 }

@@ -4,11 +4,12 @@
  * many as asked for, the last of them is the cutoff of the next question.
  */
 #include "scene/query/probe.h"
+#include "scene/world/grow.h"
 
 struct best {
+    pir_scene *scene;
     double cutoff;
-    size_t capacity, count;
-    pir_scene_near *near;
+    size_t most, count; /* of the scene's room for such answers */
 };
 
 static bool comes_before(const pir_scene_near *a, const pir_scene_near *b) {
@@ -22,24 +23,29 @@ static bool comes_before(const pir_scene_near *a, const pir_scene_near *b) {
     return false;
 }
 
-static void put(struct best *best, const pir_scene_near *near) {
+static pir_status put(struct best *best, const pir_scene_near *near) {
+    pir_scene_answers *answers = &best->scene->answers;
     size_t at = best->count;
-    if (at == best->capacity) {
-        if (!comes_before(near, &best->near[at - 1]))
-            return;
+    if (at == best->most) {
+        if (!comes_before(near, &answers->near[at - 1]))
+            return PIR_OK;
         at--;
     } else {
+        if (!PIR_GROW(&best->scene->allocator, answers->near, answers->near_capacity, (uint32_t)at + 1))
+            return PIR_ERR_MEMORY;
         best->count++;
     }
-    for (; at > 0 && comes_before(near, &best->near[at - 1]); at--)
-        best->near[at] = best->near[at - 1];
-    best->near[at] = *near;
+    for (; at > 0 && comes_before(near, &answers->near[at - 1]); at--)
+        answers->near[at] = answers->near[at - 1];
+    answers->near[at] = *near;
+    return PIR_OK;
 }
 
 /* How far an answer may be away to be one of the best. */
 static double cutoff_of(const struct best *best) {
-    return best->count < best->capacity ? best->cutoff
-                                        : fmin(best->cutoff, best->near[best->count - 1].result.distance);
+    if (best->count < best->most)
+        return best->cutoff;
+    return fmin(best->cutoff, best->scene->answers.near[best->count - 1].result.distance);
 }
 
 static pir_status ask(const pir_probe *probe, uint32_t own_piece, uint32_t piece, struct best *best) {
@@ -56,7 +62,7 @@ static pir_status ask(const pir_probe *probe, uint32_t own_piece, uint32_t piece
     status = pir_pair_signed_distance(pair, scene->worker[0].workspace, &input, &near.result);
     near.result.steps = 0;
     if (status == PIR_OK && near.result.outcome != PIR_BEYOND_CUTOFF && near.result.distance <= best->cutoff)
-        put(best, &near);
+        status = put(best, &near);
     return status;
 }
 
@@ -78,30 +84,38 @@ static pir_status hold(const pir_probe *probe, uint32_t own_piece, struct best *
     return PIR_OK;
 }
 
-static pir_status check(double cutoff, size_t capacity, const pir_scene_near *near, const size_t *count) {
-    if (isnan(cutoff))
+static pir_status check(const struct best *best, const pir_scene_near *near, const size_t *count) {
+    if (!best->scene)
+        return PIR_ERR_ARGUMENT;
+    if (isnan(best->cutoff))
         return PIR_ERR_NOT_FINITE;
-    return cutoff < 0 || capacity == 0 || !near || !count ? PIR_ERR_ARGUMENT : PIR_OK;
+    return best->cutoff < 0 || best->most == 0 || !near || !count ? PIR_ERR_ARGUMENT : PIR_OK;
 }
 
-pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, double cutoff, size_t capacity,
+static void give(const struct best *best, pir_scene_near *ret_near, size_t *ret_count) {
+    for (size_t i = 0; i < best->count; i++)
+        ret_near[i] = best->scene->answers.near[i];
+    *ret_count = best->count;
+}
+
+pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, double cutoff, size_t most,
                              pir_scene_near *ret_near, size_t *ret_count) {
-    struct best best = {cutoff, capacity, 0, ret_near};
+    struct best best = {scene, cutoff, most, 0};
     pir_probe probe;
-    pir_status status = scene && shape ? check(cutoff, capacity, ret_near, ret_count) : PIR_ERR_ARGUMENT;
+    pir_status status = shape ? check(&best, ret_near, ret_count) : PIR_ERR_ARGUMENT;
     if (status == PIR_OK)
         status = pir_probe_of_shape(scene, shape, &probe);
     if (status == PIR_OK)
         status = hold(&probe, 0, &best);
     if (status == PIR_OK)
-        *ret_count = best.count;
+        give(&best, ret_near, ret_count);
     return status;
 }
 
-pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t capacity, pir_scene_near *ret_near,
+pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t most, pir_scene_near *ret_near,
                                    size_t *ret_count) {
-    struct best best = {cutoff, capacity, 0, ret_near};
-    pir_status status = scene ? check(cutoff, capacity, ret_near, ret_count) : PIR_ERR_ARGUMENT;
+    struct best best = {scene, cutoff, most, 0};
+    pir_status status = check(&best, ret_near, ret_count);
     for (uint32_t b = 0; status == PIR_OK && b < scene->bodies.body_end; b++) {
         const pir_scene_body *body = &scene->bodies.body[b];
         for (uint32_t p = body->used && !body->sensor ? body->first : PIR_PIECE_NONE;
@@ -111,6 +125,6 @@ pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t capac
         }
     }
     if (status == PIR_OK)
-        *ret_count = best.count;
+        give(&best, ret_near, ret_count);
     return status;
 }

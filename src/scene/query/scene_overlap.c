@@ -1,19 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* The pieces that a shape overlaps. Hits are kept in order, so that those beyond the capacity fall off. */
 #include "scene/query/probe.h"
+#include "scene/world/grow.h"
 
 static bool comes_before(const pir_scene_hit *a, const pir_scene_hit *b) {
     return a->body != b->body ? a->body < b->body : a->piece < b->piece;
 }
 
-/* Puts a hit in its place among those that there are, where there is room. */
-static void put(pir_scene_hit hit, size_t capacity, pir_scene_hit *hits, size_t count) {
+/* Puts a hit in its place among the `count` that there are, of which the first `capacity` are kept. */
+static pir_status put(pir_scene *scene, pir_scene_hit hit, size_t capacity, size_t count) {
+    pir_scene_answers *answers = &scene->answers;
     size_t at = count < capacity ? count : capacity;
+    if (at < capacity && !PIR_GROW(&scene->allocator, answers->hit, answers->hit_capacity, (uint32_t)at + 1))
+        return PIR_ERR_MEMORY;
+    pir_scene_hit *hits = answers->hit;
     if (at == capacity && (capacity == 0 || !comes_before(&hit, &hits[--at])))
-        return;
+        return PIR_OK;
     for (; at > 0 && comes_before(&hit, &hits[at - 1]); at--)
         hits[at] = hits[at - 1];
     hits[at] = hit;
+    return PIR_OK;
 }
 
 pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, size_t capacity, pir_scene_hit *ret_hits,
@@ -35,12 +41,15 @@ pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, siz
         status = pir_probe_pair(&probe, piece, &pair, &input);
         if (status == PIR_OK)
             status = pir_pair_overlap(pair, scene->worker[0].workspace, &input, &answer);
+        if (status == PIR_OK && answer.state != PIR_OUTSIDE)
+            status = put(scene, (pir_scene_hit){p->body, p->number, answer.state}, capacity, count++);
         if (status != PIR_OK)
             return status;
-        if (answer.state != PIR_OUTSIDE)
-            put((pir_scene_hit){p->body, p->number, answer.state}, capacity, ret_hits, count++);
     }
-    if (status == PIR_OK)
-        *ret_count = count;
-    return status;
+    if (status != PIR_OK)
+        return status;
+    for (size_t i = 0; i < count && i < capacity; i++)
+        ret_hits[i] = scene->answers.hit[i];
+    *ret_count = count;
+    return PIR_OK;
 }

@@ -96,6 +96,9 @@ void pir_scene_destroy(pir_scene *scene) {
     pir_pair_destroy(scene->spare);
     PIR_FREE(&scene->allocator, scene->exact_room.limbs.base, scene->exact_room.limbs.capacity);
     PIR_FREE(&scene->allocator, scene->exact_room.integers, 1);
+    PIR_FREE(a, scene->answers.hit, scene->answers.hit_capacity);
+    PIR_FREE(a, scene->answers.near, scene->answers.near_capacity);
+    PIR_FREE(a, scene->answers.distance, scene->answers.distance_capacity);
     pir_tree_finish(&scene->tree, a);
     pir_bodies_finish(&scene->bodies, a);
     PIR_FREE(a, scene->fresh, scene->fresh_capacity);

@@ -12,6 +12,8 @@
 #ifndef PIR_SCENE_WORLD_SCENE_H
 #define PIR_SCENE_WORLD_SCENE_H
 
+#include <pirouette/scene_query.h>
+
 #include "exact/rotation.h"
 #include "scene/pairs/pairs.h"
 #include "scene/tasks/tasks.h"
@@ -87,6 +89,14 @@ typedef struct pir_exact_room {
     pir_rotation_integers *integers;
 } pir_exact_room;
 
+/* Answers of a query as they are found; the caller's arrays are filled once it has succeeded. The memory stays. */
+typedef struct pir_scene_answers {
+    pir_scene_hit *hit;
+    pir_scene_near *near;
+    pir_scene_distance *distance;
+    uint32_t hit_capacity, near_capacity, distance_capacity;
+} pir_scene_answers;
+
 struct pir_scene {
     pir_budget budget;
     pir_allocator allocator; /* of the budget */
@@ -103,6 +113,7 @@ struct pir_scene {
     pir_scene_pairs pairs;
     pir_pair *spare; /* of queries, or NULL */
     pir_exact_room exact_room;
+    pir_scene_answers answers;
     uint32_t *fresh; /* bodies added since the last update */
     uint32_t fresh_capacity, fresh_count;
 

@@ -49,10 +49,10 @@ static bool has_all_pairs(const pir_scene *scene, uint32_t piece) {
     return true;
 }
 
-int pir_scene_is_valid(const pir_scene *scene) {
+bool pir_scene_is_valid(const pir_scene *scene) {
     uint32_t pieces = 0, bodies = 0, ends = 0;
     if (!pir_tree_is_valid(&scene->tree) || scene->tree.leaves != scene->bodies.piece_count)
-        return 0;
+        return false;
     for (uint32_t b = 0; b < scene->bodies.body_end; b++) {
         uint32_t of_body = 0;
         bodies += scene->bodies.body[b].used;
@@ -61,11 +61,11 @@ int pir_scene_is_valid(const pir_scene *scene) {
             const pir_scene_piece *piece = &scene->bodies.piece[p];
             if (piece->body != b || piece->number != of_body++ || !leaf_is_valid(scene, p) ||
                 !list_is_valid(scene, p, &ends) || !has_all_pairs(scene, p))
-                return 0;
+                return false;
             pieces++;
         }
         if (scene->bodies.body[b].used && of_body != scene->bodies.body[b].pieces)
-            return 0;
+            return false;
     }
     return bodies == scene->bodies.body_count && pieces == scene->bodies.piece_count && ends == 2 * scene->pairs.count;
 }

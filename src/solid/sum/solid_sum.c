@@ -35,7 +35,7 @@ struct solid_sum_job {
 };
 
 pir_solid_sum_options pir_solid_sum_options_default(void) {
-    return (pir_solid_sum_options){.solid = pir_solid_options_default(), .difference = 0, .open = 0};
+    return (pir_solid_sum_options){.solid = pir_solid_options_default(), .difference = false, .open = false};
 }
 
 static void finish(struct solid_sum_job *job) {
