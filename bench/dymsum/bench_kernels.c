@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The inner loops, every version that this processor runs beside the scalar reference: those of an update
- * (dymsum/kernels/kernels.h) and those over planes of a query (query/planes/scan.h). Usage: bench_kernels FOLDER
+ * (dymsum/kernels/kernels.h) and those over planes of a query (query/depth/scan.h). Usage: bench_kernels FOLDER
  *
  * kernels.csv holds the times, kernels.md the same as tables. A pass goes over all items of a real sum; versions take
  * turns from pass to pass, so that what else the machine does falls on all alike, and what a pass changes is put back
@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "dymsum/sum.h"
-#include "query/planes/scan.h"
+#include "query/depth/scan.h"
 #include "results.h"
 #include "spin.h"
 #include "trial.h"

@@ -10,10 +10,10 @@
  *
  * Whatever way gave it, an answer leaves the same hints.
  */
+#include "pair/pair_task.h"
+
 #include "dymsum/relative.h"
 #include "dymsum/view.h"
-#include "pair/apart.h"
-#include "pair/pair_depth.h"
 #include "query/answer/follow.h"
 
 /* --- whole --- */
@@ -100,8 +100,7 @@ static inline void set_task(pir_pair *pair, pir_workspace *workspace, const pir_
     task->placement = &workspace->placement;
     task->exact = &workspace->exact;
     task->hint = &pair->hint;
-    task->prove_same = workspace->prove_same;
-    task->follow_foot = workspace->follow_foot;
+    task->walker = workspace->walker;
     task->result = &workspace->answer;
     // rounded bodies overlap where the polytopes are apart
     task->want = want | (radii > 0 ? PIR_WANT_SEPARATION | PIR_WANT_DEPTH : 0);

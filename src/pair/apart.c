@@ -11,7 +11,7 @@
  * A direction that is kept is tried as it stood with Q, then as it has turned with P: the nearest features are often a
  * facet of either. Round bodies that have moved far are apart from middle to middle, or between all three.
  */
-#include "pair/apart.h"
+#include "pair/pair_task.h"
 
 /* The most that a climb may have missed of a body's support: see above. */
 static inline double missed(const pir_kept_body *body) {
@@ -85,7 +85,7 @@ static bool settle_along(pir_task *task, pir_vec3 n, double distance, struct pro
     pir_pair *pair = pir_pair_task_of(task)->pair;
     pir_vec3 back;
     uint32_t a = pair->axis_a, b = pair->axis_b;
-    pir_pair_task_of(task)->workspace->find_supports(task->frame, n, &a, &b, &back);
+    pir_pair_task_of(task)->workspace->walker->supports(task->frame, n, &a, &b, &back);
     if (((a ^ pair->axis_a) | (b ^ pair->axis_b)) != 0) {
         pair->axis_a = a;
         pair->axis_b = b;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * See flight.h. The normal n from Q to P at some time, and Q's point nearest to P, make a plane that has Q below it for
- * good, since Q is at rest. The bodies are apart until P comes down to it (query/frame/parting.h). There the distance
+ * good, since Q is at rest. The bodies are apart until P comes down to it (query/proof/parting.h). There the distance
  * is asked for again, and its plane parts them further.
  */
 #include "pair/flight.h"
 
 #include "polytope/polytope.h"
-#include "query/frame/parting.h"
+#include "query/proof/parting.h"
 
 /* Few casts need more than ten; those that take all glide along something that is hardly farther than the tolerance. */
 #define MOST_STEPS 512

@@ -24,9 +24,7 @@ pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **
     workspace->world.rotation_q = &workspace->rotation_q;
     workspace->room.loops = pir_surface_loops_best();
     workspace->axes = pir_axes_loops_best();
-    workspace->prove_same = pir_same_facet_best();
-    workspace->follow_foot = pir_follow_foot_best();
-    workspace->find_supports = pir_supports_best();
+    workspace->walker = pir_walker_best();
     *ret_workspace = workspace;
     return PIR_OK;
 }

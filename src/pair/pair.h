@@ -18,7 +18,6 @@
 #include "query/answer/ladder.h"
 #include "query/contact/patch.h"
 #include "query/frame/body.h"
-#include "query/frame/supports.h"
 #include "query/proof/proof.h"
 
 struct pir_pair {
@@ -59,9 +58,7 @@ struct pir_workspace {
     pir_exact exact;
     pir_surface_room room;
     const pir_axes_loops *axes;
-    pir_same_prover *prove_same;
-    pir_foot_follower *follow_foot;
-    pir_supports *find_supports;
+    const pir_walker *walker;
     pir_surface spare; /* where a pair has none */
     pir_patch_room patches;
 

@@ -1,11 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* The depth of a pair that overlaps: see pair_depth.h. */
-#include "pair/pair_depth.h"
+/*
+ * The depth of a pair that overlaps: the facet of D of least slack at x, proven.
+ *
+ * Of small bodies all facets that D can have are compared (axes/axes.h). Of others a closed surface of vertex pairs
+ * in D is kept from answer to answer (surface/inner_surface.h). Where the surface about x is certain, x is inside of D.
+ * The true facets of D that triangles of the surface lie in are proven by exact slopes (facet.h), and compared exactly.
+ * The search ends when each triangle either lies in a proven facet or is farther from x, for certain, than the least of
+ * these: then that is the least of all facets of D, and every facet that ties with it is among those compared.
+ */
+#include "pair/pair_task.h"
 
-#include "pair/apart.h"
 #include "query/decide/witness.h"
-#include "query/last/foot.h"
-#include "query/last/foot_walk.h"
+#include "query/walk/foot.h"
+#include "query/walk/foot_walk.h"
 
 /* Bounds on the vertices added in one search; most take none to three. */
 #define MOST_ADDED 64
@@ -338,7 +345,7 @@ static bool take_facet(const struct overlap *overlap, uint32_t t, struct found *
     if (found->count == MOST_FACETS || !piece_at(overlap, t, &piece))
         return false;
     bool has_same =
-        overlap->task->prove_same(overlap->exact->frame, overlap->placement, piece, &same) == PIR_SAME_PROVEN;
+        overlap->task->walker->prove(overlap->exact->frame, overlap->placement, piece, &same) == PIR_SAME_PROVEN;
     if (has_same)
         *facet = same.facet;
     else if (!pir_facet_prove(overlap->exact, piece, facet))
@@ -654,7 +661,7 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
     pir_piece piece = pir_axes_piece(p, q, task->frame, least.at, &n);
     // written in place where nothing is there: avoids a copy
     pir_same_facet *same = task->has_same ? &other : &task->same;
-    if (task->prove_same(task->frame, task->placement, piece, same) == PIR_SAME_PROVEN) {
+    if (task->walker->prove(task->frame, task->placement, piece, same) == PIR_SAME_PROVEN) {
         if (task->has_same)
             task->same = other;
         task->has_same = true;

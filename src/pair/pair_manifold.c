@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Contact manifolds of pairs: those of query/answer/manifold.h, brought to Q's frame and back. */
-#include "query/answer/manifold.h"
+/* Contact manifolds of pairs: those of query/contact/manifold.h, brought to Q's frame and back. */
+#include "query/contact/manifold.h"
 
 #include <stddef.h>
 #include <string.h>

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "facet_scene.h"
-#include "query/last/follow_foot.h"
-#include "query/last/foot.h"
+#include "query/walk/foot.h"
+#include "query/walk/walker.h"
 
 /* What this test takes for rounding. */
 #define ROUNDING 1e-9
@@ -56,12 +56,12 @@ static double least_slack(const pir_frame *frame, pir_vec3 x) {
 static pir_same follow(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
                        pir_same_facet *ret_start, pir_same_facet *ret_end, pir_same *ret_is) {
     memset(ret_start, 0, sizeof *ret_start);
-    pir_same from = pir_same_facet_prove(frame, placement, piece, ret_start);
+    pir_same from = pir_walker_version(0)->prove(frame, placement, piece, ret_start);
     *ret_end = *ret_start;
-    *ret_is = pir_follow_foot(frame, placement, from, ret_end);
-    for (unsigned version = 1; pir_follow_foot_version(version); version++) {
+    *ret_is = pir_walker_version(0)->follow(frame, placement, from, ret_end);
+    for (unsigned version = 1; pir_walker_version(version); version++) {
         pir_same_facet other = *ret_start;
-        assert_int_equal(pir_follow_foot_version(version)(frame, placement, from, &other), *ret_is);
+        assert_int_equal(pir_walker_version(version)->follow(frame, placement, from, &other), *ret_is);
         if (*ret_is == PIR_SAME_PROVEN)
             assert_true(memcmp(&other.facet, &ret_end->facet, sizeof other.facet) == 0 &&
                         memcmp(&other.touch, &ret_end->touch, sizeof other.touch) == 0 &&
@@ -115,12 +115,10 @@ static void a_processor_with_avx2_has_its_version(void **state) {
     (void)state;
 #if defined(__x86_64__) && defined(__GNUC__)
     if (__builtin_cpu_supports("avx2")) {
-        assert_non_null(pir_same_facet_version(1));
-        assert_non_null(pir_follow_foot_version(1));
+        assert_non_null(pir_walker_version(1));
     }
 #endif
-    assert_null(pir_same_facet_version(2));
-    assert_null(pir_follow_foot_version(2));
+    assert_null(pir_walker_version(2));
 }
 
 static void inside_the_end_holds_the_foot(void **state) {

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "query/planes/scan.h"
+#include "query/depth/scan.h"
 #include "support/random.h"
 
 #define COUNT 40

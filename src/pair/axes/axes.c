@@ -16,7 +16,7 @@
  *   - Where σ' is less, a' is at most 140u · reach, less than 2 E. So they say less than −reach, which no slack is
  *     below.
  */
-#include "pair/axes/axes_loops.h"
+#include "pair/axes/axes.h"
 
 #include <string.h>
 

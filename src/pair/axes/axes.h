@@ -82,4 +82,11 @@ void pir_axes_least(const pir_axes_loops *loops, const pir_axes *p, const pir_ax
 pir_piece pir_axes_piece(const pir_axes *p, const pir_axes *q, const pir_frame *frame, uint32_t at,
                          pir_vec3 *ret_normal);
 
+extern const pir_axes_loops pir_axes_plain;
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define PIR_HAVE_X86_AXES 1
+extern const pir_axes_loops pir_axes_avx2;
+#endif
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The loops over axes for AVX2. */
-#include "pair/axes/axes_loops.h"
+#include "pair/axes/axes.h"
 
 #if PIR_HAVE_X86_AXES
 #include <immintrin.h>

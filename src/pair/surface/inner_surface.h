@@ -156,4 +156,9 @@ static inline pir_vec3 pir_surface_normal(const pir_surface_room *room, uint32_t
 /* Whether every directed side has its counterpart: for tests. */
 bool pir_surface_is_valid(const pir_surface *surface);
 
+#if defined(__x86_64__) && defined(__GNUC__)
+#define PIR_HAVE_X86_SURFACE 1
+extern const pir_surface_loops pir_surface_avx2;
+#endif
+
 #endif

@@ -3,7 +3,7 @@
  * A surface's loops for AVX2, four coordinates or four triangles at a time. Every operation is that of the plain loops
  * in inner_surface.c, in their order and never fused, so the bits are the same.
  */
-#include "pair/surface/surface_loops.h"
+#include "pair/surface/inner_surface.h"
 
 #if PIR_HAVE_X86_SURFACE
 #include <immintrin.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A surface's loops for any processor, and which version this one runs: see surface_loops.h. */
-#include "pair/surface/surface_loops.h"
+/* A surface's loops for any processor, and which version this one runs: see inner_surface.h. */
+#include "pair/surface/inner_surface.h"
 
 static void place_corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
     for (uint32_t rest = surface->used; rest; rest &= rest - 1) {

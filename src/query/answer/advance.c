@@ -3,10 +3,10 @@
  * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996).
  *
  * At a separation with normal n no contact can come before P is down at the plane that has Q below it. Advancing to
- * that time (query/frame/parting.h) again and again comes as near to contact as the caller asks, and never past it.
+ * that time (query/proof/parting.h) again and again comes as near to contact as the caller asks, and never past it.
  */
 #include "query/answer/follow.h"
-#include "query/frame/parting.h"
+#include "query/proof/parting.h"
 
 /* The bound on queries that query.h promises. Few motions need more than ten. */
 #define MOST_QUERIES 256

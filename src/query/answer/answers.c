@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Queries on one placement: overlap, separation, penetration. All of them share the exact state. The ways are those of
- * ladder.h, with the pieces of the pairing as the source of facets. The searches among these are in query/search, the
+ * ladder.h, with the pieces of the pairing as the source of facets. The searches among these are in query/depth, the
  * decisions in query/decide.
  */
 #include "query/answer/follow.h"
 #include "query/answer/ladder.h"
-#include "query/search/depth.h"
-#include "query/search/separating.h"
-#include "query/search/state.h"
+#include "query/contact/manifold.h"
+#include "query/depth/depth.h"
 
 pir_query_input pir_query_input_default(void) {
     return (pir_query_input){{0, 0, 0}, 0, 0, HUGE_VAL, 0};
@@ -161,8 +160,7 @@ static void begin(pir_query *query, const pir_placement *placement, int want, pi
     task->frame = &query->frame;
     task->placement = placement;
     task->exact = &query->exact;
-    task->prove_same = pir_same_facet_prove;
-    task->follow_foot = pir_follow_foot;
+    task->walker = query->walker;
     task->want = want;
     task->limit = 0;
     task->may_near = task->may_deep = true;
@@ -301,4 +299,20 @@ pir_status pir_query_penetration(pir_query *query, const pir_query_input *input,
 pir_status pir_query_signed_distance(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
                                      pir_query_result *ret_result) {
     return answer(query, input, PIR_WANT_SEPARATION | PIR_WANT_DEPTH, cache, ret_result);
+}
+
+pir_status pir_query_manifold(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
+                              size_t capacity, pir_contact *ret_contacts, size_t *ret_count) {
+    pir_placement placement;
+    if (!answer || (!ret_contacts && capacity > 0) || !ret_count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_query_begin(query, input, &placement);
+    if (status != PIR_OK)
+        return status;
+    pir_manifold_ask ask = {input, answer, capacity};
+    pir_patch_room *room = &query->room->patches;
+    if (!pir_patch_room_reserve(room, &pir_sum_scratch(query->sum)->allocator, query->p->vertex_count,
+                                query->q->vertex_count))
+        return PIR_ERR_MEMORY;
+    return pir_manifold_find(&query->frame, &placement, room, &ask, ret_contacts, ret_count);
 }

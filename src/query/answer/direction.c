@@ -6,7 +6,7 @@
 #include "query/answer/follow.h"
 #include "query/decide/flat.h"
 #include "query/decide/side.h"
-#include "query/search/state.h"
+#include "query/depth/depth.h"
 
 /* Clips the line by every facet of D. */
 static pir_clip clip_line(pir_query *query, const pir_line *line, uint32_t *steps) {

@@ -4,7 +4,7 @@
  * so the corners of pieces are compared, not all pairs of vertices.
  */
 #include "query/answer/follow.h"
-#include "query/search/state.h"
+#include "query/depth/depth.h"
 
 struct farthest {
     uint32_t a, b;

@@ -8,7 +8,7 @@
  *
  * - Operands. A sum's operand is only ever replaced by the same polytope on another scale. Its features keep their
  *   numbers, and their normals to the bit, so all sizes stay. What depends on coordinates is kept by the new polytope
- *   (frame/body.h, planes/group_lists.h), with the same groups. Bounds begin as in a new query.
+ *   (frame/body.h, depth/group_lists.h), with the same groups. Bounds begin as in a new query.
  * - Rotation. The planes of the last rotation are forgotten. At one rotation the pairing of given operands is unique,
  *   so nothing is forgotten where the rotation stays. A search in a region makes its planes anew each time
  *   (regional.c).
@@ -17,6 +17,37 @@
  * A call that fails on the way leaves the query's generation at 0, so that the next call tries again.
  */
 #include "query/answer/follow.h"
+
+/* --- the queries' room in a scratch --- */
+
+static void destroy_room(void *at, const pir_allocator *allocator) {
+    pir_query_room *room = at;
+    pir_planes_finish(&room->planes, allocator);
+    pir_group_work_finish(&room->work, allocator);
+    PIR_FREE(allocator, room->limbs.base, room->limbs.capacity);
+    pir_patch_room_finish(&room->patches, allocator);
+    PIR_FREE(allocator, room, 1);
+}
+
+pir_query_room *pir_query_room_of(pir_scratch *scratch) {
+    return pir_scratch_room(scratch, PIR_ROOM_QUERY, sizeof(pir_query_room), destroy_room);
+}
+
+pir_status pir_query_room_reserve_limbs(pir_query_room *room, const pir_scratch *scratch, const pir_polytope *p,
+                                        const pir_polytope *q) {
+    uint32_t need = pir_exact_limbs(p, q);
+    if (need <= room->limbs.capacity)
+        return PIR_OK;
+    mp_limb_t *limbs = PIR_NEW(&scratch->allocator, mp_limb_t, need);
+    if (!limbs)
+        return PIR_ERR_MEMORY;
+    PIR_FREE(&scratch->allocator, room->limbs.base, room->limbs.capacity);
+    room->limbs = (pir_limbs){limbs, 0, need};
+    room->owner = NULL;
+    return PIR_OK;
+}
+
+/* --- the life of a query --- */
 
 static pir_layout layout_of(pir_query *query) {
     pir_layout layout = {{{0}}};
@@ -86,6 +117,7 @@ static pir_status make(pir_query *query) {
         return PIR_ERR_MEMORY;
     query->exact.frame = &query->frame;
     query->exact.rotation = pir_sum_exact_rotation(query->sum);
+    query->walker = pir_walker_best();
     pir_search_init(&query->search, &query->exact, pir_sum_pairing(query->sum));
     query->search.groups.planes = &query->room->planes;
     query->search.groups.work = &query->room->work;

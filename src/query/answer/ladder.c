@@ -3,8 +3,7 @@
 #include "query/answer/ladder.h"
 
 #include "query/decide/witness.h"
-#include "query/last/facet_simplex.h"
-#include "query/last/foot.h"
+#include "query/walk/foot.h"
 
 /* An end of a descent that is nearer than this, relative to the reach, is tried for a facet that x touches. */
 #define MAY_TOUCH 0x1p-30
@@ -133,10 +132,10 @@ static bool walk(pir_task *task) {
     const pir_frame *frame = task->frame;
     if (!task->hint->has_facet)
         return false;
-    const pir_same last = task->prove_same(frame, task->placement, task->hint->facet, &task->same);
+    const pir_same last = task->walker->prove(frame, task->placement, task->hint->facet, &task->same);
     pir_same is = last;
     if (is <= PIR_SAME_BESIDE)
-        is = task->follow_foot(frame, task->placement, is, &task->same);
+        is = task->walker->follow(frame, task->placement, is, &task->same);
     if (settle_same(task, is)) {
         pir_task_keep_facet(task, &task->same.facet);
         return true;
@@ -190,7 +189,7 @@ static bool prove_end(pir_task *task, pir_nearest *ret_nearest) {
     }
     pir_facet facet;
     pir_same_facet same;
-    if (task->prove_same(task->frame, task->placement, piece, &same) == PIR_SAME_PROVEN && same.slack < 0) {
+    if (task->walker->prove(task->frame, task->placement, piece, &same) == PIR_SAME_PROVEN && same.slack < 0) {
         *ret_nearest = (pir_nearest){-same.slack, same.facet.n, same.touch};
         pir_task_keep_facet(task, &same.facet);
         return true;

@@ -4,8 +4,8 @@
  * question open for the next. A pair tries a proof of an earlier pose before, for which no placement is made, and
  * the whole difference after (pair/answer.c).
  *
- *   - walk: from the facet of the last answer, by doubles, to the facet that holds the foot of x now (same_facet.h,
- *     follow_foot.h). Where that separates, it is the nearest; where x is within it, foot.h tells whether it is the
+ *   - walk: from the facet of the last answer, by doubles, to the facet that holds the foot of x now (walker.h,
+ *     walker.h). Where that separates, it is the nearest; where x is within it, foot.h tells whether it is the
  *     least. Where doubles leave the facet of the last answer in doubt, integers prove it.
  *   - depth, where the last answer was deep: from the facets that a source has kept.
  *   - nearest: a descent to the nearest point, proven by doubles, else by integers where x is certainly outside.
@@ -18,7 +18,7 @@
 #define PIR_QUERY_ANSWER_LADDER_H
 
 #include "query/answer/result.h"
-#include "query/last/follow_foot.h"
+#include "query/walk/walker.h"
 
 /* Where the next answer starts from. Never believed: an answer has the same bits whatever its hints were. */
 typedef struct pir_hint {
@@ -53,8 +53,7 @@ struct pir_task {
     const pir_placement *placement;
     pir_exact *exact;
     pir_hint *hint;
-    pir_same_prover *prove_same;
-    pir_foot_follower *follow_foot;
+    const pir_walker *walker;
     int want;
     double limit;            /* the cutoff and the radii, in the frame */
     bool may_near, may_deep; /* which ways the caller allows */

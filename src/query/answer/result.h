@@ -6,7 +6,7 @@
 #ifndef PIR_QUERY_ANSWER_RESULT_H
 #define PIR_QUERY_ANSWER_RESULT_H
 
-#include "query/decide/nearest.h"
+#include "query/nearest/nearest.h"
 
 /*
  * Distances above this, relative to the placement's reach, are tried for a quick proof; nearer ones go to the exact

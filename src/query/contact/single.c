@@ -14,8 +14,6 @@
  */
 #include "query/contact/single.h"
 
-#include "query/contact/single_versions.h"
-
 /* Above what sines and differences of unit vectors round by. */
 #define ROUNDING 0x1p-40
 

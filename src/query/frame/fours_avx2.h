@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Loops over what is around a vertex or a facet (around.h), and vectors of three in a register each, by AVX2. Every
- * operation is that of plain code, never fused, so the bits are the same.
+ * Loops over what is around a vertex or a facet (around.h), by AVX2. Every operation is that of plain code, never
+ * fused, so the bits are the same.
  */
 #ifndef PIR_QUERY_FRAME_FOURS_AVX2_H
 #define PIR_QUERY_FRAME_FOURS_AVX2_H
@@ -71,63 +71,6 @@ PIR_AVX2 static inline double pir_sides_least(const pir_around *around, uint32_t
         least = _mm256_min_pd(next, least);
     }
     return pir_four_least(least);
-}
-
-/* --- one vector in a register; the fourth number is any --- */
-
-/* Behind the vector there is room for another number. */
-PIR_AVX2 static inline __m256d pir_three_at(const pir_vec3 *v) {
-    return _mm256_loadu_pd(&v->x);
-}
-
-/* x, y, z as y, z, x. */
-PIR_AVX2 static inline __m256d pir_three_turned(__m256d v) {
-    return _mm256_permute4x64_pd(v, 0xc9);
-}
-
-/* a × b, both turned being known. */
-PIR_AVX2 static inline __m256d pir_three_cross(__m256d a, __m256d a_turned, __m256d b, __m256d b_turned) {
-    return pir_three_turned(_mm256_sub_pd(_mm256_mul_pd(a, b_turned), _mm256_mul_pd(a_turned, b)));
-}
-
-/* The sums of the three numbers of each of four vectors, and of each of two. */
-PIR_AVX2 static inline __m256d pir_three_sums(__m256d a, __m256d b, __m256d c, __m256d d) {
-    __m256d low = _mm256_unpacklo_pd(a, b), high = _mm256_unpacklo_pd(c, d);
-    __m256d y = _mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20);
-    __m256d xy = _mm256_add_pd(_mm256_permute2f128_pd(low, high, 0x20), y);
-    return _mm256_add_pd(xy, _mm256_permute2f128_pd(low, high, 0x31));
-}
-
-PIR_AVX2 static inline __m128d pir_three_two_sums(__m256d a, __m256d b) {
-    __m256d xz = _mm256_unpacklo_pd(a, b);
-    __m128d y = _mm256_castpd256_pd128(_mm256_unpackhi_pd(a, b));
-    return _mm_add_pd(_mm_add_pd(_mm256_castpd256_pd128(xz), y), _mm256_extractf128_pd(xz, 1));
-}
-
-/* A vector by its numbers, each four times. */
-PIR_AVX2 static inline pir_four pir_three_spread(__m256d v) {
-    return (pir_four){_mm256_broadcastsd_pd(_mm256_castpd256_pd128(v)), _mm256_permute4x64_pd(v, 0x55),
-                      _mm256_permute4x64_pd(v, 0xaa)};
-}
-
-/* The columns of a matrix: number by number, as it may have been stored just before. */
-PIR_AVX2 static inline __m256d pir_three_column(const pir_mat3 *r, int k) {
-    __m128d low = _mm_loadh_pd(_mm_load_sd(&r->m[0][k]), &r->m[1][k]);
-    return _mm256_insertf128_pd(_mm256_castpd128_pd256(low), _mm_load_sd(&r->m[2][k]), 1);
-}
-
-PIR_AVX2 static inline pir_four pir_three_columns(const pir_mat3 *r) {
-    return (pir_four){pir_three_column(r, 0), pir_three_column(r, 1), pir_three_column(r, 2)};
-}
-
-/* The matrix of these columns times a vector. */
-PIR_AVX2 static inline __m256d pir_three_apply(pir_four columns, pir_four v) {
-    return pir_four_dot(columns, v);
-}
-
-PIR_AVX2 static inline void pir_three_put(pir_vec3 *to, __m256d v) {
-    _mm_storeu_pd(&to->x, _mm256_castpd256_pd128(v));
-    _mm_store_sd(&to->z, _mm256_extractf128_pd(v, 1));
 }
 
 #endif

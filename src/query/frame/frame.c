@@ -12,7 +12,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "query/frame/dd_rotation.h"
+/* The rows of R = M(q)/|q|², each entry off by a few 2^-104, for the quaternion q + rest. */
+static void dd_rotation(pir_quat q, pir_quat rest, pir_dd3 row[3]) {
+    int top;
+    double largest = fmax(fmax(fabs(q.x), fabs(q.y)), fmax(fabs(q.z), fabs(q.w)));
+    frexp(largest, &top);
+    const pir_dd c[4] = {{ldexp(q.x, -top), ldexp(rest.x, -top)},
+                         {ldexp(q.y, -top), ldexp(rest.y, -top)},
+                         {ldexp(q.z, -top), ldexp(rest.z, -top)},
+                         {ldexp(q.w, -top), ldexp(rest.w, -top)}};
+    pir_dd square[4], norm = {0, 0};
+    for (int k = 0; k < 4; k++) {
+        square[k] = pir_dd_mul(c[k], c[k]);
+        norm = pir_dd_add(norm, square[k]);
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        pir_dd diagonal = pir_dd_sub(pir_dd_add(square[3], square[i]), pir_dd_add(square[j], square[k]));
+        row[i].c[i] = pir_dd_divide(diagonal, norm);
+        pir_dd both = pir_dd_scale(pir_dd_mul(c[i], c[j]), 2), turn = pir_dd_scale(pir_dd_mul(c[3], c[k]), 2);
+        row[i].c[j] = pir_dd_divide(pir_dd_sub(both, turn), norm);
+        row[j].c[i] = pir_dd_divide(pir_dd_add(both, turn), norm);
+    }
+}
 
 /*
  * The error of a translation that is turned in doubles, relative to its length: u = 2^-53 for its rounding, 31u for the
@@ -108,7 +130,7 @@ static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
     return true;
 }
 
-/* Sets the facets' offsets and the body's swing: see planes/bounds.c. */
+/* Sets the facets' offsets and the body's swing: see depth/bounds.c. */
 static void set_offsets(pir_body *body) {
     const pir_polytope *p = body->polytope;
     double size = body->size, inner = p->dimension == 3 ? size : 0;
@@ -169,7 +191,7 @@ static bool same(pir_quat a, pir_quat b) {
 
 void pir_frame_set_far_offset(pir_frame *frame) {
     pir_dd3 row[3];
-    pir_dd_rotation(frame->given, frame->rest, row);
+    dd_rotation(frame->given, frame->rest, row);
     for (int i = 0; i < 3; i++) {
         pir_dd sum = frame->q.centre.c[i];
         for (int j = 0; j < 3; j++)
@@ -200,7 +222,7 @@ static pir_vec3 turn_near(const pir_frame *frame, const pir_world *world, pir_ve
 /* x for any t. */
 static pir_vec3 turn_far(const pir_frame *frame, const pir_world *world, const pir_dd3 *t) {
     pir_dd3 row[3], x = pir_dd3_negate(frame->offset);
-    pir_dd_rotation(world->rotation_q->given, (pir_quat){0, 0, 0, 0}, row);
+    dd_rotation(world->rotation_q->given, (pir_quat){0, 0, 0, 0}, row);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             x.c[i] = pir_dd_add(x.c[i], pir_dd_mul(row[j].c[i], t->c[j]));

@@ -55,7 +55,7 @@ typedef struct pir_body {
     pir_vec3 *vertex; /* relative to the middle of its bounds */
     double *offset;   /* per facet: normal · vertex; behind them lie the facets' shapes */
     double size;      /* the length of the farthest vertex, rounded up */
-    double swing;     /* how fast its support changes as directions turn: see planes/bounds.c */
+    double swing;     /* how fast its support changes as directions turn: see depth/bounds.c */
     pir_dd3 centre;   /* the middle of its bounds, in units of the frame */
     double far;       /* an upper bound on the distance of the middle from the origin */
     uint32_t landmarks[PIR_LANDMARKS];

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * How long a plane parts a body that moves from one that stands: the step of conservative advancement (Mirtich 1996),
+ * taken as far as the motion allows and not only as far as the greatest speed of any point does (after Catto,
+ * "Continuous collision", GDC 2013).
+ */
+#ifndef PIR_QUERY_PROOF_PARTING_H
+#define PIR_QUERY_PROOF_PARTING_H
+
+#include <pirouette/pose.h>
+
+#include "base/vec.h"
+
+/* A body of these points, grown by a radius, moves over time 0 to 1 at constant speed, and turns about its origin. */
+typedef struct pir_parted {
+    const pir_vec3 *point;
+    uint32_t count;
+    double radius;
+    double reach;       /* no point is farther from the origin */
+    pir_vec3 way, turn; /* in the world; the turn along its axis, as long as the angle */
+} pir_parted;
+
+/* A plane below the body, and how near the body may come. */
+typedef struct pir_parting {
+    pir_vec3 normal; /* unit, towards the body */
+    pir_vec3 foot;   /* a point of the plane */
+    double near;     /* > 0: the answer is a time at which the body is no farther from the plane than this */
+    double least;    /* ≥ 0, below `near`: until then it is farther than this */
+} pir_parting;
+
+/*
+ * The time to which the plane parts them, from `time` on, when the body is at `pose`. HUGE_VAL where it does until
+ * the time `end`. At every time before, all points of the body are more than `least` above the plane, but for what
+ * `least` has to hold: 2^-44 of sizes and coordinates, and 2^-48 of the way of the farthest point. `distance` is how
+ * far the body is above the plane at `time`. O(points) where the body turns far enough to come down, otherwise O(1).
+ */
+double pir_part_until(const pir_parted *body, const pir_parting *plane, pir_pose pose, double distance, double time,
+                      double end);
+
+#endif
