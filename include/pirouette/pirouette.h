@@ -27,6 +27,7 @@
 #include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
 #include <pirouette/trimesh.h>
+#include <pirouette/trimesh_contact.h>
 #include <pirouette/trimesh_pair.h>
 #include <pirouette/version.h>
 #include <pirouette/workspace.h>

@@ -17,6 +17,7 @@
 typedef enum pir_room_kind {
     PIR_ROOM_SUM = 0,
     PIR_ROOM_QUERY,
+    PIR_ROOM_SURFACE,
     PIR_ROOM_KINDS,
 } pir_room_kind;
 

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * A convex polytope against surfaces of triangles: state, signed distance, and contacts without ghosts.
+ *
+ * P meets the union S of triangles T exactly where its translation lies in the union U of the sets D = T ⊕ −P. A
+ * contact pushes P along a normal n. It is true where n is a normal of U at a point y of U's boundary: some ball that
+ * touches y from the side of n holds no inner point of U. Otherwise it is a ghost: some other D holds what lies
+ * there, and no motion of P off the surfaces needs that push. Inner edges of a floor make such ghosts, and so do the
+ * walls between prisms that stand side by side.
+ *
+ * Theorem. n is a normal of U at y exactly when it separates P, moved to y, from every triangle that P meets there.
+ * (All D are convex and closed, and there are finitely many. If n separates, each D that holds y is in the half-space
+ * behind y, and the others have a distance from y, so a small ball is free. If n does not separate P from a T that it
+ * meets, D holds y and a point z with n · (z − y) > 0. The segment between them is in D and enters every such ball.)
+ *
+ * This names the triangles that matter by what P meets, not by shared vertices. So T-junctions, duplicated triangles,
+ * surfaces that overlap and seams between bodies are one case. It is decided by exact signs; nothing is welded, and no
+ * tolerance decides.
+ *
+ * One-sided triangles push to their front. A triangle that has P wholly behind it, or in its plane, does not count.
+ * Behind others lies a solid, however thin: no contact pushes into it.
+ *
+ * Where P is apart from all triangles, y is where P comes to when it moves along −n by the gap: for each triangle the
+ * contact is that of its nearest points. Where P overlaps, it is moved first: by `way_out`, to a place where it meets
+ * no triangle, and contacts are those seen from there. Their depths are those at the pose that was given.
+ *
+ * Exact for the doubles given: the state of a polytope without a radius, and which contacts are ghosts. With a radius
+ * both follow from distances that are within 2^-40 of the size of the coordinates. Distances, points and normals are
+ * doubles.
+ *
+ * Frame: the world. Normals point from the surface to P. Unit: that of the coordinates, which are at most 2^60.
+ *
+ * Threads: a workspace belongs to one thread at a time; polytopes and surfaces may be shared. Once the workspace has
+ * grown to what was needed, no call allocates.
+ *
+ * Errors of a call: PIR_ERR_ARGUMENT (NULL, no surface, a radius, margin or cutoff below 0, a radius or margin that is
+ * infinite), PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a coordinate beyond 2^60, more than 2^20
+ * triangles near P), PIR_ERR_MEMORY.
+ */
+#ifndef PIROUETTE_TRIMESH_CONTACT_H
+#define PIROUETTE_TRIMESH_CONTACT_H
+
+#include <stdbool.h>
+
+#include <pirouette/polytope.h>
+#include <pirouette/pose.h>
+#include <pirouette/query.h>
+#include <pirouette/trimesh.h>
+#include <pirouette/workspace.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A surface where it stands. */
+typedef struct pir_posed_surface {
+    pir_surface_ref surface;
+    pir_pose pose;
+} pir_posed_surface;
+
+typedef struct pir_surface_contact_input {
+    pir_pose pose;                     /**< of P */
+    double radius;                     /**< P grows by a ball of it: a point becomes a ball, a segment a capsule */
+    double margin;                     /**< contacts up to this distance apart are given too */
+    const pir_posed_surface *surfaces; /**< borrowed for the call; all are one union */
+    size_t surface_count;
+} pir_surface_contact_input;
+
+/** At the origin, not turned; no radius, no margin, no surfaces. */
+PIR_API pir_surface_contact_input pir_surface_contact_input_default(void);
+
+/** A contact: a point of P over a point of a triangle along the normal. */
+typedef struct pir_surface_contact {
+    pir_vec3 point_p, point_q; /**< point_p = point_q + distance · normal */
+    pir_vec3 normal;           /**< unit, from the surface to P */
+    double distance;           /**< along the normal; negative where P overlaps */
+    uint32_t surface;          /**< the number of the surface in the input */
+    uint32_t triangle, material;
+    uint64_t id; /**< of the features that meet here, the same from call to call while they meet */
+} pir_surface_contact;
+
+/** What a call looked at. */
+typedef struct pir_surface_contact_counts {
+    uint32_t triangles; /**< whose boxes are near P */
+    uint32_t near;      /**< within the margin, or met */
+    uint32_t ghosts;    /**< whose contact was none of the union */
+    uint32_t exact;     /**< decisions that doubles left open */
+} pir_surface_contact_counts;
+
+/** How P stands to the union of the surfaces. */
+typedef struct pir_surface_contact_result {
+    pir_state state; /**< PIR_OUTSIDE, PIR_BOUNDARY where P meets triangles but can leave all by any small motion one
+                            way of each, PIR_INSIDE where it overlaps some */
+    double distance; /**< from the nearest triangle; 0 where P touches; minus the length of way_out where it overlaps */
+    pir_vec3 normal; /**< unit, from the surface to P; 0 where there is none within the margin */
+    pir_vec3 point_p, point_q;
+    uint32_t surface, triangle; /**< of the nearest triangle; PIR_TRIANGLE_NONE where none is within the margin */
+    pir_vec3 way_out;           /**< a translation after which P meets no triangle; 0 where it meets none as it is */
+    bool is_out;      /**< whether P meets no triangle there, exactly; false where no way out was found nearby */
+    bool is_shortest; /**< whether no way is shorter that leaves through one facet of one D, and meets nothing a step
+                            farther on: 2^-12 of P's size, or 2^-28 where another triangle is that near. way_out has
+                            that step, distance has not */
+    size_t contacts;  /**< how many were written */
+    pir_surface_contact_counts counts;
+} pir_surface_contact_result;
+
+/**
+ * Contacts of P with the union of surfaces, the deepest first. Contacts of one normal hold the greatest area by at most
+ * four points.
+ *
+ * Each normal is that of a true contact of the theorem above. The contacts of a normal are the corners of what lies
+ * under the part of P that faces the surface there, of all triangles whose distance along the normal is within the
+ * margin: more points, but no other normals.
+ *
+ * p                       any dimension.
+ * workspace               scratch.
+ * input                   poses, radius, margin and surfaces.
+ * capacity, ret_contacts  room for how many, and that room; the deepest are kept.
+ * ret_result              state, distance, the number of contacts.
+ *
+ * Cost: O(log n + k · (v + k')) for k triangles near P, v vertices and k' triangles that P meets at a contact.
+ * Errors: those of a call.
+ */
+PIR_API pir_status pir_surface_contacts(const pir_polytope *p, pir_workspace *workspace,
+                                        const pir_surface_contact_input *input, size_t capacity,
+                                        pir_surface_contact *ret_contacts, pir_surface_contact_result *ret_result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

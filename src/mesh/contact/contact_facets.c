@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Facets of a difference, one after the other.
+ *
+ * A side of T and an edge of P make a facet where the arc of the edge on the sphere crosses the circle across the side.
+ * What doubles cannot tell is taken for a crossing: a direction that is none of a facet's is still one along which P
+ * leaves, if its depth is that of the farthest points, as it is here.
+ */
+#include "mesh/contact/contact_facets.h"
+
+/* How far the sine of an angle may be off. */
+#define SINE_ERROR 0x1p-40
+
+/* How far P has to move along n. */
+static double depth_along(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, pir_vec3 n) {
+    double least = HUGE_VAL, along[3];
+    for (uint32_t v = 0; v < job->p->vertex_count; v++)
+        least = fmin(least, pir_vec_dot(n, job->vertex[v]));
+    for (int k = 0; k < 3; k++)
+        along[k] = pir_vec_dot(n, pir_vec_sub(s->p[k], t));
+    return fmax(along[0], fmax(along[1], along[2])) - least;
+}
+
+struct tour {
+    double far; /* how far points of the difference are from one another */
+    const pir_contact_job *job;
+    const pir_near_triangle *s;
+    pir_vec3 t;
+    pir_contact_facet_visitor *visit;
+    void *context;
+};
+
+static void offer(const struct tour *tour, pir_contact_facet facet) {
+    facet.depth = depth_along(tour->job, tour->t, tour->s, facet.n);
+    facet.off *= tour->far;
+    tour->visit(tour->context, &facet);
+}
+
+static void offer_across(const struct tour *tour, uint32_t k, uint32_t edge) {
+    const pir_polytope *p = tour->job->p;
+    const pir_mat3 *r = &tour->job->rotation.r;
+    uint32_t half = p->edge_half[edge];
+    pir_vec3 side = pir_vec_sub(tour->s->p[(k + 1) % 3], tour->s->p[k]);
+    pir_vec3 left = pir_mat_apply(r, p->normal[p->left[half]]), right = pir_mat_apply(r, p->normal[pir_right(p, half)]);
+    pir_vec3 n = pir_vec_cross(side, pir_mat_apply(r, p->direction[half]));
+    double length = pir_length(n), wide = pir_length(side), a = pir_vec_dot(side, left), b = pir_vec_dot(side, right);
+    if (!(length > wide * SINE_ERROR))
+        return;
+    double small = wide * SINE_ERROR;
+    if (p->dimension == 3 && ((a > small && b > small) || (a < -small && b < -small)))
+        return;
+    n = pir_vec_scale(n, 1 / length);
+    double off = (8 * tour->job->error + 0x1p-48 * wide) / length;
+    pir_vec3 to = pir_vec_sub(tour->s->p[(k + 2) % 3], tour->s->p[k]), of_p = pir_vec_add(left, right);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        pir_vec3 m = pir_vec_scale(n, sign);
+        if (pir_vec_dot(m, to) > SINE_ERROR * pir_length(to) ||
+            (p->dimension == 3 && pir_vec_dot(m, of_p) > SINE_ERROR))
+            continue;
+        offer(tour, (pir_contact_facet){PIR_CONTACT_ACROSS, k, edge, m, 0, off});
+    }
+}
+
+void pir_contact_each_facet(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+                            pir_contact_facet_visitor *visit, void *context) {
+    double far = 2 * job->radius, sides = 0;
+    for (int k = 0; k < 3; k++) {
+        far += pir_length(pir_vec_sub(s->p[k], t));
+        sides += pir_length(pir_vec_sub(s->p[(k + 1) % 3], s->p[k]));
+    }
+    double area = pir_length(pir_vec_cross(pir_vec_sub(s->p[1], s->p[0]), pir_vec_sub(s->p[2], s->p[0])));
+    double off = (8 * job->error * sides + 0x1p-48 * sides * sides) / area;
+    const struct tour tour = {far, job, s, t, visit, context};
+    const pir_polytope *p = job->p;
+    if (pir_vec_dot(s->front, s->front) > 0) {
+        offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 0, 0, s->front, 0, off});
+        offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 1, 0, pir_vec_scale(s->front, -1), 0, off});
+    }
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        pir_vec3 n = pir_vec_scale(pir_mat_apply(&job->rotation.r, p->normal[f]), -1);
+        offer(&tour, (pir_contact_facet){PIR_CONTACT_FACET, f, 0, n, 0, 0x1p-46});
+    }
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t e = 0; e < p->edge_count; e++)
+            offer_across(&tour, k, e);
+}
+
+/* --- whether they overlap --- */
+
+struct facet_search {
+    pir_contact_job *job;
+    pir_contact_place place;
+    const pir_near_triangle *s;
+    double error, least;
+    bool separated;
+};
+
+static void find_least(void *context, const pir_contact_facet *facet) {
+    struct facet_search *search = context;
+    search->least = fmin(search->least, facet->depth - facet->off);
+}
+
+static pir_int3 exact_of(pir_contact_job *job, const pir_near_triangle *s, const pir_contact_facet *facet) {
+    if (facet->kind == PIR_CONTACT_FRONT)
+        return pir_exact_front(job, s);
+    return facet->kind == PIR_CONTACT_FACET ? pir_exact_facet(job, facet->first)
+                                            : pir_exact_across(job, s, facet->first, facet->second);
+}
+
+static void try_separating(void *context, const pir_contact_facet *facet) {
+    struct facet_search *search = context;
+    if (search->separated || facet->depth - facet->off > search->error)
+        return;
+    pir_limbs *limbs = &search->job->limbs;
+    uint32_t used = limbs->used;
+    pir_int3 n = exact_of(search->job, search->s, facet);
+    // either way: doubles may have its sign wrong
+    for (int turn = 0; turn < 2 && !search->separated && !pir_int3_is_zero(&n); turn++) {
+        search->separated = pir_exact_least(search->job, &search->place, search->s, &n) >= 0;
+        for (int k = 0; k < 3; k++)
+            pir_int_negate(&n.c[k]);
+    }
+    limbs->used = used;
+}
+
+bool pir_contact_overlaps(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s) {
+    double size = job->radius + pir_length(pir_vec_sub(t, s->p[0]));
+    struct facet_search search = {job, pir_place_at(t), s, 0x1p-44 * size + 16 * job->error, HUGE_VAL, false};
+    pir_contact_each_facet(job, t, s, find_least, &search);
+    if (search.least > search.error)
+        return true;
+    job->counts.exact++;
+    pir_contact_each_facet(job, t, s, try_separating, &search);
+    return !search.separated;
+}

@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * P and the triangles near it.
+ *
+ * Errors, u = 2^-53: each rotation is within 31u of the exact one in Frobenius norm; a point turned by it is off by
+ * another 4u of its length, and P's vertices by u, being the nearest doubles; sums round once each. All is below 2^-47
+ * of the sum of the lengths, `size`.
+ */
+#include "mesh/contact/contact_job.h"
+
+#include "mesh/contact/contact_exact.h"
+#include "mesh/signs/mesh_numbers.h"
+
+#define MOST_TRIANGLES (1u << 20)
+
+/* --- P --- */
+
+static pir_status check_pose(const pir_pose *pose, pir_rotation *rotation) {
+    pir_rotation taken;
+    pir_status status = pir_rotation_set(&taken, pose->rotation);
+    pir_vec3 t = pose->translation;
+    if (status != PIR_OK)
+        return status;
+    if (!pir_vec_is_finite(t))
+        return PIR_ERR_NOT_FINITE;
+    if (fabs(t.x) > PIR_MESH_FARTHEST || fabs(t.y) > PIR_MESH_FARTHEST || fabs(t.z) > PIR_MESH_FARTHEST)
+        return PIR_ERR_LIMIT;
+    *rotation = taken;
+    return PIR_OK;
+}
+
+static pir_status check_input(const pir_surface_contact_input *input) {
+    if (isnan(input->radius) || isnan(input->margin))
+        return PIR_ERR_NOT_FINITE;
+    if (!(input->radius >= 0) || !(input->margin >= 0) || isinf(input->radius) || isinf(input->margin))
+        return PIR_ERR_ARGUMENT;
+    if (input->radius > PIR_MESH_FARTHEST || input->margin > PIR_MESH_FARTHEST)
+        return PIR_ERR_LIMIT;
+    if (input->surface_count == 0 || !input->surfaces || input->surface_count >= UINT32_MAX)
+        return PIR_ERR_ARGUMENT;
+    for (size_t i = 0; i < input->surface_count; i++) {
+        pir_rotation rotation;
+        pir_status status = pir_surface_check(input->surfaces[i].surface);
+        if (status == PIR_OK)
+            status = check_pose(&input->surfaces[i].pose, &rotation);
+        if (status != PIR_OK)
+            return status;
+    }
+    return PIR_OK;
+}
+
+static void widen(double x, double *low, double *high) {
+    *low = x < *low ? x : *low;
+    *high = x > *high ? x : *high;
+}
+
+static pir_status turn_vertices(pir_contact_job *job) {
+    uint32_t count = job->p->vertex_count;
+    if (count > job->vertex_room) {
+        pir_vec3 *vertex = PIR_RESIZE(&job->allocator, job->vertex, job->vertex_room, count);
+        if (!vertex)
+            return PIR_ERR_MEMORY;
+        job->vertex = vertex;
+        job->vertex_room = count;
+    }
+    double most = 0;
+    job->low = (pir_vec3){HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    job->high = (pir_vec3){-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (uint32_t v = 0; v < count; v++) {
+        pir_vec3 x = pir_mat_apply(&job->rotation.r, job->p->vertex[v]);
+        job->vertex[v] = x;
+        most = fmax(most, fmax(fabs(x.x), fmax(fabs(x.y), fabs(x.z))));
+        widen(x.x, &job->low.x, &job->high.x);
+        widen(x.y, &job->low.y, &job->high.y);
+        widen(x.z, &job->low.z, &job->high.z);
+    }
+    job->radius = most * 1.7320508075688774;
+    return most <= PIR_MESH_FARTHEST ? PIR_OK : PIR_ERR_LIMIT;
+}
+
+/* --- triangles --- */
+
+struct gathering {
+    pir_contact_job *job;
+    uint32_t surface;
+    const pir_mat3 *r;
+    pir_vec3 t;
+    bool moved, one_sided;
+    double low[3], high[3];
+    double most;
+};
+
+static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
+    const struct gathering *g = context;
+    for (int i = 0; i < PIR_MESH_WIDTH; i++)
+        ret_near[i] = 0;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < PIR_MESH_WIDTH; i++)
+            if ((double)boxes->low[k][i] > g->high[k] || (double)boxes->high[k][i] < g->low[k])
+                ret_near[i] = HUGE_VAL;
+}
+
+static bool reserve_triangle(pir_contact_job *job) {
+    if (job->triangle_count < job->triangle_room)
+        return true;
+    uint32_t room = job->triangle_room ? 2 * job->triangle_room : 64;
+    pir_near_triangle *triangle = PIR_RESIZE(&job->allocator, job->triangle, job->triangle_room, room);
+    if (!triangle)
+        return false;
+    job->triangle = triangle;
+    job->triangle_room = room;
+    return true;
+}
+
+static pir_vec3 unit_or_zero(pir_vec3 n) {
+    double square = pir_vec_dot(n, n);
+    return square > 0x1p-900 ? pir_vec_scale(n, 1 / sqrt(square)) : (pir_vec3){0, 0, 0};
+}
+
+static bool look(void *context, const pir_met_triangle *met) {
+    struct gathering *g = context;
+    pir_contact_job *job = g->job;
+    for (int k = 0; k < 3; k++) {
+        double x[3];
+        for (int i = 0; i < 3; i++)
+            x[i] = k == 0 ? met->tri.p[i].x : k == 1 ? met->tri.p[i].y : met->tri.p[i].z;
+        if (fmin(x[0], fmin(x[1], x[2])) > g->high[k] || fmax(x[0], fmax(x[1], x[2])) < g->low[k])
+            return true;
+    }
+    if (job->triangle_count >= MOST_TRIANGLES || !reserve_triangle(job)) {
+        job->out_of_memory = true;
+        return false;
+    }
+    pir_near_triangle *s = &job->triangle[job->triangle_count++];
+    *s = (pir_near_triangle){.local = met->tri,
+                             .surface = g->surface,
+                             .number = met->number,
+                             .id = {met->id[0], met->id[1], met->id[2]},
+                             .one_sided = g->one_sided};
+    for (int i = 0; i < 3; i++)
+        s->p[i] = g->moved ? pir_vec_add(pir_mat_apply(g->r, met->tri.p[i]), g->t) : met->tri.p[i];
+    s->front = unit_or_zero(pir_vec_cross(pir_vec_sub(s->p[1], s->p[0]), pir_vec_sub(s->p[2], s->p[0])));
+    return true;
+}
+
+static double component(pir_vec3 v, int k) {
+    return k == 0 ? v.x : k == 1 ? v.y : v.z;
+}
+
+/* The box of P, grown, in the frame of a surface, and a little more for all roundings. */
+static void set_box(struct gathering *g, const pir_contact_job *job, double grow, double slack) {
+    pir_vec3 t = job->input->pose.translation;
+    for (int k = 0; k < 3; k++) {
+        double low = component(job->low, k) + component(t, k), high = component(job->high, k) + component(t, k);
+        g->low[k] = low - grow - slack;
+        g->high[k] = high + grow + slack;
+    }
+    if (!g->moved)
+        return;
+    double middle[3], half[3];
+    for (int k = 0; k < 3; k++) {
+        middle[k] = 0.5 * (g->low[k] + g->high[k]) - component(g->t, k);
+        half[k] = 0.5 * (g->high[k] - g->low[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        double at = 0, reach = slack;
+        for (int i = 0; i < 3; i++) {
+            at += g->r->m[i][k] * middle[i];
+            reach += fabs(g->r->m[i][k]) * half[i];
+        }
+        g->low[k] = at - reach;
+        g->high[k] = at + reach;
+    }
+}
+
+static bool turns_nothing(const pir_pose *pose) {
+    pir_vec3 t = pose->translation;
+    return pir_quat_is_identity(pose->rotation) && t.x == 0 && t.y == 0 && t.z == 0;
+}
+
+static double surface_size(const pir_posed_surface *posed) {
+    double reach[3];
+    pir_surface_reach(posed->surface, reach);
+    return reach[0] + reach[1] + reach[2] + pir_length(posed->pose.translation);
+}
+
+static void gather_surface(pir_contact_job *job, uint32_t surface, double grow) {
+    const pir_posed_surface *posed = &job->input->surfaces[surface];
+    pir_rotation rotation;
+    (void)pir_rotation_set(&rotation, posed->pose.rotation); // checked before
+    struct gathering g = {.job = job,
+                          .surface = surface,
+                          .r = &rotation.r,
+                          .t = posed->pose.translation,
+                          .moved = !turns_nothing(&posed->pose),
+                          .one_sided =
+                              posed->surface.mesh ? !posed->surface.mesh->two_sided : !posed->surface.field->two_sided};
+    double size = surface_size(posed) + job->radius + grow + pir_length(job->input->pose.translation);
+    set_box(&g, job, grow, 0x1p-44 * size);
+    pir_surface_walk(posed->surface, &(pir_walk){measure, look, &g, &g.most});
+}
+
+/* Sizes, of what was gathered. */
+static void set_size(pir_contact_job *job) {
+    double most = 0;
+    for (uint32_t i = 0; i < job->triangle_count; i++) {
+        const pir_near_triangle *s = &job->triangle[i];
+        double reach = pir_length(job->input->surfaces[s->surface].pose.translation);
+        for (int k = 0; k < 3; k++)
+            most = fmax(most, pir_length(s->local.p[k]) + reach);
+    }
+    job->size = most + job->radius + pir_length(job->input->pose.translation) + job->grown;
+    job->error = 0x1p-47 * job->size;
+}
+
+pir_status pir_contact_job_gather(pir_contact_job *job, double grow) {
+    job->triangle_count = 0;
+    job->out_of_memory = false;
+    job->grown = grow;
+    for (uint32_t i = 0; i < job->input->surface_count && !job->out_of_memory; i++)
+        gather_surface(job, i, grow);
+    if (job->out_of_memory)
+        return job->triangle_count >= MOST_TRIANGLES ? PIR_ERR_LIMIT : PIR_ERR_MEMORY;
+    set_size(job);
+    job->counts.triangles = job->triangle_count;
+    return PIR_OK;
+}
+
+pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, const pir_surface_contact_input *input,
+                                 double grow) {
+    pir_status status = check_input(input);
+    if (status == PIR_OK)
+        status = check_pose(&input->pose, &job->rotation);
+    if (status != PIR_OK)
+        return status;
+    job->p = p;
+    job->input = input;
+    job->counts = (pir_surface_contact_counts){0, 0, 0, 0};
+    job->rotation.integers = &job->integers[0];
+    job->surface_rotation.integers = &job->integers[1];
+    job->surface = UINT32_MAX;
+    status = turn_vertices(job);
+    if (status == PIR_OK)
+        status = pir_contact_job_gather(job, grow);
+    return status == PIR_OK ? pir_contact_exact_reserve(job) : status;
+}
+
+void pir_contact_job_finish(pir_contact_job *job) {
+    PIR_FREE(&job->allocator, job->vertex, job->vertex_room);
+    PIR_FREE(&job->allocator, job->triangle, job->triangle_room);
+    PIR_FREE(&job->allocator, job->limbs.base, job->limbs.capacity);
+}
+
+/* --- one frame --- */
+
+bool pir_near_same_frame(const pir_contact_job *job, const pir_near_triangle *s, const pir_near_triangle *t) {
+    if (s->surface == t->surface)
+        return true;
+    const pir_pose *a = &job->input->surfaces[s->surface].pose, *b = &job->input->surfaces[t->surface].pose;
+    pir_quat p = a->rotation, q = b->rotation;
+    bool turned = p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w;
+    return (turned || (pir_quat_is_identity(p) && pir_quat_is_identity(q))) && a->translation.x == b->translation.x &&
+           a->translation.y == b->translation.y && a->translation.z == b->translation.z;
+}
+
+bool pir_near_same_corner(const pir_contact_job *job, const pir_near_triangle *s, int a, const pir_near_triangle *t,
+                          int b) {
+    if (s->surface == t->surface)
+        return s->id[a] == t->id[b];
+    pir_vec3 x = s->local.p[a], y = t->local.p[b];
+    return x.x == y.x && x.y == y.y && x.z == y.z && pir_near_same_frame(job, s, t);
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A polytope P and the triangles near it, all in the world. Doubles are within `error` of the exact coordinates;
+ * integers (contact_exact.h) say what those cannot.
+ *
+ * P stands at the pose's rotation. Its translation is a parameter of what follows: `t` moves the vertices in `vertex`.
+ * Points of the difference are d = p + t − w for a vertex p of P and a corner w of a triangle: P meets the triangle
+ * where the hull of these holds 0.
+ */
+#ifndef PIR_MESH_CONTACT_CONTACT_JOB_H
+#define PIR_MESH_CONTACT_CONTACT_JOB_H
+
+#include <pirouette/trimesh_contact.h>
+
+#include "exact/rotation.h"
+#include "mesh/query/mesh_walk.h"
+#include "polytope/polytope.h"
+
+/* Points of a difference: vertices of P and corners of a triangle. */
+typedef struct pir_contact_simplex {
+    uint32_t count, v[4], w[4];
+} pir_contact_simplex;
+
+/* Nearest points of P and a triangle. Which simplex holds them is exact; numbers are doubles. */
+typedef struct pir_contact_near {
+    bool meets; /* exactly; then the rest is not set */
+    pir_contact_simplex simplex;
+    pir_vec3 way;    /* from the triangle to P */
+    double distance; /* its length */
+    pir_vec3 n;      /* along the way, of any length: made of the simplex */
+    double n_error;  /* of n, as a length */
+    pir_vec3 point;  /* of the triangle */
+} pir_contact_near;
+
+/* A triangle near P. */
+typedef struct pir_near_triangle {
+    pir_vec3 p[3];  /* in the world */
+    pir_vec3 front; /* unit, towards the front; 0 where doubles cannot tell */
+    pir_tri local;  /* in the frame of its surface */
+    uint32_t surface, number;
+    uint32_t id[3]; /* of its corners, equal where those of one surface are at one place */
+    bool one_sided;
+    bool counts, stands;   /* at the place of `near`: it is not behind; its contact is no ghost */
+    pir_contact_near near; /* at the place that was looked at last */
+} pir_near_triangle;
+
+typedef struct pir_contact_job {
+    pir_allocator allocator;
+    const pir_polytope *p;
+    const pir_surface_contact_input *input;
+    pir_vec3 *vertex; /* of P, turned */
+    uint32_t vertex_room;
+    double radius; /* of a ball about P's origin that holds P's vertices */
+    pir_vec3 low, high;
+    pir_near_triangle *triangle;
+    uint32_t triangle_count, triangle_room;
+    bool out_of_memory;
+    double grown;          /* by how much P's box was grown to gather triangles */
+    double size;           /* the sum of all lengths that a coordinate is made of */
+    double error;          /* of a coordinate */
+    pir_rotation rotation; /* of P, and of the surface whose integers were made last */
+    pir_rotation surface_rotation;
+    uint32_t surface; /* which; UINT32_MAX for none */
+    pir_rotation_integers integers[2];
+    pir_limbs limbs;
+    int exponent; /* of coordinates as integers */
+    pir_surface_contact_counts counts;
+} pir_contact_job;
+
+/* Takes the input, and gathers the triangles whose boxes meet that of P grown by `grow`. */
+pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, const pir_surface_contact_input *input,
+                                 double grow);
+/* Gathers anew. */
+pir_status pir_contact_job_gather(pir_contact_job *job, double grow);
+void pir_contact_job_finish(pir_contact_job *job);
+
+/* Whether corner `a` of one triangle and `b` of another are certainly at one place. */
+bool pir_near_same_corner(const pir_contact_job *job, const pir_near_triangle *s, int a, const pir_near_triangle *t,
+                          int b);
+
+/* Whether two triangles stand in one frame, so that signs of their own coordinates tell how they lie. */
+bool pir_near_same_frame(const pir_contact_job *job, const pir_near_triangle *s, const pir_near_triangle *t);
+
+static inline double pir_length(pir_vec3 v) {
+    return sqrt(pir_vec_dot(v, v));
+}
+
+static inline pir_vec3 pir_corner_mean(const pir_near_triangle *s) {
+    return pir_vec_scale(pir_vec_add(s->p[0], pir_vec_add(s->p[1], s->p[2])), 1.0 / 3);
+}
+
+#endif

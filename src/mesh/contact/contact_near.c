@@ -1,0 +1,359 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Nearest points by descent in doubles, then proven: the simplex is that of the exact nearest points where its weights
+ * are certainly positive and no other vertex or corner is as far along its direction. What cannot be proven, integers
+ * decide, beginning with the simplex that was found.
+ */
+#include "mesh/contact/contact_near.h"
+
+#define MOST_STEPS 48
+/* How far a direction in doubles may be off before exact numbers give it. */
+#define NEAR_ENOUGH 0x1p-34
+
+/* A simplex in doubles. */
+struct hull {
+    pir_contact_simplex ids;
+    pir_vec3 d[4];
+    double weight[4];
+    pir_vec3 nearest;
+};
+
+static pir_vec3 difference(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, uint32_t v, uint32_t w) {
+    return pir_vec_sub(pir_vec_add(job->vertex[v], t), s->p[w]);
+}
+
+static uint32_t least_vertex(const pir_contact_job *job, pir_vec3 n) {
+    uint32_t best = 0;
+    double least = pir_vec_dot(n, job->vertex[0]);
+    for (uint32_t v = 1; v < job->p->vertex_count; v++) {
+        double along = pir_vec_dot(n, job->vertex[v]);
+        best = along < least ? v : best;
+        least = along < least ? along : least;
+    }
+    return best;
+}
+
+static uint32_t most_corner(const pir_near_triangle *s, pir_vec3 n) {
+    double a = pir_vec_dot(n, s->p[0]), b = pir_vec_dot(n, s->p[1]), c = pir_vec_dot(n, s->p[2]);
+    return a >= b ? (a >= c ? 0 : 2) : (b >= c ? 1 : 2);
+}
+
+/* Weights of the point of the span of some points that is nearest to 0, of a sum `whole`; false where it is outside. */
+static bool span_two(const pir_vec3 *a, const pir_vec3 *b, double w[2], double *ret_whole) {
+    pir_vec3 e = pir_vec_sub(*b, *a);
+    w[0] = pir_vec_dot(*b, e);
+    w[1] = -pir_vec_dot(*a, e);
+    *ret_whole = w[0] + w[1];
+    return w[0] > 0 && w[1] > 0;
+}
+
+static bool span_three(const pir_vec3 *a, const pir_vec3 *b, const pir_vec3 *c, double w[3], double *ret_whole) {
+    pir_vec3 n = pir_vec_cross(pir_vec_sub(*b, *a), pir_vec_sub(*c, *a));
+    w[0] = pir_vec_dot(n, pir_vec_cross(*b, *c));
+    w[1] = pir_vec_dot(n, pir_vec_cross(*c, *a));
+    w[2] = pir_vec_dot(n, pir_vec_cross(*a, *b));
+    *ret_whole = w[0] + w[1] + w[2];
+    return w[0] > 0 && w[1] > 0 && w[2] > 0;
+}
+
+/* Considers the points of a mask. */
+static void consider(const struct hull *hull, uint32_t mask, double *least, struct hull *best) {
+    uint32_t at[4], count = 0;
+    for (uint32_t k = 0; k < hull->ids.count; k++)
+        if (mask >> k & 1)
+            at[count++] = k;
+    double w[3] = {1, 0, 0}, whole = 1;
+    const pir_vec3 *d = hull->d;
+    if (count == 2 && !span_two(&d[at[0]], &d[at[1]], w, &whole))
+        return;
+    if (count == 3 && !span_three(&d[at[0]], &d[at[1]], &d[at[2]], w, &whole))
+        return;
+    pir_vec3 x = {0, 0, 0};
+    for (uint32_t k = 0; k < count; k++)
+        x = pir_vec_add(x, pir_vec_scale(d[at[k]], w[k] / whole));
+    double square = pir_vec_dot(x, x);
+    if (!(square < *least))
+        return;
+    *least = square;
+    best->ids.count = count;
+    best->nearest = x;
+    for (uint32_t k = 0; k < count; k++) {
+        best->ids.v[k] = hull->ids.v[at[k]];
+        best->ids.w[k] = hull->ids.w[at[k]];
+        best->d[k] = d[at[k]];
+        best->weight[k] = w[k] / whole;
+    }
+}
+
+static double volume(pir_vec3 a, pir_vec3 b, pir_vec3 c) {
+    return pir_vec_dot(a, pir_vec_cross(b, c));
+}
+
+/* Whether four points hold 0 inside: 1 certainly, for points off by `error`; −1 for doubles alone; 0 not. */
+static int holds_zero(const pir_vec3 d[4], double error) {
+    double sign[4] = {volume(d[1], d[2], d[3]), -volume(d[0], d[2], d[3]), volume(d[0], d[1], d[3]),
+                      -volume(d[0], d[1], d[2])};
+    double most = 0, least = HUGE_VAL;
+    for (int k = 0; k < 4; k++) {
+        most = fmax(most, pir_length(d[k]));
+        if (!(sign[k] * sign[0] > 0))
+            return 0;
+        least = fmin(least, fabs(sign[k]));
+    }
+    return least > 16 * most * most * error + 0x1p-48 * most * most * most ? 1 : -1;
+}
+
+/* Reduces the hull to the face that has the nearest point; what holds_zero says. */
+static int reduce(struct hull *hull, double error) {
+    uint32_t newest = hull->ids.count - 1;
+    if (hull->ids.count == 4) {
+        int holds = holds_zero(hull->d, error);
+        if (holds != 0)
+            return holds;
+    }
+    struct hull best = *hull;
+    double least = HUGE_VAL;
+    for (uint32_t mask = 1u << newest; mask < 2u << newest; mask++)
+        if (__builtin_popcount(mask) <= 3)
+            consider(hull, mask, &least, &best);
+    *hull = best;
+    return 0;
+}
+
+static void add(struct hull *hull, const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, uint32_t v,
+                uint32_t w) {
+    uint32_t k = hull->ids.count++;
+    hull->ids.v[k] = v;
+    hull->ids.w[k] = w;
+    hull->d[k] = difference(job, t, s, v, w);
+}
+
+static bool has(const struct hull *hull, uint32_t v, uint32_t w) {
+    for (uint32_t k = 0; k < hull->ids.count; k++)
+        if (hull->ids.v[k] == v && hull->ids.w[k] == w)
+            return true;
+    return false;
+}
+
+/* The descent: whether P certainly meets the triangle, at coordinates off by `error`. */
+static bool descend(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, double error,
+                    struct hull *hull) {
+    pir_vec3 n = pir_vec_sub(t, pir_corner_mean(s));
+    double height = pir_vec_dot(n, s->front);
+    if (height != 0)
+        n = height > 0 ? s->front : pir_vec_scale(s->front, -1);
+    hull->ids.count = 0;
+    add(hull, job, t, s, least_vertex(job, n), most_corner(s, n));
+    hull->nearest = hull->d[0];
+    hull->weight[0] = 1;
+    for (int step = 0; step < MOST_STEPS; step++) {
+        pir_vec3 x = hull->nearest;
+        double square = pir_vec_dot(x, x);
+        uint32_t v = least_vertex(job, x), w = most_corner(s, x);
+        if (has(hull, v, w) || !(square > 0))
+            return false;
+        pir_vec3 d = difference(job, t, s, v, w);
+        if (pir_vec_dot(x, d) >= square - 0x1p-50 * (square + job->size * sqrt(square)))
+            return false;
+        add(hull, job, t, s, v, w);
+        int holds = reduce(hull, error);
+        if (holds != 0)
+            return holds > 0;
+    }
+    return false;
+}
+
+/* --- the proof --- */
+
+/* The direction of a simplex, and by how much it may be off, where coordinates of differences are off by `error`. */
+static pir_vec3 direction_of(const pir_vec3 *d, uint32_t count, const double *weight, double error, double *ret_error) {
+    if (count == 1) {
+        *ret_error = 2 * error;
+        return d[0];
+    }
+    pir_vec3 e = pir_vec_sub(d[1], d[0]);
+    double length = pir_length(e);
+    if (count == 2) {
+        pir_vec3 x = pir_vec_add(pir_vec_scale(d[0], weight[0]), pir_vec_scale(d[1], weight[1]));
+        *ret_error = 64 * error * (pir_length(d[0]) + pir_length(d[1]) + length) / length;
+        return x;
+    }
+    pir_vec3 f = pir_vec_sub(d[2], d[0]), n = pir_vec_cross(e, f);
+    *ret_error = 8 * error * (length + pir_length(f)) + 0x1p-50 * length * pir_length(f);
+    return pir_vec_dot(n, d[0]) < 0 ? pir_vec_scale(n, -1) : n;
+}
+
+static uint32_t distinct(const uint32_t *id, uint32_t count) {
+    uint32_t found = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        bool again = false;
+        for (uint32_t i = 0; i < k; i++)
+            again |= id[i] == id[k];
+        found += !again;
+    }
+    return found;
+}
+
+static bool is_in(const uint32_t *id, uint32_t count, uint32_t x) {
+    for (uint32_t k = 0; k < count; k++)
+        if (id[k] == x)
+            return true;
+    return false;
+}
+
+/*
+ * Whether all vertices and corners but those of the simplex are certainly less far along n. Where the pairs of the
+ * simplex join its vertices and corners to one tree, these are all as far, since the pairs are.
+ */
+static bool is_supported(const pir_contact_job *job, const pir_near_triangle *s, const pir_contact_near *near,
+                         double error) {
+    const pir_contact_simplex *ids = &near->simplex;
+    if (distinct(ids->v, ids->count) + distinct(ids->w, ids->count) != ids->count + 1)
+        return false;
+    double length = pir_length(near->n), own = 4 * error * length;
+    pir_vec3 p = job->vertex[ids->v[0]], q = s->p[ids->w[0]];
+    for (uint32_t v = 0; v < job->p->vertex_count; v++) {
+        pir_vec3 away = pir_vec_sub(job->vertex[v], p);
+        if (!is_in(ids->v, ids->count, v) && !(pir_vec_dot(near->n, away) > own + near->n_error * 2 * job->radius))
+            return false;
+    }
+    for (uint32_t w = 0; w < 3; w++) {
+        pir_vec3 away = pir_vec_sub(s->p[w], q);
+        if (!is_in(ids->w, ids->count, w) && !(pir_vec_dot(near->n, away) < -own - near->n_error * pir_length(away)))
+            return false;
+    }
+    return true;
+}
+
+/* Whether the nearest point is certainly within the simplex, not at its rim. */
+static bool is_within(const pir_vec3 *d, uint32_t count, const double *weight, double error) {
+    if (count == 1)
+        return true;
+    double most = 0, size = 0;
+    for (uint32_t k = 0; k < count; k++)
+        size = fmax(size, pir_length(d[k]));
+    pir_vec3 e = pir_vec_sub(d[1], d[0]);
+    double under = pir_vec_dot(e, e), wide = pir_length(e);
+    if (count == 3) {
+        pir_vec3 f = pir_vec_sub(d[2], d[0]), n = pir_vec_cross(e, f);
+        under = pir_vec_dot(n, n);
+        wide = fmax(wide, pir_length(f));
+        wide = wide * wide * wide;
+    }
+    // a weight times `under` is a sum of products of this size, each off by `error` in one factor
+    most = 64 * (error + 0x1p-52 * size) * size * wide;
+    for (uint32_t k = 0; k < count; k++)
+        if (!(weight[k] * under > most))
+            return false;
+    return true;
+}
+
+static void set_numbers(const pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                        double error, pir_contact_near *near) {
+    struct hull hull = {.ids = near->simplex};
+    for (uint32_t k = 0; k < near->simplex.count; k++)
+        hull.d[k] = difference(job, place->at, s, near->simplex.v[k], near->simplex.w[k]);
+    double whole = 1;
+    hull.weight[0] = 1;
+    if (near->simplex.count == 2)
+        (void)span_two(&hull.d[0], &hull.d[1], hull.weight, &whole);
+    if (near->simplex.count == 3)
+        (void)span_three(&hull.d[0], &hull.d[1], &hull.d[2], hull.weight, &whole);
+    near->point = near->way = (pir_vec3){0, 0, 0};
+    for (uint32_t k = 0; k < near->simplex.count; k++) {
+        hull.weight[k] /= whole;
+        near->point = pir_vec_add(near->point, pir_vec_scale(s->p[near->simplex.w[k]], hull.weight[k]));
+        near->way = pir_vec_add(near->way, pir_vec_scale(hull.d[k], hull.weight[k]));
+    }
+    near->n = direction_of(hull.d, near->simplex.count, hull.weight, error, &near->n_error);
+    if (near->simplex.count == 3) {
+        // the height over a plane is off by less than what three weights add up
+        double square = pir_vec_dot(near->n, near->n);
+        near->way = pir_vec_scale(near->n, pir_vec_dot(near->n, hull.d[0]) / square);
+    }
+    near->distance = pir_length(near->way);
+}
+
+void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                         pir_contact_near *ret_near) {
+    struct hull hull;
+    double error = 4 * job->error;
+    *ret_near = (pir_contact_near){.meets = descend(job, place->at, s, error, &hull)};
+    if (ret_near->meets)
+        return;
+    if (hull.ids.count < 4) {
+        ret_near->simplex = hull.ids;
+        set_numbers(job, place, s, error, ret_near);
+        if (ret_near->distance > 4 * error && is_within(hull.d, hull.ids.count, hull.weight, error) &&
+            is_supported(job, s, ret_near, error))
+            return;
+    }
+    ret_near->simplex = hull.ids;
+    ret_near->meets = pir_exact_nearest(job, place, s, &ret_near->simplex);
+    if (ret_near->meets)
+        return;
+    set_numbers(job, place, s, error, ret_near);
+    // what is too near for doubles has no direction in them
+    if (!(ret_near->n_error < NEAR_ENOUGH * pir_length(ret_near->n)) || ret_near->distance < 4 * error) {
+        pir_exact_way(job, place, s, &ret_near->simplex, &ret_near->n, &ret_near->way);
+        ret_near->n_error = 0x1p-47;
+        ret_near->distance = pir_length(ret_near->way);
+    }
+}
+
+pir_contact_told pir_contact_told_meets(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s,
+                                        double error, pir_contact_simplex *ret_simplex) {
+    struct hull hull;
+    double off = 4 * job->error + error;
+    bool meets = descend(job, at, s, off, &hull);
+    *ret_simplex = hull.ids;
+    if (meets)
+        return PIR_TOLD_YES;
+    // a direction that takes all apart by more than what they are off by
+    pir_vec3 n = hull.nearest;
+    double length = pir_length(n);
+    if (hull.ids.count == 4 || !(length > 0))
+        return PIR_TOLD_NOTHING;
+    pir_vec3 d = difference(job, at, s, least_vertex(job, n), most_corner(s, n));
+    return pir_vec_dot(n, d) > length * (2 * off + 0x1p-48 * job->size) ? PIR_TOLD_NO : PIR_TOLD_NOTHING;
+}
+
+bool pir_contact_meets(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s) {
+    pir_contact_simplex simplex;
+    pir_contact_told told = pir_contact_told_meets(job, place->at, s, 0, &simplex);
+    return told == PIR_TOLD_NOTHING ? pir_exact_nearest(job, place, s, &simplex) : told == PIR_TOLD_YES;
+}
+
+/* --- from behind --- */
+
+pir_contact_told pir_contact_told_behind(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s,
+                                         double error) {
+    if (!s->one_sided)
+        return PIR_TOLD_NO;
+    pir_vec3 e = pir_vec_sub(s->p[1], s->p[0]), f = pir_vec_sub(s->p[2], s->p[0]), n = pir_vec_cross(e, f);
+    double length = pir_length(n), off = 4 * job->error + error, most = -HUGE_VAL;
+    double far = pir_length(pir_vec_sub(at, s->p[0])) + 2 * job->radius, sides = pir_length(e) + pir_length(f);
+    for (uint32_t v = 0; v < job->p->vertex_count; v++)
+        most = fmax(most, pir_vec_dot(n, difference(job, at, s, v, 0)));
+    double bound = off * (8 * sides * far + 2 * length) + 0x1p-48 * pir_length(e) * pir_length(f) * far;
+    most += job->input->radius * length;
+    if (fabs(most) > bound)
+        return most < 0 ? PIR_TOLD_YES : PIR_TOLD_NO;
+    return job->input->radius > 0 ? PIR_TOLD_NO : PIR_TOLD_NOTHING;
+}
+
+bool pir_exact_is_behind(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s) {
+    uint32_t used = job->limbs.used;
+    pir_int3 back = pir_exact_front(job, s);
+    for (int k = 0; k < 3; k++)
+        pir_int_negate(&back.c[k]);
+    bool behind = pir_exact_least(job, place, s, &back) >= 0;
+    job->limbs.used = used;
+    job->counts.exact++;
+    return behind;
+}
+
+bool pir_contact_is_behind(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s) {
+    pir_contact_told told = pir_contact_told_behind(job, place->at, s, 0);
+    return told == PIR_TOLD_NOTHING ? pir_exact_is_behind(job, place, s) : told == PIR_TOLD_YES;
+}

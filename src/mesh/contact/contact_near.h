@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* The nearest points of P and one triangle, and whether the triangle counts where P is. */
+#ifndef PIR_MESH_CONTACT_CONTACT_NEAR_H
+#define PIR_MESH_CONTACT_CONTACT_NEAR_H
+
+#include "mesh/contact/contact_exact.h"
+
+void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                         pir_contact_near *ret_near);
+
+/* What doubles say of P at a place that is off by at most `error`. */
+typedef enum pir_contact_told {
+    PIR_TOLD_NO = 0,
+    PIR_TOLD_YES,
+    PIR_TOLD_NOTHING,
+} pir_contact_told;
+
+/* Whether P meets the triangle; *ret_simplex is where integers are to begin. */
+pir_contact_told pir_contact_told_meets(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s,
+                                        double error, pir_contact_simplex *ret_simplex);
+
+/* Whether a triangle is one-sided and has P wholly behind it or in its plane. */
+pir_contact_told pir_contact_told_behind(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s,
+                                         double error);
+
+/* Likewise, exactly. */
+bool pir_contact_meets(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s);
+bool pir_contact_is_behind(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s);
+/* By integers alone. */
+bool pir_exact_is_behind(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s);
+
+#endif

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: MIT */
+/* Ghosts: see ghost.h. Signs by doubles first, then by integers, which are made once for a contact. */
+#include "mesh/contact/ghost.h"
+
+#include "mesh/signs/mesh_numbers.h"
+
+struct contact {
+    pir_contact_job *job;
+    const pir_near_triangle *s;
+    const pir_contact_near *near;
+    pir_vec3 t;
+    pir_vec3 moved; /* where P touches, in doubles, within `off` */
+    double off;
+    bool along_front;  /* n is the normal of s itself */
+    double front_sign; /* then: 1 where it is the front */
+    bool has_exact;
+    pir_int3 n;
+    pir_exact_move move;
+    pir_contact_place place; /* with that move */
+};
+
+static void make_exact(struct contact *c) {
+    if (c->has_exact)
+        return;
+    const pir_contact_place from = pir_place_at(c->t);
+    c->n = pir_exact_direction(c->job, &from, c->s, &c->near->simplex, &c->move);
+    c->place = (pir_contact_place){c->t, c->moved, &c->move};
+    c->has_exact = true;
+    c->job->counts.exact++;
+}
+
+static bool all_differ(const uint32_t *w) {
+    return w[0] != w[1] && w[1] != w[2] && w[0] != w[2];
+}
+
+/* Whether four points have a coordinate in common: they are in one plane, without a look at bits. */
+static bool is_flat(const pir_tri *tri, pir_vec3 x) {
+    const pir_vec3 *p = tri->p;
+    return (p[0].z == x.z && p[1].z == x.z && p[2].z == x.z) || (p[0].y == x.y && p[1].y == x.y && p[2].y == x.y) ||
+           (p[0].x == x.x && p[1].x == x.x && p[2].x == x.x);
+}
+
+/* The sign of n · (corner b of r − x). */
+static int rise(struct contact *c, const pir_near_triangle *r, int b) {
+    const pir_contact_near *near = c->near;
+    uint32_t a = near->simplex.w[0];
+    pir_vec3 to = pir_vec_sub(r->p[b], c->s->p[a]);
+    double along = pir_vec_dot(near->n, to);
+    double bound =
+        near->n_error * pir_length(to) + (8 * c->job->error + 0x1p-50 * pir_length(to)) * pir_length(near->n);
+    if (fabs(along) > bound)
+        return along > 0 ? 1 : -1;
+    for (uint32_t k = 0; k < near->simplex.count; k++)
+        if (pir_near_same_corner(c->job, c->s, (int)near->simplex.w[k], r, b))
+            return 0; // all of these are as far along n
+    if (c->along_front && pir_near_same_frame(c->job, c->s, r)) {
+        if (is_flat(&c->s->local, r->local.p[b]))
+            return 0;
+        return (c->front_sign > 0 ? 1 : -1) * pir_sign_side(&c->s->local, r->local.p[b]);
+    }
+    make_exact(c);
+    return pir_exact_rise(c->job, &c->n, c->s, a, r, (uint32_t)b);
+}
+
+/* The sign of n · the front of r. */
+static int towards_front(struct contact *c, const pir_near_triangle *r) {
+    pir_vec3 e = pir_vec_sub(r->p[1], r->p[0]), f = pir_vec_sub(r->p[2], r->p[0]), front = pir_vec_cross(e, f);
+    double along = pir_vec_dot(c->near->n, front), sides = pir_length(e) * pir_length(f);
+    double front_error = 8 * c->job->error * (pir_length(e) + pir_length(f)) + 0x1p-50 * sides;
+    double length = pir_length(c->near->n);
+    double bound = c->near->n_error * sides + front_error * (length + c->near->n_error) + 0x1p-50 * length * sides;
+    if (fabs(along) > bound)
+        return along > 0 ? 1 : -1;
+    make_exact(c);
+    uint32_t used = c->job->limbs.used;
+    pir_int3 exact = pir_exact_front(c->job, r);
+    pir_int dot = pir_num3_dot(&c->job->limbs, &c->n, &exact);
+    c->job->limbs.used = used;
+    return pir_int_sign(&dot);
+}
+
+/* Whether r has all the corners that x lies between. */
+static bool has_point(const struct contact *c, const pir_near_triangle *r) {
+    for (uint32_t k = 0; k < c->near->simplex.count; k++) {
+        bool found = false;
+        for (int b = 0; b < 3 && !found; b++)
+            found = pir_near_same_corner(c->job, c->s, (int)c->near->simplex.w[k], r, b);
+        if (!found)
+            return false;
+    }
+    return true;
+}
+
+static bool is_behind(struct contact *c, const pir_near_triangle *r) {
+    pir_contact_told told = pir_contact_told_behind(c->job, c->moved, r, c->off);
+    if (told != PIR_TOLD_NOTHING)
+        return told == PIR_TOLD_YES;
+    make_exact(c);
+    return pir_exact_is_behind(c->job, &c->place, r);
+}
+
+/* Whether P, moved until it touches, meets r. With a radius: whether it is nearer than that. */
+static bool is_met(struct contact *c, const pir_near_triangle *r) {
+    double radius = c->job->input->radius;
+    if (radius > 0) {
+        const pir_contact_place place = pir_place_at(c->moved);
+        pir_contact_near near;
+        pir_contact_nearest(c->job, &place, r, &near);
+        return near.meets || near.distance < radius - 8 * (c->off + c->job->error);
+    }
+    pir_contact_simplex simplex;
+    pir_contact_told told = pir_contact_told_meets(c->job, c->moved, r, c->off, &simplex);
+    if (told != PIR_TOLD_NOTHING)
+        return told == PIR_TOLD_YES;
+    make_exact(c);
+    return pir_exact_nearest(c->job, &c->place, r, &simplex);
+}
+
+/* Whether n does not separate P from r, or leads into its back. */
+static bool is_against(struct contact *c, const pir_near_triangle *r) {
+    for (int b = 0; b < 3; b++)
+        if (rise(c, r, b) > 0)
+            return true;
+    return r->one_sided && towards_front(c, r) < 0;
+}
+
+static bool is_ghost_among(struct contact *c) {
+    const pir_contact_job *job = c->job;
+    // those that share the point first: they take one sign
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t i = 0; i < job->triangle_count; i++) {
+            const pir_near_triangle *r = &job->triangle[i];
+            if (r == c->s || has_point(c, r) != (pass == 0) || !is_against(c, r))
+                continue;
+            if ((pass == 0 || is_met(c, r)) && !is_behind(c, r))
+                return true;
+        }
+    return false;
+}
+
+bool pir_contact_is_ghost(pir_contact_job *job, pir_vec3 t, uint32_t index) {
+    const pir_near_triangle *s = &job->triangle[index];
+    const pir_contact_near *near = &s->near;
+    double length = pir_length(near->n);
+    struct contact c = {.job = job, .s = s, .near = near, .t = t};
+    double part = job->input->radius > 0 ? 1 - job->input->radius / near->distance : 1;
+    c.moved = pir_vec_sub(t, pir_vec_scale(near->way, part));
+    c.off = near->distance * (near->n_error / length + 0x1p-48) + 16 * job->error;
+    c.along_front = near->simplex.count == 3 && all_differ(near->simplex.w);
+    c.front_sign = pir_vec_dot(near->n, s->front);
+    uint32_t used = job->limbs.used;
+    bool ghost = (s->one_sided && towards_front(&c, s) < 0) || is_ghost_among(&c);
+    job->limbs.used = used;
+    return ghost;
+}

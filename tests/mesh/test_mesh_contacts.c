@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Contacts of polytopes with soups of triangles against integers (oracle/contacts.h): the state, which contacts are
+ * there and which are ghosts, ways out; at poses in general, touching, and an ulp off. And hostile input, memory that
+ * runs out, contacts that hold a body.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/contact_soups.h"
+#include "mesh/mesh_models.h"
+#include "oracle/contacts.h"
+#include "support/memory.h"
+
+#define CONTACTS 512
+
+/* A soup as surfaces, and in integers. */
+typedef struct stage {
+    contact_soup soup;
+    pir_trimesh *mesh[2];
+    pir_posed_surface surface[2];
+    uint32_t surfaces;
+    pir_polytope *body;
+    pir_vec3 vertex[8];
+    uint32_t vertices;
+    pir_quat rotation;
+    oracle_scene *truth;
+} stage;
+
+static uint64_t poses(void) {
+    const char *text = getenv("PIR_TEST_POSES");
+    return text ? strtoull(text, NULL, 10) : 1500;
+}
+
+static bool has_area(const pir_vec3 c[3]) {
+    pir_vec3 u = {c[1].x - c[0].x, c[1].y - c[0].y, c[1].z - c[0].z};
+    pir_vec3 v = {c[2].x - c[0].x, c[2].y - c[0].y, c[2].z - c[0].z};
+    return u.y * v.z != u.z * v.y || u.z * v.x != u.x * v.z || u.x * v.y != u.y * v.x;
+}
+
+static pir_trimesh *mesh_of_some(const contact_soup *soup, uint32_t first, uint32_t step, bool two_sided) {
+    uint32_t corner[SOUP_MOST][3], count = 0;
+    for (uint32_t i = first; i < soup->count; i += step)
+        for (uint32_t k = 0; k < 3; k++)
+            corner[count / 3][count % 3] = 3 * i + k, count++;
+    const pir_trimesh_arrays arrays = {.vertices = soup->corner,
+                                       .vertex_count = 3 * (size_t)soup->count,
+                                       .triangles = &corner[0][0],
+                                       .triangle_count = count / 3};
+    pir_trimesh_options options = pir_trimesh_options_default();
+    options.two_sided = two_sided;
+    pir_trimesh *mesh;
+    assert_int_equal(pir_trimesh_create(&arrays, &options, NULL, &mesh), PIR_OK);
+    return mesh;
+}
+
+/* Leaves out triangles without an area, as meshes do. */
+static void drop_flat(contact_soup *soup) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < soup->count; i++)
+        if (has_area(soup->corner[i])) {
+            memmove(soup->corner[count], soup->corner[i], sizeof soup->corner[i]);
+            count++;
+        }
+    soup->count = count;
+}
+
+static void stage_make(stage *s, test_random *random, uint64_t number) {
+    s->soup = soup_make(random, number);
+    soup_jitter(random, &s->soup);
+    drop_flat(&s->soup);
+    s->soup.split &= s->soup.count > 1;
+    s->surfaces = s->soup.split ? 2 : 1;
+    bool one_sided[SOUP_MOST];
+    oracle_triangle triangle[SOUP_MOST];
+    for (uint32_t i = 0; i < s->surfaces; i++) {
+        bool two_sided = test_random_below(random, 3) == 0;
+        pir_pose pose = {soup_rotation(random), {0, 0, 0}};
+        if (i == 0 || test_random_below(random, 2))
+            pose.rotation = (pir_quat){0, 0, 0, 1};
+        s->mesh[i] = mesh_of_some(&s->soup, i, s->surfaces, two_sided);
+        s->surface[i] = (pir_posed_surface){{s->mesh[i], NULL}, pose};
+        for (uint32_t k = i; k < s->soup.count; k += s->surfaces) {
+            one_sided[k] = !two_sided;
+            oracle_triangle_init(&triangle[k]);
+            oracle_triangle_place(&triangle[k], s->soup.corner[k], pose);
+        }
+    }
+    s->vertices = soup_body(number / 12, s->vertex);
+    s->rotation = soup_rotation(random);
+    assert_int_equal(pir_polytope_create(s->vertex, s->vertices, NULL, &s->body), PIR_OK);
+    s->truth = oracle_scene_make(s->vertex, s->vertices, s->rotation, triangle, one_sided, s->soup.count);
+    for (uint32_t k = 0; k < s->soup.count; k++)
+        oracle_triangle_clear(&triangle[k]);
+}
+
+static void stage_clear(stage *s) {
+    oracle_scene_free(s->truth);
+    pir_polytope_release(s->body);
+    for (uint32_t i = 0; i < s->surfaces; i++)
+        pir_trimesh_release(s->mesh[i]);
+}
+
+/* A place at which the body's lowest vertex is at, over or under the plane z = 0 or a slope. */
+static pir_vec3 some_place(test_random *random, const stage *s) {
+    static const double heights[9] = {0, 0.0009765625, -0.0009765625, 0.0625, -0.0625, 0.25, -0.25, 0.5, 1e-9};
+    double low = HUGE_VAL;
+    for (uint32_t v = 0; v < s->vertices; v++)
+        low = fmin(low, pir_pose_rotate((pir_pose){s->rotation, {0, 0, 0}}, s->vertex[v]).z);
+    pir_vec3 t = {0.125 * test_random_between(random, -14, 14), 0.125 * test_random_between(random, -14, 14),
+                  heights[test_random_below(random, 9)] - low};
+    if (test_random_below(random, 3) == 0) {
+        t.x += ldexp(test_random_unit(random), -10);
+        t.y += ldexp(test_random_unit(random), -5);
+    }
+    if (test_random_below(random, 4) == 0)
+        t.z = t.z == 0 ? 0x1p-60 : nextafter(t.z, test_random_below(random, 2) ? 10 : -10);
+    return t;
+}
+
+static pir_surface_contact_input input_of(const stage *s, pir_vec3 t, double margin) {
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    input.pose = (pir_pose){s->rotation, t};
+    input.margin = margin;
+    input.surfaces = s->surface;
+    input.surface_count = s->surfaces;
+    return input;
+}
+
+static double apart(pir_vec3 a, pir_vec3 b) {
+    return fmax(fabs(a.x - b.x), fmax(fabs(a.y - b.y), fabs(a.z - b.z)));
+}
+
+static bool is_told(const pir_surface_contact *contacts, size_t count, pir_vec3 normal) {
+    for (size_t i = 0; i < count; i++)
+        if (apart(contacts[i].normal, normal) < 1e-8)
+            return true;
+    return false;
+}
+
+/*
+ * Whether every contact of the union at t, which is apart, is told if its gap is well within `margin`, and each that is
+ * told is one. Contacts beyond `most` are not expected.
+ */
+static void check_contacts(const stage *s, pir_vec3 t, const pir_surface_contact *contacts, size_t count, double margin,
+                           uint64_t number) {
+    pir_vec3 normal[SOUP_MOST];
+    uint32_t found = 0;
+    oracle_scene_move(s->truth, t);
+    for (uint32_t i = 0; i < s->soup.count; i++) {
+        double gap;
+        if (!oracle_scene_counts(s->truth, i) || !oracle_scene_contact(s->truth, i, &normal[found], &gap))
+            continue;
+        expect(gap > margin * (1 - 1e-9) || is_told(contacts, count, normal[found]),
+               "pose %llu (%s): the contact of triangle %u, gap %.17g, normal %.9g %.9g %.9g, is lost",
+               (unsigned long long)number, s->soup.name, i, gap, normal[found].x, normal[found].y, normal[found].z);
+        found++;
+    }
+    for (size_t i = 0; i < count; i++) {
+        bool is = false;
+        for (uint32_t k = 0; k < found && !is; k++)
+            is = apart(contacts[i].normal, normal[k]) < 1e-8;
+        expect(is, "pose %llu (%s): a ghost of triangle %u, normal %.9g %.9g %.9g", (unsigned long long)number,
+               s->soup.name, contacts[i].triangle, contacts[i].normal.x, contacts[i].normal.y, contacts[i].normal.z);
+    }
+}
+
+/* Counts of situations, so that none is missing unseen. */
+typedef struct tally {
+    uint64_t state[3], ghosts, contacts, out, shortest, exact;
+} tally;
+
+static void check_way_out(const stage *s, const pir_surface_contact_input *input,
+                          const pir_surface_contact_result *result, const pir_surface_contact *contacts,
+                          uint64_t number, tally *seen) {
+    pir_vec3 t = input->pose.translation, way = result->way_out;
+    seen->out += result->is_out;
+    seen->shortest += result->is_shortest;
+    if (!result->is_out)
+        return;
+    pir_vec3 there = {t.x + way.x, t.y + way.y, t.z + way.z};
+    if (result->is_shortest && result->state == PIR_INSIDE) {
+        oracle_scene_move(s->truth, t);
+        double least = oracle_scene_way_out(s->truth, 0x1p-26);
+        expect(-result->distance <= least + 1e-9, "pose %llu (%s): depth %.17g, but there is a way of %.17g",
+               (unsigned long long)number, s->soup.name, -result->distance, least);
+    }
+    oracle_scene_move(s->truth, there);
+    expect(oracle_scene_state(s->truth) == 0, "pose %llu (%s): the way out ends in a triangle",
+           (unsigned long long)number, s->soup.name);
+    // what is told is there; what lies beyond the margin where P is may be missing
+    check_contacts(s, there, contacts, result->contacts, -HUGE_VAL, number);
+}
+
+static void check_pose(const stage *s, pir_workspace *workspace, pir_vec3 t, uint64_t number, tally *seen) {
+    pir_surface_contact contacts[CONTACTS];
+    pir_surface_contact_result result;
+    double margin = number % 3 == 0 ? 2 : 0.3;
+    const pir_surface_contact_input input = input_of(s, t, margin);
+    assert_int_equal(pir_surface_contacts(s->body, workspace, &input, CONTACTS, contacts, &result), PIR_OK);
+    oracle_scene_move(s->truth, t);
+    int state = oracle_scene_state(s->truth);
+    expect((int)result.state == state, "pose %llu (%s): state %d, not %d", (unsigned long long)number, s->soup.name,
+           result.state, state);
+    seen->state[state]++;
+    seen->ghosts += result.counts.ghosts;
+    seen->exact += result.counts.exact;
+    seen->contacts += result.contacts;
+    if (state == 0)
+        check_contacts(s, t, contacts, result.contacts, margin, number);
+    else
+        check_way_out(s, &input, &result, contacts, number, seen);
+}
+
+static void no_ghost_is_told_and_no_contact_lost(void **state) {
+    (void)state;
+    tally seen = {{0, 0, 0}, 0, 0, 0, 0, 0};
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t number = 0; number < poses() / 6; number++) {
+        test_random random = test_random_case("contacts of soups", number);
+        stage s;
+        stage_make(&s, &random, number);
+        for (int i = 0; i < 6; i++)
+            check_pose(&s, workspace, some_place(&random, &s), number, &seen);
+        stage_clear(&s);
+    }
+    pir_workspace_destroy(workspace);
+    print_message("states %llu %llu %llu, contacts %llu, ghosts %llu, out %llu, shortest %llu, exact %llu\n",
+                  (unsigned long long)seen.state[0], (unsigned long long)seen.state[1],
+                  (unsigned long long)seen.state[2], (unsigned long long)seen.contacts, (unsigned long long)seen.ghosts,
+                  (unsigned long long)seen.out, (unsigned long long)seen.shortest, (unsigned long long)seen.exact);
+    assert_true(seen.state[0] > 0 && seen.state[1] > 0 && seen.state[2] > 0 && seen.ghosts > 0 && seen.shortest > 0);
+}
+
+/* --- bad input, memory --- */
+
+static void bad_input_is_refused_and_nothing_written(void **state) {
+    (void)state;
+    mesh_arrays plane = mesh_plane(4);
+    pir_trimesh *mesh = mesh_of(&plane, NULL);
+    pir_vec3 point = {0, 0, 0};
+    pir_polytope *body;
+    pir_workspace *workspace;
+    assert_int_equal(pir_polytope_create(&point, 1, NULL, &body), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    const pir_posed_surface surface = {{mesh, NULL}, pir_pose_identity()}, none = {{NULL, NULL}, pir_pose_identity()};
+    pir_surface_contact_input good = pir_surface_contact_input_default(), input;
+    pir_surface_contact contact;
+    pir_surface_contact_result result, before;
+    memset(&before, 0x55, sizeof before);
+    good.surfaces = &surface;
+    good.surface_count = 1;
+    struct {
+        pir_status want;
+        pir_surface_contact_input input;
+    } bad[9];
+    for (int i = 0; i < 9; i++)
+        bad[i].input = good;
+    bad[0].want = PIR_ERR_ARGUMENT, bad[0].input.surface_count = 0;
+    bad[1].want = PIR_ERR_ARGUMENT, bad[1].input.surfaces = &none;
+    bad[2].want = PIR_ERR_ARGUMENT, bad[2].input.radius = -1;
+    bad[3].want = PIR_ERR_ARGUMENT, bad[3].input.margin = HUGE_VAL;
+    bad[4].want = PIR_ERR_NOT_FINITE, bad[4].input.margin = NAN;
+    bad[5].want = PIR_ERR_NOT_FINITE, bad[5].input.pose.translation.y = NAN;
+    bad[6].want = PIR_ERR_ZERO_QUATERNION, bad[6].input.pose.rotation.w = 0;
+    bad[7].want = PIR_ERR_LIMIT, bad[7].input.pose.translation.x = 0x1p61;
+    bad[8].want = PIR_ERR_LIMIT, bad[8].input.radius = 0x1p61;
+    for (int i = 0; i < 9; i++) {
+        result = before;
+        expect(pir_surface_contacts(body, workspace, &bad[i].input, 1, &contact, &result) == bad[i].want, "input %d",
+               i);
+        assert_memory_equal(&result, &before, sizeof result);
+    }
+    input = good;
+    assert_int_equal(pir_surface_contacts(NULL, workspace, &input, 1, &contact, &result), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_surface_contacts(body, NULL, &input, 1, &contact, &result), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_surface_contacts(body, workspace, NULL, 1, &contact, &result), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_surface_contacts(body, workspace, &input, 1, NULL, &result), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_surface_contacts(body, workspace, &input, 0, NULL, &result), PIR_OK);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(body);
+    pir_trimesh_release(mesh);
+    mesh_arrays_clear(&plane);
+}
+
+/* A cube of side 1. */
+static pir_polytope *cube(void) {
+    pir_vec3 corner[8];
+    pir_polytope *body;
+    for (int i = 0; i < 8; i++)
+        corner[i] = (pir_vec3){i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5};
+    assert_int_equal(pir_polytope_create(corner, 8, NULL, &body), PIR_OK);
+    return body;
+}
+
+static pir_status ask(pir_workspace *workspace, const pir_polytope *body, pir_trimesh *mesh, double height,
+                      pir_surface_contact_result *ret_result) {
+    const pir_posed_surface surface = {{mesh, NULL}, pir_pose_identity()};
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    pir_surface_contact contacts[16];
+    input.pose = (pir_pose){{0.001, 0, 0.2, 1}, {2.1, 2.2, height}};
+    input.margin = 0.1;
+    input.surfaces = &surface;
+    input.surface_count = 1;
+    return pir_surface_contacts(body, workspace, &input, 16, contacts, ret_result);
+}
+
+static void a_call_that_runs_out_of_memory_changes_nothing(void **state) {
+    (void)state;
+    mesh_arrays plane = mesh_plane(8);
+    pir_trimesh *mesh = mesh_of(&plane, NULL);
+    pir_polytope *body = cube();
+    test_memory memory = {0};
+    const pir_allocator allocator = test_allocator(&memory);
+    pir_surface_contact_result want, got;
+    bool failed = true;
+    for (uint64_t at = 1; failed; at++) {
+        pir_workspace *workspace = NULL;
+        memory.requests = 0;
+        memory.fail_at = at;
+        pir_status status = pir_workspace_create(&allocator, &workspace);
+        if (status == PIR_OK)
+            status = ask(workspace, body, mesh, 0.49, &got);
+        failed = status == PIR_ERR_MEMORY;
+        assert_true(failed || status == PIR_OK);
+        memory.fail_at = 0;
+        if (workspace) {
+            assert_int_equal(ask(workspace, body, mesh, 0.49, &want), PIR_OK);
+            assert_true(failed || (got.distance == want.distance && got.contacts == want.contacts));
+        }
+        pir_workspace_destroy(workspace);
+        assert_true(memory.blocks == 0 && !memory.wrong_size && !memory.overrun);
+        assert_true(at < 100);
+    }
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(&allocator, &workspace), PIR_OK);
+    for (int round = 0; round < 2; round++) {
+        memory.requests = 0;
+        for (int i = 0; i < 100; i++)
+            assert_int_equal(ask(workspace, body, mesh, 0.4 + 0.002 * i, &got), PIR_OK);
+    }
+    assert_int_equal(memory.requests, 0);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(body);
+    pir_trimesh_release(mesh);
+    mesh_arrays_clear(&plane);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_ghost_is_told_and_no_contact_lost),
+        cmocka_unit_test(bad_input_is_refused_and_nothing_written),
+        cmocka_unit_test(a_call_that_runs_out_of_memory_changes_nothing),
+    };
+    return cmocka_run_group_tests_name("contacts of meshes", tests, NULL, NULL);
+}
