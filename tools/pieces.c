@@ -98,13 +98,16 @@ static bool load_file(const struct args *args, const char *path, struct pieces *
 
 /* --- a folder --- */
 
+#define ENDING(format) " ." #format
+
 static int compare_names(const void *a, const void *b) {
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
 static bool is_model(const char *name) {
-    return output_ends_in(name, ".off") || output_ends_in(name, ".obj") || output_ends_in(name, ".stl") ||
-           output_ends_in(name, ".ply");
+#define OR_ENDS_IN(format) || output_ends_in(name, "." #format)
+    return false PIR_READ_FORMATS(OR_ENDS_IN);
+#undef OR_ENDS_IN
 }
 
 /* The names of models in a folder, sorted, each to be freed. */
@@ -131,7 +134,7 @@ static bool list_models(const struct args *args, const char *folder, char ***ret
     if (good && *ret_count > 0)
         qsort(*ret_names, *ret_count, sizeof **ret_names, compare_names);
     if (good && *ret_count == 0)
-        complain("%s: %s: the folder has no .off, .obj, .stl or .ply", args->command->name, folder);
+        complain("%s: %s: the folder has none of" PIR_READ_FORMATS(ENDING), args->command->name, folder);
     return good && *ret_count > 0;
 }
 

@@ -22,6 +22,16 @@
 extern "C" {
 #endif
 
+/* The build takes the readers, src/polytope/read/read_NAME.c, from the lines that begin with FORMAT. */
+/**
+ * The formats that are read, by the endings of their files: PIR_READ_FORMATS(X) is X(off) X(obj) and so on.
+ */
+#define PIR_READ_FORMATS(FORMAT)                                                                                       \
+    FORMAT(off)                                                                                                        \
+    FORMAT(obj)                                                                                                        \
+    FORMAT(stl)                                                                                                        \
+    FORMAT(ply)
+
 /** What facets of a file are. An edge is two neighbouring corners of a facet; points at the
     same place are one corner. */
 typedef enum pir_surface_form {
@@ -63,7 +73,7 @@ typedef struct pir_read_options {
 PIR_API pir_read_options pir_read_options_default(void);
 
 /**
- * Reads the model in `path`, by its ending (.off, .obj, .stl, .ply), and makes the exact convex hull of all its points.
+ * Reads the model in `path`, by its ending (PIR_READ_FORMATS), and makes the exact convex hull of all its points.
  *
  * options      NULL for the default.
  * ret_surface  NULL, or what the file holds beside its points.

@@ -52,7 +52,7 @@ typedef struct pir_solid_info {
 } pir_solid_info;
 
 /**
- * Reads the solid in `path`, by its ending (.off, .obj, .stl, .ply).
+ * Reads the solid in `path`, by its ending (PIR_READ_FORMATS).
  *
  * options  NULL for the defaults.
  * report   NULL, or filled when the call fails: it names the facet by its line, or the edge by its ends.

@@ -75,7 +75,7 @@ PIR_API pir_status pir_trimesh_create(const pir_trimesh_arrays *arrays, const pi
                                       pir_report *report, pir_trimesh **ret_mesh);
 
 /**
- * Reads a mesh from `path`, by its ending (.off, .obj, .stl, .ply). Facets of more than three corners are cut into
+ * Reads a mesh from `path`, by its ending (PIR_READ_FORMATS). Facets of more than three corners are cut into
  * triangles, in the order of the file; they may be concave. Rationals of OFF are rounded to the nearest double.
  *
  * options, ret_mesh  as of pir_trimesh_create.

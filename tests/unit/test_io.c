@@ -245,7 +245,8 @@ static void expect_file_refusal(const char *path, pir_status status, const char 
 static void test_files_that_cannot_be_read(void **state) {
     expect_file_refusal(path_of(state, "missing.off"), PIR_ERR_FILE, "missing.off: cannot open: No such file");
     expect_file_refusal(path_of(state, "missing.obj"), PIR_ERR_FILE, "missing.obj: cannot open: No such file");
-    expect_file_refusal(path_of(state, "model.xyz"), PIR_ERR_ARGUMENT, "model.xyz: the name does not end in");
+    expect_file_refusal(path_of(state, "model.xyz"), PIR_ERR_ARGUMENT,
+                        "model.xyz: the name ends in none of .off .obj .stl .ply");
     expect_file_refusal(path_of(state, "model.svg"), PIR_ERR_ARGUMENT, "written, not read");
     const char *path = path_of(state, "nothing.off");
     put_file(path, "", 0);

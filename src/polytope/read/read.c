@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Reading models: the whole file into memory, then the reader of its format, then the hull of what that made of it. */
-#include <string.h>
-
 #include <pirouette/io.h>
 
 #include "base/memory.h"
@@ -12,27 +10,30 @@
 #include "polytope/file/file_name.h"
 #include "polytope/read/model_make.h"
 #include "polytope/read/read.h"
-#include "polytope/read/read_obj.h"
-#include "polytope/read/read_off.h"
-#include "polytope/read/read_ply.h"
-#include "polytope/read/read_stl.h"
+#include "polytope/read/readers.h"
+
+#define FORMAT_NAME(name)   " " #name
+#define FORMAT_ENDING(name) " ." #name
+
+/* The reader of that format, in either case; NULL where there is none. */
+static pir_reader *reader_of(const char *format) {
+#define ROW(name) {#name, pir_read_##name},
+    static const struct {
+        const char *name;
+        pir_reader *read;
+    } readers[] = {PIR_READ_FORMATS(ROW)};
+#undef ROW
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
+        if (pir_is_format(format, readers[i].name))
+            return readers[i].read;
+    return NULL;
+}
 
 static pir_status read_model(const char *data, size_t size, const char *format, struct pir_model *model) {
-    switch (pir_file_type_named(format)) {
-    case PIR_FILE_OFF:
-        return pir_read_off(data, size, model);
-    case PIR_FILE_OBJ:
-        return pir_read_obj(data, size, model);
-    case PIR_FILE_STL:
-        return pir_read_stl(data, size, model);
-    case PIR_FILE_PLY:
-        return pir_read_ply(data, size, model);
-    case PIR_FILE_SVG:
-    case PIR_FILE_UNKNOWN:
-        break;
-    }
-    return pir_fail(model->report, PIR_ERR_ARGUMENT, "%s: '%.8s' is none of off, obj, stl and ply", model->name,
-                    format);
+    pir_reader *read = reader_of(format);
+    return read ? read(data, size, model)
+                : pir_fail(model->report, PIR_ERR_ARGUMENT, "%s: '%.8s' is none of" PIR_READ_FORMATS(FORMAT_NAME),
+                           model->name, format);
 }
 
 pir_read_options pir_read_options_default(void) {
@@ -62,16 +63,16 @@ pir_status pir_model_read_bytes(const pir_file_bytes *file, const pir_allocator 
 pir_status pir_model_read_file(const char *path, const pir_allocator *allocator, pir_report *report,
                                struct pir_model_maker maker) {
     const char *name = pir_short_name(path);
-    enum pir_file_type type = pir_file_type_of(path);
-    if (type == PIR_FILE_SVG)
+    const char *format = pir_format_of(path);
+    if (pir_is_format(format, "svg"))
         return pir_fail(report, PIR_ERR_ARGUMENT, "%s: .svg files are written, not read", name);
-    if (type == PIR_FILE_UNKNOWN)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name does not end in .off, .obj, .stl or .ply", name);
+    if (!reader_of(format))
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name ends in none of" PIR_READ_FORMATS(FORMAT_ENDING), name);
     struct pir_read_bytes bytes = {0};
     pir_status status = pir_file_read(path, allocator, report, &bytes);
     if (status == PIR_OK)
-        status = pir_model_read_bytes(&(pir_file_bytes){bytes.data, bytes.size, path, path + strlen(path) - 3},
-                                      allocator, report, maker);
+        status =
+            pir_model_read_bytes(&(pir_file_bytes){bytes.data, bytes.size, path, format}, allocator, report, maker);
     PIR_FREE(allocator, bytes.data, bytes.capacity);
     return status;
 }

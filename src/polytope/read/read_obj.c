@@ -7,7 +7,7 @@
  * since the hull would be of a part only. All others are passed over, those that OBJ does not have too, for programs
  * write statements of their own. No other file is opened, and none of materials.
  */
-#include "polytope/read/read_obj.h"
+#include "polytope/read/readers.h"
 
 #include <string.h>
 

@@ -10,7 +10,7 @@
  * number of vertices, or, in a file that counts from 1 and has no index 0, equal to it; a failed read leaves nothing
  * behind.
  */
-#include "polytope/read/read_off.h"
+#include "polytope/read/readers.h"
 
 #include <string.h>
 

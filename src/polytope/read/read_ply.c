@@ -6,7 +6,7 @@
  * In text each element stands on a line of its own. A number in text is the nearest double, in binary the float, double
  * or integer itself.
  */
-#include "polytope/read/read_ply.h"
+#include "polytope/read/readers.h"
 
 #include <math.h>
 #include <stdarg.h>

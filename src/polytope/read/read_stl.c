@@ -6,7 +6,7 @@
  * binary file may begin with "solid" as text does, and only the size tells them apart for certain. Normals are not
  * used; the corners give them.
  */
-#include "polytope/read/read_stl.h"
+#include "polytope/read/readers.h"
 
 #include <math.h>
 #include <string.h>
