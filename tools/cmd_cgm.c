@@ -111,7 +111,7 @@ static bool load(const struct args *args, struct outcome *outcome, pir_polytope 
     return *p && (*q || args->positional_count == 1);
 }
 
-int cmd_cgm(const struct args *args) {
+SUBCOMMAND(cgm) {
     pir_quat rotation;
     struct outcome outcome = {0};
     struct output_file file = {0};

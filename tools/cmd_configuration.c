@@ -250,7 +250,7 @@ static int run_batch(const struct args *args, pir_cspace *cspace, int64_t start)
     return good ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
-int cmd_configuration(const struct args *args) {
+SUBCOMMAND(configuration) {
     struct request request;
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;

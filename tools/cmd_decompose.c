@@ -184,7 +184,7 @@ static int decompose(const struct args *args, const pir_solid *solid, const pir_
     return result;
 }
 
-int cmd_decompose(const struct args *args) {
+SUBCOMMAND(decompose) {
     pir_decompose_options options;
     pir_report report = {0};
     if (!target_check(args, "-o", NULL) || !read_options(args, &options))

@@ -218,7 +218,7 @@ static int give(const struct args *args, pir_trimesh *const mesh[2], const struc
     return EXIT_DONE;
 }
 
-int cmd_distance(const struct args *args) {
+SUBCOMMAND(distance) {
     struct request request;
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;

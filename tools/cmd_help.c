@@ -5,7 +5,7 @@
 #include "help.h"
 #include "message.h"
 
-int cmd_help(const struct args *args) {
+SUBCOMMAND(help) {
     const char *name = args->positional_count > 0 ? args->positional[0] : NULL;
     const struct command *command = name ? command_find(name) : NULL;
     if (name && !command)

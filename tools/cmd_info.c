@@ -63,7 +63,7 @@ static void print_text(const char *model, const pir_polytope *polytope, const pi
     print_input(surface);
 }
 
-int cmd_info(const struct args *args) {
+SUBCOMMAND(info) {
     const char *model = args->positional[0];
     pir_surface surface;
     if (args_has(args, "--solid"))

@@ -219,7 +219,7 @@ static int run_one(const struct args *args, const struct request *request, pir_p
     return EXIT_DONE;
 }
 
-int cmd_query(const struct args *args) {
+SUBCOMMAND(query) {
     struct request request;
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;

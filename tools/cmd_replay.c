@@ -47,7 +47,7 @@ static bool print_json(struct run *run, const char *path) {
     return json_print(run->json, stdout);
 }
 
-int cmd_replay(const struct args *args) {
+SUBCOMMAND(replay) {
     const char *path = args->positional[0];
     struct json json = json_new();
     struct run run = {.hash = UINT64_C(0xcbf29ce484222325)};

@@ -68,7 +68,7 @@ static int write_shape(const struct args *args, const char *name) {
     return result;
 }
 
-int cmd_shape(const struct args *args) {
+SUBCOMMAND(shape) {
     const char *name = args->positional[0], *file = args_value(args, "-o");
     if (!name && !file)
         return list_shapes(args_has(args, "--json"));

@@ -92,7 +92,7 @@ static int simplify(const struct args *args, pir_polytope *polytope, const pir_s
     return done ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
-int cmd_simplify(const struct args *args) {
+SUBCOMMAND(simplify) {
     pir_simplify_options options;
     if (!read_options(args, &options) || !target_check(args, "-o", TARGET_MESH) ||
         !target_check(args, "--outer", TARGET_MESH))

@@ -206,7 +206,7 @@ static bool tell(const struct args *args, const struct run *run) {
     return true;
 }
 
-int cmd_simulate(const struct args *args) {
+SUBCOMMAND(simulate) {
     struct run run = {.path = args->positional[0]};
     bool good = check_targets(args) && read_stage(args, &run) && open_targets(args, &run) && run_world(&run) &&
                 hash_state(&run) && write_targets(&run);

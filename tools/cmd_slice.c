@@ -271,7 +271,7 @@ static int make_slices(struct slicing *run) {
     return done ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
-int cmd_slice(const struct args *args) {
+SUBCOMMAND(slice) {
     struct slicing run = {.args = args};
     int result = EXIT_BAD_INPUT;
     if (!ranks_begin(&run.ranks))

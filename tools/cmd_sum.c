@@ -136,7 +136,7 @@ static void print_text(const struct args *args, const struct request *request, c
         say("  %-10s %s\n", "file", args_value(args, "-o"));
 }
 
-int cmd_sum(const struct args *args) {
+SUBCOMMAND(sum) {
     struct request request;
     if (args_has(args, "--solid"))
         return solid_sum(args);

@@ -91,7 +91,7 @@ static bool read_request(const struct args *args, struct track_request *request)
     return true;
 }
 
-int cmd_track(const struct args *args) {
+SUBCOMMAND(track) {
     struct track_request request;
     struct track_result result = {0};
     if (!read_request(args, &request))

@@ -162,7 +162,7 @@ static bool print_written(const struct args *args, const struct request *request
     return json_print(&json, stdout);
 }
 
-int cmd_view(const struct args *args) {
+SUBCOMMAND(view) {
     struct request request;
     struct slices slices = {0};
     if (!read_request(args, &request))

@@ -2,7 +2,7 @@
 /*
  * What a subcommand is: its name, its arguments, its text. All of them stand in one table, command_table.c. The parser
  * of arguments, `--help`, the manual pages and the completion of shells read that table, so all of them agree. A
- * subcommand runs in a cmd_*.c of its own; runs.h says in which program.
+ * subcommand runs in a cmd_*.c of its own.
  */
 #ifndef TOOLS_COMMAND_H
 #define TOOLS_COMMAND_H
@@ -28,8 +28,12 @@ struct example {
 /* The most examples that a subcommand has, and the end of their list. */
 #define COMMAND_EXAMPLES 4
 
+struct args;
+typedef int command_run(const struct args *args);
+
 struct command {
     const char *name;
+    command_run *run;          /* NULL: the other program has it */
     const char *positional[3]; /* names of its positional arguments, then NULL; the last may end in "..." and repeat */
     size_t required;           /* how many of them must be there */
     const char *summary;       /* one line */
@@ -38,27 +42,8 @@ struct command {
     struct example examples[COMMAND_EXAMPLES];
 };
 
-/* The subcommands in the order in which help lists them. */
-enum {
-    COMMAND_INFO,
-    COMMAND_CGM,
-    COMMAND_SHAPE,
-    COMMAND_SUM,
-    COMMAND_TRACK,
-    COMMAND_QUERY,
-    COMMAND_SLICE,
-    COMMAND_CONFIGURATION,
-    COMMAND_VIEW,
-    COMMAND_DECOMPOSE,
-    COMMAND_SIMPLIFY,
-    COMMAND_SIMULATE,
-    COMMAND_REPLAY,
-    COMMAND_DISTANCE,
-    COMMAND_HELP,
-    COMMAND_COUNT,
-};
-
-extern const struct command command_table[COMMAND_COUNT];
+/* The subcommands in the order in which help lists them; a row without a name ends them. */
+extern const struct command command_table[];
 
 /* The options that stand before a subcommand. */
 extern const struct option command_options[];

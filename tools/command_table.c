@@ -1,11 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The table of subcommands. A text is one paragraph without line breaks: whoever prints it wraps it. This file needs
- * nothing but the C library, so that a cross build can make the manual pages on the building machine.
+ * The table of subcommands, which is all that there is of them beside their cmd_*.c: meson takes from its lines
+ * `.run = ` which files there are, for which program, and which manual pages. A text is one paragraph without line
+ * breaks: whoever prints it wraps it. This file needs nothing but the C library, so that a cross build can make the
+ * manual pages on the building machine.
+ *
+ * There are two programs of this table. `pirouette` has the subcommands that the core library serves, and starts in a
+ * millisecond. `pirouette-slices` has all: what reads and makes slices needs HDF5 and MPI, whose own libraries take
+ * tens of milliseconds to load. Each program compiles this file with a macro of its own. Where a subcommand has no run,
+ * the first program hands its arguments over to the second (hand_over.h).
  */
 #include "command.h"
 
 #include <string.h>
+
+#include <pirouette/io.h>
+
+#if defined(PROGRAM_CORE)
+#define CORE(run)   run
+#define SLICES(run) NULL
+#elif defined(PROGRAM_SLICES)
+#define CORE(run)   run
+#define SLICES(run) run
+#else // the program that writes the manual pages runs none
+#define CORE(run)   NULL
+#define SLICES(run) NULL
+#endif
 
 #define HELP_OPTION                                                                                                    \
     {"-h, --help", NULL, "print this help"}, {                                                                         \
@@ -30,9 +50,11 @@
 
 const char command_about[] = "Exact Minkowski sums of convex polyhedra, kept up to date while one of them rotates.";
 
-const char command_models[] = "A MODEL, P or Q is a file (.off, .obj, .stl, .ply), - for OFF on standard input, or "
-                              "shape:NAME for a built-in one; "
-                              "its convex hull is taken. A file to write may be - for standard output.";
+#define ENDING(format) " ." #format
+const char command_models[] = "A MODEL, P or Q is a file whose name ends in one of" PIR_READ_FORMATS(
+    ENDING) "; - for OFF on standard input; or shape:NAME for a built-in one. Its convex hull is taken. A file to "
+            "write "
+            "may be - for standard output.";
 
 const char command_exit[] =
     "0 done; 1 a check that was asked for failed; 2 bad usage or bad input, told in one line on stderr.";
@@ -43,11 +65,14 @@ const struct option command_options[] = {
     {NULL, NULL, NULL},
 };
 
+/* Of each subcommand the function that runs it, and its options. */
+command_run cmd_info;
 static const struct option info_options[] = {
     {"--solid", NULL, "the model as the solid that it is: reflex edges, shells, genus, volume"},
     MODEL_OPTIONS,
 };
 
+command_run cmd_decompose;
 static const struct option decompose_options[] = {
     {"-o", "DIR|FILE",
      "write the pieces: an OFF file each, exact, one object each in FILE.obj, or a picture, FILE.png"},
@@ -58,6 +83,7 @@ static const struct option decompose_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_simplify;
 static const struct option simplify_options[] = {
     {"-o", "FILE", "write the polytope inside to FILE: .off, .obj, .stl, .ply or .svg"},
     {"--outer", "FILE", "write the one around, likewise"},
@@ -67,6 +93,7 @@ static const struct option simplify_options[] = {
     MODEL_OPTIONS,
 };
 
+command_run cmd_simulate;
 static const struct option simulate_options[] = {
     {"-o", "FILE", "write a page that plays the run back to FILE, .html"},
     {"--record", "FILE",
@@ -77,10 +104,12 @@ static const struct option simulate_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_replay;
 static const struct option replay_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_distance;
 static const struct option distance_options[] = {
     {"--quat", "x,y,z,w", "turn A by this quaternion, exactly as given, of any length but 0"},
     {"--axis", "x,y,z", "turn A about this axis, of any length but 0, ..."},
@@ -92,6 +121,7 @@ static const struct option distance_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_cgm;
 static const struct option cgm_options[] = {
     POSE_OPTIONS,
     {"--difference", NULL, "reflect P through the origin before it is turned"},
@@ -99,6 +129,7 @@ static const struct option cgm_options[] = {
     MODEL_OPTIONS,
 };
 
+command_run cmd_shape;
 static const struct option shape_options[] = {
     {"-o", "FILE", "write the model to FILE: .off, .obj, .stl, .ply or .svg"},
     {"--exact", NULL, "in .off: integers and a/b instead of doubles, which hold the same numbers"},
@@ -106,6 +137,7 @@ static const struct option shape_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_sum;
 static const struct option sum_options[] = {
     POSE_OPTIONS,
     {"--difference", NULL, "the sum of Q and the reflected, turned P: what P may be moved by to touch Q"},
@@ -119,6 +151,7 @@ static const struct option sum_options[] = {
     MODEL_OPTIONS,
 };
 
+command_run cmd_track;
 static const struct option track_options[] = {
     {"--steps", "N", "frames to a full turn (500)"},
     {"--frames", "N", "frames in all (1000)"},
@@ -139,6 +172,7 @@ static const struct option track_options[] = {
     MODEL_OPTIONS,
 };
 
+command_run cmd_query;
 static const struct option query_options[] = {
     POSE_OPTIONS,
     {"--translate", "x,y,z", "move P by this, after turning it"},
@@ -152,6 +186,7 @@ static const struct option query_options[] = {
     MODEL_OPTIONS,
 };
 
+command_run cmd_slice;
 static const struct option slice_options[] = {
     {"--axis", "x,y,z", "turn the robot about this axis, of any length but 0, ..."},
     {"--steps", "N", "... in so many equal turns"},
@@ -172,6 +207,7 @@ static const struct option slice_options[] = {
     MODEL_OPTIONS,
 };
 
+command_run cmd_configuration;
 static const struct option configuration_options[] = {
     {"--quat", "x,y,z,w", "the robot is turned by this quaternion, of any length but 0"},
     {"--axis", "x,y,z", "turned about this axis, of any length but 0, ..."},
@@ -185,6 +221,7 @@ static const struct option configuration_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_view;
 static const struct option view_options[] = {
     {"-o", "FILE",
      "what to make: .off, .obj, .stl or .ply, one difference; .svg, a contact sheet; .html, a page with a slider; "
@@ -197,213 +234,211 @@ static const struct option view_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_help;
 static const struct option help_options[] = {HELP_OPTION};
 
-const struct command command_table[COMMAND_COUNT] = {
-    [COMMAND_INFO] =
-        {
-            .name = "info",
-            .positional = {"MODEL"},
-            .required = 1,
-            .summary = "vertices, edges, facets of a model's exact convex hull, its bounds and volume, and what the "
-                       "model is before its hull is taken",
-            .options = info_options,
-            .examples = {{"info shape:icosahedron", "the counts, bounds and volume of a built-in model"}},
-        },
-    [COMMAND_CGM] =
-        {
-            .name = "cgm",
-            .positional = {"P", "Q"},
-            .required = 1,
-            .summary = "the cubical Gaussian map of P, turned, or of the sum of P and Q",
-            .details =
-                "Vertices, halfedges and faces of the six planar maps, their squares and outer faces included. Of two "
-                "models it is the overlay of their maps, which is the map of their sum.",
-            .options = cgm_options,
-            .examples = {{"cgm shape:cube shape:octahedron -o map.svg", "draw the map of a sum"}},
-        },
-    [COMMAND_SHAPE] =
-        {
-            .name = "shape",
-            .positional = {"NAME"},
-            .required = 0,
-            .summary = "write a built-in model to a file, or list all",
-            .details = "NAME may carry parameters, as in 'geodesic?level=4' or 'box?x=1&y=2&z=0.5'.",
-            .options = shape_options,
-            .examples = {{"shape --list", "the names and their parameters"},
-                         {"shape 'geodesic?level=4' -o sphere.off", "write a model"}},
-        },
-    [COMMAND_SUM] =
-        {
-            .name = "sum",
-            .positional = {"P", "Q"},
-            .required = 2,
-            .summary = "the Minkowski sum of P, turned, and Q",
-            .details = "Vertices, edges and facets are those of the sum; fv, vf and ee count its pairs of features "
-                       "(facet of P "
-                       "and vertex of Q, the reverse, an edge of each) as they are when every tie is settled.",
-            .options = sum_options,
-            .examples = {{"sum shape:cube shape:gs4 --axis 0,0,1 --angle 30 -o sum.off",
-                          "turn the cube and write the sum"},
-                         {"sum shape:cube shape:cube --quat 1,2,3,4 --exact -o sum.off", "the same in exact numbers"},
-                         {"sum shape:cube shape:cube --solid -o sum.off", "as solids, convex or not"}},
-        },
-    [COMMAND_TRACK] =
-        {
-            .name = "track",
-            .positional = {"P", "Q"},
-            .required = 2,
-            .summary = "keep the sum of P and Q up to date while P turns, and time it",
-            .details =
-                "Frame 0 is P as it stands; each frame turns it by 1/steps of a full turn. Times are of the sum's "
-                "pairing: one call that brings the sum to the frame's rotation. Rebuilds are timed on a sample of "
-                "frames in the same run.",
-            .options = track_options,
-            .examples = {{"track shape:cube shape:gs4 --frames 100 --verify", "hold every frame against a rebuilt sum"},
-                         {"track shape:cube shape:gs4 --frames 100 --plot times.svg --json", "draw the times"}},
-        },
-    [COMMAND_QUERY] =
-        {
-            .name = "query",
-            .positional = {"P", "Q"},
-            .required = 2,
-            .summary = "overlap, distance and depth of P, turned and moved, against Q",
-            .details =
-                "The state, outside, boundary or inside, is exact; numbers are doubles. The witness names the features "
-                "that attain the answer: v, e or f of P, then of Q, and their indices. Moving P by depth times normal "
-                "parts the bodies.",
-            .options = query_options,
-            .examples = {{"query shape:cube shape:cube --translate 3,0,0", "the distance of two cubes"},
-                         {"query shape:cube shape:gs4 --translate 3,0,0 --cast -4,0,0", "also when the cube touches"}},
-        },
-    [COMMAND_SLICE] =
-        {
-            .name = "slice",
-            .positional = {"ROBOT", "OBSTACLE..."},
-            .required = 2,
-            .summary = "the differences of a robot and obstacles at every rotation of a grid, in one HDF5 file",
-            .details =
-                "A ROBOT or OBSTACLE is a model, an OBJ file of several objects, or a folder of models; each object or "
-                "model is a convex piece. Every pair of pieces is followed from rotation to rotation, and the file "
-                "holds what changes. Until all slices are made they stand in FILE.part0: a run that was ended in any "
-                "way goes on with --resume. Started by mpirun, where "
-                "the build has MPI, processes share the work, each with a part of its own.",
-            .options = slice_options,
-            .examples = {{"slice shape:cube shape:gs4 --axis 0,0,1 --steps 500 -o slices.h5",
-                          "the cube about one axis"},
-                         {"slice shape:cube shape:gs2 --grid hopf --level 2 --dry-run",
-                          "what all rotations, 15 degrees apart, would take"}},
-        },
-    [COMMAND_CONFIGURATION] =
-        {
-            .name = "configuration",
-            .positional = {"FILE.h5"},
-            .required = 1,
-            .summary = "whether a pose of the robot is free or blocked, by the slices of a file",
-            .details =
-                "Free: no piece of the robot overlaps or touches an obstacle. Blocked: some piece does. Unknown: "
-                "the slices prove neither. At the rotation of a slice the state, outside, boundary or inside, is "
-                "exact.",
-            .options = configuration_options,
-            .examples = {{"configuration slices.h5 --quat 0,0,1,1 --translate 3,0,0", "one pose"},
-                         {"configuration slices.h5 --translate 3,0,0 --to -3,0,0", "a motion, where it is not free"},
-                         {"configuration slices.h5 --batch poses.csv -o answers.csv", "many poses"}},
-        },
-    [COMMAND_VIEW] =
-        {
-            .name = "view",
-            .positional = {"FILE.h5"},
-            .required = 1,
-            .summary = "slices of a file as a mesh, a contact sheet, a page with a slider, or a file for ParaView",
-            .details = "A sheet and a page show the differences of all pairs of pieces, what is behind others hidden. "
-                       "A file of "
-                       "VTK holds a partition and a step for each slice, with the pair and the kind of each facet.",
-            .options = view_options,
-            .examples = {{"view slices.h5 -o sheet.svg", "a grid of small views"},
-                         {"view slices.h5 -o slices.html", "a page that needs nothing else"},
-                         {"view slices.h5 --slice 17 --pair 0,0 -o one.ply", "one difference as a mesh"}},
-        },
-    [COMMAND_DECOMPOSE] =
-        {
-            .name = "decompose",
-            .positional = {"MODEL"},
-            .required = 1,
-            .summary = "divide a solid into convex pieces, exactly",
-            .details = "The pieces have disjoint insides, and the solid is their union. They are cut along planes of "
-                       "facets, or of vertical walls, and joined where that leaves them convex. With --pieces or "
-                       "--tolerance they contain the solid: pairs are replaced by their hulls, and how far these reach "
-                       "out is proven and printed.",
-            .options = decompose_options,
-            .examples = {{"decompose shape:cube -o pieces.obj", "one object a piece"},
-                         {"decompose shape:cube --tolerance 0.01 --json", "fewer, and how far they reach out"}},
-        },
-    [COMMAND_SIMPLIFY] =
-        {
-            .name = "simplify",
-            .positional = {"MODEL"},
-            .required = 1,
-            .summary = "a polytope of fewer vertices inside a model, and one around it",
-            .details = "Both with a proven bound on how far they are from the model. The inner one has vertices of the "
-                       "model, the outer one planes of its facets.",
-            .options = simplify_options,
-            .examples = {{"simplify shape:geodesic --vertices 30 -o inner.off --outer outer.off", "by vertices"},
-                         {"simplify shape:geodesic --error 0.01", "how many vertices an error takes"}},
-        },
-    [COMMAND_SIMULATE] =
-        {
-            .name = "simulate",
-            .positional = {"SCENE.json"},
-            .required = 1,
-            .summary = "run a scene of rigid bodies, as a page that plays it back",
-            .details = "The scene says shapes, by model or by points, and bodies; docs/scenes.md has its keys, "
-                       "examples/scenes has scenes. Files of models are looked for from its folder on. Steps are of "
-                       "1/240 s, and a run is the same on every machine.",
-            .options = simulate_options,
-            .examples = {{"simulate stack.json -o stack.html", "a page that needs nothing else"},
-                         {"simulate pile.json --seconds 5 --record pile.bin", "poses for a replay"}},
-        },
-    [COMMAND_REPLAY] =
-        {
-            .name = "replay",
-            .positional = {"FILE"},
-            .required = 1,
-            .summary = "run a history of calls on a sum, a pair or a scene, with hashes of what they give",
-            .details = "A program writes the file with pir_history_write. The same file gives the same hashes on every "
-                       "machine: where they differ from those of another build, the first line that does tells the "
-                       "call. docs/replay.md has the format.",
-            .options = replay_options,
-            .examples = {{"replay wrong.history", "a line for each call, and a hash of all"}},
-        },
-    [COMMAND_DISTANCE] =
-        {
-            .name = "distance",
-            .positional = {"A", "B"},
-            .required = 2,
-            .summary = "the nearest or farthest triangles of two meshes as they are, not their hulls",
-            .details = "A and B are models whose facets are surfaces, open or closed; facets of more than three "
-                       "corners are cut into triangles, which count in the order of the file. The state is apart or "
-                       "meet, or, of closed meshes, which of them has a part within the other. Which triangles they "
-                       "are is exact; of equals the lowest numbers are told.",
-            .options = distance_options,
-            .examples = {{"distance shape:cube shape:gs4 --translate 3,0,0", "how far apart two meshes are"},
-                         {"distance shape:cube shape:cube --translate 3,0,0 --within 2 --json",
-                          "with the triangles at most 2 apart"}},
-        },
-    [COMMAND_HELP] =
-        {
-            .name = "help",
-            .positional = {"SUBCOMMAND"},
-            .required = 0,
-            .summary = "what the command does, or a subcommand",
-            .options = help_options,
-            .examples = {{"help sum", "the same as pirouette sum --help"}},
-        },
+const struct command command_table[] = {
+    {
+        .name = "info",
+        .run = CORE(cmd_info),
+        .positional = {"MODEL"},
+        .required = 1,
+        .summary = "vertices, edges, facets of a model's exact convex hull, its bounds and volume, and what the "
+                   "model is before its hull is taken",
+        .options = info_options,
+        .examples = {{"info shape:icosahedron", "the counts, bounds and volume of a built-in model"}},
+    },
+    {
+        .name = "cgm",
+        .run = CORE(cmd_cgm),
+        .positional = {"P", "Q"},
+        .required = 1,
+        .summary = "the cubical Gaussian map of P, turned, or of the sum of P and Q",
+        .details =
+            "Vertices, halfedges and faces of the six planar maps, their squares and outer faces included. Of two "
+            "models it is the overlay of their maps, which is the map of their sum.",
+        .options = cgm_options,
+        .examples = {{"cgm shape:cube shape:octahedron -o map.svg", "draw the map of a sum"}},
+    },
+    {
+        .name = "shape",
+        .run = CORE(cmd_shape),
+        .positional = {"NAME"},
+        .required = 0,
+        .summary = "write a built-in model to a file, or list all",
+        .details = "NAME may carry parameters, as in 'geodesic?level=4' or 'box?x=1&y=2&z=0.5'.",
+        .options = shape_options,
+        .examples = {{"shape --list", "the names and their parameters"},
+                     {"shape 'geodesic?level=4' -o sphere.off", "write a model"}},
+    },
+    {
+        .name = "sum",
+        .run = CORE(cmd_sum),
+        .positional = {"P", "Q"},
+        .required = 2,
+        .summary = "the Minkowski sum of P, turned, and Q",
+        .details = "Vertices, edges and facets are those of the sum; fv, vf and ee count its pairs of features "
+                   "(facet of P "
+                   "and vertex of Q, the reverse, an edge of each) as they are when every tie is settled.",
+        .options = sum_options,
+        .examples = {{"sum shape:cube shape:gs4 --axis 0,0,1 --angle 30 -o sum.off", "turn the cube and write the sum"},
+                     {"sum shape:cube shape:cube --quat 1,2,3,4 --exact -o sum.off", "the same in exact numbers"},
+                     {"sum shape:cube shape:cube --solid -o sum.off", "as solids, convex or not"}},
+    },
+    {
+        .name = "track",
+        .run = CORE(cmd_track),
+        .positional = {"P", "Q"},
+        .required = 2,
+        .summary = "keep the sum of P and Q up to date while P turns, and time it",
+        .details = "Frame 0 is P as it stands; each frame turns it by 1/steps of a full turn. Times are of the sum's "
+                   "pairing: one call that brings the sum to the frame's rotation. Rebuilds are timed on a sample of "
+                   "frames in the same run.",
+        .options = track_options,
+        .examples = {{"track shape:cube shape:gs4 --frames 100 --verify", "hold every frame against a rebuilt sum"},
+                     {"track shape:cube shape:gs4 --frames 100 --plot times.svg --json", "draw the times"}},
+    },
+    {
+        .name = "query",
+        .run = CORE(cmd_query),
+        .positional = {"P", "Q"},
+        .required = 2,
+        .summary = "overlap, distance and depth of P, turned and moved, against Q",
+        .details =
+            "The state, outside, boundary or inside, is exact; numbers are doubles. The witness names the features "
+            "that attain the answer: v, e or f of P, then of Q, and their indices. Moving P by depth times normal "
+            "parts the bodies.",
+        .options = query_options,
+        .examples = {{"query shape:cube shape:cube --translate 3,0,0", "the distance of two cubes"},
+                     {"query shape:cube shape:gs4 --translate 3,0,0 --cast -4,0,0", "also when the cube touches"}},
+    },
+    {
+        .name = "slice",
+        .run = SLICES(cmd_slice),
+        .positional = {"ROBOT", "OBSTACLE..."},
+        .required = 2,
+        .summary = "the differences of a robot and obstacles at every rotation of a grid, in one HDF5 file",
+        .details =
+            "A ROBOT or OBSTACLE is a model, an OBJ file of several objects, or a folder of models; each object or "
+            "model is a convex piece. Every pair of pieces is followed from rotation to rotation, and the file "
+            "holds what changes. Until all slices are made they stand in FILE.part0: a run that was ended in any "
+            "way goes on with --resume. Started by mpirun, where "
+            "the build has MPI, processes share the work, each with a part of its own.",
+        .options = slice_options,
+        .examples = {{"slice shape:cube shape:gs4 --axis 0,0,1 --steps 500 -o slices.h5", "the cube about one axis"},
+                     {"slice shape:cube shape:gs2 --grid hopf --level 2 --dry-run",
+                      "what all rotations, 15 degrees apart, would take"}},
+    },
+    {
+        .name = "configuration",
+        .run = SLICES(cmd_configuration),
+        .positional = {"FILE.h5"},
+        .required = 1,
+        .summary = "whether a pose of the robot is free or blocked, by the slices of a file",
+        .details = "Free: no piece of the robot overlaps or touches an obstacle. Blocked: some piece does. Unknown: "
+                   "the slices prove neither. At the rotation of a slice the state, outside, boundary or inside, is "
+                   "exact.",
+        .options = configuration_options,
+        .examples = {{"configuration slices.h5 --quat 0,0,1,1 --translate 3,0,0", "one pose"},
+                     {"configuration slices.h5 --translate 3,0,0 --to -3,0,0", "a motion, where it is not free"},
+                     {"configuration slices.h5 --batch poses.csv -o answers.csv", "many poses"}},
+    },
+    {
+        .name = "view",
+        .run = SLICES(cmd_view),
+        .positional = {"FILE.h5"},
+        .required = 1,
+        .summary = "slices of a file as a mesh, a contact sheet, a page with a slider, or a file for ParaView",
+        .details = "A sheet and a page show the differences of all pairs of pieces, what is behind others hidden. "
+                   "A file of "
+                   "VTK holds a partition and a step for each slice, with the pair and the kind of each facet.",
+        .options = view_options,
+        .examples = {{"view slices.h5 -o sheet.svg", "a grid of small views"},
+                     {"view slices.h5 -o slices.html", "a page that needs nothing else"},
+                     {"view slices.h5 --slice 17 --pair 0,0 -o one.ply", "one difference as a mesh"}},
+    },
+    {
+        .name = "decompose",
+        .run = CORE(cmd_decompose),
+        .positional = {"MODEL"},
+        .required = 1,
+        .summary = "divide a solid into convex pieces, exactly",
+        .details = "The pieces have disjoint insides, and the solid is their union. They are cut along planes of "
+                   "facets, or of vertical walls, and joined where that leaves them convex. With --pieces or "
+                   "--tolerance they contain the solid: pairs are replaced by their hulls, and how far these reach "
+                   "out is proven and printed.",
+        .options = decompose_options,
+        .examples = {{"decompose shape:cube -o pieces.obj", "one object a piece"},
+                     {"decompose shape:cube --tolerance 0.01 --json", "fewer, and how far they reach out"}},
+    },
+    {
+        .name = "simplify",
+        .run = CORE(cmd_simplify),
+        .positional = {"MODEL"},
+        .required = 1,
+        .summary = "a polytope of fewer vertices inside a model, and one around it",
+        .details = "Both with a proven bound on how far they are from the model. The inner one has vertices of the "
+                   "model, the outer one planes of its facets.",
+        .options = simplify_options,
+        .examples = {{"simplify shape:geodesic --vertices 30 -o inner.off --outer outer.off", "by vertices"},
+                     {"simplify shape:geodesic --error 0.01", "how many vertices an error takes"}},
+    },
+    {
+        .name = "simulate",
+        .run = CORE(cmd_simulate),
+        .positional = {"SCENE.json"},
+        .required = 1,
+        .summary = "run a scene of rigid bodies, as a page that plays it back",
+        .details = "The scene says shapes, by model or by points, and bodies; docs/scenes.md has its keys, "
+                   "examples/scenes has scenes. Files of models are looked for from its folder on. Steps are of "
+                   "1/240 s, and a run is the same on every machine.",
+        .options = simulate_options,
+        .examples = {{"simulate stack.json -o stack.html", "a page that needs nothing else"},
+                     {"simulate pile.json --seconds 5 --record pile.bin", "poses for a replay"}},
+    },
+    {
+        .name = "replay",
+        .run = CORE(cmd_replay),
+        .positional = {"FILE"},
+        .required = 1,
+        .summary = "run a history of calls on a sum, a pair or a scene, with hashes of what they give",
+        .details = "A program writes the file with pir_history_write. The same file gives the same hashes on every "
+                   "machine: where they differ from those of another build, the first line that does tells the "
+                   "call. docs/replay.md has the format.",
+        .options = replay_options,
+        .examples = {{"replay wrong.history", "a line for each call, and a hash of all"}},
+    },
+    {
+        .name = "distance",
+        .run = CORE(cmd_distance),
+        .positional = {"A", "B"},
+        .required = 2,
+        .summary = "the nearest or farthest triangles of two meshes as they are, not their hulls",
+        .details = "A and B are models whose facets are surfaces, open or closed; facets of more than three "
+                   "corners are cut into triangles, which count in the order of the file. The state is apart or "
+                   "meet, or, of closed meshes, which of them has a part within the other. Which triangles they "
+                   "are is exact; of equals the lowest numbers are told.",
+        .options = distance_options,
+        .examples = {{"distance shape:cube shape:gs4 --translate 3,0,0", "how far apart two meshes are"},
+                     {"distance shape:cube shape:cube --translate 3,0,0 --within 2 --json",
+                      "with the triangles at most 2 apart"}},
+    },
+    {
+        .name = "help",
+        .run = CORE(cmd_help),
+        .positional = {"SUBCOMMAND"},
+        .required = 0,
+        .summary = "what the command does, or a subcommand",
+        .options = help_options,
+        .examples = {{"help sum", "the same as pirouette sum --help"}},
+    },
+    {.name = NULL},
 };
 
 const struct command *command_find(const char *name) {
-    for (size_t i = 0; i < COMMAND_COUNT; i++)
-        if (strcmp(command_table[i].name, name) == 0)
-            return &command_table[i];
+    for (const struct command *command = command_table; command->name; command++)
+        if (strcmp(command->name, name) == 0)
+            return command;
     return NULL;
 }
 

@@ -56,8 +56,8 @@ void help_print(void) {
     printf("usage: pirouette SUBCOMMAND [ARGUMENT...]\n\n");
     print_wrapped(command_about, 0, 0);
     printf("\nsubcommands:\n");
-    for (size_t i = 0; i < COMMAND_COUNT; i++)
-        print_entry(command_table[i].name, command_table[i].summary, SUMMARY_INDENT);
+    for (const struct command *command = command_table; command->name; command++)
+        print_entry(command->name, command->summary, SUMMARY_INDENT);
     print_options(command_options);
     printf("\npirouette help SUBCOMMAND tells more.\n\n");
     print_wrapped(command_models, 0, 0);

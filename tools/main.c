@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The `pirouette` command: finds the subcommand in the table of command.h and hands it its arguments. What needs slices
- * runs in another program (runs.h).
+ * runs in another program (command_table.c).
  */
 #include <fcntl.h>
 #include <signal.h>
@@ -17,7 +17,6 @@
 #include "help.h"
 #include "interrupt.h"
 #include "message.h"
-#include "runs.h"
 
 static int run_command(const struct command *command, int argc, char *const *argv) {
     struct args args;
@@ -27,7 +26,7 @@ static int run_command(const struct command *command, int argc, char *const *arg
         help_print_command(command);
         return EXIT_DONE;
     }
-    return command_runs[command - command_table](&args);
+    return command->run(&args);
 }
 
 /* Whether `text` is the option of this name, which stands before a subcommand. */
@@ -52,7 +51,7 @@ static int run(int argc, char *const *argv) {
     const struct command *command = command_find(argv[1]);
     if (!command)
         return complain("unknown %s '%s'; see pirouette --help", argv[1][0] == '-' ? "option" : "subcommand", argv[1]);
-    return command_runs[command - command_table] ? run_command(command, argc - 2, argv + 2) : hand_over(argv);
+    return command->run ? run_command(command, argc - 2, argv + 2) : hand_over(argv);
 }
 
 /* Sees to it that no file that is opened gets the number of a standard stream that was closed before the start. */

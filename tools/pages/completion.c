@@ -65,8 +65,7 @@ static void print_takes(FILE *file) {
     fputs("_pirouette_takes() {\n    options=() arguments=()\n    case $1 in\n    '')", file);
     print_options(file, command_options);
     fputs(" ;;\n", file);
-    for (size_t i = 0; i < COMMAND_COUNT; i++) {
-        const struct command *command = &command_table[i];
+    for (const struct command *command = command_table; command->name; command++) {
         fprintf(file, "    %s)", command->name);
         print_options(file, command->options);
         fputs(" arguments=(", file);
@@ -81,12 +80,12 @@ static void print_takes(FILE *file) {
    nothing where it has none. */
 static void print_values(FILE *file) {
     fputs("_pirouette_value() {\n    value=\n    case \"$1 $2\" in\n", file);
-    for (size_t i = 0; i < COMMAND_COUNT; i++) {
-        for (const struct option *option = command_table[i].options; option->name; option++) {
+    for (const struct command *command = command_table; command->name; command++) {
+        for (const struct option *option = command->options; option->name; option++) {
             if (!option->value)
                 continue;
             fputs("    ", file);
-            print_names(file, option, command_table[i].name);
+            print_names(file, option, command->name);
             fputs(") value='", file);
             print_value_kind(file, option->value);
             fputs("' ;;\n", file);
@@ -112,8 +111,8 @@ bool page_write_completion(FILE *file, const char *script) {
           "# The completion of bash for pirouette, made from the table that `pirouette help` prints.\n\n"
           "_pirouette_subcommands='",
           file);
-    for (size_t i = 0; i < COMMAND_COUNT; i++)
-        fprintf(file, "%s%s", i ? " " : "", command_table[i].name);
+    for (const struct command *command = command_table; command->name; command++)
+        fprintf(file, "%s%s", command > command_table ? " " : "", command->name);
     fputs("'\n\n", file);
     print_takes(file);
     print_values(file);

@@ -109,11 +109,11 @@ static void write_general(FILE *file) {
     fputc('\n', file);
     print_paragraph(file, command_models);
     fputs(".SH SUBCOMMANDS\n", file);
-    for (size_t i = 0; i < COMMAND_COUNT; i++) {
+    for (const struct command *command = command_table; command->name; command++) {
         fputs(".TP\n\\fBpirouette\\-", file);
-        print_text(file, command_table[i].name);
+        print_text(file, command->name);
         fputs("\\fR(1)\n", file);
-        print_text(file, command_table[i].summary);
+        print_text(file, command->summary);
         fputc('\n', file);
     }
     print_options(file, command_options);
