@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-/* The build takes the readers, src/polytope/read/read_NAME.c, from the lines that begin with FORMAT. */
+/* The build takes their readers, files of src/polytope/read, from the lines that begin with FORMAT. */
 /**
  * The formats that are read, by the endings of their files: PIR_READ_FORMATS(X) is X(off) X(obj) and so on.
  */

@@ -17,6 +17,7 @@
 
 #include "support/bodies.h"
 #include "support/memory.h"
+#include "support/queries.h"
 
 static const char l_shape[] =
     "OFF\n12 8 0\n0 0 0\n3 0 0\n3 1 0\n1 1 0\n1 3 0\n0 3 0\n0 0 1\n3 0 1\n3 1 1\n1 1 1\n1 3 1\n"
@@ -193,18 +194,15 @@ static pir_status scenes(struct run *run) {
 
 static pir_status ask_sum(pir_query *query) {
     pir_query_input input = pir_query_input_default();
-    pir_escape escapes[4];
-    pir_query_result result;
-    size_t count = 0;
-    input.translation = (pir_vec3){0.25, 0.125, 0};
-    pir_status status = pir_query_escapes(query, &input, 1, 4, escapes, &count);
-    if (status == PIR_OK)
-        status = pir_query_directional_depth(query, &input, (pir_vec3){1, 2, 3}, &result);
-    if (status == PIR_OK)
-        status = pir_query_largest_distance(query, &input, &result);
-    input.translation = (pir_vec3){9, 1, 0};
-    if (status == PIR_OK)
-        status = pir_query_directional_distance(query, &input, (pir_vec3){-1, 0, 0}, &result);
+    const pir_vec3 places[2] = {{0.25, 0.125, 0}, {9, 1, 0}};
+    pir_status status = PIR_OK;
+    for (int i = 0; i < 2; i++) {
+        input.translation = places[i];
+        const test_question question = {query, &input, NULL, {i ? -1 : 1, 0.1, 0.2}};
+        test_answer answer;
+        for (const test_query_kind *kind = test_query_kinds; status == PIR_OK && kind->name; kind++)
+            status = kind->ask(&question, &answer);
+    }
     return status;
 }
 

@@ -16,6 +16,7 @@
 #include "query/box_scene.h"
 #include "support/bodies.h"
 #include "support/memory.h"
+#include "support/queries.h"
 
 static void radii_and_cutoff_stay_where_they_are_asked(void **state) {
     (void)state;
@@ -90,8 +91,9 @@ static void nothing_allocates_after_the_first_query(void **state) {
         size_t count;
         assert_int_equal(pir_query_signed_distance(query, &input, &cache, &r), PIR_OK);
         assert_int_equal(pir_query_manifold(query, &input, &r, 64, contacts, &count), PIR_OK);
-        assert_int_equal(pir_query_overlap(query, &input, &cache, &r), PIR_OK);
-        assert_int_equal(pir_query_penetration(query, &input, &cache, &r), PIR_OK);
+        test_answer answer;
+        for (const test_query_kind *kind = test_query_kinds; kind->name; kind++)
+            assert_int_equal(kind->ask(&(test_question){query, &input, &cache, d}, &answer), PIR_OK);
         pir_vec3 many[3] = {d, input.translation, {0, 0, 0}};
         double depths[3];
         assert_int_equal(pir_query_batch_depths(query, many, 3, depths, NULL), PIR_OK);

@@ -12,6 +12,7 @@
 #include <pirouette/query.h>
 
 #include "query/query_of.h"
+#include "support/queries.h"
 
 static const pir_quat still = {0, 0, 0, 1};
 static const pir_vec3 right = {1, 0, 0};
@@ -20,22 +21,6 @@ struct scene {
     pir_polytope *cube;
     pir_sum *sum;
     pir_query *query;
-};
-
-/* What a call is asked with. */
-struct question {
-    pir_query *query;
-    const pir_query_input *input;
-    pir_vec3 direction;
-    bool without_result;
-};
-
-/* All that calls put out. */
-struct results {
-    pir_query_result result;
-    pir_cast_result cast;
-    pir_escape escape;
-    size_t count;
 };
 
 static struct scene make(void) {
@@ -53,40 +38,15 @@ static void clear(struct scene *scene) {
     pir_polytope_release(scene->cube);
 }
 
-enum { OVERLAP, DISTANCE, SIGNED_DISTANCE, PENETRATION, LARGEST, ESCAPES, ALONG_DEPTH, ALONG_DISTANCE, CAST, CALLS };
-
-static pir_status call(int which, const struct question *q, struct results *ret) {
-    pir_query_result *result = q->without_result ? NULL : &ret->result;
-    switch (which) {
-    case OVERLAP:
-        return pir_query_overlap(q->query, q->input, NULL, result);
-    case DISTANCE:
-        return pir_query_distance(q->query, q->input, NULL, result);
-    case SIGNED_DISTANCE:
-        return pir_query_signed_distance(q->query, q->input, NULL, result);
-    case PENETRATION:
-        return pir_query_penetration(q->query, q->input, NULL, result);
-    case LARGEST:
-        return pir_query_largest_distance(q->query, q->input, result);
-    case ESCAPES:
-        return pir_query_escapes(q->query, q->input, 0, 1, q->without_result ? NULL : &ret->escape, &ret->count);
-    case ALONG_DEPTH:
-        return pir_query_directional_depth(q->query, q->input, q->direction, result);
-    case ALONG_DISTANCE:
-        return pir_query_directional_distance(q->query, q->input, q->direction, result);
-    default:
-        return pir_query_cast(q->query, q->input, q->direction, q->without_result ? NULL : &ret->cast);
-    }
-}
-
-static void expect_refusal(int which, const struct question *q, pir_status right_status, int number) {
-    struct results results, before;
-    memset(&results, 0x5a, sizeof results);
-    before = results;
-    pir_status status = call(which, q, &results);
-    expect(status == right_status, "call %d, input %d: status %d, not %d", which, number, (int)status,
+/* The call ends with this status, and changes no result. */
+static void expect_refusal(const test_query_kind *kind, const test_question *q, pir_status right_status, int number) {
+    test_answer answer, before;
+    memset(&answer, 0x5a, sizeof answer);
+    before = answer;
+    pir_status status = kind->ask(q, &answer);
+    expect(status == right_status, "%s, input %d: status %d, not %d", kind->name, number, (int)status,
            (int)right_status);
-    assert_memory_equal(&results, &before, sizeof before);
+    assert_memory_equal(&answer, &before, sizeof before);
 }
 
 static void every_call_refuses_what_is_no_placement(void **state) {
@@ -110,14 +70,15 @@ static void every_call_refuses_what_is_no_placement(void **state) {
         {{{0, 0, -1e200}, 0, 0, HUGE_VAL, 0}, PIR_ERR_LIMIT},
     };
     pir_query_input good = pir_query_input_default();
-    for (int which = 0; which < CALLS; which++) {
+    for (const test_query_kind *kind = test_query_kinds; kind->name; kind++) {
         for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-            expect_refusal(which, &(struct question){s.query, &cases[i].input, right, false}, cases[i].status, (int)i);
-        expect_refusal(which, &(struct question){NULL, &good, right, false}, PIR_ERR_ARGUMENT, -1);
-        expect_refusal(which, &(struct question){s.query, NULL, right, false}, PIR_ERR_ARGUMENT, -2);
-        expect_refusal(which, &(struct question){s.query, &good, right, true}, PIR_ERR_ARGUMENT, -3);
-        struct results results;
-        assert_int_equal(call(which, &(struct question){s.query, &good, right, false}, &results), PIR_OK);
+            expect_refusal(kind, &(test_question){s.query, &cases[i].input, NULL, right}, cases[i].status, (int)i);
+        expect_refusal(kind, &(test_question){NULL, &good, NULL, right}, PIR_ERR_ARGUMENT, -1);
+        expect_refusal(kind, &(test_question){s.query, NULL, NULL, right}, PIR_ERR_ARGUMENT, -2);
+        const test_question question = {s.query, &good, NULL, right};
+        assert_int_equal(kind->ask(&question, NULL), PIR_ERR_ARGUMENT);
+        test_answer answer;
+        assert_int_equal(kind->ask(&question, &answer), PIR_OK);
     }
     clear(&s);
 }
@@ -130,17 +91,18 @@ static void directions_have_a_length_and_are_finite(void **state) {
     places[1].translation = (pir_vec3){2, 0, 0};
     places[2].translation = (pir_vec3){5, 0, 0};
     for (int i = 0; i < 3; i++) {
-        for (int which = ALONG_DEPTH; which <= CAST; which++)
-            for (int k = 0; k < 3; k++)
-                expect_refusal(which, &(struct question){s.query, &places[i], wrong[k], false}, PIR_ERR_NOT_FINITE, k);
-        struct question none = {s.query, &places[i], {0, -0.0, 0}, false};
-        expect_refusal(ALONG_DEPTH, &none, PIR_ERR_ARGUMENT, 3);
-        expect_refusal(ALONG_DISTANCE, &none, PIR_ERR_ARGUMENT, 3);
+        const test_question none = {s.query, &places[i], NULL, {0, -0.0, 0}};
+        for (const test_query_kind *kind = test_query_kinds; kind->name; kind++) {
+            for (int k = 0; k < 3 && kind->traits & TEST_DIRECTED; k++)
+                expect_refusal(kind, &(test_question){s.query, &places[i], NULL, wrong[k]}, PIR_ERR_NOT_FINITE, k);
+            if (kind->traits & TEST_LENGTH)
+                expect_refusal(kind, &none, PIR_ERR_ARGUMENT, 3);
+        }
         // a motion may be none
-        struct results results;
+        pir_cast_result cast;
         const pir_cast_outcome outcome[3] = {PIR_CAST_START_INSIDE, PIR_CAST_RECEDING, PIR_CAST_AT_REST};
-        assert_int_equal(call(CAST, &none, &results), PIR_OK);
-        assert_int_equal(results.cast.outcome, outcome[i]);
+        assert_int_equal(pir_query_cast(s.query, none.input, none.direction, &cast), PIR_OK);
+        assert_int_equal(cast.outcome, outcome[i]);
     }
     clear(&s);
 }
