@@ -25,7 +25,7 @@ static const struct panel {
     {2, 1, {0, 0, -1}, {0, 1, 0}}, {1, 0, {1, 0, 0}, {0, 0, -1}}, {1, 1, {1, 0, 0}, {0, 1, 0}},
 };
 
-/* What colours say: whose feature it is. */
+/* The owner of a feature. Each has a colour. */
 enum owner { NOBODY, OF_P, OF_Q, OF_OTHER, OF_SEVERAL };
 static const char *const colours[] = {"#b8b8b8", "#d22f27", "#2456c8", "#2e8b57", "#8a3ba8"};
 

@@ -10,7 +10,7 @@
 #include "json.h"
 #include "message.h"
 
-/* What is told of a run; `json` is NULL where lines are printed. */
+/* The output of a run; `json` is NULL where lines are printed. */
 struct run {
     struct json *json;
     cJSON *steps;

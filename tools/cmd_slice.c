@@ -24,7 +24,7 @@
 
 static const char *const grid_names[] = {"axis", "hopf", "list"};
 
-/* What a run is made of, and how far it is. */
+/* The objects of a run, and how far it is. */
 struct slicing {
     const struct args *args;
     struct pieces robot, obstacles;

@@ -68,7 +68,7 @@ static pir_status compute_by_cgm(const struct request *request, pir_polytope *p,
     return status;
 }
 
-/* What stands in `outcome` after a failure is to be released like the rest. */
+/* Fills `outcome`. Its objects are to be released also after a failure. */
 static pir_status compute(const struct request *request, pir_polytope *p, pir_polytope *q, struct outcome *outcome) {
     int64_t start = clock_now();
     pir_status status = pir_sum_create(p, q, request->rotation, &request->options, &outcome->sum);

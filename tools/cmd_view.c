@@ -30,7 +30,7 @@ struct request {
     struct planar planar;
 };
 
-/* What the ending of the path stands for. */
+/* Reads what to make from the ending of the path. */
 static bool read_kind(const struct args *args, struct request *request) {
     static const struct {
         const char *ending;

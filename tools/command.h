@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a subcommand is: its name, its arguments, its text. All of them stand in one table, command_table.c. The parser
+ * A subcommand: its name, its arguments, its text. All subcommands stand in one table, command_table.c. The parser
  * of arguments, `--help`, the manual pages and the completion of shells read that table, so all of them agree. A
  * subcommand runs in a cmd_*.c of its own.
  */
@@ -48,7 +48,7 @@ extern const struct command command_table[];
 /* The options that stand before a subcommand. */
 extern const struct option command_options[];
 
-/* What the command does, what its models are, what its exit status means. */
+/* Texts on the command: its purpose, its models, its exit status. */
 extern const char command_about[], command_models[], command_exit[];
 
 /* Whether a positional argument of this name may be given more than once. */

@@ -64,8 +64,8 @@ bool output_ends_in(const char *path, const char *ending) {
 }
 
 /*
- * What `path` leads to when links are followed, whether it is there or not, to be freed. NULL, with errno set, for a
- * circle.
+ * The path at the end of the links that begin at `path`, to be freed; nothing need be there. NULL, with errno set, for
+ * a circle.
  */
 static char *follow_links(const char *path) {
     char next[PATH_SIZE], *target = strdup(path);

@@ -5,10 +5,10 @@
 
 #include "command.h"
 
-/* What the command is, with a line for each subcommand. */
+/* Prints the general help, with a line for each subcommand. */
 void help_print(void);
 
-/* All of one subcommand. */
+/* Prints the help of one subcommand. */
 void help_print_command(const struct command *command);
 
 #endif

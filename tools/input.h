@@ -8,7 +8,7 @@
 
 #include <pirouette/io.h>
 
-/* What stands for standard input in complaints. */
+/* The name of standard input in complaints. */
 #define INPUT_NAME "standard input"
 
 /* Whether `path` is "-". */

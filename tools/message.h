@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is told: lines on standard output, and the one line on stderr that says what went wrong, where and why. */
+/* Messages: lines on standard output, and the one line on stderr that says what went wrong, where and why. */
 #ifndef TOOLS_MESSAGE_H
 #define TOOLS_MESSAGE_H
 

@@ -68,7 +68,7 @@ static size_t point_of(const char *corner, const struct walk *walk, size_t all) 
     return number > 0 && (size_t)number <= all ? (size_t)number : 0;
 }
 
-/* What is put together. */
+/* The text of one object, as it is put together. */
 struct output {
     FILE *stream;
     uint32_t *as; /* per point: its number in the object, or 0 */

@@ -21,7 +21,7 @@
 #define BOTTOM  58
 #define COLUMNS 400
 
-/* What frames that share a column have in common. */
+/* The numbers of all frames that share a column. */
 struct column {
     double frame, least, median, most;
 };

@@ -37,7 +37,7 @@ struct batch {
     double seconds;
 };
 
-/* What stands between commas, blanks around it left out. */
+/* The text between two commas, without the blanks around it. */
 struct field {
     const char *text;
     size_t length;

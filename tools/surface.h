@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a model is before its convex hull is taken, as every subcommand that takes models reports it. */
+/* The surface of a model before its convex hull is taken, as every subcommand with models reports it. */
 #ifndef TOOLS_SURFACE_H
 #define TOOLS_SURFACE_H
 

@@ -202,8 +202,20 @@ def check_marks(tree):
                 yield Breach("marks", name, number, "the reference shows a comment that begins with /**<, not this one")
 
 
+# Rooms whose comments are being rewritten.
+OLD_COMMENTS = ("src/query/", "src/pair/")
+
+
+def check_comments(tree):
+    """A comment of src and tools names its noun: none begins with "What" or "The same"."""
+    for name, text in tree.code("src/", "tools/").items():
+        for number, line in enumerate(text.split("\n"), 1):
+            if re.match(r"\s*/?\*+ (?:What|The same)\b", line) and not name.startswith(OLD_COMMENTS):
+                yield Breach("comments", name, number, "the comment begins with no noun")
+
+
 CHECKS = (check_rooms, check_arrows, check_declares, check_lines, check_parameters, check_names, check_types,
-          check_marks)
+          check_marks, check_comments)
 
 
 def breaches(root):

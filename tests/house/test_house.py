@@ -152,6 +152,13 @@ class Planted(unittest.TestCase):
                 end = "};" if text.endswith("{") else ""
                 self.planted("src/low/kept_too.h", lines("", text, end), "src/low/kept_too.h:2: types")
 
+    def test_comment_without_a_noun(self):
+        for text in ("/* What is left. */", "/*", "/** The same for Q. */", "    /* The same", "/*\n * What is left."):
+            with self.subTest(text):
+                end = [] if text == "/*" else [f"src/low/number.h:{2 + text.count(chr(10))}: comments"]
+                self.planted("src/low/number.h", lines("", text), *end)
+        self.planted("src/low/number.h", lines("/* The rest, whatever it is. What else? */", "int what; /* What? */"))
+
     def test_report(self):
         """The program names each breach and fails, and passes without one."""
         for text, status, said in (("", 0, "0 breaches"), ("x" * 121, 1, "docs/wide.md:1: width: 121 bytes")):

@@ -18,7 +18,7 @@ const char *page_argument_kind(const char *name) {
     return "file";
 }
 
-/* What kind of word an option's value is: a file, a folder, one of the words in small letters, or else a text. */
+/* Prints the kind of an option's value: a file, a folder, one of the words in small letters, or else a text. */
 static void print_value_kind(FILE *file, const char *value) {
     if (strncmp(value, "FILE", 4) == 0 || strncmp(value, "DIR", 3) == 0) {
         fputs(*value == 'F' ? "file" : "folder", file);

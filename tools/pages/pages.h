@@ -10,7 +10,7 @@
 
 #include "../command.h"
 
-/* What kind of word a positional argument is: "model", "shape" (the name of a built-in one), "subcommand" or "file". */
+/* The kind of word of a positional argument: "model", "shape" (the name of a built-in one), "subcommand" or "file". */
 const char *page_argument_kind(const char *name);
 
 /* pirouette.1, or pirouette-NAME.1 where a subcommand is given. */

@@ -73,13 +73,13 @@ static bool is_over(const struct ranks_shared *shared) {
     return shared->stopped || shared->dealer.done == shared->dealer.units;
 }
 
-/* What a rank that wants a unit gets; the lock is held. */
+/* The unit for a rank that wants one, or NONE. The lock is held. */
 static uint64_t deal(struct ranks_shared *shared) {
     uint64_t unit = is_over(shared) ? shared->dealer.units : dealer_deal(&shared->dealer, now());
     return unit < shared->dealer.units ? unit : NONE;
 }
 
-/* What a rank that rests gets, or NONE for nothing yet; the lock is held. */
+/* The unit for a rank that rests, NONE for nothing yet, or ENDED. The lock is held. */
 static uint64_t deal_late(struct ranks_shared *shared) {
     if (is_over(shared))
         return ENDED;

@@ -32,7 +32,7 @@ void ranks_end(struct ranks *ranks);
 /* Whether `good` is true on all ranks; all call it. */
 bool ranks_agree(const struct ranks *ranks, bool good);
 
-/* What the `claim` of a job's options gives where there are several ranks; one alone needs none. */
+/* The next unit for this rank: `claim` of a job's options, where there are several ranks. */
 uint64_t ranks_next(const struct ranks *ranks);
 
 /* The units of the job that all ranks have made, as far as rank 0 knows; on another rank 0. */

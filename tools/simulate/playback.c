@@ -29,7 +29,7 @@
 /* No number of quanta is greater: JavaScript has whole numbers of 53 bits, and one bit is the sign. */
 #define NUMBER_MOST 0x1p50
 
-/* What a body looks like: by what its contacts ask of a pair, or asleep. */
+/* The look of a body, by its contacts or because it sleeps. */
 enum look { LOOK_ALONE, LOOK_NEAR, LOOK_OVERLAPPING, LOOK_ASLEEP };
 
 bool playback_init(struct playback *playback, const struct stage *stage) {

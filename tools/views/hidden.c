@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a convex body hides is the body and all behind it: the half-spaces of the facets that face the viewer, and one
+ * A convex body hides itself and all behind it: the half-spaces of the facets that face the viewer, and one
  * through each edge between such a facet and one that does not, along the line of sight. In the plane of a facet of
  * another body these are half-planes, so what is hidden of the facet is a convex polygon. Cutting along one half-plane
  * after another leaves the visible rest in convex parts.
@@ -233,7 +233,7 @@ static bool subtract(const struct seen_body *body, const double plane[4], double
     return true;
 }
 
-/* What to add to the offsets of a body that hides some of `own`. */
+/* The number added to the offsets of a body that hides some of `own`. */
 static double overlap(const struct seen_body *own, bool more) {
     double extent = fmax(own->high[0] - own->low[0], own->high[1] - own->low[1]);
     return more ? OVERLAP * extent : -OVERLAP * extent;

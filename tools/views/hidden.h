@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What of several convex bodies a viewer sees. Bodies may overlap; of the union only what nothing hides is drawn.
+ * The parts of several convex bodies that a viewer sees. Bodies may overlap. Of their union only the parts that nothing
+ * hides are drawn.
  *
  * Coordinates are those of the picture: right, up, towards the viewer, who is far away. All is in doubles: what is
  * drawn is a picture, and no answer depends on it.
@@ -42,7 +43,7 @@ struct seen_polygon {
     double at[SEEN_CORNERS][2];
 };
 
-/* What receives a picture's parts. */
+/* The receiver of a picture's parts. */
 struct seen_sink {
     void *context;
     /* A visible part of a facet; a facet may come in several. */

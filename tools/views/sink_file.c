@@ -6,7 +6,7 @@
 #include <H5FDdevelop.h>
 #endif
 
-/* What HDF5 holds of an open file; its own part comes first. */
+/* An open file as HDF5 knows it. HDF5's own part comes first. */
 struct handle {
     H5FD_t own;
     struct output_file *out;

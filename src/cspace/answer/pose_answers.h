@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What classifying keeps between calls: the pieces' balls, the slices asked last. */
+/* State that classifying keeps between calls: the pieces' balls, the slices asked last. */
 #ifndef PIR_CSPACE_ANSWER_POSE_ANSWERS_H
 #define PIR_CSPACE_ANSWER_POSE_ANSWERS_H
 
@@ -17,9 +17,9 @@ pir_status pir_answers_init(pir_answers *answers, const pir_slice_source *source
 void pir_answers_finish(pir_answers *answers);
 
 /*
- * What the slices prove of a pose, over all pairs of pieces. It holds as well wherever no point of the robot is farther
- * than *ret_gap, or as far, from its place in the pose. Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, those
- * of queries, of reading slices.
+ * Proves by the slices whether a pose is free, over all pairs of pieces. The proof also holds for every pose in which
+ * each point of the robot is within *ret_gap of its place in this one. Errors: PIR_ERR_NOT_FINITE,
+ * PIR_ERR_ZERO_QUATERNION, those of queries, of reading slices.
  */
 pir_status pir_answers_classify(pir_answers *answers, const pir_pose *pose, pir_report *report,
                                 pir_configuration *ret_configuration, double *ret_gap);

@@ -43,7 +43,7 @@ static double step(const path *p, uint32_t a, uint32_t b) {
     return close < 1 ? sqrt(2 - 2 * close) : 0;
 }
 
-/* The same between two places, 0 where one is beyond the ends of the path. */
+/* The step between two places of the path. 0 where one is beyond its ends. */
 static double step_at(const path *p, int64_t i, int64_t j) {
     if (i < 0 || j < 0 || i >= p->count || j >= p->count)
         return 0;

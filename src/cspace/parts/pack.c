@@ -36,7 +36,7 @@ void pir_packer_free(pir_packer *packer) {
     PIR_FREE(&a, packer, 1);
 }
 
-/* What numbers are shuffled by: the first bytes of all, then the second ones. */
+/* Puts the first bytes of all numbers together, then the second ones, and so on: alike bytes deflate well. */
 static void shuffle(const uint8_t *data, uint32_t size, uint32_t element, uint8_t *ret_shuffled) {
     uint32_t count = size / element;
     for (uint32_t byte = 0; byte < element; byte++)

@@ -32,7 +32,7 @@ typedef struct pir_unit_place {
     uint64_t at;   /* of the unit's header in its part */
 } pir_unit_place;
 
-/* What all parts of a job hold. */
+/* All parts of a job. */
 typedef struct pir_parts {
     pir_allocator allocator;
     const pir_plan *plan; /* borrowed */

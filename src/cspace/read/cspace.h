@@ -53,7 +53,7 @@ struct pir_cspace {
     pir_cspace_info info;
     uint64_t units_per_pair;
     pir_cspace_cursor cursor;
-    /* What answers keep between calls, and what frees it; NULL where nothing has been asked. */
+    /* The state that answers keep between calls, and the function that frees it; NULL before the first question. */
     void *answers;
     void (*answers_free)(pir_cspace *cspace);
 };

@@ -18,7 +18,7 @@ typedef struct pir_pen {
     unsigned bits; /* of these, fewer than 64 */
 } pir_pen;
 
-/* What a pen needs beyond the bytes of its numbers. */
+/* Bytes that a pen writes beyond those of its numbers. */
 #define PIR_PEN_SLACK 8
 
 /* Writes what is held, in eight bytes, the least significant first. */
@@ -76,7 +76,7 @@ static inline bool pir_record_scan_ended(const pir_record_scan *scan) {
     return !scan->broken && (scan->odd ? scan->at + 1 == scan->end && *scan->at >> 4 == 0 : scan->at == scan->end);
 }
 
-/* What a record begins with. */
+/* The first number of a record: how it holds its slice. */
 enum { PIR_RECORD_CHANGES = 0, PIR_RECORD_WHOLE = 1 };
 
 #endif

@@ -132,7 +132,7 @@ static bool take_pen(const pir_recorder *recorder, pir_bytes *bytes, size_t numb
     return enough;
 }
 
-/* What has been written belongs to the bytes. */
+/* Ends the bytes where the pen stands. */
 static void lay_down(const pir_pen *pen, pir_bytes *bytes) {
     bytes->used = (size_t)(pir_pen_end(pen) - bytes->data);
 }

@@ -209,7 +209,7 @@ static hid_t create_file(const char *path) {
     return file;
 }
 
-/* What HDF5 left of the reason. */
+/* The reason in words. HDF5 may not set errno. */
 static const char *reason(int error) {
     return error ? strerror(error) : "HDF5 could not";
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a job will take, from samples: the first slices of units that are spread evenly over all of them. A first slice
- * and the later ones are told apart, in time and in bytes.
+ * Time and bytes of a job, from samples: the first slices of units that are spread evenly over all of them. First
+ * slices and later ones are counted apart, for a first slice takes more of both.
  */
 #include <math.h>
 #include <time.h>

@@ -63,8 +63,8 @@ void pir_cspace_job_destroy(pir_cspace_job *job) {
 }
 
 /*
- * What the path leads to. Where something stands there, a job is refused before any work unless it is a regular file
- * that may be replaced.
+ * Follows the links of a path to the file to be made. Refuses the job, before any work, where something stands there
+ * that is no regular file or may not be replaced.
  */
 static pir_status find_target(const char *path, char ret_target[PIR_PATH_SIZE], pir_report *report) {
     struct stat there;
@@ -144,7 +144,7 @@ pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid
 
 /* --- the run --- */
 
-/* What the threads of a run share, but for `job->plan`, behind the lock. */
+/* State that the threads of a run share behind the lock; `job->plan` needs none. */
 struct run {
     pthread_mutex_t lock;
     pir_cspace_job *job;

@@ -97,7 +97,7 @@ static uint64_t read_end(const uint8_t end[END_SIZE], uint64_t whole, uint64_t *
 
 /* --- reading --- */
 
-/* What keeps a file from being a sealed one, or NULL. The hashes of hashes are read. */
+/* Reads the hashes of hashes. Returns why the file is no sealed one, or NULL. */
 static const char *read_seal(pir_sealed *sealed, uint64_t whole) {
     uint8_t begin[sizeof hdf5], end[END_SIZE];
     if (whole < sizeof begin || !read_at(sealed->descriptor, begin, sizeof begin, 0) ||
@@ -263,7 +263,7 @@ static bool write_hashes(const struct sealing *s) {
     return true;
 }
 
-/* What stands behind the hashes. */
+/* Writes the hashes of hashes and the end, which stand behind the hashes of blocks. */
 static bool write_rest(const struct sealing *s) {
     const uint64_t at = s->size + blocks_of(s->size) * PIR_SEAL_HASH;
     uint8_t end[END_SIZE];

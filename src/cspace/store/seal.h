@@ -3,7 +3,7 @@
  * The seal of a file of slices: hashes of all its bytes, which stand behind them. HDF5 trusts what it reads, and some
  * files that were damaged crash it; so it is given no byte that has not been checked.
  *
- * What is sealed is divided into blocks of PIR_SEAL_BLOCK bytes, the last one shorter. Behind it stand
+ * The sealed bytes are divided into blocks of PIR_SEAL_BLOCK bytes, the last one shorter. Behind it stand
  *
  *     the hashes of the blocks, 16 bytes each;
  *     the hashes of these, taken in blocks of the same size;

@@ -8,7 +8,7 @@
 
 #include "base/report.h"
 
-/* What HDF5 holds of an open file; its own part comes first. */
+/* An open file as HDF5 knows it. HDF5's own part comes first. */
 struct handle {
     H5FD_t own;
     pir_sealed *sealed;

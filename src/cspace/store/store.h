@@ -19,7 +19,7 @@ pir_status pir_store_open(const char *path, const pir_allocator *allocator, pir_
 /* NULL is accepted. */
 void pir_store_close(pir_store *store);
 
-/* What the file holds. The grid's spacing is as it stands there. */
+/* The file's numbers: grid, pieces, slices. The grid's spacing is the stored one, not computed. */
 const pir_cspace_info *pir_store_info(const pir_store *store);
 
 /* A piece as it was given: the robot's, then the obstacles'. Borrowed. */

@@ -12,7 +12,7 @@
 
 #include <pirouette/base.h>
 
-/* What stands in a row: the names of its columns, such as "x,y,z,w", and how many they are. */
+/* The columns of a row: their names, such as "x,y,z,w", and their number. */
 typedef struct pir_table_form {
     const char *names;
     uint32_t columns;

@@ -15,7 +15,7 @@
 #define MAGIC      "\x93NUMPY"
 #define MAGIC_SIZE 6
 
-/* What the header says. */
+/* The keys of the header that were read, and their values. */
 struct header {
     bool has_type, has_order, has_shape;
     bool big; /* numbers are stored most significant byte first */

@@ -15,7 +15,7 @@
 /* Room for a number and its final zero. */
 #define NUMBER_ROOM 1024
 
-/* What is being read: a line without its end. */
+/* The line being read, without its end. */
 struct text_line {
     const char *at, *end;
     uint32_t number;

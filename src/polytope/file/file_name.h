@@ -15,7 +15,7 @@ enum pir_file_type { PIR_FILE_UNKNOWN, PIR_FILE_OFF, PIR_FILE_OBJ, PIR_FILE_STL,
 /* The type of that name: "off", "obj", "stl", "ply" or "svg", in either case. */
 enum pir_file_type pir_file_type_named(const char *name);
 
-/* What follows the last dot of a path; empty where there is none. */
+/* The ending of a path, without its dot; empty where there is none. */
 const char *pir_format_of(const char *path);
 
 /* Whether `format` is `name`, which is in small letters, in either case. */
