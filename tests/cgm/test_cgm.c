@@ -15,13 +15,7 @@
 
 static const pir_quat identity = {0, 0, 0, 1};
 
-static pir_polytope *body(const pir_vec3 *points, size_t count) {
-    pir_polytope *p = NULL;
-    assert_int_equal(pir_polytope_create(points, count, NULL, &p), PIR_OK);
-    return p;
-}
-
-#define BODY(...) body((pir_vec3[]){__VA_ARGS__}, sizeof((pir_vec3[]){__VA_ARGS__}) / sizeof(pir_vec3))
+#define BODY(...) test_hull((pir_vec3[]){__VA_ARGS__}, sizeof((pir_vec3[]){__VA_ARGS__}) / sizeof(pir_vec3))
 
 static pir_polytope *octahedron(void) {
     return BODY({1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1});

@@ -11,7 +11,7 @@
 #include "support/bodies.h"
 #include "support/vectors.h"
 
-static void check(pir_status status) {
+static void need(pir_status status) {
     if (status != PIR_OK) {
         fprintf(stderr, "a world to test in: %s\n", pir_status_text(status));
         abort();
@@ -20,11 +20,11 @@ static void check(pir_status status) {
 
 static pir_polytope *shape(const char *name, pir_vec3 offset) {
     pir_polytope *at_origin, *moved;
-    check(pir_shape_create(name, NULL, NULL, &at_origin));
+    need(pir_shape_create(name, NULL, NULL, &at_origin));
     test_points points = {.count = pir_polytope_vertex_count(at_origin)};
     for (uint32_t v = 0; v < points.count; v++)
         points.at[v] = test_add(pir_polytope_vertex(at_origin, v), offset, 1);
-    check(pir_polytope_create(points.at, points.count, NULL, &moved));
+    need(pir_polytope_create(points.at, points.count, NULL, &moved));
     pir_polytope_release(at_origin);
     return moved;
 }
@@ -65,8 +65,8 @@ static void put_bodies(answer_world *world, int kind) {
         put(q, m, "octahedron", (pir_vec3){0, 1.5, 0});
     } else {
         static const pir_vec3 sheet[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, rod[] = {{-1, 0, 0}, {1, 0.5, 0}};
-        check(pir_polytope_create(sheet, 4, NULL, &p[(*n)++]));
-        check(pir_polytope_create(rod, 2, NULL, &q[(*m)++]));
+        need(pir_polytope_create(sheet, 4, NULL, &p[(*n)++]));
+        need(pir_polytope_create(rod, 2, NULL, &q[(*m)++]));
         put(q, m, "tetrahedron", (pir_vec3){2, 0, 0});
     }
 }
@@ -74,10 +74,10 @@ static void put_bodies(answer_world *world, int kind) {
 void answer_world_init(answer_world *world, int kind, pir_grid *grid) {
     *world = (answer_world){.grid = grid};
     put_bodies(world, kind);
-    check(pir_workspace_create(NULL, &world->workspace));
+    need(pir_workspace_create(NULL, &world->workspace));
     for (uint32_t k = 0; k < world->robot_count; k++)
         for (uint32_t l = 0; l < world->obstacle_count; l++) {
-            check(pir_pair_create(world->robot[k], world->obstacle[l], NULL, &world->pair[k][l]));
+            need(pir_pair_create(world->robot[k], world->obstacle[l], NULL, &world->pair[k][l]));
             double reach = pir_piece_ball_of(world->robot[k]).reach + pir_piece_ball_of(world->obstacle[l]).reach;
             world->size = fmax(world->size, reach);
         }
@@ -88,7 +88,7 @@ void answer_world_init(answer_world *world, int kind, pir_grid *grid) {
                                      world->obstacle_count,
                                      make_sum,
                                      world};
-    check(pir_answers_init(&world->answers, &source, NULL));
+    need(pir_answers_init(&world->answers, &source, NULL));
 }
 
 void answer_world_finish(answer_world *world) {
@@ -110,17 +110,17 @@ void answer_world_write(const answer_world *world, const char *path) {
     options.slices_per_unit = 16;
     options.slices_per_key = 8;
     pir_cspace_job *job = NULL;
-    check(pir_cspace_job_create(&bodies, world->grid, path, &options, NULL, &job));
-    check(pir_cspace_job_run(job, NULL));
-    check(pir_cspace_job_assemble(job, NULL));
+    need(pir_cspace_job_create(&bodies, world->grid, path, &options, NULL, &job));
+    need(pir_cspace_job_run(job, NULL));
+    need(pir_cspace_job_assemble(job, NULL));
     pir_cspace_job_destroy(job);
 }
 
-static pir_query_result ask(answer_world *world, uint32_t k, uint32_t l, const pir_pose *pose) {
+static pir_query_result ask_pair(answer_world *world, uint32_t k, uint32_t l, const pir_pose *pose) {
     pir_pair_input input = pir_pair_input_default();
     pir_query_result result;
     input.pose_p = *pose;
-    check(pir_pair_signed_distance(world->pair[k][l], world->workspace, &input, &result));
+    need(pir_pair_signed_distance(world->pair[k][l], world->workspace, &input, &result));
     return result;
 }
 
@@ -136,7 +136,7 @@ pir_pose answer_world_pose(answer_world *world, test_random *random) {
     pose.translation = test_add(test_add(q.centre, turned, -1), way, 1);
     if (test_random_below(random, 2) == 0) {
         // towards the boundary, to a distance of up to a twentieth of the size
-        pir_query_result result = ask(world, k, l, &pose);
+        pir_query_result result = ask_pair(world, k, l, &pose);
         double left = 0.05 * (p.radius + q.radius) * test_random_unit(random);
         pose.translation = test_add(pose.translation, result.normal, left - result.distance);
     }
@@ -147,7 +147,7 @@ pir_state answer_world_state(answer_world *world, const pir_pose *pose) {
     pir_state most = PIR_OUTSIDE;
     for (uint32_t k = 0; k < world->robot_count; k++)
         for (uint32_t l = 0; l < world->obstacle_count; l++) {
-            pir_state state = ask(world, k, l, pose).state;
+            pir_state state = ask_pair(world, k, l, pose).state;
             most = state > most ? state : most;
         }
     return most;

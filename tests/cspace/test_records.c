@@ -43,7 +43,7 @@ static pir_quat step_from(test_random *random, pir_quat from, double size) {
 }
 
 /* Whether the replay holds what the sum's pairing holds, array for array. */
-static void expect_same(pir_record_replay *replay, const pir_sum *sum, const char *situation, int step) {
+static void expect_same_slice(pir_record_replay *replay, const pir_sum *sum, const char *situation, int step) {
     const pir_pairing *pairing = pir_sum_pairing(sum);
     const pir_record_replay_crossing *crossing;
     uint32_t count, at = 0;
@@ -77,7 +77,7 @@ static void replay_random_walk(uint32_t number) {
         bytes.used = 0;
         assert_true(pir_recorder_write(&recorder, i % 16 == 0, &bytes));
         assert_int_equal(pir_record_replay_record(&replay, bytes.data, bytes.used), PIR_OK);
-        expect_same(&replay, sum, pose.situation, i);
+        expect_same_slice(&replay, sum, pose.situation, i);
     }
     pir_record_replay_finish(&replay);
     pir_recorder_finish(&recorder);
@@ -174,7 +174,7 @@ static void changed_bytes_are_refused_or_harmless(void **state) {
         // and the right ones are taken again
         assert_int_equal(pir_record_replay_record(&replay, whole.data, whole.used), PIR_OK);
         assert_int_equal(pir_record_replay_record(&replay, changes.data, changes.used), PIR_OK);
-        expect_same(&replay, sum, pose.situation, 1);
+        expect_same_slice(&replay, sum, pose.situation, 1);
         pir_record_replay_finish(&replay);
         pir_recorder_finish(&recorder);
         pir_bytes_finish(&whole, &a);

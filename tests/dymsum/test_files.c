@@ -31,7 +31,7 @@ static pir_sum *make_sum(const test_pose *pose, int difference, double half_angl
     return sum;
 }
 
-static void expect_same(pir_sum *a, pir_sum *b, const char *situation) {
+static void expect_same_sum(pir_sum *a, pir_sum *b, const char *situation) {
     pir_mesh *x, *y;
     pir_quat s = pir_sum_rotation(a), t = pir_sum_rotation(b);
     assert_memory_equal(&s, &t, sizeof s);
@@ -72,7 +72,7 @@ static void restored_sum_is_the_one_that_was_written(void **state) {
         pir_report report;
         pir_status status = pir_sum_restore(bytes.data, bytes.size, &allocator, &report, &back);
         expect(status == PIR_OK, "case %d: %s: %s", (int)i, pose.situation, report.text);
-        expect_same(sum, back, pose.situation);
+        expect_same_sum(sum, back, pose.situation);
         expect_same_region(sum, back);
         // the bytes are the same again, and the sums go on alike
         test_bytes again = bytes_of(back);
@@ -83,13 +83,13 @@ static void restored_sum_is_the_one_that_was_written(void **state) {
         pir_quat next = test_rotation(&random);
         assert_int_equal(pir_sum_rotate(sum, next, PIR_METHOD_WALK), PIR_OK);
         assert_int_equal(pir_sum_rotate(back, next, PIR_METHOD_UPDATE), PIR_OK);
-        expect_same(sum, back, pose.situation);
+        expect_same_sum(sum, back, pose.situation);
         for (int step = 0; step < 10; step++) {
             next = test_compose((pir_quat){0.01, -0.02, 0.01, 1}, next, 0);
             if (pir_sum_rotate(back, next, PIR_METHOD_UPDATE) != PIR_OK)
                 break; // tiny or huge by now
             assert_int_equal(pir_sum_rotate(sum, next, PIR_METHOD_UPDATE), PIR_OK);
-            expect_same(sum, back, pose.situation);
+            expect_same_sum(sum, back, pose.situation);
         }
         pir_sum_destroy(back);
         assert_int_equal(memory.blocks, 0);
@@ -117,7 +117,7 @@ static void streams_hold_one_sum_after_another(void **state) {
     pir_sum *back = NULL;
     for (int i = 0; i < 4; i++) {
         assert_int_equal(pir_sum_read(file, NULL, &report, &back), PIR_OK);
-        expect_same(sums[i], back, "stream");
+        expect_same_sum(sums[i], back, "stream");
         pir_sum_destroy(back);
         pir_sum_destroy(sums[i]);
     }

@@ -47,7 +47,7 @@ static pir_quat rotation(double place) {
 }
 
 /* Runs a sum of the two, with the kernels of that version, through all places; checks it against walks. */
-static pir_sum_statistics run(pir_polytope *p, pir_polytope *q, unsigned version) {
+static pir_sum_statistics run_version(pir_polytope *p, pir_polytope *q, unsigned version) {
     pir_sum *updated = NULL, *walked = NULL;
     assert_int_equal(pir_sum_create(p, q, rotation(0), NULL, &updated), PIR_OK);
     assert_int_equal(pir_sum_create(p, q, rotation(7), NULL, &walked), PIR_OK);
@@ -71,9 +71,9 @@ static void large_bodies_have_one_pairing(void **state) {
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         print_message("# %s, %s\n", pairs[i][0], pairs[i][1]);
         pir_polytope *p = body(pairs[i][0]), *q = body(pairs[i][1]);
-        const pir_sum_statistics reference = run(p, q, 0);
+        const pir_sum_statistics reference = run_version(p, q, 0);
         for (unsigned k = 1; pir_kernels_version(k); k++) {
-            const pir_sum_statistics did = run(p, q, k);
+            const pir_sum_statistics did = run_version(p, q, k);
             assert_memory_equal(&did, &reference, sizeof did);
         }
         pir_polytope_release(p);

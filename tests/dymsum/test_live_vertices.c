@@ -26,7 +26,7 @@ static void take(pir_live_vertices *v, struct list *list, uint32_t pair) {
 }
 
 /* The table says what the list says. */
-static void expect_same(const pir_live_vertices *v, const struct list *list) {
+static void expect_same_list(const pir_live_vertices *v, const struct list *list) {
     uint32_t used = 0;
     for (uint32_t pair = 0; pair < PAIRS; pair++) {
         if (list->uses[pair] == 0)
@@ -71,11 +71,11 @@ static void vertices_stay_where_they_are_while_others_come_and_go(void **state) 
                 if (pir_live_vertices_reserve(&v, &allocator, room))
                     break;
                 failures++;
-                expect_same(&v, &list);
+                expect_same_list(&v, &list);
             } while (n < 20);
             memory.fail_at = 0;
             assert_true(pir_live_vertices_reserve(&v, &allocator, room) && v.capacity >= room);
-            expect_same(&v, &list);
+            expect_same_list(&v, &list);
             for (int step = 0; step < 200; step++) {
                 uint32_t pair = test_random_below(&random, room);
                 if (list.uses[pair] > 0 && test_random_below(&random, 2)) {
@@ -89,7 +89,7 @@ static void vertices_stay_where_they_are_while_others_come_and_go(void **state) 
                     pir_live_vertices_sweep(&v);
                     expect_none_lost(&v);
                 }
-                expect_same(&v, &list);
+                expect_same_list(&v, &list);
             }
         }
         pir_live_vertices_finish(&v, &allocator);

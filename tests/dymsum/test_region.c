@@ -121,8 +121,8 @@ static pir_quat turn(pir_quat from, pir_vec3 axis, double angle) {
     return after((pir_quat){axis.x * s, axis.y * s, axis.z * s, cos(angle / 2)}, from);
 }
 
-static void run(struct sums *s, test_random *random, uint64_t number, const char *situation, pir_quat r, int frames,
-                uint32_t *partial) {
+static void run_frames(struct sums *s, test_random *random, uint64_t number, const char *situation, pir_quat r,
+                       int frames, uint32_t *partial) {
     static const double steps[] = {1e-4, 2e-3, 0.0126, 0.05, 0.4}, drifts[] = {0, 1e-3, 0.01, 0.1};
     static const double sizes[] = {0, 0.1, 0.26, 0.52, 1.05, 1.57, 2.5, 3.1};
     double step = steps[test_random_below(random, 5)], drift = drifts[test_random_below(random, 4)];
@@ -182,7 +182,7 @@ static void tracked_region_is_the_part_of_the_whole_sum_in_the_cone(void **state
         struct sums s;
         test_random_pose(&random, i % 4 ? 16 : 60, &pose);
         sums_init(&s, &pose, i % 2);
-        run(&s, &random, i, pose.situation, pose.rotation, 40, &partial);
+        run_frames(&s, &random, i, pose.situation, pose.rotation, 40, &partial);
         sums_clear(&s);
     }
     assert_true(partial > 2000);
@@ -199,7 +199,7 @@ static void many_facets_are_tracked_in_a_cone(void **state) {
         test_body_points(&random, TEST_SPHERE, 140, &pose.q);
         pose.rotation = test_general_rotation(&random);
         sums_init(&s, &pose, i % 2);
-        run(&s, &random, i, pose.situation, pose.rotation, 60, &partial);
+        run_frames(&s, &random, i, pose.situation, pose.rotation, 60, &partial);
         sums_clear(&s);
     }
     assert_true(partial > 1000);

@@ -105,7 +105,7 @@ static const char *check_edges(struct pairs *pairs, const pir_sum *sum, pir_vec3
 }
 
 /* Whether the sum with this region has all pairs of the cone, and none that is no pair. */
-static const char *check(struct pairs *pairs, pir_sum *sum, pir_vec3 axis, double half_angle) {
+static const char *check_pairs(struct pairs *pairs, pir_sum *sum, pir_vec3 axis, double half_angle) {
     uint32_t of_q = pir_polytope_facet_count(pairs->q);
     pir_vec3 *normal_q = calloc((size_t)of_q + 1, sizeof *normal_q);
     assert_non_null(normal_q);
@@ -226,7 +226,7 @@ static void try_pose(uint64_t number, uint32_t *regions, uint32_t *partial) {
         } else {
             assert_int_equal(pir_sum_set_region(sum, axis, half_angle), PIR_OK);
         }
-        const char *wrong = check(&pairs, sum, axis, half_angle);
+        const char *wrong = check_pairs(&pairs, sum, axis, half_angle);
         expect(!wrong, "case %llu, %s, region %d about %a, %a, %a by %a: %s", (unsigned long long)number,
                pose.situation, i, axis.x, axis.y, axis.z, half_angle, wrong);
     }
@@ -272,7 +272,7 @@ static void arc_of_half_a_turn_among_arcs_at_its_far_end_is_kept(void **state) {
         assert_int_equal(pir_sum_create(pairs.p, pairs.q, rotation, NULL, &sum), PIR_OK);
         pairs_init(&pairs, sum, rotation);
         assert_int_equal(pir_sum_set_region(sum, axis[i], 0.6), PIR_OK);
-        const char *wrong = check(&pairs, sum, axis[i], 0.6);
+        const char *wrong = check_pairs(&pairs, sum, axis[i], 0.6);
         expect(!wrong, "body %zu: %s", i, wrong);
         assert_true(pairs.partial > 0);
         pir_sum_destroy(sum);

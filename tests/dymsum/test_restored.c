@@ -104,7 +104,7 @@ static void note_choice(struct history *h) {
     h->counted |= pir_sum_shortfall_bound(h->sum) > 0;
 }
 
-static void turn(struct history *h) {
+static void turn_history(struct history *h) {
     static const char *const names[] = {"update", "update", "update", "auto", "walk", "cgm", "brute force", "reset"};
     uint32_t how = below(h, 8);
     pir_quat to = next_rotation(h);
@@ -208,7 +208,7 @@ static void check_strayed(struct history *h) {
     hold(h, memcmp(&one, &other, sizeof one) != 0 || pir_sum_same_pairing(h->sum, h->companion));
 }
 
-static void check(struct history *h) {
+static void check_history(struct history *h) {
     test_bytes written = bytes_of(h, h->sum);
     pir_sum *back = restored(h, &written);
     test_bytes again = bytes_of(h, back), beside = bytes_of(h, h->companion);
@@ -229,13 +229,7 @@ static void check(struct history *h) {
     pir_sum_destroy(back);
 }
 
-static double size_of(const pir_polytope *p) {
-    pir_vec3 low, high;
-    pir_polytope_bounds(p, &low, &high);
-    return fmax(high.x - low.x, fmax(high.y - low.y, high.z - low.z));
-}
-
-static void make(struct history *h) {
+static void make_history(struct history *h) {
     test_pose pose;
     test_random_pose(&h->random, below(h, 8) ? 8 : 30, &pose);
     pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
@@ -246,7 +240,7 @@ static void make(struct history *h) {
     h->base = test_integer_rotation(&h->random);
     h->axis = test_random_direction(&h->random);
     h->turn = fabs(test_random_scaled(&h->random, -28, 2));
-    h->size = fmin(size_of(p), size_of(q));
+    h->size = fmin(test_size_of(p), test_size_of(q));
     hold(h, pir_sum_create(p, q, pose.rotation, &options, &h->sum) == PIR_OK);
     hold(h, pir_sum_clone(h->sum, NULL, &h->companion) == PIR_OK);
     pir_polytope_release(q);
@@ -298,13 +292,13 @@ static void bytes_come_back_whatever_the_history(void **state) {
     uint64_t first = asked_for("PIR_TEST_FIRST", 0);
     for (uint64_t number = first; number < first + histories; number++) {
         struct history h = {.number = number, .random = test_random_case("restored", number)};
-        make(&h);
+        make_history(&h);
         for (h.step = 0; h.step < HISTORY_STEPS; h.step++) {
             if (below(&h, 3))
-                turn(&h);
+                turn_history(&h);
             else
                 change(&h);
-            check(&h);
+            check_history(&h);
         }
         pir_sum_destroy(h.sum);
         pir_sum_destroy(h.companion);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-static const char *make(slice_file *file, const pir_cspace_bodies *bodies, const pir_grid *grid) {
+static const char *make_slices(slice_file *file, const pir_cspace_bodies *bodies, const pir_grid *grid) {
     pir_cspace_job *job = NULL;
     pir_status status = pir_cspace_job_create(bodies, grid, file->path, NULL, NULL, &job);
     if (status == PIR_ERR_UNSUPPORTED)
@@ -32,7 +32,7 @@ const char *slice_file_make(slice_file *file, pir_polytope *p, pir_polytope *q, 
     snprintf(file->path, sizeof file->path, "%s/slices.h5", file->folder);
     if (pir_grid_list(rotations, count, 1, NULL, &grid) != PIR_OK)
         return "no grid";
-    const char *wrong = make(file, &bodies, grid);
+    const char *wrong = make_slices(file, &bodies, grid);
     pir_grid_destroy(grid);
     return wrong;
 }

@@ -53,7 +53,7 @@ static void *take(void *context, void *old, size_t old_size, size_t size) {
 
 /* --- bodies --- */
 
-static pir_polytope *make(pir_vec3 *points, size_t count) {
+static pir_polytope *hull_of(pir_vec3 *points, size_t count) {
     pir_polytope *polytope = NULL;
     if (pir_polytope_create(points, count, NULL, &polytope) != PIR_OK)
         die("no body");
@@ -73,14 +73,14 @@ static pir_polytope *sphere(size_t count) {
     pir_vec3 *points = room(count);
     for (size_t i = 0; i < count; i++)
         points[i] = situation_near_sphere(&random);
-    return make(points, count);
+    return hull_of(points, count);
 }
 
 static pir_polytope *box(void) {
     pir_vec3 *points = room(8);
     for (int i = 0; i < 8; i++)
         points[i] = (pir_vec3){i & 1, i & 2, i & 4};
-    return make(points, 8);
+    return hull_of(points, 8);
 }
 
 /* Half of a regular polygon of 2·sides sides, in the plane x = 0 or y = 0. */
@@ -90,7 +90,7 @@ static pir_polytope *arc(size_t sides, bool across) {
         double angle = 3.14159265358979323846 * (double)i / (double)sides, c = cos(angle), s = sin(angle);
         points[i] = across ? (pir_vec3){0, c, s} : (pir_vec3){c, 0, s};
     }
-    return make(points, sides + 1);
+    return hull_of(points, sides + 1);
 }
 
 static pir_polytope *prism(size_t sides) {
@@ -100,7 +100,7 @@ static pir_polytope *prism(size_t sides) {
         points[i] = (pir_vec3){c, s, 0};
         points[sides + i] = (pir_vec3){c, s, 1};
     }
-    return make(points, 2 * sides);
+    return hull_of(points, 2 * sides);
 }
 
 /* --- rows --- */

@@ -39,13 +39,6 @@ static pir_sum *sum_at(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
     return sum;
 }
 
-static pir_polytope *box_of(double x, double y, double z) {
-    test_points points = {.count = 8};
-    for (int i = 0; i < 8; i++)
-        points.at[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
-    return test_polytope(&points);
-}
-
 /* Each returns the number of frames that were looked at and were wrong, and how many were looked at. */
 typedef uint64_t motion(uint64_t *ret_looked);
 
@@ -84,7 +77,7 @@ static uint64_t tiny_turns(uint64_t *ret_looked) {
 /* Through the aligned pose of two boxes, about an axis that is an edge of both: −a, 0, a, 0, … */
 static uint64_t crossings(uint64_t *ret_looked) {
     static const double at[4] = {-1, 0, 1, 0};
-    pir_polytope *p = box_of(1, 2, 3), *q = box_of(3, 1, 2);
+    pir_polytope *p = test_box(1, 2, 3), *q = test_box(3, 1, 2);
     uint64_t wrong = 0;
     pir_sum *right[4], *sum = sum_at(p, q, (pir_quat){0, 0, 0, 1});
     double angle = 1e-3;
@@ -110,7 +103,7 @@ static uint64_t crossings(uint64_t *ret_looked) {
     return wrong;
 }
 
-static uint64_t ask(double height, pir_quat rotation, pir_state state, pir_pair *pair, pir_workspace *workspace) {
+static uint64_t ask_at(double height, pir_quat rotation, pir_state state, pir_pair *pair, pir_workspace *workspace) {
     pir_pair_input input = pir_pair_input_default();
     pir_query_result result;
     input.pose_p = (pir_pose){rotation, {0.3, -0.2, height}};
@@ -123,7 +116,7 @@ static uint64_t ask(double height, pir_quat rotation, pir_state state, pir_pair 
 static uint64_t steps_or_turns(bool turns) {
     static const double off[4] = {0x1p-51, 0, -0x1p-51, 0};
     static const pir_state state[4] = {PIR_OUTSIDE, PIR_BOUNDARY, PIR_INSIDE, PIR_BOUNDARY};
-    pir_polytope *p = box_of(1, 1, 1), *q = box_of(4, 4, 1);
+    pir_polytope *p = test_box(1, 1, 1), *q = test_box(4, 4, 1);
     pir_pair *pair = NULL;
     pir_workspace *workspace = NULL;
     uint64_t wrong = 0;
@@ -132,7 +125,7 @@ static uint64_t steps_or_turns(bool turns) {
     for (uint64_t frame = 0; frame < frames; frame++) {
         double part = (double)frame / 1000;
         uint64_t k = turns ? 1 : frame % 4;
-        wrong += ask(2 + off[k], (pir_quat){0, 0, turns ? part : 0, 1}, state[k], pair, workspace);
+        wrong += ask_at(2 + off[k], (pir_quat){0, 0, turns ? part : 0, 1}, state[k], pair, workspace);
     }
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);

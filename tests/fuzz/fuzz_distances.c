@@ -340,7 +340,7 @@ static struct question next_question(const struct world *world, struct fuzz_inpu
     return asked;
 }
 
-static void ask(struct world *world, struct fuzz_input *input) {
+static void ask_distances(struct world *world, struct fuzz_input *input) {
     const struct question asked = next_question(world, input);
     pir_scene_distance told[ALL];
     size_t count = 0;
@@ -367,7 +367,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (int i = 0; i < QUESTIONS && world.bodies > 0 && input.at < input.size; i++) {
         if (fuzz_byte(&input) % 4 == 0)
             move_body(&world, &input);
-        ask(&world, &input);
+        ask_distances(&world, &input);
     }
     pir_scene_destroy(world.scene);
     pir_workspace_destroy(world.workspace);

@@ -21,7 +21,7 @@
 
 /* --- files --- */
 
-static void ask(const pir_trimesh *mesh) {
+static void ask_mesh(const pir_trimesh *mesh) {
     pir_trimesh_info info;
     pir_trimesh_describe(mesh, &info);
     fuzz_require(pir_trimesh_is_valid(mesh), "the tree is valid");
@@ -46,7 +46,7 @@ static void read_file(struct fuzz_input *input, const char *format) {
     pir_trimesh *mesh = NULL;
     const pir_file_bytes bytes = {input->data + input->at, input->size - input->at, "fuzz", format};
     if (input->size > input->at && pir_trimesh_read_bytes(&bytes, NULL, NULL, &mesh) == PIR_OK)
-        ask(mesh);
+        ask_mesh(mesh);
     pir_trimesh_release(mesh);
 }
 

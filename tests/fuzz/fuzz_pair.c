@@ -28,7 +28,7 @@ struct reply {
     size_t count;
 };
 
-static struct reply ask(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
+static struct reply ask_pair(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input) {
     struct reply reply;
     memset(&reply, 0, sizeof reply);
     reply.status = pir_pair_signed_distance(pair, workspace, input, &reply.result);
@@ -122,7 +122,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
             input.pose_p.translation = (pir_vec3){0, 0, 0};
         fuzz_require(pir_pair_create(p, q, &options, &pair[FRESH]) == PIR_OK, "a pair once more");
         for (int way = 0; way < WAYS; way++)
-            reply[way] = ask(pair[way], workspace, &input);
+            reply[way] = ask_pair(pair[way], workspace, &input);
         require_same(&reply[KEPT], &reply[FRESH], "what a pair keeps changes no bit");
         require_same(&reply[KEPT], &reply[WHOLE], "the level changes no bit");
         check_calls(pair[KEPT], workspace, &input, &reply[KEPT]);

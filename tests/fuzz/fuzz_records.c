@@ -23,7 +23,7 @@ static pir_polytope *body_of(uint8_t choice, const pir_allocator *allocator) {
 }
 
 /* What has been taken is a pairing in form. */
-static void check(pir_record_replay *replay) {
+static void check_replay(pir_record_replay *replay) {
     const pir_record_replay_crossing *crossing;
     uint32_t count;
     for (uint32_t f = 0; f < replay->p->facet_count; f++)
@@ -53,7 +53,7 @@ static void apply(pir_record_replay *replay, const uint8_t *data, size_t size) {
         pir_status status = pir_record_replay_record(replay, data, length);
         fuzz_require(status == PIR_OK || status == PIR_ERR_FORMAT, "a record is taken or refused for what it is");
         if (status == PIR_OK)
-            check(replay);
+            check_replay(replay);
         data += length;
         size -= length;
     }

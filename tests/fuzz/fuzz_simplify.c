@@ -25,7 +25,7 @@ static void check_between(const pir_polytope *inside, const pir_polytope *around
     oracle_body_clear(&small);
 }
 
-static void check(const pir_simplified *s, pir_polytope *body, const pir_simplify_options *options) {
+static void check_simplified(const pir_simplified *s, pir_polytope *body, const pir_simplify_options *options) {
     const pir_polytope *inner = s->inner, *outer = s->outer;
     fuzz_require(pir_polytope_is_valid(inner) && pir_polytope_is_valid(outer), "both are polytopes");
     if (options->vertices > 0)
@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     pir_status status = pir_polytope_simplify(body, &options, &simplified);
     fuzz_require(status == PIR_OK || status == PIR_ERR_LIMIT, "a body is simplified, or is too far away");
     if (status == PIR_OK) {
-        check(&simplified, body, &options);
+        check_simplified(&simplified, body, &options);
         pir_simplified_release(&simplified);
     }
     pir_polytope_release(body);

@@ -220,7 +220,7 @@ static void check_states(const struct scene *scene, struct fuzz_input *input) {
     pir_mesh_destroy(mesh);
 }
 
-static void check(const pir_solid *p, const pir_solid *q, pir_quat turn, struct fuzz_input *input) {
+static void check_solids(const pir_solid *p, const pir_solid *q, pir_quat turn, struct fuzz_input *input) {
     pir_solid_info info;
     pir_solid_describe(p, &info);
     if (info.facets > FACET_LIMIT)
@@ -256,7 +256,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     pir_solid *q = kind & 64 ? solid_of_cells(&places, 2) : solid_by_number(kind >> 3 & 7);
     places.at = 0;
     if (p && q)
-        check(p, q, turn, &places);
+        check_solids(p, q, turn, &places);
     pir_solid_release(q);
     pir_solid_release(p);
     return 0;

@@ -23,6 +23,7 @@
 #include "query/exact_poses.h"
 #include "query/query_of.h"
 #include "support/answers.h"
+#include "support/bodies.h"
 
 #define TURNS 2
 #define POSES 12
@@ -151,19 +152,13 @@ static void check_turn(struct bench *bench, test_random *random, pir_quat rotati
     }
 }
 
-static double size_of(const pir_polytope *p) {
-    pir_vec3 low, high;
-    pir_polytope_bounds(p, &low, &high);
-    return fmax(high.x - low.x, fmax(high.y - low.y, high.z - low.z));
-}
-
 static void check_scene(struct bench *bench, uint64_t number) {
     test_random random = test_random_case("pairs and sums", number);
     bench->number = number;
     exact_scene_make(&random, number, &bench->scene);
     bench->p = test_polytope(&bench->scene.points_p);
     bench->q = test_polytope(&bench->scene.points_q);
-    double size = size_of(bench->p) + size_of(bench->q);
+    double size = test_size_of(bench->p) + test_size_of(bench->q);
     pir_sum_options options = pir_sum_options_default();
     options.difference = true;
     assert_int_equal(pir_sum_create(bench->p, bench->q, bench->scene.rotation, &options, &bench->sum), PIR_OK);

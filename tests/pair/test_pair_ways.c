@@ -14,13 +14,6 @@
 #include "support/answers.h"
 #include "support/bodies.h"
 
-static pir_polytope *box(double x, double y, double z) {
-    test_points points = {.count = 8};
-    for (int i = 0; i < 8; i++)
-        points.at[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
-    return test_polytope(&points);
-}
-
 /* A prism about z, of radius 1 and half height 0.5. */
 static pir_polytope *prism(uint32_t sides) {
     pir_polytope *p = NULL;
@@ -63,7 +56,7 @@ static void bench_clear(struct bench *bench) {
         pir_polytope_release(bench->q);
 }
 
-static pir_query_result ask(struct bench *bench, bool compare, const char *what, int frame) {
+static pir_query_result ask_ways(struct bench *bench, bool compare, const char *what, int frame) {
     pir_query_result result, expected;
     assert_int_equal(pir_pair_signed_distance(bench->pair, bench->workspace, &bench->input, &result), PIR_OK);
     if (compare) {
@@ -79,11 +72,11 @@ static pir_query_result ask(struct bench *bench, bool compare, const char *what,
 /* Its difference is symmetric about x, so that no descent ended with a tetrahedron about a point inside. */
 static void a_cold_box_laid_flush_on_a_box_is_told_by_a_facet(void **state) {
     (void)state;
-    struct bench bench = bench_make(box(1, 1, 1), box(1, 1, 1));
+    struct bench bench = bench_make(test_box(1, 1, 1), test_box(1, 1, 1));
     for (int i = 0; i < 200; i++) {
         assert_int_equal(pir_pair_reset(bench.pair, bench.p, bench.q), PIR_OK);
         bench.input.pose_p.translation = (pir_vec3){-1.5 + i / 64.0, (i % 7 - 3) / 4.0, i % 2 ? 2 : -2};
-        pir_query_result result = ask(&bench, true, "box on box", i);
+        pir_query_result result = ask_ways(&bench, true, "box on box", i);
         pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
         expect(statistics.by_nearest + statistics.by_depth == 1 && statistics.begun < 3 && result.state == PIR_BOUNDARY,
                "frame %d: level %d, state %d", i, (int)pir_pair_level(bench.pair), (int)result.state);
@@ -97,12 +90,12 @@ static void a_cylinder_that_stands_on_a_box_is_told_by_its_facet(void **state) {
     static const uint32_t sides[3] = {36, 64, 200};
     for (int i = 0; i < 3 * 4 * 2; i++) {
         bool turns = i / 3 % 4 & 1, slides = i / 3 % 4 & 2, wide = i / 12;
-        struct bench bench = bench_make(prism(sides[i % 3]), wide ? box(10, 10, 1) : box(1, 1, 1));
+        struct bench bench = bench_make(prism(sides[i % 3]), wide ? test_box(10, 10, 1) : test_box(1, 1, 1));
         for (int k = 0; k < 60; k++) {
             double angle = turns ? k * 0.01 : 0;
             bench.input.pose_p.rotation = (pir_quat){0, 0, sin(angle / 2), cos(angle / 2)};
             bench.input.pose_p.translation = (pir_vec3){slides ? 0.005 * k : 0.125, 0.0625, 1.5};
-            pir_query_result result = ask(&bench, k % 20 == 0, "cylinder on box", k);
+            pir_query_result result = ask_ways(&bench, k % 20 == 0, "cylinder on box", k);
             assert_int_equal(result.state, PIR_BOUNDARY);
         }
         pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
@@ -119,7 +112,7 @@ static void a_cylinder_that_stands_on_a_box_is_told_by_its_facet(void **state) {
 
 static const double turns[7] = {0, 1e-16, 1e-14, 1e-12, 1e-9, 1e-6, 1e-3};
 
-static void turn(struct bench *bench, int i, bool about_one_middle) {
+static void turn_bench(struct bench *bench, int i, bool about_one_middle) {
     double e = turns[i];
     bench->input.pose_p.rotation = (pir_quat){e, 2 * e, -e, 1};
     bench->input.pose_p.translation = about_one_middle ? (pir_vec3){0, 0, 0} : (pir_vec3){0.1, 0.2, 0.3};
@@ -134,9 +127,9 @@ static void equal_prisms_nearly_parallel_need_no_whole_difference(void **state) 
         pir_polytope *p = prism(sides[m]);
         struct bench bench = bench_make(p, p);
         for (int i = 0; i < 14; i++) {
-            turn(&bench, i / 2, i % 2);
+            turn_bench(&bench, i / 2, i % 2);
             assert_int_equal(pir_pair_reset(bench.pair, p, p), PIR_OK);
-            pir_query_result result = ask(&bench, sides[m] <= 101, "prisms", i);
+            pir_query_result result = ask_ways(&bench, sides[m] <= 101, "prisms", i);
             pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
             assert_int_equal(result.state, PIR_INSIDE);
             expect(sides[m] < 400 || statistics.by_whole == 0, "%u sides, turned by %g: the whole difference", sides[m],
@@ -167,7 +160,7 @@ static void prisms_at_random_nearly_parallel_answer_as_their_difference(void **s
             double gap = k % 3 ? ldexp(test_random_unit(&random), -test_random_between(&random, 1, 50)) : 0;
             pir_vec3 t = {0.5 * test_random_unit(&random), k % 4 ? 0 : 0.5 * test_random_unit(&random), 1 + gap};
             bench.input.pose_p.translation = k % 5 == 4 ? (pir_vec3){0, 0, t.z - 1} : t;
-            ask(&bench, true, "prisms at random", (int)number);
+            ask_ways(&bench, true, "prisms at random", (int)number);
             asked++;
         }
         by_whole += pir_pair_get_statistics(bench.pair).by_whole;
@@ -182,7 +175,7 @@ static void prisms_at_random_nearly_parallel_answer_as_their_difference(void **s
 /* Of two facets that are nearly as deep the one beyond a facet a rounding wide was passed over. */
 static void the_facet_beyond_one_a_rounding_wide_is_compared(void **state) {
     (void)state;
-    pir_polytope *p = box(1, 0x1.32a559e403192p-1, 0x1.2be0ba2d59a16p-1);
+    pir_polytope *p = test_box(1, 0x1.32a559e403192p-1, 0x1.2be0ba2d59a16p-1);
     struct bench bench = bench_make(p, p);
     bench.input.pose_p =
         (pir_pose){{-0x1.19799812dea0fp-42, 0x1.bb67ae8584cabp-1, -0x1.e78769f84a62bp-42, -0x1.ffffffffffffcp-2},
@@ -192,9 +185,9 @@ static void the_facet_beyond_one_a_rounding_wide_is_compared(void **state) {
     const pir_vec3 t = bench.input.pose_p.translation;
     // about one middle first, so that there is a surface
     bench.input.pose_p.translation = bench.input.pose_q.translation;
-    ask(&bench, true, "one middle", 0);
+    ask_ways(&bench, true, "one middle", 0);
     bench.input.pose_p.translation = t;
-    ask(&bench, true, "moved along an axis", 1);
+    ask_ways(&bench, true, "moved along an axis", 1);
     bench_clear(&bench);
 }
 
@@ -203,7 +196,7 @@ static void equal_boxes_nearly_parallel_answer_as_their_difference(void **state)
     (void)state;
     for (uint64_t number = 0; number < 3000; number++) {
         test_random random = test_random_case("boxes nearly parallel", number);
-        pir_polytope *p = box(1, 0.6 + 0.3 * test_random_unit(&random), 0.6 + 0.3 * test_random_unit(&random));
+        pir_polytope *p = test_box(1, 0.6 + 0.3 * test_random_unit(&random), 0.6 + 0.3 * test_random_unit(&random));
         struct bench bench = bench_make(p, p);
         double e = number % 2 ? 5e-13 : ldexp(test_random_unit(&random), -test_random_between(&random, 20, 54));
         for (int k = 0; k < 4; k++) {
@@ -215,7 +208,7 @@ static void equal_boxes_nearly_parallel_answer_as_their_difference(void **state)
                 v[test_random_below(&random, 3)] = 2 * e;
             bench.input.pose_p.rotation = (pir_quat){v[0], v[1], v[2], 1};
             bench.input.pose_p.translation = (pir_vec3){t[0], t[1], t[2]};
-            ask(&bench, true, "equal boxes", (int)number);
+            ask_ways(&bench, true, "equal boxes", (int)number);
         }
         bench_clear(&bench);
     }

@@ -61,7 +61,7 @@ static void turn_on(pir_pair_input *input, double by) {
 }
 
 /* The next frame: mostly a little beside the last one. */
-static void step(test_random *random, int frame, pir_pair_input *input) {
+static void next_input(test_random *random, int frame, pir_pair_input *input) {
     double by = ldexp(1, -(int)test_random_below(random, 24)), far = between(random, 1, 7);
     if (frame % 50 == 0)
         input->pose_p.translation = moved(random, input->pose_q.translation, far);
@@ -107,7 +107,7 @@ static void check_state(const struct scene *scene, const pir_pair_input *input, 
            (int)result.outcome, (int)expected.outcome, result.distance, expected.distance);
 }
 
-static void check(const struct scene *scene, const pir_pair_input *input, int frame) {
+static void check_still_apart(const struct scene *scene, const pir_pair_input *input, int frame) {
     pir_query_result result, expected;
     pir_contact contacts[32], right[32];
     size_t count = 99, right_count = 98;
@@ -136,8 +136,8 @@ static void check_motion(uint64_t number, pir_vec3 middle) {
     pir_pair_input input = pir_pair_input_default();
     input.cutoff = 0.1;
     for (int frame = 0; frame < FRAMES; frame++) {
-        step(&random, frame, &input);
-        check(&scene, &input, frame);
+        next_input(&random, frame, &input);
+        check_still_apart(&scene, &input, frame);
     }
     pir_pair_statistics used = pir_pair_get_statistics(scene.kept);
     expect(used.by_proof > FRAMES / 4, "%llu by certificate", (unsigned long long)used.by_proof);

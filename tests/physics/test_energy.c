@@ -42,13 +42,6 @@ static double between(struct room *room, double low, double high) {
     return low + (high - low) * 0.5 * (test_random_unit(&room->random) + 1);
 }
 
-static pir_polytope *box(double x, double y, double z, pir_vec3 at) {
-    test_points points = {.count = 8};
-    for (int i = 0; i < 8; i++)
-        points.at[i] = test_add(at, (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z}, 1);
-    return test_polytope(&points);
-}
-
 static pir_polytope *hull(struct room *room) {
     test_points points = {.count = 12};
     for (size_t i = 0; i < points.count; i++)
@@ -62,9 +55,9 @@ static void make_shape(struct room *room, uint32_t kind, struct world_shape *sha
     if (kind == 1)
         piece[0] = hull(room);
     else
-        piece[0] = box(between(room, 0.05, 0.2), between(room, 0.05, 0.2), between(room, 0.05, 0.2), test_zero);
+        piece[0] = test_box_at(between(room, 0.05, 0.2), between(room, 0.05, 0.2), between(room, 0.05, 0.2), test_zero);
     if (count == 2)
-        piece[1] = box(0.05, 0.05, 0.2, (pir_vec3){0.1, 0, 0.2});
+        piece[1] = test_box_at(0.05, 0.05, 0.2, (pir_vec3){0.1, 0, 0.2});
     assert_int_equal(world_shape_make(piece, count, shape), PIR_OK);
     for (uint32_t i = 0; i < count; i++)
         pir_polytope_release(piece[i]);
@@ -77,7 +70,7 @@ static void add_body(struct room *room, const struct world_body *body) {
 
 /* Six slabs around a cube of 3 m that stands on z = 0, a bit over each other. */
 static void add_walls(struct room *room, double restitution, double friction) {
-    pir_polytope *slab = box(2, 2, 0.25, test_zero);
+    pir_polytope *slab = test_box_at(2, 2, 0.25, test_zero);
     const pir_vec3 at[6] = {{0, 0, -0.25},   {0, 0, 3.25},   {1.75, 0, 1.5},
                             {-1.75, 0, 1.5}, {0, 1.75, 1.5}, {0, -1.75, 1.5}};
     const pir_quat turn[6] = {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 1, 0, 1}, {0, 1, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}};

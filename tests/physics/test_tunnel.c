@@ -20,23 +20,16 @@ static double between(test_random *random, double low, double high) {
     return low + (high - low) * 0.5 * (test_random_unit(random) + 1);
 }
 
-static pir_polytope *box(double x, double y, double z, pir_vec3 at) {
-    test_points points = {.count = 8};
-    for (int i = 0; i < 8; i++)
-        points.at[i] = test_add(at, (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z}, 1);
-    return test_polytope(&points);
-}
-
 /* A cube of 4 cm, a rod, a plate, a hull, a hammer. */
 static void make_shape(test_random *random, uint32_t kind, struct world_shape *shape) {
     pir_polytope *piece[2] = {NULL, NULL};
     uint32_t count = 1;
     if (kind == 0)
-        piece[0] = box(0.02, 0.02, 0.02, test_zero);
+        piece[0] = test_box_at(0.02, 0.02, 0.02, test_zero);
     if (kind == 1)
-        piece[0] = box(between(random, 0.1, 0.5), 0.01, 0.01, test_zero);
+        piece[0] = test_box_at(between(random, 0.1, 0.5), 0.01, 0.01, test_zero);
     if (kind == 2)
-        piece[0] = box(0.2, 0.15, 0.004, test_zero);
+        piece[0] = test_box_at(0.2, 0.15, 0.004, test_zero);
     if (kind == 3) {
         test_points points = {.count = 14};
         for (size_t i = 0; i < points.count; i++)
@@ -44,8 +37,8 @@ static void make_shape(test_random *random, uint32_t kind, struct world_shape *s
         piece[0] = test_polytope(&points);
     }
     if (kind == 4) {
-        piece[count++] = box(0.2, 0.01, 0.01, test_zero);
-        piece[0] = box(0.03, 0.06, 0.03, (pir_vec3){0.2, 0, 0});
+        piece[count++] = test_box_at(0.2, 0.01, 0.01, test_zero);
+        piece[0] = test_box_at(0.03, 0.06, 0.03, (pir_vec3){0.2, 0, 0});
     }
     assert_int_equal(world_shape_make(piece, count, shape), PIR_OK);
     for (uint32_t i = 0; i < count; i++)
@@ -67,7 +60,7 @@ static void shot_init(struct shot *shot, uint64_t number) {
         options.gravity = test_zero;
     shot->thick = between(&random, 0.01, 0.05);
     shot->speed = ldexp(1, (int)test_random_below(&random, 8)) * between(&random, 1, 1.5625);
-    pir_polytope *wall = box(6, 6, shot->thick / 2, test_zero);
+    pir_polytope *wall = test_box_at(6, 6, shot->thick / 2, test_zero);
     assert_int_equal(world_shape_make(&wall, 1, &shot->wall), PIR_OK);
     pir_polytope_release(wall);
     make_shape(&random, (uint32_t)(number % 5), &shot->shape);

@@ -36,7 +36,7 @@ static struct world *world_of(const struct stage *stage) {
     return world;
 }
 
-static void run(struct world *world, double seconds) {
+static void run_seconds(struct world *world, double seconds) {
     for (int i = 0; i < 240 * seconds; i++)
         assert_int_equal(world_step(world), PIR_OK);
 }
@@ -47,7 +47,7 @@ static void stands(const char *name, double near) {
     stage.options.sleep = false;
     struct world *world = world_of(&stage);
     double seconds = seconds_of("PIR_TEST_SECONDS", 4);
-    run(world, seconds);
+    run_seconds(world, seconds);
     for (uint32_t i = 0; i < stage.body_count; i++) {
         pir_vec3 from = stage.body[i].body.pose.translation, to = world_motion(world, i).pose.translation;
         double way = test_length(test_add(to, from, -1));
@@ -77,7 +77,7 @@ static void a_pile_comes_to_rest(void **state) {
     struct stage stage = read(name ? name : "heap");
     stage.options.sleep = false;
     struct world *world = world_of(&stage);
-    run(world, name ? stage.seconds : 3);
+    run_seconds(world, name ? stage.seconds : 3);
     struct depths depths = depths_of(&stage, world);
     print_message("%s: mean speed %.2g m/s, %u pairs looked at, deepest %.3g m, %.2f %% of a size\n", stage.title,
                   world_mean_speed(world), depths.pairs, depths.depth, 100 * depths.relative);
@@ -91,17 +91,17 @@ static void what_sleeps_wakes_when_it_is_hit(void **state) {
     (void)state;
     struct stage stage = read("stack");
     struct world *world = world_of(&stage);
-    run(world, 3);
+    run_seconds(world, 3);
     for (uint32_t i = 1; i < stage.body_count; i++)
         assert_true(world_motion(world, i).asleep);
-    run(world, 0.1);
+    run_seconds(world, 0.1);
     // nothing that sleeps is looked at
     assert_int_equal(pir_scene_get_statistics(world_scene(world)).looked, 0);
     struct world_body ball = stage.body[1].body;
     ball.pose.translation = (pir_vec3){-2, 0, 3};
     ball.velocity = (pir_vec3){8, 0, 2};
     assert_int_equal(world_add(world, &ball), PIR_OK);
-    run(world, 0.6);
+    run_seconds(world, 0.6);
     assert_false(world_motion(world, 10).asleep);
     assert_true(fabs(world_motion(world, 10).pose.translation.x) > 0.01);
     world_destroy(world);
@@ -171,7 +171,7 @@ static void threads_change_nothing(void **state) {
     for (int k = 0; k < 2; k++) {
         stage.options.threads = k + 1;
         world[k] = world_of(&stage);
-        run(world[k], 0.8);
+        run_seconds(world[k], 0.8);
     }
     for (uint32_t i = 0; i < stage.body_count; i++) {
         struct world_motion a = world_motion(world[0], i), b = world_motion(world[1], i);

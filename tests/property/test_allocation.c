@@ -165,18 +165,6 @@ static void every_failing_request_is_survived(void **state) {
     assert_true(failed > 500);
 }
 
-/* A prism with many narrow sides towards +x, upright along z or y: two of them cross most of their
-   edges' arcs, or hardly any. */
-static pir_polytope *fluted_prism(int upright_along_z) {
-    test_points points = {.count = 82};
-    for (int i = 0; i < 41; i++) {
-        double t = (i - 19.5) / 100, x = i < 40 ? (1 - t * t) / (1 + t * t) : -1, y = i < 40 ? 2 * t / (1 + t * t) : 0;
-        for (int end = -1; end <= 1; end += 2)
-            points.at[2 * i + (end > 0)] = upright_along_z ? (pir_vec3){x, y, end} : (pir_vec3){x, end, y};
-    }
-    return test_polytope(&points);
-}
-
 static void expect_region(const pir_sum *sum, pir_vec3 axis, double half_angle) {
     pir_vec3 its_axis;
     double its_half_angle;
@@ -187,7 +175,7 @@ static void expect_region(const pir_sum *sum, pir_vec3 axis, double half_angle) 
 
 static void list_of_crossings_that_cannot_grow_leaves_the_sum_whole(void **state) {
     (void)state;
-    pir_polytope *p = fluted_prism(1), *q = fluted_prism(0);
+    pir_polytope *p = test_fluted_prism(1), *q = test_fluted_prism(0);
     const pir_quat apart = {0, 0, 1, 0.001}, upright = {0.001, 0.002, 0, 1};
     uint32_t grown[6] = {0};
     for (int how = 0; how < 6; how++)
@@ -244,7 +232,7 @@ static void step_that_finds_no_memory_can_be_taken_again(void **state) {
     uint32_t failures = 0;
     for (uint64_t i = 0; i < 40; i++) {
         test_random random = test_random_case("allocation steps", i);
-        pir_polytope *p = fluted_prism(1), *q = fluted_prism(0);
+        pir_polytope *p = test_fluted_prism(1), *q = test_fluted_prism(0);
         test_memory memory = {0};
         pir_allocator allocator = test_allocator(&memory);
         pir_sum_options options = {.allocator = &allocator, .difference = false};

@@ -278,7 +278,7 @@ static void check_live(struct history *h) {
     pir_live_mesh_destroy(fresh);
 }
 
-static void step(struct history *h) {
+static void take_step(struct history *h) {
     static const pir_method methods[] = {PIR_METHOD_UPDATE, PIR_METHOD_UPDATE, PIR_METHOD_UPDATE, PIR_METHOD_AUTO,
                                          PIR_METHOD_AUTO,   PIR_METHOD_AUTO,   PIR_METHOD_WALK,   PIR_METHOD_CGM};
     h->step++;
@@ -297,13 +297,7 @@ static void step(struct history *h) {
     }
 }
 
-static double size_of(const pir_polytope *p) {
-    pir_vec3 low, high;
-    pir_polytope_bounds(p, &low, &high);
-    return fmax(high.x - low.x, fmax(high.y - low.y, high.z - low.z));
-}
-
-static void make(struct history *h) {
+static void make_history(struct history *h) {
     test_pose pose;
     // mostly small bodies, where much happens at once; some that update by a few certificates at a time
     test_random_pose(&h->random, below(h, 4) ? 16 : below(h, 4) ? 60 : 250, &pose);
@@ -313,7 +307,7 @@ static void make(struct history *h) {
     h->situation = pose.situation;
     h->last = "nothing";
     h->rotation = pose.rotation;
-    h->size = fmin(size_of(p), size_of(q));
+    h->size = fmin(test_size_of(p), test_size_of(q));
     assert_int_equal(pir_sum_create(p, q, pose.rotation, &options, &h->walked), PIR_OK);
     options.allocator = &allocator;
     assert_int_equal(pir_sum_create(p, q, pose.rotation, &options, &h->sum), PIR_OK);
@@ -328,11 +322,11 @@ static void sum_is_right_whatever_its_history(void **state) {
     uint64_t histories = asked ? strtoull(asked, NULL, 10) : HISTORIES;
     for (uint64_t number = 0; number < histories; number++) {
         struct history h = {.number = number, .random = test_random_case("histories", number)};
-        make(&h);
+        make_history(&h);
         for (int run = 0; run < RUNS; run++) {
             begin_run(&h);
             for (uint32_t left = 1 + below(&h, RUN_STEPS); left > 0; left--)
-                step(&h);
+                take_step(&h);
         }
         check_brute_force(&h);
         pir_live_mesh_destroy(h.live);

@@ -35,7 +35,8 @@ static void bodies_clear(struct bodies *b) {
 }
 
 /* Brings all three to `rotation` and compares. */
-static void expect_same(struct bodies *b, pir_quat rotation, uint64_t number, int frame, const char *situation) {
+static void expect_same_pairing(struct bodies *b, pir_quat rotation, uint64_t number, int frame,
+                                const char *situation) {
     assert_int_equal(pir_sum_rotate(b->tracked, rotation, PIR_METHOD_UPDATE), PIR_OK);
     assert_int_equal(pir_sum_rotate(b->walked, rotation, PIR_METHOD_WALK), PIR_OK);
     assert_int_equal(pir_sum_rotate_brute_force(b->brute, rotation), PIR_OK);
@@ -83,7 +84,7 @@ static void tracked_walked_and_brute_force_agree_on_every_step(void **state) {
         pir_quat step = i % 3 ? (pir_quat){axis.x * s, axis.y * s, axis.z * s, 1} : test_integer_rotation(&random),
                  r = pose.rotation;
         for (int frame = 0; frame < 12; frame++) {
-            expect_same(&b, r, i, frame, pose.situation);
+            expect_same_pairing(&b, r, i, frame, pose.situation);
             // exact products grow: after a few steps start from another integer rotation
             r = i % 3 ? test_compose(step, r, 1) : frame % 4 == 3 ? test_rotation(&random) : test_compose(step, r, 0);
             if (r.x == 0 && r.y == 0 && r.z == 0 && r.w == 0)
@@ -106,8 +107,8 @@ static void box_turning_on_a_table_is_tracked_through_its_ties(void **state) {
     bodies_init(&b, &pose, 1);
     // about z all the way and back, through the aligned poses exactly
     for (int frame = -64; frame <= 64; frame++) {
-        expect_same(&b, (pir_quat){0, 0, frame / 32.0, 1}, 0, frame, pose.situation);
-        expect_same(&b, (pir_quat){0, 0, 1, frame / 32.0}, 0, frame, pose.situation);
+        expect_same_pairing(&b, (pir_quat){0, 0, frame / 32.0, 1}, 0, frame, pose.situation);
+        expect_same_pairing(&b, (pir_quat){0, 0, 1, frame / 32.0}, 0, frame, pose.situation);
     }
     assert_true(pir_sum_get_statistics(b.tracked).by_perturbation > 0);
     bodies_clear(&b);

@@ -161,7 +161,7 @@ static size_t hull(const struct plane *plane, struct cloud *cloud, size_t *corne
 /* --- one section --- */
 
 /* Holds the section against the oracle's; the number of its corners. */
-static uint32_t check(const pir_mesh *mesh, pir_vec3 normal, double offset, const char *what, uint64_t number) {
+static uint32_t check_section(const pir_mesh *mesh, pir_vec3 normal, double offset, const char *what, uint64_t number) {
     pir_section *section = NULL;
     struct plane plane;
     struct cloud cloud;
@@ -242,7 +242,7 @@ static void sections_of_sums_are_the_hulls_of_what_the_plane_cuts(void **state) 
             double offset = normal.x * x.x + normal.y * x.y + normal.z * x.z;
             if (i % 5 == 4)
                 offset += test_random_unit(&random);
-            uint32_t count = check(mesh, normal, offset, pose.situation, i);
+            uint32_t count = check_section(mesh, normal, offset, pose.situation, i);
             kinds[count > 3 ? 3 : count]++;
         }
         pir_mesh_destroy(mesh);
@@ -288,7 +288,7 @@ static void planes_through_vertices_edges_and_facets_of_boxes(void **state) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         pir_mesh *mesh = box_mesh(cases[i].dimension);
-        uint32_t count = check(mesh, cases[i].normal, cases[i].offset, "box", i);
+        uint32_t count = check_section(mesh, cases[i].normal, cases[i].offset, "box", i);
         expect(count == cases[i].corners, "case %zu: %u corners", i, count);
         pir_mesh_destroy(mesh);
     }

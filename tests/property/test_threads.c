@@ -20,6 +20,7 @@
 #include <pirouette/shape.h>
 
 #include "support/bodies.h"
+#include "support/hash.h"
 #include "support/meshes.h"
 
 #define THREADS 4
@@ -50,13 +51,6 @@ static void need(struct worker *worker, pir_status status) {
     worker->failed = worker->failed || status != PIR_OK;
 }
 
-static uint64_t mix(uint64_t hash, const void *data, size_t size) {
-    const uint8_t *byte = data;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ byte[i]) * 0x100000001b3u;
-    return hash;
-}
-
 /* --- what a thread does --- */
 
 static void count_references(struct worker *worker) {
@@ -67,17 +61,17 @@ static void count_references(struct worker *worker) {
     }
 }
 
-static void ask(struct worker *worker, pir_query *query, pir_query_cache *cache, double away) {
+static void ask_query(struct worker *worker, pir_query *query, pir_query_cache *cache, double away) {
     pir_query_input input = pir_query_input_default();
     pir_query_result result;
     double depths[2] = {0, 0};
     input.translation = (pir_vec3){away, 0.1, -0.2};
     need(worker, pir_query_signed_distance(query, &input, cache, &result));
-    worker->hash = mix(worker->hash, &result.distance, sizeof result.distance);
-    worker->hash = mix(worker->hash, &result.normal, sizeof result.normal);
+    worker->hash = test_hash(worker->hash, &result.distance, sizeof result.distance);
+    worker->hash = test_hash(worker->hash, &result.normal, sizeof result.normal);
     const pir_vec3 translations[2] = {{0, 0, 0}, input.translation};
     need(worker, pir_query_batch_depths(query, translations, 2, depths, NULL));
-    worker->hash = mix(worker->hash, depths, sizeof depths);
+    worker->hash = test_hash(worker->hash, depths, sizeof depths);
 }
 
 /* Follows a sum by all methods, with a live mesh and a query on it. */
@@ -99,7 +93,7 @@ static void track(struct worker *worker) {
         need(worker, pir_sum_rotate(sum, r, (pir_method)(frame % 4)));
         need(worker, pir_live_mesh_refresh(live));
         worker->hash = test_hash_pairing(worker->hash, sum);
-        ask(worker, query, &cache, frame * 0.05);
+        ask_query(worker, query, &cache, frame * 0.05);
     }
     pir_mesh *mesh = NULL;
     need(worker, pir_sum_mesh(sum, PIR_EXACT, &mesh));
@@ -127,7 +121,7 @@ static void read_shared(struct worker *worker) {
     need(worker, pir_cgm_locator_create(shared->cgm, &locator));
     if (locator)
         need(worker, pir_cgm_locate(locator, (pir_vec3){0.5, 0.25, 0.125}, PIR_CGM_NONE, &location));
-    worker->hash = mix(worker->hash, &location.witness, sizeof location.witness);
+    worker->hash = test_hash(worker->hash, &location.witness, sizeof location.witness);
     pir_cgm_locator_destroy(locator);
     pir_cgm_destroy(twice);
 }
@@ -142,7 +136,7 @@ static void make_shapes(struct worker *worker) {
             return;
         need(worker, pir_polytope_reflect(shape, &minus));
         uint32_t facets = minus ? pir_polytope_facet_count(minus) : 0;
-        worker->hash = mix(worker->hash, &facets, sizeof facets);
+        worker->hash = test_hash(worker->hash, &facets, sizeof facets);
         pir_polytope_release(minus);
         pir_polytope_release(shape);
     }
@@ -152,7 +146,7 @@ static void make_shapes(struct worker *worker) {
     if (!read)
         return;
     pir_vec3 vertex = pir_polytope_vertex(read, 1);
-    worker->hash = mix(worker->hash, &vertex, sizeof vertex);
+    worker->hash = test_hash(worker->hash, &vertex, sizeof vertex);
     pir_polytope_release(read);
 }
 

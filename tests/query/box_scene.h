@@ -10,6 +10,7 @@
 #include <pirouette/query.h>
 
 #include "query/query_of.h"
+#include "support/bodies.h"
 
 static const pir_quat still = {0, 0, 0, 1};
 
@@ -22,12 +23,7 @@ struct scene {
 
 /* The box of full sides x, y, z about `at`. */
 static inline pir_polytope *box(double x, double y, double z, pir_vec3 at) {
-    pir_vec3 points[8];
-    pir_polytope *p;
-    for (int i = 0; i < 8; i++)
-        points[i] = (pir_vec3){at.x + (i & 1 ? x : -x) / 2, at.y + (i & 2 ? y : -y) / 2, at.z + (i & 4 ? z : -z) / 2};
-    assert_int_equal(pir_polytope_create(points, 8, NULL, &p), PIR_OK);
-    return p;
+    return test_box_at(x / 2, y / 2, z / 2, at);
 }
 
 static inline pir_polytope *cube(double side) {
@@ -35,13 +31,13 @@ static inline pir_polytope *cube(double side) {
 }
 
 /* Takes over the two polytopes. */
-static inline struct scene make(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
+static inline struct scene make_scene(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
     struct scene scene = {.p = p, .q = q};
     test_query_make(p, q, rotation, &scene.sum, &scene.query);
     return scene;
 }
 
-static inline void clear(struct scene *scene) {
+static inline void clear_scene(struct scene *scene) {
     test_query_free(scene->query, scene->sum);
     pir_polytope_release(scene->p);
     pir_polytope_release(scene->q);
@@ -53,7 +49,7 @@ static inline pir_query_input at(double x, double y, double z) {
     return input;
 }
 
-static inline pir_query_result ask(struct scene *scene, double x, double y, double z) {
+static inline pir_query_result ask_scene(struct scene *scene, double x, double y, double z) {
     pir_query_input input = at(x, y, z);
     pir_query_result r;
     assert_int_equal(pir_query_signed_distance(scene->query, &input, &scene->cache, &r), PIR_OK);

@@ -33,7 +33,7 @@ int exact_same_bits(const pir_query_result *a, const pir_query_result *b) {
            memcmp(&a->witness, &b->witness, sizeof a->witness) == 0;
 }
 
-static void expect_same(const char *how, const pir_query_result *a, const pir_query_result *b) {
+static void expect_same_answer(const char *how, const pir_query_result *a, const pir_query_result *b) {
     exact_check(EXACT_CACHE, a->steps < 100000 && b->steps < 100000, "%s: %u and %u steps", how, a->steps, b->steps);
     exact_check(EXACT_CACHE, exact_same_bits(a, b),
                 "%s: state %d %d, distance %.17g %.17g, normal (%.17g, %.17g, %.17g) (%.17g, %.17g, %.17g), point_p "
@@ -85,11 +85,11 @@ static void ask_all_ways(exact_pair *pair, test_random *random, exact_pose *pose
             continue;
         results[k] = cold;
         asks[k].call(pair->query, &pose->input, &zero, &other);
-        expect_same(asks[k].name, &cold, &other);
+        expect_same_answer(asks[k].name, &cold, &other);
         asks[k].call(pair->query, &pose->input, &pair->cache, &other);
-        expect_same(asks[k].name, &cold, &other);
+        expect_same_answer(asks[k].name, &cold, &other);
         asks[k].call(pair->query, &pose->input, &any, &other);
-        expect_same(asks[k].name, &cold, &other);
+        expect_same_answer(asks[k].name, &cold, &other);
     }
 }
 

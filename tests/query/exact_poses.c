@@ -1,18 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* See exact_poses.h. */
 #include "query/exact_poses.h"
+#include "support/vectors.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static pir_vec3 add(pir_vec3 a, pir_vec3 b, double s) {
-    return (pir_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
-
 static void map(test_points *points, double scale, pir_vec3 offset) {
     for (size_t i = 0; i < points->count; i++)
-        points->at[i] = add(offset, points->at[i], scale);
+        points->at[i] = test_add(offset, points->at[i], scale);
 }
 
 /* --- bodies --- */
@@ -260,9 +257,9 @@ static pir_vec3 some_vertex(test_random *random, const oracle_place *o, uint32_t
 static pir_vec3 some_point(test_random *random, const oracle_place *o, uint32_t i, int corners) {
     pir_vec3 at = some_vertex(random, o, i);
     if (corners > 1)
-        at = add(at, add(some_vertex(random, o, i), at, -1), test_random_below(random, 2) ? 0.5 : 0.375);
+        at = test_add(at, test_add(some_vertex(random, o, i), at, -1), test_random_below(random, 2) ? 0.5 : 0.375);
     if (corners > 2)
-        at = add(at, add(some_vertex(random, o, i), at, -1), test_random_below(random, 2) ? 0.25 : 0.4);
+        at = test_add(at, test_add(some_vertex(random, o, i), at, -1), test_random_below(random, 2) ? 0.25 : 0.4);
     return at;
 }
 
@@ -285,26 +282,26 @@ pir_vec3 exact_translation(test_random *random, const oracle_place *o, double si
     double small = ldexp(size, -test_random_between(random, 4, 58)), unit = ldexp(1, ilogb(size) - 4);
     switch (test_random_below(random, 11)) {
     case 0:
-        return add(at, direction, size * ldexp(1, test_random_between(random, -2, 20)));
+        return test_add(at, direction, size * ldexp(1, test_random_between(random, -2, 20)));
     case 1:
     case 2:
         return at;
     case 3:
         return step_ulps(random, at);
     case 4:
-        return add(at, direction, small);
+        return test_add(at, direction, small);
     case 5:
-        return add(at, normal, small);
+        return test_add(at, normal, small);
     case 6:
-        return add(at, normal, -small);
+        return test_add(at, normal, -small);
     case 7: {
-        pir_vec3 middle = add(at, add(some_point(random, o, j, 3), at, -1), 0.5);
+        pir_vec3 middle = test_add(at, test_add(some_point(random, o, j, 3), at, -1), 0.5);
         return test_random_below(random, 2)
                    ? middle
                    : (pir_vec3){round_to(middle.x, unit), round_to(middle.y, unit), round_to(middle.z, unit)};
     }
     case 8:
-        return add(at, add(some_vertex(random, o, j), at, -1), fabs(test_random_unit(random)));
+        return test_add(at, test_add(some_vertex(random, o, j), at, -1), fabs(test_random_unit(random)));
     case 9:
         return (pir_vec3){round_to(at.x, unit), round_to(at.y, unit), round_to(at.z, unit)};
     default:
@@ -317,20 +314,17 @@ pir_vec3 exact_translation(test_random *random, const oracle_place *o, double si
 
 /* --- directions --- */
 
-static pir_vec3 cross(pir_vec3 a, pir_vec3 b) {
-    return (pir_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 static pir_vec3 some_direction(test_random *random, const oracle_place *o, pir_vec3 t, double size) {
     uint32_t i = test_random_below(random, o->plane_count), j = test_random_below(random, o->plane_count);
     pir_vec3 normal = {o->plane[i].near[0], o->plane[i].near[1], o->plane[i].near[2]};
-    pir_vec3 edge = add(some_vertex(random, o, i), some_vertex(random, o, i), -1), any = test_random_direction(random);
+    pir_vec3 edge = test_add(some_vertex(random, o, i), some_vertex(random, o, i), -1),
+             any = test_random_direction(random);
     double length = ldexp(size, test_random_between(random, -4, 3));
-    pir_vec3 across = cross(normal, any);
+    pir_vec3 across = test_cross(normal, any);
     double lean = pow(10, -test_random_between(random, 1, 17)) * (test_random_below(random, 2) ? 1 : -1);
     switch (test_random_below(random, 9)) {
     case 0:
-        return add((pir_vec3){0, 0, 0}, any, length);
+        return test_add((pir_vec3){0, 0, 0}, any, length);
     case 1: {
         double axis[3] = {0, 0, 0};
         axis[test_random_below(random, 3)] = test_random_below(random, 2) ? length : -length;
@@ -339,18 +333,18 @@ static pir_vec3 some_direction(test_random *random, const oracle_place *o, pir_v
     case 2:
         return edge.x == 0 && edge.y == 0 && edge.z == 0 ? any : edge;
     case 3:
-        return add((pir_vec3){0, 0, 0}, across, length);
+        return test_add((pir_vec3){0, 0, 0}, across, length);
     case 4:
-        return add((pir_vec3){0, 0, 0}, add(across, normal, lean), length);
+        return test_add((pir_vec3){0, 0, 0}, test_add(across, normal, lean), length);
     case 5:
-        return edge.x == 0 && edge.y == 0 && edge.z == 0 ? any : add(edge, normal, lean * size);
+        return edge.x == 0 && edge.y == 0 && edge.z == 0 ? any : test_add(edge, normal, lean * size);
     case 6:
-        return add((pir_vec3){0, 0, 0}, normal, test_random_below(random, 2) ? length : -length);
+        return test_add((pir_vec3){0, 0, 0}, normal, test_random_below(random, 2) ? length : -length);
     default: {
         // towards a point of the difference: hits
-        pir_vec3 to = add(some_point(random, o, j, test_random_between(random, 1, 3)), t, -1);
+        pir_vec3 to = test_add(some_point(random, o, j, test_random_between(random, 1, 3)), t, -1);
         double factor = test_random_below(random, 2) ? 1 : ldexp(1, test_random_between(random, -1, 3));
-        return to.x == 0 && to.y == 0 && to.z == 0 ? any : add((pir_vec3){0, 0, 0}, to, factor);
+        return to.x == 0 && to.y == 0 && to.z == 0 ? any : test_add((pir_vec3){0, 0, 0}, to, factor);
     }
     }
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "support/answers.h"
 #include "support/queries.h"
 
 /* Whether two numbers have the same bits, or both are no number, because the exact one is beyond the doubles. */
@@ -15,19 +16,15 @@ static bool same_vector(pir_vec3 a, pir_vec3 b) {
     return same_number(a.x, b.x) && same_number(a.y, b.y) && same_number(a.z, b.z);
 }
 
-static bool same_witness(const pir_witness *a, const pir_witness *b) {
-    return a->p.kind == b->p.kind && a->p.index == b->p.index && a->q.kind == b->q.kind && a->q.index == b->q.index;
-}
-
 static bool same_result(const pir_query_result *a, const pir_query_result *b) {
     return a->state == b->state && a->outcome == b->outcome && same_number(a->distance, b->distance) &&
-           same_witness(&a->witness, &b->witness) && same_vector(a->normal, b->normal) &&
+           test_same_witness(&a->witness, &b->witness) && same_vector(a->normal, b->normal) &&
            same_vector(a->point_p, b->point_p) && same_vector(a->point_q, b->point_q);
 }
 
 static bool same_cast(const pir_cast_result *a, const pir_cast_result *b) {
     return a->outcome == b->outcome && a->time == b->time && same_vector(a->normal, b->normal) &&
-           same_vector(a->point, b->point) && same_witness(&a->witness, &b->witness);
+           same_vector(a->point, b->point) && test_same_witness(&a->witness, &b->witness);
 }
 
 static bool same_escapes(const test_answer *a, const test_answer *b) {
@@ -36,7 +33,7 @@ static bool same_escapes(const test_answer *a, const test_answer *b) {
     for (size_t i = 0; i < a->count && i < sizeof a->escapes / sizeof *a->escapes; i++)
         if (!same_number(a->escapes[i].depth, b->escapes[i].depth) ||
             !same_vector(a->escapes[i].normal, b->escapes[i].normal) ||
-            !same_witness(&a->escapes[i].witness, &b->escapes[i].witness))
+            !test_same_witness(&a->escapes[i].witness, &b->escapes[i].witness))
             return false;
     return true;
 }

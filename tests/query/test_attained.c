@@ -11,46 +11,12 @@
 
 #include <pirouette/query.h>
 
-#include "query/query_of.h"
+#include "query/box_scene.h"
 #include "support/bodies.h"
 
-static const pir_quat still = {0, 0, 0, 1};
 static const pir_quat eighth = {0, 0.3826834323650898, 0, 0.9238795325112867}; /* of a turn, about y */
 
-struct pair {
-    pir_polytope *p, *q;
-    pir_sum *sum;
-    pir_query *query;
-};
-
-static pir_polytope *box(double x, double y, double z) {
-    pir_vec3 points[8];
-    pir_polytope *p;
-    for (int i = 0; i < 8; i++)
-        points[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
-    assert_int_equal(pir_polytope_create(points, 8, NULL, &p), PIR_OK);
-    return p;
-}
-
-static struct pair make(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
-    struct pair pair = {.p = p, .q = q};
-    test_query_make(p, q, rotation, &pair.sum, &pair.query);
-    return pair;
-}
-
-static void clear(struct pair *pair) {
-    test_query_free(pair->query, pair->sum);
-    pir_polytope_release(pair->p);
-    pir_polytope_release(pair->q);
-}
-
-static pir_query_input at(double x, double y, double z) {
-    pir_query_input input = pir_query_input_default();
-    input.translation = (pir_vec3){x, y, z};
-    return input;
-}
-
-static pir_query_result ask(struct pair *pair, double x, double y, double z) {
+static pir_query_result ask_anew(struct scene *pair, double x, double y, double z) {
     pir_query_input input = at(x, y, z);
     pir_query_result result;
     assert_int_equal(pir_query_signed_distance(pair->query, &input, NULL, &result), PIR_OK);
@@ -67,47 +33,47 @@ static int in_box(pir_vec3 point, pir_vec3 low, pir_vec3 high) {
 
 static void cubes_face_on_face_touch_where_both_are(void **state) {
     (void)state;
-    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    struct scene pair = make_scene(test_box(0.5, 0.5, 0.5), test_box(0.5, 0.5, 0.5), still);
     const double heights[3] = {0.9, 1, 1.25};
     for (int i = 0; i < 3; i++) {
-        pir_query_result r = ask(&pair, 0.3, 0.2, heights[i]);
+        pir_query_result r = ask_anew(&pair, 0.3, 0.2, heights[i]);
         assert_true(fabs(r.distance - (heights[i] - 1)) <= 1e-15 && r.normal.z == 1);
         pir_vec3 low = {-0.2, -0.3, heights[i] - 0.5}, high = {0.8, 0.7, heights[i] + 0.5};
         assert_true(in_box(r.point_p, low, high));
         assert_true(in_box(r.point_q, (pir_vec3){-0.5, -0.5, -0.5}, (pir_vec3){0.5, 0.5, 0.5}));
     }
-    clear(&pair);
+    clear_scene(&pair);
 }
 
 static void a_cube_on_its_edge_touches_where_both_are(void **state) {
     (void)state;
-    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), eighth);
+    struct scene pair = make_scene(test_box(0.5, 0.5, 0.5), test_box(0.5, 0.5, 0.5), eighth);
     double half = sqrt(0.5);
     for (double along = -0.9; along < 1; along += 0.45)
         for (double height = -0.1; height <= 0.1; height += 0.1) {
-            pir_query_result r = ask(&pair, 0.2, along, 0.5 + half + height);
+            pir_query_result r = ask_anew(&pair, 0.2, along, 0.5 + half + height);
             assert_true(fabs(r.distance - height) <= 1e-15);
             assert_true(in_box(r.point_q, (pir_vec3){-0.5, -0.5, -0.5}, (pir_vec3){0.5, 0.5, 0.5}));
             assert_true(fabs(r.point_p.x - 0.2) <= 1e-15 && fabs(r.point_p.y - along) <= 0.5 + 1e-15);
             assert_true(r.witness.p.kind != PIR_FEATURE_FACET && r.witness.q.kind != PIR_FEATURE_NONE);
         }
-    clear(&pair);
+    clear_scene(&pair);
 }
 
 static void the_least_faces_are_named(void **state) {
     (void)state;
-    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    struct scene pair = make_scene(test_box(0.5, 0.5, 0.5), test_box(0.5, 0.5, 0.5), still);
     // corners of Q under the inside, an edge and a corner of P's face
     const struct {
         double x, y;
         pir_feature_kind p;
     } cases[3] = {{0.25, 0.125, PIR_FEATURE_FACET}, {0, 0.125, PIR_FEATURE_EDGE}, {0, 0, PIR_FEATURE_VERTEX}};
     for (int i = 0; i < 3; i++) {
-        pir_query_result r = ask(&pair, cases[i].x, cases[i].y, 0.75);
+        pir_query_result r = ask_anew(&pair, cases[i].x, cases[i].y, 0.75);
         assert_int_equal(r.witness.p.kind, cases[i].p);
         assert_int_equal(r.witness.q.kind, PIR_FEATURE_VERTEX);
     }
-    clear(&pair);
+    clear_scene(&pair);
 }
 
 /* Far from the origin a gap may be too small for coordinates to tell: the two points are apart all the same. */
@@ -125,10 +91,10 @@ static void points_over_any_gap_are_apart_along_the_normal(void **state) {
                 }
                 assert_int_equal(pir_polytope_create(points[k], 8, NULL, &body[k]), PIR_OK);
             }
-            struct pair pair = make(body[0], body[1], still);
+            struct scene pair = make_scene(body[0], body[1], still);
             for (int i = 20; i <= 200; i += 20) {
                 double gap = side * ldexp(1, -i);
-                pir_query_result r = ask(&pair, axis == 0 ? gap : 0, axis == 1 ? gap : 0, axis == 2 ? gap : 0);
+                pir_query_result r = ask_anew(&pair, axis == 0 ? gap : 0, axis == 1 ? gap : 0, axis == 2 ? gap : 0);
                 double normal[3] = {r.normal.x, r.normal.y, r.normal.z};
                 double apart = (r.point_p.x - r.point_q.x) * normal[0] + (r.point_p.y - r.point_q.y) * normal[1] +
                                (r.point_p.z - r.point_q.z) * normal[2];
@@ -136,7 +102,7 @@ static void points_over_any_gap_are_apart_along_the_normal(void **state) {
                 expect(apart > 0 && apart <= fabs(gap) + 0x1p-42, "axis %d, side %d, gap 2^-%d: %g", axis, side, i,
                        apart);
             }
-            clear(&pair);
+            clear_scene(&pair);
         }
 }
 
@@ -144,7 +110,7 @@ static void points_over_any_gap_are_apart_along_the_normal(void **state) {
 
 static void casts_slide_along_a_face_at_any_gap(void **state) {
     (void)state;
-    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    struct scene pair = make_scene(test_box(0.5, 0.5, 0.5), test_box(0.5, 0.5, 0.5), still);
     for (int i = 1; i <= 52; i++) {
         double gap = ldexp(1, -i);
         pir_query_input input = at(0.25, 0, 1 + gap);
@@ -163,13 +129,13 @@ static void casts_slide_along_a_face_at_any_gap(void **state) {
         assert_int_equal(cast.outcome, PIR_CAST_HIT);
         assert_true(cast.time == 0.5);
     }
-    clear(&pair);
+    clear_scene(&pair);
 }
 
 /* A motion that ends on the face hits it, and one that is shorter by the last bit does not. */
 static void casts_end_where_they_end(void **state) {
     (void)state;
-    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    struct scene pair = make_scene(test_box(0.5, 0.5, 0.5), test_box(0.5, 0.5, 0.5), still);
     for (int i = 0; i <= 40; i++) {
         double gap = ldexp(1, -i);
         pir_query_input input = at(0.125, 0.25, 1 + gap);
@@ -181,7 +147,7 @@ static void casts_end_where_they_end(void **state) {
             assert_true(k == 2 ? cast.time > 1 - 1e-15 && cast.time <= 1 : cast.time == 1);
         }
     }
-    clear(&pair);
+    clear_scene(&pair);
 }
 
 /* A motion of a box that is turned on the way, its rotation given by quaternions of all sizes. */
@@ -190,7 +156,7 @@ static void advances_take_rotations_of_any_size(void **state) {
     const double sizes[4] = {1, 3, 0x1p-1060, 0x1.8p1023}, half[3] = {0.5, 0.25, 1};
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < 4; i++) {
-            struct pair pair = make(box(half[0], half[1], half[2]), box(1, 1, 1), still);
+            struct scene pair = make_scene(test_box(half[0], half[1], half[2]), test_box(1, 1, 1), still);
             double part[3] = {0, 0, 0}, s = sizes[i];
             part[axis] = s;
             pir_motion motion = {.rotation = {part[0], part[1], part[2], s}, .axis = {axis == 0, axis == 1, axis == 2}};
@@ -212,13 +178,13 @@ static void advances_take_rotations_of_any_size(void **state) {
                        fabs(5 - 5 * cast.time - 1 - half[other] * cos(angle) - half[next] * sin(angle)) < 1e-8,
                    "axis %d, size %g, turning: time %.17g", axis, s, cast.time);
             assert_true(cast.steps < 10000);
-            clear(&pair);
+            clear_scene(&pair);
         }
 }
 
 static void lines_leave_by_facets_that_they_are_nearly_along(void **state) {
     (void)state;
-    struct pair pair = make(box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5), still);
+    struct scene pair = make_scene(test_box(0.5, 0.5, 0.5), test_box(0.5, 0.5, 0.5), still);
     for (int i = 10; i <= 50; i++) {
         // half way to the next face when it passes this one
         double slope = ldexp(1, -i);
@@ -231,7 +197,7 @@ static void lines_leave_by_facets_that_they_are_nearly_along(void **state) {
         assert_int_equal(r.outcome, PIR_SEPARATED);
         assert_true(fabs(r.distance - 1.5 * sqrt(1 + slope * slope)) <= 2e-15 && r.normal.y == 1);
     }
-    clear(&pair);
+    clear_scene(&pair);
 }
 
 /* --- one query through many rotations --- */
@@ -267,7 +233,7 @@ static void farthest_points_touch_at_every_rotation(void **state) {
         test_points p, q;
         test_body_points(&random, TEST_GRID, 60, &p);
         test_body_points(&random, number % 2 ? TEST_GRID : TEST_BOX, 60, &q);
-        struct pair pair = make(test_polytope(&p), test_polytope(&q), still);
+        struct scene pair = make_scene(test_polytope(&p), test_polytope(&q), still);
         const pir_quat none = {0, 0, 0, 1};
         for (int i = 0; i < 60; i++) {
             // a quarter, third or half turn; those between leave other facets behind
@@ -294,7 +260,7 @@ static void farthest_points_touch_at_every_rotation(void **state) {
                 assert_int_equal(result.state, PIR_OUTSIDE);
             }
         }
-        clear(&pair);
+        clear_scene(&pair);
     }
 }
 
@@ -316,7 +282,7 @@ static void farthest_points_beyond_the_doubles_are_refused(void **state) {
         pir_polytope *p, *q;
         assert_int_equal(pir_polytope_create(&(pir_vec3){far[i], 0, 0}, 1, NULL, &p), PIR_OK);
         assert_int_equal(pir_polytope_create(&(pir_vec3){0, far[i], 0}, 1, NULL, &q), PIR_OK);
-        struct pair pair = make(p, q, still);
+        struct scene pair = make_scene(p, q, still);
         pir_query_input input = at(0, 0, 0);
         pir_query_result result = {.steps = 7};
         assert_int_equal(pir_query_largest_distance(pair.query, &input, &result), i < 2 ? PIR_OK : PIR_ERR_LIMIT);
@@ -324,7 +290,7 @@ static void farthest_points_beyond_the_doubles_are_refused(void **state) {
             assert_true(fabs(result.distance / far[i] - sqrt(2)) < 1e-15 && isfinite(result.point_p.y));
         else
             assert_int_equal(result.steps, 7);
-        clear(&pair);
+        clear_scene(&pair);
     }
 }
 
@@ -332,7 +298,7 @@ static void any_cache_gives_the_same_bits(void **state) {
     (void)state;
     const pir_quat rotations[3] = {still, eighth, {0.1, -0.2, 0.3, 0.9}};
     for (int k = 0; k < 3; k++) {
-        struct pair pair = make(box(0.5, 0.25, 0.75), box(0.5, 0.5, 0.5), rotations[k]);
+        struct scene pair = make_scene(test_box(0.5, 0.25, 0.75), test_box(0.5, 0.5, 0.5), rotations[k]);
         pir_query_cache last = {0};
         for (uint32_t i = 0; i < 400; i++) {
             pir_query_input input = at((i % 7) * 0.25 - 0.75, (i % 5) * 0.375 - 0.75, (i % 13) * 0.125);
@@ -346,7 +312,7 @@ static void any_cache_gives_the_same_bits(void **state) {
             assert_int_equal(pir_query_batch_distances(pair.query, &input.translation, 1, &number, NULL), PIR_OK);
             assert_true(same(&cold, &warm) && same(&cold, &strange) && number == cold.distance);
         }
-        clear(&pair);
+        clear_scene(&pair);
     }
 }
 
@@ -366,7 +332,7 @@ static void casts_along_turned_facets_graze_what_is_in_their_plane(void **state)
             n += q[k] * q[k];
         }
         // of a size that makes all coordinates of the turned box integers
-        struct pair pair = make(box(n, n, n), box(half.x, half.y, half.z), still);
+        struct scene pair = make_scene(test_box(n, n, n), test_box(half.x, half.y, half.z), still);
         for (int step = 0; step < 20; step++) {
             // the same numbers in another order and with other signs have the same length
             for (int k = 3; k > 0; k--) {
@@ -390,7 +356,7 @@ static void casts_along_turned_facets_graze_what_is_in_their_plane(void **state)
                    "case %llu, step %d: outcome %d at %.17g", (unsigned long long)i, step, (int)cast.outcome,
                    cast.time);
         }
-        clear(&pair);
+        clear_scene(&pair);
     }
 }
 

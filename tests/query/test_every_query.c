@@ -20,7 +20,7 @@
 
 static void radii_and_cutoff_stay_where_they_are_asked(void **state) {
     (void)state;
-    struct scene s = make(cube(1), cube(1), still);
+    struct scene s = make_scene(cube(1), cube(1), still);
     pir_query_input input = at(2, 0, 0);
     pir_query_result r;
     input.radius_p = 0.25;
@@ -30,17 +30,17 @@ static void radii_and_cutoff_stay_where_they_are_asked(void **state) {
     input.radius_p = 0.75;
     assert_int_equal(pir_query_signed_distance(s.query, &input, &s.cache, &r), PIR_OK);
     assert_true(r.state == PIR_INSIDE && fabs(r.distance + 0.25) < 1e-12);
-    expect_answer(ask(&s, 2, 0, 0), PIR_OUTSIDE, 1, 1);
+    expect_answer(ask_scene(&s, 2, 0, 0), PIR_OUTSIDE, 1, 1);
     input = at(2, 0, 0);
     input.cutoff = 0.5;
     assert_int_equal(pir_query_distance(s.query, &input, &s.cache, &r), PIR_OK);
     assert_true(r.outcome == PIR_BEYOND_CUTOFF && r.distance == 0.5);
-    clear(&s);
+    clear_scene(&s);
 }
 
 static void bad_input_is_a_status(void **state) {
     (void)state;
-    struct scene s = make(cube(1), cube(1), still);
+    struct scene s = make_scene(cube(1), cube(1), still);
     pir_query_input input = at(NAN, 0, 0);
     pir_query_result r;
     pir_cast_result cast;
@@ -59,7 +59,7 @@ static void bad_input_is_a_status(void **state) {
     expect_answer(r, PIR_INSIDE, -1, 1);
     assert_true(isnan(pir_query_break_even(-1, 1, 1)));
     assert_true(pir_query_break_even(10, 1, 3) == 5 && pir_query_break_even(10, 3, 1) == HUGE_VAL);
-    clear(&s);
+    clear_scene(&s);
 }
 
 static void nothing_allocates_after_the_first_query(void **state) {
@@ -168,11 +168,12 @@ static void swapping_scaling_and_moving_change_no_state(void **state) {
         grid_points(&random, &b);
         // quarter and third turns: R is a matrix of integers, and the inverse pose is exact
         pir_quat r = turns[number % 4], back = {-r.x, -r.y, -r.z, r.w};
-        struct scene s = make(scaled(&a, 1, (pir_vec3){0, 0, 0}), scaled(&b, 1, (pir_vec3){0, 0, 0}), r);
-        struct scene swapped = make(scaled(&b, 1, (pir_vec3){0, 0, 0}), scaled(&a, 1, (pir_vec3){0, 0, 0}), back);
+        struct scene s = make_scene(scaled(&a, 1, (pir_vec3){0, 0, 0}), scaled(&b, 1, (pir_vec3){0, 0, 0}), r);
+        struct scene swapped = make_scene(scaled(&b, 1, (pir_vec3){0, 0, 0}), scaled(&a, 1, (pir_vec3){0, 0, 0}), back);
         double up = number % 2 ? 0x1p20 : 0x1p-20;
-        struct scene other = make(scaled(&a, up, (pir_vec3){0, 0, 0}), scaled(&b, up, (pir_vec3){0, 0, 0}), r);
-        struct scene moved = make(scaled(&a, 1, (pir_vec3){0, 0, 0}), scaled(&b, 1, (pir_vec3){1e7, -3e6, 5e6}), r);
+        struct scene other = make_scene(scaled(&a, up, (pir_vec3){0, 0, 0}), scaled(&b, up, (pir_vec3){0, 0, 0}), r);
+        struct scene moved =
+            make_scene(scaled(&a, 1, (pir_vec3){0, 0, 0}), scaled(&b, 1, (pir_vec3){1e7, -3e6, 5e6}), r);
         for (int i = 0; i < 12; i++) {
             double x = test_random_between(&random, -8, 8), y = test_random_between(&random, -8, 8),
                    z = test_random_between(&random, -8, 8);
@@ -181,8 +182,9 @@ static void swapping_scaling_and_moving_change_no_state(void **state) {
                                : number % 4 == 1 ? (pir_vec3){-y, x, -z}
                                : number % 4 == 2 ? (pir_vec3){-x, -z, y}
                                                  : (pir_vec3){-y, -z, -x};
-            pir_query_result one = ask(&s, x, y, z), two = ask(&swapped, inverse.x, inverse.y, inverse.z);
-            pir_query_result big = ask(&other, x * up, y * up, z * up), far = ask(&moved, x + 1e7, y - 3e6, z + 5e6);
+            pir_query_result one = ask_scene(&s, x, y, z), two = ask_scene(&swapped, inverse.x, inverse.y, inverse.z);
+            pir_query_result big = ask_scene(&other, x * up, y * up, z * up),
+                             far = ask_scene(&moved, x + 1e7, y - 3e6, z + 5e6);
             expect(one.state == two.state && fabs(one.distance - two.distance) <= 1e-12 * 10,
                    "case %llu swapped: %d %.17g, %d %.17g", (unsigned long long)number, (int)one.state, one.distance,
                    (int)two.state, two.distance);
@@ -192,10 +194,10 @@ static void swapping_scaling_and_moving_change_no_state(void **state) {
                    "case %llu moved: %d %.17g, %d %.17g", (unsigned long long)number, (int)one.state, one.distance,
                    (int)far.state, far.distance);
         }
-        clear(&s);
-        clear(&swapped);
-        clear(&other);
-        clear(&moved);
+        clear_scene(&s);
+        clear_scene(&swapped);
+        clear_scene(&other);
+        clear_scene(&moved);
     }
 }
 
@@ -203,7 +205,7 @@ static void batches_say_what_single_queries_say(void **state) {
     (void)state;
     test_random random = test_random_case("batches", 0);
     pir_polytope *p = test_sphere(&random, 30), *q = test_sphere(&random, 40);
-    struct scene s = make(p, q, (pir_quat){1, 2, 3, 4});
+    struct scene s = make_scene(p, q, (pir_quat){1, 2, 3, 4});
     enum { COUNT = 500 };
     static pir_vec3 t[COUNT];
     static pir_state states[COUNT];
@@ -215,7 +217,7 @@ static void batches_say_what_single_queries_say(void **state) {
     assert_int_equal(pir_query_batch_depths(s.query, t, COUNT, depths, NULL), PIR_OK);
     assert_int_equal(pir_query_batch_distances(s.query, t, COUNT, distances, NULL), PIR_OK);
     for (int i = 0; i < COUNT; i++) {
-        pir_query_result r = ask(&s, t[i].x, t[i].y, t[i].z);
+        pir_query_result r = ask_scene(&s, t[i].x, t[i].y, t[i].z);
         assert_int_equal(states[i], r.state);
         assert_true(depths[i] == (r.state == PIR_INSIDE ? -r.distance : 0));
         assert_true(fabs(distances[i] - r.distance) < 1e-12);
@@ -230,13 +232,13 @@ static void batches_say_what_single_queries_say(void **state) {
                    fabs(distance - fmax(r.distance, 0)) < 1e-7,
                "supports alone: %d, %.17g not %.17g", (int)outcome, distance, r.distance);
     }
-    clear(&s);
+    clear_scene(&s);
 }
 
 /* Support functions alone know the same refusals, in a build that has them. */
 static void supports_alone_refuse_what_is_no_place(void **state) {
     (void)state;
-    struct scene s = make(cube(1), cube(1), still);
+    struct scene s = make_scene(cube(1), cube(1), still);
     const pir_ccd_pair pairs[] = {{s.p, s.q, still, {NAN, 0, 0}},        {s.p, s.q, still, {0, HUGE_VAL, 0}},
                                   {s.p, s.q, {0, NAN, 0, 1}, {3, 0, 0}}, {s.p, s.q, {0, 0, 0, 0}, {3, 0, 0}},
                                   {NULL, s.q, still, {3, 0, 0}},         {s.p, NULL, still, {3, 0, 0}}};
@@ -251,7 +253,7 @@ static void supports_alone_refuse_what_is_no_place(void **state) {
         expect(status == should[i] || status == PIR_ERR_UNSUPPORTED, "pair %zu: status %d", i, (int)status);
         assert_true(outcome == PIR_CCD_FAILED && distance == 7);
     }
-    clear(&s);
+    clear_scene(&s);
 }
 
 /* A query that has followed every step, and one that has seen nothing, agree to the bit. */
@@ -260,7 +262,7 @@ static void following_small_steps_is_like_looking_afresh(void **state) {
     for (uint64_t number = 0; number < 12; number++) {
         test_random random = test_random_case("following", number);
         pir_polytope *p = test_sphere(&random, 12 + 10 * (uint32_t)number), *q = test_sphere(&random, 50);
-        struct scene s = make(p, q, still);
+        struct scene s = make_scene(p, q, still);
         pir_vec3 axis = test_random_direction(&random), t = test_random_direction(&random),
                  drift = test_random_direction(&random);
         pir_quat r = still;
@@ -286,7 +288,7 @@ static void following_small_steps_is_like_looking_afresh(void **state) {
                    afresh.distance);
             pir_query_destroy(fresh);
         }
-        clear(&s);
+        clear_scene(&s);
     }
 }
 

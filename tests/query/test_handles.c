@@ -38,7 +38,7 @@ static pir_polytope *cube(double half) {
 }
 
 /* The difference of two cubes of sides 2 and a query on it. All other references are released. */
-static void make(const pir_allocator *allocator, pir_sum **ret_sum, pir_query **ret_query) {
+static void make_query(const pir_allocator *allocator, pir_sum **ret_sum, pir_query **ret_query) {
     pir_polytope *p = cube(1), *q = cube(1);
     pir_sum_options options = {.allocator = allocator, .difference = true};
     assert_int_equal(pir_sum_create(p, q, still, &options, ret_sum), PIR_OK);
@@ -59,7 +59,7 @@ static void query_follows_an_operand_that_is_scaled(void **state) {
     (void)state;
     pir_sum *sum;
     pir_query *query;
-    make(NULL, &sum, NULL);
+    make_query(NULL, &sum, NULL);
     // the operand that the query is made from is replaced, and so is the one after it
     assert_int_equal(pir_sum_set_scale(sum, PIR_OPERAND_P, 3), PIR_OK);
     assert_int_equal(pir_query_create(sum, &query), PIR_OK);
@@ -77,7 +77,7 @@ static void query_may_outlive_its_sum(void **state) {
     pir_allocator allocator = test_allocator(&memory);
     pir_sum *sum;
     pir_query *query, *other;
-    make(&allocator, &sum, &query);
+    make_query(&allocator, &sum, &query);
     assert_int_equal(pir_query_create(sum, &other), PIR_OK);
     assert_int_equal(pir_sum_set_scale(sum, PIR_OPERAND_P, 3), PIR_OK);
     pir_sum_destroy(sum);
@@ -98,7 +98,7 @@ static void advance_reckons_with_the_scale_of_now(void **state) {
     (void)state;
     pir_sum *sum;
     pir_query *query;
-    make(NULL, &sum, &query);
+    make_query(NULL, &sum, &query);
     assert_true(depth_at_middle(query) == 2);
     assert_int_equal(pir_sum_set_scale(sum, PIR_OPERAND_P, 16), PIR_OK);
     const pir_motion turn = {still, {18, 0, 0}, {0, 0, 0}, {0, 0, 1}, 1};
@@ -122,7 +122,7 @@ static void live_mesh_may_outlive_its_sum(void **state) {
     pir_allocator allocator = test_allocator(&memory);
     pir_sum *sum;
     pir_live_mesh *live;
-    make(&allocator, &sum, NULL);
+    make_query(&allocator, &sum, NULL);
     assert_int_equal(pir_live_mesh_create(sum, &live), PIR_OK);
     assert_int_equal(pir_sum_set_scale(sum, PIR_OPERAND_Q, 4), PIR_OK);
     assert_int_equal(pir_sum_rotate(sum, (pir_quat){1, 2, 3, 4}, PIR_METHOD_AUTO), PIR_OK);
@@ -162,7 +162,7 @@ static void sum_that_is_no_difference_is_refused(void **state) {
     pir_sum *sum, *difference, *copy;
     pir_query *const before = (pir_query *)&sum, *query = before;
     assert_int_equal(pir_sum_create(p, p, still, NULL, &sum), PIR_OK);
-    make(NULL, &difference, NULL);
+    make_query(NULL, &difference, NULL);
     assert_int_equal(pir_query_create(sum, &query), PIR_ERR_ARGUMENT);
     assert_ptr_equal(query, before);
     // copies and files tell the two apart
@@ -198,7 +198,7 @@ static void scale_needs_no_memory_or_can_wait_for_it(void **state) {
     pir_query *query;
     pir_query_input input = pir_query_input_default();
     pir_query_result result;
-    make(&allocator, &sum, &query);
+    make_query(&allocator, &sum, &query);
     assert_true(depth_at_middle(query) == 2);
     uint64_t requests = memory.requests;
     for (int i = 0; i < 10; i++) {
@@ -260,7 +260,7 @@ static void generation_tells_every_change_and_no_reading(void **state) {
     pir_mesh *mesh;
     uint64_t seen = 0;
     const pir_vec3 axis = {1, 2, 3};
-    make(NULL, &sum, &query);
+    make_query(NULL, &sum, &query);
     assert_true(has_changed(sum, &seen));
     for (pir_method method = PIR_METHOD_AUTO; method <= PIR_METHOD_CGM; method++)
         assert_true(pir_sum_rotate(sum, (pir_quat){1, 2, method, 4}, method) == PIR_OK && has_changed(sum, &seen));

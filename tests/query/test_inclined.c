@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "query/contact_scene.h"
+#include "support/bodies.h"
 #include "support/random.h"
 #include "support/vectors.h"
 
@@ -18,12 +19,6 @@ static pir_polytope *slab(void) {
                                 {-9, -9, 0},  {9, -9, 0},  {-9, 9, 0},  {9, 9, 0}};
     pir_polytope *p = NULL;
     assert_int_equal(pir_polytope_create(points, 8, NULL, &p), PIR_OK);
-    return p;
-}
-
-static pir_polytope *body(const pir_vec3 *points, size_t count) {
-    pir_polytope *p = NULL;
-    assert_int_equal(pir_polytope_create(points, count, NULL, &p), PIR_OK);
     return p;
 }
 
@@ -46,7 +41,7 @@ static void a_segment_over_a_slab_has_both_ends_within_the_margin(void **state) 
         double angle = angles[i / 3], gap = gaps[i % 3], rise = 2 * sin(angle);
         // about y by −angle: the end at −x is the lower one
         const pir_quat r = {0, -sin(angle / 2), 0, cos(angle / 2)};
-        contact_scene scene = contact_scene_make(body(ends, 2), slab(), r);
+        contact_scene scene = contact_scene_make(test_hull(ends, 2), slab(), r);
         scene.t = (pir_vec3){0.1, 0.2, gap + rise / 2};
         scene.margin = fmax(gap, 0) + rise + 0.001;
         contact_scene_check(&scene, "segment", i);
@@ -60,7 +55,7 @@ static void a_plate_on_its_corner_has_the_corner_that_rises_least(void **state) 
     // a rectangle in the plane y = 0: from its lowest corner one edge rises by 0.2, the other by 1
     const pir_vec3 corners[4] = {{0, 0, 0}, {1, 0, 0.2}, {-0.2, 0, 1}, {0.8, 0, 1.2}};
     const pir_quat still = {0, 0, 0, 1};
-    contact_scene scene = contact_scene_make(body(corners, 4), slab(), still);
+    contact_scene scene = contact_scene_make(test_hull(corners, 4), slab(), still);
     scene.t = (pir_vec3){0, 0, 0.01};
     scene.margin = 0.5;
     contact_scene_check(&scene, "plate", 0);
@@ -94,7 +89,7 @@ static void contacts_beside_a_needle_lie_on_it(void **state) {
                                 {-26.134251386501916, -0.0026753999385623825, -0.0017416378983377563},
                                 {-21.163585594382404, 0.0016444353293342518, -0.0019736960285414314}};
     const pir_quat r = {-15825507123.598532, 21333670007.519531, -16685079549.675241, 12710586795.677927};
-    contact_scene scene = contact_scene_make(body(points, 10), body(needle, 9), r);
+    contact_scene scene = contact_scene_make(test_hull(points, 10), test_hull(needle, 9), r);
     scene.t = (pir_vec3){7.2558193423008661e-14, -2.2674435444690207e-15, -0.16145334610816486};
     scene.margin = 20;
     contact_scene_check(&scene, "needle", 0);
@@ -113,7 +108,7 @@ static void contacts_of_segments_nearly_parallel_are_over_each_other(void **stat
         test_random random = test_random_case("nearly parallel", i);
         double angle = ldexp(1 + fabs(test_random_unit(&random)), -(int)(i % 45) - 6);
         const pir_quat r = {0, 0, -sin(angle / 2), cos(angle / 2)};
-        contact_scene scene = contact_scene_make(body(ends, 2), body(ends, 2), r);
+        contact_scene scene = contact_scene_make(test_hull(ends, 2), test_hull(ends, 2), r);
         scene.t = (pir_vec3){0.5 * test_random_unit(&random) * (i % 2 ? 1 : 1e-3),
                              ldexp(test_random_unit(&random), -(int)(i / 45 % 27)),
                              ldexp(fabs(test_random_unit(&random)), -(int)(i / 45 % 29))};
@@ -135,7 +130,7 @@ static void contacts_of_an_edge_along_a_needle_are_over_each_other(void **state)
                                 {-0x1.c47406c712fd6p-1, 0x1.646e12c599bbfp-25, -0x1.7411d869fed45p-26},
                                 {0x1.44a11d65594d1p-4, 0x1.901192116e533p-25, -0x1.7a8b132f3f242p-24}};
     contact_scene scene =
-        contact_scene_make(contact_scene_box(1, 0x1.39a3a943fb868p-1, 1), body(needle, 5), (pir_quat){0, 0, 0, 1});
+        contact_scene_make(contact_scene_box(1, 0x1.39a3a943fb868p-1, 1), test_hull(needle, 5), (pir_quat){0, 0, 0, 1});
     scene.t = (pir_vec3){0x1.ff56ac4c1642ap-1, 0x1.7f05fbada3c6p+0, 0x1.31690bc2d5d3dp+0};
     scene.margin = 10;
     contact_scene_check(&scene, "needle along an edge", 0);
@@ -172,7 +167,7 @@ static void contacts_of_a_plate_that_an_ulp_has_split_lie_on_it(void **state) {
                                   {-2, 2, 0},
                                   {0, 2, -2},
                                   {2, 1, 0}};
-    contact_scene scene = contact_scene_make(body(plate, 8), body(lattice, 13), (pir_quat){0, 0, 0, 1});
+    contact_scene scene = contact_scene_make(test_hull(plate, 8), test_hull(lattice, 13), (pir_quat){0, 0, 0, 1});
     scene.t = (pir_vec3){0x1.26783a298ccaep-1, -0x1.8613dc46a0e0ep-1, 0x1.000008637bd06p+1};
     contact_scene_check(&scene, "split plate", 0);
     contact_scene_clear(&scene);

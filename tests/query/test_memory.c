@@ -13,18 +13,6 @@
 #include "support/bodies.h"
 #include "support/memory.h"
 
-/* A prism with many narrow sides towards +x, upright along z or y: two of them cross most of their
-   edges' arcs, or hardly any. */
-static pir_polytope *fluted_prism(int upright_along_z) {
-    test_points points = {.count = 82};
-    for (int i = 0; i < 41; i++) {
-        double t = (i - 19.5) / 100, x = i < 40 ? (1 - t * t) / (1 + t * t) : -1, y = i < 40 ? 2 * t / (1 + t * t) : 0;
-        for (int end = -1; end <= 1; end += 2)
-            points.at[2 * i + (end > 0)] = upright_along_z ? (pir_vec3){x, y, end} : (pir_vec3){x, end, y};
-    }
-    return test_polytope(&points);
-}
-
 /* The difference reflects P: its narrow sides are turned away first, and then towards those of Q. */
 static const pir_quat few = {0.001, 0.002, 0, 1}, many = {0, 0, 1, 0.001};
 
@@ -74,7 +62,7 @@ static bool same_result(const pir_query_result *a, const pir_query_result *b) {
            memcmp(&a->normal, &b->normal, sizeof a->normal) == 0;
 }
 
-static void expect_same(const struct answers *a, const struct answers *b) {
+static void expect_same_answers(const struct answers *a, const struct answers *b) {
     assert_true(same_result(&a->overlap, &b->overlap) && same_result(&a->distance, &b->distance) &&
                 same_result(&a->penetration, &b->penetration));
     assert_memory_equal(a->depths, b->depths, sizeof a->depths);
@@ -93,7 +81,7 @@ static pir_sum *difference_of(pir_polytope *p, pir_polytope *q, const pir_alloca
 
 static void queries_whose_planes_cannot_grow_say_so(void **state) {
     (void)state;
-    pir_polytope *p = fluted_prism(1), *q = fluted_prism(0);
+    pir_polytope *p = test_fluted_prism(1), *q = test_fluted_prism(0);
     pir_sum *there = difference_of(p, q, NULL);
     pir_query *fresh = NULL;
     assert_int_equal(pir_sum_rotate(there, many, PIR_METHOD_WALK), PIR_OK);
@@ -123,7 +111,7 @@ static void queries_whose_planes_cannot_grow_say_so(void **state) {
             }
             memory.fail_at = 0;
             answers = ask_all(query);
-            expect_same(&answers, &expected);
+            expect_same_answers(&answers, &expected);
             pir_query_destroy(query);
             pir_sum_destroy(sum);
             expect(memory.blocks == 0 && !memory.wrong_size, "call %d, request %llu", which, (unsigned long long)n);

@@ -21,7 +21,7 @@ struct scene {
     oracle_place *place;
 };
 
-static struct scene make(const test_points *p, const test_points *q, pir_quat rotation) {
+static struct scene make_places(const test_points *p, const test_points *q, pir_quat rotation) {
     struct scene s = {.p = test_polytope(p), .q = test_polytope(q)};
     s.solid_p = oracle_solid_make(s.p);
     s.solid_q = oracle_solid_make(s.q);
@@ -29,7 +29,7 @@ static struct scene make(const test_points *p, const test_points *q, pir_quat ro
     return s;
 }
 
-static void clear(struct scene *s) {
+static void clear_places(struct scene *s) {
     oracle_place_free(s->place);
     oracle_solid_free(s->solid_p);
     oracle_solid_free(s->solid_q);
@@ -48,7 +48,7 @@ static test_points box(double x, double y, double z) {
 static void boxes_have_the_answers_of_boxes(void **state) {
     (void)state;
     const test_points small = box(1, 1, 1), large = box(4, 4, 4);
-    struct scene s = make(&small, &large, still);
+    struct scene s = make_places(&small, &large, still);
     oracle_place *o = s.place;
     assert_true(o->dimension == 3 && o->plane_count == 6);
     // inside from −1 to 4 on each axis
@@ -71,13 +71,13 @@ static void boxes_have_the_answers_of_boxes(void **state) {
     assert_true(ray.meets && ray.within && ray.enter == 1);
     assert_true(oracle_place_farthest(o) == sqrt(8 * 8 + 9 * 9 + 17 * 17));
     assert_true(oracle_place_reach(o, (pir_vec3){0, 0, 5}) == -12);
-    clear(&s);
+    clear_places(&s);
 }
 
 static void a_hair_decides(void **state) {
     (void)state;
     const test_points small = box(1, 1, 1), large = box(4, 4, 4);
-    struct scene s = make(&small, &large, still);
+    struct scene s = make_places(&small, &large, still);
     oracle_place_set(s.place, (pir_vec3){nextafter(4, 5), 2, 2}, (pir_vec3){0, 1, 0});
     assert_int_equal(oracle_place_state(s.place), PIR_OUTSIDE);
     assert_false(oracle_place_ray(s.place).meets);
@@ -89,14 +89,14 @@ static void a_hair_decides(void **state) {
     assert_true(oracle_place_ray(s.place).within);
     oracle_place_set(s.place, (pir_vec3){5, 2, 2}, (pir_vec3){-nextafter(1, 0), 0, 0});
     assert_true(oracle_place_ray(s.place).meets && !oracle_place_ray(s.place).within);
-    clear(&s);
+    clear_places(&s);
 }
 
 static void rotations_are_rational(void **state) {
     (void)state;
     // (0, 0, 1, 2): by the angle of cosine 3/5 about z, so (5, 0, 0) comes to (3, 4, 0)
     const test_points long_box = box(5, 5, 1), large = box(4, 4, 4);
-    struct scene s = make(&long_box, &large, (pir_quat){0, 0, 1, 2});
+    struct scene s = make_places(&long_box, &large, (pir_quat){0, 0, 1, 2});
     oracle_place_set_point(s.place, PIR_OPERAND_P, (pir_vec3){13, 24, 30}, (pir_vec3){10, 20, 30});
     assert_false(oracle_place_nearest(s.place, NULL, s.place->only_q).apart);
     oracle_place_set_point(s.place, PIR_OPERAND_P, (pir_vec3){13, 24, 29}, (pir_vec3){10, 20, 30});
@@ -106,7 +106,7 @@ static void rotations_are_rational(void **state) {
     // from 0 − 4 to 4 + 4 along x
     oracle_place_set(s.place, (pir_vec3){8, 0, 1}, nowhere);
     assert_int_equal(oracle_place_state(s.place), PIR_BOUNDARY);
-    clear(&s);
+    clear_places(&s);
 }
 
 static void flat_bodies_have_no_inside(void **state) {
@@ -117,7 +117,7 @@ static void flat_bodies_have_no_inside(void **state) {
     static const int dimensions[3][3] = {{0, 1, 2}, {1, 1, 3}, {2, 3, 2}};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            struct scene s = make(bodies[i], bodies[j], still);
+            struct scene s = make_places(bodies[i], bodies[j], still);
             assert_int_equal(s.place->dimension, dimensions[i][j]);
             // the first vertices together
             pir_vec3 at = oracle_place_vertex(s.place, 0, 0);
@@ -128,7 +128,7 @@ static void flat_bodies_have_no_inside(void **state) {
             assert_true(oracle_place_ray(s.place).meets);
             double away = oracle_place_nearest(s.place, NULL, NULL).distance;
             assert_true(oracle_place_ray(s.place).enter == away && (away == 9 || away == 7));
-            clear(&s);
+            clear_places(&s);
         }
 }
 
@@ -138,7 +138,7 @@ static void the_ways_to_make_a_difference_agree(void **state) {
         test_random random = test_random_case("place oracle", number);
         test_pose pose;
         test_random_pose(&random, 8, &pose);
-        struct scene s = make(&pose.p, &pose.q, pose.rotation);
+        struct scene s = make_places(&pose.p, &pose.q, pose.rotation);
         assert_null(oracle_solid_compare(s.solid_p, s.p));
         assert_null(oracle_solid_compare(s.solid_q, s.q));
         pir_sum_options options = pir_sum_options_default();
@@ -162,7 +162,7 @@ static void the_ways_to_make_a_difference_agree(void **state) {
                              oracle_place_state(s.place) == PIR_OUTSIDE);
         }
         pir_mesh_destroy(mesh);
-        clear(&s);
+        clear_places(&s);
     }
 }
 

@@ -17,13 +17,10 @@
 #include "query/place_oracle.h"
 #include "query/query_of.h"
 #include "support/bodies.h"
+#include "support/vectors.h"
 
 #define POSES 24
 #define BOUND 1e-12
-
-static pir_vec3 add(pir_vec3 a, pir_vec3 b, double s) {
-    return (pir_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
 
 static double length(pir_vec3 a) {
     return sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
@@ -37,7 +34,7 @@ static pir_vec3 some_translation(test_random *random, const place_oracle *oracle
     double step = ldexp(size, -test_random_between(random, 8, 56));
     switch (test_random_below(random, 8)) {
     case 0:
-        return add(v, direction, 3 * size);
+        return test_add(v, direction, 3 * size);
     case 1:
         return v;
     case 2:
@@ -45,16 +42,16 @@ static pir_vec3 some_translation(test_random *random, const place_oracle *oracle
     case 3:
         return place_oracle_on_edge(oracle, index);
     case 4:
-        return add(place_oracle_on_facet(oracle, index), direction, step);
+        return test_add(place_oracle_on_facet(oracle, index), direction, step);
     case 5:
-        return add(place_oracle_on_edge(oracle, index), direction, step);
+        return test_add(place_oracle_on_edge(oracle, index), direction, step);
     case 6: {
         // between two vertices: inside, often deep
         pir_vec3 w = place_oracle_vertex(oracle, (uint32_t)test_random_bits(random));
         return (pir_vec3){(v.x + w.x) / 2, (v.y + w.y) / 2, (v.z + w.z) / 2};
     }
     default:
-        return add(v, direction, 0.3 * size * test_random_unit(random));
+        return test_add(v, direction, 0.3 * size * test_random_unit(random));
     }
 }
 
@@ -86,8 +83,8 @@ static void check_pose(pir_query *query, place_oracle *oracle, pir_query_cache *
                all[i]->distance, should, (int)all[i]->outcome, size, r0.x, r0.y, r0.z, r0.w);
         const pir_query_result *r = all[i];
         // the answer's own invariant, and the normal as a proof of the number
-        pir_vec3 end = add(r->point_q, r->normal, r->distance);
-        pir_vec3 miss = add(r->point_p, end, -1);
+        pir_vec3 end = test_add(r->point_q, r->normal, r->distance);
+        pir_vec3 miss = test_add(r->point_p, end, -1);
         expect(length(miss) <= bound && fabs(length(r->normal) - 1) < 1e-14, where, situation,
                (unsigned long long)number, t.x, t.y, t.z, (int)r->state, (int)right.state, r->distance, should,
                (int)r->outcome, size, r0.x, r0.y, r0.z, r0.w);

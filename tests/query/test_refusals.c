@@ -23,7 +23,7 @@ struct scene {
     pir_query *query;
 };
 
-static struct scene make(void) {
+static struct scene make_scene(void) {
     struct scene scene;
     pir_vec3 points[8];
     for (int i = 0; i < 8; i++)
@@ -33,7 +33,7 @@ static struct scene make(void) {
     return scene;
 }
 
-static void clear(struct scene *scene) {
+static void clear_scene(struct scene *scene) {
     test_query_free(scene->query, scene->sum);
     pir_polytope_release(scene->cube);
 }
@@ -51,7 +51,7 @@ static void expect_refusal(const test_query_kind *kind, const test_question *q, 
 
 static void every_call_refuses_what_is_no_placement(void **state) {
     (void)state;
-    struct scene s = make();
+    struct scene s = make_scene();
     const struct {
         pir_query_input input;
         pir_status status;
@@ -80,12 +80,12 @@ static void every_call_refuses_what_is_no_placement(void **state) {
         test_answer answer;
         assert_int_equal(kind->ask(&question, &answer), PIR_OK);
     }
-    clear(&s);
+    clear_scene(&s);
 }
 
 static void directions_have_a_length_and_are_finite(void **state) {
     (void)state;
-    struct scene s = make();
+    struct scene s = make_scene();
     const pir_vec3 wrong[3] = {{NAN, 1, 0}, {1, -HUGE_VAL, 0}, {0, 0, HUGE_VAL}};
     pir_query_input places[3] = {pir_query_input_default(), pir_query_input_default(), pir_query_input_default()};
     places[1].translation = (pir_vec3){2, 0, 0};
@@ -104,12 +104,12 @@ static void directions_have_a_length_and_are_finite(void **state) {
         assert_int_equal(pir_query_cast(s.query, none.input, none.direction, &cast), PIR_OK);
         assert_int_equal(cast.outcome, outcome[i]);
     }
-    clear(&s);
+    clear_scene(&s);
 }
 
 static void escapes_have_room_and_a_slack(void **state) {
     (void)state;
-    struct scene s = make();
+    struct scene s = make_scene();
     pir_query_input input = pir_query_input_default();
     pir_escape escape, before;
     size_t count = 77;
@@ -124,12 +124,12 @@ static void escapes_have_room_and_a_slack(void **state) {
     assert_memory_equal(&escape, &before, sizeof before);
     assert_int_equal(pir_query_escapes(s.query, &input, 0, 0, NULL, &count), PIR_OK);
     assert_int_equal(count, 6);
-    clear(&s);
+    clear_scene(&s);
 }
 
 static void batches_with_what_is_refused_write_nothing(void **state) {
     (void)state;
-    struct scene s = make();
+    struct scene s = make_scene();
     const pir_vec3 wrong[2] = {{0, NAN, 0}, {1e200, 0, 0}};
     const pir_status status[2] = {PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT};
     for (int i = 0; i < 2; i++) {
@@ -153,12 +153,12 @@ static void batches_with_what_is_refused_write_nothing(void **state) {
     assert_int_equal(pir_query_batch_depths(s.query, &right, 1, NULL, &place), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_query_batch_distances(s.query, NULL, 1, &number, NULL), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_query_batch_distances(s.query, NULL, 0, &number, NULL), PIR_OK);
-    clear(&s);
+    clear_scene(&s);
 }
 
 static void advances_refuse_what_is_no_motion(void **state) {
     (void)state;
-    struct scene s = make();
+    struct scene s = make_scene();
     const pir_motion good = {
         .rotation = still, .start = {5, 0, 0}, .motion = {-4, 0, 0}, .axis = {0, 0, 1}, .angle = 1};
     pir_motion wrong[6] = {good, good, good, good, good, good};
@@ -191,7 +191,7 @@ static void advances_refuse_what_is_no_motion(void **state) {
     assert_int_equal(pir_query_advance(s.query, &plain, 1e-9, &cast), PIR_OK);
     // 5 − 4t = 2
     assert_true(cast.outcome == PIR_CAST_HIT && fabs(cast.time - 0.75) < 1e-9);
-    clear(&s);
+    clear_scene(&s);
 }
 
 int main(void) {

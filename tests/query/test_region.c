@@ -15,6 +15,7 @@
 #include "exact/rotation.h"
 #include "support/bodies.h"
 #include "support/queries.h"
+#include "support/vectors.h"
 
 #define MOST_FACETS 20000
 
@@ -28,10 +29,6 @@ struct scene {
     pir_escape *escapes;
     uint32_t answered, apart, nothing, along, edges, beside;
 };
-
-static double dot(pir_vec3 a, pir_vec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 static void scene_init(struct scene *s, const test_pose *pose) {
     pir_sum_options options = pir_sum_options_default();
@@ -77,7 +74,7 @@ static void least_in_cone(struct scene *s, const pir_query_input *input, double 
     assert_true(count <= MOST_FACETS);
     *ret_least = *ret_most = HUGE_VAL;
     for (size_t i = 0; i < count; i++) {
-        double along = dot(s->escapes[i].normal, axis) - cos(half_angle);
+        double along = test_dot(s->escapes[i].normal, axis) - cos(half_angle);
         if (along >= -RIM)
             *ret_least = fmin(*ret_least, s->escapes[i].depth);
         if (along >= RIM)
@@ -109,22 +106,23 @@ static void expect_edge_point(struct scene *s, const pir_query_result *part, pir
     edge_ends(s->p, part->witness.p.index, &turn.r, t, a);
     edge_ends(s->q, part->witness.q.index, NULL, (pir_vec3){0, 0, 0}, b);
     pir_vec3 e = pir_vec_sub(a[1], a[0]), d = pir_vec_sub(b[1], b[0]), n = pir_vec_cross(e, d);
-    double square = dot(n, n);
-    double along = dot(n, part->normal);
+    double square = test_dot(n, n);
+    double along = test_dot(n, part->normal);
     // edges that doubles tell the directions of, and whose facet it is
-    if (!(square > 1e-6 * dot(e, e) * dot(d, d) && fmin(dot(e, e), dot(d, d)) > 1e-6 * size * size &&
-          along * along > square * (1 - 1e-9)))
+    if (!(square > 1e-6 * test_dot(e, e) * test_dot(d, d) &&
+          fmin(test_dot(e, e), test_dot(d, d)) > 1e-6 * size * size && along * along > square * (1 - 1e-9)))
         return;
-    double at = dot(pir_vec_cross(pir_vec_sub(a[0], b[0]), e), pir_vec_cross(d, e)) / square;
+    double at = test_dot(pir_vec_cross(pir_vec_sub(a[0], b[0]), e), pir_vec_cross(d, e)) / square;
     pir_vec3 nearest = pir_vec_add(b[0], pir_vec_scale(d, fmin(1, fmax(0, at))));
     pir_vec3 off = pir_vec_sub(part->point_q, nearest);
     s->edges++;
     s->beside += at < 0 || at > 1;
-    expect(sqrt(dot(off, off)) <= 1e-11 * size, "%s: the point on Q's edge is %g off", situation, sqrt(dot(off, off)));
+    expect(sqrt(test_dot(off, off)) <= 1e-11 * size, "%s: the point on Q's edge is %g off", situation,
+           sqrt(test_dot(off, off)));
 }
 
-static void ask(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, pir_query_cache *cache, double size,
-                const char *situation) {
+static void ask_region(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, pir_query_cache *cache,
+                       double size, const char *situation) {
     pir_query_input input = pir_query_input_default();
     pir_query_result part, again, all;
     input.translation = t;
@@ -145,14 +143,14 @@ static void ask(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, p
     if (all.state == PIR_OUTSIDE) {
         // a facet that shows it, if it is in the cone
         assert_int_equal(pir_query_overlap(s->ask_whole, &input, NULL, &all), PIR_OK);
-        expect(dot(all.normal, axis) < cos(half_angle) + RIM || dot(all.normal, all.normal) < 0.5,
+        expect(test_dot(all.normal, axis) < cos(half_angle) + RIM || test_dot(all.normal, all.normal) < 0.5,
                "%s: a facet of the region separates", situation);
     }
     if (part.outcome == PIR_NO_HIT) {
         s->nothing++;
     } else {
         assert_int_equal(part.outcome, PIR_NOT_SEPARATED);
-        expect(dot(part.normal, axis) >= cos(half_angle) - RIM, "%s: not in the cone", situation);
+        expect(test_dot(part.normal, axis) >= cos(half_angle) - RIM, "%s: not in the cone", situation);
         double gap = fmax(fabs(part.point_p.x - part.point_q.x - part.distance * part.normal.x),
                           fabs(part.point_p.y - part.point_q.y - part.distance * part.normal.y));
         gap = fmax(gap, fabs(part.point_p.z - part.point_q.z - part.distance * part.normal.z));
@@ -176,7 +174,7 @@ static void ask(struct scene *s, pir_vec3 t, pir_vec3 axis, double half_angle, p
     expect(out.steps == (out.state == PIR_INSIDE ? 2 : 1), "%s: %u steps to the state and the exit", situation,
            out.steps);
     assert_int_equal(pir_query_directional_depth(s->ask_whole, &input, axis, &all_out), PIR_OK);
-    if (dot(all_out.normal, axis) > cos(half_angle) + RIM) {
+    if (test_dot(all_out.normal, axis) > cos(half_angle) + RIM) {
         s->along++;
         expect(out.outcome == PIR_NOT_SEPARATED && fabs(out.distance - all_out.distance) <= 1e-9 * size,
                "%s: %g along the axis, not %g", situation, out.distance, all_out.distance);
@@ -223,7 +221,7 @@ static void depth_in_a_region_is_the_least_of_its_facets(void **state) {
             assert_int_equal(pir_sum_rotate(s.whole, r, PIR_METHOD_UPDATE), PIR_OK);
             assert_int_equal(pir_sum_rotate(s.fresh, r, PIR_METHOD_WALK), PIR_OK);
             axis = (pir_vec3){axis.x + 0.02 * step.y, axis.y + 0.02 * step.z, axis.z + 0.02 * step.x};
-            double n = sqrt(dot(axis, axis));
+            double n = sqrt(test_dot(axis, axis));
             axis = (pir_vec3){axis.x / n, axis.y / n, axis.z / n};
             assert_int_equal(pir_sum_set_region(s.region, axis, half_angle), PIR_OK);
             assert_int_equal(pir_sum_set_region(s.fresh, axis, half_angle), PIR_OK);
@@ -236,7 +234,7 @@ static void depth_in_a_region_is_the_least_of_its_facets(void **state) {
             t = (pir_vec3){t.x + along * axis.x, t.y + along * axis.y, t.z + along * axis.z};
             if (frame % 4 == 3)
                 cache = any_piece(&random);
-            ask(&s, t, axis, half_angle, &cache, size, pose.situation);
+            ask_region(&s, t, axis, half_angle, &cache, size, pose.situation);
         }
         scene_clear(&s);
     }
@@ -312,7 +310,7 @@ static void hidden_facets_of_a_segment_leave_the_others(void **state) {
             double half_angle = 0.9 + 0.4 * (n % 2);
             assert_int_equal(pir_sum_set_region(s.region, axis, half_angle), PIR_OK);
             assert_int_equal(pir_sum_set_region(s.fresh, axis, half_angle), PIR_OK);
-            ask(&s, t, axis, half_angle, NULL, size, "a segment");
+            ask_region(&s, t, axis, half_angle, NULL, size, "a segment");
         }
         scene_clear(&s);
     }

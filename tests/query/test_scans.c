@@ -36,7 +36,7 @@ struct outcome {
     double most, lowest_slack, high, least[3], lowest[2];
 };
 
-static void run(const pir_scan *scan, struct data in[4], struct outcome *out) {
+static void run_scan(const pir_scan *scan, struct data in[4], struct outcome *out) {
     memset(out, 0, sizeof *out);
     const pir_mat3 r = {{{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}}};
     const pir_vec3 x = {in[0].x[3], -in[0].y[4], in[0].z[6]};
@@ -68,9 +68,9 @@ static void every_version_gives_the_same_bits(void **state) {
         for (int k = 0; k < 4; k++)
             fill(&random, &in[k]);
         struct outcome plain, other;
-        run(pir_scan_version(0), in, &plain);
+        run_scan(pir_scan_version(0), in, &plain);
         for (unsigned version = 1; pir_scan_version(version); version++) {
-            run(pir_scan_version(version), in, &other);
+            run_scan(pir_scan_version(version), in, &other);
             expect(memcmp(&plain, &other, sizeof plain) == 0, "%s differs, case %llu", pir_scan_version(version)->name,
                    (unsigned long long)number);
         }
@@ -84,7 +84,7 @@ static void the_plain_version_says_what_the_formulas_say(void **state) {
     for (int k = 0; k < 4; k++)
         fill(&random, &in[k]);
     struct outcome out;
-    run(pir_scan_version(0), in, &out);
+    run_scan(pir_scan_version(0), in, &out);
     double low = HUGE_VAL;
     for (int i = 0; i < COUNT; i++) {
         pir_vec3 d = {in[0].x[i], in[0].y[i], in[0].z[i]}, e = {in[1].x[i], in[1].y[i], in[1].z[i]};

@@ -25,7 +25,7 @@ struct scene {
     double size;
 };
 
-static struct scene make(const char *shape) {
+static struct scene make_scene(const char *shape) {
     struct scene scene = {0};
     pir_vec3 low, high;
     pir_report report;
@@ -36,7 +36,7 @@ static struct scene make(const char *shape) {
     return scene;
 }
 
-static void clear(struct scene *scene) {
+static void clear_scene(struct scene *scene) {
     test_query_free(scene->query, scene->sum);
     pir_polytope_release(scene->p);
 }
@@ -53,7 +53,7 @@ static void expect_right(const pir_query_result *r, place_answer right, place_or
            t.x, t.y, t.z, slack);
 }
 
-static void check(struct scene *scene, place_oracle *oracle, pir_vec3 t) {
+static void check_place(struct scene *scene, place_oracle *oracle, pir_vec3 t) {
     pir_query_input input = pir_query_input_default();
     input.translation = t;
     place_answer right = place_oracle_ask(oracle, t);
@@ -78,21 +78,21 @@ static void check(struct scene *scene, place_oracle *oracle, pir_vec3 t) {
 
 static void spheres_about_one_middle(void **state) {
     (void)state;
-    struct scene scene = make("gs4");
+    struct scene scene = make_scene("gs4");
     test_random random = test_random_case("together", 0);
     for (int turn = 0; turn < 4; turn++) {
         pir_quat r = turn == 0 ? (pir_quat){0, 0, 0, 1} : turn == 1 ? (pir_quat){0, 0, 1, 1} : test_rotation(&random);
         assert_int_equal(pir_sum_rotate(scene.sum, r, PIR_METHOD_AUTO), PIR_OK);
         place_oracle *oracle = place_oracle_make(scene.p, scene.p, r);
-        check(&scene, oracle, (pir_vec3){0, 0, 0});
+        check_place(&scene, oracle, (pir_vec3){0, 0, 0});
         for (int i = 0; i < 5; i++) {
             pir_vec3 d = test_random_direction(&random);
             double away = scene.size * ldexp(1, -test_random_between(&random, 2, 50));
-            check(&scene, oracle, (pir_vec3){d.x * away, d.y * away, d.z * away});
+            check_place(&scene, oracle, (pir_vec3){d.x * away, d.y * away, d.z * away});
         }
         place_oracle_free(oracle);
     }
-    clear(&scene);
+    clear_scene(&scene);
 }
 
 /* Zero, or a power of ten below a fifth, of either sign. */
@@ -105,7 +105,7 @@ static double some_gap(test_random *random) {
 static void faces_lie_on_faces(void **state) {
     (void)state;
     static const pir_quat turns[4] = {{0, 0, 0, 1}, {0, 0, 1, 1}, {1, 0, 0, 1}, {1, 1, 1, 1}};
-    struct scene scene = make("cube");
+    struct scene scene = make_scene("cube");
     test_random random = test_random_case("together", 1);
     for (int turn = 0; turn < 4; turn++) {
         assert_int_equal(pir_sum_rotate(scene.sum, turns[turn], PIR_METHOD_AUTO), PIR_OK);
@@ -119,26 +119,26 @@ static void faces_lie_on_faces(void **state) {
             // on an edge of the difference too
             if (i % 5 == 0)
                 t[(i + 1) % 3] = scene.size;
-            check(&scene, oracle, (pir_vec3){t[0], t[1], t[2]});
+            check_place(&scene, oracle, (pir_vec3){t[0], t[1], t[2]});
         }
         place_oracle_free(oracle);
     }
-    clear(&scene);
+    clear_scene(&scene);
 }
 
 static void edges_lie_across_edges(void **state) {
     (void)state;
-    struct scene scene = make("cube");
+    struct scene scene = make_scene("cube");
     test_random random = test_random_case("together", 2);
     const pir_quat r = {1, 1, 0, sqrt(2)};
     assert_int_equal(pir_sum_rotate(scene.sum, r, PIR_METHOD_AUTO), PIR_OK);
     place_oracle *oracle = place_oracle_make(scene.p, scene.p, r);
     for (int i = 0; i < 300; i++) {
         double at = scene.size * (1 + some_gap(&random));
-        check(&scene, oracle, (pir_vec3){at, at, 0.25 * scene.size * test_random_unit(&random)});
+        check_place(&scene, oracle, (pir_vec3){at, at, 0.25 * scene.size * test_random_unit(&random)});
     }
     place_oracle_free(oracle);
-    clear(&scene);
+    clear_scene(&scene);
 }
 
 int main(void) {

@@ -39,7 +39,7 @@ struct object {
     pir_query_cache cache[2];
 };
 
-static void make(struct object *object, test_random *random, pir_workspace *workspace) {
+static void make_object(struct object *object, test_random *random, pir_workspace *workspace) {
     memset(object, 0, sizeof *object);
     object->p = test_random_polytope(random, (test_body)test_random_below(random, TEST_BODY_COUNT), 14);
     object->q = test_random_polytope(random, (test_body)test_random_below(random, TEST_BODY_COUNT), 14);
@@ -53,7 +53,7 @@ static void make(struct object *object, test_random *random, pir_workspace *work
     }
 }
 
-static void clear(struct object *object) {
+static void clear_object(struct object *object) {
     for (int own = 0; own < 2; own++) {
         pir_query_destroy(object->query[own]);
         pir_sum_destroy(object->sum[own]);
@@ -69,7 +69,7 @@ static pir_vec3 grid_vector(test_random *random) {
                       by * test_random_between(random, -3, 3)};
 }
 
-static void ask(struct object *object, test_random *random, uint64_t number) {
+static void ask_both(struct object *object, test_random *random, uint64_t number) {
     pir_query_input input = pir_query_input_default();
     pir_query_result result[2] = {{0}};
     double depth[2][3];
@@ -126,17 +126,17 @@ static void what_is_shared_changes_no_bit(void **state) {
         pir_workspace *workspace;
         assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
         for (int k = 0; k < OBJECTS; k++)
-            make(&objects[k], &random, workspace);
+            make_object(&objects[k], &random, workspace);
         for (uint64_t step = 0; step < 300; step++) {
             struct object *object = &objects[test_random_below(&random, OBJECTS)];
             uint32_t what = test_random_below(&random, 20);
             if (what == 0) {
-                clear(object);
-                make(object, &random, workspace);
+                clear_object(object);
+                make_object(object, &random, workspace);
             } else if (what < 6) {
                 change(object, &random);
             } else {
-                ask(object, &random, step);
+                ask_both(object, &random, step);
             }
             if (step % 50 == 0)
                 assert_true(pir_sum_is_valid(object->sum[0]));
@@ -145,10 +145,10 @@ static void what_is_shared_changes_no_bit(void **state) {
         pir_workspace_destroy(workspace);
         for (int k = 0; k < OBJECTS; k++) {
             change(&objects[k], &random);
-            ask(&objects[k], &random, 1000);
+            ask_both(&objects[k], &random, 1000);
         }
         for (int k = 0; k < OBJECTS; k++)
-            clear(&objects[k]);
+            clear_object(&objects[k]);
     }
 }
 

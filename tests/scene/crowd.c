@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "support/bodies.h"
+#include "support/hash.h"
 #include "support/test.h"
 #include "support/vectors.h"
 
@@ -71,7 +72,7 @@ static void random_options(crowd *c, crowd_body *body) {
     }
 }
 
-static const crowd_body *body_of(const crowd *c, uint32_t id) {
+const crowd_body *crowd_body_of(const crowd *c, uint32_t id) {
     for (uint32_t i = 0; i < CROWD_BODIES; i++)
         if (c->body[i].used && c->body[i].id == id)
             return &c->body[i];
@@ -169,7 +170,8 @@ struct reply {
 };
 
 /* The answer of a pair made for it, with its contacts; whether they are in contact. */
-static bool ask(const crowd *c, const crowd_body *p, const crowd_body *q, uint32_t i, uint32_t k, struct reply *reply) {
+static bool ask_pieces(const crowd *c, const crowd_body *p, const crowd_body *q, uint32_t i, uint32_t k,
+                       struct reply *reply) {
     pir_pair *pair;
     pir_workspace *workspace;
     pir_pair_input input = pir_pair_input_default();
@@ -220,7 +222,7 @@ static pir_vec3 way_of(const pir_pose *before, const pir_pose *after, pir_vec3 p
 }
 
 static void check_approach(const crowd *c, const pir_scene_event *event, const pir_pose before[], uint64_t number) {
-    const crowd_body *p = body_of(c, event->body_p), *q = body_of(c, event->body_q);
+    const crowd_body *p = crowd_body_of(c, event->body_p), *q = crowd_body_of(c, event->body_q);
     double expected = 0;
     if (c->options.approach && event->contact_count > 0) {
         pir_vec3 of_p = way_of(&before[event->body_p], &p->options.pose, event->contacts[0].point_p);
@@ -235,7 +237,7 @@ static bool check_pieces(crowd *c, const crowd_body *p, const crowd_body *q, uin
                          const pir_scene_event *event, uint64_t number) {
     struct reply reply;
     bool *before = &c->touching[p->id][q->id][i][k];
-    bool is = ask(c, p, q, i, k, &reply);
+    bool is = ask_pieces(c, p, q, i, k, &reply);
     bool was = *before;
     unsigned long long n = number;
     c->contacts += is;
@@ -265,7 +267,7 @@ void crowd_update_and_check(crowd *c, uint64_t number) {
     const pir_scene_event *events = pir_scene_events(c->scene, &count);
     for (uint32_t a = 0; a < CROWD_BODIES; a++)
         for (uint32_t b = a + 1; b < CROWD_BODIES; b++) {
-            const crowd_body *p = body_of(c, a), *q = body_of(c, b);
+            const crowd_body *p = crowd_body_of(c, a), *q = crowd_body_of(c, b);
             if (!p || !q || !may_meet(p, q) || !(was_moved(c, p) || was_moved(c, q)))
                 continue;
             for (uint32_t i = 0; i < p->options.piece_count; i++)
@@ -280,30 +282,23 @@ void crowd_update_and_check(crowd *c, uint64_t number) {
 
 /* --- hashes --- */
 
-static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size) {
-    const unsigned char *byte = data;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ byte[i]) * 0x100000001b3u;
-    return hash;
-}
-
 uint64_t crowd_hash_events(uint64_t hash, const pir_scene *scene) {
     size_t count;
     const pir_scene_event *event = pir_scene_events(scene, &count);
-    hash = hash_bytes(hash, &count, sizeof count);
+    hash = test_hash(hash, &count, sizeof count);
     for (const pir_scene_event *end = event + count; event != end; event++) {
         const uint32_t numbers[12] = {event->kind,           event->body_p,          event->body_q,
                                       event->piece_p,        event->piece_q,         (uint32_t)event->sensor,
                                       event->state,          event->witness.p.kind,  event->witness.p.index,
                                       event->witness.q.kind, event->witness.q.index, event->contact_count};
-        hash = hash_bytes(hash, numbers, sizeof numbers);
-        hash = hash_bytes(hash, &event->distance, sizeof event->distance);
-        hash = hash_bytes(hash, &event->normal, sizeof event->normal);
-        hash = hash_bytes(hash, &event->approach, sizeof event->approach);
+        hash = test_hash(hash, numbers, sizeof numbers);
+        hash = test_hash(hash, &event->distance, sizeof event->distance);
+        hash = test_hash(hash, &event->normal, sizeof event->normal);
+        hash = test_hash(hash, &event->approach, sizeof event->approach);
         for (uint32_t i = 0; i < event->contact_count; i++) {
-            hash = hash_bytes(hash, &event->contacts[i].id, sizeof event->contacts[i].id);
-            hash = hash_bytes(hash, &event->contacts[i].point_p, sizeof(pir_vec3));
-            hash = hash_bytes(hash, &event->contacts[i].point_q, sizeof(pir_vec3));
+            hash = test_hash(hash, &event->contacts[i].id, sizeof event->contacts[i].id);
+            hash = test_hash(hash, &event->contacts[i].point_p, sizeof(pir_vec3));
+            hash = test_hash(hash, &event->contacts[i].point_q, sizeof(pir_vec3));
         }
     }
     return hash;

@@ -44,6 +44,9 @@ void crowd_finish(crowd *c);
 void crowd_add(crowd *c);
 void crowd_remove(crowd *c, uint32_t index);
 
+/* The body with that number in the scene; NULL where it has none. */
+const crowd_body *crowd_body_of(const crowd *c, uint32_t id);
+
 /* New poses for about this part of the bodies: near the old ones, now and then far. */
 void crowd_move(crowd *c, double part);
 

@@ -96,7 +96,7 @@ static pir_query_result exact_answer(const struct room *room, const pir_scene_sh
 }
 
 /* One question: each body is told where its distance is within the cutoff, and its distance is between the bounds. */
-static void check(struct room *room, const pir_scene_shape *shape, double cutoff, pir_accuracy accuracy) {
+static void check_distances(struct room *room, const pir_scene_shape *shape, double cutoff, pir_accuracy accuracy) {
     pir_scene_distance told[BODIES];
     size_t count = 0, at = 0;
     const double off = off_in(room);
@@ -138,7 +138,7 @@ static void distances_are_within_their_bounds(void **state) {
             shape.radius = k % 5 ? 0 : 0.5;
             shape.pose = some_pose(&room, number % 2 ? 12 : 100);
             double cutoff = k % 3 == 0 ? HUGE_VAL : k % 3 == 1 ? 10 * test_random_unit(&room.random) : 0;
-            check(&room, &shape, fabs(cutoff), accuracies[k % 7]);
+            check_distances(&room, &shape, fabs(cutoff), accuracies[k % 7]);
         }
         for (int i = 0; i < 3; i++)
             settled[i] += room.settled[i];

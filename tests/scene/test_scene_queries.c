@@ -22,7 +22,8 @@
 #define MOST 256
 
 /* The answer of a pair made for a polytope in a pose and a piece. */
-static pir_query_result ask(pir_polytope *p, pir_pose pose, double radius, const crowd_body *body, uint32_t piece) {
+static pir_query_result ask_alone(pir_polytope *p, pir_pose pose, double radius, const crowd_body *body,
+                                  uint32_t piece) {
     pir_pair *pair;
     pir_workspace *workspace;
     pir_pair_input input = pir_pair_input_default();
@@ -37,13 +38,6 @@ static pir_query_result ask(pir_polytope *p, pir_pose pose, double radius, const
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
     return result;
-}
-
-static const crowd_body *by_id(const crowd *c, uint32_t id) {
-    for (uint32_t i = 0; i < CROWD_BODIES; i++)
-        if (c->body[i].used && c->body[i].id == id)
-            return &c->body[i];
-    return NULL;
 }
 
 static bool sees(const pir_scene_shape *shape, const crowd_body *body) {
@@ -83,9 +77,9 @@ static void overlaps_are_those_of_all_pieces(void **state) {
         size_t count, next = 0, again;
         assert_int_equal(pir_scene_overlap(c.scene, &shape, MOST, hit, &count), PIR_OK);
         for (uint32_t id = 0; id < CROWD_BODIES; id++) {
-            const crowd_body *body = by_id(&c, id);
+            const crowd_body *body = crowd_body_of(&c, id);
             for (uint32_t k = 0; sees(&shape, body) && k < body->options.piece_count; k++) {
-                pir_state is = ask(shape.polytope, shape.pose, shape.radius, body, k).state;
+                pir_state is = ask_alone(shape.polytope, shape.pose, shape.radius, body, k).state;
                 if (is == PIR_OUTSIDE)
                     continue;
                 expect(next < count && hit[next].body == id && hit[next].piece == k && hit[next].state == is,
@@ -125,8 +119,8 @@ static void insert(pir_scene_near *list, size_t *count, const pir_scene_near *ne
     list[at] = *near;
 }
 
-static void expect_same(const pir_scene_near *a, size_t count_a, const pir_scene_near *b, size_t count_b,
-                        unsigned long long number) {
+static void expect_same_near(const pir_scene_near *a, size_t count_a, const pir_scene_near *b, size_t count_b,
+                             unsigned long long number) {
     expect(count_a == count_b, "case %llu: %zu, expected %zu", number, count_a, count_b);
     for (size_t i = 0; i < count_a; i++)
         expect(a[i].body_p == b[i].body_p && a[i].body_q == b[i].body_q && a[i].piece_p == b[i].piece_p &&
@@ -146,15 +140,16 @@ static void the_nearest_are_those_of_all_pieces(void **state) {
         double cutoff = n % 3 == 0 ? HUGE_VAL : n % 3 == 1 ? 0.75 : 0;
         size_t expected = 0, count, capacity = n % 2 ? MOST : 3;
         for (uint32_t id = 0; id < CROWD_BODIES; id++) {
-            const crowd_body *body = by_id(&c, id);
+            const crowd_body *body = crowd_body_of(&c, id);
             for (uint32_t k = 0; sees(&shape, body) && k < body->options.piece_count; k++) {
-                pir_scene_near one = {PIR_SCENE_NONE, id, 0, k, ask(shape.polytope, shape.pose, shape.radius, body, k)};
+                pir_scene_near one = {PIR_SCENE_NONE, id, 0, k,
+                                      ask_alone(shape.polytope, shape.pose, shape.radius, body, k)};
                 if (one.result.distance <= cutoff)
                     insert(all, &expected, &one);
             }
         }
         assert_int_equal(pir_scene_nearest(c.scene, &shape, cutoff, capacity, near, &count), PIR_OK);
-        expect_same(near, count, all, expected < capacity ? expected : capacity, n);
+        expect_same_near(near, count, all, expected < capacity ? expected : capacity, n);
         pir_polytope_release(shape.polytope);
         crowd_finish(&c);
     }
@@ -176,17 +171,18 @@ static void the_closest_pairs_are_those_of_all(void **state) {
         size_t expected = 0, count, capacity = n % 3 ? 20 : 1;
         for (uint32_t a = 0; a < CROWD_BODIES; a++)
             for (uint32_t b = a + 1; b < CROWD_BODIES; b++) {
-                const crowd_body *p = by_id(&c, a), *q = by_id(&c, b);
+                const crowd_body *p = crowd_body_of(&c, a), *q = crowd_body_of(&c, b);
                 for (uint32_t i = 0; p && q && may_meet(p, q) && i < p->options.piece_count; i++)
                     for (uint32_t k = 0; k < q->options.piece_count; k++) {
-                        pir_scene_near one = {a, b, i, k, ask(p->piece[i], p->options.pose, p->options.radius, q, k)};
+                        pir_scene_near one = {a, b, i, k,
+                                              ask_alone(p->piece[i], p->options.pose, p->options.radius, q, k)};
                         if (one.result.distance <= cutoff)
                             insert(all, &expected, &one);
                     }
             }
         assert_true(expected < 4096);
         assert_int_equal(pir_scene_closest_pairs(c.scene, cutoff, capacity, near, &count), PIR_OK);
-        expect_same(near, count, all, expected < capacity ? expected : capacity, n);
+        expect_same_near(near, count, all, expected < capacity ? expected : capacity, n);
         crowd_finish(&c);
     }
 }
@@ -206,7 +202,7 @@ static int segment_hits(const crowd *c, pir_vec3 origin, pir_vec3 way, uint32_t 
         for (uint32_t k = 0; body->used && !body->options.sensor && (body->options.category & mask) &&
                              k < body->options.piece_count && hits < 1;
              k++) {
-            pir_query_result answer = ask(segment, (pir_pose){{0, 0, 0, 1}, origin}, 0, body, k);
+            pir_query_result answer = ask_alone(segment, (pir_pose){{0, 0, 0, 1}, origin}, 0, body, k);
             bool unsure = body->options.radius > 0 && fabs(answer.distance) < 1e-9;
             hits = unsure ? -1 : answer.state != PIR_OUTSIDE ? 1 : hits;
         }
@@ -246,7 +242,8 @@ static void rays_hit_exactly_what_segments_do(void **state) {
             // the point is on the piece, and nothing is met before it
             test_points at = {1, {impact.point}};
             pir_polytope *point = test_polytope(&at);
-            double distance = ask(point, pir_pose_identity(), 0, by_id(&c, impact.body), impact.piece).distance;
+            double distance =
+                ask_alone(point, pir_pose_identity(), 0, crowd_body_of(&c, impact.body), impact.piece).distance;
             pir_polytope_release(point);
             expect(distance < 1e-9 && distance > -2, "ray %llu: %g from the piece", number, distance);
             expect(impact.time == 0 || segment_hits(&c, origin, test_add(test_zero, way, impact.time - 1e-9), mask) < 1,
@@ -305,9 +302,9 @@ static double least_distance(const crowd *c, const pir_scene_shape *shape, const
     double least = HUGE_VAL;
     for (uint32_t i = 0; i < CROWD_BODIES; i++)
         for (uint32_t k = 0; c->body[i].used && sees(shape, &c->body[i]) && k < c->body[i].options.piece_count; k++)
-            least =
-                fmin(least,
-                     ask(shape->polytope, pose_at(shape->pose, motion, time), shape->radius, &c->body[i], k).distance);
+            least = fmin(
+                least,
+                ask_alone(shape->polytope, pose_at(shape->pose, motion, time), shape->radius, &c->body[i], k).distance);
     return least;
 }
 
@@ -336,8 +333,8 @@ static void a_cast_ends_at_the_first_contact(void **state) {
             expect(least_distance(&c, &shape, &motion, time) > 0, "cast %llu touches at %g", number, time);
         }
         if (meets) {
-            double left = ask(shape.polytope, pose_at(shape.pose, &motion, impact.time), shape.radius,
-                              by_id(&c, impact.body), impact.piece)
+            double left = ask_alone(shape.polytope, pose_at(shape.pose, &motion, impact.time), shape.radius,
+                                    crowd_body_of(&c, impact.body), impact.piece)
                               .distance;
             expect(left <= tolerance * 1.001, "cast %llu ends %g away", number, left);
         }

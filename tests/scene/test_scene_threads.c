@@ -17,6 +17,7 @@
 
 #include "scene/crowd.h"
 #include "support/bodies.h"
+#include "support/hash.h"
 #include "support/meshes.h"
 
 #define SCENES 4
@@ -39,13 +40,6 @@ struct life {
     pir_scene *scene;
     pir_scene_move move[FRAMES][BODIES];
 };
-
-static uint64_t mix(uint64_t hash, const void *data, size_t size) {
-    const unsigned char *byte = data;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ byte[i]) * 0x100000001b3u;
-    return hash;
-}
 
 static void try(struct life *life, pir_status status) {
     life->failed += status != PIR_OK;
@@ -76,7 +70,7 @@ static void add_bodies(struct life *life, test_random *random) {
 }
 
 /* What the queries of a scene say of a shape that the others use too. */
-static uint64_t ask(struct life *life, uint32_t frame) {
+static uint64_t ask_scene(struct life *life, uint32_t frame) {
     pir_scene_shape shape = pir_scene_shape_default(life->shared->shape[frame % SHAPES]);
     pir_scene_motion motion = {{3, 0.5, 0.25}, {0, 0, 0.5}, 0};
     pir_scene_hit hit[BODIES];
@@ -87,26 +81,26 @@ static uint64_t ask(struct life *life, uint32_t frame) {
     shape.pose.translation = (pir_vec3){-1.5, 0.25 * frame, 0};
     try(life, pir_scene_overlap(life->scene, &shape, BODIES, hit, &hits));
     for (size_t i = 0; i < hits; i++)
-        hash = mix(hash, &hit[i].body, sizeof hit[i].body);
+        hash = test_hash(hash, &hit[i].body, sizeof hit[i].body);
     try(life, pir_scene_nearest(life->scene, &shape, HUGE_VAL, 4, near, &nearest));
     for (size_t i = 0; i < nearest; i++)
-        hash = mix(hash, &near[i].result.distance, sizeof near[i].result.distance);
+        hash = test_hash(hash, &near[i].result.distance, sizeof near[i].result.distance);
     try(life, pir_scene_closest_pairs(life->scene, 0.5, 8, near, &closest));
     for (size_t i = 0; i < closest; i++)
-        hash = mix(hash, &near[i].result.distance, sizeof near[i].result.distance);
+        hash = test_hash(hash, &near[i].result.distance, sizeof near[i].result.distance);
     try(life, pir_scene_ray(life->scene, (pir_vec3){-4, 0.1, 0.2}, (pir_vec3){8, 0, 0}, UINT32_MAX, &ray));
     try(life, pir_scene_cast(life->scene, &shape, &motion, 1e-6, &cast));
     try(life, pir_scene_time_of_impact(life->scene, life->move[0][frame].body, &motion, 1e-6, &impact));
     const double times[3] = {ray.time, cast.time, impact.time};
     const uint32_t met[3] = {ray.body, cast.body, impact.body};
-    return mix(mix(hash, times, sizeof times), met, sizeof met);
+    return test_hash(test_hash(hash, times, sizeof times), met, sizeof met);
 }
 
-static uint64_t run(struct life *life, uint32_t from, uint64_t hash) {
+static uint64_t run_life(struct life *life, uint32_t from, uint64_t hash) {
     for (uint32_t f = from; f < FRAMES; f++) {
         try(life, pir_scene_update(life->scene, life->move[f], BODIES));
-        uint64_t told = ask(life, f);
-        hash = mix(crowd_hash_events(hash, life->scene), &told, sizeof told);
+        uint64_t told = ask_scene(life, f);
+        hash = test_hash(crowd_hash_events(hash, life->scene), &told, sizeof told);
     }
     return hash;
 }
@@ -130,9 +124,9 @@ static void *live(void *data) {
         return NULL;
     }
     try(life, pir_scene_serialise(life->scene, bytes, size));
-    life->hash = run(life, BACK, TEST_HASH_START);
+    life->hash = run_life(life, BACK, TEST_HASH_START);
     try(life, pir_scene_restore(life->scene, bytes, size, NULL));
-    life->failed += run(life, BACK, TEST_HASH_START) != life->hash;
+    life->failed += run_life(life, BACK, TEST_HASH_START) != life->hash;
     life->failed += !pir_scene_is_valid(life->scene);
     free(bytes);
     pir_scene_destroy(life->scene);

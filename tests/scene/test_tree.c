@@ -29,8 +29,8 @@ static pir_box random_box(test_random *random, double size) {
 }
 
 /* The items of all leaves that meet the box are those of the list, each once. */
-static void expect_same(const pir_tree *tree, const pir_box at[], const bool used[], const pir_box *box,
-                        unsigned long long number) {
+static void expect_same_found(const pir_tree *tree, const pir_box at[], const bool used[], const pir_box *box,
+                              unsigned long long number) {
     bool seen[LEAVES] = {false};
     for (uint32_t leaf = pir_tree_first(tree, box); leaf != PIR_TREE_NONE; leaf = pir_tree_next(tree, box, leaf)) {
         uint32_t item = pir_tree_item(tree, leaf);
@@ -60,7 +60,7 @@ static void a_tree_finds_what_a_list_finds(void **state) {
             if (used[i])
                 leaf[i] = pir_tree_insert(&tree, &at[i], i);
             pir_box box = random_box(&random, 3);
-            expect_same(&tree, at, used, &box, n);
+            expect_same_found(&tree, at, used, &box, n);
             expect(pir_tree_is_valid(&tree), "case %llu, step %d", (unsigned long long)n, step);
         }
         for (uint32_t i = 0; i < LEAVES; i++)

@@ -60,7 +60,7 @@ static double size_of(const pir_polytope *polytope) {
     return size > 0 ? size : 1;
 }
 
-static void check(uint64_t number, pir_polytope *body, const pir_simplify_options *options) {
+static void check_simplified(uint64_t number, pir_polytope *body, const pir_simplify_options *options) {
     pir_simplified s;
     pir_status status = pir_polytope_simplify(body, options, &s);
     expect(status == PIR_OK, "body %llu: %s", (unsigned long long)number, pir_status_text(status));
@@ -91,12 +91,12 @@ static void bounds_hold_and_are_near(void **state) {
         pir_polytope *body = some_body(&random, number);
         pir_simplify_options options = pir_simplify_options_default();
         options.vertices = 4 + test_random_below(&random, 16);
-        check(number, body, &options);
+        check_simplified(number, body, &options);
         options.vertices = 0;
         options.error = size_of(body) * pow(10, -1 - (double)test_random_below(&random, 4));
-        check(number, body, &options);
+        check_simplified(number, body, &options);
         options.error = size_of(body) * 1e-30;
-        check(number, body, &options);
+        check_simplified(number, body, &options);
         pir_polytope_release(body);
     }
 }
@@ -117,7 +117,7 @@ static void bodies_far_from_the_origin_have_the_vertices_and_bounds_of_others(vo
         if (number % 2)
             options.error = pow(10, -(double)test_random_below(&random, 7));
         if (pir_polytope_dimension(body) == 3)
-            check(number, body, &options);
+            check_simplified(number, body, &options);
         pir_polytope_release(body);
     }
 }
@@ -165,7 +165,7 @@ static void exact_vertices_are_measured_exactly(void **state) {
         }
         assert_int_equal(pir_polytope_create_exact((const mpq_t *)at, 20, NULL, &body), PIR_OK);
         if (pir_polytope_dimension(body) == 3)
-            check(number, body, &(pir_simplify_options){.vertices = 4 + test_random_below(&random, 6)});
+            check_simplified(number, body, &(pir_simplify_options){.vertices = 4 + test_random_below(&random, 6)});
         pir_polytope_release(body);
         for (int i = 0; i < 60; i++)
             mpq_clear(at[i]);
@@ -183,7 +183,7 @@ static void vertex_at_the_origin_is_measured_from_at_any_size(void **state) {
         points.at[0] = (pir_vec3){-9, -9, -9};
         stretch(&points, (pir_vec3){size, size, size}, (pir_vec3){9 * size, 9 * size, 9 * size});
         pir_polytope *body = test_polytope(&points);
-        check(number, body, &(pir_simplify_options){.vertices = 4 + test_random_below(&random, 4)});
+        check_simplified(number, body, &(pir_simplify_options){.vertices = 4 + test_random_below(&random, 4)});
         pir_polytope_release(body);
     }
 }

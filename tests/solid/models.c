@@ -250,7 +250,7 @@ static void add_spoon(solid_model *m) {
 
 /* --- by name --- */
 
-static bool make(solid_model *m, const char *name) {
+static bool make_model(solid_model *m, const char *name) {
     static const struct {
         const char *name;
         void (*add)(solid_model *m);
@@ -274,7 +274,7 @@ static bool make(solid_model *m, const char *name) {
 
 solid_model *solid_model_facets(const char *name, double divisor) {
     solid_model *m = calloc(1, sizeof *m);
-    if (!m || !make(m, name)) {
+    if (!m || !make_model(m, name)) {
         free(m);
         return NULL;
     }

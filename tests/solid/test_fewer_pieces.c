@@ -103,8 +103,8 @@ static double distance_from(const struct bodies *bodies, pir_workspace *workspac
 }
 
 /* Returns the greatest distance that was met, as a part of the bound. */
-static double check(test_random *random, uint64_t number, const struct bodies *exact, const struct bodies *fewer,
-                    double error) {
+static double check_bodies(test_random *random, uint64_t number, const struct bodies *exact, const struct bodies *fewer,
+                           double error) {
     pir_workspace *workspace;
     pir_polytope *origin;
     double greatest = 0;
@@ -147,7 +147,7 @@ static void fewer_pieces_contain_the_solid_within_their_error(void **state) {
         expect(i % 2 ? info.error <= options.tolerance : pir_pieces_count(fewer) <= options.pieces,
                "case %llu: %u pieces, error %g", (unsigned long long)i, pir_pieces_count(fewer), info.error);
         struct bodies exact = bodies_of(pieces), less = bodies_of(fewer);
-        sum += check(&random, i, &exact, &less, info.error);
+        sum += check_bodies(&random, i, &exact, &less, info.error);
         bodies_free(&less);
         bodies_free(&exact);
         pir_pieces_destroy(fewer);

@@ -19,6 +19,7 @@
 
 #include "solid/bodies.h"
 #include "solid/models.h"
+#include "support/vectors.h"
 
 enum { PLACES = 200 };
 
@@ -88,23 +89,15 @@ static void states_of_cubes_are_those_that_are_counted(void **state) {
 
 /* --- the exact difference --- */
 
-static double dot(pir_vec3 a, pir_vec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 static pir_vec3 minus(pir_vec3 a, pir_vec3 b) {
     return (pir_vec3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-static pir_vec3 cross(pir_vec3 a, pir_vec3 b) {
-    return (pir_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /* The normal of a facet, twice as long as its area. */
 static pir_vec3 normal_of(const pir_vec3 *x, const uint32_t *corner, uint32_t count) {
     pir_vec3 sum = {0, 0, 0};
     for (uint32_t i = 1; i + 1 < count; i++) {
-        const pir_vec3 c = cross(minus(x[corner[i]], x[corner[0]]), minus(x[corner[i + 1]], x[corner[0]]));
+        const pir_vec3 c = test_cross(minus(x[corner[i]], x[corner[0]]), minus(x[corner[i + 1]], x[corner[0]]));
         sum = (pir_vec3){sum.x + c.x, sum.y + c.y, sum.z + c.z};
     }
     return sum;
@@ -112,16 +105,16 @@ static pir_vec3 normal_of(const pir_vec3 *x, const uint32_t *corner, uint32_t co
 
 static double square_to_segment(pir_vec3 a, pir_vec3 b, pir_vec3 t) {
     const pir_vec3 way = minus(b, a), to = minus(t, a);
-    const double s = fmin(1, fmax(0, dot(to, way) / dot(way, way)));
+    const double s = fmin(1, fmax(0, test_dot(to, way) / test_dot(way, way)));
     const pir_vec3 rest = {to.x - s * way.x, to.y - s * way.y, to.z - s * way.z};
-    return dot(rest, rest);
+    return test_dot(rest, rest);
 }
 
 /* The solid angle over 4π of a triangle from t (Van Oosterom, Strackee 1983). */
 static double angle_of(pir_vec3 a, pir_vec3 b, pir_vec3 c) {
-    const double la = sqrt(dot(a, a)), lb = sqrt(dot(b, b)), lc = sqrt(dot(c, c));
-    const double up = dot(a, cross(b, c));
-    const double down = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+    const double la = sqrt(test_dot(a, a)), lb = sqrt(test_dot(b, b)), lc = sqrt(test_dot(c, c));
+    const double up = test_dot(a, test_cross(b, c));
+    const double down = la * lb * lc + test_dot(a, b) * lc + test_dot(b, c) * la + test_dot(c, a) * lb;
     return atan2(up, down) / (2 * acos(-1));
 }
 
@@ -133,14 +126,14 @@ static double look(const pir_mesh *mesh, pir_vec3 t, double *ret_winding) {
         uint32_t count;
         const uint32_t *corner = pir_mesh_facet(mesh, f, &count);
         const pir_vec3 n = normal_of(x, corner, count);
-        const double away = dot(n, minus(t, x[corner[0]])), size = dot(n, n);
+        const double away = test_dot(n, minus(t, x[corner[0]])), size = test_dot(n, n);
         const pir_vec3 foot = {t.x - away / size * n.x, t.y - away / size * n.y, t.z - away / size * n.z};
         double turns = 0;
         for (uint32_t i = 0; i < count; i++) {
             const pir_vec3 a = x[corner[i]], b = x[corner[i + 1 < count ? i + 1 : 0]];
             least = fmin(least, square_to_segment(a, b, t));
-            turns +=
-                atan2(dot(n, cross(minus(a, foot), minus(b, foot))) / sqrt(size), dot(minus(a, foot), minus(b, foot)));
+            turns += atan2(test_dot(n, test_cross(minus(a, foot), minus(b, foot))) / sqrt(size),
+                           test_dot(minus(a, foot), minus(b, foot)));
             winding += angle_of(minus(x[corner[0]], t), minus(a, t), minus(b, t));
         }
         if (turns > acos(-1))
@@ -153,7 +146,7 @@ static double look(const pir_mesh *mesh, pir_vec3 t, double *ret_winding) {
 static double size_of(const pir_mesh *mesh) {
     double most = 0;
     for (uint32_t v = 0; v < pir_mesh_vertex_count(mesh); v++)
-        most = fmax(most, sqrt(dot(pir_mesh_vertices(mesh)[v], pir_mesh_vertices(mesh)[v])));
+        most = fmax(most, sqrt(test_dot(pir_mesh_vertices(mesh)[v], pir_mesh_vertices(mesh)[v])));
     return most;
 }
 

@@ -154,14 +154,45 @@ void test_bake(test_points *points, pir_quat q) {
     }
 }
 
-pir_polytope *test_polytope(const test_points *points) {
+pir_polytope *test_hull(const pir_vec3 *points, size_t count) {
     pir_polytope *polytope = NULL;
-    pir_status status = pir_polytope_create(points->at, points->count, NULL, &polytope);
+    pir_status status = pir_polytope_create(points, count, NULL, &polytope);
     if (status != PIR_OK) {
-        fprintf(stderr, "a test's body of %zu points has no hull: status %d\n", points->count, (int)status);
+        fprintf(stderr, "a test's body of %zu points has no hull: status %d\n", count, (int)status);
         abort();
     }
     return polytope;
+}
+
+pir_polytope *test_polytope(const test_points *points) {
+    return test_hull(points->at, points->count);
+}
+
+pir_polytope *test_box_at(double x, double y, double z, pir_vec3 at) {
+    pir_vec3 corner[8];
+    for (int i = 0; i < 8; i++)
+        corner[i] = (pir_vec3){at.x + (i & 1 ? x : -x), at.y + (i & 2 ? y : -y), at.z + (i & 4 ? z : -z)};
+    return test_hull(corner, 8);
+}
+
+pir_polytope *test_box(double x, double y, double z) {
+    return test_box_at(x, y, z, (pir_vec3){0, 0, 0});
+}
+
+pir_polytope *test_fluted_prism(bool upright_along_z) {
+    test_points points = {.count = 82};
+    for (int i = 0; i < 41; i++) {
+        double t = (i - 19.5) / 100, x = i < 40 ? (1 - t * t) / (1 + t * t) : -1, y = i < 40 ? 2 * t / (1 + t * t) : 0;
+        for (int end = -1; end <= 1; end += 2)
+            points.at[2 * i + (end > 0)] = upright_along_z ? (pir_vec3){x, y, end} : (pir_vec3){x, end, y};
+    }
+    return test_polytope(&points);
+}
+
+double test_size_of(const pir_polytope *polytope) {
+    pir_vec3 low, high;
+    pir_polytope_bounds(polytope, &low, &high);
+    return fmax(high.x - low.x, fmax(high.y - low.y, high.z - low.z));
 }
 
 pir_polytope *test_sphere(test_random *random, size_t count) {

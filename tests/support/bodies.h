@@ -6,6 +6,8 @@
 #ifndef PIR_TEST_BODIES_H
 #define PIR_TEST_BODIES_H
 
+#include <stdbool.h>
+
 #include <pirouette/polytope.h>
 
 #include "support/random.h"
@@ -44,6 +46,22 @@ void test_bake(test_points *points, pir_quat q);
 
 /* The hull of points that must have one; ends the program with a message when they have not. */
 pir_polytope *test_polytope(const test_points *points);
+
+/* The hull of `count` points, likewise. */
+pir_polytope *test_hull(const pir_vec3 *points, size_t count);
+
+/* The box of half sides x, y, z about the origin, and about a point. */
+pir_polytope *test_box(double x, double y, double z);
+pir_polytope *test_box_at(double x, double y, double z, pir_vec3 at);
+
+/*
+ * A prism with many narrow sides towards +x, upright along z or y. Two of them cross most of their edges' arcs, or
+ * hardly any.
+ */
+pir_polytope *test_fluted_prism(bool upright_along_z);
+
+/* The longest side of a polytope's bounds. */
+double test_size_of(const pir_polytope *polytope);
 
 /* `count` random points of the unit sphere as a polytope. */
 pir_polytope *test_sphere(test_random *random, size_t count);

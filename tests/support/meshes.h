@@ -5,12 +5,12 @@
 
 #include <pirouette/sum.h>
 
-/* FNV-1a over what a mesh holds: vertices bit by bit, pairs, facets, kinds; `hash` is the one so
-   far, or TEST_HASH_START. */
-#define TEST_HASH_START 0xcbf29ce484222325u
+#include "support/hash.h"
+
+/* The hash of a mesh: vertices bit by bit, pairs, facets, kinds. `hash` is the one so far, or TEST_HASH_START. */
 uint64_t test_hash_mesh(uint64_t hash, const pir_mesh *mesh);
 
-/* The same over a pairing. */
+/* The hash of a pairing, likewise. */
 uint64_t test_hash_pairing(uint64_t hash, const pir_sum *sum);
 
 /* That the mesh, which holds exact coordinates, is the sum that `sum` stands for. NULL, or what does not hold. */

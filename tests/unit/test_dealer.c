@@ -61,7 +61,7 @@ static void feed(struct job *job, struct worker *worker, double now) {
 }
 
 /* The time until all units are done by `count` workers; `stuck` stops in the middle of a unit, `lost` is lost. */
-static double run(struct job *job, struct worker *workers, int count, int stuck, int lost) {
+static double run_job(struct job *job, struct worker *workers, int count, int stuck, int lost) {
     double now = 0;
     int turns = 0;
     for (int w = 0; w < count; w++)
@@ -107,7 +107,7 @@ static void all_units_are_done_in_nearly_the_least_time(void **state) {
             sum += job.cost[u];
             most = fmax(most, job.cost[u]);
         }
-        double took = run(&job, workers, count, -1, -1);
+        double took = run_job(&job, workers, count, -1, -1);
         // whoever is last began its unit, or the second go at it, while no one had nothing to do
         expect(took <= sum / speed + 2 * most / slowest + 3 && took >= sum / speed - 1e-9, "case %llu: %g, %g and %g",
                (unsigned long long)i, took, sum / speed, most);
@@ -127,7 +127,7 @@ static void a_worker_that_stops_or_is_lost_holds_up_no_unit(void **state) {
         struct worker workers[WORKERS];
         for (int w = 0; w < count; w++)
             workers[w] = (struct worker){.speed = 1};
-        double took = run(&job, workers, count, 0, 1), sum = 0, most = 0;
+        double took = run_job(&job, workers, count, 0, 1), sum = 0, most = 0;
         for (uint64_t u = 0; u < job.units; u++) {
             sum += job.cost[u];
             most = fmax(most, job.cost[u]);

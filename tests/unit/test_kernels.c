@@ -8,18 +8,11 @@
 
 #include "dymsum/sum.h"
 #include "support/bodies.h"
+#include "support/hash.h"
 
 /* Between −1 and 1. */
 static double uniform(test_random *random) {
     return 2 * test_random_unit(random) - 1;
-}
-
-/* FNV-1a. */
-static uint64_t mix(uint64_t hash, const void *data, size_t size) {
-    const uint8_t *byte = data;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ byte[i]) * 0x100000001b3u;
-    return hash;
 }
 
 /* Moves the facets' cells and the step at random, so that every case of a review occurs. */
@@ -55,32 +48,32 @@ static uint64_t review_hash(pir_sum *sum, const pir_kernels *kernels, const pir_
     uint32_t found = kernels->review(facets, &step, &sum->tracked.certificates, &first, suspects, &sides);
     found += kernels->review(facets, &step, &sum->tracked.certificates, &rest, suspects + found, &sides);
     for (uint32_t i = 0; i < found; i++) {
-        hash = mix(hash, &suspects[i].facet, sizeof suspects[i].facet);
-        hash = mix(hash, &suspects[i].crossed, sizeof suspects[i].crossed);
+        hash = test_hash(hash, &suspects[i].facet, sizeof suspects[i].facet);
+        hash = test_hash(hash, &suspects[i].crossed, sizeof suspects[i].crossed);
     }
-    hash = mix(hash, facets->cell, count * sizeof *cells);
-    hash = mix(hash, sum->tracked.certificates.margin, certificates * sizeof *sum->tracked.certificates.margin);
-    hash = mix(hash, sum->tracked.certificates.ahead, certificates * sizeof *sum->tracked.certificates.ahead);
-    hash = mix(hash, sum->tracked.certificates.behind, certificates * sizeof *sum->tracked.certificates.behind);
-    hash = mix(hash, &sides, sizeof sides);
+    hash = test_hash(hash, facets->cell, count * sizeof *cells);
+    hash = test_hash(hash, sum->tracked.certificates.margin, certificates * sizeof *sum->tracked.certificates.margin);
+    hash = test_hash(hash, sum->tracked.certificates.ahead, certificates * sizeof *sum->tracked.certificates.ahead);
+    hash = test_hash(hash, sum->tracked.certificates.behind, certificates * sizeof *sum->tracked.certificates.behind);
+    hash = test_hash(hash, &sides, sizeof sides);
     memcpy(facets->cell, cells, count * sizeof *cells);
     for (uint32_t f = 0; f < count; f++)
         expired[f] = f;
     for (uint32_t f = 0; f < count; f += PIR_DESCENT_MOST) {
         uint32_t some = count - f < PIR_DESCENT_MOST ? count - f : PIR_DESCENT_MOST;
         uint32_t open = kernels->descend(facets, expired + f, cells + f, some, uncertain, &sides);
-        hash = mix(hash, uncertain, open * sizeof *uncertain);
+        hash = test_hash(hash, uncertain, open * sizeof *uncertain);
     }
-    hash = mix(hash, facets->cell, count * sizeof *cells);
-    hash = mix(hash, &sides, sizeof sides);
+    hash = test_hash(hash, facets->cell, count * sizeof *cells);
+    hash = test_hash(hash, &sides, sizeof sides);
     for (uint32_t f = 0; f < count; f++) {
         pir_cell_probe seen;
         kernels->probe(facets, &step, cells[f], facets->turn[f % 3], &seen);
         const float spans[4] = {seen.highest, seen.check.margin, seen.check.ahead, seen.check.behind};
-        hash = mix(hash, &seen.check.touched, sizeof seen.check.touched);
-        hash = mix(hash, &seen.check.above, sizeof seen.check.above);
-        hash = mix(hash, &seen.which, sizeof seen.which);
-        hash = mix(hash, spans, sizeof spans);
+        hash = test_hash(hash, &seen.check.touched, sizeof seen.check.touched);
+        hash = test_hash(hash, &seen.check.above, sizeof seen.check.above);
+        hash = test_hash(hash, &seen.which, sizeof seen.which);
+        hash = test_hash(hash, spans, sizeof spans);
     }
     memcpy(facets->cell, cells, count * sizeof *cells);
     free(suspects);
@@ -148,9 +141,9 @@ static void collections_list_the_same_certificates(void **state) {
                 const pir_turned_angle turned = {uniform(&random) / 50, uniform(&random) / 50,
                                                  test_random_below(&random, 2) == 0};
                 uint32_t found = pir_kernels_collect(pir_kernels_version(k), &certificates, count, turned);
-                hash = mix(hash, certificates.expired, found * sizeof *certificates.expired);
-                hash = mix(hash, certificates.block_ahead, blocks * sizeof *certificates.block_ahead);
-                hash = mix(hash, certificates.block_behind, blocks * sizeof *certificates.block_behind);
+                hash = test_hash(hash, certificates.expired, found * sizeof *certificates.expired);
+                hash = test_hash(hash, certificates.block_ahead, blocks * sizeof *certificates.block_ahead);
+                hash = test_hash(hash, certificates.block_behind, blocks * sizeof *certificates.block_behind);
                 listed += k == 0 ? found : 0;
             }
             if (k == 0)
@@ -174,14 +167,14 @@ static uint64_t sweep_hash(const pir_sum *sum, const pir_kernels *kernels, const
         uint32_t near = kernels->list_caps(&of[k]->caps, sight, which), found = 0;
         const float *row = k ? sweep->point : sweep->arc;
         const pir_clustered clustered = {row, of[k]->item, of[k]->count, which, near};
-        hash = mix(hash, which, near * sizeof *which);
+        hash = test_hash(hash, which, near * sizeof *which);
         if (k == 1)
             found = kernels->list_points(&clustered, sight, item);
         for (uint32_t at = 0; k == 0 && at < near; at++) {
             found += kernels->list_arcs(&clustered, sight, &at, item + found);
-            hash = mix(hash, &at, sizeof at);
+            hash = test_hash(hash, &at, sizeof at);
         }
-        hash = mix(hash, item, found * sizeof *item);
+        hash = test_hash(hash, item, found * sizeof *item);
         *listed += found;
     }
     const pir_facets *facets[2] = {&sum->tracked.p_facets, &sum->tracked.q_facets};
@@ -192,7 +185,7 @@ static uint64_t sweep_hash(const pir_sum *sum, const pir_kernels *kernels, const
             for (uint32_t i = 0; i < count; i++)
                 which[i] = f + i;
             kernels->find_starts(facets[k], starts[k], which, count, item);
-            hash = mix(hash, item, count * sizeof *item);
+            hash = test_hash(hash, item, count * sizeof *item);
         }
     free(item);
     free(which);

@@ -32,7 +32,7 @@ static bool same_point(pir_vec3 a, pir_vec3 b) {
 }
 
 /* Facets alike, corner by corner, by the places of their vertices. */
-static void expect_same(const pir_polytope *a, const pir_polytope *b, unsigned long long number) {
+static void expect_same_polytope(const pir_polytope *a, const pir_polytope *b, unsigned long long number) {
     expect(pir_polytope_vertex_count(a) == pir_polytope_vertex_count(b) &&
                pir_polytope_facet_count(a) == pir_polytope_facet_count(b),
            "case %llu: %u and %u vertices, %u and %u facets", number, pir_polytope_vertex_count(a),
@@ -93,7 +93,7 @@ static void hull_of_many_is_the_hull_of_the_hulls_of_parts(void **state) {
         pir_polytope *all = hull_of(points, MANY);
         size_t count = list_vertices_of_parts(points, MANY, corners);
         pir_polytope *of_parts = hull_of(corners, count);
-        expect_same(all, of_parts, i);
+        expect_same_polytope(all, of_parts, i);
         pir_polytope_release(of_parts);
         pir_polytope_release(all);
     }
@@ -157,7 +157,7 @@ static void doubles_and_the_same_rationals_have_one_hull(void **state) {
         if (i % 3 == 0)
             stretch(&random, &points);
         pir_polytope *a = test_polytope(&points), *b = hull_of_rationals(&points);
-        expect_same(a, b, (unsigned long long)i);
+        expect_same_polytope(a, b, (unsigned long long)i);
         pir_polytope_release(b);
         pir_polytope_release(a);
     }
@@ -170,7 +170,7 @@ static void differences_beyond_the_doubles_make_a_hull(void **state) {
         .count = 6, .at = {{-0x1.8p1023, 0, 0}, {0x1.8p1023, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
     pir_polytope *a = test_polytope(&points), *b = hull_of_rationals(&points);
     assert_int_equal(pir_polytope_facet_count(a), 8);
-    expect_same(a, b, 0);
+    expect_same_polytope(a, b, 0);
     pir_polytope_release(b);
     pir_polytope_release(a);
 }

@@ -13,17 +13,11 @@
 
 static const pir_quat identity = {0, 0, 0, 1}, turn_about_z = {0, 0, 1, 3};
 
-static pir_polytope *make(const pir_vec3 *points, size_t count) {
-    pir_polytope *polytope = NULL;
-    assert_int_equal(pir_polytope_create(points, count, NULL, &polytope), PIR_OK);
-    return polytope;
-}
-
 static pir_polytope *make_cube(void) {
     pir_vec3 points[8];
     for (int i = 0; i < 8; i++)
         points[i] = (pir_vec3){i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1};
-    return make(points, 8);
+    return test_hull(points, 8);
 }
 
 /* The mesh of the sum, proven, with these counts; the operands are released. */
@@ -107,45 +101,45 @@ static void cubes_in_general_position_show_every_pair(void **state) {
 static void point_moves_a_body_and_leaves_its_facets(void **state) {
     (void)state;
     const pir_vec3 point = {10, 20, -30};
-    pir_mesh_destroy(expect_sum(make_cube(), make(&point, 1), turn_about_z, 8, 12, 6));
-    pir_mesh_destroy(expect_sum(make(&point, 1), make_cube(), turn_about_z, 8, 12, 6));
-    pir_mesh_destroy(expect_sum(make(&point, 1), make(&point, 1), turn_about_z, 1, 0, 0));
+    pir_mesh_destroy(expect_sum(make_cube(), test_hull(&point, 1), turn_about_z, 8, 12, 6));
+    pir_mesh_destroy(expect_sum(test_hull(&point, 1), make_cube(), turn_about_z, 8, 12, 6));
+    pir_mesh_destroy(expect_sum(test_hull(&point, 1), test_hull(&point, 1), turn_about_z, 1, 0, 0));
 }
 
 static void segments_make_a_segment_or_a_parallelogram(void **state) {
     (void)state;
     const pir_vec3 along_x[] = {{0, 0, 0}, {1, 0, 0}}, along_y[] = {{0, 2, 0}, {0, 0, 0}};
-    pir_mesh_destroy(expect_sum(make(along_x, 2), make(along_x, 2), identity, 2, 1, 0));
-    pir_mesh_destroy(expect_sum(make(along_x, 2), make(along_x, 2), (pir_quat){0, 0, 1, 0}, 2, 1, 0));
-    pir_mesh_destroy(expect_sum(make(along_x, 2), make(along_y, 2), identity, 4, 4, 2));
-    pir_mesh_destroy(expect_sum(make(along_x, 2), make(along_y, 2), (pir_quat){0, 0, 1, 1}, 2, 1, 0));
+    pir_mesh_destroy(expect_sum(test_hull(along_x, 2), test_hull(along_x, 2), identity, 2, 1, 0));
+    pir_mesh_destroy(expect_sum(test_hull(along_x, 2), test_hull(along_x, 2), (pir_quat){0, 0, 1, 0}, 2, 1, 0));
+    pir_mesh_destroy(expect_sum(test_hull(along_x, 2), test_hull(along_y, 2), identity, 4, 4, 2));
+    pir_mesh_destroy(expect_sum(test_hull(along_x, 2), test_hull(along_y, 2), (pir_quat){0, 0, 1, 1}, 2, 1, 0));
 }
 
 static void segment_along_an_edge_of_a_cube_stretches_it(void **state) {
     (void)state;
     const pir_vec3 along_x[] = {{0, 0, 0}, {1, 0, 0}}, askew[] = {{0, 0, 0}, {1, 2, 3}};
-    pir_mesh_destroy(expect_sum(make_cube(), make(along_x, 2), identity, 8, 12, 6));
-    pir_mesh_destroy(expect_sum(make(along_x, 2), make_cube(), (pir_quat){0, 0, 1, 1}, 8, 12, 6));
+    pir_mesh_destroy(expect_sum(make_cube(), test_hull(along_x, 2), identity, 8, 12, 6));
+    pir_mesh_destroy(expect_sum(test_hull(along_x, 2), make_cube(), (pir_quat){0, 0, 1, 1}, 8, 12, 6));
     // a hexagonal outline swept: two corners of the cube get three edges more
-    pir_mesh_destroy(expect_sum(make_cube(), make(askew, 2), identity, 14, 24, 12));
+    pir_mesh_destroy(expect_sum(make_cube(), test_hull(askew, 2), identity, 14, 24, 12));
 }
 
 static void polygons_of_one_plane_make_a_polygon(void **state) {
     (void)state;
     const pir_vec3 square[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                    triangle[] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}};
-    pir_mesh_destroy(expect_sum(make(square, 4), make(square, 4), identity, 4, 4, 2));
-    pir_mesh_destroy(expect_sum(make(square, 4), make(square, 4), turn_about_z, 8, 8, 2));
-    pir_mesh_destroy(expect_sum(make(square, 4), make(triangle, 3), identity, 5, 5, 2));
+    pir_mesh_destroy(expect_sum(test_hull(square, 4), test_hull(square, 4), identity, 4, 4, 2));
+    pir_mesh_destroy(expect_sum(test_hull(square, 4), test_hull(square, 4), turn_about_z, 8, 8, 2));
+    pir_mesh_destroy(expect_sum(test_hull(square, 4), test_hull(triangle, 3), identity, 5, 5, 2));
     // upright on each other they make a prism
-    pir_mesh_destroy(expect_sum(make(square, 4), make(square, 4), (pir_quat){1, 0, 0, 1}, 8, 12, 6));
+    pir_mesh_destroy(expect_sum(test_hull(square, 4), test_hull(square, 4), (pir_quat){1, 0, 0, 1}, 8, 12, 6));
 }
 
 static void tetrahedron_and_its_mirror_image_make_a_cuboctahedron(void **state) {
     (void)state;
     const pir_vec3 one[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     const pir_vec3 other[] = {{-1, -1, -1}, {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
-    pir_mesh *mesh = expect_sum(make(one, 4), make(other, 4), identity, 12, 24, 14);
+    pir_mesh *mesh = expect_sum(test_hull(one, 4), test_hull(other, 4), identity, 12, 24, 14);
     uint32_t triangles = 0, quads = 0, count;
     for (uint32_t f = 0; f < 14; f++) {
         pir_mesh_facet(mesh, f, &count);
@@ -155,7 +149,7 @@ static void tetrahedron_and_its_mirror_image_make_a_cuboctahedron(void **state) 
     assert_true(triangles == 8 && quads == 6);
     pir_mesh_destroy(mesh);
     // with itself it only grows
-    pir_mesh_destroy(expect_sum(make(one, 4), make(one, 4), identity, 4, 6, 4));
+    pir_mesh_destroy(expect_sum(test_hull(one, 4), test_hull(one, 4), identity, 4, 6, 4));
 }
 
 static void mesh_of_a_polytope_is_the_polytope(void **state) {
@@ -185,9 +179,9 @@ static void mesh_of_a_polytope_is_the_polytope(void **state) {
 static void equality_sees_a_moved_vertex_and_another_body(void **state) {
     (void)state;
     pir_vec3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    pir_polytope *a = make(points, 4), *cube = make_cube();
+    pir_polytope *a = test_hull(points, 4), *cube = make_cube();
     points[3].z = nextafter(1, 2);
-    pir_polytope *b = make(points, 4);
+    pir_polytope *b = test_hull(points, 4);
     pir_mesh *one, *other, *box;
     assert_int_equal(pir_mesh_from_polytope(a, &one), PIR_OK);
     assert_int_equal(pir_mesh_from_polytope(b, &other), PIR_OK);

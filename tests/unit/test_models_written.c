@@ -11,6 +11,7 @@
 
 #include <pirouette/pirouette.h>
 
+#include "support/bodies.h"
 #include "support/random.h"
 
 static const char *const formats[] = {"off", "obj", "stl", "ply"};
@@ -78,12 +79,6 @@ static void expect_round_trip(const pir_polytope *p, size_t first) {
     pir_mesh_destroy(mesh);
 }
 
-static pir_polytope *body_of(const pir_vec3 *points, size_t count) {
-    pir_polytope *p = NULL;
-    assert_int_equal(pir_polytope_create(points, count, NULL, &p), PIR_OK);
-    return p;
-}
-
 static void doubles_of_every_size_come_back(void **state) {
     (void)state;
     // where exponents are far apart the integers are long, so most bodies have near ones
@@ -97,7 +92,7 @@ static void doubles_of_every_size_come_back(void **state) {
             points[i] = (pir_vec3){test_random_scaled(&random, range[0], range[1]),
                                    test_random_scaled(&random, range[0], range[1]),
                                    test_random_below(&random, 4) ? test_random_scaled(&random, range[0], range[1]) : 0};
-        pir_polytope *p = body_of(points, count);
+        pir_polytope *p = test_hull(points, count);
         // STL has no place for what has no facets
         if (pir_polytope_facet_count(p) > 0)
             expect_round_trip(p, 0);
@@ -110,10 +105,10 @@ static void the_least_and_the_greatest_doubles_come_back(void **state) {
     static const pir_vec3 least[] = {{0, 0, 0}, {5e-324, 0, 0}, {-0.0, 1e-323, 0}, {0, 0, 2.2250738585072009e-308}};
     static const pir_vec3 greatest[] = {
         {-1.7976931348623157e308, 0, 0}, {1.7976931348623157e308, 0, 0}, {0, 3.4028235677973366e38, 0}, {0, 0, 0.1}};
-    pir_polytope *p = body_of(least, 4);
+    pir_polytope *p = test_hull(least, 4);
     expect_round_trip(p, 0);
     pir_polytope_release(p);
-    p = body_of(greatest, 4);
+    p = test_hull(greatest, 4);
     expect_round_trip(p, 0);
     pir_polytope_release(p);
 }
@@ -135,7 +130,7 @@ static void stl_is_binary_where_floats_hold_every_coordinate(void **state) {
         pir_vec3 points[4];
         memcpy(points, floats, sizeof points);
         points[3].z = others[far];
-        pir_polytope *p = body_of(points, 4);
+        pir_polytope *p = test_hull(points, 4);
         pir_mesh *mesh = NULL;
         assert_int_equal(pir_mesh_from_polytope(p, &mesh), PIR_OK);
         size_t size;
@@ -164,7 +159,7 @@ static void a_segment_and_a_point_are_vertices_of_obj_and_ply(void **state) {
     (void)state;
     static const pir_vec3 ends[] = {{1, 2, 3}, {0.1, 1e300, -4}};
     for (size_t count = 1; count <= 2; count++) {
-        pir_polytope *p = body_of(ends, count);
+        pir_polytope *p = test_hull(ends, count);
         pir_mesh *mesh = NULL;
         assert_int_equal(pir_mesh_from_polytope(p, &mesh), PIR_OK);
         refused_as_stl(mesh, count == 1 ? "a point has none" : "a segment has none");

@@ -10,24 +10,18 @@
 #include "support/bodies.h"
 #include "support/memory.h"
 
-static pir_polytope *make(const pir_vec3 *points, size_t count) {
-    pir_polytope *polytope = NULL;
-    assert_int_equal(pir_polytope_create(points, count, NULL, &polytope), PIR_OK);
-    return polytope;
-}
-
 static pir_polytope *make_box(double x, double y, double z) {
     pir_vec3 points[8];
     for (int i = 0; i < 8; i++)
         points[i] = (pir_vec3){i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z};
-    return make(points, 8);
+    return test_hull(points, 8);
 }
 
 static void vertices_keep_the_order_of_their_points(void **state) {
     (void)state;
     const pir_vec3 points[] = {{0.1, 0.1, 0.1}, {3, 0, 0}, {0, 0, 0}, {0, 0, 3}, {3, 0, 0}, {0, 3, 0}, {1, 0, 0}};
     const uint32_t expected[] = {1, 2, 3, 5};
-    pir_polytope *p = make(points, sizeof points / sizeof *points);
+    pir_polytope *p = test_hull(points, sizeof points / sizeof *points);
     assert_int_equal(pir_polytope_vertex_count(p), 4);
     for (uint32_t v = 0; v < 4; v++) {
         assert_int_equal(pir_polytope_source(p, v), expected[v]);
@@ -194,7 +188,7 @@ static void doubles_are_kept_exactly(void **state) {
         for (int k = 0; k < 4; k++)
             points[k] = (pir_vec3){test_random_scaled(&random, -1074, 1000), test_random_scaled(&random, -1074, 1000),
                                    test_random_scaled(&random, -1074, 1000)};
-        pir_polytope *p = make(points, 4);
+        pir_polytope *p = test_hull(points, 4);
         mpq_t x[3], expected;
         mpq_inits(x[0], x[1], x[2], expected, NULL);
         for (uint32_t v = 0; v < pir_polytope_vertex_count(p); v++) {

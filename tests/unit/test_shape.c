@@ -91,7 +91,7 @@ static const struct expected known[] = {
     {"random-sphere?points=1000&seed=9007199254740992", 1000, 2994, 1996, 1996, false},
 };
 
-static pir_polytope *make(const char *name) {
+static pir_polytope *make_shape(const char *name) {
     pir_polytope *polytope = NULL;
     pir_report report = {PIR_OK, ""};
     const pir_status status = pir_shape_create(name, NULL, &report, &polytope);
@@ -119,7 +119,7 @@ static void expect_uniform(const pir_polytope *polytope, const char *name) {
 }
 
 static void expect_shape(const struct expected *want) {
-    pir_polytope *polytope = make(want->name);
+    pir_polytope *polytope = make_shape(want->name);
     const uint32_t vertices = pir_polytope_vertex_count(polytope), edges = pir_polytope_edge_count(polytope),
                    facets = pir_polytope_facet_count(polytope);
     uint32_t triangles = 0;
@@ -155,7 +155,7 @@ static void every_listed_name_is_known_and_explained(void **state) {
                name);
         for (size_t j = 0; j < i; j++)
             expect(strcmp(pir_shape_name(j), name) != 0, "%s twice", name);
-        pir_polytope_release(make(name));
+        pir_polytope_release(make_shape(name));
     }
     assert_null(pir_shape_name(count));
     assert_null(pir_shape_help(count));
@@ -164,7 +164,7 @@ static void every_listed_name_is_known_and_explained(void **state) {
 
 static void sizes_are_as_asked(void **state) {
     (void)state;
-    pir_polytope *box = make("box?z=3e0&x=.5&y=+2.25");
+    pir_polytope *box = make_shape("box?z=3e0&x=.5&y=+2.25");
     pir_vec3 low, high;
     pir_polytope_bounds(box, &low, &high);
     assert_true(low.x == -0.25 && high.x == 0.25 && low.y == -1.125 && high.y == 1.125 && low.z == -1.5 &&
@@ -178,19 +178,19 @@ static void sizes_are_as_asked(void **state) {
         {"segment?length=0.1", 0.1},         {"segment?length=1e-9", 1e-9},   {"segment?length=123456.789", 123456.789},
         {"segment?length=100000000e1", 1e9}, {"segment?length=000.300", 0.3}, {"segment?length=2.", 2}};
     for (size_t i = 0; i < sizeof segments / sizeof segments[0]; i++) {
-        pir_polytope *segment = make(segments[i].name);
+        pir_polytope *segment = make_shape(segments[i].name);
         pir_polytope_bounds(segment, &low, &high);
         expect(high.z - low.z == segments[i].length, "%s: %.17g", segments[i].name, high.z - low.z);
         pir_polytope_release(segment);
     }
-    pir_polytope *cube = make("cube");
+    pir_polytope *cube = make_shape("cube");
     assert_true(pir_polytope_volume(cube) == 1);
     pir_polytope_release(cube);
 }
 
 static void seeds_give_other_points(void **state) {
     (void)state;
-    pir_polytope *a = make("random?seed=1"), *b = make("random?seed=2"), *c = make("random");
+    pir_polytope *a = make_shape("random?seed=1"), *b = make_shape("random?seed=2"), *c = make_shape("random");
     const pir_vec3 va = pir_polytope_vertex(a, 0), vb = pir_polytope_vertex(b, 0), vc = pir_polytope_vertex(c, 0);
     assert_true(va.x != vb.x);
     assert_memory_equal(&va, &vc, sizeof va);
@@ -208,7 +208,7 @@ static void all_shapes_have_the_same_bits_everywhere(void **state) {
     (void)state;
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
     for (size_t i = 0; i < pir_shape_count(); i++) {
-        pir_polytope *polytope = make(pir_shape_name(i));
+        pir_polytope *polytope = make_shape(pir_shape_name(i));
         for (uint32_t v = 0; v < pir_polytope_vertex_count(polytope); v++) {
             const pir_vec3 a = pir_polytope_vertex(polytope, v);
             const double c[3] = {a.x, a.y, a.z};
