@@ -164,6 +164,16 @@ def mesh_octrees(r):
                      ">a new pair, µs", ">nearest missed"], rows)
 
 
+def mesh_index(r):
+    groups = {}
+    for row in r.mesh_index.rows:
+        groups.setdefault((row["triangles"], row["place"], row["steps"]), []).append(row)
+    rows = [[count(key[0]), key[1], key[2], *(f"{count(row['median_us'])} ({count(row['looked_at'])})" for row in of)]
+            for key, of in groups.items()]
+    return markdown([">triangles each", "place", ">steps", ">as they are", ">prototype alone", ">prototype besides"],
+                    rows)
+
+
 # ---- queries.md ------------------------------------------------------------------------------------------------------
 
 
@@ -291,5 +301,5 @@ def solid_query(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_octrees, objects, whole, scale,
-    pile, slices, slices_read, grid, answers, solids, solid_query)}
+    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_octrees, mesh_index, objects,
+    whole, scale, pile, slices, slices_read, grid, answers, solids, solid_query)}

@@ -235,8 +235,8 @@ static pir_vec3 leaf_support(const pir_trimesh *mesh, uint32_t leaf, pir_vec3 n)
 /* Directions that are tried for leaves as a whole. */
 #define LEAF_TRIES 4
 
-/* Whether a direction takes two leaves apart by more than the best distance; *ret_gap is by how much. As in gap_of. */
-static bool leaves_are_far(const pir_best_pair *best, const pir_mesh_frame *frame, const uint32_t leaf[2], pir_vec3 *n,
+/* Whether a direction takes two leaves apart by more than a distance; *ret_gap is by how much. As in gap_of. */
+static bool leaves_are_far(const pir_mesh_frame *frame, const uint32_t leaf[2], double distance, pir_vec3 *n,
                            double *ret_gap) {
     pir_vec3 v = *n;
     for (int i = 0; i < LEAF_TRIES; i++) {
@@ -245,7 +245,7 @@ static bool leaves_are_far(const pir_best_pair *best, const pir_mesh_frame *fram
         pir_vec3 w = pir_vec_sub(x, leaf_support(frame->mesh[1], leaf[1], v)), e = pir_vec_sub(w, v);
         double square = pir_vec_dot(v, v);
         *ret_gap = pir_vec_dot(v, w) / sqrt(square) * (1 - 0x1p-48) - 16 * frame->error;
-        if (*ret_gap > best->span.high) {
+        if (*ret_gap > distance) {
             *n = v;
             return true;
         }
@@ -259,7 +259,7 @@ static bool leaves_are_far(const pir_best_pair *best, const pir_mesh_frame *fram
 
 double pir_leaf_pair_consider(pir_best_pair *best, pir_mesh_frame *frame, const uint32_t leaf[2], pir_vec3 *n,
                               double *ret_gap, pir_trimesh_pair_statistics *counts) {
-    if (best->p != PIR_TRIANGLE_NONE && !best->meets && leaves_are_far(best, frame, leaf, n, ret_gap))
+    if (best->p != PIR_TRIANGLE_NONE && !best->meets && leaves_are_far(frame, leaf, best->span.high, n, ret_gap))
         return *ret_gap;
     struct leaf a, b;
     fill_leaves(frame, leaf, *n, &a, &b);
@@ -284,4 +284,24 @@ double pir_leaf_pair_consider(pir_best_pair *best, pir_mesh_frame *frame, const 
     }
     *ret_gap = leaf_gap(frame, &a, &b, *n);
     return least.low > 0 ? least.low : 0;
+}
+
+void pir_leaf_pair_visit(const pir_mesh_frame *frame, const uint32_t leaf[2], pir_vec3 n, double distance,
+                         pir_near_triangles *visit, void *context) {
+    double apart;
+    if (leaves_are_far(frame, leaf, distance, &n, &apart))
+        return;
+    struct leaf a, b;
+    fill_leaves(frame, leaf, n, &a, &b);
+    double length = sqrt(pir_vec_dot(n, n)), by = length > 0 ? (1 - 0x1p-48) / length : 0;
+    double moved = pir_vec_dot(n, frame->t);
+    for (uint32_t i = 0; i < a.count; i++)
+        for (uint32_t j = 0; j < b.count; j++) {
+            if ((a.end[i] + moved - b.end[j]) * by - 16 * frame->error > distance)
+                continue;
+            const pir_corners *p = corners_of(frame, 0, &a, i), *q = corners_of(frame, 1, &b, j);
+            pir_vec3 direction = n;
+            if (gap_of(p, q, distance, frame->error, &direction) <= distance)
+                visit(context, a.number[i], b.number[j], (const pir_corners *const[2]){p, q});
+        }
 }

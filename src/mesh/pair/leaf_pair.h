@@ -43,4 +43,11 @@ void pir_best_pair_consider(pir_best_pair *best, pir_mesh_frame *frame, uint32_t
 double pir_leaf_pair_consider(pir_best_pair *best, pir_mesh_frame *frame, const uint32_t leaf[2], pir_vec3 *n,
                               double *ret_gap, pir_trimesh_pair_statistics *counts);
 
+/* Looks at a pair of triangles. */
+typedef void pir_near_triangles(void *context, uint32_t p, uint32_t q, const pir_corners *const corners[2]);
+
+/* Visits the pairs of triangles of two leaves that no direction tried takes apart by more than a distance. */
+void pir_leaf_pair_visit(const pir_mesh_frame *frame, const uint32_t leaf[2], pir_vec3 n, double distance,
+                         pir_near_triangles *visit, void *context);
+
 #endif

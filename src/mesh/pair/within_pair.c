@@ -29,22 +29,19 @@ static bool is_within_exactly(struct within *w, uint32_t p, uint32_t q) {
     return order <= 0;
 }
 
-static void look(void *context, const uint32_t leaf[2], pir_vec3 n) {
-    (void)n;
+static void consider(void *context, uint32_t p, uint32_t q, const pir_corners *const corners[2]) {
     struct within *w = context;
-    pir_trimesh_pair *pair = w->pair;
-    for (uint32_t i = 0; i < pir_mesh_leaf_count(leaf[0]); i++)
-        for (uint32_t j = 0; j < pir_mesh_leaf_count(leaf[1]); j++) {
-            uint32_t p = pair->mesh[0]->tree.item[pir_mesh_leaf_start(leaf[0]) + i];
-            uint32_t q = pair->mesh[1]->tree.item[pir_mesh_leaf_start(leaf[1]) + j];
-            pir_corners a = pir_frame_corners(&pair->frame, 0, p), b = pir_frame_corners(&pair->frame, 1, q);
-            pir_span span = pir_triangle_span(&a, &b, pair->frame.error);
-            pair->counts.triangles++;
-            if (span.low > w->distance || (span.high > w->distance && !is_within_exactly(w, p, q)))
-                continue;
-            if (w->count++ < w->capacity)
-                w->pairs[w->count - 1] = (pir_triangle_pair){p, q};
-        }
+    pir_span span = pir_triangle_span(corners[0], corners[1], w->pair->frame.error);
+    w->pair->counts.triangles++;
+    if (span.low > w->distance || (span.high > w->distance && !is_within_exactly(w, p, q)))
+        return;
+    if (w->count++ < w->capacity)
+        w->pairs[w->count - 1] = (pir_triangle_pair){p, q};
+}
+
+static void look(void *context, const uint32_t leaf[2], pir_vec3 n) {
+    struct within *w = context;
+    pir_leaf_pair_visit(&w->pair->frame, leaf, n, w->distance, consider, w);
 }
 
 static int compare(const void *a, const void *b) {
