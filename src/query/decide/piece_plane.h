@@ -47,7 +47,7 @@ static inline bool pir_plane_separates(const pir_plane *plane, const pir_placeme
 
 /* --- in parallel arrays --- */
 
-/* Planes in parallel arrays, which the loops of planes/scan.h read. */
+/* Planes in parallel arrays, which the loops of depth/scan.h read. */
 typedef struct pir_planes {
     pir_lanes n; /* unit normals */
     double *h, *err;

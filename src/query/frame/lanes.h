@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Vectors and planes in parallel arrays, as the loops of planes/scan.h read and write them.
+ * Vectors and planes in parallel arrays, as the loops of depth/scan.h read and write them.
  *
  * A loop takes whole lanes: it reads and writes up to PIR_SCAN_LANES − 1 elements past the count that it is given.
  * Arrays have room for them, or hold whole lanes.
