@@ -66,7 +66,7 @@ typedef struct pir_surface_contact_input {
     size_t surface_count;
 } pir_surface_contact_input;
 
-/** At the origin, not turned; no radius, no margin, no surfaces. */
+/** At the origin, not turned; no radius, no margin, no surfaces. O(1). */
 PIR_API pir_surface_contact_input pir_surface_contact_input_default(void);
 
 /** A contact: a point of P over a point of a triangle along the normal. */
@@ -115,14 +115,14 @@ typedef struct pir_surface_contact_result {
  * p                       any dimension.
  * workspace               scratch.
  * input                   poses, radius, margin and surfaces.
- * capacity, ret_contacts  room for how many, and that room; the deepest are kept.
+ * most, ret_contacts      at most how many, and room for them; the deepest are kept.
  * ret_result              state, distance, the number of contacts.
  *
  * Cost: O(log n + k · (v + k')) for k triangles near P, v vertices and k' triangles that P meets at a contact.
  * Errors: those of a call.
  */
 PIR_API pir_status pir_surface_contacts(const pir_polytope *p, pir_workspace *workspace,
-                                        const pir_surface_contact_input *input, size_t capacity,
+                                        const pir_surface_contact_input *input, size_t most,
                                         pir_surface_contact *ret_contacts, pir_surface_contact_result *ret_result);
 
 #ifdef __cplusplus

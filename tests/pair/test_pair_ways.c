@@ -278,21 +278,22 @@ static void each_way_serves_where_it_is_there_for(void **state) {
         enum way way;
         int least; /* of FRAMES */
     } situations[] = {
-        {"a box that glides by", box(1, 1, 1), box(1, 1, 1), glides_apart, PROOF, FRAMES - 2},
-        {"boxes that both glide and turn", box(1, 1, 1), box(1, 1, 1), both_glide_apart_and_turn, PROOF, FRAMES - 2},
-        {"a needle over a face", box(0.01, 0.01, 10), box(1, 1, 1), stands_over_a_face, WALK, FRAMES - 4},
-        {"a box at rest", box(1, 1, 1), box(1, 1, 1), rests, WALK, FRAMES - 2},
-        {"a small box on a slab", box(1, 1, 1), box(20, 20, 1), rests, WALK, FRAMES - 2},
-        {"a cylinder of 36 sides deep in a box", prism(36), box(1, 1, 1), sinks_deep, DEPTH, FRAMES * 9 / 10},
-        {"boxes deep in each other", box(1, 0.8, 0.6), box(1, 1, 1), sinks_deep, DEPTH, FRAMES / 2},
+        {"a box that glides by", test_box(1, 1, 1), test_box(1, 1, 1), glides_apart, PROOF, FRAMES - 2},
+        {"boxes that both glide and turn", test_box(1, 1, 1), test_box(1, 1, 1), both_glide_apart_and_turn, PROOF,
+         FRAMES - 2},
+        {"a needle over a face", test_box(0.01, 0.01, 10), test_box(1, 1, 1), stands_over_a_face, WALK, FRAMES - 4},
+        {"a box at rest", test_box(1, 1, 1), test_box(1, 1, 1), rests, WALK, FRAMES - 2},
+        {"a small box on a slab", test_box(1, 1, 1), test_box(20, 20, 1), rests, WALK, FRAMES - 2},
+        {"a cylinder of 36 sides deep in a box", prism(36), test_box(1, 1, 1), sinks_deep, DEPTH, FRAMES * 9 / 10},
+        {"boxes deep in each other", test_box(1, 0.8, 0.6), test_box(1, 1, 1), sinks_deep, DEPTH, FRAMES / 2},
         {"cylinders that jump about", prism(36), prism(36), jumps_about, NEAREST, FRAMES * 9 / 10},
-        {"boxes corner to corner", box(1, 1, 1), box(1, 1, 1), stands_corner_to_corner, WHOLE, FRAMES - 2},
+        {"boxes corner to corner", test_box(1, 1, 1), test_box(1, 1, 1), stands_corner_to_corner, WHOLE, FRAMES - 2},
     };
     for (size_t i = 0; i < sizeof situations / sizeof *situations; i++) {
         struct bench bench = bench_make(situations[i].p, situations[i].q);
         for (int frame = 0; frame < FRAMES; frame++) {
             situations[i].move(frame, &bench.input);
-            ask(&bench, frame % 20 == 0, situations[i].name, frame);
+            ask_ways(&bench, frame % 20 == 0, situations[i].name, frame);
         }
         uint64_t served = count_of(bench.pair, situations[i].way);
         print_message("# %s: %llu of %d by %s\n", situations[i].name, (unsigned long long)served, FRAMES,
@@ -306,13 +307,13 @@ static void each_way_serves_where_it_is_there_for(void **state) {
 /* Counts manifolds that have a contact, and no others. */
 static void manifolds_are_counted(void **state) {
     (void)state;
-    struct bench bench = bench_make(box(1, 1, 1), box(1, 1, 1));
+    struct bench bench = bench_make(test_box(1, 1, 1), test_box(1, 1, 1));
     pir_contact contacts[16];
     size_t count;
     for (int frame = 0; frame < 6; frame++) {
         bench.input.cutoff = bench.input.margin = 0.1;
         bench.input.pose_p.translation = (pir_vec3){0.25, 0.125, frame < 4 ? 2 : 3};
-        pir_query_result answer = ask(&bench, false, "manifold", frame);
+        pir_query_result answer = ask_ways(&bench, false, "manifold", frame);
         assert_int_equal(pir_pair_manifold(bench.pair, bench.workspace, &bench.input, &answer, 16, contacts, &count),
                          PIR_OK);
         assert_int_equal(count, frame < 4 ? 4 : 0);

@@ -3,12 +3,12 @@
  * Facets of a difference, one after the other.
  *
  * A side of T and an edge of P make a facet where the arc of the edge on the sphere crosses the circle across the side.
- * What doubles cannot tell is taken for a crossing: a direction that is none of a facet's is still one along which P
- * leaves, if its depth is that of the farthest points, as it is here.
+ * Where doubles cannot tell, it is taken for a crossing: a direction that is none of a facet is still one along which
+ * P leaves, if its depth is that of the farthest points, as it is here.
  */
 #include "mesh/contact/contact_facets.h"
 
-/* How far the sine of an angle may be off. */
+/* The error of the sine of an angle is at most this. */
 #define SINE_ERROR 0x1p-40
 
 /* How far P has to move along n. */

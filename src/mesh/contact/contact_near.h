@@ -8,7 +8,7 @@
 void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
                          pir_contact_near *ret_near);
 
-/* What doubles say of P at a place that is off by at most `error`. */
+/* Doubles' verdict on P at a place that is off by at most `error`. */
 typedef enum pir_contact_told {
     PIR_TOLD_NO = 0,
     PIR_TOLD_YES,

@@ -239,13 +239,13 @@ static void reduce_points(struct room *room) {
     room->point_count = count;
 }
 
-static pir_status give_points(struct room *room, size_t capacity, pir_surface_contact *contacts, size_t *ret_count) {
+static pir_status give_points(struct room *room, size_t most, pir_surface_contact *contacts, size_t *ret_count) {
     size_t count = 0;
-    for (uint32_t i = 0; i < room->standing_count && count < capacity; i++) {
+    for (uint32_t i = 0; i < room->standing_count && count < most; i++) {
         if (!collect_points(room, &room->standing[i]))
             return PIR_ERR_MEMORY;
         reduce_points(room);
-        for (uint32_t k = 0; k < room->point_count && count < capacity; k++)
+        for (uint32_t k = 0; k < room->point_count && count < most; k++)
             contacts[count++] = room->point[k];
     }
     *ret_count = count;
@@ -298,7 +298,7 @@ static void set_result(const struct room *room, pir_state state, bool meets, pir
         result->point_p = pir_vec_add(result->point_q, pir_vec_scale(result->normal, result->distance));
 }
 
-static pir_status run(struct room *room, size_t capacity, pir_surface_contact *contacts,
+static pir_status run(struct room *room, size_t most, pir_surface_contact *contacts,
                       pir_surface_contact_result *ret_result) {
     pir_contact_job *job = &room->job;
     pir_vec3 t = job->input->pose.translation;
@@ -313,7 +313,7 @@ static pir_status run(struct room *room, size_t capacity, pir_surface_contact *c
     }
     find_standing(room);
     size_t count = 0;
-    pir_status status = give_points(room, capacity, contacts, &count);
+    pir_status status = give_points(room, most, contacts, &count);
     if (status != PIR_OK)
         return status;
     set_result(room, state, meets, ret_result);
@@ -322,9 +322,9 @@ static pir_status run(struct room *room, size_t capacity, pir_surface_contact *c
 }
 
 pir_status pir_surface_contacts(const pir_polytope *p, pir_workspace *workspace, const pir_surface_contact_input *input,
-                                size_t capacity, pir_surface_contact *ret_contacts,
+                                size_t most, pir_surface_contact *ret_contacts,
                                 pir_surface_contact_result *ret_result) {
-    if (!p || !workspace || !input || !ret_result || (!ret_contacts && capacity > 0))
+    if (!p || !workspace || !input || !ret_result || (!ret_contacts && most > 0))
         return PIR_ERR_ARGUMENT;
     pir_scratch *scratch = ((pir_workspace_head *)workspace)->scratch;
     struct room *room = pir_scratch_room(scratch, PIR_ROOM_SURFACE, sizeof *room, destroy_room);
@@ -332,5 +332,5 @@ pir_status pir_surface_contacts(const pir_polytope *p, pir_workspace *workspace,
         return PIR_ERR_MEMORY;
     room->job.allocator = scratch->allocator;
     pir_status status = pir_contact_job_begin(&room->job, p, input, input->margin + input->radius);
-    return status == PIR_OK ? run(room, capacity, ret_contacts, ret_result) : status;
+    return status == PIR_OK ? run(room, most, ret_contacts, ret_result) : status;
 }

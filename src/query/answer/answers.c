@@ -160,7 +160,7 @@ static void begin(pir_query *query, const pir_placement *placement, int want, pi
     task->frame = &query->frame;
     task->placement = placement;
     task->exact = &query->exact;
-    task->walker = query->walker;
+    task->walker = query->room->walker;
     task->want = want;
     task->limit = 0;
     task->may_near = task->may_deep = true;

@@ -26,6 +26,7 @@ typedef struct pir_query_room {
     pir_group_work work;
     pir_limbs limbs;
     pir_patch_room patches;
+    const pir_walker *walker; /* the version for this processor */
 } pir_query_room;
 
 /* The room in a scratch; NULL when out of memory. */
@@ -50,7 +51,6 @@ struct pir_query {
     pir_frame frame;
     pir_exact exact;
     pir_search search;
-    const pir_walker *walker;
     pir_leaves *leaves;    /* made by the first batch */
     pir_regional regional; /* made when a region is first asked */
 };
