@@ -47,7 +47,8 @@ def main(results, words):
             subprocess.run(command, env=environment, check=True, stdout=subprocess.DEVNULL)
         written = {path.name: path for path in pathlib.Path(folder).glob("*/*")}
         failures = [f"{name} {wrong_with(path)}" for name, path in sorted(written.items()) if wrong_with(path)]
-    failures += [f"bench/results keeps {name}, which no benchmark writes" for name in sorted(expected - ONCE - set(written))]
+    missing = sorted(expected - ONCE - set(written))
+    failures += [f"bench/results keeps {name}, which no benchmark writes" for name in missing]
     print(f"{len(written)} files written by {len(list(commands(words)))} benchmarks")
     print(*failures, sep="\n")
     return 1 if failures or not written else 0
