@@ -8,7 +8,7 @@
  *   - whole: a query on the difference of the bodies, kept in the workspace;
  *   - contact: the manifold of an answer (pair_manifold.c).
  *
- * Whatever way gave it, an answer leaves the same hints.
+ * An answer leaves the same hints whichever way gave it.
  */
 #include "pair/pair_task.h"
 

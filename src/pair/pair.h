@@ -63,7 +63,7 @@ struct pir_workspace {
     pir_patch_room patches;
 
     /*
-     * What the last call began with. The frame is still that pair's where the pair names this workspace: each forgets
+     * The inputs of the last call. The frame is still that pair's where the pair names this workspace: each forgets
      * the other when it is made, and when it is used with a third.
      */
     const pir_pair *pair; /* never followed */

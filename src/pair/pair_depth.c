@@ -671,8 +671,8 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
 }
 
 /*
- * What two facets of one slack, or an edge of P along one of Q, leave open lasts where bodies rest on each other. So
- * the next calls do not ask.
+ * Calls that do not ask the axes after one that they left open. Two facets of one slack, or an edge of P along one of
+ * Q, stay as they are where bodies rest on each other.
  */
 #define AXES_REST 15
 

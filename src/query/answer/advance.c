@@ -11,7 +11,7 @@
 /* The bound on queries that query.h promises. Few motions need more than ten. */
 #define MOST_QUERIES 256
 
-/* The same rotation as a quaternion whose products neither overflow nor underflow. */
+/* A quaternion of this rotation whose products neither overflow nor underflow. */
 static pir_quat middling(pir_quat r) {
     int e;
     frexp(fmax(fmax(fabs(r.x), fabs(r.y)), fmax(fabs(r.z), fabs(r.w))), &e);

@@ -28,7 +28,7 @@ static void recall_simplex(const pir_query *query, const pir_query_cache *cache,
     hint->points = (uint8_t)cache->points;
 }
 
-/* What a cache says: a facet, where the last answer was by one, inside or from a simplex of three vertices. */
+/* The hint in a cache: a facet, where the last answer was by one, inside or from a simplex of three vertices. */
 static pir_hint recall(const pir_query *query, const pir_query_cache *cache) {
     pir_hint hint = {.has_facet = false};
     recall_simplex(query, cache, &hint);

@@ -59,7 +59,7 @@ struct pir_query {
 pir_status pir_query_place(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
 
 /*
- * What an answer at a relative pose begins with, the sum being there: the placement. `world` is borrowed until the next
+ * Begins an answer at a relative pose, the sum being there: the placement. `world` is borrowed until the next
  * call on the query.
  */
 pir_status pir_query_place_relative(pir_query *query, const pir_world *world, pir_placement *ret_placement);
@@ -72,7 +72,7 @@ pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_p
 
 /* --- answers.c --- */
 
-/* What a call on a sum without a region answers, at a placement. `want`: see result.h. */
+/* Answers a call on a sum without a region, at a placement. `want`: see result.h. */
 void pir_query_answer(pir_query *query, const pir_placement *placement, const pir_query_input *input, int want,
                       pir_query_cache *cache, pir_query_result *result);
 

@@ -31,7 +31,7 @@ typedef struct pir_hint {
 
 typedef struct pir_task pir_task;
 
-/* What a pair and a sum do in their own ways. */
+/* The steps that a pair and a sum take in their own ways. */
 typedef struct pir_facet_source {
     /*
      * Whether x is outside of D for certain, where a descent ended at task->simplex and did not prove the nearest
@@ -66,7 +66,7 @@ struct pir_task {
     pir_query_result *result;
 };
 
-/* What a task begins with; the caller sets the members up to may_deep, and clears the result. */
+/* Begins a task. The caller sets the members up to may_deep, and clears the result. */
 static inline void pir_task_begin(pir_task *task) {
     task->is_outside = task->has_same = task->in_doubt = false;
     task->simplex.count = task->simplex.tried = 0;

@@ -76,7 +76,6 @@ void pir_result_beyond(pir_query_result *result) {
     result->outcome = PIR_BEYOND_CUTOFF;
 }
 
-/* What a descent that found no nearest point leaves: the best so far. */
 void pir_result_unfinished(const pir_frame *frame, const pir_simplex *simplex, pir_query_result *result) {
     pir_result_set_state(result, PIR_OUTSIDE);
     result->outcome = PIR_STEP_LIMIT;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a query writes down, from the facet or the faces that decide it. The numbers depend on these, the bodies and
+ * The results of queries, from the facet or the faces that decide it. The numbers depend on these, the bodies and
  * the placement alone, so that every way of finding them gives the same bits.
  */
 #ifndef PIR_QUERY_ANSWER_RESULT_H
@@ -17,7 +17,7 @@
 /* Distances are known this well, relative to the placement's reach, however they are found. */
 #define PIR_DISTANCE_ERROR 0x1p-42
 
-/* What a call wants to know. */
+/* The numbers that a call wants. */
 enum { PIR_WANT_SEPARATION = 1, PIR_WANT_DEPTH = 2 };
 
 /* Member by member: a compiler's way of clearing the whole takes a fifth of a query. */
@@ -46,18 +46,18 @@ void pir_result_keep_state(pir_query_result *result);
 void pir_result_separation(const pir_frame *frame, const pir_nearest *nearest, pir_query_result *result);
 void pir_result_beyond(pir_query_result *result);
 
-/* What a descent that found no nearest point leaves: the best so far. */
+/* The best distance so far, of a descent that found no nearest point. */
 void pir_result_unfinished(const pir_frame *frame, const pir_simplex *simplex, pir_query_result *result);
 
 /* `facet` is the one of least slack. */
 void pir_result_depth(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                       pir_query_result *result);
 
-/* The same where the slack is known, as pir_facet_slack gives it. */
+/* The depth, given the slack as pir_facet_slack gives it. */
 void pir_result_depth_of(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
                          pir_query_result *result);
 
-/* The same where what touches at the foot of x is known too. */
+/* The depth, given the slack and what touches at the foot of x. */
 void pir_result_depth_at(const pir_frame *frame, pir_vec3 normal, double slack, const pir_touch *touch,
                          pir_query_result *result);
 

@@ -144,7 +144,7 @@ static void walk(struct clip *clip, uint32_t first) {
     }
 }
 
-/* The same walk where P enters Q once, so that all corners after that, up to where it leaves, are in Q. */
+/* The walk where P enters Q once, so that all corners after that, up to where it leaves, are in Q. */
 static void walk_once(struct clip *clip) {
     uint32_t p = clip->p.count, q = clip->q.count, first = only(clip->places->leaving),
              i = only(clip->places->entering);

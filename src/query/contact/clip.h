@@ -8,7 +8,7 @@
 /* The most corners of an outline that pir_clip_place takes. */
 #define PIR_CLIP_MOST 16
 
-/* What it answers where rounding might matter: see clip.c. */
+/* The answer where rounding might matter: see clip.c. */
 #define PIR_CLIP_UNCLEAR UINT32_MAX
 
 /* Corners are clear of a line at this many times `snap`. Corners that outline.c takes for one are at most 4 apart. */

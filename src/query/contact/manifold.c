@@ -117,7 +117,7 @@ static inline double greater(double a, double b) {
     return a > b ? a : b;
 }
 
-/* What corners are measured by. */
+/* Sets the lengths that corners are measured by. */
 static inline void set_measures(struct manifold *m, const pir_query_input *input, const pir_placement *placement) {
     const pir_query_result *answer = m->answer;
     double error = pir_frame_length(m->frame, 4 * placement->error);

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What a corner of an overlap is. Side i of an outline leads from corner i to the next. */
+/* The kind of a corner of an overlap. Side i of an outline leads from corner i to the next. */
 typedef enum pir_corner_kind {
     PIR_CORNER_P = 0,    /* corner p of the outline of P */
     PIR_CORNER_Q,        /* corner q of the outline of Q */

@@ -92,7 +92,7 @@ typedef struct pir_patch_room {
 /* Makes room for bodies of so many vertices; it never shrinks. False when out of memory: the room is as it was. */
 bool pir_patch_room_grow(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q);
 
-/* The same where there may be room already. */
+/* Makes room, unless there is enough. */
 static inline bool pir_patch_room_reserve(pir_patch_room *room, const pir_allocator *allocator, size_t of_p,
                                           size_t of_q) {
     return (of_p <= room->of_p && of_q <= room->of_q) || pir_patch_room_grow(room, allocator, of_p, of_q);
@@ -114,7 +114,7 @@ static inline pir_vec3 pir_patch_vertex(const pir_patch *patch, uint32_t v) {
     return pir_vec_add(pir_vec_scale(x, patch->sign), patch->at);
 }
 
-/* The same in coordinates along two axes. */
+/* A vertex as a corner: its coordinates along two axes. */
 static inline pir_corner pir_patch_corner(const pir_patch *patch, uint32_t v, const pir_vec3 axis[2]) {
     pir_vec3 x = pir_patch_vertex(patch, v);
     return (pir_corner){.u = pir_vec_dot(axis[0], x), .v = pir_vec_dot(axis[1], x), .p = v};

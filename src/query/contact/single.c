@@ -7,7 +7,7 @@
  * exactly that. So a corner stands out from its neighbours by at least c times what it does in the facet, and the
  * outline is at least c times as wide for its length.
  *
- * What rises from a vertex v of a facet by at most h is a triangle, v + e₁ h/s₁, v + e₂ h/s₂, where e₁ and
+ * The part of a facet that rises from its vertex v by at most h is a triangle, v + e₁ h/s₁, v + e₂ h/s₂, where e₁ and
  * e₂ are the facet's edges at v and s₁ and s₂ what they rise by: as long as both edges are longer. Then the facet
  * holds the triangle, which has no corner of it but v. Where the triangle is over the inside of the carrier, no side of
  * the carrier meets it, so v is the only corner of the overlap there.
@@ -32,7 +32,7 @@ static inline double least_slope(const pir_polytope *p, uint32_t v, pir_vec3 m) 
     return least;
 }
 
-/* The same of those from the origin of a halfedge, but its own: from the one after it, all around. */
+/* The least sine of the edges from the origin of a halfedge but its own: from the one after it, all around. */
 static inline double least_slope_beside(const pir_polytope *p, uint32_t half, pir_vec3 m) {
     const uint32_t *ring = &p->ring_start[p->origin[half]], start = ring[0], end = ring[1];
     double least = 1;
@@ -314,7 +314,7 @@ static pir_vec3 carry(const pir_patch *from, const pir_patch *to, pir_vec3 d) {
     return pir_patch_to_body(to, pir_vec_scale(d, from->sign));
 }
 
-/* What rises from a vertex, as its carrier sees it. */
+/* The rising part of a vertex's facet, as its carrier sees it. */
 struct rising {
     pir_vec3 at, edge[2]; /* the point under the vertex, and the two edges of the facet there */
     double rise[2];       /* what those rise by at least */

@@ -21,7 +21,7 @@ typedef struct pir_foremost {
     double cosine; /* of the facet's normal */
 } pir_foremost;
 
-/* What is done in loops around vertices and facets. All versions give the same bits. */
+/* The loops around vertices and facets. All versions give the same bits. */
 struct pir_single_version {
     /* Whether all edges that leave a vertex or an edge of the body fall or rise along m by more than a sine. */
     bool (*is_sharp)(const pir_polytope *p, pir_feature feature, pir_vec3 m, double sine);
@@ -55,7 +55,7 @@ bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature);
 bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_single);
 
 /*
- * What a facet's normal may be off by from a direction that is taken for it, and the cosine of that: half its square
+ * The most that a facet's normal may differ from a direction that is taken for it, and the cosine of that: half its square
  * below 1. All that falls from a single facet's plane does so by far more.
  */
 #define PIR_LEVEL        0x1p-20

@@ -21,7 +21,7 @@ PIR_AVX2 static inline __m256d magnitude(__m256d x) {
     return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x);
 }
 
-/* The same of the corner after each. */
+/* The numbers of the corner after each. */
 PIR_AVX2 static inline __m256d next(__m256d x, bool has_four) {
     return has_four ? _mm256_permute4x64_pd(x, 0x39) : _mm256_permute4x64_pd(x, 0x49);
 }

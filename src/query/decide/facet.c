@@ -122,7 +122,7 @@ static pir_feature exposed(pir_exact *exact, const pir_normal *normal, const pir
     return face_across(view, vertex, across, count);
 }
 
-/* The same for a vertex that may not be exposed; false then. */
+/* The exposed face, given a vertex that may not be exposed; false then. */
 static bool prove_exposed(pir_exact *exact, const pir_normal *normal, const pir_view *view, struct from from,
                           pir_feature *ret_face) {
     const pir_polytope *p = view->body;
@@ -246,7 +246,7 @@ static bool make_normal(pir_exact *exact, pir_piece piece, pir_normal *ret_norma
     return pir_side_normal(exact, piece, &ret_normal->unit);
 }
 
-/* What both ways to a piece's true facet begin with: its normal, and where the search for the exposed faces starts. */
+/* The beginning of both ways to a piece's true facet: its normal, and the vertices that the search starts from. */
 struct search_start {
     pir_normal normal;
     struct from a, b;

@@ -78,7 +78,7 @@ uint32_t pir_face_lowest(const pir_polytope *p, pir_feature face);
 bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet);
 
 /*
- * The same for a piece of which nothing is known: proves that its corner is exposed by its normal, which makes it
+ * The true facet of a piece of which nothing is known: proves that its corner is exposed by its normal, which makes it
  * one of D. False where it is not.
  */
 bool pir_facet_prove(pir_exact *exact, pir_piece piece, pir_facet *ret_facet);
@@ -115,7 +115,7 @@ int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pi
  */
 void pir_least_offer(pir_exact *exact, const pir_placement *placement, pir_least *least, pir_piece piece);
 
-/* The same for a true facet. */
+/* Compares a true facet with `least`, and keeps one as pir_least_offer does. */
 void pir_least_offer_facet(pir_exact *exact, const pir_placement *placement, pir_least *least, const pir_facet *facet);
 
 static inline pir_normal pir_facet_normal(const pir_facet *facet) {

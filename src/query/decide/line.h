@@ -29,7 +29,7 @@ typedef struct pir_arrival {
     pir_touch touch;
 } pir_arrival;
 
-/* What is known of a line so far. */
+/* Bounds on a line's way through D so far. */
 typedef struct pir_clip {
     double enter_low, leave_high; /* it enters no earlier than enter_low, and leaves no later than leave_high */
     bool misses;
@@ -66,7 +66,7 @@ int pir_line_compare(pir_exact *exact, const pir_line *line, const pir_facet *a,
 /* The length along the line to a facet, in the frame, and a bound on its error. */
 double pir_line_at(pir_exact *exact, const pir_line *line, const pir_facet *facet, double *ret_error);
 
-/* What touches where the line crosses a facet. False where the crossing is not on the facet. */
+/* The touch where the line crosses a facet. False where the crossing is not on the facet. */
 bool pir_line_arrive(pir_exact *exact, const pir_line *line, const pir_facet *facet, pir_arrival *ret_arrival);
 
 /*

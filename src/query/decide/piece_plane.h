@@ -27,7 +27,7 @@ typedef struct pir_plane {
 /* The plane of a piece. False where its edges are parallel, so that it has none. */
 bool pir_plane_of(pir_exact *exact, pir_piece piece, pir_plane *ret_plane);
 
-/* The same of a piece of two edges. */
+/* The plane of a piece of two edges. */
 bool pir_plane_of_edges(pir_exact *exact, pir_piece piece, pir_plane *ret_plane);
 
 /*

@@ -105,7 +105,7 @@ static inline bool get_exponent(const pir_scale *scale, int *ret_exponent) {
     return num + 1 == pir_int_bits(&scale->num) && den + 1 == pir_int_bits(&scale->den);
 }
 
-/* The same of one that stays below 2^bits when it is shifted to the left. */
+/* A number that is shifted to the left, and stays below 2^bits. */
 static inline bool get_unshifted(const pir_int3 *v, int shift, int bits, two3 *ret_v) {
     return shift < bits && get_vector(v, (uint32_t)(bits - shift), ret_v);
 }

@@ -70,7 +70,7 @@ static inline pir_vec3 pir_touch_along(pir_vec3 from, pir_vec3 d, double part) {
     return pir_vec_add(from, pir_vec_scale(d, least < 1 ? least : 1));
 }
 
-/* The same for a facet of D. */
+/* The touch at the foot of x on a facet of D. */
 bool pir_touch_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
                      const pir_way *way, pir_touch *ret_touch);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is around vertices and facets: see around.h. */
+/* Edges around vertices and sides around facets: see around.h. */
 #include "query/frame/around.h"
 
 #include "base/vec.h"

@@ -14,7 +14,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* What contact/single.c has to know of a facet, in the frame. */
+/* The shape of a facet, in the frame, which contact/single.c reads. */
 typedef struct pir_facet_shape {
     float fall;  /* the least sine by which an edge that leaves it falls from its plane */
     float thick; /* a corner stands out from the line through its neighbours by more */

@@ -46,7 +46,7 @@ PIR_AVX2 static inline double pir_ring_most(const pir_around *around, uint32_t v
 /* Read from 16 − i on it is a mask of place i. */
 static const uint64_t pir_one_of[32] = {[16] = UINT64_MAX};
 
-/* The same of all edges but the one in place `own`. */
+/* The steepest of all edges of a vertex but the one in place `own`. */
 PIR_AVX2 static inline double pir_ring_most_but(const pir_around *around, uint32_t vertex, uint32_t own, pir_four n) {
     const uint32_t blocks = around->ring_blocks;
     const pir_fours *ring = &around->rings[vertex * blocks];

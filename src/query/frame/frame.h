@@ -62,7 +62,7 @@ typedef struct pir_body {
     const pir_around *around; /* NULL where there is none */
 } pir_body;
 
-/* What is known of the shapes of its facets. */
+/* The shapes of its facets, those that are known. */
 static inline pir_kept_shape *pir_body_shapes(const pir_body *body) {
     return (pir_kept_shape *)(body->offset + body->polytope->facet_count);
 }
@@ -164,7 +164,7 @@ static inline bool pir_frame_is_near(pir_vec3 t) {
     return (fabs(t.x) < PIR_FARTHEST) & (fabs(t.y) < PIR_FARTHEST) & (fabs(t.z) < PIR_FARTHEST);
 }
 
-/* What follows from x, for translations of so much. */
+/* Sets reach and error from x, for translations of length `far` at most. */
 static inline void pir_frame_set_reach(const pir_frame *frame, double far, pir_placement *placement) {
     placement->reach = frame->p.size + frame->q.size + sqrt(pir_vec_dot(placement->x, placement->x));
     placement->error = PIR_SLACK_BOUND * placement->reach + PIR_FAR_ERROR * (far + frame->p.far + frame->q.far);
@@ -186,7 +186,7 @@ static inline pir_status pir_frame_place(const pir_frame *frame, pir_vec3 transl
 }
 
 /*
- * The same for a body Q that stands in the world with a rotation and a translation: P's translation as Q sees it.
+ * Converts P's translation as Q sees it, for a body Q that stands in the world with a rotation and a translation.
  * Where Q is at the identity it is the same to the bit.
  */
 pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *world, pir_placement *ret_placement);

@@ -26,7 +26,7 @@ typedef struct pir_lanes {
 #define PIR_ROWS(lanes, elements)                                                                                      \
     PIR_ROW((lanes).x, elements), PIR_ROW((lanes).y, elements), PIR_ROW((lanes).z, elements)
 
-/* The same with room for what loops write past the end: of an array, and of the three of a pir_lanes. */
+/* Rows with room for what loops write past the end: of an array, and of the three of a pir_lanes. */
 #define PIR_ROW_LANE(member, elements) PIR_ROW(member, (size_t)(elements) + PIR_SCAN_LANES)
 #define PIR_ROWS_LANES(lanes, elements)                                                                                \
     PIR_ROW_LANE((lanes).x, elements), PIR_ROW_LANE((lanes).y, elements), PIR_ROW_LANE((lanes).z, elements)

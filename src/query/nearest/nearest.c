@@ -272,7 +272,7 @@ static pir_vec3 away_from(const pir_frame *frame, const pir_placement *placement
     return pir_vec_sub(w, pir_vec_scale(e, *ret_along));
 }
 
-/* The same from integers: the distance and the unit normal. */
+/* Distance and unit normal from integers. */
 static double exactly_away(pir_exact *exact, const pir_placement *placement, const struct line *line,
                            pir_vec3 *ret_normal) {
     pir_exact_begin(exact, placement->translation);

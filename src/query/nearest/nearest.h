@@ -35,7 +35,7 @@ bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_wit
 bool pir_nearest_at_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
                           pir_nearest *ret_nearest);
 
-/* The same where the facet's slack is known, as pir_facet_slack gives it. */
+/* That point, given the facet's slack as pir_facet_slack gives it. */
 bool pir_nearest_at_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
                           pir_nearest *ret_nearest);
 

@@ -2,7 +2,7 @@
 /* The least slack from the foot of x: see foot.h. */
 #include "query/walk/foot.h"
 
-/* What a distance in the plane of F is off by, in units of the placement's error and the facet's: see touch.c. */
+/* The error of a distance in the plane of F, in units of the placement's error and the facet's: see touch.c. */
 #define MARGIN_ERRORS 16
 
 /* Facets of so many corners together are looked at in part first. */

@@ -54,7 +54,7 @@ pir_rim pir_foot_rims(const pir_exact *exact, const pir_placement *placement, co
  */
 bool pir_foot_settles(const pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack);
 
-/* The same where F is known to hold the disc of radius `margin`. */
+/* Whether it is so, given that F holds the disc of radius `margin` about the foot. */
 bool pir_foot_settles_within(const pir_frame *frame, const pir_placement *placement, const pir_facet *facet,
                              double slack, double margin);
 

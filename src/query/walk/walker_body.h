@@ -121,7 +121,7 @@ WALK_TARGET static inline pir_same prove_vf(const pir_frame *frame, const pir_pl
     return measure(placement, within, slack, same);
 }
 
-/* What the touch of a facet depends on besides: its corner of P, turned, and the direction of an edge of P, turned. */
+/* The part of P in the touch of a facet: its corner there, and the direction of an edge there, both turned. */
 struct of_p {
     pir_vec3 corner, along;
 };
@@ -211,7 +211,7 @@ WALK_TARGET static pir_piece along_p(const pir_frame *frame, struct arc arc, uin
     return (pir_piece){PIR_FACET_EE, arc.edge, arc.forward ? half : q->twin[half]};
 }
 
-/* The same of an arc of Q in the cell of vertex a; n is in the frame. */
+/* The facet at the end of an arc of Q, or at the first edge across it, from n on, in the cell of vertex a of P. */
 WALK_TARGET static pir_piece along_q(const pir_frame *frame, struct arc arc, uint32_t a, pir_vec3 n) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     pir_vec3 m = pir_mat_apply_transposed(&frame->r, q->normal[arc.facet]);
