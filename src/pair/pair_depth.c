@@ -10,7 +10,7 @@
  */
 #include "pair/pair_task.h"
 
-#include "query/decide/witness.h"
+#include "query/decide/touch.h"
 #include "query/walk/foot.h"
 #include "query/walk/foot_walk.h"
 

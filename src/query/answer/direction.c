@@ -5,7 +5,7 @@
  */
 #include "query/answer/follow.h"
 #include "query/decide/flat.h"
-#include "query/decide/side.h"
+#include "query/decide/placed.h"
 #include "query/depth/depth.h"
 
 /* Clips the line by every facet of D. */

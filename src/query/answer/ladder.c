@@ -2,7 +2,7 @@
 /* The ways from a placement to an answer: see ladder.h. */
 #include "query/answer/ladder.h"
 
-#include "query/decide/witness.h"
+#include "query/decide/touch.h"
 #include "query/walk/foot.h"
 
 /* An end of a descent that is nearer than this, relative to the reach, is tried for a facet that x touches. */

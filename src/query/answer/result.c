@@ -3,7 +3,7 @@
 #include "query/answer/result.h"
 
 #include "query/decide/flat.h"
-#include "query/decide/witness.h"
+#include "query/decide/touch.h"
 
 /* The end of P's normal: point_p = point_q + distance · normal. */
 static void set_points(pir_query_result *result, pir_vec3 point_q) {

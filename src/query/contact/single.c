@@ -7,10 +7,10 @@
  * exactly that. So a corner stands out from its neighbours by at least c times what it does in the facet, and the
  * outline is at least c times as wide for its length.
  *
- * The part of a facet that rises from its vertex v by at most h is a triangle, v + e₁ h/s₁, v + e₂ h/s₂, where e₁ and
- * e₂ are the facet's edges at v and s₁ and s₂ what they rise by: as long as both edges are longer. Then the facet
- * holds the triangle, which has no corner of it but v. Where the triangle is over the inside of the carrier, no side of
- * the carrier meets it, so v is the only corner of the overlap there.
+ * The part of a facet that rises from its vertex v by at most h is a triangle, v + e₁ h/s₁, v + e₂ h/s₂,
+ * where e₁ and e₂ are the facet's edges at v and s₁ and s₂ what they rise by: as long as both edges are
+ * longer. Then the facet holds the triangle, which has no corner of it but v. Where the triangle is over the inside
+ * of the carrier, no side of the carrier meets it, so v is the only corner of the overlap there.
  */
 #include "query/contact/single.h"
 

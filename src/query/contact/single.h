@@ -55,8 +55,8 @@ bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature);
 bool pir_patch_single(pir_patch *patch, pir_feature feature, pir_single *ret_single);
 
 /*
- * The most that a facet's normal may differ from a direction that is taken for it, and the cosine of that: half its square
- * below 1. All that falls from a single facet's plane does so by far more.
+ * The most that a facet's normal may differ from a direction that is taken for it, and the cosine of that: half its
+ * square below 1. All that falls from a single facet's plane does so by far more.
  */
 #define PIR_LEVEL        0x1p-20
 #define PIR_LEVEL_COSINE (1 - 0x1p-45)

@@ -2,8 +2,8 @@
 /* True facets of D: see facet.h. */
 #include "query/decide/facet.h"
 
+#include "query/decide/placed.h"
 #include "query/decide/short_slack.h"
-#include "query/decide/side.h"
 
 /* --- slopes and exposed faces --- */
 

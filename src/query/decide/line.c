@@ -2,7 +2,7 @@
 /* A line against the facets of D: see line.h. */
 #include "query/decide/line.h"
 
-#include "query/decide/side.h"
+#include "query/decide/placed.h"
 
 /*
  * The error of a rate is at most this times the plane's err, with u = 2^-53: 64u·err of the normal, 4u of the line's

@@ -2,7 +2,7 @@
 /* Planes of pieces: see piece_plane.h. */
 #include "query/decide/piece_plane.h"
 
-#include "query/decide/side.h"
+#include "query/decide/placed.h"
 
 bool pir_plane_of_edges(pir_exact *exact, pir_piece piece, pir_plane *ret_plane) {
     const pir_frame *frame = exact->frame;

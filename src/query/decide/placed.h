@@ -103,4 +103,12 @@ pir_int3 pir_exact_scaled(pir_exact *exact, const pir_int3 *v, const pir_int *s)
 /* A vector of doubles as integers on a scale of its own: v = result · 2^*ret_exponent. */
 pir_int3 pir_exact_vector(pir_exact *exact, pir_vec3 v, int *ret_exponent);
 
+/* --- the side of a piece's plane: the sign of n·W for a corner of the piece --- */
+
+/* The exact sign of the slack of a piece at a translation. The piece's edges must not be parallel. */
+int pir_side_exact(pir_exact *exact, pir_piece piece, pir_vec3 translation);
+
+/* The unit normal of an edge pair from exact integers. False where the edges are parallel. */
+bool pir_side_normal(pir_exact *exact, pir_piece piece, pir_vec3 *ret_normal);
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Which features and which points attain an answer. */
-#include "query/decide/witness.h"
+#include "query/decide/touch.h"
 
 static bool facet_has(const pir_polytope *p, uint32_t f, uint32_t v) {
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++)

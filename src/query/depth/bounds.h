@@ -3,7 +3,7 @@
 #ifndef PIR_QUERY_DEPTH_BOUNDS_H
 #define PIR_QUERY_DEPTH_BOUNDS_H
 
-#include "query/depth/group_planes.h"
+#include "query/depth/groups.h"
 
 /* All arrays have an element per group, padded to whole lanes. */
 typedef struct pir_bounds {

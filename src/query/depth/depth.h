@@ -5,7 +5,7 @@
 
 #include "query/decide/facet.h"
 #include "query/depth/bounds.h"
-#include "query/depth/group_planes.h"
+#include "query/depth/groups.h"
 #include "query/nearest/nearest_vertex.h"
 
 typedef struct pir_search {

@@ -95,3 +95,138 @@ void pir_groups_fill(pir_groups *groups) {
                                     .edges_end = range.edges_end};
     }
 }
+
+/* --- planes --- */
+
+/* Puts a plane that is infinitely far, with the normal of slot `like`: it pads blocks and changes no least slack. */
+static void put_nothing(pir_planes *planes, uint32_t slot, pir_piece piece, uint32_t like) {
+    pir_lane_put(planes->n, slot, pir_planes_normal(planes, like));
+    planes->h[slot] = HUGE_VAL;
+    planes->err[slot] = 0;
+    planes->piece[slot] = piece;
+}
+
+/* Makes the planes of the group's facets in the slots from `slot` on. */
+static void make_facets(pir_groups *groups, const pir_group *group, uint32_t slot) {
+    pir_planes *planes = groups->planes;
+    uint32_t count = group->facets_end - group->facets;
+    const pir_group_lists *lists = pir_lists_of(groups, group);
+    const uint32_t *list = lists->facet + group->facets;
+    pir_lanes normals = pir_lanes_from(lists->facet_normal, group->facets), n = pir_lanes_from(planes->n, slot);
+    for (uint32_t i = 0; i < count; i++) {
+        planes->err[slot + i] = 1;
+        if (group->of_q) {
+            planes->piece[slot + i] = pir_piece_vf(groups, list[i]);
+            pir_lane_put(groups->work->vector[0], i, groups->frame->p.vertex[planes->piece[slot + i].first]);
+            pir_lane_put(n, i, groups->frame->q.polytope->normal[list[i]]);
+        } else {
+            planes->piece[slot + i] = pir_piece_fv(groups, list[i]);
+            pir_lane_put(groups->work->vector[1], i, groups->frame->q.vertex[planes->piece[slot + i].second]);
+        }
+    }
+    if (group->of_q)
+        groups->scan->turn(count, &groups->frame->r, groups->work->vector[0], groups->work->vector[1]);
+    else
+        groups->scan->turn(count, &groups->frame->r, normals, n);
+    groups->scan->offset(count, n, lists->facet_offset + group->facets, groups->work->vector[1], planes->h + slot);
+}
+
+/* Makes the planes of the group's edge pairs in the slots from `slot` on. Returns how many there are. */
+static uint32_t make_crossings(pir_groups *groups, const pir_group *group, uint32_t slot) {
+    pir_planes *planes = groups->planes;
+    const pir_polytope *q = groups->frame->q.polytope;
+    const pir_pairing *pairing = groups->pairing;
+    const pir_lanes *work = groups->work->vector;
+    pir_lanes e = groups->work->direction, o = groups->work->origin;
+    const pir_group_lists *lists = groups->lists[0];
+    uint32_t edges = group->edges_end - group->edges, count = 0;
+    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(lists->edge_direction, group->edges), e);
+    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(lists->edge_origin, group->edges), o);
+    for (uint32_t i = 0; i < edges; i++) {
+        uint32_t edge = lists->edge[group->edges + i];
+        for (uint32_t at = pir_crossing_first(pairing, edge); at != PIR_NO_CROSSING;
+             at = pir_crossing_next(pairing, at), count++) {
+            uint32_t h = pir_crossing_half(pairing, at);
+            pir_vec3 v = groups->frame->q.vertex[q->origin[h]];
+            planes->piece[slot + count] = (pir_piece){PIR_FACET_EE, edge, h};
+            pir_lane_put(work[0], count, q->direction[h]);
+            pir_lane_put(work[1], count, (pir_vec3){e.x[i], e.y[i], e.z[i]});
+            pir_lane_put(work[2], count, (pir_vec3){o.x[i] + v.x, o.y[i] + v.y, o.z[i] + v.z});
+        }
+    }
+    double err = groups->scan->cross(count, work[0], work[1], work[2], pir_lanes_from(planes->n, slot),
+                                     planes->h + slot, planes->err + slot);
+    // edges that are nearly parallel, one by one
+    for (uint32_t i = 0; err * PIR_SIN_EXACT > 1 && i < count; i++)
+        if (planes->err[slot + i] * PIR_SIN_EXACT > 1) {
+            pir_plane plane;
+            if (pir_plane_of_edges(groups->exact, planes->piece[slot + i], &plane))
+                pir_planes_put(planes, slot + i, &plane);
+            else
+                put_nothing(planes, slot + i, planes->piece[slot + i], slot - 1);
+        }
+    return count;
+}
+
+void pir_group_make(pir_groups *groups, uint32_t g) {
+    pir_group *group = &groups->at[g];
+    if (group->stamp == groups->stamp)
+        return;
+    pir_planes *planes = groups->planes;
+    group->stamp = groups->stamp;
+    group->start = planes->used;
+    group->count = group->facets_end - group->facets;
+    make_facets(groups, group, group->start);
+    if (!group->of_q)
+        group->count += make_crossings(groups, group, group->start + group->count);
+    planes->used = group->start + group->count;
+    while (planes->used % PIR_SCAN_BLOCK != 0)
+        put_nothing(planes, planes->used++, (pir_piece){PIR_FACET_FV, 0, 0}, group->start);
+    PIR_ASSERT(planes->used <= planes->capacity);
+}
+
+/* --- the cached piece --- */
+
+void pir_piece_keep(pir_query_cache *cache, pir_piece piece) {
+    if (!cache || piece.kind == PIR_NO_PIECE)
+        return;
+    cache->pieces = 1;
+    cache->kind = piece.kind;
+    cache->first = piece.first;
+    cache->second = piece.second;
+}
+
+bool pir_piece_cached(const pir_groups *groups, const pir_query_cache *cache, pir_piece *ret_piece) {
+    const pir_polytope *p = groups->frame->p.polytope, *q = groups->frame->q.polytope;
+    if (!cache || cache->pieces != 1)
+        return false;
+    pir_piece piece = {cache->kind, cache->first, cache->second};
+    switch (piece.kind) {
+    case PIR_FACET_FV:
+        if (piece.first >= p->facet_count)
+            return false;
+        piece = pir_piece_fv(groups, piece.first);
+        break;
+    case PIR_FACET_VF:
+        if (piece.second >= q->facet_count)
+            return false;
+        piece = pir_piece_vf(groups, piece.second);
+        break;
+    case PIR_FACET_EE:
+        if (piece.first >= p->edge_count || piece.second >= q->half_count)
+            return false;
+        // where the crossing is gone, a facet of its edge is near
+        if (pir_crossing_find(groups->pairing, piece.first, piece.second) == PIR_NO_CROSSING)
+            piece = pir_piece_fv(groups, p->left[p->edge_half[piece.first]]);
+        break;
+    default:
+        return false;
+    }
+    *ret_piece = piece;
+    return true;
+}
+
+bool pir_piece_recall(const pir_groups *groups, const pir_query_cache *cache, pir_plane *ret_plane) {
+    pir_piece piece;
+    return pir_piece_cached(groups, cache, &piece) && pir_plane_of(groups->exact, piece, ret_plane);
+}

@@ -4,7 +4,7 @@
 #define PIR_QUERY_DEPTH_LEAVES_H
 
 #include "query/decide/facet.h"
-#include "query/depth/group_planes.h"
+#include "query/depth/groups.h"
 
 typedef struct pir_leaves {
     uint64_t stamp; /* the groups' stamp when they were made */

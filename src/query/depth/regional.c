@@ -21,7 +21,7 @@
  */
 #include "query/depth/regional.h"
 
-#include "query/decide/witness.h"
+#include "query/decide/touch.h"
 
 struct search {
     pir_regional *regional;

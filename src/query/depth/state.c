@@ -8,7 +8,7 @@
 #include "query/depth/depth.h"
 
 #include "query/decide/flat.h"
-#include "query/decide/side.h"
+#include "query/decide/placed.h"
 
 /* The piece of least slack in a group that has one of certainly negative slack. */
 static pir_piece separating(const pir_groups *groups, const pir_group *group, const pir_placement *placement) {
