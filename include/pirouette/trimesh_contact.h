@@ -24,6 +24,10 @@
  * contact is that of its nearest points. Where P overlaps, it is moved first: by `way_out`, to a place where it meets
  * no triangle, and contacts are those seen from there. Their depths are those at the pose that was given.
  *
+ * A radius grows P by a ball. Contacts are then those of P grown by half of it, or by half of what P would touch with
+ * where that is less: so both sides of a valley are felt before a ball of the whole radius comes to both, and depths
+ * are those of the whole.
+ *
  * Exact for the doubles given: the state of a polytope without a radius, and which contacts are ghosts. With a radius
  * both follow from distances that are within 2^-40 of the size of the coordinates. Distances, points and normals are
  * doubles.
@@ -34,7 +38,7 @@
  * grown to what was needed, no call allocates.
  *
  * Errors of a call: PIR_ERR_ARGUMENT (NULL, no surface, a radius, margin or cutoff below 0, a radius or margin that is
- * infinite), PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a coordinate beyond 2^60, more than 2^20
+ * infinite), PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a coordinate beyond 2^60, more than 2^16
  * triangles near P), PIR_ERR_MEMORY.
  */
 #ifndef PIROUETTE_TRIMESH_CONTACT_H

@@ -38,16 +38,17 @@ static void offer(const struct tour *tour, pir_contact_facet facet) {
 
 static void offer_across(const struct tour *tour, uint32_t k, uint32_t edge) {
     const pir_polytope *p = tour->job->p;
-    const pir_mat3 *r = &tour->job->rotation.r;
+    const pir_vec3 *normal = tour->job->turned, *direction = normal + p->facet_count;
     uint32_t half = p->edge_half[edge];
     pir_vec3 side = pir_vec_sub(tour->s->p[(k + 1) % 3], tour->s->p[k]);
-    pir_vec3 left = pir_mat_apply(r, p->normal[p->left[half]]), right = pir_mat_apply(r, p->normal[pir_right(p, half)]);
-    pir_vec3 n = pir_vec_cross(side, pir_mat_apply(r, p->direction[half]));
-    double length = pir_length(n), wide = pir_length(side), a = pir_vec_dot(side, left), b = pir_vec_dot(side, right);
-    if (!(length > wide * SINE_ERROR))
-        return;
+    pir_vec3 left = normal[p->left[half]], right = normal[pir_right(p, half)];
+    double wide = pir_length(side), a = pir_vec_dot(side, left), b = pir_vec_dot(side, right);
     double small = wide * SINE_ERROR;
     if (p->dimension == 3 && ((a > small && b > small) || (a < -small && b < -small)))
+        return;
+    pir_vec3 n = pir_vec_cross(side, direction[edge]);
+    double length = pir_length(n);
+    if (!(length > small))
         return;
     n = pir_vec_scale(n, 1 / length);
     double off = (8 * tour->job->error + 0x1p-48 * wide) / length;
@@ -61,7 +62,18 @@ static void offer_across(const struct tour *tour, uint32_t k, uint32_t edge) {
     }
 }
 
-void pir_contact_each_facet(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+static void turn(pir_contact_job *job) {
+    const pir_polytope *p = job->p;
+    if (job->has_turned)
+        return;
+    for (uint32_t f = 0; f < p->facet_count; f++)
+        job->turned[f] = pir_mat_apply(&job->rotation.r, p->normal[f]);
+    for (uint32_t e = 0; e < p->edge_count; e++)
+        job->turned[p->facet_count + e] = pir_mat_apply(&job->rotation.r, p->direction[p->edge_half[e]]);
+    job->has_turned = true;
+}
+
+void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
                             pir_contact_facet_visitor *visit, void *context) {
     double far = 2 * job->radius, sides = 0;
     for (int k = 0; k < 3; k++) {
@@ -72,14 +84,13 @@ void pir_contact_each_facet(const pir_contact_job *job, pir_vec3 t, const pir_ne
     double off = (8 * job->error * sides + 0x1p-48 * sides * sides) / area;
     const struct tour tour = {far, job, s, t, visit, context};
     const pir_polytope *p = job->p;
+    turn(job);
     if (pir_vec_dot(s->front, s->front) > 0) {
         offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 0, 0, s->front, 0, off});
         offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 1, 0, pir_vec_scale(s->front, -1), 0, off});
     }
-    for (uint32_t f = 0; f < p->facet_count; f++) {
-        pir_vec3 n = pir_vec_scale(pir_mat_apply(&job->rotation.r, p->normal[f]), -1);
-        offer(&tour, (pir_contact_facet){PIR_CONTACT_FACET, f, 0, n, 0, 0x1p-46});
-    }
+    for (uint32_t f = 0; f < p->facet_count; f++)
+        offer(&tour, (pir_contact_facet){PIR_CONTACT_FACET, f, 0, pir_vec_scale(job->turned[f], -1), 0, 0x1p-46});
     for (uint32_t k = 0; k < 3; k++)
         for (uint32_t e = 0; e < p->edge_count; e++)
             offer_across(&tour, k, e);

@@ -24,7 +24,7 @@ typedef struct pir_contact_facet {
 /* Is told of one facet after another. */
 typedef void pir_contact_facet_visitor(void *context, const pir_contact_facet *facet);
 
-void pir_contact_each_facet(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
                             pir_contact_facet_visitor *visit, void *context);
 
 /* Whether interior points meet: P, which meets the triangle, overlaps it, exactly. */

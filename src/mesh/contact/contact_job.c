@@ -3,15 +3,17 @@
  * P and the triangles near it.
  *
  * Errors, u = 2^-53: each rotation is within 31u of the exact one in Frobenius norm; a point turned by it is off by
- * another 4u of its length, and P's vertices by u, being the nearest doubles; sums round once each. All is below 2^-47
- * of the sum of the lengths, `size`.
+ * another 4u of its length, and P's vertices by u, being the nearest doubles; the sum with a translation rounds once.
+ * So P's vertices are within 2^-47 of P's radius, and corners of a surface that is moved within 2^-47 of the lengths
+ * that they are made of; those of one that is not are exact. Differences are taken from P's translation, beside which
+ * the triangles are, so they round by 2^-51 of `size` at most.
  */
 #include "mesh/contact/contact_job.h"
 
 #include "mesh/contact/contact_exact.h"
 #include "mesh/signs/mesh_numbers.h"
 
-#define MOST_TRIANGLES (1u << 20)
+#define MOST_TRIANGLES (1u << 16)
 
 /* --- P --- */
 
@@ -54,15 +56,23 @@ static void widen(double x, double *low, double *high) {
     *high = x > *high ? x : *high;
 }
 
+static bool reserve(const pir_contact_job *job, pir_vec3 **block, uint32_t *room, uint32_t count) {
+    if (count <= *room)
+        return true;
+    pir_vec3 *grown = PIR_RESIZE(&job->allocator, *block, *room, count);
+    if (!grown)
+        return false;
+    *block = grown;
+    *room = count;
+    return true;
+}
+
 static pir_status turn_vertices(pir_contact_job *job) {
     uint32_t count = job->p->vertex_count;
-    if (count > job->vertex_room) {
-        pir_vec3 *vertex = PIR_RESIZE(&job->allocator, job->vertex, job->vertex_room, count);
-        if (!vertex)
-            return PIR_ERR_MEMORY;
-        job->vertex = vertex;
-        job->vertex_room = count;
-    }
+    if (!reserve(job, &job->vertex, &job->vertex_room, count) ||
+        !reserve(job, &job->turned, &job->turned_room, job->p->facet_count + job->p->edge_count))
+        return PIR_ERR_MEMORY;
+    job->has_turned = false;
     double most = 0;
     job->low = (pir_vec3){HUGE_VAL, HUGE_VAL, HUGE_VAL};
     job->high = (pir_vec3){-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -202,19 +212,24 @@ static void gather_surface(pir_contact_job *job, uint32_t surface, double grow) 
 
 /* Sizes, of what was gathered. */
 static void set_size(pir_contact_job *job) {
-    double most = 0;
+    double far = 0, moved = 0;
+    pir_vec3 t = job->input->pose.translation;
     for (uint32_t i = 0; i < job->triangle_count; i++) {
         const pir_near_triangle *s = &job->triangle[i];
-        double reach = pir_length(job->input->surfaces[s->surface].pose.translation);
-        for (int k = 0; k < 3; k++)
-            most = fmax(most, pir_length(s->local.p[k]) + reach);
+        const pir_pose *pose = &job->input->surfaces[s->surface].pose;
+        for (int k = 0; k < 3; k++) {
+            far = fmax(far, pir_length(pir_vec_sub(s->p[k], t)));
+            if (!turns_nothing(pose))
+                moved = fmax(moved, pir_length(s->local.p[k]) + pir_length(pose->translation));
+        }
     }
-    job->size = most + job->radius + pir_length(job->input->pose.translation) + job->grown;
-    job->error = 0x1p-47 * job->size;
+    job->size = far + job->radius + 2 * job->grown;
+    job->error = 0x1p-47 * (job->radius + moved) + 0x1p-51 * job->size;
 }
 
 pir_status pir_contact_job_gather(pir_contact_job *job, double grow) {
     job->triangle_count = 0;
+    job->killer = UINT32_MAX;
     job->out_of_memory = false;
     job->grown = grow;
     for (uint32_t i = 0; i < job->input->surface_count && !job->out_of_memory; i++)
@@ -247,6 +262,7 @@ pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, co
 
 void pir_contact_job_finish(pir_contact_job *job) {
     PIR_FREE(&job->allocator, job->vertex, job->vertex_room);
+    PIR_FREE(&job->allocator, job->turned, job->turned_room);
     PIR_FREE(&job->allocator, job->triangle, job->triangle_room);
     PIR_FREE(&job->allocator, job->limbs.base, job->limbs.capacity);
 }
@@ -261,6 +277,18 @@ bool pir_near_same_frame(const pir_contact_job *job, const pir_near_triangle *s,
     bool turned = p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w;
     return (turned || (pir_quat_is_identity(p) && pir_quat_is_identity(q))) && a->translation.x == b->translation.x &&
            a->translation.y == b->translation.y && a->translation.z == b->translation.z;
+}
+
+/* Whether a rotation keeps the coordinate k of every point, exactly. */
+static bool keeps(pir_quat q, int k) {
+    return (k == 0 || q.x == 0) && (k == 1 || q.y == 0) && (k == 2 || q.z == 0);
+}
+
+bool pir_near_is_level(const pir_contact_job *job, const pir_near_triangle *s, uint32_t a, const pir_near_triangle *t,
+                       uint32_t b, int axis) {
+    const pir_pose *p = &job->input->surfaces[s->surface].pose, *q = &job->input->surfaces[t->surface].pose;
+    return component(s->local.p[a], axis) == component(t->local.p[b], axis) && keeps(p->rotation, axis) &&
+           keeps(q->rotation, axis) && component(p->translation, axis) == component(q->translation, axis);
 }
 
 bool pir_near_same_corner(const pir_contact_job *job, const pir_near_triangle *s, int a, const pir_near_triangle *t,

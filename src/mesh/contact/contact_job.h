@@ -30,6 +30,7 @@ typedef struct pir_contact_near {
     pir_vec3 n;      /* along the way, of any length: made of the simplex */
     double n_error;  /* of n, as a length */
     pir_vec3 point;  /* of the triangle */
+    int axis;        /* of the world, that n has exactly; −1: none is known */
 } pir_contact_near;
 
 /* A triangle near P. */
@@ -50,6 +51,9 @@ typedef struct pir_contact_job {
     const pir_surface_contact_input *input;
     pir_vec3 *vertex; /* of P, turned */
     uint32_t vertex_room;
+    pir_vec3 *turned; /* normals of P's facets, then directions of its edges, turned: made when a depth is asked for */
+    uint32_t turned_room;
+    bool has_turned;
     double radius; /* of a ball about P's origin that holds P's vertices */
     pir_vec3 low, high;
     pir_near_triangle *triangle;
@@ -63,7 +67,9 @@ typedef struct pir_contact_job {
     uint32_t surface; /* which; UINT32_MAX for none */
     pir_rotation_integers integers[2];
     pir_limbs limbs;
-    int exponent; /* of coordinates as integers */
+    int exponent;    /* of coordinates as integers */
+    double ball;     /* the radius of the ball by which P is grown where ghosts are told; 0 for none */
+    uint32_t killer; /* the triangle that made the last ghost; may be none */
     pir_surface_contact_counts counts;
 } pir_contact_job;
 
@@ -77,6 +83,10 @@ void pir_contact_job_finish(pir_contact_job *job);
 /* Whether corner `a` of one triangle and `b` of another are certainly at one place. */
 bool pir_near_same_corner(const pir_contact_job *job, const pir_near_triangle *s, int a, const pir_near_triangle *t,
                           int b);
+
+/* Whether two corners of triangles, which may be of one, have the coordinate `axis` of the world in common, exactly. */
+bool pir_near_is_level(const pir_contact_job *job, const pir_near_triangle *s, uint32_t a, const pir_near_triangle *t,
+                       uint32_t b, int axis);
 
 /* Whether two triangles stand in one frame, so that signs of their own coordinates tell how they lie. */
 bool pir_near_same_frame(const pir_contact_job *job, const pir_near_triangle *s, const pir_near_triangle *t);

@@ -19,7 +19,7 @@ struct hull {
 };
 
 static pir_vec3 difference(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, uint32_t v, uint32_t w) {
-    return pir_vec_sub(pir_vec_add(job->vertex[v], t), s->p[w]);
+    return pir_vec_sub(job->vertex[v], pir_vec_sub(s->p[w], t));
 }
 
 static uint32_t least_vertex(const pir_contact_job *job, pir_vec3 n) {
@@ -201,25 +201,80 @@ static bool is_in(const uint32_t *id, uint32_t count, uint32_t x) {
     return false;
 }
 
+/* Whether a rotation keeps the coordinate k of every point, exactly. */
+static bool keeps(pir_quat q, int k) {
+    return (k == 0 || q.x == 0) && (k == 1 || q.y == 0) && (k == 2 || q.z == 0);
+}
+
+static double component(pir_vec3 v, int k) {
+    return k == 0 ? v.x : k == 1 ? v.y : v.z;
+}
+
+/* Whether two vertices of P, or two corners, have the coordinate k in common, exactly. */
+static bool is_level_vertex(const pir_contact_job *job, uint32_t v, uint32_t o, int k) {
+    const pir_polytope *p = job->p;
+    return v == o || (keeps(job->input->pose.rotation, k) && component(p->vertex[v], k) == component(p->vertex[o], k) &&
+                      pir_vertex_is_double(p, v, k) && pir_vertex_is_double(p, o, k));
+}
+
+static bool is_level_corner(const pir_contact_job *job, const pir_near_triangle *s, uint32_t w, uint32_t o, int k) {
+    return w == o || pir_near_is_level(job, s, w, s, o, k);
+}
+
+/* The axis that the direction of three pairs has exactly, because all that they are made of is level; −1 for none. */
+static int axis_of(const pir_contact_job *job, const pir_near_triangle *s, const pir_contact_simplex *ids) {
+    for (int k = 0; k < 3 && ids->count == 3; k++) {
+        bool level = true;
+        for (uint32_t i = 1; i < 3 && level; i++)
+            level = is_level_vertex(job, ids->v[i], ids->v[0], k) && is_level_corner(job, s, ids->w[i], ids->w[0], k);
+        if (level)
+            return k;
+    }
+    return -1;
+}
+
+static bool has_vertex(const pir_polytope *p, uint32_t facet, uint32_t v) {
+    for (uint32_t i = p->loop_start[facet]; i < p->loop_start[facet + 1]; i++)
+        if (p->origin[p->loop[i]] == v)
+            return true;
+    return false;
+}
+
+/* Whether three vertices are those of a facet of P that faces against n: then no vertex is less far along n. */
+static bool is_facet(const pir_contact_job *job, const uint32_t v[3], pir_vec3 n) {
+    const pir_polytope *p = job->p;
+    for (uint32_t h = p->ring_start[v[0]]; h < p->ring_start[v[0] + 1] && p->dimension >= 2; h++) {
+        uint32_t f = p->left[h];
+        if (has_vertex(p, f, v[1]) && has_vertex(p, f, v[2]) &&
+            pir_vec_dot(n, pir_mat_apply(&job->rotation.r, p->normal[f])) < 0)
+            return true;
+    }
+    return false;
+}
+
 /*
- * Whether all vertices and corners but those of the simplex are certainly less far along n. Where the pairs of the
- * simplex join its vertices and corners to one tree, these are all as far, since the pairs are.
+ * Whether all vertices and corners but those of the simplex are certainly no farther along n. Where the pairs of the
+ * simplex join its vertices and corners to one tree, these are all as far, since the pairs are. What is level is known
+ * to be as far too, and so are the vertices of a facet and the corners of a triangle.
  */
 static bool is_supported(const pir_contact_job *job, const pir_near_triangle *s, const pir_contact_near *near,
                          double error) {
     const pir_contact_simplex *ids = &near->simplex;
-    if (distinct(ids->v, ids->count) + distinct(ids->w, ids->count) != ids->count + 1)
+    uint32_t vertices = distinct(ids->v, ids->count), corners = distinct(ids->w, ids->count);
+    double own = 4 * error * pir_length(near->n);
+    int axis = near->axis;
+    if (axis < 0 && vertices + corners != ids->count + 1)
         return false;
-    double length = pir_length(near->n), own = 4 * error * length;
     pir_vec3 p = job->vertex[ids->v[0]], q = s->p[ids->w[0]];
-    for (uint32_t v = 0; v < job->p->vertex_count; v++) {
-        pir_vec3 away = pir_vec_sub(job->vertex[v], p);
-        if (!is_in(ids->v, ids->count, v) && !(pir_vec_dot(near->n, away) > own + near->n_error * 2 * job->radius))
+    double bound = own + near->n_error * 2 * job->radius;
+    for (uint32_t v = 0; v < job->p->vertex_count && !(vertices == 3 && is_facet(job, ids->v, near->n)); v++)
+        if (!(pir_vec_dot(near->n, pir_vec_sub(job->vertex[v], p)) > bound) && !is_in(ids->v, ids->count, v) &&
+            !(axis >= 0 && is_level_vertex(job, v, ids->v[0], axis)))
             return false;
-    }
-    for (uint32_t w = 0; w < 3; w++) {
+    for (uint32_t w = 0; w < 3 && corners < 3; w++) {
         pir_vec3 away = pir_vec_sub(s->p[w], q);
-        if (!is_in(ids->w, ids->count, w) && !(pir_vec_dot(near->n, away) < -own - near->n_error * pir_length(away)))
+        if (!(pir_vec_dot(near->n, away) < -own - near->n_error * pir_length(away)) && !is_in(ids->w, ids->count, w) &&
+            !(axis >= 0 && is_level_corner(job, s, w, ids->w[0], axis)))
             return false;
     }
     return true;
@@ -283,6 +338,7 @@ void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, c
         return;
     if (hull.ids.count < 4) {
         ret_near->simplex = hull.ids;
+        ret_near->axis = axis_of(job, s, &hull.ids);
         set_numbers(job, place, s, error, ret_near);
         if (ret_near->distance > 4 * error && is_within(hull.d, hull.ids.count, hull.weight, error) &&
             is_supported(job, s, ret_near, error))
@@ -292,6 +348,7 @@ void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, c
     ret_near->meets = pir_exact_nearest(job, place, s, &ret_near->simplex);
     if (ret_near->meets)
         return;
+    ret_near->axis = axis_of(job, s, &ret_near->simplex);
     set_numbers(job, place, s, error, ret_near);
     // what is too near for doubles has no direction in them
     if (!(ret_near->n_error < NEAR_ENOUGH * pir_length(ret_near->n)) || ret_near->distance < 4 * error) {

@@ -53,6 +53,8 @@ static int rise(struct contact *c, const pir_near_triangle *r, int b) {
     for (uint32_t k = 0; k < near->simplex.count; k++)
         if (pir_near_same_corner(c->job, c->s, (int)near->simplex.w[k], r, b))
             return 0; // all of these are as far along n
+    if (near->axis >= 0 && pir_near_is_level(c->job, c->s, a, r, (uint32_t)b, near->axis))
+        return 0;
     if (c->along_front && pir_near_same_frame(c->job, c->s, r)) {
         if (is_flat(&c->s->local, r->local.p[b]))
             return 0;
@@ -99,14 +101,14 @@ static bool is_behind(struct contact *c, const pir_near_triangle *r) {
     return pir_exact_is_behind(c->job, &c->place, r);
 }
 
-/* Whether P, moved until it touches, meets r. With a radius: whether it is nearer than that. */
+/* Whether P, moved until it touches, meets r. With a ball: whether it is nearer than that. */
 static bool is_met(struct contact *c, const pir_near_triangle *r) {
-    double radius = c->job->input->radius;
-    if (radius > 0) {
+    double ball = c->job->ball;
+    if (ball > 0) {
         const pir_contact_place place = pir_place_at(c->moved);
         pir_contact_near near;
         pir_contact_nearest(c->job, &place, r, &near);
-        return near.meets || near.distance < radius - 8 * (c->off + c->job->error);
+        return near.meets || near.distance < ball - 8 * (c->off + c->job->error);
     }
     pir_contact_simplex simplex;
     pir_contact_told told = pir_contact_told_meets(c->job, c->moved, r, c->off, &simplex);
@@ -124,17 +126,36 @@ static bool is_against(struct contact *c, const pir_near_triangle *r) {
     return r->one_sided && towards_front(c, r) < 0;
 }
 
-static bool is_ghost_among(struct contact *c) {
-    const pir_contact_job *job = c->job;
-    // those that share the point first: they take one sign
+/* Whether doubles alone tell that a triangle makes the contact a ghost. */
+static bool is_certain_killer(struct contact *c, const pir_near_triangle *r) {
+    pir_contact_simplex simplex;
+    return r != c->s && c->job->ball == 0 &&
+           pir_contact_told_meets(c->job, c->moved, r, c->off, &simplex) == PIR_TOLD_YES && is_against(c, r) &&
+           !is_behind(c, r);
+}
+
+/* Whether one of a pass does: those that have the point, which take one sign, or the others. */
+static bool is_killer(struct contact *c, const pir_near_triangle *r, bool with_point) {
+    return r != c->s && has_point(c, r) == with_point && is_against(c, r) && (with_point || is_met(c, r)) &&
+           !is_behind(c, r);
+}
+
+/* Looks at the one that made the last ghost first, then at all, those next to the triangle in the tree first. */
+static bool is_ghost_among(struct contact *c, uint32_t index) {
+    pir_contact_job *job = c->job;
+    if (job->killer < job->triangle_count && is_certain_killer(c, &job->triangle[job->killer]))
+        return true;
     for (int pass = 0; pass < 2; pass++)
-        for (uint32_t i = 0; i < job->triangle_count; i++) {
-            const pir_near_triangle *r = &job->triangle[i];
-            if (r == c->s || has_point(c, r) != (pass == 0) || !is_against(c, r))
-                continue;
-            if ((pass == 0 || is_met(c, r)) && !is_behind(c, r))
+        for (uint32_t away = 1; away < job->triangle_count; away++)
+            for (int side = 0; side < 2; side++) {
+                if (side == 0 ? away > index : away >= job->triangle_count - index)
+                    continue;
+                uint32_t i = side == 0 ? index - away : index + away;
+                if (!is_killer(c, &job->triangle[i], pass == 0))
+                    continue;
+                job->killer = i;
                 return true;
-        }
+            }
     return false;
 }
 
@@ -143,13 +164,13 @@ bool pir_contact_is_ghost(pir_contact_job *job, pir_vec3 t, uint32_t index) {
     const pir_contact_near *near = &s->near;
     double length = pir_length(near->n);
     struct contact c = {.job = job, .s = s, .near = near, .t = t};
-    double part = job->input->radius > 0 ? 1 - job->input->radius / near->distance : 1;
+    double part = job->ball > 0 ? 1 - job->ball / near->distance : 1;
     c.moved = pir_vec_sub(t, pir_vec_scale(near->way, part));
-    c.off = near->distance * (near->n_error / length + 0x1p-48) + 16 * job->error;
+    c.off = near->distance * (near->n_error / length + 0x1p-48) + 16 * job->error + 0x1p-50 * pir_length(t);
     c.along_front = near->simplex.count == 3 && all_differ(near->simplex.w);
     c.front_sign = pir_vec_dot(near->n, s->front);
     uint32_t used = job->limbs.used;
-    bool ghost = (s->one_sided && towards_front(&c, s) < 0) || is_ghost_among(&c);
+    bool ghost = (s->one_sided && towards_front(&c, s) < 0) || is_ghost_among(&c, index);
     job->limbs.used = used;
     return ghost;
 }

@@ -75,9 +75,21 @@ static void insert(struct room *room, struct standing contact) {
     room->standing[at] = contact;
 }
 
+/* Half of the radius, or of that at which P would touch. */
+static double ball_of(const pir_contact_job *job) {
+    double least = job->input->radius;
+    for (uint32_t i = 0; i < job->triangle_count && least > 0; i++) {
+        const pir_near_triangle *s = &job->triangle[i];
+        if (s->counts && !s->near.meets)
+            least = fmin(least, s->near.distance);
+    }
+    return 0.5 * least;
+}
+
 static void find_standing(struct room *room) {
     pir_contact_job *job = &room->job;
     room->standing_count = 0;
+    job->ball = ball_of(job);
     for (uint32_t i = 0; i < job->triangle_count; i++) {
         pir_near_triangle *s = &job->triangle[i];
         s->stands = false;

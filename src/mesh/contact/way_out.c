@@ -82,7 +82,7 @@ bool pir_contact_look(pir_contact_job *job, pir_vec3 t) {
 }
 
 /* All ways from a place that was looked at, and of each triangle's least one the longest. */
-static struct exit_way find_ways(const pir_contact_job *job, pir_vec3 t, struct exit_ways *ways) {
+static struct exit_way find_ways(pir_contact_job *job, pir_vec3 t, struct exit_ways *ways) {
     struct exit_way longest = {{0, 0, 0}, -1};
     ways->count = 0;
     ways->missed = HUGE_VAL;
@@ -110,9 +110,12 @@ static pir_vec3 along(const pir_contact_job *job, pir_vec3 t, const struct exit_
     return pir_vec_add(start, by);
 }
 
-/* Whether a direction takes a triangle apart from P by doubles. */
-static bool is_clear_along(const pir_contact_job *job, double least, const pir_near_triangle *s, pir_vec3 n) {
-    double most = fmax(pir_vec_dot(n, s->p[0]), fmax(pir_vec_dot(n, s->p[1]), pir_vec_dot(n, s->p[2])));
+/* Whether a direction, along which no vertex of P is below `least`, takes a triangle apart from P at t by doubles. */
+static bool is_clear_along(const pir_contact_job *job, double least, const pir_near_triangle *s, pir_vec3 n,
+                           pir_vec3 t) {
+    double most = -HUGE_VAL;
+    for (int k = 0; k < 3; k++)
+        most = fmax(most, pir_vec_dot(n, pir_vec_sub(s->p[k], t)));
     return least - most > 16 * job->error;
 }
 
@@ -126,9 +129,8 @@ static uint32_t first_met(pir_contact_job *job, pir_vec3 t, pir_vec3 n) {
     double least = HUGE_VAL;
     for (uint32_t v = 0; v < job->p->vertex_count; v++)
         least = fmin(least, pir_vec_dot(n, job->vertex[v]));
-    least += pir_vec_dot(n, t);
     for (uint32_t i = 0; i < job->triangle_count; i++)
-        if (!is_clear_along(job, least, &job->triangle[i], n) && is_met_at(job, &place, &job->triangle[i]))
+        if (!is_clear_along(job, least, &job->triangle[i], n, t) && is_met_at(job, &place, &job->triangle[i]))
             return i;
     return UINT32_MAX;
 }
