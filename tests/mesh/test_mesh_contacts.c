@@ -350,12 +350,99 @@ static void a_call_that_runs_out_of_memory_changes_nothing(void **state) {
     mesh_arrays_clear(&plane);
 }
 
+/* --- sizes, crowds --- */
+
+static pir_trimesh *square(double side) {
+    const pir_vec3 corner[4] = {{-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0}};
+    static const uint32_t triangle[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    const pir_trimesh_arrays arrays = {
+        .vertices = corner, .vertex_count = 4, .triangles = &triangle[0][0], .triangle_count = 2};
+    pir_trimesh *mesh;
+    assert_int_equal(pir_trimesh_create(&arrays, NULL, NULL, &mesh), PIR_OK);
+    return mesh;
+}
+
+/* A cube of side 1 over a floor, both scaled: four contacts, straight up, wherever doubles reach. */
+static void floors_are_flat_at_any_size(void **state) {
+    (void)state;
+    static const int exponents[6] = {57, 40, 20, -20, -100, -200};
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (int i = 0; i < 6; i++) {
+        double unit = ldexp(1, exponents[i]);
+        pir_vec3 corner[8];
+        pir_polytope *body;
+        for (int k = 0; k < 8; k++)
+            corner[k] = (pir_vec3){k & 1 ? unit : -unit, k & 2 ? unit : -unit, k & 4 ? unit : -unit};
+        assert_int_equal(pir_polytope_create(corner, 8, NULL, &body), PIR_OK);
+        pir_trimesh *mesh = square(4 * unit);
+        const pir_posed_surface surface = {{mesh, NULL}, pir_pose_identity()};
+        pir_surface_contact_input input = pir_surface_contact_input_default();
+        input.margin = 0.5 * unit;
+        input.surfaces = &surface;
+        input.surface_count = 1;
+        for (int over = -1; over <= 1; over++) {
+            pir_surface_contact contacts[8];
+            pir_surface_contact_result result;
+            input.pose.translation = (pir_vec3){0.25 * unit, 0.375 * unit, (1 + 0.125 * over) * unit};
+            assert_int_equal(pir_surface_contacts(body, workspace, &input, 8, contacts, &result), PIR_OK);
+            expect((int)result.state == 1 - over, "unit 2^%d, %d: state %d", exponents[i], over, result.state);
+            expect(result.contacts == 4, "unit 2^%d, %d: %zu contacts", exponents[i], over, result.contacts);
+            for (size_t k = 0; k < result.contacts; k++)
+                expect(contacts[k].normal.z > 1 - 1e-12 && fabs(contacts[k].distance / unit - 0.125 * over) < 1e-9,
+                       "unit 2^%d, %d: normal %.17g, distance %.17g", exponents[i], over, contacts[k].normal.z,
+                       contacts[k].distance / unit);
+        }
+        pir_polytope_release(body);
+        pir_trimesh_release(mesh);
+    }
+    pir_workspace_destroy(workspace);
+}
+
+static void triangles_all_through_one_point_end_in_bounded_time(void **state) {
+    (void)state;
+    pir_polytope *body = cube();
+    pir_workspace *workspace;
+    pir_surface_contact_result result;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    mesh_arrays fan = mesh_fan(3000), crowd = mesh_fan(70000);
+    pir_trimesh *mesh = mesh_of(&fan, NULL), *many = mesh_of(&crowd, NULL);
+    for (int i = 0; i < 4; i++) {
+        const pir_posed_surface surface = {{mesh, NULL}, pir_pose_identity()};
+        pir_surface_contact_input input = pir_surface_contact_input_default();
+        pir_surface_contact contacts[16];
+        input.pose.rotation = (pir_quat){0.1, 0.2, 0.05, 1};
+        input.pose.translation = (pir_vec3){0.1, 0.05, 0.3 + 0.2 * i};
+        input.margin = 0.1;
+        input.surfaces = &surface;
+        input.surface_count = 1;
+        assert_int_equal(pir_surface_contacts(body, workspace, &input, 16, contacts, &result), PIR_OK);
+    }
+    assert_int_equal(ask(workspace, body, many, 0, &result), PIR_OK);
+    pir_vec3 point = {0, 0, 0};
+    pir_polytope_release(body);
+    assert_int_equal(pir_polytope_create(&point, 1, NULL, &body), PIR_OK);
+    const pir_posed_surface surface = {{many, NULL}, pir_pose_identity()};
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    input.surfaces = &surface;
+    input.surface_count = 1;
+    assert_int_equal(pir_surface_contacts(body, workspace, &input, 0, NULL, &result), PIR_ERR_LIMIT);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(body);
+    pir_trimesh_release(mesh);
+    pir_trimesh_release(many);
+    mesh_arrays_clear(&fan);
+    mesh_arrays_clear(&crowd);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_ghost_is_told_and_no_contact_lost),
         cmocka_unit_test(bad_input_is_refused_and_nothing_written),
         cmocka_unit_test(a_call_that_runs_out_of_memory_changes_nothing),
+        cmocka_unit_test(floors_are_flat_at_any_size),
+        cmocka_unit_test(triangles_all_through_one_point_end_in_bounded_time),
     };
     return cmocka_run_group_tests_name("contacts of meshes", tests, NULL, NULL);
 }
