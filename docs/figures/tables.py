@@ -156,6 +156,12 @@ def mesh_pairs(r):
                     rows)
 
 
+def mesh_contacts(r):
+    rows = [[row["body"], row["field"], f"{float(row['cell']):.2f}", row["place"], count(row["triangles"]),
+             f"{float(row['median_us']):.0f}", f"{float(row['p99_us']):.0f}"] for row in r.mesh_contacts.rows]
+    return markdown(["body", "field", ">cell", "place", ">triangles near", ">median, µs", ">p99, µs"], rows)
+
+
 def mesh_octrees(r):
     keys = ("depth", "cubes", "left", "culled_percent", "sums", "octrees_us", "pair_us", "missed")
     rows = [[f"{float(row[key]):.2f} %" if key == "culled_percent" else count(row[key]) for key in keys]
@@ -301,5 +307,5 @@ def solid_query(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_octrees, mesh_index, objects,
-    whole, scale, pile, slices, slices_read, grid, answers, solids, solid_query)}
+    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_octrees,
+    mesh_index, objects, whole, scale, pile, slices, slices_read, grid, answers, solids, solid_query)}
