@@ -435,6 +435,95 @@ static void triangles_all_through_one_point_end_in_bounded_time(void **state) {
     mesh_arrays_clear(&crowd);
 }
 
+/* --- what a contact says --- */
+
+/* A field of 4 × 4 cells of side 1, whose materials are the numbers of cells plus 100; cell 5 may be a hole. */
+static pir_height_field *small_field(bool hole) {
+    static const float heights[25];
+    uint32_t materials[16];
+    uint8_t holes[16] = {0};
+    for (uint32_t i = 0; i < 16; i++)
+        materials[i] = 100 + i;
+    holes[5] = hole;
+    const pir_height_samples samples = {.heights = heights,
+                                        .type = PIR_NUMBERS_FLOAT,
+                                        .columns = 5,
+                                        .rows = 5,
+                                        .step_x = 1,
+                                        .step_y = 1,
+                                        .materials = materials,
+                                        .holes = holes};
+    pir_height_field *field;
+    assert_int_equal(pir_height_field_create(&samples, NULL, NULL, &field), PIR_OK);
+    return field;
+}
+
+static void contacts_carry_material_and_keep_their_ids(void **state) {
+    (void)state;
+    pir_height_field *field = small_field(false);
+    pir_polytope *body = cube();
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    const pir_posed_surface surface = {{NULL, field}, {{0, 0, 0, 1}, {10, 0, 0}}};
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    pir_surface_contact before[8], after[8];
+    pir_surface_contact_result result;
+    input.margin = 0.01;
+    input.surfaces = &surface;
+    input.surface_count = 1;
+    input.pose = (pir_pose){{1e-3, 2e-3, 0.3, 1}, {11.9, 2.1, 0.503}};
+    assert_int_equal(pir_surface_contacts(body, workspace, &input, 8, before, &result), PIR_OK);
+    assert_int_equal(result.contacts, 4);
+    input.pose.translation.x += 1e-3;
+    assert_int_equal(pir_surface_contacts(body, workspace, &input, 8, after, &result), PIR_OK);
+    assert_int_equal(result.contacts, 4);
+    for (size_t i = 0; i < 4; i++) {
+        bool found = false;
+        uint32_t column = (uint32_t)(before[i].point_q.x - 10), row = (uint32_t)before[i].point_q.y;
+        assert_int_equal(before[i].material, 100 + 4 * row + column);
+        assert_int_equal(before[i].triangle / 2, 4 * row + column);
+        for (size_t k = 0; k < 4; k++) {
+            found |= after[k].id == before[i].id;
+            assert_true(k == i || before[k].id != before[i].id);
+        }
+        assert_true(found);
+    }
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(body);
+    pir_height_field_release(field);
+}
+
+/* A small box over a hole falls through; one that is as wide as the hole rests on its rim. */
+static void holes_are_open_and_their_rims_hold(void **state) {
+    (void)state;
+    pir_height_field *field = small_field(true);
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    const pir_posed_surface surface = {{NULL, field}, pir_pose_identity()};
+    for (int wide = 0; wide < 2; wide++) {
+        pir_vec3 corner[8];
+        pir_polytope *body;
+        double half = wide ? 0.6 : 0.4;
+        for (int k = 0; k < 8; k++)
+            corner[k] = (pir_vec3){k & 1 ? half : -half, k & 2 ? half : -half, k & 4 ? 0.5 : -0.5};
+        assert_int_equal(pir_polytope_create(corner, 8, NULL, &body), PIR_OK);
+        pir_surface_contact_input input = pir_surface_contact_input_default();
+        pir_surface_contact contacts[8];
+        pir_surface_contact_result result;
+        input.margin = 0.01;
+        input.surfaces = &surface;
+        input.surface_count = 1;
+        input.pose.translation = (pir_vec3){1.5, 1.5, 0.505};
+        assert_int_equal(pir_surface_contacts(body, workspace, &input, 8, contacts, &result), PIR_OK);
+        assert_int_equal(result.contacts, wide ? 4 : 0);
+        for (size_t i = 0; i < result.contacts; i++)
+            assert_true(contacts[i].normal.z > 1 - 1e-12 && fabs(contacts[i].distance - 0.005) < 1e-12);
+        pir_polytope_release(body);
+    }
+    pir_workspace_destroy(workspace);
+    pir_height_field_release(field);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -442,6 +531,8 @@ int main(void) {
         cmocka_unit_test(bad_input_is_refused_and_nothing_written),
         cmocka_unit_test(a_call_that_runs_out_of_memory_changes_nothing),
         cmocka_unit_test(floors_are_flat_at_any_size),
+        cmocka_unit_test(contacts_carry_material_and_keep_their_ids),
+        cmocka_unit_test(holes_are_open_and_their_rims_hold),
         cmocka_unit_test(triangles_all_through_one_point_end_in_bounded_time),
     };
     return cmocka_run_group_tests_name("contacts of meshes", tests, NULL, NULL);
