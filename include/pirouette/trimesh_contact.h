@@ -21,8 +21,9 @@
  * Behind others lies a solid, however thin: no contact pushes into it.
  *
  * Where P is apart from all triangles, y is where P comes to when it moves along −n by the gap: for each triangle the
- * contact is that of its nearest points. Where P overlaps, it is moved first: by `way_out`, to a place where it meets
- * no triangle, and contacts are those seen from there. Their depths are those at the pose that was given.
+ * contact is that of its nearest points. Where P meets another triangle on that way, y may also be a place beside,
+ * within the margin, on the same facet of D. Where P overlaps, it is moved first: by `way_out`, to a place where it
+ * meets no triangle, and contacts are those seen from there. Their depths are those at the pose that was given.
  *
  * A radius grows P by a ball. Contacts are then those of P grown by half of it, or by half of what P would touch with
  * where that is less: so both sides of a valley are felt before a ball of the whole radius comes to both, and depths

@@ -212,12 +212,12 @@ uint32_t floor_between(const sliding_floor *floor, double from, double to, pir_p
 
 /* --- bodies --- */
 
-void slider_make(slider *slider, int kind, double gap) {
+void slider_make(slider *body, int kind, double gap) {
     static const char *const names[SLIDER_KINDS] = {"box", "capsule", "hull of 20"};
     pir_vec3 vertex[20];
     size_t count = 0;
     test_random random = test_random_case("hull of 20", 1);
-    *slider = (struct slider){.name = names[kind], .pose = pir_pose_identity(), .inertia = 0.1};
+    *body = (struct slider){.name = names[kind], .pose = pir_pose_identity(), .inertia = 0.1};
     for (int i = 0; i < 8 && kind == 0; i++)
         vertex[count++] = (pir_vec3){i & 1 ? 0.5 : -0.5, i & 2 ? 0.4 : -0.4, i & 4 ? 0.25 : -0.25};
     for (int i = 0; i < 2 && kind == 1; i++)
@@ -226,17 +226,17 @@ void slider_make(slider *slider, int kind, double gap) {
         pir_vec3 d = test_random_direction(&random);
         vertex[count++] = (pir_vec3){0.5 * d.x, 0.5 * d.y, 0.4 * d.z};
     }
-    slider->radius = kind == 1 ? 0.3 : 0;
-    if (pir_polytope_create(vertex, count, NULL, &slider->shape) != PIR_OK)
+    body->radius = kind == 1 ? 0.3 : 0;
+    if (pir_polytope_create(vertex, count, NULL, &body->shape) != PIR_OK)
         abort();
     double low = 0;
     for (size_t i = 0; i < count; i++)
         low = fmin(low, vertex[i].z);
-    slider->pose.translation.z = slider->radius - low + gap;
+    body->pose.translation.z = body->radius - low + gap;
 }
 
-void slider_clear(slider *slider) {
-    pir_polytope_release(slider->shape);
+void slider_clear(slider *body) {
+    pir_polytope_release(body->shape);
 }
 
 static pir_vec3 sum(pir_vec3 a, double s, pir_vec3 b) {
@@ -251,20 +251,20 @@ static double dot(pir_vec3 a, pir_vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-void slider_step(slider *slider, const pir_surface_contact *contacts, size_t count, double gap) {
+void slider_step(slider *body, const pir_surface_contact *contacts, size_t count, double gap) {
     const double step = 1.0 / 60;
     double impulse[64] = {0};
-    slider->velocity.z -= 9.81 * step;
+    body->velocity.z -= 9.81 * step;
     for (int pass = 0; pass < 20; pass++)
         for (size_t i = 0; i < count && i < 64; i++) {
             const pir_surface_contact *c = &contacts[i];
-            pir_vec3 at = sum(c->point_p, -1, slider->pose.translation), turn = cross(at, c->normal);
+            pir_vec3 at = sum(c->point_p, -1, body->pose.translation), turn = cross(at, c->normal);
             double may = c->distance > gap ? (c->distance - gap) / step : 0.2 * (c->distance - gap) / step;
-            double speed = dot(c->normal, slider->velocity) + dot(turn, slider->spin);
-            double mass = 1 / (1 + dot(turn, turn) / slider->inertia), old = impulse[i];
+            double speed = dot(c->normal, body->velocity) + dot(turn, body->spin);
+            double mass = 1 / (1 + dot(turn, turn) / body->inertia), old = impulse[i];
             impulse[i] = fmax(old - mass * (speed + may), 0);
-            slider->velocity = sum(slider->velocity, impulse[i] - old, c->normal);
-            slider->spin = sum(slider->spin, (impulse[i] - old) / slider->inertia, turn);
+            body->velocity = sum(body->velocity, impulse[i] - old, c->normal);
+            body->spin = sum(body->spin, (impulse[i] - old) / body->inertia, turn);
         }
-    slider->pose = pir_pose_integrate(slider->pose, slider->velocity, slider->spin, step);
+    body->pose = pir_pose_integrate(body->pose, body->velocity, body->spin, step);
 }

@@ -41,10 +41,10 @@ typedef struct slider {
 } slider;
 
 /* A body at rest on the plane z = 0, at a gap. */
-void slider_make(slider *slider, int kind, double gap);
-void slider_clear(slider *slider);
+void slider_make(slider *body, int kind, double gap);
+void slider_clear(slider *body);
 
 /* One frame under gravity with no friction: bodies rest at the gap. */
-void slider_step(slider *slider, const pir_surface_contact *contacts, size_t count, double gap);
+void slider_step(slider *body, const pir_surface_contact *contacts, size_t count, double gap);
 
 #endif

@@ -404,6 +404,213 @@ bool oracle_scene_contact(oracle_scene *scene, uint32_t i, pir_vec3 *ret_normal,
     return stands;
 }
 
+/* --- facets --- */
+
+#define PIECE_CORNERS 96
+
+/* A convex polygon in the plane of a facet: corners over one denominator each. */
+typedef struct oracle_piece {
+    uint32_t count;
+    mpq_t (*corner)[3];
+} oracle_piece;
+
+static oracle_piece piece_make(void) {
+    oracle_piece piece = {0, calloc(PIECE_CORNERS, sizeof *piece.corner)};
+    for (int i = 0; piece.corner && i < PIECE_CORNERS; i++)
+        for (int k = 0; k < 3; k++)
+            mpq_init(piece.corner[i][k]);
+    if (!piece.corner)
+        abort();
+    return piece;
+}
+
+static void piece_free(oracle_piece *piece) {
+    for (int i = 0; i < PIECE_CORNERS; i++)
+        for (int k = 0; k < 3; k++)
+            mpq_clear(piece->corner[i][k]);
+    free(piece->corner);
+}
+
+static void piece_add(oracle_piece *piece, mpq_t corner[3]) {
+    if (piece->count == PIECE_CORNERS)
+        abort();
+    for (int k = 0; k < 3; k++)
+        mpq_set(piece->corner[piece->count][k], corner[k]);
+    piece->count++;
+}
+
+/* n · x less the offset of a plane. */
+static void height_over(mpq_t ret, oracle_half_space *plane, mpq_t x[3]) {
+    mpq_t part;
+    mpq_init(part);
+    mpq_set_z(ret, plane->most);
+    mpq_neg(ret, ret);
+    for (int k = 0; k < 3; k++) {
+        mpq_set_z(part, plane->n[k]);
+        mpq_mul(part, part, x[k]);
+        mpq_add(ret, ret, part);
+    }
+    mpq_clear(part);
+}
+
+/* The part of a polygon on one side of a plane: sign −1 within, 1 beyond. */
+static void piece_cut(oracle_piece *from, oracle_half_space *plane, int sign, oracle_piece *to) {
+    mpq_t a, b, part, x[3];
+    mpq_inits(a, b, part, x[0], x[1], x[2], NULL);
+    to->count = 0;
+    for (uint32_t i = 0; i < from->count; i++) {
+        mpq_t *p = from->corner[i], *q = from->corner[(i + 1) % from->count];
+        height_over(a, plane, p);
+        height_over(b, plane, q);
+        if (sign * mpq_sgn(a) >= 0)
+            piece_add(to, p);
+        if (mpq_sgn(a) * mpq_sgn(b) >= 0)
+            continue;
+        mpq_sub(b, a, b);
+        mpq_div(part, a, b);
+        for (int k = 0; k < 3; k++) {
+            mpq_sub(x[k], q[k], p[k]);
+            mpq_mul(x[k], x[k], part);
+            mpq_add(x[k], x[k], p[k]);
+        }
+        piece_add(to, x);
+    }
+    mpq_clears(a, b, part, x[0], x[1], x[2], NULL);
+}
+
+/* Whether a polygon has an area: three corners that are in no line. */
+static bool piece_is_wide(const oracle_piece *piece) {
+    mpq_t e[3], f[3], x, y;
+    bool wide = false;
+    mpq_inits(e[0], e[1], e[2], f[0], f[1], f[2], x, y, NULL);
+    for (uint32_t i = 2; i < piece->count && !wide; i++) {
+        for (int k = 0; k < 3; k++) {
+            mpq_sub(e[k], piece->corner[i - 1][k], piece->corner[0][k]);
+            mpq_sub(f[k], piece->corner[i][k], piece->corner[0][k]);
+        }
+        for (int k = 0; k < 3 && !wide; k++) {
+            mpq_mul(x, e[k], f[(k + 1) % 3]);
+            mpq_mul(y, e[(k + 1) % 3], f[k]);
+            wide = !mpq_equal(x, y);
+        }
+    }
+    mpq_clears(e[0], e[1], e[2], f[0], f[1], f[2], x, y, NULL);
+    return wide;
+}
+
+/* A square in a plane, far wider than all. */
+static void set_square(oracle_half_space *plane, oracle_vec at, oracle_piece *piece) {
+    oracle_vec axis, u, v;
+    mpq_t x[3];
+    oracle_vec_init(axis);
+    oracle_vec_init(u);
+    oracle_vec_init(v);
+    mpq_inits(x[0], x[1], x[2], NULL);
+    mpz_set_ui(axis[mpz_sgn(plane->n[0]) != 0 ? 1 : 0], 1);
+    oracle_cross(u, plane->n, axis);
+    if (oracle_is_zero(u)) {
+        mpz_set_ui(axis[2], 1);
+        oracle_cross(u, plane->n, axis);
+    }
+    oracle_cross(v, plane->n, u);
+    piece->count = 0;
+    for (int i = 0; i < 4; i++) {
+        for (int k = 0; k < 3; k++) {
+            mpz_t *way = i % 2 == 0 ? &u[k] : &v[k];
+            mpz_mul_2exp(axis[k], *way, 40);
+            if (i >= 2)
+                mpz_neg(axis[k], axis[k]);
+            mpz_add(axis[k], axis[k], at[k]);
+            mpq_set_z(x[k], axis[k]);
+        }
+        piece_add(piece, x);
+    }
+    mpq_clears(x[0], x[1], x[2], NULL);
+    oracle_vec_clear(axis);
+    oracle_vec_clear(u);
+    oracle_vec_clear(v);
+}
+
+/* Whether a difference is in the way of P at the plane of another: it rises over it, or has its back on it. */
+static bool is_in_the_way(const oracle_difference *d, oracle_half_space *plane, scratch *s) {
+    for (uint32_t k = 0; k < d->count; k++) {
+        oracle_dot(s->x, plane->n, ((oracle_difference *)d)->d[k]);
+        if (mpz_cmp(s->x, plane->most) > 0)
+            return true;
+    }
+    oracle_dot(s->x, plane->n, ((oracle_difference *)d)->front);
+    return d->one_sided && mpz_sgn(s->x) > 0;
+}
+
+/* Whether some of a piece is in no difference that is in the way: it is cut along the half-spaces of one after one. */
+static bool is_some_left(oracle_scene *scene, oracle_half_space *plane, oracle_piece *piece, uint32_t from,
+                         scratch *s) {
+    if (!piece_is_wide(piece))
+        return false;
+    uint32_t j = from;
+    while (j < scene->triangles && !is_in_the_way(&scene->difference[j], plane, s))
+        j++;
+    if (j == scene->triangles)
+        return true;
+    oracle_difference *d = &scene->difference[j];
+    oracle_piece out = piece_make(), in = piece_make(), rest = piece_make();
+    bool left = !d->is_solid && is_some_left(scene, plane, piece, j + 1, s);
+    for (uint32_t i = 0; i < piece->count; i++)
+        piece_add(&rest, piece->corner[i]);
+    for (uint32_t k = 0; k < d->planes && !left && piece_is_wide(&rest); k++) {
+        piece_cut(&rest, &d->plane[k], 1, &out);
+        piece_cut(&rest, &d->plane[k], -1, &in);
+        left = is_some_left(scene, plane, &out, j + 1, s);
+        oracle_piece swap = rest;
+        rest = in;
+        in = swap;
+    }
+    piece_free(&out);
+    piece_free(&in);
+    piece_free(&rest);
+    return left;
+}
+
+/* The facet of a difference in one of its planes. */
+static void set_facet(oracle_difference *own, oracle_half_space *plane, oracle_piece *ret_piece, scratch *s) {
+    oracle_piece cut = piece_make();
+    uint32_t at = 0;
+    for (uint32_t k = 0; k < own->count; k++) {
+        oracle_dot(s->x, plane->n, own->d[k]);
+        at = mpz_cmp(s->x, plane->most) == 0 ? k : at;
+    }
+    set_square(plane, own->d[at], ret_piece);
+    for (uint32_t k = 0; k < own->planes; k++) {
+        piece_cut(ret_piece, &own->plane[k], -1, &cut);
+        oracle_piece swap = *ret_piece;
+        *ret_piece = cut;
+        cut = swap;
+    }
+    piece_free(&cut);
+}
+
+bool oracle_scene_exposed(oracle_scene *scene, uint32_t i, pir_vec3 normal) {
+    oracle_difference *own = &scene->difference[i];
+    scratch s;
+    bool found = false;
+    scratch_init(&s);
+    for (uint32_t k = 0; k < own->planes && !found; k++) {
+        oracle_half_space *plane = &own->plane[k];
+        pir_vec3 unit;
+        double length;
+        mpz_set_ui(s.w, 1);
+        to_doubles(scene, plane->n, s.w, &unit, &length);
+        if (fabs(unit.x + normal.x) + fabs(unit.y + normal.y) + fabs(unit.z + normal.z) > 1e-8)
+            continue;
+        oracle_piece piece = piece_make();
+        set_facet(own, plane, &piece, &s);
+        found = !is_in_the_way(own, plane, &s) && is_some_left(scene, plane, &piece, 0, &s);
+        piece_free(&piece);
+    }
+    scratch_clear(&s);
+    return found;
+}
+
 /* --- ways out --- */
 
 /* Whether y separates P, moved by y/m, from a difference that it is moved along. */

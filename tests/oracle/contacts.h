@@ -55,6 +55,12 @@ int oracle_scene_state(oracle_scene *scene);
 bool oracle_scene_contact(oracle_scene *scene, uint32_t i, pir_vec3 *ret_normal, double *ret_gap);
 
 /*
+ * Whether some part of the facet of triangle i's difference that has a normal, which is given in doubles, is on the
+ * boundary of the union: the facet is clipped by all differences that are in the way.
+ */
+bool oracle_scene_exposed(oracle_scene *scene, uint32_t i, pir_vec3 normal);
+
+/*
  * The least way out of an overlap through the foot on one half-space of one triangle that counts, along which P meets
  * nothing a step farther on: HUGE_VAL where there is none.
  */

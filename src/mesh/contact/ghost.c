@@ -140,11 +140,14 @@ static bool is_killer(struct contact *c, const pir_near_triangle *r, bool with_p
            !is_behind(c, r);
 }
 
+/* Verdicts on a contact: `HIDDEN` that a triangle without its point, job->killer, is met where P touches. */
+enum verdict { STANDS, GHOST, HIDDEN };
+
 /* Looks at the one that made the last ghost first, then at all, those next to the triangle in the tree first. */
-static bool is_ghost_among(struct contact *c, uint32_t index) {
+static enum verdict judge_among(struct contact *c, uint32_t index) {
     pir_contact_job *job = c->job;
     if (job->killer < job->triangle_count && is_certain_killer(c, &job->triangle[job->killer]))
-        return true;
+        return has_point(c, &job->triangle[job->killer]) ? GHOST : HIDDEN;
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t away = 1; away < job->triangle_count; away++)
             for (int side = 0; side < 2; side++) {
@@ -154,14 +157,13 @@ static bool is_ghost_among(struct contact *c, uint32_t index) {
                 if (!is_killer(c, &job->triangle[i], pass == 0))
                     continue;
                 job->killer = i;
-                return true;
+                return pass == 0 ? GHOST : HIDDEN;
             }
-    return false;
+    return STANDS;
 }
 
-bool pir_contact_is_ghost(pir_contact_job *job, pir_vec3 t, uint32_t index) {
+static enum verdict judge(pir_contact_job *job, pir_vec3 t, uint32_t index, const pir_contact_near *near) {
     const pir_near_triangle *s = &job->triangle[index];
-    const pir_contact_near *near = &s->near;
     double length = pir_length(near->n);
     struct contact c = {.job = job, .s = s, .near = near, .t = t};
     double part = job->ball > 0 ? 1 - job->ball / near->distance : 1;
@@ -170,7 +172,60 @@ bool pir_contact_is_ghost(pir_contact_job *job, pir_vec3 t, uint32_t index) {
     c.along_front = near->simplex.count == 3 && all_differ(near->simplex.w);
     c.front_sign = pir_vec_dot(near->n, s->front);
     uint32_t used = job->limbs.used;
-    bool ghost = (s->one_sided && towards_front(&c, s) < 0) || is_ghost_among(&c, index);
+    enum verdict verdict = s->one_sided && towards_front(&c, s) < 0 ? GHOST : judge_among(&c, index);
     job->limbs.used = used;
-    return ghost;
+    return verdict;
+}
+
+/* --- beside what hides --- */
+
+/* Places beside that are tried, and how far beyond what hides, as a part of the margin. */
+#define MOST_PLACES 4
+#define BEYOND      0x1p-8
+/* How near two normals are that are one. */
+#define SAME_SQUARE 0x1p-60
+
+static pir_vec3 unit(pir_vec3 n) {
+    return pir_vec_scale(n, 1 / pir_length(n));
+}
+
+/*
+ * Moves `t` across n, until P, which then touches along −n, has left the plane across the normal of what hides: false
+ * where that is farther than the margin.
+ */
+static bool step_beside(const pir_contact_job *job, const pir_contact_near *near, pir_vec3 from, pir_vec3 *t) {
+    const pir_near_triangle *r = &job->triangle[job->killer];
+    if (!r->counts || r->near.meets)
+        return false;
+    pir_vec3 n = unit(near->n), m = unit(r->near.n);
+    double cosine = pir_vec_dot(n, m);
+    pir_vec3 across = pir_vec_sub(m, pir_vec_scale(n, cosine)), moved = pir_vec_sub(*t, from);
+    double sine = pir_length(across), margin = job->input->margin;
+    double need = near->distance * cosine - r->near.distance - pir_vec_dot(m, moved);
+    if (!(cosine > 0) || !(need < sine * margin))
+        return false;
+    double step = fmax(need, 0) / sine + BEYOND * margin;
+    pir_vec3 to = pir_vec_add(*t, pir_vec_scale(across, step / sine));
+    *t = (pir_vec3){pir_contact_on_grid(job, to.x), pir_contact_on_grid(job, to.y), pir_contact_on_grid(job, to.z)};
+    return pir_length(pir_vec_sub(*t, from)) + near->distance <= margin;
+}
+
+bool pir_contact_stands(pir_contact_job *job, pir_vec3 t, uint32_t index) {
+    const pir_near_triangle *s = &job->triangle[index];
+    pir_contact_near near = s->near;
+    pir_vec3 at = t, n = unit(near.n);
+    enum verdict verdict = judge(job, t, index, &near);
+    for (int i = 0; i < MOST_PLACES && verdict == HIDDEN && near.simplex.count == 3 && job->ball == 0; i++) {
+        if (!step_beside(job, &s->near, t, &at))
+            return false;
+        const pir_contact_place place = pir_place_at(at);
+        pir_contact_nearest(job, &place, s, &near);
+        if (near.meets || near.simplex.count != 3)
+            return false;
+        pir_vec3 other = pir_vec_sub(unit(near.n), n);
+        if (pir_vec_dot(other, other) > SAME_SQUARE)
+            return false;
+        verdict = judge(job, at, index, &near);
+    }
+    return verdict == STANDS;
 }

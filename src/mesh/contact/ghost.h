@@ -16,7 +16,11 @@
 
 #include "mesh/contact/contact_near.h"
 
-/* Whether the contact of triangle `index`, whose `near` is that at t, is a ghost. */
-bool pir_contact_is_ghost(pir_contact_job *job, pir_vec3 t, uint32_t index);
+/*
+ * Whether a contact stands: that of triangle `index`, whose `near` is that at t. Where another triangle only hides the
+ * facet of D that the contact is on, the facet is looked at beside it too, within the margin: n is that of the whole
+ * facet.
+ */
+bool pir_contact_stands(pir_contact_job *job, pir_vec3 t, uint32_t index);
 
 #endif

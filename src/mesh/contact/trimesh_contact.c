@@ -100,7 +100,7 @@ static void find_standing(struct room *room) {
         if (!(gap <= job->input->margin))
             continue;
         job->counts.near++;
-        s->stands = !pir_contact_is_ghost(job, room->out.t, i);
+        s->stands = pir_contact_stands(job, room->out.t, i);
         if (s->stands)
             insert(room, (struct standing){i, gap, normal});
         else
