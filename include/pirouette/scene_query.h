@@ -195,8 +195,9 @@ typedef struct pir_scene_motion {
 
 /**
  * When a shape that moves first comes within `tolerance` of a piece, by conservative advancement (Mirtich, 1996):
- * before that time it shares no point with any. An advance that gets no nearer in 512 steps, along something that is
- * hardly farther than the tolerance, ends with PIR_CAST_STEP_LIMIT at the time that is proven.
+ * before that time it shares no point with any. An advance that takes more than 512 steps for each full turn begun, or
+ * 65,536, along something that is hardly farther than the tolerance, ends with PIR_CAST_STEP_LIMIT at the time that is
+ * proven.
  *
  * shape      where it begins; borrowed for the call.
  * motion     over which it moves.

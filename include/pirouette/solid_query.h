@@ -101,7 +101,7 @@ typedef struct pir_solid_impact {
 
 /**
  * When P first comes within the tolerance of Q, by conservative advancement (Mirtich, 1996) of each pair of pieces
- * that may be first: before that time the bodies share no point. An advance that gets no nearer in 512 steps ends with
+ * that may be first: before that time the bodies share no point. An advance that takes too many steps ends with
  * PIR_CAST_STEP_LIMIT, as of pir_scene_cast.
  *
  * workspace, input  scratch, and the poses at time 0; radii count.

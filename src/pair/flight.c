@@ -9,8 +9,13 @@
 #include "polytope/polytope.h"
 #include "query/proof/parting.h"
 
-/* Few casts need more than ten; those that take all glide along something that is hardly farther than the tolerance. */
-#define MOST_STEPS 512
+/*
+ * Few casts need more than ten steps. Those that take all glide along something that is hardly farther than the
+ * tolerance, or pass it so at every corner: so many are for each full turn that is begun, and so many for all.
+ */
+#define STEPS_A_TURN 512
+#define MOST_STEPS   65536
+#define FULL_TURN    6.283185307179586
 /* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
 #define DISTANCE_ERROR 1e-11
 /* Likewise of the way of P's farthest point: angles of many turns have few bits behind them. */
@@ -26,6 +31,10 @@ pir_status pir_flight_check(pir_vec3 way, pir_vec3 turn, double tolerance) {
     if (!(tolerance > 0 && tolerance < HUGE_VAL))
         return PIR_ERR_ARGUMENT;
     return length(turn) <= 0x1p20 ? PIR_OK : PIR_ERR_LIMIT;
+}
+
+static int most_steps(const pir_flight *flight) {
+    return (int)fmin(MOST_STEPS, STEPS_A_TURN * (1 + floor(length(flight->turn) / FULL_TURN)));
 }
 
 /* Ends a flight that begins where the bodies share a point. */
@@ -51,10 +60,11 @@ pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input
                              flight->turn};
     pir_flight_end end = {.outcome = PIR_CAST_STEP_LIMIT};
     double near = 0;
+    const int steps = most_steps(flight);
     // what is farther than P can come at all need not be known
     input->cutoff = (length(flight->way) + length(flight->turn) * flight->reach) * (1 + 0x1p-40) + 2 * error +
                     fmax(flight->tolerance, 4 * error);
-    for (int step = 0; step < MOST_STEPS && end.outcome == PIR_CAST_STEP_LIMIT; step++) {
+    for (int step = 0; step < steps && end.outcome == PIR_CAST_STEP_LIMIT; step++) {
         input->pose_p =
             end.time == 0 ? flight->from : pir_pose_integrate(flight->from, flight->way, flight->turn, end.time);
         pir_status status = pir_pair_distance(pair, workspace, input, &end.answer);

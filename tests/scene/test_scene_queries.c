@@ -378,6 +378,50 @@ static void a_spinning_cube_that_glides_by_is_no_hit(void **state) {
         }
 }
 
+/* How far a pole at so much along x is from a square of side 1 whose middle is 2 from the axis about which it turned. */
+static double pole_from_square(double pole, double angle) {
+    const double x = pole * cos(angle), y = -pole * sin(angle);
+    const double beyond = fmax(0, fmax(1.5 - x, x - 2.5)), beside = fmax(0, fabs(y) - 0.5);
+    return sqrt(beyond * beyond + beside * beside);
+}
+
+/* A cube swings round a pole, so that no plane parts them for a whole turn, each time a little nearer. */
+static void a_cube_that_swings_by_in_each_turn_is_followed_to_its_hit(void **state) {
+    (void)state;
+    const double tolerance = 1e-6, from = 1.485, drifts = 0.03, turns[] = {30, 300, 1500};
+    const pir_vec3 ends[2] = {{from, 0, -1}, {from, 0, 1}};
+    pir_vec3 corners[8];
+    pir_polytope *pole = NULL, *cube = NULL;
+    pir_scene *scene = NULL;
+    for (int i = 0; i < 8; i++)
+        corners[i] = (pir_vec3){i & 1 ? 2.5 : 1.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5};
+    assert_int_equal(pir_polytope_create(ends, 2, NULL, &pole), PIR_OK);
+    assert_int_equal(pir_polytope_create(corners, 8, NULL, &cube), PIR_OK);
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    scene_add(scene, pole, scene_at(0, 0, 0), PIR_BODY_STATIC);
+    pir_scene_shape shape = pir_scene_shape_default(cube);
+    for (size_t k = 0; k < sizeof turns / sizeof *turns; k++) {
+        const pir_scene_motion motion = {{-drifts, 0, 0}, {0, 0, turns[k]}, 0};
+        pir_scene_impact impact;
+        // it begins a quarter of a turn away
+        const double begins = -1.5707963267948966;
+        shape.pose.rotation = (pir_quat){0, 0, sin(begins / 2), cos(begins / 2)};
+        assert_int_equal(pir_scene_cast(scene, &shape, &motion, tolerance, &impact), PIR_OK);
+        expect(impact.outcome == PIR_CAST_HIT, "turn %g: outcome %d at %g", turns[k], (int)impact.outcome, impact.time);
+        const double end = pole_from_square(from + drifts * impact.time, begins + turns[k] * impact.time);
+        expect(end > 0 && end <= 1.001 * tolerance, "turn %g: it ends %g away", turns[k], end);
+        const int samples = (int)(400 * turns[k]);
+        for (int i = 0; i < samples; i++) {
+            const double time = impact.time * i / samples;
+            const double apart = pole_from_square(from + drifts * time, begins + turns[k] * time);
+            expect(apart > 0.49 * tolerance, "turn %g: %g away at %g before %g", turns[k], apart, time, impact.time);
+        }
+    }
+    pir_scene_destroy(scene);
+    pir_polytope_release(cube);
+    pir_polytope_release(pole);
+}
+
 static void a_cast_that_begins_inside_tells_the_normal_of_the_depth(void **state) {
     (void)state;
     pir_scene_shape shape;
@@ -577,6 +621,7 @@ int main(void) {
         cmocka_unit_test(a_ray_in_the_plane_of_a_flat_piece_enters_by_its_side),
         cmocka_unit_test(a_cast_ends_at_the_first_contact),
         cmocka_unit_test(a_spinning_cube_that_glides_by_is_no_hit),
+        cmocka_unit_test(a_cube_that_swings_by_in_each_turn_is_followed_to_its_hit),
         cmocka_unit_test(a_cast_that_begins_inside_tells_the_normal_of_the_depth),
         cmocka_unit_test(what_is_held_is_met_at_half_its_distance),
         cmocka_unit_test(a_fast_body_meets_a_wall_in_time),
