@@ -214,6 +214,39 @@ static void contacts_of_a_bent_face_lie_on_it(void **state) {
     contact_scene_clear(&scene);
 }
 
+static pir_polytope *regular_prism(uint32_t sides) {
+    pir_vec3 at[32];
+    pir_polytope *p = NULL;
+    for (uint32_t i = 0; i < 2 * sides; i++) {
+        const double angle = 6.283185307179586 * (i / 2) / sides;
+        at[i] = (pir_vec3){cos(angle), sin(angle), i % 2 ? -0.5 : 0.5};
+    }
+    assert_int_equal(pir_polytope_create(at, 2 * sides, NULL, &p), PIR_OK);
+    return p;
+}
+
+/*
+ * Equal prisms beside each other, one turned by next to nothing: the ends of one are a few roundings beyond those of
+ * the other, and so steep that the heights of points on them are any. Corners there are on the sides.
+ */
+static void corners_beside_a_steep_end_lie_on_the_sides(void **state) {
+    (void)state;
+    for (uint32_t sides = 3; sides <= 9; sides++)
+        for (int k = 0; k < 120; k++) {
+            const double angle = (k % 2 ? 1 : -1) * pow(10, -11 - 0.02 * k);
+            contact_scene scene = contact_scene_make(regular_prism(sides), regular_prism(sides), still);
+            scene.margin = 1;
+            for (int axis = 0; axis < 3; axis++)
+                for (int way = 0; way < 4; way++) {
+                    scene.r = (pir_quat){axis == 0 ? angle : 0, axis == 1 ? angle : 0, axis == 2 ? angle : 0, 1};
+                    assert_int_equal(pir_sum_rotate(scene.sum, scene.r, PIR_METHOD_AUTO), PIR_OK);
+                    scene.t = (pir_vec3){way == 0 ? 1 : way == 1 ? -1 : 0, way == 2 ? 1 : way == 3 ? -1 : 0, 0};
+                    contact_scene_check(&scene, "prisms", sides * 1000 + (uint64_t)k);
+                }
+            contact_scene_clear(&scene);
+        }
+}
+
 /* Corners that rounding puts beside a side that leans by 1 in 500 are on the face, not below. */
 static void corners_on_a_rim_are_as_deep_as_the_face(void **state) {
     (void)state;
@@ -487,6 +520,7 @@ int main(void) {
         cmocka_unit_test(faces_of_rounded_grids_are_whole),
         cmocka_unit_test(edges_of_rounded_grids_share_a_segment),
         cmocka_unit_test(contacts_of_a_bent_face_lie_on_it),
+        cmocka_unit_test(corners_beside_a_steep_end_lie_on_the_sides),
         cmocka_unit_test(corners_on_a_rim_are_as_deep_as_the_face),
         cmocka_unit_test(equal_faces_have_four_corners_with_ids_that_last),
         cmocka_unit_test(flat_bodies_share_segments_and_points),

@@ -194,9 +194,9 @@ void pir_patch_set_outline(pir_patch *patch, const pir_vec3 axis[2], pir_corner 
 
 /*
  * The plane of a facet. A facet at 60° or more to the patch's first facet bounds the patch, and so does a steep one.
- * Rounding may put a corner of the patch's rim beside it, so its plane is moved out by twice PIR_SNAP. Then a point
- * over the patch is never beside it by rounding alone, and one that is beside it belongs on it, however steep it is: on
- * a needle such facets are wider than rounding.
+ * Rounding and merging may put a corner of the patch's rim beside it, so its plane is moved out by as much as they may.
+ * Then a point over the patch is never beside it by rounding alone, and one that is beside it belongs on it, however
+ * steep it is: on a needle such facets are wider than rounding.
  */
 static inline pir_patch_plane plane_of(const pir_patch *patch, uint32_t f) {
     const pir_polytope *p = patch->polytope;
@@ -204,7 +204,7 @@ static inline pir_patch_plane plane_of(const pir_patch *patch, uint32_t f) {
     double along = pir_vec_dot(n, patch->out);
     bool bounds = along < PIR_STEEP || 2 * pir_vec_dot(p->normal[f], p->normal[patch->facet]) < 1;
     pir_vec3 from = pir_patch_vertex(patch, p->origin[p->loop[p->loop_start[f]]]);
-    return (pir_patch_plane){f, n, from, along, bounds ? 2 * patch->snap : 0};
+    return (pir_patch_plane){f, n, from, along, bounds ? PIR_OVER * patch->snap : 0};
 }
 
 /* The distance of x from a plane along `out`, or HUGE_VAL where its facet faces away. */
