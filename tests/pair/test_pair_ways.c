@@ -13,6 +13,7 @@
 
 #include "support/answers.h"
 #include "support/bodies.h"
+#include "support/vectors.h"
 
 /* A prism about z, of radius 1 and half height 0.5. */
 static pir_polytope *prism(uint32_t sides) {
@@ -191,6 +192,78 @@ static void the_facet_beyond_one_a_rounding_wide_is_compared(void **state) {
     bench_clear(&bench);
 }
 
+static double ulps_from(test_random *random, double x) {
+    for (int k = test_random_between(random, -2, 2); k != 0; k += k < 0 ? 1 : -1)
+        x = nextafter(x, k < 0 ? -HUGE_VAL : HUGE_VAL);
+    return x;
+}
+
+/* A plate as thin as 2^-10 to 2^-40 whose corners are some ulps off. */
+static pir_polytope *rough_plate(test_random *random) {
+    const double u = test_random_unit(random) + 0.1, thin = ldexp(1 + test_random_unit(random), -10);
+    const double half = ldexp(thin, -test_random_between(random, 0, 30));
+    test_points points = {.count = 8};
+    for (int i = 0; i < 8; i++)
+        points.at[i] = (pir_vec3){i & 1 ? 1 : -1, i & 2 ? u : -u, i & 4 ? half : -half};
+    for (int k = 0; k < 2; k++) {
+        pir_vec3 *at = &points.at[test_random_below(random, 8)];
+        double *const number[3] = {&at->x, &at->y, &at->z};
+        const uint32_t which = test_random_below(random, 3);
+        *number[which] = ulps_from(random, *number[which]);
+    }
+    return test_polytope(&points);
+}
+
+/*
+ * A thin plate on its narrow side over a triangle, a corner an ulp off: facets that are slivers, coplanar but for
+ * rounding. A foot beyond the tip of one is near to the lines of its sides, and far from it.
+ */
+static void thin_plates_over_a_triangle_answer_as_their_difference(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 3000; number++) {
+        test_random random = test_random_case("thin plates", number);
+        const pir_vec3 corners[3] = {{1, 0, 0}, {-0.5, sqrt(0.75), 0}, {-0.5, -sqrt(0.75), 0}};
+        pir_polytope *triangle = NULL;
+        assert_int_equal(pir_polytope_create(corners, 3, NULL, &triangle), PIR_OK);
+        struct bench bench = bench_make(rough_plate(&random), triangle);
+        // one of the axes up, its end in the triangle by next to nothing
+        const double s[4] = {1, test_random_below(&random, 2) ? 1 : -1, test_random_below(&random, 2) ? 1 : -1,
+                             test_random_below(&random, 2) ? 1 : -1};
+        const bool thirds = test_random_below(&random, 4) > 0;
+        bench.input.pose_p.rotation = thirds ? (pir_quat){s[0], s[1], s[2], s[3]} : (pir_quat){s[0], 0, 0, s[3]};
+        double low = HUGE_VAL;
+        for (uint32_t v = 0; v < pir_polytope_vertex_count(bench.p); v++)
+            low = fmin(low, test_turn(bench.input.pose_p.rotation, pir_polytope_vertex(bench.p, v), 1).z);
+        bench.input.pose_p.translation.z = -low - pow(10, -4 - 12 * test_random_unit(&random));
+        if (test_random_below(&random, 2))
+            bench.input.pose_p.translation.y = 0.25 * (test_random_unit(&random) - 0.5);
+        ask(&bench, true, "plate", (int)number);
+        bench_clear(&bench);
+    }
+}
+
+/* The sliver of such a plate was taken for the facet under it: its depth is 2^-53 more. */
+static void the_facet_beyond_the_tip_of_a_sliver_is_compared(void **state) {
+    (void)state;
+    const double u = 0x1.1f426dcc56d35p-1, half = 0x1.0c6f7a0b5ed8dp-20;
+    const pir_vec3 corners[3] = {{0x1.fffffffffffffp-1, 0, 0},
+                                 {-0x1.ffffffffffffcp-2, 0x1.bb67ae8584cadp-1, 0},
+                                 {-0x1.0000000000004p-1, -0x1.bb67ae8584ca8p-1, 0}};
+    test_points points = {.count = 8};
+    pir_polytope *triangle = NULL;
+    for (int i = 0; i < 8; i++)
+        points.at[i] = (pir_vec3){i & 1 ? 1 : -1, i & 2 ? u : -u, i & 4 ? half : -half};
+    points.at[5].x = 0x1.0000000000002p+0;
+    points.at[7].y = 0x1.1f426dcc56d37p-1;
+    assert_int_equal(pir_polytope_create(corners, 3, NULL, &triangle), PIR_OK);
+    struct bench bench = bench_make(test_polytope(&points), triangle);
+    bench.input.pose_p = (pir_pose){{1, -1, -1, -1}, {0, 0, 0x1.ffffffaaa30ccp-1}};
+    // exactly: the lowest corner is at a height of 2^-51 below -1, and the triangle's plane is the facet
+    const pir_query_result result = ask(&bench, true, "sliver", 0);
+    assert_true(result.distance == 0x1.ffffffaaa30ccp-1 - 0x1.0000000000002p+0);
+    bench_clear(&bench);
+}
+
 /* Any equal boxes, turned by next to nothing and moved along an axis. */
 static void equal_boxes_nearly_parallel_answer_as_their_difference(void **state) {
     (void)state;
@@ -329,6 +402,8 @@ int main(void) {
         cmocka_unit_test(a_cylinder_that_stands_on_a_box_is_told_by_its_facet),
         cmocka_unit_test(equal_prisms_nearly_parallel_need_no_whole_difference),
         cmocka_unit_test(the_facet_beyond_one_a_rounding_wide_is_compared),
+        cmocka_unit_test(the_facet_beyond_the_tip_of_a_sliver_is_compared),
+        cmocka_unit_test(thin_plates_over_a_triangle_answer_as_their_difference),
         cmocka_unit_test(equal_boxes_nearly_parallel_answer_as_their_difference),
         cmocka_unit_test(prisms_at_random_nearly_parallel_answer_as_their_difference),
         cmocka_unit_test(each_way_serves_where_it_is_there_for),

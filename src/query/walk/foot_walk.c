@@ -137,13 +137,31 @@ static struct side side_of(const pir_frame *frame, const pir_rim *rim) {
     return (struct side){rim->of_q ? q : p, rim->of_q ? p : q, rim->of_q, rim->half, rim->across};
 }
 
-/* Walks to a facet that holds the foot of x, or is beside it by less than `near`. *ret_margin is the foot's. */
+/* Whether a facet is among those; else it joins them, where there is room. */
+static bool was_there(pir_about_foot *passed, const pir_facet *facet) {
+    for (uint32_t i = 0; i < passed->count; i++)
+        if (pir_facet_same(facet, &passed->facet[i]))
+            return true;
+    if (passed->count < PIR_ABOUT_FOOT)
+        passed->facet[passed->count++] = *facet;
+    return false;
+}
+
+/*
+ * Walks to a facet that holds the foot of x. Where the foot is on a side or at a corner of facets but for rounding, none
+ * is sure to hold it: then steps go around it, and end where they come back with the foot never farther beyond a side
+ * than `near`. Being so near to the lines of one facet's sides is not enough, for beyond the tip of a sliver a foot may
+ * be near to them and far from the facet. *ret_margin is the foot's.
+ */
 static bool walk(pir_exact *exact, const pir_placement *placement, double near, pir_facet *facet, double *ret_margin) {
+    pir_about_foot passed = {.count = 0};
     for (uint32_t step = 0; step < MOST_STEPS; step++) {
         double slack = pir_facet_slack(exact, placement, facet);
         pir_rim rim = pir_foot_rim(exact, placement, facet, slack);
         *ret_margin = rim.margin;
-        if (rim.margin > -near)
+        if (!(rim.margin > -near))
+            passed.count = 0;
+        else if (rim.margin > 0 || was_there(&passed, facet))
             return true;
         const struct side side = side_of(exact->frame, &rim);
         if (!cross(exact, &side, facet))
