@@ -180,9 +180,6 @@ double pir_scaled_nearest_double(const pir_int *a, const pir_int *num, const pir
     // A quotient of at least 65 bits with its last bit sticky rounds as the exact number does, unless the result is
     // subnormal.
     long shift = (long)mpz_sizeinbase(d, 2) - (long)mpz_sizeinbase(n, 2) + 66;
-    // below the normal range keep just the bits that a subnormal has, one guard bit and the sticky one
-    if (shift > 1076)
-        shift = 1076;
     if (shift > 0)
         mpz_mul_2exp(n, n, (mp_bitcnt_t)shift);
     else
