@@ -370,6 +370,8 @@ static void witnesses_make_walks_short(void **state) {
         assert_int_equal(pir_cgm_locate(locator, point, witness, &a), PIR_OK);
         assert_int_equal(pir_cgm_locate(locator, point, PIR_CGM_NONE, &b), PIR_OK);
         assert_int_equal(a.position, b.position);
+        // a walk comes to no facet twice
+        assert_true(a.steps < pir_polytope_facet_count(p) && b.steps < pir_polytope_facet_count(p));
         warm += a.steps;
         cold += b.steps;
         witness = a.witness;

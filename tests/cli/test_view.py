@@ -94,6 +94,9 @@ class View(Sliced):
         self.assertEqual(len(views), STEPS)
         places = {group.get("transform") for group in views}
         self.assertEqual(len(places), STEPS)
+        # facets of one kind have different shades, as they face the light
+        shades = {path.get("fill") for group in views for path in group.iter(SVG + "path")}
+        self.assertGreater(len(shades), 12, shades)
         width, height = float(sheet.get("width")), float(sheet.get("height"))
         for k, group in enumerate(views):
             self.assertTrue(group.find(SVG + "text").text.startswith(f"{k}: "))

@@ -11,6 +11,8 @@
 #include <unistd.h>
 
 #include "cspace/answer_world.h"
+#include "cspace/answer/piece_ball.h"
+#include "support/bodies.h"
 #include "support/memory.h"
 #include "support/vectors.h"
 
@@ -54,6 +56,34 @@ static pir_grid *make_grid(int which) {
 static int same_answer(const pir_configuration *a, const pir_configuration *b) {
     return a->verdict == b->verdict && a->place.robot == b->place.robot && a->place.obstacle == b->place.obstacle &&
            a->place.slice == b->place.slice && a->on_grid == b->on_grid && a->state == b->state && a->turn == b->turn;
+}
+
+/* Bodies as long as a ball is wide, with most vertices at one end: the ball around them is hardly wider. */
+static void balls_around_pieces_are_hardly_wider_than_their_bodies(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 50; i++) {
+        test_random random = test_random_case("balls", i);
+        test_points points = {.count = 30};
+        for (size_t k = 0; k < points.count; k++) {
+            const pir_vec3 d = test_random_direction(&random);
+            points.at[k] = (pir_vec3){k == 0 ? -10 : 10 + d.x, d.y, d.z};
+        }
+        pir_polytope *body = test_polytope(&points);
+        const pir_piece_ball ball = pir_piece_ball_of(body);
+        double farthest = 0, widest = 0;
+        for (uint32_t v = 0; v < pir_polytope_vertex_count(body); v++) {
+            const pir_vec3 a = pir_polytope_vertex(body, v);
+            farthest = fmax(farthest, hypot(a.x - ball.centre.x, hypot(a.y - ball.centre.y, a.z - ball.centre.z)));
+            for (uint32_t w = 0; w < v; w++) {
+                const pir_vec3 b = pir_polytope_vertex(body, w);
+                widest = fmax(widest, hypot(a.x - b.x, hypot(a.y - b.y, a.z - b.z)));
+            }
+        }
+        expect(farthest <= ball.radius * (1 + 1e-15) && ball.radius < 1.1 * widest / 2,
+               "body %llu: radius %g, vertices up to %g from the centre and %g from each other", (unsigned long long)i,
+               ball.radius, farthest, widest);
+        pir_polytope_release(body);
+    }
 }
 
 static void a_file_answers_as_the_sums_do(void **state) {
@@ -281,6 +311,7 @@ static int remove_folder(void **state) {
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(balls_around_pieces_are_hardly_wider_than_their_bodies),
         cmocka_unit_test(a_file_answers_as_the_sums_do),
         cmocka_unit_test(broken_files_are_refused_or_right),
         cmocka_unit_test(bad_arguments_are_refused),
