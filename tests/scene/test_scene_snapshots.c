@@ -163,8 +163,8 @@ static void what_is_no_snapshot_of_the_scene_is_refused(void **state) {
     crowd_finish(&c);
 }
 
-static void memory_that_fails_leaves_the_scene_as_it_was(void **state) {
-    (void)state;
+/* Restores a scene, which was updated before or was not, with memory that fails at every request in turn. */
+static void restore_short_of_memory(bool updated) {
     static crowd c;
     uint64_t failures = 0;
     pir_status status = PIR_ERR_MEMORY;
@@ -181,7 +181,8 @@ static void memory_that_fails_leaves_the_scene_as_it_was(void **state) {
         // the same bodies, apart, in a scene whose memory fails
         options.allocator = &allocator;
         crowd_init(&c, 3002, 30, &options);
-        assert_int_equal(pir_scene_update(c.scene, NULL, 0), PIR_OK);
+        if (updated)
+            assert_int_equal(pir_scene_update(c.scene, NULL, 0), PIR_OK);
         before = snapshot(c.scene);
         memory.fail_at = memory.requests + request;
         status = pir_scene_restore(c.scene, bytes.data, bytes.size, NULL);
@@ -198,6 +199,12 @@ static void memory_that_fails_leaves_the_scene_as_it_was(void **state) {
     }
     assert_int_equal(status, PIR_OK);
     assert_true(failures > 0);
+}
+
+static void memory_that_fails_leaves_the_scene_as_it_was(void **state) {
+    (void)state;
+    restore_short_of_memory(true);
+    restore_short_of_memory(false);
 }
 
 int main(void) {
