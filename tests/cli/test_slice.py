@@ -294,6 +294,9 @@ class Pieces(InFolder):
         grid = ("--axis", "0,0,1", "--steps", 3, "-o", self.path("a.h5"))
         self.refused(self.path("empty"), "shape:cube", *grid, says="empty: the folder has no")
         self.refused(self.path("two.obj"), "shape:cube", *grid, says="two.obj")
+        # corners count from 1, or from -1 backwards
+        (self.folder / "two.obj").write_text(TWO_OBJECTS.replace("f 5 8 7", "f 5 8 0"))
+        self.refused(self.path("two.obj"), "shape:cube", *grid, says="two.obj:[0-9]+: '0' is not a corner")
         self.refused("shape:cube", self.path("none.off"), *grid, says="none.off")
         self.assertEqual(sorted(os.listdir(self.folder)), ["box.off", "empty", "two.obj"])
 
