@@ -63,9 +63,9 @@ int main(void) {
 
     if (status != PIR_OK)
         fprintf(stderr, "sum_of_three: %s\n", pir_status_text(status));
-    pir_cgm_destroy(three);
-    pir_cgm_destroy(two);
+    pir_cgm_release(three);
+    pir_cgm_release(two);
     for (int i = 0; i < 3; i++)
-        pir_cgm_destroy(maps[i]);
+        pir_cgm_release(maps[i]);
     return status == PIR_OK ? 0 : 1;
 }

@@ -39,8 +39,8 @@ static pir_status compute(pir_polytope *p, pir_polytope *q, pir_quat rotation, s
     if (status == PIR_OK)
         status = pir_cgm_mesh(outcome->cgm, PIR_DOUBLE, &outcome->mesh);
     outcome->seconds = (double)(clock_now() - start) / 1e9;
-    pir_cgm_destroy(of_p);
-    pir_cgm_destroy(of_q);
+    pir_cgm_release(of_p);
+    pir_cgm_release(of_q);
     return status;
 }
 
@@ -142,7 +142,7 @@ SUBCOMMAND(cgm) {
 done:
     output_discard(&file);
     pir_mesh_destroy(outcome.mesh);
-    pir_cgm_destroy(outcome.cgm);
+    pir_cgm_release(outcome.cgm);
     pir_polytope_release(q);
     pir_polytope_release(p);
     return result;

@@ -263,6 +263,6 @@ SUBCOMMAND(configuration) {
     int result = args_has(args, "--batch") ? run_batch(args, cspace, start)
                  : request.moves           ? run_motion(args, cspace, &request, start)
                                            : run_pose(args, cspace, &request, start);
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     return result;
 }

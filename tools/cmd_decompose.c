@@ -171,7 +171,7 @@ static int decompose(const struct args *args, const pir_solid *solid, const pir_
     const char *path = args_value(args, "-o");
     pir_solid_describe(solid, &outcome.info);
     const int64_t start = clock_now();
-    const pir_status status = pir_solid_decompose_with(solid, options, &outcome.did, &outcome.pieces);
+    const pir_status status = pir_solid_decompose(solid, options, &outcome.did, &outcome.pieces);
     outcome.seconds = (double)(clock_now() - start) / 1e9;
     if (status != PIR_OK)
         return complain_status("decompose", status, options->solid.report);

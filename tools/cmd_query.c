@@ -31,7 +31,7 @@ struct request {
 struct answer {
     pir_query_result result;
     pir_query_result along; /* directional depth or distance */
-    pir_cast_result cast;
+    pir_impact cast;
     double seconds; /* from the polytopes to the answer */
 };
 

@@ -61,9 +61,9 @@ static pir_status compute_by_cgm(const struct request *request, pir_polytope *p,
     if (status == PIR_OK)
         status = pir_cgm_mesh(of_sum, request->precision, &outcome->mesh);
     outcome->seconds = (double)(clock_now() - start) / 1e9;
-    pir_cgm_destroy(of_sum);
-    pir_cgm_destroy(of_q);
-    pir_cgm_destroy(of_p);
+    pir_cgm_release(of_sum);
+    pir_cgm_release(of_q);
+    pir_cgm_release(of_p);
     pir_polytope_release(reflected);
     return status;
 }

@@ -10,7 +10,7 @@
 
 struct outcome {
     pir_solid_distance distance;
-    pir_solid_impact impact;
+    pir_impact impact;
     uint32_t pieces[2];
     double seconds;     /* of the answers, pieces being there */
     const char *option; /* what was asked last, or NULL before */
@@ -83,34 +83,34 @@ static double reach_of(const pir_solid *solid) {
 }
 
 static pir_status ask(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
-                      const pir_solid_motion *motion, struct outcome *outcome) {
+                      const pir_motion *motion, double tolerance, struct outcome *outcome) {
     const int64_t start = clock_now();
     outcome->option = "--translate";
     pir_status status = pir_solid_query_distance(query, workspace, input, &outcome->distance);
     if (status == PIR_OK && motion)
         outcome->option = "--cast";
     if (status == PIR_OK && motion)
-        status = pir_solid_query_cast(query, workspace, input, motion, &outcome->impact);
+        status = pir_solid_query_cast(query, workspace, input, motion, tolerance, &outcome->impact);
     outcome->seconds = (double)(clock_now() - start) / 1e9;
     return status;
 }
 
 static pir_status run(const pir_solid *const solid[2], const pir_pair_input *input, const pir_vec3 *motion,
                       pir_report *report, struct outcome *outcome) {
-    pir_solid_options options = pir_solid_options_default();
+    pir_decompose_options options = pir_decompose_options_default();
     pir_pieces *pieces[2] = {NULL, NULL};
     pir_solid_query *query = NULL;
     pir_workspace *workspace = NULL;
-    const pir_solid_motion way = {.way = motion ? *motion : (pir_vec3){0, 0, 0},
-                                  .tolerance = CAST_TOLERANCE * (reach_of(solid[0]) + reach_of(solid[1]))};
+    const pir_motion way = {.way = motion ? *motion : (pir_vec3){0, 0, 0}};
+    const double tolerance = CAST_TOLERANCE * (reach_of(solid[0]) + reach_of(solid[1]));
     pir_status status = pir_workspace_create(NULL, &workspace);
-    options.report = report;
+    options.solid.report = report;
     for (int k = 0; k < 2 && status == PIR_OK; k++)
-        status = pir_solid_decompose(solid[k], &options, &pieces[k]);
+        status = pir_solid_decompose(solid[k], &options, NULL, &pieces[k]);
     if (status == PIR_OK)
         status = pir_solid_query_create(pieces[0], pieces[1], NULL, &query);
     if (status == PIR_OK)
-        status = ask(query, workspace, input, motion ? &way : NULL, outcome);
+        status = ask(query, workspace, input, motion ? &way : NULL, tolerance, outcome);
     for (int k = 0; k < 2; k++) {
         outcome->pieces[k] = pieces[k] ? pir_pieces_count(pieces[k]) : 0;
         pir_pieces_destroy(pieces[k]);

@@ -66,9 +66,9 @@ static struct measured measure(pir_polytope *p, pir_polytope *q, pir_quat rotati
         m.filter = (double)s.by_filter / (double)(s.by_filter + s.by_exact);
         m.bytes = (double)s.bytes / m.counts.halfedges;
         pir_mesh_destroy(mesh);
-        pir_cgm_destroy(sum);
-        pir_cgm_destroy(b);
-        pir_cgm_destroy(a);
+        pir_cgm_release(sum);
+        pir_cgm_release(b);
+        pir_cgm_release(a);
     }
     m.milliseconds = peer_median(times, runs);
     m.fastest = times[0];

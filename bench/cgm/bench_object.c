@@ -67,9 +67,9 @@ static pir_mesh *by_cgm(pir_polytope *p, pir_polytope *q) {
     need(pir_cgm_create(q, NULL, NULL, &b), "map of Q");
     need(pir_cgm_overlay(a, b, &sum), "overlay");
     need(pir_cgm_mesh(sum, PIR_DOUBLE, &mesh), "mesh of the overlay");
-    pir_cgm_destroy(sum);
-    pir_cgm_destroy(b);
-    pir_cgm_destroy(a);
+    pir_cgm_release(sum);
+    pir_cgm_release(b);
+    pir_cgm_release(a);
     return mesh;
 }
 

@@ -28,7 +28,7 @@ static double open_file(const char *path) {
     for (uint32_t i = 0; i < count; i++) {
         pir_cspace *file = NULL;
         trial_need(pir_cspace_open(path, NULL, NULL, &file), "open");
-        pir_cspace_close(file);
+        pir_cspace_destroy(file);
     }
     return (slices_cpu() - start) / count;
 }
@@ -45,7 +45,7 @@ static double read_slices(const char *path, uint64_t slices, bool alone) {
         trial_need(pir_cspace_slice(file, place, NULL, &slice), "slice");
     }
     double time = slices_cpu() - start;
-    pir_cspace_close(file);
+    pir_cspace_destroy(file);
     return time / (double)count;
 }
 

@@ -71,7 +71,7 @@ class Ours {
         pir_solid *solid;
         pir_pieces *pieces;
         check(pir_solid_create(&facets, nullptr, nullptr, &solid));
-        check(pir_solid_decompose(solid, nullptr, &pieces));
+        check(pir_solid_decompose(solid, nullptr, nullptr, &pieces));
         pir_solid_release(solid);
         return pieces;
     }

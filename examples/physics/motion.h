@@ -28,7 +28,7 @@ struct motion_law {
 /* A part of a step. The motion of a cast leads from one pose to the other. */
 struct motion_part {
     struct motion_state to;
-    pir_scene_motion way;
+    pir_motion way;
 };
 
 /* How many parts a time is to be divided into, so that the body turns by half a radian in each at most. */

@@ -64,7 +64,7 @@ static bool gather_solid(const struct fields *fields, const char *path, struct g
     pir_report report = {0};
     pir_status status = pir_solid_read(path, NULL, &report, &solid);
     if (status == PIR_OK)
-        status = pir_solid_decompose(solid, NULL, &pieces);
+        status = pir_solid_decompose(solid, NULL, NULL, &pieces);
     bool good = status == PIR_OK || fail_status(fields, "model", status, &report);
     for (uint32_t i = 0; good && i < pir_pieces_count(pieces); i++) {
         pir_polytope *piece = NULL;

@@ -112,9 +112,9 @@ struct trip {
 
 /* The first thing in the way of a piece, or of its core. */
 static pir_status look_along(const struct trip *trip, pir_scene *scene, pir_polytope *piece,
-                             const pir_scene_motion *way, double near, pir_scene_impact *first) {
+                             const pir_motion *way, double near, pir_impact *first) {
     pir_scene_shape shape = pir_scene_shape_default(piece);
-    pir_scene_impact impact;
+    pir_impact impact;
     shape.pose = trip->state.pose;
     shape.except = trip->number;
     pir_status status = pir_scene_cast(scene, &shape, way, near, &impact);
@@ -125,9 +125,9 @@ static pir_status look_along(const struct trip *trip, pir_scene *scene, pir_poly
 }
 
 /* The first thing in the way of the body, at a distance of `near`. */
-static pir_status look_ahead(const struct trip *trip, pir_scene_motion way, double near, pir_scene_impact *ret_first) {
+static pir_status look_ahead(const struct trip *trip, pir_motion way, double near, pir_impact *ret_first) {
     const struct world_shape *shape = trip->body->shape;
-    pir_scene_impact first = {.body = PIR_SCENE_NONE, .time = 1};
+    pir_impact first = {.body = PIR_SCENE_NONE, .time = 1};
     pir_status status = PIR_OK;
     for (uint32_t i = 0; status == PIR_OK && i < shape->count; i++) {
         pir_scene *scene = trip->sweep->scene;
@@ -152,7 +152,7 @@ static pir_status look_ahead(const struct trip *trip, pir_scene_motion way, doub
 static pir_status go(struct trip *trip, double time) {
     const struct motion_law law = law_of(trip->body, trip->rules);
     double near = trip->rules->near;
-    pir_scene_impact impact;
+    pir_impact impact;
     for (int i = 0; i < TRIES_MOST && time > 0; i++) {
         struct motion_part part = motion_over(&trip->state, &law, time);
         pir_status status = look_ahead(trip, part.way, near, &impact);

@@ -67,7 +67,7 @@ int place_make(world *place, const char *file) {
 }
 
 void place_clear(world *place) {
-    pir_cspace_close(place->slices);
+    pir_cspace_destroy(place->slices);
     for (int i = 0; i < ROBOT_PIECES; i++)
         pir_polytope_release(place->robot[i]);
     for (int i = 0; i < OBSTACLES; i++)

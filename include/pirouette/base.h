@@ -38,9 +38,17 @@ typedef enum pir_status {
     PIR_ERR_NOT_CLOSED,  /**< facets that do not bound a solid, where a convex one is required */
     PIR_ERR_NOT_CONVEX,  /**< a model that is not convex, where a convex one is required */
     PIR_ERR_LIMIT,       /**< too large for 32-bit indices or for a stated limit */
-    PIR_ERR_UNSUPPORTED, /**< this build lacks the optional feature */
+    PIR_ERR_NOT_BUILT,   /**< this build lacks what the call needs: HDF5, libccd */
+    PIR_ERR_REGION,      /**< a sum with a region cannot answer this */
+    PIR_ERR_VERSION,     /**< bytes of another version of their format, or options of another version of the library */
     PIR_ERR_INTERNAL,    /**< the result failed the library's own check and is withheld: a bug, please report it */
 } pir_status;
+
+/*
+ * How objects end. An immutable object that others may hold counts its references: `_retain` takes one, `_release`
+ * gives one back, and the last one frees. Any other object has one owner, who gives it to `_destroy`; it holds
+ * references to what it stands on, so the order does not matter. All but `_retain` accept NULL.
+ */
 
 /** The name of a status in plain words, such as "zero quaternion". Never NULL; static memory. O(1). */
 PIR_API const char *pir_status_text(pir_status status);

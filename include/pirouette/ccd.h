@@ -31,7 +31,7 @@ typedef enum pir_ccd_outcome {
 } pir_ccd_outcome;
 
 /**
- * Overlap by libccd's MPR on supports of ours, scale-normalised; not exact. PIR_ERR_UNSUPPORTED in
+ * Overlap by libccd's MPR on supports of ours, scale-normalised; not exact. PIR_ERR_NOT_BUILT in
  * a build without libccd.
  *
  * pair  the bodies, borrowed for the call, and the pose of P relative to Q.
@@ -39,7 +39,7 @@ typedef enum pir_ccd_outcome {
  * Cost: a bounded number of supports, O(√n) steps each for n vertices.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a translation beyond the
- * doubles at the size of the bodies), PIR_ERR_UNSUPPORTED.
+ * doubles at the size of the bodies), PIR_ERR_NOT_BUILT.
  */
 PIR_API pir_status pir_ccd_overlap(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome);
 

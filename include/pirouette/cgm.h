@@ -42,7 +42,7 @@ typedef struct pir_cgm pir_cgm;
  * rotation   NULL, or the rotation it is turned by, of any length but 0.
  * allocator  NULL for malloc; copied, its context must outlive the map.
  *
- * Release with pir_cgm_destroy. O(n log n) for n edges, O(n) but for sorting along cube edges. Errors:
+ * Release with pir_cgm_release. O(n log n) for n edges, O(n) but for sorting along cube edges. Errors:
  * PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_create(pir_polytope *polytope, const pir_quat *rotation, const pir_allocator *allocator,
@@ -57,11 +57,14 @@ PIR_API pir_status pir_cgm_create(pir_polytope *polytope, const pir_quat *rotati
  */
 PIR_API pir_status pir_cgm_overlay(const pir_cgm *a, const pir_cgm *b, pir_cgm **ret_cgm);
 
+/** Takes one more reference and returns the map. Thread-safe. O(1). */
+PIR_API pir_cgm *pir_cgm_retain(const pir_cgm *cgm);
+
 /**
- * Gives the caller's reference back; the map is freed once its locators are destroyed as well. NULL is accepted. Cost:
- * the time to free it.
+ * Gives a reference back; the last one, those of locators included, frees. Thread-safe. NULL is accepted. O(1), and for
+ * the last reference the time to free it.
  */
-PIR_API void pir_cgm_destroy(pir_cgm *cgm);
+PIR_API void pir_cgm_release(pir_cgm *cgm);
 
 /**
  * The boundary of the polytope or sum that the map stands for: maximal facets, exact. Of one source it is equal to

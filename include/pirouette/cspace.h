@@ -13,7 +13,7 @@
  * Threads: one object of this header belongs to one thread at a time, but a job makes threads of its own.
  *
  * This header is of libpirouette-cspace, which stands beside libpirouette: pkg-config's pirouette-cspace. Without HDF5
- * in the build, calls that read or write files return PIR_ERR_UNSUPPORTED.
+ * in the build, calls that read or write files return PIR_ERR_NOT_BUILT.
  */
 #ifndef PIROUETTE_CSPACE_H
 #define PIROUETTE_CSPACE_H
@@ -99,7 +99,7 @@ PIR_API pir_cspace_options pir_cspace_options_default(void);
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY (no pieces), PIR_ERR_FORMAT (with `resume`, a part of another job, or a file
  * that is another one and no part of this job), PIR_ERR_FILE (also where another job holds the lock), PIR_ERR_LIMIT,
- * PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no HDF5).
+ * PIR_ERR_MEMORY, PIR_ERR_NOT_BUILT (no HDF5).
  */
 PIR_API pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid *grid, const char *path,
                                          const pir_cspace_options *options, pir_report *report,
@@ -217,7 +217,7 @@ typedef struct pir_halfspace {
  * Cost: exact hulls of the pieces; for a grid that is a list, O(rotations).
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_FORMAT (no HDF5, truncated, a hash that does not match),
- * PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (another version; no HDF5 in this build).
+ * PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_VERSION, PIR_ERR_NOT_BUILT (no HDF5).
  */
 PIR_API pir_status pir_cspace_open(const char *path, const pir_allocator *allocator, pir_report *report,
                                    pir_cspace **ret_cspace);
@@ -233,7 +233,7 @@ PIR_API pir_status pir_cspace_open(const char *path, const pir_allocator *alloca
  * Cost: the time to read the file.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_FORMAT (damaged, or no sealed file), PIR_ERR_MEMORY,
- * PIR_ERR_UNSUPPORTED (no HDF5 in this build).
+ * PIR_ERR_NOT_BUILT (no HDF5 in this build).
  */
 PIR_API pir_status pir_cspace_check(const char *path, const pir_allocator *allocator, pir_report *report);
 
@@ -247,12 +247,12 @@ PIR_API pir_status pir_cspace_check(const char *path, const pir_allocator *alloc
  *
  * Cost: the time to read the file.
  *
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (no HDF5 in this build).
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY, PIR_ERR_NOT_BUILT (no HDF5 in this build).
  */
 PIR_API pir_status pir_cspace_seal(const char *path, const pir_allocator *allocator, pir_report *report);
 
 /** Closes and frees; NULL is accepted. Cost: the time to free it. */
-PIR_API void pir_cspace_close(pir_cspace *cspace);
+PIR_API void pir_cspace_destroy(pir_cspace *cspace);
 
 /** What the file holds. O(1). */
 PIR_API pir_cspace_info pir_cspace_get_info(const pir_cspace *cspace);
@@ -400,7 +400,7 @@ PIR_API pir_status pir_cspace_segment(pir_cspace *cspace, const pir_pose *from, 
  * Cost: O(size of the file).
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION,
- * PIR_ERR_LIMIT, PIR_ERR_UNSUPPORTED (an npy file of another form), PIR_ERR_MEMORY.
+ * PIR_ERR_LIMIT, PIR_ERR_VERSION (of an npy file), PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cspace_read_poses(const char *path, const pir_allocator *allocator, pir_report *report,
                                          pir_pose **ret_poses, size_t *ret_count);

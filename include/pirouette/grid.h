@@ -107,7 +107,7 @@ PIR_API pir_status pir_grid_list(const pir_quat *rotations, size_t count, bool k
  *
  * Cost: that of pir_grid_list.
  *
- * Errors: those of pir_grid_list, PIR_ERR_FILE, PIR_ERR_FORMAT, PIR_ERR_UNSUPPORTED (an npy file of another form).
+ * Errors: those of pir_grid_list, PIR_ERR_FILE, PIR_ERR_FORMAT, PIR_ERR_VERSION (of an npy file).
  */
 PIR_API pir_status pir_grid_read(const char *path, const pir_allocator *allocator, pir_report *report,
                                  pir_grid **ret_grid);

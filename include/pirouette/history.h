@@ -209,7 +209,7 @@ typedef struct pir_history_visitor {
  *
  * Cost: that of the calls.
  *
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FORMAT, PIR_ERR_UNSUPPORTED (another version), PIR_ERR_MEMORY.
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FORMAT, PIR_ERR_VERSION, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_history_replay_bytes(const void *data, size_t size, const pir_history_visitor *visitor,
                                             pir_report *report);

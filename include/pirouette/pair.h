@@ -28,12 +28,13 @@
  * Cost of a query of a pair: O(steps of the descent) when warm, O(√n) of them when cold; O(n log n) with the level
  * `whole`. Errors of a query of a pair: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a
  * translation beyond 2^400 times the size of the bodies, or, where Q is turned, a quaternion whose components span more
- * than 2^900), PIR_ERR_MEMORY (the workspace has to grow and cannot), PIR_ERR_UNSUPPORTED (see pir_pair_options).
+ * than 2^900), PIR_ERR_MEMORY (the workspace has to grow and cannot), PIR_ERR_LIMIT (see pir_pair_options).
  */
 #ifndef PIROUETTE_PAIR_H
 #define PIROUETTE_PAIR_H
 
 #include <pirouette/base.h>
+#include <pirouette/motion.h>
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
@@ -58,7 +59,7 @@ typedef struct pir_pair_options {
     const pir_allocator *allocator; /**< or NULL: malloc's */
     /**
      * The levels that may be used: those from `least` to `most`. PIR_LEVEL_WHOLE for both answers all by the
-     * difference. Where none of them finds the answer, the call is PIR_ERR_UNSUPPORTED. PIR_LEVEL_NONE for `least` is
+     * difference. Where none of them finds the answer, the call is PIR_ERR_LIMIT. PIR_LEVEL_NONE for `least` is
      * no bound.
      */
     pir_level least, most;
@@ -164,6 +165,92 @@ PIR_API pir_status pir_pair_signed_distance(pir_pair *pair, pir_workspace *works
 PIR_API pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                                      const pir_query_result *answer, size_t capacity, pir_contact *ret_contacts,
                                      size_t *ret_count);
+
+/* --- of the whole difference; their comments in query.h hold here, directions and ways are in the world --- */
+
+/**
+ * The directional penetration depth, as pir_query_directional_depth.
+ *
+ * workspace, input  scratch, and the poses of both; radii do not count.
+ * direction         in the world, of any length but zero.
+ *
+ * Cost: O(size of the difference), and an update of it to the poses; a walk for other bodies than those of the last
+ * call that needed the whole difference in this workspace.
+ *
+ * Errors: those of a query of a pair, also PIR_ERR_LIMIT without the level `whole`, and as of
+ * pir_query_directional_depth for the direction.
+ */
+PIR_API pir_status pir_pair_directional_depth(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                              pir_vec3 direction, pir_query_result *ret_result);
+
+/**
+ * How far P moves along `direction` until it touches Q, as pir_query_directional_distance.
+ *
+ * workspace, input, direction  as of pir_pair_directional_depth.
+ *
+ * Cost: as of pir_pair_directional_depth.
+ *
+ * Errors: as of pir_pair_directional_depth.
+ */
+PIR_API pir_status pir_pair_directional_distance(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                                 pir_vec3 direction, pir_query_result *ret_result);
+
+/**
+ * The largest distance between a point of P and a point of Q, as pir_query_largest_distance.
+ *
+ * workspace, input  scratch, and the poses of both; radii count.
+ *
+ * Cost: as of pir_pair_directional_depth.
+ *
+ * Errors: those of a query of a pair, and PIR_ERR_LIMIT where the distance is beyond the largest double.
+ */
+PIR_API pir_status pir_pair_largest_distance(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                             pir_query_result *ret_result);
+
+/**
+ * Every facet of the difference through which P leaves by at most the depth plus `slack` (≥ 0), as pir_query_escapes.
+ *
+ * workspace, input       scratch, and the poses of both.
+ * capacity, ret_escapes  room for how many, and that room.
+ * ret_count              how many there are, also beyond the capacity.
+ *
+ * Cost: as of pir_pair_directional_depth, for each facet.
+ *
+ * Errors: those of a query of a pair, and PIR_ERR_ARGUMENT for a slack below 0 or NaN.
+ */
+PIR_API pir_status pir_pair_escapes(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, double slack,
+                                    size_t capacity, pir_escape *ret_escapes, size_t *ret_count);
+
+/**
+ * A linear cast: P moves by `way` without turning, as pir_query_cast. The outcome is exact.
+ *
+ * workspace, input  scratch, and the poses at time 0; radii do not count.
+ * way               in the world.
+ *
+ * Cost: as of pir_pair_directional_depth.
+ *
+ * Errors: those of a query of a pair, and PIR_ERR_NOT_FINITE for `way`.
+ */
+PIR_API pir_status pir_pair_cast(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, pir_vec3 way,
+                                 pir_impact *ret_impact);
+
+/**
+ * When P first comes within `tolerance` of Q, by conservative advancement (Mirtich, 1996): before that time they share
+ * no point. It takes no whole difference. The outcome is PIR_CAST_HIT, PIR_CAST_MISS, PIR_CAST_START_INSIDE or
+ * PIR_CAST_STEP_LIMIT.
+ *
+ * workspace, input  scratch, and the poses at time 0; radii count.
+ * motion            P's.
+ * tolerance         > 0, a length; below 1e-10 of the size of bodies and coordinates it counts as that.
+ *
+ * Cost: at most 512 queries of a pair, of which most motions take fewer than ten, and, where P turns, as often O(its
+ * vertices). After so many the outcome is PIR_CAST_STEP_LIMIT.
+ *
+ * Errors: those of a query of a pair; PIR_ERR_NOT_FINITE for the motion; PIR_ERR_ARGUMENT for a tolerance that is not
+ * above 0 or `held` below 0; PIR_ERR_LIMIT for a turn beyond 2^20.
+ */
+PIR_API pir_status pir_pair_time_of_impact(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                           const pir_motion *motion, double tolerance, pir_impact *ret_impact);
 
 /** How the last answer was found. O(1). */
 PIR_API pir_level pir_pair_level(const pir_pair *pair);

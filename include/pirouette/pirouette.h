@@ -13,6 +13,7 @@
 #include <pirouette/live_mesh.h>
 #include <pirouette/mass.h>
 #include <pirouette/mesh.h>
+#include <pirouette/motion.h>
 #include <pirouette/pair.h>
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
@@ -30,6 +31,7 @@
 #include <pirouette/trimesh_contact.h>
 #include <pirouette/trimesh_pair.h>
 #include <pirouette/version.h>
+#include <pirouette/witness.h>
 #include <pirouette/workspace.h>
 
 #endif

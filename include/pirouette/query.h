@@ -21,7 +21,7 @@
  * through t, else PIR_INSIDE. Overlap is not proven then. The depth is the least over facets in the cone: the true
  * depth if its normal lies there, otherwise an upper bound. Normal and points belong to that facet. The outcome is
  * PIR_NO_HIT where no facet lies in the cone, or where the direction leaves through none of them. All other calls,
- * and rounding radii, give PIR_ERR_UNSUPPORTED. The answer depends on placement and region, not on what else the sum
+ * and rounding radii, give PIR_ERR_REGION. The answer depends on placement and region, not on what else the sum
  * keeps.
  *
  * Determinism: an answer depends on the bodies, the rotation and the input alone. Every number and witness is the
@@ -46,15 +46,17 @@
  *
  * Errors of a query: PIR_ERR_ARGUMENT (NULL, a radius below 0 or infinite), PIR_ERR_NOT_FINITE (a translation, radius
  * or cutoff), PIR_ERR_LIMIT (a translation farther than 2^400 times the size of the bodies; of two points that is 1, or
- * their largest coordinate where that is beyond 2^300 or below 2^-300), PIR_ERR_UNSUPPORTED (on a sum with a region, as
+ * their largest coordinate where that is beyond 2^300 or below 2^-300), PIR_ERR_REGION (on a sum with a region, as
  * said above), PIR_ERR_MEMORY (room for a sum that has grown). `cache` may be NULL.
  */
 #ifndef PIROUETTE_QUERY_H
 #define PIROUETTE_QUERY_H
 
 #include <pirouette/base.h>
+#include <pirouette/motion.h>
 #include <pirouette/polytope.h>
 #include <pirouette/sum.h>
+#include <pirouette/witness.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -79,30 +81,6 @@ typedef enum pir_outcome {
     PIR_STEP_LIMIT,    /**< the bound on steps was reached; the state is exact, other numbers are the best so far */
     PIR_NOT_SEPARATED, /**< on a sum with a region: none of its facets there separates the bodies; see above */
 } pir_outcome;
-
-/** A kind of feature of a polytope. */
-typedef enum pir_feature_kind {
-    PIR_FEATURE_NONE = 0,
-    PIR_FEATURE_VERTEX,
-    PIR_FEATURE_EDGE,
-    PIR_FEATURE_FACET,
-} pir_feature_kind;
-
-typedef struct pir_feature {
-    pir_feature_kind kind;
-    uint32_t index;
-} pir_feature;
-
-/**
- * The features of P and Q that attain an answer: the least faces that hold the two points. The faces are decided
- * exactly. The points of the result are doubles within 2^-50 of the exact points, relative to the largest coordinate
- * of bodies and translation. Where parallel features leave several pairs of points, one is chosen: the vertex of Q of
- * lowest index that lies on P's face, else the vertex of P of lowest index that lies on Q's face, else the crossing
- * of the first edges in order, by the index of P's edge, then of Q's.
- */
-typedef struct pir_witness {
-    pir_feature p, q;
-} pir_witness;
 
 /**
  * The caller's memory of the last answer. It starts zeroed, and its contents are the library's. Any content is safe.
@@ -234,7 +212,7 @@ PIR_API pir_status pir_query_escapes(pir_query *query, const pir_query_input *in
  * of the facet that P leaves by, and point_p = point_q is P's contact there. PIR_NO_HIT where the bodies do not
  * overlap.
  *
- * input  where P is.
+ * input  where P is; radii do not count.
  *
  * Cost: O(size of the sum).
  *
@@ -247,7 +225,7 @@ PIR_API pir_status pir_query_directional_depth(pir_query *query, const pir_query
  * How far P moves along `direction` until it touches Q: 0 where it touches or overlaps already, PIR_NO_HIT where it
  * never does. Whether it does is exact: grazing is touching, sliding along a face with any gap is not.
  *
- * input  where P is.
+ * input  where P is; radii do not count.
  *
  * Cost: O(size of the sum).
  *
@@ -256,59 +234,33 @@ PIR_API pir_status pir_query_directional_depth(pir_query *query, const pir_query
 PIR_API pir_status pir_query_directional_distance(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                                   pir_query_result *ret_result);
 
-typedef enum pir_cast_outcome {
-    PIR_CAST_HIT = 0,      /**< touches at `time` in [0, 1] */
-    PIR_CAST_MISS,         /**< never within the motion */
-    PIR_CAST_RECEDING,     /**< touches at the start and moves apart, along, or not at all: time 0 */
-    PIR_CAST_START_INSIDE, /**< overlaps at the start: time 0, normal of the least penetration */
-    PIR_CAST_AT_REST,      /**< motion zero and no contact */
-    PIR_CAST_STEP_LIMIT,   /**< not within tolerance after the bound on steps; there is no contact before `time` */
-} pir_cast_outcome;
-
-typedef struct pir_cast_result {
-    pir_cast_outcome outcome;
-    double time;     /**< fraction of the motion, 0 to 1; 1 on a miss */
-    pir_vec3 normal; /**< at contact, unit, from Q to P */
-    pir_vec3 point;  /**< of contact; not set on a miss */
-    pir_witness witness;
-    uint32_t steps;
-} pir_cast_result;
-
 /**
- * A linear cast: P moves from input->translation by `motion`. The outcome is exact.
+ * A linear cast: P moves from input->translation by `way`, without turning. The outcome is exact.
+ *
+ * input, way  where P begins, and how it moves, in the frame of Q; radii do not count.
  *
  * Cost: O(size of the sum).
  *
- * Errors: those of a query, and PIR_ERR_NOT_FINITE for `motion`.
+ * Errors: those of a query, and PIR_ERR_NOT_FINITE for `way`.
  */
-PIR_API pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 motion,
-                                  pir_cast_result *ret_result);
+PIR_API pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 way, pir_impact *ret_impact);
 
 /**
- * A motion over time 0 to 1: P moves from `start` by `motion`, while it turns about its own origin by `angle` radians
- * about `axis`.
+ * Conservative advancement (Mirtich, 1996): the time of first contact within `tolerance` of P, which begins at the
+ * sum's rotation and input->translation. There is no contact before `time`, and at `time` the bodies are apart by at
+ * most `tolerance`. Rotates the sum, which is left at the last rotation that was tried.
+ *
+ * input      where P begins; radii count.
+ * motion     over which P moves, at any speed.
+ * tolerance  > 0, a length.
+ *
+ * Cost: at most 256 rotations of the sum, each with a distance query. After so many the outcome is PIR_CAST_STEP_LIMIT.
+ *
+ * Errors: those of a query and of pir_sum_rotate; PIR_ERR_ARGUMENT for a tolerance not above 0 or `held` below 0;
+ * PIR_ERR_LIMIT for a turn beyond 2^20.
  */
-typedef struct pir_motion {
-    pir_quat rotation; /**< at time 0 */
-    pir_vec3 start, motion;
-    pir_vec3 axis; /**< in the frame of Q, any length but zero unless angle is 0 */
-    double angle;
-} pir_motion;
-
-/**
- * Conservative advancement (Mirtich, 1996): the time of first contact within `tolerance` (> 0, a length). There is no
- * contact before `time`, and at `time` the bodies are apart by at most `tolerance`. Rotates the sum, which is left at
- * the last rotation that was tried.
- *
- * motion  over which P moves, at any speed.
- *
- * Cost: at most 256 rotations of the sum, each with a distance query.
- *
- * Errors: those of a query and of pir_sum_rotate, and PIR_ERR_ARGUMENT for a tolerance not above 0 or a zero axis
- * with an angle.
- */
-PIR_API pir_status pir_query_advance(pir_query *query, const pir_motion *motion, double tolerance,
-                                     pir_cast_result *ret_result);
+PIR_API pir_status pir_query_time_of_impact(pir_query *query, const pir_query_input *input, const pir_motion *motion,
+                                            double tolerance, pir_impact *ret_impact);
 
 /**
  * The largest distance between a point of P and a point of Q. Vertices attain it. Normal, points and witness are as

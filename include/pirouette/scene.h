@@ -75,9 +75,14 @@ typedef struct pir_scene_options {
     bool approach;          /**< whether events tell how fast the bodies approach */
     uint32_t threads;       /**< how many threads a call uses, that of the caller included; at least 1, at most 64 */
     const pir_tasks *tasks; /**< or NULL: threads of the scene's own; copied */
+    /**
+     * NULL, or filled whenever a call on the scene that has no report of its own fails: what was wrong, where and why.
+     * It is the caller's, and outlives the scene.
+     */
+    pir_report *report;
 } pir_scene_options;
 
-/** malloc's memory, no budget, manifolds, no margin, no approach, one thread. O(1). */
+/** malloc's memory, no budget, manifolds, no margin, no approach, one thread, no report. O(1). */
 PIR_API pir_scene_options pir_scene_options_default(void);
 
 /**

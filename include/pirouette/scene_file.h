@@ -43,7 +43,7 @@ PIR_API pir_status pir_scene_serialise(pir_scene *scene, void *memory, size_t si
  *
  * Cost: that of an update of all bodies without the queries of pairs.
  *
- * Errors: PIR_ERR_ARGUMENT (the scene has other bodies), PIR_ERR_FORMAT, PIR_ERR_UNSUPPORTED (another version),
+ * Errors: PIR_ERR_ARGUMENT (the scene has other bodies), PIR_ERR_FORMAT, PIR_ERR_VERSION,
  * PIR_ERR_MEMORY. The scene is then as it was.
  */
 PIR_API pir_status pir_scene_restore(pir_scene *scene, const void *data, size_t size, pir_report *report);

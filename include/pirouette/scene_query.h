@@ -27,6 +27,7 @@
 #define PIROUETTE_SCENE_QUERY_H
 
 #include <pirouette/base.h>
+#include <pirouette/motion.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
 #include <pirouette/scene.h>
@@ -148,18 +149,6 @@ PIR_API pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *
                                        pir_accuracy accuracy, size_t capacity, pir_scene_distance *ret_distances,
                                        size_t *ret_count);
 
-/** What a ray or a motion meets first. */
-typedef struct pir_scene_impact {
-    uint32_t body, piece; /**< PIR_SCENE_NONE where it meets nothing */
-    uint32_t own_piece;   /**< of the body that moves; 0 for a shape and a ray */
-    /** PIR_CAST_HIT, PIR_CAST_MISS, PIR_CAST_START_INSIDE, or PIR_CAST_STEP_LIMIT: then this piece is not proven to be
-        met, but until `time` nothing is. */
-    pir_cast_outcome outcome;
-    double time;     /**< a fraction of the way, 0 to 1; 0 where it begins in contact, 1 on a miss */
-    pir_vec3 normal; /**< unit, away from the piece; where it begins inside, that of the depth */
-    pir_vec3 point;  /**< of the piece, in the world */
-} pir_scene_impact;
-
 /**
  * The first hit of the segment from `origin` to `origin` + `way`. Bodies are as large as their rounding radii make
  * them.
@@ -182,16 +171,7 @@ typedef struct pir_scene_impact {
  * Errors: those of a query of a scene.
  */
 PIR_API pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32_t mask,
-                                 pir_scene_impact *ret_impact);
-
-/** A motion over time 0 to 1, at constant speed: along `way`, and about the own origin. */
-typedef struct pir_scene_motion {
-    pir_vec3 way;
-    pir_vec3 turn; /**< along the axis, as long as the angle in radians; up to 2^20 */
-    /** Above 0 where something else, a solver say, holds the contacts of time 0. A piece that is no farther than this
-        then is not met at all, and one within the tolerance only when it comes within half of its distance then. */
-    double held;
-} pir_scene_motion;
+                                 pir_impact *ret_impact);
 
 /**
  * When a shape that moves first comes within `tolerance` of a piece, by conservative advancement (Mirtich, 1996):
@@ -209,8 +189,8 @@ typedef struct pir_scene_motion {
  * Errors: those of a query of a scene; PIR_ERR_ARGUMENT also for a tolerance that is not above 0, and
  * for `held` below 0; PIR_ERR_NOT_FINITE for one that is no number.
  */
-PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_scene_motion *motion,
-                                  double tolerance, pir_scene_impact *ret_impact);
+PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_motion *motion,
+                                  double tolerance, pir_impact *ret_impact);
 
 /**
  * The same for a body of the scene from its present pose on, with the bodies that it may meet, all others at rest: the
@@ -223,8 +203,8 @@ PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape
  *
  * Errors: those of pir_scene_cast.
  */
-PIR_API pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_scene_motion *motion,
-                                            double tolerance, pir_scene_impact *ret_impact);
+PIR_API pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_motion *motion,
+                                            double tolerance, pir_impact *ret_impact);
 
 #ifdef __cplusplus
 }

@@ -159,22 +159,10 @@ typedef struct pir_decompose_info {
 } pir_decompose_info;
 
 /**
- * Divides a solid into convex pieces with disjoint insides, whose union it is: space is cut until the solid is convex
- * in every cell, then pieces are joined while the union of two is convex.
- *
- * options     NULL for the defaults.
- * ret_pieces  to be freed with pir_pieces_destroy.
- *
- * Cost: for r reflex edges and n facets O(r²) pieces and O(r·n) fragments in most models, for each of two methods.
- *
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
- */
-PIR_API pir_status pir_solid_decompose(const pir_solid *solid, const pir_solid_options *options,
-                                       pir_pieces **ret_pieces);
-
-/**
- * The same by a method, and into fewer pieces that may overlap and reach out of the solid, which they always contain:
- * two pieces at a time are replaced by their convex hull, those first whose hull reaches out least.
+ * Divides a solid into convex pieces whose union contains it. By default their insides are disjoint and their union is
+ * the solid: space is cut until the solid is convex in every cell, then pieces are joined while the union of two is
+ * convex. With a tolerance, or a number of pieces, there are fewer, which may overlap and reach out of the solid: two
+ * pieces at a time are replaced by their convex hull, those first whose hull reaches out least.
  *
  * options     NULL for the defaults. Pieces are joined while none reaches farther out than `tolerance`, and however far
  *             that is while there are more than `pieces`.
@@ -182,12 +170,13 @@ PIR_API pir_status pir_solid_decompose(const pir_solid *solid, const pir_solid_o
  *             solid. It is proven pair by pair, so it may be larger than need be.
  * ret_pieces  to be freed with pir_pieces_destroy.
  *
- * Cost: of pir_solid_decompose, and for m exact pieces O(m) hulls and O(m · k) bounds, k pieces being near another.
+ * Cost: for r reflex edges and n facets O(r²) pieces and O(r·n) fragments in most models, for each of two methods.
+ * For fewer than the m exact pieces O(m) hulls and O(m · k) bounds, k pieces being near another.
  *
- * Errors: those of pir_solid_decompose; PIR_ERR_ARGUMENT for no method and a tolerance below 0, PIR_ERR_NOT_FINITE.
+ * Errors: PIR_ERR_ARGUMENT (no method, a tolerance below 0), PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
  */
-PIR_API pir_status pir_solid_decompose_with(const pir_solid *solid, const pir_decompose_options *options,
-                                            pir_decompose_info *ret_info, pir_pieces **ret_pieces);
+PIR_API pir_status pir_solid_decompose(const pir_solid *solid, const pir_decompose_options *options,
+                                       pir_decompose_info *ret_info, pir_pieces **ret_pieces);
 
 /** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_pieces_destroy(pir_pieces *pieces);

@@ -21,6 +21,7 @@
 #define PIROUETTE_SOLID_QUERY_H
 
 #include <pirouette/base.h>
+#include <pirouette/motion.h>
 #include <pirouette/pair.h>
 #include <pirouette/solid.h>
 #include <pirouette/workspace.h>
@@ -81,24 +82,6 @@ typedef struct pir_solid_distance {
 PIR_API pir_status pir_solid_query_distance(pir_solid_query *query, pir_workspace *workspace,
                                             const pir_pair_input *input, pir_solid_distance *ret_distance);
 
-/** A motion of P over time 0 to 1 from its pose on, at constant speed. Q is at rest. */
-typedef struct pir_solid_motion {
-    pir_vec3 way;     /**< of P's origin, in the world */
-    pir_vec3 turn;    /**< about P's origin: along the axis, as long as the angle in radians; up to 2^20 */
-    double tolerance; /**< > 0, a length: bodies this near count as met */
-} pir_solid_motion;
-
-/** What a motion meets first. */
-typedef struct pir_solid_impact {
-    /** PIR_CAST_HIT, PIR_CAST_MISS, PIR_CAST_START_INSIDE, or PIR_CAST_STEP_LIMIT: then these pieces are not proven to
-        meet, but until `time` none do. */
-    pir_cast_outcome outcome;
-    double time;               /**< 0 to 1; 0 where it begins in contact, 1 on a miss */
-    uint32_t piece_p, piece_q; /**< that meet then; of several the lowest of P, then of Q; 0 on a miss */
-    pir_vec3 normal;           /**< unit, from Q to P; where it begins inside, that of the depth of these pieces */
-    pir_vec3 point;            /**< of Q */
-} pir_solid_impact;
-
 /**
  * When P first comes within the tolerance of Q, by conservative advancement (Mirtich, 1996) of each pair of pieces
  * that may be first: before that time the bodies share no point. An advance that takes too many steps ends with
@@ -106,14 +89,15 @@ typedef struct pir_solid_impact {
  *
  * workspace, input  scratch, and the poses at time 0; radii count.
  * motion            P's.
+ * tolerance         > 0, a length: bodies this near count as met.
  *
  * Cost: that of a query, for each pair some queries of a pair, and, where P turns, as often O(vertices of its piece).
  *
- * Errors: those of a query; PIR_ERR_NOT_FINITE for the motion; PIR_ERR_ARGUMENT for a tolerance that is not above 0;
- * PIR_ERR_LIMIT for a turn beyond 2^20.
+ * Errors: those of a query; PIR_ERR_NOT_FINITE for the motion; PIR_ERR_ARGUMENT for a tolerance that is not
+ * above 0 or `held` below 0; PIR_ERR_LIMIT for a turn beyond 2^20.
  */
 PIR_API pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
-                                        const pir_solid_motion *motion, pir_solid_impact *ret_impact);
+                                        const pir_motion *motion, double tolerance, pir_impact *ret_impact);
 
 #ifdef __cplusplus
 }

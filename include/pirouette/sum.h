@@ -195,7 +195,7 @@ PIR_API pir_status pir_sum_settle(pir_sum *sum);
  *
  * On a sum with a region, a mesh is that of the whole sum, rebuilt for the call. Pairings are compared within both
  * regions. A live mesh has slots for what is kept. A clone and a file have the region. Queries answer for the region or
- * return PIR_ERR_UNSUPPORTED (query.h). With a tolerance, the bound on the support function holds for the directions of
+ * return PIR_ERR_REGION (query.h). With a tolerance, the bound on the support function holds for the directions of
  * the cone.
  *
  * axis        of any length but 0.
@@ -323,7 +323,7 @@ PIR_API pir_status pir_sum_write(const pir_sum *sum, FILE *file, pir_report *rep
  *
  * Cost: two exact hulls, and O(size of the sum) with exact tests.
  *
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_UNSUPPORTED (another version), PIR_ERR_LIMIT,
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_VERSION, PIR_ERR_LIMIT,
  * PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_sum_restore(const void *data, size_t size, const pir_allocator *allocator, pir_report *report,

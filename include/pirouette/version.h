@@ -8,9 +8,9 @@
 #include <pirouette/base.h>
 
 #define PIR_VERSION_MAJOR  0
-#define PIR_VERSION_MINOR  1
+#define PIR_VERSION_MINOR  2
 #define PIR_VERSION_PATCH  0
-#define PIR_VERSION_STRING "0.1.0"
+#define PIR_VERSION_STRING "0.2.0"
 
 #ifdef __cplusplus
 extern "C" {

@@ -27,8 +27,12 @@ const char *pir_status_text(pir_status status) {
         return "not convex";
     case PIR_ERR_LIMIT:
         return "too large";
-    case PIR_ERR_UNSUPPORTED:
+    case PIR_ERR_NOT_BUILT:
         return "not in this build";
+    case PIR_ERR_REGION:
+        return "not with a region";
+    case PIR_ERR_VERSION:
+        return "of another version";
     case PIR_ERR_INTERNAL:
         return "the result failed the library's own check";
     }

@@ -201,10 +201,10 @@ pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outco
 #else
 
 pir_status pir_ccd_overlap(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome) {
-    return pair && ret_outcome ? PIR_ERR_UNSUPPORTED : PIR_ERR_ARGUMENT;
+    return pair && ret_outcome ? PIR_ERR_NOT_BUILT : PIR_ERR_ARGUMENT;
 }
 
 pir_status pir_ccd_distance(const pir_ccd_pair *pair, pir_ccd_outcome *ret_outcome, double *ret_distance) {
-    return pair && ret_outcome && ret_distance ? PIR_ERR_UNSUPPORTED : PIR_ERR_ARGUMENT;
+    return pair && ret_outcome && ret_distance ? PIR_ERR_NOT_BUILT : PIR_ERR_ARGUMENT;
 }
 #endif

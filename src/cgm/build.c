@@ -53,7 +53,7 @@ pir_cgm *pir_cgm_retain(const pir_cgm *cgm) {
     return held;
 }
 
-void pir_cgm_destroy(pir_cgm *cgm) {
+void pir_cgm_release(pir_cgm *cgm) {
     if (!cgm || atomic_fetch_sub_explicit(&cgm->references, 1, memory_order_acq_rel) != 1)
         return;
     const pir_allocator allocator = cgm->allocator, *a = &allocator;

@@ -14,9 +14,6 @@ pir_cgm *pir_cgm_new(const pir_allocator *allocator, const pir_cgm *first, const
 /* A new map of one polytope; `rotation` may be NULL and is copied. */
 pir_cgm *pir_cgm_new_from(const pir_allocator *allocator, pir_polytope *polytope, const pir_rotation *rotation);
 
-/* Takes a reference, which pir_cgm_destroy gives back; the last one frees. Returns the map. */
-pir_cgm *pir_cgm_retain(const pir_cgm *cgm);
-
 /* Room for `extra` more vertices or edges beyond `count`; false when out of memory. */
 bool pir_cgm_reserve_vertices(pir_cgm *cgm, uint32_t count, uint32_t extra);
 bool pir_cgm_reserve_edges(pir_cgm *cgm, uint32_t count, uint32_t extra);

@@ -352,7 +352,7 @@ pir_status pir_cgm_create(pir_polytope *polytope, const pir_quat *rotation, cons
     if (!cgm)
         return PIR_ERR_MEMORY;
     if (!fill(cgm)) {
-        pir_cgm_destroy(cgm);
+        pir_cgm_release(cgm);
         return PIR_ERR_MEMORY;
     }
     *ret_cgm = cgm;

@@ -306,6 +306,6 @@ void pir_cgm_locator_destroy(pir_cgm_locator *l) {
     const pir_allocator allocator = l->cgm->allocator;
     PIR_FREE(&allocator, l->scratch.base, l->scratch.capacity);
     pir_cgm_places_finish(&l->places);
-    pir_cgm_destroy(l->cgm);
+    pir_cgm_release(l->cgm);
     PIR_FREE(&allocator, l, 1);
 }

@@ -18,7 +18,7 @@ static void free_sum(pir_sum *sum) {
     pir_lag_finish(&sum->lag, &allocator);
     pir_region_finish(&sum->region, &allocator);
     pir_tracked_finish(&sum->tracked);
-    pir_cgm_destroy(sum->cgm_q);
+    pir_cgm_release(sum->cgm_q);
     pir_polytope_release(sum->made_of[PIR_OPERAND_P]);
     pir_polytope_release(sum->made_of[PIR_OPERAND_Q]);
     PIR_FREE(&allocator, sum, 1);

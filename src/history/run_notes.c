@@ -230,7 +230,7 @@ static pir_status check_header(const char *name, const uint8_t *data, size_t siz
         return pir_fail(report, PIR_ERR_FORMAT, "%s: not a history, or cut", name);
     uint64_t version = pir_history_take(&reader, 4);
     if (version != PIR_HISTORY_VERSION)
-        return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: version %u, not %u", name, (unsigned)version,
+        return pir_fail(report, PIR_ERR_VERSION, "%s: version %u, not %u", name, (unsigned)version,
                         PIR_HISTORY_VERSION);
     bool zero = pir_history_take(&reader, 4) == 0, whole = pir_history_take(&reader, 8) == size;
     uint64_t checksum = pir_history_take(&reader, 8),

@@ -46,19 +46,25 @@ static void keep_facet(pir_pair *pair, const pir_query_cache *cache) {
     pair->hint.has_facet = true;
 }
 
-/* The answer of the whole difference, in Q's frame, with the radii. PIR_ERR_MEMORY. */
-static pir_status ask_whole(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want) {
-    pir_placement placement;
+pir_status pir_pair_place_whole(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                pir_placement *ret_placement) {
     pir_status status = make_whole(pair, workspace);
     if (status == PIR_OK)
         status = pir_sum_turn_relative(workspace->sum, input->pose_q.rotation, input->pose_p.rotation);
     workspace->world.translation_p = input->pose_p.translation;
     if (status == PIR_OK)
-        status = pir_query_place_relative(workspace->query, &workspace->world, &placement);
-    if (status != PIR_OK) {
+        status = pir_query_place_relative(workspace->query, &workspace->world, ret_placement);
+    if (status != PIR_OK)
         forget_whole(workspace);
+    return status;
+}
+
+/* The answer of the whole difference, in Q's frame, with the radii. PIR_ERR_MEMORY. */
+static pir_status ask_whole(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want) {
+    pir_placement placement;
+    pir_status status = pir_pair_place_whole(pair, workspace, input, &placement);
+    if (status != PIR_OK)
         return status;
-    }
     pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .cutoff = input->cutoff};
     pir_query_cache cache = {0};
     pir_query_answer(workspace->query, &placement, &asked, want, &cache, &workspace->answer);
@@ -151,7 +157,7 @@ static pir_status find_answer(pir_pair *pair, pir_workspace *workspace, const pi
     pair->statistics.queries++;
     if (!by_need(&asked)) {
         if (!pir_pair_allows(pair, PIR_LEVEL_WHOLE))
-            return PIR_ERR_UNSUPPORTED;
+            return PIR_ERR_LIMIT;
         pir_status status = ask_whole(pair, workspace, input, want);
         if (status != PIR_OK)
             return status;

@@ -25,48 +25,33 @@ static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
-pir_status pir_flight_check(pir_vec3 way, pir_vec3 turn, double tolerance) {
-    if (!pir_vec_is_finite(way) || !pir_vec_is_finite(turn) || isnan(tolerance))
-        return PIR_ERR_NOT_FINITE;
-    if (!(tolerance > 0 && tolerance < HUGE_VAL))
-        return PIR_ERR_ARGUMENT;
-    return length(turn) <= 0x1p20 ? PIR_OK : PIR_ERR_LIMIT;
-}
-
 static int most_steps(const pir_flight *flight) {
-    return (int)fmin(MOST_STEPS, STEPS_A_TURN * (1 + floor(length(flight->turn) / FULL_TURN)));
+    return (int)fmin(MOST_STEPS, STEPS_A_TURN * (1 + floor(length(flight->motion->turn) / FULL_TURN)));
 }
 
 /* Ends a flight that begins where the bodies share a point. */
 static pir_status end_at_once(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                               const pir_flight *flight, pir_flight_end *end) {
     bool inside = end->answer.state == PIR_INSIDE;
-    end->outcome = flight->held > 0 ? PIR_CAST_MISS : inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT;
-    return inside && !(flight->held > 0) ? pir_pair_penetration(pair, workspace, input, &end->answer) : PIR_OK;
-}
-
-/* How near P has to come to have met Q; 0 where it cannot. `error` is what distances are off by at most. */
-static double near_of(const pir_flight *flight, double distance, double error) {
-    double least = 4 * error;
-    if (!(flight->held > 0) || distance > fmax(flight->tolerance, flight->held))
-        return fmax(flight->tolerance, least);
-    return distance > flight->held && 0.5 * distance > least ? 0.5 * distance : 0;
+    end->outcome = flight->motion->held > 0 ? PIR_CAST_MISS : inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT;
+    return inside && !(flight->motion->held > 0) ? pir_pair_penetration(pair, workspace, input, &end->answer) : PIR_OK;
 }
 
 pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input *input, const pir_flight *flight,
                         double until, pir_flight_end *ret_end) {
-    const double error = DISTANCE_ERROR * flight->size + TURN_ERROR * length(flight->turn) * flight->reach;
-    const pir_parted body = {flight->p->vertex, flight->p->vertex_count, input->radius_p, flight->reach, flight->way,
-                             flight->turn};
+    const double error = DISTANCE_ERROR * flight->size + TURN_ERROR * length(flight->motion->turn) * flight->reach;
+    const pir_parted body = {flight->p->vertex, flight->p->vertex_count, input->radius_p,
+                             flight->reach,     flight->motion->way,     flight->motion->turn};
     pir_flight_end end = {.outcome = PIR_CAST_STEP_LIMIT};
     double near = 0;
     const int steps = most_steps(flight);
     // what is farther than P can come at all need not be known
-    input->cutoff = (length(flight->way) + length(flight->turn) * flight->reach) * (1 + 0x1p-40) + 2 * error +
-                    fmax(flight->tolerance, 4 * error);
+    input->cutoff = (length(flight->motion->way) + length(flight->motion->turn) * flight->reach) * (1 + 0x1p-40) +
+                    2 * error + fmax(flight->tolerance, 4 * error);
     for (int step = 0; step < steps && end.outcome == PIR_CAST_STEP_LIMIT; step++) {
-        input->pose_p =
-            end.time == 0 ? flight->from : pir_pose_integrate(flight->from, flight->way, flight->turn, end.time);
+        input->pose_p = end.time == 0
+                            ? flight->from
+                            : pir_pose_integrate(flight->from, flight->motion->way, flight->motion->turn, end.time);
         pir_status status = pir_pair_distance(pair, workspace, input, &end.answer);
         if (status == PIR_OK && step == 0 && end.answer.state != PIR_OUTSIDE)
             status = end_at_once(pair, workspace, input, flight, &end);
@@ -77,7 +62,7 @@ pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input
         if (end.outcome != PIR_CAST_STEP_LIMIT)
             break;
         if (step == 0)
-            near = near_of(flight, end.answer.distance, error);
+            near = pir_motion_near(flight->motion, flight->tolerance, end.answer.distance, 4 * error);
         if (near == 0 || end.answer.distance <= near) {
             end.outcome = near == 0 ? PIR_CAST_MISS : PIR_CAST_HIT;
             break;

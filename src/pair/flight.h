@@ -11,11 +11,10 @@
 typedef struct pir_flight {
     const pir_polytope *p;
     pir_pose from;
-    pir_vec3 way, turn; /* in the world; about P's origin, as long as the angle */
-    double reach;       /* no point of P is farther from its origin */
-    double tolerance;   /* bodies this near have met */
-    double size;        /* of both bodies and their coordinates, which rounding is relative to */
-    double held;        /* above 0: Q is met only from farther than this at time 0, and nearer than half as far */
+    const pir_motion *motion;
+    double reach;     /* no point of P is farther from its origin */
+    double tolerance; /* bodies this near have met */
+    double size;      /* of both bodies and their coordinates, which rounding is relative to */
 } pir_flight;
 
 typedef struct pir_flight_end {
@@ -23,9 +22,6 @@ typedef struct pir_flight_end {
     double time;
     pir_query_result answer; /* that of the last step; of START_INSIDE the penetration */
 } pir_flight_end;
-
-/* PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT for a tolerance that is not above 0, PIR_ERR_LIMIT for too long a turn. */
-pir_status pir_flight_check(pir_vec3 way, pir_vec3 turn, double tolerance);
 
 /* The time at which P comes within the tolerance of Q, where that is at most `until`; else a miss. `input` has Q's
  * pose, the radii and no cutoff. */

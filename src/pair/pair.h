@@ -112,4 +112,13 @@ pir_status pir_pair_begin(pir_pair *pair, pir_workspace *workspace, const pir_pa
 pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y);
 void pir_pair_to_world(const pir_workspace *workspace, pir_query_result *result);
 
+/* --- answer.c --- */
+
+/*
+ * Has the workspace's query on the whole difference of the bodies, which it makes where it has another, at the poses
+ * that pir_pair_begin was given, and places it. PIR_ERR_MEMORY.
+ */
+pir_status pir_pair_place_whole(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                pir_placement *ret_placement);
+
 #endif

@@ -58,7 +58,7 @@ static void octahedron_is_the_cube_itself(void **state) {
     for (uint32_t map = 0; map < 6; map++)
         for (uint32_t k = 0; k < 4; k++)
             assert_int_not_equal(pir_cgm_vertex_facet(cgm, pir_cgm_corner(cgm, map, k), 0), PIR_CGM_NONE);
-    pir_cgm_destroy(cgm);
+    pir_cgm_release(cgm);
     pir_polytope_release(p);
 }
 
@@ -76,8 +76,8 @@ static void cube_has_a_cross_in_every_map(void **state) {
     // a third of a turn about the diagonal takes it to itself
     pir_cgm *turned = map_of(p, (pir_quat){1, 1, 1, 1});
     expect_counts(turned, 54, 144, 30);
-    pir_cgm_destroy(turned);
-    pir_cgm_destroy(cgm);
+    pir_cgm_release(turned);
+    pir_cgm_release(cgm);
     pir_polytope_release(p);
 }
 
@@ -98,7 +98,7 @@ static void normals_on_cube_edges_are_in_two_maps(void **state) {
         }
     }
     assert_int_equal(on_edges, 8);
-    pir_cgm_destroy(cgm);
+    pir_cgm_release(cgm);
     pir_polytope_release(p);
 }
 
@@ -122,10 +122,10 @@ static void equal_bodies_and_dual_bodies_sum(void **state) {
     assert_int_equal(pir_mesh_edge_count(mesh), 48);
     assert_int_equal(pir_mesh_facet_count(mesh), 26);
     pir_mesh_destroy(mesh);
-    pir_cgm_destroy(both);
-    pir_cgm_destroy(twice);
-    pir_cgm_destroy(b);
-    pir_cgm_destroy(a);
+    pir_cgm_release(both);
+    pir_cgm_release(twice);
+    pir_cgm_release(b);
+    pir_cgm_release(a);
     pir_polytope_release(c);
     pir_polytope_release(p);
 }
@@ -141,9 +141,9 @@ static void expect_sum(pir_polytope *p, pir_polytope *q, uint32_t vertices, uint
                pir_mesh_facet_count(mesh) == facets,
            "%u %u %u", pir_mesh_vertex_count(mesh), pir_mesh_edge_count(mesh), pir_mesh_facet_count(mesh));
     pir_mesh_destroy(mesh);
-    pir_cgm_destroy(sum);
-    pir_cgm_destroy(b);
-    pir_cgm_destroy(a);
+    pir_cgm_release(sum);
+    pir_cgm_release(b);
+    pir_cgm_release(a);
     pir_polytope_release(q);
     pir_polytope_release(p);
 }
@@ -175,8 +175,8 @@ static void maps_of_points_and_segments(void **state) {
     assert_int_equal(count_real(a) + count_real(b), 0);
     for (uint32_t h = 0; h < 72; h++)
         assert_true(pir_cgm_halfedge_edge(b, h, 0) == 0 || pir_cgm_halfedge_edge(b, h, 0) == PIR_CGM_NONE);
-    pir_cgm_destroy(b);
-    pir_cgm_destroy(a);
+    pir_cgm_release(b);
+    pir_cgm_release(a);
     pir_polytope_release(segment);
     pir_polytope_release(point);
 }
@@ -235,9 +235,9 @@ static void traversal_is_consistent(void **state) {
     assert_int_equal(outer, 6);
     pir_cgm_statistics statistics = pir_cgm_get_statistics(cgm);
     assert_true(statistics.by_filter > 1000 && statistics.by_exact < statistics.by_filter / 100);
-    pir_cgm_destroy(cgm);
-    pir_cgm_destroy(b);
-    pir_cgm_destroy(a);
+    pir_cgm_release(cgm);
+    pir_cgm_release(b);
+    pir_cgm_release(a);
     pir_polytope_release(q);
     pir_polytope_release(p);
 }
@@ -256,7 +256,7 @@ static void check_sees_damage(void **state) {
         *places[i] = was;
         assert_true(pir_cgm_is_valid(cgm));
     }
-    pir_cgm_destroy(cgm);
+    pir_cgm_release(cgm);
     pir_polytope_release(p);
 }
 
@@ -276,8 +276,8 @@ static void bad_calls_are_refused(void **state) {
     assert_int_equal(pir_cgm_mesh(NULL, PIR_EXACT, &mesh), PIR_ERR_ARGUMENT);
     assert_null(other);
     assert_null(mesh);
-    pir_cgm_destroy(NULL);
-    pir_cgm_destroy(cgm);
+    pir_cgm_release(NULL);
+    pir_cgm_release(cgm);
     pir_polytope_release(p);
 }
 
@@ -309,9 +309,9 @@ static void memory_may_run_out_anywhere(void **state) {
         if (sum)
             assert_true(pir_cgm_is_valid(sum) || memory.requests >= fail_at);
         pir_mesh_destroy(mesh);
-        pir_cgm_destroy(sum);
-        pir_cgm_destroy(b);
-        pir_cgm_destroy(a);
+        pir_cgm_release(sum);
+        pir_cgm_release(b);
+        pir_cgm_release(a);
         expect(memory.blocks == 0 && memory.bytes == 0 && !memory.wrong_size, "request %llu",
                (unsigned long long)fail_at);
         if (!asked)
@@ -374,7 +374,7 @@ static void a_locator_may_lack_memory(void **state) {
         assert_null(locator);
         assert_int_equal(memory.blocks, blocks);
     }
-    pir_cgm_destroy(cgm);
+    pir_cgm_release(cgm);
     assert_int_equal(memory.blocks, 0);
     pir_polytope_release(p);
 }

@@ -150,9 +150,9 @@ static void damage_is_seen_or_does_none(void **state) {
         assert_int_equal(pir_cgm_overlay(a, b, &sum), PIR_OK);
         damage(&random, a, "a body", seen, passed);
         damage(&random, sum, "a sum", seen, passed);
-        pir_cgm_destroy(sum);
-        pir_cgm_destroy(b);
-        pir_cgm_destroy(a);
+        pir_cgm_release(sum);
+        pir_cgm_release(b);
+        pir_cgm_release(a);
         pir_polytope_release(q);
         pir_polytope_release(p);
     }

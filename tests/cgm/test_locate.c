@@ -133,9 +133,9 @@ static struct located located_new(pir_polytope *p, const pir_quat *rotation, pir
 static void located_free(struct located *l) {
     pir_cgm_locator_destroy(l->locator);
     pir_mesh_destroy(l->mesh);
-    pir_cgm_destroy(l->sum);
-    pir_cgm_destroy(l->b);
-    pir_cgm_destroy(l->a);
+    pir_cgm_release(l->sum);
+    pir_cgm_release(l->b);
+    pir_cgm_release(l->a);
     pir_polytope_release(l->q);
     pir_polytope_release(l->p);
 }
@@ -379,7 +379,7 @@ static void witnesses_make_walks_short(void **state) {
     expect(10 * warm < cold, "%llu steps with witnesses, %llu without", (unsigned long long)warm,
            (unsigned long long)cold);
     pir_cgm_locator_destroy(locator);
-    pir_cgm_destroy(cgm);
+    pir_cgm_release(cgm);
     pir_polytope_release(p);
 }
 
@@ -400,7 +400,7 @@ static void bad_questions_are_refused(void **state) {
     assert_int_equal(location.witness, 77);
     pir_cgm_locator_destroy(locator);
     pir_cgm_locator_destroy(NULL);
-    pir_cgm_destroy(cgm);
+    pir_cgm_release(cgm);
     pir_polytope_release(p);
 }
 

@@ -68,13 +68,13 @@ static void make_all(struct run *run, pir_polytope *p, pir_polytope *q, const pi
     if (have_a && have_b && !ran_out(run, pir_cgm_overlay(a, b, &sum), sum, before)) {
         use_map(run, sum);
         if (!ran_out(run, pir_cgm_overlay(sum, a, &twice), twice, before))
-            pir_cgm_destroy(twice);
-        pir_cgm_destroy(sum);
+            pir_cgm_release(twice);
+        pir_cgm_release(sum);
     }
     if (have_b)
-        pir_cgm_destroy(b);
+        pir_cgm_release(b);
     if (have_a)
-        pir_cgm_destroy(a);
+        pir_cgm_release(a);
 }
 
 static void every_failing_request_is_survived(void **state) {
@@ -142,7 +142,7 @@ static void overlays_that_cannot_grow_say_so(void **state) {
                 asked = memory.requests < n ? n : 0;
                 memory.fail_at = 0;
                 assert_true(pir_cgm_is_valid(sum));
-                pir_cgm_destroy(sum);
+                pir_cgm_release(sum);
                 sum = before;
             } else {
                 assert_int_equal(status, PIR_ERR_MEMORY);
@@ -152,8 +152,8 @@ static void overlays_that_cannot_grow_say_so(void **state) {
             expect(memory.blocks == blocks && !memory.wrong_size, "case %llu, request %llu", (unsigned long long)i,
                    (unsigned long long)n);
         }
-        pir_cgm_destroy(b);
-        pir_cgm_destroy(a);
+        pir_cgm_release(b);
+        pir_cgm_release(a);
         assert_int_equal(memory.blocks, 0);
         pir_polytope_release(q);
         pir_polytope_release(p);
@@ -179,9 +179,9 @@ static void statistics_tell_the_bytes_that_a_map_holds(void **state) {
         assert_int_equal(pir_cgm_get_statistics(b).bytes, of_b);
         assert_int_equal(pir_cgm_overlay(a, b, &sum), PIR_OK);
         assert_int_equal(pir_cgm_get_statistics(sum).bytes, memory.bytes - of_a - of_b);
-        pir_cgm_destroy(sum);
-        pir_cgm_destroy(b);
-        pir_cgm_destroy(a);
+        pir_cgm_release(sum);
+        pir_cgm_release(b);
+        pir_cgm_release(a);
         assert_int_equal(memory.bytes, 0);
         pir_polytope_release(p);
     }

@@ -51,9 +51,9 @@ static void release_ways(struct ways *w) {
     pir_mesh_destroy(w->by_hull);
     pir_mesh_destroy(w->by_walk);
     pir_mesh_destroy(w->by_cgm);
-    pir_cgm_destroy(w->of_sum);
-    pir_cgm_destroy(w->of_q);
-    pir_cgm_destroy(w->of_p);
+    pir_cgm_release(w->of_sum);
+    pir_cgm_release(w->of_q);
+    pir_cgm_release(w->of_p);
     pir_sum_destroy(w->overlaid);
     pir_sum_destroy(w->walked);
     pir_polytope_release(w->q);
@@ -184,15 +184,15 @@ static void overlays_can_be_overlaid(void **state) {
             mpq_clear(points[k]);
         free(points);
         pir_mesh_destroy(of_hull);
-        pir_cgm_destroy(of_all);
-        pir_cgm_destroy(of_two);
+        pir_cgm_release(of_all);
+        pir_cgm_release(of_two);
         pir_polytope_release(two);
         pir_mesh_destroy(of_right);
         pir_mesh_destroy(of_left);
-        pir_cgm_destroy(right);
-        pir_cgm_destroy(right_part);
-        pir_cgm_destroy(left);
-        pir_cgm_destroy(of_third);
+        pir_cgm_release(right);
+        pir_cgm_release(right_part);
+        pir_cgm_release(left);
+        pir_cgm_release(of_third);
         pir_polytope_release(third);
         release_ways(&w);
     }
@@ -215,7 +215,7 @@ static void there_and_back_is_the_same_polytope(void **state) {
                pose.situation);
         pir_mesh_destroy(own);
         pir_mesh_destroy(mesh);
-        pir_cgm_destroy(cgm);
+        pir_cgm_release(cgm);
         pir_polytope_release(p);
     }
 }

@@ -146,9 +146,9 @@ static void cgm(const struct question *question) {
     must(pir_cgm_mesh(whole, PIR_DOUBLE, &back), "mesh");
     print_mesh(question, back);
     pir_mesh_destroy(back);
-    pir_cgm_destroy(of_sum);
-    pir_cgm_destroy(of_q);
-    pir_cgm_destroy(of_p);
+    pir_cgm_release(of_sum);
+    pir_cgm_release(of_q);
+    pir_cgm_release(of_p);
     pir_polytope_release(reflected);
 }
 
@@ -226,7 +226,7 @@ static void query(const struct question *question) {
         if (question->direction.given)
             print_directional(query, &input, vector_of(&question->direction), result.state);
         if (question->cast.given) {
-            pir_cast_result cast;
+            pir_impact cast;
             must(pir_query_cast(query, &input, vector_of(&question->cast), &cast), "cast");
             print("cast", 5, (double)cast.outcome, cast.time, cast.normal.x, cast.normal.y, cast.normal.z);
         }

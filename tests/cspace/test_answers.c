@@ -12,6 +12,7 @@
 #include "oracle/place.h"
 #include "support/bodies.h"
 #include "support/memory.h"
+#include "support/turning.h"
 #include "support/vectors.h"
 
 static uint32_t number_of(const char *variable, uint32_t otherwise) {
@@ -175,7 +176,7 @@ static int advances_into(answer_world *world, const pir_pose *from, const pir_po
     double x = -q.w * p.x + q.x * p.w - q.y * p.z + q.z * p.y, y = -q.w * p.y + q.y * p.w - q.z * p.x + q.x * p.z;
     double z = -q.w * p.z + q.z * p.w - q.x * p.y + q.y * p.x, w = q.x * p.x + q.y * p.y + q.z * p.z + q.w * p.w;
     double sign = w < 0 ? -1 : 1, angle = pir_grid_turn(p, q);
-    const pir_motion motion = {
+    const test_turning motion = {
         p, from->translation, test_add(to->translation, from->translation, -1), {sign * x, sign * y, sign * z}, angle};
     int found = 0;
     for (uint32_t k = 0; k < world->robot_count; k++)
@@ -183,10 +184,10 @@ static int advances_into(answer_world *world, const pir_pose *from, const pir_po
             const pir_sum_options options = {.allocator = NULL, .difference = true};
             pir_sum *sum;
             pir_query *query;
-            pir_cast_result result;
+            pir_impact result;
             assert_int_equal(pir_sum_create(world->robot[k], world->obstacle[l], p, &options, &sum), PIR_OK);
             assert_int_equal(pir_query_create(sum, &query), PIR_OK);
-            assert_int_equal(pir_query_advance(query, &motion, 1e-9, &result), PIR_OK);
+            assert_int_equal(test_impact(query, sum, &motion, 1e-9, &result), PIR_OK);
             found = result.outcome == PIR_CAST_START_INSIDE ? 1 : result.outcome == PIR_CAST_MISS ? found : -1;
             pir_query_destroy(query);
             pir_sum_destroy(sum);

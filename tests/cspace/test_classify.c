@@ -114,7 +114,7 @@ static void a_file_answers_as_the_sums_do(void **state) {
             expect(pir_cspace_segment(cspace, &from, &to, &report, &of_file) == PIR_OK, "%s", report.text);
             assert_true(of_sums.verdict == of_file.verdict && of_sums.from == of_file.from && of_sums.to == of_file.to);
         }
-        pir_cspace_close(cspace);
+        pir_cspace_destroy(cspace);
         answer_world_finish(&world);
     }
 }
@@ -160,7 +160,7 @@ static int ask_broken(answer_world *world, const pir_pose *poses, const pir_stat
             right += answer.verdict == PIR_VERDICT_UNKNOWN ||
                      (answer.verdict == PIR_VERDICT_FREE) == (states[i] == PIR_OUTSIDE);
     }
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     if (status == PIR_OK)
         assert_int_equal(right, count);
     else
@@ -229,7 +229,7 @@ static void bad_arguments_are_refused(void **state) {
     assert_int_equal(pir_cspace_classify(cspace, &none, &report, &answer), PIR_ERR_ZERO_QUATERNION);
     assert_string_equal(report.text, "the pose: zero quaternion");
     assert_int_equal(pir_cspace_segment(cspace, &pose, &none, &report, &motion), PIR_ERR_ZERO_QUATERNION);
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     answer_world_finish(&world);
 }
 
@@ -250,7 +250,7 @@ static void no_memory_is_a_status(void **state) {
         if (status == PIR_OK)
             status = pir_cspace_classify(cspace, &pose, &report, &answer);
         assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && report.text[0] != '\0'));
-        pir_cspace_close(cspace);
+        pir_cspace_destroy(cspace);
         expect(memory.blocks == 0 && !memory.wrong_size && !memory.overrun, "request %llu: %zu blocks, wrong size %d",
                (unsigned long long)n, memory.blocks, memory.wrong_size);
         if (status == PIR_OK)

@@ -77,7 +77,7 @@ static void expect_refused(hid_t file, const char *words) {
     pir_configuration answer;
     if (status == PIR_OK)
         status = pir_cspace_classify(cspace, &pose, &report, &answer);
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     assert_true(status != PIR_OK && report.status == status);
     expect(strstr(report.text, words) != NULL, "'%s' has no '%s'", report.text, words);
     expect(memory.peak < (size_t)64 << 20, "%zu bytes at a time", memory.peak);
@@ -93,7 +93,7 @@ static void the_whole_file_answers(void **state) {
     pir_configuration answer;
     assert_int_equal(pir_cspace_classify(cspace, &pose, &report, &answer), PIR_OK);
     assert_true(answer.on_grid && answer.verdict == PIR_VERDICT_BLOCKED);
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
 }
 
 /* A data set in place of another, of these dimensions. */
@@ -290,7 +290,7 @@ static void changed_records_are_refused(void **state) {
             pir_sum_destroy(sum);
         }
         refused += !all;
-        pir_cspace_close(cspace);
+        pir_cspace_destroy(cspace);
     }
     printf("# 60 changed records: %u refused\n", refused);
     assert_true(refused > 30);

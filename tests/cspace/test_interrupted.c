@@ -57,7 +57,7 @@ static void a_job_that_signals_interrupt_makes_the_same_file(void **state) {
     slice_make_file(&scene, rough, &options);
     expect(pir_cspace_check(rough, NULL, &report) == PIR_OK, "%s", report.text);
     expect(pir_cspace_open(rough, NULL, &report, &file) == PIR_OK, "%s", report.text);
-    pir_cspace_close(file);
+    pir_cspace_destroy(file);
     disturbed = false;
     expect(interrupted > 20, "%u of %u calls", interrupted, calls);
     slice_expect_same_files(calm, rough);

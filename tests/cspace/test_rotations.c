@@ -130,9 +130,9 @@ static void npy_is_read(void **state) {
 static void bad_npy_is_told(void **state) {
     (void)state;
     static const struct bad cases[] = {
-        {"{'descr': '<f4', 'fortran_order': False, 'shape': (1, 4), }", PIR_ERR_UNSUPPORTED,
+        {"{'descr': '<f4', 'fortran_order': False, 'shape': (1, 4), }", PIR_ERR_FORMAT,
          "turns.csv: npy header: descr is not '<f8' or '>f8', the numbers are no float64"},
-        {"{'descr': '<f8', 'fortran_order': True, 'shape': (1, 4), }", PIR_ERR_UNSUPPORTED,
+        {"{'descr': '<f8', 'fortran_order': True, 'shape': (1, 4), }", PIR_ERR_FORMAT,
          "turns.csv: npy header: fortran_order is not False, the array is not stored by rows"},
         {"{'descr': '<f8', 'fortran_order': False, 'shape': (4,), }", PIR_ERR_FORMAT,
          "turns.csv: npy header: shape is not (rows, columns)"},

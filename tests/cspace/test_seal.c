@@ -46,7 +46,7 @@ static pir_status read_broken(const struct sealed_world *world, pir_report *repo
         pir_slice slice;
         status = pir_cspace_slice(cspace, (pir_cspace_place){0, 0, i}, report, &slice);
     }
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     return status;
 }
 

@@ -71,7 +71,7 @@ static void slices_are_those_of_fresh_sums(void **state) {
     pir_slice slice;
     assert_int_equal(pir_cspace_slice(cspace, (pir_cspace_place){0, 0, 50}, &report, &slice), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_cspace_slice(cspace, (pir_cspace_place){2, 0, 0}, &report, &slice), PIR_ERR_ARGUMENT);
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     unlink(path);
     slice_scene_finish(&scene);
 }
@@ -112,7 +112,7 @@ static void half_spaces_hold_the_difference(void **state) {
         for (uint32_t l = 0; l < 3; l++)
             for (uint64_t i = 0; i < 30; i += 3)
                 expect_half_spaces(cspace, (pir_cspace_place){k, l, i});
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     unlink(path);
     slice_scene_finish(&scene);
 }
@@ -133,7 +133,7 @@ static int read_everything(const char *path) {
             status = pir_cspace_slice(cspace, place, &report, &slice);
         }
     }
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     expect(status == PIR_OK || report.text[0] != '\0', "status %d", (int)status);
     assert_true(status != PIR_ERR_ARGUMENT);
     return status == PIR_OK;
@@ -196,7 +196,7 @@ static bool try_job(const struct slice_scene *scene, const char *path, test_memo
         status = pir_cspace_open(path, &a, &report, &cspace);
     if (status == PIR_OK)
         status = pir_cspace_slice(cspace, (pir_cspace_place){1, 0, 3}, &report, &slice);
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     // a request that fails is told, never passed over
     const bool failed = memory->requests >= memory->fail_at;
     expect(failed ? status == PIR_ERR_MEMORY || status == PIR_ERR_FILE : status == PIR_OK,
@@ -242,7 +242,7 @@ static pir_status sum_of_it(const char *path, const pir_allocator *allocator) {
     if (status == PIR_OK)
         status = pir_cspace_sum(cspace, (pir_cspace_place){0, 0, 2}, NULL, &sum);
     pir_sum_destroy(sum);
-    pir_cspace_close(cspace);
+    pir_cspace_destroy(cspace);
     return status;
 }
 

@@ -20,9 +20,9 @@ int main(void) {
     pir_mesh_destroy(other);
     pir_mesh_destroy(mesh);
     pir_sum_destroy(tracked);
-    pir_cgm_destroy(of_sum);
-    pir_cgm_destroy(of_q);
-    pir_cgm_destroy(of_p);
+    pir_cgm_release(of_sum);
+    pir_cgm_release(of_q);
+    pir_cgm_release(of_p);
     pir_polytope_release(q);
     pir_polytope_release(p);
     return good ? 0 : 1;

@@ -9,7 +9,7 @@
 static const char *make_slices(slice_file *file, const pir_cspace_bodies *bodies, const pir_grid *grid) {
     pir_cspace_job *job = NULL;
     pir_status status = pir_cspace_job_create(bodies, grid, file->path, NULL, NULL, &job);
-    if (status == PIR_ERR_UNSUPPORTED)
+    if (status == PIR_ERR_NOT_BUILT)
         return NULL;
     if (status != PIR_OK)
         return "no job";
@@ -38,7 +38,7 @@ const char *slice_file_make(slice_file *file, pir_polytope *p, pir_polytope *q, 
 }
 
 void slice_file_free(slice_file *file) {
-    pir_cspace_close(file->cspace);
+    pir_cspace_destroy(file->cspace);
     unlink(file->path);
     rmdir(file->folder);
 }

@@ -109,7 +109,7 @@ static pir_pieces *check_pieces(const pir_solid *solid, pir_decompose_method met
     pir_pieces *pieces = NULL;
     options.solid = limits();
     options.method = method;
-    if (!is_done(pir_solid_decompose_with(solid, &options, NULL, &pieces), "a solid has pieces"))
+    if (!is_done(pir_solid_decompose(solid, &options, NULL, &pieces), "a solid has pieces"))
         return NULL;
     mpq_t sum, volume, middle[3], inertia[6];
     mpq_inits(sum, volume, NULL);

@@ -39,7 +39,7 @@ static uint64_t hash_of_events(uint64_t hash, const pir_scene *scene) {
 static uint64_t hash_of_queries(uint64_t hash, pir_scene *scene, pir_polytope *shape, test_random *random) {
     pir_scene_shape asked = pir_scene_shape_default(shape);
     pir_scene_near near[NEAR];
-    pir_scene_impact impact;
+    pir_impact impact;
     size_t count;
     asked.pose.translation = somewhere(random);
     golden_require(pir_scene_nearest(scene, &asked, HUGE_VAL, NEAR, near, &count), "pir_scene_nearest");
@@ -48,7 +48,7 @@ static uint64_t hash_of_queries(uint64_t hash, pir_scene *scene, pir_polytope *s
     pir_vec3 from = somewhere(random), way = somewhere(random);
     golden_require(pir_scene_ray(scene, from, way, UINT32_MAX, &impact), "pir_scene_ray");
     hash = golden_vector(golden_double(golden_number(hash, impact.body), impact.time), impact.point);
-    pir_scene_motion motion = {way, from, 0};
+    pir_motion motion = {way, from, 0};
     golden_require(pir_scene_cast(scene, &asked, &motion, 0x1p-20, &impact), "pir_scene_cast");
     return golden_vector(golden_double(golden_number(hash, impact.body), impact.time), impact.normal);
 }

@@ -159,7 +159,7 @@ uint64_t golden_query(uint64_t number) {
     for (int frame = 0; frame < FRAMES; frame++) {
         pir_query_input input = pir_query_input_default();
         pir_query_result answer = {0}, along = {0};
-        pir_cast_result cast = {0};
+        pir_impact cast = {0};
         pir_contact contacts[CONTACTS];
         pir_vec3 at[4];
         double depths[4], distances[4];

@@ -71,7 +71,26 @@ def results(root, headers):
                 yield f"{header}: {name} has results before its last parameters"
 
 
-RULES = {rule.__name__: rule for rule in (cost, flags, counts, results)}
+def lifetimes(root, headers):
+    """What counts references has _retain and _release, what has an owner _destroy; nothing else ends an object."""
+    ends = {}
+    for header, text in headers:
+        told = dict(described(text))
+        for _, name, _ in functions(text):
+            found = re.fullmatch(r"(pir_\w+)_(retain|release|destroy|free|close|finish)", name)
+            if found:
+                ends.setdefault(found[1], set()).add(found[2])
+                if found[2] != "retain" and "NULL" not in told[name]:
+                    yield f"{header}: {name} does not say that NULL is accepted"
+        for name in re.findall(r"^typedef struct (pir_\w+) pir_\w+;", text, re.M):
+            ends.setdefault(name, set())
+    for name, found in sorted(ends.items()):
+        # a plain struct of references gives them back with _release
+        if found not in ({"retain", "release"}, {"destroy"}) and (name, found) != ("pir_simplified", {"release"}):
+            yield f"{name} ends by {', '.join(sorted(found)) or 'nothing'}"
+
+
+RULES = {rule.__name__: rule for rule in (cost, flags, counts, lifetimes, results)}
 
 
 def main(root, rule):

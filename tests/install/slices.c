@@ -23,7 +23,7 @@ static int read_back(const char *path) {
     pir_status status = pir_cspace_mesh(slices, (pir_cspace_place){0, 0, 0}, PIR_DOUBLE, NULL, &mesh);
     int result = status == PIR_OK && pir_mesh_facet_count(mesh) == 6 ? 0 : fail("the first slice is no box");
     pir_mesh_destroy(mesh);
-    pir_cspace_close(slices);
+    pir_cspace_destroy(slices);
     return result;
 }
 
@@ -32,7 +32,7 @@ static int slice(pir_polytope *box, const pir_grid *grid, const char *path) {
     const pir_cspace_options options = pir_cspace_options_default();
     pir_cspace_job *job = NULL;
     pir_status status = pir_cspace_job_create(&bodies, grid, path, &options, NULL, &job);
-    if (status == PIR_ERR_UNSUPPORTED)
+    if (status == PIR_ERR_NOT_BUILT)
         return 0;
     if (status == PIR_OK)
         status = pir_cspace_job_run(job, NULL);

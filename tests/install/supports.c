@@ -20,7 +20,7 @@ static int ask(pir_polytope *cube) {
     pir_ccd_outcome outcome = PIR_CCD_FAILED;
     double distance = 0;
     pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
-    if (status == PIR_ERR_UNSUPPORTED)
+    if (status == PIR_ERR_NOT_BUILT)
         return 0;
     return status == PIR_OK && outcome == PIR_CCD_SEPARATED && distance > 1.999 && distance < 2.001
                ? 0

@@ -41,11 +41,11 @@ static pir_file_bytes file_of(const char *text) {
 /* --- solids --- */
 
 static pir_status ask_solids(pir_solid_query *query, pir_workspace *workspace) {
-    const pir_solid_motion motion = {{-8, -1, 0}, {0, 0, 1}, 1e-3};
+    const pir_motion motion = {{-8, -1, 0}, {0, 0, 1}, 1e-3};
     pir_pair_input input = pir_pair_input_default();
     pir_state state;
     pir_solid_distance apart;
-    pir_solid_impact impact;
+    pir_impact impact;
     input.pose_p.translation = (pir_vec3){1, 1, 0.5};
     pir_status status = pir_solid_query_overlap(query, workspace, &input, &state);
     if (status == PIR_OK) {
@@ -54,7 +54,7 @@ static pir_status ask_solids(pir_solid_query *query, pir_workspace *workspace) {
         status = pir_solid_query_distance(query, workspace, &input, &apart);
     }
     if (status == PIR_OK)
-        status = pir_solid_query_cast(query, workspace, &input, &motion, &impact);
+        status = pir_solid_query_cast(query, workspace, &input, &motion, 1e-3, &impact);
     return status;
 }
 
@@ -67,12 +67,12 @@ static pir_status solids(struct run *run) {
     pir_workspace *workspace = NULL;
     pir_decompose_options decompose = pir_decompose_options_default();
     decompose.solid = run->solid;
-    decompose.tolerance = 10;
     pir_status status = pir_solid_read_bytes(&file, &run->solid, NULL, &solid);
     if (status == PIR_OK)
-        status = pir_solid_decompose(solid, &run->solid, &pieces);
+        status = pir_solid_decompose(solid, &decompose, NULL, &pieces);
+    decompose.tolerance = 10;
     if (status == PIR_OK)
-        status = pir_solid_decompose_with(solid, &decompose, NULL, &fewer);
+        status = pir_solid_decompose(solid, &decompose, NULL, &fewer);
     if (status == PIR_OK)
         status = pir_pieces_polytope(fewer, 0, &piece);
     if (status == PIR_OK)
@@ -148,13 +148,13 @@ static pir_status set_stage(struct run *run, struct stage *stage) {
 }
 
 static pir_status ask_stage(struct stage *stage) {
-    const pir_scene_motion motion = {{9, 0, 0}, {0, 0, 1}, 0};
+    const pir_motion motion = {{9, 0, 0}, {0, 0, 1}, 0};
     const double cutoffs[2] = {HUGE_VAL, 3};
     pir_scene_shape shape = pir_scene_shape_default(stage->round);
     pir_scene_distance told[3];
     pir_scene_near near[2];
     pir_scene_hit hits[3];
-    pir_scene_impact impact;
+    pir_impact impact;
     size_t count = 0;
     pir_status status = PIR_OK;
     shape.coarse = stage->coarse;

@@ -110,9 +110,9 @@ static void try_maps(pir_polytope *p, pir_polytope *q, pir_quat rotation, const 
     }
     pir_cgm_locator_destroy(locator);
     pir_mesh_destroy(other);
-    pir_cgm_destroy(both);
-    pir_cgm_destroy(of_q);
-    pir_cgm_destroy(of_p);
+    pir_cgm_release(both);
+    pir_cgm_release(of_q);
+    pir_cgm_release(of_p);
 }
 
 /* Queries at and about vertices of the difference; bodies beyond what a query takes are refused. */
@@ -123,7 +123,7 @@ static void try_queries(pir_sum *difference, test_random *random, const pir_mesh
     for (uint32_t v = 0; query && v < pir_mesh_vertex_count(mesh) && v < 6; v++) {
         pir_query_input input = pir_query_input_default();
         pir_query_result result;
-        pir_cast_result cast;
+        pir_impact cast;
         pir_state state;
         pir_contact contacts[16];
         size_t count;

@@ -274,7 +274,7 @@ static void maps_have_one_rotation(void **state) {
             assert_int_equal(pir_cgm_mesh(map, PIR_DOUBLE, &mesh), PIR_OK);
             hash[k] = test_hash_mesh(pir_cgm_total_counts(map).halfedges, mesh);
             pir_mesh_destroy(mesh);
-            pir_cgm_destroy(map);
+            pir_cgm_release(map);
         }
         expect(hash[0] == hash[1], "case %llu", (unsigned long long)i);
         pir_polytope_release(q);

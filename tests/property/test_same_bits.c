@@ -216,7 +216,7 @@ static uint64_t hash_answers(uint64_t hash, pir_query *query, pir_vec3 translati
                              pir_query_cache *cache) {
     pir_query_input input = pir_query_input_default();
     pir_query_result r;
-    pir_cast_result cast;
+    pir_impact cast;
     input.translation = translation;
     assert_int_equal(pir_query_signed_distance(query, &input, cache, &r), PIR_OK);
     hash = hash_result(hash, &r);

@@ -123,7 +123,7 @@ static void read_shared(struct worker *worker) {
         need(worker, pir_cgm_locate(locator, (pir_vec3){0.5, 0.25, 0.125}, PIR_CGM_NONE, &location));
     worker->hash = test_hash(worker->hash, &location.witness, sizeof location.witness);
     pir_cgm_locator_destroy(locator);
-    pir_cgm_destroy(twice);
+    pir_cgm_release(twice);
 }
 
 /* Shapes by name, and a polytope from text. */
@@ -205,7 +205,7 @@ static void threads_find_what_one_alone_finds(void **state) {
         run_threads(&shared, together, THREADS, true);
         for (int k = 0; k < THREADS; k++)
             expect(together[k].hash == alone[0].hash, "case %llu, thread %d", (unsigned long long)i, k);
-        pir_cgm_destroy(shared.cgm);
+        pir_cgm_release(shared.cgm);
         pir_mesh_destroy(shared.mesh);
     }
 }

@@ -101,12 +101,12 @@ static pir_cast_outcome right_outcome(const exact_pose *pose, const oracle_ray *
 }
 
 static void check_cast(exact_pair *pair, const exact_pose *pose, const oracle_ray *ray, double length) {
-    pir_cast_result r;
+    pir_impact r;
     pir_status status = pir_query_cast(pair->query, &pose->input, pose->direction, &r);
     exact_check(EXACT_STATE, status == PIR_OK, "cast: status %d", (int)status);
     if (status != PIR_OK)
         return;
-    pir_cast_result other;
+    pir_impact other;
     status = pir_query_cast(pair->fresh, &pose->input, pose->direction, &other);
     exact_check(EXACT_CACHE,
                 status == PIR_OK && other.outcome == r.outcome && memcmp(&other.time, &r.time, sizeof r.time) == 0 &&

@@ -22,7 +22,7 @@ static bool same_result(const pir_query_result *a, const pir_query_result *b) {
            same_vector(a->point_p, b->point_p) && same_vector(a->point_q, b->point_q);
 }
 
-static bool same_cast(const pir_cast_result *a, const pir_cast_result *b) {
+static bool same_cast(const pir_impact *a, const pir_impact *b) {
     return a->outcome == b->outcome && a->time == b->time && same_vector(a->normal, b->normal) &&
            same_vector(a->point, b->point) && test_same_witness(&a->witness, &b->witness);
 }
@@ -64,9 +64,11 @@ void handle_compare_batches(struct program *program, pir_query *one, pir_query *
 
 void handle_compare_advances(struct program *program, struct query *query, pir_query *other, pir_vec3 from,
                              pir_vec3 along) {
-    const pir_motion motion = {query->subject->rotation, from, along, {0, 0, 1}, 0};
-    pir_cast_result a = {0}, b = {0};
-    pir_status status = pir_query_advance(query->handle, &motion, 0x1p-6, &a);
-    need(program, status == pir_query_advance(other, &motion, 0x1p-6, &b), "both advances end alike");
+    const pir_motion motion = {.way = along};
+    pir_query_input input = pir_query_input_default();
+    input.translation = from;
+    pir_impact a = {0}, b = {0};
+    pir_status status = pir_query_time_of_impact(query->handle, &input, &motion, 0x1p-6, &a);
+    need(program, status == pir_query_time_of_impact(other, &input, &motion, 0x1p-6, &b), "both advances end alike");
     need(program, status != PIR_OK || same_cast(&a, &b), "both advances answer alike");
 }

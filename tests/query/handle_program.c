@@ -110,8 +110,8 @@ static void make_locator(struct program *program) {
         need(program, pir_cgm_locator_create(map, &locator->handle) == PIR_OK, "a locator can be made");
         need(program, pir_cgm_locator_create(twin, &locator->twin) == PIR_OK, "a locator can be made");
     }
-    pir_cgm_destroy(twin);
-    pir_cgm_destroy(map);
+    pir_cgm_release(twin);
+    pir_cgm_release(map);
     if (below(program, 2))
         drop_body(body);
 }

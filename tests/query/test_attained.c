@@ -13,6 +13,7 @@
 
 #include "query/box_scene.h"
 #include "support/bodies.h"
+#include "support/turning.h"
 
 static const pir_quat eighth = {0, 0.3826834323650898, 0, 0.9238795325112867}; /* of a turn, about y */
 
@@ -116,7 +117,7 @@ static void casts_slide_along_a_face_at_any_gap(void **state) {
         pir_query_input input = at(0.25, 0, 1 + gap);
         const pir_vec3 ways[3] = {{1, 0, 0}, {-0.5, 2, 0}, {1, 1, ldexp(1, -1000)}};
         for (int k = 0; k < 3; k++) {
-            pir_cast_result cast;
+            pir_impact cast;
             pir_query_result r;
             assert_int_equal(pir_query_cast(pair.query, &input, ways[k], &cast), PIR_OK);
             assert_int_equal(cast.outcome, PIR_CAST_MISS);
@@ -124,7 +125,7 @@ static void casts_slide_along_a_face_at_any_gap(void **state) {
             assert_int_equal(r.outcome, PIR_NO_HIT);
         }
         // and the least descent arrives, at the very time
-        pir_cast_result cast;
+        pir_impact cast;
         assert_int_equal(pir_query_cast(pair.query, &input, (pir_vec3){0.125, 0, -2 * gap}, &cast), PIR_OK);
         assert_int_equal(cast.outcome, PIR_CAST_HIT);
         assert_true(cast.time == 0.5);
@@ -141,7 +142,7 @@ static void casts_end_where_they_end(void **state) {
         pir_query_input input = at(0.125, 0.25, 1 + gap);
         const double lengths[3] = {nextafter(gap, 0), gap, nextafter(gap, 2)};
         for (int k = 0; k < 3; k++) {
-            pir_cast_result cast;
+            pir_impact cast;
             assert_int_equal(pir_query_cast(pair.query, &input, (pir_vec3){0, 0, -lengths[k]}, &cast), PIR_OK);
             assert_int_equal(cast.outcome, k > 0 ? PIR_CAST_HIT : PIR_CAST_MISS);
             assert_true(k == 2 ? cast.time > 1 - 1e-15 && cast.time <= 1 : cast.time == 1);
@@ -159,20 +160,21 @@ static void advances_take_rotations_of_any_size(void **state) {
             struct scene pair = make_scene(test_box(half[0], half[1], half[2]), test_box(1, 1, 1), still);
             double part[3] = {0, 0, 0}, s = sizes[i];
             part[axis] = s;
-            pir_motion motion = {.rotation = {part[0], part[1], part[2], s}, .axis = {axis == 0, axis == 1, axis == 2}};
+            test_turning motion = {.rotation = {part[0], part[1], part[2], s},
+                                   .axis = {axis == 0, axis == 1, axis == 2}};
             // a quarter turn about the axis brings the one after next to the next
             int next = (axis + 1) % 3, other = (axis + 2) % 3;
             double start[3] = {0, 0, 0};
             start[next] = 5;
             motion.start = (pir_vec3){start[0], start[1], start[2]};
             motion.motion = (pir_vec3){-start[0], -start[1], -start[2]};
-            pir_cast_result cast;
-            assert_int_equal(pir_query_advance(pair.query, &motion, 1e-9, &cast), PIR_OK);
+            pir_impact cast;
+            assert_int_equal(test_impact(pair.query, pair.sum, &motion, 1e-9, &cast), PIR_OK);
             expect(cast.outcome == PIR_CAST_HIT && fabs(5 - 5 * cast.time - 1 - half[other]) < 1e-8,
                    "axis %d, size %g: time %.17g", axis, s, cast.time);
             // turning on, either way, the box reaches as far
             motion.angle = -0.25;
-            assert_int_equal(pir_query_advance(pair.query, &motion, 1e-9, &cast), PIR_OK);
+            assert_int_equal(test_impact(pair.query, pair.sum, &motion, 1e-9, &cast), PIR_OK);
             double angle = 0.25 * cast.time;
             expect(cast.outcome == PIR_CAST_HIT &&
                        fabs(5 - 5 * cast.time - 1 - half[other] * cos(angle) - half[next] * sin(angle)) < 1e-8,
@@ -350,7 +352,7 @@ static void casts_along_turned_facets_graze_what_is_in_their_plane(void **state)
                 continue;
             pir_query_input input = at(e.x + copysign(half.x, e.x) - 3 * d.x, e.y + copysign(half.y, e.y) - 3 * d.y,
                                        e.z + copysign(half.z, e.z) - 3 * d.z);
-            pir_cast_result cast;
+            pir_impact cast;
             assert_int_equal(pir_query_cast(pair.query, &input, (pir_vec3){6 * d.x, 6 * d.y, 6 * d.z}, &cast), PIR_OK);
             expect(cast.outcome == PIR_CAST_HIT && fabs(cast.time - 1.0 / 3) <= 1e-15,
                    "case %llu, step %d: outcome %d at %.17g", (unsigned long long)i, step, (int)cast.outcome,

@@ -252,7 +252,7 @@ static void check_pair(const struct scene *s, const int t[3]) {
     pir_ccd_outcome outcome;
     double distance;
     pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
-    if (status == PIR_ERR_UNSUPPORTED)
+    if (status == PIR_ERR_NOT_BUILT)
         return;
     bool apart = state_at(&s->d, t) == PIR_OUTSIDE;
     expect(status == PIR_OK && outcome == (apart ? PIR_CCD_SEPARATED : PIR_CCD_OVERLAPPING) &&
@@ -336,7 +336,7 @@ static void check_motion(const struct scene *s, const int t[3], const int m[3]) 
     double enter = (double)ray.enter[0] / ray.enter[1], leave = (double)ray.leave[0] / ray.leave[1];
     double length = length_of(motion) / s->unit;
     bool still = length == 0;
-    pir_cast_result cast;
+    pir_impact cast;
     pir_query_result r;
     assert_int_equal(pir_query_cast(s->query, &input, motion, &cast), PIR_OK);
     pir_cast_outcome right = state == PIR_INSIDE                         ? PIR_CAST_START_INSIDE

@@ -43,7 +43,7 @@ static void bad_input_is_a_status(void **state) {
     struct scene s = make_scene(cube(1), cube(1), still);
     pir_query_input input = at(NAN, 0, 0);
     pir_query_result r;
-    pir_cast_result cast;
+    pir_impact cast;
     assert_int_equal(pir_query_overlap(s.query, &input, NULL, &r), PIR_ERR_NOT_FINITE);
     input = at(0, 0, 0);
     input.radius_p = -1;
@@ -225,7 +225,7 @@ static void batches_say_what_single_queries_say(void **state) {
         pir_ccd_outcome outcome;
         double distance;
         pir_status status = pir_ccd_distance(&pair, &outcome, &distance);
-        if (status == PIR_ERR_UNSUPPORTED || fabs(r.distance) < 1e-6)
+        if (status == PIR_ERR_NOT_BUILT || fabs(r.distance) < 1e-6)
             continue;
         assert_int_equal(status, PIR_OK);
         expect(outcome == (r.state == PIR_OUTSIDE ? PIR_CCD_SEPARATED : PIR_CCD_OVERLAPPING) &&
@@ -248,9 +248,9 @@ static void supports_alone_refuse_what_is_no_place(void **state) {
         pir_ccd_outcome outcome = PIR_CCD_FAILED;
         double distance = 7;
         pir_status status = pir_ccd_overlap(&pairs[i], &outcome);
-        expect(status == should[i] || status == PIR_ERR_UNSUPPORTED, "pair %zu: status %d", i, (int)status);
+        expect(status == should[i] || status == PIR_ERR_NOT_BUILT, "pair %zu: status %d", i, (int)status);
         status = pir_ccd_distance(&pairs[i], &outcome, &distance);
-        expect(status == should[i] || status == PIR_ERR_UNSUPPORTED, "pair %zu: status %d", i, (int)status);
+        expect(status == should[i] || status == PIR_ERR_NOT_BUILT, "pair %zu: status %d", i, (int)status);
         assert_true(outcome == PIR_CCD_FAILED && distance == 7);
     }
     clear_scene(&s);

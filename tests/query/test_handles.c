@@ -22,6 +22,7 @@
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/sum_bytes.h"
+#include "support/turning.h"
 
 #define PROGRAMS      100
 #define PROGRAM_BYTES 1500
@@ -85,10 +86,14 @@ static void query_may_outlive_its_sum(void **state) {
     pir_query_destroy(query);
     assert_true(depth_at_middle(other) == 4);
     // the query still rotates the sum, which it alone holds now
-    const pir_motion motion = {{0, 0, 1, 1}, {8, 0, 0}, {-8, 0, 0}, {0, 0, 1}, 0};
-    pir_cast_result hit;
-    assert_int_equal(pir_query_advance(other, &motion, 1e-6, &hit), PIR_OK);
-    assert_true(hit.outcome == PIR_CAST_HIT && fabs(hit.time - 0.5) < 1e-6);
+    const pir_motion motion = {.way = {-8, 0, 0}, .turn = {0, 0, 0.25}};
+    pir_query_input input = pir_query_input_default();
+    input.translation.x = 8;
+    pir_impact hit;
+    assert_int_equal(pir_query_time_of_impact(other, &input, &motion, 1e-6, &hit), PIR_OK);
+    // P is a cube that is turned by a quarter of a radian over time 1: its corner comes first
+    const double turned = 0.25 * hit.time;
+    assert_true(hit.outcome == PIR_CAST_HIT && fabs(8 - 8 * hit.time - 1 - 3 * (cos(turned) + sin(turned))) < 1e-4);
     pir_query_destroy(other);
     assert_true(memory.blocks == 0 && !memory.wrong_size);
 }
@@ -101,10 +106,10 @@ static void advance_reckons_with_the_scale_of_now(void **state) {
     make_query(NULL, &sum, &query);
     assert_true(depth_at_middle(query) == 2);
     assert_int_equal(pir_sum_set_scale(sum, PIR_OPERAND_P, 16), PIR_OK);
-    const pir_motion turn = {still, {18, 0, 0}, {0, 0, 0}, {0, 0, 1}, 1};
-    pir_cast_result hit;
+    const test_turning turn = {still, {18, 0, 0}, {0, 0, 0}, {0, 0, 1}, 1};
+    pir_impact hit;
     pir_query_result before;
-    assert_int_equal(pir_query_advance(query, &turn, 1e-3, &hit), PIR_OK);
+    assert_int_equal(test_impact(query, sum, &turn, 1e-3, &hit), PIR_OK);
     assert_int_equal(hit.outcome, PIR_CAST_HIT);
     // the corner (1, 1) of Q meets the face that is 16 from the middle of P: 17·cos − sin = 16
     double first = acos(16 / sqrt(290)) - atan(1.0 / 17);
@@ -148,7 +153,7 @@ static void locator_may_outlive_its_map(void **state) {
     pir_cgm_location location;
     assert_int_equal(pir_cgm_create(p, NULL, &allocator, &map), PIR_OK);
     assert_int_equal(pir_cgm_locator_create(map, &locator), PIR_OK);
-    pir_cgm_destroy(map);
+    pir_cgm_release(map);
     pir_polytope_release(p);
     assert_int_equal(pir_cgm_locate(locator, (pir_vec3){0.5, 1, 0}, PIR_CGM_NONE, &location), PIR_OK);
     assert_int_equal(location.position, PIR_CGM_BOUNDARY);

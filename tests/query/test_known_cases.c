@@ -11,6 +11,7 @@
 
 #include "query/box_scene.h"
 #include "support/random.h"
+#include "support/turning.h"
 
 static void cubes_of_side_two_a_tenth_deep(void **state) {
     (void)state;
@@ -157,7 +158,7 @@ static void hulls_of_size_1e_23(void **state) {
 static void casts_hit_miss_and_recede(void **state) {
     (void)state;
     struct scene s = make_scene(cube(1), cube(1), still);
-    pir_cast_result r;
+    pir_impact r;
     pir_query_input input = at(3, 0, 0);
     assert_int_equal(pir_query_cast(s.query, &input, (pir_vec3){-4, 0, 0}, &r), PIR_OK);
     assert_int_equal(r.outcome, PIR_CAST_HIT);
@@ -204,14 +205,14 @@ static void directions_tell_how_far(void **state) {
 static void a_turning_box_arrives_in_time(void **state) {
     (void)state;
     struct scene s = make_scene(cube(1), cube(1), still);
-    pir_motion motion = {.rotation = still, .start = {3, 0, 0}, .motion = {-4, 0, 0}, .axis = {0, 0, 1}, .angle = 1};
-    pir_cast_result r;
-    assert_int_equal(pir_query_advance(s.query, &motion, 1e-9, &r), PIR_OK);
+    test_turning motion = {.rotation = still, .start = {3, 0, 0}, .motion = {-4, 0, 0}, .axis = {0, 0, 1}, .angle = 1};
+    pir_impact r;
+    assert_int_equal(test_impact(s.query, s.sum, &motion, 1e-9, &r), PIR_OK);
     assert_int_equal(r.outcome, PIR_CAST_HIT);
     // at contact the nearest corner of P is at x = 1/2: 3 − 4t − (cos t + sin t)/2 = 1/2
     expect(fabs(2.5 - 4 * r.time - 0.5 * (cos(r.time) + sin(r.time))) < 1e-8, "time %.17g", r.time);
     motion.motion = (pir_vec3){4, 0, 0};
-    assert_int_equal(pir_query_advance(s.query, &motion, 1e-9, &r), PIR_OK);
+    assert_int_equal(test_impact(s.query, s.sum, &motion, 1e-9, &r), PIR_OK);
     assert_int_equal(r.outcome, PIR_CAST_MISS);
     clear_scene(&s);
 }
@@ -222,10 +223,10 @@ static void a_spinning_box_that_glides_by_is_a_miss(void **state) {
     for (int k = 2; k <= 6; k++) {
         struct scene s = make_scene(cube(1), box(40, 40, 2, (pir_vec3){0, 0, -1}), still);
         const double gap = pow(10, -k);
-        pir_motion motion = {.rotation = still, .start = {0, 0, 0.5 + gap}, .motion = {2, 0, 0}, .axis = {0, 0, 1}};
-        pir_cast_result r;
+        test_turning motion = {.rotation = still, .start = {0, 0, 0.5 + gap}, .motion = {2, 0, 0}, .axis = {0, 0, 1}};
+        pir_impact r;
         for (motion.angle = 0.1; motion.angle < 1000; motion.angle *= 10) {
-            assert_int_equal(pir_query_advance(s.query, &motion, 1e-7, &r), PIR_OK);
+            assert_int_equal(test_impact(s.query, s.sum, &motion, 1e-7, &r), PIR_OK);
             expect(r.outcome == PIR_CAST_MISS, "gap %g, angle %g: outcome %d", gap, motion.angle, (int)r.outcome);
         }
         clear_scene(&s);
@@ -243,10 +244,10 @@ static void boxes_that_touch_and_part_recede_at_once(void **state) {
                  {{1, 0, 0}, {-1, 0, 0}, PIR_CAST_HIT},     {{0.9, 0, 0}, {2, 0, 0}, PIR_CAST_START_INSIDE},
                  {{3, 0, 0}, {0, 0, 0}, PIR_CAST_AT_REST},  {{3, 0, 0}, {-1, 0, 0}, PIR_CAST_MISS}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const pir_motion motion = {
+        const test_turning motion = {
             .rotation = still, .start = cases[i].start, .motion = cases[i].way, .axis = {0, 0, 1}, .angle = 0};
-        pir_cast_result r;
-        assert_int_equal(pir_query_advance(s.query, &motion, 1e-9, &r), PIR_OK);
+        pir_impact r;
+        assert_int_equal(test_impact(s.query, s.sum, &motion, 1e-9, &r), PIR_OK);
         expect(r.outcome == cases[i].outcome, "case %zu: outcome %d", i, (int)r.outcome);
         expect(r.time == (i < 4 ? 0 : 1), "case %zu: time %g", i, r.time);
         expect(r.steps >= 1 && r.steps < 1000, "case %zu: %u steps", i, r.steps);

@@ -13,6 +13,7 @@
 
 #include "query/query_of.h"
 #include "support/queries.h"
+#include "support/turning.h"
 
 static const pir_quat still = {0, 0, 0, 1};
 static const pir_vec3 right = {1, 0, 0};
@@ -99,7 +100,7 @@ static void directions_have_a_length_and_are_finite(void **state) {
                 expect_refusal(kind, &none, PIR_ERR_ARGUMENT, 3);
         }
         // a motion may be none
-        pir_cast_result cast;
+        pir_impact cast;
         const pir_cast_outcome outcome[3] = {PIR_CAST_START_INSIDE, PIR_CAST_RECEDING, PIR_CAST_AT_REST};
         assert_int_equal(pir_query_cast(s.query, none.input, none.direction, &cast), PIR_OK);
         assert_int_equal(cast.outcome, outcome[i]);
@@ -159,36 +160,43 @@ static void batches_with_what_is_refused_write_nothing(void **state) {
 static void advances_refuse_what_is_no_motion(void **state) {
     (void)state;
     struct scene s = make_scene();
-    const pir_motion good = {
+    const test_turning good = {
         .rotation = still, .start = {5, 0, 0}, .motion = {-4, 0, 0}, .axis = {0, 0, 1}, .angle = 1};
-    pir_motion wrong[6] = {good, good, good, good, good, good};
+    test_turning wrong[6] = {good, good, good, good, good, good};
     wrong[0].start.y = NAN;
     wrong[1].motion.z = HUGE_VAL;
-    wrong[2].axis.x = -HUGE_VAL;
+    wrong[2].axis.x = NAN;
     wrong[3].angle = NAN;
-    wrong[4].axis = (pir_vec3){0, 0, 0};
+    wrong[4].angle = 0x1p21;
     wrong[5].rotation = (pir_quat){0, 0, 0, 0};
-    pir_cast_result cast, before;
+    pir_impact cast, before;
     memset(&cast, 0x5a, sizeof cast);
     before = cast;
     for (int i = 0; i < 6; i++) {
-        pir_status status = pir_query_advance(s.query, &wrong[i], 0.1, &cast);
+        pir_status status = test_impact(s.query, s.sum, &wrong[i], 0.1, &cast);
         expect(i < 4 ? status == PIR_ERR_NOT_FINITE : status != PIR_OK && status != PIR_ERR_NOT_FINITE,
                "motion %d: status %d", i, (int)status);
     }
-    const double tolerances[4] = {0, -1, NAN, HUGE_VAL};
+    const double tolerances[4] = {0, -1, HUGE_VAL, NAN};
     for (int i = 0; i < 4; i++)
-        assert_int_equal(pir_query_advance(s.query, &good, tolerances[i], &cast),
-                         i < 2 ? PIR_ERR_ARGUMENT : PIR_ERR_NOT_FINITE);
-    assert_int_equal(pir_query_advance(NULL, &good, 0.1, &cast), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_query_advance(s.query, NULL, 0.1, &cast), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_query_advance(s.query, &good, 0.1, NULL), PIR_ERR_ARGUMENT);
+        assert_int_equal(test_impact(s.query, s.sum, &good, tolerances[i], &cast),
+                         i < 3 ? PIR_ERR_ARGUMENT : PIR_ERR_NOT_FINITE);
+    pir_motion motion = test_motion(&good);
+    const pir_query_input input = pir_query_input_default();
+    assert_int_equal(pir_query_time_of_impact(NULL, &input, &motion, 0.1, &cast), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_time_of_impact(s.query, NULL, &motion, 0.1, &cast), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_time_of_impact(s.query, &input, NULL, 0.1, &cast), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_query_time_of_impact(s.query, &input, &motion, 0.1, NULL), PIR_ERR_ARGUMENT);
+    motion.held = -1;
+    assert_int_equal(pir_query_time_of_impact(s.query, &input, &motion, 0.1, &cast), PIR_ERR_ARGUMENT);
+    motion.held = NAN;
+    assert_int_equal(pir_query_time_of_impact(s.query, &input, &motion, 0.1, &cast), PIR_ERR_NOT_FINITE);
     assert_memory_equal(&cast, &before, sizeof before);
     // no axis is needed where nothing turns
-    pir_motion plain = good;
+    test_turning plain = good;
     plain.angle = 0;
     plain.axis = (pir_vec3){0, 0, 0};
-    assert_int_equal(pir_query_advance(s.query, &plain, 1e-9, &cast), PIR_OK);
+    assert_int_equal(test_impact(s.query, s.sum, &plain, 1e-9, &cast), PIR_OK);
     // 5 − 4t = 2
     assert_true(cast.outcome == PIR_CAST_HIT && fabs(cast.time - 0.75) < 1e-9);
     clear_scene(&s);

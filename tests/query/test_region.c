@@ -16,6 +16,7 @@
 #include "support/bodies.h"
 #include "support/queries.h"
 #include "support/vectors.h"
+#include "support/turning.h"
 
 #define MOST_FACETS 20000
 
@@ -327,31 +328,31 @@ static void what_needs_the_whole_sum_says_so(void **state) {
     pir_sum *sum;
     pir_query *query;
     pir_query_result result;
-    pir_cast_result cast;
+    pir_impact cast;
     pir_contact contact;
     pir_state place;
     size_t count;
     double depth;
     pir_vec3 x = {1, 0, 0};
     pir_query_input input = pir_query_input_default();
-    pir_motion motion = {.rotation = {0, 0, 0, 1}, .motion = x, .axis = x, .angle = 1};
+    test_turning motion = {.rotation = {0, 0, 0, 1}, .motion = x, .axis = x, .angle = 1};
     assert_int_equal(pir_sum_create(p, p, (pir_quat){0, 0, 0, 1}, &options, &sum), PIR_OK);
     assert_int_equal(pir_query_create(sum, &query), PIR_OK);
     assert_int_equal(pir_sum_set_region(sum, x, 0.5), PIR_OK);
     for (const test_query_kind *kind = test_query_kinds; kind->name; kind++) {
         test_answer answer;
         const pir_status status = kind->ask(&(test_question){query, &input, NULL, x}, &answer);
-        expect(status == (kind->traits & TEST_REGION ? PIR_OK : PIR_ERR_UNSUPPORTED), "%s: status %d", kind->name,
+        expect(status == (kind->traits & TEST_REGION ? PIR_OK : PIR_ERR_REGION), "%s: status %d", kind->name,
                (int)status);
     }
-    assert_int_equal(pir_query_advance(query, &motion, 0.1, &cast), PIR_ERR_UNSUPPORTED);
-    assert_int_equal(pir_query_batch_states(query, &x, 1, &place), PIR_ERR_UNSUPPORTED);
-    assert_int_equal(pir_query_batch_depths(query, &x, 1, &depth, NULL), PIR_ERR_UNSUPPORTED);
-    assert_int_equal(pir_query_batch_distances(query, &x, 1, &depth, NULL), PIR_ERR_UNSUPPORTED);
+    assert_int_equal(test_impact(query, sum, &motion, 0.1, &cast), PIR_ERR_REGION);
+    assert_int_equal(pir_query_batch_states(query, &x, 1, &place), PIR_ERR_REGION);
+    assert_int_equal(pir_query_batch_depths(query, &x, 1, &depth, NULL), PIR_ERR_REGION);
+    assert_int_equal(pir_query_batch_distances(query, &x, 1, &depth, NULL), PIR_ERR_REGION);
     assert_int_equal(pir_query_penetration(query, &input, NULL, &result), PIR_OK);
-    assert_int_equal(pir_query_manifold(query, &input, &result, 1, &contact, &count), PIR_ERR_UNSUPPORTED);
+    assert_int_equal(pir_query_manifold(query, &input, &result, 1, &contact, &count), PIR_ERR_REGION);
     input.radius_p = 0.1;
-    assert_int_equal(pir_query_penetration(query, &input, NULL, &result), PIR_ERR_UNSUPPORTED);
+    assert_int_equal(pir_query_penetration(query, &input, NULL, &result), PIR_ERR_REGION);
     // and does it again once the sum is whole
     assert_int_equal(pir_sum_set_region(sum, x, 4), PIR_OK);
     assert_int_equal(pir_query_signed_distance(query, &input, NULL, &result), PIR_OK);

@@ -227,7 +227,7 @@ static void rays_hit_exactly_what_segments_do(void **state) {
                 way = test_add(test_random_direction(&c.random), origin, -1.5);
             }
             uint32_t mask = i < 6 ? UINT32_MAX : 1;
-            pir_scene_impact impact;
+            pir_impact impact;
             assert_int_equal(pir_scene_ray(c.scene, origin, way, mask, &impact), PIR_OK);
             unsigned long long number = n * 8 + (uint64_t)i;
             int by_pairs = segment_hits(&c, origin, way, mask);
@@ -236,14 +236,14 @@ static void rays_hit_exactly_what_segments_do(void **state) {
             hit += hits;
             missed += !hits;
             if (!hits) {
-                assert_true(impact.time == 1 && impact.piece == PIR_SCENE_NONE && impact.outcome == PIR_CAST_MISS);
+                assert_true(impact.time == 1 && impact.piece_q == PIR_SCENE_NONE && impact.outcome == PIR_CAST_MISS);
                 continue;
             }
             // the point is on the piece, and nothing is met before it
             test_points at = {1, {impact.point}};
             pir_polytope *point = test_polytope(&at);
             double distance =
-                ask_alone(point, pir_pose_identity(), 0, crowd_body_of(&c, impact.body), impact.piece).distance;
+                ask_alone(point, pir_pose_identity(), 0, crowd_body_of(&c, impact.body), impact.piece_q).distance;
             pir_polytope_release(point);
             expect(distance < 1e-9 && distance > -2, "ray %llu: %g from the piece", number, distance);
             expect(impact.time == 0 || segment_hits(&c, origin, test_add(test_zero, way, impact.time - 1e-9), mask) < 1,
@@ -262,7 +262,7 @@ static void a_ray_in_the_plane_of_a_flat_piece_enters_by_its_side(void **state) 
     pir_polytope *flat = NULL;
     pir_scene *scene = NULL;
     pir_body_options body = pir_body_options_default();
-    pir_scene_impact impact;
+    pir_impact impact;
     uint32_t id;
     assert_int_equal(pir_polytope_create(square, 4, NULL, &flat), PIR_OK);
     assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
@@ -292,12 +292,12 @@ static void a_ray_in_the_plane_of_a_flat_piece_enters_by_its_side(void **state) 
 
 /* --- moving shapes --- */
 
-static pir_pose pose_at(pir_pose begin, const pir_scene_motion *motion, double time) {
+static pir_pose pose_at(pir_pose begin, const pir_motion *motion, double time) {
     return pir_pose_integrate(begin, motion->way, motion->turn, time);
 }
 
 /* The least distance of the shape to anything, at a time. */
-static double least_distance(const crowd *c, const pir_scene_shape *shape, const pir_scene_motion *motion,
+static double least_distance(const crowd *c, const pir_scene_shape *shape, const pir_motion *motion,
                              double time) {
     double least = HUGE_VAL;
     for (uint32_t i = 0; i < CROWD_BODIES; i++)
@@ -320,9 +320,9 @@ static void a_cast_ends_at_the_first_contact(void **state) {
         pir_scene_shape shape = random_shape(&c);
         shape.pose.translation = test_add(test_zero, shape.pose.translation, 1.5 * c.size);
         const double turns[4] = {0, 2, 20, 300};
-        pir_scene_motion motion = {test_add(test_random_direction(&c.random), shape.pose.translation, -1.75),
+        pir_motion motion = {test_add(test_random_direction(&c.random), shape.pose.translation, -1.75),
                                    test_add(test_zero, test_random_direction(&c.random), turns[n % 4]), 0};
-        pir_scene_impact impact;
+        pir_impact impact;
         assert_int_equal(pir_scene_cast(c.scene, &shape, &motion, tolerance, &impact), PIR_OK);
         unsigned long long number = n;
         bool meets = impact.body != PIR_SCENE_NONE;
@@ -334,7 +334,7 @@ static void a_cast_ends_at_the_first_contact(void **state) {
         }
         if (meets) {
             double left = ask_alone(shape.polytope, pose_at(shape.pose, &motion, impact.time), shape.radius,
-                                    crowd_body_of(&c, impact.body), impact.piece)
+                                    crowd_body_of(&c, impact.body), impact.piece_q)
                               .distance;
             expect(left <= tolerance * 1.001, "cast %llu ends %g away", number, left);
         }
@@ -364,8 +364,8 @@ static void a_spinning_cube_that_glides_by_is_no_hit(void **state) {
             const double gap = pow(10, -exponent), turns[8] = {0, 0.1, 1, 3, 10, 100, 1e4, 1e6};
             pir_scene_shape shape;
             pir_scene *scene = floor_new(gap, &shape);
-            pir_scene_motion motion = {{2, 0, 0}, {0, 0, turns[turn]}, 0};
-            pir_scene_impact impact;
+            pir_motion motion = {{2, 0, 0}, {0, 0, turns[turn]}, 0};
+            pir_impact impact;
             assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-6, &impact), PIR_OK);
             expect(impact.outcome == PIR_CAST_MISS && impact.time == 1, "gap %g, turn %g", gap, turns[turn]);
             // and one that sinks meets it in time, however it spins
@@ -426,8 +426,8 @@ static void a_cast_that_begins_inside_tells_the_normal_of_the_depth(void **state
     (void)state;
     pir_scene_shape shape;
     pir_scene *scene = floor_new(-0.25, &shape);
-    pir_scene_motion motion = {{2, 0, 0}, {0, 0, 1}, 0};
-    pir_scene_impact impact;
+    pir_motion motion = {{2, 0, 0}, {0, 0, 1}, 0};
+    pir_impact impact;
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-6, &impact), PIR_OK);
     assert_true(impact.outcome == PIR_CAST_START_INSIDE && impact.time == 0 && impact.body == 0);
     assert_true(impact.normal.x == 0 && impact.normal.y == 0 && impact.normal.z == 1 && impact.point.z == 0);
@@ -447,15 +447,15 @@ static void what_is_held_is_met_at_half_its_distance(void **state) {
     (void)state;
     pir_scene_shape shape;
     pir_scene *scene = floor_new(1e-3, &shape);
-    pir_scene_motion motion = {{5, 0, 1e-3}, {0, 0, 0}, 1e-6};
-    pir_scene_impact impact;
+    pir_motion motion = {{5, 0, 1e-3}, {0, 0, 0}, 1e-6};
+    pir_impact impact;
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_OK);
     assert_int_equal(impact.outcome, PIR_CAST_MISS);
     motion.way.z = -2e-3;
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_OK);
     expect(impact.outcome == PIR_CAST_HIT && impact.time >= 0.25 && impact.time < 0.4, "time %g", impact.time);
     // one side rises as fast as the other comes down
-    motion = (pir_scene_motion){{0, 0, 1e-4}, {0, 0.5, 0}, 1e-6};
+    motion = (pir_motion){{0, 0, 1e-4}, {0, 0.5, 0}, 1e-6};
     assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-2, &impact), PIR_OK);
     expect(impact.outcome == PIR_CAST_HIT && impact.time > 0 && impact.time < 0.01, "time %g", impact.time);
     motion.held = 2e-3;
@@ -492,18 +492,18 @@ static void a_fast_body_meets_a_wall_in_time(void **state) {
     uint32_t bullet = add(scene, pieces, 2, (pir_vec3){0, 0, 0}, 0);
     add(scene, pieces, 1, (pir_vec3){5, 0, 0}, 1);
     uint32_t wall = add(scene, pieces, 1, (pir_vec3){10, 0.25, 0}, 0);
-    pir_scene_motion motion = {{100, 0, 0}, {0, 0, 0}, 0};
-    pir_scene_impact impact;
+    pir_motion motion = {{100, 0, 0}, {0, 0, 0}, 0};
+    pir_impact impact;
     assert_int_equal(pir_scene_time_of_impact(scene, bullet, &motion, 1e-9, &impact), PIR_OK);
     assert_int_equal(impact.body, wall);
-    assert_int_equal(impact.own_piece, 1);
+    assert_int_equal(impact.piece_p, 1);
     assert_true(fabs(impact.time - 0.08) < 1e-9 && impact.normal.x == -1 && fabs(impact.point.x - 9.5) < 1e-9);
     motion.way = (pir_vec3){-100, 0, 0};
     assert_int_equal(pir_scene_time_of_impact(scene, bullet, &motion, 1e-9, &impact), PIR_OK);
     assert_true(impact.body == PIR_SCENE_NONE && impact.time == 1);
     // by a turn alone: the second piece swings into a wall beside it
     uint32_t side = add(scene, pieces, 1, (pir_vec3){0, 1.5, 0}, 0);
-    motion = (pir_scene_motion){{0, 0, 0}, {0, 0, 3}, 0};
+    motion = (pir_motion){{0, 0, 0}, {0, 0, 3}, 0};
     assert_int_equal(pir_scene_time_of_impact(scene, bullet, &motion, 1e-6, &impact), PIR_OK);
     assert_true(impact.body == side && impact.time > 0 && impact.time < 0.3);
     pir_scene_destroy(scene);
@@ -520,11 +520,11 @@ static void what_cannot_be_asked_is_refused(void **state) {
     assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
     uint32_t ghost = add(scene, &p, 1, (pir_vec3){0, 0, 0}, 1);
     pir_scene_shape good = pir_scene_shape_default(p), shape = good;
-    pir_scene_motion motion = {{1, 0, 0}, {0, 0, 0}, 0}, wild = {{1, NAN, 0}, {0, 0, 0}, 0},
+    pir_motion motion = {{1, 0, 0}, {0, 0, 0}, 0}, wild = {{1, NAN, 0}, {0, 0, 0}, 0},
                      whirl = {{1, 0, 0}, {0, 1e7, 0}, 0};
     pir_scene_hit hit;
     pir_scene_near near;
-    pir_scene_impact impact;
+    pir_impact impact;
     size_t count = 42;
     struct {
         pir_scene_shape shape;
@@ -589,7 +589,7 @@ static void memory_that_fails_fails_the_query_alone(void **state) {
         uint32_t id = add(scene, &p, 1, (pir_vec3){2, 0, 0}, 0);
         pir_scene_shape shape = pir_scene_shape_default(shape_of);
         pir_scene_near near;
-        pir_scene_impact impact = {.body = 42};
+        pir_impact impact = {.body = 42};
         size_t count = 0;
         memory.fail_at = memory.requests + request;
         status = pir_scene_nearest(scene, &shape, 5, 1, &near, &count);

@@ -146,7 +146,7 @@ static double first_of(const struct room *room, pir_vec3 origin, pir_vec3 way, b
 static void check_ray(struct room *room, uint64_t number, struct counts *counts) {
     unsigned long long n = number;
     pir_vec3 origin, way;
-    pir_scene_impact impact;
+    pir_impact impact;
     bool unsure = false;
     random_ray(room, &origin, &way);
     assert_int_equal(pir_scene_ray(room->scene, origin, way, UINT32_MAX, &impact), PIR_OK);
@@ -157,7 +157,7 @@ static void check_ray(struct room *room, uint64_t number, struct counts *counts)
         expect(impact.outcome == PIR_CAST_MISS && impact.time == 1, "ray %llu", n);
         return;
     }
-    const ray_oracle *met = room->oracle[impact.body][impact.piece];
+    const ray_oracle *met = room->oracle[impact.body][impact.piece_q];
     ray_verdict verdict = ray_oracle_ask(met, origin, way);
     counts->hits++;
     expect(verdict.hits != 0, "ray %llu meets body %u, which it does not", n, impact.body);
@@ -176,7 +176,7 @@ static void check_ray(struct room *room, uint64_t number, struct counts *counts)
     expect(fabs(impact.time - verdict.time) < SAME, "ray %llu meets body %u at %.17g, not at %.17g", n, impact.body,
            impact.time, verdict.time);
     expect(unsure || impact.time < first + SAME, "ray %llu is met at %.17g, before %.17g", n, first, impact.time);
-    counts->flat += pir_polytope_dimension(room->piece[impact.body][impact.piece]) == 2;
+    counts->flat += pir_polytope_dimension(room->piece[impact.body][impact.piece_q]) == 2;
 }
 
 static void rays_meet_what_the_oracle_says_first(void **state) {

@@ -72,10 +72,10 @@ static void add_bodies(struct life *life, test_random *random) {
 /* What the queries of a scene say of a shape that the others use too. */
 static uint64_t ask_scene(struct life *life, uint32_t frame) {
     pir_scene_shape shape = pir_scene_shape_default(life->shared->shape[frame % SHAPES]);
-    pir_scene_motion motion = {{3, 0.5, 0.25}, {0, 0, 0.5}, 0};
+    pir_motion motion = {{3, 0.5, 0.25}, {0, 0, 0.5}, 0};
     pir_scene_hit hit[BODIES];
     pir_scene_near near[8];
-    pir_scene_impact ray, cast, impact;
+    pir_impact ray, cast, impact;
     size_t hits = 0, nearest = 0, closest = 0;
     uint64_t hash = TEST_HASH_START;
     shape.pose.translation = (pir_vec3){-1.5, 0.25 * frame, 0};

@@ -228,7 +228,7 @@ void solid_check_volume(const pir_solid *solid, const mpq_t right, uint64_t numb
     assert_int_equal(pir_solid_volume_exact(solid, volume), PIR_OK);
     expect(mpq_equal(volume, right), "case %llu: the volume is %g, not %g", (unsigned long long)number,
            mpq_get_d(volume), mpq_get_d(right));
-    assert_int_equal(pir_solid_decompose(solid, NULL, &pieces), PIR_OK);
+    assert_int_equal(pir_solid_decompose(solid, NULL, NULL, &pieces), PIR_OK);
     pieces_volume(pieces, volume);
     expect(mpq_equal(volume, right), "case %llu: pieces have the volume %g, not %g", (unsigned long long)number,
            mpq_get_d(volume), mpq_get_d(right));

@@ -137,11 +137,11 @@ static void fewer_pieces_contain_the_solid_within_their_error(void **state) {
         pir_decompose_options options = pir_decompose_options_default();
         pir_decompose_info info;
         options.method = PIR_DECOMPOSE_FACETS;
-        assert_int_equal(pir_solid_decompose_with(solid, &options, &info, &pieces), PIR_OK);
+        assert_int_equal(pir_solid_decompose(solid, &options, &info, &pieces), PIR_OK);
         expect(info.error == 0 && info.exact_pieces == pir_pieces_count(pieces), "case %llu", (unsigned long long)i);
         options.tolerance = i % 2 ? 0.1 * (1 + test_random_below(&random, 10)) : 0;
         options.pieces = i % 2 ? 0 : 1 + test_random_below(&random, 3);
-        assert_int_equal(pir_solid_decompose_with(solid, &options, &info, &fewer), PIR_OK);
+        assert_int_equal(pir_solid_decompose(solid, &options, &info, &fewer), PIR_OK);
         expect(info.exact_pieces == pir_pieces_count(pieces) && pir_pieces_count(fewer) <= info.exact_pieces,
                "case %llu", (unsigned long long)i);
         expect(i % 2 ? info.error <= options.tolerance : pir_pieces_count(fewer) <= options.pieces,
@@ -182,7 +182,7 @@ static void expect_hull_of_an_l(double scale) {
     pir_decompose_info info;
     assert_int_equal(status, PIR_OK);
     options.pieces = 1;
-    assert_int_equal(pir_solid_decompose_with(solid, &options, &info, &pieces), PIR_OK);
+    assert_int_equal(pir_solid_decompose(solid, &options, &info, &pieces), PIR_OK);
     assert_int_equal(pir_pieces_count(pieces), 1);
     assert_int_equal(info.exact_pieces, 2);
     expect(info.error >= scale && info.error <= fmax(1.000001 * scale, scale + 0x1p-1073), "%g at %g", info.error,
@@ -190,7 +190,7 @@ static void expect_hull_of_an_l(double scale) {
     pir_pieces_destroy(pieces);
     options.pieces = 0;
     options.tolerance = 0.99 * scale;
-    assert_int_equal(pir_solid_decompose_with(solid, &options, &info, &pieces), PIR_OK);
+    assert_int_equal(pir_solid_decompose(solid, &options, &info, &pieces), PIR_OK);
     expect(pir_pieces_count(pieces) == 2 && info.error == 0, "%u pieces at %g", pir_pieces_count(pieces), scale);
     pir_pieces_destroy(pieces);
     pir_solid_release(solid);
@@ -209,15 +209,15 @@ static void bad_options_are_refused(void **state) {
     pir_solid *solid = l_of(NULL, 1, &status);
     pir_pieces *pieces = NULL;
     pir_decompose_options options = pir_decompose_options_default();
-    assert_int_equal(pir_solid_decompose_with(NULL, &options, NULL, &pieces), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_solid_decompose_with(solid, &options, NULL, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_decompose(NULL, &options, NULL, &pieces), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_decompose(solid, &options, NULL, NULL), PIR_ERR_ARGUMENT);
     options.tolerance = -1;
-    assert_int_equal(pir_solid_decompose_with(solid, &options, NULL, &pieces), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_decompose(solid, &options, NULL, &pieces), PIR_ERR_ARGUMENT);
     options.tolerance = NAN;
-    assert_int_equal(pir_solid_decompose_with(solid, &options, NULL, &pieces), PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_solid_decompose(solid, &options, NULL, &pieces), PIR_ERR_NOT_FINITE);
     options.tolerance = 0;
     options.method = (pir_decompose_method)7;
-    assert_int_equal(pir_solid_decompose_with(solid, &options, NULL, &pieces), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_decompose(solid, &options, NULL, &pieces), PIR_ERR_ARGUMENT);
     assert_null(pieces);
     pir_solid_release(solid);
 }
@@ -234,7 +234,7 @@ static void every_failing_request_is_survived(void **state) {
         options.pieces = 1;
         pir_solid *solid = l_of(&options.solid, 1, &status);
         if (status == PIR_OK)
-            status = pir_solid_decompose_with(solid, &options, NULL, &pieces);
+            status = pir_solid_decompose(solid, &options, NULL, &pieces);
         done = status == PIR_OK;
         expect(done || status == PIR_ERR_MEMORY, "request %llu: status %d", (unsigned long long)fail_at, (int)status);
         pir_pieces_destroy(pieces);

@@ -209,12 +209,14 @@ static void every_failing_request_and_a_low_limit_are_survived(void **state) {
         pir_solid_sum_options options = pir_solid_sum_options_default();
         options.solid.allocator = &allocator;
         options.open = true;
+        pir_decompose_options decompose = pir_decompose_options_default();
+        decompose.solid.allocator = &allocator;
         pir_solid *solid = NULL;
         pir_pieces *pieces = NULL;
         pir_mesh *mesh = NULL;
         pir_status status = solid_make(&facets, &options.solid, NULL, &solid);
         if (status == PIR_OK)
-            status = pir_solid_decompose(solid, &options.solid, &pieces);
+            status = pir_solid_decompose(solid, &decompose, NULL, &pieces);
         if (status == PIR_OK)
             status = pir_solid_sum(solid, solid, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh);
         done = status == PIR_OK;

@@ -32,7 +32,7 @@ static pir_solid *sum_of(const pir_solid *p, const pir_solid *q, pir_quat turn, 
     mesh_volume(mesh, within);
     assert_int_equal(pir_solid_volume_exact(solid, volume), PIR_OK);
     expect(mpq_equal(within, volume), "the volume is %g, not %g", mpq_get_d(volume), mpq_get_d(within));
-    assert_int_equal(pir_solid_decompose(solid, NULL, &pieces), PIR_OK);
+    assert_int_equal(pir_solid_decompose(solid, NULL, NULL, &pieces), PIR_OK);
     pieces_volume(pieces, volume);
     pir_pieces_destroy(pieces);
     expect(mpq_equal(within, volume), "pieces have the volume %g, not %g", mpq_get_d(volume), mpq_get_d(within));

@@ -182,7 +182,7 @@ static void limit_is_told_with_its_value_and_the_place(void **state) {
            "%s", report.text);
     assert_null(mesh);
     decompose.solid.memory = 20000;
-    assert_int_equal(pir_solid_decompose_with(p, &decompose, NULL, &pieces), PIR_ERR_LIMIT);
+    assert_int_equal(pir_solid_decompose(p, &decompose, NULL, &pieces), PIR_ERR_LIMIT);
     expect(strstr(report.text, "limit of 20000 bytes"), "%s", report.text);
     pir_solid_release(p);
 }

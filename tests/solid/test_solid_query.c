@@ -26,8 +26,8 @@ enum { PLACES = 200 };
 static pir_solid_query *query_of(const pir_solid *p, const pir_solid *q) {
     pir_pieces *of_p = NULL, *of_q = NULL;
     pir_solid_query *query = NULL;
-    assert_int_equal(pir_solid_decompose(p, NULL, &of_p), PIR_OK);
-    assert_int_equal(pir_solid_decompose(q, NULL, &of_q), PIR_OK);
+    assert_int_equal(pir_solid_decompose(p, NULL, NULL, &of_p), PIR_OK);
+    assert_int_equal(pir_solid_decompose(q, NULL, NULL, &of_q), PIR_OK);
     assert_int_equal(pir_solid_query_create(of_p, of_q, NULL, &query), PIR_OK);
     pir_pieces_destroy(of_q);
     pir_pieces_destroy(of_p);
@@ -264,13 +264,13 @@ static void impacts_are_the_first(void **state) {
         pir_pair_input input = pir_pair_input_default();
         const pir_vec3 from = test_random_direction(&random), axis = test_random_direction(&random);
         const double speed = test_random_between(&random, 2, 12), turn = i % 2 ? test_random_unit(&random) * 3 : 0;
-        const pir_solid_motion motion = {
-            {-speed * from.x, -speed * from.y, -speed * from.z}, {turn * axis.x, turn * axis.y, turn * axis.z}, 1e-6};
-        pir_solid_impact impact;
+        const pir_motion motion = {
+            {-speed * from.x, -speed * from.y, -speed * from.z}, {turn * axis.x, turn * axis.y, turn * axis.z}, 0};
+        pir_impact impact;
         pir_solid_distance distance;
         input.pose_p = (pir_pose){{axis.y, axis.z, axis.x, 1}, {5 * from.x, 5 * from.y, 5 * from.z}};
         input.pose_q.translation = (pir_vec3){0.25, 0, 0.5};
-        assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, &impact), PIR_OK);
+        assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, 1e-6, &impact), PIR_OK);
         const pir_pose start = input.pose_p;
         const double end = impact.time;
         for (int k = 0; k <= 50; k++) {
@@ -299,16 +299,16 @@ static void a_cast_that_begins_inside_has_the_normal_of_its_depth(void **state) 
     pir_solid *p = solid_of_cells(&cube);
     pir_solid_query *query = query_of(p, p);
     pir_pair_input input = pir_pair_input_default();
-    const pir_solid_motion motion = {{1, 0, 0}, {0, 0, 1}, 1e-6};
-    pir_solid_impact impact;
+    const pir_motion motion = {{1, 0, 0}, {0, 0, 1}, 0};
+    pir_impact impact;
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
     input.pose_p.translation = (pir_vec3){0.125, 0.25, 0.75};
-    assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, &impact), PIR_OK);
+    assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, 1e-6, &impact), PIR_OK);
     assert_true(impact.outcome == PIR_CAST_START_INSIDE && impact.time == 0);
     assert_true(impact.normal.x == 0 && impact.normal.y == 0 && impact.normal.z == 1);
     // one that spins over it, and never nears it, is no hit
     input.pose_p.translation = (pir_vec3){0, 0, 1 + 1e-5};
-    assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, &impact), PIR_OK);
+    assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, 1e-6, &impact), PIR_OK);
     assert_true(impact.outcome == PIR_CAST_MISS && impact.time == 1);
     pir_solid_query_destroy(query);
     pir_solid_release(p);
@@ -361,7 +361,7 @@ static void placements_that_are_none_are_refused_as_by_pairs(void **state) {
     (void)state;
     const cells cube = {.full = {{{true}}}};
     const double bad[] = {NAN, HUGE_VAL, 0, -1};
-    const pir_solid_motion motion = {{1, 0, 0}, {0, 0, 0}, 1e-6};
+    const pir_motion motion = {{1, 0, 0}, {0, 0, 0}, 0};
     pir_workspace *workspace = NULL;
     pir_polytope *box = NULL;
     pir_pair *pair = NULL;
@@ -377,7 +377,7 @@ static void placements_that_are_none_are_refused_as_by_pairs(void **state) {
             pir_query_result answer;
             pir_state found;
             pir_solid_distance distance;
-            pir_solid_impact impact;
+            pir_impact impact;
             input.pose_p.translation.x = 4;
             double *const numbers[6] = {&input.pose_p.translation.y,
                                         &input.pose_q.translation.z,
@@ -389,7 +389,7 @@ static void placements_that_are_none_are_refused_as_by_pairs(void **state) {
             const pir_status status = pir_pair_distance(pair, workspace, &input, &answer);
             assert_int_equal(pir_solid_query_distance(query, workspace, &input, &distance), status);
             assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), status);
-            assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, &impact), status);
+            assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, 1e-6, &impact), status);
             refused += status != PIR_OK;
         }
     // all but the numbers that a translation may be, a quaternion of one sign or the other, and no radius

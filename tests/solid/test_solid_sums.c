@@ -154,7 +154,7 @@ static void volumes_of_pieces_add_up(void **state) {
         pir_solid_describe(solid, &info);
         pir_decompose_options options = pir_decompose_options_default();
         options.method = (pir_decompose_method)(i / 2 % 3);
-        assert_int_equal(pir_solid_decompose_with(solid, &options, NULL, &pieces), PIR_OK);
+        assert_int_equal(pir_solid_decompose(solid, &options, NULL, &pieces), PIR_OK);
         pieces_volume(pieces, sum);
         assert_int_equal(pir_solid_volume_exact(solid, volume), PIR_OK);
         expect(mpq_equal(sum, volume), "case %llu: the pieces hold %g of %g", (unsigned long long)i, mpq_get_d(sum),

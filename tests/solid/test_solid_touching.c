@@ -127,8 +127,8 @@ static void check_states(const pir_solid *solid, const grid *of, uint64_t number
     pir_pieces *of_solid = NULL, *of_cube = NULL;
     pir_solid_query *query = NULL;
     pir_workspace *workspace = NULL;
-    assert_int_equal(pir_solid_decompose(solid, NULL, &of_solid), PIR_OK);
-    assert_int_equal(pir_solid_decompose(cube, NULL, &of_cube), PIR_OK);
+    assert_int_equal(pir_solid_decompose(solid, NULL, NULL, &of_solid), PIR_OK);
+    assert_int_equal(pir_solid_decompose(cube, NULL, NULL, &of_cube), PIR_OK);
     assert_int_equal(pir_solid_query_create(of_cube, of_solid, NULL, &query), PIR_OK);
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
     for (int i = 0; i < GRID * GRID * GRID; i++) {

@@ -45,7 +45,7 @@ static void expect_told(const char *page, const char *format, ...) {
 static uint32_t pieces_by(const pir_solid *solid, const pir_decompose_options *options, double *ret_error) {
     pir_pieces *pieces = NULL;
     pir_decompose_info info;
-    assert_int_equal(pir_solid_decompose_with(solid, options, &info, &pieces), PIR_OK);
+    assert_int_equal(pir_solid_decompose(solid, options, &info, &pieces), PIR_OK);
     uint32_t count = pir_pieces_count(pieces);
     *ret_error = info.error;
     pir_pieces_destroy(pieces);

@@ -300,8 +300,8 @@ bool union_volume(const pir_solid *p, const pir_solid *q, pir_quat turn, uint32_
     pir_pieces *pieces[2] = {NULL, NULL};
     struct bodies *pairs = calloc(1, sizeof *pairs);
     assert_non_null(pairs);
-    assert_int_equal(pir_solid_decompose(p, NULL, &pieces[0]), PIR_OK);
-    assert_int_equal(pir_solid_decompose(q, NULL, &pieces[1]), PIR_OK);
+    assert_int_equal(pir_solid_decompose(p, NULL, NULL, &pieces[0]), PIR_OK);
+    assert_int_equal(pir_solid_decompose(q, NULL, NULL, &pieces[1]), PIR_OK);
     bool done = pir_pieces_count(pieces[0]) * pir_pieces_count(pieces[1]) <= most;
     mpq_set_ui(ret_volume, 0, 1);
     if (done)

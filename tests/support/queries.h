@@ -20,7 +20,7 @@ typedef struct test_question {
 /* The results of all calls. Each fills its own. */
 typedef struct test_answer {
     pir_query_result result;
-    pir_cast_result cast;
+    pir_impact cast;
     pir_escape escapes[4];
     size_t count;
 } test_answer;

@@ -22,7 +22,7 @@ bool slices_open(struct slices *slices, const char *path, uint64_t every, uint64
 }
 
 void slices_close(struct slices *slices) {
-    pir_cspace_close(slices->file);
+    pir_cspace_destroy(slices->file);
     slices->file = NULL;
 }
 

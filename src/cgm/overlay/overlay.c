@@ -98,7 +98,7 @@ pir_status pir_cgm_overlay(const pir_cgm *a, const pir_cgm *b, pir_cgm **ret_cgm
         overlay.result->by_exact = overlay.sides.by_exact;
         *ret_cgm = overlay.result;
     } else {
-        pir_cgm_destroy(overlay.result);
+        pir_cgm_release(overlay.result);
     }
     pir_overlay_finish(&overlay);
     return done ? PIR_OK : PIR_ERR_MEMORY;

@@ -81,7 +81,7 @@ static void forget_pair(pir_cspace *cspace) {
     cursor->has_replay = cursor->has_slice = false;
 }
 
-void pir_cspace_close(pir_cspace *cspace) {
+void pir_cspace_destroy(pir_cspace *cspace) {
     if (!cspace)
         return;
     const pir_allocator a = cspace->allocator;
@@ -113,7 +113,7 @@ pir_status pir_cspace_open(const char *path, const pir_allocator *allocator, pir
     if (status == PIR_OK)
         status = begin(cspace, report);
     if (status != PIR_OK) {
-        pir_cspace_close(cspace);
+        pir_cspace_destroy(cspace);
         return status;
     }
     *ret_cspace = cspace;

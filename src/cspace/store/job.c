@@ -122,7 +122,7 @@ pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid
     if (!path || !*path || !ret_job)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the job");
     if (!PIR_HAVE_HDF5)
-        return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: this build has no HDF5", path);
+        return pir_fail(report, PIR_ERR_NOT_BUILT, "%s: this build has no HDF5", path);
     pir_cspace_options used = options ? *options : pir_cspace_options_default();
     if (used.threads == 0 || used.threads > THREADS_MOST)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: threads must be 1 to %u", THREADS_MOST);

@@ -27,7 +27,7 @@ bool pir_unit_pack(pir_unit *unit, pir_packer *packer, const pir_allocator *allo
 }
 
 pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
-    return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: this build has no HDF5", parts->file);
+    return pir_fail(report, PIR_ERR_NOT_BUILT, "%s: this build has no HDF5", parts->file);
 }
 
 bool pir_assembled(const pir_parts *parts) {
@@ -38,7 +38,7 @@ bool pir_assembled(const pir_parts *parts) {
 pir_status pir_store_open(const char *path, const pir_allocator *allocator, pir_report *report, pir_store **ret_store) {
     (void)allocator;
     (void)ret_store;
-    return pir_fail(report, PIR_ERR_UNSUPPORTED, "%s: this build has no HDF5", path);
+    return pir_fail(report, PIR_ERR_NOT_BUILT, "%s: this build has no HDF5", path);
 }
 
 void pir_store_close(pir_store *store) {
@@ -61,7 +61,7 @@ pir_status pir_store_rotations(pir_store *store, uint64_t first, size_t count, p
     (void)first;
     (void)count;
     (void)ret_rotations;
-    return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
+    return pir_fail(report, PIR_ERR_NOT_BUILT, "this build has no HDF5");
 }
 
 pir_status pir_store_unit(pir_store *store, pir_unit_section section, uint64_t number, pir_report *report,
@@ -70,17 +70,17 @@ pir_status pir_store_unit(pir_store *store, pir_unit_section section, uint64_t n
     (void)section;
     (void)number;
     (void)unit;
-    return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
+    return pir_fail(report, PIR_ERR_NOT_BUILT, "this build has no HDF5");
 }
 
 pir_status pir_cspace_check(const char *path, const pir_allocator *allocator, pir_report *report) {
     (void)path;
     (void)allocator;
-    return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
+    return pir_fail(report, PIR_ERR_NOT_BUILT, "this build has no HDF5");
 }
 
 pir_status pir_cspace_seal(const char *path, const pir_allocator *allocator, pir_report *report) {
     (void)path;
     (void)allocator;
-    return pir_fail(report, PIR_ERR_UNSUPPORTED, "this build has no HDF5");
+    return pir_fail(report, PIR_ERR_NOT_BUILT, "this build has no HDF5");
 }

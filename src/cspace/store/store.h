@@ -13,7 +13,7 @@
 
 typedef struct pir_store pir_store;
 
-/* Errors: PIR_ERR_FILE, PIR_ERR_FORMAT, PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_UNSUPPORTED (version, no HDF5). */
+/* Errors: PIR_ERR_FILE, PIR_ERR_FORMAT, PIR_ERR_LIMIT, PIR_ERR_MEMORY, PIR_ERR_VERSION, PIR_ERR_NOT_BUILT (no HDF5). */
 pir_status pir_store_open(const char *path, const pir_allocator *allocator, pir_report *report, pir_store **ret_store);
 
 /* NULL is accepted. */

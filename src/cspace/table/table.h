@@ -28,7 +28,7 @@ typedef struct pir_table {
 } pir_table;
 
 /* Reads a table from the bytes of a file. The table is to be finished whatever the outcome. PIR_ERR_EMPTY (no rows),
-   PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT, PIR_ERR_UNSUPPORTED, PIR_ERR_MEMORY. */
+   PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE, PIR_ERR_LIMIT, PIR_ERR_VERSION, PIR_ERR_MEMORY. */
 typedef struct pir_table_source {
     const char *data;
     size_t size;

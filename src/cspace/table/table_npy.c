@@ -84,14 +84,14 @@ static pir_status read_type(struct header_scan *scan, struct header *header) {
     header->has_type = true;
     header->big = pass_string(scan, ">f8");
     if (!header->big && !pass_string(scan, "<f8"))
-        return fail(scan->table, PIR_ERR_UNSUPPORTED, "descr is not '<f8' or '>f8', the numbers are no float64");
+        return fail(scan->table, PIR_ERR_FORMAT, "descr is not '<f8' or '>f8', the numbers are no float64");
     return PIR_OK;
 }
 
 static pir_status read_order(struct header_scan *scan, struct header *header) {
     header->has_order = true;
     if (!pass_text(scan, "False"))
-        return fail(scan->table, PIR_ERR_UNSUPPORTED, "fortran_order is not False, the array is not stored by rows");
+        return fail(scan->table, PIR_ERR_FORMAT, "fortran_order is not False, the array is not stored by rows");
     return PIR_OK;
 }
 
@@ -166,7 +166,7 @@ pir_status pir_table_read_npy(const char *data, size_t size, const pir_allocator
         return fail(table, PIR_ERR_FORMAT, "the file ends in it");
     const unsigned version = (unsigned char)data[MAGIC_SIZE];
     if (version < 1 || version > 3)
-        return pir_fail(table->report, PIR_ERR_UNSUPPORTED, "%s: npy version %u, not 1 to 3", table->name, version);
+        return pir_fail(table->report, PIR_ERR_VERSION, "%s: npy version %u, not 1 to 3", table->name, version);
     // a length of two bytes in version 1, of four later
     const size_t width = version == 1 ? 2 : 4, from = MAGIC_SIZE + 2 + width;
     if (size < from || pir_bytes_unsigned(data + MAGIC_SIZE + 2, width, false) > size - from)

@@ -155,7 +155,7 @@ static pir_status get_header(pir_source *from, uint64_t *ret_length, uint64_t *r
     from->at = 8;
     uint32_t version = pir_source_u32(from);
     if (version != PIR_SUM_VERSION)
-        return pir_fail(from->report, PIR_ERR_UNSUPPORTED, "sum: header: version %u, this library reads version %u",
+        return pir_fail(from->report, PIR_ERR_VERSION, "sum: header: version %u, this library reads version %u",
                         (unsigned)version, PIR_SUM_VERSION);
     uint32_t flags = pir_source_u32(from);
     if (flags & ~(PIR_SUM_REGION | PIR_SUM_DIFFERENCE))

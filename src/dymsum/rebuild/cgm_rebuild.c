@@ -213,7 +213,7 @@ pir_status pir_cgm_rebuild(pir_tracked *tracked, pir_cgm **map_q) {
         pairing->signs.by_exact += overlay->by_exact + map->by_exact;
         pir_tracked_expire_all(tracked);
     }
-    pir_cgm_destroy(overlay);
-    pir_cgm_destroy(map);
+    pir_cgm_release(overlay);
+    pir_cgm_release(map);
     return status;
 }

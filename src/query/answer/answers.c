@@ -246,7 +246,7 @@ static pir_status answer(pir_query *query, const pir_query_input *input, int wan
     // separation and rounded bodies need the whole sum
     bool in_region = pir_sum_cone(query->sum)->set;
     if (in_region && (want != PIR_WANT_DEPTH || input->radius_p + input->radius_q > 0))
-        return PIR_ERR_UNSUPPORTED;
+        return PIR_ERR_REGION;
     if (in_region && (status = pir_query_need_regional(query)) != PIR_OK)
         return status;
     // nothing fails from here on

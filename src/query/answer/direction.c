@@ -3,7 +3,7 @@
  * Queries along a line: the directional depth and distance, and the linear cast. decide/line.h has where lines cross
  * facets.
  */
-#include "query/answer/follow.h"
+#include "query/answer/along.h"
 #include "query/decide/flat.h"
 #include "query/decide/placed.h"
 #include "query/depth/depth.h"
@@ -60,6 +60,37 @@ static void exit_region(pir_query *query, const pir_line *line, pir_query_result
     set_arrival(query, &arrival, -1, result);
 }
 
+void pir_query_depth_along(pir_query *query, const pir_line *line, pir_query_result *result) {
+    pir_piece separating;
+    pir_least touching;
+    result->state = pir_state_find(&query->search, line->placement, NULL, &separating, &touching, &result->steps);
+    result->outcome = PIR_NO_HIT;
+    if (result->state != PIR_INSIDE)
+        return;
+    pir_clip clip = clip_line(query, line, &result->steps);
+    pir_arrival arrival;
+    // D is bounded and x inside, so the line leaves D through a facet, and on it
+    bool leaves = clip.leave.some && pir_line_arrive(&query->exact, line, &clip.leave.facet, &arrival);
+    result->outcome = leaves ? PIR_OVERLAPPING : PIR_STEP_LIMIT;
+    if (leaves)
+        set_arrival(query, &arrival, -1, result);
+}
+
+void pir_query_distance_along(pir_query *query, const pir_line *line, pir_query_result *result) {
+    pir_piece separating;
+    pir_least touching;
+    pir_arrival arrival;
+    result->state = pir_state_find(&query->search, line->placement, NULL, &separating, &touching, &result->steps);
+    result->outcome = result->state == PIR_INSIDE ? PIR_OVERLAPPING : PIR_TOUCHING;
+    if (result->state != PIR_OUTSIDE)
+        return;
+    result->outcome = PIR_NO_HIT;
+    if (first_touch(query, line, &arrival, &result->steps)) {
+        result->outcome = PIR_SEPARATED;
+        set_arrival(query, &arrival, 1, result);
+    }
+}
+
 pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *input, pir_vec3 direction,
                                        pir_query_result *ret_result) {
     pir_placement placement;
@@ -69,30 +100,16 @@ pir_status pir_query_directional_depth(pir_query *query, const pir_query_input *
     pir_status status = pir_query_place(query, input, &placement);
     if (status == PIR_OK)
         status = pir_line_make(&placement, direction, &line);
+    bool in_region = status == PIR_OK && pir_sum_cone(query->sum)->set;
+    if (in_region)
+        status = pir_query_need_regional(query);
     if (status != PIR_OK)
         return status;
     pir_query_result result = {0};
-    if (pir_sum_cone(query->sum)->set) {
-        status = pir_query_need_regional(query);
-        if (status != PIR_OK)
-            return status;
+    if (in_region)
         exit_region(query, &line, &result);
-        *ret_result = result;
-        return PIR_OK;
-    }
-    pir_piece separating;
-    pir_least touching;
-    result.state = pir_state_find(&query->search, &placement, NULL, &separating, &touching, &result.steps);
-    result.outcome = PIR_NO_HIT;
-    if (result.state == PIR_INSIDE) {
-        pir_clip clip = clip_line(query, &line, &result.steps);
-        pir_arrival arrival;
-        // D is bounded and x inside, so the line leaves D through a facet, and on it
-        bool leaves = clip.leave.some && pir_line_arrive(&query->exact, &line, &clip.leave.facet, &arrival);
-        result.outcome = leaves ? PIR_OVERLAPPING : PIR_STEP_LIMIT;
-        if (leaves)
-            set_arrival(query, &arrival, -1, &result);
-    }
+    else
+        pir_query_depth_along(query, &line, &result);
     *ret_result = result;
     return PIR_OK;
 }
@@ -109,18 +126,7 @@ pir_status pir_query_directional_distance(pir_query *query, const pir_query_inpu
     if (status != PIR_OK)
         return status;
     pir_query_result result = {0};
-    pir_piece separating;
-    pir_least touching;
-    result.state = pir_state_find(&query->search, &placement, NULL, &separating, &touching, &result.steps);
-    result.outcome = result.state == PIR_INSIDE ? PIR_OVERLAPPING : PIR_TOUCHING;
-    if (result.state == PIR_OUTSIDE) {
-        pir_arrival arrival;
-        result.outcome = PIR_NO_HIT;
-        if (first_touch(query, &line, &arrival, &result.steps)) {
-            result.outcome = PIR_SEPARATED;
-            set_arrival(query, &arrival, 1, &result);
-        }
-    }
+    pir_query_distance_along(query, &line, &result);
     *ret_result = result;
     return PIR_OK;
 }
@@ -159,7 +165,7 @@ static bool moves_in(pir_query *query, const pir_line *line, pir_facet *ret_face
     return some;
 }
 
-static void cast_from_outside(pir_query *query, const pir_line *line, pir_cast_result *result) {
+static void cast_from_outside(pir_query *query, const pir_line *line, pir_impact *result) {
     pir_arrival arrival;
     result->outcome = PIR_CAST_MISS;
     result->time = 1;
@@ -172,40 +178,45 @@ static void cast_from_outside(pir_query *query, const pir_line *line, pir_cast_r
     result->witness = arrival.touch.witness;
 }
 
-pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 motion,
-                          pir_cast_result *ret_result) {
+void pir_query_cast_along(pir_query *query, const pir_line *line, bool moves, const pir_query_result *start,
+                          pir_impact *impact) {
+    pir_facet facet;
+    impact->steps = start->steps;
+    impact->normal = start->normal;
+    impact->point = start->point_q;
+    impact->witness = start->witness;
+    if (start->state == PIR_INSIDE) {
+        impact->outcome = PIR_CAST_START_INSIDE;
+    } else if (start->state == PIR_BOUNDARY) {
+        impact->outcome = PIR_CAST_RECEDING;
+        if (moves && moves_in(query, line, &facet)) {
+            impact->outcome = PIR_CAST_HIT;
+            impact->normal = facet.n;
+        }
+    } else if (!moves) {
+        impact->outcome = PIR_CAST_AT_REST;
+        impact->time = 1;
+    } else {
+        cast_from_outside(query, line, impact);
+    }
+}
+
+pir_status pir_query_cast(pir_query *query, const pir_query_input *input, pir_vec3 way, pir_impact *ret_impact) {
     pir_placement placement;
     pir_line line;
-    if (!ret_result)
+    if (!ret_impact)
         return PIR_ERR_ARGUMENT;
-    pir_status status = pir_query_begin(query, input, &placement), moving = pir_line_make(&placement, motion, &line);
-    if (status == PIR_OK && moving == PIR_ERR_NOT_FINITE)
+    pir_status status = pir_query_begin(query, input, &placement);
+    const pir_status moving = status == PIR_OK ? pir_line_make(&placement, way, &line) : status;
+    if (moving == PIR_ERR_NOT_FINITE)
         status = moving;
     pir_query_result start;
     if (status == PIR_OK)
         status = pir_query_signed_distance(query, input, NULL, &start);
     if (status != PIR_OK)
         return status;
-    pir_cast_result result = {0};
-    result.steps = start.steps;
-    result.normal = start.normal;
-    result.point = start.point_q;
-    result.witness = start.witness;
-    pir_facet facet;
-    if (start.state == PIR_INSIDE) {
-        result.outcome = PIR_CAST_START_INSIDE;
-    } else if (start.state == PIR_BOUNDARY) {
-        result.outcome = PIR_CAST_RECEDING;
-        if (moving == PIR_OK && moves_in(query, &line, &facet)) {
-            result.outcome = PIR_CAST_HIT;
-            result.normal = facet.n;
-        }
-    } else if (moving != PIR_OK) {
-        result.outcome = PIR_CAST_AT_REST;
-        result.time = 1;
-    } else {
-        cast_from_outside(query, &line, &result);
-    }
-    *ret_result = result;
+    pir_impact impact = {0};
+    pir_query_cast_along(query, &line, moving == PIR_OK, &start, &impact);
+    *ret_impact = impact;
     return PIR_OK;
 }

@@ -3,7 +3,7 @@
  * Every way out of an overlap: the true facets of D whose slack exceeds the least by at most a given length, in the
  * order of ties.
  */
-#include "query/answer/follow.h"
+#include "query/answer/extent.h"
 
 /*
  * Facets that exceed the limit by less than this, relative to the placement's reach, are in. So facets that tie are
@@ -30,6 +30,27 @@ static pir_least next_within(pir_query *query, const pir_placement *placement, d
     return next;
 }
 
+size_t pir_query_ways_out(pir_query *query, const pir_placement *placement, const pir_escapes_ask *ask,
+                          pir_escape *ret_escapes) {
+    if (ask->least->outcome != PIR_OVERLAPPING || -ask->least->distance < ask->radii)
+        return 0;
+    size_t count = 0;
+    double limit = pir_frame_from(&query->frame, -ask->least->distance - ask->radii + ask->slack);
+    limit += WITHIN * placement->reach;
+    for (uint32_t g = 0; g < query->search.groups.count; g++)
+        pir_group_make(&query->search.groups, g);
+    pir_facet last;
+    for (pir_least next = next_within(query, placement, limit, NULL); next.some;
+         next = next_within(query, placement, limit, &last), count++) {
+        last = next.facet;
+        if (count < ask->capacity)
+            ret_escapes[count] = (pir_escape){
+                pir_frame_length(&query->frame, pir_facet_slack(&query->exact, placement, &last)) + ask->radii, last.n,
+                last.faces};
+    }
+    return count;
+}
+
 pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, double slack, size_t capacity,
                              pir_escape *ret_escapes, size_t *ret_count) {
     pir_placement placement;
@@ -41,22 +62,7 @@ pir_status pir_query_escapes(pir_query *query, const pir_query_input *input, dou
         status = pir_query_begin(query, input, &placement);
     if (status != PIR_OK)
         return status;
-    size_t count = 0;
-    double radii = input->radius_p + input->radius_q;
-    if (least.outcome == PIR_OVERLAPPING && -least.distance >= radii) {
-        double limit = pir_frame_from(&query->frame, -least.distance - radii + slack) + WITHIN * placement.reach;
-        for (uint32_t g = 0; g < query->search.groups.count; g++)
-            pir_group_make(&query->search.groups, g);
-        pir_facet last;
-        for (pir_least next = next_within(query, &placement, limit, NULL); next.some;
-             next = next_within(query, &placement, limit, &last), count++) {
-            last = next.facet;
-            if (count < capacity)
-                ret_escapes[count] = (pir_escape){
-                    pir_frame_length(&query->frame, pir_facet_slack(&query->exact, &placement, &last)) + radii, last.n,
-                    last.faces};
-        }
-    }
-    *ret_count = count;
+    const pir_escapes_ask ask = {&least, input->radius_p + input->radius_q, slack, capacity};
+    *ret_count = pir_query_ways_out(query, &placement, &ask, ret_escapes);
     return PIR_OK;
 }

@@ -3,7 +3,7 @@
  * The largest distance: from x to the farthest vertex of D. Every vertex of D is a corner of a piece of the pairing,
  * so the corners of pieces are compared, not all pairs of vertices.
  */
-#include "query/answer/follow.h"
+#include "query/answer/extent.h"
 #include "query/depth/depth.h"
 
 struct farthest {
@@ -38,30 +38,32 @@ static struct farthest find_farthest(const pir_query *query, pir_vec3 x) {
     return best;
 }
 
-pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *input, pir_query_result *ret_result) {
-    pir_placement placement;
-    if (!ret_result)
-        return PIR_ERR_ARGUMENT;
-    pir_status status = pir_query_begin(query, input, &placement);
-    if (status != PIR_OK)
-        return status;
-    struct farthest best = find_farthest(query, placement.x);
+pir_status pir_query_farthest(pir_query *query, const pir_placement *placement, const pir_query_input *input,
+                              pir_query_result *ret_result) {
+    struct farthest best = find_farthest(query, placement->x);
     double length = sqrt(best.square);
-    pir_vec3 w = pir_vec_sub(placement.x, pir_frame_vertex(&query->frame, best.a, best.b));
+    pir_vec3 w = pir_vec_sub(placement->x, pir_frame_vertex(&query->frame, best.a, best.b));
     pir_query_result result = {
         .outcome = PIR_SEPARATED, .distance = pir_frame_length(&query->frame, length), .steps = 1};
     pir_piece separating;
     pir_least touching;
-    result.state = pir_state_find(&query->search, &placement, NULL, &separating, &touching, &result.steps);
+    result.state = pir_state_find(&query->search, placement, NULL, &separating, &touching, &result.steps);
     result.normal = length > 0 ? pir_vec_scale(w, 1 / length) : (pir_vec3){1, 0, 0};
     result.point_q = pir_frame_world(&query->frame, query->frame.q.vertex[best.b]);
     result.witness = (pir_witness){{PIR_FEATURE_VERTEX, best.a}, {PIR_FEATURE_VERTEX, best.b}};
-    double radii = input->radius_p + input->radius_q;
-    result.distance += radii;
+    result.distance += input->radius_p + input->radius_q;
     if (!isfinite(result.distance))
         return PIR_ERR_LIMIT;
     result.point_q = pir_vec_add(result.point_q, pir_vec_scale(result.normal, -input->radius_q));
     result.point_p = pir_vec_add(result.point_q, pir_vec_scale(result.normal, result.distance));
     *ret_result = result;
     return PIR_OK;
+}
+
+pir_status pir_query_largest_distance(pir_query *query, const pir_query_input *input, pir_query_result *ret_result) {
+    pir_placement placement;
+    if (!ret_result)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_query_begin(query, input, &placement);
+    return status == PIR_OK ? pir_query_farthest(query, &placement, input, ret_result) : status;
 }

@@ -226,6 +226,6 @@ pir_status pir_query_place_relative(pir_query *query, const pir_world *world, pi
 
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement) {
     if (query && pir_sum_cone(query->sum)->set)
-        return PIR_ERR_UNSUPPORTED;
+        return PIR_ERR_REGION;
     return pir_query_place(query, input, ret_placement);
 }

@@ -67,7 +67,7 @@ pir_status pir_query_place_relative(pir_query *query, const pir_world *world, pi
 /* Makes what a search in a region needs: PIR_ERR_MEMORY. */
 pir_status pir_query_need_regional(pir_query *query);
 
-/* Begins a call that needs the whole sum: PIR_ERR_UNSUPPORTED where the sum has a region. */
+/* Begins a call that needs the whole sum: PIR_ERR_REGION where the sum has a region. */
 pir_status pir_query_begin(pir_query *query, const pir_query_input *input, pir_placement *ret_placement);
 
 /* --- answers.c --- */

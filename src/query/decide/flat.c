@@ -229,7 +229,7 @@ bool pir_flat_enter(pir_exact *exact, const pir_line *line, pir_arrival *ret_arr
     int exponent;
     pir_exact_begin(exact, line->placement->translation);
     uint32_t mark = exact->scratch.used;
-    pir_int3 direction = pir_exact_vector(exact, line->direction, &exponent), n;
+    pir_int3 direction = pir_exact_direction_by_q(exact, line->direction, &exponent), n;
     struct bound enter;
     bool hit = find_entry(exact, &direction, &enter);
     if (hit) {

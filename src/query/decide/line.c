@@ -6,7 +6,7 @@
 
 /*
  * The error of a rate is at most this times the plane's err, with u = 2^-53: 64u·err of the normal, 4u of the line's
- * direction and 4u of rounding are below 72u·err, and the bound is 128u·err.
+ * direction, 24u more where Q is turned, and 4u of rounding are below 96u·err, and the bound is 128u·err.
  */
 #define RATE_BOUND 0x1p-46
 
@@ -118,7 +118,7 @@ int pir_line_rate(pir_exact *exact, const pir_line *line, pir_piece piece) {
     int exponent;
     pir_exact_begin(exact, line->placement->translation);
     uint32_t mark = exact->scratch.used;
-    pir_int3 n = pir_exact_normal(exact, piece), d = pir_exact_vector(exact, line->direction, &exponent);
+    pir_int3 n = pir_exact_normal(exact, piece), d = pir_exact_direction_by_q(exact, line->direction, &exponent);
     int sign = pir_exact_dot_sign(exact, &n, &d);
     exact->scratch.used = mark;
     return sign;
@@ -144,7 +144,7 @@ static struct exact_crossing exact_crossing_of(pir_exact *exact, const pir_line 
     struct exact_crossing crossing;
     pir_exact_begin(exact, line->placement->translation);
     crossing.mark = exact->scratch.used;
-    crossing.direction = pir_exact_vector(exact, line->direction, &crossing.exponent);
+    crossing.direction = pir_exact_direction_by_q(exact, line->direction, &crossing.exponent);
     make_integers(exact, &crossing.direction, facet, &crossing.s, &crossing.d);
     return crossing;
 }
@@ -164,7 +164,7 @@ int pir_line_compare(pir_exact *exact, const pir_line *line, const pir_facet *a,
     pir_int s[2], d[2];
     pir_exact_begin(exact, line->placement->translation);
     uint32_t mark = exact->scratch.used;
-    pir_int3 direction = pir_exact_vector(exact, line->direction, &exponent);
+    pir_int3 direction = pir_exact_direction_by_q(exact, line->direction, &exponent);
     make_integers(exact, &direction, a, &s[0], &d[0]);
     make_integers(exact, &direction, b, &s[1], &d[1]);
     pir_int left = pir_exact_product(exact, &s[0], &d[1]), right = pir_exact_product(exact, &s[1], &d[0]);

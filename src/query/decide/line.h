@@ -15,8 +15,8 @@
 
 typedef struct pir_line {
     const pir_placement *placement;
-    pir_vec3 direction; /* as the caller gave it */
-    pir_vec3 u;         /* of unit length */
+    pir_vec3 direction; /* as the caller gave it, where the translations are given */
+    pir_vec3 u;         /* of unit length, in Q's frame */
     double part;        /* `direction` has the length part·2^exponent, which no double may hold */
     int exponent;
 } pir_line;

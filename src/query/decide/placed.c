@@ -112,6 +112,17 @@ pir_int3 pir_exact_vector(pir_exact *exact, pir_vec3 v, int *ret_exponent) {
     return to;
 }
 
+pir_int3 pir_exact_direction_by_q(pir_exact *exact, pir_vec3 v, int *ret_exponent) {
+    if (!exact->world)
+        return pir_exact_vector(exact, v, ret_exponent);
+    pir_int3 to = pir_int3_take(&exact->scratch, PIR_QUAT_LIMBS + PIR_MATRIX_LIMBS + 1);
+    uint32_t mark = exact->scratch.used;
+    pir_int3 given = pir_exact_vector(exact, v, ret_exponent);
+    pir_rotation_apply_transposed(exact->world->rotation_q, &to, &given, &exact->scratch);
+    exact->scratch.used = mark;
+    return to;
+}
+
 /* --- a placement --- */
 
 static uint32_t longer(uint32_t a, uint32_t b) {
@@ -126,7 +137,8 @@ static uint32_t longer(uint32_t a, uint32_t b) {
  * - four corners and three differences of them: 21 w;
  * - the normal at their nearest point, 3·(3w + 4), with the determinants that choose it: 8w, three times;
  * - in comparisons, two slacks and the squares of two normals, each pair multiplied: 12 (n + w);
- * - along a way, a corner that is moved, 3 (n + w + PIR_QUAT_LIMBS), a side's normal, 3 (n + e), and their product.
+ * - along a way, a corner that is moved, 3 (n + w + PIR_QUAT_LIMBS), a side's normal, 3 (n + e), and their product,
+ *   each longer by a matrix where Q is turned.
  *
  * Their sum is below what is returned.
  */
@@ -142,7 +154,7 @@ uint32_t pir_exact_limbs(const pir_polytope *p, const pir_polytope *q) {
     uint32_t e = longer(PIR_MATRIX_LIMBS + p->exact_edge.stride, q->exact_edge.stride) + 2;
     uint32_t n = longer(PIR_MATRIX_LIMBS + p->exact_normal.stride + 2,
                         longer(q->exact_normal.stride, e + q->exact_edge.stride + 2));
-    return 64 * w + 24 * (n + e + PIR_QUAT_LIMBS) + 256;
+    return 64 * w + 24 * (n + e + PIR_QUAT_LIMBS) + 16 * PIR_MATRIX_LIMBS + 256;
 }
 
 bool pir_exact_reserve_limbs(pir_exact *exact, const pir_allocator *allocator, uint32_t need) {

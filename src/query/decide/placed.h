@@ -102,6 +102,9 @@ pir_int3 pir_exact_scaled(pir_exact *exact, const pir_int3 *v, const pir_int *s)
 
 /* A vector of doubles as integers on a scale of its own: v = result · 2^*ret_exponent. */
 pir_int3 pir_exact_vector(pir_exact *exact, pir_vec3 v, int *ret_exponent);
+/* A direction that is given where the translations are, in Q's frame: the same where Q is not turned, else N' times it.
+   Needs pir_exact_begin. */
+pir_int3 pir_exact_direction_by_q(pir_exact *exact, pir_vec3 v, int *ret_exponent);
 
 /* --- the side of a piece's plane: the sign of n·W for a corner of the piece --- */
 

@@ -37,7 +37,7 @@ static pir_int3 exact_corner(const struct touch *touch, uint32_t a, uint32_t b) 
         return corner;
     int exponent;
     pir_int3 n = pir_normal_integers(exact, way->normal), plane = pir_exact_corner(exact, way->a, way->b);
-    pir_int3 d = pir_exact_vector(exact, way->direction, &exponent);
+    pir_int3 d = pir_exact_direction_by_q(exact, way->direction, &exponent);
     pir_int rate = pir_exact_dot(exact, &n, &d), slack = pir_exact_dot(exact, &n, &plane);
     if (pir_int_sign(&rate) < 0) {
         pir_int_negate(&rate);

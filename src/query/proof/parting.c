@@ -104,3 +104,19 @@ double pir_part_until(const pir_parted *body, const pir_parting *plane, pir_pose
     }
     return first <= until ? time + first : HUGE_VAL;
 }
+
+/* --- motions --- */
+
+pir_status pir_motion_check(const pir_motion *motion, double tolerance) {
+    if (!pir_vec_is_finite(motion->way) || !pir_vec_is_finite(motion->turn) || isnan(tolerance) || isnan(motion->held))
+        return PIR_ERR_NOT_FINITE;
+    if (!(tolerance > 0 && tolerance < HUGE_VAL && motion->held >= 0))
+        return PIR_ERR_ARGUMENT;
+    return sqrt(pir_vec_dot(motion->turn, motion->turn)) <= MOST_TURN ? PIR_OK : PIR_ERR_LIMIT;
+}
+
+double pir_motion_near(const pir_motion *motion, double tolerance, double distance, double least) {
+    if (!(motion->held > 0) || distance > fmax(tolerance, motion->held))
+        return fmax(tolerance, least);
+    return distance > motion->held && 0.5 * distance > least ? 0.5 * distance : 0;
+}

@@ -7,6 +7,7 @@
 #ifndef PIR_QUERY_PROOF_PARTING_H
 #define PIR_QUERY_PROOF_PARTING_H
 
+#include <pirouette/motion.h>
 #include <pirouette/pose.h>
 
 #include "base/vec.h"
@@ -36,5 +37,14 @@ typedef struct pir_parting {
  */
 double pir_part_until(const pir_parted *body, const pir_parting *plane, pir_pose pose, double distance, double time,
                       double end);
+
+/* PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT for a tolerance not above 0 or `held` below 0, PIR_ERR_LIMIT for the turn. */
+pir_status pir_motion_check(const pir_motion *motion, double tolerance);
+
+/*
+ * How near a body has to come to have met another that is `distance` away at time 0; 0 where it cannot. `least` is how
+ * near that may be told.
+ */
+double pir_motion_near(const pir_motion *motion, double tolerance, double distance, double least);
 
 #endif

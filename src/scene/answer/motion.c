@@ -37,10 +37,17 @@ pir_status pir_scene_make_boxes(pir_scene *scene) {
     }
     if (!PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, pieces) ||
         !PIR_GROW(&scene->allocator, lists->replaced, lists->replaced_capacity, pieces))
-        return PIR_ERR_MEMORY;
+        return pir_fail(scene->report, PIR_ERR_MEMORY, "update: %s", pir_status_text(PIR_ERR_MEMORY));
     pir_scene_workers_begin(scene);
     pir_scene_share(scene, lists->moved_count, WORTH_MORE, make_items);
-    return pir_scene_workers_status(scene);
+    pir_status status = pir_scene_workers_status(scene);
+    if (status == PIR_OK)
+        return PIR_OK;
+    uint32_t first = UINT32_MAX;
+    for (uint32_t i = 0; i < scene->threads; i++)
+        first = scene->worker[i].failed < first ? scene->worker[i].failed : first;
+    return pir_fail(scene->report, status, "update: body %u: its pose: %s", (unsigned)lists->moved[first].body,
+                    pir_status_text(status));
 }
 
 static void put_in(pir_scene *scene, uint32_t piece, const pir_box *fat) {

@@ -26,12 +26,16 @@ static void put_move(pir_scene *scene, uint32_t body, pir_pose pose) {
 }
 
 /* A moved body, once; `moved` of a body is set to this update so that the second time is seen. */
-static pir_status take_move(pir_scene *scene, const pir_scene_move *move) {
+static pir_status take_move(pir_scene *scene, const pir_scene_move *move, size_t number) {
+    const unsigned long at = (unsigned long)number;
+    const unsigned named = move->body;
     if (!pir_bodies_has(&scene->bodies, move->body))
-        return PIR_ERR_ARGUMENT;
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: there is no body %u", at, named);
     const pir_scene_body *body = &scene->bodies.body[move->body];
-    if (body->kind == PIR_BODY_STATIC || body->moved == scene->update)
-        return PIR_ERR_ARGUMENT;
+    if (body->kind == PIR_BODY_STATIC)
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: body %u is static", at, named);
+    if (body->moved == scene->update)
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: body %u comes twice", at, named);
     put_move(scene, move->body, move->pose);
     return PIR_OK;
 }
@@ -48,13 +52,14 @@ static void take_fresh(pir_scene *scene) {
 static pir_status take_moves(pir_scene *scene, const pir_scene_move *moves, size_t count) {
     pir_scene_lists *lists = &scene->lists;
     if (count > scene->bodies.body_count)
-        return PIR_ERR_ARGUMENT;
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: more moves than the %u bodies",
+                        (unsigned)scene->bodies.body_count);
     uint32_t most = (uint32_t)count + scene->fresh_count;
     if (!PIR_GROW(&scene->allocator, lists->moved, lists->moved_capacity, most))
-        return PIR_ERR_MEMORY;
+        return pir_fail(scene->report, PIR_ERR_MEMORY, "update: %s", pir_status_text(PIR_ERR_MEMORY));
     pir_status status = PIR_OK;
     for (size_t i = 0; i < count && status == PIR_OK; i++)
-        status = take_move(scene, &moves[i]);
+        status = take_move(scene, &moves[i], i);
     if (status != PIR_OK)
         return status;
     take_fresh(scene);
@@ -86,7 +91,7 @@ pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *moves, size_
     status = answer(scene);
     if (status != PIR_OK) {
         pir_scene_move_back(scene);
-        return status;
+        return pir_fail(scene->report, status, "update: its pairs: %s", pir_status_text(status));
     }
     pir_scene_drop_pairs(scene);
     for (uint32_t i = 0; i < scene->fresh_count; i++)

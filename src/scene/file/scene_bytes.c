@@ -135,7 +135,7 @@ static pir_status read_header(const uint8_t *data, size_t size, struct snapshot 
     const uint8_t *at = data + sizeof magic;
     uint32_t version = (uint32_t)take(&at, 4);
     if (version != VERSION)
-        return pir_fail(s->report, PIR_ERR_UNSUPPORTED, "snapshot: version %u, not %u", version, VERSION);
+        return pir_fail(s->report, PIR_ERR_VERSION, "snapshot: version %u, not %u", version, VERSION);
     s->bodies = (uint32_t)take(&at, 4);
     s->contacts = (uint32_t)take(&at, 4);
     if (take(&at, 4) != 0 ||

@@ -8,15 +8,17 @@ pir_scene_shape pir_scene_shape_default(pir_polytope *polytope) {
 
 pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pir_probe *ret_probe) {
     pir_place place;
-    if (!shape->polytope || !pir_is_coarse_of(shape->coarse, shape->polytope))
-        return PIR_ERR_ARGUMENT;
+    if (!shape->polytope)
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "shape: it has no polytope");
+    if (!pir_is_coarse_of(shape->coarse, shape->polytope))
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "shape: its coarse bodies are another polytope's");
     if (isnan(shape->radius))
-        return PIR_ERR_NOT_FINITE;
+        return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "shape: its radius is not a number");
     if (!(shape->radius >= 0 && shape->radius < HUGE_VAL))
-        return PIR_ERR_ARGUMENT;
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "shape: its radius is %g, not from 0 up", shape->radius);
     pir_status status = pir_place_make(shape->pose, &place);
     if (status != PIR_OK)
-        return status;
+        return pir_fail(scene->report, status, "shape: its pose: %s", pir_status_text(status));
     pir_probe probe = {.scene = scene,
                        .extent = pir_extent_of(shape->polytope),
                        .pose = shape->pose,
@@ -25,7 +27,7 @@ pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pi
                        .mask = shape->mask,
                        .except = shape->except};
     if (!pir_place_box(&place, &probe.extent, shape->radius, &probe.box))
-        return PIR_ERR_LIMIT;
+        return pir_fail(scene->report, PIR_ERR_LIMIT, "shape: it reaches beyond 2^60");
     *ret_probe = probe;
     return PIR_OK;
 }

@@ -117,10 +117,12 @@ static double slack_of(const pir_probe *probe, const pir_scene_piece *q) {
     return PROMISE * (2 * (probe->extent.reach + q->extent.reach) + probe->radius + body->radius + far);
 }
 
-static pir_status check(double cutoff, pir_accuracy accuracy) {
+static pir_status check(const pir_scene *scene, double cutoff, pir_accuracy accuracy) {
     if (isnan(cutoff) || isnan(accuracy.length) || isnan(accuracy.part))
-        return PIR_ERR_NOT_FINITE;
-    return cutoff < 0 || accuracy.length < 0 || accuracy.part < 0 ? PIR_ERR_ARGUMENT : PIR_OK;
+        return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "distances: cutoff or accuracy is not a number");
+    if (cutoff < 0 || accuracy.length < 0 || accuracy.part < 0)
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "distances: cutoff or accuracy is below 0");
+    return PIR_OK;
 }
 
 static pir_status hold(const struct gauge *asked, struct distance_list *told) {
@@ -139,7 +141,8 @@ static pir_status hold(const struct gauge *asked, struct distance_list *told) {
         if (status == PIR_OK && !gauge.beyond)
             status = put(told, gauge.known);
         if (status != PIR_OK)
-            return status;
+            return pir_fail(scene->report, status, "distances: body %u, piece %u: %s", (unsigned)q->body,
+                            (unsigned)q->number, pir_status_text(status));
     }
     return PIR_OK;
 }
@@ -152,7 +155,7 @@ pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, d
     pir_placed placed;
     if (!scene || !shape || (!ret_distances && capacity > 0) || !ret_count)
         return PIR_ERR_ARGUMENT;
-    pir_status status = check(cutoff, accuracy);
+    pir_status status = check(scene, cutoff, accuracy);
     if (status == PIR_OK)
         status = pir_probe_of_shape(scene, shape, &probe);
     if (status != PIR_OK)

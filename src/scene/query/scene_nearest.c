@@ -79,7 +79,9 @@ static pir_status hold(const pir_probe *probe, uint32_t own_piece, struct best *
             continue;
         pir_status status = ask(probe, own_piece, piece, best);
         if (status != PIR_OK)
-            return status;
+            return pir_fail(scene->report, status, "nearest: body %u, piece %u: %s",
+                            (unsigned)scene->bodies.piece[piece].body, (unsigned)scene->bodies.piece[piece].number,
+                            pir_status_text(status));
     }
     return PIR_OK;
 }
@@ -88,8 +90,10 @@ static pir_status check(const struct best *best, const pir_scene_near *near, con
     if (!best->scene)
         return PIR_ERR_ARGUMENT;
     if (isnan(best->cutoff))
-        return PIR_ERR_NOT_FINITE;
-    return best->cutoff < 0 || best->most == 0 || !near || !count ? PIR_ERR_ARGUMENT : PIR_OK;
+        return pir_fail(best->scene->report, PIR_ERR_NOT_FINITE, "nearest: the cutoff is not a number");
+    if (best->cutoff < 0 || best->most == 0)
+        return pir_fail(best->scene->report, PIR_ERR_ARGUMENT, "nearest: none is asked for, or a cutoff below 0");
+    return near && count ? PIR_OK : PIR_ERR_ARGUMENT;
 }
 
 static void give(const struct best *best, pir_scene_near *ret_near, size_t *ret_count) {

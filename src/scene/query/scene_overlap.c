@@ -28,9 +28,11 @@ pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, siz
     if (!scene || !shape || (!ret_hits && capacity > 0) || !ret_count)
         return PIR_ERR_ARGUMENT;
     pir_status status = pir_probe_of_shape(scene, shape, &probe);
+    if (status != PIR_OK)
+        return status;
     size_t count = 0;
-    for (uint32_t leaf = status == PIR_OK ? pir_tree_first(&scene->tree, &probe.box) : PIR_TREE_NONE;
-         leaf != PIR_TREE_NONE; leaf = pir_tree_next(&scene->tree, &probe.box, leaf)) {
+    for (uint32_t leaf = pir_tree_first(&scene->tree, &probe.box); leaf != PIR_TREE_NONE;
+         leaf = pir_tree_next(&scene->tree, &probe.box, leaf)) {
         uint32_t piece = pir_tree_item(&scene->tree, leaf);
         const pir_scene_piece *p = &scene->bodies.piece[piece];
         pir_pair *pair;
@@ -44,10 +46,9 @@ pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, siz
         if (status == PIR_OK && answer.state != PIR_OUTSIDE)
             status = put(scene, (pir_scene_hit){p->body, p->number, answer.state}, capacity, count++);
         if (status != PIR_OK)
-            return status;
+            return pir_fail(scene->report, status, "overlap: body %u, piece %u: %s", (unsigned)p->body,
+                            (unsigned)p->number, pir_status_text(status));
     }
-    if (status != PIR_OK)
-        return status;
     for (size_t i = 0; i < count && i < capacity; i++)
         ret_hits[i] = scene->answers.hit[i];
     *ret_count = count;

@@ -47,7 +47,7 @@ static pir_status reserve(pir_scene *scene, const pir_polytope *p) {
 }
 
 /* The impact on a piece, where there is one. */
-static pir_status meet(const struct scene_ray *ray, uint32_t number, pir_scene_impact *impact) {
+static pir_status meet(const struct scene_ray *ray, uint32_t number, pir_impact *impact) {
     const pir_scene_piece *piece = &ray->scene->bodies.piece[number];
     const pir_scene_body *body = &ray->scene->bodies.body[piece->body];
     const pir_polytope *p = piece->extent.polytope;
@@ -61,22 +61,22 @@ static pir_status meet(const struct scene_ray *ray, uint32_t number, pir_scene_i
             return status;
         entry = pir_ray_exact(p, &ray->world, body->pose, &segment, &ray->scene->exact_room);
     }
-    *impact = (pir_scene_impact){.body = entry.hits ? piece->body : PIR_SCENE_NONE,
-                                 .piece = piece->number,
-                                 .outcome = entry.inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT,
-                                 .time = entry.time,
-                                 .normal = pir_pose_rotate(body->pose, entry.normal),
-                                 .point = pir_vec_add(ray->world.origin, pir_vec_scale(ray->world.way, entry.time))};
+    *impact = (pir_impact){.body = entry.hits ? piece->body : PIR_SCENE_NONE,
+                           .piece_q = piece->number,
+                           .outcome = entry.inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT,
+                           .time = entry.time,
+                           .normal = pir_pose_rotate(body->pose, entry.normal),
+                           .point = pir_vec_add(ray->world.origin, pir_vec_scale(ray->world.way, entry.time))};
     return PIR_OK;
 }
 
 /* Whether an impact comes before another, or there is no other. */
-static bool comes_before(const pir_scene_impact *a, const pir_scene_impact *b) {
+static bool comes_before(const pir_impact *a, const pir_impact *b) {
     if (a->body == PIR_SCENE_NONE || b->body == PIR_SCENE_NONE)
         return a->body != PIR_SCENE_NONE;
     if (a->time != b->time)
         return a->time < b->time;
-    return a->body != b->body ? a->body < b->body : a->piece < b->piece;
+    return a->body != b->body ? a->body < b->body : a->piece_q < b->piece_q;
 }
 
 /*
@@ -102,7 +102,7 @@ static bool may_meet(const struct scene_ray *ray, const pir_box *box, double to)
     return enter <= leave;
 }
 
-static pir_status search(struct scene_ray *ray, pir_scene_impact *first) {
+static pir_status search(struct scene_ray *ray, pir_impact *first) {
     const pir_tree *tree = &ray->scene->tree;
     pir_probe probe = {.scene = ray->scene, .body = PIR_SCENE_NONE, .mask = ray->mask, .except = PIR_SCENE_NONE};
     uint32_t n = tree->node ? tree->root : PIR_TREE_NONE;
@@ -115,10 +115,10 @@ static pir_status search(struct scene_ray *ray, pir_scene_impact *first) {
             continue;
         }
         if (may && pir_probe_meets(&probe, piece)) {
-            pir_scene_impact impact;
+            pir_impact impact;
             pir_status status = meet(ray, piece, &impact);
             if (status != PIR_OK)
-                return status;
+                return pir_fail(ray->scene->report, status, "ray: %s", pir_status_text(status));
             if (comes_before(&impact, first))
                 *first = impact;
         }
@@ -127,15 +127,15 @@ static pir_status search(struct scene_ray *ray, pir_scene_impact *first) {
     return PIR_OK;
 }
 
-pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32_t mask, pir_scene_impact *ret_impact) {
+pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32_t mask, pir_impact *ret_impact) {
     if (!scene || !ret_impact)
         return PIR_ERR_ARGUMENT;
     if (!pir_vec_is_finite(origin) || !pir_vec_is_finite(way))
-        return PIR_ERR_NOT_FINITE;
+        return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "ray: a coordinate is not finite");
     if (!(length(origin) <= PIR_BOX_FARTHEST && length(way) <= PIR_BOX_FARTHEST))
-        return PIR_ERR_LIMIT;
+        return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: its origin or its way is beyond 2^60");
     struct scene_ray ray = {scene, {origin, way}, mask};
-    pir_scene_impact first = {.body = PIR_SCENE_NONE, .piece = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1};
+    pir_impact first = {.body = PIR_SCENE_NONE, .piece_q = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1};
     pir_status status = search(&ray, &first);
     if (status == PIR_OK)
         *ret_impact = first;

@@ -16,13 +16,19 @@ pir_scene_options pir_scene_options_default(void) {
 }
 
 static pir_status check(const pir_scene_options *options) {
+    pir_report *report = options->report;
     if (!isfinite(options->margin))
-        return PIR_ERR_NOT_FINITE;
-    bool detail = options->detail >= PIR_SCENE_STATES && options->detail <= PIR_SCENE_MANIFOLDS;
-    if (!detail || options->margin < 0 || (options->detail == PIR_SCENE_STATES && options->margin > 0) ||
-        options->threads < 1 || options->threads > THREADS_MAX ||
-        (options->tasks && (!options->tasks->start || !options->tasks->finish)))
-        return PIR_ERR_ARGUMENT;
+        return pir_fail(report, PIR_ERR_NOT_FINITE, "scene: its margin is not finite");
+    if (!(options->detail >= PIR_SCENE_STATES && options->detail <= PIR_SCENE_MANIFOLDS))
+        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: there is no detail %d", (int)options->detail);
+    if (options->margin < 0 || (options->detail == PIR_SCENE_STATES && options->margin > 0))
+        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: a margin of %g, which is below 0 or with states alone",
+                        options->margin);
+    if (options->threads < 1 || options->threads > THREADS_MAX)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: %u threads, not 1 to %d", (unsigned)options->threads,
+                        THREADS_MAX);
+    if (options->tasks && (!options->tasks->start || !options->tasks->finish))
+        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: tasks without their two functions");
     return PIR_OK;
 }
 
@@ -53,21 +59,23 @@ pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_sc
     const pir_allocator a = pir_allocator_or_default(used.allocator);
     pir_scene *scene = used.budget == 0 || used.budget >= sizeof *scene ? PIR_ZEROED(&a, pir_scene, 1) : NULL;
     if (!scene)
-        return PIR_ERR_MEMORY;
+        return pir_fail(used.report, PIR_ERR_MEMORY, "scene: no memory for it, or a budget below it");
     pir_budget_init(&scene->budget, &a, used.budget);
     scene->budget.used = scene->budget.peak = sizeof *scene;
     scene->allocator = pir_budget_allocator(&scene->budget);
     scene->detail = used.detail;
     scene->margin = used.margin;
-    scene->approach = used.approach != 0;
+    scene->approach = used.approach;
+    scene->report = used.report;
     pir_bodies_init(&scene->bodies);
     pir_scene_pairs_init(&scene->pairs);
     status = make_workers(scene, &used);
-    if (status != PIR_OK)
+    if (status != PIR_OK) {
         pir_scene_destroy(scene);
-    else
-        *ret_scene = scene;
-    return status;
+        return pir_fail(used.report, status, "scene: its workers: %s", pir_status_text(status));
+    }
+    *ret_scene = scene;
+    return PIR_OK;
 }
 
 static void finish_lists(pir_scene_lists *lists, const pir_allocator *a) {
@@ -115,19 +123,25 @@ pir_body_options pir_body_options_default(void) {
     return (pir_body_options){.pose = pir_pose_identity(), .category = 1, .mask = UINT32_MAX};
 }
 
-static pir_status check_body(const pir_body_options *body) {
-    bool kind = body->kind >= PIR_BODY_MOVING && body->kind <= PIR_BODY_STATIC;
-    if (!kind || !body->pieces || body->piece_count == 0)
-        return PIR_ERR_ARGUMENT;
+static pir_status check_body(const pir_body_options *body, pir_report *report) {
+    if (!(body->kind >= PIR_BODY_MOVING && body->kind <= PIR_BODY_STATIC))
+        return pir_fail(report, PIR_ERR_ARGUMENT, "body: there is no kind %d", (int)body->kind);
+    if (!body->pieces || body->piece_count == 0)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "body: it has no pieces");
     if (isnan(body->radius))
-        return PIR_ERR_NOT_FINITE;
+        return pir_fail(report, PIR_ERR_NOT_FINITE, "body: its radius is not a number");
     if (!(body->radius >= 0 && body->radius < HUGE_VAL))
-        return PIR_ERR_ARGUMENT;
+        return pir_fail(report, PIR_ERR_ARGUMENT, "body: its radius is %g, not from 0 up", body->radius);
     if (body->piece_count > PIR_PIECES_MAX)
-        return PIR_ERR_LIMIT;
-    for (uint32_t i = 0; i < body->piece_count; i++)
-        if (!body->pieces[i] || !pir_is_coarse_of(body->coarse ? body->coarse[i] : NULL, body->pieces[i]))
-            return PIR_ERR_ARGUMENT;
+        return pir_fail(report, PIR_ERR_LIMIT, "body: %u pieces, more than %d", (unsigned)body->piece_count,
+                        (int)PIR_PIECES_MAX);
+    for (uint32_t i = 0; i < body->piece_count; i++) {
+        if (!body->pieces[i])
+            return pir_fail(report, PIR_ERR_ARGUMENT, "body: piece %u is NULL", (unsigned)i);
+        if (!pir_is_coarse_of(body->coarse ? body->coarse[i] : NULL, body->pieces[i]))
+            return pir_fail(report, PIR_ERR_ARGUMENT, "body: the coarse bodies of piece %u are another polytope's",
+                            (unsigned)i);
+    }
     return PIR_OK;
 }
 
@@ -161,22 +175,24 @@ pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_
     pir_place place;
     if (!scene || !body || !ret_body)
         return PIR_ERR_ARGUMENT;
-    pir_status status = check_body(body);
-    if (status == PIR_OK)
-        status = pir_place_make(body->pose, &place);
-    if (status == PIR_OK)
-        status = pir_bodies_reserve(&scene->bodies, &scene->allocator, body->piece_count);
+    pir_status status = check_body(body, scene->report);
     if (status != PIR_OK)
         return status;
+    status = pir_place_make(body->pose, &place);
+    if (status != PIR_OK)
+        return pir_fail(scene->report, status, "body: its pose: %s", pir_status_text(status));
+    status = pir_bodies_reserve(&scene->bodies, &scene->allocator, body->piece_count);
+    if (status != PIR_OK)
+        return pir_fail(scene->report, status, "body: room for it: %s", pir_status_text(status));
     pir_scene_lists *lists = &scene->lists;
     if (!pir_tree_reserve(&scene->tree, &scene->allocator, scene->tree.leaves + body->piece_count) ||
         !PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, body->piece_count) ||
         !PIR_GROW(&scene->allocator, scene->fresh, scene->fresh_capacity, scene->fresh_count + 1))
-        return PIR_ERR_MEMORY;
+        return pir_fail(scene->report, PIR_ERR_MEMORY, "body: room for it: %s", pir_status_text(PIR_ERR_MEMORY));
     for (uint32_t i = 0; i < body->piece_count; i++) {
         pir_extent extent = pir_extent_of(body->pieces[i]);
         if (!pir_place_box(&place, &extent, body->radius + 0.5 * scene->margin, &lists->box[i]))
-            return PIR_ERR_LIMIT;
+            return pir_fail(scene->report, PIR_ERR_LIMIT, "body: piece %u reaches beyond 2^60", (unsigned)i);
     }
     uint32_t added = pir_bodies_add(&scene->bodies, body, &place);
     put_leaves(scene, added);
@@ -196,8 +212,10 @@ static void drop_pairs(pir_scene *scene, uint32_t piece) {
 }
 
 pir_status pir_scene_remove(pir_scene *scene, uint32_t body) {
-    if (!scene || !pir_bodies_has(&scene->bodies, body))
+    if (!scene)
         return PIR_ERR_ARGUMENT;
+    if (!pir_bodies_has(&scene->bodies, body))
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "remove: there is no body %u", (unsigned)body);
     for (uint32_t i = scene->bodies.body[body].first; i != PIR_PIECE_NONE; i = scene->bodies.piece[i].next) {
         drop_pairs(scene, i);
         pir_tree_remove(&scene->tree, scene->bodies.piece[i].node);
@@ -214,8 +232,10 @@ pir_status pir_scene_remove(pir_scene *scene, uint32_t body) {
 /* --- reading --- */
 
 pir_status pir_scene_pose(const pir_scene *scene, uint32_t body, pir_pose *ret_pose) {
-    if (!scene || !ret_pose || !pir_bodies_has(&scene->bodies, body))
+    if (!scene || !ret_pose)
         return PIR_ERR_ARGUMENT;
+    if (!pir_bodies_has(&scene->bodies, body))
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "pose: there is no body %u", (unsigned)body);
     *ret_pose = scene->bodies.body[body].pose;
     return PIR_OK;
 }

@@ -14,6 +14,7 @@
 
 #include <pirouette/scene_query.h>
 
+#include "base/report.h"
 #include "exact/rotation.h"
 #include "scene/pairs/pairs.h"
 #include "scene/tasks/tasks.h"
@@ -103,6 +104,7 @@ struct pir_scene {
     pir_scene_detail detail;
     double margin;
     bool approach;
+    pir_report *report; /* the caller's, or NULL */
     uint32_t threads;
     pir_tasks tasks;
     pir_task_pool *pool; /* or NULL: the tasks are the caller's, or none */

@@ -179,8 +179,8 @@ static pir_status approximate(pir_pieces **pieces, const pir_decompose_options *
                                        (unsigned)info->exact_pieces, pir_status_text(status));
 }
 
-pir_status pir_solid_decompose_with(const pir_solid *solid, const pir_decompose_options *options,
-                                    pir_decompose_info *ret_info, pir_pieces **ret_pieces) {
+pir_status pir_solid_decompose(const pir_solid *solid, const pir_decompose_options *options,
+                               pir_decompose_info *ret_info, pir_pieces **ret_pieces) {
     if (!solid || !ret_pieces)
         return PIR_ERR_ARGUMENT;
     pir_allocator allocator;
@@ -204,10 +204,4 @@ pir_status pir_solid_decompose_with(const pir_solid *solid, const pir_decompose_
         *ret_info = info;
     *ret_pieces = pieces;
     return PIR_OK;
-}
-
-pir_status pir_solid_decompose(const pir_solid *solid, const pir_solid_options *options, pir_pieces **ret_pieces) {
-    pir_decompose_options exact = pir_decompose_options_default();
-    exact.solid = options ? *options : exact.solid;
-    return pir_solid_decompose_with(solid, &exact, NULL, ret_pieces);
 }

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/vec.h"
 #include "pair/flight.h"
+#include "query/proof/parting.h"
 #include "solid/query/piece_pairs.h"
 #include "solid/query/visit.h"
 
@@ -30,7 +31,7 @@ struct solid_call {
     pir_solid_distance distance; /* of distance */
     pir_flight flight;           /* of casts */
     double speed;                /* no point of P moves faster */
-    pir_solid_impact impact;
+    pir_impact impact;
     bool any; /* whether `distance` is set */
     pir_pair_asker *ask;
     uint32_t first[2]; /* the pair that was asked first, and what it said */
@@ -210,7 +211,7 @@ static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
-static bool meets(const pir_solid_impact *impact) {
+static bool meets(const pir_impact *impact) {
     return impact->outcome != PIR_CAST_MISS;
 }
 
@@ -222,7 +223,7 @@ static double reach_until(const struct solid_call *call) {
 
 static double ask_flight(void *context, uint32_t i, uint32_t j) {
     struct solid_call *call = context;
-    pir_solid_impact *first = &call->impact;
+    pir_impact *first = &call->impact;
     pir_pair_input input = call->input;
     pir_flight flight = call->flight;
     pir_flight_end end = {.outcome = PIR_CAST_MISS};
@@ -235,7 +236,13 @@ static double ask_flight(void *context, uint32_t i, uint32_t j) {
     if (end.outcome != PIR_CAST_MISS &&
         (!meets(first) || end.time < first->time ||
          (end.time == first->time && comes_before(i, j, first->piece_p, first->piece_q)))) {
-        *first = (pir_solid_impact){end.outcome, end.time, i, j, end.answer.normal, end.answer.point_q};
+        *first = (pir_impact){.outcome = end.outcome,
+                              .time = end.time,
+                              .normal = end.answer.normal,
+                              .point = end.answer.point_q,
+                              .witness = end.answer.witness,
+                              .piece_p = i,
+                              .piece_q = j};
         call->query->last[0] = i;
         call->query->last[1] = j;
     }
@@ -243,21 +250,18 @@ static double ask_flight(void *context, uint32_t i, uint32_t j) {
 }
 
 pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
-                                const pir_solid_motion *motion, pir_solid_impact *ret_impact) {
+                                const pir_motion *motion, double tolerance, pir_impact *ret_impact) {
     if (!query || !workspace || !input || !motion || !ret_impact)
         return PIR_ERR_ARGUMENT;
-    const pir_status checked = pir_flight_check(motion->way, motion->turn, motion->tolerance);
+    const pir_status checked = pir_motion_check(motion, tolerance);
     if (checked != PIR_OK)
         return checked;
     struct solid_call call = {.query = query, .workspace = workspace, .input = *input};
-    call.impact = (pir_solid_impact){.outcome = PIR_CAST_MISS, .time = 1};
+    call.impact = (pir_impact){.outcome = PIR_CAST_MISS, .time = 1};
     call.input.cutoff = HUGE_VAL;
     call.speed = length(motion->way) + length(motion->turn) * query->p.reach;
-    call.flight = (pir_flight){.from = input->pose_p,
-                               .way = motion->way,
-                               .turn = motion->turn,
-                               .reach = query->p.reach,
-                               .tolerance = motion->tolerance};
+    call.flight =
+        (pir_flight){.from = input->pose_p, .motion = motion, .reach = query->p.reach, .tolerance = tolerance};
     call.flight.size = query->p.reach + input->radius_p + query->q.reach + input->radius_q +
                        length(input->pose_p.translation) + length(motion->way) + length(input->pose_q.translation);
     const pir_status status = visit(&call, ask_flight);
