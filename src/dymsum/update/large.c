@@ -8,10 +8,38 @@
  */
 #include "dymsum/update/large.h"
 
+#include "base/fetching.h"
 #include "dymsum/pairing/crossings.h"
 #include "dymsum/rebuild/walk.h"
-#include "dymsum/update/fetch_ahead.h"
 #include "dymsum/update/repair.h"
+
+/* --- memory that repairs will read --- */
+
+/* Nothing depends on these calls but time. */
+PIR_FETCHING void fetch_edge(const pir_tracked *tracked, uint32_t e) {
+    PIR_FETCH(&tracked->pairing.crossings.first[e]);
+    PIR_FETCH(&tracked->touched[e]);
+}
+
+/* The slot, or any where there is none: by a mask, since which it is is not foreseen. */
+static inline uint32_t some_slot(uint32_t slot) {
+    return slot & -(uint32_t)(slot != PIR_NO_CROSSING);
+}
+
+/* Fetches a slot, if it is one. */
+PIR_FETCHING void fetch_slot(const pir_tracked *tracked, uint32_t slot) {
+    PIR_FETCH(&tracked->pairing.crossings.at[some_slot(slot)]);
+}
+
+PIR_FETCHING void fetch_crossing(const pir_tracked *tracked, uint32_t e) {
+    fetch_slot(tracked, tracked->pairing.crossings.first[e]);
+}
+
+/* Fetches the second crossing of edge e. */
+PIR_FETCHING void fetch_next_crossing(const pir_tracked *tracked, uint32_t e) {
+    const pir_crossings *c = &tracked->pairing.crossings;
+    fetch_slot(tracked, c->at[some_slot(c->first[e])].next);
+}
 
 /* --- moves --- */
 
@@ -35,9 +63,9 @@ static inline void make_move(pir_moves *moves, pir_move move) {
 static inline void take_turn(pir_moves *moves) {
     uint32_t first = moves->turns++ - PIR_MOVES_APART, next = first - PIR_MOVES_APART, last = next - PIR_MOVES_APART;
     if (first < moves->queued)
-        pir_fetch_crossing(moves->tracked, moves->at[first % PIR_MOVES_ROOM].side.edge);
+        fetch_crossing(moves->tracked, moves->at[first % PIR_MOVES_ROOM].side.edge);
     if (next < moves->queued)
-        pir_fetch_next_crossing(moves->tracked, moves->at[next % PIR_MOVES_ROOM].side.edge);
+        fetch_next_crossing(moves->tracked, moves->at[next % PIR_MOVES_ROOM].side.edge);
     if (last < moves->queued)
         make_move(moves, moves->at[last % PIR_MOVES_ROOM]);
 }
@@ -47,7 +75,7 @@ void pir_moves_queue(pir_moves *moves, uint32_t f, uint32_t h) {
     PIR_FETCH(&moves->tracked->pairing.q->twin[h]);
     for (uint32_t i = p->loop_start[f]; i < p->loop_start[f + 1]; i++) {
         moves->at[moves->queued++ % PIR_MOVES_ROOM] = (pir_move){p->across[i], h};
-        pir_fetch_edge(moves->tracked, p->across[i].edge);
+        fetch_edge(moves->tracked, p->across[i].edge);
         take_turn(moves);
     }
 }
@@ -91,7 +119,7 @@ PIR_FETCHING void fetch_edges(const pir_tracked *tracked, const uint32_t *edge, 
         PIR_FETCH(&tracked->pairing.crossings.first[edge[i]]);
     }
     for (uint32_t i = 0; i < count; i++) {
-        pir_fetch_crossing(tracked, edge[i]);
+        fetch_crossing(tracked, edge[i]);
         PIR_FETCH(&tracked->pairing.fv[arc[edge[i]].ends.from]);
         PIR_FETCH(&tracked->pairing.fv[arc[edge[i]].ends.to]);
     }
@@ -140,7 +168,7 @@ static bool list_walked(pir_tracked *tracked, const uint32_t *edge, uint32_t cou
     for (uint32_t i = 0; i < count; i++) {
         uint32_t to = from;
         if (i + NEXT_AHEAD < count)
-            pir_fetch_next_crossing(tracked, edge[i + NEXT_AHEAD]);
+            fetch_next_crossing(tracked, edge[i + NEXT_AHEAD]);
         while (to < walked->count && walked->at[to].edge == edge[i])
             to++;
         if (!list_found(tracked, edge[i], walked->at + from, to - from, freed))

@@ -5,6 +5,13 @@
 
 #include "dymsum/pairing/tracked.h"
 
+/* Sums with so many facets are large: repairs fetch the memory that later ones read, and edges are derived together. */
+#define PIR_LARGE_FACETS 16384
+
+static inline bool pir_is_large(const pir_tracked *tracked) {
+    return pir_certificate_count(tracked) >= PIR_LARGE_FACETS;
+}
+
 /* An end of the arc of an edge of P, of one of a facet's sides, crosses the arc of halfedge `half` of Q. */
 typedef struct pir_move {
     pir_across side;

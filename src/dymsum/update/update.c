@@ -20,7 +20,6 @@
 
 #include "dymsum/pairing/predicates.h"
 #include "dymsum/rebuild/descent.h"
-#include "dymsum/update/fetch_ahead.h"
 #include "dymsum/update/large.h"
 #include "dymsum/update/repair.h"
 #include "dymsum/update/trace.h"
@@ -28,19 +27,19 @@
 /* A facet is followed back through at most so many cells. Beyond that all edges are derived again. */
 #define FOLLOWED_CELLS 16
 
-/* So many expired certificates are reviewed at a time. What that has read is near the processor when it is traced. */
+/* So many expired certificates of a large sum are reviewed, then traced: the memory that the review read is cached. */
 #define REVIEWED 256
 
 struct update {
     pir_tracked *tracked;
-    pir_moves *moves; /* NULL: ends of arcs are moved at once */
-    uint32_t stamp; /* in tracked->touched: of an edge that an event has changed; one more: of one to be derived anew */
+    pir_moves *moves;        /* NULL: ends of arcs are moved at once */
+    uint32_t stamp;          /* in tracked->touched: an event has changed the edge; stamp + 1: it is derived anew */
     uint32_t derive;         /* edges in work.queue, to be derived anew */
     uint32_t passes;         /* in work.passes */
     uint32_t traces, traced; /* in work.traces, and how many of them have been applied */
     bool all;                /* every edge is to be derived anew */
     bool failed;             /* out of memory */
-    bool fetches;            /* ahead */
+    bool large;              /* see large.h */
 };
 
 /* Edge e is to be derived again. */
@@ -86,42 +85,10 @@ static void note_crossing_of_q(struct update *update, uint32_t g, uint32_t half)
     }
 }
 
-/* Fetches for the passes that follow number i. */
-PIR_FETCHING void fetch_pass(const struct update *update, uint32_t i) {
-    const pir_tracked *tracked = update->tracked;
-    const pir_polytope *q = tracked->pairing.q;
-    const uint32_t *edge = tracked->pairing.p->edge;
-    const pir_suspect *pass = tracked->work->passes + i;
-    if (i + 2 * PIR_FETCHED_AHEAD < update->passes) {
-        const pir_suspect *next = pass + 2 * PIR_FETCHED_AHEAD;
-        PIR_FETCH(&edge[next->crossed]);
-        PIR_FETCH(&q->loop_start[next->facet]);
-    }
-    if (i + PIR_FETCHED_AHEAD < update->passes) {
-        const pir_suspect *next = pass + PIR_FETCHED_AHEAD;
-        pir_fetch_edge(tracked, edge[next->crossed]);
-        PIR_FETCH(&tracked->pairing.p->edge_half[edge[next->crossed]]);
-        PIR_FETCH(&q->loop[q->loop_start[next->facet]]);
-    }
-    if (i + PIR_FETCHED_AHEAD / 2 < update->passes) {
-        const pir_suspect *next = pass + PIR_FETCHED_AHEAD / 2;
-        pir_fetch_crossing(tracked, edge[next->crossed]);
-        pir_fetch_round(q, next->facet);
-    }
-    if (i + PIR_FETCHED_AHEAD / 4 < update->passes) {
-        const pir_suspect *next = pass + PIR_FETCHED_AHEAD / 4;
-        pir_fetch_crossed(tracked, edge[next->crossed]);
-        pir_fetch_next_crossing(tracked, edge[next->crossed]);
-        pir_fetch_rings(q, next->facet);
-    }
-}
-
 /* Repairs the edges that one facet of Q has crossed and no other event has touched. */
 static void pass_facets(struct update *update) {
     pir_tracked *tracked = update->tracked;
     for (uint32_t i = 0; i < update->passes && !update->all; i++) {
-        if (update->fetches)
-            fetch_pass(update, i);
         uint32_t g = tracked->work->passes[i].facet, half = tracked->work->passes[i].crossed,
                  e = tracked->pairing.p->edge[half];
         if (tracked->touched[e] == update->stamp)
@@ -208,7 +175,7 @@ static void follow_back(struct update *update, uint32_t g, uint32_t v) {
         }
 }
 
-/* The journal has it that the edge of P between two vertices, if there is one, may be passed by no facet alone. */
+/* Journals the edge of P between two vertices, if there is one: more than one facet may have passed it. */
 static void note_side(pir_tracked *tracked, uint32_t from, uint32_t to) {
     const pir_polytope *p = tracked->pairing.p;
     for (uint32_t half = p->ring_start[from]; half < p->ring_start[from + 1]; half++)
@@ -280,63 +247,12 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
     return left;
 }
 
-/* Fetches for the suspects of P that follow one, with `left` of them behind it. */
-PIR_FETCHING void fetch_suspect_of_p(const pir_polytope *p, const pir_suspect *suspect, uint32_t left) {
-    if (left > 2 * PIR_FETCHED_AHEAD)
-        PIR_FETCH(&p->loop_start[suspect[2 * PIR_FETCHED_AHEAD].facet]);
-    if (left > PIR_FETCHED_AHEAD)
-        PIR_FETCH(&p->across[p->loop_start[suspect[PIR_FETCHED_AHEAD].facet]]);
-}
-
-/* The sides that the facet of a suspect has crossed. *at: how many traces there were before it in the list. */
-static inline const uint32_t *sides_crossed(const struct update *update, const pir_suspect *suspect, uint32_t *at,
-                                            uint32_t *ret_count) {
-    *ret_count = 1;
-    if (suspect->crossed != PIR_NO_SIDE)
-        return &suspect->crossed;
-    // where there is no trace, what stands in its place may be of another sum
-    const pir_trace *trace = *at < update->traces ? update->tracked->work->traces + (*at)++ : NULL;
-    *ret_count = trace && trace->count <= PIR_TRACE_LONGEST ? trace->count : 0;
-    return trace ? trace->crossed : NULL;
-}
-
-/* Fetches for the suspects of Q that follow one. ahead: how many traces there were before those in either turn. */
-PIR_FETCHING void fetch_suspect_of_q(const struct update *update, const pir_suspect *suspect, uint32_t left,
-                                     uint32_t ahead[2]) {
-    const uint32_t *edge = update->tracked->pairing.p->edge;
-    uint32_t count;
-    if (left > PIR_FETCHED_AHEAD) {
-        const uint32_t *side = sides_crossed(update, suspect + PIR_FETCHED_AHEAD, &ahead[0], &count);
-        for (uint32_t i = 0; i < count; i++)
-            PIR_FETCH(&edge[side[i]]);
-    }
-    if (left > PIR_FETCHED_AHEAD / 2) {
-        const uint32_t *side = sides_crossed(update, suspect + PIR_FETCHED_AHEAD / 2, &ahead[1], &count);
-        for (uint32_t i = 0; i < count; i++)
-            PIR_FETCH(&update->tracked->touched[edge[side[i]]]);
-    }
-}
-
-/* Counts the traces before those that are fetched for first. */
-static void skip_traces(const pir_suspect *suspects, uint32_t count, uint32_t ahead[2]) {
-    for (uint32_t i = 0; i < PIR_FETCHED_AHEAD && i < count; i++) {
-        ahead[0] += suspects[i].crossed == PIR_NO_SIDE;
-        ahead[1] += i < PIR_FETCHED_AHEAD / 2 && suspects[i].crossed == PIR_NO_SIDE;
-    }
-}
-
 /*
- * Applies what a review has found of facets of Q. All of P come first, so that each edge shows whether another event
+ * Applies the findings of a review on facets of Q. All of P come first, so that each edge shows whether another event
  * has touched it.
  */
-static inline __attribute__((always_inline)) void apply_some_of_q(struct update *update, const pir_suspect *suspects,
-                                                                  uint32_t count, const bool fetches) {
-    uint32_t ahead[2] = {update->traced, update->traced};
-    if (fetches)
-        skip_traces(suspects, count, ahead);
+static void apply_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        if (fetches)
-            fetch_suspect_of_q(update, suspects + i, count - i, ahead);
         pir_journal_note(&update->tracked->journal, update->tracked->q_facets.first_certificate + suspects[i].facet);
         if (suspects[i].crossed == PIR_NO_SIDE) {
             settle_of_q(update, suspects[i].facet);
@@ -347,41 +263,25 @@ static inline __attribute__((always_inline)) void apply_some_of_q(struct update 
     }
 }
 
-static void apply_of_q(struct update *update, const pir_suspect *suspects, uint32_t count) {
-    if (update->fetches)
-        apply_some_of_q(update, suspects, count, true);
-    else
-        apply_some_of_q(update, suspects, count, false);
-}
-
-static inline void apply_one_of_p(struct update *update, const pir_suspect *suspect) {
-    pir_journal_note(&update->tracked->journal, suspect->facet);
-    if (suspect->crossed == PIR_NO_SIDE) {
-        settle_of_p(update, suspect->facet);
-    } else {
-        cross_of_p(update, suspect->facet, suspect->crossed);
-        update->tracked->statistics.repaired++;
-    }
-}
-
-static __attribute__((noinline)) void apply_many_of_p(struct update *update, const pir_suspect *suspects,
-                                                      uint32_t count) {
-    pir_moves moves;
-    pir_moves_begin(&moves, update->tracked, update->stamp);
-    update->moves = &moves;
-    for (uint32_t i = 0; i < count; i++) {
-        fetch_suspect_of_p(update->tracked->pairing.p, suspects + i, count - i);
-        apply_one_of_p(update, suspects + i);
-    }
-    update->failed |= !pir_moves_finish(&moves);
-    update->moves = NULL;
-}
-
+/* Applies the findings of a review on facets of P. In a large sum the ends of arcs are moved in turns. */
 static void apply_of_p(struct update *update, const pir_suspect *suspects, uint32_t count) {
-    if (update->fetches)
-        apply_many_of_p(update, suspects, count);
-    for (uint32_t i = 0; i < count && !update->fetches; i++)
-        apply_one_of_p(update, suspects + i);
+    pir_moves moves;
+    if (update->large) {
+        pir_moves_begin(&moves, update->tracked, update->stamp);
+        update->moves = &moves;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        pir_journal_note(&update->tracked->journal, suspects[i].facet);
+        if (suspects[i].crossed == PIR_NO_SIDE) {
+            settle_of_p(update, suspects[i].facet);
+        } else {
+            cross_of_p(update, suspects[i].facet, suspects[i].crossed);
+            update->tracked->statistics.repaired++;
+        }
+    }
+    if (update->large)
+        update->failed |= !pir_moves_finish(&moves);
+    update->moves = NULL;
 }
 
 /* Whether so many of the suspects are still to be followed or located that all edges are derived again. */
@@ -400,7 +300,7 @@ static inline uint32_t review_part(const struct update *update, bool of_p, pir_d
                                     &tracked->certificates, &due, ret_suspects, &tracked->pairing.signs.by_filter);
 }
 
-/* Reviews all of P or of Q, memory fetched ahead. Each part is traced as soon as it was read. */
+/* Reviews all of P or of Q in parts. Each part is traced as soon as it was read. */
 static uint32_t review_and_trace(struct update *update, bool of_p, const uint32_t *expired, uint32_t count,
                                  pir_suspect *ret_suspects) {
     pir_tracked *tracked = update->tracked;
@@ -420,8 +320,8 @@ static uint32_t review_and_trace(struct update *update, bool of_p, const uint32_
 
 static inline uint32_t review_all(struct update *update, bool of_p, const uint32_t *expired, uint32_t count,
                                   pir_suspect *ret_suspects) {
-    return update->fetches ? review_and_trace(update, of_p, expired, count, ret_suspects)
-                           : review_part(update, of_p, (pir_due){expired, count, 0, false}, ret_suspects);
+    return update->large ? review_and_trace(update, of_p, expired, count, ret_suspects)
+                         : review_part(update, of_p, (pir_due){expired, count, 0, false}, ret_suspects);
 }
 
 /* Locates the facets whose certificates have expired, and repairs or notes the edges that they have touched. */
@@ -461,9 +361,9 @@ static void derive(struct update *update) {
     const uint32_t *edge = tracked->work->queue;
     for (uint32_t i = 0; i < update->derive; i++)
         pir_journal_note_edge(&tracked->journal, edge[i]);
-    if (update->fetches)
+    if (update->large)
         update->failed = !pir_derive_edges(tracked, edge, update->derive);
-    for (uint32_t i = 0; i < update->derive && !update->fetches && !update->failed; i++)
+    for (uint32_t i = 0; i < update->derive && !update->large && !update->failed; i++)
         update->failed = !pir_derive_edge(tracked, edge[i]);
 }
 
@@ -477,7 +377,7 @@ pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
     if (expired == 0 && !jumped)
         return PIR_OK;
     tracked->statistics.checked += expired;
-    struct update update = {.tracked = tracked, .stamp = next_stamp(tracked), .fetches = pir_fetches_ahead(tracked)};
+    struct update update = {.tracked = tracked, .stamp = next_stamp(tracked), .large = pir_is_large(tracked)};
     update.all = jumped || !(pir_epoch_reach(&tracked->epoch) < HUGE_VALF);
     review(&update, expired);
     for (uint32_t e = 0; update.all && e < tracked->pairing.p->edge_count; e++)
