@@ -180,17 +180,13 @@ def check_names(tree):
                 yield Breach("names", name, 1, f"{folder} has a file of the name {stem} as well")
 
 
-# Types of rooms that are being put together: each still has a name that another room gives as well.
-DOUBLE_TYPES = ("pir_body", "pir_held", "pir_sides")
-
-
 def check_types(tree):
     """No two types of the public headers and of src have one name; tags within a .c file count as well."""
     seen = {}
     for file, text in sorted(tree.code("include/", "src/").items()):
         for name, line in c_text.types(text):
             where = seen.setdefault(name, file)
-            if where != file and name not in DOUBLE_TYPES:
+            if where != file:
                 yield Breach("types", file, line, f"{where} has a type of the name {name} as well")
 
 
@@ -202,15 +198,11 @@ def check_marks(tree):
                 yield Breach("marks", name, number, "the reference shows a comment that begins with /**<, not this one")
 
 
-# Rooms whose comments are being rewritten.
-OLD_COMMENTS = ("src/query/", "src/pair/")
-
-
 def check_comments(tree):
     """A comment of src and tools names its noun: none begins with "What" or "The same"."""
     for name, text in tree.code("src/", "tools/").items():
         for number, line in enumerate(text.split("\n"), 1):
-            if re.match(r"\s*/?\*+ (?:What|The same)\b", line) and not name.startswith(OLD_COMMENTS):
+            if re.match(r"\s*/?\*+ (?:What|The same)\b", line):
                 yield Breach("comments", name, number, "the comment begins with no noun")
 
 

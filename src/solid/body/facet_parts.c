@@ -11,16 +11,16 @@
 
 #include "solid/space/polygons.h"
 
-static int turn_at(pir_body *body, uint32_t half) {
+static int turn_at(pir_shell_body *body, uint32_t half) {
     const uint32_t *origin = body->origin;
-    return pir_space_turn(body->space, pir_body_half(body, body->facet[half]), origin[body->prev[half]], origin[half],
-                          origin[body->next[half]]);
+    return pir_space_turn(body->space, pir_shell_body_half(body, body->facet[half]), origin[body->prev[half]],
+                          origin[half], origin[body->next[half]]);
 }
 
 /* Whether the loop that begins at `half` is convex and goes round once: seen from its first corner no side is
  * turned back. */
-static bool is_convex(pir_body *body, uint32_t half) {
-    const uint32_t plane = pir_body_half(body, body->facet[half]), apex = body->origin[half];
+static bool is_convex(pir_shell_body *body, uint32_t half) {
+    const uint32_t plane = pir_shell_body_half(body, body->facet[half]), apex = body->origin[half];
     uint32_t h = half;
     do {
         const uint32_t after = body->next[h];
@@ -32,14 +32,14 @@ static bool is_convex(pir_body *body, uint32_t half) {
 }
 
 /* Whether a point is strictly left of both lines from p over q to r. */
-static bool is_between(pir_body *body, uint32_t plane, const uint32_t pqr[3], uint32_t x) {
+static bool is_between(pir_shell_body *body, uint32_t plane, const uint32_t pqr[3], uint32_t x) {
     return pir_space_turn(body->space, plane, pqr[0], pqr[1], x) > 0 &&
            pir_space_turn(body->space, plane, pqr[1], pqr[2], x) > 0;
 }
 
 /* Whether the loop's corner at `half` is in the way of a cut from the last to the first of three other corners, which
  * are those of a triangle. Where it is at the same place as one of them, its sides must not lead into the triangle. */
-static bool is_in_the_way(pir_body *body, uint32_t plane, const uint32_t abc[3], uint32_t half) {
+static bool is_in_the_way(pir_shell_body *body, uint32_t plane, const uint32_t abc[3], uint32_t half) {
     const uint32_t x = body->origin[half];
     for (int k = 0; k < 3; k++) {
         const uint32_t round[3] = {abc[(k + 2) % 3], abc[k], abc[(k + 1) % 3]};
@@ -56,8 +56,8 @@ static bool is_in_the_way(pir_body *body, uint32_t plane, const uint32_t abc[3],
 /* Whether the corner at `half` can go: no other corner of the loop is in the triangle that it makes. A straight
  * corner can, and one that leads back, the end of a slit. Where corners are in the triangle, the one that is farthest
  * from the cut is not convex: so those that are, as `convex` says of each halfedge, are passed over. */
-static bool is_ear(pir_body *body, uint32_t half, const bool *convex) {
-    const uint32_t plane = pir_body_half(body, body->facet[half]), *origin = body->origin;
+static bool is_ear(pir_shell_body *body, uint32_t half, const bool *convex) {
+    const uint32_t plane = pir_shell_body_half(body, body->facet[half]), *origin = body->origin;
     const uint32_t abc[3] = {origin[body->prev[half]], origin[half], origin[body->next[half]]};
     const int turn = pir_space_turn(body->space, plane, abc[0], abc[1], abc[2]);
     if (turn <= 0)
@@ -69,7 +69,7 @@ static bool is_ear(pir_body *body, uint32_t half, const bool *convex) {
 }
 
 /* Cuts off the corner at `half`; the halfedge of the loop that is left, in its place. */
-static uint32_t cut_ear(pir_body *body, uint32_t half) {
+static uint32_t cut_ear(pir_shell_body *body, uint32_t half) {
     const uint32_t before = body->prev[half], after = body->next[half], ear = body->half_count, rest = ear + 1;
     body->half_count += 2;
     body->facet[ear] = body->facet[rest] = body->facet[half];
@@ -89,7 +89,7 @@ static uint32_t cut_ear(pir_body *body, uint32_t half) {
 }
 
 /* `convex` has room for all halfedges. */
-static bool cut_facet(pir_body *body, uint32_t facet, bool *convex) {
+static bool cut_facet(pir_shell_body *body, uint32_t facet, bool *convex) {
     uint32_t half = body->source.start[facet], left = body->source.start[facet + 1] - half;
     if (is_convex(body, half))
         return true;
@@ -115,14 +115,14 @@ static bool cut_facet(pir_body *body, uint32_t facet, bool *convex) {
 }
 
 /* Whether the corner that is left at the origin of `half`, when it goes with its twin, is convex. */
-static bool may_lose(pir_body *body, uint32_t half, uint32_t plane) {
+static bool may_lose(pir_shell_body *body, uint32_t half, uint32_t plane) {
     const uint32_t from = body->origin[body->prev[half]], over = body->next[body->twin[half]];
     const uint32_t to = body->origin[body->next[over]];
     return from != to && pir_space_turn(body->space, plane, from, body->origin[half], to) >= 0;
 }
 
 /* Whether both sides of a slit are in one loop. */
-static bool is_own_neighbour(const pir_body *body, uint32_t half) {
+static bool is_own_neighbour(const pir_shell_body *body, uint32_t half) {
     const uint32_t twin = body->twin[half];
     bool is = false;
     if (half < body->source.start[body->source.facet_count] && body->facet[half] == body->facet[twin])
@@ -132,8 +132,8 @@ static bool is_own_neighbour(const pir_body *body, uint32_t half) {
 }
 
 /* Joins the parts on both sides of `half` if that leaves a convex one. */
-static void join(pir_body *body, uint32_t half) {
-    const uint32_t twin = body->twin[half], plane = pir_body_half(body, body->facet[half]);
+static void join(pir_shell_body *body, uint32_t half) {
+    const uint32_t twin = body->twin[half], plane = pir_shell_body_half(body, body->facet[half]);
     if (is_own_neighbour(body, half) || body->group[body->facet[half]] != body->group[body->facet[twin]] ||
         !may_lose(body, half, plane) || !may_lose(body, twin, plane))
         return;
@@ -146,7 +146,7 @@ static void join(pir_body *body, uint32_t half) {
 }
 
 /* Keeps the loop that begins at `half` as a part, without its straight corners; marks its halfedges as seen. */
-static void keep_part(pir_body *body, uint32_t half, bool *seen) {
+static void keep_part(pir_shell_body *body, uint32_t half, bool *seen) {
     const uint32_t first = body->corner_count;
     uint32_t h = half;
     do {
@@ -163,7 +163,7 @@ static void keep_part(pir_body *body, uint32_t half, bool *seen) {
     body->part_start[body->part_count] = body->corner_count;
 }
 
-bool pir_body_cut_parts(pir_body *body, uint32_t *ret_facet) {
+bool pir_shell_body_cut_parts(pir_shell_body *body, uint32_t *ret_facet) {
     bool *seen = PIR_ZEROED(&body->space->allocator, bool, body->half_room);
     if (!seen)
         body->space->status = PIR_ERR_MEMORY;

@@ -6,6 +6,6 @@
 #include "solid/body/solid_body.h"
 
 /* Cuts facets by diagonals, then joins what stays convex. False with *ret_facet where a facet's loop crosses itself. */
-bool pir_body_cut_parts(pir_body *body, uint32_t *ret_facet);
+bool pir_shell_body_cut_parts(pir_shell_body *body, uint32_t *ret_facet);
 
 #endif

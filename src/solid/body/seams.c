@@ -17,22 +17,22 @@
 #include "solid/space/polygons.h"
 
 struct seams {
-    pir_body *body;
+    pir_shell_body *body;
     pir_seam *seam;
     uint32_t count, room;
     uint32_t *place, place_count, place_room; /* scratch: points along a diagonal */
 };
 
-pir_status pir_seam_refuse(const pir_body *body, const pir_seam *seam, uint32_t facet) {
+pir_status pir_seam_refuse(const pir_shell_body *body, const pir_seam *seam, uint32_t facet) {
     char where[PIR_BODY_WHERE], beside[PIR_BODY_WHERE], a[PIR_BODY_WHERE], b[PIR_BODY_WHERE];
-    pir_body_where(&body->source, seam->left, where);
-    pir_body_where(&body->source, facet, beside);
+    pir_shell_body_where(&body->source, seam->left, where);
+    pir_shell_body_where(&body->source, facet, beside);
     if (!seam->edge)
         return pir_fail(body->source.report, PIR_ERR_FORMAT, "%s: the surface meets itself: this facet meets %s", where,
                         beside);
     return pir_fail(body->source.report, PIR_ERR_FORMAT,
                     "%s: the surface meets itself: the edge from %s to %s of this facet meets %s", where,
-                    pir_body_place(body, seam->a, a), pir_body_place(body, seam->b, b), beside);
+                    pir_shell_body_place(body, seam->a, a), pir_shell_body_place(body, seam->b, b), beside);
 }
 
 /* --- which there are --- */
@@ -42,13 +42,13 @@ static void push(struct seams *seams, pir_seam seam) {
         seams->seam[seams->count++] = seam;
 }
 
-static bool is_on_line(pir_body *body, const pir_seam *seam, uint32_t point) {
+static bool is_on_line(pir_shell_body *body, const pir_seam *seam, uint32_t point) {
     return point == seam->a || point == seam->b ||
-           pir_space_turn(body->space, pir_body_half(body, seam->left), seam->a, seam->b, point) == 0;
+           pir_space_turn(body->space, pir_shell_body_half(body, seam->left), seam->a, seam->b, point) == 0;
 }
 
 /* Whether a side of the facet covers the stretch of a diagonal from x to y, within which it has no corner. */
-static bool is_side(pir_body *body, const pir_seam *seam, uint32_t x, uint32_t y) {
+static bool is_side(pir_shell_body *body, const pir_seam *seam, uint32_t x, uint32_t y) {
     pir_space *space = body->space;
     const uint32_t first = body->source.start[seam->left], end = body->source.start[seam->left + 1];
     for (uint32_t h = first; h < end; h++) {
@@ -65,7 +65,7 @@ static bool is_side(pir_body *body, const pir_seam *seam, uint32_t x, uint32_t y
 
 /* The corners of the facet on a diagonal, in their order from a to b, into `place`. */
 static void list_places(struct seams *seams, const pir_seam *seam) {
-    pir_body *body = seams->body;
+    pir_shell_body *body = seams->body;
     pir_space *space = body->space;
     seams->place_count = 0;
     for (uint32_t h = body->source.start[seam->left]; h < body->source.start[seam->left + 1]; h++) {
@@ -83,7 +83,7 @@ static void list_places(struct seams *seams, const pir_seam *seam) {
 }
 
 /* Whether other corners of the facet than the ends are on the line of a diagonal. */
-static bool passes_over_corners(pir_body *body, const pir_seam *seam) {
+static bool passes_over_corners(pir_shell_body *body, const pir_seam *seam) {
     for (uint32_t h = body->source.start[seam->left]; h < body->source.start[seam->left + 1]; h++)
         if (body->origin[h] != seam->a && body->origin[h] != seam->b && is_on_line(body, seam, body->origin[h]))
             return true;
@@ -92,7 +92,7 @@ static bool passes_over_corners(pir_body *body, const pir_seam *seam) {
 
 /* Adds the stretches of a diagonal that are within its facet. */
 static void push_diagonal(struct seams *seams, pir_seam seam) {
-    pir_body *body = seams->body;
+    pir_shell_body *body = seams->body;
     if (!passes_over_corners(body, &seam)) {
         push(seams, seam);
         return;
@@ -109,9 +109,9 @@ static void push_diagonal(struct seams *seams, pir_seam seam) {
 }
 
 static void list_seams(struct seams *seams) {
-    const pir_body *body = seams->body;
+    const pir_shell_body *body = seams->body;
     for (uint32_t e = 0; e < body->edge_count; e++) {
-        const pir_body_edge *edge = &body->edge[e];
+        const pir_shell_body_edge *edge = &body->edge[e];
         push(seams, (pir_seam){edge->a, edge->b, edge->left, edge->right, edge->direction, true});
     }
     for (uint32_t h = body->source.start[body->source.facet_count]; h < body->half_count; h++) {
@@ -122,17 +122,17 @@ static void list_seams(struct seams *seams) {
 }
 
 /* Whether a seam is within the facets of one plane that flat edges join. */
-static bool is_inner(const pir_body *body, const pir_seam *seam) {
+static bool is_inner(const pir_shell_body *body, const pir_seam *seam) {
     return body->group[seam->left] == body->group[seam->right];
 }
 
 /* --- half-planes about a seam --- */
 
-static uint32_t normal_of(const pir_body *body, uint32_t facet) {
+static uint32_t normal_of(const pir_shell_body *body, uint32_t facet) {
     return body->space->plane[body->plane[facet]].direction[0];
 }
 
-static uint32_t direction_of(pir_body *body, pir_seam *seam) {
+static uint32_t direction_of(pir_shell_body *body, pir_seam *seam) {
     if (seam->direction == PIR_SPACE_NONE)
         seam->direction = pir_polygons_direction(body->space, seam->a, seam->b);
     return seam->direction;
@@ -146,11 +146,11 @@ struct sheet {
 
 /* The sign of the turn from one to the other about a direction, and where the second is seen from the first: 0 there,
  * 1 up to opposite, 2 there, 3 beyond. */
-static int turn_of(pir_body *body, uint32_t along, struct sheet from, struct sheet to) {
+static int turn_of(pir_shell_body *body, uint32_t along, struct sheet from, struct sheet to) {
     return from.way * to.way * pir_space_det(body->space, from.normal, to.normal, along);
 }
 
-static int place_of(pir_body *body, uint32_t along, struct sheet from, struct sheet to) {
+static int place_of(pir_shell_body *body, uint32_t along, struct sheet from, struct sheet to) {
     const int turn = turn_of(body, along, from, to);
     if (turn != 0)
         return turn > 0 ? 1 : 3;
@@ -158,7 +158,7 @@ static int place_of(pir_body *body, uint32_t along, struct sheet from, struct sh
 }
 
 /* Whether a sheet is between two others: 1, or beyond them: 0; −1 where it is one of them. */
-static int is_between(pir_body *body, uint32_t along, const struct sheet pair[2], struct sheet sheet) {
+static int is_between(pir_shell_body *body, uint32_t along, const struct sheet pair[2], struct sheet sheet) {
     const int at = place_of(body, along, pair[0], sheet), last = place_of(body, along, pair[0], pair[1]);
     if (at == 0)
         return -1;
@@ -172,8 +172,8 @@ static int is_between(pir_body *body, uint32_t along, const struct sheet pair[2]
 
 /* Whether a seam in the plane of a part passes through its inside: no side of the part and not the seam itself
  * separates them. */
-static bool passes_within(pir_body *body, const pir_seam *seam, uint32_t part) {
-    const uint32_t half = pir_body_half(body, body->part_facet[part]);
+static bool passes_within(pir_shell_body *body, const pir_seam *seam, uint32_t part) {
+    const uint32_t half = pir_shell_body_half(body, body->part_facet[part]);
     const uint32_t first = body->part_start[part], end = body->part_start[part + 1];
     bool left = false, right = false;
     for (uint32_t i = first; i < end; i++) {
@@ -189,19 +189,20 @@ static bool passes_within(pir_body *body, const pir_seam *seam, uint32_t part) {
 }
 
 /* Whether the sheets of a seam within a part are on both sides of it, or in its plane. */
-static bool is_cut(pir_body *body, pir_seam *seam, uint32_t part) {
+static bool is_cut(pir_shell_body *body, pir_seam *seam, uint32_t part) {
     const uint32_t along = direction_of(body, seam), normal = normal_of(body, body->part_facet[part]);
     const int left = pir_space_det(body->space, normal, normal_of(body, seam->left), along);
     const int right = -pir_space_det(body->space, normal, normal_of(body, seam->right), along);
     return left * right <= 0;
 }
 
-static bool cross_part(pir_body *body, pir_seam *seam, uint32_t part) {
+static bool cross_part(pir_shell_body *body, pir_seam *seam, uint32_t part) {
     const uint32_t group = body->group[body->part_facet[part]];
     const bool own = body->group[seam->left] == group || body->group[seam->right] == group;
     if (own && is_inner(body, seam))
         return false;
-    return (own || (pir_body_part_side(body, part, seam->a) == 0 && pir_body_part_side(body, part, seam->b) == 0)) &&
+    return (own || (pir_shell_body_part_side(body, part, seam->a) == 0 &&
+                    pir_shell_body_part_side(body, part, seam->b) == 0)) &&
            passes_within(body, seam, part) && is_cut(body, seam, part);
 }
 
@@ -226,7 +227,7 @@ static bool is_certain(const double u[3], const double v[3], double error) {
 }
 
 /* Whether the other seam is certainly not on the line of the first. */
-static bool is_apart(const pir_body *body, const pir_seam *seam, const pir_seam *other) {
+static bool is_apart(const pir_shell_body *body, const pir_seam *seam, const pir_seam *other) {
     const pir_space_point *point = body->space->point, *a = &point[seam->a], *b = &point[seam->b];
     const pir_space_point *end[2] = {&point[other->a], &point[other->b]};
     // coordinates are at most 1, so differences round by 2^-53
@@ -241,7 +242,7 @@ static bool is_apart(const pir_body *body, const pir_seam *seam, const pir_seam 
 }
 
 /* Whether two seams that begin at one point certainly lead to different sides of it. */
-static bool lead_apart(const pir_body *body, const pir_seam *seam, const pir_seam *other) {
+static bool lead_apart(const pir_shell_body *body, const pir_seam *seam, const pir_seam *other) {
     const pir_space_point *point = body->space->point;
     const bool at_a = seam->a == other->a || seam->a == other->b, at_b = seam->b == other->a || seam->b == other->b;
     if (at_a == at_b)
@@ -258,7 +259,7 @@ static bool lead_apart(const pir_body *body, const pir_seam *seam, const pir_sea
     return false;
 }
 
-static bool is_on_seam_line(pir_body *body, const pir_seam *seam, uint32_t point) {
+static bool is_on_seam_line(pir_shell_body *body, const pir_seam *seam, uint32_t point) {
     pir_space *space = body->space;
     mpz_t *a = space->number + space->point[seam->a].exact, *c = space->number + space->point[point].exact;
     mpz_t *u = space->number + space->direction[seam->direction].exact, *t = space->t;
@@ -269,7 +270,7 @@ static bool is_on_seam_line(pir_body *body, const pir_seam *seam, uint32_t point
 }
 
 /* Whether two seams share a stretch. */
-static bool overlap(pir_body *body, pir_seam *seam, pir_seam *other, int *ret_way) {
+static bool overlap(pir_shell_body *body, pir_seam *seam, pir_seam *other, int *ret_way) {
     if (lead_apart(body, seam, other) || is_apart(body, seam, other))
         return false;
     pir_space *space = body->space;
@@ -281,7 +282,7 @@ static bool overlap(pir_body *body, pir_seam *seam, pir_seam *other, int *ret_wa
     return pir_space_order(space, along, seam->a, high) > 0 && pir_space_order(space, along, low, seam->b) > 0;
 }
 
-static bool cross_seam(pir_body *body, pir_seam *seam, pir_seam *other) {
+static bool cross_seam(pir_shell_body *body, pir_seam *seam, pir_seam *other) {
     const bool same_ends = (seam->a == other->a && seam->b == other->b) || (seam->a == other->b && seam->b == other->a);
     int way = 1;
     // round edges with the same ends facets have been put in order
@@ -297,7 +298,7 @@ static bool cross_seam(pir_body *body, pir_seam *seam, pir_seam *other) {
 
 /* --- all --- */
 
-static pir_space_box box_of(const pir_body *body, const pir_seam *seam) {
+static pir_space_box box_of(const pir_shell_body *body, const pir_seam *seam) {
     pir_space_box box = PIR_SPACE_BOX_EMPTY;
     pir_space_box_add(&box, &body->space->point[seam->a]);
     pir_space_box_add(&box, &body->space->point[seam->b]);
@@ -306,7 +307,7 @@ static pir_space_box box_of(const pir_body *body, const pir_seam *seam) {
 
 /* Refuses a seam that crosses what is near it: parts, or seams that come after it. */
 static pir_status check(struct seams *seams, const pir_boxes *boxes, bool of_parts, uint32_t *found) {
-    pir_body *body = seams->body;
+    pir_shell_body *body = seams->body;
     for (uint32_t s = 0; s < seams->count && body->space->status == PIR_OK; s++) {
         pir_seam *seam = &seams->seam[s];
         const pir_space_box box = box_of(body, seam);
@@ -340,7 +341,7 @@ static pir_status check_pairs(struct seams *seams) {
     return status;
 }
 
-pir_status pir_seams_check(pir_body *body, const pir_boxes *boxes, uint32_t *found) {
+pir_status pir_seams_check(pir_shell_body *body, const pir_boxes *boxes, uint32_t *found) {
     struct seams seams = {.body = body};
     list_seams(&seams);
     pir_status status = body->space->status;

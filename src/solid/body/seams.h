@@ -19,9 +19,9 @@ typedef struct pir_seam {
 
 /* PIR_ERR_FORMAT, reported with an edge and a facet, where sheets cross at a seam. `boxes` are those of the parts, and
  * `found` has room for as many. */
-pir_status pir_seams_check(pir_body *body, const pir_boxes *boxes, uint32_t *found);
+pir_status pir_seams_check(pir_shell_body *body, const pir_boxes *boxes, uint32_t *found);
 
 /* Reports that a seam meets a facet. */
-pir_status pir_seam_refuse(const pir_body *body, const pir_seam *seam, uint32_t facet);
+pir_status pir_seam_refuse(const pir_shell_body *body, const pir_seam *seam, uint32_t facet);
 
 #endif

@@ -13,7 +13,7 @@
 #include "solid/space/exact.h"
 
 struct shells {
-    pir_body *body;
+    pir_shell_body *body;
     uint32_t *shell; /* per facet: the first of its shell */
     mpz_t six;       /* of the shell at hand */
     uint64_t random;
@@ -26,7 +26,7 @@ static uint32_t root_of(uint32_t *shell, uint32_t facet) {
 }
 
 /* Six times the volume between the origin and a facet is added to the sum. */
-static void add_volume(const pir_body *body, uint32_t facet, mpz_ptr sum) {
+static void add_volume(const pir_shell_body *body, uint32_t facet, mpz_ptr sum) {
     pir_space *space = body->space;
     const uint32_t first = body->source.start[facet], end = body->source.start[facet + 1];
     mpz_t *a = space->number + space->point[body->origin[first]].exact;
@@ -66,13 +66,13 @@ static uint32_t point_beyond(struct shells *shells) {
 enum { MISSES = 0, THROUGH_FRONT = 1, THROUGH_BACK = -1, UNCLEAR = 2 };
 
 /* How a segment from p to q passes through a part. */
-static int pass(pir_body *body, uint32_t p, uint32_t q, uint32_t part) {
-    const uint32_t half = pir_body_half(body, body->part_facet[part]);
+static int pass(pir_shell_body *body, uint32_t p, uint32_t q, uint32_t part) {
+    const uint32_t half = pir_shell_body_half(body, body->part_facet[part]);
     const int from = pir_space_side(body->space, half, p), to = pir_space_side(body->space, half, q);
     if (from == to)
         return from == 0 ? UNCLEAR : MISSES;
     if (from == 0)
-        return pir_body_part_holds(body, part, p) ? UNCLEAR : MISSES;
+        return pir_shell_body_part_holds(body, part, p) ? UNCLEAR : MISSES;
     bool left = false, right = false, on = false;
     const uint32_t first = body->part_start[part], end = body->part_start[part + 1];
     for (uint32_t i = first; i < end && !(left && right); i++) {
@@ -90,7 +90,7 @@ static int pass(pir_body *body, uint32_t p, uint32_t q, uint32_t part) {
 /* A point within the first part of the shell: the middle of three corners, or another where the shells' `random` has
  * chosen weights. */
 static uint32_t point_within(struct shells *shells, uint32_t shell, bool middle) {
-    const pir_body *body = shells->body;
+    const pir_shell_body *body = shells->body;
     pir_space *space = body->space;
     uint32_t part = 0;
     while (shells->shell[body->part_facet[part]] != shell)
@@ -111,7 +111,7 @@ static uint32_t point_within(struct shells *shells, uint32_t shell, bool middle)
 
 /* How often the other shells are around the shell; false where no segment could tell. */
 static bool find_winding(struct shells *shells, uint32_t shell, int *ret_winding) {
-    pir_body *body = shells->body;
+    pir_shell_body *body = shells->body;
     uint32_t from = point_within(shells, shell, true);
     for (int attempt = 0; attempt < 64 && body->space->status == PIR_OK; attempt++) {
         const uint32_t to = point_beyond(shells);
@@ -132,9 +132,9 @@ static bool find_winding(struct shells *shells, uint32_t shell, int *ret_winding
 }
 
 static pir_status check_shell(struct shells *shells, uint32_t shell, uint32_t count) {
-    const pir_body_source *source = &shells->body->source;
+    const pir_shell_body_source *source = &shells->body->source;
     char where[PIR_BODY_WHERE];
-    pir_body_where(source, shell, where);
+    pir_shell_body_where(source, shell, where);
     const int sign = mpz_sgn(shells->six);
     int winding = 0;
     if (sign == 0)
@@ -152,7 +152,7 @@ static pir_status check_shell(struct shells *shells, uint32_t shell, uint32_t co
 }
 
 static pir_status check_shells(struct shells *shells, uint32_t count, mpz_ptr six_volume) {
-    const pir_body *body = shells->body;
+    const pir_shell_body *body = shells->body;
     pir_status status = PIR_OK;
     mpz_set_ui(six_volume, 0);
     for (uint32_t shell = 0; shell < body->source.facet_count && status == PIR_OK; shell++) {
@@ -176,7 +176,7 @@ struct corner {
     uint32_t first[2], last[2]; /* their least and greatest direction's edge, for two bends, for two reflex ones */
 };
 
-static bool is_straight(pir_body *body, const uint32_t edge[2]) {
+static bool is_straight(pir_shell_body *body, const uint32_t edge[2]) {
     pir_space *space = body->space;
     const uint32_t a = body->edge[edge[0]].direction, b = body->edge[edge[1]].direction;
     mpz_t *cross = space->t;
@@ -194,11 +194,11 @@ static void note_edge(struct corner *corner, uint32_t edge, bool reflex) {
 }
 
 /* Edges that a straight corner joins are one. */
-static bool count_merged(pir_body *body, pir_body_counts *counts) {
+static bool count_merged(pir_shell_body *body, pir_shell_body_counts *counts) {
     const uint32_t points = body->source.point_count;
     struct corner *corner = PIR_ZEROED(&body->space->allocator, struct corner, points);
     for (uint32_t e = 0; e < body->edge_count && corner; e++) {
-        const pir_body_edge *edge = &body->edge[e];
+        const pir_shell_body_edge *edge = &body->edge[e];
         if (edge->bend == PIR_BEND_FLAT)
             continue;
         counts->merged_edges++;
@@ -218,7 +218,7 @@ static bool count_merged(pir_body *body, pir_body_counts *counts) {
 }
 
 /* Halfedges that leave one vertex: umbrellas, so that a point where two of them touch counts twice. */
-static bool count_vertices(pir_body *body, pir_body_counts *counts) {
+static bool count_vertices(pir_shell_body *body, pir_shell_body_counts *counts) {
     const uint32_t halves = body->source.start[body->source.facet_count];
     bool *seen = PIR_ZEROED(&body->space->allocator, bool, halves);
     for (uint32_t h = 0; h < halves && seen; h++) {
@@ -233,10 +233,11 @@ static bool count_vertices(pir_body *body, pir_body_counts *counts) {
     return seen;
 }
 
-pir_status pir_body_check_shells(pir_body *body, pir_body_counts *ret_counts, mpz_ptr ret_six_volume) {
+pir_status pir_shell_body_check_shells(pir_shell_body *body, pir_shell_body_counts *ret_counts,
+                                       mpz_ptr ret_six_volume) {
     const pir_allocator *a = &body->space->allocator;
     const uint32_t facets = body->source.facet_count;
-    pir_body_counts counts = {.edges = body->edge_count, .facets = facets};
+    pir_shell_body_counts counts = {.edges = body->edge_count, .facets = facets};
     struct shells shells = {.body = body, .shell = PIR_NEW(a, uint32_t, facets), .random = 1};
     if (!shells.shell)
         return PIR_ERR_MEMORY;

@@ -63,7 +63,7 @@ static double unit_of(const pir_scale *scale, int shift) {
     return ldexp(num / den, top - bottom + shift);
 }
 
-pir_status pir_solid_body(const pir_solid *solid, pir_space *space, pir_body *ret_body) {
+pir_status pir_solid_body(const pir_solid *solid, pir_space *space, pir_shell_body *ret_body) {
     const uint32_t numbers = pir_space_numbers(space, 3 * solid->points.count);
     for (uint32_t i = 0; i < solid->points.count && space->status == PIR_OK; i++) {
         const pir_int3 v = pir_vectors_at(&solid->points, i);
@@ -72,20 +72,20 @@ pir_status pir_solid_body(const pir_solid *solid, pir_space *space, pir_body *re
             mpz_set(space->number[numbers + 3 * i + k], mpz_roinit_n(view, v.c[k].limb, v.c[k].size));
         }
     }
-    const pir_body_source source = {.name = "the solid",
-                                    .unit = unit_of(&solid->scale, space->shift),
-                                    .point_count = solid->points.count,
-                                    .facet_count = solid->facet_count,
-                                    .start = solid->start,
-                                    .corner = solid->corner};
-    return space->status == PIR_OK ? pir_body_make(ret_body, space, &source, numbers) : space->status;
+    const pir_shell_body_source source = {.name = "the solid",
+                                          .unit = unit_of(&solid->scale, space->shift),
+                                          .point_count = solid->points.count,
+                                          .facet_count = solid->facet_count,
+                                          .start = solid->start,
+                                          .corner = solid->corner};
+    return space->status == PIR_OK ? pir_shell_body_make(ret_body, space, &source, numbers) : space->status;
 }
 
 /* --- making --- */
 
 static bool copy_points(pir_solid *solid, const pir_solid_parts *parts) {
     const pir_allocator *a = &solid->allocator;
-    const pir_body_source *source = &parts->source;
+    const pir_shell_body_source *source = &parts->source;
     const uint32_t points = parts->points->count, corners = source->start[source->facet_count];
     uint32_t *number = PIR_NEW(a, uint32_t, points), used = 0;
     solid->start = PIR_ZEROED(a, uint32_t, (size_t)solid->facet_count + 1);
@@ -145,8 +145,8 @@ static void set_bounds(pir_solid *solid) {
 
 /* Checks all that makes the facets of `parts` a solid, in the numbers that `solid` has copied. */
 static pir_status check(pir_solid *solid, const pir_solid_parts *parts, pir_space *space) {
-    pir_body body = {0};
-    pir_body_counts counts;
+    pir_shell_body body = {0};
+    pir_shell_body_counts counts;
     mpz_t six;
     mpz_init(six);
     solid->info = (pir_solid_info){0};
@@ -156,16 +156,16 @@ static pir_status check(pir_solid *solid, const pir_solid_parts *parts, pir_spac
         const pir_int3 v = pir_vectors_at(&solid->points, i / 3);
         mpz_set(space->number[numbers + i], mpz_roinit_n(view, v.c[i % 3].limb, v.c[i % 3].size));
     }
-    pir_body_source source = parts->source;
+    pir_shell_body_source source = parts->source;
     source.unit = unit_of(&solid->scale, space->shift);
     source.point_count = solid->points.count;
     source.corner = solid->corner;
     source.start = solid->start;
-    pir_status status = space->status == PIR_OK ? pir_body_make(&body, space, &source, numbers) : space->status;
+    pir_status status = space->status == PIR_OK ? pir_shell_body_make(&body, space, &source, numbers) : space->status;
     if (status == PIR_OK)
-        status = pir_body_check_crossing(&body);
+        status = pir_shell_body_check_crossing(&body);
     if (status == PIR_OK)
-        status = pir_body_check_shells(&body, &counts, six);
+        status = pir_shell_body_check_shells(&body, &counts, six);
     if (status == PIR_OK) {
         solid->info = (pir_solid_info){.vertices = counts.vertices,
                                        .edges = counts.edges,
@@ -179,13 +179,13 @@ static pir_status check(pir_solid *solid, const pir_solid_parts *parts, pir_spac
         set_volume(solid, six);
         set_bounds(solid);
     }
-    pir_body_finish(&body);
+    pir_shell_body_finish(&body);
     mpz_clear(six);
     return status;
 }
 
 pir_status pir_solid_make(const pir_solid_parts *parts, const pir_solid_options *options, pir_solid **ret_solid) {
-    const pir_body_source *source = &parts->source;
+    const pir_shell_body_source *source = &parts->source;
     if (source->facet_count == 0)
         return pir_fail(source->report, PIR_ERR_EMPTY, "%s: there are no facets", source->name);
     pir_solid *solid = PIR_ZEROED(options->allocator, pir_solid, 1);

@@ -25,14 +25,14 @@ struct pir_solid {
 typedef struct pir_solid_parts {
     const pir_vectors *points;
     const pir_scale *scale;
-    pir_body_source source; /* its loops and names; unit and point_count are filled in */
+    pir_shell_body_source source; /* its loops and names; unit and point_count are filled in */
 } pir_solid_parts;
 
 /* PIR_ERR_EMPTY without facets; the errors of pir_solid_read for what is no solid. */
 pir_status pir_solid_make(const pir_solid_parts *parts, const pir_solid_options *options, pir_solid **ret_solid);
 
 /* The body of a solid in a space, which must have been made for numbers as long as the solid's. */
-pir_status pir_solid_body(const pir_solid *solid, pir_space *space, pir_body *ret_body);
+pir_status pir_solid_body(const pir_solid *solid, pir_space *space, pir_shell_body *ret_body);
 
 /* The options to use, with an allocator in them. */
 pir_solid_options pir_solid_options_or_default(const pir_solid_options *options, pir_allocator *ret_allocator);

@@ -11,7 +11,7 @@
 #include "base/sort.h"
 #include "solid/space/polygons.h"
 
-static void ends_of(const pir_body *body, uint32_t half, uint32_t ends[2]) {
+static void ends_of(const pir_shell_body *body, uint32_t half, uint32_t ends[2]) {
     const uint32_t a = body->origin[half], b = body->origin[body->next[half]];
     ends[0] = a < b ? a : b;
     ends[1] = a < b ? b : a;
@@ -25,18 +25,18 @@ static bool half_before(void *context, uint32_t a, uint32_t b) {
 }
 
 /* Refuses the edge of `half`, one of `count` with its ends; `other` is another of them, or the same. */
-static pir_status refuse_edge(const pir_body *body, uint32_t half, uint32_t other, uint32_t count) {
-    const pir_body_source *source = &body->source;
+static pir_status refuse_edge(const pir_shell_body *body, uint32_t half, uint32_t other, uint32_t count) {
+    const pir_shell_body_source *source = &body->source;
     char where[PIR_BODY_WHERE], beside[PIR_BODY_WHERE], a[PIR_BODY_WHERE], b[PIR_BODY_WHERE];
-    pir_body_where(source, body->facet[half], where);
-    pir_body_place(body, body->origin[half], a);
-    pir_body_place(body, body->origin[body->next[half]], b);
+    pir_shell_body_where(source, body->facet[half], where);
+    pir_shell_body_place(body, body->origin[half], a);
+    pir_shell_body_place(body, body->origin[body->next[half]], b);
     if (count == 1)
         return pir_fail(source->report, PIR_ERR_NOT_CLOSED,
                         "%s: the surface is open: the edge from %s to %s is on 1 "
                         "facet",
                         where, a, b);
-    pir_body_where(source, body->facet[other], beside);
+    pir_shell_body_where(source, body->facet[other], beside);
     if (count == 2)
         return pir_fail(source->report, PIR_ERR_NOT_CLOSED,
                         "%s: this facet and %s walk the edge from %s to %s the same "
@@ -46,11 +46,11 @@ static pir_status refuse_edge(const pir_body *body, uint32_t half, uint32_t othe
                     where, a, b, (unsigned)count, beside);
 }
 
-static void join_halves(pir_body *body, uint32_t a, uint32_t b) {
+static void join_halves(pir_shell_body *body, uint32_t a, uint32_t b) {
     body->twin[a] = b;
     body->twin[b] = a;
-    pir_body_edge *edge = &body->edge[body->edge_count++];
-    *edge = (pir_body_edge){.half = a < b ? a : b};
+    pir_shell_body_edge *edge = &body->edge[body->edge_count++];
+    *edge = (pir_shell_body_edge){.half = a < b ? a : b};
     edge->a = body->origin[edge->half];
     edge->b = body->origin[body->next[edge->half]];
     edge->left = body->facet[edge->half];
@@ -63,7 +63,7 @@ static void join_halves(pir_body *body, uint32_t a, uint32_t b) {
  * so its half-plane is a quarter turn behind its normal where they lead along the edge, and behind the reverse of the
  * normal where they lead back. */
 struct fan {
-    const pir_body *body;
+    const pir_shell_body *body;
     uint32_t first, along; /* a halfedge; the direction that it leads in */
 };
 
@@ -73,7 +73,7 @@ static int way_of(const struct fan *fan, uint32_t half) {
 }
 
 static uint32_t normal_of(const struct fan *fan, uint32_t half) {
-    const pir_body *body = fan->body;
+    const pir_shell_body *body = fan->body;
     return body->space->plane[body->plane[body->facet[half]]].direction[0];
 }
 
@@ -100,7 +100,7 @@ static bool is_earlier(void *context, uint32_t a, uint32_t b) {
 
 /* Joins the halfedges order[0 .. count), an even number, around the edge that they have in common: each that leads back
  * has material ahead of it. `work` has room for as many. */
-static pir_status join_around(pir_body *body, uint32_t *order, uint32_t *work, uint32_t count) {
+static pir_status join_around(pir_shell_body *body, uint32_t *order, uint32_t *work, uint32_t count) {
     struct fan fan = {body, order[0], 0};
     fan.along = pir_polygons_direction(body->space, body->origin[order[0]], body->origin[body->next[order[0]]]);
     pir_sort(order, count, work, is_earlier, &fan);
@@ -118,16 +118,17 @@ static pir_status join_around(pir_body *body, uint32_t *order, uint32_t *work, u
 /* --- all --- */
 
 /* A side that a facet walks back at once leads to no hole. */
-static pir_status refuse_spur(const pir_body *body, uint32_t half) {
+static pir_status refuse_spur(const pir_shell_body *body, uint32_t half) {
     char where[PIR_BODY_WHERE], a[PIR_BODY_WHERE], b[PIR_BODY_WHERE];
-    return pir_fail(
-        body->source.report, PIR_ERR_NOT_CLOSED, "%s: this facet walks from %s to %s and back, and no hole is there",
-        pir_body_where(&body->source, body->facet[half], where), pir_body_place(body, body->origin[half], a),
-        pir_body_place(body, body->origin[body->next[half]], b));
+    return pir_fail(body->source.report, PIR_ERR_NOT_CLOSED,
+                    "%s: this facet walks from %s to %s and back, and no hole is there",
+                    pir_shell_body_where(&body->source, body->facet[half], where),
+                    pir_shell_body_place(body, body->origin[half], a),
+                    pir_shell_body_place(body, body->origin[body->next[half]], b));
 }
 
 /* Joins the halfedges order[0 .. count), which have the same ends. */
-static pir_status join_group(pir_body *body, uint32_t *order, uint32_t *work, uint32_t count) {
+static pir_status join_group(pir_shell_body *body, uint32_t *order, uint32_t *work, uint32_t count) {
     if (count > 2 && count % 2 == 0)
         return join_around(body, order, work, count);
     if (count != 2 || body->origin[order[0]] == body->origin[order[1]])
@@ -139,7 +140,7 @@ static pir_status join_group(pir_body *body, uint32_t *order, uint32_t *work, ui
     return PIR_OK;
 }
 
-pir_status pir_body_find_twins(pir_body *body) {
+pir_status pir_shell_body_find_twins(pir_shell_body *body) {
     const pir_allocator *a = &body->space->allocator;
     const uint32_t count = body->half_count;
     uint32_t *order = PIR_NEW(a, uint32_t, count), *work = PIR_NEW(a, uint32_t, count);

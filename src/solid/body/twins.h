@@ -7,6 +7,6 @@
 
 /* Fills twins and edges, whose directions and bends are still to come. Facets have their planes. PIR_ERR_NOT_CLOSED is
  * reported with the edge. */
-pir_status pir_body_find_twins(pir_body *body);
+pir_status pir_shell_body_find_twins(pir_shell_body *body);
 
 #endif

@@ -53,7 +53,7 @@ struct change {
 };
 
 struct division {
-    const pir_body *body;
+    const pir_shell_body *body;
     pir_decompose_method method;
     pir_space *space;
     pir_cells *cells;
@@ -73,7 +73,7 @@ struct division {
     uint32_t change_count, change_room;
     uint32_t *seen, *place; /* per plane: the last look that came to it, and its place among choices then */
     uint32_t seen_room, place_room, look;
-    pir_sides sides;
+    pir_plane_sides sides;
 };
 
 void pir_piece_list_add(pir_piece_list *pieces, pir_space *space, uint32_t cell) {
@@ -133,7 +133,7 @@ static bool is_new(struct division *d, uint32_t half) {
 
 /* The weight of a crease for a plane that holds it, or against one that cuts it. */
 static int worth_of(struct division *d, const struct crease *crease, uint32_t plane) {
-    const unsigned seen = pir_sides_of_points(&d->sides, plane, (const uint32_t[]){crease->a, crease->b}, 2);
+    const unsigned seen = pir_plane_sides_of_points(&d->sides, plane, (const uint32_t[]){crease->a, crease->b}, 2);
     return seen == PIR_ON_PLANE ? 16 : seen == (PIR_ABOVE | PIR_BELOW) ? -8 : 0;
 }
 
@@ -144,7 +144,7 @@ static void count_crease(struct division *d, struct choice *choice, const struct
 
 /* Counts a fragment, or takes it back. */
 static void count_fragment(struct division *d, struct choice *choice, uint32_t fragment, int sign) {
-    const unsigned seen = pir_sides_of_polygon(&d->sides, choice->half >> 1, fragment);
+    const unsigned seen = pir_plane_sides_of_polygon(&d->sides, choice->half >> 1, fragment);
     choice->side[0] += seen & PIR_BELOW ? sign : 0;
     choice->side[1] += seen & PIR_ABOVE ? sign : 0;
     choice->cut += (seen & PIR_ABOVE) && (seen & PIR_BELOW) ? sign : 0;
@@ -242,8 +242,8 @@ static void cut_fragments(struct division *d, const struct node *node, uint32_t 
         const unsigned sides = pir_polygons_sides(&d->polygons, fragment, half);
         if (sides == 3) {
             pir_polygons_cut(&d->polygons, fragment, half, parts);
-            pir_sides_add(&d->sides, parts[0], fragment);
-            pir_sides_add(&d->sides, parts[1], fragment);
+            pir_plane_sides_add(&d->sides, parts[0], fragment);
+            pir_plane_sides_add(&d->sides, parts[1], fragment);
         }
         if (sides & 1)
             push_fragment(d, parts[0]);
@@ -378,8 +378,8 @@ static void divide(struct division *d) {
 /* --- the whole --- */
 
 /* The walls of a reflex edge. */
-static struct crease crease_at(struct division *d, const pir_body_edge *edge, uint32_t up) {
-    const pir_body *body = d->body;
+static struct crease crease_at(struct division *d, const pir_shell_body_edge *edge, uint32_t up) {
+    const pir_shell_body *body = d->body;
     const uint32_t left = body->plane[edge->left], right = body->plane[edge->right];
     struct crease crease = {.a = edge->a, .b = edge->b, .plane = {left, right}};
     if (d->method != PIR_DECOMPOSE_WALLS)
@@ -397,17 +397,17 @@ static struct crease crease_at(struct division *d, const pir_body_edge *edge, ui
 }
 
 static void begin(struct division *d) {
-    const pir_body *body = d->body;
+    const pir_shell_body *body = d->body;
     struct node root = {.cell = pir_cells_add_box(d->cells)};
     for (uint32_t p = 0; p < body->part_count && d->space->status == PIR_OK; p++) {
         const uint32_t made =
             pir_polygons_add(&d->polygons, body->half[body->part_facet[p]], body->part_corner + body->part_start[p],
                              body->part_direction + body->part_start[p], body->part_start[p + 1] - body->part_start[p]);
-        pir_sides_add(&d->sides, made, PIR_SPACE_NONE);
+        pir_plane_sides_add(&d->sides, made, PIR_SPACE_NONE);
         push_fragment(d, made);
     }
     for (uint32_t e = 0; e < body->edge_count; e++) {
-        const pir_body_edge *edge = &body->edge[e];
+        const pir_shell_body_edge *edge = &body->edge[e];
         if (edge->bend == PIR_BEND_REFLEX)
             push_crease(d, crease_at(d, edge, d->polygons.axis[2]));
     }
@@ -416,11 +416,12 @@ static void begin(struct division *d) {
     push_node(d, root);
 }
 
-pir_status pir_decompose(const pir_body *body, pir_decompose_method method, pir_cells *cells, pir_piece_list *pieces) {
+pir_status pir_decompose(const pir_shell_body *body, pir_decompose_method method, pir_cells *cells,
+                         pir_piece_list *pieces) {
     pir_space *space = body->space;
     struct division d = {.body = body, .method = method, .space = space, .cells = cells, .pieces = pieces};
     pir_polygons_init(&d.polygons, space);
-    pir_sides_init(&d.sides, body, &d.polygons);
+    pir_plane_sides_init(&d.sides, body, &d.polygons);
     begin(&d);
     divide(&d);
     pir_space_shrink(space, d.node, d.node_room, sizeof *d.node);
@@ -431,7 +432,7 @@ pir_status pir_decompose(const pir_body *body, pir_decompose_method method, pir_
     pir_space_shrink(space, d.place, d.place_room, sizeof *d.place);
     pir_space_shrink(space, d.choices, d.choice_room, sizeof *d.choices);
     pir_space_shrink(space, d.changes, d.change_room, sizeof *d.changes);
-    pir_sides_finish(&d.sides);
+    pir_plane_sides_finish(&d.sides);
     pir_polygons_finish(&d.polygons);
     return space->status;
 }

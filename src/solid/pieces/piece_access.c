@@ -113,7 +113,7 @@ static pir_status keep(const pir_cells *cells, const pir_piece_list *list, const
 static pir_status decompose(const pir_solid *solid, const pir_solid_options *options, pir_decompose_method method,
                             pir_report *report, pir_pieces **ret_pieces) {
     pir_space space;
-    pir_body body = {0};
+    pir_shell_body body = {0};
     pir_cells cells;
     pir_piece_list list = {0};
     pir_space_init(&space, options->allocator, options->memory, pir_vectors_bits(&solid->points) + 1);
@@ -130,7 +130,7 @@ static pir_status decompose(const pir_solid *solid, const pir_solid_options *opt
         status = keep(&cells, &list, &solid->scale, options->allocator, ret_pieces);
     pir_piece_list_finish(&list, &space);
     pir_cells_finish(&cells);
-    pir_body_finish(&body);
+    pir_shell_body_finish(&body);
     status = pir_space_outcome(&space, status, "decompose", report);
     pir_space_finish(&space);
     return status;

@@ -14,8 +14,8 @@
 /* Polygons of so many corners are asked anew each time. */
 #define FEW_CORNERS 8
 
-void pir_sides_init(pir_sides *sides, const pir_body *body, const pir_polygons *polygons) {
-    *sides = (pir_sides){.space = body->space, .polygons = polygons, .first_point = body->first_point};
+void pir_plane_sides_init(pir_plane_sides *sides, const pir_shell_body *body, const pir_polygons *polygons) {
+    *sides = (pir_plane_sides){.space = body->space, .polygons = polygons, .first_point = body->first_point};
     uint32_t first = PIR_SPACE_NONE, last = 0;
     for (uint32_t f = 0; f < body->source.facet_count; f++) {
         first = body->plane[f] < first ? body->plane[f] : first;
@@ -31,15 +31,15 @@ void pir_sides_init(pir_sides *sides, const pir_body *body, const pir_polygons *
     sides->points = body->source.point_count;
 }
 
-void pir_sides_finish(pir_sides *sides) {
+void pir_plane_sides_finish(pir_plane_sides *sides) {
     pir_space_shrink(sides->space, sides->side, sides->side_room, sizeof *sides->side);
     pir_space_shrink(sides->space, sides->shape, sides->shape_room, sizeof *sides->shape);
     pir_space_shrink(sides->space, sides->known, sides->known_room, sizeof *sides->known);
-    *sides = (pir_sides){0};
+    *sides = (pir_plane_sides){0};
 }
 
-void pir_sides_add(pir_sides *sides, uint32_t polygon, uint32_t whole) {
-    pir_sides *s = sides;
+void pir_plane_sides_add(pir_plane_sides *sides, uint32_t polygon, uint32_t whole) {
+    pir_plane_sides *s = sides;
     if (!pir_space_grow(s->space, (void **)&s->shape, &s->shape_room, polygon, sizeof *s->shape))
         return;
     for (; s->shape_count <= polygon; s->shape_count++)
@@ -61,7 +61,7 @@ static unsigned ask_side(pir_space *space, uint32_t plane, uint32_t point) {
     return 1u << (1 - pir_space_side(space, pir_half(plane, false), point));
 }
 
-unsigned pir_sides_of_points(pir_sides *sides, uint32_t plane, const uint32_t *point, uint32_t count) {
+unsigned pir_plane_sides_of_points(pir_plane_sides *sides, uint32_t plane, const uint32_t *point, uint32_t count) {
     const uint32_t row = plane - sides->first_plane, first = sides->first_point;
     const uint32_t points = row < sides->planes ? sides->points : 0;
     uint8_t *kept = points > 0 ? sides->side + (size_t)row * points : NULL;
@@ -79,7 +79,7 @@ unsigned pir_sides_of_points(pir_sides *sides, uint32_t plane, const uint32_t *p
     return seen;
 }
 
-unsigned pir_sides_of_polygon(pir_sides *sides, uint32_t plane, uint32_t polygon) {
+unsigned pir_plane_sides_of_polygon(pir_plane_sides *sides, uint32_t plane, uint32_t polygon) {
     const pir_polygon p = sides->polygons->polygon[polygon];
     const pir_shape *shape = &sides->shape[polygon];
     const pir_space_plane *f = &sides->space->plane[plane];
@@ -90,7 +90,7 @@ unsigned pir_sides_of_polygon(pir_sides *sides, uint32_t plane, uint32_t polygon
     uint8_t *known = shape->known == PIR_SPACE_NONE || row >= sides->planes ? NULL : &sides->known[shape->known + row];
     if (known && *known)
         return *known;
-    const unsigned seen = pir_sides_of_points(sides, plane, sides->polygons->point + p.first, p.count);
+    const unsigned seen = pir_plane_sides_of_points(sides, plane, sides->polygons->point + p.first, p.count);
     if (known)
         *known = (uint8_t)seen;
     return seen;

@@ -15,7 +15,7 @@ typedef struct pir_shape {
     uint32_t known;
 } pir_shape;
 
-typedef struct pir_sides {
+typedef struct pir_plane_sides {
     pir_space *space;
     const pir_polygons *polygons;
     uint32_t first_plane, planes, first_point, points; /* those of the body's facets, and its own */
@@ -23,19 +23,19 @@ typedef struct pir_sides {
     pir_shape *shape;                                  /* per polygon */
     uint8_t *known; /* of polygons with many corners: per plane the sides that they are on, or 0 */
     uint32_t side_room, shape_count, shape_room, known_count, known_room;
-} pir_sides;
+} pir_plane_sides;
 
 /* Sides of the planes of a body's facets; those of other planes are not kept. */
-void pir_sides_init(pir_sides *sides, const pir_body *body, const pir_polygons *polygons);
-void pir_sides_finish(pir_sides *sides);
+void pir_plane_sides_init(pir_plane_sides *sides, const pir_shell_body *body, const pir_polygons *polygons);
+void pir_plane_sides_finish(pir_plane_sides *sides);
 
 /* Notes a polygon, which may be a part that a cut has left of another, `whole`; else that is none. */
-void pir_sides_add(pir_sides *sides, uint32_t polygon, uint32_t whole);
+void pir_plane_sides_add(pir_plane_sides *sides, uint32_t polygon, uint32_t whole);
 
 /* On which sides of a plane points are. It does not look further when some are above and some below. */
-unsigned pir_sides_of_points(pir_sides *sides, uint32_t plane, const uint32_t *point, uint32_t count);
+unsigned pir_plane_sides_of_points(pir_plane_sides *sides, uint32_t plane, const uint32_t *point, uint32_t count);
 
 /* On which sides of a plane a polygon's corners are: whether some are above it, and whether some are below. */
-unsigned pir_sides_of_polygon(pir_sides *sides, uint32_t plane, uint32_t polygon);
+unsigned pir_plane_sides_of_polygon(pir_plane_sides *sides, uint32_t plane, uint32_t polygon);
 
 #endif

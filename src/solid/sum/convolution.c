@@ -23,7 +23,7 @@ struct flat_face {
 
 struct candidate_maker {
     pir_space *space;
-    const pir_body *a, *b; /* the body whose facet gives the normal, and the other */
+    const pir_shell_body *a, *b; /* the body whose facet gives the normal, and the other */
     pir_polygons *polygons;
     pir_candidate_taker *take;
     void *context;
@@ -75,7 +75,7 @@ static void add_sum(struct candidate_maker *m, uint32_t half, uint32_t n, const 
         m->take(m->context, polygon);
 }
 
-static struct flat_face part_of(const pir_body *body, uint32_t part) {
+static struct flat_face part_of(const pir_shell_body *body, uint32_t part) {
     const uint32_t first = body->part_start[part];
     return (struct flat_face){body->part_corner + first, body->part_direction + first,
                               body->part_start[part + 1] - first};
@@ -99,7 +99,7 @@ static void add_parts(struct candidate_maker *m, uint32_t facet, const struct fl
 
 /* --- a facet of a with what it meets of b --- */
 
-static uint32_t direction_from(const pir_body_edge *edge, uint32_t point, int *ret_sign) {
+static uint32_t direction_from(const pir_shell_body_edge *edge, uint32_t point, int *ret_sign) {
     *ret_sign = edge->a == point ? 1 : -1;
     return edge->direction;
 }
@@ -116,7 +116,7 @@ static bool supports_at_vertex(struct candidate_maker *m, uint32_t v, uint32_t n
 }
 
 /* Whether an edge lies in a plane with normal n, and both its facets lead below it. */
-static bool supports_at_edge(struct candidate_maker *m, const pir_body_edge *edge, uint32_t n) {
+static bool supports_at_edge(struct candidate_maker *m, const pir_shell_body_edge *edge, uint32_t n) {
     if (edge->bend != PIR_BEND_CONVEX || pir_space_dot(m->space, edge->direction, n) != 0)
         return false;
     const uint32_t left = m->space->plane[m->b->plane[edge->left]].direction[0];
@@ -146,7 +146,7 @@ static void meet_vertices(struct candidate_maker *m, uint32_t facet, uint32_t n)
 
 static void meet_edges(struct candidate_maker *m, uint32_t facet, uint32_t n) {
     for (uint32_t e = 0; e < m->b->edge_count && m->space->status == PIR_OK; e++) {
-        const pir_body_edge *edge = &m->b->edge[e];
+        const pir_shell_body_edge *edge = &m->b->edge[e];
         if (!supports_at_edge(m, edge, n))
             continue;
         mpz_t *t = m->space->t + 8;
@@ -169,7 +169,7 @@ static void meet_facets(struct candidate_maker *m, uint32_t facet, uint32_t n) {
 /* --- edges --- */
 
 /* As of convex pieces: the sign of right · direction where an edge's arc passes strictly through its great circle. */
-static int passes(const struct candidate_maker *m, const pir_body *body, const pir_body_edge *edge,
+static int passes(const struct candidate_maker *m, const pir_shell_body *body, const pir_shell_body_edge *edge,
                   uint32_t direction) {
     const uint32_t left = m->space->plane[body->plane[edge->left]].direction[0];
     const uint32_t right = m->space->plane[body->plane[edge->right]].direction[0];
@@ -177,7 +177,7 @@ static int passes(const struct candidate_maker *m, const pir_body *body, const p
     return sign != 0 && pir_space_dot(m->space, left, direction) == -sign ? sign : 0;
 }
 
-static void meet_edge_pair(struct candidate_maker *m, const pir_body_edge *e, const pir_body_edge *g) {
+static void meet_edge_pair(struct candidate_maker *m, const pir_shell_body_edge *e, const pir_shell_body_edge *g) {
     const int along = passes(m, m->a, e, g->direction);
     if (along == 0 || passes(m, m->b, g, e->direction) != -along)
         return;
@@ -255,7 +255,7 @@ static void make(struct candidate_maker *m, bool both) {
     finish(m);
 }
 
-void pir_candidates(const pir_body *p, const pir_body *q, pir_polygons *polygons, pir_candidate_taker *take,
+void pir_candidates(const pir_shell_body *p, const pir_shell_body *q, pir_polygons *polygons, pir_candidate_taker *take,
                     void *context) {
     struct candidate_maker pq = {
         .space = p->space, .a = p, .b = q, .polygons = polygons, .take = take, .context = context};

@@ -13,7 +13,7 @@
 typedef void pir_candidate_taker(void *context, uint32_t polygon);
 
 /* Hands every candidate of the sum of p and q, made in `polygons`, to `take`. */
-void pir_candidates(const pir_body *p, const pir_body *q, pir_polygons *polygons, pir_candidate_taker *take,
+void pir_candidates(const pir_shell_body *p, const pir_shell_body *q, pir_polygons *polygons, pir_candidate_taker *take,
                     void *context);
 
 #endif

@@ -86,13 +86,13 @@ static pir_status make_body(pir_operands *o, int k, const pir_solid *solid, cons
     const uint32_t numbers = pir_space_numbers(&o->space, 3 * o->count[k]);
     for (uint32_t i = 0; i < 3 * o->count[k] && o->space.status == PIR_OK; i++)
         mpz_set(o->space.number[numbers + i], o->coordinate[k][i]);
-    const pir_body_source source = {.name = "the solid",
-                                    .unit = 1,
-                                    .point_count = o->count[k],
-                                    .facet_count = solid->facet_count,
-                                    .start = solid->start,
-                                    .corner = corner};
-    return o->space.status == PIR_OK ? pir_body_make(&o->body[k], &o->space, &source, numbers) : o->space.status;
+    const pir_shell_body_source source = {.name = "the solid",
+                                          .unit = 1,
+                                          .point_count = o->count[k],
+                                          .facet_count = solid->facet_count,
+                                          .start = solid->start,
+                                          .corner = corner};
+    return o->space.status == PIR_OK ? pir_shell_body_make(&o->body[k], &o->space, &source, numbers) : o->space.status;
 }
 
 pir_status pir_operands_init(pir_operands *operands, const pir_solid *const solid[2], pir_rotation *rotation,
@@ -123,7 +123,7 @@ pir_status pir_operands_init(pir_operands *operands, const pir_solid *const soli
 void pir_operands_finish(pir_operands *operands) {
     pir_operands *o = operands;
     for (int k = 0; k < 2; k++) {
-        pir_body_finish(&o->body[k]);
+        pir_shell_body_finish(&o->body[k]);
         for (size_t i = 0; i < 3 * (size_t)o->count[k]; i++)
             mpz_clear(o->coordinate[k][i]);
         PIR_FREE(&o->allocator, o->coordinate[k], 3 * (size_t)o->count[k]);

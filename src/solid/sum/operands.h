@@ -10,7 +10,7 @@ typedef struct pir_operands {
     pir_allocator allocator;
     pir_space space;
     bool has_space;
-    pir_body body[2];
+    pir_shell_body body[2];
     mpz_t *coordinate[2]; /* three a point, on the common scale */
     uint32_t count[2];
     uint32_t *reversed; /* of P, its facets' corners the other way round, when it is reflected */

@@ -150,7 +150,7 @@ static void clip(pir_remains *c, uint32_t candidate) {
 /* --- vertices that are not convex, of open solids --- */
 
 /* Whether each point of a body is on a reflex edge; NULL when out of memory. */
-static bool *list_reflex(const pir_body *body) {
+static bool *list_reflex(const pir_shell_body *body) {
     bool *reflex = PIR_ZEROED(&body->space->allocator, bool, body->source.point_count);
     for (uint32_t e = 0; e < body->edge_count && reflex; e++)
         if (body->edge[e].bend == PIR_BEND_REFLEX)
@@ -169,7 +169,7 @@ static void take_vertices(pir_remains *c, uint32_t p, uint32_t q) {
     clip_touching(c, pir_boxes_find(&c->boxes, &box, c->order));
 }
 
-static void take_reflex_vertices(pir_remains *c, const pir_body body[2]) {
+static void take_reflex_vertices(pir_remains *c, const pir_shell_body body[2]) {
     bool *reflex[2] = {list_reflex(&body[0]), list_reflex(&body[1])};
     if (!reflex[0] || !reflex[1])
         c->space->status = PIR_ERR_MEMORY;
@@ -246,7 +246,7 @@ static void clip_all(pir_remains *c) {
     PIR_FREE(a, work, count);
 }
 
-void pir_remains_make(pir_remains *remains, const pir_body body[2], const pir_convexes convexes[2], bool open) {
+void pir_remains_make(pir_remains *remains, const pir_shell_body body[2], const pir_convexes convexes[2], bool open) {
     *remains = (pir_remains){.space = body[0].space, .open = open};
     remains->touching.polygons = &remains->polygons;
     pir_polygons_init(&remains->polygons, remains->space);
