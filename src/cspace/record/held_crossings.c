@@ -65,7 +65,7 @@ void pir_held_crossings_take(pir_held_crossings *held) {
     memcpy(held->slot, c->at, c->used * sizeof *c->at);
 }
 
-/* Counts an edge of Q once more: how many edges have been found an odd number of times changes by what it returns. */
+/* Toggles the parity of an edge of Q. Returns the change in the number of edges with odd parity, 1 or −1. */
 static inline uint32_t count_edge(pir_held_crossings *held, uint32_t g) {
     uint8_t odd = held->odd[g] ^= 1;
     return odd ? 1 : UINT32_MAX;

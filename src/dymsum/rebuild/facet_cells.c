@@ -76,7 +76,7 @@ void pir_locate_facets_of_p(pir_tracked *tracked) {
         fv[f] = PIR_NO_PAIR;
     for (uint32_t i = 0; i < p->facet_count;) {
         uint32_t facet[PIR_DESCENT_MOST], from[PIR_DESCENT_MOST], count = 0;
-        // as far as the facet beside each has its cell
+        // facet by facet, until a neighbour has no cell yet
         for (; i < p->facet_count && count < PIR_DESCENT_MOST; i++) {
             const pir_visit visit = p->visit[i];
             if (fv[visit.beside] == PIR_NO_PAIR && i > 0)

@@ -8,7 +8,7 @@
 /* Sums with so many facets are large: repairs fetch the memory that later ones read, and edges are derived together. */
 #define PIR_LARGE_FACETS 16384
 
-static inline bool pir_is_large(const pir_tracked *tracked) {
+static inline bool pir_sum_is_large(const pir_tracked *tracked) {
     return pir_certificate_count(tracked) >= PIR_LARGE_FACETS;
 }
 

@@ -84,24 +84,24 @@ struct sides {
 };
 
 /*
- * Compares `count` sides from halfedge h on, at most SIDES. Returns a bit for each that may have been touched in the
- * step or that the facet is past; which ones these are is not foreseen, so that nothing branches here.
+ * Compares `count` sides from halfedge h on, at most SIDES. Returns a mask of the affected ones: those that may have
+ * been touched in the step, or that the facet is past. Nothing branches here, for no processor foresees which.
  */
 static inline uint32_t compare_sides(const struct facet_tracer *tracer, uint32_t h, uint32_t count,
                                      struct sides *ret_sides) {
     const double stride = fabs(tracer->step->stride), farthest = 0.5 * stride * stride + 2 * tracer->step->error;
     const pir_vec3 *direction = tracer->step->other->direction + h;
-    uint32_t concerned = 0;
+    uint32_t affected = 0;
     for (uint32_t i = 0; i < count; i++) {
         double s = pir_vec_dot(tracer->turned, direction[i]), rate = pir_vec_dot(tracer->motion, direction[i]);
         ret_sides->s[i] = s;
         ret_sides->rate[i] = rate;
-        concerned |= (uint32_t)((fabs(s) <= fabs(rate) * stride + farthest) | (s >= 0)) << i;
+        affected |= (uint32_t)((fabs(s) <= fabs(rate) * stride + farthest) | (s >= 0)) << i;
     }
-    return concerned;
+    return affected;
 }
 
-/* Adds a side that is concerned to the exit. */
+/* Adds an affected side to the exit. */
 static inline void see_side(const struct facet_tracer *tracer, uint32_t h, double s, double rate, struct exit *exit) {
     const double stride = fabs(tracer->step->stride), error = tracer->step->error, size = fabs(s), speed = fabs(rate);
     const double rising = tracer->step->stride < 0 ? -rate : rate;
@@ -117,9 +117,9 @@ static struct exit find_exit(const struct facet_tracer *tracer, uint32_t v) {
     struct exit exit = {.known = true};
     for (uint32_t h = tracer->step->other->ring_start[v]; h < end && exit.known; h += SIDES) {
         struct sides sides;
-        uint32_t concerned = compare_sides(tracer, h, end - h < SIDES ? end - h : SIDES, &sides);
-        for (; concerned && exit.known; concerned &= concerned - 1) {
-            uint32_t i = (uint32_t)__builtin_ctz(concerned);
+        uint32_t affected = compare_sides(tracer, h, end - h < SIDES ? end - h : SIDES, &sides);
+        for (; affected && exit.known; affected &= affected - 1) {
+            uint32_t i = (uint32_t)__builtin_ctz(affected);
             see_side(tracer, h + i, sides.s[i], sides.rate[i], &exit);
         }
     }
@@ -152,19 +152,19 @@ static void follow_by_doubles(struct facet_tracer *tracer) {
 /* Both values are off by less, and so is what this file makes of them by floats. */
 #define SLACK ((double)PIR_FLOAT_BOUND)
 
-/* Returns a bit for each of the directions of a block that floats are not certain to be left as it is. */
+/* Returns a mask of the directions of a block that floats do not prove untouched by the step. */
 static inline uint32_t compare_block(const struct facet_tracer *tracer, const pir_ring *ring, float *ret_s,
                                      float *ret_rate) {
     const float *u = tracer->packed, stride = (float)fabs(tracer->step->stride);
     const float farthest = (float)(0.5 * (double)stride * (double)stride + 2 * tracer->step->error + 2 * SLACK);
-    uint32_t concerned = 0;
+    uint32_t affected = 0;
     for (uint32_t i = 0; i < PIR_LANES; i++) {
         ret_s[i] = u[0] * ring->x[i] + u[1] * ring->y[i] + u[2] * ring->z[i];
         ret_rate[i] = u[4] * ring->x[i] + u[5] * ring->y[i] + u[6] * ring->z[i];
     }
     for (uint32_t i = 0; i < PIR_LANES; i++)
-        concerned |= (uint32_t)(-ret_s[i] <= fabsf(ret_rate[i]) * stride + farthest) << i;
-    return concerned;
+        affected |= (uint32_t)(-ret_s[i] <= fabsf(ret_rate[i]) * stride + farthest) << i;
+    return affected;
 }
 
 /* As see_side, where that is certain of all values within the slack. */
@@ -184,9 +184,9 @@ static struct exit find_exit_by_floats(const struct facet_tracer *tracer, uint32
     struct exit exit = {.known = true};
     for (uint32_t h = 0; h < sides && exit.known; h += PIR_LANES, ring++) {
         float s[PIR_LANES], rate[PIR_LANES];
-        uint32_t concerned = compare_block(tracer, ring, s, rate) & (uint32_t)pir_side_mask(sides - h);
-        for (; concerned && exit.known; concerned &= concerned - 1) {
-            uint32_t i = (uint32_t)__builtin_ctz(concerned);
+        uint32_t affected = compare_block(tracer, ring, s, rate) & (uint32_t)pir_side_mask(sides - h);
+        for (; affected && exit.known; affected &= affected - 1) {
+            uint32_t i = (uint32_t)__builtin_ctz(affected);
             see_side_by_floats(tracer, h + i, (double)s[i], (double)rate[i], &exit);
         }
     }

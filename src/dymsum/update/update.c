@@ -377,7 +377,7 @@ pir_status pir_update_repair(pir_tracked *tracked, bool jumped) {
     if (expired == 0 && !jumped)
         return PIR_OK;
     tracked->statistics.checked += expired;
-    struct update update = {.tracked = tracked, .stamp = next_stamp(tracked), .large = pir_is_large(tracked)};
+    struct update update = {.tracked = tracked, .stamp = next_stamp(tracked), .large = pir_sum_is_large(tracked)};
     update.all = jumped || !(pir_epoch_reach(&tracked->epoch) < HUGE_VALF);
     review(&update, expired);
     for (uint32_t e = 0; update.all && e < tracked->pairing.p->edge_count; e++)

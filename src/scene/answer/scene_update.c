@@ -3,7 +3,7 @@
  * An update, in steps of which all that can fail come before the last:
  *
  *   1. places are checked, and boxes made for them;
- *   2. bodies go to their places, and pieces whose boxes leave those of the tree are put in anew;
+ *   2. bodies go to their places, and pieces whose boxes leave those of the tree are reinserted;
  *   3. pairs that these lack are made;
  *   4. pairs of moved bodies are looked at, and asked where neither boxes nor distances tell;
  *   5. events are made, pairs without a meeting of boxes dropped.
