@@ -29,9 +29,9 @@ void pir_settle_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet, c
     uint32_t open[PIR_DESCENT_MOST];
     if (count == 0)
         return;
-    uint32_t left = tracked->kernels->descend(facets, facet, from, count, open, &tracked->pairing.signs.by_filter);
+    uint32_t remaining = tracked->kernels->descend(facets, facet, from, count, open, &tracked->pairing.signs.by_filter);
     pir_expiry unused;
-    for (uint32_t i = 0; i < left; i++) {
+    for (uint32_t i = 0; i < remaining; i++) {
         uint32_t f = open[i], *cell = &facets->cell[f];
         *cell = of_p ? pir_descend_fv(tracked, f, pir_rotated_normal(&tracked->pairing, f), *cell, &unused)
                      : pir_descend_vf(tracked, f, *cell, &unused);
@@ -124,16 +124,16 @@ static inline uint32_t noted_cell(const pir_tracked *tracked, uint32_t g) {
 static void spread(pir_tracked *tracked, uint32_t g) {
     const pir_polytope *q = tracked->pairing.q;
     pir_suspect *list = tracked->work->passes;
-    uint32_t *vf = tracked->pairing.vf, left = 0;
-    list[left++].facet = g;
-    while (left > 0) {
-        uint32_t from = list[--left].facet;
+    uint32_t *vf = tracked->pairing.vf, remaining = 0;
+    list[remaining++].facet = g;
+    while (remaining > 0) {
+        uint32_t from = list[--remaining].facet;
         for (uint32_t i = q->loop_start[from]; i < q->loop_start[from + 1]; i++) {
             const pir_across side = q->across[i];
             if (tracked->work->met[side.edge].of[0] != PIR_ONE_CELL || vf[side.facet] != PIR_NO_PAIR)
                 continue;
             vf[side.facet] = vf[g];
-            list[left++].facet = side.facet;
+            list[remaining++].facet = side.facet;
         }
     }
 }
@@ -143,7 +143,7 @@ static void spread(pir_tracked *tracked, uint32_t g) {
  * first of work.suspects; returns how many these are.
  */
 static uint32_t take_noted_cells(pir_tracked *tracked) {
-    uint32_t *vf = tracked->pairing.vf, open = 0, left = 0;
+    uint32_t *vf = tracked->pairing.vf, open = 0, remaining = 0;
     pir_suspect *list = tracked->work->suspects;
     for (uint32_t g = 0; g < tracked->pairing.q->facet_count; g++) {
         vf[g] = noted_cell(tracked, g);
@@ -157,10 +157,10 @@ static uint32_t take_noted_cells(pir_tracked *tracked) {
             spread(tracked, g);
     }
     for (uint32_t i = 0; i < open; i++) {
-        list[left].facet = list[i].facet;
-        left += vf[list[i].facet] == PIR_NO_PAIR;
+        list[remaining].facet = list[i].facet;
+        remaining += vf[list[i].facet] == PIR_NO_PAIR;
     }
-    return left;
+    return remaining;
 }
 
 /* Adds up what arcs have passed, from facet to facet. */

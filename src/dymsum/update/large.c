@@ -196,12 +196,13 @@ bool pir_derive_edges(pir_tracked *tracked, const uint32_t *edge, uint32_t count
     struct freed freed = {.count = 0};
     bool done = true;
     pir_tracked_turn_facets(tracked);
-    for (uint32_t k = 0, some; k < count && done; k += some) {
+    for (uint32_t k = 0, batch; k < count && done; k += batch) {
         const uint32_t most = edges_together(&tracked->pairing);
-        some = count - k < most ? count - k : most;
-        fetch_edges(tracked, edge + k, some);
-        done = pir_walk_aside(tracked, edge + k, some, &walked) ? list_walked(tracked, edge + k, some, &walked, &freed)
-                                                                : derive_one_by_one(tracked, edge + k, some);
+        batch = count - k < most ? count - k : most;
+        fetch_edges(tracked, edge + k, batch);
+        done = pir_walk_aside(tracked, edge + k, batch, &walked)
+                   ? list_walked(tracked, edge + k, batch, &walked, &freed)
+                   : derive_one_by_one(tracked, edge + k, batch);
     }
     return done;
 }

@@ -177,7 +177,7 @@ bool pir_derive_edge(pir_tracked *tracked, uint32_t e) {
         entered = c->at[slot].half;
         v = q->target[entered];
     }
-    // what is left of the old list is crossed no more
+    // the arc no longer crosses the rest of the old list
     while (old != PIR_NO_CROSSING) {
         uint32_t next = c->at[old].next;
         pir_crossing_free(tracked, old);

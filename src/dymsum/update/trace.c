@@ -246,9 +246,9 @@ static void follow(pir_tracked *tracked, struct facet_tracer *tracer, uint32_t c
     uint32_t going[AT_A_TIME];
     for (uint32_t i = 0; i < count; i++)
         going[i] = i;
-    for (uint32_t left = count; left > 0;) {
+    for (uint32_t remaining = count; remaining > 0;) {
         uint32_t on = 0;
-        for (uint32_t k = 0; k < left; k++) {
+        for (uint32_t k = 0; k < remaining; k++) {
             struct facet_tracer *t = &tracer[going[k]];
             bool sure;
             if (follow_on(t, &sure)) {
@@ -260,7 +260,7 @@ static void follow(pir_tracked *tracked, struct facet_tracer *tracer, uint32_t c
             if (t->trace->count != PIR_TRACE_UNKNOWN)
                 certify(tracked, t);
         }
-        left = on;
+        remaining = on;
     }
 }
 
@@ -303,19 +303,19 @@ static void trace_facets(pir_tracked *tracked, bool of_p, const uint32_t *facet,
 
 uint32_t pir_trace_open(pir_tracked *tracked, bool of_p, const pir_suspect *suspects, uint32_t count, uint32_t room,
                         pir_trace *ret_traces) {
-    uint32_t facet[AT_A_TIME], some = 0, traced = 0;
-    for (uint32_t i = 0; i < count && traced + some < room; i++) {
-        facet[some] = suspects[i].facet;
-        some += suspects[i].crossed == PIR_NO_SIDE;
-        if (some == AT_A_TIME) {
-            trace_facets(tracked, of_p, facet, some, ret_traces + traced);
-            traced += some;
-            some = 0;
+    uint32_t facet[AT_A_TIME], batch = 0, traced = 0;
+    for (uint32_t i = 0; i < count && traced + batch < room; i++) {
+        facet[batch] = suspects[i].facet;
+        batch += suspects[i].crossed == PIR_NO_SIDE;
+        if (batch == AT_A_TIME) {
+            trace_facets(tracked, of_p, facet, batch, ret_traces + traced);
+            traced += batch;
+            batch = 0;
         }
     }
-    if (some > 0)
-        trace_facets(tracked, of_p, facet, some, ret_traces + traced);
-    return traced + some;
+    if (batch > 0)
+        trace_facets(tracked, of_p, facet, batch, ret_traces + traced);
+    return traced + batch;
 }
 
 void pir_trace_one(pir_tracked *tracked, bool of_p, uint32_t facet, pir_trace *ret_trace) {

@@ -220,7 +220,7 @@ static void settle_of_q(struct update *update, uint32_t g) {
  */
 static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t *ret_of_q) {
     pir_tracked *tracked = update->tracked;
-    uint32_t *certificate = tracked->certificates.expired, left = 0, of_q = 0;
+    uint32_t *certificate = tracked->certificates.expired, due = 0, of_q = 0;
     *ret_of_q = 0;
     // while the motion has not reversed, no facet returns
     if (!tracked->epoch.reverses)
@@ -231,7 +231,7 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
         const pir_facets *facets = of_p ? &tracked->p_facets : &tracked->q_facets;
         uint32_t f = i - facets->first_certificate;
         if (!pir_certificate_reuse(&tracked->certificates, i, tracked->epoch.phase, facets->twin, &half)) {
-            certificate[left++] = i;
+            certificate[due++] = i;
             continue;
         }
         facets->cell[f] = facets->target[half];
@@ -244,7 +244,7 @@ static uint32_t return_facets(struct update *update, uint32_t expired, uint32_t 
         }
     }
     *ret_of_q = of_q;
-    return left;
+    return due;
 }
 
 /*
@@ -307,9 +307,9 @@ static uint32_t review_and_trace(struct update *update, bool of_p, const uint32_
     const uint32_t most = pir_traces_most(pir_certificate_count(tracked));
     uint32_t listed = 0;
     for (uint32_t k = 0; k < count; k += REVIEWED) {
-        const uint32_t some = count - k < REVIEWED ? count - k : REVIEWED;
+        const uint32_t batch = count - k < REVIEWED ? count - k : REVIEWED;
         pir_suspect *suspects = ret_suspects + listed;
-        uint32_t found = review_part(update, of_p, (pir_due){expired + k, some, count - k - some, k > 0}, suspects);
+        uint32_t found = review_part(update, of_p, (pir_due){expired + k, batch, count - k - batch, k > 0}, suspects);
         listed += found;
         if (!update->all)
             update->traces += pir_trace_open(tracked, of_p, suspects, found, most - update->traces,
@@ -327,16 +327,16 @@ static inline uint32_t review_all(struct update *update, bool of_p, const uint32
 /* Locates the facets whose certificates have expired, and repairs or notes the edges that they have touched. */
 static void review(struct update *update, uint32_t expired) {
     pir_tracked *tracked = update->tracked;
-    uint32_t back, left = return_facets(update, expired, &back), of_p = 0, of_q = 0;
+    uint32_t back, due = return_facets(update, expired, &back), of_p = 0, of_q = 0;
     pir_suspect *seen = tracked->work->suspects + back;
-    if (left > 0) {
+    if (due > 0) {
         const uint32_t *certificate = tracked->certificates.expired;
-        uint32_t left_of_p = 0;
-        while (left_of_p < left && certificate[left_of_p] < tracked->q_facets.first_certificate)
-            left_of_p++;
+        uint32_t due_of_p = 0;
+        while (due_of_p < due && certificate[due_of_p] < tracked->q_facets.first_certificate)
+            due_of_p++;
         pir_tracked_begin_step(tracked);
-        of_p = review_all(update, true, certificate, left_of_p, seen);
-        of_q = review_all(update, false, certificate + left_of_p, left - left_of_p, seen + of_p);
+        of_p = review_all(update, true, certificate, due_of_p, seen);
+        of_q = review_all(update, false, certificate + due_of_p, due - due_of_p, seen + of_p);
         update->all |= are_many_open(tracked, seen, of_p + of_q);
     }
     apply_of_p(update, seen, of_p);
