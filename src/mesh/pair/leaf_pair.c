@@ -30,7 +30,7 @@ void pir_best_pair_finish(pir_best_pair *best, const pir_allocator *allocator) {
 
 void pir_best_pair_clear(pir_best_pair *best) {
     best->p = best->q = PIR_TRIANGLE_NONE;
-    best->has_square = best->meets = false;
+    best->has_square = best->meets = best->has_compared = false;
 }
 
 pir_corners pir_frame_corners(const pir_mesh_frame *frame, int side, uint32_t triangle) {
@@ -54,7 +54,7 @@ static void take(pir_best_pair *best, pir_mesh_frame *frame, uint32_t p, uint32_
     best->q = q;
     best->span = *span;
     best->meets = span->meets;
-    best->has_square = false;
+    best->has_square = best->has_compared = false;
     if (span->low > 0 || span->meets)
         return;
     pir_mesh_frame_square(frame, p, q, &best->square);
@@ -82,8 +82,14 @@ static int order_of(pir_best_pair *best, pir_mesh_frame *frame, uint32_t p, uint
         return best->meets ? 0 : -1;
     if (pir_same_features(span, &best->span))
         return 0;
-    if (!best->meets)
-        return exact_order(best, frame, p, q, counts);
+    if (!best->meets) {
+        // of many pairs that share their features one is compared
+        if (!best->has_compared || !pir_same_features(span, &best->compared))
+            best->order = exact_order(best, frame, p, q, counts);
+        best->has_compared = true;
+        best->compared = *span;
+        return best->order;
+    }
     counts->exact++;
     pir_mesh_frame_square(frame, p, q, &best->other);
     return best->other.num.size == 0 ? 0 : 1;

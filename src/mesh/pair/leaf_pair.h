@@ -12,8 +12,11 @@
 typedef struct pir_best_pair {
     uint32_t p, q; /* PIR_TRIANGLE_NONE: none yet */
     pir_span span;
-    bool has_square;                /* whether `square` is that of its distance */
-    bool meets;                     /* exactly: the distance is 0 */
+    bool has_square;   /* whether `square` is that of its distance */
+    bool meets;        /* exactly: the distance is 0 */
+    bool has_compared; /* whether `compared` was compared with this pair exactly, and is `order` of it */
+    int order;
+    pir_span compared;
     pir_exact_square square, other; /* the other is for whom it is compared with */
     mp_limb_t *limbs;               /* of both */
     uint32_t room;                  /* of each part */

@@ -9,6 +9,8 @@
  */
 #include "mesh/pair/nearest_pair.h"
 
+#include "mesh/pair/pair_descent.h"
+
 /* Entries below this many are looked at rather than made anew, and by how much the front may grow beyond twice. */
 #define FEW 512
 
@@ -25,8 +27,32 @@ struct nearest_tasks {
     uint32_t used;
 };
 
+/* Pairs of leaves looked at, after which sides are found out: more than a front that is made anew takes. */
+#define MANY_LOOKS 4096
+
+/* Whether the best two are nearest at these two vertices, certainly. */
+static bool is_of_vertices(const pir_best_pair *best, const uint32_t vertex[2]) {
+    const pir_span *span = &best->span;
+    return span->certain && span->a.id[1] == UINT32_MAX && span->b.id[1] == UINT32_MAX && span->a.id[0] == vertex[0] &&
+           span->b.id[0] == vertex[1];
+}
+
 static bool is_far(const pir_trimesh_pair *pair, double bound) {
     return pair->best.p != PIR_TRIANGLE_NONE && bound > pair->best.span.high;
+}
+
+/*
+ * Whether no pair below two items can take the place of the best, though they are no farther: of those behind the
+ * vertices that are the nearest none is nearer, and none has lower numbers.
+ */
+static bool is_settled(const pir_trimesh_pair *pair, const pir_front_entry *entry) {
+    const pir_tie_sides *sides = &pair->sides;
+    const pir_best_pair *best = &pair->best;
+    if (!sides->made || !sides->is_behind[0][entry->p] || !sides->is_behind[1][entry->q] || best->meets ||
+        !is_of_vertices(best, sides->vertex))
+        return false;
+    uint32_t least = pir_item_least(pair->mesh[0], entry->p);
+    return least > best->p || (least == best->p && pir_item_least(pair->mesh[1], entry->q) >= best->q);
 }
 
 static uint32_t child_of(const pir_trimesh_pair *pair, int side, pir_mesh_item item) {
@@ -68,7 +94,25 @@ static float look_at_triangles(pir_trimesh_pair *pair, pir_front_entry *entry, c
         entry->n[2] = (float)(n.z / length);
     }
     note(pair, entry, p, 0, pir_float_under(gap));
+    pair->looks++;
     return pir_float_under(low < 0x1p62 ? low : 0x1p62);
+}
+
+/*
+ * Where very many pairs of leaves were looked at that are about as near as the best: takes the lowest of them, and
+ * finds out which items lie behind. False when out of memory.
+ */
+static bool break_ties(pir_trimesh_pair *pair) {
+    pir_best_pair *best = &pair->best;
+    if (pair->looks < MANY_LOOKS || best->meets)
+        return true;
+    pair->looks = 0;
+    const uint32_t vertex[2] = {best->span.a.id[0], best->span.b.id[0]};
+    if (!is_of_vertices(best, vertex) || (pair->sides.made && is_of_vertices(best, pair->sides.vertex)))
+        return true;
+    pir_lowest_pair_find(pair, best->span.high);
+    return best->meets || !is_of_vertices(best, vertex) ||
+           pir_tie_sides_make(&pair->sides, &pair->frame, &pair->allocator, vertex);
 }
 
 /* --- descent --- */
@@ -161,11 +205,15 @@ static bool work(pir_trimesh_pair *pair, struct nearest_tasks *tasks) {
     while (tasks->used > 0 && !pair->best.meets) {
         struct nearest_task task = tasks->task[--tasks->used];
         bool done = true;
-        if (is_far(pair, (double)task.bound) || are_leaves(pair, &task.entry)) {
+        bool is_over = is_far(pair, (double)task.bound) || is_settled(pair, &task.entry);
+        if (is_over || are_leaves(pair, &task.entry)) {
             pir_node_lanes p;
             pir_lane_set(&p, 0, pair->mesh[0], task.entry.p);
-            float bound = is_far(pair, (double)task.bound) ? task.bound : look_at_triangles(pair, &task.entry, &p);
-            done = keep(pair, &task.entry, &p, 0, bound);
+            // items that are settled are as far apart as the best
+            float bound = is_far(pair, (double)task.bound) ? task.bound
+                          : is_over                        ? pir_float_under(pair->best.span.low)
+                                                           : look_at_triangles(pair, &task.entry, &p);
+            done = keep(pair, &task.entry, &p, 0, bound) && break_ties(pair);
         } else {
             done = divide(pair, tasks, &task.entry);
         }
@@ -244,12 +292,16 @@ static unsigned try_again(pir_trimesh_pair *pair, const uint32_t *which, int cou
 /* An entry that no direction is enough for any more: its triangles, or its children in its place. */
 static bool look_again(pir_trimesh_pair *pair, uint32_t i) {
     pir_front_entry entry = pair->front.entry[i];
+    if (is_settled(pair, &entry)) {
+        pir_mesh_front_renew(&pair->front, i, pir_float_under(pair->best.span.low));
+        return true;
+    }
     if (are_leaves(pair, &entry)) {
         pir_node_lanes p;
         pir_lane_set(&p, 0, pair->mesh[0], entry.p);
         float bound = look_at_triangles(pair, &pair->front.entry[i], &p);
         pir_mesh_front_renew(&pair->front, i, bound);
-        return true;
+        return break_ties(pair);
     }
     struct nearest_tasks tasks;
     tasks.used = 0;
@@ -293,6 +345,8 @@ static bool look_at_expired(pir_trimesh_pair *pair, uint32_t count) {
 static bool update(pir_trimesh_pair *pair) {
     pir_best_pair *best = &pair->best;
     pir_mesh_front *front = &pair->front;
+    pair->sides.made = false;
+    pair->looks = 0;
     if (best->p != PIR_TRIANGLE_NONE)
         pir_best_pair_begin(best, &pair->frame, best->p, best->q, &pair->counts);
     if (best->meets)

@@ -106,7 +106,7 @@ void pir_pair_descend(pir_trimesh_pair *pair, const pir_pair_descent *descent) {
     }
 }
 
-/* --- the lowest two that meet --- */
+/* --- the lowest two that are as near --- */
 
 static bool cannot_be_lower(const void *context, pir_mesh_item p, pir_mesh_item q) {
     const pir_trimesh_pair *pair = context;
@@ -115,12 +115,12 @@ static bool cannot_be_lower(const void *context, pir_mesh_item p, pir_mesh_item 
     return least > best->p || (least == best->p && pir_item_least(pair->mesh[1], q) >= best->q);
 }
 
-static void look_at_meeting(void *context, const uint32_t leaf[2], pir_vec3 n) {
+static void look_at_lower(void *context, const uint32_t leaf[2], pir_vec3 n) {
     pir_trimesh_pair *pair = context;
     double gap;
     (void)pir_leaf_pair_consider(&pair->best, &pair->frame, leaf, &n, &gap, &pair->counts);
 }
 
-void pir_meeting_pair_find(pir_trimesh_pair *pair) {
-    pir_pair_descend(pair, &(pir_pair_descent){0, cannot_be_lower, look_at_meeting, pair});
+void pir_lowest_pair_find(pir_trimesh_pair *pair, double within) {
+    pir_pair_descend(pair, &(pir_pair_descent){within, cannot_be_lower, look_at_lower, pair});
 }

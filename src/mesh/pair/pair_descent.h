@@ -17,7 +17,10 @@ typedef struct pir_pair_descent {
 /* Items of lower triangles are looked at first. */
 void pir_pair_descend(pir_trimesh_pair *pair, const pir_pair_descent *descent);
 
-/* Makes the best pair, which meets, the one of lowest numbers that does. */
-void pir_meeting_pair_find(pir_trimesh_pair *pair);
+/*
+ * Looks for pairs as near as the best, or nearer, among those within a distance and of lower numbers, the lowest first.
+ * Where the best meets and the distance is 0 it becomes the lowest that meets.
+ */
+void pir_lowest_pair_find(pir_trimesh_pair *pair, double within);
 
 #endif

@@ -49,6 +49,7 @@ void pir_trimesh_pair_destroy(pir_trimesh_pair *pair) {
         return;
     const pir_allocator allocator = pair->allocator;
     pir_mesh_front_finish(&pair->front, &allocator);
+    pir_tie_sides_finish(&pair->sides, &pair->frame, &allocator);
     pir_best_pair_finish(&pair->best, &allocator);
     pir_mesh_frame_finish(&pair->frame, &allocator);
     pir_trimesh_release(pair->mesh[0]);
@@ -83,7 +84,7 @@ pir_status pir_trimesh_pair_nearest(pir_trimesh_pair *pair, pir_pose pose_p, pir
         return status;
     pir_best_pair *best = &pair->best;
     if (best->meets)
-        pir_meeting_pair_find(pair);
+        pir_lowest_pair_find(pair, 0);
     pir_vec3 p = pir_mesh_frame_world(&pair->frame, best->span.point_a);
     pir_vec3 q = pir_mesh_frame_world(&pair->frame, best->span.point_b);
     pir_vec3 between = pir_vec_sub(best->span.point_a, best->span.point_b);
@@ -101,7 +102,8 @@ pir_status pir_trimesh_pair_nearest(pir_trimesh_pair *pair, pir_pose pose_p, pir
 pir_trimesh_pair_statistics pir_trimesh_pair_get_statistics(const pir_trimesh_pair *pair) {
     pir_trimesh_pair_statistics counts = pair->counts;
     counts.front = pair->front.count;
-    counts.bytes = sizeof *pair + pair->front.room * (sizeof *pair->front.entry + 3 * sizeof(float)) +
+    counts.bytes = sizeof *pair + pir_tie_sides_bytes(&pair->sides, &pair->frame) +
+                   pair->front.room * (sizeof *pair->front.entry + 3 * sizeof(float)) +
                    (pair->frame.limbs.capacity + 4 * (size_t)pair->best.room) * sizeof(mp_limb_t);
     return counts;
 }

@@ -13,6 +13,7 @@
 
 #include "mesh/pair/leaf_pair.h"
 #include "mesh/pair/mesh_front.h"
+#include "mesh/pair/tie_sides.h"
 
 struct pir_trimesh_pair {
     pir_allocator allocator;
@@ -22,6 +23,8 @@ struct pir_trimesh_pair {
     pir_vec3 about; /* the middle of P */
     pir_best_pair best;
     pir_mesh_front front;
+    pir_tie_sides sides;
+    uint32_t looks;                  /* pairs of leaves looked at in this call, since sides were last found out */
     uint32_t farthest_p, farthest_q; /* of the last answer; PIR_TRIANGLE_NONE before */
     pir_trimesh_pair_statistics counts;
 };
