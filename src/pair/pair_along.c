@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a pair asks of its whole difference: along a direction, how far it reaches, all ways out of an overlap. The
+ * Questions of a pair on its whole difference: along a direction, how far it reaches, all ways out of an overlap. The
  * answers are those of query/answer, in Q's frame, brought to the world. The time of impact alone takes less
  * (flight.c).
  */

@@ -378,7 +378,7 @@ static void a_spinning_cube_that_glides_by_is_no_hit(void **state) {
         }
 }
 
-/* How far a pole at so much along x is from a square of side 1 whose middle is 2 from the axis about which it turned. */
+/* The distance of a pole at so much along x from a square of side 1, its middle 2 from the axis about which it turned. */
 static double pole_from_square(double pole, double angle) {
     const double x = pole * cos(angle), y = -pole * sin(angle);
     const double beyond = fmax(0, fmax(1.5 - x, x - 2.5)), beside = fmax(0, fabs(y) - 0.5);

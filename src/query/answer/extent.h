@@ -9,7 +9,7 @@
 pir_status pir_query_farthest(pir_query *query, const pir_placement *placement, const pir_query_input *input,
                               pir_query_result *ret_result);
 
-/* What is asked of ways out: the penetration, by how much more they may take, room for how many. */
+/* A question for ways out: the penetration, by how much more they may take, room for how many. */
 typedef struct pir_escapes_ask {
     const pir_query_result *least;
     double radii, slack;
