@@ -34,6 +34,7 @@ def main(root):
     paths = {path.relative_to(root).as_posix() for path in files}
     code = "\n".join(path.read_text(encoding="utf-8") for path in files if path.suffix in SOURCES)
     known = set(NAME.findall(code))
+    gone = set(NAME.findall((root / "tests/headers/names-0.1.list").read_text(encoding="utf-8")))
     found, checked = [], 0
 
     def there(name):
@@ -54,6 +55,8 @@ def main(root):
             if path.suffix == ".md":
                 for line, name in lines(piece, start, NAME):
                     checked += 1
+                    if name in gone and path.name == "upgrading.md":
+                        continue
                     if name not in known and not (FAMILY.search(name) and any(k.startswith(name) for k in known)):
                         found.append(f"{own}:{line}: nothing is called {name}")
     print(f"{checked} names checked", *found, sep="\n")

@@ -91,9 +91,9 @@ static void query_may_outlive_its_sum(void **state) {
     input.translation.x = 8;
     pir_impact hit;
     assert_int_equal(pir_query_time_of_impact(other, &input, &motion, 1e-6, &hit), PIR_OK);
-    // P is a cube that is turned by a quarter of a radian over time 1: its corner comes first
+    // P turns by a quarter of a radian over time 1: one of its faces meets a corner of Q, which is smaller
     const double turned = 0.25 * hit.time;
-    assert_true(hit.outcome == PIR_CAST_HIT && fabs(8 - 8 * hit.time - 1 - 3 * (cos(turned) + sin(turned))) < 1e-4);
+    assert_true(hit.outcome == PIR_CAST_HIT && fabs((7 - 8 * hit.time) * cos(turned) - 3 - sin(turned)) < 1e-5);
     pir_query_destroy(other);
     assert_true(memory.blocks == 0 && !memory.wrong_size);
 }
@@ -149,10 +149,15 @@ static void locator_may_outlive_its_map(void **state) {
     pir_allocator allocator = test_allocator(&memory);
     pir_polytope *p = cube(1);
     pir_cgm *map;
-    pir_cgm_locator *locator;
+    pir_cgm_locator *locator, *second;
     pir_cgm_location location;
     assert_int_equal(pir_cgm_create(p, NULL, &allocator, &map), PIR_OK);
     assert_int_equal(pir_cgm_locator_create(map, &locator), PIR_OK);
+    // a reference more keeps the map for another locator
+    assert_ptr_equal(pir_cgm_retain(map), map);
+    pir_cgm_release(map);
+    assert_int_equal(pir_cgm_locator_create(map, &second), PIR_OK);
+    pir_cgm_locator_destroy(second);
     pir_cgm_release(map);
     pir_polytope_release(p);
     assert_int_equal(pir_cgm_locate(locator, (pir_vec3){0.5, 1, 0}, PIR_CGM_NONE, &location), PIR_OK);

@@ -297,8 +297,7 @@ static pir_pose pose_at(pir_pose begin, const pir_motion *motion, double time) {
 }
 
 /* The least distance of the shape to anything, at a time. */
-static double least_distance(const crowd *c, const pir_scene_shape *shape, const pir_motion *motion,
-                             double time) {
+static double least_distance(const crowd *c, const pir_scene_shape *shape, const pir_motion *motion, double time) {
     double least = HUGE_VAL;
     for (uint32_t i = 0; i < CROWD_BODIES; i++)
         for (uint32_t k = 0; c->body[i].used && sees(shape, &c->body[i]) && k < c->body[i].options.piece_count; k++)
@@ -321,7 +320,7 @@ static void a_cast_ends_at_the_first_contact(void **state) {
         shape.pose.translation = test_add(test_zero, shape.pose.translation, 1.5 * c.size);
         const double turns[4] = {0, 2, 20, 300};
         pir_motion motion = {test_add(test_random_direction(&c.random), shape.pose.translation, -1.75),
-                                   test_add(test_zero, test_random_direction(&c.random), turns[n % 4]), 0};
+                             test_add(test_zero, test_random_direction(&c.random), turns[n % 4]), 0};
         pir_impact impact;
         assert_int_equal(pir_scene_cast(c.scene, &shape, &motion, tolerance, &impact), PIR_OK);
         unsigned long long number = n;
@@ -378,7 +377,7 @@ static void a_spinning_cube_that_glides_by_is_no_hit(void **state) {
         }
 }
 
-/* The distance of a pole at so much along x from a square of side 1, its middle 2 from the axis about which it turned. */
+/* The distance of a pole at so much along x from a square of side 1 whose middle is 2 from the axis of its turn. */
 static double pole_from_square(double pole, double angle) {
     const double x = pole * cos(angle), y = -pole * sin(angle);
     const double beyond = fmax(0, fmax(1.5 - x, x - 2.5)), beside = fmax(0, fabs(y) - 0.5);
@@ -401,8 +400,8 @@ static void a_cube_that_swings_by_in_each_turn_is_followed_to_its_hit(void **sta
     scene_add(scene, pole, scene_at(0, 0, 0), PIR_BODY_STATIC);
     pir_scene_shape shape = pir_scene_shape_default(cube);
     for (size_t k = 0; k < sizeof turns / sizeof *turns; k++) {
-        const pir_scene_motion motion = {{-drifts, 0, 0}, {0, 0, turns[k]}, 0};
-        pir_scene_impact impact;
+        const pir_motion motion = {.way = {-drifts, 0, 0}, .turn = {0, 0, turns[k]}};
+        pir_impact impact;
         // it begins a quarter of a turn away
         const double begins = -1.5707963267948966;
         shape.pose.rotation = (pir_quat){0, 0, sin(begins / 2), cos(begins / 2)};
@@ -521,7 +520,7 @@ static void what_cannot_be_asked_is_refused(void **state) {
     uint32_t ghost = add(scene, &p, 1, (pir_vec3){0, 0, 0}, 1);
     pir_scene_shape good = pir_scene_shape_default(p), shape = good;
     pir_motion motion = {{1, 0, 0}, {0, 0, 0}, 0}, wild = {{1, NAN, 0}, {0, 0, 0}, 0},
-                     whirl = {{1, 0, 0}, {0, 1e7, 0}, 0};
+               whirl = {{1, 0, 0}, {0, 1e7, 0}, 0};
     pir_scene_hit hit;
     pir_scene_near near;
     pir_impact impact;

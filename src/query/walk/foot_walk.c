@@ -149,9 +149,9 @@ static bool was_there(pir_about_foot *passed, const pir_facet *facet) {
 
 /*
  * Walks to a facet that holds the foot of x. Where the foot is on a side or at a corner of facets but for rounding,
- * none is sure to hold it: then steps go around it, and end where they come back with the foot never farther beyond a side
- * than `near`. Being so near to the lines of one facet's sides is not enough, for beyond the tip of a sliver a foot may
- * be near to them and far from the facet. *ret_margin is the foot's.
+ * none is sure to hold it: then steps go around it, and end where they come back with the foot never farther beyond a
+ * side than `near`. Being so near to the lines of one facet's sides is not enough, for beyond the tip of a sliver a
+ * foot may be near to them and far from the facet. *ret_margin is the foot's.
  */
 static bool walk(pir_exact *exact, const pir_placement *placement, double near, pir_facet *facet, double *ret_margin) {
     pir_about_foot passed = {.count = 0};
