@@ -215,6 +215,8 @@ static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pai
     if (!pair || !workspace || !input || !ret_result)
         return PIR_ERR_ARGUMENT;
     if (!by_proof(pair, workspace, input, want)) {
+        // a proof that is used up is not asked again: an answer that is apart leaves another
+        pair->proof.leeway = 0;
         pir_status status = pir_pair_begin(pair, workspace, input);
         if (status == PIR_OK)
             status = find_answer(pair, workspace, input, want);
