@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries on a pair, by the first of seven ways that proves an answer:
+ * Queries on a pair. The first way that proves an answer ends the question:
  *
  *   - proof: the bodies were apart, and have moved too little since (query/proof/proof.h); no frame is made for that.
  *     Where it has been used up, they may be apart still along the direction of the last time (apart.c);
  *   - walk, depth, nearest, depth anew (query/answer/ladder.h), with facets from surfaces and axes (pair_depth.c);
- *   - whole: a query on the difference of the bodies, kept in the workspace;
- *   - contact: the manifold of an answer (pair_manifold.c).
+ *   - whole: a query on the difference of the bodies, kept in the workspace.
+ *
+ * The manifold of an answer is made afterwards (pair_manifold.c).
  *
  * An answer leaves the same hints whichever way gave it.
  */

@@ -4,9 +4,9 @@
  * question open for the next. A pair tries a proof of an earlier pose before, for which no placement is made, and
  * the whole difference after (pair/answer.c).
  *
- *   - walk: from the facet of the last answer, by doubles, to the facet that holds the foot of x now (walker.h,
- *     walker.h). Where that separates, it is the nearest; where x is within it, foot.h tells whether it is the
- *     least. Where doubles leave the facet of the last answer in doubt, integers prove it.
+ *   - walk: from the facet of the last answer, by doubles, to the facet that holds the foot of x now
+ *     (query/walk/walker.h). Where that separates, it is the nearest; where x is within it, foot.h tells whether it is
+ *     the least. Where doubles leave the facet of the last answer in doubt, integers prove it.
  *   - depth, where the last answer was deep: from the facets that a source has kept.
  *   - nearest: a descent to the nearest point, proven by doubles, else by integers where x is certainly outside.
  *   - depth anew: the facet of least slack.
