@@ -142,7 +142,7 @@ PIR_API pir_status pir_history_scene(pir_history *history, const pir_scene_optio
  *
  * Cost: O(size of its pieces).
  *
- * Errors: PIR_ERR_ARGUMENT (not of a scene; more than 4096 pieces), PIR_ERR_MEMORY.
+ * Errors: PIR_ERR_ARGUMENT (not of a scene; more than 4096 pieces; a surface), PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_history_add(pir_history *history, const pir_body_options *body);
 

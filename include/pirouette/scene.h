@@ -12,6 +12,12 @@
  * share a point is exact for the doubles given, as in pair.h; with rounding radii, and for the margin, the distance
  * decides.
  *
+ * The body of a mesh or a height field has the triangles of that surface for its pieces, under their own numbers. A
+ * triangle is flat: it has no inside, and either side of it is met. The surface's own tree is asked for those that a
+ * box meets, so a triangle that nothing is near takes neither time nor memory.
+ * Contacts with surfaces are without ghosts (trimesh_contact.h). An event has those of one normal, with the triangle of
+ * the deepest; a triangle that is met along several normals has an event for each, and one with ghosts alone has none.
+ *
  * A pair needs one moving body, two bodies, and masks that match both ways: the category of each is in the mask of the
  * other. A sensor is told of what overlaps it, and has no contacts. Two sensors do not meet.
  *
@@ -21,9 +27,9 @@
  *
  * Frame: the world. Lengths in the unit of the polytopes' coordinates.
  *
- * Ownership: a scene holds a reference to each polytope of its bodies. Memory of the scene comes from its allocator
- * within its budget. What a pair keeps of a polytope alone belongs to the polytope (pair.h), is made when it first
- * meets another of a size, and does not count.
+ * Ownership: a scene holds a reference to each polytope and surface of its bodies. Memory of the scene comes from its
+ * allocator within its budget. What a pair keeps of a polytope alone belongs to the polytope (pair.h), is made when it
+ * first meets another of a size, and does not count.
  *
  * Memory that runs out, or the budget: the call is PIR_ERR_MEMORY, and the scene is as it was before. A scene whose
  * bodies and contacts have been as many before allocates nothing.
@@ -41,6 +47,7 @@
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
 #include <pirouette/simplify.h>
+#include <pirouette/trimesh.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -111,6 +118,9 @@ typedef struct pir_body_options {
     pir_pose pose;
     pir_polytope *const *pieces; /**< the convex pieces, in the body's frame; of any dimension */
     uint32_t piece_count;        /**< 1 to 4096 */
+    /** A surface in place of pieces, of a static or a kinematic body: one of these two, with `pieces` NULL. */
+    pir_trimesh *mesh;
+    pir_height_field *field;
     /** The coarse bodies of each piece's polytope, or NULL for a piece that has none; NULL where none has. Answers that
         may be inaccurate use them: those of pir_scene_distances. */
     pir_coarse *const *coarse;
@@ -119,21 +129,25 @@ typedef struct pir_body_options {
     bool sensor;
 } pir_body_options;
 
-/** A moving body at the origin, not turned, without pieces yet; category 1, all in its mask, no sensor. O(1). */
+/**
+ * A moving body at the origin, not turned, without pieces or a surface yet; category 1, all in its mask, no sensor.
+ * O(1).
+ */
 PIR_API pir_body_options pir_body_options_default(void);
 
 /**
  * Adds a body, and gives its number: the least that is free. Its contacts begin with the next update. At most 2^20
  * bodies.
  *
- * body  its pieces and their coarse bodies are referenced; the rest is copied.
+ * body  its pieces and their coarse bodies, or its surface, are referenced; the rest is copied.
  *
- * Cost: O(vertices of the pieces), and O(log n) a piece in a scene of n pieces; O(n) where a number below the greatest
- * is free.
+ * Cost: O(vertices of the pieces, or triangles), and O(log n) a piece in a scene of n pieces; O(n) where a number below
+ * the greatest is free.
  *
- * Errors: PIR_ERR_ARGUMENT (no piece, coarse bodies of another polytope, a radius below 0 or infinite, a kind out of
- * range), PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (too many pieces or bodies; a coordinate of the
- * body in the world beyond 2^60), PIR_ERR_MEMORY.
+ * Errors: PIR_ERR_ARGUMENT (neither pieces nor a surface, or more than one of these, a surface that is moving, coarse
+ * bodies of another polytope, a radius below 0 or infinite, a kind out of range), PIR_ERR_NOT_FINITE,
+ * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (too many pieces or bodies; a coordinate of the body in the world beyond
+ * 2^60), PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body);
 
@@ -212,13 +226,14 @@ PIR_API const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *
 
 /** What a scene holds, and what its last update did. */
 typedef struct pir_scene_statistics {
-    uint32_t bodies, pieces;
-    uint32_t pairs;    /**< of pieces whose boxes in the tree meet */
-    uint32_t looked;   /**< pairs that the last update looked at */
-    uint32_t asked;    /**< of these, those that needed a query */
-    uint32_t replaced; /**< pieces whose box left its margin in the tree */
-    size_t bytes;      /**< of the scene's memory in use */
-    size_t peak;       /**< the most that has been */
+    uint32_t bodies, pieces; /**< a surface counts as one piece */
+    uint32_t triangles;      /**< of surfaces that are in pairs */
+    uint32_t pairs;          /**< of pieces whose boxes in the tree meet */
+    uint32_t looked;         /**< pairs that the last update looked at */
+    uint32_t asked;          /**< of these, those that needed a query */
+    uint32_t replaced;       /**< pieces whose box left its margin in the tree */
+    size_t bytes;            /**< of the scene's memory in use */
+    size_t peak;             /**< the most that has been */
 } pir_scene_statistics;
 
 /** The counters of `scene`. O(1). */

@@ -159,6 +159,9 @@ PIR_API pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *
  * coordinates; time and point are those of the rounded body. Of pieces that are met at times that do not differ the one
  * of the lowest numbers is told.
  *
+ * A triangle of a surface is met as a flat piece is, but a one-sided surface only from the front: a segment that goes
+ * from behind, or lies in the plane, does not meet it. A surface with a radius is met from all sides.
+ *
  * The normal is that of the surface where it is entered. Where the segment meets an edge of a flat piece within its
  * plane, it lies in the plane; where it meets a piece that is a segment or a point, it is against the way, and 0 for a
  * way of 0.
@@ -172,6 +175,45 @@ PIR_API pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *
  */
 PIR_API pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32_t mask,
                                  pir_impact *ret_impact);
+
+/** What rays meet. */
+typedef struct pir_scene_ray_options {
+    uint32_t mask;       /**< the categories of bodies that it meets */
+    uint32_t except;     /**< a body that it does not meet, or PIR_SCENE_NONE */
+    pir_ray_sides sides; /**< from which side it meets triangles of surfaces that have no radius */
+} pir_scene_ray_options;
+
+/** All in the mask, no body left out, triangles as their surfaces say. O(1). */
+PIR_API pir_scene_ray_options pir_scene_ray_options_default(void);
+
+/**
+ * Whether the segment hits any piece or triangle at all; it stops at the first that is found.
+ *
+ * origin, way  as of pir_scene_ray.
+ * options      or NULL for the defaults.
+ *
+ * Cost: at most that of pir_scene_ray.
+ *
+ * Errors: those of a query of a scene.
+ */
+PIR_API pir_status pir_scene_ray_any(pir_scene *scene, pir_vec3 origin, pir_vec3 way,
+                                     const pir_scene_ray_options *options, bool *ret_hits);
+
+/**
+ * All pieces and triangles that the segment hits, each where it is entered, by time, of equal times by the numbers of
+ * body and piece.
+ *
+ * origin, way, options   as of pir_scene_ray_any.
+ * capacity, ret_impacts  room for how many, and that room: for the first of them.
+ * ret_count              how many there are, also beyond the capacity.
+ *
+ * Cost: that of a query of a scene, and O(capacity) for each hit.
+ *
+ * Errors: those of a query of a scene.
+ */
+PIR_API pir_status pir_scene_ray_all(pir_scene *scene, pir_vec3 origin, pir_vec3 way,
+                                     const pir_scene_ray_options *options, size_t capacity, pir_impact *ret_impacts,
+                                     size_t *ret_count);
 
 /**
  * When a shape that moves first comes within `tolerance` of a piece, by conservative advancement (Mirtich, 1996):
@@ -203,8 +245,8 @@ PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape
  *
  * Errors: those of pir_scene_cast.
  */
-PIR_API pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_motion *motion,
-                                            double tolerance, pir_impact *ret_impact);
+PIR_API pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_motion *motion, double tolerance,
+                                            pir_impact *ret_impact);
 
 #ifdef __cplusplus
 }

@@ -240,6 +240,8 @@ pir_status pir_history_scene(pir_history *history, const pir_scene_options *opti
 pir_status pir_history_add(pir_history *history, const pir_body_options *body) {
     if (!history || history->object != PIR_NOTE_SCENE || !body || body->piece_count > PIR_HISTORY_PIECES_MAX)
         return PIR_ERR_ARGUMENT;
+    if (body->mesh || body->field)
+        return PIR_ERR_ARGUMENT;
     pir_status status = PIR_OK;
     for (uint32_t i = 0; i < body->piece_count && status == PIR_OK; i++)
         status = add_body(history, body->pieces[i]);

@@ -90,6 +90,11 @@ static pir_status ask_scene_distances(struct world *w, size_t capacity, void *ar
     return pir_scene_distances(w->scene, &shape, HUGE_VAL, (pir_accuracy){0, 0}, capacity, array, count);
 }
 
+static pir_status ask_scene_ray_all(struct world *w, size_t capacity, void *array, size_t *count) {
+    return pir_scene_ray_all(w->scene, (pir_vec3){0.1, 0.2, w->height - 8}, (pir_vec3){0, 0, 16}, NULL, capacity, array,
+                             count);
+}
+
 static pir_status ask_surface_ray_all(struct world *w, size_t capacity, void *array, size_t *count) {
     const pir_surface_ray ray = {{0.1, 0.2, w->height - 8}, {0, 0, 16}, PIR_RAY_BOTH};
     return pir_surface_ray_all((pir_surface_ref){w->mesh, NULL}, &ray, capacity, array, count);
@@ -120,6 +125,7 @@ static const struct {
     {"pir_pair_escapes", ask_pair_escapes, sizeof(pir_escape), true},
     {"pir_scene_overlap", ask_scene_overlap, sizeof(pir_scene_hit), true},
     {"pir_scene_distances", ask_scene_distances, sizeof(pir_scene_distance), true},
+    {"pir_scene_ray_all", ask_scene_ray_all, sizeof(pir_impact), true},
     {"pir_surface_ray_all", ask_surface_ray_all, sizeof(pir_ray_hit), false},
     {"pir_surface_box", ask_surface_box, sizeof(uint32_t), false},
     {"pir_trimesh_pair_within", ask_trimesh_pair_within, sizeof(pir_triangle_pair), false},

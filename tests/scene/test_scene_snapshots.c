@@ -152,9 +152,9 @@ static void what_is_no_snapshot_of_the_scene_is_refused(void **state) {
     assert_int_equal(pir_scene_serialise(c.scene, bytes.data, bytes.size - 1), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_scene_restore(NULL, bytes.data, bytes.size, NULL), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_scene_restore(c.scene, NULL, bytes.size, NULL), PIR_ERR_ARGUMENT);
-    bytes.data[8] = 2;
-    assert_int_equal(pir_scene_restore(c.scene, bytes.data, bytes.size, NULL), PIR_ERR_VERSION);
     bytes.data[8] = 1;
+    assert_int_equal(pir_scene_restore(c.scene, bytes.data, bytes.size, NULL), PIR_ERR_VERSION);
+    bytes.data[8] = 2;
     crowd_add(&c);
     assert_int_equal(pir_scene_restore(c.scene, bytes.data, bytes.size, NULL), PIR_ERR_ARGUMENT);
     crowd_remove(&c, 2);

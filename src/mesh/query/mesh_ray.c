@@ -5,13 +5,14 @@
  * Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013, who do it in floats).
  */
 #include "mesh/query/mesh_walk.h"
+#include "mesh/query/swept_boxes.h"
 #include "mesh/signs/heap_sort.h"
 #include "mesh/signs/mesh_numbers.h"
 
 struct mesh_ray {
     pir_surface_ref surface;
     pir_mesh_segment segment;
-    double inverse[3], pad[3]; /* 1/way, 0 where that is no number; how far boxes are wider on each side */
+    pir_swept_box swept; /* its origin, wider */
     bool front, back;
     double most; /* times beyond this are not looked for */
 };
@@ -32,8 +33,8 @@ static bool is_near(pir_vec3 v) {
 }
 
 /*
- * Boxes are widened by 2^-48 of the coordinates, which is more than a difference of two is off by; a time is then too
- * early, or late, by a few roundings of itself at most, which `measure` allows for.
+ * The origin is widened by 2^-48 of the coordinates, which is more than a difference of two is off by; a time is then
+ * too early, or late, by a few roundings of itself at most, which swept_boxes.h allows for.
  */
 static pir_status init(struct mesh_ray *ray, pir_surface_ref surface, const pir_surface_ray *asked) {
     if (!asked || pir_surface_check(surface) != PIR_OK || asked->sides > PIR_RAY_BOTH)
@@ -47,45 +48,20 @@ static pir_status init(struct mesh_ray *ray, pir_surface_ref surface, const pir_
     ray->front = asked->sides != PIR_RAY_BACK;
     ray->back = asked->sides == PIR_RAY_BACK || asked->sides == PIR_RAY_BOTH ||
                 (asked->sides == PIR_RAY_AS_SURFACE && two_sided);
-    double reach[3];
+    double reach[3], low[3], high[3];
     pir_surface_reach(surface, reach);
     for (int k = 0; k < 3; k++) {
-        double inverse = 1 / at(asked->way, k);
-        ray->inverse[k] = isfinite(inverse) ? inverse : 0;
-        ray->pad[k] = 0x1p-48 * (fabs(at(asked->origin, k)) + reach[k]);
+        double from = at(asked->origin, k), pad = 0x1p-48 * (fabs(from) + reach[k]);
+        low[k] = from - pad;
+        high[k] = from + pad;
     }
+    ray->swept = pir_swept_box_of(low, high, asked->way);
     return PIR_OK;
 }
 
 /* When each box is entered. */
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    const struct mesh_ray *ray = context;
-    double enter[PIR_MESH_WIDTH], leave[PIR_MESH_WIDTH];
-    for (int i = 0; i < PIR_MESH_WIDTH; i++) {
-        enter[i] = 0;
-        leave[i] = 1;
-    }
-    for (int k = 0; k < 3; k++) {
-        double origin = at(ray->segment.origin, k), way = at(ray->segment.way, k), by = ray->inverse[k];
-        for (int i = 0; i < PIR_MESH_WIDTH; i++) {
-            double low = (double)boxes->low[k][i] - ray->pad[k] - origin;
-            double high = (double)boxes->high[k][i] + ray->pad[k] - origin;
-            if (by == 0) {
-                // next to no way along this axis: what its ends are beyond is not met
-                double reach = fabs(way);
-                enter[i] = low > reach || high < -reach ? HUGE_VAL : enter[i];
-                continue;
-            }
-            double first = low * by, second = high * by;
-            double early = first < second ? first : second, late = first < second ? second : first;
-            enter[i] = early > enter[i] ? early : enter[i];
-            leave[i] = late < leave[i] ? late : leave[i];
-        }
-    }
-    for (int i = 0; i < PIR_MESH_WIDTH; i++) {
-        double near = enter[i] * (1 - 0x1p-48);
-        ret_near[i] = near <= leave[i] * (1 + 0x1p-48) ? near : HUGE_VAL;
-    }
+    pir_swept_times(&((const struct mesh_ray *)context)->swept, boxes, ret_near);
 }
 
 /* The side from which the line of the ray meets a triangle: 1 the front, −1 the back, 0 not. */
@@ -166,20 +142,20 @@ pir_status pir_surface_ray_nearest(pir_surface_ref surface, const pir_surface_ra
 
 /* --- any --- */
 
-struct any {
+struct any_hit {
     struct mesh_ray ray;
     bool hits;
 };
 
 static bool look_any(void *context, const pir_met_triangle *met) {
-    struct any *any = context;
+    struct any_hit *any = context;
     struct hit hit;
     any->hits = meets(&any->ray, met, &hit);
     return !any->hits;
 }
 
 pir_status pir_surface_ray_any(pir_surface_ref surface, const pir_surface_ray *ray, bool *ret_hits) {
-    struct any any = {.hits = false};
+    struct any_hit any = {.hits = false};
     pir_status status = ret_hits ? init(&any.ray, surface, ray) : PIR_ERR_ARGUMENT;
     if (status != PIR_OK)
         return status;
@@ -190,14 +166,14 @@ pir_status pir_surface_ray_any(pir_surface_ref surface, const pir_surface_ray *r
 
 /* --- all --- */
 
-struct all {
+struct all_hits {
     struct mesh_ray ray;
     pir_ray_hit *hits;
     size_t capacity, count;
 };
 
 static bool look_all(void *context, const pir_met_triangle *met) {
-    struct all *all = context;
+    struct all_hits *all = context;
     struct hit hit;
     if (meets(&all->ray, met, &hit) && all->count++ < all->capacity)
         give(&all->ray, &hit, &all->hits[all->count - 1]);
@@ -213,7 +189,7 @@ static int compare_hits(const void *a, const void *b) {
 
 pir_status pir_surface_ray_all(pir_surface_ref surface, const pir_surface_ray *ray, size_t capacity,
                                pir_ray_hit *ret_hits, size_t *ret_count) {
-    struct all all = {.hits = ret_hits, .capacity = capacity};
+    struct all_hits all = {.hits = ret_hits, .capacity = capacity};
     pir_status status = ret_count && (ret_hits || capacity == 0) ? init(&all.ray, surface, ray) : PIR_ERR_ARGUMENT;
     if (status != PIR_OK)
         return status;

@@ -4,6 +4,7 @@
 
 #include "pair/fetch.h"
 #include "scene/answer/share.h"
+#include "scene/answer/surface_contacts.h"
 #include "scene/world/grow.h"
 
 /* How many questions are worth another thread. */
@@ -11,7 +12,8 @@
 
 _Static_assert(PIR_SHARE_RUN <= PIR_FETCH_MOST, "a run of questions is fetched at once");
 
-/* Distances are asked for up to this part of the bodies' size: what is farther apart is not looked at for a while. */
+/* Distances are asked for up to this part of the bodies' size: what is farther apart is not looked at for a while. A
+   surface counts as no larger than what is near it. */
 #define SKIN 0.05
 
 /* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
@@ -57,6 +59,12 @@ static bool in_contact(const pir_scene *scene, const pir_query_result *answer, b
     return !sensor && scene->margin > 0 && answer->outcome != PIR_BEYOND_CUTOFF && answer->distance <= scene->margin;
 }
 
+static double size_of(const pir_scene_body *p, const pir_scene_body *q) {
+    if (pir_body_has_surface(p) || pir_body_has_surface(q))
+        return 2 * fmin(p->reach, q->reach);
+    return p->reach + q->reach;
+}
+
 static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t number) {
     pir_scene_pair *pair = &scene->pairs.at[number];
     const pir_scene_piece *piece = scene->bodies.piece;
@@ -67,7 +75,7 @@ static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t numbe
                             .pose_q = q->pose,
                             .radius_p = p->radius,
                             .radius_q = q->radius,
-                            .cutoff = scene->margin + SKIN * (p->reach + q->reach),
+                            .cutoff = scene->margin + SKIN * size_of(p, q),
                             .margin = scene->margin};
     pir_query_result answer;
     pir_status status =
@@ -88,7 +96,7 @@ static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t numbe
         found->normal = answer.normal;
         found->witness = answer.witness;
     }
-    if (numbers && scene->detail == PIR_SCENE_MANIFOLDS)
+    if (numbers && scene->detail == PIR_SCENE_MANIFOLDS && !pir_scene_is_with_surface(scene, number))
         status = add_contacts(scene, worker, pair->asked, &input, &answer);
     worker->found_count += status == PIR_OK;
     return status;
@@ -110,7 +118,7 @@ static void ask_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t 
 
 pir_status pir_scene_ask(pir_scene *scene) {
     for (uint32_t i = 0; i < scene->threads; i++)
-        scene->worker[i].found_count = scene->worker[i].contact_count = 0;
+        scene->worker[i].found_count = scene->worker[i].on_surface_count = scene->worker[i].contact_count = 0;
     pir_scene_workers_begin(scene);
     pir_scene_share(scene, scene->lists.asked_count, WORTH_MORE, ask_items);
     return pir_scene_workers_status(scene);

@@ -3,7 +3,9 @@
 #include "scene/answer/candidates.h"
 
 #include "scene/answer/share.h"
+#include "scene/answer/triangle_pairs.h"
 #include "scene/world/grow.h"
+#include "scene/world/triangles.h"
 
 /* How many bodies or blocks of pairs are worth another thread. */
 #define WORTH_MORE 64
@@ -15,39 +17,31 @@ static const pir_box *fat_box(const pir_scene *scene, uint32_t piece) {
     return &scene->tree.node[scene->bodies.piece[piece].node].box;
 }
 
-/* Marks a piece's partners with this visit. */
-static void mark_partners(pir_scene *scene, uint32_t piece) {
-    pir_scene_piece *pieces = scene->bodies.piece;
-    for (uint32_t end = pieces[piece].first; end != PIR_END_NONE; end = scene->pairs.at[end / 2].next[end % 2])
-        pieces[scene->pairs.at[end / 2].piece[1 - end % 2]].mark = scene->visit;
-}
-
-/* A pair of two pieces, P being of the body with the lower number. */
-static bool add_pair(pir_scene *scene, uint32_t a, uint32_t b) {
-    pir_scene_piece *pieces = scene->bodies.piece;
-    bool in_order = pieces[a].body < pieces[b].body;
-    const uint32_t of[2] = {in_order ? a : b, in_order ? b : a};
-    return pir_scene_pairs_add(&scene->pairs, &scene->allocator, of, &pieces[of[0]].first, &pieces[of[1]].first) !=
-           PIR_END_NONE;
+/* Pairs of a piece with another, or its triangles, whose box in the tree meets its own. */
+static pir_status find_pair(pir_scene *scene, uint32_t piece, uint32_t other) {
+    const pir_scene_piece *p = &scene->bodies.piece[piece], *q = &scene->bodies.piece[other];
+    if (!pir_bodies_meet(&scene->bodies, p->body, q->body))
+        return PIR_OK;
+    if (q->kind == PIR_PIECE_SURFACE)
+        return pir_scene_find_triangles(scene, piece, other);
+    if (p->kind == PIR_PIECE_SURFACE) {
+        pir_scene_mark_partners(scene, other);
+        return pir_scene_find_triangles(scene, other, piece);
+    }
+    return q->mark == scene->visit || pir_scene_add_pair(scene, piece, other) ? PIR_OK : PIR_ERR_MEMORY;
 }
 
 pir_status pir_scene_find_pairs(pir_scene *scene) {
+    pir_status status = PIR_OK;
     for (uint32_t i = 0; i < scene->lists.replaced_count; i++) {
         uint32_t piece = scene->lists.replaced[i].piece;
         const pir_box box = *fat_box(scene, piece);
-        scene->visit++;
-        mark_partners(scene, piece);
-        for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE;
-             leaf = pir_tree_next(&scene->tree, &box, leaf)) {
-            uint32_t other = pir_tree_item(&scene->tree, leaf);
-            const pir_scene_piece *pieces = scene->bodies.piece;
-            if (pieces[other].mark != scene->visit &&
-                pir_bodies_meet(&scene->bodies, pieces[piece].body, pieces[other].body) &&
-                !add_pair(scene, piece, other))
-                return PIR_ERR_MEMORY;
-        }
+        pir_scene_mark_partners(scene, piece);
+        for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE && status == PIR_OK;
+             leaf = pir_tree_next(&scene->tree, &box, leaf))
+            status = find_pair(scene, piece, pir_tree_item(&scene->tree, leaf));
     }
-    return PIR_OK;
+    return status;
 }
 
 /* Whether the distance of an earlier answer, less what the bodies have travelled since, rules a contact out. */
@@ -83,11 +77,13 @@ static inline bool has_moved(const pir_scene *scene, uint32_t piece) {
 static void look_by_bodies(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
     pir_scene_worker *worker = &scene->worker[task];
     const pir_scene_piece *pieces = scene->bodies.piece;
-    for (uint32_t i = begin; i < end; i++)
-        for (uint32_t k = scene->bodies.body[scene->lists.moved[i].body].first; k != PIR_PIECE_NONE; k = pieces[k].next)
+    for (uint32_t i = begin; i < end; i++) {
+        const pir_scene_body *body = &scene->bodies.body[scene->lists.moved[i].body];
+        for (uint32_t k = pir_body_paired(body); k != PIR_PIECE_NONE; k = pieces[k].next)
             for (uint32_t at = pieces[k].first; at != PIR_END_NONE; at = scene->pairs.at[at / 2].next[at % 2])
                 if (at % 2 == 0 || !has_moved(scene, scene->pairs.at[at / 2].piece[0]))
                     pir_scene_worker_note(worker, look(scene, worker, at / 2), i);
+    }
 }
 
 /* Looks by the table of pairs, a block at a time: memory is read in order, and a pair once. */
@@ -111,22 +107,32 @@ static void look_at_all(pir_scene *scene) {
         pir_scene_share(scene, moved, WORTH_MORE, look_by_bodies);
 }
 
+/* Gives a pair its pir_pair, and its triangle a polytope. */
+static pir_status make_ready(pir_scene *scene, uint32_t pair) {
+    pir_scene_piece *p = &scene->bodies.piece[scene->pairs.at[pair].piece[0]],
+                    *q = &scene->bodies.piece[scene->pairs.at[pair].piece[1]];
+    if (scene->pairs.at[pair].asked)
+        return PIR_OK;
+    pir_status status = pir_piece_ready(&scene->bodies.body[p->body], &scene->for_triangles, p);
+    if (status == PIR_OK)
+        status = pir_piece_ready(&scene->bodies.body[q->body], &scene->for_triangles, q);
+    if (status == PIR_OK)
+        status = pir_scene_pairs_ready(&scene->pairs, &scene->allocator, pair, p->extent.polytope, q->extent.polytope);
+    return status;
+}
+
 /* Puts what a worker has noted on the lists. There is room. */
 static pir_status list_noted(pir_scene *scene, const pir_scene_worker *worker) {
     pir_scene_lists *lists = &scene->lists;
     pir_status status = PIR_OK;
     for (uint32_t i = 0; i < worker->noted_count && status == PIR_OK; i++) {
         const pir_scene_noted noted = worker->noted[i];
-        const uint32_t *piece = scene->pairs.at[noted.pair].piece;
         if (!noted.asks) {
             lists->ended[lists->ended_count++] = noted.pair;
             continue;
         }
         lists->asked[lists->asked_count++] = noted.pair;
-        if (!scene->pairs.at[noted.pair].asked)
-            status = pir_scene_pairs_ready(&scene->pairs, &scene->allocator, noted.pair,
-                                           scene->bodies.piece[piece[0]].extent.polytope,
-                                           scene->bodies.piece[piece[1]].extent.polytope);
+        status = make_ready(scene, noted.pair);
     }
     return status;
 }
@@ -151,14 +157,36 @@ pir_status pir_scene_list_questions(pir_scene *scene) {
     return status;
 }
 
+/* The box within which a piece may be without a new search for its pairs. */
+static pir_box wide_box(const pir_scene *scene, uint32_t piece) {
+    const pir_scene_piece *p = &scene->bodies.piece[piece];
+    return p->kind == PIR_PIECE_TRIANGLE ? pir_scene_wide_triangle(scene, p) : *fat_box(scene, piece);
+}
+
+static void drop_pairs_of(pir_scene *scene, uint32_t piece) {
+    for (uint32_t end = scene->bodies.piece[piece].first; end != PIR_END_NONE;) {
+        const pir_scene_pair *pair = &scene->pairs.at[end / 2];
+        const uint32_t number = end / 2;
+        const pir_box p = wide_box(scene, pair->piece[0]), q = wide_box(scene, pair->piece[1]);
+        end = pair->next[end % 2];
+        if (!pir_box_meets(&p, &q))
+            pir_scene_drop_pair(scene, number);
+    }
+}
+
 void pir_scene_drop_pairs(pir_scene *scene) {
-    pir_scene_piece *pieces = scene->bodies.piece;
-    for (uint32_t i = 0; i < scene->lists.replaced_count; i++)
-        for (uint32_t end = pieces[scene->lists.replaced[i].piece].first; end != PIR_END_NONE;) {
-            const pir_scene_pair *pair = &scene->pairs.at[end / 2];
-            uint32_t number = end / 2, p = pair->piece[0], q = pair->piece[1];
-            end = pair->next[end % 2];
-            if (!pir_box_meets(fat_box(scene, p), fat_box(scene, q)))
-                pir_scene_pairs_drop(&scene->pairs, number, &pieces[p].first, &pieces[q].first);
+    const pir_scene_piece *pieces = scene->bodies.piece;
+    for (uint32_t i = 0; i < scene->lists.replaced_count; i++) {
+        const uint32_t piece = scene->lists.replaced[i].piece;
+        pir_body_surface *surface = &scene->bodies.body[pieces[piece].body].surface;
+        drop_pairs_of(scene, piece);
+        if (pieces[piece].kind != PIR_PIECE_SURFACE)
+            continue;
+        surface->drift = 0;
+        for (uint32_t t = surface->triangles; t != PIR_PIECE_NONE;) {
+            const uint32_t next = pieces[t].next;
+            drop_pairs_of(scene, t);
+            t = next;
         }
+    }
 }

@@ -15,7 +15,7 @@ pir_status pir_scene_find_pairs(pir_scene *scene);
  */
 pir_status pir_scene_list_questions(pir_scene *scene);
 
-/* Drops the pairs of replaced pieces whose boxes in the tree do not meet. */
+/* Drops the pairs of replaced pieces whose boxes in the tree do not meet, or that of a triangle wider by its skin. */
 void pir_scene_drop_pairs(pir_scene *scene);
 
 #endif

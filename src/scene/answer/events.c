@@ -2,44 +2,47 @@
 /*
  * The events of an update: see events.h.
  *
- * Each has a key of 64 bits, the numbers of both bodies, then those of both pieces, so that a radix sort puts them in
- * an order that depends on these numbers alone.
+ * Each has a key, the numbers of both bodies, then those of both pieces, so that a radix sort puts them in an order
+ * that depends on these numbers alone.
  */
 #include "scene/answer/events.h"
 
 #include "scene/answer/share.h"
+#include "scene/answer/surface_contacts.h"
 #include "scene/world/grow.h"
 
 /* How many events are worth another thread. */
 #define WORTH_MORE 256
 
-/* Bits of a body's number and of a piece's: see PIR_BODIES_MAX and PIR_PIECES_MAX. */
-#define BODY_BITS  20
-#define PIECE_BITS 12
-
-uint64_t pir_scene_key(const pir_scene *scene, uint32_t pair) {
+pir_scene_key pir_scene_key_of(const pir_scene *scene, uint32_t pair) {
     const uint32_t *of = scene->pairs.at[pair].piece;
     const pir_scene_piece *p = &scene->bodies.piece[of[0]], *q = &scene->bodies.piece[of[1]];
-    uint64_t bodies = (uint64_t)p->body << BODY_BITS | q->body;
-    return bodies << 2 * PIECE_BITS | (uint64_t)p->number << PIECE_BITS | q->number;
+    return (pir_scene_key){(uint64_t)p->body << 32 | q->body, (uint64_t)p->number << 32 | q->number};
+}
+
+/* A byte of a key, the lowest first. */
+static inline uint32_t digit_of(const pir_scene_key *key, int digit) {
+    return (uint32_t)((digit < 8 ? key->pieces : key->bodies) >> digit % 8 * 8) & 0xff;
 }
 
 /* A byte at a time; bytes that all keys share are left out. */
 void pir_scene_sort_items(pir_scene_item *item, pir_scene_item *work, uint32_t count) {
-    uint64_t differ = 0;
+    pir_scene_key differ = {0, 0};
     pir_scene_item *from = item, *to = work;
-    for (uint32_t i = 1; i < count; i++)
-        differ |= item[i].key ^ item[0].key;
-    for (int shift = 0; shift < 64; shift += 8) {
+    for (uint32_t i = 1; i < count; i++) {
+        differ.bodies |= item[i].key.bodies ^ item[0].key.bodies;
+        differ.pieces |= item[i].key.pieces ^ item[0].key.pieces;
+    }
+    for (int digit = 0; digit < 16; digit++) {
         uint32_t start[257] = {0};
-        if ((differ >> shift & 0xff) == 0)
+        if (digit_of(&differ, digit) == 0)
             continue;
         for (uint32_t i = 0; i < count; i++)
-            start[(from[i].key >> shift & 0xff) + 1]++;
-        for (int digit = 0; digit < 256; digit++)
-            start[digit + 1] += start[digit];
+            start[digit_of(&from[i].key, digit) + 1]++;
+        for (int value = 0; value < 256; value++)
+            start[value + 1] += start[value];
         for (uint32_t i = 0; i < count; i++)
-            to[start[from[i].key >> shift & 0xff]++] = from[i];
+            to[start[digit_of(&from[i].key, digit)]++] = from[i];
         pir_scene_item *sorted = to;
         to = from;
         from = sorted;
@@ -48,20 +51,29 @@ void pir_scene_sort_items(pir_scene_item *item, pir_scene_item *work, uint32_t c
         memcpy(item, from, count * sizeof *item);
 }
 
+/* Lists what a worker found: of pairs with surfaces only what was found of their contacts. The count of all. */
+static uint32_t list_found(pir_scene *scene, const pir_scene_worker *worker, const pir_scene_found *found,
+                           uint32_t of_found, uint32_t count) {
+    for (uint32_t i = 0; i < of_found; i++) {
+        const uint32_t pair = found[i].pair;
+        if (found == worker->on_surface || !pir_scene_is_with_surface(scene, pair))
+            scene->lists.item[count++] = (pir_scene_item){pir_scene_key_of(scene, pair), worker, &found[i], pair};
+    }
+    return count;
+}
+
 /* Lists what was found, and what was a contact and is none. */
 static uint32_t list_items(pir_scene *scene) {
     pir_scene_lists *lists = &scene->lists;
     uint32_t count = 0;
     for (uint32_t w = 0; w < scene->threads; w++) {
         const pir_scene_worker *worker = &scene->worker[w];
-        for (uint32_t i = 0; i < worker->found_count; i++) {
-            uint32_t pair = worker->found[i].pair;
-            lists->item[count++] = (pir_scene_item){pir_scene_key(scene, pair), worker, &worker->found[i], pair};
-        }
+        count = list_found(scene, worker, worker->found, worker->found_count, count);
+        count = list_found(scene, worker, worker->on_surface, worker->on_surface_count, count);
     }
     for (uint32_t i = 0; i < lists->ended_count; i++) {
         uint32_t pair = lists->ended[i];
-        lists->item[count++] = (pir_scene_item){pir_scene_key(scene, pair), NULL, NULL, pair};
+        lists->item[count++] = (pir_scene_item){pir_scene_key_of(scene, pair), NULL, NULL, pair};
     }
     return count;
 }
@@ -127,11 +139,8 @@ static bool list_ended(pir_scene *scene) {
 
 static void make_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
     (void)task;
-    for (uint32_t i = begin; i < end; i++) {
-        const pir_scene_item *item = &scene->lists.item[i];
-        scene->event[i] = event_of(scene, item);
-        scene->pairs.at[item->pair].touching = item->found != NULL;
-    }
+    for (uint32_t i = begin; i < end; i++)
+        scene->event[i] = event_of(scene, &scene->lists.item[i]);
 }
 
 pir_status pir_scene_make_events(pir_scene *scene) {
@@ -141,7 +150,7 @@ pir_status pir_scene_make_events(pir_scene *scene) {
         return PIR_ERR_MEMORY;
     uint32_t most = lists->ended_count;
     for (uint32_t w = 0; w < scene->threads; w++)
-        most += scene->worker[w].found_count;
+        most += scene->worker[w].found_count + scene->worker[w].on_surface_count;
     if (!PIR_GROW(a, lists->item, lists->item_capacity, most) ||
         !PIR_GROW(a, lists->work, lists->work_capacity, most) ||
         !PIR_GROW(a, scene->event, scene->event_capacity, most))
@@ -150,6 +159,9 @@ pir_status pir_scene_make_events(pir_scene *scene) {
     if (count > 1)
         pir_scene_sort_items(lists->item, lists->work, count);
     pir_scene_share(scene, count, WORTH_MORE, make_items);
+    // a pair may have several events, so this waits for all of them
+    for (uint32_t i = 0; i < count; i++)
+        scene->pairs.at[lists->item[i].pair].touching = lists->item[i].found != NULL;
     scene->event_count = count;
     return PIR_OK;
 }

@@ -11,8 +11,8 @@
  */
 pir_status pir_scene_make_events(pir_scene *scene);
 
-/* The numbers of a pair's bodies and pieces in one, by which events are in order. */
-uint64_t pir_scene_key(const pir_scene *scene, uint32_t pair);
+/* The numbers by which the events of a pair are in order. */
+pir_scene_key pir_scene_key_of(const pir_scene *scene, uint32_t pair);
 
 /* Sorts by keys; `work` has room for as many. */
 void pir_scene_sort_items(pir_scene_item *item, pir_scene_item *work, uint32_t count);

@@ -8,17 +8,13 @@
 /* How many bodies are worth another thread. */
 #define WORTH_MORE 64
 
-static double around(const pir_scene *scene, const pir_scene_body *body) {
-    return body->radius + 0.5 * scene->margin;
-}
-
 /* The place of a moved body, and the boxes of its pieces there. */
 static pir_status make_place(pir_scene *scene, pir_scene_moved *moved) {
     const pir_scene_body *body = &scene->bodies.body[moved->body];
     pir_box *box = scene->lists.box + moved->first;
     pir_status status = pir_place_make(moved->pose, &moved->place);
     for (uint32_t p = body->first; p != PIR_PIECE_NONE && status == PIR_OK; p = scene->bodies.piece[p].next)
-        if (!pir_place_box(&moved->place, &scene->bodies.piece[p].extent, around(scene, body), box++))
+        if (!pir_piece_box(body, &scene->bodies.piece[p], &moved->place, pir_scene_around(scene, body), box++))
             status = PIR_ERR_LIMIT;
     return status;
 }
@@ -67,8 +63,18 @@ static void place_piece(pir_scene *scene, uint32_t p, const pir_box *tight, pir_
         pir_box fat = pir_scene_fat_box(tight, way);
         put_in(scene, p, &fat);
     }
-    if (!held || fresh)
+    const pir_body_surface *surface = &scene->bodies.body[piece->body].surface;
+    if (!held || fresh || (piece->kind == PIR_PIECE_SURFACE && surface->drift > surface->skin))
         scene->lists.replaced[scene->lists.replaced_count++] = (pir_scene_replaced){p, !held, before};
+}
+
+/* Brings the boxes of a body's triangles to a place. That of the whole has been made there, so none is too far. */
+static void place_triangles(pir_scene *scene, const pir_scene_body *body, const pir_place *place) {
+    pir_scene_piece *pieces = scene->bodies.piece;
+    for (uint32_t p = body->surface.triangles; p != PIR_PIECE_NONE; p = pieces[p].next) {
+        pir_piece_box(body, &pieces[p], place, pir_scene_around(scene, body), &pieces[p].tight);
+        pieces[p].moved = scene->update;
+    }
 }
 
 void pir_scene_move_bodies(pir_scene *scene) {
@@ -77,12 +83,15 @@ void pir_scene_move_bodies(pir_scene *scene) {
         const pir_scene_moved *moved = &scene->lists.moved[i];
         pir_scene_body *body = &scene->bodies.body[moved->body];
         pir_vec3 way = pir_vec_sub(moved->place.pose.translation, body->pose.translation);
+        body->surface.previous_drift = body->surface.drift;
         pir_bodies_travel(body, &moved->place);
         body->previous = body->pose;
         body->pose = moved->place.pose;
         body->unit = moved->place.unit;
         for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next)
             place_piece(scene, p, box++, pir_vec_scale(way, 2));
+        if (pir_body_has_surface(body))
+            place_triangles(scene, body, &moved->place);
     }
 }
 
@@ -96,9 +105,13 @@ void pir_scene_move_back(pir_scene *scene) {
         // this pose and these boxes have been made before
         pir_place_make(body->previous, &place);
         pir_bodies_travel(body, &place);
+        body->surface.drift = body->surface.previous_drift;
         body->pose = place.pose;
         body->unit = place.unit;
         for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next)
-            pir_place_box(&place, &scene->bodies.piece[p].extent, around(scene, body), &scene->bodies.piece[p].tight);
+            pir_piece_box(body, &scene->bodies.piece[p], &place, pir_scene_around(scene, body),
+                          &scene->bodies.piece[p].tight);
+        if (pir_body_has_surface(body))
+            place_triangles(scene, body, &place);
     }
 }

@@ -15,6 +15,7 @@
 #include "scene/answer/candidates.h"
 #include "scene/answer/events.h"
 #include "scene/answer/motion.h"
+#include "scene/answer/surface_contacts.h"
 #include "scene/world/grow.h"
 
 /* --- 1. what is asked for --- */
@@ -74,6 +75,8 @@ static pir_status answer(pir_scene *scene) {
         status = pir_scene_list_questions(scene);
     if (status == PIR_OK)
         status = pir_scene_ask(scene);
+    if (status == PIR_OK && scene->bodies.triangle_count > 0)
+        status = pir_scene_find_surface_contacts(scene);
     return status == PIR_OK ? pir_scene_make_events(scene) : status;
 }
 

@@ -3,10 +3,11 @@
  * Scenes in bytes, little endian:
  *
  *     "PIRSCENE"; u32 version, bodies, contacts, 0; u64 checksum of all bytes but its own (FNV-1a)
- *     per body, by number:       u32 number, pieces, kind, fresh; f64 quaternion[4], translation[3]
- *     per contact, by its key:   u64 key
+ *     per body, by number:       u32 number, pieces, kind, fresh; f64 quaternion[4], translation[3];
+ *                                u64 hash of its surface, 0 for none
+ *     per contact, by its key:   u64 of bodies, of pieces
  *
- * A key holds the numbers of both bodies and both pieces (scene/answer/events.h).
+ * A key holds the numbers of both bodies and both pieces (scene/world/scene.h).
  */
 #include <pirouette/scene_file.h>
 
@@ -17,12 +18,13 @@
 #include "scene/answer/events.h"
 #include "scene/answer/motion.h"
 #include "scene/world/grow.h"
+#include "scene/world/triangles.h"
 
-#define VERSION      1u
+#define VERSION      2u
 #define HEADER_SIZE  32
 #define CHECKSUM_AT  24
-#define BODY_SIZE    72
-#define CONTACT_SIZE 8
+#define BODY_SIZE    80
+#define CONTACT_SIZE 16
 
 static const char magic[8] = {'P', 'I', 'R', 'S', 'C', 'E', 'N', 'E'};
 
@@ -82,6 +84,7 @@ static void put_body(uint8_t **at, const pir_scene_body *body, uint32_t number) 
     put(at, body->fresh, 4);
     for (int k = 0; k < 7; k++)
         put_double(at, numbers[k]);
+    put(at, body->surface.hash, 8);
 }
 
 /* The contacts in order, in scene->lists.item. */
@@ -89,7 +92,7 @@ static void sort_contacts(pir_scene *scene) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < scene->pairs.capacity; i++)
         if (scene->pairs.at[i].touching)
-            scene->lists.item[count++] = (pir_scene_item){.key = pir_scene_key(scene, i), .pair = i};
+            scene->lists.item[count++] = (pir_scene_item){.key = pir_scene_key_of(scene, i), .pair = i};
     if (count > 1)
         pir_scene_sort_items(scene->lists.item, scene->lists.work, count);
 }
@@ -114,8 +117,10 @@ pir_status pir_scene_serialise(pir_scene *scene, void *memory, size_t size) {
     for (uint32_t b = 0; b < scene->bodies.body_end; b++)
         if (scene->bodies.body[b].used)
             put_body(&at, &scene->bodies.body[b], b);
-    for (uint32_t i = 0; i < contacts; i++)
-        put(&at, lists->item[i].key, 8);
+    for (uint32_t i = 0; i < contacts; i++) {
+        put(&at, lists->item[i].key.bodies, 8);
+        put(&at, lists->item[i].key.pieces, 8);
+    }
     at = (uint8_t *)memory + CHECKSUM_AT;
     put(&at, checksum(memory, size), 8);
     return PIR_OK;
@@ -161,12 +166,15 @@ static pir_status read_body(pir_scene *scene, const struct snapshot *s, const ui
     pose.translation.x = take_double(at);
     pose.translation.y = take_double(at);
     pose.translation.z = take_double(at);
+    const uint64_t hash = take(at, 8);
     if (fresh > 1 || number < least)
         return pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: body %u is out of order, or neither fresh nor not",
                         number);
     const pir_scene_body *body = pir_bodies_has(&scene->bodies, number) ? &scene->bodies.body[number] : NULL;
     if (!body || body->pieces != pieces || body->kind != kind)
         return pir_fail(s->report, PIR_ERR_ARGUMENT, "snapshot: the scene has no such body %u", number);
+    if (body->surface.hash != hash)
+        return pir_fail(s->report, PIR_ERR_ARGUMENT, "snapshot: body %u has another surface in the scene", number);
     scene->lists.moved[scene->lists.moved_count++] = (pir_scene_moved){.body = number, .pose = pose};
     return PIR_OK;
 }
@@ -194,18 +202,27 @@ static pir_status read_bodies(pir_scene *scene, const struct snapshot *s) {
     return status == PIR_OK ? status : pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: a pose is none");
 }
 
-/* The pair of a key, or PIR_END_NONE. */
-static uint32_t pair_of(const pir_scene *scene, uint64_t key) {
-    uint32_t p = (uint32_t)(key >> 44), number = (uint32_t)(key >> 12) & (PIR_PIECES_MAX - 1);
-    if (!pir_bodies_has(&scene->bodies, p))
-        return PIR_END_NONE;
-    uint32_t piece = scene->bodies.body[p].first;
+/* The piece of a body with a number, or PIR_PIECE_NONE. */
+static uint32_t piece_of(const pir_scene *scene, uint32_t body, uint32_t number) {
+    if (!pir_bodies_has(&scene->bodies, body))
+        return PIR_PIECE_NONE;
+    if (pir_body_has_surface(&scene->bodies.body[body]))
+        return pir_triangles_find(&scene->bodies, body, number);
+    uint32_t piece = scene->bodies.body[body].first;
     while (piece != PIR_PIECE_NONE && scene->bodies.piece[piece].number != number)
         piece = scene->bodies.piece[piece].next;
+    return piece;
+}
+
+/* The pair of a key, or PIR_END_NONE. */
+static uint32_t pair_of(const pir_scene *scene, pir_scene_key key) {
+    const uint32_t piece = piece_of(scene, (uint32_t)(key.bodies >> 32), (uint32_t)(key.pieces >> 32));
     for (uint32_t end = piece == PIR_PIECE_NONE ? PIR_END_NONE : scene->bodies.piece[piece].first; end != PIR_END_NONE;
-         end = scene->pairs.at[end / 2].next[end % 2])
-        if (pir_scene_key(scene, end / 2) == key)
+         end = scene->pairs.at[end / 2].next[end % 2]) {
+        const pir_scene_key at = pir_scene_key_of(scene, end / 2);
+        if (at.bodies == key.bodies && at.pieces == key.pieces)
             return end / 2;
+    }
     return PIR_END_NONE;
 }
 
@@ -213,7 +230,9 @@ static uint32_t pair_of(const pir_scene *scene, uint64_t key) {
 static pir_status read_contacts(pir_scene *scene, const struct snapshot *s) {
     const uint8_t *at = s->contact;
     for (uint32_t i = 0; i < s->contacts; i++) {
-        uint64_t key = take(&at, 8);
+        pir_scene_key key = {0, 0};
+        key.bodies = take(&at, 8);
+        key.pieces = take(&at, 8);
         uint32_t pair = pair_of(scene, key);
         if (pair == PIR_END_NONE)
             return pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: contact %u is of pieces that are apart or not there",

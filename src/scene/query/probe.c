@@ -2,6 +2,8 @@
 /* Shapes held against pieces: see probe.h. */
 #include "scene/query/probe.h"
 
+#include "scene/world/triangles.h"
+
 pir_scene_shape pir_scene_shape_default(pir_polytope *polytope) {
     return (pir_scene_shape){polytope, pir_pose_identity(), 0, UINT32_MAX, PIR_SCENE_NONE, NULL};
 }
@@ -32,8 +34,7 @@ pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pi
     return PIR_OK;
 }
 
-pir_probe pir_probe_of_piece(pir_scene *scene, uint32_t piece) {
-    const pir_scene_piece *p = &scene->bodies.piece[piece];
+pir_probe pir_probe_of_piece(pir_scene *scene, const pir_scene_piece *p) {
     const pir_scene_body *body = &scene->bodies.body[p->body];
     return (pir_probe){.scene = scene,
                        .extent = p->extent,
@@ -44,9 +45,8 @@ pir_probe pir_probe_of_piece(pir_scene *scene, uint32_t piece) {
                        .box = p->tight};
 }
 
-bool pir_probe_meets(const pir_probe *probe, uint32_t piece) {
+bool pir_probe_meets(const pir_probe *probe, uint32_t body) {
     const pir_bodies *bodies = &probe->scene->bodies;
-    uint32_t body = bodies->piece[piece].body;
     if (bodies->body[body].sensor)
         return false;
     if (probe->body != PIR_SCENE_NONE)
@@ -55,20 +55,15 @@ bool pir_probe_meets(const pir_probe *probe, uint32_t piece) {
 }
 
 pir_box pir_probe_wider(const pir_probe *probe, double distance) {
-    pir_box wider;
-    double by = distance < PIR_BOX_FARTHEST ? distance : PIR_BOX_FARTHEST;
-    for (int k = 0; k < 3; k++) {
-        wider.low[k] = pir_float_below(probe->box.low[k] - by);
-        wider.high[k] = pir_float_above(probe->box.high[k] + by);
-    }
-    return wider;
+    return pir_box_wider(&probe->box, distance);
 }
 
-pir_status pir_probe_pair(const pir_probe *probe, uint32_t piece, pir_pair **ret_pair, pir_pair_input *ret_input) {
+pir_status pir_probe_pair(const pir_probe *probe, pir_scene_piece *q, pir_pair **ret_pair, pir_pair_input *ret_input) {
     pir_scene *scene = probe->scene;
-    const pir_scene_piece *q = &scene->bodies.piece[piece];
     const pir_scene_body *body = &scene->bodies.body[q->body];
-    pir_status status;
+    pir_status status = pir_piece_ready(body, &scene->for_triangles, q);
+    if (status != PIR_OK)
+        return status;
     if (scene->spare) {
         status = pir_pair_reset(scene->spare, probe->extent.polytope, q->extent.polytope);
     } else {

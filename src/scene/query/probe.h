@@ -23,16 +23,18 @@ typedef struct pir_probe {
 /* Checks a shape. Errors as of a query of a scene. */
 pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pir_probe *ret_probe);
 
-/* A piece of a body. */
-pir_probe pir_probe_of_piece(pir_scene *scene, uint32_t piece);
+/* A piece of a body; of a triangle one that has its polytope. */
+pir_probe pir_probe_of_piece(pir_scene *scene, const pir_scene_piece *piece);
 
-/* Whether the probe may meet a piece of the scene. */
-bool pir_probe_meets(const pir_probe *probe, uint32_t piece);
+/* Whether the probe may meet a body of the scene. */
+bool pir_probe_meets(const pir_probe *probe, uint32_t body);
 
 /* The box, wider by a distance on each side. */
 pir_box pir_probe_wider(const pir_probe *probe, double distance);
 
-/* The pair of the probe's polytope and a piece, at their poses. Errors as pir_pair_create. */
-pir_status pir_probe_pair(const pir_probe *probe, uint32_t piece, pir_pair **ret_pair, pir_pair_input *ret_input);
+/* The pair of the probe's polytope and a piece, at their poses. A triangle gets its polytope. Errors as
+   pir_pair_create. */
+pir_status pir_probe_pair(const pir_probe *probe, pir_scene_piece *piece, pir_pair **ret_pair,
+                          pir_pair_input *ret_input);
 
 #endif

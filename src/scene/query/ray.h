@@ -26,12 +26,16 @@ typedef struct pir_entry {
     bool inside; /* it begins in the interior */
     double time;
     pir_vec3 normal; /* in the body's frame, of length 1 or 0 */
+    int side;        /* of a polygon: 1 from the front, the side of facet 0, −1 from behind, 0 in its plane */
 } pir_entry;
 
 /* --- without a radius: pir_ray_rounded is ray_rounded.h's --- */
 
 /* Whether doubles settle it; *ret_entry is set only then. */
 bool pir_ray_by_doubles(const pir_polytope *p, const pir_ray_segment *segment, pir_entry *ret_entry);
+
+/* That of a triangle, with its corners in order from the front. */
+bool pir_ray_by_corners(const pir_vec3 corner[3], const pir_ray_segment *segment, pir_entry *ret_entry);
 
 /* The segment in the world, and the body's pose. */
 typedef struct pir_world_ray {

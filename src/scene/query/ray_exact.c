@@ -26,6 +26,7 @@ struct exact_line {
     pir_int3 origin, way; /* o' and w' */
     struct ray_crossing enter, leave;
     bool misses, inside; /* `inside`: the begin is within all half-spaces so far, on the boundary of none */
+    int side;            /* of a polygon: the sign of D of its first facet */
     uint32_t on;         /* the first facet that the begin is on, or UINT32_MAX */
     pir_vec3 on_normal;
 };
@@ -158,6 +159,8 @@ static void clip_by(struct exact_line *line, const pir_int3 *n, uint32_t vertex,
     at.facet = number;
     at.normal = normal;
     const int s = pir_int_sign(&at.s), d = pir_int_sign(&at.d);
+    if (line->p->dimension == 2 && number == 0)
+        line->side = d;
     line->inside &= s > 0;
     line->misses |= s < 0 && d <= 0;
     if (s == 0 && line->on == UINT32_MAX) {
@@ -260,7 +263,8 @@ pir_entry pir_ray_exact(const pir_polytope *p, const pir_world_ray *ray, pir_pos
     if (line.misses || compare(&line, &line.enter, &line.leave) > 0)
         return (pir_entry){.hits = false, .time = 1};
     if (line.inside)
-        return (pir_entry){true, true, 0, p->normal[pir_least_facet(p, segment->from)]};
+        return (pir_entry){true, true, 0, p->normal[pir_least_facet(p, segment->from)], 0};
     bool begins = line.enter.facet == UINT32_MAX;
-    return (pir_entry){true, false, begins ? 0 : time_of(&line.enter), begins ? line.on_normal : line.enter.normal};
+    return (pir_entry){true, false, begins ? 0 : time_of(&line.enter), begins ? line.on_normal : line.enter.normal,
+                       line.side};
 }

@@ -158,7 +158,8 @@ static pir_vec3 normal_of_depth(const pir_polytope *p, pir_vec3 x, pir_vec3 agai
 static pir_entry hold(const pir_polytope *p, pir_vec3 x, double radius) {
     const bool within = p->dimension == 3 && pir_facet_slack(p, pir_least_facet(p, x), x) >= 0;
     const double off = within ? 0 : length(off_polytope(p, x));
-    return (pir_entry){off <= radius, off < radius, off <= radius ? 0 : 1, normal_of_depth(p, x, (pir_vec3){0, 0, 0})};
+    const pir_vec3 normal = normal_of_depth(p, x, (pir_vec3){0, 0, 0});
+    return (pir_entry){off <= radius, off < radius, off <= radius ? 0 : 1, normal, 0};
 }
 
 pir_entry pir_ray_rounded(const pir_polytope *p, const pir_ray_segment *segment, double radius) {
@@ -178,6 +179,6 @@ pir_entry pir_ray_rounded(const pir_polytope *p, const pir_ray_segment *segment,
     if (!(first <= way && last >= 0))
         return (pir_entry){.hits = false, .time = 1};
     if (first < 0)
-        return (pir_entry){true, true, 0, normal_of_depth(p, segment->from, against)};
-    return (pir_entry){true, false, first / way, line.normal};
+        return (pir_entry){true, true, 0, normal_of_depth(p, segment->from, against), 0};
+    return (pir_entry){true, false, first / way, line.normal, 0};
 }

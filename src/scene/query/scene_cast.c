@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The first hit of a moving shape: the least over the pieces that its way may meet, each by pir_pair_fly. */
 #include "pair/flight.h"
+#include "polytope/polytope.h"
 #include "query/proof/parting.h"
-#include "scene/query/probe.h"
+#include "scene/query/near_pieces.h"
+#include "scene/world/surfaces.h"
+#include "scene/world/triangles.h"
 
 struct flight {
     pir_scene *scene;
@@ -10,6 +13,9 @@ struct flight {
     uint32_t own_piece;
     const pir_motion *motion;
     double tolerance;
+    pir_box box; /* all its way is in it */
+    pir_impact *first;
+    double until; /* the time of that */
 };
 
 static double length(pir_vec3 v) {
@@ -35,10 +41,9 @@ static void set_impact(const struct flight *flight, const pir_scene_piece *piece
 }
 
 /* The time at which the probe comes within the tolerance of a piece, where that is at most `until`. */
-static pir_status advance(const struct flight *flight, uint32_t number, double until, pir_impact *impact,
+static pir_status advance(const struct flight *flight, pir_scene_piece *piece, double until, pir_impact *impact,
                           bool *ret_meets) {
     pir_scene *scene = flight->scene;
-    const pir_scene_piece *piece = &scene->bodies.piece[number];
     const pir_flight way = {.p = flight->probe.extent.polytope,
                             .from = flight->probe.pose,
                             .motion = flight->motion,
@@ -48,7 +53,7 @@ static pir_status advance(const struct flight *flight, uint32_t number, double u
     pir_pair *pair;
     pir_pair_input input;
     pir_flight_end end;
-    pir_status status = pir_probe_pair(&flight->probe, number, &pair, &input);
+    pir_status status = pir_probe_pair(&flight->probe, piece, &pair, &input);
     if (status == PIR_OK)
         status = pir_pair_fly(pair, scene->worker[0].workspace, &input, &way, until, &end);
     if (status != PIR_OK || end.outcome == PIR_CAST_MISS)
@@ -90,24 +95,139 @@ static bool comes_before(const pir_impact *a, const pir_impact *b) {
     return false;
 }
 
-static pir_status fly(const struct flight *flight, pir_impact *first) {
-    const pir_tree *tree = &flight->scene->tree;
-    pir_box box = box_of_way(flight);
-    for (uint32_t leaf = pir_tree_first(tree, &box); leaf != PIR_TREE_NONE; leaf = pir_tree_next(tree, &box, leaf)) {
-        uint32_t piece = pir_tree_item(tree, leaf);
-        pir_impact impact;
-        bool meets = false;
-        if (!pir_box_meets(&box, &flight->scene->bodies.piece[piece].tight) || !pir_probe_meets(&flight->probe, piece))
-            continue;
-        pir_status status = advance(flight, piece, first->time, &impact, &meets);
-        if (status != PIR_OK)
-            return pir_fail(flight->scene->report, status, "cast: body %u, piece %u: %s",
-                            (unsigned)flight->scene->bodies.piece[piece].body,
-                            (unsigned)flight->scene->bodies.piece[piece].number, pir_status_text(status));
-        if (meets && comes_before(&impact, first))
-            *first = impact;
+/* The least and the greatest height of the probe along a direction of the world, without its radius. */
+static void heights_of(const pir_probe *probe, pir_vec3 n, double ret_heights[2]) {
+    const pir_polytope *p = probe->extent.polytope;
+    const pir_vec3 own = pir_pose_rotate_inverse(probe->pose, n);
+    const double at = pir_vec_dot(n, probe->pose.translation);
+    ret_heights[0] = HUGE_VAL;
+    ret_heights[1] = -HUGE_VAL;
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        const double height = at + pir_vec_dot(own, p->vertex[v]);
+        ret_heights[0] = fmin(ret_heights[0], height);
+        ret_heights[1] = fmax(ret_heights[1], height);
+    }
+}
+
+/*
+ * Whether a flight that does not turn comes to the plane of a triangle too late, or never: a lower bound on the time of
+ * the impact, from heights over the plane. They are less than they may be by more than doubles are off by.
+ */
+static bool is_late(const struct flight *flight, const pir_scene_piece *piece) {
+    const pir_scene_body *body = &flight->scene->bodies.body[piece->body];
+    pir_vec3 corner[3];
+    pir_surface_triangle(pir_body_surface_of(body), piece->number, corner);
+    pir_vec3 n = pir_vec_cross(pir_vec_sub(corner[1], corner[0]), pir_vec_sub(corner[2], corner[0]));
+    n = pir_pose_rotate(body->pose, pir_vec_scale(n, 1 / length(n)));
+    const double size = size_of(flight, body), slack = 0x1p-30 * size,
+                 near = fmax(flight->tolerance, slack) + flight->probe.radius + body->radius + slack;
+    double height[2], least = HUGE_VAL, most = -HUGE_VAL;
+    heights_of(&flight->probe, n, height);
+    // the corners as they stand, for the normal may be turned a little
+    for (int k = 0; k < 3; k++) {
+        const double at = pir_vec_dot(n, pir_pose_apply(body->pose, corner[k]));
+        least = fmin(least, at);
+        most = fmax(most, at);
+    }
+    const double along = pir_vec_dot(n, flight->motion->way), until = flight->first->time;
+    const double above = height[0] - most - near, below = least - height[1] - near;
+    return (above > 0 && above + along * until > slack) || (below > 0 && below - along * until > slack);
+}
+
+static pir_status look(void *context, pir_scene_piece *piece) {
+    struct flight *flight = context;
+    pir_impact impact;
+    bool meets = false;
+    if (!pir_box_meets(&flight->box, &piece->tight))
+        return PIR_OK;
+    if (piece->kind == PIR_PIECE_TRIANGLE && !(length(flight->motion->turn) > 0) && is_late(flight, piece))
+        return PIR_OK;
+    pir_status status = advance(flight, piece, flight->first->time, &impact, &meets);
+    if (status != PIR_OK)
+        return pir_fail(flight->scene->report, status, "cast: body %u, piece %u: %s", (unsigned)piece->body,
+                        (unsigned)piece->number, pir_status_text(status));
+    if (meets && comes_before(&impact, flight->first)) {
+        *flight->first = impact;
+        flight->until = impact.time;
     }
     return PIR_OK;
+}
+
+/* The search for pieces in the way of a flight: where it does not turn, the first ones first. */
+static pir_near_search near_of(struct flight *flight) {
+    const bool turns = length(flight->motion->turn) > 0;
+    flight->box = box_of_way(flight);
+    flight->until = flight->first->time;
+    return (pir_near_search){.probe = &flight->probe,
+                             .box = flight->box,
+                             .by = turns ? PIR_NEAR_BOX : PIR_NEAR_TIME,
+                             .from = pir_probe_wider(&flight->probe, flight->tolerance),
+                             .way = flight->motion->way,
+                             .most = &flight->until,
+                             .look = look,
+                             .context = flight};
+}
+
+static pir_status fly(struct flight *flight, pir_impact *first) {
+    flight->first = first;
+    const pir_near_search near = near_of(flight);
+    return pir_near_pieces(&near);
+}
+
+/* A piece in the way of a surface's triangles. */
+struct in_the_way {
+    struct flight *flight; /* without a probe */
+    pir_scene_piece *piece;
+};
+
+static pir_status look_from_triangle(void *context, pir_scene_piece *triangle) {
+    const struct in_the_way *in_the_way = context;
+    struct flight *flight = in_the_way->flight;
+    pir_scene *scene = flight->scene;
+    pir_status status = pir_piece_ready(&scene->bodies.body[triangle->body], &scene->for_triangles, triangle);
+    if (status != PIR_OK)
+        return status;
+    flight->probe = pir_probe_of_piece(scene, triangle);
+    flight->own_piece = triangle->number;
+    flight->box = box_of_way(flight);
+    return look(flight, in_the_way->piece);
+}
+
+/* The search for triangles that may come to a piece: seen from the surface the piece moves, the other way. */
+static pir_near_search near_piece(const struct flight *flight, const pir_probe *piece, const pir_scene_body *body) {
+    const pir_motion *motion = flight->motion;
+    const double turn = length(motion->turn) * body->reach * (1 + 0x1p-40);
+    return (pir_near_search){.probe = piece,
+                             .box = pir_probe_wider(piece, flight->tolerance + turn + length(motion->way)),
+                             .by = turn > 0 ? PIR_NEAR_BOX : PIR_NEAR_TIME,
+                             .from = pir_probe_wider(piece, flight->tolerance),
+                             .way = pir_vec_scale(motion->way, -1),
+                             .most = &flight->until,
+                             .look = look_from_triangle};
+}
+
+/* The first hit of a surface that moves: of its triangles that may come to a piece, for each. */
+static pir_status fly_surface(struct flight *flight, uint32_t number, pir_impact *first) {
+    pir_scene *scene = flight->scene;
+    const pir_scene_body *body = &scene->bodies.body[number];
+    const double far =
+        length(flight->motion->turn) * body->reach * (1 + 0x1p-40) + length(flight->motion->way) + flight->tolerance;
+    const pir_box box = pir_box_wider(&scene->bodies.piece[body->first].tight, far);
+    pir_status status = PIR_OK;
+    flight->first = first;
+    flight->until = first->time;
+    for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE && status == PIR_OK;
+         leaf = pir_tree_next(&scene->tree, &box, leaf)) {
+        pir_scene_piece *q = &scene->bodies.piece[pir_tree_item(&scene->tree, leaf)];
+        if (!pir_bodies_meet(&scene->bodies, number, q->body) || scene->bodies.body[q->body].sensor)
+            continue;
+        const pir_probe piece = pir_probe_of_piece(scene, q);
+        struct in_the_way in_the_way = {flight, q};
+        pir_near_search near = near_piece(flight, &piece, body);
+        near.context = &in_the_way;
+        status = pir_near_triangles(&near, body);
+    }
+    return status;
 }
 
 static pir_status check(const pir_scene *scene, const pir_motion *motion, double tolerance) {
@@ -152,11 +272,12 @@ pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_m
     for (uint32_t p = scene->bodies.body[body].first; status == PIR_OK && p != PIR_PIECE_NONE;
          p = scene->bodies.piece[p].next) {
         struct flight flight = {.scene = scene,
-                                .probe = pir_probe_of_piece(scene, p),
+                                .probe = pir_probe_of_piece(scene, &scene->bodies.piece[p]),
                                 .own_piece = scene->bodies.piece[p].number,
                                 .motion = motion,
                                 .tolerance = tolerance};
-        status = fly(&flight, &first);
+        status =
+            pir_body_has_surface(&scene->bodies.body[body]) ? fly_surface(&flight, body, &first) : fly(&flight, &first);
     }
     if (status == PIR_OK)
         *ret_impact = first;

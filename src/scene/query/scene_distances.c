@@ -7,6 +7,7 @@
  * cutoff. So what is told of which piece, but for the width of the bounds, is what pairs would tell.
  */
 #include "scene/query/far_bounds.h"
+#include "scene/query/near_pieces.h"
 #include "scene/world/grow.h"
 
 /* The bound that query.h promises of a distance, with a part in a thousand for the roundings here. */
@@ -16,7 +17,7 @@
 struct gauge {
     const pir_probe *probe;
     const pir_placed *placed; /* the probe, or NULL where it has no coarse bodies */
-    uint32_t piece;
+    pir_scene_piece *piece;
     double cutoff;
     pir_accuracy accuracy;
     pir_far_bounds bounds;
@@ -125,25 +126,26 @@ static pir_status check(const pir_scene *scene, double cutoff, pir_accuracy accu
     return PIR_OK;
 }
 
-static pir_status hold(const struct gauge *asked, struct distance_list *told) {
-    const pir_scene *scene = asked->probe->scene;
-    const pir_box box = pir_probe_wider(asked->probe, asked->cutoff);
-    for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE;
-         leaf = pir_tree_next(&scene->tree, &box, leaf)) {
-        struct gauge gauge = *asked;
-        gauge.piece = pir_tree_item(&scene->tree, leaf);
-        const pir_scene_piece *q = &scene->bodies.piece[gauge.piece];
-        if (!pir_probe_meets(asked->probe, gauge.piece) || !pir_box_meets(&box, &q->tight))
-            continue;
-        gauge.bounds = pir_far_bounds_of_boxes(&asked->probe->box, &q->tight, slack_of(asked->probe, q));
-        gauge.known = (pir_scene_distance){.body = q->body, .piece = q->number, .state = PIR_OUTSIDE};
-        pir_status status = settle(&gauge, q);
-        if (status == PIR_OK && !gauge.beyond)
-            status = put(told, gauge.known);
-        if (status != PIR_OK)
-            return pir_fail(scene->report, status, "distances: body %u, piece %u: %s", (unsigned)q->body,
-                            (unsigned)q->number, pir_status_text(status));
-    }
+struct distance_look {
+    struct gauge asked; /* of no piece yet */
+    pir_box box;        /* within which it lies */
+    struct distance_list *told;
+};
+
+static pir_status look(void *context, pir_scene_piece *q) {
+    const struct distance_look *hold = context;
+    struct gauge gauge = hold->asked;
+    if (!pir_box_meets(&hold->box, &q->tight))
+        return PIR_OK;
+    gauge.piece = q;
+    gauge.bounds = pir_far_bounds_of_boxes(&gauge.probe->box, &q->tight, slack_of(gauge.probe, q));
+    gauge.known = (pir_scene_distance){.body = q->body, .piece = q->number, .state = PIR_OUTSIDE};
+    pir_status status = settle(&gauge, q);
+    if (status == PIR_OK && !gauge.beyond)
+        status = put(hold->told, gauge.known);
+    if (status != PIR_OK)
+        return pir_fail(gauge.probe->scene->report, status, "distances: body %u, piece %u: %s", (unsigned)q->body,
+                        (unsigned)q->number, pir_status_text(status));
     return PIR_OK;
 }
 
@@ -165,7 +167,10 @@ pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, d
         placed = pir_placed_of(shape->coarse, place.unit, place.pose.translation, shape->radius);
         asked.placed = &placed;
     }
-    status = hold(&asked, &told);
+    struct distance_look hold = {asked, pir_probe_wider(&probe, cutoff), &told};
+    const double most = 0;
+    status = pir_near_pieces(
+        &(pir_near_search){.probe = &probe, .box = hold.box, .most = &most, .look = look, .context = &hold});
     if (status != PIR_OK)
         return status;
     for (size_t i = 0; i < told.count && i < capacity; i++)

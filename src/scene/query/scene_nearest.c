@@ -3,12 +3,14 @@
  * The nearest pieces to a shape, and the closest pairs of a scene. The best so far are kept in order. Once there are as
  * many as asked for, the last of them is the cutoff of the next question.
  */
-#include "scene/query/probe.h"
+#include "scene/query/near_pieces.h"
 #include "scene/world/grow.h"
+#include "scene/world/triangles.h"
 
 struct best {
     pir_scene *scene;
     double cutoff;
+    double near_by;     /* what is farther is none of the best */
     size_t most, count; /* of the scene's room for such answers */
 };
 
@@ -48,13 +50,12 @@ static double cutoff_of(const struct best *best) {
     return fmin(best->cutoff, best->scene->answers.near[best->count - 1].result.distance);
 }
 
-static pir_status ask(const pir_probe *probe, uint32_t own_piece, uint32_t piece, struct best *best) {
+static pir_status ask(const pir_probe *probe, uint32_t own_piece, pir_scene_piece *q, struct best *best) {
     pir_scene *scene = probe->scene;
-    const pir_scene_piece *q = &scene->bodies.piece[piece];
     pir_pair *pair;
     pir_pair_input input;
     pir_scene_near near = {probe->body, q->body, own_piece, q->number, {.distance = 0}};
-    pir_status status = pir_probe_pair(probe, piece, &pair, &input);
+    pir_status status = pir_probe_pair(probe, q, &pair, &input);
     if (status != PIR_OK)
         return status;
     // below 0 distances are depths, which no cutoff leaves out; those that tie are asked for in full
@@ -63,27 +64,79 @@ static pir_status ask(const pir_probe *probe, uint32_t own_piece, uint32_t piece
     near.result.steps = 0;
     if (status == PIR_OK && near.result.outcome != PIR_BEYOND_CUTOFF && near.result.distance <= best->cutoff)
         status = put(best, &near);
-    return status;
+    best->near_by = fmax(cutoff_of(best), 0) * (1 + 0x1p-20);
+    if (status != PIR_OK)
+        return pir_fail(scene->report, status, "nearest: body %u, piece %u: %s", (unsigned)q->body, (unsigned)q->number,
+                        pir_status_text(status));
+    return PIR_OK;
+}
+
+/* A shape, or a piece of a body, that is held against all pieces that are near. */
+struct held_probe {
+    const pir_probe *probe;
+    uint32_t own_piece;
+    pir_scene_piece *q; /* or else this, the probe, is held against the triangles of a surface, each as P */
+    struct best *best;
+};
+
+static pir_status look(void *context, pir_scene_piece *piece) {
+    const struct held_probe *held = context;
+    pir_box near = pir_probe_wider(held->probe, held->best->near_by);
+    if (!pir_box_meets(&near, &piece->tight) ||
+        (held->probe->body != PIR_SCENE_NONE && piece->body < held->probe->body))
+        return PIR_OK;
+    return ask(held->probe, held->own_piece, piece, held->best);
+}
+
+static pir_near_search near_of(const struct held_probe *held) {
+    return (pir_near_search){.probe = held->probe,
+                             .box = pir_probe_wider(held->probe, held->best->cutoff),
+                             .by = PIR_NEAR_DISTANCE,
+                             .from = held->probe->box,
+                             .most = &held->best->near_by};
 }
 
 /* Holds a probe against all pieces that are near; for a piece of a body against those of bodies after it. */
 static pir_status hold(const pir_probe *probe, uint32_t own_piece, struct best *best) {
-    const pir_scene *scene = probe->scene;
-    pir_box box = pir_probe_wider(probe, best->cutoff);
-    for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE;
+    struct held_probe held = {.probe = probe, .own_piece = own_piece, .best = best};
+    pir_near_search near = near_of(&held);
+    near.look = look;
+    near.context = &held;
+    return pir_near_pieces(&near);
+}
+
+/* Holds a triangle, as a probe, against a piece. */
+static pir_status look_from_triangle(void *context, pir_scene_piece *triangle) {
+    const struct held_probe *held = context;
+    pir_scene *scene = held->probe->scene;
+    pir_box near = pir_probe_wider(held->probe, held->best->near_by);
+    if (!pir_box_meets(&near, &triangle->tight))
+        return PIR_OK;
+    pir_status status = pir_piece_ready(&scene->bodies.body[triangle->body], &scene->for_triangles, triangle);
+    if (status != PIR_OK)
+        return status;
+    const pir_probe probe = pir_probe_of_piece(scene, triangle);
+    return ask(&probe, triangle->number, held->q, held->best);
+}
+
+/* Holds the triangles of a surface against all pieces of bodies after it that are near. */
+static pir_status hold_surface(pir_scene *scene, uint32_t body, struct best *best) {
+    const pir_scene_piece *whole = &scene->bodies.piece[scene->bodies.body[body].first];
+    const pir_box box = pir_box_wider(&whole->tight, best->cutoff);
+    pir_status status = PIR_OK;
+    for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE && status == PIR_OK;
          leaf = pir_tree_next(&scene->tree, &box, leaf)) {
-        uint32_t piece = pir_tree_item(&scene->tree, leaf);
-        pir_box near = pir_probe_wider(probe, fmax(cutoff_of(best), 0) * (1 + 0x1p-20));
-        if (!pir_probe_meets(probe, piece) || !pir_box_meets(&near, &scene->bodies.piece[piece].tight) ||
-            (probe->body != PIR_SCENE_NONE && scene->bodies.piece[piece].body < probe->body))
+        pir_scene_piece *q = &scene->bodies.piece[pir_tree_item(&scene->tree, leaf)];
+        if (q->body < body || !pir_bodies_meet(&scene->bodies, body, q->body) || scene->bodies.body[q->body].sensor)
             continue;
-        pir_status status = ask(probe, own_piece, piece, best);
-        if (status != PIR_OK)
-            return pir_fail(scene->report, status, "nearest: body %u, piece %u: %s",
-                            (unsigned)scene->bodies.piece[piece].body, (unsigned)scene->bodies.piece[piece].number,
-                            pir_status_text(status));
+        const pir_probe probe = pir_probe_of_piece(scene, q);
+        struct held_probe held = {.probe = &probe, .q = q, .best = best};
+        pir_near_search near = near_of(&held);
+        near.look = look_from_triangle;
+        near.context = &held;
+        status = pir_near_triangles(&near, &scene->bodies.body[body]);
     }
-    return PIR_OK;
+    return status;
 }
 
 static pir_status check(const struct best *best, const pir_scene_near *near, const size_t *count) {
@@ -104,7 +157,7 @@ static void give(const struct best *best, pir_scene_near *ret_near, size_t *ret_
 
 pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, double cutoff, size_t most,
                              pir_scene_near *ret_near, size_t *ret_count) {
-    struct best best = {scene, cutoff, most, 0};
+    struct best best = {scene, cutoff, cutoff, most, 0};
     pir_probe probe;
     pir_status status = shape ? check(&best, ret_near, ret_count) : PIR_ERR_ARGUMENT;
     if (status == PIR_OK)
@@ -118,13 +171,18 @@ pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, dou
 
 pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t most, pir_scene_near *ret_near,
                                    size_t *ret_count) {
-    struct best best = {scene, cutoff, most, 0};
+    struct best best = {scene, cutoff, cutoff, most, 0};
     pir_status status = check(&best, ret_near, ret_count);
     for (uint32_t b = 0; status == PIR_OK && b < scene->bodies.body_end; b++) {
         const pir_scene_body *body = &scene->bodies.body[b];
-        for (uint32_t p = body->used && !body->sensor ? body->first : PIR_PIECE_NONE;
-             p != PIR_PIECE_NONE && status == PIR_OK; p = scene->bodies.piece[p].next) {
-            pir_probe probe = pir_probe_of_piece(scene, p);
+        const bool is_seen = body->used && !body->sensor;
+        if (is_seen && pir_body_has_surface(body)) {
+            status = hold_surface(scene, b, &best);
+            continue;
+        }
+        for (uint32_t p = is_seen ? body->first : PIR_PIECE_NONE; p != PIR_PIECE_NONE && status == PIR_OK;
+             p = scene->bodies.piece[p].next) {
+            pir_probe probe = pir_probe_of_piece(scene, &scene->bodies.piece[p]);
             status = hold(&probe, scene->bodies.piece[p].number, &best);
         }
     }

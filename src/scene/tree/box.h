@@ -45,6 +45,17 @@ static inline pir_box pir_box_join(const pir_box *a, const pir_box *b) {
     return all;
 }
 
+/* Wider by a distance on each side, which may be infinite. */
+static inline pir_box pir_box_wider(const pir_box *box, double by) {
+    pir_box wide;
+    by = by < PIR_BOX_FARTHEST ? by : PIR_BOX_FARTHEST;
+    for (int k = 0; k < 3; k++) {
+        wide.low[k] = pir_float_below(box->low[k] - by);
+        wide.high[k] = pir_float_above(box->high[k] + by);
+    }
+    return wide;
+}
+
 /* Half of the surface. */
 static inline float pir_box_area(const pir_box *box) {
     float x = box->high[0] - box->low[0], y = box->high[1] - box->low[1], z = box->high[2] - box->low[2];

@@ -4,9 +4,9 @@
 
 #include "exact/rotation.h"
 #include "polytope/polytope.h"
+#include "scene/world/surfaces.h"
+#include "scene/world/triangles.h"
 #include "scene/world/turned_box.h"
-
-#define NO_END UINT32_MAX
 
 /* How much wider boxes are than they have to be, relative to bodies and coordinates. */
 #define BOX_ERROR 0x1p-36
@@ -21,6 +21,8 @@ void pir_bodies_finish(pir_bodies *bodies, const pir_allocator *allocator) {
             pir_bodies_remove(bodies, b);
     PIR_FREE(allocator, bodies->body, bodies->body_capacity);
     PIR_FREE(allocator, bodies->piece, bodies->piece_capacity);
+    PIR_FREE(allocator, bodies->triangle, bodies->triangle_slots);
+    PIR_FREE(allocator, bodies->kept, PIR_TRIANGLES_KEPT);
 }
 
 /* --- places --- */
@@ -45,14 +47,14 @@ pir_status pir_place_make(pir_pose pose, pir_place *ret_place) {
  * by more than a distance in doubles is off by: where a distance says that two pieces are within radii and margin of
  * each other, their boxes meet.
  */
-bool pir_place_box(const pir_place *place, const pir_extent *extent, double around, pir_box *ret_box) {
+bool pir_place_points(const pir_place *place, const pir_reaching *points, double around, pir_box *ret_box) {
     pir_vec3 least, most;
-    pir_turned_box_best()(&place->r, extent->polytope->vertex, extent->polytope->vertex_count, &least, &most);
+    pir_turned_box_best()(&place->r, points->point, points->count, &least, &most);
     double low[3] = {least.x, least.y, least.z}, high[3] = {most.x, most.y, most.z};
     double t[3] = {place->pose.translation.x, place->pose.translation.y, place->pose.translation.z};
     bool near = true;
     for (int k = 0; k < 3; k++) {
-        double wider = around + (around + extent->reach + fabs(t[k])) * BOX_ERROR;
+        double wider = around + (around + points->reach + fabs(t[k])) * BOX_ERROR;
         low[k] += t[k] - wider;
         high[k] += t[k] + wider;
         near = near && low[k] >= -PIR_BOX_FARTHEST && high[k] <= PIR_BOX_FARTHEST;
@@ -62,6 +64,22 @@ bool pir_place_box(const pir_place *place, const pir_extent *extent, double arou
         ret_box->high[k] = pir_float_above(high[k]);
     }
     return near;
+}
+
+bool pir_place_box(const pir_place *place, const pir_extent *extent, double around, pir_box *ret_box) {
+    const pir_polytope *p = extent->polytope;
+    return pir_place_points(place, &(pir_reaching){p->vertex, p->vertex_count, extent->reach}, around, ret_box);
+}
+
+bool pir_piece_box(const pir_scene_body *body, const pir_scene_piece *piece, const pir_place *place, double around,
+                   pir_box *ret_box) {
+    if (piece->kind == PIR_PIECE_CONVEX)
+        return pir_place_box(place, &piece->extent, around, ret_box);
+    pir_vec3 point[8];
+    const pir_surface_ref surface = pir_body_surface_of(body);
+    uint32_t count = piece->kind == PIR_PIECE_SURFACE ? pir_surface_corners(surface, point)
+                                                      : pir_surface_triangle(surface, piece->number, point);
+    return pir_place_points(place, &(pir_reaching){point, count, piece->extent.reach}, around, ret_box);
 }
 
 pir_extent pir_extent_of(pir_polytope *polytope) {
@@ -97,31 +115,55 @@ static bool grow_pieces(pir_bodies *bodies, const pir_allocator *allocator, uint
     return true;
 }
 
+pir_status pir_pieces_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces) {
+    uint32_t used = bodies->piece_count + bodies->triangle_count;
+    if (used > (uint32_t)1 << 30)
+        return PIR_ERR_LIMIT;
+    bool has_room = used + pieces <= bodies->piece_capacity || grow_pieces(bodies, allocator, used + pieces);
+    return has_room ? PIR_OK : PIR_ERR_MEMORY;
+}
+
 pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces) {
-    if (bodies->body_count >= PIR_BODIES_MAX || bodies->piece_count > (uint32_t)1 << 30)
+    if (bodies->body_count >= PIR_BODIES_MAX)
         return PIR_ERR_LIMIT;
     if (bodies->body_count == bodies->body_capacity && !grow_bodies(bodies, allocator))
         return PIR_ERR_MEMORY;
-    uint32_t need = bodies->piece_count + pieces;
-    if (need > bodies->piece_capacity && !grow_pieces(bodies, allocator, need))
-        return PIR_ERR_MEMORY;
-    return PIR_OK;
+    return pir_pieces_reserve(bodies, allocator, pieces);
 }
 
-static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, const pir_body_options *options) {
+/* A piece of a body: `extent` is what it holds. */
+static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, pir_extent extent) {
     uint32_t piece = bodies->piece_unused;
     bodies->piece_unused = bodies->piece[piece].next;
     bodies->piece_count++;
-    pir_extent extent = pir_extent_of(pir_polytope_retain(options->pieces[number]));
-    extent.coarse = options->coarse ? pir_coarse_retain(options->coarse[number]) : NULL;
     bodies->piece[piece] = (pir_scene_piece){.extent = extent,
                                              .body = body,
                                              .number = number,
                                              .next = bodies->body[body].first,
                                              .node = PIR_PIECE_NONE,
-                                             .first = NO_END};
+                                             .first = PIR_NO_END,
+                                             .kind = (uint8_t)(extent.polytope ? PIR_PIECE_CONVEX : PIR_PIECE_SURFACE)};
     bodies->body[body].first = piece;
     bodies->body[body].reach = fmax(bodies->body[body].reach, bodies->piece[piece].extent.reach);
+}
+
+static void add_pieces(pir_bodies *bodies, uint32_t body, const pir_body_options *options) {
+    for (uint32_t i = options->piece_count; i-- > 0;) {
+        pir_extent extent = pir_extent_of(pir_polytope_retain(options->pieces[i]));
+        extent.coarse = options->coarse ? pir_coarse_retain(options->coarse[i]) : NULL;
+        add_piece(bodies, body, i, extent);
+    }
+}
+
+static void add_surface(pir_bodies *bodies, uint32_t body, const pir_body_options *options) {
+    pir_body_surface *surface = &bodies->body[body].surface;
+    const pir_surface_ref of = {options->mesh, options->field};
+    surface->mesh = options->mesh ? pir_trimesh_retain(options->mesh) : NULL;
+    surface->field = options->field ? pir_height_field_retain(options->field) : NULL;
+    surface->hash = pir_surface_hash(of);
+    surface->skin = options->kind == PIR_BODY_STATIC ? 0 : pir_surface_skin(of);
+    surface->triangles = PIR_PIECE_NONE;
+    add_piece(bodies, body, 0, (pir_extent){NULL, NULL, pir_surface_farthest(of)});
 }
 
 uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, const pir_place *place) {
@@ -136,20 +178,27 @@ uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, con
                                           .unit = place->unit,
                                           .radius = options->radius,
                                           .first = PIR_PIECE_NONE,
-                                          .pieces = options->piece_count,
+                                          .pieces = options->pieces ? options->piece_count : 1,
                                           .category = options->category,
                                           .mask = options->mask,
                                           .used = true,
                                           .sensor = options->sensor != 0,
                                           .fresh = true,
                                           .kind = (uint8_t)options->kind};
-    for (uint32_t i = options->piece_count; i-- > 0;)
-        add_piece(bodies, body, i, options);
+    if (options->pieces)
+        add_pieces(bodies, body, options);
+    else
+        add_surface(bodies, body, options);
     return body;
 }
 
 void pir_bodies_remove(pir_bodies *bodies, uint32_t body) {
     uint32_t piece = bodies->body[body].first;
+    while (pir_body_has_surface(&bodies->body[body]) && bodies->body[body].surface.triangles != PIR_PIECE_NONE)
+        pir_triangles_remove(bodies, bodies->body[body].surface.triangles);
+    pir_triangles_forget(bodies, body);
+    pir_trimesh_release(bodies->body[body].surface.mesh);
+    pir_height_field_release(bodies->body[body].surface.field);
     while (piece != PIR_PIECE_NONE) {
         uint32_t next = bodies->piece[piece].next;
         pir_polytope_release(bodies->piece[piece].extent.polytope);
@@ -171,6 +220,7 @@ void pir_bodies_travel(pir_scene_body *body, const pir_place *place) {
     pir_vec3 way = pir_vec_sub(place->pose.translation, body->pose.translation);
     double step = sqrt(pir_vec_dot(way, way)) + pir_rotation_angle_bound(body->unit, place->unit) * body->reach;
     body->travel = (body->travel + step * (1 + 0x1p-40)) * (1 + 0x1p-51);
+    body->surface.drift = (body->surface.drift + step * (1 + 0x1p-40)) * (1 + 0x1p-51);
 }
 
 bool pir_bodies_meet(const pir_bodies *bodies, uint32_t a, uint32_t b) {

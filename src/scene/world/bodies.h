@@ -2,6 +2,9 @@
 /*
  * Bodies and their pieces, where they are, and the boxes around them.
  *
+ * A body with a surface has one piece, the surface as a whole, and a list of pieces that are those of its triangles
+ * which are in pairs (triangles.h).
+ *
  * Numbers of bodies are the least that are free; numbers of pieces are of the table's own, and a body has its pieces in
  * a list.
  *
@@ -12,31 +15,52 @@
 #define PIR_SCENE_WORLD_BODIES_H
 
 #include <pirouette/scene.h>
+#include <pirouette/trimesh.h>
 
 #include "base/memory.h"
 #include "scene/tree/box.h"
 
 #define PIR_PIECE_NONE UINT32_MAX
+#define PIR_NO_END     UINT32_MAX /* of a piece's list of pairs */
 #define PIR_BODIES_MAX ((uint32_t)1 << 20)
 #define PIR_PIECES_MAX 4096u /* of a body */
 
 /* A polytope, its coarse bodies or NULL, and the farthest that a vertex is from its origin, rounded up. */
 typedef struct pir_extent {
-    pir_polytope *polytope;
+    pir_polytope *polytope; /* NULL of a surface as a whole, and of a triangle until it is needed */
     pir_coarse *coarse;
     double reach;
 } pir_extent;
 
+typedef enum pir_piece_kind {
+    PIR_PIECE_CONVEX = 0,
+    PIR_PIECE_SURFACE,
+    PIR_PIECE_TRIANGLE,
+} pir_piece_kind;
+
 typedef struct pir_scene_piece {
     pir_extent extent;     /* of its polytope; that and the coarse bodies are referenced */
-    uint32_t body, number; /* of the body's own */
+    uint32_t body, number; /* of the body's own: for a triangle that of the surface */
     uint32_t next;         /* of the body; of an unused piece: the next one */
-    uint32_t node;         /* its leaf of the tree */
+    uint32_t node;         /* its leaf of the tree; of a triangle: the one before it in the list */
     uint32_t first;        /* end of its list of pairs */
-    uint64_t mark;         /* the visit that has seen it */
-    uint64_t moved;        /* the update that moved its body last */
-    pir_box tight;         /* holds the piece with its radius and half of the scene's margin */
+    uint8_t kind;
+    uint64_t mark;  /* the visit that has seen it */
+    uint64_t moved; /* the update that moved its body last */
+    pir_box tight;  /* holds the piece with its radius and half of the scene's margin */
 } pir_scene_piece;
+
+/*
+ * The surface of a body, or neither. Pairs with its triangles were looked for where it was before it drifted, with
+ * boxes that were wider by `skin`.
+ */
+typedef struct pir_body_surface {
+    pir_trimesh *mesh; /* referenced */
+    pir_height_field *field;
+    uint64_t hash;      /* of its content */
+    uint32_t triangles; /* a list of pieces */
+    double skin, drift, previous_drift;
+} pir_body_surface;
 
 typedef struct pir_scene_body {
     /* what every question of a pair reads is first */
@@ -49,13 +73,23 @@ typedef struct pir_scene_body {
     bool used, sensor, fresh;
     uint8_t kind;
     pir_pose previous;
+    pir_body_surface surface;
 } pir_scene_body;
+
+/* The polytope of a triangle that a query asked for: triangles.h. */
+typedef struct pir_kept_triangle {
+    uint32_t body, number;
+    pir_polytope *polytope; /* or NULL */
+} pir_kept_triangle;
 
 typedef struct pir_bodies {
     pir_scene_body *body;
     pir_scene_piece *piece;
-    uint32_t body_capacity, body_end, body_count; /* bodies are below body_end */
-    uint32_t piece_capacity, piece_unused, piece_count;
+    uint32_t body_capacity, body_end, body_count;       /* bodies are below body_end */
+    uint32_t piece_capacity, piece_unused, piece_count; /* the count is without triangles */
+    uint32_t *triangle;                                 /* a table of the pieces that are triangles: triangles.c */
+    uint32_t triangle_slots, triangle_count;
+    pir_kept_triangle *kept; /* PIR_TRIANGLES_KEPT of them, or NULL */
 } pir_bodies;
 
 /* A pose that has been checked. */
@@ -79,11 +113,28 @@ static inline bool pir_is_coarse_of(const pir_coarse *coarse, const pir_polytope
 /* Without coarse bodies. O(vertices). */
 pir_extent pir_extent_of(pir_polytope *polytope);
 
-/* The box of a polytope in a place, `around` wider on each side; false where it is too far away. */
+/* Points of a body, none farther from its origin than `reach`. */
+typedef struct pir_reaching {
+    const pir_vec3 *point;
+    uint32_t count;
+    double reach;
+} pir_reaching;
+
+/* The box of points in a place, `around` wider on each side; false where it is too far away. */
+bool pir_place_points(const pir_place *place, const pir_reaching *points, double around, pir_box *ret_box);
+
+/* That of a polytope. */
 bool pir_place_box(const pir_place *place, const pir_extent *extent, double around, pir_box *ret_box);
+
+/* That of a piece of a body, which need not be in a table. */
+bool pir_piece_box(const pir_scene_body *body, const pir_scene_piece *piece, const pir_place *place, double around,
+                   pir_box *ret_box);
 
 /* Room for one more body with so many pieces. PIR_ERR_LIMIT, PIR_ERR_MEMORY. */
 pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces);
+
+/* Room for so many more pieces. PIR_ERR_LIMIT, PIR_ERR_MEMORY. */
+pir_status pir_pieces_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces);
 
 /* Puts in a body for which there is room, without boxes. */
 uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, const pir_place *place);
@@ -94,6 +145,19 @@ void pir_bodies_travel(pir_scene_body *body, const pir_place *place);
 
 /* Whether pieces of the two meet at all. */
 bool pir_bodies_meet(const pir_bodies *bodies, uint32_t a, uint32_t b);
+
+static inline pir_surface_ref pir_body_surface_of(const pir_scene_body *body) {
+    return (pir_surface_ref){body->surface.mesh, body->surface.field};
+}
+
+static inline bool pir_body_has_surface(const pir_scene_body *body) {
+    return body->surface.mesh || body->surface.field;
+}
+
+/* The first of the pieces of a body that may be in pairs. */
+static inline uint32_t pir_body_paired(const pir_scene_body *body) {
+    return pir_body_has_surface(body) ? body->surface.triangles : body->first;
+}
 
 /* Whether there is such a body. */
 static inline bool pir_bodies_has(const pir_bodies *bodies, uint32_t body) {

@@ -3,6 +3,8 @@
 #include "scene/world/scene.h"
 
 #include "scene/world/grow.h"
+#include "scene/world/surfaces.h"
+#include "scene/world/triangles.h"
 
 #define THREADS_MAX 64
 
@@ -63,6 +65,8 @@ pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_sc
     pir_budget_init(&scene->budget, &a, used.budget);
     scene->budget.used = scene->budget.peak = sizeof *scene;
     scene->allocator = pir_budget_allocator(&scene->budget);
+    pir_blocks_init(&scene->blocks, &scene->allocator);
+    scene->for_triangles = pir_blocks_allocator(&scene->blocks);
     scene->detail = used.detail;
     scene->margin = used.margin;
     scene->approach = used.approach;
@@ -84,6 +88,8 @@ static void finish_lists(pir_scene_lists *lists, const pir_allocator *a) {
     PIR_FREE(a, lists->replaced, lists->replaced_capacity);
     PIR_FREE(a, lists->asked, lists->asked_capacity);
     PIR_FREE(a, lists->ended, lists->ended_capacity);
+    PIR_FREE(a, lists->triangle, lists->triangle_capacity);
+    PIR_FREE(a, lists->run, lists->run_capacity);
     PIR_FREE(a, lists->item, lists->item_capacity);
     PIR_FREE(a, lists->work, lists->work_capacity);
 }
@@ -98,6 +104,9 @@ void pir_scene_destroy(pir_scene *scene) {
         PIR_FREE(a, scene->worker[i].noted, scene->worker[i].noted_capacity);
         PIR_FREE(a, scene->worker[i].found, scene->worker[i].found_capacity);
         PIR_FREE(a, scene->worker[i].contact, scene->worker[i].contact_capacity);
+        PIR_FREE(a, scene->worker[i].on_surface, scene->worker[i].on_surface_capacity);
+        PIR_FREE(a, scene->worker[i].surface, scene->worker[i].surface_capacity);
+        PIR_FREE(a, scene->worker[i].met, scene->worker[i].met_capacity);
     }
     PIR_FREE(a, scene->worker, scene->threads);
     pir_scene_pairs_finish(&scene->pairs, a);
@@ -107,11 +116,13 @@ void pir_scene_destroy(pir_scene *scene) {
     PIR_FREE(a, scene->answers.hit, scene->answers.hit_capacity);
     PIR_FREE(a, scene->answers.near, scene->answers.near_capacity);
     PIR_FREE(a, scene->answers.distance, scene->answers.distance_capacity);
+    PIR_FREE(a, scene->answers.impact, scene->answers.impact_capacity);
     pir_tree_finish(&scene->tree, a);
     pir_bodies_finish(&scene->bodies, a);
     PIR_FREE(a, scene->fresh, scene->fresh_capacity);
     PIR_FREE(a, scene->event, scene->event_capacity);
     finish_lists(&scene->lists, a);
+    pir_blocks_finish(&scene->blocks);
     const pir_allocator base = scene->budget.base;
     pir_budget_finish(&scene->budget);
     PIR_FREE(&base, scene, 1);
@@ -123,11 +134,21 @@ pir_body_options pir_body_options_default(void) {
     return (pir_body_options){.pose = pir_pose_identity(), .category = 1, .mask = UINT32_MAX};
 }
 
+/* Whether a body is of pieces, or of one surface and does not move freely. */
+static bool has_one_form(const pir_body_options *body) {
+    if (body->mesh || body->field)
+        return !(body->mesh && body->field) && !body->pieces && body->kind != PIR_BODY_MOVING;
+    return body->pieces && body->piece_count > 0;
+}
+
 static pir_status check_body(const pir_body_options *body, pir_report *report) {
     if (!(body->kind >= PIR_BODY_MOVING && body->kind <= PIR_BODY_STATIC))
         return pir_fail(report, PIR_ERR_ARGUMENT, "body: there is no kind %d", (int)body->kind);
-    if (!body->pieces || body->piece_count == 0)
+    if (!body->mesh && !body->field && (!body->pieces || body->piece_count == 0))
         return pir_fail(report, PIR_ERR_ARGUMENT, "body: it has no pieces");
+    if (!has_one_form(body))
+        return pir_fail(report, PIR_ERR_ARGUMENT,
+                        "body: a surface has no pieces and no other, and does not move freely");
     if (isnan(body->radius))
         return pir_fail(report, PIR_ERR_NOT_FINITE, "body: its radius is not a number");
     if (!(body->radius >= 0 && body->radius < HUGE_VAL))
@@ -135,7 +156,7 @@ static pir_status check_body(const pir_body_options *body, pir_report *report) {
     if (body->piece_count > PIR_PIECES_MAX)
         return pir_fail(report, PIR_ERR_LIMIT, "body: %u pieces, more than %d", (unsigned)body->piece_count,
                         (int)PIR_PIECES_MAX);
-    for (uint32_t i = 0; i < body->piece_count; i++) {
+    for (uint32_t i = 0; body->pieces && i < body->piece_count; i++) {
         if (!body->pieces[i])
             return pir_fail(report, PIR_ERR_ARGUMENT, "body: piece %u is NULL", (unsigned)i);
         if (!pir_is_coarse_of(body->coarse ? body->coarse[i] : NULL, body->pieces[i]))
@@ -171,29 +192,49 @@ static void put_leaves(pir_scene *scene, uint32_t body) {
     }
 }
 
+/* The boxes of a body to be, for which there is room in the lists. PIR_ERR_LIMIT. */
+static pir_status make_boxes(pir_scene *scene, const pir_body_options *body, const pir_place *place) {
+    const double around = body->radius + 0.5 * scene->margin;
+    pir_box *box = scene->lists.box;
+    if (!body->pieces) {
+        pir_vec3 corner[8];
+        const pir_surface_ref surface = {body->mesh, body->field};
+        const uint32_t count = pir_surface_corners(surface, corner);
+        const pir_reaching corners = {corner, count, pir_surface_farthest(surface)};
+        if (!pir_place_points(place, &corners, around, box))
+            return pir_fail(scene->report, PIR_ERR_LIMIT, "body: its surface reaches beyond 2^60");
+        return PIR_OK;
+    }
+    for (uint32_t i = 0; i < body->piece_count; i++) {
+        pir_extent extent = pir_extent_of(body->pieces[i]);
+        if (!pir_place_box(place, &extent, around, &box[i]))
+            return pir_fail(scene->report, PIR_ERR_LIMIT, "body: piece %u reaches beyond 2^60", (unsigned)i);
+    }
+    return PIR_OK;
+}
+
 pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body) {
     pir_place place;
     if (!scene || !body || !ret_body)
         return PIR_ERR_ARGUMENT;
+    const uint32_t pieces = body->pieces ? body->piece_count : 1;
     pir_status status = check_body(body, scene->report);
     if (status != PIR_OK)
         return status;
     status = pir_place_make(body->pose, &place);
     if (status != PIR_OK)
         return pir_fail(scene->report, status, "body: its pose: %s", pir_status_text(status));
-    status = pir_bodies_reserve(&scene->bodies, &scene->allocator, body->piece_count);
+    status = pir_bodies_reserve(&scene->bodies, &scene->allocator, pieces);
     if (status != PIR_OK)
         return pir_fail(scene->report, status, "body: room for it: %s", pir_status_text(status));
     pir_scene_lists *lists = &scene->lists;
-    if (!pir_tree_reserve(&scene->tree, &scene->allocator, scene->tree.leaves + body->piece_count) ||
-        !PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, body->piece_count) ||
+    if (!pir_tree_reserve(&scene->tree, &scene->allocator, scene->tree.leaves + pieces) ||
+        !PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, pieces) ||
         !PIR_GROW(&scene->allocator, scene->fresh, scene->fresh_capacity, scene->fresh_count + 1))
         return pir_fail(scene->report, PIR_ERR_MEMORY, "body: room for it: %s", pir_status_text(PIR_ERR_MEMORY));
-    for (uint32_t i = 0; i < body->piece_count; i++) {
-        pir_extent extent = pir_extent_of(body->pieces[i]);
-        if (!pir_place_box(&place, &extent, body->radius + 0.5 * scene->margin, &lists->box[i]))
-            return pir_fail(scene->report, PIR_ERR_LIMIT, "body: piece %u reaches beyond 2^60", (unsigned)i);
-    }
+    status = make_boxes(scene, body, &place);
+    if (status != PIR_OK)
+        return status;
     uint32_t added = pir_bodies_add(&scene->bodies, body, &place);
     put_leaves(scene, added);
     scene->fresh[scene->fresh_count++] = added;
@@ -201,14 +242,23 @@ pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_
     return PIR_OK;
 }
 
-/* Drops all pairs that a piece is in. */
-static void drop_pairs(pir_scene *scene, uint32_t piece) {
+void pir_scene_drop_pair(pir_scene *scene, uint32_t pair) {
     pir_scene_piece *pieces = scene->bodies.piece;
-    while (pieces[piece].first != PIR_END_NONE) {
-        uint32_t pair = pieces[piece].first / 2;
-        const uint32_t *of = scene->pairs.at[pair].piece;
-        pir_scene_pairs_drop(&scene->pairs, pair, &pieces[of[0]].first, &pieces[of[1]].first);
-    }
+    const uint32_t of[2] = {scene->pairs.at[pair].piece[0], scene->pairs.at[pair].piece[1]};
+    pir_scene_pairs_drop(&scene->pairs, pair, &pieces[of[0]].first, &pieces[of[1]].first);
+    for (int side = 0; side < 2; side++)
+        if (pieces[of[side]].kind == PIR_PIECE_TRIANGLE && pieces[of[side]].first == PIR_END_NONE)
+            pir_triangles_remove(&scene->bodies, of[side]);
+}
+
+/* Drops all pairs that a piece is in, or its triangles are. */
+static void drop_pairs(pir_scene *scene, uint32_t piece) {
+    const pir_scene_piece *pieces = scene->bodies.piece;
+    const pir_body_surface *surface = &scene->bodies.body[pieces[piece].body].surface;
+    while (pieces[piece].first != PIR_END_NONE)
+        pir_scene_drop_pair(scene, pieces[piece].first / 2);
+    while (pieces[piece].kind == PIR_PIECE_SURFACE && surface->triangles != PIR_PIECE_NONE)
+        pir_scene_drop_pair(scene, pieces[surface->triangles].first / 2);
 }
 
 pir_status pir_scene_remove(pir_scene *scene, uint32_t body) {
@@ -248,6 +298,7 @@ const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_coun
 pir_scene_statistics pir_scene_get_statistics(const pir_scene *scene) {
     return (pir_scene_statistics){.bodies = scene->bodies.body_count,
                                   .pieces = scene->bodies.piece_count,
+                                  .triangles = scene->bodies.triangle_count,
                                   .pairs = scene->pairs.count,
                                   .looked = scene->looked,
                                   .asked = scene->lists.asked_count,

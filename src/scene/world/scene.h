@@ -5,7 +5,8 @@
  * Invariants, between calls
  *   - The tree has a leaf for each piece, and the box there holds the piece's tight box.
  *   - Of bodies that are not fresh, each two pieces that may meet and whose boxes in the tree meet have a pair. Fresh
- *     bodies have been added since the last update, and have none yet.
+ *     bodies have been added since the last update, and have none yet. A surface as a whole has no pairs; each of its
+ *     triangles whose tight box meets a piece's box in the tree has one with that piece.
  *   - pair.touching says whether the last update that looked at the pair found a contact. Pieces whose tight boxes do
  *     not meet have none.
  */
@@ -13,12 +14,14 @@
 #define PIR_SCENE_WORLD_SCENE_H
 
 #include <pirouette/scene_query.h>
+#include <pirouette/trimesh_contact.h>
 
 #include "base/report.h"
 #include "exact/rotation.h"
 #include "scene/pairs/pairs.h"
 #include "scene/tasks/tasks.h"
 #include "scene/tree/tree.h"
+#include "scene/world/blocks.h"
 #include "scene/world/bodies.h"
 #include "scene/world/budget.h"
 
@@ -44,15 +47,25 @@ typedef struct pir_scene_worker {
     uint32_t noted_capacity, noted_count, looked;
     pir_scene_found *found;
     uint32_t found_capacity, found_count;
+    pir_scene_found *on_surface; /* the same of pairs with triangles, with their contacts */
+    uint32_t on_surface_capacity, on_surface_count;
     pir_contact *contact;
     uint32_t contact_capacity, contact_count;
+    pir_posed_surface *surface; /* of a question about surfaces, and what it is answered by */
+    pir_surface_contact *met;
+    uint32_t surface_capacity, met_capacity;
     pir_status status; /* of the item with the least number that failed, in this batch of work */
     uint32_t failed;
 } pir_scene_worker;
 
+/* The numbers by which contacts are in order: of both bodies, P's first, then of both pieces. */
+typedef struct pir_scene_key {
+    uint64_t bodies, pieces;
+} pir_scene_key;
+
 /* An event to be: what was found of a pair, or NULL where the contact ended. */
 typedef struct pir_scene_item {
-    uint64_t key;
+    pir_scene_key key;
     const pir_scene_worker *worker;
     const pir_scene_found *found;
     uint32_t pair;
@@ -78,9 +91,11 @@ typedef struct pir_scene_lists {
     pir_box *box; /* of the pieces of those */
     pir_scene_replaced *replaced;
     uint32_t *asked, *ended; /* pairs */
+    uint32_t *triangle;      /* those of a surface that a box meets */
+    uint32_t *run;           /* where items of one piece begin */
     pir_scene_item *item, *work;
-    uint32_t moved_capacity, box_capacity, replaced_capacity, asked_capacity, ended_capacity, item_capacity,
-        work_capacity;
+    uint32_t moved_capacity, box_capacity, replaced_capacity, asked_capacity, ended_capacity, triangle_capacity,
+        run_capacity, item_capacity, work_capacity;
     uint32_t moved_count, replaced_count, asked_count, ended_count;
 } pir_scene_lists;
 
@@ -95,12 +110,15 @@ typedef struct pir_scene_answers {
     pir_scene_hit *hit;
     pir_scene_near *near;
     pir_scene_distance *distance;
-    uint32_t hit_capacity, near_capacity, distance_capacity;
+    pir_impact *impact;
+    uint32_t hit_capacity, near_capacity, distance_capacity, impact_capacity;
 } pir_scene_answers;
 
 struct pir_scene {
     pir_budget budget;
     pir_allocator allocator; /* of the budget */
+    pir_blocks blocks;       /* of the polytopes of triangles */
+    pir_allocator for_triangles;
     pir_scene_detail detail;
     double margin;
     bool approach;
@@ -127,6 +145,14 @@ struct pir_scene {
 
 /* A piece's box in the tree: its tight one, wider by a margin, and on along `way`. */
 pir_box pir_scene_fat_box(const pir_box *tight, pir_vec3 way);
+
+/* The width by which boxes of pieces reach beyond these on each side: the radius, and half of the margin. */
+static inline double pir_scene_around(const pir_scene *scene, const pir_scene_body *body) {
+    return body->radius + 0.5 * scene->margin;
+}
+
+/* Drops a pair; a triangle that is in no other goes as well. */
+void pir_scene_drop_pair(pir_scene *scene, uint32_t pair);
 
 /* Errors of a batch of work: begins one; keeps what became of an item; the error of the first that failed. */
 static inline void pir_scene_workers_begin(pir_scene *scene) {

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* The triangles of a body's surface that a box of the world may meet, asked of the surface's own tree. */
+#ifndef PIR_SCENE_WORLD_NEAR_TRIANGLES_H
+#define PIR_SCENE_WORLD_NEAR_TRIANGLES_H
+
+#include "mesh/query/mesh_walk.h"
+#include "scene/world/scene.h"
+
+/* A box along the axes of a body's frame that holds one of the world's. */
+typedef struct pir_seen_box {
+    double low[3], high[3];
+} pir_seen_box;
+
+pir_seen_box pir_place_sees(const pir_place *place, const pir_box *box);
+
+/* For each box of a node 0 where it meets this one, else HUGE_VAL. */
+void pir_seen_box_meets(const pir_seen_box *box, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]);
+
+/* Whether the box around a triangle meets it. */
+bool pir_seen_box_meets_triangle(const pir_seen_box *box, const pir_tri *tri);
+
+/* Lists the triangles whose own boxes meet it in scene->lists.triangle. PIR_ERR_MEMORY, PIR_ERR_LIMIT. */
+pir_status pir_scene_list_triangles(pir_scene *scene, const pir_scene_body *body, const pir_place *place,
+                                    const pir_box *box, uint32_t *ret_count);
+
+#endif
