@@ -162,6 +162,14 @@ def mesh_contacts(r):
     return markdown(["body", "field", ">cell", "place", ">triangles near", ">median, µs", ">p99, µs"], rows)
 
 
+def scene_terrain(r):
+    def plain(text):
+        return f"{float(text):,.0f}" if float(text) >= 100 else short(float(text))
+    rows = [[row["measure"], plain(row["median"]), plain(row["p99"]), row["unit"].replace("us", "µs")]
+            for row in r.scene_terrain.rows]
+    return markdown(["measure", ">median", ">p99", "unit"], rows)
+
+
 def mesh_octrees(r):
     keys = ("depth", "cubes", "left", "culled_percent", "sums", "octrees_us", "pair_us", "missed")
     rows = [[f"{float(row[key]):.2f} %" if key == "culled_percent" else count(row[key]) for key in keys]
@@ -307,5 +315,5 @@ def solid_query(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_octrees,
-    mesh_index, objects, whole, scale, pile, slices, slices_read, grid, answers, solids, solid_query)}
+    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, scene_terrain,
+    mesh_octrees, mesh_index, objects, whole, scale, pile, slices, slices_read, grid, answers, solids, solid_query)}

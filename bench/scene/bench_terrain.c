@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Hulls on a height field of 64 × 64 cells: 300 of them, asleep and awake, rays from above, and casts of a capsule.
+ * Each line: a measure, its median, the 99th percentile, the unit. Times are those of the thread.
+ *
+ *     bench_terrain FOLDER
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <pirouette/scene_query.h>
+
+#include "results.h"
+#include "trial.h"
+
+#define SIDE   65
+#define BODIES 300
+#define FORMS  8
+#define POINTS 20
+#define MOST   20000
+
+struct terrain {
+    pir_scene *scene;
+    pir_height_field *field;
+    pir_polytope *form[FORMS], *spine;
+    pir_scene_move rest[BODIES], move[BODIES];
+    uint64_t state;
+};
+
+static double times[MOST];
+
+/* Uniform in [−1, 1], the same everywhere. */
+static double part(uint64_t *state) {
+    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (double)(int64_t)*state * 0x1p-63;
+}
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return (double)time.tv_sec * 1e9 + (double)time.tv_nsec;
+}
+
+static int compare(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void report(FILE *file, const char *measure, size_t count, double unit, const char *name) {
+    qsort(times, count, sizeof *times, compare);
+    const double median = times[count / 2] / unit, late = times[count - 1 - count / 100] / unit;
+    printf("%s,%.4g,%.4g,%s\n", measure, median, late, name);
+    fprintf(file, "%s,%.4g,%.4g,%s\n", measure, median, late, name);
+}
+
+static void make_ground(struct terrain *terrain) {
+    static float heights[SIDE * SIDE];
+    for (int i = 0; i < SIDE * SIDE; i++)
+        heights[i] = (float)(sin(0.4 * (i % SIDE)) * cos(0.3 * (i / SIDE)));
+    const pir_height_samples samples = {
+        .heights = heights, .type = PIR_NUMBERS_FLOAT, .columns = SIDE, .rows = SIDE, .step_x = 1, .step_y = 1};
+    trial_need(pir_height_field_create(&samples, NULL, NULL, &terrain->field), "a height field");
+    pir_body_options body = pir_body_options_default();
+    uint32_t number;
+    body.kind = PIR_BODY_STATIC;
+    body.field = terrain->field;
+    trial_need(pir_scene_add(terrain->scene, &body, &number), "the ground");
+}
+
+static void make_forms(struct terrain *terrain) {
+    const pir_vec3 spine[2] = {{0, 0, -0.5}, {0, 0, 0.5}};
+    for (int i = 0; i < FORMS; i++) {
+        pir_vec3 point[POINTS];
+        for (int k = 0; k < POINTS; k++) {
+            double length;
+            do {
+                point[k] = (pir_vec3){part(&terrain->state), part(&terrain->state), part(&terrain->state)};
+                length = sqrt(point[k].x * point[k].x + point[k].y * point[k].y + point[k].z * point[k].z);
+            } while (length > 1 || length < 0.1);
+            point[k] = (pir_vec3){0.5 * point[k].x / length, 0.5 * point[k].y / length, 0.4 * point[k].z / length};
+        }
+        trial_need(pir_polytope_create(point, POINTS, NULL, &terrain->form[i]), "a hull");
+    }
+    trial_need(pir_polytope_create(spine, 2, NULL, &terrain->spine), "a capsule");
+}
+
+/* Each hull where it comes down on the ground, a millimetre above it. */
+static void put_down(struct terrain *terrain) {
+    for (uint32_t i = 0; i < BODIES; i++) {
+        pir_body_options body = pir_body_options_default();
+        const pir_motion down = {.way = {0, 0, -6}};
+        pir_impact impact;
+        body.pieces = &terrain->form[i % FORMS];
+        body.piece_count = 1;
+        body.pose.rotation = (pir_quat){part(&terrain->state), part(&terrain->state), part(&terrain->state), 1};
+        body.pose.translation = (pir_vec3){4.3 + 3 * (i % 19), 4.7 + 3.5 * (i / 19), 4};
+        pir_scene_shape shape = pir_scene_shape_default(body.pieces[0]);
+        shape.pose = body.pose;
+        trial_need(pir_scene_cast(terrain->scene, &shape, &down, 1e-3, &impact), "a cast");
+        body.pose.translation.z -= 6 * impact.time;
+        trial_need(pir_scene_add(terrain->scene, &body, &terrain->rest[i].body), "a hull");
+        terrain->rest[i].pose = body.pose;
+    }
+    trial_need(pir_scene_update(terrain->scene, NULL, 0), "an update");
+}
+
+static void time_updates(struct terrain *terrain, FILE *file, const char *measure, size_t moved) {
+    const size_t frames = results_count(400), warm = frames / 4;
+    for (size_t f = 0; f < warm + frames; f++) {
+        for (size_t i = 0; i < moved; i++) {
+            pir_scene_move *move = &terrain->move[i];
+            *move = terrain->rest[i];
+            move->pose.translation.x += 1e-3 * part(&terrain->state);
+            move->pose.translation.z += 5e-4 * part(&terrain->state);
+            move->pose.rotation.z += 1e-3 * part(&terrain->state);
+        }
+        const double begin = now();
+        trial_need(pir_scene_update(terrain->scene, terrain->move, moved), "an update");
+        if (f >= warm)
+            times[f - warm] = now() - begin;
+    }
+    report(file, measure, frames, 1e3, "us");
+}
+
+/* Rays from above, and casts of a capsule across the ground, that see the ground alone. */
+static void time_queries(struct terrain *terrain, FILE *file) {
+    const size_t count = results_count(MOST);
+    pir_impact impact;
+    for (int kind = 0; kind < 2; kind++) {
+        for (size_t i = 0; i < count; i++) {
+            const double x = 32 + 28 * part(&terrain->state), y = 32 + 28 * part(&terrain->state);
+            const pir_vec3 from = {x, y, 4},
+                           way = {8 * part(&terrain->state), 8 * part(&terrain->state), kind == 0 ? -8 : -4};
+            pir_scene_shape capsule = pir_scene_shape_default(terrain->spine);
+            const pir_motion motion = {.way = way};
+            capsule.pose.translation = from;
+            capsule.radius = 0.3;
+            const double begin = now();
+            trial_need(kind == 0 ? pir_scene_ray(terrain->scene, from, way, 1, &impact)
+                                 : pir_scene_cast(terrain->scene, &capsule, &motion, 1e-3, &impact),
+                       "a query");
+            times[i] = now() - begin;
+        }
+        report(file, kind == 0 ? "ray" : "capsule cast", count, 1e3, "us");
+    }
+}
+
+/* A scene with the ground, of a detail. */
+static void open_terrain(struct terrain *terrain, pir_scene_detail detail) {
+    pir_scene_options options = pir_scene_options_default();
+    options.detail = detail;
+    options.margin = detail == PIR_SCENE_STATES ? 0 : 0.005;
+    *terrain = (struct terrain){.state = 1};
+    trial_need(pir_scene_create(&options, &terrain->scene), "a scene");
+    make_ground(terrain);
+    make_forms(terrain);
+}
+
+static void close_terrain(struct terrain *terrain) {
+    pir_scene_destroy(terrain->scene);
+    pir_height_field_release(terrain->field);
+    for (int i = 0; i < FORMS; i++)
+        pir_polytope_release(terrain->form[i]);
+    pir_polytope_release(terrain->spine);
+}
+
+static void time_bodies(FILE *file, pir_scene_detail detail) {
+    static struct terrain terrain;
+    const bool manifolds = detail == PIR_SCENE_MANIFOLDS;
+    open_terrain(&terrain, detail);
+    put_down(&terrain);
+    time_updates(&terrain, file, manifolds ? "update asleep with manifolds" : "update asleep with distances", 0);
+    time_updates(&terrain, file, manifolds ? "update awake with manifolds" : "update awake with distances", BODIES);
+    times[0] = (double)pir_scene_get_statistics(terrain.scene).bytes;
+    report(file, manifolds ? "memory of the scene with manifolds" : "memory of the scene with distances", 1, 1e3, "kB");
+    close_terrain(&terrain);
+}
+
+int main(int argc, char **argv) {
+    static struct terrain terrain;
+    pir_height_info info;
+    if (argc != 2) {
+        fprintf(stderr, "usage: bench_terrain FOLDER\n");
+        return 2;
+    }
+    const struct results results = results_new(argv[1]);
+    FILE *file = results_open(&results, "scene_terrain.csv");
+    fprintf(file, "measure,median,p99,unit\n");
+    open_terrain(&terrain, PIR_SCENE_DEPTHS);
+    pir_height_field_describe(terrain.field, &info);
+    times[0] = (double)info.bytes;
+    report(file, "memory of the field", 1, 1e3, "kB");
+    time_queries(&terrain, file);
+    close_terrain(&terrain);
+    time_bodies(file, PIR_SCENE_DEPTHS);
+    time_bodies(file, PIR_SCENE_MANIFOLDS);
+    results_close(file, "scene_terrain.csv");
+    return 0;
+}
