@@ -75,6 +75,8 @@ static bool read_body(const struct fields *fields, const struct fields *all, str
         return false;
     if (quat[0] == 0 && quat[1] == 0 && quat[2] == 0 && quat[3] == 0)
         return fields_fail(fields, "quat", "has length 0");
+    if (kind == PIR_BODY_MOVING && world_shape_is_surface(body->shape))
+        return fields_fail(fields, "shape", "is a surface; a body that moves by itself is of convex pieces");
     if (kind == PIR_BODY_MOVING && !(body->shape->mass.volume > 0))
         return fields_fail(fields, "shape", "is flat; a body that moves by itself has a volume");
     if (kind == PIR_BODY_STATIC &&

@@ -8,7 +8,11 @@
  *      "bodies": [{"shape": NAME, "kind": "moving" | "kinematic" | "static", "position": [x,y,z], "quat": [x,y,z,w],
  *                  "velocity": [x,y,z], "spin": [x,y,z], "density": KG/M3, "friction": F, "restitution": R}, ...]}
  *     SHAPE: {"model": "shape:NAME" or a file, from the folder of the scene on, "scale": F, "solid": FLAG},
- *            {"points": [[x,y,z], ...]}, whose hull is taken, or {"pieces": [SHAPE, ...]}
+ *            {"points": [[x,y,z], ...]}, whose hull is taken, or {"pieces": [SHAPE, ...]};
+ *            of bodies that do not move by themselves also {"mesh": FILE, "scale": F, "two_sided": FLAG}, triangles as
+ *            they are, or {"heights": FILE or [[z, ...], ...], "step": [x,y], "range": [z,z], "two_sided": FLAG}:
+ *            a PNG, whose black and white are at the range, or rows of numbers, the first at
+ *            y = 0, null or nan for a hole
  *
  * A solid is divided into convex pieces; of other models the hull is taken. A position is that of the shape's own
  * origin.

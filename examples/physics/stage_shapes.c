@@ -2,6 +2,8 @@
 /* Shapes: models, points and pieces become polytopes, and these a shape. */
 #include "stage_shapes.h"
 
+#include "stage_surfaces.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -142,6 +144,8 @@ static bool gather_shape(const struct fields *fields, const char *folder, int de
 }
 
 bool stage_shape(const struct fields *fields, const char *folder, struct world_shape *ret_shape) {
+    if (stage_is_surface(fields))
+        return stage_surface(fields, folder, ret_shape);
     struct gathered *pieces = calloc(1, sizeof *pieces);
     if (!pieces)
         return fields_fail(fields, NULL, "out of memory");

@@ -10,6 +10,11 @@
 /* How often bodies that wait try again, and how often a way is made shorter before it is given up. */
 #define ROUNDS_MOST 2
 #define TRIES_MOST  4
+/* Categories of bodies in the scenes of casts. */
+#define SOLIDS   1u
+#define SURFACES 2u
+/* In a mask: of the scene of cores. */
+#define CORES 4u
 /* A core is held by nothing but what is in it. */
 #define HELD_LEAST 1e-9
 
@@ -44,12 +49,16 @@ static pir_status reserve(struct sweep *sweep, uint32_t count) {
 }
 
 /* Such bodies do not meet each other, so that a scene keeps no pairs: only casts see them. */
-static pir_status add(pir_scene *scene, pir_pose pose, pir_polytope *const *pieces, uint32_t count) {
+static pir_status add(pir_scene *scene, const struct body *body, pir_polytope *const *pieces, uint32_t category) {
+    const struct world_shape *shape = body->shape;
     pir_body_options options = pir_body_options_default();
     options.kind = PIR_BODY_KINEMATIC;
-    options.pose = pose;
+    options.pose = body->pose;
     options.pieces = pieces;
-    options.piece_count = count;
+    options.piece_count = shape->count;
+    options.mesh = shape->mesh;
+    options.field = shape->field;
+    options.category = category;
     uint32_t number;
     return pir_scene_add(scene, &options, &number);
 }
@@ -57,9 +66,11 @@ static pir_status add(pir_scene *scene, pir_pose pose, pir_polytope *const *piec
 pir_status sweep_add(struct sweep *sweep, const struct body *body, uint32_t number) {
     const struct world_shape *shape = body->shape;
     pir_status status = reserve(sweep, number + 1);
+    const bool surface = world_shape_is_surface(shape);
     if (status == PIR_OK)
-        status = add(sweep->scene, body->pose, shape->piece, shape->count);
-    return status == PIR_OK ? add(sweep->cores, body->pose, shape->core[WORLD_CORES - 1], shape->count) : status;
+        status = add(sweep->scene, body, shape->piece, surface ? SURFACES : SOLIDS);
+    // a surface has no core
+    return status == PIR_OK ? add(sweep->cores, body, shape->core[WORLD_CORES - 1], surface ? 0 : SOLIDS) : status;
 }
 
 static pir_status update(const struct sweep *sweep, const pir_scene_move *moves, size_t count) {
@@ -110,11 +121,13 @@ struct trip {
     bool guards;               /* its cores */
 };
 
-/* The first thing in the way of a piece, or of its core. */
-static pir_status look_along(const struct trip *trip, pir_scene *scene, pir_polytope *piece,
-                             const pir_motion *way, double near, pir_impact *first) {
+/* The first thing in the way of a piece, or of its core, of the categories in a mask. */
+static pir_status look_along(const struct trip *trip, pir_polytope *piece, uint32_t mask, const pir_motion *way,
+                             double near, pir_impact *first) {
+    pir_scene *scene = mask & CORES ? trip->sweep->cores : trip->sweep->scene;
     pir_scene_shape shape = pir_scene_shape_default(piece);
     pir_impact impact;
+    shape.mask = mask;
     shape.pose = trip->state.pose;
     shape.except = trip->number;
     pir_status status = pir_scene_cast(scene, &shape, way, near, &impact);
@@ -130,15 +143,15 @@ static pir_status look_ahead(const struct trip *trip, pir_motion way, double nea
     pir_impact first = {.body = PIR_SCENE_NONE, .time = 1};
     pir_status status = PIR_OK;
     for (uint32_t i = 0; status == PIR_OK && i < shape->count; i++) {
-        pir_scene *scene = trip->sweep->scene;
         way.held = trip->rules->held;
-        status = look_along(trip, scene, shape->piece[i], &way, near, &first);
+        // what slides over a surface comes near edges that its contacts hold it off: its cores look for that one
+        status = look_along(trip, shape->piece[i], trip->guards ? SOLIDS : SOLIDS | SURFACES, &way, near, &first);
         // what is held already, or has come into the piece, is kept out of its cores, and the piece out of its core
         way.held = HELD_LEAST;
         for (int k = 0; status == PIR_OK && k < WORLD_CORES && trip->guards; k++)
-            status = look_along(trip, scene, shape->core[k][i], &way, near, &first);
+            status = look_along(trip, shape->core[k][i], SOLIDS | SURFACES, &way, near, &first);
         if (status == PIR_OK && trip->guards)
-            status = look_along(trip, trip->sweep->cores, shape->piece[i], &way, near, &first);
+            status = look_along(trip, shape->piece[i], SOLIDS | CORES, &way, near, &first);
     }
     if (status == PIR_OK)
         *ret_first = first;

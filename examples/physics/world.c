@@ -56,6 +56,8 @@ void world_shape_release(struct world_shape *shape) {
     free(shape->piece);
     for (int k = 0; k < WORLD_CORES; k++)
         free(shape->core[k]);
+    pir_trimesh_release(shape->mesh);
+    pir_height_field_release(shape->field);
     *shape = (struct world_shape){0};
 }
 
@@ -107,6 +109,24 @@ pir_status world_shape_make(pir_polytope *const *pieces, uint32_t count, struct 
     else
         world_shape_release(&shape);
     return status;
+}
+
+/* How far the farthest corner of a box is from the origin. */
+static double farthest(pir_vec3 low, pir_vec3 high) {
+    return vec_length(
+        (pir_vec3){fmax(fabs(low.x), fabs(high.x)), fmax(fabs(low.y), fabs(high.y)), fmax(fabs(low.z), fabs(high.z))});
+}
+
+struct world_shape world_shape_of_mesh(pir_trimesh *mesh) {
+    pir_trimesh_info info;
+    pir_trimesh_describe(mesh, &info);
+    return (struct world_shape){.mesh = pir_trimesh_retain(mesh), .radius = farthest(info.low, info.high)};
+}
+
+struct world_shape world_shape_of_field(pir_height_field *field) {
+    pir_height_info info;
+    pir_height_field_describe(field, &info);
+    return (struct world_shape){.field = pir_height_field_retain(field), .radius = farthest(info.low, info.high)};
 }
 
 /* --- bodies --- */
@@ -175,6 +195,8 @@ pir_status world_add(struct world *world, const struct world_body *from) {
                         .friction = from->friction,
                         .restitution = from->restitution,
                         .shape = from->shape};
+    if (body.kind == PIR_BODY_MOVING && world_shape_is_surface(from->shape))
+        return PIR_ERR_ARGUMENT;
     if (body.kind == PIR_BODY_MOVING) {
         set_mass(&body, from);
         if (!(body.inverse_mass > 0 && isfinite(body.inverse_mass) && isfinite(body.inverse_inertia.row[0].x)))
@@ -186,6 +208,8 @@ pir_status world_add(struct world *world, const struct world_body *from) {
     options.pose = body.pose = pir_pose_integrate(body.pose, body.velocity, body.spin, 0);
     options.pieces = from->shape->piece;
     options.piece_count = from->shape->count;
+    options.mesh = from->shape->mesh;
+    options.field = from->shape->field;
     uint32_t number;
     pir_status status = reserve_body(world);
     if (status == PIR_OK)

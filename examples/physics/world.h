@@ -30,10 +30,21 @@ struct world_shape {
     pir_mass mass;   /* of density 1, about the origin */
     double radius;   /* no point is farther from the origin */
     pir_vec3 offset; /* what was taken away from all coordinates */
+    /* A surface in place of pieces, a reference: one of these. Its bodies are static or kinematic. */
+    pir_trimesh *mesh;
+    pir_height_field *field;
 };
 
 /* Moves pieces so that their centre of mass is the origin, exactly by a double. The pieces stay the caller's. */
 pir_status world_shape_make(pir_polytope *const *pieces, uint32_t count, struct world_shape *ret_shape);
+
+/* The shapes of surfaces, of which they hold a reference. */
+struct world_shape world_shape_of_mesh(pir_trimesh *mesh);
+struct world_shape world_shape_of_field(pir_height_field *field);
+
+static inline bool world_shape_is_surface(const struct world_shape *shape) {
+    return shape->mesh || shape->field;
+}
 
 /* Gives the references back; a zeroed shape is accepted. */
 void world_shape_release(struct world_shape *shape);

@@ -8,6 +8,7 @@ import os
 import re
 import struct
 import threading
+import zlib
 from pathlib import Path
 
 from command_test import CommandTest, main
@@ -35,6 +36,22 @@ def numbers(data):
         if byte < 128:
             yield value
             value, place = 0, 0
+
+
+def png(rows, bits):
+    """Grey, rows of whole numbers."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    pixels = b"".join(b"\0" + b"".join(n.to_bytes(bits // 8, "big") for n in row) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b""))
+
+
+def on_ground(ground, bodies=None, **more):
+    """A cube over the middle of a ground of 4 by 4 m."""
+    bodies = [cube(0.6)] if bodies is None else bodies
+    return {"shapes": {"cube": CUBE, "ground": ground}, "seconds": 1,
+            "bodies": [{"shape": "ground", "kind": "static", "position": [-2, -2, 0]}, *bodies], **more}
 
 
 class Simulated(CommandTest):
@@ -270,6 +287,64 @@ class Simulate(Simulated):
         self.bad("simulate", self.path / "none.json", says="none.json")
         self.bad("simulate", self.path, says=str(self.path))
         self.bad("simulate", says="SCENE.json")
+
+    def test_grounds_that_are_surfaces(self):
+        flat = [[0] * 5 for _ in range(5)]
+        self.file("flat.txt", "# five rows\n" + "\n".join("0, 0 0;0\t0" for _ in range(5)))
+        self.file("flat8.png", png([[51] * 5] * 5, 8))
+        self.file("flat16.png", png([[13107] * 5] * 5, 16))
+        self.file("flat.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3\nf 1 3 4\n")
+        self.file("small.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3\nf 1 3 4\n")
+        grounds = ({"heights": flat}, {"heights": "flat.txt"}, {"heights": "flat8.png", "range": [-1, 4]},
+                   {"heights": "flat16.png", "range": [-1, 4]}, {"mesh": "flat.obj"},
+                   {"mesh": "small.obj", "scale": 2, "two_sided": True})
+        for ground in grounds:
+            path = self.scene(on_ground(ground))
+            first = self.data("simulate", path, "-o", self.path / "g.html")
+            # it falls a tenth of a metre, and stands on four contacts
+            self.assertEqual(first["contacts"], 4, ground)
+            self.assertLess(first["deepest"], 1e-4)
+            self.assertLess(first["mean_speed"], 1e-3)
+            page = self.page(self.path / "g.html")
+            self.assertAlmostEqual(frames_of(page)[-1][0][1][2], 0.5, delta=1e-3)
+            for threads in (2, 4):
+                self.assertEqual(self.data("simulate", path, "--threads", threads)["state"], first["state"])
+
+    def test_a_hole_lets_fall(self):
+        heights = [[0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, None, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 0]]
+        path = self.scene(on_ground({"heights": heights}))
+        self.data("simulate", path, "-o", self.path / "h.html")
+        self.assertLess(frames_of(self.page(self.path / "h.html"))[-1][0][1][2], -1)
+
+    def test_grounds_that_are_refused(self):
+        self.file("bad.txt", "0 0\n0 x\n")
+        self.file("ragged.txt", "0 0\n\n0\n")
+        self.file("wide.txt", "0 0\n0 0 0\n")
+        self.file("one.txt", "1 2 3\n")
+        self.file("holes.txt", "nan nan\nnan nan\n")
+        self.file("cut.png", png([[0] * 5] * 5, 8)[:40])
+        self.file("lies.png", png([[0] * 5] * 5, 8).replace(b"IDAT", b"IDAX"))
+        self.file("nan.obj", "v 0 0 0\nv 4 0 nan\nv 4 4 0\nf 1 2 3\n")
+        self.file("index.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nf 1 2 9\n")
+        for ground, *says in (({"heights": "bad.txt"}, "shapes.ground.heights", "bad.txt", "line 2", "column 2"),
+                              ({"heights": "ragged.txt"}, "ragged.txt", "line 3", "fewer"),
+                              ({"heights": "wide.txt"}, "wide.txt", "line 2", "more"),
+                              ({"heights": "one.txt"}, "shapes.ground.heights"),
+                              ({"heights": "holes.txt"}, "shapes.ground.heights"),
+                              ({"heights": "none.txt"}, "none.txt", "cannot be read"),
+                              ({"heights": "cut.png"}, "cut.png"), ({"heights": "lies.png"}, "lies.png"),
+                              ({"heights": [[0, 0], [0]]}, "shapes.ground.heights", "row 1"),
+                              ({"heights": [[0, "1"], [0, 0]]}, "shapes.ground.heights", "row 0"),
+                              ({"heights": [[0, 0], [0, 0]], "step": [0, 1]}, "shapes.ground.step"),
+                              ({"heights": [[0, 0], [0, 0]], "range": [0, 1]}, "shapes.ground.range", "picture"),
+                              ({"heights": [[0, 0], [0, 0]], "scale": 2}, "'scale'"),
+                              ({"mesh": "nan.obj"}, "shapes.ground.mesh"), ({"mesh": "index.obj"}, "index.obj:4"),
+                              ({"mesh": "none.obj"}, "none.obj"), ({"mesh": 3}, "shapes.ground.mesh", "no text")):
+            self.bad("simulate", self.scene(on_ground(ground)), says=says[0])
+            for text in says[1:]:
+                self.bad("simulate", self.scene(on_ground(ground)), says=text)
+        moving = on_ground({"heights": [[0, 0], [0, 0]]}, [{"shape": "ground"}])
+        self.bad("simulate", self.scene(moving), says="bodies[1].shape: is a surface")
 
     def test_models_are_found_from_the_scene_on(self):
         (self.path / "deep").mkdir()

@@ -173,14 +173,50 @@ static pir_status add_piece(struct bytes *points, struct bytes *facets, const pi
     return PIR_OK;
 }
 
+/* Adds a triangle, and counts it. */
+static void add_triangle(struct bytes *points, struct bytes *facets, const pir_triangle_corners *corners,
+                         uint32_t *count) {
+    bytes_add_number(facets, 3);
+    for (uint32_t k = 0; k < 3; k++) {
+        bytes_add_vec(points, corners->corner[k]);
+        bytes_add_number(facets, 3 * (uint64_t)*count + k);
+    }
+    ++*count;
+}
+
+/* Adds the triangles of a surface; their number. */
+static uint32_t add_surface(struct bytes *points, struct bytes *facets, const struct world_shape *shape) {
+    pir_triangle_corners corners;
+    uint32_t count = 0, numbers;
+    if (shape->mesh) {
+        pir_trimesh_info info;
+        pir_trimesh_describe(shape->mesh, &info);
+        numbers = info.triangles;
+    } else {
+        pir_height_info info;
+        pir_height_field_describe(shape->field, &info);
+        numbers = 2 * (info.columns - 1) * (info.rows - 1);
+    }
+    // a number of a height field that is in a hole has none
+    for (uint32_t t = 0; t < numbers; t++)
+        if ((shape->mesh ? pir_trimesh_triangle(shape->mesh, t, &corners)
+                         : pir_height_field_triangle(shape->field, t, &corners)) == PIR_OK)
+            add_triangle(points, facets, &corners, &count);
+    return count;
+}
+
 static bool print_shape(FILE *file, const struct world_shape *shape) {
-    struct bytes points = {0}, facets = {0};
+    struct bytes points = {0}, facets = {0}, triangles = {0};
     uint32_t first = 0;
     uint64_t count = 0;
     pir_status status = PIR_OK;
+    if (world_shape_is_surface(shape))
+        count = add_surface(&points, &triangles, shape);
     for (uint32_t i = 0; i < shape->count; i++)
         count += pir_polytope_facet_count(shape->piece[i]);
     bytes_add_number(&facets, count);
+    bytes_add(&facets, triangles.at, triangles.size);
+    facets.failed |= triangles.failed;
     for (uint32_t i = 0; status == PIR_OK && i < shape->count; i++)
         status = add_piece(&points, &facets, shape->piece[i], &first);
     if (status == PIR_OK && (points.failed || facets.failed))
@@ -195,6 +231,7 @@ static bool print_shape(FILE *file, const struct world_shape *shape) {
         complain("simulate: %s", pir_status_text(status));
     free(points.at);
     free(facets.at);
+    free(triangles.at);
     return status == PIR_OK;
 }
 
