@@ -570,7 +570,8 @@ static void memory_that_fails_leaves_no_leak(void **state) {
             failed += status == PIR_ERR_MEMORY;
         }
         assert_int_equal(status, PIR_OK);
-        assert_true(failed > 40);
+        // a shape that meets no triangle asks for less
+        assert_true(failed > 15);
         twin_finish(&t);
     }
 }
