@@ -35,13 +35,13 @@ typedef enum pir_status {
     PIR_ERR_EMPTY,           /**< no points, an empty file */
     PIR_ERR_FILE,            /**< a file cannot be opened, read or written */
     PIR_ERR_FORMAT, /**< a file's content breaks its format: truncated, counts that lie, a token that is no number */
-    PIR_ERR_NOT_CLOSED,  /**< facets that do not bound a solid, where a convex one is required */
-    PIR_ERR_NOT_CONVEX,  /**< a model that is not convex, where a convex one is required */
-    PIR_ERR_LIMIT,       /**< too large for 32-bit indices or for a stated limit */
-    PIR_ERR_NOT_BUILT,   /**< this build lacks what the call needs: HDF5, libccd */
-    PIR_ERR_REGION,      /**< a sum with a region cannot answer this */
-    PIR_ERR_VERSION,     /**< bytes of another version of their format, or options of another version of the library */
-    PIR_ERR_INTERNAL,    /**< the result failed the library's own check and is withheld: a bug, please report it */
+    PIR_ERR_NOT_CLOSED, /**< facets that do not bound a solid, where a convex one is required */
+    PIR_ERR_NOT_CONVEX, /**< a model that is not convex, where a convex one is required */
+    PIR_ERR_LIMIT,      /**< too large for 32-bit indices or for a stated limit */
+    PIR_ERR_NOT_BUILT,  /**< this build lacks what the call needs: HDF5, libccd */
+    PIR_ERR_REGION,     /**< a sum with a region cannot answer this */
+    PIR_ERR_VERSION,    /**< bytes of another version of their format, or options of another version of the library */
+    PIR_ERR_INTERNAL,   /**< the result failed the library's own check and is withheld: a bug, please report it */
 } pir_status;
 
 /*
@@ -53,7 +53,7 @@ typedef enum pir_status {
 /** The name of a status in plain words, such as "zero quaternion". Never NULL; static memory. O(1). */
 PIR_API const char *pir_status_text(pir_status status);
 
-/** What went wrong, where and why, in one line. Plain memory of the caller; filled only when a call fails. */
+/** An error in one line: its kind, place and cause. Plain memory of the caller; filled only when a call fails. */
 typedef struct pir_report {
     pir_status status;
     char text[240]; /**< zero-terminated, without a newline; cut when too long */

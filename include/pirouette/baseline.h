@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
- * What sums and queries are measured and checked against: slower ways to the same results. pirouette.h does not include
- * this header; programs that use the library have no need of it.
+ * Slower ways to the same results, which sums and queries are measured and checked against. pirouette.h does not
+ * include this header; programs that use the library have no need of it.
  */
 #ifndef PIROUETTE_BASELINE_H
 #define PIROUETTE_BASELINE_H
@@ -28,11 +28,11 @@ PIR_API pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pi
                                 const pir_sum_options *options, pir_precision precision, pir_mesh **ret_mesh);
 
 /**
- * The same mesh by the object-space method (Diktaş and Şahiner, An Object-Space Method for Calculating the Minkowski
- * Sums of Simple 3D Objects, 2006): along each normal that a facet of the sum can have, of a facet of P, a facet of Q
- * or an edge of each, the farthest vertices of both, and Euler's condition in the end. It keeps nothing and needs no
- * pairing. It serves simple bodies, of some tens of vertices; all comparisons are exact, so that aligned and flat ones
- * are no exception. The mesh is the caller's and uses the allocator of `options`.
+ * The mesh of a sum by the object-space method (Diktaş and Şahiner, An Object-Space Method for Calculating the
+ * Minkowski Sums of Simple 3D Objects, 2006): along each normal that a facet of the sum can have, of a facet of P, a
+ * facet of Q or an edge of each, the farthest vertices of both, and Euler's condition in the end. It keeps nothing and
+ * needs no pairing. It serves simple bodies, of some tens of vertices; all comparisons are exact, so that aligned and
+ * flat ones are no exception. The mesh is the caller's and uses the allocator of `options`.
  *
  * p, q, rotation      as of pir_sum_create.
  * options, precision  as of pir_hull_sum.

@@ -151,8 +151,9 @@ PIR_API uint32_t pir_cgm_corner(const pir_cgm *cgm, uint32_t map, uint32_t corne
 PIR_API uint32_t pir_cgm_clockwise_after(const pir_cgm *cgm, uint32_t halfedge);
 
 /**
- * What source `source` has at a feature: the facet with this normal, the edge whose arc runs here, the vertex that is
- * extreme here; PIR_CGM_NONE where it has none, for an outer face, and for the hidden facets of a segment.
+ * The feature of source `source` at a feature of the map: the facet with this normal, the edge whose arc runs here, the
+ * vertex that is extreme here; PIR_CGM_NONE where it has none, for an outer face, and for the hidden facets of a
+ * segment.
  *
  * The feature is given by its number `vertex`, `halfedge` or `face`.
  *

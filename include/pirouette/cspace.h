@@ -146,7 +146,7 @@ PIR_API pir_status pir_cspace_job_run(pir_cspace_job *job, pir_report *report);
  */
 PIR_API pir_status pir_cspace_job_assemble(pir_cspace_job *job, pir_report *report);
 
-/** What a job will take. Times are those of this machine as it is now. */
+/** The work of a job, estimated. Times are those of this machine as it is now. */
 typedef struct pir_cspace_estimate {
     uint64_t slices;  /**< of piece pairs */
     uint64_t units;   /**< in all */
@@ -174,7 +174,7 @@ PIR_API pir_status pir_cspace_get_estimate(const pir_cspace_bodies *bodies, cons
 /** An open file of slices. */
 typedef struct pir_cspace pir_cspace;
 
-/** What a file holds. */
+/** The contents of a file. */
 typedef struct pir_cspace_info {
     pir_grid_info grid;
     uint32_t robot_count, obstacle_count;
@@ -254,7 +254,7 @@ PIR_API pir_status pir_cspace_seal(const char *path, const pir_allocator *alloca
 /** Closes and frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_cspace_destroy(pir_cspace *cspace);
 
-/** What the file holds. O(1). */
+/** The contents of the file. O(1). */
 PIR_API pir_cspace_info pir_cspace_get_info(const pir_cspace *cspace);
 
 /** The grid; borrowed. O(1). */
@@ -322,7 +322,7 @@ PIR_API pir_status pir_cspace_mesh(pir_cspace *cspace, pir_cspace_place place, p
 
 /* --- asking --- */
 
-/** What is known of a pose, or of a motion. Never wrong: what is not proven is unknown. */
+/** Knowledge of a pose, or of a motion. Never wrong: what is not proven is unknown. */
 typedef enum pir_verdict {
     PIR_VERDICT_UNKNOWN = 0, /**< neither is proven */
     PIR_VERDICT_FREE,        /**< no piece of the robot overlaps or touches an obstacle's */

@@ -88,7 +88,7 @@ PIR_API pir_status pir_solid_volume_exact(const pir_solid *solid, mpq_t ret_volu
 PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t vertex, mpq_t ret_coordinates[3]);
 
 /**
- * The same for a mesh that holds exact coordinates; PIR_ERR_ARGUMENT when it does not.
+ * The exact coordinates of a mesh's vertex; PIR_ERR_ARGUMENT when it does not.
  *
  * vertex  a number below pir_mesh_vertex_count.
  *

@@ -28,7 +28,7 @@ typedef enum pir_grid_kind {
     PIR_GRID_LIST,     /**< rotations that the caller or a file gave */
 } pir_grid_kind;
 
-/** What a grid was made of. */
+/** The making of a grid. */
 typedef struct pir_grid_info {
     pir_grid_kind kind;
     uint64_t count; /**< of rotations */
@@ -113,7 +113,7 @@ PIR_API pir_status pir_grid_read(const char *path, const pir_allocator *allocato
                                  pir_grid **ret_grid);
 
 /**
- * The same for a file in memory.
+ * A grid from the bytes of a file in memory.
  *
  * data, size         the bytes of the file.
  * name               stands for the file in reports.
@@ -129,7 +129,7 @@ PIR_API pir_status pir_grid_read_bytes(const void *data, size_t size, const char
 /** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_grid_destroy(pir_grid *grid);
 
-/** What the grid is. O(1). */
+/** The description of the grid. O(1). */
 PIR_API pir_grid_info pir_grid_get_info(const pir_grid *grid);
 
 /**
@@ -138,7 +138,7 @@ PIR_API pir_grid_info pir_grid_get_info(const pir_grid *grid);
 PIR_API pir_quat pir_grid_rotation(const pir_grid *grid, uint64_t number);
 
 /**
- * What rotation `number` is in the grid's own numbering: the row of a list, counted from 0; for PIR_GRID_HOPF the
+ * The number of rotation `number` in the grid's own numbering: the row of a list, counted from 0; for PIR_GRID_HOPF the
  * nested number of the pixel times 6·2^level plus the number on the circle. O(level) for PIR_GRID_HOPF, else O(1).
  */
 PIR_API uint64_t pir_grid_cell(const pir_grid *grid, uint64_t number);

@@ -183,7 +183,7 @@ PIR_API pir_status pir_history_write(const pir_history *history, FILE *file, pir
 
 /* --- running them again --- */
 
-/** What a call of a history came to when it was run again. */
+/** The outcome of one call of a history that is run again. */
 typedef struct pir_history_step {
     uint64_t index;    /**< from 0 */
     const char *call;  /**< "sum", "rotate", "ask", …: as the notes are called */
@@ -215,7 +215,7 @@ PIR_API pir_status pir_history_replay_bytes(const void *data, size_t size, const
                                             pir_report *report);
 
 /**
- * The same for a file.
+ * Runs the history in a file again.
  *
  * path             of the file.
  * visitor, report  as of pir_history_replay_bytes.

@@ -32,7 +32,7 @@ extern "C" {
     FORMAT(stl)                                                                                                        \
     FORMAT(ply)
 
-/** What facets of a file are. An edge is two neighbouring corners of a facet; points at the
+/** The surface that facets of a file make. An edge is two neighbouring corners of a facet; points at the
     same place are one corner. */
 typedef enum pir_surface_form {
     PIR_SURFACE_POINTS = 0, /**< there are none: the file holds points alone */
@@ -58,8 +58,8 @@ typedef struct pir_surface {
     bool convex;     /**< whether the hull adds nothing; false for an open surface */
     uint32_t points; /**< as many as the file has, duplicates and points that no facet has included */
     uint32_t facets;
-    /** What the facets enclose, rounded; negative when they are clockwise seen from outside. NaN where there is none:
-        points alone, or neighbours that face different sides however they are turned. */
+    /** The volume that the facets enclose, rounded; negative when they are clockwise seen from outside. NaN where there
+        is none: points alone, or neighbours that face different sides however they are turned. */
     double volume;
 } pir_surface;
 
@@ -102,7 +102,7 @@ typedef struct pir_file_bytes {
 } pir_file_bytes;
 
 /**
- * The same for a file in memory.
+ * The surface and the polytope of a file in memory.
  *
  * options, report, ret_surface, ret_polytope  as of pir_polytope_read_surface.
  *
@@ -127,7 +127,7 @@ PIR_API pir_status pir_polytope_read(const char *path, const pir_polytope_option
                                      pir_polytope **ret_polytope);
 
 /**
- * The same for OFF text in memory. The text need not end in a zero.
+ * A polytope from OFF text in memory. The text need not end in a zero.
  *
  * text, size       the bytes, and how many.
  * name             stands for the file in reports.
@@ -163,7 +163,7 @@ PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const ch
 PIR_API pir_status pir_mesh_write(const pir_mesh *mesh, const char *path, bool exact, pir_report *report);
 
 /**
- * The same to a stream, which is flushed and stays open.
+ * Writes a mesh to a stream, which is flushed and stays open.
  *
  * name    stands for the file in reports.
  * format  "off", "obj", "stl", "ply" or "svg".

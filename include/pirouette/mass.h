@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /**
- * What a polytope weighs, and polytopes moved without loss.
+ * The mass of a polytope, and polytopes moved without loss.
  *
  * Volume, centroid and inertia are computed as rationals from the exact vertices, and rounded once to the nearest
  * doubles; exact.h gives the rationals. A moved polytope is the exact image: its coordinates are rationals, and all

@@ -61,7 +61,7 @@ PIR_API void pir_mesh_pair(const pir_mesh *mesh, uint32_t vertex, uint32_t ret_p
 /** The corners of facet `facet`: *ret_count of them, valid as long as the mesh. O(1). */
 PIR_API const uint32_t *pir_mesh_facet(const pir_mesh *mesh, uint32_t facet, uint32_t *ret_count);
 
-/** What facet `facet` of `mesh` is made of. O(1). */
+/** The kind of features that facet `facet` of `mesh` is made of. O(1). */
 PIR_API pir_facet_kind pir_mesh_facet_kind(const pir_mesh *mesh, uint32_t facet);
 
 /**

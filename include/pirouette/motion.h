@@ -37,7 +37,7 @@ typedef enum pir_cast_outcome {
     PIR_CAST_STEP_LIMIT,   /**< not within tolerance after the bound on steps; there is no contact before `time` */
 } pir_cast_outcome;
 
-/** What a motion, or a ray, meets first. Where it meets nothing, outcome, time, body and the pieces alone are set. */
+/** The first meeting of a motion or a ray. Where there is none, outcome, time, body and the pieces alone are set. */
 typedef struct pir_impact {
     pir_cast_outcome outcome;
     double time;               /**< fraction of the motion, 0 to 1; 1 on a miss */

@@ -21,7 +21,7 @@ extern "C" {
 
 typedef struct pir_polytope pir_polytope;
 
-/** What a polytope is made with. */
+/** Options of the making of polytopes. */
 typedef struct pir_polytope_options {
     const pir_allocator *allocator; /**< NULL for malloc; copied, its context must outlive the polytope */
     /**

@@ -55,7 +55,7 @@ extern "C" {
 
 typedef struct pir_scene pir_scene;
 
-/** What a scene computes of pieces that are in contact. */
+/** The detail that a scene computes of pieces in contact. */
 typedef enum pir_scene_detail {
     PIR_SCENE_STATES = 0, /**< that they are; no numbers */
     PIR_SCENE_DEPTHS,     /**< signed distance, normal, witness too */
@@ -203,7 +203,7 @@ typedef enum pir_event_kind {
     PIR_EVENT_ENDED,     /**< they are not any more; only the numbers of bodies and pieces are set */
 } pir_event_kind;
 
-/** What an update found of two pieces. Where the detail or a sensor leaves out a number, it is 0. */
+/** The findings of an update about two pieces. Where the detail or a sensor leaves out a number, it is 0. */
 typedef struct pir_scene_event {
     pir_event_kind kind;
     uint32_t body_p, body_q;   /**< body_p < body_q */
@@ -224,7 +224,7 @@ typedef struct pir_scene_event {
 /** The events of the last update, until the next one, or NULL where there are none; the scene owns them. O(1). */
 PIR_API const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count);
 
-/** What a scene holds, and what its last update did. */
+/** The contents of a scene, and the work of its last update. */
 typedef struct pir_scene_statistics {
     uint32_t bodies, pieces; /**< a surface counts as one piece */
     uint32_t triangles;      /**< of surfaces that are in pairs */

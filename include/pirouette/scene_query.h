@@ -39,7 +39,7 @@ extern "C" {
 /** The number of no body. */
 #define PIR_SCENE_NONE UINT32_MAX
 
-/** What is asked for: a shape in a place. */
+/** A shape in a place, to be asked about. */
 typedef struct pir_scene_shape {
     pir_polytope *polytope;
     pir_pose pose;
@@ -111,7 +111,7 @@ typedef struct pir_accuracy {
     double length, part; /**< ≥ 0 */
 } pir_accuracy;
 
-/** What settled a distance. */
+/** The way by which a distance was settled. */
 typedef enum pir_settled {
     PIR_SETTLED_BY_BOXES = 0, /**< the boxes around both */
     PIR_SETTLED_BY_COARSE,    /**< coarse bodies, and balls in and around the bodies */
@@ -176,7 +176,7 @@ PIR_API pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *
 PIR_API pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32_t mask,
                                  pir_impact *ret_impact);
 
-/** What rays meet. */
+/** The bodies and sides that rays meet. */
 typedef struct pir_scene_ray_options {
     uint32_t mask;       /**< the categories of bodies that it meets */
     uint32_t except;     /**< a body that it does not meet, or PIR_SCENE_NONE */
@@ -235,7 +235,7 @@ PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape
                                   double tolerance, pir_impact *ret_impact);
 
 /**
- * The same for a body of the scene from its present pose on, with the bodies that it may meet, all others at rest: the
+ * A cast of a body of the scene from its present pose on, with the bodies that it may meet, all others at rest: the
  * time of impact of a fast body.
  *
  * body               the number of a body that is no sensor.

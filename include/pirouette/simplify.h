@@ -6,7 +6,7 @@
  * enough. The outer polytope is bounded by planes of some of the facets, and at first by four more planes. Where it is
  * farthest from the body, a facet's plane cuts it off. Its vertices are doubles, moved outwards by what rounding needs.
  *
- * What is proven: inner ⊆ polytope ⊆ outer, exactly. The bounds are on the Hausdorff distance, the greatest
+ * Proven: inner ⊆ polytope ⊆ outer, exactly. The bounds are on the Hausdorff distance, the greatest
  * distance of a point of the larger body from the smaller one. So a distance between simplified bodies bounds that
  * between the bodies: with the outer ones it is at most the true one, with the inner ones at least, each within the sum
  * of both bounds. Overlap of inner bodies proves overlap, outer bodies apart prove the bodies apart.

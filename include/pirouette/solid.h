@@ -39,10 +39,10 @@ typedef struct pir_solid_options {
 /** malloc's allocator, 4 GiB, no report. O(1). */
 PIR_API pir_solid_options pir_solid_options_default(void);
 
-/** What a solid is. Lengths in units of the model. */
+/** The description of a solid. Lengths in units of the model. */
 typedef struct pir_solid_info {
     uint32_t vertices, edges, facets; /**< as given; points at one place are one vertex */
-    /** The same once coplanar neighbours are one facet and straight corners are gone. */
+    /** The counts once coplanar neighbours are one facet and straight corners are gone. */
     uint32_t merged_vertices, merged_edges, merged_facets;
     uint32_t reflex_edges; /**< those with more than 180 degrees inside, straight corners gone */
     uint32_t shells;
@@ -98,7 +98,7 @@ typedef struct pir_solid_facets {
 } pir_solid_facets;
 
 /**
- * The same for facets in memory.
+ * A solid of facets in memory.
  *
  * facets                      everything is copied.
  * options, report, ret_solid  as of pir_solid_read; facets are told by their numbers.
@@ -130,7 +130,7 @@ PIR_API pir_solid *pir_solid_retain(pir_solid *solid);
 /** Gives back a reference; NULL is accepted. O(1), and for the last reference the time to free it. */
 PIR_API void pir_solid_release(pir_solid *solid);
 
-/** What the solid is. O(1). */
+/** The description of `solid`. O(1). */
 PIR_API void pir_solid_describe(const pir_solid *solid, pir_solid_info *ret_info);
 
 /** By which planes a solid is cut. */
@@ -151,7 +151,7 @@ typedef struct pir_decompose_options {
 /** pir_solid_options_default, PIR_DECOMPOSE_BEST, exact. O(1). */
 PIR_API pir_decompose_options pir_decompose_options_default(void);
 
-/** What a decomposition did. */
+/** The outcome of a decomposition. */
 typedef struct pir_decompose_info {
     pir_decompose_method method; /**< the one that counted: not PIR_DECOMPOSE_BEST */
     uint32_t exact_pieces;       /**< before any were joined by a hull */
@@ -205,7 +205,7 @@ typedef struct pir_solid_sum_options {
 /** pir_solid_options_default, no difference, closed. O(1). */
 PIR_API pir_solid_sum_options pir_solid_sum_options_default(void);
 
-/** What a sum of solids is, and the work that it took. */
+/** The description of a sum of solids, and the work that it took. */
 typedef struct pir_solid_sum_info {
     uint32_t vertices, edges, facets; /**< with maximal facets */
     uint32_t holes;                   /**< of facets */

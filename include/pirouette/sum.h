@@ -341,7 +341,7 @@ PIR_API pir_status pir_sum_restore(const void *data, size_t size, const pir_allo
  */
 PIR_API pir_status pir_sum_read(FILE *file, const pir_allocator *allocator, pir_report *report, pir_sum **ret_sum);
 
-/** What the sum has done since it was made, in plain counters. */
+/** The work of a sum since it was made, in plain counters. */
 typedef struct pir_sum_statistics {
     uint64_t updates, rebuilds; /**< rotations brought in by update, and by rebuild */
     uint64_t kept;              /**< rotations that the pairing stayed behind of, within a tolerance */

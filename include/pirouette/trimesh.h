@@ -90,7 +90,7 @@ PIR_API pir_status pir_trimesh_read(const char *path, const pir_trimesh_options 
                                     pir_trimesh **ret_mesh);
 
 /**
- * The same for a file in memory.
+ * A mesh from the bytes of a file in memory.
  *
  * file                       the bytes, and their format.
  * options, report, ret_mesh  as of pir_trimesh_read.

@@ -84,7 +84,7 @@ typedef struct pir_surface_contact {
     uint64_t id; /**< of the features that meet here, the same from call to call while they meet */
 } pir_surface_contact;
 
-/** What a call looked at. */
+/** The work of a call. */
 typedef struct pir_surface_contact_counts {
     uint32_t triangles; /**< whose boxes are near P */
     uint32_t near;      /**< within the margin, or met */

@@ -123,7 +123,7 @@ PIR_API pir_within_input pir_within_input_default(void);
 PIR_API pir_status pir_trimesh_pair_within(pir_trimesh_pair *pair, const pir_within_input *input, size_t capacity,
                                            pir_triangle_pair *ret_pairs, size_t *ret_count);
 
-/** What a pair has done since it was made. */
+/** The work of a pair since it was made. */
 typedef struct pir_trimesh_pair_statistics {
     uint64_t calls;
     uint64_t rebuilt;   /**< fronts made from the roots */

@@ -199,8 +199,8 @@ def check_marks(tree):
 
 
 def check_comments(tree):
-    """A comment of src and tools names its noun: none begins with "What" or "The same"."""
-    for name, text in tree.code("src/", "tools/").items():
+    """A comment of src, tools and include names its noun: none begins with "What" or "The same"."""
+    for name, text in tree.code("src/", "tools/", "include/").items():
         for number, line in enumerate(text.split("\n"), 1):
             if re.match(r"\s*/?\*+ (?:What|The same)\b", line):
                 yield Breach("comments", name, number, "the comment begins with no noun")
