@@ -61,7 +61,7 @@ pir_status pir_scene_find_triangles(pir_scene *scene, uint32_t piece, uint32_t s
     const pir_box *fat = &scene->tree.node[scene->bodies.piece[piece].node].box,
                   box = pir_box_wider(fat, body->surface.skin + pir_scene_around(scene, body));
     pir_place place;
-    uint32_t count;
+    uint32_t count = 0;
     pir_status status = pir_place_make(body->pose, &place);
     if (status == PIR_OK)
         status = pir_scene_list_triangles(scene, body, &place, &box, &count);
