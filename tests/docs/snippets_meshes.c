@@ -26,7 +26,7 @@ int main(void) {
     const pir_scene_event *event = pir_scene_events(scene, &count);
     bool good = count > 0;
     for (size_t i = 0; i < count; i++)
-        good &= event[i].state == PIR_INSIDE && event[i].body_p == ground_body;
+        good &= event[i].state != PIR_OUTSIDE && event[i].body_p == ground_body && event[i].body_q == box_body;
 
     /* snippet 2 */
 
