@@ -146,8 +146,7 @@ MAY_FAIL(pir_query_directional_depth,
 MAY_FAIL(pir_query_directional_distance,
          (pir_query * query, const pir_query_input *input, pir_vec3 direction, pir_query_result *ret_result),
          (query, input, direction, ret_result))
-MAY_FAIL(pir_query_cast,
-         (pir_query * query, const pir_query_input *input, pir_vec3 motion, pir_impact *ret_result),
+MAY_FAIL(pir_query_cast, (pir_query * query, const pir_query_input *input, pir_vec3 motion, pir_impact *ret_result),
          (query, input, motion, ret_result))
 
 /* --- sums that go astray, comparisons that lie --- */

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cspace/answer_world.h"
 #include "cspace/answer/piece_ball.h"
+#include "cspace/answer_world.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/vectors.h"

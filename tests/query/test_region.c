@@ -15,8 +15,8 @@
 #include "exact/rotation.h"
 #include "support/bodies.h"
 #include "support/queries.h"
-#include "support/vectors.h"
 #include "support/turning.h"
+#include "support/vectors.h"
 
 #define MOST_FACETS 20000
 

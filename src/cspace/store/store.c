@@ -56,8 +56,8 @@ static pir_status read_head(pir_store *store, pir_report *report) {
     if (!pir_h5_get_numbers(store->file, "version", PIR_H5_U32, &version, 1))
         return broken(store, report, "attribute version", "missing");
     if (version != PIR_SLICES_VERSION)
-        return pir_fail(report, PIR_ERR_VERSION, "%s: attribute version: it is %u, this library reads %u",
-                        store->path, (unsigned)version, PIR_SLICES_VERSION);
+        return pir_fail(report, PIR_ERR_VERSION, "%s: attribute version: it is %u, this library reads %u", store->path,
+                        (unsigned)version, PIR_SLICES_VERSION);
     return PIR_OK;
 }
 
