@@ -107,7 +107,12 @@ bool fields_choice(const struct fields *fields, const char *name, const char *co
             *choice = i;
             return true;
         }
-    return text && fields_fail(fields, name, "'%.40s' is none of its words", text);
+    if (!text)
+        return false;
+    char words[200] = "";
+    for (size_t i = 0, used = 0; choices[i] && used < sizeof words; i++)
+        used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", i ? ", " : "", choices[i]);
+    return fields_fail(fields, name, "'%.40s' is none of %s", text, words);
 }
 
 const char *fields_text(const struct fields *fields, const char *name) {

@@ -2,6 +2,7 @@
 /* Heights from files: see heights.h. A picture is read row by row, so that its size is known before its memory. */
 #include "heights.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,7 @@
 #define SIDE_MOST 32768u
 /* The longest line of a table. */
 #define LINE_MOST ((size_t)1 << 20)
+#define BLANKS    " \t\r\n"
 
 bool heights_reserve(struct heights *heights, uint32_t columns, uint32_t rows) {
     double *at = realloc(heights->at, ((size_t)columns * rows + 1) * sizeof *at);
@@ -42,22 +44,30 @@ static bool fail(const struct table *table, const char *what, unsigned number) {
     return false;
 }
 
-/* The number at *text, which goes on behind it and what keeps numbers apart. */
-static bool take_number(char **text, double *ret_number) {
+/*
+ * The number at *text, which goes on behind it and what keeps numbers apart: blanks, among them at most one comma or
+ * semicolon, behind which a number has to follow. So no field that is empty moves those after it.
+ */
+static bool take_number(struct table *table, char **text, unsigned column, double *ret_number) {
     char *end = *text;
     *ret_number = strtod(*text, &end);
-    if (end == *text || isinf(*ret_number))
-        return false;
-    if (*end && !strchr(" \t,;\r\n", *end))
-        return false;
-    *text = end + strspn(end, " \t,;\r\n");
-    return true;
+    if (end == *text && (!*end || strchr(",;", *end)))
+        return fail(table, "nothing in column", column);
+    if (end == *text || (*end && !strchr(" \t,;\r\n", *end)))
+        return fail(table, "no number in column", column);
+    if (isinf(*ret_number))
+        return fail(table, "no finite number in column", column);
+    *text = end + strspn(end, BLANKS);
+    if (**text != ',' && **text != ';')
+        return true;
+    *text += 1 + strspn(*text + 1, BLANKS);
+    return **text || fail(table, "nothing in column", column + 1);
 }
 
 /* Adds the row of a line; the first says how many columns there are. */
 static bool take_row(struct table *table) {
     struct heights *to = &table->heights;
-    char *text = table->text + strspn(table->text, " \t\r\n");
+    char *text = table->text + strspn(table->text, BLANKS);
     if (!*text || *text == '#')
         return true;
     if (to->rows == SIDE_MOST)
@@ -65,8 +75,8 @@ static bool take_row(struct table *table) {
     uint32_t count = 0;
     for (; *text; count++) {
         double number;
-        if (!take_number(&text, &number))
-            return fail(table, "no number in column", count + 1);
+        if (!take_number(table, &text, count + 1, &number))
+            return false;
         if (to->rows > 0 ? count == to->columns : count == SIDE_MOST)
             return fail(table, "more columns than", to->rows > 0 ? to->columns : SIDE_MOST);
         const size_t at = (size_t)to->rows * to->columns + count;
@@ -86,18 +96,37 @@ static bool take_row(struct table *table) {
     return true;
 }
 
+/* Reads a line into table->text; false after its last one, or with *good false where it is none. */
+static bool take_line(struct table *table, FILE *file, bool *good) {
+    size_t used = 0;
+    int c = getc(file);
+    if (c == EOF)
+        return false;
+    table->line++;
+    for (; c != EOF && *good; c = c == '\n' ? EOF : getc(file)) {
+        if (c == 0)
+            *good = fail(table, "no text, has a zero in byte", (unsigned)used + 1);
+        else if (used + 1 == LINE_MOST)
+            *good = fail(table, "longer than bytes:", (unsigned)LINE_MOST);
+        else
+            table->text[used++] = (char)c;
+    }
+    table->text[used] = '\0';
+    return *good;
+}
+
 bool heights_read_table(FILE *file, struct heights *ret_heights, char why[HEIGHTS_WHY]) {
     struct table table = {.text = malloc(LINE_MOST), .why = why};
     bool good = table.text;
     if (!good)
         snprintf(why, HEIGHTS_WHY, "out of memory");
-    while (good && fgets(table.text, (int)LINE_MOST, file)) {
-        table.line++;
-        good = strlen(table.text) < LINE_MOST - 1 || fail(&table, "longer than bytes:", (unsigned)LINE_MOST);
-        good = good && take_row(&table);
-    }
+    while (good && take_line(&table, file, &good))
+        good = take_row(&table);
     if (good && ferror(file)) {
-        snprintf(why, HEIGHTS_WHY, "cannot be read");
+        snprintf(why, HEIGHTS_WHY, "cannot be read: %s", strerror(errno));
+        good = false;
+    } else if (good && table.heights.rows == 0) {
+        snprintf(why, HEIGHTS_WHY, table.line == 0 ? "is empty" : "has no row of numbers");
         good = false;
     }
     free(table.text);
@@ -195,7 +224,7 @@ bool heights_read_png(FILE *file, struct heights *ret_heights, char why[HEIGHTS_
 bool heights_read_png(FILE *file, struct heights *ret_heights, char why[HEIGHTS_WHY]) {
     (void)file;
     (void)ret_heights;
-    snprintf(why, HEIGHTS_WHY, "is a picture, and this build has no libpng");
+    snprintf(why, HEIGHTS_WHY, "is a PNG, and this build was made without libpng (-Dpng=enabled)");
     return false;
 }
 

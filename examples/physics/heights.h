@@ -16,8 +16,9 @@ struct heights {
 #define HEIGHTS_WHY 200
 
 /*
- * Reads a table: a row a line, numbers apart by blanks or commas, `nan` for none; lines that begin with # are passed
- * over. False after a line without the file's name was left in `why`; so for the others.
+ * Reads a table: a row a line, numbers apart by blanks or commas, `nan` for none. Empty lines and those that begin with
+ * # are passed over; a field that is empty is refused. False after a line without the file's name was left in `why`; so
+ * for the others.
  */
 bool heights_read_table(FILE *file, struct heights *ret_heights, char why[HEIGHTS_WHY]);
 

@@ -96,12 +96,12 @@ static bool take_rows(const struct fields *fields, const cJSON *rows, struct hei
     return true;
 }
 
+/* By its first byte, with which no text begins; so what comes through a pipe is read too. */
 static bool is_png(FILE *file) {
-    static const unsigned char mark[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    unsigned char begin[8] = {0};
-    const bool is = fread(begin, 1, sizeof begin, file) == sizeof begin && memcmp(begin, mark, sizeof mark) == 0;
-    rewind(file);
-    return is;
+    const int first = getc(file);
+    if (first != EOF)
+        ungetc(first, file);
+    return first == 0x89;
 }
 
 /* Heights from a file; *ret_grey says whether it is a picture, whose heights are from 0 to 1. */
@@ -116,9 +116,9 @@ static bool read_heights(const struct fields *fields, const char *path, struct h
     return good || fields_fail(fields, "heights", "%s: %s", path, why);
 }
 
-/* The height field of heights; cells with a corner that has none are holes. */
-static bool make_field(const struct fields *fields, const struct heights *heights, const double step[2],
-                       struct world_shape *ret_shape) {
+/* The height field of heights, from `file` or NULL; cells with a corner that has none are holes. */
+static bool make_field(const struct fields *fields, const char *file, const struct heights *heights,
+                       const double step[2], struct world_shape *ret_shape) {
     const uint32_t cells = heights->columns > 1 && heights->rows > 1 ? heights->columns - 1 : 0;
     uint8_t *hole = calloc((size_t)cells * heights->rows + 1, 1);
     pir_height_options options = pir_height_options_default();
@@ -143,7 +143,8 @@ static bool make_field(const struct fields *fields, const struct heights *height
     const pir_status status = good ? pir_height_field_create(&samples, &options, &report, &field) : PIR_OK;
     free(hole);
     if (status != PIR_OK)
-        return fail_status(fields, "heights", status, &report);
+        return fields_fail(fields, "heights", "%s%s%s", file ? file : "", file ? ": " : "",
+                           *report.text ? report.text : pir_status_text(status));
     if (good)
         *ret_shape = world_shape_of_field(field);
     pir_height_field_release(field);
@@ -163,13 +164,15 @@ static bool read_field(const struct fields *fields, const char *folder, struct w
         good = fields_fail(fields, "step", "is not above 0");
     if (good && cJSON_IsArray(rows))
         good = take_rows(fields, rows, &heights);
+    else if (good && rows && !cJSON_IsString(rows))
+        good = fields_fail(fields, "heights", "is neither an array of rows nor the name of a file");
     else if (good)
         good = path_of(fields, "heights", folder, path) && read_heights(fields, path, &heights, &grey);
     if (good && !grey && cJSON_HasObjectItem(fields->object, "range"))
         good = fields_fail(fields, "range", "is for a picture");
     for (size_t i = 0; good && grey && i < (size_t)heights.columns * heights.rows; i++)
         heights.at[i] = range[0] + heights.at[i] * (range[1] - range[0]);
-    good = good && make_field(fields, &heights, step, ret_shape);
+    good = good && make_field(fields, cJSON_IsArray(rows) ? NULL : path, &heights, step, ret_shape);
     heights_clear(&heights);
     return good;
 }

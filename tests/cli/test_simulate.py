@@ -269,7 +269,7 @@ class Simulate(Simulated):
         refused(body(postion=[0, 0, 0]), "bodies[1]", "'postion'")
         refused(body(position=[0, 0, "1"]), "bodies[1].position", "element 2")
         refused(body(quat=[0, 0, 0, 0]), "bodies[1].quat")
-        refused(body(kind="dynamic"), "bodies[1].kind", "'dynamic'")
+        refused(body(kind="dynamic"), "bodies[1].kind", "'dynamic' is none of moving, kinematic, static")
         refused(body(kind="static", velocity=[1, 0, 0]), "bodies[1]", "static")
         refused(body(density=0), "bodies[1].density")
         refused(body(density="heavy"), "bodies[1].density")
@@ -291,13 +291,24 @@ class Simulate(Simulated):
     def test_grounds_that_are_surfaces(self):
         flat = [[0] * 5 for _ in range(5)]
         self.file("flat.txt", "# five rows\n" + "\n".join("0, 0 0;0\t0" for _ in range(5)))
-        self.file("flat8.png", png([[51] * 5] * 5, 8))
-        self.file("flat16.png", png([[13107] * 5] * 5, 16))
         self.file("flat.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3\nf 1 3 4\n")
         self.file("small.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3\nf 1 3 4\n")
-        grounds = ({"heights": flat}, {"heights": "flat.txt"}, {"heights": "flat8.png", "range": [-1, 4]},
-                   {"heights": "flat16.png", "range": [-1, 4]}, {"mesh": "flat.obj"},
-                   {"mesh": "small.obj", "scale": 2, "two_sided": True})
+        self.stands_on({"heights": flat}, {"heights": "flat.txt"}, {"mesh": "flat.obj"},
+                       {"mesh": "small.obj", "scale": 2, "two_sided": True})
+
+    def test_grounds_that_are_pictures(self):
+        for name, data in (("flat8.png", png([[51] * 5] * 5, 8)), ("flat16.png", png([[13107] * 5] * 5, 16)),
+                           ("black.png", png([[0] * 5] * 5, 8))):
+            self.file(name, data)
+        done = self.run_command("simulate", self.scene(on_ground({"heights": "black.png"})))
+        if done.returncode and "made without libpng" in done.stderr:
+            for says in ("shapes.ground.heights", "black.png", "-Dpng=enabled"):
+                self.assertIn(says, done.stderr)
+            self.skipTest("this build has no libpng")
+        self.stands_on({"heights": "flat8.png", "range": [-1, 4]}, {"heights": "flat16.png", "range": [-1, 4]},
+                       {"heights": "black.png"}, {"heights": "flat8.png", "range": [0, 0]})
+
+    def stands_on(self, *grounds):
         for ground in grounds:
             path = self.scene(on_ground(ground))
             first = self.data("simulate", path, "-o", self.path / "g.html")
@@ -309,6 +320,17 @@ class Simulate(Simulated):
             self.assertAlmostEqual(frames_of(page)[-1][0][1][2], 0.5, delta=1e-3)
             for threads in (2, 4):
                 self.assertEqual(self.data("simulate", path, "--threads", threads)["state"], first["state"])
+
+    def test_heights_come_through_a_pipe(self):
+        path, fifo = self.scene(on_ground({"heights": "pipe"}), "piped.json"), self.path / "pipe"
+        flat = {"heights": [[0] * 5] * 5}
+        os.mkfifo(fifo)
+        writer = threading.Thread(target=lambda: fifo.write_text("0 , 0\t0 0 0 \n" * 5))
+        writer.start()
+        told = self.data("simulate", path)
+        writer.join()
+        self.assertEqual(told["contacts"], 4)
+        self.assertEqual(told["state"], self.data("simulate", self.scene(on_ground(flat)))["state"])
 
     def test_a_hole_lets_fall(self):
         heights = [[0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, None, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 0]]
@@ -322,6 +344,11 @@ class Simulate(Simulated):
         self.file("wide.txt", "0 0\n0 0 0\n")
         self.file("one.txt", "1 2 3\n")
         self.file("holes.txt", "nan nan\nnan nan\n")
+        for name, data in (("gap.csv", "# all alike\n0,,0\n0,,0\n"), ("lead.csv", "0;0\n ;0\n"),
+                           ("trail.csv", "0,0,\r\n0,0,"),
+                           ("empty.txt", ""), ("notes.txt", "# none\n\n"), ("zeros.txt", "0 0\n0 0\0 0\n"),
+                           ("inf.txt", "0 0\n0 -inf\n"), ("huge.txt", "0 1e400\n0 0\n")):
+            self.file(name, data)
         self.file("cut.png", png([[0] * 5] * 5, 8)[:40])
         self.file("lies.png", png([[0] * 5] * 5, 8).replace(b"IDAT", b"IDAX"))
         self.file("nan.obj", "v 0 0 0\nv 4 0 nan\nv 4 4 0\nf 1 2 3\n")
@@ -329,9 +356,20 @@ class Simulate(Simulated):
         for ground, *says in (({"heights": "bad.txt"}, "shapes.ground.heights", "bad.txt", "line 2", "column 2"),
                               ({"heights": "ragged.txt"}, "ragged.txt", "line 3", "fewer"),
                               ({"heights": "wide.txt"}, "wide.txt", "line 2", "more"),
-                              ({"heights": "one.txt"}, "shapes.ground.heights"),
-                              ({"heights": "holes.txt"}, "shapes.ground.heights"),
+                              ({"heights": "one.txt"}, "shapes.ground.heights", "one.txt: 3 columns and 1 rows"),
+                              ({"heights": "holes.txt"}, "shapes.ground.heights", "holes.txt: every cell is a hole"),
                               ({"heights": "none.txt"}, "none.txt", "cannot be read"),
+                              ({"heights": "gap.csv"}, "shapes.ground.heights", "gap.csv: line 2: nothing in column 2"),
+                              ({"heights": "lead.csv"}, "lead.csv: line 2: nothing in column 1"),
+                              ({"heights": "trail.csv"}, "trail.csv: line 1: nothing in column 3"),
+                              ({"heights": "empty.txt"}, "shapes.ground.heights", "empty.txt: is empty"),
+                              ({"heights": "notes.txt"}, "notes.txt: has no row of numbers"),
+                              ({"heights": "zeros.txt"}, "zeros.txt: line 2: no text, has a zero in byte 4"),
+                              ({"heights": "inf.txt"}, "inf.txt: line 2: no finite number in column 2"),
+                              ({"heights": "huge.txt"}, "huge.txt: line 1: no finite number in column 2"),
+                              ({"heights": "."}, ".: cannot be read: Is a directory"),
+                              ({"heights": 3}, "shapes.ground.heights: is neither an array of rows nor the name"),
+                              ({}, "shapes.ground", "none of"),
                               ({"heights": "cut.png"}, "cut.png"), ({"heights": "lies.png"}, "lies.png"),
                               ({"heights": [[0, 0], [0]]}, "shapes.ground.heights", "row 1"),
                               ({"heights": [[0, "1"], [0, 0]]}, "shapes.ground.heights", "row 0"),
