@@ -332,6 +332,19 @@ class Simulate(Simulated):
         self.assertEqual(told["contacts"], 4)
         self.assertEqual(told["state"], self.data("simulate", self.scene(on_ground(flat)))["state"])
 
+    def test_recordings_hold_no_surface(self):
+        recording, ground = self.path / "ground.bin", {"heights": [[0, 0], [0, 0]]}
+        self.bad("simulate", self.scene(on_ground(ground)), "--record", recording, "-o", self.path / "ground.html",
+                 says=["--record", "bodies[0] is a surface", "do not hold surfaces yet"])
+        self.assertFalse(recording.exists() or (self.path / "ground.html").exists())
+        # that no body is of such a shape is no harm
+        unused = scene([cube(1)], seconds=0.1)
+        unused["shapes"] = {"ground": ground, "two": {"pieces": [CUBE, SLAB]}} | unused["shapes"]
+        self.good("simulate", self.scene(unused), "--record", recording)
+        run = read_recording(recording)
+        self.assertEqual(([len(points) for points, _ in run["hulls"]], run["shape"], len(run["poses"])),
+                         ([0, 0, 8, 8], (2,), 7))
+
     def test_a_hole_lets_fall(self):
         heights = [[0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, None, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 0]]
         path = self.scene(on_ground({"heights": heights}))

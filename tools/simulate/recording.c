@@ -55,12 +55,17 @@ static bool is_static_box(const struct stage_body *body, pir_vec3 *ret_half) {
 }
 
 bool recording_check(const struct stage *stage) {
-    for (uint32_t i = 0; i < stage->body_count; i++)
-        if (stage->body[i].body.shape->count != 1) {
+    for (uint32_t i = 0; i < stage->body_count; i++) {
+        const struct world_shape *shape = stage->body[i].body.shape;
+        if (world_shape_is_surface(shape))
+            complain("simulate: --record: bodies[%" PRIu32 "] is a surface; recordings do not hold surfaces yet", i);
+        else if (shape->count != 1)
             complain("simulate: --record: bodies[%" PRIu32 "] has %" PRIu32 " pieces; a recording has convex bodies", i,
-                     stage->body[i].body.shape->count);
-            return false;
-        }
+                     shape->count);
+        else
+            continue;
+        return false;
+    }
     return true;
 }
 
@@ -90,10 +95,16 @@ static pir_status put_shape(FILE *file, const pir_polytope *piece) {
     return PIR_OK;
 }
 
-/* The shapes of pieces, each once; those of compounds have been refused. */
+/* The shapes, each once. One that is not convex is of no body, since those have been refused, and is empty. */
 static bool put_shapes(FILE *file, const struct stage *stage) {
     for (uint32_t i = 0; i < stage->shape_count; i++) {
-        pir_status status = put_shape(file, stage->shape[i].piece[0]);
+        const struct world_shape *shape = &stage->shape[i];
+        if (shape->count != 1) {
+            put_count(file, 0);
+            put_count(file, 0);
+            continue;
+        }
+        const pir_status status = put_shape(file, shape->piece[0]);
         if (status != PIR_OK) {
             complain("simulate: %s", pir_status_text(status));
             return false;

@@ -20,7 +20,7 @@
 
 #include <stage.h>
 
-/* Whether all bodies are convex, as those of a recording are. */
+/* Whether all bodies are convex, as those of a recording are; surfaces are not. */
 bool recording_check(const struct stage *stage);
 
 /* All but the frames, of which so many will follow. */
