@@ -31,6 +31,7 @@ struct run {
     struct world *world;
     struct playback playback;
     struct output_file page, recording; /* open where they were asked for */
+    double asked;                       /* how many seconds were to be simulated */
     uint32_t frames;                    /* after the first one */
     uint32_t steps;                     /* of a frame */
     double seconds;                     /* that the run took */
@@ -51,15 +52,20 @@ static bool check_targets(const struct args *args) {
     return targets_differ(args, "-o", "--record");
 }
 
+/* The number of frames that comes nearest to the time, and one at least where there is any. */
+static uint32_t frames_of(double seconds) {
+    return seconds > 0 ? (uint32_t)fmax(1, nearbyint(seconds * FRAME_RATE)) : 0;
+}
+
 /* The scene with what the options say otherwise. */
 static bool read_stage(const struct args *args, struct run *run) {
     char why[STAGE_WHY];
     uint64_t threads = 1;
-    double seconds = -1;
-    if (!args_numbers(args, "--seconds", 1, &seconds) || !args_count(args, "--threads", 1, 64, &threads))
+    run->asked = -1;
+    if (!args_numbers(args, "--seconds", 1, &run->asked) || !args_count(args, "--threads", 1, 64, &threads))
         return false;
-    if (args_has(args, "--seconds") && !(seconds >= 0 && seconds <= SECONDS_MAX)) {
-        complain("simulate: --seconds: %g is not between 0 and %d", seconds, SECONDS_MAX);
+    if (args_has(args, "--seconds") && !(run->asked >= 0 && run->asked <= SECONDS_MAX)) {
+        complain("simulate: --seconds: %g is not between 0 and %d", run->asked, SECONDS_MAX);
         return false;
     }
     if (!stage_read(run->path, &run->stage, why)) {
@@ -69,9 +75,9 @@ static bool read_stage(const struct args *args, struct run *run) {
     run->stage.options.threads = (uint32_t)threads;
     if (args_has(args, "--awake"))
         run->stage.options.sleep = false;
-    if (seconds < 0)
-        seconds = run->stage.seconds;
-    run->frames = (uint32_t)(seconds * FRAME_RATE + 1e-6);
+    if (run->asked < 0)
+        run->asked = run->stage.seconds;
+    run->frames = frames_of(run->asked);
     run->steps = (uint32_t)nearbyint(1 / (FRAME_RATE * run->stage.options.step));
     return !args_has(args, "--record") || recording_check(&run->stage);
 }
@@ -185,8 +191,11 @@ static void print_text(const struct args *args, const struct run *run) {
     say("%s\n", *run->stage.title ? run->stage.title : run->path);
     say("  %-10s %" PRIu32 ", %" PRIu32 " of them moving, %" PRIu32 " asleep at the end\n", "bodies",
         run->stage.body_count, end.moving, end.asleep);
-    say("  %-10s %g s in %" PRIu64 " steps\n", "simulated", (double)run->frames / FRAME_RATE,
+    say("  %-10s %g s in %" PRIu64 " steps", "simulated", (double)run->frames / FRAME_RATE,
         (uint64_t)run->frames * run->steps);
+    if (fabs(run->asked * FRAME_RATE - run->frames) > 1e-6)
+        say(", as near to %g s as frames of 1/%d s come", run->asked, FRAME_RATE);
+    say("\n");
     say("  %-10s %.3g m/s at the end\n", "mean speed", world_mean_speed(run->world));
     say("  %-10s %" PRIu32 " at the end, the deepest %.3g m\n", "contacts", world_contact_count(run->world),
         end.deepest);

@@ -98,7 +98,7 @@ static const struct option simulate_options[] = {
     {"-o", "FILE", "write a page that plays the run back to FILE, .html"},
     {"--record", "FILE",
      "write the poses of convex bodies, 60 frames a second, to FILE; docs/scenes.md has the format"},
-    {"--seconds", "S", "simulate S seconds (what the scene says, or 10)"},
+    {"--seconds", "S", "simulate S seconds, to the nearest 1/60 (what the scene says, or 10)"},
     {"--awake", NULL, "let no body sleep"},
     {"--threads", "N", "find contacts with N threads; the run is the same (1)"},
     COMMON_OPTIONS,

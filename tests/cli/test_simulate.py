@@ -345,6 +345,15 @@ class Simulate(Simulated):
         self.assertEqual(([len(points) for points, _ in run["hulls"]], run["shape"], len(run["poses"])),
                          ([0, 0, 8, 8], (2,), 7))
 
+    def test_a_run_is_of_whole_frames(self):
+        path, recording = self.scene(scene([cube(4)])), self.path / "run.bin"
+        for seconds, frames in ((0, 0), (1e-9, 1), (0.01, 1), (0.024, 1), (0.026, 2), (0.06, 4), (0.1, 6), (1 / 60, 1)):
+            told = self.data("simulate", path, "--seconds", seconds, "--record", recording)
+            self.assertEqual((told["steps"], told["duration"]), (4 * frames, frames / 60))
+            self.assertEqual(len(read_recording(recording)["poses"]), frames + 1)
+            said = self.good("simulate", self.scene(scene([cube(4)], seconds=seconds)))
+            self.assertEqual(f"as near to {seconds:g} s as" in said, seconds not in (0, 0.1, 1 / 60), said)
+
     def test_a_hole_lets_fall(self):
         heights = [[0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, None, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 0]]
         path = self.scene(on_ground({"heights": heights}))
