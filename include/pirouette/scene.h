@@ -14,9 +14,11 @@
  *
  * The body of a mesh or a height field has the triangles of that surface for its pieces, under their own numbers. A
  * triangle is flat: it has no inside, and either side of it is met. The surface's own tree is asked for those that a
- * box meets, so a triangle that nothing is near takes neither time nor memory.
+ * box meets, so a triangle that nothing is near takes neither time nor memory. A surface has as many triangles as there
+ * are, without a limit here; near one piece, with PIR_SCENE_MANIFOLDS, may be at most 65,536 (2^16) of them.
  * Contacts with surfaces are without ghosts (trimesh_contact.h). An event has those of one normal, with the triangle of
- * the deepest; a triangle that is met along several normals has an event for each, and one with ghosts alone has none.
+ * the deepest; a triangle that is met along several normals has an event for each. One all of whose contacts are ghosts
+ * has an event without contacts, whose distance and normal are those of the triangle alone: do not push along it.
  *
  * A pair needs one moving body, two bodies, and masks that match both ways: the category of each is in the mask of the
  * other. A sensor is told of what overlaps it, and has no contacts. Two sensors do not meet.
@@ -152,7 +154,8 @@ PIR_API pir_body_options pir_body_options_default(void);
 PIR_API pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body);
 
 /**
- * Removes a body. Its contacts are gone without an event.
+ * Removes a body. Its contacts are gone without an event. Events of the last update still name it until the next one,
+ * and the next body that is added may get its number: go through the events first, or drop those that name it.
  *
  * body  the number of a body of the scene.
  *
@@ -192,8 +195,9 @@ typedef struct pir_scene_move {
  * for a piece whose box leaves the margin that the tree has around it. Nothing for bodies that are not in `moves`.
  *
  * Errors: PIR_ERR_ARGUMENT (a body that is not there, comes twice or is static), PIR_ERR_NOT_FINITE,
- * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (coordinates beyond 2^60, and as of a query of a pair), PIR_ERR_MEMORY. The
- * scene is then as it was before, but for the list of events, which is empty.
+ * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (coordinates beyond 2^60, more than 2^16 triangles of surfaces near one piece,
+ * with PIR_SCENE_MANIFOLDS, and as of a query of a pair), PIR_ERR_MEMORY. The scene is then as it was before, but for
+ * the list of events, which is empty.
  */
 PIR_API pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *moves, size_t count);
 
@@ -203,15 +207,25 @@ typedef enum pir_event_kind {
     PIR_EVENT_ENDED,     /**< they are not any more; only the numbers of bodies and pieces are set */
 } pir_event_kind;
 
-/** The findings of an update about two pieces. Where the detail or a sensor leaves out a number, it is 0. */
+/**
+ * The findings of an update about two pieces. Where the detail or a sensor leaves out a number, it is 0.
+ *
+ * Normals point from Q, the body of the greater number, to P. So a body on a terrain that was added before it has
+ * normals that point down, into the terrain: turn them round to push it.
+ *
+ * A piece of a body with a surface is a triangle. pir_trimesh_triangle or pir_height_field_triangle, asked with
+ * piece_p or piece_q, tells its corners and its material.
+ */
 typedef struct pir_scene_event {
     pir_event_kind kind;
     uint32_t body_p, body_q;   /**< body_p < body_q */
     uint32_t piece_p, piece_q; /**< of the bodies' own */
     bool sensor;               /**< whether one of the bodies is a sensor */
     pir_state state;
-    double distance; /**< signed, as of pir_pair_signed_distance */
-    pir_vec3 normal; /**< unit, from Q to P */
+    /** Signed, as of pir_pair_signed_distance; with a triangle that of the deepest contact, or without contacts that of
+        the triangle alone. */
+    double distance;
+    pir_vec3 normal; /**< unit, from Q to P; of the same */
     pir_witness witness;
     /** The length by which the bodies approached at the first contact in this update, along the normal; divided by the
         time between two updates, the speed of approach. */
@@ -221,7 +235,10 @@ typedef struct pir_scene_event {
         *contacts; /**< of the scene's; ids are stable as of pir_pair_manifold; NULL where there are none */
 } pir_scene_event;
 
-/** The events of the last update, until the next one, or NULL where there are none; the scene owns them. O(1). */
+/**
+ * The events of the last update, until the next one, or NULL where there are none; the scene owns them. Numbers of
+ * bodies are those of that update: where a body was removed since, its number is none, or another body's. O(1).
+ */
 PIR_API const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count);
 
 /** The contents of a scene, and the work of its last update. */

@@ -38,8 +38,12 @@ PIR_API pir_status pir_scene_serialise(pir_scene *scene, void *memory, size_t si
  * update. Contacts that they claim are only what the next update compares with. The list of events is empty afterwards,
  * also where the call fails.
  *
+ * Bodies of the scene have to have the numbers, the kinds and the counts of pieces that they had, and a surface the
+ * same content. All else of them is not in the bytes and not checked: polytopes, radii, categories, masks and sensors.
+ * Where these differ, the updates afterwards do too.
+ *
  * data, size  the bytes, which may come from anyone.
- * report      NULL, or filled with what, where and why.
+ * report      filled with what, where and why; NULL for the report of the scene, where it has one.
  *
  * Cost: that of an update of all bodies without the queries of pairs.
  *

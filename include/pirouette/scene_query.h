@@ -166,7 +166,8 @@ PIR_API pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *
  * plane, it lies in the plane; where it meets a piece that is a segment or a point, it is against the way, and 0 for a
  * way of 0.
  *
- * origin, way  in the world; a way of 0 asks for what holds the origin.
+ * origin, way  in the world; a way of 0 asks for what holds the origin, which a one-sided surface without a radius
+ *              never does.
  * mask         the categories of bodies that it meets.
  *
  * Cost: that of a query of a scene, for the boxes that the segment meets: O(vertices) for each.
@@ -202,6 +203,10 @@ PIR_API pir_status pir_scene_ray_any(pir_scene *scene, pir_vec3 origin, pir_vec3
 /**
  * All pieces and triangles that the segment hits, each where it is entered, by time, of equal times by the numbers of
  * body and piece.
+ *
+ * pir_trimesh_triangle or pir_height_field_triangle, asked with `piece_q` of an impact, tells the material of the
+ * triangle and its corners, which are counter-clockwise from the front, in the frame of the body. The normal of the
+ * impact is against the way: a triangle without a radius is met from behind where it points away from the front.
  *
  * origin, way, options   as of pir_scene_ray_any.
  * capacity, ret_impacts  room for how many, and that room: for the first of them.

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include <pirouette/scene_query.h>
+#include <pirouette/scene.h>
 #include <pirouette/shape.h>
 
 #include "scene/crowd.h"
@@ -372,95 +372,10 @@ static void bodies_that_are_apart_are_asked_about_once(void **state) {
     pir_polytope_release(octahedron);
 }
 
-/* --- reports --- */
-
-/* A call on a scene that fails, and what its report must say. */
-static pir_status call_wrongly(pir_scene *scene, pir_polytope *cube, int which) {
-    pir_body_options body = pir_body_options_default();
-    pir_scene_shape shape = pir_scene_shape_default(cube);
-    const pir_scene_move twice[2] = {{0, scene_at(0, 0, 0)}, {0, scene_at(1, 0, 0)}}, no_body = {9, scene_at(0, 0, 0)},
-                         far = {0, scene_at(1e300, 0, 0)};
-    pir_motion motion = {{1, 0, 0}, {0, 0, 0}, 0};
-    pir_scene_near near;
-    pir_impact impact;
-    pir_pose pose;
-    size_t count;
-    uint32_t number;
-    body.pieces = &cube;
-    body.piece_count = 1;
-    switch (which) {
-    case 0:
-        body.radius = -1;
-        return pir_scene_add(scene, &body, &number);
-    case 1:
-        body.pose.rotation = (pir_quat){0, 0, 0, 0};
-        return pir_scene_add(scene, &body, &number);
-    case 2:
-        return pir_scene_remove(scene, 9);
-    case 3:
-        return pir_scene_pose(scene, 9, &pose);
-    case 4:
-        return pir_scene_update(scene, twice, 2);
-    case 5:
-        return pir_scene_update(scene, &no_body, 1);
-    case 6:
-        return pir_scene_update(scene, &far, 1);
-    case 7:
-        shape.radius = NAN;
-        return pir_scene_overlap(scene, &shape, 0, NULL, &count);
-    case 8:
-        return pir_scene_nearest(scene, &shape, -1, 1, &near, &count);
-    case 9:
-        return pir_scene_ray(scene, (pir_vec3){0, NAN, 0}, (pir_vec3){1, 0, 0}, 1, &impact);
-    case 10:
-        return pir_scene_cast(scene, &shape, &motion, 0, &impact);
-    default:
-        return pir_scene_time_of_impact(scene, 9, &motion, 1, &impact);
-    }
-}
-
-static void a_report_says_what_was_wrong_and_where(void **state) {
-    (void)state;
-    static const char *const words[] = {"body: its radius is -1, not from 0 up",
-                                        "body: its pose: zero quaternion",
-                                        "remove: there is no body 9",
-                                        "pose: there is no body 9",
-                                        "update: move 1: body 0 comes twice",
-                                        "update: move 0: there is no body 9",
-                                        "update: body 0: its pose: too large",
-                                        "shape: its radius is not a number",
-                                        "nearest: none is asked for, or a cutoff below 0",
-                                        "ray: a coordinate is not finite",
-                                        "cast: its motion or tolerance: bad argument",
-                                        "time of impact: there is no body 9"};
-    pir_polytope *cube = scene_cube(1);
-    pir_report report = {.status = PIR_OK, .text = "as it was"};
-    pir_scene_options options = pir_scene_options_default();
-    pir_scene *scene;
-    options.report = &report;
-    assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
-    scene_add(scene, cube, scene_at(0, 0, 0), PIR_BODY_MOVING);
-    scene_add(scene, cube, scene_at(9, 0, 0), PIR_BODY_MOVING);
-    assert_int_equal(pir_scene_update(scene, NULL, 0), PIR_OK);
-    assert_string_equal(report.text, "as it was");
-    for (int i = 0; i < (int)(sizeof words / sizeof *words); i++) {
-        pir_status status = call_wrongly(scene, cube, i);
-        expect(status != PIR_OK && report.status == status, "call %d: status %d, told %d", i, (int)status,
-               (int)report.status);
-        expect(strcmp(report.text, words[i]) == 0, "call %d: `%s`, not `%s`", i, report.text, words[i]);
-    }
-    pir_scene_destroy(scene);
-    options.threads = 0;
-    assert_int_equal(pir_scene_create(&options, &scene), PIR_ERR_ARGUMENT);
-    assert_string_equal(report.text, "scene: 0 threads, not 1 to 64");
-    pir_polytope_release(cube);
-}
-
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_no_scene_is_refused),
-        cmocka_unit_test(a_report_says_what_was_wrong_and_where),
         cmocka_unit_test(what_is_no_body_is_refused),
         cmocka_unit_test(moves_that_cannot_be_change_nothing),
         cmocka_unit_test(a_contact_begins_persists_and_ends),

@@ -13,8 +13,6 @@
 #include "mesh/contact/contact_exact.h"
 #include "mesh/signs/mesh_numbers.h"
 
-#define MOST_TRIANGLES (1u << 16)
-
 /* --- P --- */
 
 static pir_status check_pose(const pir_pose *pose, pir_rotation *rotation) {
@@ -137,7 +135,7 @@ static bool look(void *context, const pir_met_triangle *met) {
         if (fmin(x[0], fmin(x[1], x[2])) > g->high[k] || fmax(x[0], fmax(x[1], x[2])) < g->low[k])
             return true;
     }
-    if (job->triangle_count >= MOST_TRIANGLES || !reserve_triangle(job)) {
+    if (job->triangle_count >= PIR_CONTACT_TRIANGLES_MOST || !reserve_triangle(job)) {
         job->out_of_memory = true;
         return false;
     }
@@ -235,7 +233,7 @@ pir_status pir_contact_job_gather(pir_contact_job *job, double grow) {
     for (uint32_t i = 0; i < job->input->surface_count && !job->out_of_memory; i++)
         gather_surface(job, i, grow);
     if (job->out_of_memory)
-        return job->triangle_count >= MOST_TRIANGLES ? PIR_ERR_LIMIT : PIR_ERR_MEMORY;
+        return job->triangle_count >= PIR_CONTACT_TRIANGLES_MOST ? PIR_ERR_LIMIT : PIR_ERR_MEMORY;
     set_size(job);
     job->counts.triangles = job->triangle_count;
     return PIR_OK;

@@ -16,6 +16,9 @@
 #include "mesh/query/mesh_walk.h"
 #include "polytope/polytope.h"
 
+/* How many triangles may be near P. */
+#define PIR_CONTACT_TRIANGLES_MOST (1u << 16)
+
 /* Points of a difference: vertices of P and corners of a triangle. */
 typedef struct pir_contact_simplex {
     uint32_t count, v[4], w[4];

@@ -3,6 +3,7 @@
 #include "scene/answer/ask.h"
 
 #include "pair/fetch.h"
+#include "scene/answer/events.h"
 #include "scene/answer/share.h"
 #include "scene/answer/surface_contacts.h"
 #include "scene/world/grow.h"
@@ -121,5 +122,11 @@ pir_status pir_scene_ask(pir_scene *scene) {
         scene->worker[i].found_count = scene->worker[i].on_surface_count = scene->worker[i].contact_count = 0;
     pir_scene_workers_begin(scene);
     pir_scene_share(scene, scene->lists.asked_count, WORTH_MORE, ask_items);
-    return pir_scene_workers_status(scene);
+    const pir_status status = pir_scene_workers_status(scene);
+    if (status == PIR_OK)
+        return PIR_OK;
+    const pir_scene_key key = pir_scene_key_of(scene, scene->lists.asked[pir_scene_workers_failed(scene)]);
+    return pir_fail(scene->report, status, "update: bodies %u and %u, pieces %u and %u: %s",
+                    (unsigned)(key.bodies >> 32), (unsigned)key.bodies, (unsigned)(key.pieces >> 32),
+                    (unsigned)key.pieces, pir_status_text(status));
 }

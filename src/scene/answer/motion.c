@@ -2,6 +2,8 @@
 /* Bodies to new places, and back: see motion.h. */
 #include "scene/answer/motion.h"
 
+#include <stdio.h>
+
 #include "scene/answer/share.h"
 #include "scene/world/grow.h"
 
@@ -39,11 +41,10 @@ pir_status pir_scene_make_boxes(pir_scene *scene) {
     pir_status status = pir_scene_workers_status(scene);
     if (status == PIR_OK)
         return PIR_OK;
-    uint32_t first = UINT32_MAX;
-    for (uint32_t i = 0; i < scene->threads; i++)
-        first = scene->worker[i].failed < first ? scene->worker[i].failed : first;
-    return pir_fail(scene->report, status, "update: body %u: its pose: %s", (unsigned)lists->moved[first].body,
-                    pir_status_text(status));
+    const pir_scene_moved *first = &lists->moved[pir_scene_workers_failed(scene)];
+    char of[32];
+    snprintf(of, sizeof of, "update: body %u", (unsigned)first->body);
+    return pir_place_fail(first->pose, status, of, scene->report);
 }
 
 static void put_in(pir_scene *scene, uint32_t piece, const pir_box *fat) {

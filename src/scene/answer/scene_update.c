@@ -69,32 +69,39 @@ static pir_status take_moves(pir_scene *scene, const pir_scene_move *moves, size
 
 /* --- the call --- */
 
+/* Pairs, their answers and events. Fills the report. */
 static pir_status answer(pir_scene *scene) {
     pir_status status = pir_scene_find_pairs(scene);
     if (status == PIR_OK)
         status = pir_scene_list_questions(scene);
-    if (status == PIR_OK)
-        status = pir_scene_ask(scene);
+    if (status != PIR_OK)
+        return pir_fail(scene->report, status, "update: its pairs: %s", pir_status_text(status));
+    status = pir_scene_ask(scene);
     if (status == PIR_OK && scene->bodies.triangle_count > 0)
         status = pir_scene_find_surface_contacts(scene);
-    return status == PIR_OK ? pir_scene_make_events(scene) : status;
+    if (status != PIR_OK)
+        return status;
+    status = pir_scene_make_events(scene);
+    return status == PIR_OK ? PIR_OK
+                            : pir_fail(scene->report, status, "update: its events: %s", pir_status_text(status));
 }
 
 pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *moves, size_t count) {
-    if (!scene || (!moves && count > 0))
-        return PIR_ERR_ARGUMENT;
+    pir_status status = pir_scene_given(scene, "update", !moves && count > 0 ? "moves" : NULL);
+    if (status != PIR_OK)
+        return status;
     pir_scene_lists *lists = &scene->lists;
     scene->update++;
     scene->event_count = scene->looked = 0;
     lists->moved_count = lists->replaced_count = lists->asked_count = lists->ended_count = 0;
-    pir_status status = take_moves(scene, moves, count);
+    status = take_moves(scene, moves, count);
     if (status != PIR_OK)
         return status;
     pir_scene_move_bodies(scene);
     status = answer(scene);
     if (status != PIR_OK) {
         pir_scene_move_back(scene);
-        return pir_fail(scene->report, status, "update: its pairs: %s", pir_status_text(status));
+        return status;
     }
     pir_scene_drop_pairs(scene);
     for (uint32_t i = 0; i < scene->fresh_count; i++)

@@ -5,8 +5,11 @@
  */
 #include "scene/answer/surface_contacts.h"
 
+#include <stdio.h>
+
 #include <pirouette/trimesh_contact.h>
 
+#include "mesh/contact/contact_job.h"
 #include "scene/answer/events.h"
 #include "scene/answer/share.h"
 #include "scene/world/grow.h"
@@ -220,6 +223,26 @@ static uint32_t list_items(pir_scene *scene) {
     return count;
 }
 
+/* Reports the first question that failed: of a piece with one surface or more. */
+static pir_status fail(const pir_scene *scene, pir_status status) {
+    const uint32_t *run = &scene->lists.run[pir_scene_workers_failed(scene)];
+    const pir_scene_item *first = &scene->lists.item[run[0]], *last = &scene->lists.item[run[1] - 1];
+    const pir_scene_piece *piece = &scene->bodies.piece[first->key.bodies];
+    const unsigned body = piece->body, number = piece->number;
+    char of[64];
+    if (body_of(first) == body_of(last))
+        snprintf(of, sizeof of, "the surface of body %u", (unsigned)body_of(first));
+    else
+        snprintf(of, sizeof of, "the surfaces of bodies %u to %u", (unsigned)body_of(first), (unsigned)body_of(last));
+    // coordinates are within their limit, as in boxes; the sum of two radii may not be
+    const double radius = scene->bodies.body[body].radius + scene->bodies.body[body_of(last)].radius;
+    if (status == PIR_ERR_LIMIT && radius + scene->margin <= PIR_BOX_FARTHEST)
+        return pir_fail(scene->report, status, "update: body %u, piece %u: more than %u triangles near it, of %s", body,
+                        number, PIR_CONTACT_TRIANGLES_MOST, of);
+    return pir_fail(scene->report, status, "update: body %u, piece %u, with %s: %s", body, number, of,
+                    pir_status_text(status));
+}
+
 pir_status pir_scene_find_surface_contacts(pir_scene *scene) {
     pir_scene_lists *lists = &scene->lists;
     uint32_t most = 0, runs = 0;
@@ -228,7 +251,7 @@ pir_status pir_scene_find_surface_contacts(pir_scene *scene) {
     if (!PIR_GROW(&scene->allocator, lists->item, lists->item_capacity, most) ||
         !PIR_GROW(&scene->allocator, lists->work, lists->work_capacity, most) ||
         !PIR_GROW(&scene->allocator, lists->run, lists->run_capacity, most + 1))
-        return PIR_ERR_MEMORY;
+        return pir_fail(scene->report, PIR_ERR_MEMORY, "update: its surfaces: %s", pir_status_text(PIR_ERR_MEMORY));
     const uint32_t count = list_items(scene);
     for (uint32_t i = 0; i < count; i++)
         if (i == 0 || lists->item[i].key.bodies != lists->item[i - 1].key.bodies)
@@ -236,5 +259,6 @@ pir_status pir_scene_find_surface_contacts(pir_scene *scene) {
     lists->run[runs] = count;
     pir_scene_workers_begin(scene);
     pir_scene_share(scene, runs, WORTH_MORE, find_items);
-    return pir_scene_workers_status(scene);
+    const pir_status status = pir_scene_workers_status(scene);
+    return status == PIR_OK ? PIR_OK : fail(scene, status);
 }

@@ -98,13 +98,17 @@ static void sort_contacts(pir_scene *scene) {
 }
 
 pir_status pir_scene_serialise(pir_scene *scene, void *memory, size_t size) {
-    if (!scene || !memory || size != pir_scene_serialised_size(scene))
-        return PIR_ERR_ARGUMENT;
+    const pir_status status = pir_scene_given(scene, "snapshot", memory ? NULL : "memory");
+    if (status != PIR_OK)
+        return status;
+    if (size != pir_scene_serialised_size(scene))
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "snapshot: room for %zu bytes, not the %zu that it takes",
+                        size, pir_scene_serialised_size(scene));
     pir_scene_lists *lists = &scene->lists;
     uint32_t contacts = count_contacts(scene);
     if (!PIR_GROW(&scene->allocator, lists->item, lists->item_capacity, contacts) ||
         !PIR_GROW(&scene->allocator, lists->work, lists->work_capacity, contacts))
-        return PIR_ERR_MEMORY;
+        return pir_fail(scene->report, PIR_ERR_MEMORY, "snapshot: no memory to sort %u contacts", contacts);
     sort_contacts(scene);
     uint8_t *at = memory;
     memcpy(at, magic, sizeof magic);
@@ -260,9 +264,9 @@ static void commit(pir_scene *scene, const struct snapshot *s) {
 }
 
 pir_status pir_scene_restore(pir_scene *scene, const void *data, size_t size, pir_report *report) {
-    struct snapshot s = {.report = report};
+    struct snapshot s = {.report = report || !scene ? report : scene->report};
     if (!scene || !data)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "snapshot: no scene, or no bytes");
+        return pir_fail(s.report, PIR_ERR_ARGUMENT, "snapshot: %s is NULL", scene ? "data" : "scene");
     scene->update++;
     scene->event_count = scene->looked = 0;
     scene->lists.moved_count = scene->lists.replaced_count = 0;
@@ -275,7 +279,7 @@ pir_status pir_scene_restore(pir_scene *scene, const void *data, size_t size, pi
     pir_scene_move_bodies(scene);
     status = pir_scene_find_pairs(scene);
     if (status != PIR_OK)
-        pir_fail(report, status, "snapshot: no memory for pairs");
+        pir_fail(s.report, status, "snapshot: no memory for pairs");
     else
         status = read_contacts(scene, &s);
     if (status != PIR_OK)

@@ -20,7 +20,7 @@ pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pi
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "shape: its radius is %g, not from 0 up", shape->radius);
     pir_status status = pir_place_make(shape->pose, &place);
     if (status != PIR_OK)
-        return pir_fail(scene->report, status, "shape: its pose: %s", pir_status_text(status));
+        return pir_place_fail(shape->pose, status, "shape", scene->report);
     pir_probe probe = {.scene = scene,
                        .extent = pir_extent_of(shape->polytope),
                        .pose = shape->pose,

@@ -134,6 +134,11 @@ static bool is_late(const struct flight *flight, const pir_scene_piece *piece) {
     return (above > 0 && above + along * until > slack) || (below > 0 && below - along * until > slack);
 }
 
+static pir_status fail(const struct flight *flight, pir_status status, const pir_scene_piece *piece) {
+    return pir_fail(flight->scene->report, status, "cast: body %u, piece %u: %s", (unsigned)piece->body,
+                    (unsigned)piece->number, pir_status_text(status));
+}
+
 static pir_status look(void *context, pir_scene_piece *piece) {
     struct flight *flight = context;
     pir_impact impact;
@@ -144,8 +149,7 @@ static pir_status look(void *context, pir_scene_piece *piece) {
         return PIR_OK;
     pir_status status = advance(flight, piece, flight->first->time, &impact, &meets);
     if (status != PIR_OK)
-        return pir_fail(flight->scene->report, status, "cast: body %u, piece %u: %s", (unsigned)piece->body,
-                        (unsigned)piece->number, pir_status_text(status));
+        return fail(flight, status, piece);
     if (meets && comes_before(&impact, flight->first)) {
         *flight->first = impact;
         flight->until = impact.time;
@@ -186,7 +190,7 @@ static pir_status look_from_triangle(void *context, pir_scene_piece *triangle) {
     pir_scene *scene = flight->scene;
     pir_status status = pir_piece_ready(&scene->bodies.body[triangle->body], &scene->for_triangles, triangle);
     if (status != PIR_OK)
-        return status;
+        return fail(flight, status, triangle);
     flight->probe = pir_probe_of_piece(scene, triangle);
     flight->own_piece = triangle->number;
     flight->box = box_of_way(flight);
@@ -230,12 +234,25 @@ static pir_status fly_surface(struct flight *flight, uint32_t number, pir_impact
     return status;
 }
 
-static pir_status check(const pir_scene *scene, const pir_motion *motion, double tolerance) {
+/* The fault of a motion or a tolerance that pir_motion_check refuses. */
+static const char *fault_of(const pir_motion *motion, double tolerance) {
+    if (!pir_vec_is_finite(motion->way))
+        return "its way is not finite";
+    if (!pir_vec_is_finite(motion->turn))
+        return "its turn is not finite";
+    if (isnan(tolerance) || isnan(motion->held))
+        return isnan(tolerance) ? "its tolerance is not a number" : "its motion's held is not a number";
+    if (!(tolerance > 0 && tolerance < HUGE_VAL))
+        return tolerance > 0 ? "its tolerance is infinite" : "its tolerance is not above 0";
+    return motion->held >= 0 ? "its turn is longer than 2^20" : "its motion's held is below 0";
+}
+
+static pir_status check(const pir_scene *scene, const char *call, const pir_motion *motion, double tolerance) {
     const pir_status status = pir_motion_check(motion, tolerance);
     if (status != PIR_OK)
-        return pir_fail(scene->report, status, "cast: its motion or tolerance: %s", pir_status_text(status));
+        return pir_fail(scene->report, status, "%s: %s", call, fault_of(motion, tolerance));
     if (!(length(motion->way) <= PIR_BOX_FARTHEST))
-        return pir_fail(scene->report, PIR_ERR_LIMIT, "cast: its way is longer than 2^60");
+        return pir_fail(scene->report, PIR_ERR_LIMIT, "%s: its way is longer than 2^60", call);
     return PIR_OK;
 }
 
@@ -244,10 +261,11 @@ static const pir_impact no_impact = {
 
 pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_motion *motion, double tolerance,
                           pir_impact *ret_impact) {
-    if (!scene || !shape || !motion || !ret_impact)
-        return PIR_ERR_ARGUMENT;
     struct flight flight = {.scene = scene, .motion = motion, .tolerance = tolerance};
-    pir_status status = check(scene, motion, tolerance);
+    const char *missing = !shape ? "shape" : !motion ? "motion" : !ret_impact ? "ret_impact" : NULL;
+    pir_status status = pir_scene_given(scene, "cast", missing);
+    if (status == PIR_OK)
+        status = check(scene, "cast", motion, tolerance);
     if (status == PIR_OK)
         status = pir_probe_of_shape(scene, shape, &flight.probe);
     if (status != PIR_OK)
@@ -261,13 +279,15 @@ pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const 
 
 pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_motion *motion, double tolerance,
                                     pir_impact *ret_impact) {
-    if (!scene || !motion || !ret_impact)
-        return PIR_ERR_ARGUMENT;
+    const char *missing = !motion ? "motion" : !ret_impact ? "ret_impact" : NULL;
+    pir_status status = pir_scene_given(scene, "time of impact", missing);
+    if (status != PIR_OK)
+        return status;
     if (!pir_bodies_has(&scene->bodies, body))
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "time of impact: there is no body %u", (unsigned)body);
     if (scene->bodies.body[body].sensor)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "time of impact: body %u is a sensor", (unsigned)body);
-    pir_status status = check(scene, motion, tolerance);
+    status = check(scene, "time of impact", motion, tolerance);
     pir_impact first = no_impact;
     for (uint32_t p = scene->bodies.body[body].first; status == PIR_OK && p != PIR_PIECE_NONE;
          p = scene->bodies.piece[p].next) {

@@ -120,9 +120,15 @@ static double slack_of(const pir_probe *probe, const pir_scene_piece *q) {
 
 static pir_status check(const pir_scene *scene, double cutoff, pir_accuracy accuracy) {
     if (isnan(cutoff) || isnan(accuracy.length) || isnan(accuracy.part))
-        return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "distances: cutoff or accuracy is not a number");
+        return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "distances: %s is not a number",
+                        isnan(cutoff)            ? "the cutoff"
+                        : isnan(accuracy.length) ? "the accuracy's length"
+                                                 : "the accuracy's part");
     if (cutoff < 0 || accuracy.length < 0 || accuracy.part < 0)
-        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "distances: cutoff or accuracy is below 0");
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "distances: %s is below 0",
+                        cutoff < 0            ? "the cutoff"
+                        : accuracy.length < 0 ? "the accuracy's length"
+                                              : "the accuracy's part");
     return PIR_OK;
 }
 
@@ -155,9 +161,13 @@ pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, d
     pir_probe probe;
     pir_place place;
     pir_placed placed;
-    if (!scene || !shape || (!ret_distances && capacity > 0) || !ret_count)
-        return PIR_ERR_ARGUMENT;
-    pir_status status = check(scene, cutoff, accuracy);
+    const char *missing = !shape                           ? "shape"
+                          : !ret_distances && capacity > 0 ? "ret_distances"
+                          : !ret_count                     ? "ret_count"
+                                                           : NULL;
+    pir_status status = pir_scene_given(scene, "distances", missing);
+    if (status == PIR_OK)
+        status = check(scene, cutoff, accuracy);
     if (status == PIR_OK)
         status = pir_probe_of_shape(scene, shape, &probe);
     if (status != PIR_OK)

@@ -9,6 +9,7 @@
 
 struct best {
     pir_scene *scene;
+    const char *call; /* in reports */
     double cutoff;
     double near_by;     /* what is farther is none of the best */
     size_t most, count; /* of the scene's room for such answers */
@@ -50,6 +51,11 @@ static double cutoff_of(const struct best *best) {
     return fmin(best->cutoff, best->scene->answers.near[best->count - 1].result.distance);
 }
 
+static pir_status fail(const struct best *best, pir_status status, const pir_scene_piece *q) {
+    return pir_fail(best->scene->report, status, "%s: body %u, piece %u: %s", best->call, (unsigned)q->body,
+                    (unsigned)q->number, pir_status_text(status));
+}
+
 static pir_status ask(const pir_probe *probe, uint32_t own_piece, pir_scene_piece *q, struct best *best) {
     pir_scene *scene = probe->scene;
     pir_pair *pair;
@@ -57,7 +63,7 @@ static pir_status ask(const pir_probe *probe, uint32_t own_piece, pir_scene_piec
     pir_scene_near near = {probe->body, q->body, own_piece, q->number, {.distance = 0}};
     pir_status status = pir_probe_pair(probe, q, &pair, &input);
     if (status != PIR_OK)
-        return status;
+        return fail(best, status, q);
     // below 0 distances are depths, which no cutoff leaves out; those that tie are asked for in full
     input.cutoff = fmax(cutoff_of(best), 0) * (1 + 0x1p-40);
     status = pir_pair_signed_distance(pair, scene->worker[0].workspace, &input, &near.result);
@@ -65,10 +71,7 @@ static pir_status ask(const pir_probe *probe, uint32_t own_piece, pir_scene_piec
     if (status == PIR_OK && near.result.outcome != PIR_BEYOND_CUTOFF && near.result.distance <= best->cutoff)
         status = put(best, &near);
     best->near_by = fmax(cutoff_of(best), 0) * (1 + 0x1p-20);
-    if (status != PIR_OK)
-        return pir_fail(scene->report, status, "nearest: body %u, piece %u: %s", (unsigned)q->body, (unsigned)q->number,
-                        pir_status_text(status));
-    return PIR_OK;
+    return status == PIR_OK ? PIR_OK : fail(best, status, q);
 }
 
 /* A shape, or a piece of a body, that is held against all pieces that are near. */
@@ -114,7 +117,7 @@ static pir_status look_from_triangle(void *context, pir_scene_piece *triangle) {
         return PIR_OK;
     pir_status status = pir_piece_ready(&scene->bodies.body[triangle->body], &scene->for_triangles, triangle);
     if (status != PIR_OK)
-        return status;
+        return fail(held->best, status, triangle);
     const pir_probe probe = pir_probe_of_piece(scene, triangle);
     return ask(&probe, triangle->number, held->q, held->best);
 }
@@ -139,14 +142,18 @@ static pir_status hold_surface(pir_scene *scene, uint32_t body, struct best *bes
     return status;
 }
 
-static pir_status check(const struct best *best, const pir_scene_near *near, const size_t *count) {
-    if (!best->scene)
-        return PIR_ERR_ARGUMENT;
+static pir_status check(const struct best *best, const char *missing) {
+    const pir_status status = pir_scene_given(best->scene, best->call, missing);
+    if (status != PIR_OK)
+        return status;
+    pir_report *report = best->scene->report;
     if (isnan(best->cutoff))
-        return pir_fail(best->scene->report, PIR_ERR_NOT_FINITE, "nearest: the cutoff is not a number");
-    if (best->cutoff < 0 || best->most == 0)
-        return pir_fail(best->scene->report, PIR_ERR_ARGUMENT, "nearest: none is asked for, or a cutoff below 0");
-    return near && count ? PIR_OK : PIR_ERR_ARGUMENT;
+        return pir_fail(report, PIR_ERR_NOT_FINITE, "%s: the cutoff is not a number", best->call);
+    if (best->cutoff < 0)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the cutoff is %g, below 0", best->call, best->cutoff);
+    if (best->most == 0)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: none is asked for, and at least 1 must be", best->call);
+    return PIR_OK;
 }
 
 static void give(const struct best *best, pir_scene_near *ret_near, size_t *ret_count) {
@@ -157,9 +164,9 @@ static void give(const struct best *best, pir_scene_near *ret_near, size_t *ret_
 
 pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, double cutoff, size_t most,
                              pir_scene_near *ret_near, size_t *ret_count) {
-    struct best best = {scene, cutoff, cutoff, most, 0};
+    struct best best = {scene, "nearest", cutoff, cutoff, most, 0};
     pir_probe probe;
-    pir_status status = shape ? check(&best, ret_near, ret_count) : PIR_ERR_ARGUMENT;
+    pir_status status = check(&best, !shape ? "shape" : !ret_near ? "ret_near" : !ret_count ? "ret_count" : NULL);
     if (status == PIR_OK)
         status = pir_probe_of_shape(scene, shape, &probe);
     if (status == PIR_OK)
@@ -171,8 +178,8 @@ pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *shape, dou
 
 pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t most, pir_scene_near *ret_near,
                                    size_t *ret_count) {
-    struct best best = {scene, cutoff, cutoff, most, 0};
-    pir_status status = check(&best, ret_near, ret_count);
+    struct best best = {scene, "closest pairs", cutoff, cutoff, most, 0};
+    pir_status status = check(&best, !ret_near ? "ret_near" : !ret_count ? "ret_count" : NULL);
     for (uint32_t b = 0; status == PIR_OK && b < scene->bodies.body_end; b++) {
         const pir_scene_body *body = &scene->bodies.body[b];
         const bool is_seen = body->used && !body->sensor;

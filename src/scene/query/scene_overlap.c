@@ -51,9 +51,10 @@ pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, siz
                              size_t *ret_count) {
     pir_probe probe;
     const double most = 0;
-    if (!scene || !shape || (!ret_hits && capacity > 0) || !ret_count)
-        return PIR_ERR_ARGUMENT;
-    pir_status status = pir_probe_of_shape(scene, shape, &probe);
+    const char *missing = !shape ? "shape" : !ret_hits && capacity > 0 ? "ret_hits" : !ret_count ? "ret_count" : NULL;
+    pir_status status = pir_scene_given(scene, "overlap", missing);
+    if (status == PIR_OK)
+        status = pir_probe_of_shape(scene, shape, &probe);
     if (status != PIR_OK)
         return status;
     struct overlap_hits hits = {&probe, capacity, 0};

@@ -110,6 +110,11 @@ static pir_status enter_rounded(const struct scene_ray *ray, const pir_ray_segme
     return status;
 }
 
+static pir_status fail(const struct scene_ray *ray, pir_status status, const pir_scene_piece *piece) {
+    return pir_fail(ray->scene->report, status, "ray: body %u, piece %u: %s", (unsigned)piece->body,
+                    (unsigned)piece->number, pir_status_text(status));
+}
+
 /* Takes the impact on a piece, where there is one. */
 static pir_status look(void *context, pir_scene_piece *piece) {
     struct scene_ray *ray = context;
@@ -119,7 +124,7 @@ static pir_status look(void *context, pir_scene_piece *piece) {
     pir_entry entry;
     pir_status status = (is_rounded ? enter_rounded : enter)(ray, &segment, piece, &entry);
     if (status != PIR_OK)
-        return pir_fail(ray->scene->report, status, "ray: %s", pir_status_text(status));
+        return fail(ray, status, piece);
     if (!entry.hits)
         return PIR_OK;
     if (piece->kind == PIR_PIECE_TRIANGLE && !is_rounded && !counts(ray, body, &entry))
@@ -130,7 +135,8 @@ static pir_status look(void *context, pir_scene_piece *piece) {
                                .time = entry.time,
                                .normal = pir_pose_rotate(body->pose, entry.normal),
                                .point = pir_vec_add(ray->world.origin, pir_vec_scale(ray->world.way, entry.time))};
-    return ray->take(ray, &impact);
+    status = ray->take(ray, &impact);
+    return status == PIR_OK ? PIR_OK : fail(ray, status, piece);
 }
 
 /* Whether an impact comes before another, or there is no other. */
@@ -202,17 +208,22 @@ static pir_status search(struct scene_ray *ray) {
 
 /* --- the calls --- */
 
-static pir_status begin(pir_scene *scene, pir_world_ray world, const pir_scene_ray_options *options,
-                        struct scene_ray *ray) {
+/* `missing` as of pir_scene_given. */
+static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray world,
+                        const pir_scene_ray_options *options, struct scene_ray *ray) {
     const pir_scene_ray_options used = options ? *options : pir_scene_ray_options_default();
-    if (!scene)
-        return PIR_ERR_ARGUMENT;
+    const pir_status status = pir_scene_given(scene, "ray", missing);
+    if (status != PIR_OK)
+        return status;
     if (used.sides < PIR_RAY_AS_SURFACE || used.sides > PIR_RAY_BOTH)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "ray: there are no sides %d", (int)used.sides);
     if (!pir_vec_is_finite(world.origin) || !pir_vec_is_finite(world.way))
-        return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "ray: a coordinate is not finite");
-    if (!(length(world.origin) <= PIR_BOX_FARTHEST && length(world.way) <= PIR_BOX_FARTHEST))
-        return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: its origin or its way is beyond 2^60");
+        return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "ray: its %s is not finite",
+                        pir_vec_is_finite(world.origin) ? "way" : "origin");
+    if (!(length(world.origin) <= PIR_BOX_FARTHEST))
+        return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: its origin is beyond 2^60");
+    if (!(length(world.way) <= PIR_BOX_FARTHEST))
+        return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: its way is longer than 2^60");
     *ray = (struct scene_ray){.scene = scene, .world = world, .options = used, .most = 1};
     ray->probe = (pir_probe){.scene = scene, .body = PIR_SCENE_NONE, .mask = used.mask, .except = used.except};
     return PIR_OK;
@@ -234,7 +245,7 @@ pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32
     struct scene_ray ray;
     pir_scene_ray_options options = pir_scene_ray_options_default();
     options.mask = mask;
-    pir_status status = ret_impact ? begin(scene, (pir_world_ray){origin, way}, &options, &ray) : PIR_ERR_ARGUMENT;
+    pir_status status = begin(scene, ret_impact ? NULL : "ret_impact", (pir_world_ray){origin, way}, &options, &ray);
     if (status != PIR_OK)
         return status;
     ray.take = take_first;
@@ -255,7 +266,7 @@ static pir_status take_any(struct scene_ray *ray, const pir_impact *impact) {
 pir_status pir_scene_ray_any(pir_scene *scene, pir_vec3 origin, pir_vec3 way, const pir_scene_ray_options *options,
                              bool *ret_hits) {
     struct scene_ray ray;
-    pir_status status = ret_hits ? begin(scene, (pir_world_ray){origin, way}, options, &ray) : PIR_ERR_ARGUMENT;
+    pir_status status = begin(scene, ret_hits ? NULL : "ret_hits", (pir_world_ray){origin, way}, options, &ray);
     if (status != PIR_OK)
         return status;
     ray.take = take_any;
@@ -284,9 +295,8 @@ static pir_status take_all(struct scene_ray *ray, const pir_impact *impact) {
 pir_status pir_scene_ray_all(pir_scene *scene, pir_vec3 origin, pir_vec3 way, const pir_scene_ray_options *options,
                              size_t capacity, pir_impact *ret_impacts, size_t *ret_count) {
     struct scene_ray ray;
-    if (!ret_count || (!ret_impacts && capacity > 0))
-        return PIR_ERR_ARGUMENT;
-    pir_status status = begin(scene, (pir_world_ray){origin, way}, options, &ray);
+    const char *missing = !ret_impacts && capacity > 0 ? "ret_impacts" : !ret_count ? "ret_count" : NULL;
+    pir_status status = begin(scene, missing, (pir_world_ray){origin, way}, options, &ray);
     if (status != PIR_OK)
         return status;
     ray.take = take_all;

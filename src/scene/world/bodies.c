@@ -2,6 +2,7 @@
 /* Bodies and their pieces: see bodies.h. */
 #include "scene/world/bodies.h"
 
+#include "base/report.h"
 #include "exact/rotation.h"
 #include "polytope/polytope.h"
 #include "scene/world/surfaces.h"
@@ -39,6 +40,21 @@ pir_status pir_place_make(pir_pose pose, pir_place *ret_place) {
         return PIR_ERR_LIMIT;
     *ret_place = (pir_place){pose, rotation.unit, rotation.r};
     return PIR_OK;
+}
+
+pir_status pir_place_fail(pir_pose pose, pir_status status, const char *of, pir_report *report) {
+    const double at[3] = {pose.translation.x, pose.translation.y, pose.translation.z};
+    if (status == PIR_ERR_ZERO_QUATERNION)
+        return pir_fail(report, status, "%s: its pose: %s", of, pir_status_text(status));
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(at[k]))
+            return pir_fail(report, status, "%s: its pose: %c is %g", of, "xyz"[k], at[k]);
+        if (status == PIR_ERR_LIMIT && fabs(at[k]) > PIR_BOX_FARTHEST)
+            return pir_fail(report, status, "%s: its pose: %c is %g, beyond 2^60", of, "xyz"[k], at[k]);
+    }
+    if (status == PIR_ERR_LIMIT)
+        return pir_fail(report, status, "%s: it reaches beyond 2^60", of);
+    return pir_fail(report, status, "%s: its rotation: %s", of, pir_status_text(status));
 }
 
 /*

@@ -105,6 +105,9 @@ void pir_bodies_finish(pir_bodies *bodies, const pir_allocator *allocator);
 /* PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT. */
 pir_status pir_place_make(pir_pose pose, pir_place *ret_place);
 
+/* Reports why a place could not be made, or that a body reaches too far there; `of` says whose. Returns `status`. */
+pir_status pir_place_fail(pir_pose pose, pir_status status, const char *of, pir_report *report);
+
 /* Whether these are the polytope's coarse bodies, or none. */
 static inline bool pir_is_coarse_of(const pir_coarse *coarse, const pir_polytope *polytope) {
     return !coarse || pir_coarse_get(coarse, pir_coarse_count(coarse) - 1).polytope == polytope;

@@ -23,8 +23,10 @@ static pir_status check(const pir_scene_options *options) {
         return pir_fail(report, PIR_ERR_NOT_FINITE, "scene: its margin is not finite");
     if (!(options->detail >= PIR_SCENE_STATES && options->detail <= PIR_SCENE_MANIFOLDS))
         return pir_fail(report, PIR_ERR_ARGUMENT, "scene: there is no detail %d", (int)options->detail);
-    if (options->margin < 0 || (options->detail == PIR_SCENE_STATES && options->margin > 0))
-        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: a margin of %g, which is below 0 or with states alone",
+    if (options->margin < 0)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: its margin is %g, below 0", options->margin);
+    if (options->detail == PIR_SCENE_STATES && options->margin > 0)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: a margin of %g needs distances, and it has states alone",
                         options->margin);
     if (options->threads < 1 || options->threads > THREADS_MAX)
         return pir_fail(report, PIR_ERR_ARGUMENT, "scene: %u threads, not 1 to %d", (unsigned)options->threads,
@@ -55,7 +57,9 @@ static pir_status make_workers(pir_scene *scene, const pir_scene_options *option
 
 pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_scene) {
     const pir_scene_options used = options ? *options : pir_scene_options_default();
-    pir_status status = ret_scene ? check(&used) : PIR_ERR_ARGUMENT;
+    if (!ret_scene)
+        return pir_fail(used.report, PIR_ERR_ARGUMENT, "scene: ret_scene is NULL");
+    pir_status status = check(&used);
     if (status != PIR_OK)
         return status;
     const pir_allocator a = pir_allocator_or_default(used.allocator);
@@ -80,6 +84,12 @@ pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_sc
     }
     *ret_scene = scene;
     return PIR_OK;
+}
+
+pir_status pir_scene_given(const pir_scene *scene, const char *call, const char *missing) {
+    if (!scene)
+        return PIR_ERR_ARGUMENT;
+    return missing ? pir_fail(scene->report, PIR_ERR_ARGUMENT, "%s: %s is NULL", call, missing) : PIR_OK;
 }
 
 static void finish_lists(pir_scene_lists *lists, const pir_allocator *a) {
@@ -134,21 +144,26 @@ pir_body_options pir_body_options_default(void) {
     return (pir_body_options){.pose = pir_pose_identity(), .category = 1, .mask = UINT32_MAX};
 }
 
-/* Whether a body is of pieces, or of one surface and does not move freely. */
-static bool has_one_form(const pir_body_options *body) {
-    if (body->mesh || body->field)
-        return !(body->mesh && body->field) && !body->pieces && body->kind != PIR_BODY_MOVING;
-    return body->pieces && body->piece_count > 0;
+/* A body is of pieces, or of one surface and does not move freely. */
+static pir_status check_form(const pir_body_options *body, pir_report *report) {
+    if (!body->mesh && !body->field)
+        return body->pieces && body->piece_count > 0 ? PIR_OK
+                                                     : pir_fail(report, PIR_ERR_ARGUMENT, "body: it has no pieces");
+    if (body->mesh && body->field)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "body: it has both a mesh and a height field");
+    if (body->pieces)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "body: it has both pieces and a surface");
+    if (body->kind == PIR_BODY_MOVING)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "body: it has a surface, which must be static or kinematic");
+    return PIR_OK;
 }
 
 static pir_status check_body(const pir_body_options *body, pir_report *report) {
     if (!(body->kind >= PIR_BODY_MOVING && body->kind <= PIR_BODY_STATIC))
         return pir_fail(report, PIR_ERR_ARGUMENT, "body: there is no kind %d", (int)body->kind);
-    if (!body->mesh && !body->field && (!body->pieces || body->piece_count == 0))
-        return pir_fail(report, PIR_ERR_ARGUMENT, "body: it has no pieces");
-    if (!has_one_form(body))
-        return pir_fail(report, PIR_ERR_ARGUMENT,
-                        "body: a surface has no pieces and no other, and does not move freely");
+    const pir_status status = check_form(body, report);
+    if (status != PIR_OK)
+        return status;
     if (isnan(body->radius))
         return pir_fail(report, PIR_ERR_NOT_FINITE, "body: its radius is not a number");
     if (!(body->radius >= 0 && body->radius < HUGE_VAL))
@@ -215,15 +230,15 @@ static pir_status make_boxes(pir_scene *scene, const pir_body_options *body, con
 
 pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body) {
     pir_place place;
-    if (!scene || !body || !ret_body)
-        return PIR_ERR_ARGUMENT;
-    const uint32_t pieces = body->pieces ? body->piece_count : 1;
-    pir_status status = check_body(body, scene->report);
+    pir_status status = pir_scene_given(scene, "body", !body ? "body" : !ret_body ? "ret_body" : NULL);
+    if (status == PIR_OK)
+        status = check_body(body, scene->report);
     if (status != PIR_OK)
         return status;
+    const uint32_t pieces = body->pieces ? body->piece_count : 1;
     status = pir_place_make(body->pose, &place);
     if (status != PIR_OK)
-        return pir_fail(scene->report, status, "body: its pose: %s", pir_status_text(status));
+        return pir_place_fail(body->pose, status, "body", scene->report);
     status = pir_bodies_reserve(&scene->bodies, &scene->allocator, pieces);
     if (status != PIR_OK)
         return pir_fail(scene->report, status, "body: room for it: %s", pir_status_text(status));
@@ -282,8 +297,9 @@ pir_status pir_scene_remove(pir_scene *scene, uint32_t body) {
 /* --- reading --- */
 
 pir_status pir_scene_pose(const pir_scene *scene, uint32_t body, pir_pose *ret_pose) {
-    if (!scene || !ret_pose)
-        return PIR_ERR_ARGUMENT;
+    const pir_status status = pir_scene_given(scene, "pose", ret_pose ? NULL : "ret_pose");
+    if (status != PIR_OK)
+        return status;
     if (!pir_bodies_has(&scene->bodies, body))
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "pose: there is no body %u", (unsigned)body);
     *ret_pose = scene->bodies.body[body].pose;

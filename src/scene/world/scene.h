@@ -151,6 +151,9 @@ static inline double pir_scene_around(const pir_scene *scene, const pir_scene_bo
     return body->radius + 0.5 * scene->margin;
 }
 
+/* PIR_ERR_ARGUMENT where there is no scene, or a parameter is `missing`: the name of one that is NULL, or NULL. */
+pir_status pir_scene_given(const pir_scene *scene, const char *call, const char *missing);
+
 /* Drops a pair; a triangle that is in no other goes as well. */
 void pir_scene_drop_pair(pir_scene *scene, uint32_t pair);
 
@@ -167,6 +170,14 @@ static inline void pir_scene_worker_note(pir_scene_worker *worker, pir_status st
         worker->status = status;
         worker->failed = item;
     }
+}
+
+/* The least number of an item that failed. */
+static inline uint32_t pir_scene_workers_failed(const pir_scene *scene) {
+    uint32_t first = UINT32_MAX;
+    for (uint32_t i = 0; i < scene->threads; i++)
+        first = scene->worker[i].failed < first ? scene->worker[i].failed : first;
+    return first;
 }
 
 static inline pir_status pir_scene_workers_status(const pir_scene *scene) {
