@@ -240,6 +240,39 @@ static void no_ghost_is_told_and_no_contact_lost(void **state) {
 
 /* --- bad input, memory --- */
 
+/*
+ * Bodies with a radius: the points of a contact are over each other. Where they are judged, they stand on the grid that
+ * integers know, which assertions in integers hold.
+ */
+static void contacts_of_rounded_bodies_are_over_each_other(void **state) {
+    (void)state;
+    uint64_t told = 0;
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t number = 0; number < poses() / 6; number++) {
+        test_random random = test_random_case("rounded bodies", number);
+        stage s;
+        stage_make(&s, &random, number);
+        for (int i = 0; i < 6; i++) {
+            pir_surface_contact contacts[CONTACTS];
+            pir_surface_contact_result rounded;
+            pir_surface_contact_input input = input_of(&s, some_place(&random, &s), 0.5);
+            input.radius = i % 2 ? 0.15 : 0x1p-4;
+            assert_int_equal(pir_surface_contacts(s.body, workspace, &input, CONTACTS, contacts, &rounded), PIR_OK);
+            for (size_t k = 0; k < rounded.contacts; k++, told++) {
+                const pir_surface_contact *c = &contacts[k];
+                const pir_vec3 over = {c->point_q.x + c->distance * c->normal.x,
+                                       c->point_q.y + c->distance * c->normal.y,
+                                       c->point_q.z + c->distance * c->normal.z};
+                expect(apart(over, c->point_p) < 1e-12, "pose %llu: contact %zu", (unsigned long long)number, k);
+            }
+        }
+        stage_clear(&s);
+    }
+    pir_workspace_destroy(workspace);
+    assert_true(told > poses() / 10);
+}
+
 static void bad_input_is_refused_and_nothing_written(void **state) {
     (void)state;
     mesh_arrays plane = mesh_plane(4);
@@ -530,6 +563,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_ghost_is_told_and_no_contact_lost),
+        cmocka_unit_test(contacts_of_rounded_bodies_are_over_each_other),
         cmocka_unit_test(bad_input_is_refused_and_nothing_written),
         cmocka_unit_test(a_call_that_runs_out_of_memory_changes_nothing),
         cmocka_unit_test(floors_are_flat_at_any_size),

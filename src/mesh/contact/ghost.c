@@ -101,11 +101,16 @@ static bool is_behind(struct contact *c, const pir_near_triangle *r) {
     return pir_exact_is_behind(c->job, &c->place, r);
 }
 
+static pir_vec3 on_grid(const pir_contact_job *job, pir_vec3 v) {
+    return (pir_vec3){pir_contact_on_grid(job, v.x), pir_contact_on_grid(job, v.y), pir_contact_on_grid(job, v.z)};
+}
+
 /* Whether P, moved until it touches, meets r. With a ball: whether it is nearer than that. */
 static bool is_met(struct contact *c, const pir_near_triangle *r) {
     double ball = c->job->ball;
     if (ball > 0) {
-        const pir_contact_place place = pir_place_at(c->moved);
+        // integers, where they are needed, know places on the grid alone; it is far finer than the errors
+        const pir_contact_place place = pir_place_at(on_grid(c->job, c->moved));
         pir_contact_near near;
         pir_contact_nearest(c->job, &place, r, &near);
         return near.meets || near.distance < ball - 8 * (c->off + c->job->error);
@@ -205,8 +210,7 @@ static bool step_beside(const pir_contact_job *job, const pir_contact_near *near
     if (!(cosine > 0) || !(need < sine * margin))
         return false;
     double step = fmax(need, 0) / sine + BEYOND * margin;
-    pir_vec3 to = pir_vec_add(*t, pir_vec_scale(across, step / sine));
-    *t = (pir_vec3){pir_contact_on_grid(job, to.x), pir_contact_on_grid(job, to.y), pir_contact_on_grid(job, to.z)};
+    *t = on_grid(job, pir_vec_add(*t, pir_vec_scale(across, step / sine)));
     return pir_length(pir_vec_sub(*t, from)) + near->distance <= margin;
 }
 
