@@ -17,8 +17,8 @@
  * surfaces that overlap and seams between bodies are one case. It is decided by exact signs; nothing is welded, and no
  * tolerance decides.
  *
- * One-sided triangles push to their front. A triangle that has P wholly behind it, or in its plane, does not count.
- * Behind others lies a solid, however thin: no contact pushes into it.
+ * One-sided triangles push to their front. A triangle that has P, with its radius, wholly behind it, or in its plane,
+ * does not count. Behind others lies a solid, however thin: no contact pushes into it.
  *
  * Where P is apart from all triangles, y is where P comes to when it moves along −n by the gap: for each triangle the
  * contact is that of its nearest points. Where P meets another triangle on that way, y may also be a place beside,
@@ -27,7 +27,8 @@
  *
  * A radius grows P by a ball. Contacts are then those of P grown by half of it, or by half of what P would touch with
  * where that is less: so both sides of a valley are felt before a ball of the whole radius comes to both, and depths
- * are those of the whole.
+ * are those of the whole. Where P without its radius overlaps, or is at the back of the one-sided triangle that is
+ * nearest, it is moved out first, to the front, and the depth is the radius more.
  *
  * Exact for the doubles given: the state of a polytope without a radius, and which contacts are ghosts. With a radius
  * both follow from distances that are within 2^-40 of the size of the coordinates. Distances, points and normals are
@@ -100,8 +101,8 @@ typedef struct pir_surface_contact_result {
     pir_vec3 normal; /**< unit, from the surface to P; 0 where there is none within the margin */
     pir_vec3 point_p, point_q;
     uint32_t surface, triangle; /**< of the nearest triangle; PIR_TRIANGLE_NONE where none is within the margin */
-    pir_vec3 way_out;           /**< a translation after which P meets no triangle; 0 where it meets none as it is */
-    bool is_out;      /**< whether P meets no triangle there, exactly; false where no way out was found nearby */
+    pir_vec3 way_out; /**< a translation after which P, with its radius, meets no triangle; 0 where it meets none */
+    bool is_out; /**< whether P meets no triangle there, without a radius exactly; false where none was found nearby */
     bool is_shortest; /**< whether no way is shorter that leaves through one facet of one D, and meets nothing a step
                             farther on: 2^-12 of P's size, or 2^-28 where another triangle is that near. way_out has
                             that step, distance has not */
@@ -110,8 +111,8 @@ typedef struct pir_surface_contact_result {
 } pir_surface_contact_result;
 
 /**
- * Contacts of P with the union of surfaces, the deepest first. Contacts of one normal hold the greatest area by at most
- * four points.
+ * Contacts of P with the union of surfaces, the deepest first, whatever their normals. Those of one normal hold the
+ * greatest area by at most four points.
  *
  * Each normal is that of a true contact of the theorem above. The contacts of a normal are the corners of what lies
  * under the part of P that faces the surface there, of all triangles whose distance along the normal is within the

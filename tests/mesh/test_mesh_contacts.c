@@ -559,6 +559,297 @@ static void holes_are_open_and_their_rims_hold(void **state) {
     pir_height_field_release(field);
 }
 
+/* --- bodies with a radius --- */
+
+/* Triangles as one one-sided mesh at a pose, and in the world for brute force. */
+typedef struct ground {
+    pir_trimesh *mesh;
+    pir_posed_surface surface;
+    pir_vec3 corner[64][3];
+    uint32_t count;
+} ground;
+
+static void ground_make(ground *g, pir_pose pose) {
+    uint32_t number[64][3];
+    for (uint32_t i = 0; i < g->count; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            number[i][k] = 3 * i + k;
+    const pir_trimesh_arrays arrays = {.vertices = g->corner,
+                                       .vertex_count = 3 * (size_t)g->count,
+                                       .triangles = &number[0][0],
+                                       .triangle_count = g->count};
+    assert_int_equal(pir_trimesh_create(&arrays, NULL, NULL, &g->mesh), PIR_OK);
+    g->surface = (pir_posed_surface){{g->mesh, NULL}, pose};
+    for (uint32_t i = 0; i < g->count; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            g->corner[i][k] = pir_pose_apply(pose, g->corner[i][k]);
+}
+
+/* Four by four cells of side 1 about the origin, each corner up to `rough` high. */
+static ground floor_of(test_random *random, double rough, pir_pose pose) {
+    ground g = {.count = 0};
+    pir_vec3 at[5][5];
+    for (int x = 0; x < 5; x++)
+        for (int y = 0; y < 5; y++)
+            at[x][y] = (pir_vec3){x - 2, y - 2, rough * fabs(test_random_unit(random))};
+    for (int x = 0; x < 4; x++)
+        for (int y = 0; y < 4; y++) {
+            const pir_vec3 two[2][3] = {{at[x][y], at[x + 1][y], at[x + 1][y + 1]},
+                                        {at[x][y], at[x + 1][y + 1], at[x][y + 1]}};
+            memcpy(g.corner[g.count], two, sizeof two);
+            g.count += 2;
+        }
+    ground_make(&g, pose);
+    return g;
+}
+
+/* The surface of a cube of side 1, seen from outside. */
+static ground cube_ground(void) {
+    ground g = {.count = 0};
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = -1; side <= 1; side += 2) {
+            pir_vec3 c[4];
+            for (int k = 0; k < 4; k++) {
+                double x[3], a = k == 1 || k == 2 ? 0.5 : -0.5, b = k >= 2 ? 0.5 : -0.5;
+                x[axis] = 0.5 * side;
+                x[(axis + 1) % 3] = side > 0 ? a : b;
+                x[(axis + 2) % 3] = side > 0 ? b : a;
+                c[k] = (pir_vec3){x[0], x[1], x[2]};
+            }
+            const pir_vec3 two[2][3] = {{c[0], c[1], c[2]}, {c[0], c[2], c[3]}};
+            memcpy(g.corner[g.count], two, sizeof two);
+            g.count += 2;
+        }
+    ground_make(&g, pir_pose_identity());
+    return g;
+}
+
+static pir_vec3 minus(pir_vec3 a, pir_vec3 b) {
+    return (pir_vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static pir_vec3 plus(pir_vec3 a, pir_vec3 b, double part) {
+    return (pir_vec3){a.x + part * b.x, a.y + part * b.y, a.z + part * b.z};
+}
+
+static double product(pir_vec3 a, pir_vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static double length_of(pir_vec3 a) {
+    return sqrt(product(a, a));
+}
+
+static double from_segment(pir_vec3 p, pir_vec3 a, pir_vec3 b) {
+    pir_vec3 e = minus(b, a);
+    double part = fmin(1, fmax(0, product(minus(p, a), e) / product(e, e)));
+    return length_of(minus(p, plus(a, e, part)));
+}
+
+/* From the plane, over the triangle; else from its sides. */
+static double from_triangle(pir_vec3 p, const pir_vec3 c[3]) {
+    pir_vec3 e = minus(c[1], c[0]), f = minus(c[2], c[0]);
+    pir_vec3 n = {e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
+    double least = HUGE_VAL;
+    bool over = true;
+    for (int k = 0; k < 3; k++) {
+        pir_vec3 s = minus(c[(k + 1) % 3], c[k]), to = minus(p, c[k]);
+        pir_vec3 in = {n.y * s.z - n.z * s.y, n.z * s.x - n.x * s.z, n.x * s.y - n.y * s.x};
+        over &= product(in, to) >= 0;
+        least = fmin(least, from_segment(p, c[k], c[(k + 1) % 3]));
+    }
+    return over ? fabs(product(n, minus(p, c[0]))) / length_of(n) : least;
+}
+
+/* The distance of a segment from all triangles: along it, that from one is convex. */
+static double from_ground(const ground *g, pir_vec3 a, pir_vec3 b) {
+    double least = HUGE_VAL;
+    for (uint32_t i = 0; i < g->count; i++) {
+        double low = 0, high = 1;
+        for (int step = 0; step < 80; step++) {
+            double x = low + (high - low) / 3, y = high - (high - low) / 3;
+            double at_x = from_triangle(plus(a, minus(b, a), x), g->corner[i]);
+            if (at_x <= from_triangle(plus(a, minus(b, a), y), g->corner[i]))
+                high = y;
+            else
+                low = x;
+            least = fmin(least, at_x);
+        }
+    }
+    return least;
+}
+
+/* A ball, or a capsule whose segment is `core` long from its origin. */
+static pir_polytope *rounded(pir_vec3 core) {
+    const pir_vec3 end[2] = {{0, 0, 0}, core};
+    pir_polytope *body;
+    assert_int_equal(pir_polytope_create(end, length_of(core) > 0 ? 2 : 1, NULL, &body), PIR_OK);
+    return body;
+}
+
+static pir_surface_contact_input over_ground(const ground *g, pir_vec3 t, double radius) {
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    input.pose.translation = t;
+    input.radius = radius;
+    input.margin = 0.01;
+    input.surfaces = &g->surface;
+    input.surface_count = 1;
+    return input;
+}
+
+/* From above to wholly below a floor, flat or turned, by small steps: held with a depth that grows as the steps do. */
+static void balls_are_held_until_all_of_them_is_behind_a_floor(void **state) {
+    (void)state;
+    static const pir_vec3 cores[3] = {{0, 0, 0}, {0.3, 0.1, 0.4}, {0, 0.4, 0}};
+    test_random random = test_random_case("balls through floors", 0);
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (int turn = 0; turn < 2; turn++)
+        for (int shape = 0; shape < 3; shape++) {
+            const pir_pose pose = {turn ? (pir_quat){0.2, -0.4, 0.1, 1} : (pir_quat){0, 0, 0, 1}, {0.1, 0.2, 0.3}};
+            const pir_vec3 up = pir_pose_rotate(pose, (pir_vec3){0, 0, 1});
+            ground g = floor_of(&random, 0, pose);
+            pir_polytope *body = rounded(cores[shape]);
+            double tall = product(up, cores[shape]), low = fmin(tall, 0), high = fmax(tall, 0);
+            uint32_t held = 0;
+            for (int step = 0; step < 1000; step++) {
+                double z = 0.5 - low - 0.002 * (step - 2), depth = 0.5 - (z + low);
+                pir_surface_contact contacts[8];
+                pir_surface_contact_result result;
+                const pir_surface_contact_input input =
+                    over_ground(&g, pir_pose_apply(pose, (pir_vec3){0.3, 0.1, z}), 0.5);
+                assert_int_equal(pir_surface_contacts(body, workspace, &input, 8, contacts, &result), PIR_OK);
+                if (fabs(z + high + 0.5) < 1e-9 || fabs(depth) < 1e-9)
+                    continue;
+                if (z + high < -0.5 || depth < 0) {
+                    expect(result.state == PIR_OUTSIDE, "shape %d at %g: state %d", shape, z, result.state);
+                    continue;
+                }
+                held++;
+                expect(result.state == PIR_INSIDE && result.contacts > 0 && result.is_out && result.is_shortest &&
+                           fabs(result.distance + depth) < 1e-9,
+                       "shape %d at %g: state %d, %zu contacts, distance %.17g, depth %.17g, out %d, shortest %d",
+                       shape, z, result.state, result.contacts, result.distance, depth, result.is_out,
+                       result.is_shortest);
+                if (result.contacts > 0)
+                    expect(fabs(contacts[0].distance + depth) < 1e-9 && apart(contacts[0].normal, up) < 1e-9,
+                           "shape %d at %g: depth %.17g", shape, z, -contacts[0].distance);
+                expect(apart(result.way_out, plus((pir_vec3){0, 0, 0}, up, depth)) < 1e-3, "shape %d at %g: way %g",
+                       shape, z, result.way_out.z);
+            }
+            expect(held > 400, "shape %d is held at %u places", shape, held);
+            pir_polytope_release(body);
+            pir_trimesh_release(g.mesh);
+        }
+    pir_workspace_destroy(workspace);
+}
+
+/* The centre is below the top and beside the side: the side alone pushes, at its own depth. */
+static void a_ball_beside_a_cube_is_not_pushed_over_its_top(void **state) {
+    (void)state;
+    ground g = cube_ground();
+    pir_polytope *body = rounded((pir_vec3){0, 0, 0});
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (int i = 1; i < 30; i++) {
+        pir_surface_contact contacts[8];
+        pir_surface_contact_result result;
+        const pir_surface_contact_input input = over_ground(&g, (pir_vec3){0.6, 0.1, 0.5 - 0.01 * i}, 0.3);
+        assert_int_equal(pir_surface_contacts(body, workspace, &input, 8, contacts, &result), PIR_OK);
+        expect(result.contacts == 1 && contacts[0].normal.x > 1 - 1e-9 && fabs(result.distance + 0.2) < 1e-9,
+               "%d: %zu contacts, distance %g", i, result.contacts, result.distance);
+        expect(fabs(result.way_out.x - 0.2) < 1e-3 && fabs(result.way_out.z) < 1e-3, "%d: way %g %g", i,
+               result.way_out.x, result.way_out.z);
+    }
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(body);
+    pir_trimesh_release(g.mesh);
+}
+
+static void ways_out_take_the_radius_out_too(void **state) {
+    (void)state;
+    pir_workspace *workspace;
+    uint32_t inside = 0, out = 0, shortest = 0, deep = 0;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t number = 0; number < poses() / 2; number++) {
+        test_random random = test_random_case("ways out of balls", number);
+        ground g = number % 3 == 2 ? cube_ground() : floor_of(&random, 0.4, pir_pose_identity());
+        pir_vec3 core = {0, 0, 0}, t = {test_random_unit(&random), test_random_unit(&random), 0};
+        t.z = 0.2 + 0.5 * test_random_unit(&random);
+        if (number % 2)
+            core = (pir_vec3){0.4 * test_random_unit(&random), 0.4 * test_random_unit(&random), 0.3};
+        pir_polytope *body = rounded(core);
+        pir_surface_contact contacts[16];
+        pir_surface_contact_result result;
+        const pir_surface_contact_input input = over_ground(&g, t, 0.5);
+        assert_int_equal(pir_surface_contacts(body, workspace, &input, 16, contacts, &result), PIR_OK);
+        pir_vec3 there = plus(t, result.way_out, 1);
+        double before = from_ground(&g, t, plus(t, core, 1)), after = from_ground(&g, there, plus(there, core, 1));
+        if (result.state == PIR_INSIDE) {
+            inside++;
+            out += result.is_out;
+            shortest += result.is_shortest;
+            deep += result.distance < -0.5;
+            expect(isfinite(result.distance), "pose %llu: inside, at no distance", (unsigned long long)number);
+            expect(!result.is_out || after >= 0.5, "pose %llu: the way out ends %.17g from a triangle",
+                   (unsigned long long)number, after);
+            expect(result.distance < before - 0.5 + 1e-9, "pose %llu: distance %.17g, but the deepest is %.17g",
+                   (unsigned long long)number, result.distance, before - 0.5);
+            expect(!result.is_out || fabs(length_of(result.way_out) + result.distance) < 2e-3,
+                   "pose %llu: a way of %.17g, distance %.17g", (unsigned long long)number, length_of(result.way_out),
+                   result.distance);
+            // a whole ball that is under a floor is at its back
+            expect(!result.is_out || number % 3 == 2 || there.z > 0, "pose %llu: the way out leads under the floor",
+                   (unsigned long long)number);
+        } else
+            expect(before > 0.5 - 1e-9 || g.count > 12, "pose %llu: %.17g from a triangle", (unsigned long long)number,
+                   before);
+        pir_polytope_release(body);
+        pir_trimesh_release(g.mesh);
+    }
+    print_message("inside %u, out %u, shortest %u, core behind %u\n", inside, out, shortest, deep);
+    assert_true(out > inside / 20 * 19 && shortest > inside / 4 && deep > inside / 20);
+    pir_workspace_destroy(workspace);
+}
+
+/* --- order --- */
+
+static void the_deepest_contacts_come_first_and_are_kept(void **state) {
+    (void)state;
+    pir_polytope *body = cube();
+    pir_workspace *workspace;
+    uint32_t many = 0;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t number = 0; number < 200; number++) {
+        test_random random = test_random_case("order of contacts", number);
+        ground g = floor_of(&random, number % 2 ? 0.2 : 0, pir_pose_identity());
+        pir_surface_contact_input input = over_ground(&g, (pir_vec3){0.1, 0.2, 0.5}, 0);
+        pir_surface_contact all[CONTACTS], some[4];
+        pir_surface_contact_result result;
+        input.pose.rotation =
+            (pir_quat){0.1 * test_random_unit(&random), 0.1 * test_random_unit(&random), test_random_unit(&random), 1};
+        input.margin = 0.2;
+        assert_int_equal(pir_surface_contacts(body, workspace, &input, CONTACTS, all, &result), PIR_OK);
+        size_t count = result.contacts;
+        many += count > 2;
+        for (size_t i = 1; i < count; i++)
+            expect(all[i].distance >= all[i - 1].distance, "floor %llu: contact %zu is deeper than the one before",
+                   (unsigned long long)number, i);
+        for (size_t most = 0; most <= 4; most++) {
+            assert_int_equal(pir_surface_contacts(body, workspace, &input, most, some, &result), PIR_OK);
+            assert_int_equal(result.contacts, most < count ? most : count);
+            for (size_t i = 0; i < result.contacts; i++)
+                expect(some[i].id == all[i].id && some[i].distance == all[i].distance,
+                       "floor %llu: of %zu, contact %zu is not the deepest", (unsigned long long)number, most, i);
+        }
+        pir_trimesh_release(g.mesh);
+    }
+    print_message("more than two contacts: %u\n", many);
+    assert_true(many > 50);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(body);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -569,6 +860,10 @@ int main(void) {
         cmocka_unit_test(floors_are_flat_at_any_size),
         cmocka_unit_test(contacts_carry_material_and_keep_their_ids),
         cmocka_unit_test(holes_are_open_and_their_rims_hold),
+        cmocka_unit_test(balls_are_held_until_all_of_them_is_behind_a_floor),
+        cmocka_unit_test(a_ball_beside_a_cube_is_not_pushed_over_its_top),
+        cmocka_unit_test(ways_out_take_the_radius_out_too),
+        cmocka_unit_test(the_deepest_contacts_come_first_and_are_kept),
         cmocka_unit_test(triangles_all_through_one_point_end_in_bounded_time),
     };
     return cmocka_run_group_tests_name("contacts of meshes", tests, NULL, NULL);

@@ -96,6 +96,12 @@ void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_tri
             offer_across(&tour, k, e);
 }
 
+void pir_contact_front_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+                             pir_contact_facet_visitor *visit, void *context) {
+    const struct tour tour = {0, job, s, t, visit, context};
+    offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 0, 0, s->front, 0, 0});
+}
+
 /* --- whether they overlap --- */
 
 struct facet_search {

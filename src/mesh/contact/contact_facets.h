@@ -27,6 +27,10 @@ typedef void pir_contact_facet_visitor(void *context, const pir_contact_facet *f
 void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
                             pir_contact_facet_visitor *visit, void *context);
 
+/* Tells of the facet of the front alone. */
+void pir_contact_front_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+                             pir_contact_facet_visitor *visit, void *context);
+
 /* Whether interior points meet: P, which meets the triangle, overlaps it, exactly. */
 bool pir_contact_overlaps(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s);
 

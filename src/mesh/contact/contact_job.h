@@ -45,6 +45,7 @@ typedef struct pir_near_triangle {
     uint32_t id[3]; /* of its corners, equal where those of one surface are at one place */
     bool one_sided;
     bool counts, stands;   /* at the place of `near`: it is not behind; its contact is no ghost */
+    bool passed;           /* there: P without its radius has come to its back, but with it has not left it */
     pir_contact_near near; /* at the place that was looked at last */
 } pir_near_triangle;
 

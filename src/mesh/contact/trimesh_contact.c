@@ -8,6 +8,7 @@
 #include "mesh/contact/contact_facets.h"
 #include "mesh/contact/ghost.h"
 #include "mesh/contact/patch_points.h"
+#include "mesh/contact/rounded_out.h"
 #include "mesh/contact/way_out.h"
 
 /* Normals of one call, at most, and how near to one another they count as one: this chooses points only. */
@@ -34,6 +35,8 @@ struct room {
     uint32_t standing_count;
     pir_surface_contact *point; /* of the normal that is looked at */
     uint32_t point_count, point_room;
+    pir_surface_contact chosen[MOST_NORMALS * MOST_POINTS]; /* of all normals, the deepest first */
+    uint32_t chosen_count;
 };
 
 static void destroy_room(void *room, const pir_allocator *allocator) {
@@ -251,16 +254,23 @@ static void reduce_points(struct room *room) {
     room->point_count = count;
 }
 
-static pir_status give_points(struct room *room, size_t most, pir_surface_contact *contacts, size_t *ret_count) {
-    size_t count = 0;
-    for (uint32_t i = 0; i < room->standing_count && count < most; i++) {
+/* Puts a point behind those that are as deep. */
+static void choose_point(struct room *room, const pir_surface_contact *point) {
+    uint32_t at = room->chosen_count++;
+    for (; at > 0 && room->chosen[at - 1].distance > point->distance; at--)
+        room->chosen[at] = room->chosen[at - 1];
+    room->chosen[at] = *point;
+}
+
+static pir_status choose_points(struct room *room) {
+    room->chosen_count = 0;
+    for (uint32_t i = 0; i < room->standing_count; i++) {
         if (!collect_points(room, &room->standing[i]))
             return PIR_ERR_MEMORY;
         reduce_points(room);
-        for (uint32_t k = 0; k < room->point_count && count < most; k++)
-            contacts[count++] = room->point[k];
+        for (uint32_t k = 0; k < room->point_count; k++)
+            choose_point(room, &room->point[k]);
     }
-    *ret_count = count;
     return PIR_OK;
 }
 
@@ -285,15 +295,14 @@ static pir_state state_of(pir_contact_job *job, bool meets) {
     return radius == 0 || least > radius ? PIR_OUTSIDE : least < radius ? PIR_INSIDE : PIR_BOUNDARY;
 }
 
-static void set_result(const struct room *room, pir_state state, bool meets, pir_surface_contact_result *result) {
+/* All but the way out, and what follows from it. */
+static void set_result(const struct room *room, pir_state state, size_t most, pir_surface_contact_result *result) {
     const pir_contact_job *job = &room->job;
     *result = (pir_surface_contact_result){.state = state,
                                            .distance = HUGE_VAL,
                                            .surface = UINT32_MAX,
                                            .triangle = PIR_TRIANGLE_NONE,
-                                           .way_out = room->out.way,
-                                           .is_out = room->out.is_out,
-                                           .is_shortest = room->out.is_shortest,
+                                           .contacts = room->chosen_count < most ? room->chosen_count : most,
                                            .counts = job->counts};
     if (room->standing_count > 0) {
         const struct standing *nearest = &room->standing[0];
@@ -304,8 +313,16 @@ static void set_result(const struct room *room, pir_state state, bool meets, pir
         result->surface = s->surface;
         result->triangle = s->number;
     }
-    if (meets)
-        result->distance = state == PIR_BOUNDARY ? 0 : -(room->out.depth + job->input->radius);
+}
+
+static void set_way_out(const struct room *room, bool meets, pir_surface_contact_result *result) {
+    result->way_out = room->out.way;
+    result->is_out = room->out.is_out;
+    result->is_shortest = room->out.is_shortest;
+    if (result->state == PIR_INSIDE)
+        result->distance = -room->out.depth;
+    else if (meets)
+        result->distance = 0;
     if (room->standing_count > 0)
         result->point_p = pir_vec_add(result->point_q, pir_vec_scale(result->normal, result->distance));
 }
@@ -314,22 +331,30 @@ static pir_status run(struct room *room, size_t most, pir_surface_contact *conta
                       pir_surface_contact_result *ret_result) {
     pir_contact_job *job = &room->job;
     pir_vec3 t = job->input->pose.translation;
+    pir_surface_contact_result result;
     bool meets = pir_contact_look(job, t);
     pir_state state = state_of(job, meets);
+    pir_status status = PIR_OK;
     room->out = (pir_way_out){.t = t, .is_out = true, .is_shortest = true};
     if (meets) {
-        pir_status status = pir_contact_find_way_out(job, &room->out);
+        status = pir_contact_find_way_out(job, &room->out);
         if (status != PIR_OK)
             return status;
         (void)pir_contact_look(job, room->out.t);
     }
     find_standing(room);
-    size_t count = 0;
-    pir_status status = give_points(room, most, contacts, &count);
+    status = choose_points(room);
     if (status != PIR_OK)
         return status;
-    set_result(room, state, meets, ret_result);
-    ret_result->contacts = count;
+    set_result(room, state, most, &result);
+    if (state == PIR_INSIDE && job->input->radius > 0)
+        status = pir_contact_find_rounded_way_out(job, &room->out);
+    if (status != PIR_OK)
+        return status;
+    set_way_out(room, meets, &result);
+    for (size_t i = 0; i < result.contacts; i++)
+        contacts[i] = room->chosen[i];
+    *ret_result = result;
     return PIR_OK;
 }
 
