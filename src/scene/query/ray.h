@@ -34,7 +34,7 @@ typedef struct pir_entry {
 /* Whether doubles settle it; *ret_entry is set only then. */
 bool pir_ray_by_doubles(const pir_polytope *p, const pir_ray_segment *segment, pir_entry *ret_entry);
 
-/* That of a triangle, with its corners in order from the front. */
+/* Whether doubles settle a triangle, its corners in order from the front; *ret_entry is set only then. */
 bool pir_ray_by_corners(const pir_vec3 corner[3], const pir_ray_segment *segment, pir_entry *ret_entry);
 
 /* The segment in the world, and the body's pose. */

@@ -42,8 +42,8 @@ static pir_ray_segment seen_by(const struct scene_ray *ray, const pir_scene_body
 }
 
 /*
- * That of a triangle, whose corners are exact: pir_ray_by_corners knows its own errors, and a body that is not posed
- * sees the segment as it is. Turning a point is off by 40u of the coordinates, twice.
+ * The error of a triangle, whose corners are exact: pir_ray_by_corners knows its own errors, and a body that is not
+ * posed sees the segment as it is. Turning a point is off by 40u of the coordinates, twice.
  */
 static double error_for_corners(const struct scene_ray *ray, const pir_scene_body *body) {
     const pir_quat q = body->pose.rotation;

@@ -126,10 +126,10 @@ typedef struct pir_reaching {
 /* The box of points in a place, `around` wider on each side; false where it is too far away. */
 bool pir_place_points(const pir_place *place, const pir_reaching *points, double around, pir_box *ret_box);
 
-/* That of a polytope. */
+/* The box of a polytope at a place, wider by `around`. */
 bool pir_place_box(const pir_place *place, const pir_extent *extent, double around, pir_box *ret_box);
 
-/* That of a piece of a body, which need not be in a table. */
+/* The box of a piece of a body, which need not be in a table. */
 bool pir_piece_box(const pir_scene_body *body, const pir_scene_piece *piece, const pir_place *place, double around,
                    pir_box *ret_box);
 
