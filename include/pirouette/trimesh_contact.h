@@ -17,6 +17,11 @@
  * surfaces that overlap and seams between bodies are one case. It is decided by exact signs; nothing is welded, and no
  * tolerance decides.
  *
+ * A body of several convex pieces is asked piece by piece, each with the others beside it. Where P, moved to y, touches
+ * at a point x that another piece holds, and that piece has a vertex on the other side of the plane through x across n,
+ * x is at a wall between pieces, or at its rim, and the contact is a ghost. Decided by exact signs, for pieces of
+ * dimension 3. What another piece meets elsewhere hides no contact of P. Pieces with a radius count without it here.
+ *
  * One-sided triangles push to their front. A triangle that has P, with its radius, wholly behind it, or in its plane,
  * does not count. Behind others lies a solid, however thin: no contact pushes into it.
  *
@@ -39,9 +44,9 @@
  * Threads: a workspace belongs to one thread at a time; polytopes and surfaces may be shared. Once the workspace has
  * grown to what was needed, no call allocates.
  *
- * Errors of a call: PIR_ERR_ARGUMENT (NULL, no surface, a radius, margin or cutoff below 0, a radius or margin that is
- * infinite), PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a coordinate beyond 2^60, more than 2^16
- * triangles near P), PIR_ERR_MEMORY.
+ * Errors of a call: PIR_ERR_ARGUMENT (NULL, also among `beside`, no surface, a radius, margin or cutoff below 0, a
+ * radius or margin that is infinite), PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (a coordinate beyond
+ * 2^60, more than 2^16 triangles near P), PIR_ERR_MEMORY.
  */
 #ifndef PIROUETTE_TRIMESH_CONTACT_H
 #define PIROUETTE_TRIMESH_CONTACT_H
@@ -70,9 +75,13 @@ typedef struct pir_surface_contact_input {
     double margin;                     /**< contacts up to this distance apart are given too */
     const pir_posed_surface *surfaces; /**< borrowed for the call; all are one union */
     size_t surface_count;
+    /** The convex pieces of the body that P is one of, in P's frame, or NULL; borrowed, P may be among them. A contact
+        at a wall between pieces is a ghost. */
+    const pir_polytope *const *beside;
+    size_t beside_count;
 } pir_surface_contact_input;
 
-/** At the origin, not turned; no radius, no margin, no surfaces. O(1). */
+/** At the origin, not turned; no radius, no margin, no surfaces, nothing beside. O(1). */
 PIR_API pir_surface_contact_input pir_surface_contact_input_default(void);
 
 /** A contact: a point of P over a point of a triangle along the normal. */

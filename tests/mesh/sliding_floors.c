@@ -212,31 +212,64 @@ uint32_t floor_between(const sliding_floor *floor, double from, double to, pir_p
 
 /* --- bodies --- */
 
-void slider_make(slider *body, int kind, double gap) {
-    static const char *const names[SLIDER_KINDS] = {"box", "capsule", "hull of 20"};
-    pir_vec3 vertex[20];
-    size_t count = 0;
-    test_random random = test_random_case("hull of 20", 1);
-    *body = (struct slider){.name = names[kind], .pose = pir_pose_identity(), .inertia = 0.1};
-    for (int i = 0; i < 8 && kind == 0; i++)
-        vertex[count++] = (pir_vec3){i & 1 ? 0.5 : -0.5, i & 2 ? 0.4 : -0.4, i & 4 ? 0.25 : -0.25};
-    for (int i = 0; i < 2 && kind == 1; i++)
-        vertex[count++] = (pir_vec3){i ? 0.4 : -0.4, i ? 0.2 : -0.2, 0};
-    for (int i = 0; i < 20 && kind == 2; i++) {
-        pir_vec3 d = test_random_direction(&random);
-        vertex[count++] = (pir_vec3){0.5 * d.x, 0.5 * d.y, 0.4 * d.z};
-    }
-    body->radius = kind == 1 ? 0.3 : 0;
-    if (pir_polytope_create(vertex, count, NULL, &body->shape) != PIR_OK)
+/* Adds a piece; how far down the body reaches. */
+static double add_piece(slider *body, const pir_vec3 *vertex, size_t count, double low) {
+    if (pir_polytope_create(vertex, count, NULL, &body->piece[body->pieces++]) != PIR_OK)
         abort();
-    double low = 0;
     for (size_t i = 0; i < count; i++)
         low = fmin(low, vertex[i].z);
+    return low;
+}
+
+static double add_box(slider *body, pir_vec3 low, pir_vec3 high, double lowest) {
+    pir_vec3 vertex[8];
+    for (int i = 0; i < 8; i++)
+        vertex[i] = (pir_vec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    return add_piece(body, vertex, 8, lowest);
+}
+
+/* Boxes side by side, with walls between them over the middle of the bottom and off it, and a keel within. */
+static double add_compound(slider *body) {
+    double low = add_box(body, (pir_vec3){-0.5, -0.4, -0.25}, (pir_vec3){0, 0.4, 0.25}, 0);
+    low = add_box(body, (pir_vec3){0, -0.4, -0.25}, (pir_vec3){0.5, 0.125, 0.125}, low);
+    low = add_box(body, (pir_vec3){0, 0.125, -0.25}, (pir_vec3){0.5, 0.4, 0.25}, low);
+    const pir_vec3 keel[6] = {{-0.25, -0.25, -0.125}, {0.25, -0.25, -0.125}, {-0.25, 0.25, -0.125},
+                              {0.25, 0.25, -0.125},   {-0.25, 0, -0.25},     {0.25, 0, -0.25}};
+    return add_piece(body, keel, 6, low);
+}
+
+void slider_make(slider *body, int kind, double gap) {
+    static const char *const names[SLIDER_KINDS] = {"box", "capsule", "hull of 20", "compound"};
+    pir_vec3 vertex[20];
+    double low = 0;
+    test_random random = test_random_case("hull of 20", 1);
+    *body = (struct slider){.name = names[kind], .pose = pir_pose_identity(), .inertia = 0.1};
+    switch (kind) {
+    case 0:
+        low = add_box(body, (pir_vec3){-0.5, -0.4, -0.25}, (pir_vec3){0.5, 0.4, 0.25}, 0);
+        break;
+    case 1:
+        for (int i = 0; i < 2; i++)
+            vertex[i] = (pir_vec3){i ? 0.4 : -0.4, i ? 0.2 : -0.2, 0};
+        low = add_piece(body, vertex, 2, 0);
+        body->radius = 0.3;
+        break;
+    case 2:
+        for (int i = 0; i < 20; i++) {
+            pir_vec3 d = test_random_direction(&random);
+            vertex[i] = (pir_vec3){0.5 * d.x, 0.5 * d.y, 0.4 * d.z};
+        }
+        low = add_piece(body, vertex, 20, 0);
+        break;
+    default:
+        low = add_compound(body);
+    }
     body->pose.translation.z = body->radius - low + gap;
 }
 
 void slider_clear(slider *body) {
-    pir_polytope_release(body->shape);
+    for (uint32_t i = 0; i < body->pieces; i++)
+        pir_polytope_release(body->piece[i]);
 }
 
 static pir_vec3 sum(pir_vec3 a, double s, pir_vec3 b) {

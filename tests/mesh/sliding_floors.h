@@ -30,11 +30,13 @@ void floor_clear(sliding_floor *floor);
 uint32_t floor_between(const sliding_floor *floor, double from, double to, pir_posed_surface *ret_surfaces,
                        uint32_t room);
 
-#define SLIDER_KINDS 3
+#define SLIDER_KINDS  4
+#define SLIDER_PIECES 4
 
 typedef struct slider {
     const char *name;
-    pir_polytope *shape;
+    pir_polytope *piece[SLIDER_PIECES];
+    uint32_t pieces;
     double radius, inertia; /* of a unit mass, about any axis */
     pir_pose pose;
     pir_vec3 velocity, spin;

@@ -16,7 +16,7 @@
 
 static uint64_t frames(void) {
     const char *text = getenv("PIR_TEST_FRAMES");
-    return text ? strtoull(text, NULL, 10) : 60;
+    return text ? strtoull(text, NULL, 10) : 20;
 }
 
 static double apart(pir_vec3 a, pir_vec3 b) {
@@ -42,33 +42,52 @@ typedef struct run {
     double slowest; /* the greatest part of its speed that a body lost or gained */
 } run;
 
+/* The contacts of all pieces of a body where it is; how many. */
+static size_t contacts_of(const run *r, const slider *body, double speed, uint64_t frame,
+                          pir_surface_contact contacts[CONTACTS]) {
+    pir_posed_surface surfaces[SURFACES];
+    const pir_polytope *beside[SLIDER_PIECES];
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    const double x = body->pose.translation.x;
+    size_t count = 0;
+    for (uint32_t k = 0; k < body->pieces; k++)
+        beside[k] = body->piece[k];
+    input.pose = body->pose;
+    input.radius = body->radius;
+    input.margin = 0.04;
+    input.beside = beside;
+    input.beside_count = body->pieces;
+    input.surfaces = surfaces;
+    input.surface_count = floor_between(r->floor, x - 0.8, x + 0.8, surfaces, SURFACES);
+    for (uint32_t k = 0; k < body->pieces; k++) {
+        pir_surface_contact_result result;
+        assert_int_equal(
+            pir_surface_contacts(body->piece[k], r->workspace, &input, CONTACTS - count, contacts + count, &result),
+            PIR_OK);
+        for (size_t i = count; i < count + result.contacts; i++)
+            expect(is_true(r->kind, contacts[i].normal),
+                   "%s, piece %u, on %s at %g m/s, frame %llu: normal %.17g %.17g %.17g of triangle %u, %.9g away",
+                   body->name, k, r->floor->name, speed, (unsigned long long)frame, contacts[i].normal.x,
+                   contacts[i].normal.y, contacts[i].normal.z, contacts[i].triangle, contacts[i].distance);
+        count += result.contacts;
+    }
+    return count;
+}
+
 static void slide(run *r, slider *body, double speed) {
     body->velocity = (pir_vec3){speed, 0, 0};
     // a little across the cells, but along a valley
     body->velocity.y = r->kind >= FLOOR_RIDGE ? 0 : 0.05 * speed;
     const double across = body->velocity.y;
     for (uint64_t frame = 0; frame < frames(); frame++) {
-        pir_posed_surface surfaces[SURFACES];
         pir_surface_contact contacts[CONTACTS];
-        pir_surface_contact_result result;
-        pir_surface_contact_input input = pir_surface_contact_input_default();
         pir_vec3 *at = &body->pose.translation;
         at->x -= at->x > FLOOR_LENGTH / 2 - 2 ? FLOOR_LENGTH - 2 * FLOOR_STEP : 0;
         at->y -= at->y > 3 && r->kind < FLOOR_RIDGE ? 6 : 0;
-        input.pose = body->pose;
-        input.radius = body->radius;
-        input.margin = 0.04;
-        input.surfaces = surfaces;
-        input.surface_count = floor_between(r->floor, at->x - 0.8, at->x + 0.8, surfaces, SURFACES);
-        assert_int_equal(pir_surface_contacts(body->shape, r->workspace, &input, CONTACTS, contacts, &result), PIR_OK);
-        for (size_t i = 0; i < result.contacts; i++)
-            expect(is_true(r->kind, contacts[i].normal),
-                   "%s on %s at %g m/s, frame %llu: normal %.17g %.17g %.17g of triangle %u, %.9g away", body->name,
-                   r->floor->name, speed, (unsigned long long)frame, contacts[i].normal.x, contacts[i].normal.y,
-                   contacts[i].normal.z, contacts[i].triangle, contacts[i].distance);
-        slider_step(body, contacts, result.contacts, r->gap);
+        const size_t count = contacts_of(r, body, speed, frame, contacts);
+        slider_step(body, contacts, count, r->gap);
         r->frames++;
-        r->contacts += result.contacts;
+        r->contacts += count;
         expect(at->z > -1 && at->z < (r->kind == FLOOR_RIDGE ? 50 : 4),
                "%s on %s at %g m/s, frame %llu: it is at height %g", body->name, r->floor->name, speed,
                (unsigned long long)frame, at->z);

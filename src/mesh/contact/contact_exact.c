@@ -54,18 +54,27 @@ static int low_exponent(const pir_contact_job *job) {
     return lower(low, step - 60);
 }
 
+/* Bits of a difference: of q bits for P's rotation, `turned` for a surface's, and `fine` for a coordinate. */
+static uint32_t difference_bits(const pir_polytope *p, uint32_t q, uint32_t turned, uint32_t fine) {
+    uint32_t num = pir_int_bits(&p->scale.num), den = pir_int_bits(&p->scale.den);
+    uint32_t vertex = q + pir_vectors_bits(&p->exact_vertex) + num + (fine - 61) + 4, moved = fine + q + den;
+    uint32_t body = (vertex > moved ? vertex : moved) + 1, corner = turned + fine + 5;
+    uint32_t first = body + turned, second = corner + q + den;
+    return (first > second ? first : second) + 2;
+}
+
 pir_status pir_contact_exact_reserve(pir_contact_job *job) {
-    const pir_polytope *p = job->p;
     int exponent = low_exponent(job);
     uint32_t fine = (uint32_t)(61 - exponent), q = matrix_bits(job->input->pose.rotation), turned = 1;
     for (size_t i = 0; i < job->input->surface_count; i++) {
         uint32_t bits = matrix_bits(job->input->surfaces[i].pose.rotation);
         turned = bits > turned ? bits : turned;
     }
-    uint32_t num = pir_int_bits(&p->scale.num), den = pir_int_bits(&p->scale.den);
-    uint32_t vertex = q + pir_vectors_bits(&p->exact_vertex) + num + (uint32_t)-exponent + 4, moved = fine + q + den;
-    uint32_t body = (vertex > moved ? vertex : moved) + 1, corner = turned + fine + 5;
-    uint32_t first = body + turned, second = corner + q + den, bits = (first > second ? first : second) + 2;
+    uint32_t bits = difference_bits(job->p, q, turned, fine);
+    for (uint32_t i = 0; i < job->beside_count; i++) {
+        uint32_t beside = difference_bits(job->beside[i].p, q, turned, fine);
+        bits = beside > bits ? beside : bits;
+    }
     uint32_t room = STACK_LIMBS((7 * bits + 64) / GMP_NUMB_BITS + 2);
     job->exponent = exponent;
     if (room <= job->limbs.capacity)
@@ -394,6 +403,19 @@ pir_int3 pir_exact_direction(pir_contact_job *job, const pir_contact_place *plac
     ret_move->over = over;
     negate(&ret_move->over);
     return n;
+}
+
+void pir_exact_weights(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                       const pir_contact_simplex *simplex, pir_int ret_weight[3]) {
+    pir_int3 d[3];
+    const pir_int3 *chosen[3] = {&d[0], &d[1], &d[2]};
+    struct span_nearest nearest;
+    for (uint32_t k = 0; k < simplex->count; k++)
+        d[k] = difference(job, place, s, simplex->v[k], simplex->w[k]);
+    nearest.weight[0] = pir_num_double(&job->limbs, 1, 0);
+    (void)span_is_within(&job->limbs, chosen, simplex->count, &nearest);
+    for (uint32_t k = 0; k < simplex->count; k++)
+        ret_weight[k] = nearest.weight[k];
 }
 
 /* a/b in the unit of coordinates. */

@@ -45,6 +45,10 @@ bool pir_exact_nearest(pir_contact_job *job, const pir_contact_place *place, con
 pir_int3 pir_exact_direction(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
                              const pir_contact_simplex *simplex, pir_exact_move *ret_move);
 
+/* The weights of the nearest point of such a simplex, on one scale, all above 0. */
+void pir_exact_weights(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                       const pir_contact_simplex *simplex, pir_int ret_weight[3]);
+
 /* The direction and the way of a simplex, from exact numbers: within 2^-48 of themselves. */
 void pir_exact_way(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
                    const pir_contact_simplex *simplex, pir_vec3 *ret_unit, pir_vec3 *ret_way);

@@ -10,6 +10,7 @@
  */
 #include "mesh/contact/contact_job.h"
 
+#include "mesh/contact/beside.h"
 #include "mesh/contact/contact_exact.h"
 #include "mesh/signs/mesh_numbers.h"
 
@@ -38,6 +39,11 @@ static pir_status check_input(const pir_surface_contact_input *input) {
         return PIR_ERR_LIMIT;
     if (input->surface_count == 0 || !input->surfaces || input->surface_count >= UINT32_MAX)
         return PIR_ERR_ARGUMENT;
+    if (input->beside_count > 0 && (!input->beside || input->beside_count >= UINT32_MAX))
+        return PIR_ERR_ARGUMENT;
+    for (size_t i = 0; i < input->beside_count; i++)
+        if (!input->beside[i])
+            return PIR_ERR_ARGUMENT;
     for (size_t i = 0; i < input->surface_count; i++) {
         pir_rotation rotation;
         pir_status status = pir_surface_check(input->surfaces[i].surface);
@@ -221,8 +227,9 @@ static void set_size(pir_contact_job *job) {
                 moved = fmax(moved, pir_length(s->local.p[k]) + pir_length(pose->translation));
         }
     }
-    job->size = far + job->radius + 2 * job->grown;
-    job->error = 0x1p-47 * (job->radius + moved) + 0x1p-51 * job->size;
+    const double radius = fmax(job->radius, job->beside_radius);
+    job->size = far + radius + 2 * job->grown;
+    job->error = 0x1p-47 * (radius + moved) + 0x1p-51 * job->size;
 }
 
 pir_status pir_contact_job_gather(pir_contact_job *job, double grow) {
@@ -254,6 +261,8 @@ pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, co
     job->surface = UINT32_MAX;
     status = turn_vertices(job);
     if (status == PIR_OK)
+        status = pir_contact_take_beside(job);
+    if (status == PIR_OK)
         status = pir_contact_job_gather(job, grow);
     return status == PIR_OK ? pir_contact_exact_reserve(job) : status;
 }
@@ -261,6 +270,8 @@ pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, co
 void pir_contact_job_finish(pir_contact_job *job) {
     PIR_FREE(&job->allocator, job->vertex, job->vertex_room);
     PIR_FREE(&job->allocator, job->turned, job->turned_room);
+    PIR_FREE(&job->allocator, job->beside, job->beside_room);
+    PIR_FREE(&job->allocator, job->beside_vertex, job->beside_vertex_room);
     PIR_FREE(&job->allocator, job->triangle, job->triangle_room);
     PIR_FREE(&job->allocator, job->limbs.base, job->limbs.capacity);
 }

@@ -49,6 +49,14 @@ typedef struct pir_near_triangle {
     pir_contact_near near; /* at the place that was looked at last */
 } pir_near_triangle;
 
+/* Another convex piece of P's body: beside.h. Lengths are from P's origin, turned. */
+typedef struct pir_contact_piece {
+    const pir_polytope *p;
+    uint32_t first; /* of its vertices in `beside_vertex` */
+    pir_vec3 low, high;
+    double radius;
+} pir_contact_piece;
+
 typedef struct pir_contact_job {
     pir_allocator allocator;
     const pir_polytope *p;
@@ -59,6 +67,10 @@ typedef struct pir_contact_job {
     uint32_t turned_room;
     bool has_turned;
     double radius; /* of a ball about P's origin that holds P's vertices */
+    pir_contact_piece *beside;
+    pir_vec3 *beside_vertex;
+    uint32_t beside_count, beside_room, beside_vertex_room;
+    double beside_radius; /* the greatest of them */
     pir_vec3 low, high;
     pir_near_triangle *triangle;
     uint32_t triangle_count, triangle_room;

@@ -2,6 +2,7 @@
 /* Ghosts: see ghost.h. Signs by doubles first, then by integers, which are made once for a contact. */
 #include "mesh/contact/ghost.h"
 
+#include "mesh/contact/beside.h"
 #include "mesh/signs/mesh_numbers.h"
 
 struct contact {
@@ -177,7 +178,10 @@ static enum verdict judge(pir_contact_job *job, pir_vec3 t, uint32_t index, cons
     c.along_front = near->simplex.count == 3 && all_differ(near->simplex.w);
     c.front_sign = pir_vec_dot(near->n, s->front);
     uint32_t used = job->limbs.used;
+    const pir_contact_place place = pir_place_at(t);
     enum verdict verdict = s->one_sided && towards_front(&c, s) < 0 ? GHOST : judge_among(&c, index);
+    if (verdict == STANDS && pir_contact_is_inner(job, &place, s, near))
+        verdict = GHOST;
     job->limbs.used = used;
     return verdict;
 }
