@@ -105,6 +105,18 @@ static bool write(struct output_file *file, pir_mesh *mesh, bool exact) {
     return target_write_mesh(file, mesh, exact || !holds_in_doubles(mesh));
 }
 
+static pir_status compute(const pir_solid *p, const pir_solid *q, const struct request *request,
+                          struct outcome *outcome) {
+    pir_solid_sum *sum = NULL;
+    pir_status status = pir_solid_sum_create(p, q, request->rotation, &request->options, &sum);
+    if (status == PIR_OK)
+        status = pir_solid_sum_mesh(sum, PIR_EXACT, &outcome->mesh);
+    if (status == PIR_OK)
+        pir_solid_sum_describe(sum, &outcome->info);
+    pir_solid_sum_destroy(sum);
+    return status;
+}
+
 int solid_sum(const struct args *args) {
     struct request request = {.options = pir_solid_sum_options_default()};
     request.options.difference = args_has(args, "--difference");
@@ -120,7 +132,7 @@ int solid_sum(const struct args *args) {
     pir_solid *p = solid_load(args, 0), *q = p ? solid_load(args, 1) : NULL;
     if (p && q && (!path || output_open(&file, path))) {
         const int64_t start = clock_now();
-        const pir_status status = pir_solid_sum(p, q, request.rotation, &request.options, &outcome.info, &outcome.mesh);
+        const pir_status status = compute(p, q, &request, &outcome);
         outcome.seconds = (double)(clock_now() - start) / 1e9;
         if (status != PIR_OK)
             complain_status("sum", status, &fault);

@@ -58,11 +58,15 @@ static void measure_parts(const pir_solid *const solids[2], stages *ret_stages) 
 
 stages stages_measure(const pir_solid *p, const pir_solid *q) {
     stages made = {0};
+    pir_solid_sum *sum;
     pir_mesh *mesh;
     const double begun = stages_clock();
-    check(pir_solid_sum(p, q, (pir_quat){0, 0, 0, 1}, NULL, &made.info, &mesh));
-    made.whole = stages_clock() - begun;
+    check(pir_solid_sum_create(p, q, (pir_quat){0, 0, 0, 1}, NULL, &sum));
+    check(pir_solid_sum_mesh(sum, PIR_EXACT, &mesh));
+    pir_solid_sum_describe(sum, &made.info);
     pir_mesh_destroy(mesh);
+    pir_solid_sum_destroy(sum);
+    made.whole = stages_clock() - begun;
     measure_parts((const pir_solid *const[2]){p, q}, &made);
     return made;
 }

@@ -16,6 +16,7 @@
 #include <pirouette/io.h>
 #include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
+#include <pirouette/sum.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -57,17 +58,17 @@ typedef struct pir_solid_info {
  * options  NULL for the defaults.
  * report   NULL, or filled when the call fails: it names the facet by its line, or the edge by its ends.
  *
- * Points at the same place are one vertex. Every edge must be on two facets, which walk it opposite ways, or on an even
- * number, between which inside and outside take turns around it; facets must be planar exactly as the file's numbers
- * are, with an area; none may cross another or share an area with it, though they may touch; outer shells face
+ * Points at the same place are one vertex. Every edge must be on two facets, which walk it opposite ways, or on an
+ * even number, between which inside and outside take turns around it; facets must be planar exactly as the file's
+ * numbers are, with an area; none may cross another or share an area with it, though they may touch; outer shells face
  * outwards, cavities inwards.
  *
  * Cost: O(n log n) for n facets of bounded size whose boxes meet few others; exact arithmetic where doubles cannot
  * tell.
  *
  * Errors: those of reading (pir_polytope_read_surface); PIR_ERR_NOT_CLOSED for an edge that is not on such facets;
- * PIR_ERR_FORMAT for facets that are not planar, have no area, cross or overlap, for shells that are inside out or hold
- * no volume; PIR_ERR_EMPTY without facets; PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ * PIR_ERR_FORMAT for facets that are not planar, have no area, cross or overlap, for shells that are inside out or
+ * hold no volume; PIR_ERR_EMPTY without facets; PIR_ERR_LIMIT, PIR_ERR_MEMORY.
  *
  * ret_solid  the caller owns one reference.
  */
@@ -164,7 +165,8 @@ typedef struct pir_decompose_info {
  * convex. With a tolerance, or a number of pieces, there are fewer, which may overlap and reach out of the solid: two
  * pieces at a time are replaced by their convex hull, those first whose hull reaches out least.
  *
- * options     NULL for the defaults. Pieces are joined while none reaches farther out than `tolerance`, and however far
+ * options     NULL for the defaults. Pieces are joined while none reaches farther out than `tolerance`, and however
+ * far
  *             that is while there are more than `pieces`.
  * ret_info    NULL, or what was done. Its error bounds the Hausdorff distance between the union of the pieces and the
  *             solid. It is proven pair by pair, so it may be larger than need be.
@@ -216,30 +218,98 @@ typedef struct pir_solid_sum_info {
     uint64_t survivors;               /**< those of which something bounds the sum */
 } pir_solid_sum_info;
 
+typedef struct pir_solid_sum pir_solid_sum;
+
 /**
- * The exact sum of P, turned, and Q as the bodies they are, boundaries included.
+ * Makes the exact sum of P, turned, and Q as the bodies they are, boundaries included. Release it with
+ * pir_solid_sum_destroy. Both are divided into convex pieces once; pir_solid_sum_rotate brings the sum to other
+ * rotations.
  *
+ * p, q      the sum takes a reference to each.
  * rotation  of P, of any non-zero length: it stands for the exact rotation.
- * options   NULL for the defaults.
- * ret_info  NULL, or what the sum is.
- * ret_mesh  its boundary with exact coordinates, to be freed with pir_mesh_destroy. Facets are maximal and need not be
- *           convex. One with holes is a single loop: a slit, walked both ways, joins each hole to what is round it.
- *           Vertices have no pairs, facets are of kind PIR_FACET_MERGED.
+ * options   NULL for the defaults. Allocator and report, if there are any, outlive the sum: calls on it use them.
+ * ret_sum   the caller's.
  *
  * A passage that Q fits through exactly is filled: the sum of closed bodies is closed. That of open ones
- * (`options->open`) leaves it out. The mesh then has two-sided facets, after those of the boundary, each twice in a
- * row, once each way; segments (pir_mesh_segments) and points (pir_mesh_points) that are on their own. Facets and
- * segments are cut where others begin or cross them; `ret_info` counts a two-sided facet once.
+ * (`options->open`) leaves it out.
  *
- * Cost: for p and q pieces with few facets each, O(p·q) to add their pairs, and for c candidates O(c·k), where k
- * pairs are near a candidate; O(n·m) to find the candidates of solids with n and m edges.
+ * A sum belongs to one thread at a time; different sums are independent, even of the same solids.
+ *
+ * Cost: pir_solid_decompose of each by facets; for p and q pieces with few facets each, O(p·q) to add their pairs,
+ * and for c candidates O(c·k), where k pairs are near a candidate; O(n·m) to find the candidates of solids with n
+ * and m edges.
  *
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (options->solid.memory),
  * PIR_ERR_MEMORY; PIR_ERR_INTERNAL where the surface fails the last check, that it is closed.
  */
-PIR_API pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotation,
-                                 const pir_solid_sum_options *options, pir_solid_sum_info *ret_info,
-                                 pir_mesh **ret_mesh);
+PIR_API pir_status pir_solid_sum_create(const pir_solid *p, const pir_solid *q, pir_quat rotation,
+                                        const pir_solid_sum_options *options, pir_solid_sum **ret_sum);
+
+/** Frees, and gives back the references to both solids; NULL is accepted. Cost: the time to free it. */
+PIR_API void pir_solid_sum_destroy(pir_solid_sum *sum);
+
+/**
+ * Brings the sum to `rotation`, any distance away from the last one. The pieces are kept; all else is made from them.
+ * When the call fails the sum stays at its previous rotation.
+ *
+ * Cost: that of pir_solid_sum_create without the decompositions.
+ *
+ * Errors as of pir_solid_sum_create.
+ */
+PIR_API pir_status pir_solid_sum_rotate(pir_solid_sum *sum, pir_quat rotation);
+
+/**
+ * Makes an operand `scale` times as large as it was when the sum was made, about its own origin. Scales do not
+ * accumulate: each counts from the first size. The scale is taken exactly. When the call fails the sum stays as it
+ * was.
+ *
+ * Cost: as of pir_solid_sum_rotate.
+ *
+ * Errors: PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT (no operand, or a scale that is not positive); else as of
+ * pir_solid_sum_rotate.
+ */
+PIR_API pir_status pir_solid_sum_set_scale(pir_solid_sum *sum, pir_operand operand, double scale);
+
+/**
+ * Makes a second sum of the same solids with the same options, at the same rotation and scales.
+ *
+ * ret_sum  the caller's.
+ *
+ * Cost: as of pir_solid_sum_create.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_solid_sum_clone(const pir_solid_sum *sum, pir_solid_sum **ret_sum);
+
+/** The rotation that the sum was brought to, as it was given. O(1). */
+PIR_API pir_quat pir_solid_sum_rotation(const pir_solid_sum *sum);
+
+/** A number that grows with every call that rotates or scales the sum. O(1). */
+PIR_API uint64_t pir_solid_sum_generation(const pir_solid_sum *sum);
+
+/** The description of the sum. O(1). */
+PIR_API void pir_solid_sum_describe(const pir_solid_sum *sum, pir_solid_sum_info *ret_info);
+
+/**
+ * The boundary of the sum.
+ *
+ * precision  PIR_DOUBLE, or PIR_EXACT for rationals beside the doubles, which are the nearest ones to them.
+ * ret_mesh   to be freed with pir_mesh_destroy. Facets are maximal and need not be convex. One with holes is a single
+ *            loop: a slit, walked both ways, joins each hole to what is round it. Vertices have no pairs, facets are of
+ *            kind PIR_FACET_MERGED.
+ *
+ * The mesh of an open sum has two-sided facets, after those of the boundary, each twice in a row, once each way;
+ * segments (pir_mesh_segments) and points (pir_mesh_points) that are on their own. Facets and segments are cut where
+ * others begin or cross them; pir_solid_sum_describe counts a two-sided facet once.
+ *
+ * Two sums of the same solids with the same options have the same mesh, bit for bit, at the same rotation and scales,
+ * whatever way they came there.
+ *
+ * Cost: O(size of the mesh).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_solid_sum_mesh(pir_solid_sum *sum, pir_precision precision, pir_mesh **ret_mesh);
 
 #ifdef __cplusplus
 }

@@ -19,7 +19,7 @@ int main(void) {
 
     /* snippet 1 */
 
-    printf("%u vertices, %u facets %s\n", (unsigned)pir_mesh_vertex_count(sum), (unsigned)pir_mesh_facet_count(sum),
+    printf("%u vertices, %u facets %s\n", (unsigned)pir_mesh_vertex_count(mesh), (unsigned)pir_mesh_facet_count(mesh),
            report.text);
     pir_pieces *pieces_p = NULL, *pieces_q = NULL;
     pir_solid_query *query = NULL;
@@ -31,12 +31,13 @@ int main(void) {
 
     /* snippet 2 */
 
-    const int good = pir_mesh_facet_count(sum) > 8 && state == PIR_INSIDE;
+    const int good = pir_mesh_facet_count(mesh) > 8 && state == PIR_INSIDE;
     pir_solid_query_destroy(query);
     pir_workspace_destroy(workspace);
     pir_pieces_destroy(pieces_q);
     pir_pieces_destroy(pieces_p);
-    pir_mesh_destroy(sum);
+    pir_mesh_destroy(mesh);
+    pir_solid_sum_destroy(sum);
     pir_solid_release(q);
     pir_solid_release(p);
     return good ? 0 : 1;

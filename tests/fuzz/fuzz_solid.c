@@ -19,6 +19,7 @@
 
 #include "fuzz/input.h"
 #include "fuzz/solid_oracle.h"
+#include "support/solid_sums.h"
 
 #define SIZE_LIMIT   2048
 #define FACET_LIMIT  80
@@ -165,7 +166,7 @@ static void check_sum(const pir_solid *p, const pir_solid *q, pir_quat turn) {
     int done = 1;
     for (int k = 0; k < 3 && done; k++) {
         options.open = k == 2;
-        done = is_done(pir_solid_sum(k == 1 ? q : p, k == 1 ? p : q, k == 1 ? back : turn, &options, NULL, &mesh[k]),
+        done = is_done(solid_sum_mesh(k == 1 ? q : p, k == 1 ? p : q, k == 1 ? back : turn, &options, NULL, &mesh[k]),
                        "two solids have a sum");
         if (done)
             oracle_volume(mesh[k], volume[k]);
@@ -192,7 +193,7 @@ static void check_states(const struct scene *scene, struct fuzz_input *input) {
     pir_workspace *workspace = NULL;
     options.solid = limits();
     options.open = options.difference = true;
-    if (!is_done(pir_solid_sum(scene->p, scene->q, scene->turn, &options, NULL, &mesh), "a difference"))
+    if (!is_done(solid_sum_mesh(scene->p, scene->q, scene->turn, &options, NULL, &mesh), "a difference"))
         return;
     fuzz_require(pir_solid_query_create(scene->of_p, scene->of_q, NULL, &query) == PIR_OK &&
                      pir_workspace_create(NULL, &workspace) == PIR_OK,

@@ -17,6 +17,7 @@
 #include "golden/golden.h"
 #include "support/bodies.h"
 #include "support/meshes.h"
+#include "support/solid_sums.h"
 
 /* --- slices --- */
 
@@ -99,7 +100,7 @@ uint64_t golden_solid(uint64_t number) {
     pir_quat r = number % 2 ? test_integer_rotation(&random) : test_general_rotation(&random);
     pir_solid_sum_info info;
     pir_mesh *mesh;
-    golden_require(pir_solid_sum(p, q, r, &options, &info, &mesh), "pir_solid_sum");
+    golden_require(solid_sum_mesh(p, q, r, &options, &info, &mesh), "pir_solid_sum_mesh");
     uint64_t hash = test_hash_mesh(TEST_HASH_START, mesh);
     hash = golden_number(golden_number(golden_number(hash, info.holes), info.two_sided), info.survivors);
     pir_mesh_destroy(mesh);

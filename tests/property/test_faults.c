@@ -18,6 +18,7 @@
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/queries.h"
+#include "support/solid_sums.h"
 
 static const char l_shape[] =
     "OFF\n12 8 0\n0 0 0\n3 0 0\n3 1 0\n1 1 0\n1 3 0\n0 3 0\n0 0 1\n3 0 1\n3 1 1\n1 1 1\n1 3 1\n"
@@ -109,7 +110,7 @@ static pir_status open_solids(struct run *run) {
     if (status == PIR_OK)
         status = pir_solid_from_polytope(cube, &run->solid, &q);
     if (status == PIR_OK)
-        status = pir_solid_sum(p, q, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh);
+        status = solid_sum_mesh(p, q, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh);
     pir_mesh_destroy(mesh);
     pir_solid_release(q);
     pir_solid_release(p);

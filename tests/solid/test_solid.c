@@ -10,6 +10,7 @@
 #include "solid/bodies.h"
 #include "solid/models.h"
 #include "support/memory.h"
+#include "support/solid_sums.h"
 
 static const double l_shape[6][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
 
@@ -218,7 +219,7 @@ static void every_failing_request_and_a_low_limit_are_survived(void **state) {
         if (status == PIR_OK)
             status = pir_solid_decompose(solid, &decompose, NULL, &pieces);
         if (status == PIR_OK)
-            status = pir_solid_sum(solid, solid, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh);
+            status = solid_sum_mesh(solid, solid, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh);
         done = status == PIR_OK;
         expect(done || status == PIR_ERR_MEMORY, "request %llu: status %d", (unsigned long long)fail_at, (int)status);
         pir_mesh_destroy(mesh);
@@ -282,7 +283,7 @@ static void sum_holds_no_more_than_its_limit_with_gmps_numbers(void **state) {
          options.solid.memory += options.solid.memory / 4) {
         pir_mesh *mesh = NULL;
         held = most_held = 0;
-        const pir_status status = pir_solid_sum(p, q, (pir_quat){1, 2, 3, 4}, &options, NULL, &mesh);
+        const pir_status status = solid_sum_mesh(p, q, (pir_quat){1, 2, 3, 4}, &options, NULL, &mesh);
         expect(status == PIR_OK || status == PIR_ERR_LIMIT, "%zu bytes: status %d", options.solid.memory, (int)status);
         expect(status == PIR_OK || most_held <= options.solid.memory + beside, "%zu bytes: %zu were held",
                options.solid.memory, most_held);

@@ -18,6 +18,7 @@
 
 #include "solid/bodies.h"
 #include "solid/models.h"
+#include "support/solid_sums.h"
 
 static const pir_quat no_turn = {0, 0, 0, 1};
 
@@ -27,7 +28,7 @@ static pir_solid *sum_of(const pir_solid *p, const pir_solid *q, pir_quat turn, 
     pir_pieces *pieces = NULL;
     mpq_t within, volume;
     mpq_inits(within, volume, NULL);
-    assert_int_equal(pir_solid_sum(p, q, turn, NULL, ret_info, &mesh), PIR_OK);
+    assert_int_equal(solid_sum_mesh(p, q, turn, NULL, ret_info, &mesh), PIR_OK);
     pir_solid *solid = solid_read_again(mesh);
     mesh_volume(mesh, within);
     assert_int_equal(pir_solid_volume_exact(solid, volume), PIR_OK);

@@ -9,6 +9,7 @@
 #include "solid/glue/closed.h"
 #include "solid/models.h"
 #include "solid/space/exact.h"
+#include "support/solid_sums.h"
 
 static pir_allocator allocator;
 static pir_space space;
@@ -175,9 +176,9 @@ static void limit_is_told_with_its_value_and_the_place(void **state) {
     pir_mesh *mesh = NULL;
     pir_pieces *pieces = NULL;
     options.solid.report = decompose.solid.report = &report;
-    options.solid.memory = 500000;
-    assert_int_equal(pir_solid_sum(p, p, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh), PIR_ERR_LIMIT);
-    expect(report.status == PIR_ERR_LIMIT && strstr(report.text, "limit of 500000 bytes") &&
+    options.solid.memory = 750000;
+    assert_int_equal(solid_sum_mesh(p, p, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh), PIR_ERR_LIMIT);
+    expect(report.status == PIR_ERR_LIMIT && strstr(report.text, "limit of 750000 bytes") &&
                strstr(report.text, "adding pairs of pieces, ") && strstr(report.text, " of 289 done"),
            "%s", report.text);
     assert_null(mesh);

@@ -25,6 +25,7 @@
 #include "solid/bodies.h"
 #include "solid/jittered.h"
 #include "solid/union_volume.h"
+#include "support/solid_sums.h"
 
 struct scene {
     jittered p, q, still_p, still_q;
@@ -123,7 +124,7 @@ static pir_mesh *sum_of(const struct scene *s, const pir_solid *p, const pir_sol
     pir_mesh *mesh = NULL;
     options.open = open;
     const double begin = seconds();
-    const pir_status status = pir_solid_sum(p, q, turn, &options, &info, &mesh);
+    const pir_status status = solid_sum_mesh(p, q, turn, &options, &info, &mesh);
     *ret_two_sided = info.two_sided > 0;
     *ret_seconds = seconds() - begin;
     expect(status == PIR_OK, "%s: %s", s->text, pir_status_text(status));

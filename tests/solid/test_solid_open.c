@@ -17,6 +17,7 @@
 #include <pirouette/pirouette.h>
 
 #include "solid/bodies.h"
+#include "support/solid_sums.h"
 
 static const pir_quat no_turn = {0, 0, 0, 1};
 
@@ -25,7 +26,7 @@ static pir_mesh *open_sum(const cells *p, const cells *q, pir_solid_sum_info *in
     pir_mesh *mesh = NULL;
     pir_solid *of_p = solid_of_cells(p), *of_q = solid_of_cells(q);
     options.open = true;
-    assert_int_equal(pir_solid_sum(of_p, of_q, no_turn, &options, info, &mesh), PIR_OK);
+    assert_int_equal(solid_sum_mesh(of_p, of_q, no_turn, &options, info, &mesh), PIR_OK);
     pir_solid_release(of_q);
     pir_solid_release(of_p);
     return mesh;

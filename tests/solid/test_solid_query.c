@@ -19,6 +19,7 @@
 
 #include "solid/bodies.h"
 #include "solid/models.h"
+#include "support/solid_sums.h"
 #include "support/vectors.h"
 
 enum { PLACES = 200 };
@@ -199,7 +200,7 @@ static void compare_all(const pir_solid *p, const pir_solid *q, const char *name
         const pir_vec3 axis = test_random_direction(&random);
         const pir_quat rotation = {axis.x, axis.y, axis.z, test_random_unit(&random)};
         options.difference = true;
-        assert_int_equal(pir_solid_sum(p, q, rotation, &options, NULL, &mesh), PIR_OK);
+        assert_int_equal(solid_sum_mesh(p, q, rotation, &options, NULL, &mesh), PIR_OK);
         compare(query, workspace, mesh, rotation, &random, &tally);
         pir_mesh_destroy(mesh);
     }

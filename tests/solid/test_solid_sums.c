@@ -18,6 +18,7 @@
 #include <pirouette/pirouette.h>
 
 #include "solid/bodies.h"
+#include "support/solid_sums.h"
 
 static const pir_quat no_turn = {0, 0, 0, 1};
 
@@ -46,7 +47,7 @@ static void expect_volume(const pir_solid *p, const pir_solid *q, pir_quat turn,
     pir_solid_sum_info info;
     mpq_t volume;
     mpq_init(volume);
-    const pir_status status = pir_solid_sum(p, q, turn, NULL, &info, &mesh);
+    const pir_status status = solid_sum_mesh(p, q, turn, NULL, &info, &mesh);
     expect(status == PIR_OK, "case %llu: status %d", (unsigned long long)number, (int)status);
     mesh_volume(mesh, volume);
     expect(mpq_equal(volume, expected), "case %llu: volume %g, not %g", (unsigned long long)number, mpq_get_d(volume),
@@ -72,7 +73,7 @@ static void sum_of_cells_covers_what_their_cubes_cover(void **state) {
         expect_volume(q, p, no_turn, expected, i);
         // P turned and Q left is Q turned back and P left
         pir_mesh *mesh = NULL;
-        assert_int_equal(pir_solid_sum(p, q, quarter, NULL, NULL, &mesh), PIR_OK);
+        assert_int_equal(solid_sum_mesh(p, q, quarter, NULL, NULL, &mesh), PIR_OK);
         mesh_volume(mesh, turned);
         expect_volume(q, p, back, turned, i);
         pir_mesh_destroy(mesh);
@@ -105,7 +106,7 @@ static void sum_of_convex_solids_is_the_tracked_sum(void **state) {
         assert_int_equal(pir_sum_mesh(sum, PIR_EXACT, &mesh), PIR_OK);
         assert_int_equal(pir_solid_from_polytope(p, NULL, &of_p), PIR_OK);
         assert_int_equal(pir_solid_from_polytope(q, NULL, &of_q), PIR_OK);
-        assert_int_equal(pir_solid_sum(of_p, of_q, turn, &options, NULL, &solid), PIR_OK);
+        assert_int_equal(solid_sum_mesh(of_p, of_q, turn, &options, NULL, &solid), PIR_OK);
         mesh_volume(mesh, volume);
         mesh_volume(solid, other);
         expect(pir_mesh_vertex_count(mesh) == pir_mesh_vertex_count(solid) &&

@@ -14,6 +14,7 @@
 #include <pirouette/pirouette.h>
 
 #include "solid/bodies.h"
+#include "support/solid_sums.h"
 
 static solid_facets facets;
 
@@ -173,7 +174,7 @@ static pir_solid *solid_with_middles(const pir_mesh *mesh, uint64_t number) {
 static pir_solid *wider_solid(const pir_solid *solid, const int by[3], bool middles, uint64_t number) {
     pir_solid *other = box_solid(by), *again = NULL;
     pir_mesh *mesh = NULL;
-    assert_int_equal(pir_solid_sum(solid, other, (pir_quat){0, 0, 0, 1}, NULL, NULL, &mesh), PIR_OK);
+    assert_int_equal(solid_sum_mesh(solid, other, (pir_quat){0, 0, 0, 1}, NULL, NULL, &mesh), PIR_OK);
     again = middles ? solid_with_middles(mesh, number) : solid_read_again(mesh);
     pir_mesh_destroy(mesh);
     pir_solid_release(other);

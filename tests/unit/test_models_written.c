@@ -13,6 +13,7 @@
 
 #include "support/bodies.h"
 #include "support/random.h"
+#include "support/solid_sums.h"
 
 static const char *const formats[] = {"off", "obj", "stl", "ply"};
 
@@ -208,7 +209,7 @@ static pir_mesh *sum_with_holes(void) {
     expect(pir_solid_create(&facets, NULL, &report, &frame) == PIR_OK, "%s", report.text);
     assert_int_equal(pir_shape_create("cube", NULL, NULL, &p), PIR_OK);
     assert_int_equal(pir_solid_from_polytope(p, NULL, &cube), PIR_OK);
-    assert_int_equal(pir_solid_sum(frame, cube, (pir_quat){0, 0, 0, 1}, NULL, &info, &mesh), PIR_OK);
+    assert_int_equal(solid_sum_mesh(frame, cube, (pir_quat){0, 0, 0, 1}, NULL, &info, &mesh), PIR_OK);
     assert_int_equal(info.holes, 2);
     pir_solid_release(frame);
     pir_solid_release(cube);

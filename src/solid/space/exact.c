@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* See exact.h. mpz_get_d_2exp cuts off, so that a double of it is within 2^-52 of the number, relative to it. */
 #include "solid/space/exact.h"
+#include "solid/space/rest.h"
 
 #include <math.h>
 
@@ -136,17 +137,30 @@ static uint32_t keep(pir_space *space, pir_intern *known, mpz_t *made) {
     return first;
 }
 
+uint32_t pir_space_exact_direction(pir_space *space, uint32_t direction) {
+    if (space->direction[direction].exact != PIR_SPACE_NONE)
+        return space->direction[direction].exact;
+    const uint32_t exact = pir_space_numbers(space, 3);
+    if (space->status != PIR_OK)
+        return 0;
+    pir_rest_turn_direction(space->rest, space->direction[direction].rest, space->number + exact);
+    pir_numbers_reduce(space->number + exact, 3, space->t[16]);
+    return space->direction[direction].exact = exact;
+}
+
 uint32_t pir_space_exact_point(pir_space *space, uint32_t point) {
     if (space->point[point].exact != PIR_SPACE_NONE)
         return space->point[point].exact;
     const pir_space_point p = space->point[point];
     uint32_t of[3] = {0};
-    for (int k = 0; k < (p.kind == PIR_POINT_SUM ? 2 : 3); k++)
+    for (int k = 0; k < (p.kind == PIR_POINT_SUM ? 2 : p.kind == PIR_POINT_MEET ? 3 : 0); k++)
         of[k] = p.kind == PIR_POINT_SUM ? pir_space_exact_point(space, p.of[k]) : pir_space_exact_plane(space, p.of[k]);
     if (space->status != PIR_OK)
         return 0;
     if (p.kind == PIR_POINT_SUM)
         make_sum(space, space->t, of[0], of[1]);
+    else if (p.kind == PIR_POINT_TURNED)
+        pir_rest_turn_point(space->rest, p.of[0], space->t);
     else
         make_meet(space, space->t, of);
     if (mpz_sgn(space->t[3]) == 0) {
@@ -169,6 +183,10 @@ uint32_t pir_space_exact_plane(pir_space *space, uint32_t plane) {
     const uint32_t beside = p.point[1] == PIR_SPACE_NONE ? at : pir_space_exact_point(space, p.point[1]);
     if (space->status != PIR_OK)
         return 0;
+    const uint32_t first = pir_space_exact_direction(space, p.direction[0]);
+    const uint32_t second = p.direction[1] == PIR_SPACE_NONE ? 0 : pir_space_exact_direction(space, p.direction[1]);
+    if (space->status != PIR_OK)
+        return 0;
     // the point in t[8..11], the normal in t[0..2], then n·W and n·X
     mpz_t *x = space->t + 8, *n = space->t;
     if (p.point[1] == PIR_SPACE_NONE)
@@ -176,12 +194,12 @@ uint32_t pir_space_exact_plane(pir_space *space, uint32_t plane) {
             mpz_set(x[k], space->number[at + k]);
     else
         make_sum(space, x, at, beside);
-    mpz_t *a = space->number + space->direction[p.direction[0]].exact;
+    mpz_t *a = space->number + first;
     if (p.direction[1] == PIR_SPACE_NONE)
         for (int k = 0; k < 3; k++)
             mpz_set(n[k], a[k]);
     else
-        pir_numbers_cross(n, a, space->number + space->direction[p.direction[1]].exact);
+        pir_numbers_cross(n, a, space->number + second);
     if (p.turned)
         for (int k = 0; k < 3; k++)
             mpz_neg(n[k], n[k]);

@@ -15,6 +15,9 @@ static inline pir_int pir_int_of_mpz(mpz_srcptr z) {
 uint32_t pir_space_exact_point(pir_space *space, uint32_t point);
 uint32_t pir_space_exact_plane(pir_space *space, uint32_t plane);
 
+/* x, y, z of a direction: the number of the first of three. */
+uint32_t pir_space_exact_direction(pir_space *space, uint32_t direction);
+
 /* Divides `count` numbers by their greatest common divisor. */
 void pir_numbers_reduce(mpz_t *number, uint32_t count, mpz_ptr scratch);
 

@@ -2,6 +2,8 @@
 /* See intern.h. Open addressing; the table is at most half full. A line's six numbers are Plücker's coordinates. */
 #include "solid/space/intern.h"
 
+#include <string.h>
+
 #include "solid/space/exact.h"
 
 void pir_intern_init(pir_intern *table, pir_space *space, uint32_t numbers) {
@@ -13,6 +15,12 @@ void pir_intern_finish(pir_intern *table) {
     pir_space_shrink(table->space, table->first, table->first_room, sizeof *table->first);
     pir_space_shrink(table->space, table->value, table->value_room, sizeof *table->value);
     *table = (pir_intern){0};
+}
+
+void pir_intern_clear(pir_intern *table) {
+    if (table->count > 0)
+        memset(table->slot, 0, table->slot_room * sizeof *table->slot);
+    table->count = 0;
 }
 
 static uint64_t hash_of(const pir_intern *table, uint32_t first) {

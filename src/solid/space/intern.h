@@ -20,6 +20,9 @@ typedef struct pir_intern {
 void pir_intern_init(pir_intern *table, pir_space *space, uint32_t numbers);
 void pir_intern_finish(pir_intern *table);
 
+/* Takes all entries out. */
+void pir_intern_clear(pir_intern *table);
+
 /* The value of the entry with the numbers from `first` on, which are kept; `value` becomes that of a new entry. */
 uint32_t pir_intern_add(pir_intern *table, uint32_t first, uint32_t value);
 

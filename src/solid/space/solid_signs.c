@@ -2,9 +2,10 @@
 /*
  * The signs that solids ask for, by doubles where their errors allow it, else by the exact numbers.
  *
- * The filters' bounds: with u = 2^-53, |n| ≤ 1 + 2^-49, |x|, |d| ≤ √3 + 2^-40, n·x − d in doubles is within
- * 20u < 2^-48 of its value. A determinant of three unit directions is within 3·2^-49 + 12u of the true one, a dot
- * product within 2·2^-49 + 4u: both below 2^-46.
+ * The filters' bounds: with u = 2^-53, |n| ≤ 1 + 2^-47, |x|, |d| ≤ √3 + 2^-40, n·x − d in doubles is within
+ * 20u < 2^-48 of its value. A determinant of three unit directions is within 3·2^-47 + 12u of the true one, a dot
+ * product within 2·2^-47 + 4u: both below 2^-45. Along a direction, over a way of 2√3 at most, it is 2√3·2^-47 +
+ * 16u.
  */
 #include <math.h>
 
@@ -27,6 +28,7 @@ static bool is_made_in(const pir_space_plane *f, uint32_t plane, const pir_space
             return true;
         break;
     case PIR_POINT_GIVEN:
+    case PIR_POINT_TURNED:
         break;
     }
     return f->point[0] == point && f->point[1] == PIR_SPACE_NONE;
@@ -80,20 +82,27 @@ static double det_of(const double a[3], const double b[3], const double c[3]) {
 int pir_space_det(pir_space *space, uint32_t a, uint32_t b, uint32_t c) {
     const pir_space_direction *d = space->direction;
     const double det = det_of(d[a].n, d[b].n, d[c].n);
-    if (fabs(det) > 0x1p-46)
+    if (fabs(det) > 0x1p-45)
         return det > 0 ? 1 : -1;
+    const uint32_t i = pir_space_exact_direction(space, a), j = pir_space_exact_direction(space, b);
+    const uint32_t k = pir_space_exact_direction(space, c);
+    if (space->status != PIR_OK)
+        return 0;
     mpz_t *cross = space->t;
-    pir_numbers_cross(cross, space->number + d[b].exact, space->number + d[c].exact);
-    pir_numbers_dot(space->t[17], space->number + d[a].exact, cross, 3);
+    pir_numbers_cross(cross, space->number + j, space->number + k);
+    pir_numbers_dot(space->t[17], space->number + i, cross, 3);
     return mpz_sgn(space->t[17]);
 }
 
 int pir_space_dot(pir_space *space, uint32_t a, uint32_t b) {
     const pir_space_direction *d = space->direction;
     const double dot = d[a].n[0] * d[b].n[0] + d[a].n[1] * d[b].n[1] + d[a].n[2] * d[b].n[2];
-    if (fabs(dot) > 0x1p-46)
+    if (fabs(dot) > 0x1p-45)
         return dot > 0 ? 1 : -1;
-    pir_numbers_dot(space->t[17], space->number + d[a].exact, space->number + d[b].exact, 3);
+    const uint32_t i = pir_space_exact_direction(space, a), j = pir_space_exact_direction(space, b);
+    if (space->status != PIR_OK)
+        return 0;
+    pir_numbers_dot(space->t[17], space->number + i, space->number + j, 3);
     return mpz_sgn(space->t[17]);
 }
 
@@ -162,13 +171,14 @@ int pir_space_order(pir_space *space, uint32_t direction, uint32_t a, uint32_t b
     const pir_space_point *p = &space->point[a], *q = &space->point[b];
     const double *n = space->direction[direction].n;
     const double s = n[0] * (q->x[0] - p->x[0]) + n[1] * (q->x[1] - p->x[1]) + n[2] * (q->x[2] - p->x[2]);
-    if (fabs(s) > p->err + q->err + 0x1p-46)
+    if (fabs(s) > p->err + q->err + 0x1p-44)
         return s > 0 ? 1 : -1;
     const uint32_t i = pir_space_exact_point(space, a), j = pir_space_exact_point(space, b);
+    const uint32_t way = pir_space_exact_direction(space, direction);
     if (space->status != PIR_OK || i == j)
         return 0;
     // n·X_b · W_a against n·X_a · W_b: n is shorter than the points are
-    mpz_t *along = space->number + space->direction[direction].exact, *x = space->number + i, *y = space->number + j;
+    mpz_t *along = space->number + way, *x = space->number + i, *y = space->number + j;
     pir_numbers_dot(space->t[0], along, x, 3);
     pir_numbers_dot(space->t[1], along, y, 3);
     mpz_mul(space->t[2], space->t[1], x[3]);

@@ -130,6 +130,7 @@ static void weigh_numbers(pir_space *space) {
         return;
     }
     space->bytes += bytes;
+    space->weight += bytes;
 }
 
 uint32_t pir_space_numbers(pir_space *space, uint32_t count) {
@@ -149,6 +150,18 @@ void pir_space_drop_numbers(pir_space *space, uint32_t first) {
     space->weighed = space->weighed < first ? space->weighed : first;
 }
 
+void pir_space_drop_exact(pir_space *space) {
+    pir_space_drop_numbers(space, 0);
+    space->bytes -= space->weight;
+    space->weight = 0;
+    pir_intern_clear(&space->known_point);
+    pir_intern_clear(&space->known_plane);
+    for (uint32_t k = 0; k < space->side_room; k++)
+        space->side[k] = (struct pir_known_side){0};
+    space->side_count = 0;
+    pir_space_numbers(space, 4);
+}
+
 uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z) {
     const uint32_t exact = pir_space_numbers(space, 3), made = space->direction_count;
     if (!pir_space_grow(space, (void **)&space->direction, &space->direction_room, made, sizeof *space->direction))
@@ -157,6 +170,7 @@ uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, m
     mpz_set(n[0], x);
     mpz_set(n[1], y);
     mpz_set(n[2], z);
+    space->direction[made].rest = PIR_SPACE_NONE;
     if (mpz_sgn(x) == 0 && mpz_sgn(y) == 0 && mpz_sgn(z) == 0) {
         pir_space_fault(space);
         return 0;
@@ -251,21 +265,21 @@ uint32_t pir_space_add_meet(pir_space *space, uint32_t f, uint32_t g, uint32_t h
     return made;
 }
 
-/* The unit normal of a plane, and how far it may be from the true one: two directions, each within 2^-49, bring
- * 2^-48 and the rounding of their product, over its length. Infinite where that has none. */
+/* The unit normal of a plane, and how far it may be from the true one: two directions, each within 2^-47, bring
+ * 2^-46 and the rounding of their product, over its length. Infinite where that has none. */
 static double set_normal(const pir_space *space, pir_space_plane *p) {
     const double *a = space->direction[p->direction[0]].n, sign = p->turned ? -1 : 1;
     if (p->direction[1] == PIR_SPACE_NONE) {
         for (int k = 0; k < 3; k++)
             p->n[k] = sign * a[k];
-        return 0x1p-49;
+        return 0x1p-47;
     }
     const double *b = space->direction[p->direction[1]].n;
     const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     const double length = sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
     for (int k = 0; k < 3; k++)
         p->n[k] = sign * cross[k] / length;
-    return length > 0 ? 0x1p-46 / length : (double)INFINITY;
+    return length > 0 ? 0x1p-45 / length : (double)INFINITY;
 }
 
 uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool turned, const uint32_t point[2]) {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The points, directions and planes that one job on solids works with: held as doubles with a proven error, and exactly
- * where a sign needs it.
+ * The points, directions and planes that one job on solids works with: held as doubles with a proven error, and
+ * exactly where a sign needs it.
  *
- * Coordinates are integers on one scale. Doubles are those integers times 2^-shift, where the shift puts every point of
- * the job into |x|, |y|, |z| ≤ 1. Each point and plane knows how far its doubles may be from the truth:
+ * Coordinates are integers on one scale. Doubles are those integers times 2^-shift, where the shift puts every point
+ * of the job into |x|, |y|, |z| ≤ 1. Each point and plane knows how far its doubles may be from the truth:
  *
  *     |point.x − x| ≤ point.err,
  *     |(plane.n·x − plane.d) − (n·x − d)| ≤ plane.err  for |n| = 1 and x in that cube.
@@ -13,10 +13,11 @@
  * parallel, the exact numbers are made at once and rounded. So doubles may be read without asking first; how far they
  * may be off is what a caller has to add, and signs that this leaves open are decided exactly.
  *
- * A point is given, or the sum of two points, or where three planes meet. A plane has a direction, or the cross product
- * of two, for a normal, and holds the sum of two points. So exact numbers never rest on constructed ones in a row: they
- * are made from the definition when a filter fails, in lowest terms, and kept: once for all points at one place, and
- * for all planes that are one and face one way. So where much is nearly coplanar, long numbers are few.
+ * A point is given, or the sum of two points, or where three planes meet. A plane has a direction, or the cross
+ * product of two, for a normal, and holds the sum of two points. What is given may turn with the body that it is of
+ * (rest.h). So exact numbers never rest on constructed ones in a row: they are made from the definition when a filter
+ * fails, in lowest terms, and kept: once for all points at one place, and for all planes that are one and face one
+ * way. So where much is nearly coplanar, long numbers are few.
  *
  * Planes that meet in no point of the cube, and directions of no length, are a fault of the caller's. They leave
  * PIR_ERR_INTERNAL in `status`, as does whatever else on the way contradicts what came before (pir_space_fault).
@@ -41,16 +42,17 @@
 #define PIR_SPACE_ERROR 0x1p-20
 
 typedef struct pir_space_direction {
-    double n[3];    /* unit, within 2^-49 of the true one */
-    uint32_t exact; /* three numbers without a common factor */
+    double n[3];    /* unit, within 2^-47 of the true one */
+    uint32_t exact; /* three numbers without a common factor; none yet only of one at rest (rest.h) */
+    uint32_t rest;  /* what it is at rest, or none */
 } pir_space_direction;
 
-enum pir_point_kind { PIR_POINT_GIVEN, PIR_POINT_SUM, PIR_POINT_MEET };
+enum pir_point_kind { PIR_POINT_GIVEN, PIR_POINT_SUM, PIR_POINT_MEET, PIR_POINT_TURNED };
 
 typedef struct pir_space_point {
     double x[3], err;
     uint32_t exact; /* X, Y, Z, W > 0 in lowest terms, or none yet */
-    uint32_t of[3]; /* two points, or three planes */
+    uint32_t of[3]; /* two points, or three planes, or what it is at rest */
     enum pir_point_kind kind;
 } pir_space_point;
 
@@ -62,13 +64,17 @@ typedef struct pir_space_plane {
     bool turned;           /* the normal is the reverse of what the directions say */
 } pir_space_plane;
 
+typedef struct pir_space_rest pir_space_rest;
+
 typedef struct pir_space {
-    pir_allocator allocator; /* gives what the limit allows, from the caller's */
+    const pir_space_rest *rest; /* of what turns, or NULL */
+    pir_allocator allocator;    /* gives what the limit allows, from the caller's */
     pir_allocator given;
     pir_status status;
     size_t bytes, limit; /* of all that the job holds, GMP's numbers counted in */
     bool refused;        /* the limit did not allow something */
     uint32_t weighed;    /* numbers that are counted in */
+    size_t weight;       /* the bytes that these take */
     int shift;
     pir_space_direction *direction;
     pir_space_point *point;
@@ -95,8 +101,8 @@ void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t lim
 void pir_space_finish(pir_space *space);
 
 /* The status that a job ends with: memory that the limit did not allow had not run out. Fills `report`, unless it is
- * NULL or says it already, where a limit was met, memory ran out or a check failed: which limit, its value, and how far
- * the job of this name was. */
+ * NULL or says it already, where a limit was met, memory ran out or a check failed: which limit, its value, and how
+ * far the job of this name was. */
 pir_status pir_space_outcome(const pir_space *space, pir_status status, const char *name, pir_report *report);
 
 /* Begins a stage of the job, of `all` steps: `space->stage.done` counts them. */
@@ -117,6 +123,9 @@ uint32_t pir_space_numbers(pir_space *space, uint32_t count);
 
 /* Frees the numbers from `first` on, which nothing refers to. */
 void pir_space_drop_numbers(pir_space *space, uint32_t first);
+
+/* Forgets all exact numbers, and which of them are known. What had them is to be made anew. */
+void pir_space_drop_exact(pir_space *space);
 
 /* The direction (x, y, z), which is not zero. */
 uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z);

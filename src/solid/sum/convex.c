@@ -97,6 +97,15 @@ void pir_convexes_make(pir_convexes *convexes, const pir_cells *cells, const pir
     }
 }
 
+void pir_convexes_set_boxes(pir_convexes *convexes) {
+    for (uint32_t i = 0; i < convexes->count; i++) {
+        pir_convex *convex = &convexes->convex[i];
+        convex->box = PIR_SPACE_BOX_EMPTY;
+        for (uint32_t k = convex->vertex; k < convex->vertex + convex->vertex_count; k++)
+            pir_space_box_add(&convex->box, &convexes->space->point[convexes->vertex[k]]);
+    }
+}
+
 void pir_convexes_finish(pir_convexes *convexes) {
     pir_convexes *c = convexes;
     if (!c->space)

@@ -38,6 +38,8 @@ typedef struct pir_convexes {
 
 /* The pieces of a decomposition, whose points and planes have one number each. The status is the space's. */
 void pir_convexes_make(pir_convexes *convexes, const pir_cells *cells, const pir_piece_list *pieces);
+/* Sets the boxes of pieces whose points have moved. */
+void pir_convexes_set_boxes(pir_convexes *convexes);
 void pir_convexes_finish(pir_convexes *convexes);
 
 typedef struct pir_pair_sum {

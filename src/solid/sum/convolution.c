@@ -128,10 +128,11 @@ static bool supports_at_edge(struct candidate_maker *m, const pir_shell_body_edg
 static bool same_direction(pir_space *space, uint32_t a, uint32_t b) {
     const double *x = space->direction[a].n, *y = space->direction[b].n;
     for (int k = 0; k < 3; k++)
-        if (x[k] - y[k] > 0x1p-47 || y[k] - x[k] > 0x1p-47)
+        if (x[k] - y[k] > 0x1p-45 || y[k] - x[k] > 0x1p-45)
             return false;
-    for (uint32_t k = 0; k < 3; k++)
-        if (mpz_cmp(space->number[space->direction[a].exact + k], space->number[space->direction[b].exact + k]) != 0)
+    const uint32_t i = pir_space_exact_direction(space, a), j = pir_space_exact_direction(space, b);
+    for (uint32_t k = 0; k < 3 && space->status == PIR_OK; k++)
+        if (mpz_cmp(space->number[i + k], space->number[j + k]) != 0)
             return false;
     return true;
 }
@@ -149,9 +150,12 @@ static void meet_edges(struct candidate_maker *m, uint32_t facet, uint32_t n) {
         const pir_shell_body_edge *edge = &m->b->edge[e];
         if (!supports_at_edge(m, edge, n))
             continue;
+        const uint32_t exact = pir_space_exact_direction(m->space, edge->direction);
+        if (m->space->status != PIR_OK)
+            return;
         mpz_t *t = m->space->t + 8;
         for (uint32_t k = 0; k < 3; k++)
-            mpz_neg(t[k], m->space->number[m->space->direction[edge->direction].exact + k]);
+            mpz_neg(t[k], m->space->number[exact + k]);
         const uint32_t point[2] = {edge->a, edge->b};
         const uint32_t direction[2] = {edge->direction, pir_space_add_direction(m->space, t[0], t[1], t[2])};
         add_parts(m, facet, &(struct flat_face){point, direction, 2});

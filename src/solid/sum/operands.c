@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See operands.h. P's coordinates are integers times n_p/d_p, turned M·X times n_p/(d_p·|q|²); Q's are integers
- * times n_q/d_q. With L a common multiple of both denominators, both are integers over L; their common factors go into
- * the scale, so that the numbers are as short as they can be.
+ * See operands.h. The doubles of the space have room for a sum of points, each turned: √3 times as long and twice.
+ * P's coordinates are integers times n_p/d_p, turned M·X times n_p/(d_p·|q|²); Q's are integers times n_q/d_q. With
+ * L a common multiple of both denominators, both are integers over L; their common factors go into the scale, so that
+ * the numbers are as short as they can be.
  */
 #include "solid/sum/operands.h"
 
@@ -114,7 +115,7 @@ pir_status pir_operands_init(pir_operands *operands, const pir_solid *const soli
     copy_points(o, 0, solid[0], rotation);
     copy_points(o, 1, solid[1], NULL);
     unify(o, solid, rotation, reflected);
-    pir_space_init(&o->space, &o->allocator, options->memory, longest(o) + 1);
+    pir_space_init(&o->space, &o->allocator, options->memory, longest(o) + 2);
     o->has_space = true;
     const pir_status status = make_body(o, 0, solid[0], reflected ? o->reversed : solid[0]->corner);
     return status == PIR_OK ? make_body(o, 1, solid[1], solid[1]->corner) : status;
@@ -122,6 +123,8 @@ pir_status pir_operands_init(pir_operands *operands, const pir_solid *const soli
 
 void pir_operands_finish(pir_operands *operands) {
     pir_operands *o = operands;
+    if (!o->allocator.resize)
+        return;
     for (int k = 0; k < 2; k++) {
         pir_shell_body_finish(&o->body[k]);
         for (size_t i = 0; i < 3 * (size_t)o->count[k]; i++)

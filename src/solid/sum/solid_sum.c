@@ -1,206 +1,229 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The exact sum of two solids: P = ∪ P_i and Q = ∪ Q_j in convex pieces, P ⊕ Q = ∪ (P_i ⊕ Q_j). Its boundary
- * is what the sums of pairs leave of the candidates (convolution.c, remains.c), glued plane by plane into maximal
- * facets (solid/glue). Instead of uniting volumes, polygons are clipped in their planes (Hachenberger 2009 unites Nef
- * polyhedra). The sum of open solids leaves out more within: two-sided facets, glued likewise, and what tight.c adds.
+ * The exact sum of two solids, at one rotation after another. Both are divided into convex pieces at rest, once; for
+ * each rotation they are turned (space/rest.h) and the boundary is made of them (boundary.h).
+ *
+ * Invariant: `rotation` and `scale` are those of the last call that succeeded. `made` says whether the boundary is
+ * there for them; after a call that failed it is not, and whoever needs it next makes it.
  */
-#include <pirouette/solid.h>
+#include "solid/sum/solid_sum.h"
 
-#include "base/sort.h"
+#include <math.h>
+
 #include "polytope/mesh.h"
-#include "solid/glue/closed.h"
-#include "solid/glue/cut_runs.h"
 #include "solid/pieces/join_pieces.h"
-#include "solid/sum/coplanar.h"
-#include "solid/sum/remains.h"
 #include "solid/sum/solid_mesh.h"
-#include "solid/sum/tight.h"
-
-struct solid_sum_job {
-    pir_operands operands;
-    pir_cells cells[2];
-    pir_piece_list pieces[2];
-    pir_convexes convexes[2];
-    pir_remains remains;
-    pir_union_outline outline;
-    pir_loop_list loops;
-    pir_fragments fragments; /* of all groups */
-    pir_facet_group *group;
-    uint32_t *order, *work;
-    uint32_t order_count, group_count, group_room;
-    uint32_t first_loose; /* fragments of boundary facets */
-    pir_touching points;
-    uint32_t edges;
-};
 
 pir_solid_sum_options pir_solid_sum_options_default(void) {
     return (pir_solid_sum_options){.solid = pir_solid_options_default(), .difference = false, .open = false};
 }
 
-static void finish(struct solid_sum_job *job) {
-    pir_space *space = &job->operands.space;
-    const pir_allocator *a = &job->operands.allocator;
-    PIR_FREE(a, job->order, job->order_count);
-    PIR_FREE(a, job->work, job->order_count);
-    pir_loop_list_finish(&job->loops);
-    pir_union_outline_finish(&job->outline);
-    pir_fragments_finish(&job->fragments, space);
-    pir_space_shrink(space, job->group, job->group_room, sizeof *job->group);
-    pir_touching_finish(&job->points, space);
-    pir_remains_finish(&job->remains);
-    for (int k = 0; k < 2; k++) {
-        pir_convexes_finish(&job->convexes[k]);
-        pir_piece_list_finish(&job->pieces[k], space);
-        pir_cells_finish(&job->cells[k]);
+/* --- at rest --- */
+
+/* The pieces of an operand, in its space. */
+static pir_status divide(pir_solid_sum *sum, int k) {
+    pir_space *space = &sum->operands.space;
+    pir_cells cells;
+    pir_piece_list pieces = {0};
+    pir_space_begin_stage(space, k == 0 ? "dividing P" : "dividing Q", 0);
+    pir_cells_init(&cells, space);
+    pir_status status = pir_decompose(&sum->operands.body[k], PIR_DECOMPOSE_FACETS, &cells, &pieces);
+    if (status == PIR_OK) {
+        pir_merge_pieces(&cells, &pieces);
+        pir_convexes_make(&sum->convexes[k], &cells, &pieces);
+        status = space->status;
     }
-    pir_operands_finish(&job->operands);
+    pir_piece_list_finish(&pieces, space);
+    pir_cells_finish(&cells);
+    return status;
 }
 
-/* The boundary first, plane by plane. */
-static bool survivor_before(void *context, uint32_t a, uint32_t b) {
-    const pir_survivor *s = &((const pir_survivor *)context)[a], *t = &((const pir_survivor *)context)[b];
-    return s->two_sided != t->two_sided ? t->two_sided : s->half < t->half;
-}
-
-/* Adds the outline of a group: survivors of one plane and side. */
-static void outline_group(struct solid_sum_job *job, const uint32_t *order, uint32_t count) {
-    pir_space *space = &job->operands.space;
-    const pir_survivor *survivor = &job->remains.survivor[order[0]];
-    // of a two-sided facet, candidates that face either way tell the same
-    if ((survivor->two_sided && (survivor->half & 1)) ||
-        !pir_space_grow(space, (void **)&job->group, &job->group_room, job->group_count, sizeof *job->group))
-        return;
-    const uint32_t first = job->fragments.count;
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t k = 0; k < job->remains.survivor[order[i]].count; k++)
-            pir_fragments_add(&job->fragments, space, job->remains.survivor[order[i]].first + k);
-    if (space->status != PIR_OK)
-        return;
-    if (!survivor->two_sided) {
-        job->outline.loose = job->group_count + 1;
-        job->first_loose = job->fragments.count;
+static void keep_body(pir_space_rest *rest, const pir_shell_body *body, int k) {
+    for (uint32_t i = 0; i < body->source.point_count; i++)
+        pir_rest_keep_point(rest, body->first_point + i, k);
+    for (uint32_t f = 0; f < body->source.facet_count; f++)
+        pir_rest_keep_direction(rest, rest->space->plane[body->plane[f]].direction[0], k);
+    for (uint32_t e = 0; e < body->edge_count; e++)
+        pir_rest_keep_direction(rest, body->edge[e].direction, k);
+    for (uint32_t i = 0; i < body->corner_count; i++) {
+        pir_rest_keep_point(rest, body->part_corner[i], k);
+        pir_rest_keep_direction(rest, body->part_direction[i], k);
     }
-    job->group[job->group_count] = (pir_facet_group){.count = job->fragments.count - first};
-    pir_coplanar_outline(&job->outline, job->group_count++, &job->remains.kept, job->fragments.polygon + first,
-                         job->fragments.count - first);
 }
 
-/* Adds the interior edges of open solids to the outline before it is cut. */
-static void add_tight(struct solid_sum_job *job) {
-    const pir_facet_polygons facets = {&job->remains.kept, job->fragments.polygon, job->fragments.count,
-                                       job->first_loose};
-    pir_tight_add(&job->outline, &facets, &job->remains.left, &job->points);
-}
-
-static void imprint(struct solid_sum_job *job) {
-    uint32_t first = 0;
-    for (uint32_t g = 0; g < job->group_count; g++) {
-        job->group[g].polygons = &job->remains.kept;
-        job->group[g].polygon = job->fragments.polygon + first;
-        first += job->group[g].count;
+static void keep_convexes(pir_space_rest *rest, const pir_convexes *convexes, int k) {
+    for (uint32_t i = 0; i < convexes->vertex_count; i++)
+        pir_rest_keep_point(rest, convexes->vertex[i], k);
+    for (uint32_t i = 0; i < convexes->face_count; i++) {
+        pir_rest_keep_point(rest, convexes->face[i].point, k);
+        pir_rest_keep_direction(rest, convexes->face[i].normal, k);
     }
-    pir_union_outline_imprint(&job->outline, job->group, job->group_count);
+    for (uint32_t i = 0; i < convexes->edge_count; i++) {
+        pir_rest_keep_point(rest, convexes->edge[i].point, k);
+        pir_rest_keep_direction(rest, convexes->edge[i].direction, k);
+        for (int side = 0; side < 2; side++)
+            pir_rest_keep_direction(rest, convexes->edge[i].normal[side], k);
+    }
 }
 
-/* The outline of what is left, plane by plane, and the facets that it goes round. */
-static void outline_planes(struct solid_sum_job *job) {
-    pir_space *space = &job->operands.space;
-    pir_remains *remains = &job->remains;
-    job->order_count = remains->survivor_count;
-    job->order = PIR_NEW(&space->allocator, uint32_t, job->order_count);
-    job->work = PIR_NEW(&space->allocator, uint32_t, job->order_count);
-    pir_union_outline_init(&job->outline, space);
-    if (!job->order || !job->work) {
-        space->status = PIR_ERR_MEMORY;
-        return;
-    }
-    for (uint32_t s = 0; s < job->order_count; s++)
-        job->order[s] = s;
-    pir_sort(job->order, job->order_count, job->work, survivor_before, remains->survivor);
-    pir_space_begin_stage(space, "uniting what bounds the sum", job->order_count);
-    for (uint32_t i = 0, end; i < job->order_count && space->status == PIR_OK; i = end) {
-        space->stage.done = i;
-        for (end = i + 1; end < job->order_count && !survivor_before(remains->survivor, job->order[i], job->order[end]);
-             end++)
-            ;
-        outline_group(job, job->order + i, end - i);
-    }
-    pir_space_begin_stage(space, "cutting edges", 0);
-    if (remains->open)
-        add_tight(job);
-    pir_union_outline_cut(&job->outline);
-    job->edges = job->outline.run_count / 2;
-    if (remains->open) {
-        imprint(job);
-        job->edges = pir_union_outline_edges(&job->outline);
-    }
-    pir_space_begin_stage(space, "tracing facets", 0);
-    pir_loops_trace(&job->loops, &job->outline);
-    if (space->status == PIR_OK)
-        pir_loops_check_closed(&job->loops);
-}
-
-static pir_status compute(struct solid_sum_job *job, bool open) {
-    pir_space *space = &job->operands.space;
-    for (int k = 0; k < 2; k++) {
-        pir_space_begin_stage(space, k == 0 ? "dividing P" : "dividing Q", 0);
-        pir_cells_init(&job->cells[k], space);
-        pir_status status =
-            pir_decompose(&job->operands.body[k], PIR_DECOMPOSE_FACETS, &job->cells[k], &job->pieces[k]);
-        if (status != PIR_OK)
-            return status;
-        pir_merge_pieces(&job->cells[k], &job->pieces[k]);
-        pir_convexes_make(&job->convexes[k], &job->cells[k], &job->pieces[k]);
-    }
-    if (space->status == PIR_OK)
-        pir_remains_make(&job->remains, job->operands.body, job->convexes, open);
-    if (space->status == PIR_OK)
-        outline_planes(job);
-    return space->status;
-}
-
-static pir_solid_sum_info describe(const struct solid_sum_job *job, const pir_mesh *mesh) {
-    return (pir_solid_sum_info){.vertices = mesh->vertex_count,
-                                .edges = mesh->edge_count,
-                                .facets = job->loops.facet_count,
-                                .holes = job->loops.hole_count,
-                                .two_sided = job->loops.facet_count - job->loops.boundary_count,
-                                .segments = mesh->segment_count,
-                                .points = mesh->point_count,
-                                .pieces_p = job->pieces[0].count,
-                                .pieces_q = job->pieces[1].count,
-                                .candidates = job->remains.candidates,
-                                .survivors = job->remains.survivor_count};
-}
-
-pir_status pir_solid_sum(const pir_solid *p, const pir_solid *q, pir_quat rotation,
-                         const pir_solid_sum_options *options, pir_solid_sum_info *ret_info, pir_mesh **ret_mesh) {
-    if (!p || !q || !ret_mesh)
-        return PIR_ERR_ARGUMENT;
-    const pir_solid_sum_options used = options ? *options : pir_solid_sum_options_default();
-    pir_allocator allocator;
-    const pir_solid_options solid_options = pir_solid_options_or_default(&used.solid, &allocator);
-    pir_rotation_integers integers;
-    pir_rotation exact = {.integers = &integers};
-    pir_status status = pir_rotation_set(&exact, rotation);
+static pir_status prepare(pir_solid_sum *sum) {
+    const pir_solid *const solids[2] = {sum->solid[0], sum->solid[1]};
+    pir_solid_options options = sum->options.solid;
+    options.allocator = &sum->allocator;
+    pir_rotation rest = {.integers = &sum->integers};
+    pir_status status = pir_rotation_set(&rest, (pir_quat){0, 0, 0, 1});
+    if (status == PIR_OK)
+        status = pir_operands_init(&sum->operands, solids, &rest, sum->options.difference != 0, &options);
+    for (int k = 0; k < 2 && status == PIR_OK; k++)
+        status = divide(sum, k);
     if (status != PIR_OK)
         return status;
-    struct solid_sum_job job = {0};
-    const pir_solid *const solids[2] = {p, q};
-    status = pir_operands_init(&job.operands, solids, &exact, used.difference != 0, &solid_options);
-    if (status == PIR_OK)
-        status = compute(&job, used.open != 0);
-    status = pir_space_outcome(&job.operands.space, status, "sum", used.solid.report);
-    pir_mesh *mesh = NULL;
-    if (status == PIR_OK)
-        status = pir_solid_mesh_make(&job.operands, &job.outline, &job.loops, &job.points, &mesh);
-    if (status == PIR_OK) {
-        mesh->edge_count = job.edges;
-        if (ret_info)
-            *ret_info = describe(&job, mesh);
-        *ret_mesh = mesh;
+    pir_rest_init(&sum->rest, &sum->operands.space);
+    for (int k = 0; k < 2; k++) {
+        keep_body(&sum->rest, &sum->operands.body[k], k);
+        keep_convexes(&sum->rest, &sum->convexes[k], k);
     }
-    finish(&job);
+    pir_rest_settle(&sum->rest);
+    return sum->operands.space.status;
+}
+
+/* --- at a rotation --- */
+
+/* Makes the boundary for a rotation and scales; it is gone when that fails. */
+static pir_status make(pir_solid_sum *sum, pir_quat rotation, const double scale[2]) {
+    pir_space *space = &sum->operands.space;
+    pir_rotation turned = {.integers = &sum->integers};
+    pir_status status = pir_rotation_set(&turned, rotation);
+    if (status != PIR_OK)
+        return status;
+    sum->made = false;
+    sum->turned = turned;
+    space->status = PIR_OK;
+    space->refused = false;
+    pir_sum_boundary_finish(&sum->boundary);
+    pir_rest_turn(&sum->rest, &sum->turned, scale);
+    for (int k = 0; k < 2; k++)
+        pir_convexes_set_boxes(&sum->convexes[k]);
+    pir_sum_boundary_make(&sum->boundary, sum->operands.body, sum->convexes, sum->options.open != 0);
+    status = pir_space_outcome(space, space->status, "sum", sum->options.solid.report);
+    sum->made = status == PIR_OK;
     return status;
+}
+
+static pir_solid_sum_info describe(const pir_solid_sum *sum) {
+    const pir_sum_boundary *b = &sum->boundary;
+    return (pir_solid_sum_info){.vertices = b->vertex_count,
+                                .edges = b->edges,
+                                .facets = b->loops.facet_count,
+                                .holes = b->loops.hole_count,
+                                .two_sided = b->loops.facet_count - b->loops.boundary_count,
+                                .segments = b->segments,
+                                .points = b->points.point_count,
+                                .pieces_p = sum->convexes[0].count,
+                                .pieces_q = sum->convexes[1].count,
+                                .candidates = b->remains.candidates,
+                                .survivors = b->remains.survivor_count};
+}
+
+static pir_status change(pir_solid_sum *sum, pir_quat rotation, const double scale[2]) {
+    const pir_status status = make(sum, rotation, scale);
+    if (status != PIR_OK)
+        return status;
+    sum->rotation = rotation;
+    sum->scale[0] = scale[0];
+    sum->scale[1] = scale[1];
+    sum->generation++;
+    sum->info = describe(sum);
+    return PIR_OK;
+}
+
+pir_status pir_solid_sum_rotate(pir_solid_sum *sum, pir_quat rotation) {
+    return sum ? change(sum, rotation, sum->scale) : PIR_ERR_ARGUMENT;
+}
+
+pir_status pir_solid_sum_set_scale(pir_solid_sum *sum, pir_operand operand, double scale) {
+    if (!sum || (operand != PIR_OPERAND_P && operand != PIR_OPERAND_Q))
+        return PIR_ERR_ARGUMENT;
+    if (!isfinite(scale))
+        return PIR_ERR_NOT_FINITE;
+    if (!(scale > 0))
+        return PIR_ERR_ARGUMENT;
+    const double scales[2] = {operand == PIR_OPERAND_P ? scale : sum->scale[0],
+                              operand == PIR_OPERAND_Q ? scale : sum->scale[1]};
+    return change(sum, sum->rotation, scales);
+}
+
+/* --- the object --- */
+
+static pir_status create(const pir_solid *const solid[2], const pir_solid_sum_options *options, pir_quat rotation,
+                         const double scale[2], pir_solid_sum **ret_sum) {
+    const pir_allocator allocator = pir_allocator_or_default(options->solid.allocator);
+    pir_solid_sum *sum = PIR_ZEROED(&allocator, pir_solid_sum, 1);
+    if (!sum)
+        return PIR_ERR_MEMORY;
+    sum->allocator = allocator;
+    sum->options = *options;
+    for (int k = 0; k < 2; k++)
+        sum->solid[k] = pir_solid_retain((pir_solid *)solid[k]);
+    pir_status status = pir_rotation_set(&sum->turned, rotation);
+    if (status == PIR_OK) {
+        status = prepare(sum);
+        status = pir_space_outcome(&sum->operands.space, status, "sum", options->solid.report);
+    }
+    if (status == PIR_OK)
+        status = change(sum, rotation, scale);
+    sum->generation = 0;
+    if (status == PIR_OK)
+        *ret_sum = sum;
+    else
+        pir_solid_sum_destroy(sum);
+    return status;
+}
+
+pir_status pir_solid_sum_create(const pir_solid *p, const pir_solid *q, pir_quat rotation,
+                                const pir_solid_sum_options *options, pir_solid_sum **ret_sum) {
+    if (!p || !q || !ret_sum)
+        return PIR_ERR_ARGUMENT;
+    const pir_solid_sum_options used = options ? *options : pir_solid_sum_options_default();
+    return create((const pir_solid *const[2]){p, q}, &used, rotation, (const double[2]){1, 1}, ret_sum);
+}
+
+pir_status pir_solid_sum_clone(const pir_solid_sum *sum, pir_solid_sum **ret_sum) {
+    if (!sum || !ret_sum)
+        return PIR_ERR_ARGUMENT;
+    return create((const pir_solid *const *)sum->solid, &sum->options, sum->rotation, sum->scale, ret_sum);
+}
+
+void pir_solid_sum_destroy(pir_solid_sum *sum) {
+    if (!sum)
+        return;
+    const pir_allocator allocator = sum->allocator;
+    pir_sum_boundary_finish(&sum->boundary);
+    pir_rest_finish(&sum->rest);
+    for (int k = 0; k < 2; k++) {
+        pir_convexes_finish(&sum->convexes[k]);
+        pir_solid_release(sum->solid[k]);
+    }
+    pir_operands_finish(&sum->operands);
+    PIR_FREE(&allocator, sum, 1);
+}
+
+pir_quat pir_solid_sum_rotation(const pir_solid_sum *sum) {
+    return sum->rotation;
+}
+
+uint64_t pir_solid_sum_generation(const pir_solid_sum *sum) {
+    return sum->generation;
+}
+
+void pir_solid_sum_describe(const pir_solid_sum *sum, pir_solid_sum_info *ret_info) {
+    *ret_info = sum->info;
+}
+
+pir_status pir_solid_sum_mesh(pir_solid_sum *sum, pir_precision precision, pir_mesh **ret_mesh) {
+    if (!sum || !ret_mesh || (precision != PIR_DOUBLE && precision != PIR_EXACT))
+        return PIR_ERR_ARGUMENT;
+    const pir_status status = sum->made ? PIR_OK : make(sum, sum->rotation, sum->scale);
+    return status == PIR_OK ? pir_solid_mesh_make(&sum->operands, &sum->boundary, precision == PIR_EXACT, ret_mesh)
+                            : status;
 }

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* The inside of a sum of solids. */
+#ifndef PIR_SOLID_SUM_SOLID_SUM_H
+#define PIR_SOLID_SUM_SOLID_SUM_H
+
+#include "solid/space/rest.h"
+#include "solid/sum/boundary.h"
+#include "solid/sum/operands.h"
+
+struct pir_solid_sum {
+    pir_allocator allocator;
+    pir_solid_sum_options options;
+    pir_solid *solid[2];   /* references */
+    pir_operands operands; /* at rest, but for the space, which turns */
+    pir_convexes convexes[2];
+    pir_space_rest rest;
+    pir_rotation_integers integers;
+    pir_rotation turned; /* what the space has been brought to */
+    pir_quat rotation;
+    double scale[2];
+    bool made;
+    pir_sum_boundary boundary;
+    pir_solid_sum_info info;
+    uint64_t generation;
+};
+
+#endif

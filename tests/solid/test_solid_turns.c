@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A sum of solids on its way through random histories: small steps, jumps, back and forth, degenerate rotations,
+ * scales. At each it is the sum that is made there anew, bit for bit, and with scales the sum of solids that are made
+ * that large.
+ *
+ * PIR_TEST_CASES sets how many rotations each pair goes through.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <pirouette/exact.h>
+#include <pirouette/pirouette.h>
+
+#include "solid/bodies.h"
+#include "solid/models.h"
+#include "support/solid_sums.h"
+
+struct history {
+    test_random random;
+    pir_quat now;
+    pir_vec3 axis;
+    double step;
+    int kind;
+};
+
+static pir_quat turned(pir_quat a, pir_vec3 axis, double angle) {
+    const double s = sin(angle / 2), c = cos(angle / 2);
+    const pir_quat b = {s * axis.x, s * axis.y, s * axis.z, c};
+    pir_quat r = {b.w * a.x + b.x * a.w + b.y * a.z - b.z * a.y, b.w * a.y - b.x * a.z + b.y * a.w + b.z * a.x,
+                  b.w * a.z + b.x * a.y - b.y * a.x + b.z * a.w, b.w * a.w - b.x * a.x - b.y * a.y - b.z * a.z};
+    const double by = 1 / sqrt(r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w);
+    return (pir_quat){r.x * by, r.y * by, r.z * by, r.w * by};
+}
+
+/* A few frames of one kind, then of another. */
+static pir_quat next_rotation(struct history *h) {
+    static const double steps[] = {2e-5, 1.3e-3, 1.3e-2, .13};
+    if (test_random_below(&h->random, 8) == 0) {
+        h->kind = (int)test_random_below(&h->random, 8);
+        h->axis = test_random_direction(&h->random);
+        h->step = steps[test_random_below(&h->random, 4)];
+        if (test_random_below(&h->random, 3) == 0)
+            h->axis = (pir_vec3){0, 0, 1};
+    }
+    if (h->kind == 0)
+        h->now = (pir_quat){test_random_between(&h->random, -1, 1), test_random_between(&h->random, -1, 1),
+                            test_random_between(&h->random, -1, 1), 1};
+    else if (h->kind == 1)
+        h->now = turned(h->now, test_random_direction(&h->random), 2 * test_random_unit(&h->random));
+    else if (h->kind == 2)
+        h->step = -h->step;
+    if (h->kind > 1)
+        h->now = turned(h->now, h->axis, h->step);
+    return h->now;
+}
+
+static void expect_same(pir_solid_sum *sum, pir_solid_sum *fresh, const char *what, uint64_t frame) {
+    pir_mesh *a = NULL, *b = NULL;
+    pir_solid_sum_info of_a, of_b;
+    assert_int_equal(pir_solid_sum_mesh(sum, PIR_EXACT, &a), PIR_OK);
+    assert_int_equal(pir_solid_sum_mesh(fresh, PIR_EXACT, &b), PIR_OK);
+    pir_solid_sum_describe(sum, &of_a);
+    pir_solid_sum_describe(fresh, &of_b);
+    expect(pir_mesh_equal(a, b), "%s, frame %llu: %u and %u facets differ", what, (unsigned long long)frame,
+           pir_mesh_facet_count(a), pir_mesh_facet_count(b));
+    expect(of_a.vertices == of_b.vertices && of_a.edges == of_b.edges && of_a.facets == of_b.facets &&
+               of_a.candidates == of_b.candidates && of_a.two_sided == of_b.two_sided,
+           "%s, frame %llu: the counts differ", what, (unsigned long long)frame);
+    mpq_t x[3], y[3];
+    for (int k = 0; k < 3; k++)
+        mpq_inits(x[k], y[k], NULL);
+    for (uint32_t v = 0; v < pir_mesh_vertex_count(a); v++) {
+        pir_mesh_vertex_exact(a, v, x);
+        pir_mesh_vertex_exact(b, v, y);
+        for (int k = 0; k < 3; k++)
+            expect(mpq_equal(x[k], y[k]), "%s, frame %llu: vertex %u", what, (unsigned long long)frame, v);
+    }
+    for (int k = 0; k < 3; k++)
+        mpq_clears(x[k], y[k], NULL);
+    pir_mesh_destroy(a);
+    pir_mesh_destroy(b);
+}
+
+static void sum_is_that_made_anew_at_every_rotation(void **state) {
+    (void)state;
+    static const char *const pairs[][2] = {
+        {"clamp", "cube"}, {"frame", "star5"}, {"stella", "clamp"}, {"star5", "stella"}, {"mushroom6", "case"}};
+    for (uint64_t i = 0; i < 2 * sizeof pairs / sizeof *pairs; i++) {
+        const char *const *name = pairs[i / 2];
+        struct history history = {.random = test_random_case("turns", i), .now = {0, 0, 0, 1}, .axis = {0, 0, 1}};
+        pir_solid *p = solid_model_new(name[0], 1), *q = solid_model_new(name[1], 2);
+        pir_solid_sum_options options = pir_solid_sum_options_default();
+        pir_solid_sum *sum = NULL;
+        double scale[2] = {1, 1};
+        assert_true(p && q);
+        options.difference = i % 4 > 1;
+        options.open = i % 2;
+        assert_int_equal(pir_solid_sum_create(p, q, history.now, &options, &sum), PIR_OK);
+        for (uint64_t frame = 0; frame < solid_cases(12); frame++) {
+            pir_solid_sum *fresh = NULL;
+            const pir_quat rotation = next_rotation(&history);
+            const uint64_t before = pir_solid_sum_generation(sum);
+            assert_int_equal(pir_solid_sum_rotate(sum, rotation), PIR_OK);
+            if (test_random_below(&history.random, 10) == 0) {
+                const int operand = (int)test_random_below(&history.random, 2);
+                scale[operand] =
+                    test_random_below(&history.random, 2) ? 1 : .1 + 3 * fabs(test_random_unit(&history.random));
+                assert_int_equal(pir_solid_sum_set_scale(sum, (pir_operand)operand, scale[operand]), PIR_OK);
+            }
+            expect(pir_solid_sum_generation(sum) > before, "frame %llu", (unsigned long long)frame);
+            assert_int_equal(pir_solid_sum_create(p, q, rotation, &options, &fresh), PIR_OK);
+            for (int k = 0; k < 2; k++)
+                if (scale[k] != 1)
+                    assert_int_equal(pir_solid_sum_set_scale(fresh, (pir_operand)k, scale[k]), PIR_OK);
+            expect_same(sum, fresh, name[0], frame);
+            pir_solid_sum_destroy(fresh);
+        }
+        pir_solid_sum *clone = NULL;
+        assert_int_equal(pir_solid_sum_clone(sum, &clone), PIR_OK);
+        expect_same(sum, clone, "clone", 0);
+        pir_solid_sum_destroy(clone);
+        pir_solid_sum_destroy(sum);
+        pir_solid_release(q);
+        pir_solid_release(p);
+    }
+}
+
+/* The exact volume of a sum. */
+static void volume_of(pir_solid_sum *sum, mpq_t ret) {
+    pir_mesh *mesh = NULL;
+    assert_int_equal(pir_solid_sum_mesh(sum, PIR_EXACT, &mesh), PIR_OK);
+    mesh_volume(mesh, ret);
+    pir_mesh_destroy(mesh);
+}
+
+static void scaled_sum_is_that_of_scaled_solids(void **state) {
+    (void)state;
+    static const double divisors[][2] = {{4, 1}, {1, 8}, {.25, 2}, {0x1p60, 0x1p60}};
+    mpq_t a, b;
+    mpq_inits(a, b, NULL);
+    for (size_t i = 0; i < sizeof divisors / sizeof *divisors; i++) {
+        const pir_quat turn = {1, 2, 3, 4};
+        pir_solid *p[2] = {solid_model_new("clamp", 1), solid_model_new("clamp", divisors[i][0])};
+        pir_solid *q[2] = {solid_model_new("star5", 1), solid_model_new("star5", divisors[i][1])};
+        pir_solid_sum *sum[2] = {NULL, NULL};
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(pir_solid_sum_create(p[k], q[k], turn, NULL, &sum[k]), PIR_OK);
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(pir_solid_sum_set_scale(sum[0], (pir_operand)k, 1 / divisors[i][k]), PIR_OK);
+        volume_of(sum[0], a);
+        volume_of(sum[1], b);
+        expect(mpq_equal(a, b), "case %zu: volumes %g and %g", i, mpq_get_d(a), mpq_get_d(b));
+        for (int k = 0; k < 2; k++) {
+            pir_solid_sum_destroy(sum[k]);
+            pir_solid_release(p[k]);
+            pir_solid_release(q[k]);
+        }
+    }
+    mpq_clears(a, b, NULL);
+}
+
+static void refused_call_leaves_the_sum_as_it_was(void **state) {
+    (void)state;
+    pir_solid *p = solid_model_new("clamp", 1);
+    pir_solid_sum *sum = NULL, *other = NULL;
+    pir_mesh *mesh = NULL;
+    const pir_quat turn = {1, 2, 3, 4}, zero = {0, 0, 0, 0}, nan_quat = {NAN, 0, 0, 1};
+    assert_int_equal(pir_solid_sum_create(p, p, zero, NULL, &sum), PIR_ERR_ZERO_QUATERNION);
+    assert_int_equal(pir_solid_sum_create(p, NULL, turn, NULL, &sum), PIR_ERR_ARGUMENT);
+    assert_null(sum);
+    assert_int_equal(pir_solid_sum_create(p, p, turn, NULL, &sum), PIR_OK);
+    assert_int_equal(pir_solid_sum_create(p, p, turn, NULL, &other), PIR_OK);
+    assert_int_equal(pir_solid_sum_rotate(sum, zero), PIR_ERR_ZERO_QUATERNION);
+    assert_int_equal(pir_solid_sum_rotate(sum, nan_quat), PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_solid_sum_rotate(NULL, turn), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_sum_set_scale(sum, PIR_OPERAND_P, 0), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_sum_set_scale(sum, PIR_OPERAND_P, INFINITY), PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_solid_sum_set_scale(sum, (pir_operand)7, 1), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_sum_mesh(sum, (pir_precision)7, &mesh), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_sum_clone(sum, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_sum_generation(sum), 0);
+    assert_true(pir_solid_sum_rotation(sum).z == 3);
+    expect_same(sum, other, "refused", 0);
+    pir_solid_sum_destroy(other);
+    pir_solid_sum_destroy(sum);
+    pir_solid_sum_destroy(NULL);
+    pir_solid_release(p);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sum_is_that_made_anew_at_every_rotation),
+        cmocka_unit_test(scaled_sum_is_that_of_scaled_solids),
+        cmocka_unit_test(refused_call_leaves_the_sum_as_it_was),
+    };
+    return cmocka_run_group_tests_name("sums of solids that turn", tests, NULL, NULL);
+}
