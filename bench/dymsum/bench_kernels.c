@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/processor.h"
 #include "dymsum/sum.h"
 #include "query/depth/scan.h"
 #include "results.h"
@@ -122,8 +123,8 @@ static double run_review(void *context, unsigned index) {
     const pir_due due = {scene->expired, facets->count, 0, false};
     uint64_t sides = 0;
     double start = trial_now();
-    pir_kernels_version(index)->review(facets, &scene->sum->tracked.step, &scene->sum->tracked.certificates, &due,
-                                       scene->suspects, &sides);
+    pir_processor_version(index)->kernels->review(facets, &scene->sum->tracked.step, &scene->sum->tracked.certificates,
+                                                  &due, scene->suspects, &sides);
     double taken = trial_now() - start;
     memcpy(facets->cell, scene->cells, facets->count * sizeof *scene->cells);
     return taken;
@@ -132,7 +133,7 @@ static double run_review(void *context, unsigned index) {
 static double run_probe(void *context, unsigned index) {
     struct scene *scene = context;
     const pir_facets *facets = &scene->sum->tracked.p_facets;
-    const pir_kernels *kernels = pir_kernels_version(index);
+    const pir_kernels *kernels = pir_processor_version(index)->kernels;
     pir_cell_probe seen;
     double start = trial_now();
     for (uint32_t f = 0; f < facets->count; f++)
@@ -146,7 +147,7 @@ static double run_collect(void *context, unsigned index) {
     memcpy(certificates->block_ahead, scene->bounds[0], scene->blocks * sizeof *scene->bounds[0]);
     memcpy(certificates->block_behind, scene->bounds[1], scene->blocks * sizeof *scene->bounds[1]);
     double start = trial_now();
-    pir_kernels_version(index)->collect(certificates, scene->blocks, scene->time);
+    pir_processor_version(index)->kernels->collect(certificates, scene->blocks, scene->time);
     return trial_now() - start;
 }
 
@@ -154,8 +155,8 @@ static void write_update_loops(const char *model, FILE *csv, FILE *page, bool fi
     struct scene scene = scene_make(model);
     uint32_t facets = scene.sum->tracked.p_facets.count, certificates = scene.blocks * PIR_CERTIFICATE_BLOCK;
     struct pass pass = {"collect (none expires)", model, run_collect, &scene, certificates, 0, {NULL}};
-    for (; pass.versions < VERSIONS_MAX && pir_kernels_version(pass.versions); pass.versions++)
-        pass.names[pass.versions] = pir_kernels_version(pass.versions)->name;
+    for (; pass.versions < VERSIONS_MAX && pir_processor_version(pass.versions); pass.versions++)
+        pass.names[pass.versions] = pir_processor_version(pass.versions)->kernels->name;
     if (first)
         write_head(page, "Of an update: ns a facet or certificate (times as fast as scalar)", &pass);
     measure(&pass, csv, page);
@@ -192,7 +193,7 @@ static const char *const scan_loops[] = {"turn",  "offset", "cross", "look", "sl
 
 static double run_scan(void *context, unsigned index) {
     struct planes *planes = context;
-    const pir_scan *scan = pir_scan_version(index);
+    const pir_scan *scan = pir_processor_version(index)->scan;
     const pir_mat3 r = {{{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}}};
     const pir_vec3 x = {0.3, -0.2, 0.5};
     double(*a)[PLANES + PIR_SCAN_LANES] = planes->room, least[3];
@@ -240,8 +241,8 @@ static void write_query_loops(FILE *csv, FILE *page) {
         for (int k = 0; k < PLANES + PIR_SCAN_LANES; k++)
             planes.room[i][k] = spin_random(&state);
     struct pass pass = {NULL, "random planes", run_scan, &planes, PLANES, 0, {NULL}};
-    for (; pass.versions < VERSIONS_MAX && pir_scan_version(pass.versions); pass.versions++)
-        pass.names[pass.versions] = pir_scan_version(pass.versions)->name;
+    for (; pass.versions < VERSIONS_MAX && pir_processor_version(pass.versions); pass.versions++)
+        pass.names[pass.versions] = pir_processor_version(pass.versions)->scan->name;
     write_head(page, "Of a query: ns a plane (times as fast as plain)", &pass);
     for (; planes.loop < (int)(sizeof scan_loops / sizeof scan_loops[0]); planes.loop++) {
         pass.loop = scan_loops[planes.loop];

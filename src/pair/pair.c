@@ -2,6 +2,8 @@
 /* The life of pairs and workspaces. */
 #include "pair/pair.h"
 
+#include "base/processor.h"
+
 /* --- workspaces --- */
 
 pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **ret_workspace) {
@@ -22,9 +24,9 @@ pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **
     workspace->exact.frame = &workspace->frame;
     workspace->exact.rotation = &workspace->rotation;
     workspace->world.rotation_q = &workspace->rotation_q;
-    workspace->room.loops = pir_surface_loops_best();
-    workspace->axes = pir_axes_loops_best();
-    workspace->walker = pir_walker_best();
+    workspace->room.loops = pir_processor_best()->surface;
+    workspace->axes = pir_processor_best()->axes;
+    workspace->walker = pir_processor_best()->walker;
     *ret_workspace = workspace;
     return PIR_OK;
 }

@@ -8,6 +8,7 @@
 
 #include <pirouette/shape.h>
 
+#include "base/processor.h"
 #include "dymsum/sum.h"
 
 /* 17,000 facets and more. The poles of the ellipsoid have more sides than a mask of sides has bits. */
@@ -51,11 +52,12 @@ static pir_sum_statistics run_version(pir_polytope *p, pir_polytope *q, unsigned
     pir_sum *updated = NULL, *walked = NULL;
     assert_int_equal(pir_sum_create(p, q, rotation(0), NULL, &updated), PIR_OK);
     assert_int_equal(pir_sum_create(p, q, rotation(7), NULL, &walked), PIR_OK);
-    updated->tracked.kernels = walked->tracked.kernels = pir_kernels_version(version);
+    updated->tracked.kernels = walked->tracked.kernels = pir_processor_version(version)->kernels;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         assert_int_equal(pir_sum_rotate(updated, rotation(places[i]), PIR_METHOD_UPDATE), PIR_OK);
         assert_int_equal(pir_sum_rotate(walked, rotation(places[i]), PIR_METHOD_WALK), PIR_OK);
-        expect(pir_sum_same_pairing(updated, walked), "%s kernels, place %zu", pir_kernels_version(version)->name, i);
+        expect(pir_sum_same_pairing(updated, walked), "%s kernels, place %zu",
+               pir_processor_version(version)->kernels->name, i);
     }
     assert_true(pir_sum_is_valid(updated));
     pir_sum_statistics did = pir_sum_get_statistics(updated), walks = pir_sum_get_statistics(walked);
@@ -72,7 +74,7 @@ static void large_bodies_have_one_pairing(void **state) {
         print_message("# %s, %s\n", pairs[i][0], pairs[i][1]);
         pir_polytope *p = body(pairs[i][0]), *q = body(pairs[i][1]);
         const pir_sum_statistics reference = run_version(p, q, 0);
-        for (unsigned k = 1; pir_kernels_version(k); k++) {
+        for (unsigned k = 1; pir_processor_version(k); k++) {
             const pir_sum_statistics did = run_version(p, q, k);
             assert_memory_equal(&did, &reference, sizeof did);
         }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Which version of the kernels sums take: the linker sends the library's choice here, where it can. */
+#include "base/processor.h"
 #include "dymsum/kernels/kernels.h"
 #include "golden/golden.h"
 
@@ -8,18 +9,18 @@ static unsigned taken;
 
 const pir_kernels *__wrap_pir_kernels_choose(void);
 const pir_kernels *__wrap_pir_kernels_choose(void) {
-    return pir_kernels_version(taken);
+    return pir_processor_version(taken)->kernels;
 }
 
 unsigned golden_kernels_count(void) {
     unsigned count = 0;
-    while (pir_kernels_version(count))
+    while (pir_processor_version(count))
         count++;
     return count;
 }
 
 const char *golden_kernels_name(unsigned index) {
-    return pir_kernels_version(index)->name;
+    return pir_processor_version(index)->kernels->name;
 }
 
 void golden_kernels_take(unsigned index) {

@@ -13,6 +13,7 @@
 #include <pirouette/shape.h>
 #include <pirouette/sum.h>
 
+#include "base/processor.h"
 #include "pair/axes/axes.h"
 #include "pair/pair.h"
 #include "query/frame/body.h"
@@ -88,8 +89,8 @@ static pir_query_result ask_sum(const struct scene *scene) {
 static void check_versions(const struct scene *scene, const pir_axes *p, const pir_axes *q) {
     double low[2][PIR_AXES_SLACKS], next[2];
     uint32_t count[2], at[2];
-    for (unsigned version = 0; pir_axes_loops_version(version); version++) {
-        const pir_axes_loops *loops = pir_axes_loops_version(version);
+    for (unsigned version = 0; pir_processor_version(version); version++) {
+        const pir_axes_loops *loops = pir_processor_version(version)->axes;
         int i = version > 0;
         count[i] =
             loops->slacks(&p->lanes, &q->lanes, &scene->frame.r, scene->placement.x, scene->placement.error, low[i]);
@@ -113,7 +114,7 @@ static void the_least_slack_is_the_depth(void **state) {
             pir_axes_slack least;
             few++;
             check_versions(&scene, p, q);
-            pir_axes_least(pir_axes_loops_best(), p, q, &scene.frame, &scene.placement, &least);
+            pir_axes_least(pir_processor_best()->axes, p, q, &scene.frame, &scene.placement, &least);
             pir_query_result right = ask_sum(&scene);
             double depth = pir_frame_from(&scene.frame, -right.distance), error = scene.placement.error;
             if (right.state == PIR_INSIDE) {

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/processor.h"
 #include "pair/surface/inner_surface.h"
 #include "support/bodies.h"
 
@@ -28,14 +29,15 @@ static void a_surface_stays_closed_as_vertices_are_added(void **state) {
         assert_true(pir_surface_is_valid(&surface));
         // points of a sphere about the centre, as vertices of Q with P a point
         pir_vec3 vertex[40] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, zero = {0, 0, 0};
+        pir_vec3 of_q[2] = {{0}}; // one more: loops read past the last
         pir_frame frame = {.r = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
-        frame.q.vertex = &zero;
+        frame.q.vertex = of_q;
         frame.p.vertex = vertex;
         for (int k = 4; k < 40; k++) {
             pir_vec3 d = test_random_direction(&random);
             vertex[k] = (pir_vec3){2 * d.x, 2 * d.y, 2 * d.z};
         }
-        pir_surface_room room = {.loops = pir_surface_loops_best()};
+        pir_surface_room room = {.loops = pir_processor_best()->surface};
         uint32_t added = 0;
         bool certain = pir_surface_place(&surface, &frame, zero, 0x1p-46, 4, &room);
         if (!certain) {
@@ -67,9 +69,10 @@ static void a_surface_stays_closed_as_vertices_are_added(void **state) {
 /* A surface around the origin whose corners are random points, and a room where it is placed. */
 static void make_surface(test_random *random, pir_surface *surface, pir_vec3 vertex[40], pir_frame *frame,
                          pir_surface_room *room) {
-    static pir_vec3 zero = {0, 0, 0};
+    static pir_vec3 of_q[2]; // one more: loops read past the last
+    const pir_vec3 zero = {0, 0, 0};
     *frame = (pir_frame){.r = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
-    frame->q.vertex = &zero;
+    frame->q.vertex = of_q;
     frame->p.vertex = vertex;
     const pir_vec3 first[4] = {{1, 1, 1}, {-1, -1, 1}, {1, -1, -1}, {-1, 1, -1}};
     for (int k = 0; k < 40; k++) {
@@ -91,7 +94,7 @@ static void make_surface(test_random *random, pir_surface *surface, pir_vec3 ver
 
 static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **state) {
     (void)state;
-    if (!pir_surface_loops_version(1))
+    if (!pir_processor_version(1))
         print_message("this processor runs the plain version only\n");
     for (uint64_t i = 0; i < 60; i++) {
         test_random random = test_random_case("surface loops", i);
@@ -100,7 +103,7 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
         pir_surface surface;
         static pir_surface_room plain, room;
         memset(&surface, 0, sizeof surface);
-        plain.loops = pir_surface_loops_version(0);
+        plain.loops = pir_processor_version(0)->surface;
         make_surface(&random, &surface, vertex, &frame, &plain);
         pir_quat q = test_general_rotation(&random);
         double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, w = q.w, x = q.x, y = q.y, z = q.z;
@@ -109,8 +112,8 @@ static void every_version_of_the_loops_gives_the_bits_of_the_plain_one(void **st
                               {2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n}}};
         pir_vec3 centre = test_random_direction(&random);
         bool certain = pir_surface_place(&surface, &frame, centre, 0x1p-46, 4, &plain);
-        for (unsigned version = 1; pir_surface_loops_version(version); version++) {
-            room.loops = pir_surface_loops_version(version);
+        for (unsigned version = 1; pir_processor_version(version); version++) {
+            room.loops = pir_processor_version(version)->surface;
             assert_int_equal(pir_surface_place(&surface, &frame, centre, 0x1p-46, 4, &room), certain);
             double least = room.loops->least(&surface, &room, UINT64_MAX),
                    limits[3] = {least, 0, plain.plane.low[surface.count / 2]};
@@ -152,7 +155,7 @@ struct made {
 
 static struct made *make_with_best_loops(test_random *random) {
     static struct made made;
-    made.room.loops = pir_surface_loops_best();
+    made.room.loops = pir_processor_best()->surface;
     make_surface(random, &made.surface, made.vertex, &made.frame, &made.room);
     return &made;
 }

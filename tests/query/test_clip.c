@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/processor.h"
 #include "query/contact/clip.h"
 #include "query/contact/single.h"
 #include "support/bodies.h"
@@ -137,7 +138,7 @@ static double size_of(const pir_polytope *p) {
 /* A patch of the body as it stands, with room for its vertices. */
 static pir_patch patch_of(const pir_polytope *p, pir_vec3 out, const pir_mat3 *r, uint32_t *member, bool *is_member,
                           pir_corner *corner) {
-    return (pir_patch){.version = pir_single_version_best(),
+    return (pir_patch){.version = pir_processor_best()->single,
                        .polytope = p,
                        .vertex = p->vertex,
                        .r = r,
@@ -352,11 +353,11 @@ static void versions_place_singles_alike(void **state) {
             if (body->loop_start[of_p.facet + 1] - body->loop_start[of_p.facet] > PIR_CLIP_MOST ||
                 body->loop_start[of_q.facet + 1] - body->loop_start[of_q.facet] > PIR_CLIP_MOST)
                 continue;
-            bool is_clear = pir_single_version_of(0)->place(&p0, &of_p, &q0, &of_q, axis, &plain);
+            bool is_clear = pir_processor_version(0)->single->place(&p0, &of_p, &q0, &of_q, axis, &plain);
             clear += is_clear;
-            for (unsigned version = 1; pir_single_version_of(version); version++) {
+            for (unsigned version = 1; pir_processor_version(version); version++) {
                 pir_patch p1 = singled(&p, corner[2]), q1 = singled(&q, corner[3]);
-                assert_int_equal(pir_single_version_of(version)->place(&p1, &of_p, &q1, &of_q, axis, &places),
+                assert_int_equal(pir_processor_version(version)->single->place(&p1, &of_p, &q1, &of_q, axis, &places),
                                  is_clear);
                 check_same_single(&p0, &p1);
                 check_same_single(&q0, &q1);
@@ -387,7 +388,7 @@ static pir_vec3 nearly_facing(const pir_polytope *p, test_random *random, uint32
 /* Every version tells sharp features and foremost facets with the bits of the plain one, ties included. */
 static void versions_look_around_alike(void **state) {
     (void)state;
-    const pir_single_version *plain = pir_single_version_of(0);
+    const pir_single_version *plain = pir_processor_version(0)->single;
     int sharp = 0, found = 0, asked = 0;
     for (uint64_t number = 0; number < 2000; number++) {
         test_random random = test_random_case("rings", number);
@@ -412,8 +413,8 @@ static void versions_look_around_alike(void **state) {
             sharp += is_sharp;
             found += foremost.half != UINT32_MAX;
             asked++;
-            for (unsigned version = 1; pir_single_version_of(version); version++) {
-                const pir_single_version *other = pir_single_version_of(version);
+            for (unsigned version = 1; pir_processor_version(version); version++) {
+                const pir_single_version *other = pir_processor_version(version)->single;
                 expect(other->is_sharp(p, feature, out, sine) == is_sharp, "case %d: feature %d %u", (int)number,
                        (int)feature.kind, feature.index);
                 if (feature.kind != PIR_FEATURE_VERTEX)

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/processor.h"
 #include "facet_scene.h"
 #include "query/walk/foot.h"
 #include "query/walk/walker.h"
@@ -56,12 +57,12 @@ static double least_slack(const pir_frame *frame, pir_vec3 x) {
 static pir_same follow(const pir_frame *frame, const pir_placement *placement, pir_piece piece,
                        pir_same_facet *ret_start, pir_same_facet *ret_end, pir_same *ret_is) {
     memset(ret_start, 0, sizeof *ret_start);
-    pir_same from = pir_walker_version(0)->prove(frame, placement, piece, ret_start);
+    pir_same from = pir_processor_version(0)->walker->prove(frame, placement, piece, ret_start);
     *ret_end = *ret_start;
-    *ret_is = pir_walker_version(0)->follow(frame, placement, from, ret_end);
-    for (unsigned version = 1; pir_walker_version(version); version++) {
+    *ret_is = pir_processor_version(0)->walker->follow(frame, placement, from, ret_end);
+    for (unsigned version = 1; pir_processor_version(version); version++) {
         pir_same_facet other = *ret_start;
-        assert_int_equal(pir_walker_version(version)->follow(frame, placement, from, &other), *ret_is);
+        assert_int_equal(pir_processor_version(version)->walker->follow(frame, placement, from, &other), *ret_is);
         if (*ret_is == PIR_SAME_PROVEN)
             assert_true(memcmp(&other.facet, &ret_end->facet, sizeof other.facet) == 0 &&
                         memcmp(&other.touch, &ret_end->touch, sizeof other.touch) == 0 &&
@@ -115,10 +116,10 @@ static void a_processor_with_avx2_has_its_version(void **state) {
     (void)state;
 #if defined(__x86_64__) && defined(__GNUC__)
     if (__builtin_cpu_supports("avx2")) {
-        assert_non_null(pir_walker_version(1));
+        assert_non_null(pir_processor_version(1));
     }
 #endif
-    assert_null(pir_walker_version(2));
+    assert_null(pir_processor_version(2));
 }
 
 static void inside_the_end_holds_the_foot(void **state) {

@@ -7,17 +7,18 @@
 
 #include <string.h>
 
+#include "base/processor.h"
 #include "facet_scene.h"
 #include "query/walk/walker.h"
 
 static void check_piece(const facet_scene *scene, const pir_placement *placement, pir_piece piece, uint32_t proven[3]) {
     pir_same_facet plain, same;
     memset(&plain, 0, sizeof plain);
-    pir_same is = pir_walker_version(0)->prove(&scene->frame, placement, piece, &plain);
+    pir_same is = pir_processor_version(0)->walker->prove(&scene->frame, placement, piece, &plain);
     proven[piece.kind] += is == PIR_SAME_PROVEN;
-    for (unsigned version = 1; pir_walker_version(version); version++) {
+    for (unsigned version = 1; pir_processor_version(version); version++) {
         memset(&same, 0, sizeof same);
-        assert_int_equal(pir_walker_version(version)->prove(&scene->frame, placement, piece, &same), is);
+        assert_int_equal(pir_processor_version(version)->walker->prove(&scene->frame, placement, piece, &same), is);
         if (is == PIR_SAME_PROVEN)
             assert_memory_equal(&same, &plain, sizeof same);
         if (is == PIR_SAME_NEAR)
@@ -31,14 +32,14 @@ static void check_supports(test_random *random, const pir_frame *frame) {
     const uint32_t from_b = test_random_below(random, frame->q.polytope->vertex_count);
     uint32_t a = from_a, b = from_b;
     pir_vec3 back;
-    pir_walker_version(0)->supports(frame, n, &a, &b, &back);
-    for (unsigned version = 1; pir_walker_version(version); version++) {
+    pir_processor_version(0)->walker->supports(frame, n, &a, &b, &back);
+    for (unsigned version = 1; pir_processor_version(version); version++) {
         uint32_t c[2] = {from_a, from_b}, at[2] = {a, b};
         pir_vec3 turned;
-        pir_walker_version(version)->supports(frame, n, &c[0], &c[1], &turned);
+        pir_processor_version(version)->walker->supports(frame, n, &c[0], &c[1], &turned);
         assert_true(c[0] == a && c[1] == b && memcmp(&turned, &back, sizeof back) == 0);
         // from where it ends it goes no further
-        pir_walker_version(version)->supports(frame, n, &at[0], &at[1], &turned);
+        pir_processor_version(version)->walker->supports(frame, n, &at[0], &at[1], &turned);
         assert_true(at[0] == a && at[1] == b);
     }
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/processor.h"
 #include "query/depth/scan.h"
 #include "support/random.h"
 
@@ -68,11 +69,11 @@ static void every_version_gives_the_same_bits(void **state) {
         for (int k = 0; k < 4; k++)
             fill(&random, &in[k]);
         struct outcome plain, other;
-        run_scan(pir_scan_version(0), in, &plain);
-        for (unsigned version = 1; pir_scan_version(version); version++) {
-            run_scan(pir_scan_version(version), in, &other);
-            expect(memcmp(&plain, &other, sizeof plain) == 0, "%s differs, case %llu", pir_scan_version(version)->name,
-                   (unsigned long long)number);
+        run_scan(pir_processor_version(0)->scan, in, &plain);
+        for (unsigned version = 1; pir_processor_version(version); version++) {
+            run_scan(pir_processor_version(version)->scan, in, &other);
+            expect(memcmp(&plain, &other, sizeof plain) == 0, "%s differs, case %llu",
+                   pir_processor_version(version)->scan->name, (unsigned long long)number);
         }
     }
 }
@@ -84,7 +85,7 @@ static void the_plain_version_says_what_the_formulas_say(void **state) {
     for (int k = 0; k < 4; k++)
         fill(&random, &in[k]);
     struct outcome out;
-    run_scan(pir_scan_version(0), in, &out);
+    run_scan(pir_processor_version(0)->scan, in, &out);
     double low = HUGE_VAL;
     for (int i = 0; i < COUNT; i++) {
         pir_vec3 d = {in[0].x[i], in[0].y[i], in[0].z[i]}, e = {in[1].x[i], in[1].y[i], in[1].z[i]};
@@ -123,7 +124,7 @@ static void caps_bound_by_their_widest_angle(void **state) {
         }
         const double error = 0x1p-30;
         pir_cap_lanes caps = {lanes(&axis), lanes(&corner), cosine, sine};
-        double high = pir_scan_version(0)->caps(0, PIR_SCAN_LANES, &caps, x, error, low);
+        double high = pir_processor_version(0)->scan->caps(0, PIR_SCAN_LANES, &caps, x, error, low);
         double least = HUGE_VAL;
         for (int i = 0; i < PIR_SCAN_LANES; i++) {
             double length = sqrt(pir_vec_dot(w[i], w[i])), along = pir_vec_dot(n[i], w[i]);
@@ -153,7 +154,7 @@ static void slacks_are_those_of_turned_points(void **state) {
     pir_vec3 x = test_random_direction(&random);
     pir_facet_lanes facets = {lanes(&n), base};
     pir_slack_lanes slacks = {.to = lanes(&to), .s = s};
-    pir_scan_version(0)->slacks(COUNT, &r, lanes(&from), x, &facets, &slacks);
+    pir_processor_version(0)->scan->slacks(COUNT, &r, lanes(&from), x, &facets, &slacks);
     for (int i = 0; i < COUNT; i++) {
         pir_vec3 u = pir_vec_sub(pir_mat_apply(&r, (pir_vec3){from.x[i], from.y[i], from.z[i]}), x);
         pir_vec3 normal = {n.x[i], n.y[i], n.z[i]};
@@ -166,7 +167,7 @@ static void slacks_are_those_of_turned_points(void **state) {
 }
 
 static int compare_versions(void) {
-    if (!pir_scan_version(1)) {
+    if (!pir_processor_version(1)) {
         print_message("# nothing to compare: the plain version alone runs here\n");
         return TEST_SKIPPED;
     }

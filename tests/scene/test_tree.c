@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/processor.h"
 #include "scene/tree/tree.h"
 #include "scene/world/turned_box.h"
 #include "support/memory.h"
@@ -122,7 +123,7 @@ static void memory_that_fails_leaves_the_tree(void **state) {
 /* Every version of the loop gives the bits of the plain one. */
 static void boxes_of_turned_points_have_the_same_bits(void **state) {
     (void)state;
-    if (!pir_turned_box_version(1))
+    if (!pir_processor_version(1))
         skip();
     for (uint64_t number = 0; number < 400; number++) {
         test_random random = test_random_case("turned points", number);
@@ -137,13 +138,13 @@ static void boxes_of_turned_points_have_the_same_bits(void **state) {
             point[i].y = test_random_scaled(&random, -2, 2);
             point[i].z = number % 3 ? test_random_unit(&random) : 0;
         }
-        for (unsigned version = 0; pir_turned_box_version(version); version++) {
+        for (unsigned version = 0; pir_processor_version(version); version++) {
             unsigned at = version > 0;
-            pir_turned_box_version(version)(&r, point, count, &low[at], &high[at]);
+            pir_processor_version(version)->turned_box->find(&r, point, count, &low[at], &high[at]);
             assert_memory_equal(&low[at], &low[0], sizeof low[0]);
             assert_memory_equal(&high[at], &high[0], sizeof high[0]);
         }
-        pir_turned_box_best()(&r, point, count, &low[1], &high[1]);
+        pir_processor_best()->turned_box->find(&r, point, count, &low[1], &high[1]);
         assert_memory_equal(low, low + 1, sizeof low[0]);
     }
 }

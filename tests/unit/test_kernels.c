@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/processor.h"
 #include "dymsum/sum.h"
 #include "support/bodies.h"
 #include "support/hash.h"
@@ -97,10 +98,11 @@ static void reviews_have_the_bits_of_the_reference(void **state) {
             pir_facets *facets = operand ? &sum->tracked.q_facets : &sum->tracked.p_facets;
             pir_step step = sum->tracked.step;
             for (int round = 0; round < 4; round++) {
-                uint64_t expected = review_hash(sum, pir_kernels_version(0), facets, step);
-                for (unsigned k = 1; pir_kernels_version(k); k++)
-                    expect(review_hash(sum, pir_kernels_version(k), facets, step) == expected,
-                           "%s, case %llu, round %d", pir_kernels_version(k)->name, (unsigned long long)i, round);
+                uint64_t expected = review_hash(sum, pir_processor_version(0)->kernels, facets, step);
+                for (unsigned k = 1; pir_processor_version(k); k++)
+                    expect(review_hash(sum, pir_processor_version(k)->kernels, facets, step) == expected,
+                           "%s, case %llu, round %d", pir_processor_version(k)->kernels->name, (unsigned long long)i,
+                           round);
                 move(&random, facets, operand ? p->vertex_count : q->vertex_count, &step);
             }
         }
@@ -129,7 +131,7 @@ static void collections_list_the_same_certificates(void **state) {
     for (uint64_t i = 0; i < 400; i++) {
         uint32_t listed = 0;
         uint64_t expected = 0;
-        for (unsigned k = 0; pir_kernels_version(k); k++) {
+        for (unsigned k = 0; pir_processor_version(k); k++) {
             test_random random = test_random_case("kernels collect", i);
             uint32_t count = 1 + test_random_below(&random, 700);
             pir_certificates certificates = {0};
@@ -140,7 +142,7 @@ static void collections_list_the_same_certificates(void **state) {
             for (int round = 0; round < 3; round++) {
                 const pir_turned_angle turned = {uniform(&random) / 50, uniform(&random) / 50,
                                                  test_random_below(&random, 2) == 0};
-                uint32_t found = pir_kernels_collect(pir_kernels_version(k), &certificates, count, turned);
+                uint32_t found = pir_kernels_collect(pir_processor_version(k)->kernels, &certificates, count, turned);
                 hash = test_hash(hash, certificates.expired, found * sizeof *certificates.expired);
                 hash = test_hash(hash, certificates.block_ahead, blocks * sizeof *certificates.block_ahead);
                 hash = test_hash(hash, certificates.block_behind, blocks * sizeof *certificates.block_behind);
@@ -148,7 +150,7 @@ static void collections_list_the_same_certificates(void **state) {
             }
             if (k == 0)
                 expected = hash;
-            expect(hash == expected, "%s, case %llu", pir_kernels_version(k)->name, (unsigned long long)i);
+            expect(hash == expected, "%s, case %llu", pir_processor_version(k)->kernels->name, (unsigned long long)i);
             pir_certificates_finish(&certificates, &allocator);
         }
         total += listed;
@@ -211,10 +213,11 @@ static void sweeps_find_the_same(void **state) {
             const pir_arc reach = pir_arc_of(round < 2 ? 0 : 3.2 * test_random_unit(&random));
             const pir_sight sight = {(float)axis.x,       (float)axis.y,     (float)axis.z,
                                      (float)reach.cosine, (float)reach.sine, round % 3 ? 0x1p-18f : 0x1p-4f};
-            uint64_t expected = sweep_hash(sum, pir_kernels_version(0), &sight, &listed);
-            for (unsigned k = 1; pir_kernels_version(k); k++)
-                expect(sweep_hash(sum, pir_kernels_version(k), &sight, &listed) == expected, "%s, case %llu, round %d",
-                       pir_kernels_version(k)->name, (unsigned long long)i, round);
+            uint64_t expected = sweep_hash(sum, pir_processor_version(0)->kernels, &sight, &listed);
+            for (unsigned k = 1; pir_processor_version(k); k++)
+                expect(sweep_hash(sum, pir_processor_version(k)->kernels, &sight, &listed) == expected,
+                       "%s, case %llu, round %d", pir_processor_version(k)->kernels->name, (unsigned long long)i,
+                       round);
         }
         pir_sum_destroy(sum);
         pir_polytope_release(q);
@@ -225,9 +228,9 @@ static void sweeps_find_the_same(void **state) {
 
 int main(void) {
     test_print_seed();
-    for (unsigned k = 0; pir_kernels_version(k); k++)
-        print_message("# kernels: %s\n", pir_kernels_version(k)->name);
-    if (!pir_kernels_version(1)) {
+    for (unsigned k = 0; pir_processor_version(k); k++)
+        print_message("# kernels: %s\n", pir_processor_version(k)->kernels->name);
+    if (!pir_processor_version(1)) {
         print_message("# nothing to compare: the scalar version alone runs here\n");
         return TEST_SKIPPED;
     }

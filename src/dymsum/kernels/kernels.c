@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The scalar reference of the kernels, and the choice among versions. */
+/* The scalar reference of the kernels. */
 #include "dymsum/kernels/kernels.h"
 
-#include "dymsum/kernels/kernels_versions.h"
 #include "polytope/polytope.h"
 
 /* Checks a facet in the cell whose ring fills `blocks` blocks. */
@@ -133,35 +132,14 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
     return count;
 }
 
-static const pir_kernels scalar = {"scalar",
-                                   review,
-                                   probe,
-                                   descend,
-                                   pir_find_starts,
-                                   pir_arcs_find_sides,
-                                   pir_arcs_measure_sides,
-                                   collect,
-                                   pir_list_caps,
-                                   pir_list_points,
-                                   pir_list_arcs};
-
-const pir_kernels *pir_kernels_version(unsigned index) {
-    const pir_kernels *versions[4] = {&scalar};
-    unsigned count = 1;
-#if PIR_HAVE_X86_KERNELS
-    if (__builtin_cpu_supports("avx2"))
-        versions[count++] = &pir_kernels_avx2;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-        versions[count++] = &pir_kernels_avx512;
-#elif PIR_HAVE_NEON_KERNELS
-    versions[count++] = &pir_kernels_neon;
-#endif
-    return index < count ? versions[index] : NULL;
-}
-
-const pir_kernels *pir_kernels_choose(void) {
-    const pir_kernels *best = &scalar;
-    for (unsigned i = 1; pir_kernels_version(i); i++)
-        best = pir_kernels_version(i);
-    return best;
-}
+const pir_kernels pir_kernels_plain = {"scalar",
+                                       review,
+                                       probe,
+                                       descend,
+                                       pir_find_starts,
+                                       pir_arcs_find_sides,
+                                       pir_arcs_measure_sides,
+                                       collect,
+                                       pir_list_caps,
+                                       pir_list_points,
+                                       pir_list_arcs};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The inner loops of updates and walks, behind one dispatch struct: a scalar reference, and AVX2, AVX-512 and NEON
- * versions chosen when a sum is made. Every version performs the same roundings, lane by lane, and minima and maxima do
- * not round. So all versions give the same bits.
+ * versions, of which a sum takes one from the processor's table (base/processor.h) when it is made. Every version
+ * performs the same roundings, lane by lane, and minima and maxima do not round. So all versions give the same bits.
  */
 #ifndef PIR_DYMSUM_KERNELS_KERNELS_H
 #define PIR_DYMSUM_KERNELS_KERNELS_H
@@ -91,10 +91,6 @@ void pir_arcs_measure_sides(const pir_facets *facets_of_p, const pir_polytope *p
 void pir_find_starts(const pir_facets *facets, const pir_starts *starts, const uint32_t *facet, uint32_t count,
                      uint32_t *ret_from);
 
-/* The versions that this build has and this processor runs, the scalar reference first; NULL past the last. */
-const pir_kernels *pir_kernels_version(unsigned index);
-
-/* The fastest of them. */
-const pir_kernels *pir_kernels_choose(void);
+extern const pir_kernels pir_kernels_plain, pir_kernels_avx2, pir_kernels_avx512, pir_kernels_neon;
 
 #endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The kernels for AVX2: a block of eight floats at a time. */
-#include "dymsum/kernels/kernels_versions.h"
-
-#if PIR_HAVE_X86_KERNELS
+#include "dymsum/kernels/kernels.h"
 
 #include <immintrin.h>
 
@@ -105,5 +103,3 @@ TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, 
 
 const pir_kernels pir_kernels_avx2 = {"avx2",        review,  probe,     descend,     find_starts, find_sides,
                                       measure_sides, collect, list_caps, list_points, list_arcs};
-
-#endif

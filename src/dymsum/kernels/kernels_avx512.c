@@ -3,9 +3,7 @@
  * The kernels for AVX-512 (F, DQ and VL): a block of eight floats at a time, with masks. Vectors of sixteen are slower:
  * processors lower their clock for them.
  */
-#include "dymsum/kernels/kernels_versions.h"
-
-#if PIR_HAVE_X86_KERNELS
+#include "dymsum/kernels/kernels.h"
 
 #include <immintrin.h>
 
@@ -110,5 +108,3 @@ TARGET static uint32_t collect(pir_certificates *certificates, uint32_t blocks, 
 
 const pir_kernels pir_kernels_avx512 = {"avx512",      review,  probe,     descend,     find_starts, find_sides,
                                         measure_sides, collect, list_caps, list_points, list_arcs};
-
-#endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The kernels for NEON (AArch64): four floats at a time. */
-#include "dymsum/kernels/kernels_versions.h"
-
-#if PIR_HAVE_NEON_KERNELS
+#include "dymsum/kernels/kernels.h"
 
 #include <arm_neon.h>
 
@@ -169,5 +167,3 @@ static uint32_t collect(pir_certificates *certificates, uint32_t blocks, pir_tur
 const pir_kernels pir_kernels_neon = {
     "neon",  review,        probe,           descend,      pir_find_starts, pir_arcs_find_sides, pir_arcs_measure_sides,
     collect, pir_list_caps, pir_list_points, pir_list_arcs};
-
-#endif

@@ -2,6 +2,7 @@
 /* Memory of a tracked pairing, and its certificates. See tracked.h. */
 #include "dymsum/pairing/tracked.h"
 
+#include "base/processor.h"
 #include "dymsum/pairing/crossings.h"
 
 static uint32_t most(uint32_t a, uint32_t b) {
@@ -99,7 +100,7 @@ pir_status pir_tracked_init(pir_tracked *tracked, const pir_sum_parts *parts) {
                              .p = pir_polytope_retain(parts->p),
                              .q = pir_polytope_retain(parts->q),
                              .generation = 1};
-    tracked->kernels = pir_kernels_choose();
+    tracked->kernels = pir_processor_best()->kernels;
     pir_journal_init(&tracked->journal);
     pairing->scratch = parts->scratch ? pir_scratch_retain(parts->scratch) : pir_scratch_new(parts->allocator);
     pir_sum_room *room = pairing->scratch ? pir_sum_room_of(pairing->scratch, parts->p, parts->q) : NULL;

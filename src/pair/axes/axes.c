@@ -20,31 +20,6 @@
 
 #include <string.h>
 
-/* --- loops --- */
-
-#define AXES_TARGET
-#define AXES_WIDTH 2
-#define AXES_NAME  pir_axes_plain
-#define AXES_TEXT  "plain"
-#include "pair/axes/axes_body.h"
-
-const pir_axes_loops *pir_axes_loops_version(unsigned index) {
-    if (index == 0)
-        return &pir_axes_plain;
-#if PIR_HAVE_X86_AXES
-    if (index == 1 && __builtin_cpu_supports("avx2"))
-        return &pir_axes_avx2;
-#endif
-    return NULL;
-}
-
-const pir_axes_loops *pir_axes_loops_best(void) {
-    unsigned index = 0;
-    while (pir_axes_loops_version(index + 1))
-        index++;
-    return pir_axes_loops_version(index);
-}
-
 /* --- the axes of a body --- */
 
 /* The kind of what is attached. */
@@ -214,7 +189,7 @@ static uint32_t farthest_edge(const pir_axes *axes, const pir_body *body, uint32
 static pir_piece piece_of_edges(const pir_axes *p, const pir_axes *q, const pir_frame *frame, uint32_t i, uint32_t k,
                                 pir_vec3 *ret_normal) {
     const pir_polytope *of_p = frame->p.polytope, *of_q = frame->q.polytope;
-    uint32_t wide = padded(q->lanes.along), j = k < wide ? k : k - wide;
+    uint32_t wide = pir_axes_padded(q->lanes.along), j = k < wide ? k : k - wide;
     pir_vec3 n = pir_vec_cross(get(q->lanes.edge, j), pir_mat_apply(&frame->r, get(p->lanes.edge, i)));
     n = pir_vec_scale(n, (k < wide ? 1 : -1) / sqrt(pir_vec_dot(n, n)));
     uint32_t edge = farthest_edge(p, &frame->p, i, pir_mat_apply_transposed(&frame->r, n));
@@ -227,8 +202,8 @@ static pir_piece piece_of_edges(const pir_axes *p, const pir_axes *q, const pir_
 
 pir_piece pir_axes_piece(const pir_axes *p, const pir_axes *q, const pir_frame *frame, uint32_t at,
                          pir_vec3 *ret_normal) {
-    uint32_t line_p = padded(p->lanes.lines), line_q = padded(q->lanes.lines), of_p = 2 * line_p;
-    uint32_t of_both = of_p + 2 * line_q, of_edge = 2 * padded(q->lanes.along);
+    uint32_t line_p = pir_axes_padded(p->lanes.lines), line_q = pir_axes_padded(q->lanes.lines), of_p = 2 * line_p;
+    uint32_t of_both = of_p + 2 * line_q, of_edge = 2 * pir_axes_padded(q->lanes.along);
     if (at < of_p) {
         uint32_t f = p->facet[at / line_p][at % line_p];
         *ret_normal = pir_mat_apply(&frame->r, frame->p.polytope->normal[f]);

@@ -58,11 +58,10 @@ typedef struct pir_axes_loops {
     uint32_t (*least)(const double *low, uint32_t count, double *ret_next);
 } pir_axes_loops;
 
-/* Version `index`, the plain one first; NULL past those that this machine can run. */
-const pir_axes_loops *pir_axes_loops_version(unsigned index);
-
-/* The last of them. */
-const pir_axes_loops *pir_axes_loops_best(void);
+/* Whole lanes of four, whatever a processor takes at a time. */
+static inline uint32_t pir_axes_padded(uint32_t count) {
+    return (count + 3) & ~3u;
+}
 
 /* Finds the axes of a body in its frame, which belong to its polytope; NULL where they are many. PIR_ERR_MEMORY. */
 pir_status pir_axes_find(pir_polytope *p, int exponent, const pir_body *body, const pir_axes **ret_axes);
@@ -82,11 +81,6 @@ void pir_axes_least(const pir_axes_loops *loops, const pir_axes *p, const pir_ax
 pir_piece pir_axes_piece(const pir_axes *p, const pir_axes *q, const pir_frame *frame, uint32_t at,
                          pir_vec3 *ret_normal);
 
-extern const pir_axes_loops pir_axes_plain;
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define PIR_HAVE_X86_AXES 1
-extern const pir_axes_loops pir_axes_avx2;
-#endif
+extern const pir_axes_loops pir_axes_plain, pir_axes_avx2;
 
 #endif

@@ -1,71 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * The text of the loops over axes. AXES_TARGET names the processor, AXES_WIDTH is the number of doubles in a vector,
- * AXES_NAME the name of the result. AXES_LESSER, AXES_GREATER and AXES_ROOTS are what the processor has for vectors.
- *
- * Every operation is one on lanes, in one order and never fused, so all versions have the same bits.
- */
-
-#define AXES_INLINE inline __attribute__((always_inline))
-
-/* A vector of doubles: the compiler's own, loaded from and stored to any address. */
-typedef double lane __attribute__((vector_size(8 * AXES_WIDTH), aligned(8), may_alias));
-
-/* As many integers: places, and what comparing gives. */
-typedef int64_t places __attribute__((vector_size(8 * AXES_WIDTH)));
-
-AXES_TARGET static inline lane load(const double *from) {
-    return *(const lane *)from;
-}
-
-AXES_TARGET static inline void store(double *to, lane v) {
-    *(lane *)to = v;
-}
-
-AXES_TARGET static inline lane size_of(lane a) {
-    return (lane)((places)a & INT64_MAX);
-}
-
-#ifndef AXES_LESSER
-static inline lane lesser(lane a, lane b) {
-    for (int k = 0; k < AXES_WIDTH; k++)
-        a[k] = a[k] < b[k] ? a[k] : b[k];
-    return a;
-}
-
-static inline lane greater(lane a, lane b) {
-    for (int k = 0; k < AXES_WIDTH; k++)
-        a[k] = a[k] > b[k] ? a[k] : b[k];
-    return a;
-}
-
-static inline lane roots(lane a) {
-    for (int k = 0; k < AXES_WIDTH; k++)
-        a[k] = sqrt(a[k]);
-    return a;
-}
-
-#define AXES_LESSER(a, b)  lesser(a, b)
-#define AXES_GREATER(a, b) greater(a, b)
-#define AXES_ROOTS(a)      roots(a)
-#endif
-
-/* Whole lanes of four, whatever the width. */
-static inline uint32_t padded(uint32_t count) {
-    return (count + 3) & ~3u;
-}
+/* The text of the loops over axes, one for all processors. */
+#include "base/lane_text.h"
+#include "pair/axes/axes.h"
 
 /* Turns vectors from P's frame to Q's. */
-AXES_TARGET static AXES_INLINE void turn(const pir_mat3 *r, const double from[3][PIR_AXES_PADDED], uint32_t count,
-                                         double to[3][PIR_AXES_PADDED]) {
-    for (uint32_t i = 0; i < padded(count); i += AXES_WIDTH) {
-        lane x = load(&from[0][i]), y = load(&from[1][i]), z = load(&from[2][i]);
+PIR_LANES_INLINE void turn(const pir_mat3 *r, const double from[3][PIR_AXES_PADDED], uint32_t count,
+                           double to[3][PIR_AXES_PADDED]) {
+    for (uint32_t i = 0; i < pir_axes_padded(count); i += PIR_WIDTH) {
+        pir_lane x = pir_load(&from[0][i]), y = pir_load(&from[1][i]), z = pir_load(&from[2][i]);
         for (int k = 0; k < 3; k++)
-            store(&to[k][i], r->m[k][0] * x + r->m[k][1] * y + r->m[k][2] * z);
+            pir_store(&to[k][i], r->m[k][0] * x + r->m[k][1] * y + r->m[k][2] * z);
     }
 }
 
-AXES_TARGET static inline lane along(lane x, lane y, lane z, const double v[3][PIR_AXES_PADDED], uint32_t i) {
+PIR_LANES_INLINE pir_lane along(pir_lane x, pir_lane y, pir_lane z, const double v[3][PIR_AXES_PADDED], uint32_t i) {
     return v[0][i] * x + v[1][i] * y + v[2][i] * z;
 }
 
@@ -87,38 +35,38 @@ struct axes_corners {
 
 /* The bounds of a body's vertices along vectors. */
 struct range {
-    lane least, most;
+    pir_lane least, most;
 };
 
-AXES_TARGET static AXES_INLINE struct range range_along(lane x, lane y, lane z, const struct axes_corners *of) {
-    lane to = along(x, y, z, of->vertex, 0);
+PIR_LANES_INLINE struct range range_along(pir_lane x, pir_lane y, pir_lane z, const struct axes_corners *of) {
+    pir_lane to = along(x, y, z, of->vertex, 0);
     struct range range = {to, to};
     if (of->of.is_central) {
-        range.most = size_of(to);
+        range.most = pir_size(to);
         for (uint32_t j = 1; j < 4; j++)
-            range.most = AXES_GREATER(size_of(along(x, y, z, of->vertex, j)), range.most);
+            range.most = pir_greater(pir_size(along(x, y, z, of->vertex, j)), range.most);
         range.least = -range.most;
         return range;
     }
     for (uint32_t k = 0; k < of->of.vertices; k += 4)
         for (uint32_t j = k; j < k + 4; j++) {
             to = along(x, y, z, of->vertex, j);
-            range.least = AXES_LESSER(to, range.least);
-            range.most = AXES_GREATER(to, range.most);
+            range.least = pir_lesser(to, range.least);
+            range.most = pir_greater(to, range.most);
         }
     return range;
 }
 
 /* Slacks along lines, one way and the other, where the other body has these vertices. Returns their number. */
-AXES_TARGET static AXES_INLINE uint32_t lines(const double n[3][PIR_AXES_PADDED], const pir_axes_lanes *of,
-                                              uint32_t count, const struct axes_corners *others, pir_vec3 at,
-                                              double error, double *low) {
-    count = padded(count);
-    for (uint32_t i = 0; i < count; i += AXES_WIDTH) {
-        lane x = load(&n[0][i]), y = load(&n[1][i]), z = load(&n[2][i]), to = x * at.x + y * at.y + z * at.z;
+PIR_LANES_INLINE uint32_t lines(const double n[3][PIR_AXES_PADDED], const pir_axes_lanes *of, uint32_t count,
+                                const struct axes_corners *others, pir_vec3 at, double error, double *low) {
+    count = pir_axes_padded(count);
+    for (uint32_t i = 0; i < count; i += PIR_WIDTH) {
+        pir_lane x = pir_load(&n[0][i]), y = pir_load(&n[1][i]), z = pir_load(&n[2][i]),
+                 to = x * at.x + y * at.y + z * at.z;
         struct range range = range_along(x, y, z, others);
-        store(&low[i], load(&of->offset[0][i]) + range.most - to - error);
-        store(&low[count + i], load(&of->offset[1][i]) - range.least + to - error);
+        pir_store(&low[i], pir_load(&of->offset[0][i]) + range.most - to - error);
+        pir_store(&low[count + i], pir_load(&of->offset[1][i]) - range.least + to - error);
     }
     return 2 * count;
 }
@@ -129,8 +77,8 @@ struct axes_side {
     struct counts of;
 };
 
-AXES_TARGET static AXES_INLINE uint32_t slacks_of(struct axes_side side_p, struct axes_side side_q, const pir_mat3 *r,
-                                                  pir_vec3 at, double error, double low[PIR_AXES_SLACKS]) {
+PIR_LANES_INLINE uint32_t slacks_of(struct axes_side side_p, struct axes_side side_q, const pir_mat3 *r, pir_vec3 at,
+                                    double error, double low[PIR_AXES_SLACKS]) {
     const pir_axes_lanes *p = side_p.lanes, *q = side_q.lanes;
     const struct counts of_p = side_p.of, of_q = side_q.of;
     typedef const double(*lanes)[PIR_AXES_PADDED];
@@ -139,23 +87,23 @@ AXES_TARGET static AXES_INLINE uint32_t slacks_of(struct axes_side side_p, struc
     turn(r, p->normal, of_p.lines, normal);
     turn(r, p->edge, of_p.along, edge);
     const struct axes_corners in_p = {(lanes)vertex, of_p}, in_q = {q->vertex, of_q};
-    uint32_t wide = padded(of_q.along), count = lines((lanes)normal, p, of_p.lines, &in_q, at, error, low);
+    uint32_t wide = pir_axes_padded(of_q.along), count = lines((lanes)normal, p, of_p.lines, &in_q, at, error, low);
     count += lines(q->normal, q, of_q.lines, &in_p, at, error, &low[count]);
     for (uint32_t i = 0; i < of_p.along; i++, count += 2 * wide)
-        for (uint32_t k = 0; k < wide; k += AXES_WIDTH) {
-            lane dx = load(&q->edge[0][k]), dy = load(&q->edge[1][k]), dz = load(&q->edge[2][k]);
-            lane x = dy * edge[2][i] - dz * edge[1][i], y = dz * edge[0][i] - dx * edge[2][i];
-            lane z = dx * edge[1][i] - dy * edge[0][i], by = 1 / AXES_ROOTS(x * x + y * y + z * z);
+        for (uint32_t k = 0; k < wide; k += PIR_WIDTH) {
+            pir_lane dx = pir_load(&q->edge[0][k]), dy = pir_load(&q->edge[1][k]), dz = pir_load(&q->edge[2][k]);
+            pir_lane x = dy * edge[2][i] - dz * edge[1][i], y = dz * edge[0][i] - dx * edge[2][i];
+            pir_lane z = dx * edge[1][i] - dy * edge[0][i], by = 1 / pir_roots(x * x + y * y + z * z);
             struct range to_p = range_along(x, y, z, &in_p), to_q = range_along(x, y, z, &in_q);
-            lane to = x * at.x + y * at.y + z * at.z, off = load(&q->far[k]) - 4 * error;
-            store(&low[count + k], (to_p.most + to_q.most - to + off) * by);
-            store(&low[count + wide + k], (to - to_p.least - to_q.least + off) * by);
+            pir_lane to = x * at.x + y * at.y + z * at.z, off = pir_load(&q->far[k]) - 4 * error;
+            pir_store(&low[count + k], (to_p.most + to_q.most - to + off) * by);
+            pir_store(&low[count + wide + k], (to - to_p.least - to_q.least + off) * by);
         }
     return count;
 }
 
-AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 at,
-                                   double error, double low[PIR_AXES_SLACKS]) {
+PIR_LANES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r,
+                                        pir_vec3 at, double error, double low[PIR_AXES_SLACKS]) {
     const struct counts box = {4, 3, 3, true};
     if (is_box(p) && is_box(q))
         return slacks_of((struct axes_side){p, box}, (struct axes_side){q, box}, r, at, error, low);
@@ -164,20 +112,20 @@ AXES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_lanes
     return slacks_of(side_p, side_q, r, at, error, low);
 }
 
-AXES_TARGET static uint32_t least(const double *low, uint32_t count, double *ret_next) {
-    lane most = (lane){0} + HUGE_VAL, first = most, second = most;
-    places at = {0}, here = {0};
-    for (uint32_t i = 0; i < count; i += AXES_WIDTH) {
-        lane v = load(&low[i]);
-        places less = v < first;
-        second = AXES_LESSER(AXES_GREATER(v, first), second);
-        first = AXES_LESSER(v, first);
+PIR_LANES_TARGET static uint32_t least(const double *low, uint32_t count, double *ret_next) {
+    pir_lane most = pir_all(HUGE_VAL), first = most, second = most;
+    pir_places at = {0}, here = {0};
+    for (uint32_t i = 0; i < count; i += PIR_WIDTH) {
+        pir_lane v = pir_load(&low[i]);
+        pir_places less = v < first;
+        second = pir_lesser(pir_greater(v, first), second);
+        first = pir_lesser(v, first);
         at = (at & ~less) | (here & less);
-        here += AXES_WIDTH;
+        here += PIR_WIDTH;
     }
     double best = first[0], next = second[0];
     int64_t place = at[0];
-    for (int k = 1; k < AXES_WIDTH; k++) {
+    for (int k = 1; k < PIR_WIDTH; k++) {
         double greater = first[k] < best ? best : first[k];
         bool is_less = first[k] < best || (first[k] == best && at[k] + k < place);
         place = is_less ? at[k] + k : place;
@@ -189,4 +137,4 @@ AXES_TARGET static uint32_t least(const double *low, uint32_t count, double *ret
     return (uint32_t)place;
 }
 
-const pir_axes_loops AXES_NAME = {AXES_TEXT, slacks, least};
+const pir_axes_loops PIR_LANES_OF(pir_axes) = {PIR_LANES_NAME, slacks, least};

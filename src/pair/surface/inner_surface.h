@@ -91,12 +91,6 @@ typedef struct pir_surface_loops {
     uint32_t (*either)(const uint32_t vertex[PIR_SURFACE_CORNERS], uint32_t u, uint32_t v);
 } pir_surface_loops;
 
-/* Version `index` of those that this build has and this processor runs, the plain one first. NULL past the last. */
-const pir_surface_loops *pir_surface_loops_version(unsigned index);
-
-/* The last of them. */
-const pir_surface_loops *pir_surface_loops_best(void);
-
 /* Empties the surface and gives it the tetrahedron of four vertices of D. */
 void pir_surface_begin(pir_surface *surface, const uint32_t a[4], const uint32_t b[4]);
 
@@ -156,9 +150,6 @@ static inline pir_vec3 pir_surface_normal(const pir_surface_room *room, uint32_t
 /* Whether every directed side has its counterpart: for tests. */
 bool pir_surface_is_valid(const pir_surface *surface);
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define PIR_HAVE_X86_SURFACE 1
-extern const pir_surface_loops pir_surface_avx2;
-#endif
+extern const pir_surface_loops pir_surface_plain, pir_surface_avx2;
 
 #endif

@@ -18,6 +18,8 @@
  */
 #include "query/answer/follow.h"
 
+#include "base/processor.h"
+
 /* --- the queries' room in a scratch --- */
 
 static void destroy_room(void *at, const pir_allocator *allocator) {
@@ -117,7 +119,7 @@ static pir_status make(pir_query *query) {
         return PIR_ERR_MEMORY;
     query->exact.frame = &query->frame;
     query->exact.rotation = pir_sum_exact_rotation(query->sum);
-    query->room->walker = pir_walker_best();
+    query->room->walker = pir_processor_best()->walker;
     pir_search_init(&query->search, &query->exact, pir_sum_pairing(query->sum));
     query->search.groups.planes = &query->room->planes;
     query->search.groups.work = &query->room->work;

@@ -6,6 +6,7 @@
  * finely faceted body. Along any line across a patch the surface is concave: it rises and falls by no more than
  * PIR_FLAT of the way from vertex to vertex.
  */
+#include "base/processor.h"
 #include "query/contact/single.h"
 
 /* --- room --- */
@@ -23,7 +24,7 @@ static pir_layout layout_of(pir_patch_room *room) {
 }
 
 bool pir_patch_room_grow(pir_patch_room *room, const pir_allocator *allocator, size_t of_p, size_t of_q) {
-    const pir_single_version *version = pir_single_version_best();
+    const pir_single_version *version = pir_processor_best()->single;
     pir_patch_room grown = {.p = {.version = version},
                             .q = {.version = version},
                             .of_p = of_p > room->of_p ? of_p : room->of_p,

@@ -286,24 +286,7 @@ static bool place_plain(pir_patch *p, const pir_single *of_p, pir_patch *q, cons
     return pir_clip_place(p->outline, q->outline, p->snap, places);
 }
 
-const pir_single_version *pir_single_version_of(unsigned index) {
-    static const pir_single_version plain = {is_sharp_plain, grown_by_vertex, place_plain};
-    if (index == 0)
-        return &plain;
-#if PIR_HAVE_X86_SINGLES
-    static const pir_single_version avx2 = {pir_is_sharp_avx2, pir_foremost_avx2, pir_singles_place_avx2};
-    if (index == 1 && __builtin_cpu_supports("avx2"))
-        return &avx2;
-#endif
-    return NULL;
-}
-
-const pir_single_version *pir_single_version_best(void) {
-    unsigned index = 0;
-    while (pir_single_version_of(index + 1))
-        index++;
-    return pir_single_version_of(index);
-}
+const pir_single_version pir_single_plain = {is_sharp_plain, grown_by_vertex, place_plain};
 
 /* --- lone vertices --- */
 

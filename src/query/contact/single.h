@@ -38,11 +38,7 @@ struct pir_single_version {
 /* A facet at a smaller cosine with the contact normal is not taken: heights on its plane would lose digits. */
 #define PIR_LEAST_COSINE 0x1p-4
 
-/* The plain version first; NULL past those that this machine can run. */
-const pir_single_version *pir_single_version_of(unsigned index);
-
-/* The last of them. */
-const pir_single_version *pir_single_version_best(void);
+extern const pir_single_version pir_single_plain, pir_single_avx2;
 
 /* Whether the patch of a vertex or an edge is that feature alone. */
 bool pir_patch_is_sharp(const pir_patch *patch, pir_feature feature);
@@ -91,15 +87,5 @@ typedef struct pir_lone_place {
  */
 bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_patch *carrier, const pir_single *by,
                        const pir_lone_place *place);
-
-/* --- single_avx2.c --- */
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define PIR_HAVE_X86_SINGLES 1
-bool pir_is_sharp_avx2(const pir_polytope *p, pir_feature feature, pir_vec3 m, double sine);
-pir_foremost pir_foremost_avx2(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine);
-bool pir_singles_place_avx2(pir_patch *p, const pir_single *of_p, pir_patch *q, const pir_single *of_q,
-                            const pir_vec3 axis[3], pir_clip_places *places);
-#endif
 
 #endif

@@ -22,14 +22,15 @@
  */
 #include "query/depth/depth.h"
 
+#include "base/processor.h"
+
 /* --- memory of searches --- */
 
 void pir_search_init(pir_search *search, pir_exact *exact, const pir_pairing *pairing) {
     search->groups.frame = exact->frame;
     search->groups.exact = exact;
     search->groups.pairing = pairing;
-    for (unsigned i = 0; pir_scan_version(i); i++)
-        search->groups.scan = pir_scan_version(i);
+    search->groups.scan = pir_processor_best()->scan;
 }
 
 void pir_search_add_rows(pir_search *search, pir_layout *layout) {

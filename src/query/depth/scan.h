@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The loops over planes, behind one dispatch struct: a plain version and one for AVX2. A query chooses one when it is
- * made. Both are compiled from one text, without fused operations, so that they give the same bits.
+ * The loops over planes, behind one dispatch struct, which a query takes from the processor's table
+ * (base/processor.h) when it is made.
  *
  * `look` and `least` take whole blocks of planes, `slacks` and `caps` whole lanes. The other loops read and write up
  * to PIR_SCAN_LANES − 1 elements past `count`.
@@ -88,14 +88,6 @@ typedef struct pir_scan {
     double (*caps)(uint32_t from, uint32_t count, const pir_cap_lanes *caps, pir_vec3 x, double error, double *low);
 } pir_scan;
 
-/* Version `index` of those that this build has and this processor runs, the plain one first. NULL past the last. */
-const pir_scan *pir_scan_version(unsigned index);
-
-extern const pir_scan pir_scan_plain;
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define PIR_HAVE_X86_SCAN 1
-extern const pir_scan pir_scan_avx2;
-#endif
+extern const pir_scan pir_scan_plain, pir_scan_avx2;
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Walks from facet to facet: see walker.h. The plain version, and the choice among versions. */
+/* Walks from facet to facet: see walker.h. The version for any processor. */
 #include "query/walk/walker.h"
 
 /* --- loops around vertices and facets --- */
@@ -94,23 +94,6 @@ static const pir_walker none = {.prove = leave_in_doubt};
 #define WALK_ELSE       (&none)
 #define WALK_NAME       pir_walker_plain
 #include "query/walk/walker_body.h"
-
-const pir_walker *pir_walker_version(unsigned index) {
-    if (index == 0)
-        return &pir_walker_plain;
-#if PIR_HAVE_X86_WALK
-    if (index == 1 && __builtin_cpu_supports("avx2"))
-        return &pir_walker_avx2;
-#endif
-    return NULL;
-}
-
-const pir_walker *pir_walker_best(void) {
-    unsigned index = 0;
-    while (pir_walker_version(index + 1))
-        index++;
-    return pir_walker_version(index);
-}
 
 /* --- a slack by integers --- */
 

@@ -67,20 +67,10 @@ typedef struct pir_walker {
     void (*supports)(const pir_frame *frame, pir_vec3 n, uint32_t *a, uint32_t *b, pir_vec3 *ret_back);
 } pir_walker;
 
-/* Version `index`, the plain one first; NULL past those that this machine can run. */
-const pir_walker *pir_walker_version(unsigned index);
-
-/* The last of them. */
-const pir_walker *pir_walker_best(void);
-
 /* Sets the slack, as pir_facet_measure gives it, and the touch. */
 void pir_same_facet_set_slack(const pir_frame *frame, const pir_placement *placement, double slack,
                               pir_same_facet *same);
 
-extern const pir_walker pir_walker_plain;
-#if defined(__x86_64__) && defined(__GNUC__)
-#define PIR_HAVE_X86_WALK 1
-extern const pir_walker pir_walker_avx2;
-#endif
+extern const pir_walker pir_walker_plain, pir_walker_avx2;
 
 #endif

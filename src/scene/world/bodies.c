@@ -2,6 +2,7 @@
 /* Bodies and their pieces: see bodies.h. */
 #include "scene/world/bodies.h"
 
+#include "base/processor.h"
 #include "base/report.h"
 #include "exact/rotation.h"
 #include "polytope/polytope.h"
@@ -65,7 +66,7 @@ pir_status pir_place_fail(pir_pose pose, pir_status status, const char *of, pir_
  */
 bool pir_place_points(const pir_place *place, const pir_reaching *points, double around, pir_box *ret_box) {
     pir_vec3 least, most;
-    pir_turned_box_best()(&place->r, points->point, points->count, &least, &most);
+    pir_processor_best()->turned_box->find(&place->r, points->point, points->count, &least, &most);
     double low[3] = {least.x, least.y, least.z}, high[3] = {most.x, most.y, most.z};
     double t[3] = {place->pose.translation.x, place->pose.translation.y, place->pose.translation.z};
     bool near = true;
