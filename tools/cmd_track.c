@@ -69,6 +69,7 @@ static bool read_request(const struct args *args, struct track_request *request)
         .seed = 1,
         .difference = args_has(args, "--difference"),
         .brute = args_has(args, "--brute"),
+        .open = args_has(args, "--open"),
         .verify_every = args_has(args, "--verify") ? 1 : 0,
         .dump_every = 1,
     };
@@ -91,11 +92,31 @@ static bool read_request(const struct args *args, struct track_request *request)
     return true;
 }
 
+/* Options that do not go together: those of hulls and --solid. False after a complaint. */
+static bool check_solid(const struct args *args, bool solid) {
+    static const char *const of_hulls[] = {"--tolerance", "--region", "--brute", "--plot"};
+    for (size_t i = 0; i < sizeof of_hulls / sizeof *of_hulls && solid; i++)
+        if (args_has(args, of_hulls[i])) {
+            complain("track: %s is for hulls, and not for --solid", of_hulls[i]);
+            return false;
+        }
+    if (args_has(args, "--open") && !solid) {
+        complain("track: --open is about solids: give --solid as well");
+        return false;
+    }
+    return true;
+}
+
 SUBCOMMAND(track) {
     struct track_request request;
     struct track_result result = {0};
-    if (!read_request(args, &request))
+    const bool solid = args_has(args, "--solid");
+    if (!read_request(args, &request) || !check_solid(args, solid))
         return EXIT_BAD_INPUT;
+    if (solid) {
+        request.method_name = NULL;
+        return solid_track(args, &request);
+    }
     int status = EXIT_BAD_INPUT;
     pir_polytope *q = NULL, *p = model_load(args, 0, &request.surfaces[0]);
     if (p)

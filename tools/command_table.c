@@ -164,6 +164,8 @@ static const struct option track_options[] = {
     {"--verify-every", "K", "hold frames 0, K, 2K, ... against a rebuilt sum"},
     {"--brute", NULL, "also time the re-check of all pairs, on a few frames"},
     {"--difference", NULL, "keep the sum of Q and the reflected, turned P"},
+    {"--solid", NULL, "P and Q as the solids that they are, not their hulls"},
+    {"--open", NULL, "with --solid: without their boundaries, so that tight passages are left out"},
     {"--dump", "DIR",
      "write frames as OFF in doubles into DIR, in rationals into DIR/exact, and what they are to DIR/frames.json"},
     {"--exact", NULL, "dump frames in rationals alone, into DIR"},
@@ -296,7 +298,8 @@ const struct command command_table[] = {
                    "frames in the same run.",
         .options = track_options,
         .examples = {{"track shape:cube shape:gs4 --frames 100 --verify", "hold every frame against a rebuilt sum"},
-                     {"track shape:cube shape:gs4 --frames 100 --plot times.svg --json", "draw the times"}},
+                     {"track shape:cube shape:gs4 --frames 100 --plot times.svg --json", "draw the times"},
+                     {"track shape:cube shape:cube --solid --frames 100", "as solids, convex or not"}},
     },
     {
         .name = "query",

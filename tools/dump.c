@@ -36,26 +36,18 @@ static bool write_mesh(const struct dump *dump, const pir_mesh *mesh, const char
     return good;
 }
 
-bool dump_frame(struct dump *dump, pir_sum *sum, uint64_t frame) {
+bool dump_frame(struct dump *dump, const pir_mesh *mesh, pir_quat rotation, uint64_t frame) {
     char doubles[48], exact[64];
     snprintf(doubles, sizeof doubles, "frame-%06" PRIu64 ".off", frame);
     snprintf(exact, sizeof exact, "%s%s", dump->exact ? "" : EXACT_FOLDER "/", doubles);
-    pir_mesh *mesh = NULL;
-    pir_status status = pir_sum_mesh(sum, PIR_EXACT, &mesh);
-    if (status != PIR_OK)
-        complain_status(doubles, status, NULL);
-    bool good = status == PIR_OK && write_mesh(dump, mesh, exact, true) &&
-                (dump->exact || write_mesh(dump, mesh, doubles, false));
-    pir_mesh_destroy(mesh);
-    if (!good)
+    if (!write_mesh(dump, mesh, exact, true) || (!dump->exact && !write_mesh(dump, mesh, doubles, false)))
         return false;
-    pir_quat q = pir_sum_rotation(sum);
     cJSON *entry = json_add_object(&dump->json, dump->frames, NULL);
     json_add_count(&dump->json, entry, "index", frame);
     json_add_text(&dump->json, entry, "file", exact);
     if (!dump->exact)
         json_add_text(&dump->json, entry, "doubles", doubles);
-    json_add_numbers(&dump->json, entry, "quat", (const double[]){q.x, q.y, q.z, q.w}, 4);
+    json_add_numbers(&dump->json, entry, "quat", (const double[]){rotation.x, rotation.y, rotation.z, rotation.w}, 4);
     return true;
 }
 

@@ -28,7 +28,8 @@ struct dump {
 /* Makes the folder unless it is there; its frames.json appears when all is done. `exact`: rationals alone. */
 bool dump_open(struct dump *dump, const char *folder, bool exact);
 
-bool dump_frame(struct dump *dump, pir_sum *sum, uint64_t frame);
+/* The mesh of a frame, exact, and the rotation that it has. */
+bool dump_frame(struct dump *dump, const pir_mesh *mesh, pir_quat rotation, uint64_t frame);
 
 /* Writes frames.json. */
 bool dump_commit(struct dump *dump);

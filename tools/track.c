@@ -230,6 +230,14 @@ static pir_status rotate_all(struct run *run, uint64_t frame, pir_quat rotation)
     return status;
 }
 
+static bool dump_sum(struct run *run, uint64_t frame) {
+    pir_mesh *mesh = NULL;
+    const bool good = told(frame, pir_sum_mesh(run->tracked, PIR_EXACT, &mesh)) &&
+                      dump_frame(&run->dump, mesh, pir_sum_rotation(run->tracked), frame);
+    pir_mesh_destroy(mesh);
+    return good;
+}
+
 static bool run_frame(struct run *run, uint64_t frame) {
     const struct track_request *request = run->request;
     pir_status status = rotate_all(run, frame, motion_next(&run->motion));
@@ -238,7 +246,7 @@ static bool run_frame(struct run *run, uint64_t frame) {
     if (status != PIR_OK || dumped)
         progress_end(&run->progress);
     run->result->dumped += dumped;
-    return told(frame, status) && (!dumped || dump_frame(&run->dump, run->tracked, frame));
+    return told(frame, status) && (!dumped || dump_sum(run, frame));
 }
 
 /* Runs until the last frame, or until a signal asks for an end after the frame that it came in. */

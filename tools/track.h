@@ -5,7 +5,9 @@
 
 #include <pirouette/pirouette.h>
 
+#include "args.h"
 #include "file.h"
+#include "json.h"
 #include "times.h"
 
 struct track_request {
@@ -15,6 +17,7 @@ struct track_request {
     bool random; /* random axes from seed, or else `axis` */
     pir_vec3 axis;
     bool difference; /* of the sum of Q and the reflected P */
+    bool open;       /* solids without their boundaries */
     pir_method method;
     const char *method_name;
     double tolerance; /* 0: exact */
@@ -49,7 +52,14 @@ bool track_run(const struct track_request *request, pir_polytope *p, pir_polytop
 
 void track_finish(struct track_result *result);
 
+/* track --solid; an exit status. */
+int solid_track(const struct args *args, const struct track_request *request);
+
 /* --- track_report.c --- */
+
+/* The request, with the frames that were run through: as JSON, and the first lines of the text. */
+void track_add_request(struct json *json, const struct track_request *request, uint64_t frames, bool interrupted);
+void track_print_motion(const struct track_request *request, uint64_t frames, bool interrupted);
 
 bool track_print_json(const struct track_request *request, const struct track_result *result);
 void track_print_text(const struct track_request *request, const struct track_result *result);

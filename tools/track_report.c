@@ -24,11 +24,10 @@ static double asked(const pir_sum_statistics *did) {
 
 /* --- JSON --- */
 
-static void add_request(struct json *json, const struct track_request *request, const struct track_result *result) {
+void track_add_request(struct json *json, const struct track_request *request, uint64_t frames, bool interrupted) {
     json_add_text(json, json->root, "p", request->p);
     json_add_text(json, json->root, "q", request->q);
-    surface_add_inputs(json, request->surfaces, 2);
-    json_add_count(json, json->root, "frames", result->frames);
+    json_add_count(json, json->root, "frames", frames);
     json_add_count(json, json->root, "steps", request->steps);
     if (request->random)
         json_add_text(json, json->root, "axis", "random");
@@ -37,8 +36,7 @@ static void add_request(struct json *json, const struct track_request *request, 
                          3);
     json_add_count(json, json->root, "seed", request->seed);
     json_add_flag(json, json->root, "difference", request->difference);
-    json_add_text(json, json->root, "method", request->method_name);
-    json_add_flag(json, json->root, "interrupted", result->interrupted);
+    json_add_flag(json, json->root, "interrupted", interrupted);
 }
 
 static void add_times(struct json *json, const struct track_result *result) {
@@ -71,7 +69,9 @@ static void add_work(struct json *json, const struct track_result *result) {
 
 bool track_print_json(const struct track_request *request, const struct track_result *result) {
     struct json json = json_new();
-    add_request(&json, request, result);
+    track_add_request(&json, request, result->frames, result->interrupted);
+    surface_add_inputs(&json, request->surfaces, 2);
+    json_add_text(&json, json.root, "method", request->method_name);
     add_times(&json, result);
     add_work(&json, result);
     if (request->region_degrees < 180) {
@@ -93,19 +93,18 @@ bool track_print_json(const struct track_request *request, const struct track_re
 
 /* --- text --- */
 
-static void print_motion(const struct track_request *request, const struct track_result *result) {
-    say("%s turns against %s: %" PRIu64 " frames, %" PRIu64 " steps to a turn, ", request->p, request->q,
-        result->frames, request->steps);
+void track_print_motion(const struct track_request *request, uint64_t frames, bool interrupted) {
+    say("%s turns against %s: %" PRIu64 " frames, %" PRIu64 " steps to a turn, ", request->p, request->q, frames,
+        request->steps);
     if (request->random)
         say("random axes from seed %" PRIu64, request->seed);
     else
         say("axis %g,%g,%g", request->axis.x, request->axis.y, request->axis.z);
-    say(", method %s%s\n", request->method_name, request->difference ? ", difference" : "");
-    if (result->interrupted)
+    if (request->method_name)
+        say(", method %s", request->method_name);
+    say("%s%s\n", request->difference ? ", difference" : "", request->open ? ", open" : "");
+    if (interrupted)
         say("  interrupted, %" PRIu64 " frames were asked for\n", request->frames);
-    if (request->region_degrees < 180)
-        say("  kept are facets whose normals are within %g degrees of %g,%g,%g\n", request->region_degrees,
-            request->region.x, request->region.y, request->region.z);
 }
 
 static void print_slower(const char *name, double time_ns, double update_ns) {
@@ -141,7 +140,10 @@ static void print_work(const struct track_result *result) {
 }
 
 void track_print_text(const struct track_request *request, const struct track_result *result) {
-    print_motion(request, result);
+    track_print_motion(request, result->frames, result->interrupted);
+    if (request->region_degrees < 180)
+        say("  kept are facets whose normals are within %g degrees of %g,%g,%g\n", request->region_degrees,
+            request->region.x, request->region.y, request->region.z);
     surface_print_notes(request->surfaces, 2);
     print_times(request, result);
     print_work(result);

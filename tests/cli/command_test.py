@@ -97,7 +97,7 @@ class CommandTest(unittest.TestCase):
         """The object that a run prints: strict JSON, whose times are seconds or end in _ns."""
         told = json.loads(self.good(*args, "--json"), parse_constant=self.fail)
         self.assertEqual({key for key in told if re.search("time|second|_[munp]?s$", key)} - {"seconds"},
-                         {"update_ns", "rebuild_walk_ns", "rebuild_cgm_ns", "brute_ns"} & set(told))
+                         {"update_ns", "create_ns", "rebuild_walk_ns", "rebuild_cgm_ns", "brute_ns"} & set(told))
         return told
 
     def answers(self, kind, *args, **keys):

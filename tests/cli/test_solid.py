@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette info --solid, sum --solid, query --solid and decompose."""
+"""pirouette info --solid, sum --solid, track --solid, query --solid and decompose."""
+import json
 import subprocess
 
 from command_test import CommandTest, main
@@ -50,6 +51,26 @@ class Solid(CommandTest):
         self.assertIn("# segment 8 9", out.read_text())
         self.assertEqual(self.data("sum", model, "shape:box?x=1&y=1&z=1", "--solid")["facets"], 6)
         self.bad("sum", model, model, "--open", says="give --solid as well")
+
+    def test_frames_of_a_tracked_sum_are_the_sums_at_their_rotations(self):
+        model, folder = self.file("l.off", prism()), self.path / "frames"
+        told = self.data("track", model, "shape:box?x=1&y=2&z=1", "--solid", "--frames", "7", "--steps", "12",
+                         "--verify-every", "2", "--dump", folder, "--every", "3", "--exact", "--difference")
+        self.assertEqual([told[k] for k in ("frames", "verified", "mismatches", "dumped", "solid", "open")],
+                         [7, 4, 0, 3, True, False])
+        frames = json.loads((folder / "frames.json").read_text())["frames"]
+        self.assertEqual([f["index"] for f in frames], [0, 3, 6])
+        out = self.path / "sum.off"
+        for frame in frames:
+            quat = ",".join(map(repr, frame["quat"]))
+            self.data("sum", model, "shape:box?x=1&y=2&z=1", "--solid", "--difference", f"--quat={quat}", "--exact",
+                      "-o", out)
+            self.assertEqual(out.read_text(), (folder / frame["file"]).read_text())
+        self.assertIn("0 differ from a sum made anew", self.good("track", model, model, "--solid", "--open", "--frames",
+                                                               "2", "--verify"))
+        self.bad("track", model, model, "--open", says="give --solid as well")
+        self.bad("track", model, model, "--solid", "--tolerance", "1", says="--tolerance is for hulls")
+        self.bad("track", model, model, "--solid", "--method", "walk", says="--method is for hulls")
 
     def test_what_a_sum_writes_is_a_solid_again(self):
         # a ring round a hole, of unit cells, and cells that touch along an edge
