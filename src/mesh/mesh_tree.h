@@ -92,6 +92,15 @@ static inline float pir_float_over(double x) {
     return (double)f < x ? nextafterf(f, HUGE_VALF) : f;
 }
 
+/* Floats below and above x by less than a few roundings, without a branch; |x| is at most 2^61. */
+static inline float pir_mesh_below(double x) {
+    return (float)(x - fabs(x) * 0x1p-23 - 0x1p-148);
+}
+
+static inline float pir_mesh_above(double x) {
+    return (float)(x + fabs(x) * 0x1p-23 + 0x1p-148);
+}
+
 /* The triangles that a tree is made of. */
 typedef struct pir_mesh_source {
     const pir_vec3 *vertex;

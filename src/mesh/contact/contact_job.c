@@ -211,7 +211,7 @@ static void gather_surface(pir_contact_job *job, uint32_t surface, double grow) 
                               posed->surface.mesh ? !posed->surface.mesh->two_sided : !posed->surface.field->two_sided};
     double size = surface_size(posed) + job->radius + grow + pir_length(job->input->pose.translation);
     set_box(&g, job, grow, 0x1p-44 * size);
-    pir_surface_walk(posed->surface, &(pir_walk){measure, look, &g, &g.most});
+    pir_surface_walk(posed->surface, &(pir_walk){measure, look, &g, &g.most, NULL});
 }
 
 /* Sizes, of what was gathered. */

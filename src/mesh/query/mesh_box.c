@@ -10,7 +10,7 @@
 #include "mesh/signs/mesh_numbers.h"
 
 struct query {
-    double low[3], high[3];
+    pir_walk_box box;
     double most;
     pir_triangle_callback *callback;
     void *context;
@@ -28,7 +28,7 @@ static void measure(const void *context, const pir_mesh_boxes *boxes, double ret
         ret_near[i] = 0;
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < PIR_MESH_WIDTH; i++)
-            if ((double)boxes->low[k][i] > q->high[k] || (double)boxes->high[k][i] < q->low[k])
+            if ((double)boxes->low[k][i] > q->box.high[k] || (double)boxes->high[k][i] < q->box.low[k])
                 ret_near[i] = HUGE_VAL;
 }
 
@@ -53,7 +53,7 @@ static bool outline_separates(const struct query *q, double p[3][3], int k, int 
         flat[i][0] = p[i][x];
         flat[i][1] = p[i][y];
     }
-    const double low[2] = {q->low[x], q->low[y]}, high[2] = {q->high[x], q->high[y]};
+    const double low[2] = {q->box.low[x], q->box.low[y]}, high[2] = {q->box.high[x], q->box.high[y]};
     *ret_sign = pir_sign_turn(flat[0], flat[1], flat[2]);
     for (int i = 0; i < 3; i++)
         if (edge_separates(flat[i], flat[(i + 1) % 3], flat[(i + 2) % 3], low, high))
@@ -66,15 +66,16 @@ static bool meets(const struct query *q, const pir_tri *tri) {
     for (int i = 0; i < 3; i++)
         coordinates(tri->p[i], p[i]);
     for (int k = 0; k < 3; k++)
-        if (fmin(p[0][k], fmin(p[1][k], p[2][k])) > q->high[k] || fmax(p[0][k], fmax(p[1][k], p[2][k])) < q->low[k])
+        if (fmin(p[0][k], fmin(p[1][k], p[2][k])) > q->box.high[k] ||
+            fmax(p[0][k], fmax(p[1][k], p[2][k])) < q->box.low[k])
             return false;
     double front[3], behind[3];
     for (int k = 0; k < 3; k++) {
         int sign;
         if (outline_separates(q, p, k, &sign))
             return false;
-        front[k] = sign > 0 ? q->high[k] : q->low[k];
-        behind[k] = sign > 0 ? q->low[k] : q->high[k];
+        front[k] = sign > 0 ? q->box.high[k] : q->box.low[k];
+        behind[k] = sign > 0 ? q->box.low[k] : q->box.high[k];
     }
     return pir_sign_side(tri, (pir_vec3){front[0], front[1], front[2]}) >= 0 &&
            pir_sign_side(tri, (pir_vec3){behind[0], behind[1], behind[2]}) <= 0;
@@ -92,15 +93,15 @@ pir_status pir_surface_box_each(pir_surface_ref surface, pir_vec3 low, pir_vec3 
     if (!pir_vec_is_finite(low) || !pir_vec_is_finite(high))
         return PIR_ERR_NOT_FINITE;
     struct query q = {.most = 0, .callback = callback, .context = context};
-    coordinates(low, q.low);
-    coordinates(high, q.high);
+    coordinates(low, q.box.low);
+    coordinates(high, q.box.high);
     for (int k = 0; k < 3; k++) {
-        if (q.low[k] > q.high[k])
+        if (q.box.low[k] > q.box.high[k])
             return PIR_ERR_ARGUMENT;
-        if (fabs(q.low[k]) > PIR_MESH_FARTHEST || fabs(q.high[k]) > PIR_MESH_FARTHEST)
+        if (fabs(q.box.low[k]) > PIR_MESH_FARTHEST || fabs(q.box.high[k]) > PIR_MESH_FARTHEST)
             return PIR_ERR_LIMIT;
     }
-    pir_surface_walk(surface, &(pir_walk){measure, look, &q, &q.most});
+    pir_surface_walk(surface, &(pir_walk){measure, look, &q, &q.most, &q.box});
     return PIR_OK;
 }
 

@@ -166,7 +166,7 @@ pir_status pir_surface_nearest_point(pir_surface_ref surface, pir_vec3 point, do
                              .cutoff = farthest,
                              .best = PIR_TRIANGLE_NONE,
                              .most = farthest};
-    pir_surface_walk(surface, &(pir_walk){measure, look, &n, &n.most});
+    pir_surface_walk(surface, &(pir_walk){measure, look, &n, &n.most, NULL});
     *ret_nearest = (pir_surface_nearest){.triangle = n.best};
     if (n.best == PIR_TRIANGLE_NONE)
         return PIR_OK;

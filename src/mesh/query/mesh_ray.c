@@ -59,6 +59,15 @@ static pir_status init(struct mesh_ray *ray, pir_surface_ref surface, const pir_
     return PIR_OK;
 }
 
+/* Looks at the triangles that the ray may meet. */
+static void walk(const struct mesh_ray *ray, pir_walk *by) {
+    const pir_walk_box bounds = pir_surface_bounds(ray->surface);
+    pir_walk_box part;
+    by->within = &part;
+    if (pir_swept_part(&ray->swept, &bounds, 1, &part))
+        pir_surface_walk(ray->surface, by);
+}
+
 /* When each box is entered. */
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
     pir_swept_times(&((const struct mesh_ray *)context)->swept, boxes, ret_near);
@@ -135,7 +144,7 @@ pir_status pir_surface_ray_nearest(pir_surface_ref surface, const pir_surface_ra
     pir_status status = ret_hit ? init(&nearest.ray, surface, ray) : PIR_ERR_ARGUMENT;
     if (status != PIR_OK)
         return status;
-    pir_surface_walk(surface, &(pir_walk){measure, look_nearest, &nearest, &nearest.ray.most});
+    walk(&nearest.ray, &(pir_walk){measure, look_nearest, &nearest, &nearest.ray.most, NULL});
     give(&nearest.ray, &nearest.best, ret_hit);
     return PIR_OK;
 }
@@ -159,7 +168,7 @@ pir_status pir_surface_ray_any(pir_surface_ref surface, const pir_surface_ray *r
     pir_status status = ret_hits ? init(&any.ray, surface, ray) : PIR_ERR_ARGUMENT;
     if (status != PIR_OK)
         return status;
-    pir_surface_walk(surface, &(pir_walk){measure, look_any, &any, &any.ray.most});
+    walk(&any.ray, &(pir_walk){measure, look_any, &any, &any.ray.most, NULL});
     *ret_hits = any.hits;
     return PIR_OK;
 }
@@ -193,7 +202,7 @@ pir_status pir_surface_ray_all(pir_surface_ref surface, const pir_surface_ray *r
     pir_status status = ret_count && (ret_hits || capacity == 0) ? init(&all.ray, surface, ray) : PIR_ERR_ARGUMENT;
     if (status != PIR_OK)
         return status;
-    pir_surface_walk(surface, &(pir_walk){measure, look_all, &all, &all.ray.most});
+    walk(&all.ray, &(pir_walk){measure, look_all, &all, &all.ray.most, NULL});
     pir_heap_sort(ret_hits, all.count < capacity ? all.count : capacity, sizeof *ret_hits, compare_hits);
     *ret_count = all.count;
     return PIR_OK;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * One traversal for both kinds of surfaces. An entry of the stack is a node of a mesh's tree, a leaf there, or a block
- * of a height field's pyramid: its level, column and row in 32 bits.
+ * of a height field: of level 0 a cell, of level l + 1 a block of level l of the pyramid. A walk of a field begins with
+ * the four blocks, or fewer, of the lowest level at which so few hold all of the box that it is kept within.
  *
  * The stack has room for the deepest tree: each node that is left leaves at most three siblings behind.
  */
@@ -9,9 +10,13 @@
 
 #define STACK (PIR_MESH_WIDTH * PIR_MESH_DEPTH)
 
+/* Columns of cells have numbers below 2^15. */
+#define COLUMN_BITS 15
+
 struct entry {
-    uint32_t node;
     double near;
+    uint32_t node; /* or column and row */
+    uint32_t level;
 };
 
 struct stack {
@@ -25,7 +30,7 @@ pir_status pir_surface_check(pir_surface_ref surface) {
 
 /* Pushes children, the nearest last, so that it is popped first. */
 static void push(struct stack *stack, const pir_walk *walk, const pir_mesh_boxes *boxes,
-                 const uint32_t child[PIR_MESH_WIDTH], int count) {
+                 const struct entry child[PIR_MESH_WIDTH], int count) {
     double near[PIR_MESH_WIDTH];
     walk->measure(walk->context, boxes, near);
     uint32_t first = stack->used;
@@ -35,7 +40,7 @@ static void push(struct stack *stack, const pir_walk *walk, const pir_mesh_boxes
         uint32_t at = stack->used++;
         for (; at > first && stack->entry[at - 1].near < near[i]; at--)
             stack->entry[at] = stack->entry[at - 1];
-        stack->entry[at] = (struct entry){child[i], near[i]};
+        stack->entry[at] = (struct entry){near[i], child[i].node, child[i].level};
     }
 }
 
@@ -56,7 +61,7 @@ static bool look_at_leaf(const pir_trimesh *mesh, const pir_walk *walk, uint32_t
 static void walk_mesh(const pir_trimesh *mesh, const pir_walk *walk) {
     struct stack stack;
     stack.used = 1; // the rest is written before it is read
-    stack.entry[0] = (struct entry){0, -HUGE_VAL};
+    stack.entry[0] = (struct entry){-HUGE_VAL, 0, 0};
     while (stack.used > 0) {
         struct entry entry = stack.entry[--stack.used];
         if (!(entry.near <= *walk->most))
@@ -68,76 +73,82 @@ static void walk_mesh(const pir_trimesh *mesh, const pir_walk *walk) {
         }
         const pir_mesh_node *node = &mesh->tree.node[entry.node];
         pir_mesh_boxes boxes;
+        struct entry child[PIR_MESH_WIDTH];
         pir_mesh_read_boxes(node, &boxes);
-        push(&stack, walk, &boxes, node->child, node->count);
+        for (int i = 0; i < PIR_MESH_WIDTH; i++)
+            child[i].node = node->child[i];
+        push(&stack, walk, &boxes, child, node->count);
     }
 }
 
 /* --- height fields --- */
 
-static uint32_t block(uint32_t level, uint32_t i, uint32_t j) {
-    return level << 28 | j << 14 | i;
-}
-
+/* The two triangles of a cell. */
 static bool look_at_cell(const pir_height_field *field, const pir_walk *walk, uint32_t i, uint32_t j) {
-    uint32_t cell = j * pir_height_cell_columns(field) + i, from = j * field->columns + i;
-    if (pir_height_is_hole(field, cell))
-        return true;
-    const uint32_t across = from + field->columns + 1;
-    for (uint32_t k = 0; k < 2; k++) {
-        const pir_met_triangle met = {2 * cell + k,
-                                      {from, k == 0 ? from + 1 : across, k == 0 ? across : from + field->columns},
-                                      pir_height_tri(field, 2 * cell + k)};
-        if (!walk->look(walk->context, &met))
-            return false;
-    }
-    return true;
+    const uint32_t cell = j * pir_height_cell_columns(field) + i, from = j * field->columns + i, right = from + 1,
+                   above = from + field->columns, across = above + 1;
+    const pir_vec3 a = pir_height_sample(field, i, j), b = pir_height_sample(field, i + 1, j),
+                   c = pir_height_sample(field, i + 1, j + 1), d = pir_height_sample(field, i, j + 1);
+    const pir_met_triangle first = {2 * cell, {from, right, across}, {{a, b, c}}},
+                           second = {2 * cell + 1, {from, across, above}, {{a, c, d}}};
+    return walk->look(walk->context, &first) && walk->look(walk->context, &second);
 }
 
-/* The cells of a block of level 0. */
-static bool look_at_block(const pir_height_field *field, const pir_walk *walk, uint32_t i, uint32_t j) {
-    for (uint32_t k = 0; k < 4; k++) {
-        uint32_t x = 2 * i + k % 2, y = 2 * j + k / 2;
-        if (x + 1 < field->columns && y + 1 < field->rows && !look_at_cell(field, walk, x, y))
-            return false;
+static pir_height_range range_of_cell(const pir_height_field *field, uint32_t i, uint32_t j) {
+    const double a = pir_height_sample(field, i, j).z, b = pir_height_sample(field, i + 1, j).z,
+                 c = pir_height_sample(field, i, j + 1).z, d = pir_height_sample(field, i + 1, j + 1).z;
+    const double low_ab = a < b ? a : b, low_cd = c < d ? c : d, high_ab = a < b ? b : a, high_cd = c < d ? d : c;
+    return (pir_height_range){pir_mesh_below(low_ab < low_cd ? low_ab : low_cd),
+                              pir_mesh_above(high_ab > high_cd ? high_ab : high_cd)};
+}
+
+/* The heights in a block; whether it is more than holes. */
+static bool range_of(const pir_height_field *field, uint32_t level, uint32_t i, uint32_t j,
+                     pir_height_range *ret_range) {
+    if (level > 0) {
+        const uint32_t l = level - 1;
+        *ret_range = field->range[field->level_start[l] + (size_t)j * field->level_columns[l] + i];
+        return ret_range->low <= ret_range->high;
     }
+    if (pir_height_is_hole(field, j * pir_height_cell_columns(field) + i))
+        return false;
+    *ret_range = range_of_cell(field, i, j);
     return true;
 }
 
 /* Where a block of a level ends along an axis, in samples. */
 static uint32_t end_of(uint32_t at, uint32_t level, uint32_t last) {
-    uint64_t end = (uint64_t)at << (level + 1);
+    const uint64_t end = (uint64_t)at << level;
     return end < last ? (uint32_t)end : last;
 }
 
-static void set_block_box(const pir_height_field *field, uint32_t level, uint32_t i, uint32_t j, pir_mesh_boxes *boxes,
-                          int child) {
-    const pir_height_range *range =
-        &field->range[field->level_start[level] + (size_t)j * field->level_columns[level] + i];
-    boxes->low[0][child] = pir_float_under((double)end_of(i, level, field->columns - 1) * field->step_x);
-    boxes->high[0][child] = pir_float_over((double)end_of(i + 1, level, field->columns - 1) * field->step_x);
-    boxes->low[1][child] = pir_float_under((double)end_of(j, level, field->rows - 1) * field->step_y);
-    boxes->high[1][child] = pir_float_over((double)end_of(j + 1, level, field->rows - 1) * field->step_y);
+static void set_block_box(const pir_height_field *field, uint32_t level, uint32_t i, uint32_t j,
+                          const pir_height_range *range, pir_mesh_boxes *boxes, int child) {
+    boxes->low[0][child] = pir_mesh_below((double)end_of(i, level, field->columns - 1) * field->step_x);
+    boxes->high[0][child] = pir_mesh_above((double)end_of(i + 1, level, field->columns - 1) * field->step_x);
+    boxes->low[1][child] = pir_mesh_below((double)end_of(j, level, field->rows - 1) * field->step_y);
+    boxes->high[1][child] = pir_mesh_above((double)end_of(j + 1, level, field->rows - 1) * field->step_y);
     boxes->low[2][child] = range->low;
     boxes->high[2][child] = range->high;
 }
 
-static void push_blocks(const pir_height_field *field, const pir_walk *walk, struct stack *stack, uint32_t node) {
-    uint32_t level = (node >> 28) - 1, i = 2 * (node & 0x3fff), j = 2 * (node >> 14 & 0x3fff);
-    uint32_t child[PIR_MESH_WIDTH];
+/* Blocks of a level: columns and rows from the first to the last, at most two of each. */
+struct blocks {
+    uint32_t level, i[2], j[2];
+};
+
+static void push_blocks(const pir_height_field *field, const pir_walk *walk, struct stack *stack,
+                        const struct blocks *blocks) {
+    struct entry child[PIR_MESH_WIDTH];
     pir_mesh_boxes boxes;
+    pir_height_range range;
     int count = 0;
-    for (uint32_t k = 0; k < 4; k++) {
-        uint32_t x = i + k % 2, y = j + k / 2;
-        if (x >= field->level_columns[level] || y >= field->level_rows[level])
-            continue;
-        const pir_height_range *range =
-            &field->range[field->level_start[level] + (size_t)y * field->level_columns[level] + x];
-        if (range->low > range->high)
-            continue;
-        set_block_box(field, level, x, y, &boxes, count);
-        child[count++] = block(level, x, y);
-    }
+    for (uint32_t j = blocks->j[0]; j <= blocks->j[1]; j++)
+        for (uint32_t i = blocks->i[0]; i <= blocks->i[1]; i++)
+            if (range_of(field, blocks->level, i, j, &range)) {
+                set_block_box(field, blocks->level, i, j, &range, &boxes, count);
+                child[count++] = (struct entry){0, j << COLUMN_BITS | i, blocks->level};
+            }
     for (int c = count; c > 0 && c < PIR_MESH_WIDTH; c++)
         for (int k = 0; k < 3; k++) {
             boxes.low[k][c] = boxes.low[k][0];
@@ -147,18 +158,65 @@ static void push_blocks(const pir_height_field *field, const pir_walk *walk, str
         push(stack, walk, &boxes, child, count);
 }
 
+static uint32_t lesser(uint32_t a, uint32_t b) {
+    return a < b ? a : b;
+}
+
+/* The blocks that a block is made of. */
+static struct blocks blocks_of(const pir_height_field *field, const struct entry *entry) {
+    const uint32_t level = entry->level - 1, i = 2 * (entry->node & ((1u << COLUMN_BITS) - 1)),
+                   j = 2 * (entry->node >> COLUMN_BITS);
+    const uint32_t columns = level > 0 ? field->level_columns[level - 1] : field->columns - 1,
+                   rows = level > 0 ? field->level_rows[level - 1] : field->rows - 1;
+    return (struct blocks){level, {i, lesser(i + 1, columns - 1)}, {j, lesser(j + 1, rows - 1)}};
+}
+
+/*
+ * The first and the last of so many cells that an interval along an axis meets; false where it meets none. A quotient
+ * below 2^16 is off by less than 2^-36.
+ */
+static bool cells_between(double low, double high, double step, uint32_t cells, uint32_t ret_cells[2]) {
+    const double first = low / step - 0x1p-30, last = high / step + 0x1p-30;
+    if (!(last >= 0 && first <= cells))
+        return false;
+    ret_cells[0] = first > 0 ? lesser((uint32_t)first, cells - 1) : 0;
+    ret_cells[1] = last < cells ? (uint32_t)last : cells - 1;
+    return true;
+}
+
+/* Where a walk begins; false where it has nothing to look at. */
+static bool first_blocks(const pir_height_field *field, const pir_walk_box *within, struct blocks *ret_blocks) {
+    *ret_blocks = (struct blocks){field->levels, {0, 0}, {0, 0}};
+    if (!within)
+        return true;
+    uint32_t i[2], j[2], level = 0;
+    if (within->low[2] > field->high.z || within->high[2] < field->low.z ||
+        !cells_between(within->low[0], within->high[0], field->step_x, field->columns - 1, i) ||
+        !cells_between(within->low[1], within->high[1], field->step_y, field->rows - 1, j))
+        return false;
+    while ((i[1] >> level) - (i[0] >> level) > 1 || (j[1] >> level) - (j[0] >> level) > 1)
+        level++;
+    *ret_blocks = (struct blocks){level, {i[0] >> level, i[1] >> level}, {j[0] >> level, j[1] >> level}};
+    return true;
+}
+
 static void walk_field(const pir_height_field *field, const pir_walk *walk) {
     struct stack stack;
-    stack.used = 1; // the rest is written before it is read
-    stack.entry[0] = (struct entry){block(field->levels - 1, 0, 0), -HUGE_VAL};
+    struct blocks blocks;
+    stack.used = 0; // the rest is written before it is read
+    if (!first_blocks(field, walk->within, &blocks))
+        return;
+    push_blocks(field, walk, &stack, &blocks);
     while (stack.used > 0) {
-        struct entry entry = stack.entry[--stack.used];
+        const struct entry entry = stack.entry[--stack.used];
         if (!(entry.near <= *walk->most))
             continue;
-        if (entry.node >> 28 != 0)
-            push_blocks(field, walk, &stack, entry.node);
-        else if (!look_at_block(field, walk, entry.node & 0x3fff, entry.node >> 14 & 0x3fff))
+        if (entry.level > 0) {
+            blocks = blocks_of(field, &entry);
+            push_blocks(field, walk, &stack, &blocks);
+        } else if (!look_at_cell(field, walk, entry.node & ((1u << COLUMN_BITS) - 1), entry.node >> COLUMN_BITS)) {
             return;
+        }
     }
 }
 
@@ -179,15 +237,21 @@ uint32_t pir_surface_material(pir_surface_ref surface, uint32_t triangle) {
     return surface.field->material ? surface.field->material[triangle / 2] : 0;
 }
 
-void pir_surface_reach(pir_surface_ref surface, double ret_reach[3]) {
+pir_walk_box pir_surface_bounds(pir_surface_ref surface) {
+    pir_walk_box box;
     if (surface.mesh) {
-        const pir_mesh_tree *tree = &surface.mesh->tree;
-        for (int k = 0; k < 3; k++)
-            ret_reach[k] = fmax(fabs((double)tree->low[k]), fabs((double)tree->high[k]));
-        return;
+        for (int k = 0; k < 3; k++) {
+            box.low[k] = surface.mesh->tree.low[k];
+            box.high[k] = surface.mesh->tree.high[k];
+        }
+        return box;
     }
     const pir_height_field *field = surface.field;
-    ret_reach[0] = field->high.x;
-    ret_reach[1] = field->high.y;
-    ret_reach[2] = fmax(fabs(field->low.z), fabs(field->high.z));
+    return (pir_walk_box){{field->low.x, field->low.y, field->low.z}, {field->high.x, field->high.y, field->high.z}};
+}
+
+void pir_surface_reach(pir_surface_ref surface, double ret_reach[3]) {
+    const pir_walk_box box = pir_surface_bounds(surface);
+    for (int k = 0; k < 3; k++)
+        ret_reach[k] = fmax(fabs(box.low[k]), fabs(box.high[k]));
 }

@@ -13,7 +13,7 @@ struct near_walk {
     const pir_scene_body *body;
     uint32_t number; /* of that body */
     pir_place place;
-    pir_seen_box box, from;
+    pir_walk_box box, from;
     pir_swept_box swept;
     pir_status status;
 };
@@ -23,7 +23,7 @@ static void measure_box(const void *context, const pir_mesh_boxes *boxes, double
 }
 
 static void measure_distance(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    const pir_seen_box *from = &((const struct near_walk *)context)->from;
+    const pir_walk_box *from = &((const struct near_walk *)context)->from;
     double square[PIR_MESH_WIDTH] = {0};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < PIR_MESH_WIDTH; i++) {
@@ -62,18 +62,13 @@ static bool look(void *context, const pir_met_triangle *met) {
     struct near_walk *walk = context;
     const pir_near_search *near = walk->near;
     pir_scene *scene = near->probe->scene;
-    pir_scene_piece piece;
-    if (near->without_boxes) {
-        piece = (pir_scene_piece){.kind = PIR_PIECE_TRIANGLE, .body = walk->number, .number = met->number};
-    } else {
-        const pir_mesh_boxes around = box_around(&met->tri);
-        double nearness[PIR_MESH_WIDTH];
-        measure[near->by](walk, &around, nearness);
-        if (!(nearness[0] <= *near->most))
-            return true;
-        piece = pir_triangle_piece(&scene->bodies, walk->number, met->number);
-        pir_piece_box(walk->body, &piece, &walk->place, pir_scene_around(scene, walk->body), &piece.tight);
-    }
+    const pir_mesh_boxes around = box_around(&met->tri);
+    double nearness[PIR_MESH_WIDTH];
+    measure[near->by](walk, &around, nearness);
+    if (!(nearness[0] <= *near->most))
+        return true;
+    pir_scene_piece piece = pir_triangle_piece(&scene->bodies, walk->number, met->number);
+    pir_piece_box(walk->body, &piece, &walk->place, pir_scene_around(scene, walk->body), &piece.tight);
     piece.extent.polytope = pir_triangles_recall(&scene->bodies, piece.body, piece.number);
     walk->status = near->look(near->context, &piece);
     pir_triangles_keep(&scene->bodies, &scene->allocator, &piece);
@@ -93,7 +88,12 @@ pir_status pir_near_triangles(const pir_near_search *near, const pir_scene_body 
     walk.box = pir_place_sees(&walk.place, &box);
     walk.from = pir_place_sees(&walk.place, &from);
     walk.swept = pir_swept_box_of(walk.from.low, walk.from.high, pir_mat_apply_transposed(&walk.place.r, near->way));
-    pir_surface_walk(pir_body_surface_of(body), &(pir_walk){measure[near->by], look, &walk, near->most});
+    pir_walk_box within = walk.box;
+    const pir_walk_box bounds = pir_surface_bounds(pir_body_surface_of(body));
+    if (near->by == PIR_NEAR_TIME && !pir_swept_part(&walk.swept, &bounds, *near->most, &within))
+        return PIR_OK;
+    pir_surface_walk(pir_body_surface_of(body), &(pir_walk){measure[near->by], look, &walk, near->most,
+                                                            near->by == PIR_NEAR_DISTANCE ? NULL : &within});
     return walk.status;
 }
 

@@ -7,7 +7,7 @@
 /* How much wider a box is than it has to be, of the coordinates: more than turning its middle and edges is off by. */
 #define SEEN_ERROR 0x1p-44
 
-pir_seen_box pir_place_sees(const pir_place *place, const pir_box *box) {
+pir_walk_box pir_place_sees(const pir_place *place, const pir_box *box) {
     double middle[3], half[3], size = 0;
     const double t[3] = {place->pose.translation.x, place->pose.translation.y, place->pose.translation.z};
     for (int k = 0; k < 3; k++) {
@@ -22,7 +22,7 @@ pir_seen_box pir_place_sees(const pir_place *place, const pir_box *box) {
             size_of.m[i][j] = fabs(size_of.m[i][j]);
     const pir_vec3 reach = pir_mat_apply_transposed(&size_of, (pir_vec3){half[0], half[1], half[2]});
     const double centre[3] = {at.x, at.y, at.z}, edge[3] = {reach.x, reach.y, reach.z}, room = SEEN_ERROR * size;
-    pir_seen_box seen;
+    pir_walk_box seen;
     for (int k = 0; k < 3; k++) {
         seen.low[k] = centre[k] - edge[k] - room;
         seen.high[k] = centre[k] + edge[k] + room;
@@ -30,7 +30,7 @@ pir_seen_box pir_place_sees(const pir_place *place, const pir_box *box) {
     return seen;
 }
 
-void pir_seen_box_meets(const pir_seen_box *box, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
+void pir_seen_box_meets(const pir_walk_box *box, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
     for (int i = 0; i < PIR_MESH_WIDTH; i++)
         ret_near[i] = 0;
     for (int k = 0; k < 3; k++)
@@ -40,7 +40,7 @@ void pir_seen_box_meets(const pir_seen_box *box, const pir_mesh_boxes *boxes, do
 }
 
 struct triangle_list {
-    pir_seen_box box;
+    pir_walk_box box;
     pir_scene *scene;
     uint32_t count;
     bool failed;
@@ -50,7 +50,7 @@ static void measure(const void *context, const pir_mesh_boxes *boxes, double ret
     pir_seen_box_meets(&((const struct triangle_list *)context)->box, boxes, ret_near);
 }
 
-bool pir_seen_box_meets_triangle(const pir_seen_box *box, const pir_tri *tri) {
+bool pir_seen_box_meets_triangle(const pir_walk_box *box, const pir_tri *tri) {
     const pir_vec3 *p = tri->p;
     const double low[3] = {fmin(p[0].x, fmin(p[1].x, p[2].x)), fmin(p[0].y, fmin(p[1].y, p[2].y)),
                            fmin(p[0].z, fmin(p[1].z, p[2].z))},
@@ -77,7 +77,7 @@ pir_status pir_scene_list_triangles(pir_scene *scene, const pir_scene_body *body
                                     const pir_box *box, uint32_t *ret_count) {
     struct triangle_list list = {.box = pir_place_sees(place, box), .scene = scene};
     const double most = 0;
-    pir_surface_walk(pir_body_surface_of(body), &(pir_walk){measure, look, &list, &most});
+    pir_surface_walk(pir_body_surface_of(body), &(pir_walk){measure, look, &list, &most, &list.box});
     *ret_count = list.count;
     return list.failed ? PIR_ERR_MEMORY : PIR_OK;
 }

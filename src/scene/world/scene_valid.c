@@ -39,7 +39,7 @@ struct missing_pairs {
     const pir_scene *scene;
     const pir_scene_body *body;
     pir_place place;
-    pir_seen_box box;       /* the piece's in the tree */
+    pir_walk_box box;       /* the piece's in the tree */
     uint32_t piece, number; /* of the body with the surface */
     bool misses;
 };
@@ -68,7 +68,7 @@ static bool has_pairs_with_triangles(const pir_scene *scene, uint32_t piece, con
     if (pir_place_make(body->pose, &missing.place) != PIR_OK)
         return false;
     missing.box = pir_place_sees(&missing.place, &scene->tree.node[scene->bodies.piece[piece].node].box);
-    pir_surface_walk(pir_body_surface_of(body), &(pir_walk){measure, look_for_pair, &missing, &most});
+    pir_surface_walk(pir_body_surface_of(body), &(pir_walk){measure, look_for_pair, &missing, &most, NULL});
     return !missing.misses;
 }
 

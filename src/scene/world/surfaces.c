@@ -6,22 +6,11 @@
 
 #include "mesh/query/mesh_walk.h"
 
-static void bounds(pir_surface_ref surface, pir_vec3 *ret_low, pir_vec3 *ret_high) {
-    if (surface.field) {
-        *ret_low = surface.field->low;
-        *ret_high = surface.field->high;
-        return;
-    }
-    const pir_mesh_tree *tree = &surface.mesh->tree;
-    *ret_low = (pir_vec3){tree->low[0], tree->low[1], tree->low[2]};
-    *ret_high = (pir_vec3){tree->high[0], tree->high[1], tree->high[2]};
-}
-
 uint32_t pir_surface_corners(pir_surface_ref surface, pir_vec3 ret_point[8]) {
-    pir_vec3 low, high;
-    bounds(surface, &low, &high);
+    const pir_walk_box box = pir_surface_bounds(surface);
+    const double *low = box.low, *high = box.high;
     for (int k = 0; k < 8; k++)
-        ret_point[k] = (pir_vec3){k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z};
+        ret_point[k] = (pir_vec3){k & 1 ? high[0] : low[0], k & 2 ? high[1] : low[1], k & 4 ? high[2] : low[2]};
     return 8;
 }
 
@@ -41,11 +30,10 @@ double pir_surface_farthest(pir_surface_ref surface) {
 }
 
 double pir_surface_skin(pir_surface_ref surface) {
-    pir_vec3 low, high;
-    bounds(surface, &low, &high);
-    const pir_vec3 edge = pir_vec_sub(high, low);
+    const pir_walk_box box = pir_surface_bounds(surface);
     const double triangles = surface.mesh ? surface.mesh->triangle_count : surface.field->triangles;
-    return 0.25 * fmax(edge.x, fmax(edge.y, edge.z)) / sqrt(triangles);
+    return 0.25 * fmax(box.high[0] - box.low[0], fmax(box.high[1] - box.low[1], box.high[2] - box.low[2])) /
+           sqrt(triangles);
 }
 
 bool pir_surface_is_two_sided(pir_surface_ref surface) {
