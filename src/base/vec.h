@@ -32,6 +32,20 @@ static inline bool pir_vec_is_finite(pir_vec3 a) {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
+/* Of numbers that are no NaN, without a call. */
+static inline double pir_lesser(double a, double b) {
+    return a < b ? a : b;
+}
+
+static inline double pir_greater(double a, double b) {
+    return a > b ? a : b;
+}
+
+/* The sum of the sizes of the coordinates. */
+static inline double pir_vec_size(pir_vec3 a) {
+    return fabs(a.x) + fabs(a.y) + fabs(a.z);
+}
+
 /* A 3×3 matrix by rows. */
 typedef struct pir_mat3 {
     double m[3][3];

@@ -21,7 +21,6 @@ typedef struct pir_near_search {
     pir_nearness by;
     pir_box from;
     pir_vec3 way;
-    bool without_boxes; /* a look at a triangle needs neither its box nor its reach */
     const double *most; /* triangles that are not as near as this are left out; it may fall */
     /* Looks at a piece, whose polytope pir_probe_pair makes where it is a triangle. */
     pir_status (*look)(void *context, pir_scene_piece *piece);

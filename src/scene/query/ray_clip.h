@@ -10,7 +10,7 @@
 #include "scene/query/ray.h"
 
 /* An entry known no better than this is left to the integers. */
-#define PIR_RAY_GOOD_ENOUGH 0x1p-42
+#define PIR_RAY_GOOD_ENOUGH 0x1p-41
 
 /* Bounds on the times at which the segment is within all half-spaces so far. */
 typedef struct pir_ray_clip {
@@ -32,16 +32,16 @@ static inline void pir_ray_clip_by(pir_ray_clip *clip, const pir_ray_segment *se
         clip->misses = true;
     } else if (s1 > e) {
         double at = -s0 / span;
-        clip->enter_low = fmax(clip->enter_low, at - 1.5 * e / span);
-        clip->enter_high = fmax(clip->enter_high, at + 1.5 * e / span);
+        clip->enter_low = pir_greater(clip->enter_low, at - 1.5 * e / span);
+        clip->enter_high = pir_greater(clip->enter_high, at + 1.5 * e / span);
         if (clip->facet == UINT32_MAX || at > clip->time) {
             clip->facet = facet;
             clip->time = at;
         }
     } else if (s0 > e) {
         double at = s0 / span;
-        clip->leave_low = fmin(clip->leave_low, at - 1.5 * e / span);
-        clip->leave_high = fmin(clip->leave_high, at + 1.5 * e / span);
+        clip->leave_low = pir_lesser(clip->leave_low, at - 1.5 * e / span);
+        clip->leave_high = pir_lesser(clip->leave_high, at + 1.5 * e / span);
     } else {
         clip->open = true;
     }
@@ -49,7 +49,7 @@ static inline void pir_ray_clip_by(pir_ray_clip *clip, const pir_ray_segment *se
 
 /* Whether a clip without doubt misses. */
 static inline bool pir_ray_clip_misses(const pir_ray_clip *clip) {
-    return clip->misses || clip->enter_low > fmin(clip->leave_high, 1) || clip->leave_high < 0;
+    return clip->misses || clip->enter_low > pir_lesser(clip->leave_high, 1) || clip->leave_high < 0;
 }
 
 /*

@@ -3,25 +3,29 @@
  * Hits of a segment on pieces and triangles whose boxes it meets: each by one of the ways of ray.h. How far it
  * is followed falls to the time of the first hit, to nothing after any, or stays where all are listed.
  */
-#include "scene/query/near_pieces.h"
+#include "mesh/query/swept_boxes.h"
+#include "scene/query/probe.h"
 #include "scene/query/ray_rounded.h"
 #include "scene/world/grow.h"
 #include "scene/world/surfaces.h"
 #include "scene/world/triangles.h"
 
 /*
- * The slack of a facet at a point of the segment, in the piece's frame, is off by at most this times the sizes of
- * piece, origin and way, less the piece's translation: 8u for a unit normal, 40u for turning a point by a pose, with
- * u = 2^-53, twice each, and a few roundings.
+ * A point of the segment in a body's frame, and its way there, are off by at most this times the size of the origin
+ * less the body's translation and that of the way: 37u for the rotation, 6u for products with it and their sums, u for
+ * the difference, with u = 2^-53. A unit normal is off by 8u, a dot product with it by 6u of the lengths, and a vertex
+ * by u, so this is at least the error of a slack, relative to the size of the piece and to those two.
  */
-#define SLACK_ERROR 0x1p-45
+#define SEEN_ERROR 0x1p-47
 
 struct scene_ray {
     pir_scene *scene;
     pir_world_ray world;
     pir_scene_ray_options options;
-    pir_probe probe; /* for its rules */
-    double most;     /* times beyond this are not looked for */
+    pir_probe probe;     /* for its rules */
+    pir_swept_box swept; /* its origin, in the world */
+    int axis;            /* along which it goes most */
+    double most;         /* times beyond this are not looked for */
     pir_status (*take)(struct scene_ray *ray, const pir_impact *impact);
     pir_impact first;
     size_t capacity, count; /* of the scene's room for impacts */
@@ -31,26 +35,30 @@ static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
-static pir_ray_segment seen_by(const struct scene_ray *ray, const pir_scene_body *body) {
-    const pir_world_ray *world = &ray->world;
-    pir_vec3 away = pir_vec_sub(world->origin, body->pose.translation);
-    pir_ray_segment segment = {pir_pose_rotate_inverse(body->pose, away),
-                               pir_pose_rotate_inverse(body->pose, world->way), 0};
-    segment.error =
-        SLACK_ERROR * (length(world->origin) + length(body->pose.translation) + length(world->way) + body->reach);
-    return segment;
+static bool is_at_origin(const pir_pose *pose) {
+    const pir_quat q = pose->rotation;
+    const pir_vec3 t = pose->translation;
+    return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 1 && t.x == 0 && t.y == 0 && t.z == 0;
 }
 
-/*
- * The error of a triangle, whose corners are exact: pir_ray_by_corners knows its own errors, and a body that is not
- * posed sees the segment as it is. Turning a point is off by 40u of the coordinates, twice.
- */
-static double error_for_corners(const struct scene_ray *ray, const pir_scene_body *body) {
-    const pir_quat q = body->pose.rotation;
-    const pir_vec3 t = body->pose.translation;
-    if (q.x == 0 && q.y == 0 && q.z == 0 && q.w == 1 && t.x == 0 && t.y == 0 && t.z == 0)
-        return 0;
-    return 0.5 * SLACK_ERROR * (length(ray->world.origin) + length(t) + length(ray->world.way));
+/* The segment as a body sees it; its error is that of its points alone. */
+static pir_ray_segment seen_by(const struct scene_ray *ray, const pir_scene_body *body) {
+    const pir_world_ray *world = &ray->world;
+    if (is_at_origin(&body->pose))
+        return (pir_ray_segment){world->origin, world->way, 0};
+    const pir_vec3 away = pir_vec_sub(world->origin, body->pose.translation);
+    pir_rotation rotation;
+    (void)pir_rotation_set(&rotation, body->pose.rotation); // checked when it came
+    return (pir_ray_segment){pir_mat_apply_transposed(&rotation.r, away),
+                             pir_mat_apply_transposed(&rotation.r, world->way),
+                             SEEN_ERROR * (pir_vec_size(away) + pir_vec_size(world->way))};
+}
+
+/* The segment with the error of slacks of a polytope. */
+static pir_ray_segment seen_by_polytope(const struct scene_ray *ray, const pir_scene_body *body) {
+    pir_ray_segment segment = seen_by(ray, body);
+    segment.error = SEEN_ERROR * (pir_vec_size(segment.from) + pir_vec_size(segment.way) + body->reach);
+    return segment;
 }
 
 /* Sees to the room for the integers of a polytope. */
@@ -77,36 +85,23 @@ static bool counts(const struct scene_ray *ray, const pir_scene_body *body, cons
     return sides == PIR_RAY_BACK ? entry->side < 0 : entry->side > 0;
 }
 
-/* Where the segment enters a piece without a radius. */
-static pir_status enter(const struct scene_ray *ray, const pir_ray_segment *segment, pir_scene_piece *piece,
-                        pir_entry *entry) {
+/* Where the segment enters a piece, or a triangle that doubles have not settled. */
+static pir_status enter(const struct scene_ray *ray, pir_scene_piece *piece, pir_entry *entry) {
     pir_scene *scene = ray->scene;
     const pir_scene_body *body = &scene->bodies.body[piece->body];
-    if (piece->kind == PIR_PIECE_TRIANGLE) {
-        pir_vec3 corner[3];
-        pir_ray_segment exact_corners = *segment;
-        exact_corners.error = error_for_corners(ray, body);
-        pir_surface_triangle(pir_body_surface_of(body), piece->number, corner);
-        if (pir_ray_by_corners(corner, &exact_corners, entry))
-            return PIR_OK;
-    } else if (pir_ray_by_doubles(piece->extent.polytope, segment, entry)) {
+    const pir_ray_segment segment = seen_by_polytope(ray, body);
+    pir_status status = pir_piece_ready(body, &scene->for_triangles, piece);
+    if (status != PIR_OK)
+        return status;
+    if (body->radius > 0) {
+        *entry = pir_ray_rounded(piece->extent.polytope, &segment, body->radius);
         return PIR_OK;
     }
-    pir_status status = pir_piece_ready(body, &scene->for_triangles, piece);
+    if (piece->kind != PIR_PIECE_TRIANGLE && pir_ray_by_doubles(piece->extent.polytope, &segment, entry))
+        return PIR_OK;
+    status = reserve(scene, piece->extent.polytope);
     if (status == PIR_OK)
-        status = reserve(scene, piece->extent.polytope);
-    if (status == PIR_OK)
-        *entry = pir_ray_exact(piece->extent.polytope, &ray->world, body->pose, segment, &scene->exact_room);
-    return status;
-}
-
-/* Where the segment enters a rounded piece. */
-static pir_status enter_rounded(const struct scene_ray *ray, const pir_ray_segment *segment, pir_scene_piece *piece,
-                                pir_entry *entry) {
-    const pir_scene_body *body = &ray->scene->bodies.body[piece->body];
-    pir_status status = pir_piece_ready(body, &ray->scene->for_triangles, piece);
-    if (status == PIR_OK)
-        *entry = pir_ray_rounded(piece->extent.polytope, segment, body->radius);
+        *entry = pir_ray_exact(piece->extent.polytope, &ray->world, body->pose, &segment, &scene->exact_room);
     return status;
 }
 
@@ -115,29 +110,84 @@ static pir_status fail(const struct scene_ray *ray, pir_status status, const pir
                     (unsigned)piece->number, pir_status_text(status));
 }
 
-/* Takes the impact on a piece, where there is one. */
-static pir_status look(void *context, pir_scene_piece *piece) {
-    struct scene_ray *ray = context;
+/* Takes the impact where the segment enters a piece of a body. */
+static pir_status take(struct scene_ray *ray, const pir_scene_piece *piece, const pir_entry *entry) {
     const pir_scene_body *body = &ray->scene->bodies.body[piece->body];
-    const pir_ray_segment segment = seen_by(ray, body);
-    const bool is_rounded = body->radius > 0;
-    pir_entry entry;
-    pir_status status = (is_rounded ? enter_rounded : enter)(ray, &segment, piece, &entry);
-    if (status != PIR_OK)
-        return fail(ray, status, piece);
-    if (!entry.hits)
-        return PIR_OK;
-    if (piece->kind == PIR_PIECE_TRIANGLE && !is_rounded && !counts(ray, body, &entry))
-        return PIR_OK;
     const pir_impact impact = {.body = piece->body,
                                .piece_q = piece->number,
-                               .outcome = entry.inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT,
-                               .time = entry.time,
-                               .normal = pir_pose_rotate(body->pose, entry.normal),
-                               .point = pir_vec_add(ray->world.origin, pir_vec_scale(ray->world.way, entry.time))};
-    status = ray->take(ray, &impact);
+                               .outcome = entry->inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT,
+                               .time = entry->time,
+                               .normal = is_at_origin(&body->pose) ? entry->normal
+                                                                   : pir_pose_rotate(body->pose, entry->normal),
+                               .point = pir_vec_add(ray->world.origin, pir_vec_scale(ray->world.way, entry->time))};
+    const pir_status status = ray->take(ray, &impact);
     return status == PIR_OK ? PIR_OK : fail(ray, status, piece);
 }
+
+static pir_status look(struct scene_ray *ray, pir_scene_piece *piece) {
+    pir_entry entry;
+    const pir_status status = enter(ray, piece, &entry);
+    if (status != PIR_OK)
+        return fail(ray, status, piece);
+    return entry.hits ? take(ray, piece, &entry) : PIR_OK;
+}
+
+/* --- triangles --- */
+
+/* The walk of a segment over the triangles of a body's surface. */
+struct surface_ray {
+    struct scene_ray *ray;
+    const pir_scene_body *body;
+    uint32_t number; /* of that body */
+    pir_ray_segment segment;
+    pir_swept_box swept; /* its origin, in the frame of the body, wider by the body's radius */
+    pir_status status;
+};
+
+static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
+    pir_swept_times(&((const struct surface_ray *)context)->swept, boxes, ret_near);
+}
+
+/* Where the segment enters a triangle that needs a polytope. */
+static pir_status enter_flat(const struct surface_ray *on, pir_scene_piece *piece, pir_entry *entry) {
+    pir_scene *scene = on->ray->scene;
+    piece->extent.polytope = pir_triangles_recall(&scene->bodies, piece->body, piece->number);
+    const pir_status status = enter(on->ray, piece, entry);
+    pir_triangles_keep(&scene->bodies, &scene->allocator, piece);
+    return status == PIR_OK ? PIR_OK : fail(on->ray, status, piece);
+}
+
+static bool look_at_triangle(void *context, const pir_met_triangle *met) {
+    struct surface_ray *on = context;
+    const bool is_rounded = on->body->radius > 0;
+    pir_entry entry;
+    pir_scene_piece piece = {.kind = PIR_PIECE_TRIANGLE, .body = on->number, .number = met->number};
+    if (is_rounded || !pir_ray_by_corners(met->tri.p, &on->segment, &entry))
+        on->status = enter_flat(on, &piece, &entry);
+    if (on->status == PIR_OK && entry.hits && (is_rounded || counts(on->ray, on->body, &entry)))
+        on->status = take(on->ray, &piece, &entry);
+    return on->status == PIR_OK;
+}
+
+/* The triangles of a surface that the segment may meet. */
+static pir_status look_at_surface(struct scene_ray *ray, const pir_scene_body *body) {
+    struct surface_ray on = {
+        .ray = ray, .body = body, .number = (uint32_t)(body - ray->scene->bodies.body), .segment = seen_by(ray, body)};
+    const pir_vec3 from = on.segment.from;
+    // more than distances in doubles are off by
+    const double room = body->radius > 0 ? body->radius + 0x1p-30 * (body->reach + body->radius) : 0,
+                 pad = room + 2 * on.segment.error;
+    const double low[3] = {from.x - pad, from.y - pad, from.z - pad},
+                 high[3] = {from.x + pad, from.y + pad, from.z + pad};
+    const pir_walk_box bounds = pir_surface_bounds(pir_body_surface_of(body));
+    pir_walk_box part;
+    on.swept = pir_swept_box_of(low, high, on.segment.way);
+    if (pir_swept_part(&on.swept, &bounds, ray->most, &part))
+        pir_surface_walk(pir_body_surface_of(body), &(pir_walk){measure, look_at_triangle, &on, &ray->most, &part});
+    return on.status;
+}
+
+/* --- all pieces --- */
 
 /* Whether an impact comes before another, or there is no other. */
 static bool comes_before(const pir_impact *a, const pir_impact *b) {
@@ -148,60 +198,67 @@ static bool comes_before(const pir_impact *a, const pir_impact *b) {
     return a->body != b->body ? a->body < b->body : a->piece_q < b->piece_q;
 }
 
-/*
- * Whether the segment may meet a box, by axes of the box and its own, with twice the room that rounding needs. `to` is
- * how far along it the search still goes.
- */
-static bool may_meet(const struct scene_ray *ray, const pir_box *box, double to) {
-    double from[3] = {ray->world.origin.x, ray->world.origin.y, ray->world.origin.z},
-           way[3] = {ray->world.way.x, ray->world.way.y, ray->world.way.z};
-    double enter = 0, leave = to;
-    for (int k = 0; k < 3; k++) {
-        double room = 0x1p-40 * (fabs(from[k]) + fabs(way[k]) + fabs(box->low[k]) + fabs(box->high[k]));
-        double low = box->low[k] - room - from[k], high = box->high[k] + room - from[k];
-        if (fabs(way[k]) < 0x1p-900) {
-            if (low > fabs(way[k]) || high < -fabs(way[k]))
-                return false;
-            continue;
-        }
-        double a = low / way[k], b = high / way[k];
-        enter = fmax(enter, fmin(a, b) * (a > 0 && b > 0 ? 1 - 0x1p-40 : 1 + 0x1p-40));
-        leave = fmin(leave, fmax(a, b) * (a > 0 || b > 0 ? 1 + 0x1p-40 : 1 - 0x1p-40));
-    }
-    return enter <= leave;
+/* Which child of a node the segment comes to first, by their middles along the axis that it goes along most. */
+static int first_of(const struct scene_ray *ray, const pir_tree_node *node) {
+    const pir_box *a = &ray->scene->tree.node[node->child[0]].box, *b = &ray->scene->tree.node[node->child[1]].box;
+    const int k = ray->axis;
+    const bool is_lower = a->low[k] + a->high[k] < b->low[k] + b->high[k];
+    return is_lower == ray->swept.down[k];
 }
 
-/* The triangles of a surface that the segment may meet. */
-static pir_status look_at_surface(struct scene_ray *ray, const pir_scene_body *body) {
-    const pir_vec3 o = ray->world.origin;
-    const pir_box from = {{pir_float_below(o.x), pir_float_below(o.y), pir_float_below(o.z)},
-                          {pir_float_above(o.x), pir_float_above(o.y), pir_float_above(o.z)}};
-    return pir_near_triangles(&(pir_near_search){.probe = &ray->probe,
-                                                 .by = PIR_NEAR_TIME,
-                                                 .from = from,
-                                                 .way = ray->world.way,
-                                                 .most = &ray->most,
-                                                 .without_boxes = true,
-                                                 .look = look,
-                                                 .context = ray},
-                              body);
+/* Children that a traversal goes to first, by their depths: below the last of them that is child 0. */
+struct ways_down {
+    uint64_t first;
+    uint32_t depth;
+};
+
+static int first_at(const struct ways_down *down, uint32_t depth) {
+    return depth < 64 && (down->first >> depth & 1);
+}
+
+/* The child of a node that comes first. */
+static uint32_t descend(const struct scene_ray *ray, struct ways_down *down, const pir_tree_node *node) {
+    if (down->depth < 64)
+        down->first = (down->first & ~(UINT64_C(1) << down->depth)) | (uint64_t)first_of(ray, node) << down->depth;
+    return node->child[first_at(down, down->depth++)];
+}
+
+/* The node after n and all below it. */
+static uint32_t go_beyond(const pir_tree *tree, struct ways_down *down, uint32_t n) {
+    for (uint32_t parent = tree->node[n].parent; parent != PIR_TREE_NONE; parent = tree->node[n].parent) {
+        const uint32_t *child = tree->node[parent].child;
+        const int first = first_at(down, down->depth - 1);
+        if (child[first] == n)
+            return child[1 - first];
+        n = parent;
+        down->depth--;
+    }
+    return PIR_TREE_NONE;
+}
+
+static pir_status look_at_leaf(struct scene_ray *ray, uint32_t item) {
+    pir_scene_piece *piece = &ray->scene->bodies.piece[item];
+    if (!pir_probe_meets(&ray->probe, piece->body))
+        return PIR_OK;
+    return piece->kind == PIR_PIECE_SURFACE ? look_at_surface(ray, &ray->scene->bodies.body[piece->body])
+                                            : look(ray, piece);
 }
 
 static pir_status search(struct scene_ray *ray) {
     const pir_tree *tree = &ray->scene->tree;
+    struct ways_down down = {0, 0};
     pir_status status = PIR_OK;
     uint32_t n = tree->node ? tree->root : PIR_TREE_NONE;
-    while (n != PIR_TREE_NONE && status == PIR_OK) {
-        const bool may = ray->most >= 0 && may_meet(ray, &tree->node[n].box, ray->most);
-        if (may && tree->node[n].child[0] != PIR_TREE_NONE) {
-            n = tree->node[n].child[0];
-            continue;
+    while (n != PIR_TREE_NONE && status == PIR_OK && ray->most >= 0) {
+        const pir_tree_node *node = &tree->node[n];
+        if (pir_swept_meets(&ray->swept, node->box.low, node->box.high, ray->most)) {
+            if (node->child[0] != PIR_TREE_NONE) {
+                n = descend(ray, &down, node);
+                continue;
+            }
+            status = look_at_leaf(ray, node->child[1]);
         }
-        pir_scene_piece *piece = may ? &ray->scene->bodies.piece[tree->node[n].child[1]] : NULL;
-        if (piece && pir_probe_meets(&ray->probe, piece->body))
-            status = piece->kind == PIR_PIECE_SURFACE ? look_at_surface(ray, &ray->scene->bodies.body[piece->body])
-                                                      : look(ray, piece);
-        n = pir_tree_beyond(tree, n);
+        n = go_beyond(tree, &down, n);
     }
     return status;
 }
@@ -225,6 +282,10 @@ static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray wor
     if (!(length(world.way) <= PIR_BOX_FARTHEST))
         return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: its way is longer than 2^60");
     *ray = (struct scene_ray){.scene = scene, .world = world, .options = used, .most = 1};
+    const double from[3] = {world.origin.x, world.origin.y, world.origin.z};
+    ray->swept = pir_swept_box_of(from, from, world.way);
+    for (int k = 1; k < 3; k++)
+        ray->axis = fabs(ray->swept.way[k]) > fabs(ray->swept.way[ray->axis]) ? k : ray->axis;
     ray->probe = (pir_probe){.scene = scene, .body = PIR_SCENE_NONE, .mask = used.mask, .except = used.except};
     return PIR_OK;
 }
