@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The first hit of a moving shape: the least over the pieces that its way may meet, each by pir_pair_fly. */
+/*
+ * The first hit of a moving shape: the least over the pieces that its way may meet, each by pir_pair_fly, and over
+ * triangles, each by doubles where these settle it.
+ */
 #include "pair/flight.h"
-#include "polytope/polytope.h"
-#include "query/proof/parting.h"
+#include "scene/query/core_flight.h"
 #include "scene/query/near_pieces.h"
+#include "scene/query/swept_pieces.h"
+#include "scene/world/near_triangles.h"
 #include "scene/world/surfaces.h"
 #include "scene/world/triangles.h"
 
@@ -15,7 +19,9 @@ struct flight {
     double tolerance;
     pir_box box; /* all its way is in it */
     pir_impact *first;
-    double until; /* the time of that */
+    double until;         /* the time of that */
+    bool by_doubles;      /* whether `core` has been begun */
+    pir_core_flight core; /* where the probe begins */
 };
 
 static double length(pir_vec3 v) {
@@ -95,48 +101,16 @@ static bool comes_before(const pir_impact *a, const pir_impact *b) {
     return false;
 }
 
-/* The least and the greatest height of the probe along a direction of the world, without its radius. */
-static void heights_of(const pir_probe *probe, pir_vec3 n, double ret_heights[2]) {
-    const pir_polytope *p = probe->extent.polytope;
-    const pir_vec3 own = pir_pose_rotate_inverse(probe->pose, n);
-    const double at = pir_vec_dot(n, probe->pose.translation);
-    ret_heights[0] = HUGE_VAL;
-    ret_heights[1] = -HUGE_VAL;
-    for (uint32_t v = 0; v < p->vertex_count; v++) {
-        const double height = at + pir_vec_dot(own, p->vertex[v]);
-        ret_heights[0] = fmin(ret_heights[0], height);
-        ret_heights[1] = fmax(ret_heights[1], height);
-    }
-}
-
-/*
- * Whether a flight that does not turn comes to the plane of a triangle too late, or never: a lower bound on the time of
- * the impact, from heights over the plane. They are less than they may be by more than doubles are off by.
- */
-static bool is_late(const struct flight *flight, const pir_scene_piece *piece) {
-    const pir_scene_body *body = &flight->scene->bodies.body[piece->body];
-    pir_vec3 corner[3];
-    pir_surface_triangle(pir_body_surface_of(body), piece->number, corner);
-    pir_vec3 n = pir_vec_cross(pir_vec_sub(corner[1], corner[0]), pir_vec_sub(corner[2], corner[0]));
-    n = pir_pose_rotate(body->pose, pir_vec_scale(n, 1 / length(n)));
-    const double size = size_of(flight, body), slack = 0x1p-30 * size,
-                 near = fmax(flight->tolerance, slack) + flight->probe.radius + body->radius + slack;
-    double height[2], least = HUGE_VAL, most = -HUGE_VAL;
-    heights_of(&flight->probe, n, height);
-    // the corners as they stand, for the normal may be turned a little
-    for (int k = 0; k < 3; k++) {
-        const double at = pir_vec_dot(n, pir_pose_apply(body->pose, corner[k]));
-        least = fmin(least, at);
-        most = fmax(most, at);
-    }
-    const double along = pir_vec_dot(n, flight->motion->way), until = flight->first->time;
-    const double above = height[0] - most - near, below = least - height[1] - near;
-    return (above > 0 && above + along * until > slack) || (below > 0 && below - along * until > slack);
-}
-
 static pir_status fail(const struct flight *flight, pir_status status, const pir_scene_piece *piece) {
     return pir_fail(flight->scene->report, status, "cast: body %u, piece %u: %s", (unsigned)piece->body,
                     (unsigned)piece->number, pir_status_text(status));
+}
+
+static void take(struct flight *flight, const pir_impact *impact) {
+    if (comes_before(impact, flight->first)) {
+        *flight->first = *impact;
+        flight->until = impact->time;
+    }
 }
 
 static pir_status look(void *context, pir_scene_piece *piece) {
@@ -145,38 +119,111 @@ static pir_status look(void *context, pir_scene_piece *piece) {
     bool meets = false;
     if (!pir_box_meets(&flight->box, &piece->tight))
         return PIR_OK;
-    if (piece->kind == PIR_PIECE_TRIANGLE && !(length(flight->motion->turn) > 0) && is_late(flight, piece))
-        return PIR_OK;
     pir_status status = advance(flight, piece, flight->first->time, &impact, &meets);
     if (status != PIR_OK)
         return fail(flight, status, piece);
-    if (meets && comes_before(&impact, flight->first)) {
-        *flight->first = impact;
-        flight->until = impact.time;
-    }
+    if (meets)
+        take(flight, &impact);
     return PIR_OK;
 }
 
-/* The search for pieces in the way of a flight: where it does not turn, the first ones first. */
-static pir_near_search near_of(struct flight *flight) {
-    const bool turns = length(flight->motion->turn) > 0;
-    flight->box = box_of_way(flight);
-    flight->until = flight->first->time;
-    return (pir_near_search){.probe = &flight->probe,
-                             .box = flight->box,
-                             .by = turns ? PIR_NEAR_BOX : PIR_NEAR_TIME,
-                             .from = pir_probe_wider(&flight->probe, flight->tolerance),
-                             .way = flight->motion->way,
-                             .most = &flight->until,
-                             .look = look,
-                             .context = flight};
+/* --- triangles --- */
+
+/* The flight of a probe over the triangles of a body's surface. */
+struct surface_flight {
+    struct flight *flight;
+    const pir_scene_body *body;
+    uint32_t number; /* of that body */
+    pir_place place;
+    pir_core_target target; /* the last triangle */
+    pir_status status;
+};
+
+/* Where doubles settle nothing: by a pair with the triangle as a polytope. */
+static pir_status look_at_flat(struct flight *flight, uint32_t body, uint32_t triangle) {
+    pir_scene *scene = flight->scene;
+    pir_scene_piece piece = pir_triangle_piece(&scene->bodies, body, triangle);
+    piece.extent.polytope = pir_triangles_recall(&scene->bodies, body, triangle);
+    piece.tight = flight->box;
+    const pir_status status = look(flight, &piece);
+    pir_triangles_keep(&scene->bodies, &scene->allocator, &piece);
+    return status;
+}
+
+static bool look_at_triangle(void *context, const pir_met_triangle *met) {
+    struct surface_flight *on = context;
+    struct flight *flight = on->flight;
+    const pir_vec3 from = flight->probe.pose.translation, off = pir_vec_sub(on->place.pose.translation, from);
+    pir_core_impact met_at;
+    for (int k = 0; k < 3; k++)
+        on->target.corner[k] = pir_vec_add(pir_mat_apply(&on->place.r, met->tri.p[k]), off);
+    if (!flight->by_doubles || !pir_core_fly(&flight->core, &on->target, flight->until, &met_at)) {
+        on->status = look_at_flat(flight, on->number, met->number);
+        return on->status == PIR_OK;
+    }
+    if (!met_at.hits)
+        return true;
+    const pir_impact impact = {.body = on->number,
+                               .piece_p = flight->own_piece,
+                               .piece_q = met->number,
+                               .outcome = PIR_CAST_HIT,
+                               .time = met_at.time,
+                               .normal = met_at.normal,
+                               .point = met_at.point,
+                               .witness = met_at.witness};
+    take(flight, &impact);
+    return true;
+}
+
+/* A box that holds the probe at time 0 however it turns until time 1, and is wider by what it is to come near. */
+static pir_box box_of_turns(const struct flight *flight) {
+    const double arc = length(flight->motion->turn) * flight->probe.extent.reach * (1 + 0x1p-40);
+    return pir_probe_wider(&flight->probe, flight->tolerance + arc);
+}
+
+static pir_status look_at_surface(struct flight *flight, const pir_scene_body *body) {
+    const pir_scene *scene = flight->scene;
+    struct surface_flight on = {.flight = flight, .body = body, .number = (uint32_t)(body - scene->bodies.body)};
+    const pir_vec3 t = body->pose.translation;
+    // more than distances in doubles are off by
+    const double room = body->radius + 0x1p-30 * (body->reach + body->radius + fabs(t.x) + fabs(t.y) + fabs(t.z));
+    const pir_status status = pir_place_make(body->pose, &on.place);
+    if (status != PIR_OK)
+        return status;
+    const pir_box turned = box_of_turns(flight), wider = pir_box_wider(&turned, room);
+    const pir_walk_box from = pir_place_sees(&on.place, &wider);
+    const pir_vec3 way = pir_mat_apply_transposed(&on.place.r, flight->motion->way);
+    on.target.radius = body->radius;
+    on.target.size = size_of(flight, body);
+    pir_swept_triangles(
+        body, &(pir_swept_walk){pir_swept_box_of(from.low, from.high, way), &flight->until, look_at_triangle, &on});
+    return on.status;
+}
+
+/* --- all pieces --- */
+
+static pir_status look_at_leaf(void *context, pir_scene_piece *piece) {
+    struct flight *flight = context;
+    return piece->kind == PIR_PIECE_SURFACE ? look_at_surface(flight, &flight->scene->bodies.body[piece->body])
+                                            : look(flight, piece);
 }
 
 static pir_status fly(struct flight *flight, pir_impact *first) {
     flight->first = first;
-    const pir_near_search near = near_of(flight);
-    return pir_near_pieces(&near);
+    flight->until = first->time;
+    flight->box = box_of_way(flight);
+    flight->by_doubles = pir_core_flight_begin(&flight->core, &flight->probe, flight->motion, flight->tolerance);
+    const pir_box from = box_of_turns(flight);
+    double low[3], high[3];
+    for (int k = 0; k < 3; k++) {
+        low[k] = from.low[k];
+        high[k] = from.high[k];
+    }
+    const pir_swept_box swept = pir_swept_box_of(low, high, flight->motion->way);
+    return pir_swept_pieces(&(pir_swept_search){&flight->probe, &swept, &flight->until, look_at_leaf, flight});
 }
+
+/* --- surfaces that move --- */
 
 /* A piece in the way of a surface's triangles. */
 struct in_the_way {
@@ -261,7 +308,11 @@ static const pir_impact no_impact = {
 
 pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_motion *motion, double tolerance,
                           pir_impact *ret_impact) {
-    struct flight flight = {.scene = scene, .motion = motion, .tolerance = tolerance};
+    struct flight flight; // its points are written when they are needed
+    flight.scene = scene;
+    flight.own_piece = 0;
+    flight.motion = motion;
+    flight.tolerance = tolerance;
     const char *missing = !shape ? "shape" : !motion ? "motion" : !ret_impact ? "ret_impact" : NULL;
     pir_status status = pir_scene_given(scene, "cast", missing);
     if (status == PIR_OK)
@@ -291,11 +342,12 @@ pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_m
     pir_impact first = no_impact;
     for (uint32_t p = scene->bodies.body[body].first; status == PIR_OK && p != PIR_PIECE_NONE;
          p = scene->bodies.piece[p].next) {
-        struct flight flight = {.scene = scene,
-                                .probe = pir_probe_of_piece(scene, &scene->bodies.piece[p]),
-                                .own_piece = scene->bodies.piece[p].number,
-                                .motion = motion,
-                                .tolerance = tolerance};
+        struct flight flight;
+        flight.scene = scene;
+        flight.probe = pir_probe_of_piece(scene, &scene->bodies.piece[p]);
+        flight.own_piece = scene->bodies.piece[p].number;
+        flight.motion = motion;
+        flight.tolerance = tolerance;
         status =
             pir_body_has_surface(&scene->bodies.body[body]) ? fly_surface(&flight, body, &first) : fly(&flight, &first);
     }

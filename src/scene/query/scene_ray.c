@@ -3,9 +3,8 @@
  * Hits of a segment on pieces and triangles whose boxes it meets: each by one of the ways of ray.h. How far it
  * is followed falls to the time of the first hit, to nothing after any, or stays where all are listed.
  */
-#include "mesh/query/swept_boxes.h"
-#include "scene/query/probe.h"
 #include "scene/query/ray_rounded.h"
+#include "scene/query/swept_pieces.h"
 #include "scene/world/grow.h"
 #include "scene/world/surfaces.h"
 #include "scene/world/triangles.h"
@@ -24,7 +23,6 @@ struct scene_ray {
     pir_scene_ray_options options;
     pir_probe probe;     /* for its rules */
     pir_swept_box swept; /* its origin, in the world */
-    int axis;            /* along which it goes most */
     double most;         /* times beyond this are not looked for */
     pir_status (*take)(struct scene_ray *ray, const pir_impact *impact);
     pir_impact first;
@@ -140,13 +138,8 @@ struct surface_ray {
     const pir_scene_body *body;
     uint32_t number; /* of that body */
     pir_ray_segment segment;
-    pir_swept_box swept; /* its origin, in the frame of the body, wider by the body's radius */
     pir_status status;
 };
-
-static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    pir_swept_times(&((const struct surface_ray *)context)->swept, boxes, ret_near);
-}
 
 /* Where the segment enters a triangle that needs a polytope. */
 static pir_status enter_flat(const struct surface_ray *on, pir_scene_piece *piece, pir_entry *entry) {
@@ -179,11 +172,8 @@ static pir_status look_at_surface(struct scene_ray *ray, const pir_scene_body *b
                  pad = room + 2 * on.segment.error;
     const double low[3] = {from.x - pad, from.y - pad, from.z - pad},
                  high[3] = {from.x + pad, from.y + pad, from.z + pad};
-    const pir_walk_box bounds = pir_surface_bounds(pir_body_surface_of(body));
-    pir_walk_box part;
-    on.swept = pir_swept_box_of(low, high, on.segment.way);
-    if (pir_swept_part(&on.swept, &bounds, ray->most, &part))
-        pir_surface_walk(pir_body_surface_of(body), &(pir_walk){measure, look_at_triangle, &on, &ray->most, &part});
+    const pir_swept_box swept = pir_swept_box_of(low, high, on.segment.way);
+    pir_swept_triangles(body, &(pir_swept_walk){swept, &ray->most, look_at_triangle, &on});
     return on.status;
 }
 
@@ -198,69 +188,14 @@ static bool comes_before(const pir_impact *a, const pir_impact *b) {
     return a->body != b->body ? a->body < b->body : a->piece_q < b->piece_q;
 }
 
-/* Which child of a node the segment comes to first, by their middles along the axis that it goes along most. */
-static int first_of(const struct scene_ray *ray, const pir_tree_node *node) {
-    const pir_box *a = &ray->scene->tree.node[node->child[0]].box, *b = &ray->scene->tree.node[node->child[1]].box;
-    const int k = ray->axis;
-    const bool is_lower = a->low[k] + a->high[k] < b->low[k] + b->high[k];
-    return is_lower == ray->swept.down[k];
-}
-
-/* Children that a traversal goes to first, by their depths: below the last of them that is child 0. */
-struct ways_down {
-    uint64_t first;
-    uint32_t depth;
-};
-
-static int first_at(const struct ways_down *down, uint32_t depth) {
-    return depth < 64 && (down->first >> depth & 1);
-}
-
-/* The child of a node that comes first. */
-static uint32_t descend(const struct scene_ray *ray, struct ways_down *down, const pir_tree_node *node) {
-    if (down->depth < 64)
-        down->first = (down->first & ~(UINT64_C(1) << down->depth)) | (uint64_t)first_of(ray, node) << down->depth;
-    return node->child[first_at(down, down->depth++)];
-}
-
-/* The node after n and all below it. */
-static uint32_t go_beyond(const pir_tree *tree, struct ways_down *down, uint32_t n) {
-    for (uint32_t parent = tree->node[n].parent; parent != PIR_TREE_NONE; parent = tree->node[n].parent) {
-        const uint32_t *child = tree->node[parent].child;
-        const int first = first_at(down, down->depth - 1);
-        if (child[first] == n)
-            return child[1 - first];
-        n = parent;
-        down->depth--;
-    }
-    return PIR_TREE_NONE;
-}
-
-static pir_status look_at_leaf(struct scene_ray *ray, uint32_t item) {
-    pir_scene_piece *piece = &ray->scene->bodies.piece[item];
-    if (!pir_probe_meets(&ray->probe, piece->body))
-        return PIR_OK;
+static pir_status look_at_leaf(void *context, pir_scene_piece *piece) {
+    struct scene_ray *ray = context;
     return piece->kind == PIR_PIECE_SURFACE ? look_at_surface(ray, &ray->scene->bodies.body[piece->body])
                                             : look(ray, piece);
 }
 
 static pir_status search(struct scene_ray *ray) {
-    const pir_tree *tree = &ray->scene->tree;
-    struct ways_down down = {0, 0};
-    pir_status status = PIR_OK;
-    uint32_t n = tree->node ? tree->root : PIR_TREE_NONE;
-    while (n != PIR_TREE_NONE && status == PIR_OK && ray->most >= 0) {
-        const pir_tree_node *node = &tree->node[n];
-        if (pir_swept_meets(&ray->swept, node->box.low, node->box.high, ray->most)) {
-            if (node->child[0] != PIR_TREE_NONE) {
-                n = descend(ray, &down, node);
-                continue;
-            }
-            status = look_at_leaf(ray, node->child[1]);
-        }
-        n = go_beyond(tree, &down, n);
-    }
-    return status;
+    return pir_swept_pieces(&(pir_swept_search){&ray->probe, &ray->swept, &ray->most, look_at_leaf, ray});
 }
 
 /* --- the calls --- */
@@ -284,8 +219,6 @@ static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray wor
     *ray = (struct scene_ray){.scene = scene, .world = world, .options = used, .most = 1};
     const double from[3] = {world.origin.x, world.origin.y, world.origin.z};
     ray->swept = pir_swept_box_of(from, from, world.way);
-    for (int k = 1; k < 3; k++)
-        ray->axis = fabs(ray->swept.way[k]) > fabs(ray->swept.way[ray->axis]) ? k : ray->axis;
     ray->probe = (pir_probe){.scene = scene, .body = PIR_SCENE_NONE, .mask = used.mask, .except = used.except};
     return PIR_OK;
 }
