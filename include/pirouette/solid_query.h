@@ -3,7 +3,8 @@
  * Placement queries of two bodies in convex pieces (pir_solid_decompose), both posed in the world.
  *
  * No union is built: the state of two bodies is that of any pair of pieces, their distance the least of all pairs,
- * their first contact the first of all. The insides of two bodies meet exactly where those of two pieces do, so a wall
+ * their first contact the first of all. Their depth is not that of any pair: it is searched among the facets of all
+ * sums of pieces. The insides of two bodies meet exactly where those of two pieces do, so a wall
  * between pieces gives no contact: bodies that touch it from within overlap. A tree over boxes finds the pairs that
  * matter.
  *
@@ -98,6 +99,67 @@ PIR_API pir_status pir_solid_query_distance(pir_solid_query *query, pir_workspac
  */
 PIR_API pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
                                         const pir_motion *motion, double tolerance, pir_impact *ret_impact);
+
+/** A facet of the sum of two pieces, which P may not be moved into: a facet of one and a vertex of the other, or an edge
+ * of each. */
+typedef struct pir_solid_facet {
+    uint32_t piece_p, piece_q;
+    pir_witness witness; /**< features of the pieces (pir_pieces_polytope) */
+} pir_solid_facet;
+
+/** How deep a body is in another. But for the state all is 0 unless that is PIR_INSIDE. */
+typedef struct pir_solid_depth {
+    pir_state state;
+    double depth; /**< the length of a translation of P after which the insides share no point */
+    pir_vec3 normal;
+    /** Where the bodies touch after that translation, the middle of what the pieces of facet[0] then share: on Q, and
+     * the same point of P where P is now. */
+    pir_vec3 point_p, point_q;
+    /** How many facets determine the place: 1 within a facet, 2 on an edge where facets meet, 3 at a corner. */
+    uint32_t facets;
+    pir_solid_facet facet[3]; /**< P leaves by the first */
+    uint32_t pairs;           /**< of pieces that were looked at; depends on what was asked before */
+} pir_solid_depth;
+
+/**
+ * The depth: the length of the shortest translation of P that ends the overlap, over all ways out, those into cavities
+ * and pockets too. It is that of the bodies, not of any pair of pieces: the nearest point of the boundary of the union
+ * of all sums of pieces, which is never built.
+ *
+ * Free is where the insides share no point: touching is free, and so is a passage that P fits through exactly, as it is
+ * to pir_solid_query_overlap. The least facet is decided exactly. Of places that are equally near the one on the first
+ * facet counts: by the piece of P, then of Q, then as in pir_query_penetration; then the one with the least
+ * coordinates as Q sees them.
+ *
+ * workspace, input  scratch, and the poses of both; radii, cutoff and margin do not count.
+ * ret_depth         `normal` is the unit vector along which P is moved by `depth`.
+ *
+ * Memory: made when it is first asked for, 200 bytes for each vertex, edge and facet of a piece, then 80 bytes for each
+ * facet of a sum of pieces that was looked at, and exact numbers.
+ *
+ * Cost: that of pir_solid_query_overlap, and O(k · e · f) for the k pairs of pieces that are nearer than the depth,
+ * of e and f edges.
+ *
+ * Errors: those of a query; PIR_ERR_LIMIT where more than 2^22 facets, parts of facets or points had to be looked at.
+ */
+PIR_API pir_status pir_solid_query_depth(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
+                                         pir_solid_depth *ret_depth);
+
+/**
+ * The directional depth: how far P moves along a direction until the insides first share no point; it may meet Q again
+ * farther on. Exact as pir_solid_query_depth.
+ *
+ * workspace, input  as of pir_solid_query_depth.
+ * direction         in the world, of any length but zero.
+ * ret_depth         `normal` is that of the facet that P leaves by, the first of all that meet there, and `facets` 1.
+ *
+ * Cost: as of pir_solid_query_depth, with the pairs whose sums the way passes through.
+ *
+ * Errors: as of pir_solid_query_depth; PIR_ERR_NOT_FINITE and PIR_ERR_ARGUMENT for the direction.
+ */
+PIR_API pir_status pir_solid_query_directional_depth(pir_solid_query *query, pir_workspace *workspace,
+                                                     const pir_pair_input *input, pir_vec3 direction,
+                                                     pir_solid_depth *ret_depth);
 
 #ifdef __cplusplus
 }

@@ -26,12 +26,13 @@ int main(void) {
     pir_workspace *workspace = NULL;
     pir_pair_input input = pir_pair_input_default();
     pir_state state = PIR_OUTSIDE;
+    pir_solid_depth depth = {0};
     pir_workspace_create(NULL, &workspace);
     input.pose_p.translation.x = 0.5;
 
     /* snippet 2 */
 
-    const int good = pir_mesh_facet_count(mesh) > 8 && state == PIR_INSIDE;
+    const int good = pir_mesh_facet_count(mesh) > 8 && state == PIR_INSIDE && depth.depth > 0;
     pir_solid_query_destroy(query);
     pir_workspace_destroy(workspace);
     pir_pieces_destroy(pieces_q);

@@ -45,10 +45,15 @@ static pir_status ask_solids(pir_solid_query *query, pir_workspace *workspace) {
     const pir_motion motion = {{-8, -1, 0}, {0, 0, 1}, 1e-3};
     pir_pair_input input = pir_pair_input_default();
     pir_state state;
+    pir_solid_depth depth;
     pir_solid_distance apart;
     pir_impact impact;
     input.pose_p.translation = (pir_vec3){1, 1, 0.5};
     pir_status status = pir_solid_query_overlap(query, workspace, &input, &state);
+    if (status == PIR_OK)
+        status = pir_solid_query_depth(query, workspace, &input, &depth);
+    if (status == PIR_OK)
+        status = pir_solid_query_directional_depth(query, workspace, &input, (pir_vec3){1, 0, 0}, &depth);
     if (status == PIR_OK) {
         assert_int_equal(state, PIR_INSIDE);
         input.pose_p = (pir_pose){{0, 0, 1, 2}, {6, 1, 0.5}};

@@ -379,6 +379,7 @@ static void placements_that_are_none_are_refused_as_by_pairs(void **state) {
             pir_state found;
             pir_solid_distance distance;
             pir_impact impact;
+            pir_solid_depth depth;
             input.pose_p.translation.x = 4;
             double *const numbers[6] = {&input.pose_p.translation.y,
                                         &input.pose_q.translation.z,
@@ -391,6 +392,9 @@ static void placements_that_are_none_are_refused_as_by_pairs(void **state) {
             assert_int_equal(pir_solid_query_distance(query, workspace, &input, &distance), status);
             assert_int_equal(pir_solid_query_overlap(query, workspace, &input, &found), status);
             assert_int_equal(pir_solid_query_cast(query, workspace, &input, &motion, 1e-6, &impact), status);
+            assert_int_equal(pir_solid_query_depth(query, workspace, &input, &depth), status);
+            assert_int_equal(pir_solid_query_directional_depth(query, workspace, &input, (pir_vec3){0, 0, 1}, &depth),
+                             status);
             refused += status != PIR_OK;
         }
     // all but the numbers that a translation may be, a quaternion of one sign or the other, and no radius

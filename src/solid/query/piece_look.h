@@ -5,7 +5,7 @@
 
 #include <pirouette/pair.h>
 
-#include "solid/query/compound.h"
+#include "solid/pieces/compound.h"
 
 typedef struct pir_relative {
     double turn[3][3], reach[3][3]; /* of P's frame into Q's, and its absolute values */

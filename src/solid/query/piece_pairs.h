@@ -5,7 +5,7 @@
 
 #include <pirouette/pair.h>
 
-#include "solid/query/compound.h"
+#include "solid/pieces/compound.h"
 
 #define PIR_PIECE_PAIRS 256
 

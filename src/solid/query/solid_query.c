@@ -4,22 +4,12 @@
  * may be moved alike off the walls between pieces, so the insides of two bodies meet exactly where those of two pieces
  * do. What is first looked at is the pair of the last answer, which bounds what else is of interest.
  */
-#include <pirouette/solid_query.h>
+#include "solid/query/solid_query.h"
 
-#include "base/memory.h"
 #include "base/vec.h"
 #include "pair/flight.h"
 #include "query/proof/parting.h"
-#include "solid/query/piece_pairs.h"
 #include "solid/query/visit.h"
-
-struct pir_solid_query {
-    pir_allocator allocator;
-    pir_compound p, q;
-    pir_piece_pairs pairs;
-    uint32_t last[2]; /* the pieces of the last answer */
-    uint64_t visits;
-};
 
 struct solid_call {
     pir_solid_query *query;
@@ -64,6 +54,9 @@ void pir_solid_query_destroy(pir_solid_query *query) {
     if (!query)
         return;
     const pir_allocator a = query->allocator;
+    if (query->depth)
+        pir_depth_search_finish(query->depth);
+    PIR_FREE(&a, query->depth, 1);
     pir_piece_pairs_finish(&query->pairs);
     pir_compound_finish(&query->p, &a);
     pir_compound_finish(&query->q, &a);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A body in convex pieces, each a polytope, with a tree over their boxes in the frame of the body. */
-#ifndef PIR_SOLID_QUERY_COMPOUND_H
-#define PIR_SOLID_QUERY_COMPOUND_H
+#ifndef PIR_SOLID_PIECES_COMPOUND_H
+#define PIR_SOLID_PIECES_COMPOUND_H
 
 #include <pirouette/solid.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* See compound.h. Vertices are doubles within an ulp of the exact ones; boxes are wider than that. */
-#include "solid/query/compound.h"
+#include "solid/pieces/compound.h"
 
 #include "base/vec.h"
 

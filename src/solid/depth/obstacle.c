@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: MIT */
+/* See obstacle.h. A normal of a facet is within 2^-47, which is worth less than 2^-46 at |x| ≤ √3; its height is
+ * within 2^-48. So a plane is within 2^-45. */
+#include "solid/depth/obstacle.h"
+
+#include "base/vec.h"
+
+#define BOX_PLANES 6
+
+/* --- memory --- */
+
+bool pir_obstacle_grow(pir_obstacle *obstacle, void **array, uint32_t *room, uint32_t count, size_t size) {
+    pir_obstacle *o = obstacle;
+    if (o->status != PIR_OK)
+        return false;
+    if (count < *room)
+        return true;
+    if (count >= PIR_OBSTACLE_MOST) {
+        o->status = PIR_ERR_LIMIT;
+        return false;
+    }
+    const uint32_t wanted = *room ? 2 * *room : 256;
+    void *grown = pir_memory_resize(&o->allocator, *array, *room, wanted, size);
+    if (!grown) {
+        o->status = PIR_ERR_MEMORY;
+        return false;
+    }
+    *array = grown;
+    *room = wanted;
+    return true;
+}
+
+bool pir_obstacle_init(pir_obstacle *obstacle, const pir_compound *p, const pir_compound *q,
+                       const pir_allocator *allocator) {
+    pir_obstacle *o = obstacle;
+    *o = (pir_obstacle){.allocator = *allocator, .pairs = p->count * q->count};
+    for (size_t k = 0; k < sizeof o->t / sizeof *o->t; k++)
+        mpz_init(o->t[k]);
+    o->sum = PIR_ZEROED(allocator, pir_obstacle_sum, o->pairs);
+    o->open = PIR_NEW(allocator, uint32_t, o->pairs);
+    return o->sum && o->open && pir_piece_frame_init(&o->frame, p, q, allocator);
+}
+
+void pir_obstacle_finish(pir_obstacle *obstacle) {
+    pir_obstacle *o = obstacle;
+    for (size_t k = 0; k < sizeof o->t / sizeof *o->t; k++)
+        mpz_clear(o->t[k]);
+    while (o->number_made > 0)
+        mpz_clear(o->number[--o->number_made]);
+    PIR_FREE(&o->allocator, o->number, o->number_room);
+    PIR_FREE(&o->allocator, o->plane, o->plane_room);
+    PIR_FREE(&o->allocator, o->point, o->point_room);
+    PIR_FREE(&o->allocator, o->sum, o->pairs);
+    PIR_FREE(&o->allocator, o->open, o->pairs);
+    pir_piece_frame_finish(&o->frame, &o->allocator);
+}
+
+/* --- planes --- */
+
+/* A new plane, whose normal is made exactly where doubles say too little of it. */
+static void add_plane(pir_obstacle *o, pir_obstacle_plane plane) {
+    if (!pir_obstacle_grow(o, (void **)&o->plane, &o->plane_room, o->plane_count, sizeof *o->plane))
+        return;
+    plane.exact = PIR_OBSTACLE_NONE;
+    o->plane[o->plane_count++] = plane;
+    if (plane.err > 0x1p-40) {
+        pir_obstacle_exact_plane(o, o->plane_count - 1);
+        if (o->status == PIR_OK)
+            pir_obstacle_round_plane(o, o->plane_count - 1);
+    }
+}
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The planes of the facets of piece i of one body, with the highest vertices of piece j of the other. */
+static void add_facets(pir_obstacle *o, uint32_t pair, int side, uint32_t i, uint32_t j) {
+    const pir_framed_body *own = &o->frame.body[side], *other = &o->frame.body[1 - side];
+    const uint32_t first = other->of->vertex_start[j];
+    for (uint32_t f = own->of->face_start[i]; f < own->of->face_start[i + 1]; f++) {
+        const double *n = own->normal[f];
+        double most = -HUGE_VAL;
+        uint32_t at = first;
+        for (uint32_t v = first; v < other->of->vertex_start[j + 1]; v++) {
+            const double height = dot(n, other->vertex[v]);
+            at = height > most ? v : at;
+            most = height > most ? height : most;
+        }
+        const uint32_t face = f - own->of->face_start[i], vertex = at - first;
+        add_plane(o, (pir_obstacle_plane){.n = {n[0], n[1], n[2]},
+                                          .d = own->height[f] + most,
+                                          .err = 0x1p-45,
+                                          .pair = pair,
+                                          .p = side ? vertex : face,
+                                          .q = side ? face : vertex,
+                                          .kind = side ? PIR_OBSTACLE_Q_FACET : PIR_OBSTACLE_P_FACET});
+    }
+}
+
+/* The sign of a normal of one body along an edge of the other, by their numbers in the bodies. */
+static int slope(pir_obstacle *o, int side, const uint32_t piece[2], uint32_t face, uint32_t edge) {
+    const pir_framed_body *own = &o->frame.body[side], *other = &o->frame.body[1 - side];
+    const double s = dot(own->normal[face], other->along[edge]);
+    if (fabs(s) > 0x1p-45)
+        return s > 0 ? 1 : -1;
+    return pir_obstacle_exact_slope(o, side, piece, face - own->of->face_start[piece[side]],
+                                    edge - other->edge_start[piece[1 - side]]);
+}
+
+/* The sign with which the arc of an edge passes through the great circle of an edge of the other; 0: it does not. */
+static int passes(pir_obstacle *o, int side, const uint32_t piece[2], uint32_t own, uint32_t other) {
+    const pir_framed_edge *edge = &o->frame.body[side].edge[own];
+    const int right = slope(o, side, piece, edge->right, other);
+    return right != 0 && slope(o, side, piece, edge->left, other) == -right ? right : 0;
+}
+
+/* The plane of two edges whose arcs cross. Directions are within 2^-47 and 2^-50, so the unit normal is within
+ * 2^-46 over the length of their product, which is worth less than 2^-45 at |x| ≤ √3. */
+static void add_crossing(pir_obstacle *o, const uint32_t piece[2], uint32_t pair, uint32_t e, uint32_t g, bool turned) {
+    const pir_framed_body *p = &o->frame.body[0], *q = &o->frame.body[1];
+    const double *a = p->along[e], *b = q->along[g], *x = p->vertex[p->edge[e].origin],
+                 *y = q->vertex[q->edge[g].origin];
+    const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = sqrt(dot(cross, cross)), by = (turned ? -1 : 1) / length;
+    pir_obstacle_plane plane = {.err = length > 0 ? 0x1p-44 / length : HUGE_VAL,
+                                .pair = pair,
+                                .p = e - p->edge_start[piece[0]],
+                                .q = g - q->edge_start[piece[1]],
+                                .kind = PIR_OBSTACLE_EDGES,
+                                .turned = turned};
+    for (int k = 0; k < 3; k++) {
+        plane.n[k] = by * cross[k];
+        plane.d += plane.n[k] * (x[k] + y[k]);
+    }
+    add_plane(o, plane);
+}
+
+static void add_crossings(pir_obstacle *o, uint32_t pair, const uint32_t piece[2]) {
+    const pir_framed_body *p = &o->frame.body[0], *q = &o->frame.body[1];
+    for (uint32_t e = p->edge_start[piece[0]]; e < p->edge_start[piece[0] + 1]; e++)
+        for (uint32_t g = q->edge_start[piece[1]]; g < q->edge_start[piece[1] + 1]; g++) {
+            const int along = passes(o, 0, piece, e, g);
+            // the two arcs meet in one point, not in opposite ones, when they pass opposite ways
+            if (along != 0 && passes(o, 1, piece, g, e) == -along)
+                add_crossing(o, piece, pair, e, g, along > 0);
+        }
+}
+
+const pir_obstacle_sum *pir_obstacle_open(pir_obstacle *obstacle, uint32_t pair) {
+    pir_obstacle *o = obstacle;
+    pir_obstacle_sum *sum = &o->sum[pair];
+    if (sum->count > 0)
+        return sum;
+    const uint32_t of_q = o->frame.body[1].of->count, piece[2] = {pair / of_q, pair % of_q};
+    sum->first = o->plane_count;
+    add_facets(o, pair, 0, piece[0], piece[1]);
+    add_facets(o, pair, 1, piece[1], piece[0]);
+    add_crossings(o, pair, piece);
+    sum->count = o->plane_count - sum->first;
+    o->open[o->opened++] = pair;
+    return sum;
+}
+
+pir_space_box pir_obstacle_box(const pir_obstacle *obstacle, uint32_t pair) {
+    const pir_framed_body *p = &obstacle->frame.body[0], *q = &obstacle->frame.body[1];
+    const pir_space_box *a = &p->box[pair / q->of->count], *b = &q->box[pair % q->of->count];
+    pir_space_box box;
+    for (int k = 0; k < 3; k++) {
+        box.low[k] = a->low[k] + b->low[k];
+        box.high[k] = a->high[k] + b->high[k];
+    }
+    return box;
+}
+
+/* The box about all sums, which nothing that matters is outside of: |x| ≤ 3/16. */
+static void add_box(pir_obstacle *o) {
+    for (uint32_t which = 0; which < BOX_PLANES; which++) {
+        pir_obstacle_plane plane = {.d = 0.1875, .pair = which, .kind = PIR_OBSTACLE_BOX};
+        plane.n[which / 2] = which & 1 ? -1 : 1;
+        add_plane(o, plane);
+    }
+}
+
+/* --- poses --- */
+
+/* The unit vector of a direction of the world, as Q sees it. */
+static void set_way(pir_obstacle *o, pir_vec3 way) {
+    int exponent;
+    (void)frexp(fmax(fabs(way.x), fmax(fabs(way.y), fabs(way.z))), &exponent);
+    const pir_vec3 near = {ldexp(way.x, -exponent), ldexp(way.y, -exponent), ldexp(way.z, -exponent)};
+    const pir_vec3 turned = pir_mat_apply_transposed(&o->frame.rotation_q.r, near);
+    const double length = sqrt(pir_vec_dot(turned, turned));
+    o->way[0] = turned.x / length;
+    o->way[1] = turned.y / length;
+    o->way[2] = turned.z / length;
+    o->world_way = way;
+    o->exact_way = PIR_OBSTACLE_NONE;
+}
+
+pir_status pir_obstacle_set(pir_obstacle *obstacle, const pir_pair_input *input, const pir_vec3 *way) {
+    pir_obstacle *o = obstacle;
+    o->status = PIR_OK;
+    for (; o->opened > 0; o->opened--)
+        o->sum[o->open[o->opened - 1]].count = 0;
+    o->plane_count = o->point_count = o->number_count = 0;
+    const pir_status status = pir_piece_frame_set(&o->frame, input);
+    if (status != PIR_OK)
+        return status;
+    add_box(o);
+    const uint32_t place =
+        pir_obstacle_add(o, PIR_OBSTACLE_PLACE, PIR_OBSTACLE_NONE, PIR_OBSTACLE_NONE, PIR_OBSTACLE_NONE);
+    for (int k = 0; k < 3 && o->status == PIR_OK; k++)
+        o->point[place].x[k] = o->frame.t[k];
+    if (way)
+        set_way(o, *way);
+    return o->status;
+}
+
+/* --- points --- */
+
+/* A plane in doubles, with its error. */
+struct near_plane {
+    const double *n;
+    double d, err;
+};
+
+/* How far a solution may be from where the true planes meet: each plane's residual, with what it may be wrong by, over
+ * the least determinant that the true normals may have. The cross product of two unit normals is no longer than 1. */
+static double meet_error(const struct near_plane plane[3], const double x[3], double det) {
+    double all = 0, wrong = 0x1p-48;
+    for (int k = 0; k < 3; k++) {
+        all += fabs(dot(plane[k].n, x) - plane[k].d) + plane[k].err + 0x1p-50;
+        wrong += 2 * plane[k].err;
+    }
+    const double least = fabs(det) * (1 - 0x1p-40) - wrong;
+    return least > 0 ? all * (1 + 0x1p-40) / least : HUGE_VAL;
+}
+
+/* Where three planes meet, by doubles, and how far off that may be: infinite where it is not in the cube. */
+static double solve_meet(const struct near_plane plane[3], double x[3]) {
+    double sum[3] = {0}, det = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = plane[(i + 1) % 3].n, *b = plane[(i + 2) % 3].n, d = plane[i].d;
+        const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        for (int k = 0; k < 3; k++)
+            sum[k] += d * cross[k];
+        if (i == 0)
+            det = dot(plane[0].n, cross);
+    }
+    for (int k = 0; k < 3; k++) {
+        x[k] = sum[k] / det;
+        if (!(fabs(x[k]) <= 1))
+            return HUGE_VAL;
+    }
+    return meet_error(plane, x, det);
+}
+
+/* The foot on the line where two planes meet: where they meet the plane across that line through the place. */
+static double solve_line(const struct near_plane of[2], const pir_obstacle_point *place, double x[3]) {
+    const double *a = of[0].n, *b = of[1].n;
+    double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = sqrt(dot(cross, cross));
+    if (!(length > 0x1p-30))
+        return HUGE_VAL;
+    for (int k = 0; k < 3; k++)
+        cross[k] /= length;
+    // normals are off by no more than √3 times a plane's error; the third plane is so by that over the length
+    const double err = 8 * (of[0].err + of[1].err + 0x1p-50) / length + 2 * place->err;
+    const struct near_plane plane[3] = {of[0], of[1], {cross, dot(cross, place->x), err}};
+    return solve_meet(plane, x);
+}
+
+/* The doubles of a point by those of its planes; how far off they may be. */
+static double solve(const pir_obstacle *o, const pir_obstacle_point *p, double x[3]) {
+    struct near_plane of[3];
+    const pir_obstacle_point *place = &o->point[0];
+    for (int k = 0; k < 3; k++) {
+        const pir_obstacle_plane *f = p->of[k] == PIR_OBSTACLE_NONE ? NULL : &o->plane[p->of[k]];
+        of[k] = f ? (struct near_plane){f->n, f->d, f->err} : (struct near_plane){0};
+    }
+    if (p->kind == PIR_OBSTACLE_MEET)
+        return solve_meet(of, x);
+    if (p->kind == PIR_OBSTACLE_ON_LINE)
+        return solve_line(of, place, x);
+    const double over = dot(of[0].n, place->x) - of[0].d;
+    const bool on_way = p->kind == PIR_OBSTACLE_ON_WAY;
+    const double *u = on_way ? o->way : of[0].n, rate = on_way ? dot(of[0].n, u) : 1, by = -over / rate;
+    for (int k = 0; k < 3; k++) {
+        x[k] = place->x[k] + by * u[k];
+        if (!(fabs(x[k]) <= 1))
+            return HUGE_VAL;
+    }
+    // the normal and the way are off by 2·err and 2^-47, the height by err and what the place is
+    const double least = fabs(rate) - 2 * of[0].err - 0x1p-46;
+    if (!(least > 0))
+        return HUGE_VAL;
+    const double off = 2 * of[0].err + 0x1p-46;
+    return 2 * place->err + (of[0].err + place->err + off * (1 + fabs(by)) + 0x1p-50) / least + fabs(by) * off;
+}
+
+uint32_t pir_obstacle_add(pir_obstacle *obstacle, enum pir_obstacle_point_kind kind, uint32_t f, uint32_t g,
+                          uint32_t h) {
+    pir_obstacle *o = obstacle;
+    const uint32_t made = o->point_count;
+    if (!pir_obstacle_grow(o, (void **)&o->point, &o->point_room, made, sizeof *o->point))
+        return 0;
+    pir_obstacle_point *p = &o->point[made];
+    *p = (pir_obstacle_point){.of = {f, g, h}, .exact = PIR_OBSTACLE_NONE, .kind = kind};
+    o->point_count++;
+    if (kind == PIR_OBSTACLE_PLACE) {
+        p->err = 0x1p-46;
+        return made;
+    }
+    p->err = solve(o, p, p->x);
+    if (!(p->err <= 0x1p-30)) {
+        pir_obstacle_exact_point(o, made);
+        if (o->status == PIR_OK)
+            pir_obstacle_round_point(o, made);
+    }
+    return made;
+}
