@@ -174,7 +174,7 @@ static int decompose(const struct args *args, const pir_solid *solid, const pir_
     const pir_status status = pir_solid_decompose(solid, options, &outcome.did, &outcome.pieces);
     outcome.seconds = (double)(clock_now() - start) / 1e9;
     if (status != PIR_OK)
-        return complain_status("decompose", status, options->solid.report);
+        return complain_status("decompose", status, options->report);
     int result = !path || write(outcome.pieces, path) ? EXIT_DONE : EXIT_BAD_INPUT;
     if (result == EXIT_DONE && args_has(args, "--json"))
         result = print_json(args, &outcome) ? EXIT_DONE : EXIT_BAD_INPUT;
@@ -190,7 +190,7 @@ SUBCOMMAND(decompose) {
     if (!target_check(args, "-o", NULL) || !read_options(args, &options))
         return EXIT_BAD_INPUT;
     pir_solid *solid = solid_load(args, 0);
-    options.solid.report = &report;
+    options.report = &report;
     const int result = solid ? decompose(args, solid, &options) : EXIT_BAD_INPUT;
     pir_solid_release(solid);
     return result;

@@ -104,7 +104,7 @@ static pir_status run(const pir_solid *const solid[2], const pir_pair_input *inp
     const pir_motion way = {.way = motion ? *motion : (pir_vec3){0, 0, 0}};
     const double tolerance = CAST_TOLERANCE * (reach_of(solid[0]) + reach_of(solid[1]));
     pir_status status = pir_workspace_create(NULL, &workspace);
-    options.solid.report = report;
+    options.report = report;
     for (int k = 0; k < 2 && status == PIR_OK; k++)
         status = pir_solid_decompose(solid[k], &options, NULL, &pieces[k]);
     if (status == PIR_OK)

@@ -122,7 +122,7 @@ int solid_sum(const struct args *args) {
     request.options.difference = args_has(args, "--difference");
     request.options.open = args_has(args, "--open");
     pir_report fault = {0};
-    request.options.solid.report = &fault;
+    request.options.report = &fault;
     if (!pose_read(args, &request.rotation) || !target_check(args, "-o", TARGET_SOLID))
         return EXIT_BAD_INPUT;
     struct outcome outcome = {0};

@@ -37,7 +37,7 @@ static struct times times_none(void) {
 
 /* Follows the differences through all slices, each unit from a walk, as a job does. */
 static double track(const struct slices_bodies *bodies) {
-    const pir_sum_options options = {.allocator = NULL, .difference = true};
+    const pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = true};
     double start = slices_cpu();
     for (uint32_t k = 0; k < bodies->pieces; k++) {
         pir_sum *sum = NULL;

@@ -57,7 +57,7 @@ struct older_walk *older_walk_new(const char *p, const char *q, const double rot
     find("pir_sum_reset", &walk->reset);
     find("pir_sum_destroy", &walk->destroy);
     pir_polytope *body[2] = {body_of(p), body_of(q)};
-    const pir_sum_options options = {.allocator = NULL, .difference = true};
+    const pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = true};
     const pir_quat r = {rotation[0], rotation[1], rotation[2], rotation[3]};
     if (create(body[0], body[1], r, &options, &walk->sum) != PIR_OK) {
         fprintf(stderr, "bench_slices: the older library makes no sum\n");

@@ -20,7 +20,7 @@
 #define MESH_SAMPLES 25
 
 static pir_sum *difference(pir_polytope *p, pir_polytope *q, pir_quat rotation) {
-    const pir_sum_options options = {.allocator = NULL, .difference = true};
+    const pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = true};
     pir_sum *sum = NULL;
     trial_need(pir_sum_create(p, q, rotation, &options, &sum), "sum");
     return sum;

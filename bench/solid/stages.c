@@ -25,7 +25,8 @@ static void check(pir_status status) {
 
 static void measure_parts(const pir_solid *const solids[2], stages *ret_stages) {
     pir_allocator allocator;
-    const pir_solid_options options = pir_solid_options_or_default(NULL, &allocator);
+    pir_solid_options options;
+    check(pir_solid_options_take(NULL, NULL, &allocator, &options));
     pir_rotation_integers integers;
     pir_rotation rotation = {.integers = &integers};
     pir_operands operands;

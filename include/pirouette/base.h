@@ -50,6 +50,15 @@ typedef enum pir_status {
  * references to what it stands on, so the order does not matter. All but `_retain` accept NULL.
  */
 
+/*
+ * Options. The first field of every struct of options is its size, in bytes, as these headers have it: begin with its
+ * `_default` function, which sets it and all others, then change fields. So a library of another version knows what the
+ * caller knew. Fields that the caller's struct lacks have their defaults; fields that the library lacks must be zero,
+ * or the call is PIR_ERR_VERSION. A size that no struct has, 0 among them, is PIR_ERR_ARGUMENT. A report, where there
+ * is one, names the struct. In C, {.size = sizeof options, …} does as well where zero is wanted in all other fields.
+ * Any other struct is the same in all versions of one soname.
+ */
+
 /** The name of a status in plain words, such as "zero quaternion". Never NULL; static memory. O(1). */
 PIR_API const char *pir_status_text(pir_status status);
 

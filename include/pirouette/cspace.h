@@ -18,6 +18,8 @@
 #ifndef PIROUETTE_CSPACE_H
 #define PIROUETTE_CSPACE_H
 
+#include <string.h>
+
 #include <pirouette/base.h>
 #include <pirouette/grid.h>
 #include <pirouette/mesh.h>
@@ -58,6 +60,7 @@ typedef struct pir_cspace_job pir_cspace_job;
 #define PIR_CSPACE_UNIT_MAX ((uint32_t)1 << 20)
 
 typedef struct pir_cspace_options {
+    size_t size;                    /**< of this struct, which pir_cspace_options_default sets (base.h) */
     const pir_allocator *allocator; /**< NULL for malloc; called from all threads of the job */
     uint32_t threads;               /**< that make units; 1 */
     uint32_t slices_per_unit;       /**< at most PIR_CSPACE_UNIT_MAX; 0: 256, or 64 where there are few in all */
@@ -79,7 +82,13 @@ typedef struct pir_cspace_options {
 /**
  * One thread, 256 slices a unit (64 where there are few in all), 64 a key, no planes, no vertices, no resuming. O(1).
  */
-PIR_API pir_cspace_options pir_cspace_options_default(void);
+static inline pir_cspace_options pir_cspace_options_default(void) {
+    pir_cspace_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.threads = 1;
+    return options;
+}
 
 /**
  * Makes a job. With `resume` it takes over the units that parts of an earlier run hold, and where the file itself is

@@ -56,6 +56,7 @@ typedef enum pir_level {
 } pir_level;
 
 typedef struct pir_pair_options {
+    size_t size;                    /**< of this struct, which pir_pair_options_default sets (base.h) */
     const pir_allocator *allocator; /**< or NULL: malloc's */
     /**
      * The levels that may be used: those from `least` to `most`. PIR_LEVEL_WHOLE for both answers all by the
@@ -66,7 +67,10 @@ typedef struct pir_pair_options {
 } pir_pair_options;
 
 /** malloc's memory, all levels. O(1). */
-PIR_API pir_pair_options pir_pair_options_default(void);
+static inline pir_pair_options pir_pair_options_default(void) {
+    const pir_pair_options options = {sizeof(pir_pair_options), NULL, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
+    return options;
+}
 
 /**
  * A pair of P and Q, to which it takes references. What depends on one body alone is made once and stays with that

@@ -23,6 +23,7 @@ typedef struct pir_polytope pir_polytope;
 
 /** Options of the making of polytopes. */
 typedef struct pir_polytope_options {
+    size_t size;                    /**< of this struct, which pir_polytope_options_default sets (base.h) */
     const pir_allocator *allocator; /**< NULL for malloc; copied, its context must outlive the polytope */
     /**
      * A length, 0 or more. Where it is not 0, facets of the hull whose corners are within it of one plane become one
@@ -36,7 +37,10 @@ typedef struct pir_polytope_options {
 } pir_polytope_options;
 
 /** malloc, the exact hull. O(1). */
-PIR_API pir_polytope_options pir_polytope_options_default(void);
+static inline pir_polytope_options pir_polytope_options_default(void) {
+    const pir_polytope_options options = {sizeof(pir_polytope_options), NULL, 0};
+    return options;
+}
 
 /**
  * Makes the exact convex hull of `count` points. Duplicate, interior, coplanar and collinear points are welcome.

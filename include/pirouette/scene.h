@@ -43,6 +43,8 @@
 #ifndef PIROUETTE_SCENE_H
 #define PIROUETTE_SCENE_H
 
+#include <string.h>
+
 #include <pirouette/base.h>
 #include <pirouette/pair.h>
 #include <pirouette/polytope.h>
@@ -77,6 +79,7 @@ typedef struct pir_tasks {
 } pir_tasks;
 
 typedef struct pir_scene_options {
+    size_t size;                    /**< of this struct, which pir_scene_options_default sets (base.h) */
     const pir_allocator *allocator; /**< or NULL: malloc's */
     size_t budget;                  /**< the most bytes that the scene may have; 0 for no bound */
     pir_scene_detail detail;
@@ -92,7 +95,14 @@ typedef struct pir_scene_options {
 } pir_scene_options;
 
 /** malloc's memory, no budget, manifolds, no margin, no approach, one thread, no report. O(1). */
-PIR_API pir_scene_options pir_scene_options_default(void);
+static inline pir_scene_options pir_scene_options_default(void) {
+    pir_scene_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.detail = PIR_SCENE_MANIFOLDS;
+    options.threads = 1;
+    return options;
+}
 
 /**
  * A scene without bodies. `options` may be NULL.
@@ -116,6 +126,7 @@ typedef enum pir_body_kind {
 } pir_body_kind;
 
 typedef struct pir_body_options {
+    size_t size; /**< of this struct, which pir_body_options_default sets (base.h) */
     pir_body_kind kind;
     pir_pose pose;
     pir_polytope *const *pieces; /**< the convex pieces, in the body's frame; of any dimension */
@@ -135,7 +146,15 @@ typedef struct pir_body_options {
  * A moving body at the origin, not turned, without pieces or a surface yet; category 1, all in its mask, no sensor.
  * O(1).
  */
-PIR_API pir_body_options pir_body_options_default(void);
+static inline pir_body_options pir_body_options_default(void) {
+    pir_body_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.pose.rotation.w = 1;
+    options.category = 1;
+    options.mask = UINT32_MAX;
+    return options;
+}
 
 /**
  * Adds a body, and gives its number: the least that is free. Its contacts begin with the next update. At most 2^20

@@ -179,13 +179,18 @@ PIR_API pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way
 
 /** The bodies and sides that rays meet. */
 typedef struct pir_scene_ray_options {
+    size_t size;         /**< of this struct, which pir_scene_ray_options_default sets (base.h) */
     uint32_t mask;       /**< the categories of bodies that it meets */
     uint32_t except;     /**< a body that it does not meet, or PIR_SCENE_NONE */
     pir_ray_sides sides; /**< from which side it meets triangles of surfaces that have no radius */
 } pir_scene_ray_options;
 
 /** All in the mask, no body left out, triangles as their surfaces say. O(1). */
-PIR_API pir_scene_ray_options pir_scene_ray_options_default(void);
+static inline pir_scene_ray_options pir_scene_ray_options_default(void) {
+    const pir_scene_ray_options options = {sizeof(pir_scene_ray_options), UINT32_MAX, PIR_SCENE_NONE,
+                                           PIR_RAY_AS_SURFACE};
+    return options;
+}
 
 /**
  * Whether the segment hits any piece or triangle at all; it stops at the first that is found.

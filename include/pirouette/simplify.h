@@ -23,12 +23,16 @@ extern "C" {
 
 /** When to stop: at either. One of the two must be set. */
 typedef struct pir_simplify_options {
+    size_t size;       /**< of this struct, which pir_simplify_options_default sets (base.h) */
     uint32_t vertices; /**< the most that either may have, 4 at least; 0 for no bound */
     double error;      /**< a length: what is this near is near enough; 0 for as near as `vertices` allows */
 } pir_simplify_options;
 
 /** No bound on the vertices, no error: one of them must be set. O(1). */
-PIR_API pir_simplify_options pir_simplify_options_default(void);
+static inline pir_simplify_options pir_simplify_options_default(void) {
+    const pir_simplify_options options = {sizeof(pir_simplify_options), 0, 0};
+    return options;
+}
 
 /** Both polytopes, references of the caller's: release them with pir_simplified_release. */
 typedef struct pir_simplified {

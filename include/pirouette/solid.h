@@ -27,18 +27,24 @@ typedef struct pir_pieces pir_pieces;
 
 /** How solids are made and computed with. */
 typedef struct pir_solid_options {
+    size_t size;                    /**< of this struct, which pir_solid_options_default sets (base.h) */
     const pir_allocator *allocator; /**< NULL for malloc's; copied; it outlives what is made */
     size_t
         memory; /**< the most bytes that one call may hold beside its result and its solids, GMP's numbers included */
     /**
      * NULL, or filled when a call that has no report of its own ends with PIR_ERR_LIMIT, PIR_ERR_MEMORY or
-     * PIR_ERR_INTERNAL: it names the limit and its value, and how far the job was.
+     * PIR_ERR_INTERNAL, or refuses the options' size: it names the limit and its value, and how far the job was.
      */
     pir_report *report;
 } pir_solid_options;
 
-/** malloc's allocator, 4 GiB, no report. O(1). */
-PIR_API pir_solid_options pir_solid_options_default(void);
+/** malloc's allocator, 4 GiB, or all that a size_t can tell, no report. O(1). */
+static inline pir_solid_options pir_solid_options_default(void) {
+    const uint64_t memory = (uint64_t)1 << 32;
+    const pir_solid_options options = {sizeof(pir_solid_options), NULL, memory < SIZE_MAX ? (size_t)memory : SIZE_MAX,
+                                       NULL};
+    return options;
+}
 
 /** The description of a solid. Lengths in units of the model. */
 typedef struct pir_solid_info {
@@ -143,14 +149,21 @@ typedef enum pir_decompose_method {
 
 /** How a solid is divided. */
 typedef struct pir_decompose_options {
-    pir_solid_options solid;
+    size_t size;                    /**< of this struct, which pir_decompose_options_default sets (base.h) */
+    const pir_allocator *allocator; /**< this and the next two as of pir_solid_options */
+    size_t memory;
+    pir_report *report;
     pir_decompose_method method;
     uint32_t pieces;  /**< the most that there may be; 0 for no bound */
     double tolerance; /**< pieces may reach this far out of the solid where that makes them fewer, a length; 0: not */
 } pir_decompose_options;
 
-/** pir_solid_options_default, PIR_DECOMPOSE_BEST, exact. O(1). */
-PIR_API pir_decompose_options pir_decompose_options_default(void);
+/** As pir_solid_options_default has it, PIR_DECOMPOSE_BEST, exact. O(1). */
+static inline pir_decompose_options pir_decompose_options_default(void) {
+    const pir_decompose_options options = {
+        sizeof(pir_decompose_options), NULL, pir_solid_options_default().memory, NULL, PIR_DECOMPOSE_BEST, 0, 0};
+    return options;
+}
 
 /** The outcome of a decomposition. */
 typedef struct pir_decompose_info {
@@ -199,13 +212,20 @@ PIR_API pir_status pir_pieces_polytope(const pir_pieces *pieces, uint32_t index,
 
 /** How a sum of solids is made. */
 typedef struct pir_solid_sum_options {
-    pir_solid_options solid;
+    size_t size;                    /**< of this struct, which pir_solid_sum_options_default sets (base.h) */
+    const pir_allocator *allocator; /**< this and the next two as of pir_solid_options */
+    size_t memory;
+    pir_report *report;
     bool difference; /**< true: Q ⊕ (−R·P), what P may be moved by to meet Q; false: R·P ⊕ Q */
     bool open;       /**< whether P and Q are without their boundaries; what they leave out within is in the mesh */
 } pir_solid_sum_options;
 
-/** pir_solid_options_default, no difference, closed. O(1). */
-PIR_API pir_solid_sum_options pir_solid_sum_options_default(void);
+/** As pir_solid_options_default has it, no difference, closed. O(1). */
+static inline pir_solid_sum_options pir_solid_sum_options_default(void) {
+    const pir_solid_sum_options options = {
+        sizeof(pir_solid_sum_options), NULL, pir_solid_options_default().memory, NULL, false, false};
+    return options;
+}
 
 /** The description of a sum of solids, and the work that it took. */
 typedef struct pir_solid_sum_info {

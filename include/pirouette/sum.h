@@ -40,6 +40,7 @@ typedef enum pir_method {
 } pir_method;
 
 typedef struct pir_sum_options {
+    size_t size;                    /**< of this struct, which pir_sum_options_default sets (base.h) */
     const pir_allocator *allocator; /**< NULL for malloc; copied, its context must outlive the sum */
     bool difference; /**< true: keep Q ⊕ (−R·P), the difference that placement queries use; false: R·P ⊕ Q */
     /**
@@ -51,7 +52,10 @@ typedef struct pir_sum_options {
 } pir_sum_options;
 
 /** malloc, no difference, scratch of its own. O(1). */
-PIR_API pir_sum_options pir_sum_options_default(void);
+static inline pir_sum_options pir_sum_options_default(void) {
+    const pir_sum_options options = {sizeof(pir_sum_options), NULL, false, NULL};
+    return options;
+}
 
 /**
  * Makes the sum of P, rotated by `rotation`, and Q. Release it with pir_sum_destroy.

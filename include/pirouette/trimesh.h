@@ -49,12 +49,16 @@ typedef struct pir_trimesh_arrays {
 } pir_trimesh_arrays;
 
 typedef struct pir_trimesh_options {
+    size_t size;                    /**< of this struct, which pir_trimesh_options_default sets (base.h) */
     const pir_allocator *allocator; /**< NULL for malloc's; copied, its context must outlive the mesh */
     bool two_sided;                 /**< whether its triangles are met from behind as well */
 } pir_trimesh_options;
 
 /** malloc's memory, one-sided. O(1). */
-PIR_API pir_trimesh_options pir_trimesh_options_default(void);
+static inline pir_trimesh_options pir_trimesh_options_default(void) {
+    const pir_trimesh_options options = {sizeof(pir_trimesh_options), NULL, false};
+    return options;
+}
 
 /**
  * Makes a mesh of arrays, which are copied.
@@ -160,12 +164,16 @@ typedef struct pir_height_samples {
 } pir_height_samples;
 
 typedef struct pir_height_options {
+    size_t size;                    /**< of this struct, which pir_height_options_default sets (base.h) */
     const pir_allocator *allocator; /**< as of pir_trimesh_options */
     bool two_sided;
 } pir_height_options;
 
 /** malloc's memory, one-sided. O(1). */
-PIR_API pir_height_options pir_height_options_default(void);
+static inline pir_height_options pir_height_options_default(void) {
+    const pir_height_options options = {sizeof(pir_height_options), NULL, false};
+    return options;
+}
 
 /**
  * Makes a height field. Heights at the corners of a hole alone may be anything, NaN too.

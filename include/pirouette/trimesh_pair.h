@@ -36,11 +36,15 @@ extern "C" {
 typedef struct pir_trimesh_pair pir_trimesh_pair;
 
 typedef struct pir_trimesh_pair_options {
+    size_t size;                    /**< of this struct, which pir_trimesh_pair_options_default sets (base.h) */
     const pir_allocator *allocator; /**< or NULL: malloc's; copied, its context must outlive the pair */
 } pir_trimesh_pair_options;
 
 /** malloc's memory. O(1). */
-PIR_API pir_trimesh_pair_options pir_trimesh_pair_options_default(void);
+static inline pir_trimesh_pair_options pir_trimesh_pair_options_default(void) {
+    const pir_trimesh_pair_options options = {sizeof(pir_trimesh_pair_options), NULL};
+    return options;
+}
 
 /**
  * A pair of P and Q, to which it takes references; they may be one mesh.

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * The version: of these headers as macros, of the library that runs as a call.
+ *
+ * The soname is the whole version until 1.0, and then the major one. Versions of one soname have the same functions,
+ * structs and enumerators, and may have more: fields are added to structs of options alone, behind the others.
  */
 #ifndef PIROUETTE_VERSION_H
 #define PIROUETTE_VERSION_H

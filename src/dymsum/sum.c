@@ -2,9 +2,7 @@
 /* The life of a sum: making it, releasing it, reading its pairing. */
 #include "dymsum/rotate.h"
 
-pir_sum_options pir_sum_options_default(void) {
-    return (pir_sum_options){.allocator = NULL, .difference = false, .workspace = NULL};
-}
+#include "base/options.h"
 
 bool pir_sum_reserve_lag(pir_sum *sum) {
     pir_pairing *pairing = &sum->tracked.pairing;
@@ -54,10 +52,13 @@ pir_status pir_sum_create(pir_polytope *p, pir_polytope *q, pir_quat rotation, c
                           pir_sum **ret_sum) {
     if (!p || !q || !ret_sum)
         return PIR_ERR_ARGUMENT;
-    const pir_sum_options used = options ? *options : pir_sum_options_default();
+    pir_sum_options used = pir_sum_options_default();
+    pir_status status = pir_options_take("pir_sum_options", options, &used, NULL);
+    if (status != PIR_OK)
+        return status;
     const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     pir_rotation checked;
-    pir_status status = pir_rotation_set(&checked, rotation);
+    status = pir_rotation_set(&checked, rotation);
     if (status != PIR_OK)
         return status;
     pir_polytope *turning = NULL;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/byte_block.h"
+#include "base/options.h"
 #include "base/report.h"
 #include "history/history_file.h"
 #include "polytope/write/off_text.h"
@@ -207,12 +208,14 @@ pir_status pir_history_query(pir_history *history, const pir_query_input *input)
 }
 
 pir_status pir_history_pair(pir_history *history, pir_polytope *p, pir_polytope *q, const pir_pair_options *options) {
-    pir_pair_options given = options ? *options : pir_pair_options_default();
-    pir_status status = begin_bodies(history, PIR_NOTE_PAIR, p, q);
+    pir_pair_options used = pir_pair_options_default();
+    pir_status status = pir_options_take("pir_pair_options", options, &used, NULL);
+    if (status == PIR_OK)
+        status = begin_bodies(history, PIR_NOTE_PAIR, p, q);
     if (status != PIR_OK)
         return status;
-    put(history, (uint64_t)given.least, 1);
-    put(history, (uint64_t)given.most, 1);
+    put(history, (uint64_t)used.least, 1);
+    put(history, (uint64_t)used.most, 1);
     return PIR_OK;
 }
 
@@ -227,20 +230,21 @@ pir_status pir_history_ask(pir_history *history, const pir_pair_input *input) {
 }
 
 pir_status pir_history_scene(pir_history *history, const pir_scene_options *options) {
-    pir_scene_options given = options ? *options : pir_scene_options_default();
-    pir_status status = begin(history, PIR_NOTE_SCENE, PIR_NOTE_NONE, 0);
+    pir_scene_options used = pir_scene_options_default();
+    pir_status status = pir_options_take("pir_scene_options", options, &used, &used.report);
+    if (status == PIR_OK)
+        status = begin(history, PIR_NOTE_SCENE, PIR_NOTE_NONE, 0);
     if (status != PIR_OK)
         return status;
-    put(history, (uint64_t)given.detail, 1);
-    put(history, given.approach != 0, 1);
-    put_double(history, given.margin);
+    put(history, (uint64_t)used.detail, 1);
+    put(history, used.approach != 0, 1);
+    put_double(history, used.margin);
     return PIR_OK;
 }
 
-pir_status pir_history_add(pir_history *history, const pir_body_options *body) {
-    if (!history || history->object != PIR_NOTE_SCENE || !body || body->piece_count > PIR_HISTORY_PIECES_MAX)
-        return PIR_ERR_ARGUMENT;
-    if (body->mesh || body->field)
+/* The note of a body of pieces. */
+static pir_status add(pir_history *history, const pir_body_options *body) {
+    if (body->piece_count > PIR_HISTORY_PIECES_MAX || body->mesh || body->field)
         return PIR_ERR_ARGUMENT;
     pir_status status = PIR_OK;
     for (uint32_t i = 0; i < body->piece_count && status == PIR_OK; i++)
@@ -259,6 +263,14 @@ pir_status pir_history_add(pir_history *history, const pir_body_options *body) {
     for (uint32_t i = 0; i < body->piece_count; i++)
         put(history, number_of(history, body->pieces[i]), 4);
     return PIR_OK;
+}
+
+pir_status pir_history_add(pir_history *history, const pir_body_options *body) {
+    if (!history || history->object != PIR_NOTE_SCENE || !body)
+        return PIR_ERR_ARGUMENT;
+    pir_body_options used = pir_body_options_default();
+    const pir_status status = pir_options_take("pir_body_options", body, &used, NULL);
+    return status == PIR_OK ? add(history, &used) : status;
 }
 
 pir_status pir_history_remove(pir_history *history, uint32_t body) {

@@ -4,15 +4,12 @@
 
 #include <string.h>
 
+#include "base/options.h"
 #include "base/report.h"
 #include "mesh/mesh_tree.h"
 #include "mesh/signs/mesh_numbers.h"
 
 #define MOST_SIDE 32768u
-
-pir_height_options pir_height_options_default(void) {
-    return (pir_height_options){.allocator = NULL, .two_sided = false};
-}
 
 /* --- checks --- */
 
@@ -178,10 +175,12 @@ pir_status pir_height_field_create(const pir_height_samples *samples, const pir_
                                    pir_report *report, pir_height_field **ret_field) {
     if (!samples || !ret_field)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no samples, or no place for the field");
-    pir_status status = check_samples(samples, report);
+    pir_height_options used = pir_height_options_default();
+    pir_status status = pir_options_take("pir_height_options", options, &used, &report);
+    if (status == PIR_OK)
+        status = check_samples(samples, report);
     if (status != PIR_OK)
         return status;
-    const pir_height_options used = options ? *options : pir_height_options_default();
     const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     pir_height_field *field = PIR_ZEROED(&allocator, pir_height_field, 1);
     if (!field)

@@ -4,16 +4,13 @@
 
 #include <string.h>
 
+#include "base/options.h"
 #include "base/report.h"
 #include "mesh/signs/mesh_numbers.h"
 #include "mesh/weld.h"
 
 /* Counts from here on are refused: a leaf has 29 bits for where its items begin. */
 #define MOST (1u << 29)
-
-pir_trimesh_options pir_trimesh_options_default(void) {
-    return (pir_trimesh_options){.allocator = NULL, .two_sided = false};
-}
 
 /* --- copies --- */
 
@@ -208,10 +205,12 @@ pir_status pir_trimesh_create(const pir_trimesh_arrays *arrays, const pir_trimes
                               pir_trimesh **ret_mesh) {
     if (!arrays || !ret_mesh)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no arrays, or no place for the mesh");
-    pir_status status = check_arrays(arrays, report);
+    pir_trimesh_options used = pir_trimesh_options_default();
+    pir_status status = pir_options_take("pir_trimesh_options", options, &used, &report);
+    if (status == PIR_OK)
+        status = check_arrays(arrays, report);
     if (status != PIR_OK)
         return status;
-    const pir_trimesh_options used = options ? *options : pir_trimesh_options_default();
     const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     pir_trimesh *mesh = PIR_ZEROED(&allocator, pir_trimesh, 1);
     if (!mesh)

@@ -5,6 +5,7 @@
 #include <pirouette/trimesh.h>
 
 #include "base/layout.h"
+#include "base/options.h"
 #include "base/report.h"
 #include "mesh/polygon_cut.h"
 #include "polytope/read/read.h"
@@ -93,8 +94,12 @@ pir_status pir_trimesh_read_bytes(const pir_file_bytes *file, const pir_trimesh_
                                   pir_trimesh **ret_mesh) {
     if (!file || (!file->bytes && file->size > 0) || !file->format || !ret_mesh)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, no format, or no place for the mesh");
-    const pir_allocator allocator = pir_allocator_or_default(options ? options->allocator : NULL);
-    struct trimesh_maker maker = {options, report, ret_mesh};
+    pir_trimesh_options used = pir_trimesh_options_default();
+    const pir_status status = pir_options_take("pir_trimesh_options", options, &used, &report);
+    if (status != PIR_OK)
+        return status;
+    const pir_allocator allocator = pir_allocator_or_default(used.allocator);
+    struct trimesh_maker maker = {&used, report, ret_mesh};
     return pir_model_read_bytes(file, &allocator, report, (struct pir_model_maker){make, &maker});
 }
 
@@ -102,7 +107,11 @@ pir_status pir_trimesh_read(const char *path, const pir_trimesh_options *options
                             pir_trimesh **ret_mesh) {
     if (!path || !ret_mesh)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the mesh");
-    const pir_allocator allocator = pir_allocator_or_default(options ? options->allocator : NULL);
-    struct trimesh_maker maker = {options, report, ret_mesh};
+    pir_trimesh_options used = pir_trimesh_options_default();
+    const pir_status status = pir_options_take("pir_trimesh_options", options, &used, &report);
+    if (status != PIR_OK)
+        return status;
+    const pir_allocator allocator = pir_allocator_or_default(used.allocator);
+    struct trimesh_maker maker = {&used, report, ret_mesh};
     return pir_model_read_file(path, &allocator, report, (struct pir_model_maker){make, &maker});
 }

@@ -32,7 +32,7 @@ static pir_status make_whole(pir_pair *pair, pir_workspace *workspace) {
         pir_sum_made_of(workspace->sum, PIR_OPERAND_Q) == pair->q)
         return PIR_OK;
     forget_whole(workspace);
-    pir_sum_options options = {.allocator = &workspace->allocator, .difference = true};
+    pir_sum_options options = {.size = sizeof options, .allocator = &workspace->allocator, .difference = true};
     pir_status status = pir_sum_create(pair->p, pair->q, (pir_quat){0, 0, 0, 1}, &options, &workspace->sum);
     if (status == PIR_OK)
         status = pir_query_create(workspace->sum, &workspace->query);

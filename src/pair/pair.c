@@ -2,6 +2,7 @@
 /* The life of pairs and workspaces. */
 #include "pair/pair.h"
 
+#include "base/options.h"
 #include "base/processor.h"
 
 /* --- workspaces --- */
@@ -45,10 +46,6 @@ void pir_workspace_destroy(pir_workspace *workspace) {
 
 /* --- pairs --- */
 
-pir_pair_options pir_pair_options_default(void) {
-    return (pir_pair_options){NULL, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
-}
-
 /* Finds the axes of both bodies, where both have few. */
 static pir_status find_axes(pir_polytope *p, pir_polytope *q, pir_pair *pair) {
     pir_status status = pir_axes_find(p, pair->exponent, &pair->body_p->body, &pair->axes_p);
@@ -89,8 +86,13 @@ static uint8_t levels_between(pir_level least, pir_level most) {
 }
 
 pir_status pir_pair_create(pir_polytope *p, pir_polytope *q, const pir_pair_options *options, pir_pair **ret_pair) {
-    const pir_pair_options used = options ? *options : pir_pair_options_default();
-    if (!p || !q || !ret_pair || !are_levels(used.least, used.most))
+    if (!p || !q || !ret_pair)
+        return PIR_ERR_ARGUMENT;
+    pir_pair_options used = pir_pair_options_default();
+    pir_status status = pir_options_take("pir_pair_options", options, &used, NULL);
+    if (status != PIR_OK)
+        return status;
+    if (!are_levels(used.least, used.most))
         return PIR_ERR_ARGUMENT;
     const pir_allocator a = pir_allocator_or_default(used.allocator);
     pir_pair *pair = PIR_ZEROED(&a, pir_pair, 1);
@@ -98,7 +100,7 @@ pir_status pir_pair_create(pir_polytope *p, pir_polytope *q, const pir_pair_opti
         return PIR_ERR_MEMORY;
     pair->allocator = a;
     pair->levels = levels_between(used.least, used.most);
-    pir_status status = find_bodies(p, q, pair);
+    status = find_bodies(p, q, pair);
     if (status != PIR_OK) {
         PIR_FREE(&a, pair, 1);
         return status;

@@ -62,7 +62,7 @@ static bool corner_of(const pir_half_spaces *s, const pir_polytope *dual, uint32
 
 pir_status pir_half_spaces_polytope(const pir_half_spaces *spaces, double push, const pir_allocator *allocator,
                                     pir_polytope **ret_polytope) {
-    const pir_polytope_options options = {.allocator = allocator};
+    const pir_polytope_options options = {.size = sizeof options, .allocator = allocator};
     pir_polytope *dual = NULL;
     pir_status status = pir_polytope_create(spaces->dual, spaces->count, &options, &dual);
     if (status != PIR_OK)

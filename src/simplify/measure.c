@@ -10,7 +10,7 @@
 #define PROMISE 1.001e-12
 
 pir_status pir_measure_init(pir_measure *measure, const pir_allocator *allocator) {
-    const pir_polytope_options options = {.allocator = allocator};
+    const pir_polytope_options options = {.size = sizeof options, .allocator = allocator};
     *measure = (pir_measure){0};
     pir_status status = pir_polytope_create(&(pir_vec3){0, 0, 0}, 1, &options, &measure->origin);
     if (status == PIR_OK)

@@ -176,7 +176,7 @@ static struct box_side side_around(double low, double high) {
 /* A tetrahedron around the body's box. PIR_ERR_LIMIT where its corners are beyond the doubles. */
 static pir_status surround(struct cutting *c) {
 
-    const pir_polytope_options options = {.allocator = &c->body->allocator};
+    const pir_polytope_options options = {.size = sizeof options, .allocator = &c->body->allocator};
     pir_vec3 low, high, corner[4];
     pir_polytope_bounds(c->body, &low, &high);
     struct box_side x = side_around(low.x, high.x), y = side_around(low.y, high.y), z = side_around(low.z, high.z);

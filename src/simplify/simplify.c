@@ -4,12 +4,9 @@
 
 #include <math.h>
 
+#include "base/options.h"
 #include "simplify/inner.h"
 #include "simplify/outer.h"
-
-pir_simplify_options pir_simplify_options_default(void) {
-    return (pir_simplify_options){0};
-}
 
 static pir_status check(const pir_simplify_options *options) {
     if (!isfinite(options->error))
@@ -36,11 +33,14 @@ pir_status pir_polytope_simplify(pir_polytope *polytope, const pir_simplify_opti
                                  pir_simplified *ret_simplified) {
     if (!polytope || !options || !ret_simplified)
         return PIR_ERR_ARGUMENT;
-    pir_status status = check(options);
+    pir_simplify_options used = pir_simplify_options_default();
+    pir_status status = pir_options_take("pir_simplify_options", options, &used, NULL);
+    if (status == PIR_OK)
+        status = check(&used);
     if (status != PIR_OK)
         return status;
     pir_simplified result = {0};
-    if (options->vertices >= polytope->vertex_count) {
+    if (used.vertices >= polytope->vertex_count) {
         result.inner = pir_polytope_retain(polytope);
         result.outer = pir_polytope_retain(polytope);
         *ret_simplified = result;
@@ -50,7 +50,7 @@ pir_status pir_polytope_simplify(pir_polytope *polytope, const pir_simplify_opti
     status = pir_measure_init(&measure, &polytope->allocator);
     if (status != PIR_OK)
         return status;
-    status = make(&measure, polytope, options, &result);
+    status = make(&measure, polytope, &used, &result);
     pir_measure_finish(&measure);
     if (status == PIR_OK)
         *ret_simplified = result;

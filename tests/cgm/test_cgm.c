@@ -329,7 +329,7 @@ static void a_failed_rebuild_leaves_the_sum_as_it_was(void **state) {
     pir_polytope *p = test_sphere(&random, 12), *q = cube();
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    pir_sum_options options = {.allocator = &allocator};
+    pir_sum_options options = {.size = sizeof options, .allocator = &allocator};
     const pir_quat before = {0.1, 0.2, 0.3, 0.9}, after = {0, 0, 1, 1};
     pir_sum *reference[2];
     assert_int_equal(pir_sum_create(p, q, before, NULL, &reference[0]), PIR_OK);

@@ -34,7 +34,7 @@ static pir_status make_sum(void *context, pir_cspace_place place, pir_report *re
     (void)report;
     answer_world *world = context;
     world->slices++;
-    const pir_sum_options options = {.allocator = world->allocator, .difference = true};
+    const pir_sum_options options = {.size = sizeof options, .allocator = world->allocator, .difference = true};
     return pir_sum_create(world->robot[place.robot], world->obstacle[place.obstacle],
                           pir_grid_rotation(world->grid, place.slice), &options, ret_sum);
 }

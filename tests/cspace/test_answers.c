@@ -181,7 +181,7 @@ static int advances_into(answer_world *world, const pir_pose *from, const pir_po
     int found = 0;
     for (uint32_t k = 0; k < world->robot_count; k++)
         for (uint32_t l = 0; l < world->obstacle_count && found != 1; l++) {
-            const pir_sum_options options = {.allocator = NULL, .difference = true};
+            const pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = true};
             pir_sum *sum;
             pir_query *query;
             pir_impact result;

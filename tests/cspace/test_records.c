@@ -24,7 +24,7 @@ static unsigned rounds(void) {
 static pir_sum *make_difference(const test_pose *pose, const pir_allocator *allocator) {
     pir_polytope *p = test_polytope(&pose->p), *q = test_polytope(&pose->q);
     pir_sum *sum = NULL;
-    pir_sum_options options = {.allocator = allocator, .difference = true};
+    pir_sum_options options = {.size = sizeof options, .allocator = allocator, .difference = true};
     assert_int_equal(pir_sum_create(p, q, pose->rotation, &options, &sum), PIR_OK);
     pir_polytope_release(p);
     pir_polytope_release(q);

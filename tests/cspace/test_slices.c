@@ -20,7 +20,7 @@ static void expect_slice(pir_cspace *cspace, const struct slice_scene *scene, pi
     pir_report report = {0};
     pir_slice slice;
     pir_sum *fresh = NULL, *read = NULL;
-    const pir_sum_options options = {.allocator = NULL, .difference = true};
+    const pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = true};
     expect(pir_cspace_slice(cspace, place, &report, &slice) == PIR_OK, "%s", report.text);
     assert_int_equal(pir_sum_create(scene->robot[place.robot], scene->obstacle[place.obstacle],
                                     pir_grid_rotation(scene->grid, place.slice), &options, &fresh),

@@ -22,7 +22,7 @@ static test_bytes bytes_of(const pir_sum *sum) {
 
 static pir_sum *make_sum(const test_pose *pose, int difference, double half_angle) {
     pir_polytope *p = test_polytope(&pose->p), *q = test_polytope(&pose->q);
-    pir_sum_options options = {.allocator = NULL, .difference = difference};
+    pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = difference};
     pir_sum *sum = NULL;
     assert_int_equal(pir_sum_create(p, q, pose->rotation, &options, &sum), PIR_OK);
     assert_int_equal(pir_sum_set_region(sum, (pir_vec3){0.2, -0.3, 1}, half_angle), PIR_OK);

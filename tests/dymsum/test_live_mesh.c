@@ -356,7 +356,7 @@ static void small_turns_rewrite_little_and_allocate_nothing(void **state) {
     test_random random = test_random_case("live spin", 0);
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    pir_sum_options options = {.allocator = &allocator, .difference = false};
+    pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = false};
     pir_polytope *p = test_sphere(&random, 90), *q = test_sphere(&random, 70);
     pir_sum *sum;
     pir_live_mesh *live;
@@ -473,7 +473,7 @@ static void making_one_without_memory_leaves_nothing_behind(void **state) {
     for (bool failed = true; failed;) {
         test_memory memory = {0};
         pir_allocator allocator = test_allocator(&memory);
-        pir_sum_options options = {.allocator = &allocator, .difference = false};
+        pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = false};
         pir_sum *sum;
         pir_live_mesh *live = NULL;
         assert_int_equal(pir_sum_create(p, q, (pir_quat){1, 2, 3, 4}, &options, &sum), PIR_OK);

@@ -283,7 +283,7 @@ static void tracking_a_region_allocates_nothing_after_the_warm_up(void **state) 
     pir_polytope *p = test_sphere(&random, 100), *q = test_sphere(&random, 90);
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    pir_sum_options options = {.allocator = &allocator, .difference = true};
+    pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = true};
     pir_sum *sum = NULL;
     pir_quat r = {0.1, 0.2, 0.3, 0.9};
     pir_vec3 axis = {1, 2, 2}, about = {0, 0, 1};

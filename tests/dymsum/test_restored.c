@@ -234,7 +234,7 @@ static void make_history(struct history *h) {
     test_random_pose(&h->random, below(h, 8) ? 8 : 30, &pose);
     pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
     pir_allocator allocator = test_allocator(&h->memory);
-    pir_sum_options options = {.allocator = &allocator, .difference = below(h, 2) != 0};
+    pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = below(h, 2) != 0};
     h->situation = pose.situation;
     h->last = "nothing";
     h->base = test_integer_rotation(&h->random);

@@ -108,7 +108,7 @@ static pir_solid *solid_by_number(unsigned number) {
 static pir_pieces *check_pieces(const pir_solid *solid, pir_decompose_method method) {
     pir_decompose_options options = pir_decompose_options_default();
     pir_pieces *pieces = NULL;
-    options.solid = limits();
+    options.memory = MEMORY_LIMIT;
     options.method = method;
     if (!is_done(pir_solid_decompose(solid, &options, NULL, &pieces), "a solid has pieces"))
         return NULL;
@@ -162,7 +162,7 @@ static void check_sum(const pir_solid *p, const pir_solid *q, pir_quat turn) {
     pir_mesh *mesh[3] = {NULL, NULL, NULL};
     mpq_t volume[3];
     mpq_inits(volume[0], volume[1], volume[2], NULL);
-    options.solid = limits();
+    options.memory = MEMORY_LIMIT;
     int done = 1;
     for (int k = 0; k < 3 && done; k++) {
         options.open = k == 2;
@@ -191,7 +191,7 @@ static void check_states(const struct scene *scene, struct fuzz_input *input) {
     pir_mesh *mesh = NULL;
     pir_solid_query *query = NULL;
     pir_workspace *workspace = NULL;
-    options.solid = limits();
+    options.memory = MEMORY_LIMIT;
     options.open = options.difference = true;
     if (!is_done(solid_sum_mesh(scene->p, scene->q, scene->turn, &options, NULL, &mesh), "a difference"))
         return;

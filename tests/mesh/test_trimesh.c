@@ -347,8 +347,8 @@ static void MemoryMayRunOutAtEveryRequest(void **state) {
         for (uint64_t at = 1; status != PIR_OK; at++) {
             test_memory memory = {.fail_at = at};
             pir_allocator allocator = test_allocator(&memory);
-            pir_trimesh_options options = {.allocator = &allocator};
-            pir_height_options height_options = {.allocator = &allocator};
+            pir_trimesh_options options = {.size = sizeof options, .allocator = &allocator};
+            pir_height_options height_options = {.size = sizeof height_options, .allocator = &allocator};
             pir_trimesh_arrays arrays = mesh_arrays_of(&ball);
             pir_trimesh *mesh = NULL;
             pir_height_field *field = NULL;

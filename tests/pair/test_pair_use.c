@@ -111,7 +111,7 @@ static void what_is_no_pose_is_refused_and_changes_nothing(void **state) {
 /* A pair's life: poses apart, resting, deep, on an edge, with contacts. */
 static pir_status live(const pir_allocator *a, pir_polytope *p, pir_polytope *q, pir_query_result results[5]) {
     static const pir_vec3 places[5] = {{5, 0.1, 0.2}, {0.1, 0.2, 2}, {0.3, 0.2, 0.4}, {2, 2, 0.25}, {1.5, 1.25, 1.75}};
-    pir_pair_options options = {a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
+    pir_pair_options options = {sizeof options, a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
     pir_workspace *workspace = NULL;
     pir_pair *pair = NULL;
     pir_status status = pir_workspace_create(a, &workspace);
@@ -165,7 +165,7 @@ static void a_pair_is_half_a_kibibyte_and_its_surface_less(void **state) {
     (void)state;
     test_memory memory = {0};
     pir_allocator a = test_allocator(&memory);
-    pir_pair_options options = {&a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
+    pir_pair_options options = {sizeof options, &a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
     pir_polytope *p = cube(1);
     pir_workspace *workspace;
     pir_pair *pair;
@@ -189,7 +189,7 @@ static void no_call_allocates_once_warm(void **state) {
     (void)state;
     test_memory memory = {0};
     pir_allocator a = test_allocator(&memory);
-    pir_pair_options options = {&a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
+    pir_pair_options options = {sizeof options, &a, PIR_LEVEL_NONE, PIR_LEVEL_WHOLE};
     test_random random = test_random_case("warm pairs", 0);
     pir_polytope *p = test_sphere(&random, 20), *q = test_sphere(&random, 24);
     pir_workspace *workspace;
@@ -406,8 +406,8 @@ static void an_answer_comes_by_a_level_that_is_allowed(void **state) {
         pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
         for (int least = PIR_LEVEL_NONE; least <= PIR_LEVEL_WHOLE; least++)
             for (int most = least > PIR_LEVEL_APART ? least : PIR_LEVEL_APART; most <= PIR_LEVEL_WHOLE; most++) {
-                pir_pair_options options = {NULL, (pir_level)least, (pir_level)most},
-                                 all = {NULL, PIR_LEVEL_WHOLE, PIR_LEVEL_WHOLE};
+                pir_pair_options options = {sizeof options, NULL, (pir_level)least, (pir_level)most},
+                                 all = {sizeof all, NULL, PIR_LEVEL_WHOLE, PIR_LEVEL_WHOLE};
                 pir_pair *pair, *whole;
                 if (pir_pair_create(p, q, &options, &pair) != PIR_OK)
                     continue;

@@ -35,7 +35,7 @@ static int ran_out(struct run *run, pir_status status) {
 static pir_polytope *try_polytope(struct run *run, const test_points *points) {
     pir_polytope *const before = (pir_polytope *)&before;
     pir_polytope *polytope = before;
-    const pir_polytope_options options = {&run->allocator, 0};
+    const pir_polytope_options options = {sizeof options, &run->allocator, 0};
     if (!ran_out(run, pir_polytope_create(points->at, points->count, &options, &polytope)))
         return polytope;
     assert_ptr_equal(polytope, before);
@@ -53,7 +53,7 @@ static void try_mesh(struct run *run, pir_sum *sum, pir_precision precision) {
 
 /* Whether the sum is what a fresh one, made with plenty of memory, is at `rotation`. */
 static void expect_whole(struct run *run, pir_sum *sum, pir_quat rotation) {
-    pir_sum_options options = {.allocator = NULL, .difference = false};
+    pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = false};
     pir_sum *fresh = NULL;
     pir_quat now = pir_sum_rotation(sum);
     assert_memory_equal(&now, &rotation, sizeof now);
@@ -96,7 +96,7 @@ static void try_rotations(struct run *run, pir_sum *sum) {
 static void try_all(struct run *run) {
     pir_sum *const before = (pir_sum *)&before;
     pir_mesh *const mesh_before = (pir_mesh *)&mesh_before;
-    pir_sum_options options = {.allocator = &run->allocator, .difference = run->difference};
+    pir_sum_options options = {.size = sizeof options, .allocator = &run->allocator, .difference = run->difference};
     pir_polytope *p = try_polytope(run, &run->pose->p), *q = try_polytope(run, &run->pose->q);
     if (p && q) {
         pir_sum *sum = before;
@@ -182,7 +182,7 @@ static void list_of_crossings_that_cannot_grow_leaves_the_sum_whole(void **state
         for (uint64_t n = 1; n <= 4; n++) {
             test_memory memory = {0};
             pir_allocator allocator = test_allocator(&memory);
-            pir_sum_options options = {.allocator = &allocator, .difference = false};
+            pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = false};
             pir_sum *sum = NULL, *fresh = NULL;
             assert_int_equal(pir_sum_create(p, q, apart, &options, &sum), PIR_OK);
             assert_int_equal(pir_sum_create(p, q, apart, NULL, &fresh), PIR_OK);
@@ -235,7 +235,7 @@ static void step_that_finds_no_memory_can_be_taken_again(void **state) {
         pir_polytope *p = test_fluted_prism(1), *q = test_fluted_prism(0);
         test_memory memory = {0};
         pir_allocator allocator = test_allocator(&memory);
-        pir_sum_options options = {.allocator = &allocator, .difference = false};
+        pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = false};
         pir_sum *sum = NULL, *fresh = NULL;
         pir_quat now = {0, 0, 1, 0.001};
         pir_vec3 tilt = test_random_direction(&random);
@@ -279,7 +279,7 @@ static void rational_points_survive_every_failing_request(void **state) {
         pir_allocator allocator = test_allocator(&memory);
         pir_polytope *const before = (pir_polytope *)&before;
         pir_polytope *polytope = before, *minus = before;
-        const pir_polytope_options options = {&allocator, 0};
+        const pir_polytope_options options = {sizeof options, &allocator, 0};
         pir_status status = pir_polytope_create_exact((const mpq_t *)x, 8, &options, &polytope);
         if (status != PIR_OK) {
             assert_int_equal(status, PIR_ERR_MEMORY);
@@ -315,11 +315,12 @@ static void allocator_changes_no_bit_of_the_result(void **state) {
         test_memory memory = {0};
         pir_allocator allocator = test_allocator(&memory);
         for (int own = 0; own < 2; own++) {
-            pir_sum_options options = {.allocator = own ? &allocator : NULL, .difference = false};
+            pir_sum_options options = {
+                .size = sizeof options, .allocator = own ? &allocator : NULL, .difference = false};
             pir_polytope *p = NULL, *q = NULL;
             pir_sum *sum = NULL;
             pir_mesh *mesh = NULL;
-            const pir_polytope_options body = {options.allocator, 0};
+            const pir_polytope_options body = {sizeof body, options.allocator, 0};
             assert_int_equal(pir_polytope_create(pose.p.at, pose.p.count, &body, &p), PIR_OK);
             assert_int_equal(pir_polytope_create(pose.q.at, pose.q.count, &body, &q), PIR_OK);
             assert_int_equal(pir_sum_create(p, q, pose.rotation, &options, &sum), PIR_OK);

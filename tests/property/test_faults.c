@@ -72,7 +72,7 @@ static pir_status solids(struct run *run) {
     pir_solid_query *query = NULL;
     pir_workspace *workspace = NULL;
     pir_decompose_options decompose = pir_decompose_options_default();
-    decompose.solid = run->solid;
+    decompose.allocator = &run->allocator;
     pir_status status = pir_solid_read_bytes(&file, &run->solid, NULL, &solid);
     if (status == PIR_OK)
         status = pir_solid_decompose(solid, &decompose, NULL, &pieces);
@@ -107,7 +107,7 @@ static pir_status open_solids(struct run *run) {
     pir_solid *p = NULL, *q = NULL;
     pir_mesh *mesh = NULL;
     pir_solid_sum_options options = pir_solid_sum_options_default();
-    options.solid = run->solid;
+    options.allocator = &run->allocator;
     options.open = options.difference = true;
     pir_status status = pir_solid_read_bytes(&file, &run->solid, NULL, &p);
     if (status == PIR_OK)

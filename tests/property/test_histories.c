@@ -303,7 +303,7 @@ static void make_history(struct history *h) {
     test_random_pose(&h->random, below(h, 4) ? 16 : below(h, 4) ? 60 : 250, &pose);
     pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
     pir_allocator allocator = test_allocator(&h->memory);
-    pir_sum_options options = {.allocator = NULL, .difference = below(h, 2) != 0};
+    pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = below(h, 2) != 0};
     h->situation = pose.situation;
     h->last = "nothing";
     h->rotation = pose.rotation;

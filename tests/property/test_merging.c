@@ -39,7 +39,7 @@ static double greatest_coordinate(const test_points *points) {
 }
 
 static pir_polytope *merged_hull(const test_points *points, double tolerance) {
-    const pir_polytope_options options = {NULL, tolerance};
+    const pir_polytope_options options = {sizeof options, NULL, tolerance};
     pir_polytope *polytope = NULL;
     assert_int_equal(pir_polytope_create(points->at, points->count, &options, &polytope), PIR_OK);
     return polytope;
@@ -175,7 +175,7 @@ static void tolerance_that_is_no_length_is_refused(void **state) {
                  {-INFINITY, PIR_ERR_NOT_FINITE}};
     pir_polytope *const before = (pir_polytope *)&before;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const pir_polytope_options options = {NULL, cases[i].tolerance};
+        const pir_polytope_options options = {sizeof options, NULL, cases[i].tolerance};
         pir_polytope *polytope = before;
         assert_int_equal(pir_polytope_create(points, 4, &options, &polytope), cases[i].status);
         assert_int_equal(pir_polytope_create_exact(NULL, 0, &options, &polytope), cases[i].status);
@@ -188,7 +188,7 @@ static void hull_read_from_text_is_merged_as_well(void **state) {
     (void)state;
     // a square whose corner is a thousandth off the plane of the others, under an apex
     const char text[] = "OFF\n5 0 0\n0 0 0\n3 0 0\n3 3 1/1000\n0 3 0\n1 1 2\n";
-    const pir_polytope_options options = {NULL, 0.01};
+    const pir_polytope_options options = {sizeof options, NULL, 0.01};
     pir_polytope *exact = NULL, *merged = NULL;
     assert_int_equal(pir_polytope_read_off(text, sizeof text - 1, "m.off", NULL, NULL, &exact), PIR_OK);
     assert_int_equal(pir_polytope_read_off(text, sizeof text - 1, "m.off", &options, NULL, &merged), PIR_OK);
@@ -452,7 +452,7 @@ static void merging_survives_every_failing_request(void **state) {
     for (uint64_t n = 1;; n++) {
         test_memory memory = {.fail_at = n};
         const pir_allocator allocator = test_allocator(&memory);
-        const pir_polytope_options options = {&allocator, 1e-14};
+        const pir_polytope_options options = {sizeof options, &allocator, 1e-14};
         pir_polytope *const before = (pir_polytope *)&before;
         pir_polytope *polytope = before;
         pir_status status = pir_polytope_create(points.at, points.count, &options, &polytope);

@@ -155,7 +155,7 @@ static uint64_t hash_track(const struct track *track, uint64_t number) {
     test_random random = fixed_random(number);
     pir_polytope *p = test_random_polytope(&random, track->p, track->most);
     pir_polytope *q = test_random_polytope(&random, track->q, track->most);
-    pir_sum_options options = {.allocator = NULL, .difference = track->difference};
+    pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = track->difference};
     pir_quat rotation = test_general_rotation(&random), step = {0, 0, 0, 1};
     pir_sum *sum = NULL;
     pir_live_mesh *live = NULL;
@@ -230,7 +230,7 @@ static uint64_t hash_answers(uint64_t hash, pir_query *query, pir_vec3 translati
 static uint64_t hash_queries(test_body p_body, test_body q_body, enum motion motion, uint64_t number) {
     test_random random = fixed_random(number);
     pir_polytope *p = test_random_polytope(&random, p_body, 40), *q = test_random_polytope(&random, q_body, 40);
-    pir_sum_options options = {.allocator = NULL, .difference = true};
+    pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = true};
     pir_quat rotation = {0, 0, 0, 1}, step = rotation;
     pir_sum *sum = NULL;
     pir_query *query = NULL;

@@ -332,7 +332,7 @@ static void memory_that_runs_out_leaves_nothing(void **state) {
     (void)state;
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    const pir_polytope_options options = {&allocator, 0};
+    const pir_polytope_options options = {sizeof options, &allocator, 0};
     test_random random = test_random_case("sections", 1);
     test_points points;
     test_body_points(&random, TEST_SPHERE, 12, &points);

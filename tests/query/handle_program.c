@@ -52,7 +52,7 @@ static void subject_drop(struct subject *subject) {
 /* A new sum without a history, in the subject's state at `rotation`. */
 static pir_sum *fresh_sum(struct program *program, const struct subject *subject, pir_quat rotation) {
     pir_polytope *scaled[2] = {NULL, NULL};
-    pir_sum_options options = {.allocator = NULL, .difference = subject->difference};
+    pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = subject->difference};
     pir_sum *sum = NULL;
     need(program, pir_polytope_scale(subject->p, subject->scale[0], &scaled[0]) == PIR_OK, "P can be scaled");
     need(program, pir_polytope_scale(subject->q, subject->scale[1], &scaled[1]) == PIR_OK, "Q can be scaled");
@@ -147,7 +147,7 @@ static void make_sum(struct program *program) {
     struct sum *place = &program->sums[below(program, SLOTS)];
     const struct body *p = &program->bodies[below(program, SLOTS)], *q = &program->bodies[below(program, SLOTS)];
     pir_allocator allocator = test_allocator(&program->memory);
-    pir_sum_options options = {.allocator = &allocator, .difference = below(program, 8) != 0};
+    pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = below(program, 8) != 0};
     options.workspace = place == program->sums ? NULL : program->workspace;
     pir_quat rotation = fuzz_rotation(&program->input, (pir_quat){0, 0, 0, 1});
     if (!p->handle || !q->handle)

@@ -41,7 +41,7 @@ static pir_polytope *cube(double half) {
 /* The difference of two cubes of sides 2 and a query on it. All other references are released. */
 static void make_query(const pir_allocator *allocator, pir_sum **ret_sum, pir_query **ret_query) {
     pir_polytope *p = cube(1), *q = cube(1);
-    pir_sum_options options = {.allocator = allocator, .difference = true};
+    pir_sum_options options = {.size = sizeof options, .allocator = allocator, .difference = true};
     assert_int_equal(pir_sum_create(p, q, still, &options, ret_sum), PIR_OK);
     pir_polytope_release(q);
     pir_polytope_release(p);

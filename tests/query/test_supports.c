@@ -53,7 +53,7 @@ static void supports_of_sums_are_farthest(void **state) {
         test_pose pose;
         test_random_pose(&random, 14, &pose);
         pir_polytope *p = test_polytope(&pose.p), *q = test_polytope(&pose.q);
-        pir_sum_options options = {.allocator = NULL, .difference = (int)(i % 2)};
+        pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = (int)(i % 2)};
         pir_sum *sum = NULL;
         pir_mesh *mesh = NULL;
         assert_int_equal(pir_sum_create(p, q, pose.rotation, &options, &sum), PIR_OK);
@@ -123,7 +123,7 @@ static void two_points_are_apart_at_every_scale(void **state) {
             double far = ldexp(1, exponent), v[3] = {n % 3 == 0 ? far : 0, n % 3 == 1 ? far : 0, n % 3 == 2 ? far : 0};
             pir_polytope *origin = point_at(0, 0, 0), *away = point_at(v[0], v[1], v[2]);
             pir_polytope *p = n / 3 == 0 ? away : origin, *q = n / 3 == 1 ? away : origin;
-            const pir_sum_options options = {.allocator = NULL, .difference = true};
+            const pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = true};
             pir_query_input input = {.cutoff = HUGE_VAL};
             if (n / 3 == 2)
                 input.translation = (pir_vec3){v[0], v[1], v[2]};

@@ -162,7 +162,8 @@ static size_t bytes_in_use(pir_polytope *p, size_t *ret_blocks) {
     pir_sum *sum;
     pir_query *query;
     assert_int_equal(pir_workspace_create(&scratch, &workspace), PIR_OK);
-    pir_sum_options options = {.allocator = &allocator, .difference = true, .workspace = workspace};
+    pir_sum_options options = {
+        .size = sizeof options, .allocator = &allocator, .difference = true, .workspace = workspace};
     assert_int_equal(pir_sum_create(p, p, (pir_quat){0, 0, 0, 1}, &options, &sum), PIR_OK);
     assert_int_equal(pir_query_create(sum, &query), PIR_OK);
     *ret_blocks = memory.blocks;

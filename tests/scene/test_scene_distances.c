@@ -268,7 +268,7 @@ static void memory_that_runs_out_leaves_nothing(void **state) {
     (void)state;
     test_memory memory = {0};
     const pir_allocator allocator = test_allocator(&memory);
-    const pir_polytope_options on = {.allocator = &allocator};
+    const pir_polytope_options on = {.size = sizeof on, .allocator = &allocator};
     test_random random = test_random_case("memory", 0);
     test_points points = {.count = 40};
     for (size_t i = 0; i < points.count; i++)

@@ -113,7 +113,7 @@ static void bodies_far_from_the_origin_have_the_vertices_and_bounds_of_others(vo
         double far = ldexp(1, test_random_between(&random, 16, 49));
         stretch(&points, (pir_vec3){1, 1, 1}, (pir_vec3){0.7 * far, -0.3 * far, far});
         pir_polytope *body = test_polytope(&points);
-        pir_simplify_options options = {.vertices = 4 + test_random_below(&random, 12)};
+        pir_simplify_options options = {.size = sizeof options, .vertices = 4 + test_random_below(&random, 12)};
         if (number % 2)
             options.error = pow(10, -(double)test_random_below(&random, 7));
         if (pir_polytope_dimension(body) == 3)
@@ -125,7 +125,9 @@ static void bodies_far_from_the_origin_have_the_vertices_and_bounds_of_others(vo
 static double outer_error_of(const test_points *points, uint32_t vertices) {
     pir_polytope *body = test_polytope(points);
     pir_simplified s;
-    assert_int_equal(pir_polytope_simplify(body, &(pir_simplify_options){.vertices = vertices}, &s), PIR_OK);
+    assert_int_equal(pir_polytope_simplify(
+                         body, &(pir_simplify_options){.size = sizeof(pir_simplify_options), .vertices = vertices}, &s),
+                     PIR_OK);
     double error = s.outer_error;
     pir_simplified_release(&s);
     pir_polytope_release(body);
@@ -165,7 +167,9 @@ static void exact_vertices_are_measured_exactly(void **state) {
         }
         assert_int_equal(pir_polytope_create_exact((const mpq_t *)at, 20, NULL, &body), PIR_OK);
         if (pir_polytope_dimension(body) == 3)
-            check_simplified(number, body, &(pir_simplify_options){.vertices = 4 + test_random_below(&random, 6)});
+            check_simplified(number, body,
+                             &(pir_simplify_options){.size = sizeof(pir_simplify_options),
+                                                     .vertices = 4 + test_random_below(&random, 6)});
         pir_polytope_release(body);
         for (int i = 0; i < 60; i++)
             mpq_clear(at[i]);
@@ -183,7 +187,9 @@ static void vertex_at_the_origin_is_measured_from_at_any_size(void **state) {
         points.at[0] = (pir_vec3){-9, -9, -9};
         stretch(&points, (pir_vec3){size, size, size}, (pir_vec3){9 * size, 9 * size, 9 * size});
         pir_polytope *body = test_polytope(&points);
-        check_simplified(number, body, &(pir_simplify_options){.vertices = 4 + test_random_below(&random, 4)});
+        check_simplified(number, body,
+                         &(pir_simplify_options){.size = sizeof(pir_simplify_options),
+                                                 .vertices = 4 + test_random_below(&random, 4)});
         pir_polytope_release(body);
     }
 }
@@ -209,7 +215,7 @@ static void flat_bodies_in_a_plane_of_axes_are_alike_at_any_size(void **state) {
         points.at[0] = large.at[0] = (pir_vec3){0, 0, 0};
         pir_polytope *body = test_polytope(&points), *scaled = test_polytope(&large);
         for (uint32_t vertices = 1; vertices < 6; vertices++) {
-            const pir_simplify_options options = {.vertices = vertices};
+            const pir_simplify_options options = {.size = sizeof options, .vertices = vertices};
             pir_simplified a = {0}, b = {0};
             const pir_status status = pir_polytope_simplify(body, &options, &a);
             assert_int_equal(pir_polytope_simplify(scaled, &options, &b), status);
@@ -235,7 +241,9 @@ static void body_as_large_as_doubles_has_no_outer_one_of_fewer_vertices(void **s
     for (size_t i = 0; i < 8; i++)
         cube.at[i] = (pir_vec3){i & 1 ? 1.5e308 : -1.5e308, i & 2 ? 1.5e308 : -1.5e308, i & 4 ? 1.5e308 : -1.5e308};
     pir_polytope *body = test_polytope(&cube);
-    assert_int_equal(pir_polytope_simplify(body, &(pir_simplify_options){.vertices = 4}, &s), PIR_ERR_LIMIT);
+    assert_int_equal(
+        pir_polytope_simplify(body, &(pir_simplify_options){.size = sizeof(pir_simplify_options), .vertices = 4}, &s),
+        PIR_ERR_LIMIT);
     assert_true(!s.inner && !s.outer);
     pir_polytope_release(body);
 }
@@ -271,7 +279,8 @@ static void bodies_at_the_ends_of_the_doubles_have_no_more_vertices_or_are_refus
             points.at[v] = (pir_vec3){sizes[i] * at.x, sizes[i] * at.y, sizes[i] * at.z};
         }
         pir_polytope *body = test_polytope(&points);
-        pir_status status = pir_polytope_simplify(body, &(pir_simplify_options){.vertices = 12}, &s);
+        pir_status status = pir_polytope_simplify(
+            body, &(pir_simplify_options){.size = sizeof(pir_simplify_options), .vertices = 12}, &s);
         expect(status == (i < 2 ? PIR_ERR_LIMIT : PIR_OK), "size %g: %s", sizes[i], pir_status_text(status));
         if (status == PIR_OK) {
             assert_in_range(pir_polytope_vertex_count(s.inner), 4, 12);
@@ -287,7 +296,7 @@ static void what_is_near_enough_is_the_body_itself(void **state) {
     (void)state;
     test_random random = test_random_case("itself", 0);
     pir_polytope *body = test_sphere(&random, 20);
-    pir_simplify_options options = {.vertices = 20};
+    pir_simplify_options options = {.size = sizeof options, .vertices = 20};
     pir_simplified s;
     assert_int_equal(pir_polytope_simplify(body, &options, &s), PIR_OK);
     assert_true(s.inner == body && s.outer == body && s.inner_error == 0 && s.outer_error == 0);
@@ -300,10 +309,11 @@ static void bad_options_are_refused(void **state) {
     test_random random = test_random_case("refused", 0);
     pir_polytope *body = test_sphere(&random, 20);
     pir_simplified s = {0};
-    const pir_simplify_options bad[4] = {{0, 0}, {3, 0}, {8, -1}, {0, NAN}};
+    const pir_simplify_options bad[4] = {
+        {sizeof *bad, 0, 0}, {sizeof *bad, 3, 0}, {sizeof *bad, 8, -1}, {sizeof *bad, 0, NAN}};
     for (int i = 0; i < 4; i++)
         assert_int_equal(pir_polytope_simplify(body, &bad[i], &s), i == 3 ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT);
-    const pir_simplify_options good = {.vertices = 8};
+    const pir_simplify_options good = {.size = sizeof good, .vertices = 8};
     assert_int_equal(pir_polytope_simplify(NULL, &good, &s), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_polytope_simplify(body, NULL, &s), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_polytope_simplify(body, &good, NULL), PIR_ERR_ARGUMENT);
@@ -316,14 +326,16 @@ static void memory_that_runs_out_leaves_nothing(void **state) {
     (void)state;
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    const pir_polytope_options on = {.allocator = &allocator};
+    const pir_polytope_options on = {.size = sizeof on, .allocator = &allocator};
     test_random random = test_random_case("memory", 0);
     test_points points = {.count = 30};
     for (size_t i = 0; i < points.count; i++)
         points.at[i] = test_random_direction(&random);
     pir_simplified right;
     pir_polytope *whole = test_polytope(&points);
-    assert_int_equal(pir_polytope_simplify(whole, &(pir_simplify_options){.vertices = 8}, &right), PIR_OK);
+    assert_int_equal(pir_polytope_simplify(
+                         whole, &(pir_simplify_options){.size = sizeof(pir_simplify_options), .vertices = 8}, &right),
+                     PIR_OK);
     pir_status status = PIR_ERR_MEMORY;
     for (uint64_t n = 1; status == PIR_ERR_MEMORY; n++) {
         // the body anew: it keeps what queries make of it
@@ -331,7 +343,8 @@ static void memory_that_runs_out_leaves_nothing(void **state) {
         pir_simplified s = {0};
         assert_int_equal(pir_polytope_create(points.at, points.count, &on, &body), PIR_OK);
         memory.fail_at = memory.requests + n;
-        status = pir_polytope_simplify(body, &(pir_simplify_options){.vertices = 8}, &s);
+        status = pir_polytope_simplify(
+            body, &(pir_simplify_options){.size = sizeof(pir_simplify_options), .vertices = 8}, &s);
         memory.fail_at = 0;
         assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && !s.inner && !s.outer));
         // the last request only gives memory back, so that it may fail: but nothing else is passed over

@@ -230,9 +230,11 @@ static void every_failing_request_is_survived(void **state) {
         pir_decompose_options options = pir_decompose_options_default();
         pir_pieces *pieces = NULL;
         pir_status status;
-        options.solid.allocator = &allocator;
+        options.allocator = &allocator;
         options.pieces = 1;
-        pir_solid *solid = l_of(&options.solid, 1, &status);
+        pir_solid_options of_solid = pir_solid_options_default();
+        of_solid.allocator = &allocator;
+        pir_solid *solid = l_of(&of_solid, 1, &status);
         if (status == PIR_OK)
             status = pir_solid_decompose(solid, &options, NULL, &pieces);
         done = status == PIR_OK;

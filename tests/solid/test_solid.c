@@ -208,14 +208,16 @@ static void every_failing_request_and_a_low_limit_are_survived(void **state) {
         test_memory memory = {.fail_at = fail_at};
         pir_allocator allocator = test_allocator(&memory);
         pir_solid_sum_options options = pir_solid_sum_options_default();
-        options.solid.allocator = &allocator;
+        options.allocator = &allocator;
         options.open = true;
         pir_decompose_options decompose = pir_decompose_options_default();
-        decompose.solid.allocator = &allocator;
+        decompose.allocator = &allocator;
+        pir_solid_options of_solid = pir_solid_options_default();
+        of_solid.allocator = &allocator;
         pir_solid *solid = NULL;
         pir_pieces *pieces = NULL;
         pir_mesh *mesh = NULL;
-        pir_status status = solid_make(&facets, &options.solid, NULL, &solid);
+        pir_status status = solid_make(&facets, &of_solid, NULL, &solid);
         if (status == PIR_OK)
             status = pir_solid_decompose(solid, &decompose, NULL, &pieces);
         if (status == PIR_OK)
@@ -277,18 +279,17 @@ static void sum_holds_no_more_than_its_limit_with_gmps_numbers(void **state) {
     pir_solid_sum_options options = pir_solid_sum_options_default();
     unsigned refused = 0, made = 0;
     assert_true(p && q);
-    options.solid.allocator = &counting;
+    options.allocator = &counting;
     mp_set_memory_functions(count_new, count_again, count_free);
-    for (options.solid.memory = 16384; made == 0 && options.solid.memory < (size_t)1 << 30;
-         options.solid.memory += options.solid.memory / 4) {
+    for (options.memory = 16384; made == 0 && options.memory < (size_t)1 << 30; options.memory += options.memory / 4) {
         pir_mesh *mesh = NULL;
         held = most_held = 0;
         const pir_status status = solid_sum_mesh(p, q, (pir_quat){1, 2, 3, 4}, &options, NULL, &mesh);
-        expect(status == PIR_OK || status == PIR_ERR_LIMIT, "%zu bytes: status %d", options.solid.memory, (int)status);
-        expect(status == PIR_OK || most_held <= options.solid.memory + beside, "%zu bytes: %zu were held",
-               options.solid.memory, most_held);
+        expect(status == PIR_OK || status == PIR_ERR_LIMIT, "%zu bytes: status %d", options.memory, (int)status);
+        expect(status == PIR_OK || most_held <= options.memory + beside, "%zu bytes: %zu were held", options.memory,
+               most_held);
         pir_mesh_destroy(mesh);
-        expect(held == 0, "%zu bytes: %zu are left", options.solid.memory, held);
+        expect(held == 0, "%zu bytes: %zu are left", options.memory, held);
         *(status == PIR_OK ? &made : &refused) += 1;
     }
     mp_set_memory_functions(NULL, NULL, NULL);

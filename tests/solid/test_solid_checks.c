@@ -175,14 +175,14 @@ static void limit_is_told_with_its_value_and_the_place(void **state) {
     pir_report report = {0};
     pir_mesh *mesh = NULL;
     pir_pieces *pieces = NULL;
-    options.solid.report = decompose.solid.report = &report;
-    options.solid.memory = 750000;
+    options.report = decompose.report = &report;
+    options.memory = 750000;
     assert_int_equal(solid_sum_mesh(p, p, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh), PIR_ERR_LIMIT);
     expect(report.status == PIR_ERR_LIMIT && strstr(report.text, "limit of 750000 bytes") &&
                strstr(report.text, "adding pairs of pieces, ") && strstr(report.text, " of 289 done"),
            "%s", report.text);
     assert_null(mesh);
-    decompose.solid.memory = 20000;
+    decompose.memory = 20000;
     assert_int_equal(pir_solid_decompose(p, &decompose, NULL, &pieces), PIR_ERR_LIMIT);
     expect(strstr(report.text, "limit of 20000 bytes"), "%s", report.text);
     pir_solid_release(p);

@@ -107,7 +107,7 @@ static void merged_facets_are_as_many_as_the_page_says(void **state) {
         test_bake(&points, (pir_quat){0.1, 0.2, 0.3, 0.9});
         for (uint32_t v = 0; v < points.count; v++)
             size = points.at[v].x > size ? points.at[v].x : size;
-        const pir_polytope_options options = {NULL, 2e-14 * size};
+        const pir_polytope_options options = {sizeof options, NULL, 2e-14 * size};
         pir_polytope *hull = test_polytope(&points);
         assert_int_equal(pir_polytope_create(points.at, points.count, &options, &merged), PIR_OK);
         expect_told("docs/exactness.md", "| %s | %u | %u |\n", bodies[i][1], pir_polytope_facet_count(hull),

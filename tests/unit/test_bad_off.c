@@ -237,7 +237,7 @@ static void test_no_memory_at_every_allocation(void **state) {
             const pir_allocator allocator = {resize_within_budget, &budget};
             pir_polytope *p = NULL;
             pir_report report = {PIR_OK, ""};
-            const pir_polytope_options options = {&allocator, 0};
+            const pir_polytope_options options = {sizeof options, &allocator, 0};
             status = pir_polytope_read_off(texts[t], strlen(texts[t]), "m.off", &options, &report, &p);
             assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && strstr(report.text, "out of memory")));
             pir_polytope_release(p);

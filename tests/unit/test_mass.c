@@ -304,7 +304,7 @@ static void memory_that_fails_leaves_nothing_behind(void **state) {
     (void)state;
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    pir_polytope_options options = {&allocator, 0};
+    pir_polytope_options options = {sizeof options, &allocator, 0};
     const pir_vec3 points[5] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
     pir_polytope *p, *moved;
     assert_int_equal(pir_polytope_create(points, 5, &options, &p), PIR_OK);

@@ -250,7 +250,7 @@ static void polytopes_are_drawn_corner_by_corner(void **state) {
         for (size_t k = 0; k < points.count; k++)
             points.at[k] = (pir_vec3){ldexp(points.at[k].x + away, exponent), ldexp(points.at[k].y, exponent),
                                       ldexp(points.at[k].z - away, exponent)};
-        const pir_polytope_options options = {NULL, ldexp(1e-12, exponent)};
+        const pir_polytope_options options = {sizeof options, NULL, ldexp(1e-12, exponent)};
         pir_polytope *p = NULL;
         pir_mesh *mesh = NULL;
         assert_int_equal(pir_polytope_create(points.at, points.count, &options, &p), PIR_OK);

@@ -113,7 +113,7 @@ static void reflection_is_made_once_and_outlives_its_polytope(void **state) {
     (void)state;
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    const pir_polytope_options options = {.allocator = &allocator};
+    const pir_polytope_options options = {.size = sizeof options, .allocator = &allocator};
     const pir_vec3 points[4] = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-1, -1, -1}};
     pir_polytope *p = NULL, *minus = NULL, *same = NULL, *again = NULL;
     assert_int_equal(pir_polytope_create(points, 4, &options, &p), PIR_OK);
@@ -212,7 +212,7 @@ static void last_reference_frees(void **state) {
     pir_allocator allocator = test_allocator(&memory);
     const pir_vec3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     pir_polytope *p = NULL;
-    const pir_polytope_options options = {&allocator, 0};
+    const pir_polytope_options options = {sizeof options, &allocator, 0};
     assert_int_equal(pir_polytope_create(points, 4, &options, &p), PIR_OK);
     assert_ptr_equal(pir_polytope_retain(p), p);
     pir_polytope_release(p);

@@ -112,7 +112,8 @@ static void memory_may_run_out_anywhere(void **state) {
         pir_allocator allocator = test_allocator(&memory);
         pir_polytope *p = NULL;
         test_body_points(&random, (test_body)body, 10, &points);
-        assert_int_equal(pir_polytope_create(points.at, points.count, &(pir_polytope_options){&allocator, 0}, &p),
+        assert_int_equal(pir_polytope_create(points.at, points.count,
+                                             &(pir_polytope_options){sizeof(pir_polytope_options), &allocator, 0}, &p),
                          PIR_OK);
         size_t blocks = memory.blocks;
         pir_status status = PIR_ERR_MEMORY;

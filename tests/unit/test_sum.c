@@ -100,8 +100,10 @@ static void sum_holds_its_operands_alive(void **state) {
     const pir_vec3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int difference = 0; difference < 2; difference++) {
         pir_polytope *p = NULL;
-        pir_sum_options options = {.allocator = &allocator, .difference = difference};
-        assert_int_equal(pir_polytope_create(points, 4, &(pir_polytope_options){&allocator, 0}, &p), PIR_OK);
+        pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = difference};
+        assert_int_equal(
+            pir_polytope_create(points, 4, &(pir_polytope_options){sizeof(pir_polytope_options), &allocator, 0}, &p),
+            PIR_OK);
         pir_sum *sum = make_sum(p, p, identity, &options);
         pir_polytope_release(p);
         assert_int_equal(pir_sum_rotate(sum, (pir_quat){1, 2, 3, 4}, PIR_METHOD_UPDATE), PIR_OK);
@@ -165,7 +167,7 @@ static void tracking_does_not_allocate_after_warm_up(void **state) {
     test_random random = test_random_case("sum warm-up", 0);
     test_memory memory = {0};
     pir_allocator allocator = test_allocator(&memory);
-    pir_sum_options options = {.allocator = &allocator, .difference = false};
+    pir_sum_options options = {.size = sizeof options, .allocator = &allocator, .difference = false};
     pir_polytope *p = test_sphere(&random, 150), *q = test_sphere(&random, 150);
     pir_sum *sum = make_sum(p, q, identity, &options);
     pir_quat r = identity;

@@ -33,7 +33,7 @@ static pir_status begin(pir_maker *maker, uint64_t pair, pir_quat rotation) {
     if (maker->sum && maker->pair == pair)
         return pir_sum_reset(maker->sum, rotation);
     forget_pair(maker);
-    pir_sum_options options = {.allocator = &plan->allocator, .difference = true};
+    pir_sum_options options = {.size = sizeof options, .allocator = &plan->allocator, .difference = true};
     pir_status status =
         pir_sum_create(pir_plan_robot(plan, pair), pir_plan_obstacle(plan, pair), rotation, &options, &maker->sum);
     if (status == PIR_OK && !pir_recorder_init(&maker->recorder, maker->sum, &plan->allocator))

@@ -44,7 +44,7 @@ pir_status pir_cspace_sum(pir_cspace *cspace, pir_cspace_place place, pir_report
     // a sum takes a reference, which is no change of what the pieces say
     pir_polytope *robot = (pir_polytope *)pir_cspace_robot(cspace, place.robot);
     pir_polytope *obstacle = (pir_polytope *)pir_cspace_obstacle(cspace, place.obstacle);
-    const pir_sum_options options = {.allocator = &cspace->allocator, .difference = true};
+    const pir_sum_options options = {.size = sizeof options, .allocator = &cspace->allocator, .difference = true};
     pir_sum *sum = NULL;
     status = pir_sum_create(robot, obstacle, pir_cspace_cursor_rotation(cspace), &options, &sum);
     if (status == PIR_OK && !same_pairing(sum, &cspace->cursor.replay, crossing, count))

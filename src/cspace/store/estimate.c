@@ -8,6 +8,7 @@
 
 #include <pirouette/cspace.h>
 
+#include "base/options.h"
 #include "base/report.h"
 #include "cspace/parts/maker.h"
 
@@ -111,10 +112,13 @@ pir_status pir_cspace_get_estimate(const pir_cspace_bodies *bodies, const pir_gr
                                    pir_cspace_estimate *ret_estimate) {
     if (!ret_estimate)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: nowhere to put the estimate");
-    const pir_cspace_options used = options ? *options : pir_cspace_options_default();
+    pir_cspace_options used = pir_cspace_options_default();
+    pir_status status = pir_options_take("pir_cspace_options", options, &used, &report);
+    if (status != PIR_OK)
+        return status;
     pir_plan plan;
     struct sample whole = {0}, changes = {0};
-    pir_status status = pir_plan_init(&plan, bodies, grid, &used, report);
+    status = pir_plan_init(&plan, bodies, grid, &used, report);
     if (status == PIR_OK) {
         status = sample(&plan, &whole, &changes);
         if (status != PIR_OK)

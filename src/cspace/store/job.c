@@ -15,6 +15,7 @@
 
 #include <pirouette/cspace.h>
 
+#include "base/options.h"
 #include "base/report.h"
 #include "cspace/parts/maker.h"
 #include "cspace/parts/parts.h"
@@ -37,10 +38,6 @@ struct pir_cspace_job {
     uint64_t next; /* unit, where the job deals them itself */
     bool is_made;  /* the file is there: nothing is left to do but to remove parts */
 };
-
-pir_cspace_options pir_cspace_options_default(void) {
-    return (pir_cspace_options){.threads = 1};
-}
 
 uint64_t pir_cspace_job_units(const pir_cspace_job *job) {
     return job ? job->plan.units : 0;
@@ -123,7 +120,10 @@ pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, or nowhere to put the job");
     if (!PIR_HAVE_HDF5)
         return pir_fail(report, PIR_ERR_NOT_BUILT, "%s: this build has no HDF5", path);
-    pir_cspace_options used = options ? *options : pir_cspace_options_default();
+    pir_cspace_options used = pir_cspace_options_default();
+    pir_status status = pir_options_take("pir_cspace_options", options, &used, &report);
+    if (status != PIR_OK)
+        return status;
     if (used.threads == 0 || used.threads > THREADS_MOST)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: threads must be 1 to %u", THREADS_MOST);
     const pir_allocator a = pir_allocator_or_default(used.allocator);
@@ -132,7 +132,7 @@ pir_status pir_cspace_job_create(const pir_cspace_bodies *bodies, const pir_grid
         return pir_fail(report, PIR_ERR_MEMORY, "slices: out of memory");
     job->allocator = a;
     job->options = used;
-    pir_status status = begin(job, bodies, grid, path, report);
+    status = begin(job, bodies, grid, path, report);
     if (status != PIR_OK) {
         pir_cspace_job_destroy(job);
         return status;

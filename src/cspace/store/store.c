@@ -123,7 +123,7 @@ static pir_status read_piece(pir_store *store, hid_t in, const char *where, cons
         if (strcmp(hash, found) != 0)
             status = broken(store, report, where, "the hash does not match the model");
     }
-    const pir_polytope_options options = {&store->allocator, 0};
+    const pir_polytope_options options = {sizeof options, &store->allocator, 0};
     if (status == PIR_OK)
         status = pir_polytope_read_off((const char *)text.data, text.used, where, &options, report,
                                        &store->piece[store->piece_count]);

@@ -7,6 +7,7 @@
  */
 #include <pirouette/baseline.h>
 
+#include "base/options.h"
 #include "dymsum/mesh/placing.h"
 #include "dymsum/mesh/sum_mesh.h"
 #include "polytope/hull/hull.h"
@@ -77,11 +78,14 @@ pir_status pir_hull_sum(const pir_polytope *p, const pir_polytope *q, pir_quat q
                         const pir_sum_options *options, pir_precision precision, pir_mesh **ret_mesh) {
     if (!p || !q || !ret_mesh || (precision != PIR_DOUBLE && precision != PIR_EXACT))
         return PIR_ERR_ARGUMENT;
-    const pir_sum_options used = options ? *options : pir_sum_options_default();
+    pir_sum_options used = pir_sum_options_default();
+    pir_status status = pir_options_take("pir_sum_options", options, &used, NULL);
+    if (status != PIR_OK)
+        return status;
     const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     pir_rotation_integers integers;
     pir_rotation rotation = {.integers = &integers};
-    pir_status status = pir_rotation_set(&rotation, quaternion);
+    status = pir_rotation_set(&rotation, quaternion);
     if (status != PIR_OK)
         return status;
     pir_polytope *reflected = NULL;

@@ -5,6 +5,7 @@
  */
 #include <pirouette/baseline.h>
 
+#include "base/options.h"
 #include "dymsum/mesh/object_search.h"
 #include "dymsum/mesh/object_sum.h"
 #include "dymsum/mesh/sum_mesh.h"
@@ -67,12 +68,15 @@ pir_status pir_object_sum(const pir_polytope *p, const pir_polytope *q, pir_quat
                           const pir_sum_options *options, pir_precision precision, pir_mesh **ret_mesh) {
     if (!p || !q || !ret_mesh || (precision != PIR_DOUBLE && precision != PIR_EXACT))
         return PIR_ERR_ARGUMENT;
-    const pir_sum_options used = options ? *options : pir_sum_options_default();
+    pir_sum_options used = pir_sum_options_default();
+    pir_status status = pir_options_take("pir_sum_options", options, &used, NULL);
+    if (status != PIR_OK)
+        return status;
     const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     pir_signs_room room = {0};
     pir_signs signs;
     pir_signs_init(&signs, &room);
-    pir_status status = pir_rotation_set(&signs.rotation, quaternion);
+    status = pir_rotation_set(&signs.rotation, quaternion);
     if (status != PIR_OK)
         return status;
     if (is_too_large(p, q))

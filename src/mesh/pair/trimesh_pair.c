@@ -2,13 +2,10 @@
 /* The object: its making, its poses, the nearest triangles with the state. */
 #include "mesh/pair/trimesh_pair.h"
 
+#include "base/options.h"
 #include "mesh/pair/inside.h"
 #include "mesh/pair/nearest_pair.h"
 #include "mesh/pair/pair_descent.h"
-
-pir_trimesh_pair_options pir_trimesh_pair_options_default(void) {
-    return (pir_trimesh_pair_options){.allocator = NULL};
-}
 
 /* How far a mesh's vertices are from its origin, rounded up. */
 static double reach_of(const pir_trimesh *mesh) {
@@ -23,7 +20,11 @@ pir_status pir_trimesh_pair_create(pir_trimesh *p, pir_trimesh *q, const pir_tri
                                    pir_trimesh_pair **ret_pair) {
     if (!p || !q || !ret_pair)
         return PIR_ERR_ARGUMENT;
-    const pir_allocator allocator = pir_allocator_or_default(options ? options->allocator : NULL);
+    pir_trimesh_pair_options used = pir_trimesh_pair_options_default();
+    const pir_status status = pir_options_take("pir_trimesh_pair_options", options, &used, NULL);
+    if (status != PIR_OK)
+        return status;
+    const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     pir_trimesh_pair *pair = PIR_ZEROED(&allocator, pir_trimesh_pair, 1);
     if (!pair)
         return PIR_ERR_MEMORY;

@@ -102,7 +102,7 @@ static pir_status move(const affine_map *m, const pir_polytope *p, pir_polytope 
     for (size_t i = 0; i < count; i++)
         mpq_init(coordinates[i]);
     apply(m, p, coordinates);
-    pir_polytope_options options = {&p->allocator, 0};
+    pir_polytope_options options = {sizeof options, &p->allocator, 0};
     pir_polytope *moved;
     pir_status status = pir_polytope_create_exact((const mpq_t *)coordinates, p->vertex_count, &options, &moved);
     for (size_t i = 0; i < count; i++)

@@ -3,6 +3,7 @@
 #include <pirouette/io.h>
 
 #include "base/memory.h"
+#include "base/options.h"
 #include "base/report.h"
 #include "polytope/create/create.h"
 #include "polytope/file/c_locale.h"
@@ -91,7 +92,7 @@ static pir_status make_hull(const struct pir_model *model, void *context) {
 
 /* Checks the options that pir_model_make rests on. */
 static pir_status check_options(const pir_read_options *options, const char *name, pir_report *report) {
-    const pir_status status = pir_polytope_check_options(&options->polytope);
+    const pir_status status = pir_polytope_check_tolerance(options->polytope.merge_tolerance);
     if (status != PIR_OK)
         return pir_fail(report, status, "%s: the merge tolerance is %g", name, options->polytope.merge_tolerance);
     return PIR_OK;
@@ -126,12 +127,18 @@ pir_status pir_polytope_read_surface(const char *path, const pir_read_options *o
 
 pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
                              pir_polytope **ret_polytope) {
-    const pir_read_options used = {.polytope = options ? *options : pir_polytope_options_default()};
+    pir_read_options used = pir_read_options_default();
+    const pir_status status = pir_options_take("pir_polytope_options", options, &used.polytope, &report);
+    if (status != PIR_OK)
+        return status;
     return pir_polytope_read_surface(path, &used, report, NULL, ret_polytope);
 }
 
 pir_status pir_polytope_read_off(const char *text, size_t size, const char *name, const pir_polytope_options *options,
                                  pir_report *report, pir_polytope **ret_polytope) {
-    const pir_read_options used = {.polytope = options ? *options : pir_polytope_options_default()};
+    pir_read_options used = pir_read_options_default();
+    const pir_status status = pir_options_take("pir_polytope_options", options, &used.polytope, &report);
+    if (status != PIR_OK)
+        return status;
     return pir_polytope_read_bytes(&(pir_file_bytes){text, size, name, "off"}, &used, report, NULL, ret_polytope);
 }

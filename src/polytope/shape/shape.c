@@ -235,7 +235,7 @@ pir_status pir_shape_create(const char *name, const pir_allocator *allocator, pi
     if (status != PIR_OK)
         return status;
     const pir_allocator used = pir_allocator_or_default(allocator);
-    const pir_polytope_options options = {&used, 0};
+    const pir_polytope_options options = {sizeof options, &used, 0};
     struct pir_point_list points = {.allocator = &used};
     shape->fill(value, &points);
     status = points.failed ? PIR_ERR_MEMORY : pir_polytope_create(points.at, points.count, &options, ret_polytope);

@@ -3,6 +3,7 @@
  * Hits of a segment on pieces and triangles whose boxes it meets: each by one of the ways of ray.h. How far it
  * is followed falls to the time of the first hit, to nothing after any, or stays where all are listed.
  */
+#include "base/options.h"
 #include "scene/query/ray_rounded.h"
 #include "scene/query/swept_pieces.h"
 #include "scene/world/grow.h"
@@ -203,8 +204,10 @@ static pir_status search(struct scene_ray *ray) {
 /* `missing` as of pir_scene_given. */
 static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray world,
                         const pir_scene_ray_options *options, struct scene_ray *ray) {
-    const pir_scene_ray_options used = options ? *options : pir_scene_ray_options_default();
-    const pir_status status = pir_scene_given(scene, "ray", missing);
+    pir_scene_ray_options used = pir_scene_ray_options_default();
+    pir_status status = pir_scene_given(scene, "ray", missing);
+    if (status == PIR_OK)
+        status = pir_options_take("pir_scene_ray_options", options, &used, &scene->report);
     if (status != PIR_OK)
         return status;
     if (used.sides < PIR_RAY_AS_SURFACE || used.sides > PIR_RAY_BOTH)
@@ -221,10 +224,6 @@ static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray wor
     ray->swept = pir_swept_box_of(from, from, world.way);
     ray->probe = (pir_probe){.scene = scene, .body = PIR_SCENE_NONE, .mask = used.mask, .except = used.except};
     return PIR_OK;
-}
-
-pir_scene_ray_options pir_scene_ray_options_default(void) {
-    return (pir_scene_ray_options){UINT32_MAX, PIR_SCENE_NONE, PIR_RAY_AS_SURFACE};
 }
 
 static pir_status take_first(struct scene_ray *ray, const pir_impact *impact) {

@@ -2,6 +2,7 @@
 /* The life of a scene, its bodies coming and going: see scene.h. */
 #include "scene/world/scene.h"
 
+#include "base/options.h"
 #include "scene/world/grow.h"
 #include "scene/world/surfaces.h"
 #include "scene/world/triangles.h"
@@ -12,10 +13,6 @@
 #define FAT 0.05f
 
 /* --- the scene --- */
-
-pir_scene_options pir_scene_options_default(void) {
-    return (pir_scene_options){.detail = PIR_SCENE_MANIFOLDS, .threads = 1};
-}
 
 static pir_status check(const pir_scene_options *options) {
     pir_report *report = options->report;
@@ -56,10 +53,13 @@ static pir_status make_workers(pir_scene *scene, const pir_scene_options *option
 }
 
 pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_scene) {
-    const pir_scene_options used = options ? *options : pir_scene_options_default();
+    pir_scene_options used = pir_scene_options_default();
+    pir_status status = pir_options_take("pir_scene_options", options, &used, &used.report);
+    if (status != PIR_OK)
+        return status;
     if (!ret_scene)
         return pir_fail(used.report, PIR_ERR_ARGUMENT, "scene: ret_scene is NULL");
-    pir_status status = check(&used);
+    status = check(&used);
     if (status != PIR_OK)
         return status;
     const pir_allocator a = pir_allocator_or_default(used.allocator);
@@ -139,10 +139,6 @@ void pir_scene_destroy(pir_scene *scene) {
 }
 
 /* --- bodies --- */
-
-pir_body_options pir_body_options_default(void) {
-    return (pir_body_options){.pose = pir_pose_identity(), .category = 1, .mask = UINT32_MAX};
-}
 
 /* A body is of pieces, or of one surface and does not move freely. */
 static pir_status check_form(const pir_body_options *body, pir_report *report) {
@@ -228,15 +224,11 @@ static pir_status make_boxes(pir_scene *scene, const pir_body_options *body, con
     return PIR_OK;
 }
 
-pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body) {
+/* Adds a body whose options have been checked. */
+static pir_status add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body) {
     pir_place place;
-    pir_status status = pir_scene_given(scene, "body", !body ? "body" : !ret_body ? "ret_body" : NULL);
-    if (status == PIR_OK)
-        status = check_body(body, scene->report);
-    if (status != PIR_OK)
-        return status;
     const uint32_t pieces = body->pieces ? body->piece_count : 1;
-    status = pir_place_make(body->pose, &place);
+    pir_status status = pir_place_make(body->pose, &place);
     if (status != PIR_OK)
         return pir_place_fail(body->pose, status, "body", scene->report);
     status = pir_bodies_reserve(&scene->bodies, &scene->allocator, pieces);
@@ -255,6 +247,16 @@ pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_
     scene->fresh[scene->fresh_count++] = added;
     *ret_body = added;
     return PIR_OK;
+}
+
+pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body) {
+    pir_body_options used = pir_body_options_default();
+    pir_status status = pir_scene_given(scene, "body", !body ? "body" : !ret_body ? "ret_body" : NULL);
+    if (status == PIR_OK)
+        status = pir_options_take("pir_body_options", body, &used, &scene->report);
+    if (status == PIR_OK)
+        status = check_body(&used, scene->report);
+    return status == PIR_OK ? add(scene, &used, ret_body) : status;
 }
 
 void pir_scene_drop_pair(pir_scene *scene, uint32_t pair) {

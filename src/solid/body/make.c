@@ -60,7 +60,10 @@ pir_status pir_solid_read(const char *path, const pir_solid_options *options, pi
     if (!path || !ret_solid)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the solid");
     pir_allocator allocator;
-    const pir_solid_options used = pir_solid_options_or_default(options, &allocator);
+    pir_solid_options used;
+    const pir_status status = pir_solid_options_take(options, &report, &allocator, &used);
+    if (status != PIR_OK)
+        return status;
     struct solid_maker maker = {&used, ret_solid};
     return pir_model_read_file(path, &allocator, report, (struct pir_model_maker){make_of_model, &maker});
 }
@@ -70,7 +73,10 @@ pir_status pir_solid_read_bytes(const pir_file_bytes *file, const pir_solid_opti
     if (!file || (!file->bytes && file->size > 0) || !file->format || !ret_solid)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, no format, or no place for the solid");
     pir_allocator allocator;
-    const pir_solid_options used = pir_solid_options_or_default(options, &allocator);
+    pir_solid_options used;
+    const pir_status status = pir_solid_options_take(options, &report, &allocator, &used);
+    if (status != PIR_OK)
+        return status;
     struct solid_maker maker = {&used, ret_solid};
     return pir_model_read_bytes(file, &allocator, report, (struct pir_model_maker){make_of_model, &maker});
 }
@@ -99,11 +105,14 @@ pir_status pir_solid_create(const pir_solid_facets *facets, const pir_solid_opti
     if (!facets || (!facets->points && facets->point_count) || !facets->starts || !facets->corners || !ret_solid)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no facets, or no place for the solid");
     pir_allocator allocator;
-    const pir_solid_options used = pir_solid_options_or_default(options, &allocator);
+    pir_solid_options used;
+    pir_status status = pir_solid_options_take(options, &report, &allocator, &used);
+    if (status != PIR_OK)
+        return status;
     struct solid_maker maker = {&used, ret_solid};
     struct pir_model model;
     pir_model_init(&model, "the facets", &allocator, report);
-    pir_status status = fill_model(&model, facets);
+    status = fill_model(&model, facets);
     if (status == PIR_OK)
         status = make_of_model(&model, &maker);
     pir_model_finish(&model);
@@ -117,9 +126,12 @@ pir_status pir_solid_from_polytope(const pir_polytope *polytope, const pir_solid
     if (polytope->dimension < 3)
         return PIR_ERR_EMPTY;
     pir_allocator allocator;
-    const pir_solid_options used = pir_solid_options_or_default(options, &allocator);
+    pir_solid_options used;
+    pir_status status = pir_solid_options_take(options, NULL, &allocator, &used);
+    if (status != PIR_OK)
+        return status;
     pir_mesh *mesh = NULL;
-    pir_status status = pir_mesh_from_polytope(polytope, &mesh);
+    status = pir_mesh_from_polytope(polytope, &mesh);
     if (status != PIR_OK)
         return status;
     const pir_solid_parts parts = {.points = &mesh->where,

@@ -6,24 +6,21 @@
 
 #include <pirouette/exact.h>
 
+#include "base/options.h"
 #include "base/report.h"
 #include "base/vec.h"
 #include "solid/body/crossing.h"
 #include "solid/body/shells.h"
 #include "solid/space/exact.h"
 
-/* 4 GiB, or all that a size can tell. */
-#define MEMORY_DEFAULT (SIZE_MAX < UINT64_C(1) << 32 ? SIZE_MAX : (size_t)(UINT64_C(1) << 32))
-
-pir_solid_options pir_solid_options_default(void) {
-    return (pir_solid_options){NULL, MEMORY_DEFAULT, NULL};
-}
-
-pir_solid_options pir_solid_options_or_default(const pir_solid_options *options, pir_allocator *ret_allocator) {
-    pir_solid_options used = options ? *options : pir_solid_options_default();
-    *ret_allocator = pir_allocator_or_default(used.allocator);
-    used.allocator = ret_allocator;
-    return used;
+pir_status pir_solid_options_take(const pir_solid_options *options, pir_report *const *report, pir_allocator *allocator,
+                                  pir_solid_options *ret_used) {
+    *ret_used = pir_solid_options_default();
+    const pir_status status =
+        pir_options_take("pir_solid_options", options, ret_used, report ? report : &ret_used->report);
+    *allocator = pir_allocator_or_default(ret_used->allocator);
+    ret_used->allocator = allocator;
+    return status;
 }
 
 pir_solid *pir_solid_retain(pir_solid *solid) {

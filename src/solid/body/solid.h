@@ -34,7 +34,8 @@ pir_status pir_solid_make(const pir_solid_parts *parts, const pir_solid_options 
 /* The body of a solid in a space, which must have been made for numbers as long as the solid's. */
 pir_status pir_solid_body(const pir_solid *solid, pir_space *space, pir_shell_body *ret_body);
 
-/* The options to use, with an allocator in them. */
-pir_solid_options pir_solid_options_or_default(const pir_solid_options *options, pir_allocator *ret_allocator);
+/* The options to use: pir_options_take, with an allocator in them, which is put in *allocator. */
+pir_status pir_solid_options_take(const pir_solid_options *options, pir_report *const *report, pir_allocator *allocator,
+                                  pir_solid_options *ret_used);
 
 #endif

@@ -95,7 +95,7 @@ static pir_status keep_extreme(struct approximation *job, uint32_t *vertex, uint
         return PIR_ERR_MEMORY;
     for (uint32_t i = 0; i < given; i++)
         memcpy(numbers + 3 * (size_t)i, job->pieces->vertex + 3 * (size_t)vertex[i], 3 * sizeof *numbers);
-    const pir_polytope_options options = {.allocator = job->allocator};
+    const pir_polytope_options options = {.size = sizeof options, .allocator = job->allocator};
     const pir_status status = pir_polytope_create_exact((const mpq_t *)numbers, given, &options, &hull);
     PIR_FREE(job->allocator, numbers, 3 * (size_t)given);
     if (status != PIR_OK)
@@ -127,7 +127,7 @@ static bool add_part(struct approximation *job, uint32_t *vertex, uint32_t count
                               scaled(room_of_one, x[2], job->shift)};
     }
     mpq_clear(room_of_one);
-    const pir_polytope_options options = {.allocator = job->allocator};
+    const pir_polytope_options options = {.size = sizeof options, .allocator = job->allocator};
     job->status = point ? pir_polytope_create(point, count, &options, &part->polytope) : PIR_ERR_MEMORY;
     PIR_FREE(job->allocator, point, count);
     if (job->status != PIR_OK)

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/options.h"
 #include "base/report.h"
 #include "solid/body/solid.h"
 #include "solid/pieces/approximate.h"
@@ -49,7 +50,7 @@ pir_status pir_pieces_polytope(const pir_pieces *pieces, uint32_t index, pir_pol
     if (!pieces || index >= pieces->count || !ret_polytope)
         return PIR_ERR_ARGUMENT;
     const uint32_t first = pieces->start[index];
-    const pir_polytope_options options = {&pieces->allocator, 0};
+    const pir_polytope_options options = {sizeof options, &pieces->allocator, 0};
     return pir_polytope_create_exact((const mpq_t *)pieces->vertex + 3 * (size_t)first,
                                      pieces->start[index + 1] - first, &options, ret_polytope);
 }
@@ -159,10 +160,6 @@ static pir_status decompose_by(const pir_solid *solid, const pir_solid_options *
                : pir_fail(options->report, status, "decompose: by walls: %s", pir_status_text(status));
 }
 
-pir_decompose_options pir_decompose_options_default(void) {
-    return (pir_decompose_options){.solid = pir_solid_options_default(), .method = PIR_DECOMPOSE_BEST};
-}
-
 static pir_status check(const pir_decompose_options *options) {
     if (options->method != PIR_DECOMPOSE_BEST && options->method != PIR_DECOMPOSE_FACETS &&
         options->method != PIR_DECOMPOSE_WALLS)
@@ -175,7 +172,7 @@ static pir_status check(const pir_decompose_options *options) {
 static pir_status approximate(pir_pieces **pieces, const pir_decompose_options *options, pir_decompose_info *info) {
     const pir_status status = pir_pieces_approximate(pieces, options->pieces, options->tolerance, &info->error);
     return status == PIR_OK ? status
-                            : pir_fail(options->solid.report, status, "decompose: into fewer pieces, of %u: %s",
+                            : pir_fail(options->report, status, "decompose: into fewer pieces, of %u: %s",
                                        (unsigned)info->exact_pieces, pir_status_text(status));
 }
 
@@ -183,15 +180,17 @@ pir_status pir_solid_decompose(const pir_solid *solid, const pir_decompose_optio
                                pir_decompose_info *ret_info, pir_pieces **ret_pieces) {
     if (!solid || !ret_pieces)
         return PIR_ERR_ARGUMENT;
-    pir_allocator allocator;
-    pir_decompose_options used = options ? *options : pir_decompose_options_default();
-    used.solid = pir_solid_options_or_default(&used.solid, &allocator);
-    pir_status status = check(&used);
+    pir_decompose_options used = pir_decompose_options_default();
+    pir_status status = pir_options_take("pir_decompose_options", options, &used, &used.report);
+    if (status == PIR_OK)
+        status = check(&used);
     if (status != PIR_OK)
         return status;
+    const pir_allocator allocator = pir_allocator_or_default(used.allocator);
+    const pir_solid_options common = {sizeof common, &allocator, used.memory, used.report};
     pir_decompose_info info = {.method = used.method};
     pir_pieces *pieces = NULL;
-    status = decompose_by(solid, &used.solid, &info.method, &pieces);
+    status = decompose_by(solid, &common, &info.method, &pieces);
     if (status == PIR_OK)
         info.exact_pieces = pieces->count;
     if (status == PIR_OK && (used.tolerance > 0 || used.pieces > 0))

@@ -10,13 +10,10 @@
 
 #include <math.h>
 
+#include "base/options.h"
 #include "polytope/mesh.h"
 #include "solid/pieces/join_pieces.h"
 #include "solid/sum/solid_mesh.h"
-
-pir_solid_sum_options pir_solid_sum_options_default(void) {
-    return (pir_solid_sum_options){.solid = pir_solid_options_default(), .difference = false, .open = false};
-}
 
 /* --- at rest --- */
 
@@ -68,8 +65,7 @@ static void keep_convexes(pir_space_rest *rest, const pir_convexes *convexes, in
 
 static pir_status prepare(pir_solid_sum *sum) {
     const pir_solid *const solids[2] = {sum->solid[0], sum->solid[1]};
-    pir_solid_options options = sum->options.solid;
-    options.allocator = &sum->allocator;
+    const pir_solid_options options = {sizeof options, &sum->allocator, sum->options.memory, sum->options.report};
     pir_rotation rest = {.integers = &sum->integers};
     pir_status status = pir_rotation_set(&rest, (pir_quat){0, 0, 0, 1});
     if (status == PIR_OK)
@@ -105,7 +101,7 @@ static pir_status make(pir_solid_sum *sum, pir_quat rotation, const double scale
     for (int k = 0; k < 2; k++)
         pir_convexes_set_boxes(&sum->convexes[k]);
     pir_sum_boundary_make(&sum->boundary, sum->operands.body, sum->convexes, sum->options.open != 0);
-    status = pir_space_outcome(space, space->status, "sum", sum->options.solid.report);
+    status = pir_space_outcome(space, space->status, "sum", sum->options.report);
     sum->made = status == PIR_OK;
     return status;
 }
@@ -157,7 +153,7 @@ pir_status pir_solid_sum_set_scale(pir_solid_sum *sum, pir_operand operand, doub
 
 static pir_status create(const pir_solid *const solid[2], const pir_solid_sum_options *options, pir_quat rotation,
                          const double scale[2], pir_solid_sum **ret_sum) {
-    const pir_allocator allocator = pir_allocator_or_default(options->solid.allocator);
+    const pir_allocator allocator = pir_allocator_or_default(options->allocator);
     pir_solid_sum *sum = PIR_ZEROED(&allocator, pir_solid_sum, 1);
     if (!sum)
         return PIR_ERR_MEMORY;
@@ -169,7 +165,7 @@ static pir_status create(const pir_solid *const solid[2], const pir_solid_sum_op
     pir_status status = pir_rotation_set(&sum->turned, rotation);
     if (status == PIR_OK) {
         status = prepare(sum);
-        status = pir_space_outcome(&sum->operands.space, status, "sum", options->solid.report);
+        status = pir_space_outcome(&sum->operands.space, status, "sum", options->report);
     }
     if (status == PIR_OK)
         status = change(sum, rotation, scale);
@@ -185,7 +181,10 @@ pir_status pir_solid_sum_create(const pir_solid *p, const pir_solid *q, pir_quat
                                 const pir_solid_sum_options *options, pir_solid_sum **ret_sum) {
     if (!p || !q || !ret_sum)
         return PIR_ERR_ARGUMENT;
-    const pir_solid_sum_options used = options ? *options : pir_solid_sum_options_default();
+    pir_solid_sum_options used = pir_solid_sum_options_default();
+    const pir_status status = pir_options_take("pir_solid_sum_options", options, &used, &used.report);
+    if (status != PIR_OK)
+        return status;
     return create((const pir_solid *const[2]){p, q}, &used, rotation, (const double[2]){1, 1}, ret_sum);
 }
 
