@@ -44,9 +44,9 @@ int main(int argc, char **argv) {
     pir_mesh *mesh = NULL;
     pir_report report = {.status = PIR_OK};
 
-    pir_status status = pir_polytope_read(argv[1], NULL, &report, &p);
+    pir_status status = pir_polytope_read(argv[1], NULL, &report, NULL, &p);
     if (status == PIR_OK)
-        status = pir_polytope_read(argv[2], NULL, &report, &q);
+        status = pir_polytope_read(argv[2], NULL, &report, NULL, &q);
     if (status == PIR_OK)
         status = pir_sum_create(p, q, (pir_quat){0, 0, 0, 1}, NULL, &sum);
     if (status == PIR_OK)

@@ -25,13 +25,13 @@ static pir_status read_stdin(const pir_read_options *options, pir_report *report
 }
 
 /* A built-in model, which is convex; its coordinates are doubles, so that its vertices say all of it. */
-static pir_status make_shape(const char *name, const pir_polytope_options *options, pir_report *report,
-                             pir_surface *ret_surface, pir_polytope **ret_polytope) {
+static pir_status make_shape(const char *name, double merge_tolerance, pir_report *report, pir_surface *ret_surface,
+                             pir_polytope **ret_polytope) {
     pir_polytope *shape = NULL;
     pir_status status = pir_shape_create(name, NULL, report, &shape);
-    if (status == PIR_OK)
+    if (status == PIR_OK && ret_surface)
         *ret_surface = surface_of_hull(shape);
-    if (status != PIR_OK || options->merge_tolerance == 0) {
+    if (status != PIR_OK || merge_tolerance == 0) {
         *ret_polytope = shape;
         return status;
     }
@@ -39,7 +39,9 @@ static pir_status make_shape(const char *name, const pir_polytope_options *optio
     pir_vec3 *points = malloc(count * sizeof *points);
     for (uint32_t v = 0; points && v < count; v++)
         points[v] = pir_polytope_vertex(shape, v);
-    status = points ? pir_polytope_create(points, count, options, ret_polytope) : PIR_ERR_MEMORY;
+    pir_polytope_options options = pir_polytope_options_default();
+    options.merge_tolerance = merge_tolerance;
+    status = points ? pir_polytope_create(points, count, &options, ret_polytope) : PIR_ERR_MEMORY;
     free(points);
     pir_polytope_release(shape);
     return status;
@@ -49,11 +51,11 @@ static pir_status make_shape(const char *name, const pir_polytope_options *optio
 static bool read_options(const struct args *args, pir_read_options *options) {
     *options = pir_read_options_default();
     options->require_convex = args_has(args, "--require-convex");
-    if (!args_numbers(args, "--merge", 1, &options->polytope.merge_tolerance))
+    if (!args_numbers(args, "--merge", 1, &options->merge_tolerance))
         return false;
-    if (options->polytope.merge_tolerance >= 0)
+    if (options->merge_tolerance >= 0)
         return true;
-    complain("%s: --merge: %g is below 0", args->command->name, options->polytope.merge_tolerance);
+    complain("%s: --merge: %g is below 0", args->command->name, options->merge_tolerance);
     return false;
 }
 
@@ -70,8 +72,8 @@ pir_polytope *model_of_path(const struct args *args, const char *model, pir_surf
         return NULL;
     if (input_is_stdin(model))
         return read_stdin(&options, &report, ret_surface, &polytope) == PIR_OK ? polytope : NULL;
-    pir_status status = shape ? make_shape(shape, &options.polytope, &report, ret_surface, &polytope)
-                              : pir_polytope_read_surface(model, &options, &report, ret_surface, &polytope);
+    pir_status status = shape ? make_shape(shape, options.merge_tolerance, &report, ret_surface, &polytope)
+                              : pir_polytope_read(model, &options, &report, ret_surface, &polytope);
     if (status != PIR_OK)
         complain_status(model, status, &report);
     return status == PIR_OK ? polytope : NULL;
@@ -80,12 +82,11 @@ pir_polytope *model_of_path(const struct args *args, const char *model, pir_surf
 pir_polytope *model_of_text(const struct args *args, const char *name, const char *text, const char *format) {
     pir_polytope *polytope = NULL;
     pir_report report = {0};
-    pir_surface surface;
     pir_read_options options;
     if (!read_options(args, &options))
         return NULL;
     const pir_file_bytes bytes = {text, strlen(text), name, format};
-    pir_status status = pir_polytope_read_bytes(&bytes, &options, &report, &surface, &polytope);
+    pir_status status = pir_polytope_read_bytes(&bytes, &options, &report, NULL, &polytope);
     if (status != PIR_OK)
         complain_status(name, status, &report);
     return status == PIR_OK ? polytope : NULL;

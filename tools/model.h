@@ -12,8 +12,9 @@
 
 /*
  * The polytope of positional argument `index`, its facets merged within --merge where that is given, to be released;
- * and what the model was before its hull was taken. NULL after a complaint, also about a model that is not convex where
- * --require-convex was given.
+ * NULL after a complaint, also about a model that is not convex where --require-convex was given.
+ *
+ * ret_surface  NULL, or what the model was before its hull was taken.
  */
 pir_polytope *model_load(const struct args *args, size_t index, pir_surface *ret_surface);
 

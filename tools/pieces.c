@@ -85,13 +85,12 @@ static bool load_objects(const struct args *args, const char *path, const char *
 }
 
 static bool load_file(const struct args *args, const char *path, struct pieces *pieces) {
-    pir_surface surface;
     char *text = output_ends_in(path, ".obj") ? read_text(path) : NULL;
     bool good;
     if (text && objects_count(text) > 1)
         good = load_objects(args, path, text, pieces);
     else
-        good = add(args, pieces, model_of_path(args, path, &surface));
+        good = add(args, pieces, model_of_path(args, path, NULL));
     free(text);
     return good;
 }

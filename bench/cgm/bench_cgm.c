@@ -122,7 +122,8 @@ static void run_peer(const char *name, peer_run *run, pir_polytope *p, double ma
 /* A model file when the name has an ending, else a built-in shape. */
 static pir_polytope *make_model(const char *name) {
     pir_polytope *p = NULL;
-    need(strchr(name, '.') ? pir_polytope_read(name, NULL, NULL, &p) : pir_shape_create(name, NULL, NULL, &p), name);
+    need(strchr(name, '.') ? pir_polytope_read(name, NULL, NULL, NULL, &p) : pir_shape_create(name, NULL, NULL, &p),
+         name);
     return p;
 }
 

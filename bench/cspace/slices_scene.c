@@ -22,7 +22,7 @@ static pir_polytope *body_of(const char *name) {
         return trial_model(name + 6);
     pir_polytope *polytope = NULL;
     pir_report report = {0};
-    if (pir_polytope_read(name, NULL, &report, &polytope) != PIR_OK) {
+    if (pir_polytope_read(name, NULL, &report, NULL, &polytope) != PIR_OK) {
         fprintf(stderr, "bench_slices: %s\n", report.text);
         exit(2);
     }

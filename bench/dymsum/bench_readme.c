@@ -27,7 +27,7 @@ static pir_polytope *read_model(const char *folder, const char *file) {
     pir_report report;
     pir_polytope *polytope = NULL;
     snprintf(path, sizeof path, "%s/%s", folder, file);
-    if (pir_polytope_read(path, NULL, &report, &polytope) != PIR_OK) {
+    if (pir_polytope_read(path, NULL, &report, NULL, &polytope) != PIR_OK) {
         fprintf(stderr, "bench: %s\n", report.text);
         exit(1);
     }

@@ -139,7 +139,7 @@ int main(int argc, char **argv) {
     FILE *csv = results_open(&where, "haptics.csv");
     pir_polytope *p = shape("gs4"), *q;
     pir_report report;
-    if (pir_polytope_read((std::string(argv[2]) + "/mug.off").c_str(), nullptr, &report, &q) != PIR_OK) {
+    if (pir_polytope_read((std::string(argv[2]) + "/mug.off").c_str(), nullptr, &report, nullptr, &q) != PIR_OK) {
         std::fprintf(stderr, "bench_haptics: %s\n", report.text);
         return 2;
     }

@@ -110,7 +110,7 @@ std::vector<double> exact_distances(const TradePair &pair) {
 pir_polytope *model(const std::string &folder, const char *name) {
     pir_polytope *p;
     pir_report report;
-    if (pir_polytope_read((folder + "/" + name).c_str(), nullptr, &report, &p) != PIR_OK) {
+    if (pir_polytope_read((folder + "/" + name).c_str(), nullptr, &report, nullptr, &p) != PIR_OK) {
         std::fprintf(stderr, "bench_trade: %s\n", report.text);
         std::exit(2);
     }

@@ -94,7 +94,7 @@ static bool gather_model(const struct fields *fields, const char *folder, struct
     pir_polytope *made = NULL;
     pir_report report = {0};
     pir_status status = is_shape ? pir_shape_create(model + strlen(prefix), NULL, &report, &made)
-                                 : pir_polytope_read(path, NULL, &report, &made);
+                                 : pir_polytope_read(path, NULL, &report, NULL, &made);
     return status == PIR_OK ? gather(fields, to, made) : fail_status(fields, "model", status, &report);
 }
 

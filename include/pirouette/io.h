@@ -65,24 +65,30 @@ typedef struct pir_surface {
 
 /** How to read a model. */
 typedef struct pir_read_options {
-    pir_polytope_options polytope; /**< how the hull is made; the surface is held against the exact one */
-    bool require_convex;           /**< whether to refuse a model that is not convex, and say where */
+    size_t size;                    /**< of this struct, which pir_read_options_default sets (base.h) */
+    const pir_allocator *allocator; /**< this and the next as of pir_polytope_options */
+    double merge_tolerance;         /**< the surface is held against the exact hull, before facets are merged */
+    bool require_convex;            /**< whether to refuse a model that is not convex, and say where */
 } pir_read_options;
 
-/** pir_polytope_options_default, and models of every form. O(1). */
-PIR_API pir_read_options pir_read_options_default(void);
+/** malloc, the exact hull, models of every form. O(1). */
+static inline pir_read_options pir_read_options_default(void) {
+    const pir_read_options options = {sizeof(pir_read_options), NULL, 0, false};
+    return options;
+}
 
 /**
  * Reads the model in `path`, by its ending (PIR_READ_FORMATS), and makes the exact convex hull of all its points.
  *
  * options      NULL for the default.
- * ret_surface  NULL, or what the file holds beside its points.
+ * ret_surface  NULL for the hull alone, or what the file holds beside its points.
  *
  * In OFF, indices count from 0 or, throughout a file, from 1; colours after them are passed over. In OBJ, other
  * statements than points and facets are passed over, and curves, surfaces and references to other files but materials
  * are refused; in PLY, all but x, y, z and vertex_indices is passed over. No other file is opened. Limits: a file of 2
  * GiB, a number of 4096 characters, a common denominator of 65536 bits. Cost: the hull of n points; for the surface,
- * O(n log n) where each facet has a corner that an earlier one has, and otherwise at most O(n) for each that has not.
+ * which ret_surface and require_convex ask for, O(n log n) where each facet has a corner that an earlier one has, and
+ * otherwise at most O(n) for each that has not.
  *
  * Errors: PIR_ERR_ARGUMENT (another ending), PIR_ERR_FILE, PIR_ERR_EMPTY, PIR_ERR_FORMAT, PIR_ERR_NOT_FINITE,
  * PIR_ERR_LIMIT, PIR_ERR_MEMORY; with require_convex, PIR_ERR_NOT_CLOSED (an open surface) and PIR_ERR_NOT_CONVEX.
@@ -90,56 +96,28 @@ PIR_API pir_read_options pir_read_options_default(void);
  * report        NULL, or filled when the call fails.
  * ret_polytope  the hull; the caller owns one reference.
  */
-PIR_API pir_status pir_polytope_read_surface(const char *path, const pir_read_options *options, pir_report *report,
-                                             pir_surface *ret_surface, pir_polytope **ret_polytope);
+PIR_API pir_status pir_polytope_read(const char *path, const pir_read_options *options, pir_report *report,
+                                     pir_surface *ret_surface, pir_polytope **ret_polytope);
 
 /** A file in memory. */
 typedef struct pir_file_bytes {
     const void *bytes; /**< borrowed; may be NULL when size is 0 */
     size_t size;
     const char *name;   /**< stands for the file in reports; NULL for "text" */
-    const char *format; /**< "off", "obj", "stl" or "ply", in either case */
+    const char *format; /**< "off", "obj", "stl" or "ply", in either case; NULL: by the ending of `name` */
 } pir_file_bytes;
 
 /**
- * The surface and the polytope of a file in memory.
+ * pir_polytope_read of a file in memory. Text need not end in a zero.
  *
- * options, report, ret_surface, ret_polytope  as of pir_polytope_read_surface.
+ * options, report, ret_surface, ret_polytope  as of pir_polytope_read.
  *
- * Limits as of pir_polytope_read_surface. Cost: the hull of n points, and as there for the surface.
- *
- * Errors as of pir_polytope_read_surface, without PIR_ERR_FILE.
- */
-PIR_API pir_status pir_polytope_read_bytes(const pir_file_bytes *file, const pir_read_options *options,
-                                           pir_report *report, pir_surface *ret_surface, pir_polytope **ret_polytope);
-
-/**
- * pir_polytope_read_surface of any form, without a look at the surface.
- *
- * path, report  as of pir_polytope_read_surface.
- * options       how the hull is made; NULL for the defaults.
- *
- * Cost: the hull of n points.
- *
- * Errors as of pir_polytope_read_surface, without those of `require_convex`.
- */
-PIR_API pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
-                                     pir_polytope **ret_polytope);
-
-/**
- * A polytope from OFF text in memory. The text need not end in a zero.
- *
- * text, size       the bytes, and how many.
- * name             stands for the file in reports.
- * options, report  as of pir_polytope_read.
- *
- * Cost: the hull of n points.
+ * Limits as of pir_polytope_read. Cost: the hull of n points, and as there for the surface.
  *
  * Errors as of pir_polytope_read, without PIR_ERR_FILE.
  */
-PIR_API pir_status pir_polytope_read_off(const char *text, size_t size, const char *name,
-                                         const pir_polytope_options *options, pir_report *report,
-                                         pir_polytope **ret_polytope);
+PIR_API pir_status pir_polytope_read_bytes(const pir_file_bytes *file, const pir_read_options *options,
+                                           pir_report *report, pir_surface *ret_surface, pir_polytope **ret_polytope);
 
 /**
  * Writes `mesh` to `path`, by its ending: .off, .obj, .stl, .ply, .svg.

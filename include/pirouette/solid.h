@@ -72,7 +72,7 @@ typedef struct pir_solid_info {
  * Cost: O(n log n) for n facets of bounded size whose boxes meet few others; exact arithmetic where doubles cannot
  * tell.
  *
- * Errors: those of reading (pir_polytope_read_surface); PIR_ERR_NOT_CLOSED for an edge that is not on such facets;
+ * Errors: those of reading (pir_polytope_read); PIR_ERR_NOT_CLOSED for an edge that is not on such facets;
  * PIR_ERR_FORMAT for facets that are not planar, have no area, cross or overlap, for shells that are inside out or
  * hold no volume; PIR_ERR_EMPTY without facets; PIR_ERR_LIMIT, PIR_ERR_MEMORY.
  *

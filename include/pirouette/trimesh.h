@@ -87,7 +87,7 @@ PIR_API pir_status pir_trimesh_create(const pir_trimesh_arrays *arrays, const pi
  *
  * Cost: that of pir_trimesh_create, and O(k²) for a concave facet of k corners.
  *
- * Errors: those of reading (pir_polytope_read_surface) and of pir_trimesh_create; PIR_ERR_FORMAT for a facet that
+ * Errors: those of reading (pir_polytope_read) and of pir_trimesh_create; PIR_ERR_FORMAT for a facet that
  * crosses itself, PIR_ERR_LIMIT for a concave one of more than 4096 corners.
  */
 PIR_API pir_status pir_trimesh_read(const char *path, const pir_trimesh_options *options, pir_report *report,

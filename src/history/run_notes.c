@@ -40,10 +40,11 @@ static pir_status take_body(pir_replay *replay) {
         replay->body = grown;
         replay->room = room;
     }
-    pir_polytope_options options = pir_polytope_options_default();
+    pir_read_options options = pir_read_options_default();
     options.allocator = a;
-    pir_status status = pir_polytope_read_off((const char *)reader->data + reader->at, size, "a body", &options, NULL,
-                                              &replay->body[replay->bodies]);
+    pir_status status =
+        pir_polytope_read_bytes(&(pir_file_bytes){(const char *)reader->data + reader->at, size, "a body", "off"},
+                                &options, NULL, NULL, &replay->body[replay->bodies]);
     reader->at += size;
     replay->bodies += status == PIR_OK;
     return status == PIR_OK || status == PIR_ERR_MEMORY ? status : PIR_ERR_FORMAT;

@@ -92,8 +92,8 @@ static pir_status make(const struct pir_model *model, void *context) {
 
 pir_status pir_trimesh_read_bytes(const pir_file_bytes *file, const pir_trimesh_options *options, pir_report *report,
                                   pir_trimesh **ret_mesh) {
-    if (!file || (!file->bytes && file->size > 0) || !file->format || !ret_mesh)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, no format, or no place for the mesh");
+    if (!file || (!file->bytes && file->size > 0) || !ret_mesh)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, or no place for the mesh");
     pir_trimesh_options used = pir_trimesh_options_default();
     const pir_status status = pir_options_take("pir_trimesh_options", options, &used, &report);
     if (status != PIR_OK)

@@ -41,7 +41,7 @@ static pir_polytope *load(const char *model) {
     if (strncmp(model, "shape:", 6) == 0)
         must(pir_shape_create(model + 6, NULL, NULL, &polytope), model);
     else
-        must(pir_polytope_read(model, NULL, NULL, &polytope), model);
+        must(pir_polytope_read(model, NULL, NULL, NULL, &polytope), model);
     return polytope;
 }
 

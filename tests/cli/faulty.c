@@ -103,7 +103,7 @@ __attribute__((constructor)) static void start(void) {
 MAY_FAIL(pir_shape_create,
          (const char *name, const pir_allocator *allocator, pir_report *report, pir_polytope **ret_polytope),
          (name, allocator, report, ret_polytope))
-MAY_FAIL(pir_polytope_read_surface,
+MAY_FAIL(pir_polytope_read,
          (const char *path, const pir_read_options *options, pir_report *report, pir_surface *ret_surface,
           pir_polytope **ret_polytope),
          (path, options, report, ret_surface, ret_polytope))

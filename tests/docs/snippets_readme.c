@@ -91,14 +91,14 @@ static int track(const char *folder) {
     pir_polytope *p, *q, *written = NULL;
     pir_sum *sum;
     pir_mesh *mesh, *hull = NULL;
-    if (pir_polytope_read("gamepad.off", NULL, NULL, &p) != PIR_OK ||
-        pir_polytope_read("mug.off", NULL, NULL, &q) != PIR_OK || chdir(folder) != 0)
+    if (pir_polytope_read("gamepad.off", NULL, NULL, NULL, &p) != PIR_OK ||
+        pir_polytope_read("mug.off", NULL, NULL, NULL, &q) != PIR_OK || chdir(folder) != 0)
         return 0;
 
     /* snippet 3 */
 
     pir_surface surface = {.points = 0};
-    int checks = pir_polytope_read_surface("sum.off", NULL, NULL, &surface, &written) == PIR_OK &&
+    int checks = pir_polytope_read("sum.off", NULL, NULL, &surface, &written) == PIR_OK &&
                  pir_hull_sum(p, q, pir_sum_rotation(sum), NULL, PIR_DOUBLE, &hull) == PIR_OK &&
                  pir_mesh_equal(mesh, hull) && surface.points == pir_mesh_vertex_count(hull) &&
                  surface.facets == pir_mesh_facet_count(hull);

@@ -40,7 +40,8 @@ static pir_polytope *write_and_read(const pir_mesh *mesh, bool exact) {
     fclose(file);
     pir_polytope *polytope = NULL;
     pir_report report = {PIR_OK, ""};
-    pir_status status = pir_polytope_read_off(text, size, "written", NULL, &report, &polytope);
+    pir_status status =
+        pir_polytope_read_bytes(&(pir_file_bytes){text, size, "written", "off"}, NULL, &report, NULL, &polytope);
     if (status == PIR_ERR_LIMIT && exact)
         polytope = NULL; // a reduced fraction may be longer than the text that it came from
     else
@@ -72,7 +73,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         return 0;
     pir_polytope *polytope = NULL;
     pir_report report = {PIR_OK, ""};
-    pir_status status = pir_polytope_read_off((const char *)data, size, "fuzz", NULL, &report, &polytope);
+    pir_status status = pir_polytope_read_bytes(&(pir_file_bytes){(const char *)data, size, "fuzz", "off"}, NULL,
+                                                &report, NULL, &polytope);
     if (status != PIR_OK) {
         fuzz_require(polytope == NULL && report.status == status, "a refusal makes nothing and is reported");
         fuzz_require(strncmp(report.text, "fuzz:", 5) == 0 && !strchr(report.text, '\n'),

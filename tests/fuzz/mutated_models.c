@@ -67,7 +67,7 @@ static size_t make_seeds(struct seed *seeds, char **models, int model_count) {
     }
     for (int i = 0; i < model_count; i++) {
         pir_polytope *model = NULL;
-        fuzz_require(pir_polytope_read(models[i], NULL, &report, &model) == PIR_OK, report.text);
+        fuzz_require(pir_polytope_read(models[i], NULL, &report, NULL, &model) == PIR_OK, report.text);
         count = add_mesh(seeds, count, model);
         pir_polytope_release(model);
     }

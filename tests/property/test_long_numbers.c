@@ -65,7 +65,8 @@ static pir_polytope *body_of_rationals(test_random *random, uint32_t digits) {
     }
     pir_polytope *polytope = NULL;
     pir_report report = {0};
-    pir_status status = pir_polytope_read_off(text, (size_t)(at - text), "long", NULL, &report, &polytope);
+    pir_status status = pir_polytope_read_bytes(&(pir_file_bytes){text, (size_t)(at - text), "long", "off"}, NULL,
+                                                &report, NULL, &polytope);
     expect(status == PIR_OK, "%s", report.text);
     free(text);
     return polytope;

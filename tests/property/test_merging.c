@@ -188,10 +188,14 @@ static void hull_read_from_text_is_merged_as_well(void **state) {
     (void)state;
     // a square whose corner is a thousandth off the plane of the others, under an apex
     const char text[] = "OFF\n5 0 0\n0 0 0\n3 0 0\n3 3 1/1000\n0 3 0\n1 1 2\n";
-    const pir_polytope_options options = {sizeof options, NULL, 0.01};
+    const pir_read_options options = {.size = sizeof options, .merge_tolerance = 0.01};
     pir_polytope *exact = NULL, *merged = NULL;
-    assert_int_equal(pir_polytope_read_off(text, sizeof text - 1, "m.off", NULL, NULL, &exact), PIR_OK);
-    assert_int_equal(pir_polytope_read_off(text, sizeof text - 1, "m.off", &options, NULL, &merged), PIR_OK);
+    assert_int_equal(
+        pir_polytope_read_bytes(&(pir_file_bytes){text, sizeof text - 1, "m.off", "off"}, NULL, NULL, NULL, &exact),
+        PIR_OK);
+    assert_int_equal(pir_polytope_read_bytes(&(pir_file_bytes){text, sizeof text - 1, "m.off", "off"}, &options, NULL,
+                                             NULL, &merged),
+                     PIR_OK);
     expect_counts(exact, 5, 9, 6, "exact");
     expect_counts(merged, 5, 8, 5, "merged");
     expect_proven(merged, exact, 0.01, "pyramid");

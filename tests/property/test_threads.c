@@ -142,7 +142,8 @@ static void make_shapes(struct worker *worker) {
     }
     static const char text[] = "OFF\n4 0 0\n0 0 0\n1/3 0 0\n0 1/7 0\n0 0 1e-300\n";
     pir_polytope *read = NULL;
-    need(worker, pir_polytope_read_off(text, sizeof text - 1, "text", NULL, NULL, &read));
+    need(worker,
+         pir_polytope_read_bytes(&(pir_file_bytes){text, sizeof text - 1, "text", "off"}, NULL, NULL, NULL, &read));
     if (!read)
         return;
     pir_vec3 vertex = pir_polytope_vertex(read, 1);

@@ -20,7 +20,8 @@
 #define TETRAHEDRON "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
 
 static inline pir_status read_text(const char *text, pir_report *report, pir_polytope **ret_polytope) {
-    return pir_polytope_read_off(text, strlen(text), "m.off", NULL, report, ret_polytope);
+    return pir_polytope_read_bytes(&(pir_file_bytes){text, strlen(text), "m.off", "off"}, NULL, report, NULL,
+                                   ret_polytope);
 }
 
 static inline pir_polytope *must_read(const char *text) {

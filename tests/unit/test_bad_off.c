@@ -178,7 +178,8 @@ static void test_every_prefix_of_a_file(void **state) {
         memcpy(text, CUBE, size);
         pir_polytope *p = NULL;
         pir_report report = {PIR_OK, ""};
-        pir_status status = pir_polytope_read_off(size ? text : NULL, size, "m.off", NULL, &report, &p);
+        pir_status status = pir_polytope_read_bytes(&(pir_file_bytes){size ? text : NULL, size, "m.off", "off"}, NULL,
+                                                    &report, NULL, &p);
         // Only the last line end is not missed.
         assert_int_equal(status == PIR_OK, size == strlen(CUBE) - 1);
         if (status != PIR_OK)
@@ -198,7 +199,8 @@ static void test_every_byte_changed(void **state) {
             text[at] = bytes[i];
             pir_polytope *p = NULL;
             pir_report report = {PIR_OK, ""};
-            pir_status status = pir_polytope_read_off(text, sizeof text - 1, "m.off", NULL, &report, &p);
+            pir_status status = pir_polytope_read_bytes(&(pir_file_bytes){text, sizeof text - 1, "m.off", "off"}, NULL,
+                                                        &report, NULL, &p);
             assert_int_equal(status == PIR_OK, p != NULL);
             assert_int_equal(status == PIR_OK, report.text[0] == '\0');
             if (p)
@@ -237,8 +239,9 @@ static void test_no_memory_at_every_allocation(void **state) {
             const pir_allocator allocator = {resize_within_budget, &budget};
             pir_polytope *p = NULL;
             pir_report report = {PIR_OK, ""};
-            const pir_polytope_options options = {sizeof options, &allocator, 0};
-            status = pir_polytope_read_off(texts[t], strlen(texts[t]), "m.off", &options, &report, &p);
+            const pir_read_options options = {.size = sizeof options, .allocator = &allocator};
+            status = pir_polytope_read_bytes(&(pir_file_bytes){texts[t], strlen(texts[t]), "m.off", "off"}, &options,
+                                             &report, NULL, &p);
             assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && strstr(report.text, "out of memory")));
             pir_polytope_release(p);
             assert_int_equal(budget.in_use, 0);

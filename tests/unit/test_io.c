@@ -157,7 +157,7 @@ static void test_rationals_and_long_integers_stay_exact(void **state) {
     write_mesh(p, path, 1);
     pir_polytope_release(p);
     pir_report report = {PIR_OK, ""};
-    assert_int_equal(pir_polytope_read(path, NULL, &report, &p), PIR_OK);
+    assert_int_equal(pir_polytope_read(path, NULL, &report, NULL, &p), PIR_OK);
     remove(path);
     mpq_t vertex[3], expected;
     mpq_inits(vertex[0], vertex[1], vertex[2], expected, NULL);
@@ -190,7 +190,7 @@ static void expect_same_after_off(void **state, const pir_polytope *p, int exact
     write_mesh(p, path, exact);
     pir_polytope *q = NULL;
     pir_report report = {PIR_OK, ""};
-    if (pir_polytope_read(path, NULL, &report, &q) != PIR_OK)
+    if (pir_polytope_read(path, NULL, &report, NULL, &q) != PIR_OK)
         fail_msg("%s", report.text);
     remove(path);
     pir_mesh *a = NULL, *b = NULL;
@@ -236,7 +236,7 @@ static void test_decimal_comma_of_a_locale_stays_out(void **state) {
 static void expect_file_refusal(const char *path, pir_status status, const char *what) {
     pir_polytope *polytope = NULL;
     pir_report report = {PIR_OK, ""};
-    assert_int_equal(pir_polytope_read(path, NULL, &report, &polytope), status);
+    assert_int_equal(pir_polytope_read(path, NULL, &report, NULL, &polytope), status);
     if (!strstr(report.text, what))
         fail_msg("'%s' does not say '%s'", report.text, what);
     assert_null(polytope);
@@ -275,7 +275,7 @@ static void test_pipes_are_read_to_their_end(void **state) {
     }
     pir_polytope *p = NULL;
     pir_report report = {PIR_OK, ""};
-    pir_status status = pir_polytope_read(path, NULL, &report, &p);
+    pir_status status = pir_polytope_read(path, NULL, &report, NULL, &p);
     int how;
     assert_int_equal(waitpid(child, &how, 0), child);
     remove(path);
@@ -338,7 +338,7 @@ static void test_obj_stl_and_ply_that_are_wrong(void **state) {
         put_file(path, broken[i].text, strlen(broken[i].text));
         pir_polytope *p = NULL;
         pir_report report = {PIR_OK, ""};
-        pir_status status = pir_polytope_read(path, NULL, &report, &p);
+        pir_status status = pir_polytope_read(path, NULL, &report, NULL, &p);
         assert_true(status == PIR_ERR_FORMAT || status == PIR_ERR_EMPTY);
         assert_non_null(strstr(report.text, broken[i].name));
         assert_null(p);
@@ -350,11 +350,14 @@ static void test_missing_arguments(void **state) {
     (void)state;
     pir_polytope *p = NULL;
     pir_report report = {PIR_OK, ""};
-    assert_int_equal(pir_polytope_read(NULL, NULL, &report, &p), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_polytope_read("a.off", NULL, NULL, NULL), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_polytope_read_off(NULL, 5, NULL, NULL, &report, &p), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_polytope_read_off("OFF", 3, NULL, NULL, NULL, NULL), PIR_ERR_ARGUMENT);
-    assert_int_equal(pir_polytope_read_off("OFF", 3, NULL, NULL, NULL, &p), PIR_ERR_FORMAT);
+    assert_int_equal(pir_polytope_read(NULL, NULL, &report, NULL, &p), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_read("a.off", NULL, NULL, NULL, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_read_bytes(&(pir_file_bytes){NULL, 5, NULL, "off"}, NULL, &report, NULL, &p),
+                     PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_read_bytes(&(pir_file_bytes){"OFF", 3, NULL, "off"}, NULL, NULL, NULL, NULL),
+                     PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_read_bytes(&(pir_file_bytes){"OFF", 3, NULL, "off"}, NULL, NULL, NULL, &p),
+                     PIR_ERR_FORMAT);
 }
 
 int main(void) {

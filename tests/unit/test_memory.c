@@ -126,7 +126,7 @@ static void reports_are_one_line(void **state) {
     (void)state;
     pir_report report;
     pir_polytope *p = NULL;
-    assert_int_equal(pir_polytope_read("no\nsuch\rfile\r\nat all.off", NULL, &report, &p), PIR_ERR_FILE);
+    assert_int_equal(pir_polytope_read("no\nsuch\rfile\r\nat all.off", NULL, &report, NULL, &p), PIR_ERR_FILE);
     assert_null(strpbrk(report.text, "\r\n"));
     assert_non_null(strstr(report.text, "no such file  at all.off"));
     assert_int_equal(pir_fail(&report, PIR_ERR_FORMAT, "\n%s\r%d\n", "a", 7), PIR_ERR_FORMAT);

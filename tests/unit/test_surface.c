@@ -210,7 +210,7 @@ static void test_every_format_tells_the_same(void **state) {
 static bool read_with_failure(const char *text, const char *format, uint64_t fail_at) {
     test_memory memory = {.fail_at = fail_at};
     const pir_allocator allocator = test_allocator(&memory);
-    const pir_read_options options = {.polytope = {.size = sizeof options.polytope, .allocator = &allocator}};
+    const pir_read_options options = {.size = sizeof options, .allocator = &allocator};
     pir_polytope *polytope = NULL;
     pir_surface surface;
     pir_report report = {PIR_OK, ""};

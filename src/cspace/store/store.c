@@ -123,10 +123,10 @@ static pir_status read_piece(pir_store *store, hid_t in, const char *where, cons
         if (strcmp(hash, found) != 0)
             status = broken(store, report, where, "the hash does not match the model");
     }
-    const pir_polytope_options options = {sizeof options, &store->allocator, 0};
+    const pir_read_options options = {.size = sizeof options, .allocator = &store->allocator};
     if (status == PIR_OK)
-        status = pir_polytope_read_off((const char *)text.data, text.used, where, &options, report,
-                                       &store->piece[store->piece_count]);
+        status = pir_polytope_read_bytes(&(pir_file_bytes){(const char *)text.data, text.used, where, "off"}, &options,
+                                         report, NULL, &store->piece[store->piece_count]);
     store->piece_count += status == PIR_OK;
     pir_bytes_finish(&text, &store->allocator);
     return status;

@@ -33,7 +33,7 @@ pir_status pir_model_make(const struct pir_model *model, const pir_read_options 
         pir_polytope_release(polytope);
         return status;
     }
-    status = pir_polytope_merge_within(polytope, options->polytope.merge_tolerance, ret_polytope);
+    status = pir_polytope_merge_within(polytope, options->merge_tolerance, ret_polytope);
     if (status != PIR_OK)
         return pir_fail(model->report, status, "%s: merging its facets: %s", model->name, pir_status_text(status));
     if (ret_surface)

@@ -30,19 +30,31 @@ static pir_reader *reader_of(const char *format) {
     return NULL;
 }
 
-static pir_status read_model(const char *data, size_t size, const char *format, struct pir_model *model) {
-    pir_reader *read = reader_of(format);
-    return read ? read(data, size, model)
-                : pir_fail(model->report, PIR_ERR_ARGUMENT, "%s: '%.8s' is none of" PIR_READ_FORMATS(FORMAT_NAME),
-                           model->name, format);
-}
-
-pir_read_options pir_read_options_default(void) {
-    return (pir_read_options){.polytope = pir_polytope_options_default(), .require_convex = false};
+/*
+ * The reader of a file of that format; where `format` is NULL, by the ending of `path`, which may be NULL then too.
+ * PIR_ERR_ARGUMENT.
+ */
+static pir_status find_reader(const char *path, const char *format, pir_report *report, pir_reader **ret_reader) {
+    const char *name = path ? pir_short_name(path) : "text";
+    const char *by = format ? format : path ? pir_format_of(path) : "";
+    pir_reader *reader = reader_of(by);
+    if (reader) {
+        *ret_reader = reader;
+        return PIR_OK;
+    }
+    if (format)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: '%.8s' is none of" PIR_READ_FORMATS(FORMAT_NAME), name, format);
+    if (pir_is_format(by, "svg"))
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: .svg files are written, not read", name);
+    return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name ends in none of" PIR_READ_FORMATS(FORMAT_ENDING), name);
 }
 
 pir_status pir_model_read_bytes(const pir_file_bytes *file, const pir_allocator *allocator, pir_report *report,
                                 struct pir_model_maker maker) {
+    pir_reader *read;
+    pir_status status = find_reader(file->name, file->format, report, &read);
+    if (status != PIR_OK)
+        return status;
     const char *name = file->name ? pir_short_name(file->name) : "text";
     if (file->size == 0)
         return pir_fail(report, PIR_ERR_EMPTY, "%s: the file is empty", name);
@@ -53,7 +65,7 @@ pir_status pir_model_read_bytes(const pir_file_bytes *file, const pir_allocator 
         return pir_fail(report, PIR_ERR_MEMORY, "%s: out of memory", name);
     struct pir_model model;
     pir_model_init(&model, name, allocator, report);
-    pir_status status = read_model(file->bytes, file->size, file->format, &model);
+    status = read(file->bytes, file->size, &model);
     if (status == PIR_OK)
         status = maker.make(&model, maker.context);
     pir_model_finish(&model);
@@ -63,17 +75,14 @@ pir_status pir_model_read_bytes(const pir_file_bytes *file, const pir_allocator 
 
 pir_status pir_model_read_file(const char *path, const pir_allocator *allocator, pir_report *report,
                                struct pir_model_maker maker) {
-    const char *name = pir_short_name(path);
-    const char *format = pir_format_of(path);
-    if (pir_is_format(format, "svg"))
-        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: .svg files are written, not read", name);
-    if (!reader_of(format))
-        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: the name ends in none of" PIR_READ_FORMATS(FORMAT_ENDING), name);
+    pir_reader *read;
     struct pir_read_bytes bytes = {0};
-    pir_status status = pir_file_read(path, allocator, report, &bytes);
+    // a name of no format is refused before the file is looked at
+    pir_status status = find_reader(path, NULL, report, &read);
     if (status == PIR_OK)
-        status =
-            pir_model_read_bytes(&(pir_file_bytes){bytes.data, bytes.size, path, format}, allocator, report, maker);
+        status = pir_file_read(path, allocator, report, &bytes);
+    if (status == PIR_OK)
+        status = pir_model_read_bytes(&(pir_file_bytes){bytes.data, bytes.size, path, NULL}, allocator, report, maker);
     PIR_FREE(allocator, bytes.data, bytes.capacity);
     return status;
 }
@@ -90,55 +99,41 @@ static pir_status make_hull(const struct pir_model *model, void *context) {
     return pir_model_make(model, maker->options, maker->surface, maker->polytope);
 }
 
-/* Checks the options that pir_model_make rests on. */
-static pir_status check_options(const pir_read_options *options, const char *name, pir_report *report) {
-    const pir_status status = pir_polytope_check_tolerance(options->polytope.merge_tolerance);
+/* Takes the options for a file of that name, and checks what pir_model_make rests on. */
+static pir_status take_options(const pir_read_options *options, const char *name, pir_report *report,
+                               pir_read_options *used) {
+    *used = pir_read_options_default();
+    pir_status status = pir_options_take("pir_read_options", options, used, &report);
     if (status != PIR_OK)
-        return pir_fail(report, status, "%s: the merge tolerance is %g", name, options->polytope.merge_tolerance);
-    return PIR_OK;
+        return status;
+    status = pir_polytope_check_tolerance(used->merge_tolerance);
+    return status == PIR_OK ? PIR_OK
+                            : pir_fail(report, status, "%s: the merge tolerance is %g", name, used->merge_tolerance);
 }
 
 pir_status pir_polytope_read_bytes(const pir_file_bytes *file, const pir_read_options *options, pir_report *report,
                                    pir_surface *ret_surface, pir_polytope **ret_polytope) {
-    const pir_read_options used = options ? *options : pir_read_options_default();
     const char *name = file && file->name ? pir_short_name(file->name) : "text";
-    if (!file || (!file->bytes && file->size > 0) || !file->format || !ret_polytope)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: no bytes, no format, or no place for the polytope", name);
-    const pir_status status = check_options(&used, name, report);
+    if (!file || (!file->bytes && file->size > 0) || !ret_polytope)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "%s: no bytes, or no place for the polytope", name);
+    pir_read_options used;
+    const pir_status status = take_options(options, name, report, &used);
     if (status != PIR_OK)
         return status;
-    const pir_allocator allocator = pir_allocator_or_default(used.polytope.allocator);
+    const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     struct hull_maker maker = {&used, ret_surface, ret_polytope};
     return pir_model_read_bytes(file, &allocator, report, (struct pir_model_maker){make_hull, &maker});
 }
 
-pir_status pir_polytope_read_surface(const char *path, const pir_read_options *options, pir_report *report,
-                                     pir_surface *ret_surface, pir_polytope **ret_polytope) {
+pir_status pir_polytope_read(const char *path, const pir_read_options *options, pir_report *report,
+                             pir_surface *ret_surface, pir_polytope **ret_polytope) {
     if (!path || !ret_polytope)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the polytope");
-    const pir_read_options used = options ? *options : pir_read_options_default();
-    const pir_status status = check_options(&used, pir_short_name(path), report);
+    pir_read_options used;
+    const pir_status status = take_options(options, pir_short_name(path), report, &used);
     if (status != PIR_OK)
         return status;
-    const pir_allocator allocator = pir_allocator_or_default(used.polytope.allocator);
+    const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     struct hull_maker maker = {&used, ret_surface, ret_polytope};
     return pir_model_read_file(path, &allocator, report, (struct pir_model_maker){make_hull, &maker});
-}
-
-pir_status pir_polytope_read(const char *path, const pir_polytope_options *options, pir_report *report,
-                             pir_polytope **ret_polytope) {
-    pir_read_options used = pir_read_options_default();
-    const pir_status status = pir_options_take("pir_polytope_options", options, &used.polytope, &report);
-    if (status != PIR_OK)
-        return status;
-    return pir_polytope_read_surface(path, &used, report, NULL, ret_polytope);
-}
-
-pir_status pir_polytope_read_off(const char *text, size_t size, const char *name, const pir_polytope_options *options,
-                                 pir_report *report, pir_polytope **ret_polytope) {
-    pir_read_options used = pir_read_options_default();
-    const pir_status status = pir_options_take("pir_polytope_options", options, &used.polytope, &report);
-    if (status != PIR_OK)
-        return status;
-    return pir_polytope_read_bytes(&(pir_file_bytes){text, size, name, "off"}, &used, report, NULL, ret_polytope);
 }

@@ -11,7 +11,7 @@ struct pir_model_maker {
     void *context;
 };
 
-/* Reads a file, by its ending or by file->format, and hands the model to the maker, whose status is returned. */
+/* Reads a file, by file->format or by its ending, and hands the model to the maker, whose status is returned. */
 pir_status pir_model_read_file(const char *path, const pir_allocator *allocator, pir_report *report,
                                struct pir_model_maker maker);
 pir_status pir_model_read_bytes(const pir_file_bytes *file, const pir_allocator *allocator, pir_report *report,

@@ -70,8 +70,8 @@ pir_status pir_solid_read(const char *path, const pir_solid_options *options, pi
 
 pir_status pir_solid_read_bytes(const pir_file_bytes *file, const pir_solid_options *options, pir_report *report,
                                 pir_solid **ret_solid) {
-    if (!file || (!file->bytes && file->size > 0) || !file->format || !ret_solid)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, no format, or no place for the solid");
+    if (!file || (!file->bytes && file->size > 0) || !ret_solid)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, or no place for the solid");
     pir_allocator allocator;
     pir_solid_options used;
     const pir_status status = pir_solid_options_take(options, &report, &allocator, &used);
