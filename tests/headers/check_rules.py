@@ -62,6 +62,22 @@ def counts(root, headers):
                 yield f"{header}: {name} is not in the table of tests/interface/test_counts.c"
 
 
+def options(root, headers):
+    """A struct of options begins with its size, which an inline default sets; every call that takes one is tested."""
+    tested = (root / "tests/interface/test_options.c").read_text(encoding="utf-8")
+    for header, text in headers:
+        for name, body in re.findall(r"^typedef struct (pir_\w+_options) \{(.*?)^\}", plain(text), re.M | re.S):
+            if not body.lstrip().startswith("size_t size;"):
+                yield f"{header}: {name} does not begin with its size"
+            if not re.search(rf"^static inline {name} {name}_default\(void\)", text, re.M):
+                yield f"{header}: {name}_default is not inline"
+            if re.search(r"^\s+pir_\w+_options \w+;", body, re.M):
+                yield f"{header}: {name} has another struct of options within, which cannot grow"
+        for _, name, parameters in functions(text):
+            if any(re.match(r"const pir_\w+_options \*", p) for p in parameters) and f'"{name}"' not in tested:
+                yield f"{header}: {name} is not in the table of tests/interface/test_options.c"
+
+
 def results(root, headers):
     """Results stand last."""
     for header, text in headers:
@@ -90,7 +106,7 @@ def lifetimes(root, headers):
             yield f"{name} ends by {', '.join(sorted(found)) or 'nothing'}"
 
 
-RULES = {rule.__name__: rule for rule in (cost, flags, counts, lifetimes, results)}
+RULES = {rule.__name__: rule for rule in (cost, flags, counts, lifetimes, options, results)}
 
 
 def main(root, rule):
