@@ -74,13 +74,14 @@ static void bodies_are_reported(pir_scene *scene, pir_polytope *cube) {
 static void updates_are_reported(pir_scene *scene) {
     const pir_scene_move twice[2] = {{0, scene_at(0, 0, 0)}, {0, scene_at(1, 0, 0)}}, no_body = {9, scene_at(0, 0, 0)},
                          far = {0, scene_at(1e300, 0, 0)}, edge = {0, scene_at(0, 0, 0x1p60)},
-                         nowhere = {0, scene_at(0, NAN, 0)};
+                         nowhere = {0, scene_at(0, NAN, 0)}, unturned = {0, {{0, 0, INFINITY, 1}, {0, 0, 0}}};
     TELLS(pir_scene_update(scene, NULL, 1), BAD, "update: moves is NULL");
     TELLS(pir_scene_update(scene, twice, 2), BAD, "update: move 1: body 0 comes twice");
     TELLS(pir_scene_update(scene, &no_body, 1), BAD, "update: move 0: there is no body 9");
     TELLS(pir_scene_update(scene, &far, 1), PIR_ERR_LIMIT, "update: body 0: its pose: x is 1e+300, beyond 2^60");
     TELLS(pir_scene_update(scene, &edge, 1), PIR_ERR_LIMIT, "update: body 0: it reaches beyond 2^60");
     TELLS(pir_scene_update(scene, &nowhere, 1), PIR_ERR_NOT_FINITE, "update: body 0: its pose: y is nan");
+    TELLS(pir_scene_update(scene, &unturned, 1), PIR_ERR_NOT_FINITE, "update: body 0: its rotation: z is inf");
 }
 
 static void searches_are_reported(pir_scene *scene, pir_polytope *cube) {

@@ -5,6 +5,7 @@
  */
 #include "support/test.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -141,6 +142,46 @@ static void bytes_that_lie_harm_nothing(void **state) {
     crowd_finish(&c);
 }
 
+/* A pose that no body can have is told by the body and the value, and changes nothing. */
+static void poses_that_are_none_are_named(void **state) {
+    (void)state;
+    static crowd c;
+    pir_scene_options options = pir_scene_options_default();
+    crowd_init(&c, 3003, 5, &options);
+    struct bytes good = snapshot(c.scene), bad = snapshot(c.scene), now;
+    // number `at` of the seven of a pose, or all four of the rotation where it is 7
+    static const struct {
+        int at;
+        double value;
+        const char *text;
+    } wrong[] = {
+        {1, NAN, "snapshot: body 2: its rotation: y is nan"},
+        {6, INFINITY, "snapshot: body 2: its pose: z is inf"},
+        {4, 1e300, "snapshot: body 2: its pose: x is 1e+300, beyond 2^60"},
+        {5, 0x1p60, "snapshot: body 2: it reaches beyond 2^60"},
+        {7, 0, "snapshot: body 2: its pose: zero quaternion"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        pir_report report = {PIR_OK, ""};
+        unsigned char *pose = bad.data + 32 + 2 * 80 + 16;
+        memcpy(bad.data, good.data, good.size);
+        for (int k = 0; k < 4; k++)
+            if (wrong[i].at == 7 || wrong[i].at == k)
+                memcpy(pose + 8 * k, &wrong[i].value, sizeof wrong[i].value);
+        if (wrong[i].at >= 4 && wrong[i].at < 7)
+            memcpy(pose + 8 * wrong[i].at, &wrong[i].value, sizeof wrong[i].value);
+        seal(&bad);
+        assert_int_equal(pir_scene_restore(c.scene, bad.data, bad.size, &report), PIR_ERR_FORMAT);
+        expect(report.status == PIR_ERR_FORMAT && strcmp(report.text, wrong[i].text) == 0, "'%s'", report.text);
+        now = snapshot(c.scene);
+        expect(same_bytes(&now, &good), "pose %zu: a refused snapshot changed the scene", i);
+        free(now.data);
+    }
+    free(good.data);
+    free(bad.data);
+    crowd_finish(&c);
+}
+
 static void what_is_no_snapshot_of_the_scene_is_refused(void **state) {
     (void)state;
     static crowd c;
@@ -212,6 +253,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_restored_scene_goes_on_as_it_did),
         cmocka_unit_test(bytes_that_lie_harm_nothing),
+        cmocka_unit_test(poses_that_are_none_are_named),
         cmocka_unit_test(what_is_no_snapshot_of_the_scene_is_refused),
         cmocka_unit_test(memory_that_fails_leaves_the_scene_as_it_was),
     };

@@ -26,7 +26,7 @@ static void make_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t
         pir_scene_worker_note(&scene->worker[task], make_place(scene, &scene->lists.moved[i]), i);
 }
 
-pir_status pir_scene_make_boxes(pir_scene *scene) {
+pir_status pir_scene_make_boxes(pir_scene *scene, const char *call, pir_report *report) {
     pir_scene_lists *lists = &scene->lists;
     uint32_t pieces = 0;
     for (uint32_t i = 0; i < lists->moved_count; i++) {
@@ -35,7 +35,7 @@ pir_status pir_scene_make_boxes(pir_scene *scene) {
     }
     if (!PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, pieces) ||
         !PIR_GROW(&scene->allocator, lists->replaced, lists->replaced_capacity, pieces))
-        return pir_fail(scene->report, PIR_ERR_MEMORY, "update: %s", pir_status_text(PIR_ERR_MEMORY));
+        return pir_fail(report, PIR_ERR_MEMORY, "%s: %s", call, pir_status_text(PIR_ERR_MEMORY));
     pir_scene_workers_begin(scene);
     pir_scene_share(scene, lists->moved_count, WORTH_MORE, make_items);
     pir_status status = pir_scene_workers_status(scene);
@@ -43,8 +43,8 @@ pir_status pir_scene_make_boxes(pir_scene *scene) {
         return PIR_OK;
     const pir_scene_moved *first = &lists->moved[pir_scene_workers_failed(scene)];
     char of[32];
-    snprintf(of, sizeof of, "update: body %u", (unsigned)first->body);
-    return pir_place_fail(first->pose, status, of, scene->report);
+    snprintf(of, sizeof of, "%s: body %u", call, (unsigned)first->body);
+    return pir_place_fail(first->pose, status, of, report);
 }
 
 static void put_in(pir_scene *scene, uint32_t piece, const pir_box *fat) {

@@ -64,7 +64,7 @@ static pir_status take_moves(pir_scene *scene, const pir_scene_move *moves, size
     if (status != PIR_OK)
         return status;
     take_fresh(scene);
-    return pir_scene_make_boxes(scene);
+    return pir_scene_make_boxes(scene, "update", scene->report);
 }
 
 /* --- the call --- */

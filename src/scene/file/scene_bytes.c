@@ -200,10 +200,12 @@ static pir_status read_bodies(pir_scene *scene, const struct snapshot *s) {
             return status;
         least = lists->moved[i].body + 1;
     }
-    pir_status status = pir_scene_make_boxes(scene);
-    if (status == PIR_ERR_MEMORY)
-        return pir_fail(s->report, status, "snapshot: no memory for boxes");
-    return status == PIR_OK ? status : pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: a pose is none");
+    pir_report why;
+    pir_status status = pir_scene_make_boxes(scene, "snapshot", &why);
+    if (status == PIR_OK)
+        return PIR_OK;
+    // a pose that no body can have was never written
+    return pir_fail(s->report, status == PIR_ERR_MEMORY ? status : PIR_ERR_FORMAT, "%s", why.text);
 }
 
 /* The piece of a body with a number, or PIR_PIECE_NONE. */

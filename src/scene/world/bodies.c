@@ -53,9 +53,11 @@ pir_status pir_place_fail(pir_pose pose, pir_status status, const char *of, pir_
         if (status == PIR_ERR_LIMIT && fabs(at[k]) > PIR_BOX_FARTHEST)
             return pir_fail(report, status, "%s: its pose: %c is %g, beyond 2^60", of, "xyz"[k], at[k]);
     }
-    if (status == PIR_ERR_LIMIT)
-        return pir_fail(report, status, "%s: it reaches beyond 2^60", of);
-    return pir_fail(report, status, "%s: its rotation: %s", of, pir_status_text(status));
+    const double part[4] = {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w};
+    for (int k = 0; k < 4; k++)
+        if (!isfinite(part[k]))
+            return pir_fail(report, status, "%s: its rotation: %c is %g", of, "xyzw"[k], part[k]);
+    return pir_fail(report, status, "%s: it reaches beyond 2^60", of);
 }
 
 /*
