@@ -62,17 +62,17 @@ static bool prepare(struct solid_run *run) {
     run->options = pir_solid_sum_options_default();
     run->options.difference = request->difference;
     run->options.open = request->open;
-    run->options.solid.report = &run->fault;
+    run->options.report = &run->fault;
     run->counted = run->options;
     run->motion = motion_new(request->random ? NULL : &request->axis, request->steps, request->seed);
     run->warm_up = request->frames / 10 < WARM_UP_MOST ? request->frames / 10 : WARM_UP_MOST;
     if (!times_init(&run->rotate_times, request->frames) || !times_init(&run->fresh_times, request->frames))
         return told(run, 0, PIR_ERR_MEMORY);
     const pir_allocator counting = {.resize = resize_counted, .context = &run->blocks};
-    run->counted.solid.allocator = &counting;
+    run->counted.allocator = &counting;
     const pir_status status =
         pir_solid_sum_create(run->p, run->q, motion_before(&run->motion), &run->counted, &run->sum);
-    run->counted.solid.allocator = NULL;
+    run->counted.allocator = NULL;
     return told(run, 0, status);
 }
 

@@ -259,7 +259,7 @@ typedef struct pir_solid_sum pir_solid_sum;
  * and for c candidates O(c·k), where k pairs are near a candidate; O(n·m) to find the candidates of solids with n
  * and m edges.
  *
- * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (options->solid.memory),
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (options->memory),
  * PIR_ERR_MEMORY; PIR_ERR_INTERNAL where the surface fails the last check, that it is closed.
  */
 PIR_API pir_status pir_solid_sum_create(const pir_solid *p, const pir_solid *q, pir_quat rotation,

@@ -61,7 +61,7 @@ PIR_LANES_INLINE pir_lane pir_choose(pir_places where, pir_lane a, pir_lane b) {
 }
 
 /* The lesser and the greater of a and b in every lane, b where they are not ordered. */
-PIR_LANES_INLINE pir_lane pir_lesser(pir_lane a, pir_lane b) {
+PIR_LANES_INLINE pir_lane pir_lesser_lanes(pir_lane a, pir_lane b) {
 #if PIR_LANES_AVX2
     return _mm256_min_pd(a, b);
 #else
@@ -69,7 +69,7 @@ PIR_LANES_INLINE pir_lane pir_lesser(pir_lane a, pir_lane b) {
 #endif
 }
 
-PIR_LANES_INLINE pir_lane pir_greater(pir_lane a, pir_lane b) {
+PIR_LANES_INLINE pir_lane pir_greater_lanes(pir_lane a, pir_lane b) {
 #if PIR_LANES_AVX2
     return _mm256_max_pd(a, b);
 #else

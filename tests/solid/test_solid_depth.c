@@ -19,6 +19,7 @@
 
 #include "solid/bodies.h"
 #include "solid/models.h"
+#include "support/solid_sums.h"
 #include "support/vectors.h"
 
 enum { PLACES = 40 };
@@ -406,7 +407,7 @@ static void compare_all(const pir_solid *p, const pir_solid *q, const char *name
         const pir_quat any = {axis.x, axis.y, axis.z, test_random_unit(&random)};
         const pir_quat rotation = i % 3 == 2 ? aligned[test_random_below(&random, 4)] : any;
         options.difference = options.open = true;
-        assert_int_equal(pir_solid_sum(p, q, rotation, &options, NULL, &mesh), PIR_OK);
+        assert_int_equal(solid_sum_mesh(p, q, rotation, &options, NULL, &mesh), PIR_OK);
         compare(&scene, mesh, rotation, &random, &tally);
         pir_mesh_destroy(mesh);
     }

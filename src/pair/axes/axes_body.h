@@ -44,15 +44,15 @@ PIR_LANES_INLINE struct range range_along(pir_lane x, pir_lane y, pir_lane z, co
     if (of->of.is_central) {
         range.most = pir_size(to);
         for (uint32_t j = 1; j < 4; j++)
-            range.most = pir_greater(pir_size(along(x, y, z, of->vertex, j)), range.most);
+            range.most = pir_greater_lanes(pir_size(along(x, y, z, of->vertex, j)), range.most);
         range.least = -range.most;
         return range;
     }
     for (uint32_t k = 0; k < of->of.vertices; k += 4)
         for (uint32_t j = k; j < k + 4; j++) {
             to = along(x, y, z, of->vertex, j);
-            range.least = pir_lesser(to, range.least);
-            range.most = pir_greater(to, range.most);
+            range.least = pir_lesser_lanes(to, range.least);
+            range.most = pir_greater_lanes(to, range.most);
         }
     return range;
 }
@@ -118,8 +118,8 @@ PIR_LANES_TARGET static uint32_t least(const double *low, uint32_t count, double
     for (uint32_t i = 0; i < count; i += PIR_WIDTH) {
         pir_lane v = pir_load(&low[i]);
         pir_places less = v < first;
-        second = pir_lesser(pir_greater(v, first), second);
-        first = pir_lesser(v, first);
+        second = pir_lesser_lanes(pir_greater_lanes(v, first), second);
+        first = pir_lesser_lanes(v, first);
         at = (at & ~less) | (here & less);
         here += PIR_WIDTH;
     }

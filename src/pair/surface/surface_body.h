@@ -67,7 +67,7 @@ PIR_LANES_TARGET static double least(const pir_surface *surface, const pir_surfa
     triangles &= pir_surface_first(surface->count);
     for (uint32_t t = 0; t < surface->count; t += PIR_WIDTH) {
         pir_places is = (((pir_places){0} + (int64_t)(triangles >> t)) & bit) == bit;
-        low = pir_lesser(pir_choose(is, pir_load(&room->plane.low[t]), none), low);
+        low = pir_lesser_lanes(pir_choose(is, pir_load(&room->plane.low[t]), none), low);
     }
     return pir_least_of(low);
 }

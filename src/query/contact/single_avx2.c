@@ -199,7 +199,7 @@ PIR_LANES_TARGET static pir_foremost foremost(const pir_polytope *p, uint32_t v,
     const uint32_t flat = flat_among(direction, all, sine) | flat_among(direction + 4, all, sine) << 4;
     const pir_lane low = _mm256_blendv_pd(least, cosines(p, start, all), pir_load(mask)),
                    high = _mm256_blendv_pd(least, cosines(p, start + 4, all), pir_load(mask + 4));
-    const double cosine = pir_greatest_of(pir_greater(low, high));
+    const double cosine = pir_greatest_of(pir_greater_lanes(low, high));
     const uint32_t first = pir_where(low == pir_all(cosine)) | pir_where(high == pir_all(cosine)) << 4;
     const bool is_some = (cosine > PIR_LEAST_COSINE) & ((flat & ones(count)) == 0);
     return (pir_foremost){is_some ? start + (uint32_t)__builtin_ctz(first) : UINT32_MAX, cosine};

@@ -51,13 +51,13 @@ PIR_LANES_TARGET static void look(uint32_t count, pir_lanes n, const double *h, 
         for (int k = 0; k < 2; k++, i += PIR_WIDTH) {
             pir_lane to = pir_load(n.x + i) * x.x + pir_load(n.y + i) * x.y + pir_load(n.z + i) * x.z;
             pir_lane s = pir_load(h + i) - to, off = error * pir_load(err + i);
-            low[k] = pir_lesser(s - off, low[k]);
-            high[k] = pir_lesser(s + off, high[k]);
-            along[k] = pir_lesser(to, along[k]);
+            low[k] = pir_lesser_lanes(s - off, low[k]);
+            high[k] = pir_lesser_lanes(s + off, high[k]);
+            along[k] = pir_lesser_lanes(to, along[k]);
         }
-    ret_least[0] = pir_least_of(pir_lesser(low[0], low[1]));
-    ret_least[1] = pir_least_of(pir_lesser(high[0], high[1]));
-    ret_least[2] = pir_least_of(pir_lesser(along[0], along[1]));
+    ret_least[0] = pir_least_of(pir_lesser_lanes(low[0], low[1]));
+    ret_least[1] = pir_least_of(pir_lesser_lanes(high[0], high[1]));
+    ret_least[2] = pir_least_of(pir_lesser_lanes(along[0], along[1]));
 }
 
 PIR_LANES_TARGET static void slacks(uint32_t count, const pir_mat3 *r, pir_lanes from, pir_vec3 x,
@@ -78,8 +78,8 @@ PIR_LANES_TARGET static void slacks(uint32_t count, const pir_mat3 *r, pir_lanes
         pir_store(to.y + i, uy);
         pir_store(to.z + i, uz);
         pir_store(s + i, slack);
-        low = pir_lesser(slack, low);
-        along = pir_lesser(nx * x.x + ny * x.y + nz * x.z, along);
+        low = pir_lesser_lanes(slack, low);
+        along = pir_lesser_lanes(nx * x.x + ny * x.y + nz * x.z, along);
     }
     slacks->least = pir_least_of(low);
     slacks->along = pir_least_of(along);
@@ -89,10 +89,10 @@ PIR_LANES_TARGET static double least(uint32_t count, pir_lanes n, const double *
     pir_lane low[2] = {pir_all(HUGE_VAL), pir_all(HUGE_VAL)};
     for (uint32_t i = 0; i < count;)
         for (int k = 0; k < 2; k++, i += PIR_WIDTH)
-            low[k] = pir_lesser(pir_load(h + i) -
-                                    (pir_load(n.x + i) * x.x + pir_load(n.y + i) * x.y + pir_load(n.z + i) * x.z),
-                                low[k]);
-    return pir_least_of(pir_lesser(low[0], low[1]));
+            low[k] = pir_lesser_lanes(pir_load(h + i) -
+                                          (pir_load(n.x + i) * x.x + pir_load(n.y + i) * x.y + pir_load(n.z + i) * x.z),
+                                      low[k]);
+    return pir_least_of(pir_lesser_lanes(low[0], low[1]));
 }
 
 PIR_LANES_TARGET static void boxes(uint32_t count, const pir_box_lanes *boxes, pir_vec3 x, double error, double *low) {
@@ -134,7 +134,7 @@ PIR_LANES_TARGET static double caps(uint32_t from, uint32_t count, const pir_cap
         pir_lane bound = along * pir_load(cosine + i) - across * pir_load(sine + i) - 2 * error,
                  old = pir_load(low + i);
         pir_store(low + i, pir_choose((bound > (pir_lane){0}) & (bound > old), bound, old));
-        high = pir_lesser(along + error, high);
+        high = pir_lesser_lanes(along + error, high);
     }
     return pir_least_of(high);
 }

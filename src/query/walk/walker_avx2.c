@@ -27,7 +27,7 @@ PIR_LANES_INLINE double steepest_but(const pir_body *body, uint32_t vertex, pir_
         pir_lane slopes = pir_lane3_dot(n, four_at(&ring[k]));
         if (but)
             slopes = _mm256_blendv_pd(slopes, none, pir_load((const double *)but + 4 * k));
-        most = pir_greater(slopes, most);
+        most = pir_greater_lanes(slopes, most);
     }
     return pir_greatest_of(most);
 }
@@ -51,7 +51,7 @@ PIR_LANES_INLINE double within_facet(const pir_body *body, uint32_t facet, pir_v
     pir_lane least = pir_all(HUGE_VAL);
     (void)n;
     for (uint32_t k = 0; k < blocks; k++)
-        least = pir_lesser(within(&sides[k], pir_lane3_all(at)), least);
+        least = pir_lesser_lanes(within(&sides[k], pir_lane3_all(at)), least);
     return pir_least_of(least);
 }
 
@@ -85,7 +85,7 @@ PIR_LANES_INLINE uint32_t farthest_beyond(const pir_body *body, uint32_t facet, 
     const pir_sides *sides = &body->around->sides[facet * blocks];
     struct first first = {start, HUGE_VAL};
     for (uint32_t k = 0; k < blocks; k++)
-        first = take(first, pir_lesser(within(&sides[k], pir_lane3_all(at)), pir_all(HUGE_VAL)), start + 4 * k);
+        first = take(first, pir_lesser_lanes(within(&sides[k], pir_lane3_all(at)), pir_all(HUGE_VAL)), start + 4 * k);
     return first.place;
 }
 

@@ -22,8 +22,8 @@ PIR_LANES_TARGET static void find(const pir_mat3 *r, const pir_vec3 *point, uint
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < PARTS; k++) {
             pir_lane at = x[k] * point[i].x + y[k] * point[i].y + z[k] * point[i].z;
-            low[k] = pir_lesser(at, low[k]);
-            high[k] = pir_greater(at, high[k]);
+            low[k] = pir_lesser_lanes(at, low[k]);
+            high[k] = pir_greater_lanes(at, high[k]);
         }
     *ret_low = (pir_vec3){low[0][0], low[0][1], low[PARTS - 1][2 % PIR_WIDTH]};
     *ret_high = (pir_vec3){high[0][0], high[0][1], high[PARTS - 1][2 % PIR_WIDTH]};

@@ -159,7 +159,7 @@ static pir_status create(const pir_solid *const solid[2], const pir_solid_sum_op
         return PIR_ERR_MEMORY;
     sum->allocator = allocator;
     sum->options = *options;
-    sum->options.solid.allocator = &sum->allocator;
+    sum->options.allocator = &sum->allocator;
     for (int k = 0; k < 2; k++)
         sum->solid[k] = pir_solid_retain((pir_solid *)solid[k]);
     pir_status status = pir_rotation_set(&sum->turned, rotation);
