@@ -100,7 +100,7 @@ PIR_API pir_status pir_solid_query_distance(pir_solid_query *query, pir_workspac
 PIR_API pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
                                         const pir_motion *motion, double tolerance, pir_impact *ret_impact);
 
-/** A facet of the sum of two pieces, which P may not be moved into: a facet of one and a vertex of the other, or an edge
+/** A facet of the sum of two pieces, which P may not move into: a facet of one and a vertex of the other, or an edge
  * of each. */
 typedef struct pir_solid_facet {
     uint32_t piece_p, piece_q;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See piece_frame.h. Exact coordinates are V·num/den of a polytope's integers V, of A' −M·V·num/(den·|q|²). A unit
- * normal of a polytope is within 2^-49 of the true one and R within 37·2^-53: with rounding less than 2^-47.
+ * See piece_frame.h. Exact coordinates are V·num/den of a polytope's integers V, of A' −M·V·num/(den·|q|²). A
+ * unit normal of a polytope is within 2^-49 of the true one and R within 37·2^-53: with rounding less than 2^-47.
  */
 #include "solid/depth/piece_frame.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * See shared_middle.h. x = b + a' for a point b of Q's face and a' of that of A'. So b is in the one and in the other
- * reflected through x/2: two convex sets of one plane, of which the middle of what they share is taken, corner by corner. These
- * are numbers and decide nothing: what is within 2^-42 of a face's plane counts to it.
+ * reflected through x/2: two convex sets of one plane, of which the middle of what they share is taken, corner by
+ * corner. These are numbers and decide nothing: what is within 2^-42 of a face's plane counts to it.
  */
 #include "solid/depth/shared_middle.h"
 
