@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996).
- *
- * At a separation with normal n no contact can come before P is down at the plane that has Q below it. Advancing to
- * that time (query/proof/parting.h) again and again comes as near to contact as the caller asks, and never past it.
- */
+/* When P, moving, comes near Q: the advance of query/proof/parting.h by the distances of a sum. */
 #include "query/answer/follow.h"
 #include "query/proof/parting.h"
 
@@ -44,70 +39,46 @@ static bool is_zero(pir_vec3 v) {
     return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-static void set_outcome(pir_impact *impact, const pir_query_result *at, double time, pir_cast_outcome outcome) {
-    impact->outcome = outcome;
-    impact->time = time;
-    impact->normal = at->normal;
-    impact->point = at->point_q;
-    impact->witness = at->witness;
-}
-
-/* An advance: P's motion, where it began, and how near it has come. */
-struct advance {
+/* An advance on a query, and where P's motion begins. */
+struct query_advance {
+    pir_advance advance; /* first: what the loop knows */
     pir_query *query;
     pir_query_input input; /* its translation is that of the time at hand */
-    const pir_motion *motion;
     pir_quat start, middling;
     pir_vec3 from, axis;
     double angle;
-    pir_parted body;
-    double tolerance, near; /* how near counts as met, once that is known */
     pir_query_cache cache;
+    uint32_t steps;
 };
 
-/* Whether what was found at time 0 ends the search. */
-static bool ends_at_once(struct advance *advance, const pir_query_result *at, pir_impact *impact) {
-    const pir_motion *motion = advance->motion;
-    const double speed = advance->angle * advance->body.reach - pir_vec_dot(at->normal, motion->way);
-    const bool shares = at->state != PIR_OUTSIDE;
-    if (motion->held > 0 && shares)
-        set_outcome(impact, at, 1, PIR_CAST_MISS);
-    else if (at->state == PIR_INSIDE)
-        set_outcome(impact, at, 0, PIR_CAST_START_INSIDE);
-    else if (at->state == PIR_BOUNDARY && speed <= 0)
-        set_outcome(impact, at, 0, PIR_CAST_RECEDING);
-    else if (at->distance > advance->tolerance && advance->angle == 0 && is_zero(motion->way))
-        set_outcome(impact, at, 1, PIR_CAST_AT_REST);
-    else if ((advance->near = pir_motion_near(motion, advance->tolerance, at->distance, 0)) == 0)
-        set_outcome(impact, at, 1, PIR_CAST_MISS);
-    else
-        return false;
-    return true;
+/* The outcome of what was found at time 0; PIR_CAST_STEP_LIMIT where the search goes on. */
+static pir_cast_outcome outcome_at_once(const struct query_advance *on) {
+    const pir_motion *motion = on->advance.motion;
+    const pir_query_result *at = &on->advance.answer;
+    const double speed = on->angle * on->advance.body.reach - pir_vec_dot(at->normal, motion->way);
+    if (motion->held > 0 && at->state != PIR_OUTSIDE)
+        return PIR_CAST_MISS;
+    if (at->state == PIR_INSIDE)
+        return PIR_CAST_START_INSIDE;
+    if (at->state == PIR_BOUNDARY && speed <= 0)
+        return PIR_CAST_RECEDING;
+    bool rests = at->distance > on->advance.tolerance && on->angle == 0 && is_zero(motion->way);
+    return rests ? PIR_CAST_AT_REST : PIR_CAST_STEP_LIMIT;
 }
 
-/* One step from `impact->time` on. Where the outcome is PIR_CAST_STEP_LIMIT the search goes on. */
-static pir_status step(struct advance *advance, int number, pir_impact *impact) {
-    const double time = impact->time;
-    pir_query_result at;
-    advance->input.translation = pir_vec_add(advance->from, pir_vec_scale(advance->motion->way, time));
-    const pir_pose pose = {rotation_at(advance->start, advance->middling, advance->axis, advance->angle, time),
-                           advance->input.translation};
-    pir_status status = pir_sum_rotate(advance->query->sum, pose.rotation, PIR_METHOD_AUTO);
+static pir_status ask(pir_advance *advance, pir_pose *ret_pose) {
+    struct query_advance *on = (struct query_advance *)advance;
+    const double time = advance->time;
+    on->input.translation = pir_vec_add(on->from, pir_vec_scale(advance->motion->way, time));
+    *ret_pose = (pir_pose){rotation_at(on->start, on->middling, on->axis, on->angle, time), on->input.translation};
+    pir_status status = pir_sum_rotate(on->query->sum, ret_pose->rotation, PIR_METHOD_AUTO);
     if (status == PIR_OK)
-        status = pir_query_signed_distance(advance->query, &advance->input, &advance->cache, &at);
+        status = pir_query_signed_distance(on->query, &on->input, &on->cache, &advance->answer);
     if (status != PIR_OK)
         return status;
-    impact->steps += at.steps;
-    if (number == 0 && ends_at_once(advance, &at, impact))
-        return PIR_OK;
-    set_outcome(impact, &at, time, at.distance <= advance->near ? PIR_CAST_HIT : PIR_CAST_STEP_LIMIT);
-    if (impact->outcome == PIR_CAST_HIT)
-        return PIR_OK;
-    // advance to part of what counts as met, so that few steps are needed; past the end there is no contact
-    const pir_parting plane = {at.normal, at.point_q, 0.75 * advance->near, 0.5 * advance->near};
-    impact->time = pir_part_until(&advance->body, &plane, pose, at.distance, time, 1);
-    if (!(impact->time <= 1))
-        set_outcome(impact, &at, 1, PIR_CAST_MISS);
+    on->steps += advance->answer.steps;
+    if (time == 0)
+        advance->outcome = outcome_at_once(on);
     return PIR_OK;
 }
 
@@ -119,34 +90,39 @@ pir_status pir_query_time_of_impact(pir_query *query, const pir_query_input *inp
     pir_status status = pir_motion_check(motion, tolerance);
     if (status == PIR_OK)
         status = pir_query_begin(query, input, &placement);
-    if (status != PIR_OK)
-        return status;
-    struct advance advance = {.query = query, .input = *input, .motion = motion, .tolerance = tolerance};
-    double part;
-    int exponent;
-    advance.input.cutoff = HUGE_VAL;
-    advance.from = input->translation;
-    advance.start = pir_sum_rotation(query->sum);
-    advance.middling = middling(advance.start);
-    if (pir_unit_of(motion->turn, &advance.axis, &part, &exponent))
-        advance.angle = ldexp(part, exponent);
     // the sum holds −P, which keeps P
     pir_polytope *p;
-    status = pir_polytope_reflect(query->p, &p);
+    if (status == PIR_OK)
+        status = pir_polytope_reflect(query->p, &p);
     if (status != PIR_OK)
         return status;
-    advance.body = (pir_parted){.point = p->vertex,
-                                .count = p->vertex_count,
-                                .radius = input->radius_p,
-                                .reach = reach_of(p),
-                                .way = motion->way,
-                                .turn = motion->turn};
-    pir_impact impact = {.outcome = PIR_CAST_STEP_LIMIT};
-    for (int i = 0; i < MOST_QUERIES && impact.outcome == PIR_CAST_STEP_LIMIT && status == PIR_OK; i++)
-        status = step(&advance, i, &impact);
+    struct query_advance on = {.query = query, .input = *input, .from = input->translation};
+    double part;
+    int exponent;
+    on.input.cutoff = HUGE_VAL;
+    on.start = pir_sum_rotation(query->sum);
+    on.middling = middling(on.start);
+    if (pir_unit_of(motion->turn, &on.axis, &part, &exponent))
+        on.angle = ldexp(part, exponent);
+    on.advance =
+        (pir_advance){.body = {p->vertex, p->vertex_count, input->radius_p, reach_of(p), motion->way, motion->turn},
+                      .motion = motion,
+                      .tolerance = tolerance,
+                      .until = 1,
+                      .steps = MOST_QUERIES,
+                      .ask = ask};
+    status = pir_advance_run(&on.advance);
     pir_polytope_release(p);
     if (status != PIR_OK)
         return status;
-    *ret_impact = impact;
+    const pir_query_result *at = &on.advance.answer;
+    const pir_cast_outcome outcome = on.advance.outcome;
+    const bool is_over = outcome == PIR_CAST_MISS || outcome == PIR_CAST_AT_REST;
+    *ret_impact = (pir_impact){.outcome = outcome,
+                               .time = is_over ? 1 : on.advance.time,
+                               .normal = at->normal,
+                               .point = at->point_q,
+                               .witness = at->witness,
+                               .steps = on.steps};
     return PIR_OK;
 }

@@ -115,8 +115,40 @@ pir_status pir_motion_check(const pir_motion *motion, double tolerance) {
     return sqrt(pir_vec_dot(motion->turn, motion->turn)) <= MOST_TURN ? PIR_OK : PIR_ERR_LIMIT;
 }
 
-double pir_motion_near(const pir_motion *motion, double tolerance, double distance, double least) {
-    if (!(motion->held > 0) || distance > fmax(tolerance, motion->held))
-        return fmax(tolerance, least);
-    return distance > motion->held && 0.5 * distance > least ? 0.5 * distance : 0;
+/* How near a body has to come to have met another that is `distance` away at time 0; 0 where it cannot. */
+static double near_of(const pir_advance *advance, double distance) {
+    const double held = advance->motion->held, least = advance->least;
+    if (!(held > 0) || distance > fmax(advance->tolerance, held))
+        return fmax(advance->tolerance, least);
+    return distance > held && 0.5 * distance > least ? 0.5 * distance : 0;
+}
+
+/*
+ * The normal n from Q to P at some time, and Q's point nearest to P, make a plane that has Q below it for good, since Q
+ * is at rest. The bodies are apart until P comes down to it. There the distance is asked for again, and its plane parts
+ * them further. A step goes to part of what counts as met, so that few are needed.
+ */
+pir_status pir_advance_run(pir_advance *advance) {
+    double near = 0;
+    advance->outcome = PIR_CAST_STEP_LIMIT;
+    advance->time = 0;
+    for (int step = 0; step < advance->steps && advance->outcome == PIR_CAST_STEP_LIMIT; step++) {
+        pir_pose pose;
+        pir_status status = advance->ask(advance, &pose);
+        if (status != PIR_OK)
+            return status;
+        if (advance->outcome != PIR_CAST_STEP_LIMIT)
+            break;
+        const double distance = advance->answer.distance;
+        near = step == 0 ? near_of(advance, distance) : near;
+        if (near == 0 || distance <= near) {
+            advance->outcome = near == 0 ? PIR_CAST_MISS : PIR_CAST_HIT;
+            break;
+        }
+        const pir_parting plane = {advance->answer.normal, advance->answer.point_q, 0.75 * near, 0.5 * near};
+        advance->time = pir_part_until(&advance->body, &plane, pose, distance, advance->time, advance->until);
+        if (!(advance->time <= advance->until))
+            advance->outcome = PIR_CAST_MISS;
+    }
+    return PIR_OK;
 }

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * How long a plane parts a body that moves from one that stands: the step of conservative advancement (Mirtich 1996),
- * taken as far as the motion allows and not only as far as the greatest speed of any point does (after Catto,
- * "Continuous collision", GDC 2013).
+ * Conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996): when a body that
+ * moves comes near one that stands. A step goes as far as the motion allows, and not only as far as the greatest speed
+ * of any point does (after Catto, "Continuous collision", GDC 2013).
  */
 #ifndef PIR_QUERY_PROOF_PARTING_H
 #define PIR_QUERY_PROOF_PARTING_H
 
 #include <pirouette/motion.h>
 #include <pirouette/pose.h>
+#include <pirouette/query.h>
 
 #include "base/vec.h"
 
@@ -41,10 +42,27 @@ double pir_part_until(const pir_parted *body, const pir_parting *plane, pir_pose
 /* PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT for a tolerance not above 0 or `held` below 0, PIR_ERR_LIMIT for the turn. */
 pir_status pir_motion_check(const pir_motion *motion, double tolerance);
 
-/*
- * How near a body has to come to have met another that is `distance` away at time 0; 0 where it cannot. `least` is how
- * near that may be told.
- */
-double pir_motion_near(const pir_motion *motion, double tolerance, double distance, double least);
+/* An advance, and the source of distances that it takes its steps by. */
+typedef struct pir_advance pir_advance;
+struct pir_advance {
+    pir_parted body;
+    const pir_motion *motion;
+    double tolerance; /* bodies this near have met */
+    double least;     /* how near that may be told */
+    double until;     /* a later contact is a miss */
+    int steps;        /* the most distances asked for */
+    /*
+     * Sets the answer at the time at hand, and the body's pose then. An outcome other than PIR_CAST_STEP_LIMIT ends the
+     * advance, as at time 0 of bodies that share a point.
+     */
+    pir_status (*ask)(pir_advance *advance, pir_pose *ret_pose);
+    /* HIT, MISS or STEP_LIMIT, or what `ask` has set; the time, of a miss any; the last answer */
+    pir_cast_outcome outcome;
+    double time;
+    pir_query_result answer;
+};
+
+/* Advances from time 0 until the body has come near. Errors of `ask`. */
+pir_status pir_advance_run(pir_advance *advance);
 
 #endif
