@@ -174,41 +174,29 @@ static pir_status find_answer(pir_pair *pair, pir_workspace *workspace, const pi
 
 /* --- the calls --- */
 
-/* As bytes, of which a compiler does not know that they are apart from all others: so it makes no wider load of two. */
-static inline void copy_double(const void *from, void *to) {
-    double v;
-    memcpy(&v, from, sizeof v);
-    memcpy(to, &v, sizeof v);
-}
-
-static inline void copy_vector(const pir_vec3 *from, pir_vec3 *to) {
-    copy_double(&from->x, &to->x);
-    copy_double(&from->y, &to->y);
-    copy_double(&from->z, &to->z);
-}
-
-static inline void copy_int(const void *from, void *to) {
-    uint32_t v;
-    memcpy(&v, from, sizeof v);
-    memcpy(to, &v, sizeof v);
+/* Copies a vector number by number. */
+static inline void give_vector(const volatile pir_vec3 *from, pir_vec3 *to) {
+    to->x = from->x;
+    to->y = from->y;
+    to->z = from->z;
 }
 
 /*
  * Copies number by number, as they have just been stored: a wider load would wait until all of them have reached the
- * cache.
+ * cache. The compiler may make no wider load of what is volatile.
  */
-static inline void give(const pir_query_result *from, pir_query_result *to) {
-    copy_int(&from->state, &to->state);
-    copy_int(&from->outcome, &to->outcome);
-    copy_double(&from->distance, &to->distance);
-    copy_vector(&from->normal, &to->normal);
-    copy_vector(&from->point_p, &to->point_p);
-    copy_vector(&from->point_q, &to->point_q);
-    copy_int(&from->witness.p.kind, &to->witness.p.kind);
-    copy_int(&from->witness.p.index, &to->witness.p.index);
-    copy_int(&from->witness.q.kind, &to->witness.q.kind);
-    copy_int(&from->witness.q.index, &to->witness.q.index);
-    copy_int(&from->steps, &to->steps);
+static inline void give(const volatile pir_query_result *from, pir_query_result *to) {
+    to->state = from->state;
+    to->outcome = from->outcome;
+    to->distance = from->distance;
+    give_vector(&from->normal, &to->normal);
+    give_vector(&from->point_p, &to->point_p);
+    give_vector(&from->point_q, &to->point_q);
+    to->witness.p.kind = from->witness.p.kind;
+    to->witness.p.index = from->witness.p.index;
+    to->witness.q.kind = from->witness.q.kind;
+    to->witness.q.index = from->witness.q.index;
+    to->steps = from->steps;
 }
 
 static pir_status answer(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want,

@@ -71,33 +71,20 @@ static bool settle(const struct batch *batch, const pir_placement *placement, pi
     return false;
 }
 
-pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations, size_t count, pir_state *ret_states) {
-    struct batch batch;
-    pir_status status = begin(&batch, query, translations, count, ret_states);
-    for (size_t i = 0; i < count && status == PIR_OK; i++) {
-        pir_placement placement;
-        pir_query_result result;
-        status = pir_frame_place(&query->frame, translations[i], &placement);
-        if (status != PIR_OK || settle(&batch, &placement, &ret_states[i]) ||
-            pir_leaves_state(query->leaves, &query->search.groups, &placement, &ret_states[i]))
-            continue;
-        batch.input.translation = translations[i];
-        status = pir_query_overlap(query, &batch.input, NULL, &result);
-        if (status == PIR_OK)
-            ret_states[i] = result.state;
-    }
-    return status;
-}
-
-/* The state, and the depth where that is inside. False where neither a ball nor the leaves decide it. */
-static bool find_depth(const struct batch *batch, const pir_placement *placement, double *ret_depth,
-                       pir_state *ret_state) {
+/*
+ * The state, and where `ret_depth` is not NULL the depth, 0 outside. False where neither a ball nor the leaves decide
+ * it.
+ */
+static inline bool find(const struct batch *batch, const pir_placement *placement, double *ret_depth,
+                        pir_state *ret_state) {
     pir_query *query = batch->query;
     pir_facet facet;
-    *ret_depth = 0;
     if (!settle(batch, placement, ret_state) &&
         !pir_leaves_state(query->leaves, &query->search.groups, placement, ret_state))
         return false;
+    if (!ret_depth)
+        return true;
+    *ret_depth = 0;
     if (*ret_state != PIR_INSIDE)
         return true;
     if (!pir_leaves_depth(query->leaves, &query->search.groups, placement, &facet))
@@ -107,46 +94,55 @@ static bool find_depth(const struct batch *batch, const pir_placement *placement
     return true;
 }
 
+/* The call that answers what a batch leaves open. */
+typedef pir_status single_call(pir_query *query, const pir_query_input *input, pir_query_cache *cache,
+                               pir_query_result *ret_result);
+
+/* Asks for states and, where there is room for them, for depths or distances. */
+static pir_status run(struct batch *batch, const pir_vec3 *translations, size_t count, single_call *call,
+                      double *ret_numbers, pir_state *ret_states) {
+    const bool distances = call == pir_query_signed_distance;
+    pir_status status = PIR_OK;
+    for (size_t i = 0; i < count; i++) {
+        pir_placement placement;
+        pir_query_result result;
+        double depth = 0;
+        status = pir_frame_place(&batch->query->frame, translations[i], &placement);
+        if (status != PIR_OK)
+            break;
+        if (!find(batch, &placement, ret_numbers ? &depth : NULL, &result.state) ||
+            (distances && result.state != PIR_INSIDE)) {
+            batch->input.translation = translations[i];
+            status = call(batch->query, &batch->input, NULL, &result);
+            if (status != PIR_OK)
+                break;
+            depth = 0 - result.distance;
+        }
+        if (ret_numbers)
+            ret_numbers[i] = distances ? 0 - depth : depth;
+        if (ret_states)
+            ret_states[i] = result.state;
+    }
+    return status;
+}
+
+pir_status pir_query_batch_states(pir_query *query, const pir_vec3 *translations, size_t count, pir_state *ret_states) {
+    struct batch batch;
+    pir_status status = begin(&batch, query, translations, count, ret_states);
+    return status == PIR_OK ? run(&batch, translations, count, pir_query_overlap, NULL, ret_states) : status;
+}
+
 pir_status pir_query_batch_depths(pir_query *query, const pir_vec3 *translations, size_t count, double *ret_depths,
                                   pir_state *ret_states) {
     struct batch batch;
     pir_status status = begin(&batch, query, translations, count, ret_depths);
-    for (size_t i = 0; i < count && status == PIR_OK; i++) {
-        pir_placement placement;
-        pir_query_result result;
-        status = pir_frame_place(&query->frame, translations[i], &placement);
-        if (status == PIR_OK && !find_depth(&batch, &placement, &ret_depths[i], &result.state)) {
-            batch.input.translation = translations[i];
-            status = pir_query_penetration(query, &batch.input, NULL, &result);
-            ret_depths[i] = 0 - result.distance;
-        }
-        if (status == PIR_OK && ret_states)
-            ret_states[i] = result.state;
-    }
-    return status;
+    return status == PIR_OK ? run(&batch, translations, count, pir_query_penetration, ret_depths, ret_states) : status;
 }
 
 pir_status pir_query_batch_distances(pir_query *query, const pir_vec3 *translations, size_t count,
                                      double *ret_distances, pir_state *ret_states) {
     struct batch batch;
     pir_status status = begin(&batch, query, translations, count, ret_distances);
-    for (size_t i = 0; i < count && status == PIR_OK; i++) {
-        pir_placement placement;
-        pir_query_result result;
-        status = pir_frame_place(&query->frame, translations[i], &placement);
-        if (status != PIR_OK)
-            break;
-        if (find_depth(&batch, &placement, &ret_distances[i], &result.state) && result.state == PIR_INSIDE) {
-            ret_distances[i] = 0 - ret_distances[i];
-        } else {
-            batch.input.translation = translations[i];
-            status = pir_query_signed_distance(query, &batch.input, NULL, &result);
-            if (status != PIR_OK)
-                break;
-            ret_distances[i] = result.distance;
-        }
-        if (ret_states)
-            ret_states[i] = result.state;
-    }
-    return status;
+    return status == PIR_OK ? run(&batch, translations, count, pir_query_signed_distance, ret_distances, ret_states)
+                            : status;
 }

@@ -185,7 +185,7 @@ static bool prove_end(pir_task *task, pir_nearest *ret_nearest) {
     pir_piece piece;
     if (!pir_piece_of(task->frame, faces, simplex->a[0], simplex->b[0], simplex->direction, &piece)) {
         task->hint->has_facet = false;
-        return pir_nearest_prove(task->exact, task->placement, faces, NULL, ret_nearest);
+        return pir_nearest_prove(task->exact, task->placement, faces, ret_nearest);
     }
     pir_facet facet;
     pir_same_facet same;

@@ -176,32 +176,6 @@ static bool orient_edges(pir_exact *exact, const pir_normal *normal, uint32_t e,
     return along != 0;
 }
 
-/* Sets the plane of a facet: that of its piece, through its corner. */
-static void make_plane(pir_exact *exact, pir_facet *facet) {
-    const pir_frame *frame = exact->frame;
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    pir_piece piece = facet->piece;
-    facet->err = 1;
-    if (piece.kind == PIR_FACET_FV) {
-        facet->n = pir_mat_apply(&frame->r, p->normal[piece.first]);
-        facet->h = frame->p.offset[piece.first] + pir_vec_dot(facet->n, frame->q.vertex[facet->b]);
-    } else if (piece.kind == PIR_FACET_VF) {
-        facet->n = q->normal[piece.second];
-        facet->h =
-            frame->q.offset[piece.second] + pir_vec_dot(facet->n, pir_mat_apply(&frame->r, frame->p.vertex[facet->a]));
-    } else {
-        uint32_t half = p->edge_half[piece.first];
-        pir_vec3 n = pir_vec_cross(q->direction[piece.second], pir_mat_apply(&frame->r, p->direction[half]));
-        facet->err = 1 / sqrt(pir_vec_dot(n, n));
-        facet->n = pir_vec_scale(n, facet->err);
-        if (facet->err * PIR_SIN_REFINED >= 1) {
-            pir_side_normal(exact, piece, &facet->n);
-            facet->err = 1;
-        }
-        facet->h = pir_vec_dot(facet->n, pir_frame_vertex(frame, p->origin[half], q->origin[piece.second]));
-    }
-}
-
 bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet) {
     const pir_frame *frame = exact->frame;
     pir_feature p = faces.p, q = faces.q;
@@ -215,34 +189,16 @@ bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness 
         ret_facet->piece = (pir_piece){PIR_FACET_EE, p.index, half};
     else
         return false;
+    pir_plane plane;
+    const bool has_plane = pir_plane_of(exact, ret_facet->piece, &plane) && pir_plane_refine(exact, &plane);
+    PIR_ASSERT(has_plane);
     ret_facet->faces = faces;
     ret_facet->a = a;
     ret_facet->b = b;
-    make_plane(exact, ret_facet);
-    return true;
-}
-
-/* The normal of a piece as doubles. False where its edges are parallel. */
-static bool make_normal(pir_exact *exact, pir_piece piece, pir_normal *ret_normal) {
-    const pir_frame *frame = exact->frame;
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    *ret_normal = (pir_normal){.err = 1, .piece = piece};
-    if (piece.kind == PIR_FACET_FV) {
-        ret_normal->unit = pir_mat_apply(&frame->r, p->normal[piece.first]);
-        return true;
-    }
-    if (piece.kind == PIR_FACET_VF) {
-        ret_normal->unit = q->normal[piece.second];
-        return true;
-    }
-    uint32_t half = p->edge_half[piece.first];
-    pir_vec3 n = pir_vec_cross(q->direction[piece.second], pir_mat_apply(&frame->r, p->direction[half]));
-    ret_normal->err = 1 / sqrt(pir_vec_dot(n, n));
-    ret_normal->unit = pir_vec_scale(n, ret_normal->err);
-    if (ret_normal->err * PIR_SIN_REFINED < 1)
-        return true;
-    ret_normal->err = 1;
-    return pir_side_normal(exact, piece, &ret_normal->unit);
+    ret_facet->n = plane.n;
+    ret_facet->h = plane.h;
+    ret_facet->err = plane.err;
+    return has_plane;
 }
 
 /* The beginning of both ways to a piece's true facet: its normal, and the vertices that the search starts from. */
@@ -256,8 +212,10 @@ struct search_start {
 static inline bool start_search(pir_exact *exact, pir_piece piece, struct search_start *ret_start) {
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    if (!make_normal(exact, piece, &ret_start->normal))
+    pir_plane plane;
+    if (!pir_plane_of(exact, piece, &plane) || !pir_plane_refine(exact, &plane))
         return false;
+    ret_start->normal = (pir_normal){.unit = plane.n, .err = plane.err, .piece = piece};
     ret_start->a.across = piece.kind == PIR_FACET_EE ? p->edge_half[piece.first] : NO_HALF;
     ret_start->b.across = piece.kind == PIR_FACET_EE ? piece.second : NO_HALF;
     pir_piece_corner(frame, piece, &ret_start->a.vertex, &ret_start->b.vertex);

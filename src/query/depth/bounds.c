@@ -88,7 +88,7 @@ void pir_bounds_keep(pir_bounds *bounds, const pir_groups *groups, uint32_t g, c
 
 void pir_bounds_fill(pir_bounds *bounds, const pir_groups *groups) {
     for (uint32_t g = 0; g < groups->count; g++)
-        bounds->lasting.bound[g] = groups->at[g].facets == groups->at[g].own_end ? HUGE_VAL : -HUGE_VAL;
+        bounds->lasting.bound[g] = groups->at[g].of.facets == groups->at[g].of.own_end ? HUGE_VAL : -HUGE_VAL;
     for (uint32_t k = 0; k < groups->count / PIR_SCAN_LANES; k++)
         bounds->cap_stamp[k] = 0;
     for (int of_q = 0; of_q < 2; of_q++) {
@@ -105,7 +105,7 @@ static void make_caps(pir_bounds *bounds, const pir_groups *groups, uint32_t g) 
     bool of_q = groups->at[g].of_q;
     pir_vec3 other[PIR_SCAN_LANES];
     for (uint32_t i = 0; i < PIR_SCAN_LANES; i++) {
-        uint32_t middle = groups->at[g + i].middle;
+        uint32_t middle = groups->at[g + i].of.middle;
         other[i] = of_q ? groups->frame->p.vertex[pairing->vf[middle]] : groups->frame->q.vertex[pairing->fv[middle]];
     }
     const pir_group_lists *lists = groups->lists[of_q];

@@ -82,11 +82,11 @@ static double facet_slacks(const pir_groups *groups, const pir_group *group, con
                            double *ret_along) {
     const pir_frame *frame = groups->frame;
     const pir_group_lists *lists = pir_lists_of(groups, group);
-    const uint32_t *list = lists->facet + group->facets,
+    const uint32_t *list = lists->facet + group->of.facets,
                    *other = group->of_q ? groups->pairing->vf : groups->pairing->fv;
     const pir_vec3 *vertex = group->of_q ? frame->p.vertex : frame->q.vertex;
     pir_lanes from = groups->work->vector[0];
-    uint32_t count = group->facets_end - group->facets;
+    uint32_t count = group->of.facets_end - group->of.facets;
     for (uint32_t i = 0; i < count; i++)
         pir_lane_put(from, i, vertex[other[list[i]]]);
     pir_mat3 back;
@@ -94,7 +94,8 @@ static double facet_slacks(const pir_groups *groups, const pir_group *group, con
         for (int j = 0; j < 3; j++)
             back.m[i][j] = frame->r.m[j][i];
     pir_vec3 x = group->of_q ? placement->x : pir_mat_apply(&back, placement->x);
-    pir_facet_lanes facets = {pir_lanes_from(lists->facet_normal, group->facets), lists->facet_offset + group->facets};
+    pir_facet_lanes facets = {pir_lanes_from(lists->facet_normal, group->of.facets),
+                              lists->facet_offset + group->of.facets};
     pir_slack_lanes slacks = {.to = groups->work->vector[1], .s = groups->work->vector[2].x};
     groups->scan->slacks(count, group->of_q ? &frame->r : &back, from, x, &facets, &slacks);
     *ret_along = slacks.along;
@@ -132,12 +133,12 @@ static void sieve_crossings(pir_search *search, uint32_t i, uint32_t at, struct 
 static void sieve_edges(pir_search *search, const pir_group *group, struct sieve *sieve) {
     const pir_groups *groups = &search->groups;
     const pir_group_lists *lists = pir_lists_of(groups, group);
-    const pir_lanes normal = pir_lanes_from(lists->facet_normal, group->facets), to = groups->work->vector[1];
-    const double *s = groups->work->vector[2].x, *offset = lists->facet_offset + group->facets,
+    const pir_lanes normal = pir_lanes_from(lists->facet_normal, group->of.facets), to = groups->work->vector[1];
+    const double *s = groups->work->vector[2].x, *offset = lists->facet_offset + group->of.facets,
                  off = 2 * sieve->placement->error;
     // a flat P has arcs of half a turn, which nothing bounds
     bool bounds = groups->frame->p.polytope->dimension == 3;
-    for (uint32_t i = group->edges; i < group->edges_end; i++) {
+    for (uint32_t i = group->of.edges; i < group->of.edges_end; i++) {
         uint32_t at = pir_crossing_first(groups->pairing, lists->edge[i]), a = lists->edge_left[i],
                  b = lists->edge_right[i];
         if (at == PIR_NO_CROSSING)
@@ -164,8 +165,8 @@ static double sieve_group(pir_search *search, uint32_t g, const pir_placement *p
     double along, least = facet_slacks(groups, group, placement, &along);
     struct sieve sieve = {placement, lesser(limit, least + off), least - off};
     group->sieved = groups->stamp;
-    for (uint32_t i = group->facets; least - off <= sieve.limit && i < group->own_end; i++)
-        if (groups->work->vector[2].x[i - group->facets] - off <= sieve.limit) {
+    for (uint32_t i = group->of.facets; least - off <= sieve.limit && i < group->of.own_end; i++)
+        if (groups->work->vector[2].x[i - group->of.facets] - off <= sieve.limit) {
             uint32_t f = pir_lists_of(groups, group)->facet[i];
             try_piece(search, group->of_q ? pir_piece_vf(groups, f) : pir_piece_fv(groups, f), &sieve);
         }

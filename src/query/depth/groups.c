@@ -85,14 +85,7 @@ void pir_groups_add_rows(pir_groups *groups, pir_layout *layout) {
 void pir_groups_fill(pir_groups *groups) {
     for (uint32_t g = 0; g < groups->count; g++) {
         bool of_q = g >= groups->first_of_q;
-        const pir_group_range range = groups->lists[of_q]->at[g - (of_q ? groups->first_of_q : 0)];
-        groups->at[g] = (pir_group){.of_q = of_q,
-                                    .middle = range.middle,
-                                    .facets = range.facets,
-                                    .own_end = range.own_end,
-                                    .facets_end = range.facets_end,
-                                    .edges = range.edges,
-                                    .edges_end = range.edges_end};
+        groups->at[g] = (pir_group){.of_q = of_q, .of = groups->lists[of_q]->at[g - (of_q ? groups->first_of_q : 0)]};
     }
 }
 
@@ -109,10 +102,10 @@ static void put_nothing(pir_planes *planes, uint32_t slot, pir_piece piece, uint
 /* Makes the planes of the group's facets in the slots from `slot` on. */
 static void make_facets(pir_groups *groups, const pir_group *group, uint32_t slot) {
     pir_planes *planes = groups->planes;
-    uint32_t count = group->facets_end - group->facets;
+    uint32_t count = group->of.facets_end - group->of.facets;
     const pir_group_lists *lists = pir_lists_of(groups, group);
-    const uint32_t *list = lists->facet + group->facets;
-    pir_lanes normals = pir_lanes_from(lists->facet_normal, group->facets), n = pir_lanes_from(planes->n, slot);
+    const uint32_t *list = lists->facet + group->of.facets;
+    pir_lanes normals = pir_lanes_from(lists->facet_normal, group->of.facets), n = pir_lanes_from(planes->n, slot);
     for (uint32_t i = 0; i < count; i++) {
         planes->err[slot + i] = 1;
         if (group->of_q) {
@@ -128,7 +121,7 @@ static void make_facets(pir_groups *groups, const pir_group *group, uint32_t slo
         groups->scan->turn(count, &groups->frame->r, groups->work->vector[0], groups->work->vector[1]);
     else
         groups->scan->turn(count, &groups->frame->r, normals, n);
-    groups->scan->offset(count, n, lists->facet_offset + group->facets, groups->work->vector[1], planes->h + slot);
+    groups->scan->offset(count, n, lists->facet_offset + group->of.facets, groups->work->vector[1], planes->h + slot);
 }
 
 /* Makes the planes of the group's edge pairs in the slots from `slot` on. Returns how many there are. */
@@ -139,11 +132,11 @@ static uint32_t make_crossings(pir_groups *groups, const pir_group *group, uint3
     const pir_lanes *work = groups->work->vector;
     pir_lanes e = groups->work->direction, o = groups->work->origin;
     const pir_group_lists *lists = groups->lists[0];
-    uint32_t edges = group->edges_end - group->edges, count = 0;
-    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(lists->edge_direction, group->edges), e);
-    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(lists->edge_origin, group->edges), o);
+    uint32_t edges = group->of.edges_end - group->of.edges, count = 0;
+    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(lists->edge_direction, group->of.edges), e);
+    groups->scan->turn(edges, &groups->frame->r, pir_lanes_from(lists->edge_origin, group->of.edges), o);
     for (uint32_t i = 0; i < edges; i++) {
-        uint32_t edge = lists->edge[group->edges + i];
+        uint32_t edge = lists->edge[group->of.edges + i];
         for (uint32_t at = pir_crossing_first(pairing, edge); at != PIR_NO_CROSSING;
              at = pir_crossing_next(pairing, at), count++) {
             uint32_t h = pir_crossing_half(pairing, at);
@@ -175,7 +168,7 @@ void pir_group_make(pir_groups *groups, uint32_t g) {
     pir_planes *planes = groups->planes;
     group->stamp = groups->stamp;
     group->start = planes->used;
-    group->count = group->facets_end - group->facets;
+    group->count = group->of.facets_end - group->of.facets;
     make_facets(groups, group, group->start);
     if (!group->of_q)
         group->count += make_crossings(groups, group, group->start + group->count);

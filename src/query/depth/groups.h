@@ -18,9 +18,8 @@
 #include "query/depth/scan.h"
 
 typedef struct pir_group {
-    /* its parts of the lists: see pir_group_range */
     bool of_q;
-    uint32_t middle, facets, own_end, facets_end, edges, edges_end;
+    pir_group_range of; /* its parts of the lists */
     /* its planes, which are made where stamp is that of the groups; padded to whole blocks */
     uint32_t start, count;
     uint64_t stamp;

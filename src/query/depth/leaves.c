@@ -78,7 +78,7 @@ static uint32_t cell_of(pir_vec3 n) {
 
 /* The plane of a group after plane `k`, without the neighbouring facets, which are planes of other groups as well. */
 static uint32_t next_own(const pir_group *group, uint32_t k) {
-    return k + 1 == group->own_end - group->facets ? group->facets_end - group->facets : k + 1;
+    return k + 1 == group->of.own_end - group->of.facets ? group->of.facets_end - group->of.facets : k + 1;
 }
 
 /* Sorts the planes by cells: counts those of each cell, then puts them where their cell begins. */

@@ -210,26 +210,8 @@ static void note_change(pir_regional *regional, const pir_frame *frame, const pi
 
 /* The piece of a cache. False where the sum does not keep it. */
 static bool recall(const pir_groups *groups, const pir_query_cache *cache, pir_piece *ret_piece) {
-    const pir_polytope *p = groups->frame->p.polytope, *q = groups->frame->q.polytope;
-    const pir_pairing *pairing = groups->pairing;
-    *ret_piece = (pir_piece){cache->kind, cache->first, cache->second};
-    switch (cache->kind) {
-    case PIR_FACET_FV:
-        if (cache->first >= p->facet_count || pairing->fv[cache->first] == PIR_NO_PAIR)
-            return false;
-        *ret_piece = pir_piece_fv(groups, cache->first);
-        return true;
-    case PIR_FACET_VF:
-        if (cache->second >= q->facet_count || pairing->vf[cache->second] == PIR_NO_PAIR)
-            return false;
-        *ret_piece = pir_piece_vf(groups, cache->second);
-        return true;
-    case PIR_FACET_EE:
-        return cache->first < p->edge_count &&
-               pir_crossing_find(pairing, cache->first, cache->second) != PIR_NO_CROSSING;
-    default:
-        return false;
-    }
+    return pir_piece_cached(groups, cache, ret_piece) && ret_piece->kind == cache->kind &&
+           ret_piece->first != PIR_NO_PAIR && ret_piece->second != PIR_NO_PAIR;
 }
 
 /* Searches everything that the sum keeps, first the piece that was least last time. */
@@ -245,13 +227,11 @@ static struct search search_all(pir_regional *regional, pir_groups *groups, cons
                             .most = HUGE_VAL};
     pir_groups_forget(groups);
     note_change(regional, groups->frame, placement);
-    if (cache && cache->pieces == 1) {
-        pir_piece last;
-        if (recall(groups, cache, &last))
-            take(&search, last);
-        // the limit stays, and the piece will be taken again
-        search.count = 0;
-    }
+    pir_piece last;
+    if (recall(groups, cache, &last))
+        take(&search, last);
+    // the limit stays, and the piece will be taken again
+    search.count = 0;
     take_facets(&search);
     take_crossings(&search);
     return search;

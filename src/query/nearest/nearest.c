@@ -278,8 +278,7 @@ static double exactly_away(pir_exact *exact, const pir_placement *placement, con
     pir_exact_begin(exact, placement->translation);
     uint32_t mark = exact->scratch.used;
     pir_int3 w = pir_exact_corner(exact, line->a, line->b), n = w;
-    for (int k = 0; k < 3; k++)
-        pir_int_negate(&n.c[k]);
+    negate(&n);
     pir_real length;
     if (line->of_p || line->of_q) {
         pir_int3 e = line->of_p ? pir_exact_half_p(exact, line->half) : pir_exact_half_q(exact, line->half);
@@ -316,20 +315,10 @@ static bool answer_line(pir_exact *exact, const pir_placement *placement, pir_wi
 
 /* --- proofs in doubles --- */
 
-/* Whether every edge of a vertex, but those to `except`, falls along −n by more than n may be off. */
-static bool leads_down_p(const pir_frame *frame, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
-    const pir_polytope *p = frame->p.polytope;
-    pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
+/* Whether every edge of a body's vertex, but those to `except`, falls along −n by more than n may be off. */
+static bool leads_down(const pir_polytope *p, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
     for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++)
-        if (p->target[h] != except && !(pir_vec_dot(back, p->direction[h]) < -off))
-            return false;
-    return true;
-}
-
-static bool leads_down_q(const pir_frame *frame, pir_vec3 n, double off, uint32_t vertex, uint32_t except) {
-    const pir_polytope *q = frame->q.polytope;
-    for (uint32_t h = q->ring_start[vertex]; h < q->ring_start[vertex + 1]; h++)
-        if (q->target[h] != except && !(pir_vec_dot(n, q->direction[h]) < -off))
+        if (p->target[h] != except && !(pir_vec_dot(n, p->direction[h]) < -off))
             return false;
     return true;
 }
@@ -346,37 +335,23 @@ static bool line_is_nearest(const pir_frame *frame, const pir_placement *placeme
     pir_vec3 n = pir_vec_scale(w, 1 / distance);
     // the error of a slope is that of n, and rounding
     double off = error / distance + 0x1p-45;
+    const pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
     if (!line.of_p && !line.of_q)
-        return leads_down_p(frame, n, off, line.a, UINT32_MAX) && leads_down_q(frame, n, off, line.b, UINT32_MAX);
+        return leads_down(p, back, off, line.a, UINT32_MAX) && leads_down(q, n, off, line.b, UINT32_MAX);
     const pir_polytope *of = line.of_p ? p : q;
-    const pir_vec3 *vertex = line.of_p ? frame->p.vertex : frame->q.vertex;
+    const pir_vec3 *vertex = line.of_p ? frame->p.vertex : frame->q.vertex, along_of = line.of_p ? back : n;
     uint32_t from = of->origin[line.half], to = of->target[line.half];
     pir_vec3 edge = pir_vec_sub(vertex[to], vertex[from]);
     double length = sqrt(pir_vec_dot(edge, edge));
-    if (!(along > error && along < length - error))
-        return false;
-    if (line.of_p)
-        return leads_down_p(frame, n, off, from, to) && leads_down_p(frame, n, off, to, from) &&
-               leads_down_q(frame, n, off, line.b, UINT32_MAX);
-    return leads_down_q(frame, n, off, from, to) && leads_down_q(frame, n, off, to, from) &&
-           leads_down_p(frame, n, off, line.a, UINT32_MAX);
+    return along > error && along < length - error && leads_down(of, along_of, off, from, to) &&
+           leads_down(of, along_of, off, to, from) &&
+           (line.of_p ? leads_down(q, n, off, line.b, UINT32_MAX) : leads_down(p, back, off, line.a, UINT32_MAX));
 }
 
-/* Answers from a facet of D that certainly separates and that holds the foot of x. False where it does not. */
-static bool facet_is_nearest(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
-                             pir_nearest *ret_nearest) {
-    double slack = facet->h - pir_vec_dot(facet->n, placement->x);
-    return slack < -placement->error * facet->err && pir_nearest_at_facet(exact, placement, facet, ret_nearest);
-}
-
-bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_witness faces, const pir_piece *piece,
-                       pir_nearest *ret_nearest) {
-    pir_facet facet;
-    if (piece)
-        return pir_facet_of(exact, *piece, &facet) && facet_is_nearest(exact, placement, &facet, ret_nearest);
-    if (faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE)
-        return false;
-    return line_is_nearest(exact->frame, placement, faces) && answer_line(exact, placement, faces, ret_nearest);
+bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_witness faces, pir_nearest *ret_nearest) {
+    const bool are_edges = faces.p.kind == PIR_FEATURE_EDGE && faces.q.kind == PIR_FEATURE_EDGE;
+    return !are_edges && line_is_nearest(exact->frame, placement, faces) &&
+           answer_line(exact, placement, faces, ret_nearest);
 }
 
 bool pir_nearest_find(pir_exact *exact, const pir_placement *placement, const pir_simplex *simplex,

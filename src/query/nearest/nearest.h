@@ -21,12 +21,10 @@ typedef struct pir_nearest {
 } pir_nearest;
 
 /*
- * The nearest point, where doubles and filtered signs prove that the sum of two features holds it. That proves as
- * well that x is outside of D. `piece` is the piece of D that is the sum of the features, or NULL where D has none.
- * False where there is no such proof.
+ * The nearest point, where doubles and filtered signs prove that a corner or an edge of D, the sum of two features,
+ * holds it. That proves as well that x is outside of D. False where there is no such proof.
  */
-bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_witness faces, const pir_piece *piece,
-                       pir_nearest *ret_nearest);
+bool pir_nearest_prove(pir_exact *exact, const pir_placement *placement, pir_witness faces, pir_nearest *ret_nearest);
 
 /*
  * The nearest point where it is the foot of x on a facet of D that separates; false where the foot is beside the
