@@ -148,7 +148,12 @@ PIR_LANES_INLINE double pir_least_of(pir_lane v) {
 }
 
 PIR_LANES_INLINE double pir_greatest_of(pir_lane v) {
-    return -pir_least_of(-v);
+#if PIR_LANES_AVX2
+    const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
+    return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
+#else
+    return v[1] > v[0] ? v[1] : v[0];
+#endif
 }
 
 /* --- vectors of three, a coordinate of several in lanes --- */

@@ -23,12 +23,13 @@ PIR_LANES_INLINE double steepest_but(const pir_body *body, uint32_t vertex, pir_
     const pir_lane3 n = pir_lane3_all(v);
     const pir_lane none = pir_all(-HUGE_VAL);
     pir_lane most = none;
-    for (uint32_t k = 0; k < blocks; k++) {
+    uint32_t k = 0;
+    do {
         pir_lane slopes = pir_lane3_dot(n, four_at(&ring[k]));
         if (but)
             slopes = _mm256_blendv_pd(slopes, none, pir_load((const double *)but + 4 * k));
         most = pir_greater_lanes(slopes, most);
-    }
+    } while (++k < blocks);
     return pir_greatest_of(most);
 }
 
@@ -50,8 +51,10 @@ PIR_LANES_INLINE double within_facet(const pir_body *body, uint32_t facet, pir_v
     const pir_sides *sides = &body->around->sides[facet * blocks];
     pir_lane least = pir_all(HUGE_VAL);
     (void)n;
-    for (uint32_t k = 0; k < blocks; k++)
+    uint32_t k = 0;
+    do
         least = pir_lesser_lanes(within(&sides[k], pir_lane3_all(at)), least);
+    while (++k < blocks);
     return pir_least_of(least);
 }
 

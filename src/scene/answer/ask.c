@@ -2,7 +2,6 @@
 /* Questions of pairs: see ask.h. */
 #include "scene/answer/ask.h"
 
-#include "pair/fetch.h"
 #include "scene/answer/events.h"
 #include "scene/answer/share.h"
 #include "scene/answer/surface_contacts.h"
@@ -10,8 +9,6 @@
 
 /* How many questions are worth another thread. */
 #define WORTH_MORE 32
-
-_Static_assert(PIR_SHARE_RUN <= PIR_FETCH_MOST, "a run of questions is fetched at once");
 
 /* Distances are asked for up to this part of the bodies' size: what is farther apart is not looked at for a while. A
    surface counts as no larger than what is near it. */
@@ -105,14 +102,6 @@ static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t numbe
 
 static void ask_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
     pir_scene_worker *worker = &scene->worker[task];
-    pir_pair *pair[PIR_SHARE_RUN] = {NULL};
-    for (uint32_t i = begin; i < end; i++) {
-        const pir_scene_pair *at = &scene->pairs.at[scene->lists.asked[i]];
-        pair[i - begin] = at->asked;
-        __builtin_prefetch(&scene->bodies.body[scene->bodies.piece[at->piece[0]].body]);
-        __builtin_prefetch(&scene->bodies.body[scene->bodies.piece[at->piece[1]].body]);
-    }
-    pir_pair_fetch(pair, end - begin);
     for (uint32_t i = begin; i < end; i++)
         pir_scene_worker_note(worker, ask(scene, worker, scene->lists.asked[i]), i);
 }
