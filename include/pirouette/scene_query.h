@@ -231,6 +231,13 @@ PIR_API pir_status pir_scene_ray_all(pir_scene *scene, pir_vec3 origin, pir_vec3
  * 65,536, along something that is hardly farther than the tolerance, ends with PIR_CAST_STEP_LIMIT at the time that is
  * proven.
  *
+ * Of pieces that are met at times that do not differ, that in which the shape begins deepest is told; it is told before
+ * all that the shape only touches then. Else the one of the lowest numbers is told.
+ *
+ * A triangle of a surface is met as a flat piece is, from both sides: of a one-sided surface also from behind, though
+ * it has no contacts there. A shape that is to come out of such a surface is cast with a mask, or `except`, that leaves
+ * the surface out.
+ *
  * shape      where it begins; borrowed for the call.
  * motion     over which it moves.
  * tolerance  > 0, a length; below 1e-10 of the size of bodies and coordinates it counts as that.
@@ -246,7 +253,9 @@ PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape
 
 /**
  * A cast of a body of the scene from its present pose on, with the bodies that it may meet, all others at rest: the
- * time of impact of a fast body.
+ * time of impact of a fast body. A surface that moves is asked about likewise, before the update that moves it: an
+ * update sees the poses of its frame alone, and what a surface has passed by then, or holds whole, is not in contact
+ * with any of its triangles.
  *
  * body               the number of a body that is no sensor.
  * motion, tolerance  as of pir_scene_cast.

@@ -442,6 +442,37 @@ static void a_cast_that_begins_inside_tells_the_normal_of_the_depth(void **state
 }
 
 /* A cube that begins within the tolerance of a floor, level or on an edge. */
+/* A cube that begins on a floor, in a wall, and deeper in another: the floor hides no wall. */
+static void a_cast_that_begins_in_several_tells_the_deepest(void **state) {
+    (void)state;
+    pir_polytope *cube = scene_cube(1);
+    pir_scene *scene;
+    uint32_t id[3];
+    pir_impact impact;
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    const pir_vec3 at[3] = {{0, 0, -2}, {1.75, 0, 0.5}, {0, 1.5, 0.5}};
+    for (int k = 0; k < 3; k++) {
+        pir_body_options body = pir_body_options_default();
+        body.pieces = &cube;
+        body.piece_count = 1;
+        body.pose.translation = at[k];
+        body.category = 1u << k;
+        assert_int_equal(pir_scene_add(scene, &body, &id[k]), PIR_OK);
+    }
+    pir_scene_shape shape = pir_scene_shape_default(cube);
+    const pir_motion motion = {.way = {0, 0, -1}};
+    // of the floor alone it is a touch, of the first wall .25 deep, of the second .5
+    const uint32_t mask[4] = {1, 3, 5, 7}, first[4] = {0, 1, 2, 2};
+    for (int k = 0; k < 4; k++) {
+        shape.mask = mask[k];
+        assert_int_equal(pir_scene_cast(scene, &shape, &motion, 1e-6, &impact), PIR_OK);
+        expect(impact.body == id[first[k]] && impact.time == 0, "mask %u: body %u", mask[k], impact.body);
+        assert_int_equal(impact.outcome, k == 0 ? PIR_CAST_HIT : PIR_CAST_START_INSIDE);
+    }
+    pir_scene_destroy(scene);
+    pir_polytope_release(cube);
+}
+
 static void what_is_held_is_met_at_half_its_distance(void **state) {
     (void)state;
     pir_scene_shape shape;
@@ -622,6 +653,7 @@ int main(void) {
         cmocka_unit_test(a_spinning_cube_that_glides_by_is_no_hit),
         cmocka_unit_test(a_cube_that_swings_by_in_each_turn_is_followed_to_its_hit),
         cmocka_unit_test(a_cast_that_begins_inside_tells_the_normal_of_the_depth),
+        cmocka_unit_test(a_cast_that_begins_in_several_tells_the_deepest),
         cmocka_unit_test(what_is_held_is_met_at_half_its_distance),
         cmocka_unit_test(a_fast_body_meets_a_wall_in_time),
         cmocka_unit_test(what_cannot_be_asked_is_refused),

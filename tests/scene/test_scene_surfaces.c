@@ -143,6 +143,30 @@ static bool same_impact(const pir_impact *a, const pir_impact *b, double way, do
     return a->body != PIR_SCENE_NONE && b->body != PIR_SCENE_NONE && fabs(a->time - b->time) <= room;
 }
 
+/* A shape on its way: before the impact it meets nothing, exactly; then it is within the tolerance of what it met. */
+static void expect_proven(twin_scenes *t, const pir_scene_shape *shape, const pir_motion *motion, double tolerance,
+                          const pir_impact *impact, uint64_t number) {
+    static pir_scene_near near[MOST];
+    pir_scene_shape at = *shape;
+    pir_scene_hit hit;
+    size_t count;
+    for (int i = 0; i < 8 && impact->time > 0; i++) {
+        at.pose = pir_pose_integrate(shape->pose, motion->way, motion->turn, impact->time * i / 8);
+        assert_int_equal(pir_scene_overlap(t->without, &at, 1, &hit, &count), PIR_OK);
+        expect(count == 0, "case %llu: in body %u piece %u at %d/8 of %a", (unsigned long long)number, hit.body,
+               hit.piece, i, impact->time);
+    }
+    if (impact->outcome != PIR_CAST_HIT || impact->time == 0)
+        return;
+    at.pose = pir_pose_integrate(shape->pose, motion->way, motion->turn, impact->time);
+    assert_int_equal(pir_scene_nearest(t->without, &at, tolerance * (1 + 1e-6), MOST, near, &count), PIR_OK);
+    bool is_near = false;
+    for (size_t i = 0; i < count; i++)
+        is_near |= near[i].body_q == impact->body && near[i].piece_q == impact->piece_q &&
+                   near[i].result.distance > 0.49 * tolerance;
+    expect(is_near, "case %llu: %zu are near at %a", (unsigned long long)number, count, impact->time);
+}
+
 static void casts_of(twin_scenes *t, const pir_scene_shape *shape, uint64_t number) {
     const double tolerance = 1e-6;
     pir_motion motion = {.way = random_way(t)};
@@ -155,6 +179,7 @@ static void casts_of(twin_scenes *t, const pir_scene_shape *shape, uint64_t numb
     const double room = motion.turn.x != 0 ? 10 * tolerance : tolerance;
     expect(same_impact(&a, &b, way, room), "case %llu: body %u piece %u at %a, not %u %u at %a",
            (unsigned long long)number, a.body, a.piece_q, a.time, b.body, b.piece_q, b.time);
+    expect_proven(t, shape, &motion, tolerance, &a, number);
     const uint32_t body = test_random_below(&t->random, 2) ? t->ground : t->body[number % TWIN_BODIES];
     pir_status with = pir_scene_time_of_impact(t->with, body, &motion, tolerance, &a);
     assert_int_equal(pir_scene_time_of_impact(t->without, body, &motion, tolerance, &b), with);

@@ -11,6 +11,12 @@
 #include "scene/world/surfaces.h"
 #include "scene/world/triangles.h"
 
+/* The impact that is first, so far; and how deep the shape begins in that body, below 0 where it does not. */
+struct first_met {
+    pir_impact impact;
+    double depth;
+};
+
 struct flight {
     pir_scene *scene;
     pir_probe probe; /* where it begins */
@@ -18,7 +24,7 @@ struct flight {
     const pir_motion *motion;
     double tolerance;
     pir_box box; /* all its way is in it */
-    pir_impact *first;
+    struct first_met *first;
     double until;         /* the time of that */
     bool by_doubles;      /* whether `core` has been begun */
     pir_core_flight core; /* where the probe begins */
@@ -34,20 +40,21 @@ static double size_of(const struct flight *flight, const pir_scene_body *body) {
            length(flight->probe.pose.translation) + length(flight->motion->way) + length(body->pose.translation);
 }
 
-static void set_impact(const struct flight *flight, const pir_scene_piece *piece, const pir_flight_end *end,
-                       pir_impact *impact) {
-    *impact = (pir_impact){.body = piece->body,
-                           .piece_p = flight->own_piece,
-                           .piece_q = piece->number,
-                           .outcome = end->outcome,
-                           .time = end->time,
-                           .normal = end->answer.normal,
-                           .point = end->answer.point_q,
-                           .witness = end->answer.witness};
+static void set_met(const struct flight *flight, const pir_scene_piece *piece, const pir_flight_end *end,
+                    struct first_met *met) {
+    met->impact = (pir_impact){.body = piece->body,
+                               .piece_p = flight->own_piece,
+                               .piece_q = piece->number,
+                               .outcome = end->outcome,
+                               .time = end->time,
+                               .normal = end->answer.normal,
+                               .point = end->answer.point_q,
+                               .witness = end->answer.witness};
+    met->depth = end->outcome == PIR_CAST_START_INSIDE ? -end->answer.distance : -1;
 }
 
 /* The time at which the probe comes within the tolerance of a piece, where that is at most `until`. */
-static pir_status advance(const struct flight *flight, pir_scene_piece *piece, double until, pir_impact *impact,
+static pir_status advance(const struct flight *flight, pir_scene_piece *piece, double until, struct first_met *met,
                           bool *ret_meets) {
     pir_scene *scene = flight->scene;
     const pir_flight way = {.p = flight->probe.extent.polytope,
@@ -65,7 +72,7 @@ static pir_status advance(const struct flight *flight, pir_scene_piece *piece, d
     if (status != PIR_OK || end.outcome == PIR_CAST_MISS)
         return status;
     *ret_meets = true;
-    set_impact(flight, piece, &end, impact);
+    set_met(flight, piece, &end, met);
     return PIR_OK;
 }
 
@@ -91,9 +98,13 @@ static pir_box box_of_way(const struct flight *flight) {
     return box;
 }
 
-static bool comes_before(const pir_impact *a, const pir_impact *b) {
+/* By time, then by how deep the shape begins in it, then by number. */
+static bool comes_before(const struct first_met *met, const struct first_met *other) {
+    const pir_impact *a = &met->impact, *b = &other->impact;
     if (b->body == PIR_SCENE_NONE || a->time != b->time)
         return b->body == PIR_SCENE_NONE || a->time < b->time;
+    if (met->depth != other->depth)
+        return met->depth > other->depth;
     const uint32_t x[3] = {a->body, a->piece_q, a->piece_p}, y[3] = {b->body, b->piece_q, b->piece_p};
     for (int k = 0; k < 3; k++)
         if (x[k] != y[k])
@@ -106,24 +117,24 @@ static pir_status fail(const struct flight *flight, pir_status status, const pir
                     (unsigned)piece->number, pir_status_text(status));
 }
 
-static void take(struct flight *flight, const pir_impact *impact) {
-    if (comes_before(impact, flight->first)) {
-        *flight->first = *impact;
-        flight->until = impact->time;
+static void take(struct flight *flight, const struct first_met *met) {
+    if (comes_before(met, flight->first)) {
+        *flight->first = *met;
+        flight->until = met->impact.time;
     }
 }
 
 static pir_status look(void *context, pir_scene_piece *piece) {
     struct flight *flight = context;
-    pir_impact impact;
+    struct first_met met;
     bool meets = false;
     if (!pir_box_meets(&flight->box, &piece->tight))
         return PIR_OK;
-    pir_status status = advance(flight, piece, flight->first->time, &impact, &meets);
+    pir_status status = advance(flight, piece, flight->until, &met, &meets);
     if (status != PIR_OK)
         return fail(flight, status, piece);
     if (meets)
-        take(flight, &impact);
+        take(flight, &met);
     return PIR_OK;
 }
 
@@ -163,15 +174,16 @@ static bool look_at_triangle(void *context, const pir_met_triangle *met) {
     }
     if (!met_at.hits)
         return true;
-    const pir_impact impact = {.body = on->number,
-                               .piece_p = flight->own_piece,
-                               .piece_q = met->number,
-                               .outcome = PIR_CAST_HIT,
-                               .time = met_at.time,
-                               .normal = met_at.normal,
-                               .point = met_at.point,
-                               .witness = met_at.witness};
-    take(flight, &impact);
+    const struct first_met hit = {.impact = {.body = on->number,
+                                             .piece_p = flight->own_piece,
+                                             .piece_q = met->number,
+                                             .outcome = PIR_CAST_HIT,
+                                             .time = met_at.time,
+                                             .normal = met_at.normal,
+                                             .point = met_at.point,
+                                             .witness = met_at.witness},
+                                  .depth = -1};
+    take(flight, &hit);
     return true;
 }
 
@@ -208,9 +220,9 @@ static pir_status look_at_leaf(void *context, pir_scene_piece *piece) {
                                             : look(flight, piece);
 }
 
-static pir_status fly(struct flight *flight, pir_impact *first) {
+static pir_status fly(struct flight *flight, struct first_met *first) {
     flight->first = first;
-    flight->until = first->time;
+    flight->until = first->impact.time;
     flight->box = box_of_way(flight);
     flight->by_doubles = pir_core_flight_begin(&flight->core, &flight->probe, flight->motion, flight->tolerance);
     const pir_box from = box_of_turns(flight);
@@ -258,7 +270,7 @@ static pir_near_search near_piece(const struct flight *flight, const pir_probe *
 }
 
 /* The first hit of a surface that moves: of its triangles that may come to a piece, for each. */
-static pir_status fly_surface(struct flight *flight, uint32_t number, pir_impact *first) {
+static pir_status fly_surface(struct flight *flight, uint32_t number, struct first_met *first) {
     pir_scene *scene = flight->scene;
     const pir_scene_body *body = &scene->bodies.body[number];
     const double far =
@@ -266,7 +278,7 @@ static pir_status fly_surface(struct flight *flight, uint32_t number, pir_impact
     const pir_box box = pir_box_wider(&scene->bodies.piece[body->first].tight, far);
     pir_status status = PIR_OK;
     flight->first = first;
-    flight->until = first->time;
+    flight->until = first->impact.time;
     for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE && status == PIR_OK;
          leaf = pir_tree_next(&scene->tree, &box, leaf)) {
         pir_scene_piece *q = &scene->bodies.piece[pir_tree_item(&scene->tree, leaf)];
@@ -303,8 +315,8 @@ static pir_status check(const pir_scene *scene, const char *call, const pir_moti
     return PIR_OK;
 }
 
-static const pir_impact no_impact = {
-    .body = PIR_SCENE_NONE, .piece_q = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1};
+static const struct first_met nothing = {
+    .impact = {.body = PIR_SCENE_NONE, .piece_q = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1}, .depth = -1};
 
 pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_motion *motion, double tolerance,
                           pir_impact *ret_impact) {
@@ -321,10 +333,10 @@ pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const 
         status = pir_probe_of_shape(scene, shape, &flight.probe);
     if (status != PIR_OK)
         return status;
-    pir_impact first = no_impact;
+    struct first_met first = nothing;
     status = fly(&flight, &first);
     if (status == PIR_OK)
-        *ret_impact = first;
+        *ret_impact = first.impact;
     return status;
 }
 
@@ -339,7 +351,7 @@ pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_m
     if (scene->bodies.body[body].sensor)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "time of impact: body %u is a sensor", (unsigned)body);
     status = check(scene, "time of impact", motion, tolerance);
-    pir_impact first = no_impact;
+    struct first_met first = nothing;
     for (uint32_t p = scene->bodies.body[body].first; status == PIR_OK && p != PIR_PIECE_NONE;
          p = scene->bodies.piece[p].next) {
         struct flight flight;
@@ -352,6 +364,6 @@ pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_m
             pir_body_has_surface(&scene->bodies.body[body]) ? fly_surface(&flight, body, &first) : fly(&flight, &first);
     }
     if (status == PIR_OK)
-        *ret_impact = first;
+        *ret_impact = first.impact;
     return status;
 }
