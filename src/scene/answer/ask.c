@@ -10,10 +10,6 @@
 /* How many questions are worth another thread. */
 #define WORTH_MORE 32
 
-/* Distances are asked for up to this part of the bodies' size: what is farther apart is not looked at for a while. A
-   surface counts as no larger than what is near it. */
-#define SKIN 0.05
-
 /* Distances are within this of the exact ones, relative to bodies and coordinates, with room to spare. */
 #define DISTANCE_ERROR 1e-11
 
@@ -21,8 +17,7 @@ static double length(pir_vec3 v) {
     return sqrt(pir_vec_dot(v, v));
 }
 
-/* Keeps what the answer proves of the distance. */
-static void keep_apart(pir_scene_pair *pair, const pir_scene_body *p, const pir_scene_body *q, double distance) {
+void pir_scene_keep_apart(pir_scene_pair *pair, const pir_scene_body *p, const pir_scene_body *q, double distance) {
     double size =
         p->reach + q->reach + p->radius + q->radius + length(p->pose.translation) + length(q->pose.translation);
     pair->apart = distance - DISTANCE_ERROR * size;
@@ -57,6 +52,7 @@ static bool in_contact(const pir_scene *scene, const pir_query_result *answer, b
     return !sensor && scene->margin > 0 && answer->outcome != PIR_BEYOND_CUTOFF && answer->distance <= scene->margin;
 }
 
+/* A surface counts as no larger than what is near it. */
 static double size_of(const pir_scene_body *p, const pir_scene_body *q) {
     if (pir_body_has_surface(p) || pir_body_has_surface(q))
         return 2 * fmin(p->reach, q->reach);
@@ -73,7 +69,7 @@ static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t numbe
                             .pose_q = q->pose,
                             .radius_p = p->radius,
                             .radius_q = q->radius,
-                            .cutoff = scene->margin + SKIN * size_of(p, q),
+                            .cutoff = scene->margin + PIR_SKIN * size_of(p, q),
                             .margin = scene->margin};
     pir_query_result answer;
     pir_status status =
@@ -82,7 +78,7 @@ static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t numbe
         return status;
     pair->apart = 0;
     if (numbers && (answer.outcome == PIR_SEPARATED || answer.outcome == PIR_BEYOND_CUTOFF))
-        keep_apart(pair, p, q, answer.distance);
+        pir_scene_keep_apart(pair, p, q, answer.distance);
     if (!in_contact(scene, &answer, sensor))
         return PIR_OK;
     if (!PIR_GROW(&scene->allocator, worker->found, worker->found_capacity, worker->found_count + 1))

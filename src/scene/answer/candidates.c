@@ -2,9 +2,14 @@
 /* The pairs that an update has to look at: see candidates.h. */
 #include "scene/answer/candidates.h"
 
+#include "exact/rotation.h"
+#include "polytope/polytope.h"
+#include "scene/answer/ask.h"
 #include "scene/answer/share.h"
 #include "scene/answer/triangle_pairs.h"
+#include "scene/world/core_simplex.h"
 #include "scene/world/grow.h"
+#include "scene/world/surfaces.h"
 #include "scene/world/triangles.h"
 
 /* How many bodies or blocks of pairs are worth another thread. */
@@ -58,12 +63,44 @@ static pir_status note(pir_scene *scene, pir_scene_worker *worker, uint32_t pair
     return PIR_OK;
 }
 
+/* Polytopes with more vertices are asked by pairs at once. */
+#define CORE_POINTS 64
+
+/*
+ * Whether doubles prove that a piece and a triangle, which are to be asked, are in no contact: so far apart as no pair
+ * has to be made for. Seen from the piece, whose vertices stand as they are.
+ */
+static bool is_proven_apart(const pir_scene *scene, pir_scene_pair *pair) {
+    const pir_scene_piece *pieces = scene->bodies.piece, *p = &pieces[pair->piece[0]], *q = &pieces[pair->piece[1]];
+    const pir_scene_piece *triangle = p->kind == PIR_PIECE_TRIANGLE ? p : q, *piece = triangle == p ? q : p;
+    if (triangle->kind != PIR_PIECE_TRIANGLE || piece->extent.polytope->vertex_count > CORE_POINTS || pair->touching)
+        return false;
+    const pir_scene_body *surface = &scene->bodies.body[triangle->body], *body = &scene->bodies.body[piece->body];
+    const double around = surface->radius + body->radius,
+                 enough = around + scene->margin + PIR_SKIN * 2 * fmin(surface->reach, body->reach);
+    pir_rotation to, from;
+    pir_vec3 corner[3];
+    (void)pir_rotation_set(&to, surface->pose.rotation); // checked when they came
+    (void)pir_rotation_set(&from, body->pose.rotation);
+    pir_surface_triangle(pir_body_surface_of(surface), triangle->number, corner);
+    const pir_vec3 away = pir_vec_sub(surface->pose.translation, body->pose.translation);
+    for (int k = 0; k < 3; k++)
+        corner[k] = pir_mat_apply_transposed(&from.r, pir_vec_add(pir_mat_apply(&to.r, corner[k]), away));
+    const double gap =
+        pir_core_gap(piece->extent.polytope->vertex, piece->extent.polytope->vertex_count, corner, enough);
+    if (!(gap > around))
+        return false;
+    pir_scene_keep_apart(pair, surface, body, gap - around);
+    return pair->apart > scene->margin;
+}
+
 /* Looks at a pair, and notes it where it has to be asked, or its contact is certain to have ended. */
 static inline pir_status look(pir_scene *scene, pir_scene_worker *worker, uint32_t number) {
-    const pir_scene_pair *pair = &scene->pairs.at[number];
+    pir_scene_pair *pair = &scene->pairs.at[number];
     const pir_scene_piece *p = &scene->bodies.piece[pair->piece[0]], *q = &scene->bodies.piece[pair->piece[1]];
     const pir_scene_body *bodies = scene->bodies.body;
-    bool asks = pir_box_meets(&p->tight, &q->tight) && !stays_apart(scene, pair, &bodies[p->body], &bodies[q->body]);
+    bool asks = pir_box_meets(&p->tight, &q->tight) && !stays_apart(scene, pair, &bodies[p->body], &bodies[q->body]) &&
+                !is_proven_apart(scene, pair);
     worker->looked++;
     return asks || pair->touching ? note(scene, worker, number, asks) : PIR_OK;
 }

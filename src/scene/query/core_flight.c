@@ -11,7 +11,7 @@
 #include "scene/query/core_flight.h"
 
 #include "polytope/polytope.h"
-#include "scene/query/core_simplex.h"
+#include "scene/world/core_simplex.h"
 
 /* Few flights need more than ten; those that do not end are left to pairs. */
 #define MOST_STEPS 48
@@ -55,28 +55,10 @@ struct moment {
     pir_vec3 room[PIR_CORE_POINTS];
 };
 
-/* Supports along a unit direction, from the triangle to the polytope, and the gap between them there. */
-struct supports {
-    uint32_t a, b;
-    double gap;
-};
-
-static struct supports supports_along(const struct moment *m, pir_vec3 n) {
-    const pir_vec3 *corner = m->target->corner;
-    const uint32_t count = m->flight->polytope->vertex_count;
-    struct supports s = {0, 0, 0};
-    double least = pir_vec_dot(n, m->point[0]), most = pir_vec_dot(n, corner[0]);
-    for (uint32_t i = 1; i < count; i++) {
-        const double height = pir_vec_dot(n, m->point[i]);
-        s.a = height < least ? i : s.a;
-        least = height < least ? height : least;
-    }
-    for (uint32_t k = 1; k < 3; k++) {
-        const double height = pir_vec_dot(n, corner[k]);
-        s.b = height > most ? k : s.b;
-        most = height > most ? height : most;
-    }
-    s.gap = least + pir_vec_dot(n, m->at) - most - m->target->radius - m->flight->parted.radius;
+/* Supports along a unit direction, from the triangle to the polytope, and the gap between the rounded bodies there. */
+static pir_core_supports supports_along(const struct moment *m, pir_vec3 n) {
+    pir_core_supports s = pir_core_supports_along(m->point, m->flight->polytope->vertex_count, m->target->corner, n);
+    s.gap += pir_vec_dot(n, m->at) - m->target->radius - m->flight->parted.radius;
     return s;
 }
 
@@ -89,7 +71,7 @@ static void put_in(const struct moment *m, pir_core_simplex *simplex, uint32_t a
 }
 
 /* Moves the polytope down to the plane across n through a support of the triangle; false where it never comes there. */
-static bool advance(struct moment *m, pir_vec3 n, const struct supports *s) {
+static bool advance(struct moment *m, pir_vec3 n, const pir_core_supports *s) {
     const pir_core_flight *flight = m->flight;
     const pir_vec3 foot = pir_vec_add(pir_vec_add(m->target->corner[s->b], flight->from.translation),
                                       pir_vec_scale(n, m->target->radius));
@@ -205,13 +187,6 @@ static bool set_impact(const struct moment *m, const pir_core_simplex *simplex, 
     return impact->witness.p.kind != PIR_FEATURE_NONE;
 }
 
-static bool has_corner(const pir_core_simplex *simplex, const struct supports *s) {
-    bool has = false;
-    for (int k = 0; k < simplex->count; k++)
-        has |= simplex->corner[k].a == s->a && simplex->corner[k].b == s->b;
-    return has;
-}
-
 enum flight_step {
     FLIES_ON,
     PASSES,
@@ -225,11 +200,11 @@ static enum flight_step step_from(struct moment *m, pir_core_simplex *simplex, p
     if (!(d > 0))
         return UNSETTLED;
     const pir_vec3 n = pir_vec_scale(v, 1 / d);
-    const struct supports s = supports_along(m, n);
+    const pir_core_supports s = supports_along(m, n);
     m->apart = m->apart || s.gap > m->error;
     if (m->apart && away <= m->near)
         return MEETS;
-    const bool advances = m->apart && s.gap > 0.75 * m->near, has = has_corner(simplex, &s);
+    const bool advances = m->apart && s.gap > 0.75 * m->near, has = pir_core_simplex_has(simplex, s.a, s.b);
     if (advances && !advance(m, n, &s))
         return PASSES;
     for (int k = 0; advances && k < simplex->count; k++)
@@ -246,10 +221,10 @@ static enum flight_step begin(struct moment *m, pir_core_simplex *simplex) {
     if (!(square > 0x1p-900))
         return UNSETTLED;
     pir_vec3 n = pir_vec_scale(across, 1 / sqrt(square));
-    struct supports s = supports_along(m, n);
+    pir_core_supports s = supports_along(m, n);
     if (s.gap < 0) {
         const pir_vec3 back = pir_vec_scale(n, -1);
-        const struct supports behind = supports_along(m, back);
+        const pir_core_supports behind = supports_along(m, back);
         n = behind.gap > s.gap ? back : n;
         s = behind.gap > s.gap ? behind : s;
     }

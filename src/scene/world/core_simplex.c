@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Points of simplices nearest to 0: see core_simplex.h. */
-#include "scene/query/core_simplex.h"
+/* Points of simplices nearest to 0, and distances by them: see core_simplex.h. */
+#include "scene/world/core_simplex.h"
 
 /* A point of a simplex: which corners hold it, their weights, and its square. */
 struct held_point {
@@ -98,4 +98,43 @@ pir_vec3 pir_core_simplex_solve(pir_core_simplex *s) {
         s->corner[k] = left[k];
     s->count = n.count;
     return v;
+}
+
+/* --- distances --- */
+
+pir_core_supports pir_core_supports_along(const pir_vec3 *point, uint32_t count, const pir_vec3 *corner, pir_vec3 n) {
+    pir_core_supports s = {0, 0, 0};
+    double least = pir_vec_dot(n, point[0]), most = pir_vec_dot(n, corner[0]);
+    for (uint32_t i = 1; i < count; i++) {
+        const double height = pir_vec_dot(n, point[i]);
+        s.a = height < least ? i : s.a;
+        least = height < least ? height : least;
+    }
+    for (uint32_t k = 1; k < 3; k++) {
+        const double height = pir_vec_dot(n, corner[k]);
+        s.b = height > most ? k : s.b;
+        most = height > most ? height : most;
+    }
+    s.gap = least - most;
+    return s;
+}
+
+/* Steps of a distance; few take more than six. */
+#define MOST_STEPS 24
+
+double pir_core_gap(const pir_vec3 *point, uint32_t count, const pir_vec3 *corner, double enough) {
+    pir_core_simplex simplex = {.corner = {{pir_vec_sub(point[0], corner[0]), 1, 0, 0}}, .count = 1};
+    double best = -HUGE_VAL;
+    for (int step = 0; step < MOST_STEPS && best < enough; step++) {
+        const pir_vec3 v = pir_core_simplex_solve(&simplex);
+        const double d = sqrt(pir_vec_dot(v, v));
+        if (!(d > 0))
+            break;
+        const pir_core_supports s = pir_core_supports_along(point, count, corner, pir_vec_scale(v, 1 / d));
+        best = s.gap > best ? s.gap : best;
+        if (pir_core_simplex_has(&simplex, s.a, s.b))
+            break;
+        simplex.corner[simplex.count++] = (pir_core_corner){pir_vec_sub(point[s.a], corner[s.b]), 1, s.a, s.b};
+    }
+    return best;
 }
