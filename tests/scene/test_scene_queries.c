@@ -290,6 +290,35 @@ static void a_ray_in_the_plane_of_a_flat_piece_enters_by_its_side(void **state) 
     pir_polytope_release(flat);
 }
 
+/* A long chain of nodes: each cube holds those before it. */
+static void boxes_in_boxes_are_all_met(void **state) {
+    (void)state;
+    enum { CUBES = 200 };
+    static pir_impact hit[CUBES];
+    pir_scene *scene;
+    size_t count;
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    for (int k = 0; k < CUBES; k++) {
+        pir_polytope *cube = scene_cube(1 + k);
+        scene_add(scene, cube, scene_at(0, 0, 0), PIR_BODY_STATIC);
+        pir_polytope_release(cube);
+    }
+    const pir_vec3 from = {-500, 0.25, 0.125}, way = {1000, 0, 0};
+    assert_int_equal(pir_scene_ray_all(scene, from, way, NULL, CUBES, hit, &count), PIR_OK);
+    assert_int_equal(count, CUBES);
+    for (int k = 0; k < CUBES; k++)
+        expect(hit[k].body == (uint32_t)(CUBES - 1 - k) && fabs(hit[k].time - (300 + k) / 1000.0) < 1e-12,
+               "hit %d: body %u at %g", k, hit[k].body, hit[k].time);
+    assert_int_equal(pir_scene_ray(scene, from, way, UINT32_MAX, hit), PIR_OK);
+    assert_int_equal(hit[0].body, CUBES - 1);
+    // from within all of them
+    assert_int_equal(pir_scene_ray_all(scene, (pir_vec3){0, 0.25, 0.125}, way, NULL, CUBES, hit, &count), PIR_OK);
+    assert_int_equal(count, CUBES);
+    for (int k = 0; k < CUBES; k++)
+        expect(hit[k].body == (uint32_t)k && hit[k].outcome == PIR_CAST_START_INSIDE, "hit %d from within", k);
+    pir_scene_destroy(scene);
+}
+
 /* --- moving shapes --- */
 
 static pir_pose pose_at(pir_pose begin, const pir_motion *motion, double time) {
@@ -649,6 +678,7 @@ int main(void) {
         cmocka_unit_test(the_closest_pairs_are_those_of_all),
         cmocka_unit_test(rays_hit_exactly_what_segments_do),
         cmocka_unit_test(a_ray_in_the_plane_of_a_flat_piece_enters_by_its_side),
+        cmocka_unit_test(boxes_in_boxes_are_all_met),
         cmocka_unit_test(a_cast_ends_at_the_first_contact),
         cmocka_unit_test(a_spinning_cube_that_glides_by_is_no_hit),
         cmocka_unit_test(a_cube_that_swings_by_in_each_turn_is_followed_to_its_hit),

@@ -122,37 +122,48 @@ static uint32_t end_of(uint32_t at, uint32_t level, uint32_t last) {
     return end < last ? (uint32_t)end : last;
 }
 
-static void set_block_box(const pir_height_field *field, uint32_t level, uint32_t i, uint32_t j,
-                          const pir_height_range *range, pir_mesh_boxes *boxes, int child) {
-    boxes->low[0][child] = pir_mesh_below((double)end_of(i, level, field->columns - 1) * field->step_x);
-    boxes->high[0][child] = pir_mesh_above((double)end_of(i + 1, level, field->columns - 1) * field->step_x);
-    boxes->low[1][child] = pir_mesh_below((double)end_of(j, level, field->rows - 1) * field->step_y);
-    boxes->high[1][child] = pir_mesh_above((double)end_of(j + 1, level, field->rows - 1) * field->step_y);
-    boxes->low[2][child] = range->low;
-    boxes->high[2][child] = range->high;
-}
-
 /* Blocks of a level: columns and rows from the first to the last, at most two of each. */
 struct blocks {
     uint32_t level, i[2], j[2];
 };
 
+/* The sides of at most two columns or rows of blocks, rounded outward. */
+struct block_sides {
+    float low[2], high[2];
+};
+
+static struct block_sides sides_of(const uint32_t at[2], uint32_t level, uint32_t last, double step) {
+    struct block_sides sides;
+    for (int k = 0; k < 2; k++) {
+        sides.low[k] = pir_mesh_below((double)end_of(at[k], level, last) * step);
+        sides.high[k] = pir_mesh_above((double)end_of(at[k] + 1, level, last) * step);
+    }
+    return sides;
+}
+
+static void set_box(pir_mesh_boxes *boxes, int child, const float low[3], const float high[3]) {
+    for (int k = 0; k < 3; k++) {
+        boxes->low[k][child] = low[k];
+        boxes->high[k][child] = high[k];
+    }
+}
+
 static void push_blocks(const pir_height_field *field, const pir_walk *walk, struct stack *stack,
                         const struct blocks *blocks) {
+    const struct block_sides x = sides_of(blocks->i, blocks->level, field->columns - 1, field->step_x),
+                             y = sides_of(blocks->j, blocks->level, field->rows - 1, field->step_y);
     struct entry child[PIR_MESH_WIDTH];
-    pir_mesh_boxes boxes;
+    pir_mesh_boxes boxes = {{{0}}, {{0}}};
     pir_height_range range;
     int count = 0;
-    for (uint32_t j = blocks->j[0]; j <= blocks->j[1]; j++)
-        for (uint32_t i = blocks->i[0]; i <= blocks->i[1]; i++)
-            if (range_of(field, blocks->level, i, j, &range)) {
-                set_block_box(field, blocks->level, i, j, &range, &boxes, count);
-                child[count++] = (struct entry){0, j << COLUMN_BITS | i, blocks->level};
-            }
-    for (int c = count; c > 0 && c < PIR_MESH_WIDTH; c++)
-        for (int k = 0; k < 3; k++) {
-            boxes.low[k][c] = boxes.low[k][0];
-            boxes.high[k][c] = boxes.high[k][0];
+    for (uint32_t b = 0; b <= blocks->j[1] - blocks->j[0]; b++)
+        for (uint32_t a = 0; a <= blocks->i[1] - blocks->i[0]; a++) {
+            const uint32_t i = blocks->i[a], j = blocks->j[b];
+            if (!range_of(field, blocks->level, i, j, &range))
+                continue;
+            set_box(&boxes, count, (float[3]){x.low[a], y.low[b], range.low},
+                    (float[3]){x.high[a], y.high[b], range.high});
+            child[count++] = (struct entry){0, j << COLUMN_BITS | i, blocks->level};
         }
     if (count > 0)
         push(stack, walk, &boxes, child, count);

@@ -61,9 +61,9 @@ static inline void pir_swept_times(const pir_swept_box *swept, const pir_mesh_bo
     }
 }
 
-/* Whether it may meet a box until a time. */
-static inline bool pir_swept_meets(const pir_swept_box *swept, const float low[3], const float high[3], double until) {
-    double enter = 0, leave = until;
+/* A time no later than that at which it meets a box; HUGE_VAL where it meets it at none. */
+static inline double pir_swept_enters(const pir_swept_box *swept, const float low[3], const float high[3]) {
+    double enter = 0, leave = 1;
     for (int k = 0; k < 3; k++) {
         const double near = swept->down[k] ? high[k] : low[k], far = swept->down[k] ? low[k] : high[k],
                      early = (near - swept->foremost[k]) * swept->inverse[k],
@@ -71,7 +71,8 @@ static inline bool pir_swept_meets(const pir_swept_box *swept, const float low[3
         enter = early > enter ? early : enter;
         leave = late < leave ? late : leave;
     }
-    return enter * (1 - 0x1p-48) <= leave * (1 + 0x1p-48);
+    enter *= 1 - 0x1p-48;
+    return enter <= leave * (1 + 0x1p-48) ? enter : HUGE_VAL;
 }
 
 /*

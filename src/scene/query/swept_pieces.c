@@ -2,71 +2,78 @@
 /* Pieces and triangles in the way of a box: see swept_pieces.h. */
 #include "scene/query/swept_pieces.h"
 
-struct traversal {
-    const pir_tree *tree;
-    const pir_swept_box *swept;
-    int axis; /* along which it goes most */
+/* Nodes that wait; where there are more, the rest is visited without an order. */
+#define STACK 48
+
+struct waiting {
+    uint32_t node[STACK];
+    double enter[STACK]; /* when the box comes to the node's */
+    uint32_t count;
 };
 
-/* Which child of a node the box comes to first, by their middles along the axis that it goes along most. */
-static int first_of(const struct traversal *by, const pir_tree_node *node) {
-    const pir_box *a = &by->tree->node[node->child[0]].box, *b = &by->tree->node[node->child[1]].box;
-    const int k = by->axis;
-    const bool is_lower = a->low[k] + a->high[k] < b->low[k] + b->high[k];
-    return is_lower == by->swept->down[k];
+static pir_status look_at_leaf(const pir_swept_search *search, const pir_tree_node *leaf) {
+    pir_scene_piece *piece = &search->probe->scene->bodies.piece[leaf->child[1]];
+    return pir_probe_meets(search->probe, piece->body) ? search->look(search->context, piece) : PIR_OK;
 }
 
-/* Children that a traversal goes to first, by their depths: below the last of them that is child 0. */
-struct ways_down {
-    uint64_t first;
-    uint32_t depth;
-};
-
-static int first_at(const struct ways_down *down, uint32_t depth) {
-    return depth < 64 && (down->first >> depth & 1);
-}
-
-/* The child of a node that comes first. */
-static uint32_t descend(const struct traversal *by, struct ways_down *down, const pir_tree_node *node) {
-    if (down->depth < 64)
-        down->first = (down->first & ~(UINT64_C(1) << down->depth)) | (uint64_t)first_of(by, node) << down->depth;
-    return node->child[first_at(down, down->depth++)];
-}
-
-/* The node after n and all below it. */
-static uint32_t go_beyond(const pir_tree *tree, struct ways_down *down, uint32_t n) {
-    for (uint32_t parent = tree->node[n].parent; parent != PIR_TREE_NONE; parent = tree->node[n].parent) {
-        const uint32_t *child = tree->node[parent].child;
-        const int first = first_at(down, down->depth - 1);
-        if (child[first] == n)
-            return child[1 - first];
-        n = parent;
-        down->depth--;
+/* Looks at the leaves below a node, in the order of the tree. */
+static pir_status look_below(const pir_swept_search *search, uint32_t top) {
+    const pir_tree *tree = &search->probe->scene->tree;
+    const uint32_t end = pir_tree_beyond(tree, top);
+    pir_status status = PIR_OK;
+    for (uint32_t n = top; n != end && status == PIR_OK;) {
+        const pir_tree_node *node = &tree->node[n];
+        const bool meets = pir_swept_enters(search->swept, node->box.low, node->box.high) <= *search->until;
+        if (meets && node->child[0] != PIR_TREE_NONE) {
+            n = node->child[0];
+            continue;
+        }
+        status = meets ? look_at_leaf(search, node) : PIR_OK;
+        n = pir_tree_beyond(tree, n);
     }
+    return status;
+}
+
+/* The child of a node that comes first, the other waits; PIR_TREE_NONE where it comes to neither. */
+static uint32_t first_child(const pir_swept_search *search, const pir_tree_node *node, struct waiting *waiting) {
+    const pir_tree_node *at = search->probe->scene->tree.node, *a = &at[node->child[0]], *b = &at[node->child[1]];
+    const double to_a = pir_swept_enters(search->swept, a->box.low, a->box.high),
+                 to_b = pir_swept_enters(search->swept, b->box.low, b->box.high), until = *search->until;
+    const int first = to_b < to_a;
+    const double sooner = first ? to_b : to_a, later = first ? to_a : to_b;
+    if (!(sooner <= until))
+        return PIR_TREE_NONE;
+    if (later <= until) {
+        waiting->node[waiting->count] = node->child[1 - first];
+        waiting->enter[waiting->count++] = later;
+    }
+    return node->child[first];
+}
+
+static uint32_t next_waiting(const pir_swept_search *search, struct waiting *waiting) {
+    while (waiting->count > 0)
+        if (waiting->enter[--waiting->count] <= *search->until)
+            return waiting->node[waiting->count];
     return PIR_TREE_NONE;
 }
 
 pir_status pir_swept_pieces(const pir_swept_search *search) {
-    pir_scene *scene = search->probe->scene;
-    const pir_swept_box *swept = search->swept;
-    struct traversal by = {&scene->tree, swept, 0};
-    struct ways_down down = {0, 0};
+    const pir_tree *tree = &search->probe->scene->tree;
+    struct waiting waiting;
     pir_status status = PIR_OK;
-    uint32_t n = by.tree->node ? by.tree->root : PIR_TREE_NONE;
-    for (int k = 1; k < 3; k++)
-        by.axis = fabs(swept->way[k]) > fabs(swept->way[by.axis]) ? k : by.axis;
-    while (n != PIR_TREE_NONE && status == PIR_OK && *search->until >= 0) {
-        const pir_tree_node *node = &by.tree->node[n];
-        if (pir_swept_meets(swept, node->box.low, node->box.high, *search->until)) {
-            if (node->child[0] != PIR_TREE_NONE) {
-                n = descend(&by, &down, node);
-                continue;
-            }
-            pir_scene_piece *piece = &scene->bodies.piece[node->child[1]];
-            if (pir_probe_meets(search->probe, piece->body))
-                status = search->look(search->context, piece);
+    waiting.count = 0; // the rest is written before it is read
+    uint32_t n = tree->node ? tree->root : PIR_TREE_NONE;
+    while (n != PIR_TREE_NONE && status == PIR_OK) {
+        const pir_tree_node *node = &tree->node[n];
+        const bool is_leaf = node->child[0] == PIR_TREE_NONE;
+        if (!is_leaf && waiting.count < STACK) {
+            n = first_child(search, node, &waiting);
+        } else {
+            status = is_leaf ? look_at_leaf(search, node) : look_below(search, n);
+            n = PIR_TREE_NONE;
         }
-        n = go_beyond(by.tree, &down, n);
+        if (n == PIR_TREE_NONE)
+            n = next_waiting(search, &waiting);
     }
     return status;
 }
