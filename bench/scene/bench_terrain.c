@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Hulls on a height field of 64 × 64 cells: 300 of them, asleep and awake, rays from above, and casts of a capsule.
- * Each line: a measure, its median, the 99th percentile, the unit. Times are those of the thread.
+ * Hulls on a height field of 64 × 64 cells: 300 of them, asleep and awake, rays from above, and casts of a capsule; a
+ * peer, where there is one, is asked the same in turn. Each line: who, a measure, its median, the 99th percentile, the
+ * unit. Times are those of the thread; a query's is the mean of a batch, since the clock takes as long as a ray. How
+ * long the peer's collision takes is what it tells of itself.
  *
  *     bench_terrain FOLDER
  */
@@ -13,23 +15,32 @@
 #include <pirouette/scene_query.h>
 
 #include "results.h"
+#include "terrain_peer.h"
 #include "trial.h"
 
 #define SIDE   65
 #define BODIES 300
 #define FORMS  8
 #define POINTS 20
-#define MOST   20000
+
+#define HALF      0.5 /* of the capsule, without its radius */
+#define RADIUS    0.3
+#define TOLERANCE 1e-3
+#define BATCH     32
+#define MOST      1000 /* times of a measure */
 
 struct terrain {
     pir_scene *scene;
     pir_height_field *field;
-    pir_polytope *form[FORMS], *spine;
+    pir_polytope *form[FORMS], *spine, *hull[BODIES];
+    struct terrain_peer *peer; /* or NULL */
     pir_scene_move rest[BODIES], move[BODIES];
     uint64_t state;
 };
 
-static double times[MOST];
+/* Nanoseconds of this library, of the peer, and of the peer's collision alone. */
+static double times[3][MOST];
+static float heights[SIDE * SIDE];
 
 /* Uniform in [−1, 1], the same everywhere. */
 static double part(uint64_t *state) {
@@ -48,15 +59,20 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static void report(FILE *file, const char *measure, size_t count, double unit, const char *name) {
-    qsort(times, count, sizeof *times, compare);
-    const double median = times[count / 2] / unit, late = times[count - 1 - count / 100] / unit;
-    printf("%s,%.4g,%.4g,%s\n", measure, median, late, name);
-    fprintf(file, "%s,%.4g,%.4g,%s\n", measure, median, late, name);
+static void report(FILE *file, int who, const char *measure, size_t count, double unit, const char *name) {
+#ifdef PIR_HAVE_TERRAIN_PEER
+    const char *of = who == 0 ? "pirouette" : terrain_peer_name();
+#else
+    const char *of = "pirouette";
+#endif
+    double *of_all = times[who];
+    qsort(of_all, count, sizeof *of_all, compare);
+    const double median = of_all[count / 2] / unit, late = of_all[count - 1 - count / 100] / unit;
+    printf("%s,%s,%.4g,%.4g,%s\n", of, measure, median, late, name);
+    fprintf(file, "%s,%s,%.4g,%.4g,%s\n", of, measure, median, late, name);
 }
 
 static void make_ground(struct terrain *terrain) {
-    static float heights[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++)
         heights[i] = (float)(sin(0.4 * (i % SIDE)) * cos(0.3 * (i / SIDE)));
     const pir_height_samples samples = {
@@ -70,7 +86,7 @@ static void make_ground(struct terrain *terrain) {
 }
 
 static void make_forms(struct terrain *terrain) {
-    const pir_vec3 spine[2] = {{0, 0, -0.5}, {0, 0, 0.5}};
+    const pir_vec3 spine[2] = {{0, 0, -HALF}, {0, 0, HALF}};
     for (int i = 0; i < FORMS; i++) {
         pir_vec3 point[POINTS];
         for (int k = 0; k < POINTS; k++) {
@@ -92,18 +108,23 @@ static void put_down(struct terrain *terrain) {
         pir_body_options body = pir_body_options_default();
         const pir_motion down = {.way = {0, 0, -6}};
         pir_impact impact;
-        body.pieces = &terrain->form[i % FORMS];
+        terrain->hull[i] = terrain->form[i % FORMS];
+        body.pieces = &terrain->hull[i];
         body.piece_count = 1;
         body.pose.rotation = (pir_quat){part(&terrain->state), part(&terrain->state), part(&terrain->state), 1};
         body.pose.translation = (pir_vec3){4.3 + 3 * (i % 19), 4.7 + 3.5 * (i / 19), 4};
         pir_scene_shape shape = pir_scene_shape_default(body.pieces[0]);
         shape.pose = body.pose;
-        trial_need(pir_scene_cast(terrain->scene, &shape, &down, 1e-3, &impact), "a cast");
+        trial_need(pir_scene_cast(terrain->scene, &shape, &down, TOLERANCE, &impact), "a cast");
         body.pose.translation.z -= 6 * impact.time;
         trial_need(pir_scene_add(terrain->scene, &body, &terrain->rest[i].body), "a hull");
         terrain->rest[i].pose = body.pose;
     }
     trial_need(pir_scene_update(terrain->scene, NULL, 0), "an update");
+#ifdef PIR_HAVE_TERRAIN_PEER
+    const struct terrain_ground ground = {heights, SIDE, -1, 1};
+    terrain->peer = terrain_peer_make(&ground, terrain->hull, terrain->rest, BODIES);
+#endif
 }
 
 static void time_updates(struct terrain *terrain, FILE *file, const char *measure, size_t moved) {
@@ -118,33 +139,77 @@ static void time_updates(struct terrain *terrain, FILE *file, const char *measur
         }
         const double begin = now();
         trial_need(pir_scene_update(terrain->scene, terrain->move, moved), "an update");
-        if (f >= warm)
-            times[f - warm] = now() - begin;
+        const double between = now();
+#ifdef PIR_HAVE_TERRAIN_PEER
+        double collision;
+        terrain_peer_update(terrain->peer, terrain->move, moved, &collision);
+        times[2][f < warm ? 0 : f - warm] = collision;
+#endif
+        times[0][f < warm ? 0 : f - warm] = between - begin;
+        times[1][f < warm ? 0 : f - warm] = now() - between;
     }
-    report(file, measure, frames, 1e3, "us");
+    report(file, 0, measure, frames, 1e3, "us");
+    if (terrain->peer) {
+        report(file, 1, moved > 0 ? "poses and step awake" : "step asleep", frames, 1e3, "us");
+        report(file, 2, moved > 0 ? "collision awake" : "collision asleep", frames, 1e3, "us");
+    }
 }
 
-/* Rays from above, and casts of a capsule across the ground, that see the ground alone. */
-static void time_queries(struct terrain *terrain, FILE *file) {
-    const size_t count = results_count(MOST);
+/* One question of a batch. */
+struct question {
+    pir_vec3 from, way;
+    double time, peer_time;
+};
+
+static void ask(struct terrain *terrain, bool is_ray, struct question *question) {
+    const pir_motion motion = {.way = question->way};
+    pir_scene_shape capsule = pir_scene_shape_default(terrain->spine);
     pir_impact impact;
-    for (int kind = 0; kind < 2; kind++) {
-        for (size_t i = 0; i < count; i++) {
+    capsule.pose.translation = question->from;
+    capsule.radius = RADIUS;
+    trial_need(is_ray ? pir_scene_ray(terrain->scene, question->from, question->way, UINT32_MAX, &impact)
+                      : pir_scene_cast(terrain->scene, &capsule, &motion, TOLERANCE, &impact),
+               "a query");
+    question->time = impact.time;
+}
+
+static void ask_peer(struct terrain *terrain, bool is_ray, struct question *question) {
+#ifdef PIR_HAVE_TERRAIN_PEER
+    question->peer_time = is_ray ? terrain_peer_ray(terrain->peer, question->from, question->way)
+                                 : terrain_peer_capsule(terrain->peer, HALF, RADIUS, question->from, question->way);
+#else
+    (void)terrain, (void)is_ray;
+    question->peer_time = question->time;
+#endif
+}
+
+/* Rays from above, or casts of a capsule across the ground; how many the peer answers another way is told. */
+static void time_queries(struct terrain *terrain, FILE *file, bool is_ray) {
+    const size_t batches = results_count(is_ray ? MOST : MOST / 4);
+    struct question question[BATCH];
+    size_t other = 0;
+    for (size_t b = 0; b < batches; b++) {
+        for (size_t i = 0; i < BATCH; i++) {
             const double x = 32 + 28 * part(&terrain->state), y = 32 + 28 * part(&terrain->state);
-            const pir_vec3 from = {x, y, 4},
-                           way = {8 * part(&terrain->state), 8 * part(&terrain->state), kind == 0 ? -8 : -4};
-            pir_scene_shape capsule = pir_scene_shape_default(terrain->spine);
-            const pir_motion motion = {.way = way};
-            capsule.pose.translation = from;
-            capsule.radius = 0.3;
-            const double begin = now();
-            trial_need(kind == 0 ? pir_scene_ray(terrain->scene, from, way, 1, &impact)
-                                 : pir_scene_cast(terrain->scene, &capsule, &motion, 1e-3, &impact),
-                       "a query");
-            times[i] = now() - begin;
+            question[i].from = (pir_vec3){x, y, 4};
+            question[i].way = (pir_vec3){8 * part(&terrain->state), 8 * part(&terrain->state), is_ray ? -8 : -4};
         }
-        report(file, kind == 0 ? "ray" : "capsule cast", count, 1e3, "us");
+        const double begin = now();
+        for (size_t i = 0; i < BATCH; i++)
+            ask(terrain, is_ray, &question[i]);
+        const double between = now();
+        for (size_t i = 0; i < BATCH; i++)
+            ask_peer(terrain, is_ray, &question[i]);
+        times[1][b] = (now() - between) / BATCH;
+        times[0][b] = (between - begin) / BATCH;
+        for (size_t i = 0; i < BATCH; i++)
+            other += fabs(question[i].time - question[i].peer_time) > 0.01;
     }
+    report(file, 0, is_ray ? "ray" : "capsule cast", batches, 1e3, "us");
+    if (terrain->peer)
+        report(file, 1, is_ray ? "ray" : "capsule cast", batches, 1e3, "us");
+    printf("%zu of %zu %s end elsewhere by more than 1 %% of the way\n", other, batches * BATCH,
+           is_ray ? "rays" : "casts");
 }
 
 /* A scene with the ground, of a detail. */
@@ -159,6 +224,10 @@ static void open_terrain(struct terrain *terrain, pir_scene_detail detail) {
 }
 
 static void close_terrain(struct terrain *terrain) {
+#ifdef PIR_HAVE_TERRAIN_PEER
+    if (terrain->peer)
+        terrain_peer_free(terrain->peer);
+#endif
     pir_scene_destroy(terrain->scene);
     pir_height_field_release(terrain->field);
     for (int i = 0; i < FORMS; i++)
@@ -173,8 +242,9 @@ static void time_bodies(FILE *file, pir_scene_detail detail) {
     put_down(&terrain);
     time_updates(&terrain, file, manifolds ? "update asleep with manifolds" : "update asleep with distances", 0);
     time_updates(&terrain, file, manifolds ? "update awake with manifolds" : "update awake with distances", BODIES);
-    times[0] = (double)pir_scene_get_statistics(terrain.scene).bytes;
-    report(file, manifolds ? "memory of the scene with manifolds" : "memory of the scene with distances", 1, 1e3, "kB");
+    times[0][0] = (double)pir_scene_get_statistics(terrain.scene).bytes;
+    report(file, 0, manifolds ? "memory of the scene with manifolds" : "memory of the scene with distances", 1, 1e3,
+           "kB");
     close_terrain(&terrain);
 }
 
@@ -187,12 +257,14 @@ int main(int argc, char **argv) {
     }
     const struct results results = results_new(argv[1]);
     FILE *file = results_open(&results, "scene_terrain.csv");
-    fprintf(file, "measure,median,p99,unit\n");
+    fprintf(file, "who,measure,median,p99,unit\n");
     open_terrain(&terrain, PIR_SCENE_DEPTHS);
     pir_height_field_describe(terrain.field, &info);
-    times[0] = (double)info.bytes;
-    report(file, "memory of the field", 1, 1e3, "kB");
-    time_queries(&terrain, file);
+    times[0][0] = (double)info.bytes;
+    report(file, 0, "memory of the field", 1, 1e3, "kB");
+    put_down(&terrain);
+    time_queries(&terrain, file, true);
+    time_queries(&terrain, file, false);
     close_terrain(&terrain);
     time_bodies(file, PIR_SCENE_DEPTHS);
     time_bodies(file, PIR_SCENE_MANIFOLDS);

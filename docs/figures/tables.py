@@ -165,9 +165,9 @@ def mesh_contacts(r):
 def scene_terrain(r):
     def plain(text):
         return f"{float(text):,.0f}" if float(text) >= 100 else short(float(text))
-    rows = [[row["measure"], plain(row["median"]), plain(row["p99"]), row["unit"].replace("us", "µs")]
+    rows = [[row["who"], row["measure"], plain(row["median"]), plain(row["p99"]), row["unit"].replace("us", "µs")]
             for row in r.scene_terrain.rows]
-    return markdown(["measure", ">median", ">p99", "unit"], rows)
+    return markdown(["who", "measure", ">median", ">p99", "unit"], rows)
 
 
 def mesh_octrees(r):
