@@ -176,9 +176,9 @@ static void limit_is_told_with_its_value_and_the_place(void **state) {
     pir_mesh *mesh = NULL;
     pir_pieces *pieces = NULL;
     options.report = decompose.report = &report;
-    options.memory = 750000;
+    options.memory = 1000000;
     assert_int_equal(solid_sum_mesh(p, p, (pir_quat){0, 0, 0, 1}, &options, NULL, &mesh), PIR_ERR_LIMIT);
-    expect(report.status == PIR_ERR_LIMIT && strstr(report.text, "limit of 750000 bytes") &&
+    expect(report.status == PIR_ERR_LIMIT && strstr(report.text, "limit of 1000000 bytes") &&
                strstr(report.text, "adding pairs of pieces, ") && strstr(report.text, " of 289 done"),
            "%s", report.text);
     assert_null(mesh);

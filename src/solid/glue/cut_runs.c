@@ -50,7 +50,7 @@ static void find_crossing(pir_union_outline *o, const pir_run *r, const pir_run 
         const uint32_t made = pir_space_add_meet(space, own[0], own[1], plane);
         if (pir_space_side(space, pir_half(other, false), made) != 0)
             return;
-        const uint32_t point = pir_intern_point(&o->points, made), along = o->line_direction[s->line];
+        const uint32_t point = pir_places_point(&o->points, made), along = o->line_direction[s->line];
         if (point == s->a || point == s->b || pir_space_order(space, along, s->a, point) <= 0 ||
             pir_space_order(space, along, point, s->b) <= 0)
             return;

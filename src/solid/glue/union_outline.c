@@ -12,16 +12,16 @@
 
 void pir_union_outline_init(pir_union_outline *outline, pir_space *space) {
     *outline = (pir_union_outline){.space = space, .loose = PIR_SPACE_NONE};
-    pir_intern_init(&outline->points, space, 4);
-    pir_intern_init(&outline->lines, space, 6);
+    pir_places_init(&outline->points, space);
+    pir_places_init(&outline->lines, space);
 }
 
 void pir_union_outline_finish(pir_union_outline *outline) {
     pir_space *space = outline->space;
     if (!space)
         return;
-    pir_intern_finish(&outline->points);
-    pir_intern_finish(&outline->lines);
+    pir_places_finish(&outline->points);
+    pir_places_finish(&outline->lines);
     pir_space_shrink(space, outline->line_direction, outline->line_room, sizeof *outline->line_direction);
     pir_space_shrink(space, outline->line_plane, outline->line_plane_room, sizeof *outline->line_plane);
     pir_space_shrink(space, outline->line_of, outline->line_of_room, sizeof *outline->line_of);
@@ -39,15 +39,12 @@ void pir_union_outline_finish(pir_union_outline *outline) {
 uint32_t pir_union_outline_line(pir_union_outline *outline, uint32_t f, uint32_t g) {
     pir_union_outline *o = outline;
     pir_space *space = o->space;
-    const uint32_t known = o->lines.count, line = pir_intern_line(&o->lines, f, g);
+    const uint32_t known = o->lines.count, line = pir_places_line(&o->lines, f, g);
     if (!pir_space_grow(space, (void **)&o->line_direction, &o->line_room, line, sizeof *o->line_direction) ||
         !pir_space_grow(space, (void **)&o->line_plane, &o->line_plane_room, line, sizeof *o->line_plane))
         return 0;
     if (line == known) {
-        mpz_t *t = space->t + 8;
-        for (uint32_t k = 0; k < 3; k++)
-            mpz_set(t[k], space->number[o->lines.first[line] + k]);
-        o->line_direction[line] = pir_space_add_direction(space, t[0], t[1], t[2]);
+        o->line_direction[line] = pir_space_add_line_direction(space, f, g);
         o->line_plane[line][0] = f;
         o->line_plane[line][1] = g;
     }
@@ -163,7 +160,7 @@ static void add_line(pir_union_outline *o, const uint32_t *order, uint32_t count
 
 /* A side from p to q as a run. */
 static void add_side(pir_union_outline *o, pir_run side, uint32_t p, uint32_t q) {
-    const uint32_t a = pir_intern_point(&o->points, p), b = pir_intern_point(&o->points, q);
+    const uint32_t a = pir_places_point(&o->points, p), b = pir_places_point(&o->points, q);
     if (o->space->status != PIR_OK)
         return;
     const bool along = pir_space_order(o->space, o->line_direction[side.line], a, b) > 0;

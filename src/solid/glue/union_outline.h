@@ -6,7 +6,7 @@
 #ifndef PIR_SOLID_GLUE_OUTLINE_H
 #define PIR_SOLID_GLUE_OUTLINE_H
 
-#include "solid/space/intern.h"
+#include "solid/space/places.h"
 #include "solid/space/polygons.h"
 
 /* The groups of edges that bound no polygon: where facets cross each other, and on their own. */
@@ -35,7 +35,7 @@ typedef struct pir_outline_touch {
 
 typedef struct pir_union_outline {
     pir_space *space;
-    pir_intern points, lines;
+    pir_places points, lines;
     uint32_t *line_direction, line_room;
     uint32_t (*line_plane)[2], line_plane_room; /* two planes that meet in the line */
     uint32_t *line_of, line_of_room; /* per plane of the group at hand: the line where it cuts the group's plane */

@@ -400,9 +400,9 @@ static void begin(struct division *d) {
     const pir_shell_body *body = d->body;
     struct node root = {.cell = pir_cells_add_box(d->cells)};
     for (uint32_t p = 0; p < body->part_count && d->space->status == PIR_OK; p++) {
-        const uint32_t made =
-            pir_polygons_add(&d->polygons, body->half[body->part_facet[p]], body->part_corner + body->part_start[p],
-                             body->part_direction + body->part_start[p], body->part_start[p + 1] - body->part_start[p]);
+        const uint32_t made = pir_polygons_add(
+            &d->polygons, body->half[body->part_facet[p]], body->part_corner + body->part_start[p],
+            body->part_direction + body->part_start[p], NULL, body->part_start[p + 1] - body->part_start[p]);
         pir_plane_sides_add(&d->sides, made, PIR_SPACE_NONE);
         push_fragment(d, made);
     }

@@ -2,8 +2,6 @@
 /* See boxes.h. The tree is complete: its leaves are as many as the least power of two that four boxes each fill. */
 #include "solid/space/boxes.h"
 
-#include "base/sort.h"
-
 #define LEAF PIR_BOXES_LEAF
 
 void pir_space_box_add(pir_space_box *box, const pir_space_point *point) {
@@ -21,34 +19,61 @@ static void join(pir_space_box *box, const pir_space_box *other) {
     }
 }
 
-struct order {
-    const pir_space_box *box;
-    int axis;
-};
+static double twice_middle(const pir_space_box *box, uint32_t i, int axis) {
+    return box[i].low[axis] + box[i].high[axis];
+}
 
-static bool box_before(void *context, uint32_t a, uint32_t b) {
-    const struct order *by = context;
-    return by->box[a].low[by->axis] + by->box[a].high[by->axis] < by->box[b].low[by->axis] + by->box[b].high[by->axis];
+static void swap(uint32_t *order, uint32_t a, uint32_t b) {
+    const uint32_t kept = order[a];
+    order[a] = order[b];
+    order[b] = kept;
+}
+
+/* Puts the `half` boxes that are first along an axis before the others, by partitions about the middle of three. */
+static void select_first(const pir_space_box *box, uint32_t *order, uint32_t count, uint32_t half, int axis) {
+    uint32_t low = 0, high = count - 1;
+    while (low < high) {
+        const double a = twice_middle(box, order[low], axis), b = twice_middle(box, order[(low + high) / 2], axis);
+        const double c = twice_middle(box, order[high], axis);
+        const double by = a < b ? (b < c ? b : a < c ? c : a) : (a < c ? a : b < c ? c : b);
+        uint32_t i = low, j = high;
+        for (;;) {
+            while (twice_middle(box, order[i], axis) < by)
+                i++;
+            while (twice_middle(box, order[j], axis) > by)
+                j--;
+            if (i >= j)
+                break;
+            swap(order, i++, j--);
+        }
+        // all up to j are no farther along than all beyond it
+        if (half <= j)
+            high = j;
+        else if (j + 1 < half)
+            low = j + 1;
+        else
+            return;
+    }
 }
 
 /* Puts order[first .. first + count) into the leaves below `node`, halves along the longest side of their box. */
-static void split(pir_boxes *boxes, const pir_space_box *box, uint32_t first, uint32_t count, uint32_t *work) {
+static void split(pir_boxes *boxes, const pir_space_box *box, uint32_t first, uint32_t count) {
     if (count <= LEAF)
         return;
     pir_space_box all = PIR_SPACE_BOX_EMPTY;
     for (uint32_t i = first; i < first + count; i++)
         join(&all, &box[boxes->order[i]]);
-    struct order by = {box, 0};
+    int axis = 0;
     for (int k = 1; k < 3; k++)
-        if (all.high[k] - all.low[k] > all.high[by.axis] - all.low[by.axis])
-            by.axis = k;
-    pir_sort(boxes->order + first, count, work, box_before, &by);
+        if (all.high[k] - all.low[k] > all.high[axis] - all.low[axis])
+            axis = k;
     // a full left half: the leaves below it are a power of two
     uint32_t half = LEAF;
     while (2 * half < count)
         half *= 2;
-    split(boxes, box, first, half, work);
-    split(boxes, box, first + half, count - half, work);
+    select_first(box, boxes->order + first, count, half, axis);
+    split(boxes, box, first, half);
+    split(boxes, box, first + half, count - half);
 }
 
 bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_space_box *box, uint32_t count) {
@@ -60,12 +85,11 @@ bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_
     boxes->node = PIR_NEW(a, pir_space_box, boxes->node_count);
     boxes->box = PIR_NEW(a, pir_space_box, count);
     boxes->order = PIR_NEW(a, uint32_t, count);
-    uint32_t *work = PIR_NEW(a, uint32_t, count);
-    const bool done = boxes->node && boxes->box && boxes->order && work;
+    const bool done = boxes->node && boxes->box && boxes->order;
     if (done) {
         for (uint32_t i = 0; i < count; i++)
             boxes->order[i] = i;
-        split(boxes, box, 0, count, work);
+        split(boxes, box, 0, count);
         for (uint32_t k = boxes->node_count; k-- > 0;) {
             boxes->node[k] = PIR_SPACE_BOX_EMPTY;
             if (k + 1 < leaves) {
@@ -79,7 +103,6 @@ bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_
         for (uint32_t i = 0; i < count; i++)
             boxes->box[i] = box[boxes->order[i]];
     }
-    PIR_FREE(a, work, count);
     if (!done)
         pir_boxes_finish(boxes, a);
     return done;

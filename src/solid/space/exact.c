@@ -140,10 +140,17 @@ static uint32_t keep(pir_space *space, pir_intern *known, mpz_t *made) {
 uint32_t pir_space_exact_direction(pir_space *space, uint32_t direction) {
     if (space->direction[direction].exact != PIR_SPACE_NONE)
         return space->direction[direction].exact;
+    const pir_space_direction d = space->direction[direction];
+    const bool of_line = d.rest == PIR_SPACE_NONE;
+    const uint32_t f = of_line ? pir_space_exact_plane(space, d.plane[0]) : 0;
+    const uint32_t g = of_line ? pir_space_exact_plane(space, d.plane[1]) : 0;
     const uint32_t exact = pir_space_numbers(space, 3);
     if (space->status != PIR_OK)
         return 0;
-    pir_rest_turn_direction(space->rest, space->direction[direction].rest, space->number + exact);
+    if (of_line)
+        pir_numbers_cross(space->number + exact, space->number + f, space->number + g);
+    else
+        pir_rest_turn_direction(space->rest, d.rest, space->number + exact);
     pir_numbers_reduce(space->number + exact, 3, space->t[16]);
     return space->direction[direction].exact = exact;
 }

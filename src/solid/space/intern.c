@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* See intern.h. Open addressing; the table is at most half full. A line's six numbers are Plücker's coordinates. */
+/* See intern.h. Open addressing; the table is at most half full.  */
 #include "solid/space/intern.h"
 
 #include <string.h>
@@ -11,6 +11,8 @@ void pir_intern_init(pir_intern *table, pir_space *space, uint32_t numbers) {
 }
 
 void pir_intern_finish(pir_intern *table) {
+    if (!table->space)
+        return;
     pir_space_shrink(table->space, table->slot, table->slot_room, sizeof *table->slot);
     pir_space_shrink(table->space, table->first, table->first_room, sizeof *table->first);
     pir_space_shrink(table->space, table->value, table->value_room, sizeof *table->value);
@@ -102,25 +104,4 @@ uint32_t pir_intern_half(pir_intern *table, uint32_t half) {
     // the value is the half-space that faces the way of the key
     const uint32_t away = sign < 0;
     return pir_intern_add(table, key, half ^ (half & 1) ^ away) ^ (half & 1) ^ away;
-}
-
-uint32_t pir_intern_line(pir_intern *table, uint32_t f, uint32_t g) {
-    pir_space *space = table->space;
-    const uint32_t a = pir_space_exact_plane(space, f), b = pir_space_exact_plane(space, g);
-    const uint32_t key = pir_space_numbers(space, 6);
-    if (space->status != PIR_OK)
-        return 0;
-    mpz_t *line = space->number + key, *p = space->number + a, *q = space->number + b;
-    pir_numbers_cross(line, p, q);
-    for (int k = 0; k < 3; k++) {
-        mpz_mul(line[3 + k], p[3], q[k]);
-        mpz_submul(line[3 + k], q[3], p[k]);
-    }
-    pir_numbers_reduce(line, 6, space->t[16]);
-    int sign = 0;
-    for (int k = 0; k < 3 && sign == 0; k++)
-        sign = mpz_sgn(line[k]);
-    for (int k = 0; k < 6 && sign < 0; k++)
-        mpz_neg(line[k], line[k]);
-    return pir_intern_add(table, key, table->count);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Equal points, planes and lines under one number: a hash table over their exact numbers in lowest terms. */
+/* Equal points and planes under one number: a hash table over their exact numbers in lowest terms. */
 #ifndef PIR_SOLID_SPACE_INTERN_H
 #define PIR_SOLID_SPACE_INTERN_H
 
@@ -31,9 +31,5 @@ uint32_t pir_intern_point(pir_intern *table, uint32_t point);
 
 /* The first half-space added with the same plane, turned where that one faces the other way. */
 uint32_t pir_intern_half(pir_intern *table, uint32_t half);
-
-/* The line where two planes that are not parallel meet: the same number for the same line, counted from 0. Its
- * direction, up to its sign, is given to the first. The table has entries of six numbers. */
-uint32_t pir_intern_line(pir_intern *table, uint32_t f, uint32_t g);
 
 #endif

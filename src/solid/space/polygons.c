@@ -64,7 +64,7 @@ uint32_t pir_polygons_direction(pir_space *space, uint32_t a, uint32_t b) {
 }
 
 uint32_t pir_polygons_add(pir_polygons *polygons, uint32_t half, const uint32_t *point, const uint32_t *direction,
-                          uint32_t count) {
+                          const bool *reversed, uint32_t count) {
     pir_space *space = polygons->space;
     const double *n = space->plane[half >> 1].n;
     int axis = 0;
@@ -76,7 +76,7 @@ uint32_t pir_polygons_add(pir_polygons *polygons, uint32_t half, const uint32_t 
     for (uint32_t i = 0; i < count && space->status == PIR_OK; i++) {
         const uint32_t wall = pir_space_add_plane(space, (const uint32_t[]){direction[i], polygons->axis[axis]}, turned,
                                                   (const uint32_t[]){point[i], PIR_SPACE_NONE});
-        add_corner(polygons, point[i], pir_half(wall, false));
+        add_corner(polygons, point[i], pir_half(wall, reversed && reversed[i]));
     }
     return made;
 }

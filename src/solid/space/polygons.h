@@ -45,9 +45,10 @@ static inline int pir_ball_side(const pir_ball *ball, const pir_space_plane *f, 
 void pir_polygons_init(pir_polygons *polygons, pir_space *space);
 void pir_polygons_finish(pir_polygons *polygons);
 
-/* A polygon of points in the plane of `half`, and walls through its sides, which have these directions. */
+/* A polygon of points in the plane of `half`, and walls through its sides, which have these directions; `reversed`, per
+ * side, says which have the opposite ones, and is NULL where none has. */
 uint32_t pir_polygons_add(pir_polygons *polygons, uint32_t half, const uint32_t *point, const uint32_t *direction,
-                          uint32_t count);
+                          const bool *reversed, uint32_t count);
 
 /* A copy of a polygon of another list in the same space. */
 uint32_t pir_polygons_copy(pir_polygons *polygons, const pir_polygons *from, uint32_t polygon);

@@ -18,6 +18,8 @@ void pir_rest_init(pir_space_rest *rest, pir_space *space) {
             mpz_init(rest->matrix[b][k]);
         mpz_init(rest->weight[b]);
         mpz_init(rest->t[b]);
+        pir_intern_init(&rest->points_of[b], space, 4);
+        pir_intern_init(&rest->directions_of[b], space, 3);
     }
 }
 
@@ -30,11 +32,14 @@ void pir_rest_finish(pir_space_rest *rest) {
             mpz_clear(rest->matrix[b][k]);
         mpz_clear(rest->weight[b]);
         mpz_clear(rest->t[b]);
+        pir_intern_finish(&rest->points_of[b]);
+        pir_intern_finish(&rest->directions_of[b]);
     }
     for (uint32_t k = 0; k < rest->number_count; k++) {
         space->bytes -= (size_t)rest->number[k]->_mp_alloc * sizeof(mp_limb_t);
         mpz_clear(rest->number[k]);
     }
+    PIR_FREE(&space->allocator, rest->known, PIR_REST_KNOWN);
     pir_space_shrink(space, rest->number, rest->number_room, sizeof *rest->number);
     pir_space_shrink(space, rest->points.item, rest->points.room, sizeof *rest->points.item);
     pir_space_shrink(space, rest->directions.item, rest->directions.room, sizeof *rest->directions.item);
@@ -69,30 +74,73 @@ void pir_rest_keep_point(pir_space_rest *rest, uint32_t point, int body) {
     const uint32_t exact = pir_space_exact_point(space, point);
     if (space->status != PIR_OK)
         return;
-    pir_space_point *p = &space->point[point];
     const uint32_t at = copy_numbers(rest, exact, 4);
     pir_space_round_point(space, point);
-    const uint32_t made =
-        push(rest, &rest->points, (pir_rest_item){{p->x[0], p->x[1], p->x[2]}, point, at, (uint32_t)body});
+    pir_space_point *p = &space->point[point];
+    const pir_rest_item item = {.x = {p->x[0], p->x[1], p->x[2]},
+                                .of = point,
+                                .exact = at,
+                                .body = (uint32_t)body,
+                                .same = pir_intern_add(&rest->points_of[body], exact, rest->points.count)};
+    const uint32_t made = push(rest, &rest->points, item);
     p->kind = PIR_POINT_TURNED;
     p->of[0] = made;
 }
 
+/* The first item of a body along the line of a direction. */
+static uint32_t line_of(pir_space_rest *rest, uint32_t exact, int body) {
+    pir_space *space = rest->space;
+    const uint32_t key = pir_space_numbers(space, 3);
+    if (space->status != PIR_OK)
+        return 0;
+    int sign = 0;
+    for (uint32_t k = 0; k < 3 && sign == 0; k++)
+        sign = mpz_sgn(space->number[exact + k]);
+    for (uint32_t k = 0; k < 3; k++) {
+        mpz_set(space->number[key + k], space->number[exact + k]);
+        if (sign < 0)
+            mpz_neg(space->number[key + k], space->number[key + k]);
+    }
+    return pir_intern_add(&rest->directions_of[body], key, rest->directions.count);
+}
+
 void pir_rest_keep_direction(pir_space_rest *rest, uint32_t direction, int body) {
     pir_space *space = rest->space;
-    pir_space_direction *d = &space->direction[direction];
-    if (d->rest != PIR_SPACE_NONE || space->status != PIR_OK)
+    const pir_space_direction d = space->direction[direction];
+    if (d.rest != PIR_SPACE_NONE || space->status != PIR_OK)
         return;
-    const uint32_t at = copy_numbers(rest, d->exact, 3);
-    d->rest =
-        push(rest, &rest->directions, (pir_rest_item){{d->n[0], d->n[1], d->n[2]}, direction, at, (uint32_t)body});
+    const pir_rest_item item = {.x = {d.n[0], d.n[1], d.n[2]},
+                                .of = direction,
+                                .exact = copy_numbers(rest, d.exact, 3),
+                                .body = (uint32_t)body,
+                                .same = line_of(rest, d.exact, body),
+                                .end = {PIR_SPACE_NONE, PIR_SPACE_NONE}};
+    space->direction[direction].rest = push(rest, &rest->directions, item);
+}
+
+void pir_rest_keep_edge(pir_space_rest *rest, uint32_t direction, uint32_t a, uint32_t b, int body) {
+    pir_rest_keep_point(rest, a, body);
+    pir_rest_keep_point(rest, b, body);
+    pir_rest_keep_direction(rest, direction, body);
+    if (rest->space->status != PIR_OK)
+        return;
+    pir_rest_item *item = &rest->directions.item[rest->space->direction[direction].rest];
+    item->end[0] = rest->space->point[a].of[0];
+    item->end[1] = rest->space->point[b].of[0];
 }
 
 void pir_rest_settle(pir_space_rest *rest) {
     rest->point_mark = rest->space->point_count;
     rest->direction_mark = rest->space->direction_count;
     rest->plane_mark = rest->space->plane_count;
+    rest->known = PIR_ZEROED(&rest->space->allocator, struct pir_rest_known, PIR_REST_KNOWN);
+    if (!rest->known && rest->space->status == PIR_OK)
+        rest->space->status = PIR_ERR_MEMORY;
     rest->space->rest = rest;
+    for (int b = 0; b < 2; b++) {
+        pir_intern_finish(&rest->points_of[b]);
+        pir_intern_finish(&rest->directions_of[b]);
+    }
 }
 
 static void set_int(mpz_ptr to, const pir_int *a) {

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "solid/space/exact.h"
+#include "solid/space/identity.h"
 #include "solid/space/space.h"
 
 /* Sides that exact numbers told and that are kept at most, 12 bytes each. */
@@ -55,7 +56,7 @@ static struct pir_known_side *known_side(pir_space *space, uint32_t a, uint32_t 
 }
 
 int pir_space_exact_side(pir_space *space, uint32_t plane, uint32_t point) {
-    if (is_made_in(&space->plane[plane], plane, &space->point[point], point))
+    if (is_made_in(&space->plane[plane], plane, &space->point[point], point) || pir_identity_holds(space, plane, point))
         return 0;
     const uint32_t a = pir_space_exact_plane(space, plane), x = pir_space_exact_point(space, point);
     if (space->side_count >= space->side_room && space->side_room < MOST_SIDES && space->status == PIR_OK)
@@ -173,6 +174,8 @@ int pir_space_order(pir_space *space, uint32_t direction, uint32_t a, uint32_t b
     const double s = n[0] * (q->x[0] - p->x[0]) + n[1] * (q->x[1] - p->x[1]) + n[2] * (q->x[2] - p->x[2]);
     if (fabs(s) > p->err + q->err + 0x1p-44)
         return s > 0 ? 1 : -1;
+    if (a == b)
+        return 0;
     const uint32_t i = pir_space_exact_point(space, a), j = pir_space_exact_point(space, b);
     const uint32_t way = pir_space_exact_direction(space, direction);
     if (space->status != PIR_OK || i == j)

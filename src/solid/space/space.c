@@ -170,7 +170,7 @@ uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, m
     mpz_set(n[0], x);
     mpz_set(n[1], y);
     mpz_set(n[2], z);
-    space->direction[made].rest = PIR_SPACE_NONE;
+    space->direction[made].rest = space->direction[made].plane[0] = PIR_SPACE_NONE;
     if (mpz_sgn(x) == 0 && mpz_sgn(y) == 0 && mpz_sgn(z) == 0) {
         pir_space_fault(space);
         return 0;
@@ -179,6 +179,29 @@ uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, m
     space->direction[made].exact = exact;
     pir_space_round_direction(space->direction[made].n, n);
     return space->direction_count++;
+}
+
+uint32_t pir_space_add_line_direction(pir_space *space, uint32_t f, uint32_t g) {
+    const uint32_t made = space->direction_count;
+    if (!pir_space_grow(space, (void **)&space->direction, &space->direction_room, made, sizeof *space->direction))
+        return 0;
+    pir_space_direction *d = &space->direction[made];
+    const double *a = space->plane[f].n, *b = space->plane[g].n;
+    double square = 0;
+    *d = (pir_space_direction){.exact = PIR_SPACE_NONE, .rest = PIR_SPACE_NONE, .plane = {f, g}};
+    for (int k = 0; k < 3; k++) {
+        d->n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+        square += d->n[k] * d->n[k];
+    }
+    space->direction_count++;
+    // within 60 degrees of the line it tells which way that leads
+    const double length = sqrt(square);
+    if (length > 8 * (space->plane[f].err + space->plane[g].err) + 0x1p-40)
+        for (int k = 0; k < 3; k++)
+            d->n[k] /= length;
+    else if (pir_space_exact_direction(space, made) != 0 && space->status == PIR_OK)
+        pir_space_round_direction(space->direction[made].n, space->number + space->direction[made].exact);
+    return made;
 }
 
 /* A new point without coordinates. */

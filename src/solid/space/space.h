@@ -42,9 +42,10 @@
 #define PIR_SPACE_ERROR 0x1p-20
 
 typedef struct pir_space_direction {
-    double n[3];    /* unit, within 2^-47 of the true one */
-    uint32_t exact; /* three numbers without a common factor; none yet only of one at rest (rest.h) */
-    uint32_t rest;  /* what it is at rest, or none */
+    double n[3];       /* unit, within 2^-47 of the true one */
+    uint32_t exact;    /* three numbers without a common factor, or none yet */
+    uint32_t rest;     /* what it is at rest (rest.h), or none */
+    uint32_t plane[2]; /* of a line: the planes that meet in it, or none */
 } pir_space_direction;
 
 enum pir_point_kind { PIR_POINT_GIVEN, PIR_POINT_SUM, PIR_POINT_MEET, PIR_POINT_TURNED };
@@ -67,8 +68,8 @@ typedef struct pir_space_plane {
 typedef struct pir_space_rest pir_space_rest;
 
 typedef struct pir_space {
-    const pir_space_rest *rest; /* of what turns, or NULL */
-    pir_allocator allocator;    /* gives what the limit allows, from the caller's */
+    pir_space_rest *rest;    /* of what turns, or NULL */
+    pir_allocator allocator; /* gives what the limit allows, from the caller's */
     pir_allocator given;
     pir_status status;
     size_t bytes, limit; /* of all that the job holds, GMP's numbers counted in */
@@ -129,6 +130,10 @@ void pir_space_drop_exact(pir_space *space);
 
 /* The direction (x, y, z), which is not zero. */
 uint32_t pir_space_add_direction(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z);
+
+/* The direction of the line where two planes meet. Its doubles may be farther off than those of others: they are for
+ * the order of points on that line. */
+uint32_t pir_space_add_line_direction(pir_space *space, uint32_t f, uint32_t g);
 
 /* The point (x, y, z)/w, w > 0. */
 uint32_t pir_space_add_point(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z, mpz_srcptr w);

@@ -43,7 +43,7 @@ static void add_vertex(pir_convexes *c, uint32_t point) {
 }
 
 /* The edge from a to b with its two faces, seen from the one on its left. */
-static void add_edge(pir_convexes *c, uint32_t a, uint32_t left, uint32_t right) {
+static void add_edge(pir_convexes *c, uint32_t a, uint32_t b, uint32_t left, uint32_t right) {
     pir_space *space = c->space;
     if (!pir_space_grow(space, (void **)&c->edge, &c->edge_room, c->edge_count, sizeof *c->edge))
         return;
@@ -51,7 +51,7 @@ static void add_edge(pir_convexes *c, uint32_t a, uint32_t left, uint32_t right)
     pir_numbers_cross(cross, space->number + space->direction[left].exact,
                       space->number + space->direction[right].exact);
     c->edge[c->edge_count++] =
-        (pir_convex_edge){a, pir_space_add_direction(space, cross[0], cross[1], cross[2]), {left, right}};
+        (pir_convex_edge){a, b, pir_space_add_direction(space, cross[0], cross[1], cross[2]), {left, right}};
     c->convex[c->count - 1].edge_count++;
 }
 
@@ -79,7 +79,7 @@ static void add_face(pir_convexes *c, const pir_cells *cells, pir_cell cell, con
         const uint32_t b = cells->corner[face->first + (i + 1 < face->count ? i + 1 : 0)];
         add_vertex(c, a);
         if (a < b)
-            add_edge(c, a, normal, normal_of(c, half_beside(cells, cell, a, b)));
+            add_edge(c, a, b, normal, normal_of(c, half_beside(cells, cell, a, b)));
     }
 }
 

@@ -10,8 +10,8 @@
 #include "solid/space/boxes.h"
 
 typedef struct pir_convex_edge {
-    uint32_t point, direction; /* one end; a direction along it */
-    uint32_t normal[2];        /* of its faces: left × right is along `direction` */
+    uint32_t point, end, direction; /* its ends; a direction along it */
+    uint32_t normal[2];             /* of its faces: left × right is along `direction` */
 } pir_convex_edge;
 
 typedef struct pir_convex {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A point of a facet of the sum, off the facet's edges, is the sum of a point of P and one of Q at which the two bodies
- * have the facet's plane for a common support near those points: were it otherwise, sums of points nearby would fill
- * both sides. That leaves, for a normal n,
+ * A point of a facet of the sum, off the facet's edges, is the sum of a point of P and one of Q at which the two
+ * bodies have the facet's plane for a common support near those points: were it otherwise, sums of points nearby would
+ * fill both sides. That leaves, for a normal n,
  *
  *     a facet of one with normal n, and of the other a vertex whose edges all lead below the plane; or an edge in the
  *     plane whose facets lead below it; or a facet with normal n as well;
@@ -70,7 +70,7 @@ static void add_sum(struct candidate_maker *m, uint32_t half, uint32_t n, const 
             left--;
         }
     }
-    const uint32_t polygon = pir_polygons_add(m->polygons, half, m->point, m->direction, m->count);
+    const uint32_t polygon = pir_polygons_add(m->polygons, half, m->point, m->direction, NULL, m->count);
     if (m->space->status == PIR_OK)
         m->take(m->context, polygon);
 }
@@ -192,12 +192,14 @@ static void meet_edge_pair(struct candidate_maker *m, const pir_shell_body_edge 
     // round the parallelogram, counter-clockwise about its normal
     const uint32_t corner[2][4][2] = {{{e->a, g->a}, {e->b, g->a}, {e->b, g->b}, {e->a, g->b}},
                                       {{e->a, g->a}, {e->a, g->b}, {e->b, g->b}, {e->b, g->a}}};
+    const uint32_t side[2] = {along > 0 ? g->direction : e->direction, along > 0 ? e->direction : g->direction};
     m->count = 0;
     for (int i = 0; i < 4; i++)
-        push(m, corner[along > 0][i][0], corner[along > 0][i][1], 0);
-    for (uint32_t i = 0; i < 4 && space->status == PIR_OK; i++)
-        m->direction[i] = pir_polygons_direction(space, m->point[i], m->point[(i + 1) % 4]);
-    const uint32_t polygon = pir_polygons_add(m->polygons, half, m->point, m->direction, m->count);
+        push(m, corner[along > 0][i][0], corner[along > 0][i][1], side[i & 1]);
+    if (space->status != PIR_OK)
+        return;
+    const uint32_t polygon =
+        pir_polygons_add(m->polygons, half, m->point, m->direction, (const bool[]){false, false, true, true}, m->count);
     if (space->status == PIR_OK)
         m->take(m->context, polygon);
 }

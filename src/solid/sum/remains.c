@@ -18,19 +18,13 @@
 
 #include "base/sort.h"
 #include "solid/space/exact.h"
-#include "solid/space/intern.h"
+#include "solid/space/places.h"
 #include "solid/sum/convolution.h"
 
 /* Whether a plane of the space is that of a half-space, with the same side below. */
 static bool is_plane_of(pir_space *space, uint32_t half, uint32_t plane) {
-    const uint32_t a = pir_space_exact_plane(space, half >> 1), b = pir_space_exact_plane(space, plane);
-    const int turn = half & 1 ? -1 : 1;
-    for (uint32_t k = 0; k < 4 && space->status == PIR_OK; k++) {
-        mpz_srcptr x = space->number[a + k], y = space->number[b + k];
-        if (mpz_cmpabs(x, y) != 0 || mpz_sgn(x) != turn * mpz_sgn(y))
-            return false;
-    }
-    return space->status == PIR_OK;
+    return pir_planes_are_one(space, half >> 1, plane) &&
+           pir_planes_face_one_way(space, half >> 1, plane) == !(half & 1);
 }
 
 /* How deep in a pair's sum the middle of a candidate in the plane of `half` is, or −HUGE_VAL when all of the sum is
@@ -110,10 +104,12 @@ static void keep(pir_remains *c, uint32_t candidate, const pir_fragments *left, 
 static void clip_touching(pir_remains *c, uint32_t pairs) {
     pir_touching *t = &c->touching;
     for (uint32_t i = 0; i < pairs && t->fragments.count + t->segment_count + t->point_count > 0; i++) {
-        const pir_pair_sum *pair = &c->pair[c->order[i]];
+        pir_pair_sum *pair = &c->pair[c->order[i]];
+        uint32_t apart = pair->apart - pair->first;
         if (c->space->status != PIR_OK || !list_halves(c, pair))
             return;
-        pir_touching_subtract(t, c->half, pair->count);
+        pir_touching_subtract(t, c->half, pair->count, &apart);
+        pair->apart = pair->first + apart;
     }
     for (uint32_t i = 0; i < t->segment_count; i++)
         pir_touching_add_segment(&c->left, c->space, t->segment[i]);
@@ -138,9 +134,12 @@ static void clip(pir_remains *c, uint32_t candidate) {
         pir_fragments_add(&c->fragments, c->space, polygon);
     }
     for (uint32_t i = 0; i < pairs && c->fragments.count > 0 && c->space->status == PIR_OK; i++) {
-        const pir_pair_sum *pair = &c->pair[c->order[i]];
+        pir_pair_sum *pair = &c->pair[c->order[i]];
+        uint32_t apart = pair->apart - pair->first;
         if (list_halves(c, pair))
-            pir_fragments_subtract(&c->fragments, &c->polygons, c->half, pair->count, c->open ? &c->covered : NULL);
+            pir_fragments_subtract(&c->fragments, &c->polygons, c->half, pair->count, c->open ? &c->covered : NULL,
+                                   &apart);
+        pair->apart = pair->first + apart;
     }
     keep(c, candidate, &c->fragments, false);
     keep(c, candidate, &c->covered, true);
@@ -215,11 +214,11 @@ static void take(void *context, uint32_t polygon) {
 
 /* Gives all candidates in one plane one half-space. */
 static void join_planes(pir_remains *c) {
-    pir_intern planes;
-    pir_intern_init(&planes, c->space, 4);
+    pir_places planes;
+    pir_places_init(&planes, c->space);
     for (uint32_t i = 0; i < c->kept.count && c->space->status == PIR_OK; i++)
-        c->kept.polygon[i].half = pir_intern_half(&planes, c->kept.polygon[i].half);
-    pir_intern_finish(&planes);
+        c->kept.polygon[i].half = pir_places_half(&planes, c->kept.polygon[i].half);
+    pir_places_finish(&planes);
 }
 
 static bool is_in_earlier_plane(void *context, uint32_t a, uint32_t b) {

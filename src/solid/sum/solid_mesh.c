@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * See solid_mesh.h. Vertices stand in the order in which facets, then segments, then points name them. Two-sided facets
- * follow those of the boundary, each twice in a row, once each way.
+ * See solid_mesh.h. Vertices stand in the order in which facets, then segments, then points name them. Two-sided
+ * facets follow those of the boundary, each twice in a row, once each way.
  */
 #include "solid/sum/solid_mesh.h"
 
@@ -101,6 +101,11 @@ pir_status pir_solid_mesh_make(pir_operands *operands, const pir_sum_boundary *b
     const pir_loop_list *loops = &boundary->loops;
     const uint32_t one_sided = loops->boundary_count, two_sided = loops->facet_count - one_sided;
     const uint32_t corners = loops->facet_corner_count, once = one_sided > 0 ? loops->facet[one_sided - 1] : 0;
+    pir_space *space = &operands->space;
+    for (uint32_t v = 0; v < boundary->vertex_count && space->status == PIR_OK; v++)
+        pir_space_exact_point(space, boundary->vertex[v]);
+    if (space->status != PIR_OK)
+        return space->status;
     pir_mesh *mesh = pir_mesh_new(&operands->allocator, boundary->vertex_count, one_sided + 2 * two_sided,
                                   once + 2 * (corners - once));
     if (!mesh || (exact && !reserve_exact(mesh, &from)) || !fill_lone(mesh, &from)) {

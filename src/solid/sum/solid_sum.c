@@ -41,11 +41,11 @@ static void keep_body(pir_space_rest *rest, const pir_shell_body *body, int k) {
     for (uint32_t f = 0; f < body->source.facet_count; f++)
         pir_rest_keep_direction(rest, rest->space->plane[body->plane[f]].direction[0], k);
     for (uint32_t e = 0; e < body->edge_count; e++)
-        pir_rest_keep_direction(rest, body->edge[e].direction, k);
-    for (uint32_t i = 0; i < body->corner_count; i++) {
-        pir_rest_keep_point(rest, body->part_corner[i], k);
-        pir_rest_keep_direction(rest, body->part_direction[i], k);
-    }
+        pir_rest_keep_edge(rest, body->edge[e].direction, body->edge[e].a, body->edge[e].b, k);
+    for (uint32_t p = 0; p < body->part_count; p++)
+        for (uint32_t i = body->part_start[p], end = body->part_start[p + 1]; i < end; i++)
+            pir_rest_keep_edge(rest, body->part_direction[i], body->part_corner[i],
+                               body->part_corner[i + 1 < end ? i + 1 : body->part_start[p]], k);
 }
 
 static void keep_convexes(pir_space_rest *rest, const pir_convexes *convexes, int k) {
@@ -56,10 +56,10 @@ static void keep_convexes(pir_space_rest *rest, const pir_convexes *convexes, in
         pir_rest_keep_direction(rest, convexes->face[i].normal, k);
     }
     for (uint32_t i = 0; i < convexes->edge_count; i++) {
-        pir_rest_keep_point(rest, convexes->edge[i].point, k);
-        pir_rest_keep_direction(rest, convexes->edge[i].direction, k);
+        const pir_convex_edge *edge = &convexes->edge[i];
+        pir_rest_keep_edge(rest, edge->direction, edge->point, edge->end, k);
         for (int side = 0; side < 2; side++)
-            pir_rest_keep_direction(rest, convexes->edge[i].normal[side], k);
+            pir_rest_keep_direction(rest, edge->normal[side], k);
     }
 }
 

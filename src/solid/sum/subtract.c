@@ -18,22 +18,28 @@ void pir_fragments_add(pir_fragments *fragments, pir_space *space, uint32_t poly
         fragments->polygon[fragments->count++] = polygon;
 }
 
-bool pir_polygon_is_apart(const pir_polygons *polygons, uint32_t polygon, const uint32_t *half, uint32_t count) {
+static bool is_above(const pir_polygons *polygons, pir_polygon p, uint32_t half) {
     const pir_space *space = polygons->space;
-    const pir_polygon p = polygons->polygon[polygon];
-    for (uint32_t h = 0; h < count; h++) {
-        const pir_space_plane *f = &space->plane[half[h] >> 1];
-        const double turn = half[h] & 1 ? -1 : 1;
-        uint32_t i = 0;
-        for (; i < p.count; i++) {
-            const pir_space_point *x = &space->point[polygons->point[p.first + i]];
-            if (!(turn * (f->n[0] * x->x[0] + f->n[1] * x->x[1] + f->n[2] * x->x[2] - f->d) >
-                  f->err + x->err + 0x1p-48))
-                break;
-        }
-        if (i == p.count)
-            return true;
+    const pir_space_plane *f = &space->plane[half >> 1];
+    const double turn = half & 1 ? -1 : 1;
+    for (uint32_t i = 0; i < p.count; i++) {
+        const pir_space_point *x = &space->point[polygons->point[p.first + i]];
+        if (!(turn * (f->n[0] * x->x[0] + f->n[1] * x->x[1] + f->n[2] * x->x[2] - f->d) > f->err + x->err + 0x1p-48))
+            return false;
     }
+    return true;
+}
+
+bool pir_polygon_is_apart(const pir_polygons *polygons, uint32_t polygon, const uint32_t *half, uint32_t count,
+                          uint32_t *apart) {
+    const pir_polygon p = polygons->polygon[polygon];
+    if (*apart < count && is_above(polygons, p, half[*apart]))
+        return true;
+    for (uint32_t h = 0; h < count; h++)
+        if (is_above(polygons, p, half[h])) {
+            *apart = h;
+            return true;
+        }
     return false;
 }
 
@@ -65,10 +71,10 @@ static enum meeting find_cutters(pir_polygons *polygons, uint32_t fragment, cons
 }
 
 static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *polygons, const uint32_t *half,
-                         uint32_t count, pir_fragments *covered) {
+                         uint32_t count, pir_fragments *covered, uint32_t *apart) {
     pir_space *space = polygons->space;
     uint32_t rest = fragments->polygon[at], cutters = 0;
-    if (pir_polygon_is_apart(polygons, rest, half, count) ||
+    if (pir_polygon_is_apart(polygons, rest, half, count, apart) ||
         !pir_space_grow(space, (void **)&fragments->spare, &fragments->spare_room, count, sizeof *fragments->spare))
         return;
     if (find_cutters(polygons, rest, half, count, fragments->spare, &cutters) == APART)
@@ -95,10 +101,10 @@ static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *po
 }
 
 void pir_fragments_subtract(pir_fragments *fragments, pir_polygons *polygons, const uint32_t *half, uint32_t count,
-                            pir_fragments *covered) {
+                            pir_fragments *covered, uint32_t *apart) {
     const uint32_t before = fragments->count;
     for (uint32_t i = 0; i < before && polygons->space->status == PIR_OK; i++)
-        subtract_one(fragments, i, polygons, half, count, covered);
+        subtract_one(fragments, i, polygons, half, count, covered, apart);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < fragments->count; i++)
         if (fragments->polygon[i] != PIR_SPACE_NONE)

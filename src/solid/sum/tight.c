@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * See tight.h. Of segments, what closed facets hold is taken away, and what is left is united along each line; of
- * points, those go that facets or such segments hold. A two-sided facet crosses another one where a polygon of it meets
- * the other's plane, within a polygon of that.
+ * points, those go that facets or such segments hold. A two-sided facet crosses another one where a polygon of it
+ * meets the other's plane, within a polygon of that.
  */
 #include "solid/sum/tight.h"
 
@@ -94,7 +94,7 @@ static void touch_facets(struct tight *t, const pir_segment *segment) {
                                    ? segment->b
                                    : pir_space_add_meet(t->space, segment->plane[0], segment->plane[1], p.half >> 1);
         if (holds(t, p, point))
-            pir_union_outline_touch(t->outline, line, pir_intern_point(&t->outline->points, point));
+            pir_union_outline_touch(t->outline, line, pir_places_point(&t->outline->points, point));
     }
 }
 
@@ -152,7 +152,7 @@ static void add_point(struct tight *t, uint32_t point, pir_touching *points) {
     for (uint32_t i = 0; i < found; i++)
         if (holds(t, polygon_of(t, t->found[i]), point))
             return;
-    const uint32_t known = pir_intern_point(&t->outline->points, point);
+    const uint32_t known = pir_places_point(&t->outline->points, point);
     for (uint32_t i = 0; i < points->point_count; i++)
         if (points->point[i] == known)
             return;

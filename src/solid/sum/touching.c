@@ -78,11 +78,11 @@ static bool find_planes(pir_touching *t, uint32_t polygon, const uint32_t *half,
 }
 
 /* Whether the polygon meets the set, which is then taken from it; otherwise nothing has changed. */
-static bool subtract_polygon(pir_touching *t, uint32_t polygon, const uint32_t *half, uint32_t count) {
+static bool subtract_polygon(pir_touching *t, uint32_t polygon, const uint32_t *half, uint32_t count, uint32_t *apart) {
     pir_polygons *polygons = t->polygons;
     pir_space *space = polygons->space;
     uint32_t counts[2], rest = polygon;
-    if (pir_polygon_is_apart(polygons, polygon, half, count) ||
+    if (pir_polygon_is_apart(polygons, polygon, half, count, apart) ||
         !pir_space_grow(space, (void **)&t->fragments.spare, &t->fragments.spare_room, count,
                         sizeof *t->fragments.spare) ||
         !find_planes(t, polygon, half, count, counts))
@@ -142,7 +142,7 @@ static bool holds_inside(pir_space *space, uint32_t point, const uint32_t *half,
 
 /* --- all --- */
 
-void pir_touching_subtract(pir_touching *touching, const uint32_t *half, uint32_t count) {
+void pir_touching_subtract(pir_touching *touching, const uint32_t *half, uint32_t count, uint32_t *apart) {
     pir_touching *t = touching;
     pir_space *space = t->polygons->space;
     // what is added by one kind to another comes behind what is looked at, and is outside of the set
@@ -161,7 +161,7 @@ void pir_touching_subtract(pir_touching *touching, const uint32_t *half, uint32_
     t->segment_count = kept;
     kept = 0;
     for (uint32_t i = 0; i < fragments && space->status == PIR_OK; i++)
-        if (!subtract_polygon(t, t->fragments.polygon[i], half, count))
+        if (!subtract_polygon(t, t->fragments.polygon[i], half, count, apart))
             t->fragments.polygon[kept++] = t->fragments.polygon[i];
     for (uint32_t i = fragments; i < t->fragments.count; i++)
         t->fragments.polygon[kept++] = t->fragments.polygon[i];

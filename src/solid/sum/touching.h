@@ -23,7 +23,8 @@ void pir_touching_clear(pir_touching *touching);
 void pir_touching_add_segment(pir_touching *touching, pir_space *space, pir_segment segment);
 void pir_touching_add_point(pir_touching *touching, pir_space *space, uint32_t point);
 
-/* Takes away what lies in the inside of a convex set, of the half-spaces half[0 .. count). */
-void pir_touching_subtract(pir_touching *touching, const uint32_t *half, uint32_t count);
+/* Takes away what lies in the inside of a convex set, of the half-spaces half[0 .. count); `apart` is as of
+ * pir_polygon_is_apart. */
+void pir_touching_subtract(pir_touching *touching, const uint32_t *half, uint32_t count, uint32_t *apart);
 
 #endif
