@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A sum of solids on its way through random histories: small steps, jumps, back and forth, degenerate rotations,
- * scales. At each it is the sum that is made there anew, bit for bit, and with scales the sum of solids that are made
- * that large.
+ * A sum of solids on its way through random histories: small steps, jumps, back
+ * and forth, degenerate rotations, scales. At each it is the sum that is made
+ * there anew, bit for bit, and with scales the sum of solids that are made that
+ * large.
  *
  * PIR_TEST_CASES sets how many rotations each pair goes through.
  */
@@ -16,6 +17,7 @@
 
 #include "solid/bodies.h"
 #include "solid/models.h"
+#include "support/memory.h"
 #include "support/solid_sums.h"
 
 struct history {
@@ -190,12 +192,51 @@ static void refused_call_leaves_the_sum_as_it_was(void **state) {
     pir_solid_release(p);
 }
 
+/* Whichever request for memory fails, the sum is that of the rotation and the
+ * scales before. */
+static void sum_outlives_rotations_that_run_out_of_memory(void **state) {
+    (void)state;
+    const pir_quat first = {1, 2, 3, 4}, second = {.1, .7, -.3, .6};
+    pir_solid *p = solid_model_new("clamp", 1), *q = solid_model_new("stella", 2);
+    unsigned failures = 0;
+    for (int open = 0; open < 2; open++) {
+        test_memory memory = {0};
+        pir_allocator allocator = test_allocator(&memory);
+        pir_solid_sum_options options = pir_solid_sum_options_default();
+        pir_solid_sum *sum = NULL, *fresh = NULL;
+        options.open = open != 0;
+        assert_int_equal(pir_solid_sum_create(p, q, first, &options, &fresh), PIR_OK);
+        options.solid.allocator = &allocator;
+        assert_int_equal(pir_solid_sum_create(p, q, first, &options, &sum), PIR_OK);
+        pir_status status = PIR_ERR_MEMORY;
+        for (uint64_t n = 1; status != PIR_OK; n += 1 + n / 8) {
+            const uint64_t generation = pir_solid_sum_generation(sum);
+            memory.fail_at = memory.requests + n;
+            status = n % 2 ? pir_solid_sum_rotate(sum, second) : pir_solid_sum_set_scale(sum, PIR_OPERAND_Q, 3);
+            memory.fail_at = 0;
+            if (status == PIR_OK)
+                break;
+            assert_int_equal(status, PIR_ERR_MEMORY);
+            assert_int_equal(pir_solid_sum_generation(sum), generation);
+            expect_same(sum, fresh, "out of memory", n);
+            failures++;
+        }
+        pir_solid_sum_destroy(sum);
+        pir_solid_sum_destroy(fresh);
+        expect(memory.blocks == 0 && !memory.wrong_size && !memory.overrun, "%zu blocks are left", memory.blocks);
+    }
+    expect(failures > 20, "%u calls failed", failures);
+    pir_solid_release(q);
+    pir_solid_release(p);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sum_is_that_made_anew_at_every_rotation),
         cmocka_unit_test(scaled_sum_is_that_of_scaled_solids),
         cmocka_unit_test(refused_call_leaves_the_sum_as_it_was),
+        cmocka_unit_test(sum_outlives_rotations_that_run_out_of_memory),
     };
     return cmocka_run_group_tests_name("sums of solids that turn", tests, NULL, NULL);
 }
