@@ -134,7 +134,7 @@ typedef struct pir_solid_depth {
  * workspace, input  scratch, and the poses of both; radii, cutoff and margin do not count.
  * ret_depth         `normal` is the unit vector along which P is moved by `depth`.
  *
- * Memory: made when it is first asked for, 200 bytes for each vertex, edge and facet of a piece, then 80 bytes for each
+ * Memory: made when first asked for, 200 bytes for each vertex, edge and facet of a piece, then 120 bytes for each
  * facet of a sum of pieces that was looked at, and exact numbers.
  *
  * Cost: that of pir_solid_query_overlap, and O(k · e · f) for the k pairs of pieces that are nearer than the depth,

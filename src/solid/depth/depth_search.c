@@ -60,20 +60,22 @@ static pir_depth_item pop(pir_depth_search *s) {
 
 /* --- sums about a point --- */
 
-static bool box_holds(const pir_space_box *box, const pir_obstacle_point *p) {
+/* Whether a point may be in the sum of two boxes. */
+static inline bool boxes_hold(const pir_space_box *a, const pir_space_box *b, const pir_obstacle_point *p) {
     const double room = p->err + 0x1p-46;
     for (int k = 0; k < 3; k++)
-        if (p->x[k] < box->low[k] - room || p->x[k] > box->high[k] + room)
+        if (p->x[k] < a->low[k] + b->low[k] - room || p->x[k] > a->high[k] + b->high[k] + room)
             return false;
     return true;
 }
 
-/* How deep a point is in a sum at least, where it is inside of it; below 0 where it is not. */
-static double depth_within(pir_obstacle *o, const pir_obstacle_sum *sum, uint32_t point) {
+/* How deep a point is in a sum at least, where it is inside of it; below 0 where it is not or, unless `exact`, where
+ * doubles do not tell. */
+static double depth_within(pir_obstacle *o, const pir_obstacle_sum *sum, uint32_t point, bool exact) {
     const pir_obstacle_point p = o->point[point];
     double least = HUGE_VAL;
     bool sure = true;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3 && p.kind != PIR_OBSTACLE_VERTICES; k++)
         if (p.of[k] != PIR_OBSTACLE_NONE && p.of[k] - sum->first < sum->count)
             return -1;
     for (uint32_t f = sum->first; f < sum->first + sum->count; f++) {
@@ -83,6 +85,8 @@ static double depth_within(pir_obstacle *o, const pir_obstacle_sum *sum, uint32_
         if (s < -bound)
             return -1;
         sure = sure && s > bound;
+        if (!sure && !exact)
+            return -1;
         least = s - bound < least ? s - bound : least;
     }
     for (uint32_t f = sum->first; f < sum->first + sum->count && !sure; f++)
@@ -91,24 +95,65 @@ static double depth_within(pir_obstacle *o, const pir_obstacle_sum *sum, uint32_
     return least > 0 ? least : 0;
 }
 
-/* The pair in whose sum a point is deepest inside, or none. */
-static uint32_t cover_of(pir_obstacle *o, uint32_t point) {
+/* Makes a pair the first of those that have covered points of late. */
+static void note_cover(pir_depth_search *s, uint32_t pair) {
+    uint32_t at = 0;
+    while (at < s->cover_count && s->cover[at] != pair)
+        at++;
+    if (at == s->cover_count && s->cover_count < PIR_DEPTH_COVERS)
+        s->cover_count++;
+    at = at < PIR_DEPTH_COVERS ? at : PIR_DEPTH_COVERS - 1;
+    for (; at > 0; at--)
+        s->cover[at] = s->cover[at - 1];
+    s->cover[0] = pair;
+}
+
+/* The deepest of those sums, if a point is inside of any. */
+static uint32_t late_cover(pir_depth_search *s, uint32_t point) {
+    pir_obstacle *o = &s->obstacle;
+    double deepest = 0;
     uint32_t best = PIR_OBSTACLE_NONE;
-    double deepest = -1;
-    for (uint32_t pair = 0; pair < o->pairs && o->status == PIR_OK; pair++) {
-        const pir_space_box box = pir_obstacle_box(o, pair);
-        if (!box_holds(&box, &o->point[point]))
-            continue;
-        const pir_obstacle_sum *sum = pir_obstacle_open(o, pair);
-        if (o->status != PIR_OK)
-            break;
-        const double depth = depth_within(o, sum, point);
+    for (uint32_t i = 0; i < s->cover_count; i++) {
+        const double depth = depth_within(o, pir_obstacle_open(o, s->cover[i]), point, false);
         if (depth > deepest) {
             deepest = depth;
-            best = pair;
+            best = s->cover[i];
         }
     }
     return best;
+}
+
+/* The pair in whose sum a point is deepest inside, or none. */
+static uint32_t deepest_cover(pir_obstacle *o, uint32_t point) {
+    const pir_framed_body *p = &o->frame.body[0], *q = &o->frame.body[1];
+    uint32_t best = PIR_OBSTACLE_NONE;
+    double deepest = -1;
+    for (uint32_t i = 0; i < p->of->count; i++) {
+        if (!boxes_hold(&p->box[i], &q->whole, &o->point[point]))
+            continue;
+        for (uint32_t j = 0; j < q->of->count && o->status == PIR_OK; j++) {
+            if (!boxes_hold(&p->box[i], &q->box[j], &o->point[point]))
+                continue;
+            const uint32_t pair = i * q->of->count + j;
+            const pir_obstacle_sum *sum = pir_obstacle_open(o, pair);
+            const double depth = o->status == PIR_OK ? depth_within(o, sum, point, true) : -1;
+            if (depth > deepest) {
+                deepest = depth;
+                best = pair;
+            }
+        }
+    }
+    return best;
+}
+
+/* A pair in whose sum a point is inside: one of those of late, or the deepest; or none. */
+static uint32_t cover_of(pir_depth_search *s, uint32_t point) {
+    uint32_t cover = late_cover(s, point);
+    if (cover == PIR_OBSTACLE_NONE)
+        cover = deepest_cover(&s->obstacle, point);
+    if (cover != PIR_OBSTACLE_NONE)
+        note_cover(s, cover);
+    return cover;
 }
 
 /* --- the nearest of all --- */
@@ -183,7 +228,7 @@ pir_status pir_depth_search_nearest(pir_depth_search *search, const pir_pair_inp
             continue;
         }
         const pir_free_part part = s->parts.part[item.number];
-        const uint32_t cover = cover_of(o, part.nearest);
+        const uint32_t cover = cover_of(s, part.nearest);
         if (cover == PIR_OBSTACLE_NONE) {
             if (found.plane == PIR_OBSTACLE_NONE || comes_before(o, &part, &found, most)) {
                 found = (pir_depth_found){part.plane, part.nearest};
@@ -243,8 +288,8 @@ pir_status pir_depth_search_along(pir_depth_search *search, const pir_pair_input
     if (status != PIR_OK)
         return status;
     pir_depth_found found = {PIR_OBSTACLE_NONE, 0};
-    for (uint32_t cover = cover_of(o, 0); cover != PIR_OBSTACLE_NONE && o->status == PIR_OK;
-         cover = cover_of(o, found.point)) {
+    for (uint32_t cover = cover_of(search, 0); cover != PIR_OBSTACLE_NONE && o->status == PIR_OK;
+         cover = cover_of(search, found.point)) {
         found.point = exit_of(o, pir_obstacle_open(o, cover), &found.plane);
         if (found.point == PIR_OBSTACLE_NONE)
             o->status = PIR_ERR_INTERNAL;

@@ -12,11 +12,16 @@ typedef struct pir_depth_item {
     uint32_t number;
 } pir_depth_item;
 
+/* How many pairs are tried before all are. */
+#define PIR_DEPTH_COVERS 8
+
 typedef struct pir_depth_search {
     pir_obstacle obstacle;
     pir_free_parts parts;
     pir_depth_item *heap;
     uint32_t heap_count, heap_room;
+    uint32_t cover[PIR_DEPTH_COVERS],
+        cover_count; /* pairs whose sums have covered points of late, the last one first */
 } pir_depth_search;
 
 /* Where P is free, nearest to where it is: a point of the obstacle, and the least plane that it is on. */

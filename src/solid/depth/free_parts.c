@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "polytope/polytope.h"
+
 void pir_free_parts_finish(pir_free_parts *parts) {
     const pir_allocator *a = &parts->obstacle->allocator;
     PIR_FREE(a, parts->part, parts->room);
@@ -245,8 +247,53 @@ static void begin_square(pir_free_parts *parts, uint32_t plane) {
     }
 }
 
+/* The facet as a copy of a facet of P or Q, moved by a vertex, or the parallelogram of two edges: the sums of vertices
+ * that are its corners, in turn; whether they are counter-clockwise from above. In A', which is reflected, facets are
+ * walked the other way round, and edges lead from their target to their origin. */
+static bool add_corners(pir_free_parts *parts, uint32_t plane) {
+    pir_obstacle *o = parts->obstacle;
+    const pir_obstacle_plane f = o->plane[plane];
+    const uint32_t pieces_q = o->frame.body[1].of->count, piece[2] = {f.pair / pieces_q, f.pair % pieces_q};
+    const pir_framed_body *p = &o->frame.body[0], *q = &o->frame.body[1];
+    const uint32_t first_p = p->of->vertex_start[piece[0]], first_q = q->of->vertex_start[piece[1]];
+    if (f.kind == PIR_OBSTACLE_EDGES) {
+        const pir_framed_edge e = p->edge[p->edge_start[piece[0]] + f.p], g = q->edge[q->edge_start[piece[1]] + f.q];
+        const uint32_t corner[4][2] = {
+            {e.origin, g.origin}, {e.target, g.origin}, {e.target, g.target}, {e.origin, g.target}};
+        for (int i = 0; i < 4; i++)
+            add_corner(parts, pir_obstacle_add(o, PIR_OBSTACLE_VERTICES, corner[i][0], corner[i][1], PIR_OBSTACLE_NONE),
+                       0);
+        return f.turned;
+    }
+    const bool of_q = f.kind == PIR_OBSTACLE_Q_FACET;
+    const pir_polytope *own = of_q ? q->of->piece[piece[1]] : p->of->piece[piece[0]];
+    const uint32_t face = of_q ? f.q : f.p;
+    for (uint32_t i = own->loop_start[face]; i < own->loop_start[face + 1]; i++) {
+        const uint32_t v = own->origin[own->loop[i]];
+        const uint32_t a = first_p + (of_q ? f.p : v), b = first_q + (of_q ? v : f.q);
+        add_corner(parts, pir_obstacle_add(o, PIR_OBSTACLE_VERTICES, a, b, PIR_OBSTACLE_NONE), 0);
+    }
+    return of_q;
+}
+
+/* The facet whose corners are sums of vertices, with a wall through each side. */
+static uint32_t add_copy(pir_free_parts *parts, uint32_t plane) {
+    pir_obstacle *o = parts->obstacle;
+    const uint32_t made = begin(parts, plane);
+    const bool forward = add_corners(parts, plane);
+    for (uint32_t i = 0; o->status == PIR_OK && i < parts->part[made].corners; i++) {
+        const pir_free_part *part = &parts->part[made];
+        const uint32_t *corner = parts->corner + part->first;
+        const uint32_t wall = pir_obstacle_add_wall(o, plane, corner[i], corner[next_of(part, i)], !forward);
+        parts->wall[part->first + i] = pir_obstacle_half(wall, false);
+    }
+    return o->status == PIR_OK ? measure(parts, made) : PIR_OBSTACLE_NONE;
+}
+
 uint32_t pir_free_parts_facet(pir_free_parts *parts, uint32_t plane) {
     pir_obstacle *o = parts->obstacle;
+    if (!o->plane[plane].tied)
+        return add_copy(parts, plane);
     const pir_obstacle_sum sum = o->sum[o->plane[plane].pair];
     const uint32_t from = parts->count;
     begin_square(parts, plane);

@@ -7,6 +7,9 @@
 
 #define BOX_PLANES 6
 
+/* Planes and points that doubles are farther off from are made exactly, and rounded. */
+#define FAR_OFF 0x1p-26
+
 /* --- memory --- */
 
 bool pir_obstacle_grow(pir_obstacle *obstacle, void **array, uint32_t *room, uint32_t count, size_t size) {
@@ -63,7 +66,7 @@ static void add_plane(pir_obstacle *o, pir_obstacle_plane plane) {
         return;
     plane.exact = PIR_OBSTACLE_NONE;
     o->plane[o->plane_count++] = plane;
-    if (plane.err > 0x1p-40) {
+    if (plane.err > FAR_OFF) {
         pir_obstacle_exact_plane(o, o->plane_count - 1);
         if (o->status == PIR_OK)
             pir_obstacle_round_plane(o, o->plane_count - 1);
@@ -80,12 +83,14 @@ static void add_facets(pir_obstacle *o, uint32_t pair, int side, uint32_t i, uin
     const uint32_t first = other->of->vertex_start[j];
     for (uint32_t f = own->of->face_start[i]; f < own->of->face_start[i + 1]; f++) {
         const double *n = own->normal[f];
-        double most = -HUGE_VAL;
+        double most = -HUGE_VAL, second = -HUGE_VAL;
         uint32_t at = first;
         for (uint32_t v = first; v < other->of->vertex_start[j + 1]; v++) {
             const double height = dot(n, other->vertex[v]);
-            at = height > most ? v : at;
-            most = height > most ? height : most;
+            const bool higher = height > most;
+            second = higher ? most : height > second ? height : second;
+            at = higher ? v : at;
+            most = higher ? height : most;
         }
         const uint32_t face = f - own->of->face_start[i], vertex = at - first;
         add_plane(o, (pir_obstacle_plane){.n = {n[0], n[1], n[2]},
@@ -94,7 +99,10 @@ static void add_facets(pir_obstacle *o, uint32_t pair, int side, uint32_t i, uin
                                           .pair = pair,
                                           .p = side ? vertex : face,
                                           .q = side ? face : vertex,
-                                          .kind = side ? PIR_OBSTACLE_Q_FACET : PIR_OBSTACLE_P_FACET});
+                                          .kind = side ? PIR_OBSTACLE_Q_FACET : PIR_OBSTACLE_P_FACET,
+                                          .tied = second > most - 0x1p-44,
+                                          .shared_p = {side ? other->shared.vertex[at] : own->shared.plane[f]},
+                                          .shared_q = {side ? own->shared.plane[f] : other->shared.vertex[at]}});
     }
 }
 
@@ -128,6 +136,8 @@ static void add_crossing(pir_obstacle *o, const uint32_t piece[2], uint32_t pair
                                 .p = e - p->edge_start[piece[0]],
                                 .q = g - q->edge_start[piece[1]],
                                 .kind = PIR_OBSTACLE_EDGES,
+                                .shared_p = {p->shared.vertex[p->edge[e].origin], p->shared.vertex[p->edge[e].target]},
+                                .shared_q = {q->shared.vertex[q->edge[g].origin], q->shared.vertex[q->edge[g].target]},
                                 .turned = turned};
     for (int k = 0; k < 3; k++) {
         plane.n[k] = by * cross[k];
@@ -215,6 +225,85 @@ pir_status pir_obstacle_set(pir_obstacle *obstacle, const pir_pair_input *input,
     if (way)
         set_way(o, *way);
     return o->status;
+}
+
+uint32_t pir_obstacle_add_wall(pir_obstacle *obstacle, uint32_t plane, uint32_t from, uint32_t to, bool turned) {
+    pir_obstacle *o = obstacle;
+    const double *n = o->plane[plane].n, *a = o->point[from].x, *b = o->point[to].x;
+    const double side[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const double cross[3] = {side[1] * n[2] - side[2] * n[1], side[2] * n[0] - side[0] * n[2],
+                             side[0] * n[1] - side[1] * n[0]};
+    const double length = sqrt(dot(cross, cross)), by = (turned ? -1 : 1) / length;
+    // both ends are within 2^-47
+    pir_obstacle_plane wall = {.err = length > 0 ? 0x1p-44 / length + 4 * o->plane[plane].err : HUGE_VAL,
+                               .pair = plane,
+                               .p = from,
+                               .q = to,
+                               .kind = PIR_OBSTACLE_WALL,
+                               .turned = turned};
+    for (int k = 0; k < 3; k++) {
+        wall.n[k] = by * cross[k];
+        wall.d += wall.n[k] * a[k];
+    }
+    add_plane(o, wall);
+    return o->plane_count - 1;
+}
+
+/* --- what holds at every pose --- */
+
+/* Whether the sum of a vertex of A' and one of B, by their numbers in the bodies, is on a plane at every pose. */
+static bool holds_vertices(const pir_obstacle *o, const pir_obstacle_plane *f, const uint32_t of[2]) {
+    const pir_shared_features *p = &o->frame.body[0].shared, *q = &o->frame.body[1].shared;
+    const uint32_t a = p->vertex[of[0]], b = q->vertex[of[1]];
+    switch (f->kind) {
+    case PIR_OBSTACLE_P_FACET:
+        return f->shared_q[0] == b && pir_shared_features_on(p, f->shared_p[0], a);
+    case PIR_OBSTACLE_Q_FACET:
+        return f->shared_p[0] == a && pir_shared_features_on(q, f->shared_q[0], b);
+    case PIR_OBSTACLE_EDGES:
+        return (f->shared_p[0] == a || f->shared_p[1] == a) && (f->shared_q[0] == b || f->shared_q[1] == b);
+    case PIR_OBSTACLE_WALL:
+        for (int end = 0; end < 2; end++) {
+            const uint32_t *own = o->point[end ? f->q : f->p].of;
+            if (p->vertex[own[0]] == a && q->vertex[own[1]] == b)
+                return true;
+        }
+        return false;
+    case PIR_OBSTACLE_BOX:
+        break;
+    }
+    return false;
+}
+
+/* Whether two planes are one at every pose, whichever way they face. */
+static bool are_always_one(const pir_obstacle_plane *f, const pir_obstacle_plane *g) {
+    const uint32_t *p = f->shared_p, *q = f->shared_q;
+    if (f->kind != g->kind || f->kind == PIR_OBSTACLE_WALL || f->kind == PIR_OBSTACLE_BOX)
+        return false;
+    if (f->kind != PIR_OBSTACLE_EDGES)
+        return p[0] == g->shared_p[0] && q[0] == g->shared_q[0];
+    return ((p[0] == g->shared_p[0] && p[1] == g->shared_p[1]) || (p[0] == g->shared_p[1] && p[1] == g->shared_p[0])) &&
+           ((q[0] == g->shared_q[0] && q[1] == g->shared_q[1]) || (q[0] == g->shared_q[1] && q[1] == g->shared_q[0]));
+}
+
+bool pir_obstacle_is_always_on(const pir_obstacle *obstacle, uint32_t plane, uint32_t point) {
+    const pir_obstacle *o = obstacle;
+    const pir_obstacle_plane *f = &o->plane[plane];
+    const pir_obstacle_point *p = &o->point[point];
+    if (p->kind == PIR_OBSTACLE_VERTICES)
+        return holds_vertices(o, f, p->of);
+    for (int k = 0; k < 3; k++) {
+        if (p->of[k] == PIR_OBSTACLE_NONE)
+            continue;
+        const pir_obstacle_plane *g = &o->plane[p->of[k]];
+        if (p->of[k] == plane || are_always_one(f, g))
+            return true;
+        // of a wall and its facet, the line of a side: on the plane where both ends are
+        if (g->kind == PIR_OBSTACLE_WALL && p->of[0] == g->pair && holds_vertices(o, f, o->point[g->p].of) &&
+            holds_vertices(o, f, o->point[g->q].of))
+            return true;
+    }
+    return false;
 }
 
 /* --- points --- */
@@ -312,8 +401,14 @@ uint32_t pir_obstacle_add(pir_obstacle *obstacle, enum pir_obstacle_point_kind k
         p->err = 0x1p-46;
         return made;
     }
+    if (kind == PIR_OBSTACLE_VERTICES) {
+        for (int k = 0; k < 3; k++)
+            p->x[k] = o->frame.body[0].vertex[f][k] + o->frame.body[1].vertex[g][k];
+        p->err = 0x1p-47;
+        return made;
+    }
     p->err = solve(o, p, p->x);
-    if (!(p->err <= 0x1p-30)) {
+    if (!(p->err <= FAR_OFF)) {
         pir_obstacle_exact_point(o, made);
         if (o->status == PIR_OK)
             pir_obstacle_round_point(o, made);

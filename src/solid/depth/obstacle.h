@@ -28,20 +28,30 @@
 /* The most planes, points or parts that one question may make. */
 #define PIR_OBSTACLE_MOST (1u << 22)
 
-enum pir_obstacle_kind { PIR_OBSTACLE_P_FACET, PIR_OBSTACLE_Q_FACET, PIR_OBSTACLE_EDGES, PIR_OBSTACLE_BOX };
+enum pir_obstacle_kind {
+    PIR_OBSTACLE_P_FACET,
+    PIR_OBSTACLE_Q_FACET,
+    PIR_OBSTACLE_EDGES,
+    PIR_OBSTACLE_BOX,
+    PIR_OBSTACLE_WALL
+};
 
 typedef struct pir_obstacle_plane {
     double n[3], d, err;
-    uint32_t pair;  /* k · (pieces of Q) + l; of the planes of the box which one: 2 · axis + side */
+    uint32_t pair;  /* k · (pieces of Q) + l; of the planes of the box which one: 2 · axis + side; of
+                       walls the facet's plane */
     uint32_t p, q;  /* features of the pieces, by their numbers there: a support where the other's is a facet */
     uint32_t exact; /* where its numbers are, or none */
     enum pir_obstacle_kind kind;
-    bool turned; /* of edges: the normal is the reverse of P's edge × Q's */
+    bool turned; /* of edges: the normal is the reverse of P's edge × Q's; of walls, of side × the facet's normal */
+    bool tied;   /* of facets: another vertex may be as high, so that it may be more than a copy of the facet */
+    uint32_t shared_p[2], shared_q[2]; /* the plane or the vertex, or the two ends, by their numbers in the bodies */
 } pir_obstacle_plane;
 
-/* A point: what P is moved by, where three planes meet, or the nearest point to it on a plane or on the line where two
- * meet. Or where a way from it meets a plane. */
+/* A point: the sum of a vertex of A' and one of B, what P is moved by, the nearest point to that on a plane or on the
+ * line where two meet, where three planes meet, or where a way from it meets a plane. */
 enum pir_obstacle_point_kind {
+    PIR_OBSTACLE_VERTICES,
     PIR_OBSTACLE_PLACE,
     PIR_OBSTACLE_ON_PLANE,
     PIR_OBSTACLE_ON_LINE,
@@ -51,7 +61,7 @@ enum pir_obstacle_point_kind {
 
 typedef struct pir_obstacle_point {
     double x[3], err;
-    uint32_t of[3]; /* planes */
+    uint32_t of[3]; /* planes; vertices of A' and B by their numbers in the bodies */
     uint32_t exact;
     enum pir_obstacle_point_kind kind;
 } pir_obstacle_point;
@@ -96,6 +106,13 @@ pir_space_box pir_obstacle_box(const pir_obstacle *obstacle, uint32_t pair);
 /* A new point of a kind, of planes. */
 uint32_t pir_obstacle_add(pir_obstacle *obstacle, enum pir_obstacle_point_kind kind, uint32_t f, uint32_t g,
                           uint32_t h);
+
+/* The wall through a side of the facet of a plane, from one sum of two vertices to the next. It has the facet below
+ * where that is on the left of the side as seen from above; `turned`, on the right. */
+uint32_t pir_obstacle_add_wall(pir_obstacle *obstacle, uint32_t plane, uint32_t from, uint32_t to, bool turned);
+
+/* Whether a point is on a plane at every pose, as far as shared features tell. */
+bool pir_obstacle_is_always_on(const pir_obstacle *obstacle, uint32_t plane, uint32_t point);
 
 /* Grows *array, of *room elements of a size, to hold one more than `count`. False once `status` is a failure. */
 bool pir_obstacle_grow(pir_obstacle *obstacle, void **array, uint32_t *room, uint32_t count, size_t size);
@@ -146,7 +163,7 @@ static inline int pir_obstacle_side(pir_obstacle *obstacle, uint32_t plane, uint
         return 1;
     if (s < -bound)
         return -1;
-    return pir_obstacle_exact_side(obstacle, plane, point);
+    return pir_obstacle_is_always_on(obstacle, plane, point) ? 0 : pir_obstacle_exact_side(obstacle, plane, point);
 }
 
 /* A half-space: a plane's number, twice, and whether it is turned. Its points have side ≤ 0. */

@@ -21,7 +21,6 @@ static uint32_t keep(pir_obstacle *o, mpz_t *made, uint32_t count) {
     const uint32_t first = take(o, count);
     if (o->status != PIR_OK)
         return 0;
-    pir_numbers_reduce(made, count, o->t[23]);
     for (uint32_t k = 0; k < count; k++)
         mpz_swap(o->number[first + k], made[k]);
     return first;
@@ -81,6 +80,25 @@ static void make_box_plane(pir_obstacle *o, uint32_t which, mpz_t *made) {
         mpz_mul_2exp(made[which / 2], made[which / 2], (mp_bitcnt_t)-exponent);
 }
 
+/* The wall through two points across a plane. */
+static void make_wall(pir_obstacle *o, const pir_obstacle_plane *wall, mpz_t *made) {
+    const uint32_t facet = pir_obstacle_exact_plane(o, wall->pair);
+    const uint32_t from = pir_obstacle_exact_point(o, wall->p), to = pir_obstacle_exact_point(o, wall->q);
+    if (o->status != PIR_OK)
+        return;
+    mpz_t *x = o->number + from, *y = o->number + to, *side = o->t + 4;
+    for (int k = 0; k < 3; k++) {
+        mpz_mul(side[k], y[k], x[3]);
+        mpz_submul(side[k], x[k], y[3]);
+    }
+    pir_numbers_cross(made, side, o->number + facet);
+    for (int k = 0; k < 3 && wall->turned; k++)
+        mpz_neg(made[k], made[k]);
+    pir_numbers_dot(made[3], made, x, 3);
+    for (int k = 0; k < 3; k++)
+        mpz_mul(made[k], made[k], x[3]);
+}
+
 uint32_t pir_obstacle_exact_plane(pir_obstacle *obstacle, uint32_t plane) {
     pir_obstacle *o = obstacle;
     if (o->plane[plane].exact != PIR_OBSTACLE_NONE)
@@ -89,6 +107,8 @@ uint32_t pir_obstacle_exact_plane(pir_obstacle *obstacle, uint32_t plane) {
     mpz_t *made = o->t;
     if (f.kind == PIR_OBSTACLE_BOX) {
         make_box_plane(o, f.pair, made);
+    } else if (f.kind == PIR_OBSTACLE_WALL) {
+        make_wall(o, &f, made);
     } else {
         uint32_t piece[2];
         split_pair(o, f.pair, piece);
@@ -194,21 +214,40 @@ static void make_on_way(pir_obstacle *o, mpz_t *ret, mpz_t *f, mpz_t *x, mpz_t *
     mpz_mul(ret[3], x[3], slope);
 }
 
+/* The sum of two vertices, by their numbers in the bodies. */
+static void make_vertices(pir_obstacle *o, mpz_t *ret, const uint32_t of[2]) {
+    mpz_t *x = o->t + 4, *y = o->t + 8;
+    for (int side = 0; side < 2; side++) {
+        const pir_compound *c = o->frame.body[side].of;
+        uint32_t i = 0;
+        while (c->vertex_start[i + 1] <= of[side])
+            i++;
+        pir_piece_frame_vertex(&o->frame, side, i, of[side] - c->vertex_start[i], side ? y : x);
+    }
+    for (int k = 0; k < 3; k++) {
+        mpz_mul(ret[k], x[k], y[3]);
+        mpz_addmul(ret[k], y[k], x[3]);
+    }
+    mpz_mul(ret[3], x[3], y[3]);
+}
+
 uint32_t pir_obstacle_exact_point(pir_obstacle *obstacle, uint32_t point) {
     pir_obstacle *o = obstacle;
     if (o->point[point].exact != PIR_OBSTACLE_NONE)
         return o->point[point].exact;
     const pir_obstacle_point p = o->point[point];
     uint32_t of[3] = {0}, place = 0;
-    if (p.kind != PIR_OBSTACLE_PLACE && p.kind != PIR_OBSTACLE_MEET)
+    if (p.kind != PIR_OBSTACLE_PLACE && p.kind != PIR_OBSTACLE_MEET && p.kind != PIR_OBSTACLE_VERTICES)
         place = pir_obstacle_exact_point(o, 0);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3 && p.kind != PIR_OBSTACLE_VERTICES; k++)
         of[k] = p.of[k] == PIR_OBSTACLE_NONE ? 0 : pir_obstacle_exact_plane(o, p.of[k]);
     const uint32_t way = p.kind == PIR_OBSTACLE_ON_WAY ? exact_way(o) : 0;
     if (o->status != PIR_OK)
         return 0;
     mpz_t *made = o->t, *n = o->number;
-    if (p.kind == PIR_OBSTACLE_PLACE)
+    if (p.kind == PIR_OBSTACLE_VERTICES)
+        make_vertices(o, made, p.of);
+    else if (p.kind == PIR_OBSTACLE_PLACE)
         pir_piece_frame_translation(&o->frame, made);
     else if (p.kind == PIR_OBSTACLE_ON_PLANE)
         make_foot(o, made, n + of[0], n + place);

@@ -32,7 +32,7 @@ static void fill_edges(pir_framed_body *body, uint32_t i) {
         const pir_vec3 along = piece->direction[half];
         body->edge[at] =
             (pir_framed_edge){c->face_start[i] + piece->arc_ends[e].from, c->face_start[i] + piece->arc_ends[e].to,
-                              c->vertex_start[i] + piece->origin[half]};
+                              c->vertex_start[i] + piece->origin[half], c->vertex_start[i] + piece->target[half]};
         body->own_along[at][0] = along.x;
         body->own_along[at][1] = along.y;
         body->own_along[at][2] = along.z;
@@ -51,6 +51,7 @@ static void finish_body(pir_framed_body *body, const pir_allocator *a) {
     PIR_FREE(a, (double *)body->along, 3 * edges);
     PIR_FREE(a, (double *)body->own_along, 3 * edges);
     PIR_FREE(a, body->box, c->count);
+    pir_shared_features_finish(&body->shared, c, a);
     PIR_FREE(a, body->edge_start, (size_t)c->count + 1);
 }
 
@@ -60,7 +61,8 @@ bool pir_piece_frame_init(pir_piece_frame *frame, const pir_compound *p, const p
     (void)frexp(p->reach + q->reach, &frame->exponent);
     frame->exponent += 3;
     for (int k = 0; k < 2; k++) {
-        if (!reserve(&frame->body[k], of[k], allocator))
+        if (!reserve(&frame->body[k], of[k], allocator) ||
+            !pir_shared_features_init(&frame->body[k].shared, of[k], allocator))
             return false;
         for (uint32_t i = 0; i < of[k]->count; i++)
             fill_edges(&frame->body[k], i);
@@ -106,8 +108,14 @@ static void pose_body(pir_framed_body *body, const pir_mat3 *r, double unit) {
     }
     for (uint32_t e = 0; e < body->edge_start[c->count]; e++)
         turn(by, 1, body->own_along[e], body->along[e]);
-    for (uint32_t i = 0; i < c->count; i++)
+    body->whole = PIR_SPACE_BOX_EMPTY;
+    for (uint32_t i = 0; i < c->count; i++) {
         box_piece(body, i);
+        for (int k = 0; k < 3; k++) {
+            body->whole.low[k] = fmin(body->whole.low[k], body->box[i].low[k]);
+            body->whole.high[k] = fmax(body->whole.high[k], body->box[i].high[k]);
+        }
+    }
 }
 
 pir_status pir_piece_frame_set(pir_piece_frame *frame, const pir_pair_input *input) {

@@ -17,11 +17,11 @@
 #include <pirouette/pair.h>
 
 #include "exact/rotation.h"
-#include "solid/pieces/compound.h"
+#include "solid/depth/shared_features.h"
 
-/* An edge of a piece: its facets and an end of it, by their numbers in the body. */
+/* An edge of a piece: its facets and its ends, by their numbers in the body. */
 typedef struct pir_framed_edge {
-    uint32_t left, right, origin;
+    uint32_t left, right, origin, target;
 } pir_framed_edge;
 
 /* A body where it is: vertices and faces in the order of its compound, edges likewise. */
@@ -31,7 +31,8 @@ typedef struct pir_framed_body {
     pir_framed_edge *edge;
     double (*vertex)[3], (*normal)[3], (*along)[3], *height; /* of this pose */
     double (*own_along)[3];                                  /* in the frame of the body */
-    pir_space_box *box;                                      /* of each piece, rounded outwards */
+    pir_shared_features shared;
+    pir_space_box *box, whole; /* of each piece, rounded outwards, and of all */
 } pir_framed_body;
 
 typedef struct pir_piece_frame {
